@@ -1,0 +1,45 @@
+// One moment of a model, ready to be drawn or written: plain arrays and names, nothing of the solver and nothing of
+// VTK. results/ makes it, vtk/ reads it.
+#pragma once
+
+#include "libgeom/core/types.hpp"
+
+#include <string>
+#include <vector>
+
+namespace cdem {
+
+struct SnapshotField {
+  std::string name; // snake_case, e.g. "displacement", "stress", "block_id", "damage"
+  std::string unit; // "m", "Pa", "1"; empty for ids
+  int components = 1; // 1 scalar, 3 vector, 6 symmetric tensor in the order xx yy zz xy yz xz
+  std::vector<double> values; // components values for each point or cell, cell-major
+  bool integer = false;       // written as Int64 (ids, modes)
+};
+
+// How a bond stands; also the value of the bond field "mode".
+enum class BondMode : int { intact = 0, broken_tension = 1, broken_shear = 2, contact = 3 };
+
+// Interfaces between blocks as triangles over the spring points (undeformed places).
+struct BondSnapshot {
+  std::vector<geom::Vec3> points;               // m, undeformed
+  std::vector<geom::Triangle> triangles;        // over points
+  std::vector<SnapshotField> point_fields;      // "mode", "opening" m, "slip" m, "traction" Pa, "displacement" m
+  std::vector<SnapshotField> triangle_fields;   // "interface_id", "mode": the worst of its three points
+};
+
+struct Snapshot {
+  double time = 0;          // s, or pseudo-time
+  std::int64_t step = 0;
+  std::string title;        // e.g. "uniaxial_compression, stage 3 (relax)"
+  std::vector<geom::Vec3> points;                // m, undeformed; blocks do not share points
+  std::vector<geom::Tet> tets;                   // over points
+  std::vector<SnapshotField> point_fields;       // "displacement" m, "velocity" m/s, ...
+  std::vector<SnapshotField> cell_fields;        // per tet: "stress" Pa (6), "principal_stress" Pa (3), "block_id", ...
+  std::vector<geom::Triangle> surface;           // triangles of all block faces, outward
+  std::vector<std::int64_t> surface_tet;         // the tet each surface triangle belongs to
+  std::vector<std::array<int, 2>> block_edges;   // true edges of the blocks, over points (for drawing)
+  BondSnapshot bonds;
+};
+
+} // namespace cdem

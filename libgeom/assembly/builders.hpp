@@ -1,0 +1,45 @@
+// Builders of block assemblies. All lengths in m, angles in radians here (degrees in scripts).
+#pragma once
+
+#include "libgeom/assembly/assembly.hpp"
+
+#include <cstdint>
+
+namespace geom {
+
+// Boxes in rows: divisions = {nx, ny, nz}, each >= 1; origin is the lower corner.
+Assembly grid(const Vec3& size, const std::array<int, 3>& divisions, const Vec3& origin = Vec3::Zero());
+
+struct VoronoiOptions {
+  Vec3 size = Vec3::Ones();
+  Vec3 origin = Vec3::Zero();
+  int count = 100;
+  std::uint64_t seed = 1;  // counter-based generator keyed by (seed, cell)
+  int relaxations = 3;     // Lloyd steps: each moves the seeds to their cells' centroids
+  bool extruded = false;   // one block through the z thickness (2-D cells)
+};
+Assembly voronoi(const VoronoiOptions&);
+
+struct BrickOptions {
+  Vec3 size = Vec3::Ones();  // the wall
+  Vec3 brick = Vec3::Ones(); // one brick; courses are laid along z, running along x
+  double shift = 0.5;        // each course against the one below, as a fraction of the brick's length
+  Vec3 origin = Vec3::Zero();
+};
+Assembly bricks(const BrickOptions&); // running bond; end bricks are cut to the wall
+
+struct JointSet {
+  double dip = 0;              // rad, 0..pi/2, below the horizontal plane (z up)
+  double dip_direction = 0;    // rad, 0..2 pi, clockwise from +y (north) seen from above
+  double spacing = 1;          // m, mean normal distance
+  double spacing_scatter = 0;  // standard deviation over the mean, < 0.5
+  double dip_scatter = 0;      // rad, standard deviation
+  double direction_scatter = 0; // rad, standard deviation
+};
+// Cuts every block by the planes of every set in turn; seeded scatter.
+Assembly cut_by_joints(const Assembly&, const std::vector<JointSet>&, std::uint64_t seed = 1);
+
+// Convex hull of at least four points that are not in one plane (CGAL).
+Polyhedron convex_hull(const std::vector<Vec3>& points);
+
+} // namespace geom
