@@ -1,0 +1,39 @@
+// Where a condition or a measurement applies. Judged on undeformed places, so a selection survives cutting.
+#pragma once
+
+#include "libgeom/core/types.hpp"
+
+#include <functional>
+#include <string>
+
+namespace cdem {
+
+struct Selection {
+  enum class Kind { all, side, plane, box, body, predicate };
+  Kind kind = Kind::all;
+  std::string text = "all"; // as the user wrote it, for messages
+
+  int axis = 0;             // side: 0 x, 1 y, 2 z
+  bool upper = false;       // side: x+ rather than x-
+  geom::Plane plane;        // plane
+  geom::Box box;            // box
+  std::string body;         // body, by name
+  std::function<bool(const geom::Vec3&)> predicate;
+
+  static Selection everything() { return {}; }
+  static Selection side(const std::string& name); // "x-" .. "z+"; throws geom::InputError
+  static Selection on_plane(const geom::Plane&);
+  static Selection in_box(const geom::Box&);
+  static Selection of_body(const std::string& name);
+  static Selection where(std::function<bool(const geom::Vec3&)> predicate, std::string text);
+};
+
+struct Model;
+
+// Nodes whose undeformed place is selected; block boundary nodes and centroids alike. Ascending.
+std::vector<int> selected_nodes(const Model&, const Selection&);
+
+// Outer faces (index into Model::outer_faces) all of whose vertices are selected; for a predicate, whose centre is.
+std::vector<int> selected_outer_faces(const Model&, const Selection&);
+
+} // namespace cdem

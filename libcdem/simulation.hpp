@@ -1,0 +1,148 @@
+// A model on its way through a script: the const Model, its State, the conditions, and the solving calls in order.
+// This is the whole public face of libcdem for the script layer.
+#pragma once
+
+#include "libcdem/fracture/options.hpp"
+#include "libcdem/load/conditions.hpp"
+#include "libcdem/model/joint.hpp"
+#include "libcdem/model/material.hpp"
+#include "libcdem/results/ledger.hpp"
+#include "libcdem/results/snapshot.hpp"
+#include "libcdem/step/errors.hpp"
+#include "libcdem/step/observer.hpp"
+#include "libcdem/step/options.hpp"
+#include "libgeom/assembly/assembly.hpp"
+
+#include <memory>
+#include <string>
+#include <utility>
+
+namespace cdem {
+
+struct BodySpec {
+  std::string name; // unique; "body_1", ... when the user gives none
+  geom::Assembly shape;
+  Elastic material;
+  Joint joint; // between the body's own blocks
+};
+
+struct PairSpec {
+  std::string body_a, body_b; // may be equal for none: a body's own joint stands in BodySpec
+  Joint joint;                // between touching faces of the two bodies
+};
+
+struct ModelSpec {
+  std::vector<BodySpec> bodies;
+  std::vector<PairSpec> pairs; // two bodies that touch and are not named here: geom::InputError
+};
+
+struct ModelCounts {
+  std::int64_t bodies = 0, blocks = 0, nodes = 0, tets = 0, interfaces = 0, bonds = 0;
+  // bonds: spring points; each stands in exactly one of the following
+  std::int64_t intact = 0, broken_tension = 0, broken_shear = 0, contacts = 0;
+};
+
+struct FieldValue {
+  double value = 0;
+  geom::Vec3 place = geom::Vec3::Zero(); // m, undeformed
+  std::int64_t block = -1;               // id
+};
+
+class Simulation {
+public:
+  // Validates and builds; throws geom::InputError.
+  Simulation(const ModelSpec&, int threads, std::shared_ptr<Observer>);
+  ~Simulation();
+  Simulation(Simulation&&) noexcept;
+  Simulation& operator=(Simulation&&) noexcept;
+
+  // Conditions; each throws geom::InputError when it selects nothing or a value cannot be used.
+  void fix(const Fix&);
+  void release(const Selection&, std::array<bool, 3> axes); // undo fixes there
+  void traction(const Traction&);
+  void force(const PointForce&);
+  void gravity(const Gravity&);
+  void clear_loads(); // tractions, forces and gravity
+  // Stress present before anything moves, Pa, tension positive (xx yy zz xy yz xz), constant over the selected blocks;
+  // interfaces between two selected blocks start with its traction.
+  void initial_stress(const Selection&, const std::array<double, 6>&);
+  void initial_velocity(const Selection&, const geom::Vec3&);
+  // Blocks whose centroid is selected are taken out, with their bonds. Returns how many.
+  std::int64_t remove(const Selection&);
+  // Bonds whose point is selected are broken from now on (a notch); returns how many.
+  std::int64_t unbond(const Selection&);
+
+  // Solving calls. Each is a numbered stage. SolutionError, Interrupted as in step/errors.hpp.
+  RelaxResult relax(const RelaxOptions&);
+  RunResult run(const RunOptions&);
+  std::vector<BlockCut> refine(const RefineOptions&);
+
+  // Results.
+  ModelCounts counts() const;
+  double time() const;              // s
+  double residual() const;          // out-of-balance force norm over applied force norm
+  double stable_time_step() const;  // s
+  int stage() const;                // solving calls so far
+  std::int64_t steps() const;       // steps of all stages
+  EnergyLedger energy() const;
+  std::uint64_t state_hash() const; // of every State field, bit for bit
+  geom::Box box() const;            // undeformed
+
+  // Fields by name with a component: "displacement.x|y|z|magnitude", "velocity.*" at nodes; "stress.xx".., "von_mises",
+  // "principal_stress.1..3" (tension positive, 1 the largest) as block averages. Unknown name: geom::InputError that
+  // names the nearest right one. A selection that is met by nothing: geom::InputError.
+  static std::vector<std::string> field_names();
+  FieldValue max(const std::string& field, const Selection& = {}) const;
+  FieldValue min(const std::string& field, const Selection& = {}) const;
+  double mean(const std::string& field, const Selection& = {}) const; // plain mean over nodes, volume mean over blocks
+  double at(const std::string& field, const geom::Vec3& place) const;  // interpolated in the block that holds place
+  geom::Vec3 reaction(const Selection&) const;                         // N, force of the supports on the selected nodes
+
+  // One row per block: id, parent, generation, centroid, volume, displacement of the centroid, stress.
+  struct BlockRow {
+    std::int64_t id, parent;
+    int generation;
+    std::string body;
+    geom::Vec3 centroid, displacement;
+    double volume;
+    std::array<double, 6> stress;
+  };
+  std::vector<BlockRow> blocks() const;
+
+  // One row per broken bond, oldest first.
+  struct BreakRow {
+    int stage;
+    std::int64_t step; // within the stage
+    double time;       // s
+    BondMode mode;     // broken_tension or broken_shear
+    geom::Vec3 place;  // m, undeformed
+    geom::Vec3 normal;
+    double area;                     // m2
+    double normal_traction, shear_traction; // Pa at breaking, tension positive
+    std::int64_t block_a, block_b;   // ids
+  };
+  const std::vector<BreakRow>& breaks() const;
+
+  // History of the run: one sample every `history_every` steps (default 10, thinned by halves beyond 20000 rows).
+  struct HistoryRow {
+    int stage;
+    std::int64_t step; // over all stages
+    double time, residual, kinetic, external;
+    std::int64_t broken_tension, broken_shear;
+    std::vector<double> probes;
+  };
+  const std::vector<HistoryRow>& history() const;
+  const std::vector<std::string>& probe_names() const;
+  // A value sampled into the history: field at a place.
+  void probe(const std::string& name, const std::string& field, const geom::Vec3& place);
+
+  Snapshot snapshot(const std::string& title) const;
+  // The last state that passed the checks before a SolutionError.
+  Snapshot last_good_snapshot(const std::string& title) const;
+
+private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+} // namespace cdem

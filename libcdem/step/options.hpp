@@ -1,0 +1,49 @@
+// What the solving calls take and give back.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+
+namespace cdem {
+
+// Dynamic relaxation to static balance (Han 2010 eq 12) with fictitious masses and adaptive damping.
+struct RelaxOptions {
+  double residual = 1e-6;          // goal: out-of-balance force norm over applied force norm, in (0, 1)
+  bool breaking = true;            // bonds may break
+  std::int64_t max_steps = 500000; // gives up with converged = false, > 0
+  std::int64_t callback_every = 0; // steps between calls of `callback`; 0 never
+  std::function<void()> callback;
+};
+
+struct RelaxResult {
+  bool converged = false;
+  std::int64_t steps = 0;
+  double residual = 0;
+  std::int64_t broken_tension = 0; // in this stage
+  std::int64_t broken_shear = 0;
+  double wall_time = 0;            // s
+};
+
+// Explicit stepping with the real masses.
+struct RunOptions {
+  double duration = 0;             // s; 0 when `steps` is given
+  std::int64_t steps = 0;
+  double safety = 0.9;             // time step over the stable one, in (0, 1]
+  double time_step = 0;            // s; 0 = safety x stable; refused above the stable one
+  bool breaking = true;
+  double local_damping = 0;        // Cundall's: force against the motion, as a fraction of the out-of-balance force, [0, 1)
+  std::int64_t callback_every = 0;
+  std::function<void()> callback;
+  std::function<bool()> stop;      // asked every callback_every (default 100) steps
+};
+
+struct RunResult {
+  std::int64_t steps = 0;
+  double time = 0;                 // s, model time reached
+  double time_step = 0;            // s
+  std::int64_t broken_tension = 0;
+  std::int64_t broken_shear = 0;
+  double wall_time = 0;            // s
+};
+
+} // namespace cdem
