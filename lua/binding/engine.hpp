@@ -1,0 +1,69 @@
+// Runs one case script: sandbox, parameters, the `cdem` module, the models it makes. No Lua header is shown here.
+#pragma once
+
+#include "libcdem/step/observer.hpp"
+
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace cdem::script {
+
+// An error in the script or its input, with "file:line: " in front. Exit code 2.
+class ScriptError : public std::runtime_error {
+public:
+  using std::runtime_error::runtime_error;
+};
+
+// A file could not be read or written. Exit code 4.
+class FileError : public std::runtime_error {
+public:
+  using std::runtime_error::runtime_error;
+};
+
+struct EngineSettings {
+  std::filesystem::path script;  // the .lua file; empty for the repl
+  std::filesystem::path output;  // folder the script may write into; made when first needed
+  std::filesystem::path results; // root of all results; the script may read everything below it
+  int threads = 1;
+  std::map<std::string, std::string> set; // --set name=value, as typed
+  bool unsafe = false;     // the whole Lua library, files anywhere
+  bool check_only = false; // solving calls return typed, empty results
+  std::shared_ptr<Observer> observer;
+  std::string program;     // path of the cdem program, for sweeps
+};
+
+// One declared parameter of a script (cdem.parameter).
+struct ParameterInfo {
+  std::string name, type, default_text, value_text, range_text, unit, doc;
+};
+
+class Engine {
+public:
+  explicit Engine(EngineSettings);
+  ~Engine();
+
+  // Throws ScriptError, FileError, cdem::SolutionError, cdem::Interrupted. An unknown --set name is a ScriptError that
+  // names the nearest declared parameter; judged when the script has ended, and at once when a name is close to none.
+  void run_file();
+
+  // repl: runs a line or chunk; returns the printed form of its values; incomplete = true when more lines are needed.
+  std::string run_line(const std::string& text, bool& incomplete);
+  std::vector<std::string> complete(const std::string& prefix) const; // names that start so, for the tab key
+
+  std::vector<ParameterInfo> parameters() const;
+  std::string model_summary() const; // for `cdem check`: bodies, blocks, tets, bonds, conditions, stages, warnings
+  bool model_saved_after_failure(); // writes last_good.vtu of every model that failed; true when something was written
+
+private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+// LuaCATS annotations of the whole `cdem` module, generated from the same tables that check the arguments.
+std::string annotations();
+
+} // namespace cdem::script
