@@ -1,0 +1,31 @@
+// Line charts on white: histories, convergence, comparison with reference points.
+#pragma once
+
+#include "libcdem/vtk/picture.hpp"
+
+namespace cdem {
+
+struct Series {
+  std::string name;
+  std::vector<double> x,
+      y; // same length; pairs that are not finite, or not positive on a log axis, leave a gap
+  bool right_axis = false;      // y is read on the right
+  std::string style = "line";   // line, dashed, points, both
+  std::optional<Colour> colour; // else the next of the palette
+};
+
+struct ChartOptions {
+  std::string title;
+  std::string x_label, y_label, right_label; // "_{...}" and "^{...}" set sub- and superscripts
+  bool log_x = false, log_y = false, log_right = false;
+  std::array<int, 2> size = {1600, 1200}; // pixels
+  std::string legend = "auto"; // auto: above the plot, where it covers no line; or top_left top_right
+                               // bottom_left bottom_right (inside), none
+  std::optional<std::array<double, 2>> x_range, y_range, right_range; // of the axes
+};
+
+// Writes a PNG. Throws geom::InputError for options or series that cannot be used, std::runtime_error when
+// the machine offers no off-screen OpenGL.
+void chart(const std::vector<Series>&, const ChartOptions&, const std::string& png_path);
+
+} // namespace cdem

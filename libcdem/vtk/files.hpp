@@ -1,0 +1,34 @@
+// ParaView files of a snapshot: blocks as an unstructured grid of tets (.vtu), interfaces as a second .vtu of
+// triangles beside it, a time series of both as a .pvd. Every file is written under a temporary name and
+// renamed, so that a reader never sees half of one.
+#pragma once
+
+#include "libcdem/results/snapshot.hpp"
+
+#include <string>
+#include <vector>
+
+namespace cdem {
+
+// Points, tets and all fields, values to the bit; time ("TimeValue", where ParaView looks for it), step and
+// title as field data. Binary, LZ4. Throws geom::InputError when the name does not end in .vtu or its folder
+// does not exist.
+void write_vtu(const Snapshot&, const std::string& path);
+
+// The triangles of the interfaces with mode, opening, slip, traction. The picture of a .vtu finds its bonds
+// when they are written to bonds_path(path of the .vtu).
+void write_bonds(const Snapshot&, const std::string& path);
+std::string bonds_path(const std::string& vtu_path); // "out/plate.vtu" -> "out/plate_bonds.vtu"
+
+struct SeriesEntry {
+  double time = 0;  // s
+  std::string file; // as seen from the folder of the .pvd
+};
+void write_pvd(const std::string& path, const std::vector<SeriesEntry>&);
+
+// A snapshot written by write_vtu, with its bonds when bonds_path(path) is there. The surface and the block
+// edges are found again from the tets and "block_id": the outside of each block, and the edges where that
+// outside has a corner. Throws geom::InputError when the file is missing, damaged or not one of ours.
+Snapshot read_vtu(const std::string& path);
+
+} // namespace cdem
