@@ -16,8 +16,9 @@ struct SharedFace {
   int block_b, face_b;
 };
 
-// All pairs of faces of different blocks that lie in one plane, look at each other and overlap in an area larger
-// than tolerance^2; one face may be shared with many. tolerance (m); sorted by (block_a, face_a, block_b, face_b).
+// All pairs of faces of different blocks that lie in one plane, look at each other and overlap in an area
+// larger than tolerance^2; one face may be shared with many. tolerance (m); sorted by (block_a, face_a,
+// block_b, face_b).
 std::vector<SharedFace> shared_faces(const std::vector<Polyhedron>& blocks, double tolerance);
 
 // The same, only pairs with at least one block marked in `changed` (used after cuts).

@@ -14,9 +14,9 @@ struct VoronoiOptions {
   Vec3 size = Vec3::Ones();
   Vec3 origin = Vec3::Zero();
   int count = 100;
-  std::uint64_t seed = 1;  // counter-based generator keyed by (seed, cell)
-  int relaxations = 3;     // Lloyd steps: each moves the seeds to their cells' centroids
-  bool extruded = false;   // one block through the z thickness (2-D cells)
+  std::uint64_t seed = 1; // counter-based generator keyed by (seed, cell)
+  int relaxations = 3;    // Lloyd steps: each moves the seeds to their cells' centroids
+  bool extruded = false;  // one block through the z thickness (2-D cells)
 };
 Assembly voronoi(const VoronoiOptions&);
 
@@ -29,11 +29,11 @@ struct BrickOptions {
 Assembly bricks(const BrickOptions&); // running bond; end bricks are cut to the wall
 
 struct JointSet {
-  double dip = 0;              // rad, 0..pi/2, below the horizontal plane (z up)
-  double dip_direction = 0;    // rad, 0..2 pi, clockwise from +y (north) seen from above
-  double spacing = 1;          // m, mean normal distance
-  double spacing_scatter = 0;  // standard deviation over the mean, < 0.5
-  double dip_scatter = 0;      // rad, standard deviation
+  double dip = 0;               // rad, 0..pi/2, below the horizontal plane (z up)
+  double dip_direction = 0;     // rad, 0..2 pi, clockwise from +y (north) seen from above
+  double spacing = 1;           // m, mean normal distance
+  double spacing_scatter = 0;   // standard deviation over the mean, < 0.5
+  double dip_scatter = 0;       // rad, standard deviation
   double direction_scatter = 0; // rad, standard deviation
 };
 // Cuts every block by the planes of every set in turn; seeded scatter.

@@ -1,5 +1,5 @@
-// Star mesh of a convex block: every tet = volume centroid + a face's area centroid + the two ends of an edge of
-// that face (Han 2010 fig 2).
+// Star mesh of a convex block: every tet = volume centroid + a face's area centroid + the two ends of an edge
+// of that face (Han 2010 fig 2).
 #pragma once
 
 #include "libgeom/polyhedron/polyhedron.hpp"

@@ -19,12 +19,19 @@ struct Cut {
   std::optional<Part> below; // phi < 0
 };
 
-// tolerance (m): vertices with |phi| <= tolerance count as lying on the plane; 0 means only exact zeros.
-// A plane that only touches a vertex, an edge or a face leaves the block whole.
+// tolerance (m): vertices with |phi| <= tolerance count as lying on the plane; vertices that lie on it to
+// rounding always do. A plane that only touches a vertex, an edge or a face leaves the block whole. Blocks
+// that share an edge get the same point on it to the last bit. Throws InputError when the block is so far
+// from convex that the plane leaves more than one loop on it.
 Cut cut(const Polyhedron&, const Plane&, double tolerance = 0);
 
-// Offset of the plane moved so that no vertex lies within `clearance` of it without lying on it to rounding (the
-// plane is shifted, never the vertex: a moved vertex would warp its faces). Returns the plane unchanged when clear.
+// Offset of the plane moved so that no vertex lies within `clearance` of it without lying on it to rounding
+// (the plane is shifted, never the vertex: a moved vertex would warp its faces). Returns the plane unchanged
+// when clear.
 Plane shifted_clear_of_vertices(const Polyhedron&, const Plane&, double clearance);
+
+// The smallest shift (m) of a plane with vertices at these levels such that each level is at least
+// `clearance` away from it or on it to `rounding`.
+double clear_shift(std::vector<double> levels, double clearance, double rounding);
 
 } // namespace geom

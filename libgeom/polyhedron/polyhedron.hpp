@@ -22,8 +22,8 @@ double face_area(const Polyhedron&, int face);   // m2
 Vec3 face_centroid(const Polyhedron&, int face); // area centroid, m
 Box bounding_box(const Polyhedron&);
 
-// Throws InputError when the polyhedron is not closed, not convex, has a warped face (relative tolerance 1e-9 of
-// its size), inward faces, a zero volume, non-finite coordinates, or fails Euler's V - E + F = 2.
+// Throws InputError when the polyhedron is not closed, not convex, has a warped face (relative tolerance 1e-9
+// of its size), inward faces, a zero volume, non-finite coordinates, or fails Euler's V - E + F = 2.
 void validate(const Polyhedron&);
 
 // Axis-aligned box; min and max are opposite corners.
@@ -35,8 +35,8 @@ struct MassProperties {
   Mat3 inertia = Mat3::Zero();  // about the own centroid for unit density, m5
 };
 
-// Computed from tets about the block's own first vertex, never about the global origin, so that a block far away
-// keeps its digits.
+// Computed from tets about the block's own first vertex, never about the global origin, so that a block far
+// away keeps its digits.
 MassProperties mass_properties(const Polyhedron&);
 
 } // namespace geom
