@@ -1,0 +1,16 @@
+// Broad phase: which boxes touch which.
+#pragma once
+
+#include "libgeom/core/types.hpp"
+
+#include <utility>
+
+namespace geom {
+
+// Pairs (i < j) of boxes that overlap or touch, sorted. Found on a uniform grid filled by a counting sort:
+// the cost grows with the number of boxes and pairs. When `wanted` is not empty, only pairs with at least one
+// wanted box.
+std::vector<std::pair<int, int>> touching_pairs(const std::vector<Box>& boxes,
+                                                const std::vector<char>& wanted = {});
+
+} // namespace geom
