@@ -6,7 +6,9 @@
 #include "libcdem/load/conditions.hpp"
 #include "libcdem/model/joint.hpp"
 #include "libcdem/model/material.hpp"
+#include "libcdem/results/fields.hpp"
 #include "libcdem/results/ledger.hpp"
+#include "libcdem/results/log.hpp"
 #include "libcdem/results/snapshot.hpp"
 #include "libcdem/step/errors.hpp"
 #include "libcdem/step/observer.hpp"
@@ -40,12 +42,6 @@ struct ModelCounts {
   std::int64_t bodies = 0, blocks = 0, nodes = 0, tets = 0, interfaces = 0, bonds = 0;
   // bonds: spring points; each stands in exactly one of the following
   std::int64_t intact = 0, broken_tension = 0, broken_shear = 0, contacts = 0;
-};
-
-struct FieldValue {
-  double value = 0;
-  geom::Vec3 place = geom::Vec3::Zero(); // m, undeformed
-  std::int64_t block = -1;               // id
 };
 
 class Simulation {
@@ -109,30 +105,12 @@ public:
   };
   std::vector<BlockRow> blocks() const;
 
-  // One row per broken bond, oldest first.
-  struct BreakRow {
-    int stage;
-    std::int64_t step; // within the stage
-    double time;       // s
-    BondMode mode;     // broken_tension or broken_shear
-    geom::Vec3 place;  // m, undeformed
-    geom::Vec3 normal;
-    double area;                     // m2
-    double normal_traction, shear_traction; // Pa at breaking, tension positive
-    std::int64_t block_a, block_b;   // ids
-  };
+  // Broken bonds, oldest first.
   const std::vector<BreakRow>& breaks() const;
 
   // History of the run: one sample every `history_every` steps (default 10, thinned by halves beyond 20000 rows).
-  struct HistoryRow {
-    int stage;
-    std::int64_t step; // over all stages
-    double time, residual, kinetic, external;
-    std::int64_t broken_tension, broken_shear;
-    std::vector<double> probes;
-  };
   const std::vector<HistoryRow>& history() const;
-  const std::vector<std::string>& probe_names() const;
+  std::vector<std::string> probe_names() const;
   // A value sampled into the history: field at a place.
   void probe(const std::string& name, const std::string& field, const geom::Vec3& place);
 

@@ -14,8 +14,9 @@ using Amplitude = std::function<double(double time)>;
 struct Fix {
   Selection on;
   std::array<bool, 3> axes{true, true, true};
-  std::optional<geom::Vec3> displacement; // m, total value to be held (reached over the stage's first half in relax)
-  std::optional<geom::Vec3> velocity;     // m/s, in real-time stepping; zero when neither is given
+  bool release = false; // sets the components free instead; later ones win over earlier ones
+  std::optional<geom::Vec3> displacement; // m, total value; a relaxation moves there in its first steps and holds it
+  std::optional<geom::Vec3> velocity;     // m/s, in real-time stepping; zero when not given
 };
 
 struct Traction {
@@ -25,7 +26,7 @@ struct Traction {
 };
 
 struct PointForce {
-  Selection on;                            // nodes; the force is shared equally among their distinct places
+  Selection on;                            // nodes; shared in proportion to the volume around each
   geom::Vec3 force = geom::Vec3::Zero();   // N, total
   Amplitude amplitude;
 };

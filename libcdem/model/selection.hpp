@@ -36,4 +36,7 @@ std::vector<int> selected_nodes(const Model&, const Selection&);
 // Outer faces (index into Model::outer_faces) all of whose vertices are selected; for a predicate, whose centre is.
 std::vector<int> selected_outer_faces(const Model&, const Selection&);
 
+bool selects_block(const Model&, const Selection&, int block); // by its centroid
+bool selects_point(const Model&, const Selection&, int point); // by its place; a body selects the points of its faces
+
 } // namespace cdem

@@ -1,0 +1,29 @@
+// Linear tets at small strain (Han 2010 eqs 1-7), matrix free: with the gradients g_k of the shape functions
+//   grad u = sum_k (u_k - u_0) (x) g_k,   sigma = lambda tr(eps) I + 2 G eps,   f_k = -V sigma g_k,  f_0 = -sum f_k.
+#pragma once
+
+#include "libcdem/state/state.hpp"
+
+namespace cdem {
+
+// Adds the nodal forces of `count` batches.
+void add_small_strain_forces(const TetBatch* batches, std::int64_t count, const Node* displacement, Node* force);
+
+// Nodal forces of a stress that is constant over the block.
+void add_uniform_stress_forces(const Model&, const Block&, const Stress&, std::vector<Node>& force);
+
+geom::Mat3 displacement_gradient(const Model&, const std::vector<Node>& displacement, int tet); // du_i / dx_j
+Stress elastic_stress(const Elastic&, const geom::Mat3& gradient);                              // without initial stress
+double tet_volume(const Model&, int tet);                                                       // m3, undeformed
+
+// Volume means over a block.
+geom::Mat3 block_gradient(const Model&, const std::vector<Node>& displacement, const Block&);
+Stress block_stress(const Model&, const State&, int block); // initial stress included
+
+geom::Mat3 matrix(const Stress&);
+Stress tensor(const geom::Mat3&); // symmetric part
+
+// Row sums of |K| of the blocks' own stiffness, N/m: per node the largest of its three rows. A Gershgorin bound.
+std::vector<double> stiffness_row_sums(const Model&);
+
+} // namespace cdem

@@ -1,0 +1,74 @@
+#include "libcdem/fracture/failure_plane.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+
+namespace cdem {
+namespace {
+
+constexpr double quarter_turn = 1.57079632679489661923;
+constexpr double tie_tolerance = 1e-6;
+
+geom::Vec3 pointing_forward(const geom::Vec3& axis) {
+  Eigen::Index largest = 0;
+  axis.cwiseAbs().maxCoeff(&largest);
+  return axis[largest] < 0 ? geom::Vec3(-axis) : axis;
+}
+
+// The conjugate plane at `angle` from the sigma1 axis along which the block slides more.
+void choose_conjugate(const geom::Vec3& axis1, const geom::Vec3& axis3, double angle, const geom::Mat3& gradient,
+                      FailurePlane& plane) {
+  plane.angle_to_sigma1 = angle;
+  double slide[2];
+  geom::Vec3 normal[2];
+  for (int k = 0; k < 2; ++k) {
+    const double side = k == 0 ? 1 : -1;
+    const geom::Vec3 along = std::cos(angle) * axis1 + side * std::sin(angle) * axis3;
+    normal[k] = std::sin(angle) * axis1 - side * std::cos(angle) * axis3;
+    slide[k] = std::abs(along.dot(gradient * normal[k]));
+  }
+  plane.tie = std::abs(slide[0] - slide[1]) <= tie_tolerance * std::max(slide[0], slide[1]);
+  plane.normal = plane.tie || slide[0] > slide[1] ? normal[0] : normal[1];
+}
+
+} // namespace
+
+std::optional<FailurePlane> failure_plane(const geom::Mat3& stress, const geom::Mat3& gradient,
+                                          const BlockStrength& strength, const RefineOptions& options) {
+  // Eigenvalues of the compression-positive stress, ascending: sigma3, sigma2, sigma1.
+  const Eigen::SelfAdjointEigenSolver<geom::Mat3> solver(-stress);
+  const double sigma3 = solver.eigenvalues()[0], sigma1 = solver.eigenvalues()[2];
+  const geom::Vec3 axis3 = pointing_forward(solver.eigenvectors().col(0));
+  const geom::Vec3 axis1 = pointing_forward(solver.eigenvectors().col(2));
+
+  FailurePlane plane;
+  plane.principal = solver.eigenvalues().reverse();
+  if (sigma1 + 3 * sigma3 < 0) {
+    if (sigma3 + strength.tensile_strength > options.tension_threshold)
+      return {};
+    plane.mode = CutMode::tension;
+    plane.normal = axis3;
+    plane.angle_to_sigma1 = 0;
+    return plane;
+  }
+  if (options.criterion == Criterion::griffith) {
+    if (sigma1 + sigma3 <= 0)
+      return {};
+    const double difference = sigma1 - sigma3;
+    if (difference * difference / (8 * (sigma1 + sigma3)) - strength.tensile_strength < -options.tension_threshold)
+      return {};
+    plane.mode = CutMode::tension;
+    choose_conjugate(axis1, axis3, 0.5 * std::acos(std::min(1.0, difference / (2 * (sigma1 + sigma3)))), gradient, plane);
+    return plane;
+  }
+  const double phi = strength.friction_angle;
+  const double excess = (sigma1 - sigma3) / (2 * std::cos(phi)) - (sigma1 + sigma3) * std::tan(phi) / 2 - strength.cohesion;
+  if (excess < -options.shear_threshold)
+    return {};
+  plane.mode = CutMode::shear;
+  choose_conjugate(axis1, axis3, 0.5 * (quarter_turn - phi), gradient, plane);
+  return plane;
+}
+
+} // namespace cdem

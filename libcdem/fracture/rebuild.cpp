@@ -1,0 +1,240 @@
+#include "libcdem/fracture/rebuild.hpp"
+
+#include "libcdem/element/small_strain.hpp"
+#include "libcdem/interface/spring_forces.hpp"
+#include "libgeom/polyhedron/cut.hpp"
+
+#include <cassert>
+#include <cmath>
+#include <map>
+
+namespace cdem {
+namespace {
+
+// A place counts as inside a tet when no barycentric weight is below this.
+constexpr double inside = -1e-6;
+
+using FaceKey = std::array<int, 4>; // block a, face a, block b, face b of the old model
+
+std::map<FaceKey, int> interfaces_by_face(const Model& model) {
+  std::map<FaceKey, int> found;
+  for (int i = 0; i < static_cast<int>(model.interfaces.size()); ++i) {
+    const Interface& f = model.interfaces[i];
+    found[{f.block_a, f.face_a, f.block_b, f.face_b}] = i;
+  }
+  return found;
+}
+
+Eigen::Vector4d weights(const Model& model, int tet, const geom::Vec3& place) {
+  const geom::Tet& t = model.tets[tet];
+  const auto& x = model.node_position;
+  geom::Mat3 edges;
+  edges << x[t[1]] - x[t[0]], x[t[2]] - x[t[0]], x[t[3]] - x[t[0]];
+  const geom::Vec3 w = edges.inverse() * (place - x[t[0]]);
+  return {1 - w.sum(), w[0], w[1], w[2]};
+}
+
+Node blend(const std::vector<Node>& values, const geom::Tet& tet, const Eigen::Vector4d& w) {
+  Node n;
+  for (int k = 0; k < 4; ++k) {
+    n.x += w[k] * values[tet[k]].x;
+    n.y += w[k] * values[tet[k]].y;
+    n.z += w[k] * values[tet[k]].z;
+  }
+  return n;
+}
+
+// Displacement and velocity at a place of an old block: of the tet that holds it best.
+void carry_node(const Model& old, const State& from, const Block& block, const geom::Vec3& place, Node& displacement,
+                Node& velocity) {
+  int best = block.tet_begin;
+  Eigen::Vector4d best_weights = Eigen::Vector4d::Constant(-1e30);
+  for (int tet = block.tet_begin; tet < block.tet_end; ++tet) {
+    const Eigen::Vector4d w = weights(old, tet, place);
+    if (w.minCoeff() > best_weights.minCoeff()) {
+      best = tet;
+      best_weights = w;
+    }
+  }
+  displacement = blend(from.displacement, old.tets[best], best_weights);
+  velocity = blend(from.velocity, old.tets[best], best_weights);
+}
+
+// Stress of an old block at a place: mean over the tets that hold it, so that mirror images stay mirror images.
+geom::Mat3 stress_at(const Model& old, const State& from, int block, const geom::Vec3& place) {
+  const Block& b = old.blocks[block];
+  geom::Mat3 sum = geom::Mat3::Zero();
+  int count = 0;
+  for (int tet = b.tet_begin; tet < b.tet_end; ++tet)
+    if (weights(old, tet, place).minCoeff() >= inside) {
+      sum += matrix(elastic_stress(old.bodies[b.body].material, displacement_gradient(old, from.displacement, tet)));
+      ++count;
+    }
+  if (count == 0)
+    return matrix(block_stress(old, from, block));
+  return sum / count + matrix(from.initial_stress[block]);
+}
+
+int nearest_point(const Model& old, const Interface& interface, const geom::Vec3& place) {
+  int nearest = interface.point_begin;
+  for (int p = interface.point_begin; p < interface.point_end; ++p)
+    if ((old.point_position[p] - place).squaredNorm() < (old.point_position[nearest] - place).squaredNorm())
+      nearest = p;
+  return nearest;
+}
+
+bool may_break_now(MayBreak rule, InterfaceOrigin origin, const Block& a, const Block& b, bool before) {
+  switch (rule) {
+  case MayBreak::all:
+    return before;
+  case MayBreak::cut_faces:
+    return origin == InterfaceOrigin::cut;
+  case MayBreak::near_cuts:
+    return origin == InterfaceOrigin::cut || (a.generation > 0 && b.generation > 0);
+  }
+  return before;
+}
+
+class Rebuilder {
+public:
+  Rebuilder(const Model& old, const State& from, std::vector<Successor> successors, const std::vector<int>& cut_joint,
+            MayBreak may_break)
+      : old_(old), from_(from), successors_(std::move(successors)), cut_joint_(cut_joint), may_break_(may_break),
+        old_interfaces_(interfaces_by_face(old)) {}
+
+  Rebuilt operator()() {
+    Rebuilt result;
+    result.model = build_model(old_, seeds(), [this](const Model& model, int a, int fa, int b, int fb) {
+      return traits(model, a, fa, b, fb);
+    });
+    result.state = initial_state(result.model);
+    result.state.time = from_.time;
+    result.state.step = from_.step;
+    result.state.spent = from_.spent;
+    for (const Successor& s : successors_)
+      result.old_block.push_back(s.old_block);
+    carry_blocks(result);
+    for (const Interface& interface : result.model.interfaces)
+      carry_interface(result, interface);
+    return result;
+  }
+
+private:
+  std::vector<BlockSeed> seeds() const {
+    std::vector<BlockSeed> seeds;
+    for (const Successor& s : successors_) {
+      const Block& parent = old_.blocks[s.old_block];
+      BlockSeed seed;
+      seed.id = s.whole ? parent.id : 0;
+      seed.parent = s.whole ? parent.parent : parent.id;
+      seed.generation = parent.generation + (s.whole ? 0 : 1);
+      seed.body = parent.body;
+      seed.shape = s.shape;
+      seed.first_size = parent.first_size;
+      seeds.push_back(std::move(seed));
+    }
+    return seeds;
+  }
+
+  // The old interface that a new face pair lies in; null for a new cut.
+  const Interface* old_interface(int a, int fa, int b, int fb) const {
+    const Successor &sa = successors_[a], &sb = successors_[b];
+    const int old_fa = sa.old_face[fa], old_fb = sb.old_face[fb];
+    if (old_fa == geom::cut_face || old_fb == geom::cut_face)
+      return nullptr;
+    const FaceKey key = sa.old_block < sb.old_block ? FaceKey{sa.old_block, old_fa, sb.old_block, old_fb}
+                                                    : FaceKey{sb.old_block, old_fb, sa.old_block, old_fa};
+    const auto found = old_interfaces_.find(key);
+    return found == old_interfaces_.end() ? nullptr : &old_.interfaces[found->second];
+  }
+
+  InterfaceTraits traits(const Model& model, int a, int fa, int b, int fb) const {
+    InterfaceTraits t;
+    if (const Interface* before = old_interface(a, fa, b, fb)) {
+      t.id = successors_[a].whole && successors_[b].whole ? before->id : 0;
+      t.joint = before->joint;
+      t.thickness = before->thickness;
+      t.origin = before->origin;
+      t.may_break = may_break_now(may_break_, t.origin, model.blocks[a], model.blocks[b], before->may_break);
+      return t;
+    }
+    t = default_traits(model, a, fa, b, fb);
+    if (successors_[a].old_block == successors_[b].old_block) {
+      t.origin = InterfaceOrigin::cut;
+      if (!cut_joint_.empty())
+        t.joint = cut_joint_[model.blocks[a].body];
+      const Joint& joint = model.joints[t.joint];
+      t.thickness = joint.thickness.value_or(joint.thickness_ratio * model.blocks[a].first_size);
+    }
+    t.may_break = may_break_now(may_break_, t.origin, model.blocks[a], model.blocks[b], true);
+    return t;
+  }
+
+  void carry_blocks(Rebuilt& r) const {
+    for (std::size_t b = 0; b < r.model.blocks.size(); ++b) {
+      const Block& now = r.model.blocks[b];
+      const Block& before = old_.blocks[successors_[b].old_block];
+      r.state.initial_stress[b] = from_.initial_stress[successors_[b].old_block];
+      for (int node = now.node_begin; node < now.node_end; ++node) {
+        if (successors_[b].whole) {
+          const int same = before.node_begin + (node - now.node_begin);
+          r.state.displacement[node] = from_.displacement[same];
+          r.state.velocity[node] = from_.velocity[same];
+        } else {
+          carry_node(old_, from_, before, r.model.node_position[node], r.state.displacement[node],
+                     r.state.velocity[node]);
+        }
+      }
+    }
+  }
+
+  void carry_interface(Rebuilt& r, const Interface& now) const {
+    const Interface* before = old_interface(now.block_a, now.face_a, now.block_b, now.face_b);
+    const bool same = before && successors_[now.block_a].whole && successors_[now.block_b].whole;
+    assert(!same || before->point_end - before->point_begin == now.point_end - now.point_begin);
+    // Blocks keep their order, so side a of the old interface is side a of the new one.
+    for (int p = now.point_begin; p < now.point_end; ++p) {
+      if (before) {
+        const int source = same ? before->point_begin + (p - now.point_begin)
+                                : nearest_point(old_, *before, r.model.point_position[p]);
+        r.state.bond_mode[p] = from_.bond_mode[source];
+        r.state.bond_offset[p] = from_.bond_offset[source];
+      } else if (now.origin == InterfaceOrigin::cut) {
+        preload(r, now, p);
+      }
+    }
+  }
+
+  void preload(Rebuilt& r, const Interface& now, int p) const {
+    const geom::Vec3 traction =
+        stress_at(old_, from_, successors_[now.block_a].old_block, r.model.point_position[p]) * now.normal;
+    const double normal = traction.dot(now.normal);
+    const geom::Vec3 stretch = normal / now.kn * now.normal + (traction - normal * now.normal) / now.ks;
+    r.state.bond_offset[p] = jump(r.model.points[p], r.state.displacement) - stretch;
+  }
+
+  const Model& old_;
+  const State& from_;
+  std::vector<Successor> successors_;
+  const std::vector<int>& cut_joint_;
+  MayBreak may_break_;
+  std::map<FaceKey, int> old_interfaces_;
+};
+
+} // namespace
+
+Successor whole_block(const Model& model, int block) {
+  Successor s;
+  s.old_block = block;
+  s.shape = model.blocks[block].shape;
+  for (int f = 0; f < static_cast<int>(s.shape.faces.size()); ++f)
+    s.old_face.push_back(f);
+  return s;
+}
+
+Rebuilt rebuild(const Model& old, const State& from, std::vector<Successor> successors,
+                const std::vector<int>& cut_joint, MayBreak may_break) {
+  return Rebuilder(old, from, std::move(successors), cut_joint, may_break)();
+}
+
+} // namespace cdem

@@ -1,0 +1,34 @@
+// The only door through which topology changes: old Model and State in, new ones out, every field carried over.
+//
+// A successor block is a whole old block, or a part of one. Its nodes take displacement and velocity from the old
+// block's tets at their place. Springs of an interface that was there before take mode and offset (preload, slip) from
+// the nearest old spring. Springs on a new cut start intact with the traction the parent's stress has there, as an
+// offset: without it the cut would kick the model.
+#pragma once
+
+#include "libcdem/fracture/options.hpp"
+#include "libcdem/model/build.hpp"
+#include "libcdem/state/state.hpp"
+
+namespace cdem {
+
+struct Successor {
+  int old_block = 0;
+  geom::Polyhedron shape;
+  std::vector<int> old_face; // per face of shape: the face of the old block it lies in, or geom::cut_face
+  bool whole = true;         // the old block itself: keeps its id and generation
+};
+
+struct Rebuilt {
+  Model model;
+  State state;
+  std::vector<int> old_block; // per new block: where it comes from (the one old -> new map)
+};
+
+Successor whole_block(const Model&, int block);
+
+// cut_joint: per body, index of the joint on faces that a cut makes (into Model::joints, which the caller may have
+// lengthened); empty: the body's own.
+Rebuilt rebuild(const Model&, const State&, std::vector<Successor>, const std::vector<int>& cut_joint, MayBreak);
+
+} // namespace cdem

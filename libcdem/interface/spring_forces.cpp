@@ -1,0 +1,103 @@
+#include "libcdem/interface/spring_forces.hpp"
+
+namespace cdem {
+namespace {
+
+CDEM_INLINE geom::Vec3 vec(const Node& n) { return {n.x, n.y, n.z}; }
+
+CDEM_INLINE geom::Vec3 jump_at(const BondPoint& p, const Node* u) {
+  if (p.one_to_one)
+    return vec(u[p.node_b[0]]) - vec(u[p.node_a[0]]);
+  geom::Vec3 j = geom::Vec3::Zero();
+  for (int k = 0; k < 3; ++k)
+    j += p.weight_b[k] * vec(u[p.node_b[k]]) - p.weight_a[k] * vec(u[p.node_a[k]]);
+  return j;
+}
+
+bool is_intact(std::uint8_t mode) { return mode == static_cast<std::uint8_t>(BondMode::intact); }
+
+double stored(const Interface& interface, const geom::Vec3& traction, const geom::Vec3& normal) {
+  const double tn = traction.dot(normal);
+  return 0.5 * (tn * tn / interface.kn + (traction.squaredNorm() - tn * tn) / interface.ks); // J/m2
+}
+
+} // namespace
+
+geom::Vec3 jump(const BondPoint& point, const std::vector<Node>& displacement) {
+  return jump_at(point, displacement.data());
+}
+
+void spring_forces(const Model& model, State& state, Workspace& work, Range range, SpringSums& sums, bool breaking) {
+  sums.friction = sums.breaking = 0;
+  sums.broken.clear();
+  const Node* u = state.displacement.data();
+  for (std::int64_t p = range.begin; p < range.end; ++p) {
+    const BondPoint& point = model.points[p];
+    const geom::Vec3& n = point.normal;
+    const geom::Vec3 j = jump_at(point, u);
+    const Interface& interface = model.interfaces[point.interface];
+    const SpringStrength& strength = work.strength[point.interface];
+    double lost = 0;
+    if (is_intact(state.bond_mode[p])) {
+      const geom::Vec3 stretch = j - state.bond_offset[p];
+      const double open = stretch.dot(n);
+      const geom::Vec3 shear = stretch - open * n;
+      if (!breaking || !interface.may_break) {
+        work.spring_force[p] = point.kn_area * open * n + point.ks_area * shear;
+        continue;
+      }
+      const double normal_traction = interface.kn * open, shear_traction = interface.ks * shear.norm();
+      const BondMode mode = breaks(strength, normal_traction, shear_traction);
+      if (mode == BondMode::intact) {
+        work.spring_force[p] = point.kn_area * open * n + point.ks_area * shear;
+        continue;
+      }
+      state.bond_mode[p] = static_cast<std::uint8_t>(mode);
+      sums.broken.push_back({static_cast<int>(p), mode, normal_traction, shear_traction});
+      lost = 0.5 * (normal_traction * normal_traction / interface.kn + shear_traction * shear_traction / interface.ks);
+    }
+    // Contact: the spring was never bonded or has broken, at the latest just now.
+    const SpringResponse r =
+        contact_response(interface.kn, interface.ks, strength.tan_friction, n, j, state.bond_offset[p]);
+    state.bond_offset[p] = r.offset;
+    work.spring_force[p] = point.area * r.traction;
+    if (lost > 0)
+      sums.breaking += point.area * (lost - stored(interface, r.traction, n));
+    else
+      sums.friction += point.area * r.friction_work;
+  }
+}
+
+geom::Vec3 traction(const Model& model, const State& state, int p) {
+  const BondPoint& point = model.points[p];
+  const Interface& interface = model.interfaces[point.interface];
+  const geom::Vec3 stretch = jump(point, state.displacement) - state.bond_offset[p];
+  const double open = stretch.dot(point.normal);
+  if (!is_intact(state.bond_mode[p]))
+    return contact_response(interface.kn, interface.ks, std::tan(model.joints[interface.joint].friction_angle),
+                            point.normal, jump(point, state.displacement), state.bond_offset[p])
+        .traction;
+  return interface.kn * open * point.normal + interface.ks * (stretch - open * point.normal);
+}
+
+double spring_energy(const Model& model, const State& state) {
+  double energy = 0;
+  for (int p = 0; p < static_cast<int>(model.points.size()); ++p)
+    energy += model.points[p].area *
+              stored(model.interfaces[model.points[p].interface], traction(model, state, p), model.points[p].normal);
+  return energy;
+}
+
+void add_spring_row_sums(const Model& model, std::vector<double>& sums) {
+  for (const BondPoint& point : model.points) {
+    const geom::Mat3 k = point.ks_area * geom::Mat3::Identity() +
+                         (point.kn_area - point.ks_area) * point.normal * point.normal.transpose();
+    const double row = 2 * k.cwiseAbs().rowwise().sum().maxCoeff(); // weights of both sides sum to 2
+    for (int i = 0; i < 3; ++i) {
+      sums[point.node_a[i]] += point.weight_a[i] * row;
+      sums[point.node_b[i]] += point.weight_b[i] * row;
+    }
+  }
+}
+
+} // namespace cdem

@@ -1,0 +1,24 @@
+// Forces of all springs, bonds and contacts alike, with breaking; each chunk of springs writes only its own springs.
+#pragma once
+
+#include "libcdem/step/workspace.hpp"
+
+namespace cdem {
+
+// Reads displacement; writes Workspace::spring_force, spring_sums and, where a spring breaks, slips or opens,
+// bond_mode and bond_offset.
+void spring_forces(const Model&, State&, Workspace&, Range points, SpringSums&, bool breaking);
+
+// Jump of the displacement from side a to side b, m.
+geom::Vec3 jump(const BondPoint&, const std::vector<Node>& displacement);
+
+// Traction that a spring carries at the present state, Pa: positive normal part is tension.
+geom::Vec3 traction(const Model&, const State&, int point);
+
+// Stored energy of all springs, J.
+double spring_energy(const Model&, const State&);
+
+// Row sums of the springs' stiffness, N/m, added per node. A Gershgorin bound.
+void add_spring_row_sums(const Model&, std::vector<double>& sums);
+
+} // namespace cdem

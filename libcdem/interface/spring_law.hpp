@@ -1,0 +1,63 @@
+// Law of one spring between two faces, per area (Han 2010 eqs 8-11 as amended in docs/theory.md).
+//
+//   bonded:  t = kn (j - o).n n + ks (j - o)_s,   j jump of the displacement from a to b, o jump at which t = 0
+//   broken or never bonded, closed (t_n <= 0):  the same, |t_s| limited to |t_n| tan(phi), o_s slips with it
+//   broken or never bonded, open (t_n > 0):     t = 0, o_s follows j_s so that a closing face starts without shear
+#pragma once
+
+#include "libcdem/results/snapshot.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace cdem {
+
+struct SpringStrength {
+  double cohesion = 0;         // Pa
+  double tan_friction = 0;     // tan(phi)
+  double tensile_strength = 0; // Pa
+};
+
+// Eqs 10-11: with the signed t_n, so that tension weakens the shear strength, and never below zero.
+inline BondMode breaks(const SpringStrength& s, double normal_traction, double shear_traction) {
+  if (normal_traction > s.tensile_strength)
+    return BondMode::broken_tension;
+  if (shear_traction > std::max(0.0, s.cohesion - normal_traction * s.tan_friction))
+    return BondMode::broken_shear;
+  return BondMode::intact;
+}
+
+struct SpringResponse {
+  geom::Vec3 traction = geom::Vec3::Zero(); // Pa, pulls a towards b when along the normal
+  geom::Vec3 offset = geom::Vec3::Zero();   // m, new o
+  double friction_work = 0;                 // J/m2, turned into heat by slip or lost on opening
+};
+
+inline SpringResponse contact_response(double kn, double ks, double tan_friction, const geom::Vec3& normal,
+                                       const geom::Vec3& jump, const geom::Vec3& offset) {
+  SpringResponse r;
+  const geom::Vec3 stretch = jump - offset;
+  const double open = stretch.dot(normal);
+  const geom::Vec3 shear = stretch - open * normal;
+  if (open > 0) {
+    r.offset = offset + shear;
+    r.friction_work = 0.5 * ks * shear.squaredNorm();
+    return r;
+  }
+  const double normal_traction = kn * open;
+  const double limit = -normal_traction * tan_friction;
+  const double shear_traction = ks * shear.norm();
+  r.offset = offset;
+  r.traction = normal_traction * normal + ks * shear;
+  if (shear_traction > limit) {
+    // Return to the friction cone along the direction of the trial shear.
+    const double scale = limit / shear_traction;
+    const geom::Vec3 slip = (1 - scale) * shear;
+    r.offset += slip;
+    r.traction = normal_traction * normal + (ks * scale) * shear;
+    r.friction_work = (ks * scale) * shear.dot(slip);
+  }
+  return r;
+}
+
+} // namespace cdem

@@ -1,0 +1,124 @@
+#include "libcdem/load/resolve.hpp"
+
+#include "libcdem/element/small_strain.hpp"
+#include "libgeom/core/error.hpp"
+
+#include <cmath>
+#include <limits>
+
+namespace cdem {
+namespace {
+
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+
+double& component(Node& node, int axis) { return axis == 0 ? node.x : axis == 1 ? node.y : node.z; }
+
+void add(Node& node, const geom::Vec3& v) {
+  node.x += v.x();
+  node.y += v.y();
+  node.z += v.z();
+}
+
+[[noreturn]] void selects_nothing(const char* what, const Selection& on) {
+  throw geom::InputError("on", on.text, std::string("a place that holds ") + what,
+                         "nothing of the model lies there; `cdem check` prints the model's box");
+}
+
+void hold(const Model& model, const Fix& fix, ResolvedConditions& r) {
+  const std::vector<int> nodes = selected_nodes(model, fix.on);
+  if (nodes.empty())
+    selects_nothing("nodes", fix.on);
+  for (const int node : nodes)
+    for (int axis = 0; axis < 3; ++axis) {
+      if (!fix.axes[axis])
+        continue;
+      component(r.free[node], axis) = fix.release ? 1 : 0;
+      component(r.prescribed[node], axis) = fix.velocity && !fix.release ? (*fix.velocity)[axis] : 0;
+      component(r.target[node], axis) = fix.displacement && !fix.release ? (*fix.displacement)[axis] : nan;
+      r.has_target = r.has_target || fix.displacement;
+    }
+}
+
+using Pattern = std::vector<std::pair<int, geom::Vec3>>;
+
+Pattern traction_pattern(const Model& model, const Traction& traction) {
+  const std::vector<int> faces = selected_outer_faces(model, traction.on);
+  if (faces.empty())
+    selects_nothing("outer faces", traction.on);
+  Pattern pattern;
+  for (const int f : faces)
+    for (const auto& [node, area] : model.outer_faces[f].node_area)
+      pattern.emplace_back(node, area * traction.stress);
+  return pattern;
+}
+
+// Shared in proportion to the volume around each node, so that the nodes of blocks that meet in one place move
+// together and a finer block does not attract more load.
+Pattern force_pattern(const Model& model, const PointForce& force) {
+  const std::vector<int> nodes = selected_nodes(model, force.on);
+  if (nodes.empty())
+    selects_nothing("nodes", force.on);
+  double volume = 0;
+  for (const int node : nodes)
+    volume += model.node_volume[node];
+  Pattern pattern;
+  for (const int node : nodes)
+    pattern.emplace_back(node, model.node_volume[node] / volume * force.force);
+  return pattern;
+}
+
+Pattern gravity_pattern(const Model& model, const Gravity& gravity) {
+  Pattern pattern;
+  for (int node = 0; node < static_cast<int>(model.node_position.size()); ++node)
+    pattern.emplace_back(node, (model.node_mass[node] - gravity.water_density * model.node_volume[node]) *
+                                   gravity.acceleration);
+  return pattern;
+}
+
+void load(ResolvedConditions& r, Pattern&& pattern, const Amplitude& amplitude) {
+  if (amplitude)
+    r.varying.push_back({std::move(pattern), amplitude});
+  else
+    for (const auto& [node, force] : pattern)
+      add(r.constant[node], force);
+}
+
+} // namespace
+
+ResolvedConditions resolve(const Model& model, const State& state, const Conditions& conditions) {
+  ResolvedConditions r;
+  const std::size_t n = model.node_position.size();
+  r.free.assign(n, Node{1, 1, 1, 0});
+  r.prescribed.resize(n);
+  r.target.assign(n, Node{nan, nan, nan, 0});
+  r.constant.resize(n);
+  r.internal.resize(n);
+  for (const Fix& fix : conditions.fixes)
+    hold(model, fix, r);
+  for (const Traction& traction : conditions.tractions)
+    load(r, traction_pattern(model, traction), traction.amplitude);
+  for (const PointForce& force : conditions.forces)
+    load(r, force_pattern(model, force), force.amplitude);
+  if (conditions.gravity)
+    load(r, gravity_pattern(model, *conditions.gravity), conditions.gravity->amplitude);
+  for (std::size_t b = 0; b < model.blocks.size(); ++b)
+    if (state.initial_stress[b] != Stress{}) {
+      add_uniform_stress_forces(model, model.blocks[b], state.initial_stress[b], r.internal);
+      r.has_initial_stress = true;
+    }
+  r.external = r.constant;
+  return r;
+}
+
+void update_external(ResolvedConditions& r, double time) {
+  if (r.varying.empty())
+    return;
+  r.external = r.constant;
+  for (const VaryingLoad& load : r.varying) {
+    const double factor = load.amplitude(time);
+    for (const auto& [node, force] : load.forces)
+      add(r.external[node], factor * force);
+  }
+}
+
+} // namespace cdem

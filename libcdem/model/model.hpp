@@ -1,0 +1,128 @@
+// Model: everything that stays as it is while the solver steps. Only fracture/ makes a new one, between steps.
+#pragma once
+
+#include "libcdem/model/joint.hpp"
+#include "libcdem/model/material.hpp"
+#include "libcdem/parallel/chunks.hpp"
+#include "libcdem/parallel/node.hpp"
+#include "libgeom/polyhedron/polyhedron.hpp"
+
+#include <cstdint>
+#include <map>
+#include <string>
+#include <vector>
+
+namespace cdem {
+
+struct Body {
+  std::string name;
+  Elastic material;
+  Joint joint; // between its own blocks; its strength is that of the blocks themselves when they are cut
+};
+
+struct Block {
+  std::int64_t id = 0;      // stable, never used again
+  std::int64_t parent = -1; // id of the block it was cut from
+  int generation = 0;       // cuts between the first block and this one
+  int body = 0;
+  geom::Polyhedron shape;
+  geom::MassProperties mass; // unit density
+  double size = 0;           // h, cube root of the volume, m
+  double first_size = 0;     // h of the generation-0 block it comes from, m; joints keep their thickness through cuts
+  int node_begin = 0, node_end = 0; // vertices, then one centre per face, then the centroid
+  int tet_begin = 0, tet_end = 0;
+
+  int face_centre(int face) const { return node_begin + static_cast<int>(shape.vertices.size()) + face; }
+  int centroid_node() const { return node_end - 1; }
+};
+
+// Where an interface comes from; decides whether it may break (fracture/refine.hpp).
+enum class InterfaceOrigin : std::uint8_t { original, cut };
+
+struct Interface {
+  std::int64_t id = 0;
+  int block_a = 0, face_a = 0, block_b = 0, face_b = 0; // block_a < block_b
+  geom::Vec3 normal = geom::Vec3::Zero();               // unit, from a to b
+  int joint = 0;                                        // index into Model::joints
+  double thickness = 0;                                 // L, m, equivalent thickness
+  double kn = 0, ks = 0;                                // Pa/m
+  InterfaceOrigin origin = InterfaceOrigin::original;
+  bool may_break = true;
+  int point_begin = 0, point_end = 0;
+  int triangle_begin = 0, triangle_end = 0;
+};
+
+// One spring: a point of face a against a point of face b, both interpolated linearly.
+struct alignas(64) BondPoint {
+  std::array<int, 3> node_a{}, node_b{};
+  std::array<double, 3> weight_a{}, weight_b{};
+  geom::Vec3 normal = geom::Vec3::Zero(); // unit, from a to b
+  double kn_area = 0, ks_area = 0;        // N/m
+  double area = 0;                        // m2
+  int interface = 0;
+  bool one_to_one = false; // both sides sit on a node: weights 1, 0, 0
+};
+
+// Eight tets side by side, all of one chunk. grad: shape function gradients of corners 1..3 (corner 0 is minus their
+// sum), 1/m; the moduli carry the volume, N m.
+struct TetBatch {
+  int node[4][lanes];
+  double grad[9][lanes];
+  double lambda_volume[lanes];
+  double two_g_volume[lanes];
+};
+
+// Part of the boundary of a block that no other block covers.
+struct OuterFace {
+  int block = 0, face = 0;
+  geom::Vec3 normal = geom::Vec3::Zero(); // unit, outward
+  double area = 0;                        // m2, uncovered
+  std::vector<std::pair<int, double>> node_area; // node, integral of its shape function over the uncovered part, m2
+};
+
+// Consecutive blocks, the smallest piece of parallel work. Its nodes and tets belong to no other chunk.
+struct BlockChunk {
+  Range blocks, nodes, batches;
+};
+
+// Which springs pull at a node: force on node += weight * spring force (positive on side a, negative on side b).
+struct BondOnNode {
+  int point = 0;
+  double weight = 0;
+};
+
+struct Model {
+  std::vector<Body> bodies;
+  std::vector<Joint> joints;
+  std::vector<Block> blocks;
+  std::map<std::pair<int, int>, int> pair_joint; // bodies (smaller first) -> joint between them
+
+  std::vector<geom::Vec3> node_position; // undeformed, m (n_nodes)
+  std::vector<int> node_block;           // (n_nodes)
+  std::vector<double> node_mass;         // kg (n_nodes), a quarter of each tet around it
+  std::vector<double> node_volume;       // m3 (n_nodes)
+
+  std::vector<geom::Tet> tets; // global nodes (n_tets)
+  std::vector<int> tet_block;  // (n_tets)
+  std::vector<TetBatch> batches;
+
+  std::vector<Interface> interfaces;
+  std::vector<BondPoint> points;             // springs (n_points)
+  std::vector<geom::Vec3> point_position;    // undeformed, m (n_points)
+  std::vector<geom::Triangle> bond_triangles; // over points
+
+  std::vector<std::int64_t> bond_begin; // (n_nodes + 1) into bonds_on_nodes
+  std::vector<BondOnNode> bonds_on_nodes;
+
+  std::vector<OuterFace> outer_faces;
+
+  std::vector<BlockChunk> chunks;
+  std::vector<Range> point_chunks;
+
+  geom::Box box;         // undeformed
+  double length = 0;     // diagonal of the box, m
+  double tolerance = 0;  // places nearer than this are one, m
+  std::int64_t next_id = 1;
+};
+
+} // namespace cdem

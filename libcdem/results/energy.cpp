@@ -1,0 +1,36 @@
+#include "libcdem/results/energy.hpp"
+
+#include "libcdem/element/small_strain.hpp"
+#include "libcdem/interface/spring_forces.hpp"
+
+namespace cdem {
+
+double EnergyLedger::balance_error() const {
+  return external_peak > 0 ? std::abs(total() - external) / external_peak : 0;
+}
+
+double elastic_energy(const Model& model, const State& state) {
+  double energy = 0;
+  for (int tet = 0; tet < static_cast<int>(model.tets.size()); ++tet) {
+    const int block = model.tet_block[tet];
+    const geom::Mat3 h = displacement_gradient(model, state.displacement, tet);
+    const geom::Mat3 strain = 0.5 * (h + h.transpose());
+    const Stress elastic = elastic_stress(model.bodies[model.blocks[block].body].material, h);
+    const geom::Mat3 work = 0.5 * matrix(elastic) + matrix(state.initial_stress[block]);
+    energy += tet_volume(model, tet) * work.cwiseProduct(strain).sum();
+  }
+  return energy;
+}
+
+EnergyLedger energy(const Model& model, const State& state) {
+  EnergyLedger ledger = state.spent;
+  ledger.elastic = elastic_energy(model, state);
+  ledger.springs = spring_energy(model, state);
+  for (std::size_t i = 0; i < state.velocity.size(); ++i) {
+    const Node& v = state.velocity[i];
+    ledger.kinetic += 0.5 * model.node_mass[i] * (v.x * v.x + v.y * v.y + v.z * v.z);
+  }
+  return ledger;
+}
+
+} // namespace cdem

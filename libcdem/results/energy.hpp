@@ -1,0 +1,13 @@
+// The ledger of a state: stored energies computed from it, spent ones as summed by the steps.
+#pragma once
+
+#include "libcdem/state/state.hpp"
+
+namespace cdem {
+
+// kinetic: J, of real masses (a relaxation ends at rest).
+EnergyLedger energy(const Model&, const State&);
+
+double elastic_energy(const Model&, const State&); // J, sum V (sigma0 : eps + eps : C : eps / 2)
+
+} // namespace cdem

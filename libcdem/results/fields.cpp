@@ -1,0 +1,193 @@
+#include "libcdem/results/fields.hpp"
+
+#include "libcdem/element/small_strain.hpp"
+#include "libgeom/core/error.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+#include <numeric>
+
+namespace cdem {
+namespace {
+
+struct FieldName {
+  const char* name;
+  bool nodal;
+};
+
+constexpr FieldName all_fields[] = {
+    {"displacement.x", true},     {"displacement.y", true},     {"displacement.z", true},
+    {"displacement.magnitude", true}, {"velocity.x", true},     {"velocity.y", true},
+    {"velocity.z", true},         {"velocity.magnitude", true}, {"stress.xx", false},
+    {"stress.yy", false},         {"stress.zz", false},         {"stress.xy", false},
+    {"stress.yz", false},         {"stress.xz", false},         {"principal_stress.1", false},
+    {"principal_stress.2", false}, {"principal_stress.3", false}, {"von_mises", false},
+};
+
+// Levenshtein distance, for "did you mean".
+std::size_t edit_distance(const std::string& a, const std::string& b) {
+  std::vector<std::size_t> row(b.size() + 1);
+  std::iota(row.begin(), row.end(), std::size_t{0});
+  for (std::size_t i = 1; i <= a.size(); ++i) {
+    std::size_t diagonal = row[0];
+    row[0] = i;
+    for (std::size_t j = 1; j <= b.size(); ++j) {
+      const std::size_t change = diagonal + (a[i - 1] != b[j - 1]);
+      diagonal = row[j];
+      row[j] = std::min({row[j] + 1, row[j - 1] + 1, change});
+    }
+  }
+  return row.back();
+}
+
+const FieldName& find_field(const std::string& name) {
+  const FieldName* nearest = nullptr;
+  std::size_t distance = 1000;
+  for (const FieldName& field : all_fields) {
+    if (field.name == name)
+      return field;
+    const std::size_t d = edit_distance(name, field.name);
+    if (d < distance) {
+      distance = d;
+      nearest = &field;
+    }
+  }
+  std::string names;
+  for (const FieldName& field : all_fields)
+    names += (names.empty() ? "" : " ") + std::string(field.name);
+  throw geom::InputError("field", "\"" + name + "\"", "one of " + names,
+                         "did you mean \"" + std::string(nearest->name) + "\"?");
+}
+
+double vector_component(const Node& n, const std::string& component) {
+  if (component == "x")
+    return n.x;
+  if (component == "y")
+    return n.y;
+  if (component == "z")
+    return n.z;
+  return std::sqrt(n.x * n.x + n.y * n.y + n.z * n.z);
+}
+
+double node_value(const State& state, const std::string& field, int node) {
+  const auto dot = field.find('.');
+  const auto& array = field[0] == 'd' ? state.displacement : state.velocity;
+  return vector_component(array[node], field.substr(dot + 1));
+}
+
+double block_value(const Model& model, const State& state, const std::string& field, int block) {
+  const Stress stress = block_stress(model, state, block);
+  if (field == "von_mises")
+    return von_mises(stress);
+  const std::string component = field.substr(field.find('.') + 1);
+  if (field[0] == 'p')
+    return principal(stress)[component[0] - '1'];
+  static const char* const components[] = {"xx", "yy", "zz", "xy", "yz", "xz"};
+  const auto found = std::find(std::begin(components), std::end(components), component);
+  return stress[found - std::begin(components)];
+}
+
+std::vector<int> selected_blocks(const Model& model, const Selection& on) {
+  std::vector<int> blocks;
+  for (int b = 0; b < static_cast<int>(model.blocks.size()); ++b)
+    if (selects_block(model, on, b))
+      blocks.push_back(b);
+  return blocks;
+}
+
+[[noreturn]] void nothing_there(const Selection& on, const char* what) {
+  throw geom::InputError("on", on.text, std::string("a place that holds ") + what, "nothing of the model lies there");
+}
+
+} // namespace
+
+std::vector<std::string> field_names() {
+  std::vector<std::string> names;
+  for (const FieldName& field : all_fields)
+    names.emplace_back(field.name);
+  return names;
+}
+
+void check_field(const std::string& field) { find_field(field); }
+
+std::array<double, 3> principal(const Stress& stress) {
+  const Eigen::SelfAdjointEigenSolver<geom::Mat3> solver(matrix(stress), Eigen::EigenvaluesOnly);
+  const geom::Vec3 e = solver.eigenvalues();
+  return {e[2], e[1], e[0]};
+}
+
+double von_mises(const Stress& s) {
+  const double a = s[0] - s[1], b = s[1] - s[2], c = s[2] - s[0];
+  return std::sqrt(0.5 * (a * a + b * b + c * c) + 3 * (s[3] * s[3] + s[4] * s[4] + s[5] * s[5]));
+}
+
+std::vector<FieldValue> values(const Model& model, const State& state, const std::string& field, const Selection& on) {
+  std::vector<FieldValue> list;
+  if (find_field(field).nodal) {
+    for (const int node : selected_nodes(model, on))
+      list.push_back({node_value(state, field, node), model.node_position[node], model.blocks[model.node_block[node]].id});
+    if (list.empty())
+      nothing_there(on, "nodes");
+  } else {
+    for (const int b : selected_blocks(model, on))
+      list.push_back({block_value(model, state, field, b), model.blocks[b].mass.centroid, model.blocks[b].id});
+    if (list.empty())
+      nothing_there(on, "block centroids");
+  }
+  return list;
+}
+
+double mean_value(const Model& model, const State& state, const std::string& field, const Selection& on) {
+  double sum = 0, weight = 0;
+  const auto add = [&](double value, double w) {
+    sum += w * value;
+    weight += w;
+  };
+  if (!find_field(field).nodal) {
+    for (const int b : selected_blocks(model, on))
+      add(block_value(model, state, field, b), model.blocks[b].mass.volume);
+    if (weight == 0)
+      nothing_there(on, "block centroids");
+    return sum / weight;
+  }
+  if (on.kind == Selection::Kind::side || on.kind == Selection::Kind::plane)
+    for (const int f : selected_outer_faces(model, on))
+      for (const auto& [node, area] : model.outer_faces[f].node_area)
+        add(node_value(state, field, node), area);
+  if (weight > 0)
+    return sum / weight;
+  for (const int node : selected_nodes(model, on))
+    add(node_value(state, field, node), model.node_volume[node]);
+  if (weight == 0)
+    nothing_there(on, "nodes");
+  return sum / weight;
+}
+
+double value_at(const Model& model, const State& state, const std::string& field, const geom::Vec3& place) {
+  const bool nodal = find_field(field).nodal;
+  for (int b = 0; b < static_cast<int>(model.blocks.size()); ++b) {
+    const Block& block = model.blocks[b];
+    if (!geom::bounding_box(block.shape).contains(place, model.tolerance))
+      continue;
+    for (int t = block.tet_begin; t < block.tet_end; ++t) {
+      const geom::Tet& tet = model.tets[t];
+      const auto& x = model.node_position;
+      geom::Mat3 edges;
+      edges << x[tet[1]] - x[tet[0]], x[tet[2]] - x[tet[0]], x[tet[3]] - x[tet[0]];
+      const geom::Vec3 w = edges.inverse() * (place - x[tet[0]]);
+      const double w0 = 1 - w.sum();
+      if (std::min(w0, w.minCoeff()) < -1e-6)
+        continue;
+      if (!nodal)
+        return block_value(model, state, field, b);
+      return w0 * node_value(state, field, tet[0]) + w[0] * node_value(state, field, tet[1]) +
+             w[1] * node_value(state, field, tet[2]) + w[2] * node_value(state, field, tet[3]);
+    }
+  }
+  throw geom::InputError("at", fmt::format("({:g}, {:g}, {:g})", place.x(), place.y(), place.z()),
+                         "a place inside a block", "the model's box is printed by `cdem check`");
+}
+
+} // namespace cdem

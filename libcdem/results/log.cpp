@@ -1,0 +1,24 @@
+#include "libcdem/results/log.hpp"
+
+namespace cdem {
+namespace {
+
+constexpr std::size_t most_rows = 20000;
+
+}
+
+void RunLog::add(HistoryRow row) {
+  history.push_back(std::move(row));
+  if (history.size() <= most_rows)
+    return;
+  every_ *= 2;
+  std::vector<HistoryRow> kept;
+  for (std::size_t i = 0; i < history.size(); ++i) {
+    const bool last_of_stage = i + 1 == history.size() || history[i + 1].stage != history[i].stage;
+    if (history[i].step % every_ == 0 || last_of_stage)
+      kept.push_back(std::move(history[i]));
+  }
+  history = std::move(kept);
+}
+
+} // namespace cdem

@@ -1,0 +1,58 @@
+// What a run leaves behind besides its state: breaks, histories, probes. Rows as the script reads them.
+#pragma once
+
+#include "libcdem/results/snapshot.hpp"
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace cdem {
+
+// One broken bond.
+struct BreakRow {
+  int stage = 0;
+  std::int64_t step = 0; // within the stage
+  double time = 0;       // s
+  BondMode mode = BondMode::intact; // broken_tension or broken_shear
+  geom::Vec3 place = geom::Vec3::Zero();  // m, undeformed
+  geom::Vec3 normal = geom::Vec3::Zero();
+  double area = 0;                                // m2
+  double normal_traction = 0, shear_traction = 0; // Pa at breaking, tension positive
+  std::int64_t block_a = 0, block_b = 0;          // ids
+};
+
+struct HistoryRow {
+  int stage = 0;
+  std::int64_t step = 0; // over all stages
+  double time = 0;       // s
+  double residual = 0;   // out-of-balance force norm over applied force norm
+  double kinetic = 0;    // J
+  double external = 0;   // J, work of the loads so far
+  std::int64_t broken_tension = 0, broken_shear = 0; // spring points so far
+  std::vector<double> probes;
+};
+
+struct Probe {
+  std::string name, field;
+  geom::Vec3 place; // m, undeformed
+};
+
+class RunLog {
+public:
+  std::vector<BreakRow> breaks;
+  std::vector<HistoryRow> history;
+  std::vector<Probe> probes;
+  std::int64_t broken_tension = 0, broken_shear = 0;
+
+  // A sample is due at this step (over all stages).
+  bool due(std::int64_t step) const { return step % every_ == 0; }
+  // Thins the history by halves when it grows beyond 20000 rows, so that its length stays bounded and even.
+  void add(HistoryRow row);
+
+private:
+  std::int64_t every_ = 10;
+};
+
+} // namespace cdem

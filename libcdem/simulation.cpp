@@ -1,0 +1,377 @@
+#include "libcdem/simulation.hpp"
+
+#include "libcdem/element/small_strain.hpp"
+#include "libcdem/fracture/rebuild.hpp"
+#include "libcdem/fracture/refine.hpp"
+#include "libcdem/interface/spring_forces.hpp"
+#include "libcdem/model/build.hpp"
+#include "libcdem/results/energy.hpp"
+#include "libcdem/results/make_snapshot.hpp"
+#include "libcdem/step/forces.hpp"
+#include "libcdem/step/relax.hpp"
+#include "libcdem/step/run.hpp"
+#include "libgeom/core/error.hpp"
+
+#include <cmath>
+#include <fmt/format.h>
+#include <set>
+
+namespace cdem {
+namespace {
+
+std::string number(double x) { return fmt::format("{:g}", x); }
+
+void require_finite(const char* field, const geom::Vec3& v) {
+  if (!v.allFinite())
+    throw geom::InputError(field, fmt::format("({:g}, {:g}, {:g})", v.x(), v.y(), v.z()), "finite");
+}
+
+int body_index(const Model& model, const std::string& name) {
+  for (int b = 0; b < static_cast<int>(model.bodies.size()); ++b)
+    if (model.bodies[b].name == name)
+      return b;
+  std::string names;
+  for (const Body& body : model.bodies)
+    names += (names.empty() ? "\"" : ", \"") + body.name + "\"";
+  throw geom::InputError("contacts", "\"" + name + "\"", "the name of a body (" + names + ")");
+}
+
+Model first_model(const ModelSpec& spec) {
+  if (spec.bodies.empty())
+    throw geom::InputError("bodies", "{}", "a list of at least one body", "add { shape = ..., material = ... }");
+  Model frame;
+  std::set<std::string> names;
+  std::vector<BlockSeed> seeds;
+  for (const BodySpec& body : spec.bodies) {
+    if (!names.insert(body.name).second)
+      throw geom::InputError("name", "\"" + body.name + "\"", "unique among the bodies");
+    if (body.shape.blocks.empty())
+      throw geom::InputError("shape", "an empty assembly", "at least one block");
+    validate(body.material);
+    validate(body.joint);
+    const int index = static_cast<int>(frame.bodies.size());
+    frame.bodies.push_back({body.name, body.material, body.joint});
+    frame.pair_joint[{index, index}] = static_cast<int>(frame.joints.size());
+    frame.joints.push_back(body.joint);
+    for (const geom::Polyhedron& block : body.shape.blocks) {
+      BlockSeed seed;
+      seed.body = index;
+      seed.shape = block;
+      seeds.push_back(std::move(seed));
+    }
+  }
+  for (const PairSpec& pair : spec.pairs) {
+    validate(pair.joint);
+    const int a = body_index(frame, pair.body_a), b = body_index(frame, pair.body_b);
+    frame.pair_joint[std::minmax(a, b)] = static_cast<int>(frame.joints.size());
+    frame.joints.push_back(pair.joint);
+  }
+  return build_model(frame, std::move(seeds), default_traits);
+}
+
+void check(const RelaxOptions& o) {
+  if (!(o.residual > 0 && o.residual < 1))
+    throw geom::InputError("residual", number(o.residual), "in (0, 1)", "1e-6 is usual");
+  if (o.max_steps <= 0)
+    throw geom::InputError("max_steps", std::to_string(o.max_steps), "an integer > 0");
+}
+
+void check(const RunOptions& o) {
+  const bool by_time = o.duration != 0;
+  if (!std::isfinite(o.duration) || o.duration < 0)
+    throw geom::InputError("duration", number(o.duration), "a finite number > 0 s");
+  if (by_time == (o.steps != 0) || o.steps < 0)
+    throw geom::InputError("run: give either duration (s) or steps (an integer > 0)");
+  if (!(o.safety > 0 && o.safety <= 1))
+    throw geom::InputError("safety", number(o.safety), "in (0, 1]");
+  if (!(o.time_step >= 0) || !std::isfinite(o.time_step))
+    throw geom::InputError("time_step", number(o.time_step), "a finite number > 0 s");
+  if (!(o.local_damping >= 0 && o.local_damping < 1))
+    throw geom::InputError("local_damping", number(o.local_damping), "in [0, 1)");
+}
+
+} // namespace
+
+struct Simulation::Impl {
+  Model model;
+  State state;
+  State last_good;
+  Conditions conditions;
+  RunLog log;
+  std::shared_ptr<Observer> observer;
+  int threads = 1;
+  int stage = 0;
+  double last_residual = 0;
+
+  StageContext begin_stage() {
+    return {model, state, conditions, log, last_good, *observer, threads, ++stage};
+  }
+
+  // Tries a changed set of conditions before it takes them, so that a condition that selects nothing changes nothing.
+  template <class Change>
+  void change_conditions(const Change& change) {
+    Conditions changed = conditions;
+    change(changed);
+    resolve(model, state, changed);
+    conditions = std::move(changed);
+  }
+
+  double stored_energy() const { return elastic_energy(model, state) + spring_energy(model, state); }
+
+  // A change of topology or of the stress state between stages: the ledger counts what it does to the stored energy.
+  void adopt(Rebuilt&& rebuilt) {
+    const double before = stored_energy();
+    model = std::move(rebuilt.model);
+    state = std::move(rebuilt.state);
+    state.spent.cutting += before - stored_energy();
+    last_good = state;
+  }
+};
+
+Simulation::Simulation(const ModelSpec& spec, int threads, std::shared_ptr<Observer> observer)
+    : impl_(std::make_unique<Impl>()) {
+  if (threads < 1)
+    throw geom::InputError("threads", std::to_string(threads), "an integer >= 1");
+  impl_->threads = threads;
+  impl_->observer = observer ? std::move(observer) : std::make_shared<Observer>();
+  impl_->model = first_model(spec);
+  impl_->state = initial_state(impl_->model);
+  impl_->last_good = impl_->state;
+}
+
+Simulation::~Simulation() = default;
+Simulation::Simulation(Simulation&&) noexcept = default;
+Simulation& Simulation::operator=(Simulation&&) noexcept = default;
+
+void Simulation::fix(const Fix& fix) {
+  if (fix.displacement)
+    require_finite("displacement", *fix.displacement);
+  if (fix.velocity)
+    require_finite("velocity", *fix.velocity);
+  impl_->change_conditions([&](Conditions& c) { c.fixes.push_back(fix); });
+}
+
+void Simulation::release(const Selection& on, std::array<bool, 3> axes) {
+  impl_->change_conditions([&](Conditions& c) {
+    Fix release;
+    release.on = on;
+    release.axes = axes;
+    release.release = true;
+    c.fixes.push_back(release);
+  });
+}
+
+void Simulation::traction(const Traction& traction) {
+  require_finite("stress", traction.stress);
+  impl_->change_conditions([&](Conditions& c) { c.tractions.push_back(traction); });
+}
+
+void Simulation::force(const PointForce& force) {
+  require_finite("force", force.force);
+  impl_->change_conditions([&](Conditions& c) { c.forces.push_back(force); });
+}
+
+void Simulation::gravity(const Gravity& gravity) {
+  require_finite("vector", gravity.acceleration);
+  if (!std::isfinite(gravity.water_density) || gravity.water_density < 0)
+    throw geom::InputError("water_density", number(gravity.water_density), "a finite number >= 0 kg/m3");
+  impl_->conditions.gravity = gravity;
+}
+
+void Simulation::clear_loads() {
+  impl_->conditions.tractions.clear();
+  impl_->conditions.forces.clear();
+  impl_->conditions.gravity.reset();
+}
+
+void Simulation::initial_stress(const Selection& on, const std::array<double, 6>& stress) {
+  Impl& s = *impl_;
+  for (const double component : stress)
+    if (!std::isfinite(component))
+      throw geom::InputError("stress", number(component), "six finite numbers (xx yy zz xy yz xz), Pa");
+  const double before = s.stored_energy();
+  std::vector<char> selected(s.model.blocks.size(), 0);
+  for (std::size_t b = 0; b < selected.size(); ++b)
+    if (selects_block(s.model, on, static_cast<int>(b))) {
+      selected[b] = 1;
+      for (int c = 0; c < 6; ++c)
+        s.state.initial_stress[b][c] += stress[c];
+    }
+  if (std::find(selected.begin(), selected.end(), 1) == selected.end())
+    throw geom::InputError("on", on.text, "a place that holds block centroids", "nothing of the model lies there");
+  const geom::Mat3 sigma = matrix(stress);
+  for (std::size_t p = 0; p < s.model.points.size(); ++p) {
+    const Interface& interface = s.model.interfaces[s.model.points[p].interface];
+    if (!selected[interface.block_a] || !selected[interface.block_b])
+      continue;
+    const geom::Vec3 t = sigma * interface.normal;
+    const double normal = t.dot(interface.normal);
+    s.state.bond_offset[p] -= normal / interface.kn * interface.normal + (t - normal * interface.normal) / interface.ks;
+  }
+  s.state.spent.cutting += before - s.stored_energy();
+}
+
+void Simulation::initial_velocity(const Selection& on, const geom::Vec3& velocity) {
+  require_finite("velocity", velocity);
+  Impl& s = *impl_;
+  const std::vector<int> nodes = selected_nodes(s.model, on);
+  if (nodes.empty())
+    throw geom::InputError("on", on.text, "a place that holds nodes", "nothing of the model lies there");
+  for (const int node : nodes) {
+    Node& v = s.state.velocity[node];
+    const double before = v.x * v.x + v.y * v.y + v.z * v.z;
+    v = {velocity.x(), velocity.y(), velocity.z(), 0};
+    // Kinetic energy given from outside.
+    s.state.spent.external += 0.5 * s.model.node_mass[node] * (velocity.squaredNorm() - before);
+  }
+  s.state.spent.external_peak = std::max(s.state.spent.external_peak, std::abs(s.state.spent.external));
+}
+
+std::int64_t Simulation::remove(const Selection& on) {
+  Impl& s = *impl_;
+  std::vector<Successor> left;
+  for (int b = 0; b < static_cast<int>(s.model.blocks.size()); ++b)
+    if (!selects_block(s.model, on, b))
+      left.push_back(whole_block(s.model, b));
+  const auto removed = static_cast<std::int64_t>(s.model.blocks.size() - left.size());
+  if (removed == 0)
+    throw geom::InputError("on", on.text, "a place that holds block centroids", "nothing of the model lies there");
+  if (left.empty())
+    throw geom::InputError("on", on.text, "a part of the model", "removing everything leaves nothing to solve");
+  s.adopt(rebuild(s.model, s.state, std::move(left), {}, MayBreak::all));
+  return removed;
+}
+
+std::int64_t Simulation::unbond(const Selection& on) {
+  Impl& s = *impl_;
+  std::int64_t count = 0;
+  const double before = s.stored_energy();
+  for (int p = 0; p < static_cast<int>(s.model.points.size()); ++p)
+    if (selects_point(s.model, on, p)) {
+      s.state.bond_mode[p] = static_cast<std::uint8_t>(BondMode::contact);
+      ++count;
+    }
+  if (count == 0)
+    throw geom::InputError("on", on.text, "a place that holds bonds", "nothing of the model lies there");
+  s.state.spent.cutting += before - s.stored_energy();
+  return count;
+}
+
+RelaxResult Simulation::relax(const RelaxOptions& options) {
+  check(options);
+  const RelaxResult result = cdem::relax(impl_->begin_stage(), options);
+  impl_->last_residual = result.residual;
+  return result;
+}
+
+RunResult Simulation::run(const RunOptions& options) {
+  check(options);
+  const RunResult result = cdem::run(impl_->begin_stage(), options);
+  impl_->last_residual = impl_->log.history.back().residual;
+  return result;
+}
+
+std::vector<BlockCut> Simulation::refine(const RefineOptions& options) {
+  Refined refined = cdem::refine(impl_->model, impl_->state, options);
+  ++impl_->stage;
+  impl_->adopt(std::move(refined.rebuilt));
+  return std::move(refined.cuts);
+}
+
+ModelCounts Simulation::counts() const {
+  const Model& m = impl_->model;
+  ModelCounts c;
+  c.bodies = static_cast<std::int64_t>(m.bodies.size());
+  c.blocks = static_cast<std::int64_t>(m.blocks.size());
+  c.nodes = static_cast<std::int64_t>(m.node_position.size());
+  c.tets = static_cast<std::int64_t>(m.tets.size());
+  c.interfaces = static_cast<std::int64_t>(m.interfaces.size());
+  c.bonds = static_cast<std::int64_t>(m.points.size());
+  std::int64_t* const by_mode[] = {&c.intact, &c.broken_tension, &c.broken_shear, &c.contacts};
+  for (const std::uint8_t mode : impl_->state.bond_mode)
+    ++*by_mode[mode];
+  return c;
+}
+
+double Simulation::time() const { return impl_->state.time; }
+double Simulation::residual() const { return impl_->last_residual; }
+double Simulation::stable_time_step() const { return cdem::stable_time_step(impl_->model); }
+int Simulation::stage() const { return impl_->stage; }
+std::int64_t Simulation::steps() const { return impl_->state.step; }
+EnergyLedger Simulation::energy() const { return cdem::energy(impl_->model, impl_->state); }
+std::uint64_t Simulation::state_hash() const { return hash(impl_->state); }
+geom::Box Simulation::box() const { return impl_->model.box; }
+std::vector<std::string> Simulation::field_names() { return cdem::field_names(); }
+
+FieldValue Simulation::max(const std::string& field, const Selection& on) const {
+  const auto list = values(impl_->model, impl_->state, field, on);
+  return *std::max_element(list.begin(), list.end(), [](const auto& a, const auto& b) { return a.value < b.value; });
+}
+
+FieldValue Simulation::min(const std::string& field, const Selection& on) const {
+  const auto list = values(impl_->model, impl_->state, field, on);
+  return *std::min_element(list.begin(), list.end(), [](const auto& a, const auto& b) { return a.value < b.value; });
+}
+
+double Simulation::mean(const std::string& field, const Selection& on) const {
+  return mean_value(impl_->model, impl_->state, field, on);
+}
+
+double Simulation::at(const std::string& field, const geom::Vec3& place) const {
+  return value_at(impl_->model, impl_->state, field, place);
+}
+
+geom::Vec3 Simulation::reaction(const Selection& on) const {
+  const Impl& s = *impl_;
+  Workspace work(s.model, s.state, s.conditions);
+  update_external(work.resolved, s.state.time);
+  State state = s.state; // the springs' bookkeeping stays as it is
+  for (const Range& range : s.model.point_chunks)
+    spring_forces(s.model, state, work, range, work.spring_sums[0], false);
+  for (const BlockChunk& chunk : s.model.chunks)
+    net_forces(s.model, state, work, chunk);
+  geom::Vec3 sum = geom::Vec3::Zero();
+  for (const int node : selected_nodes(s.model, on)) {
+    const Node &f = work.force[node], &free = work.resolved.free[node];
+    sum -= geom::Vec3((1 - free.x) * f.x, (1 - free.y) * f.y, (1 - free.z) * f.z);
+  }
+  return sum;
+}
+
+std::vector<Simulation::BlockRow> Simulation::blocks() const {
+  const Impl& s = *impl_;
+  std::vector<BlockRow> rows;
+  for (int b = 0; b < static_cast<int>(s.model.blocks.size()); ++b) {
+    const Block& block = s.model.blocks[b];
+    const Node& u = s.state.displacement[block.centroid_node()];
+    rows.push_back({block.id, block.parent, block.generation, s.model.bodies[block.body].name, block.mass.centroid,
+                    geom::Vec3(u.x, u.y, u.z), block.mass.volume, block_stress(s.model, s.state, b)});
+  }
+  return rows;
+}
+
+const std::vector<BreakRow>& Simulation::breaks() const { return impl_->log.breaks; }
+const std::vector<HistoryRow>& Simulation::history() const { return impl_->log.history; }
+
+std::vector<std::string> Simulation::probe_names() const {
+  std::vector<std::string> names;
+  for (const Probe& probe : impl_->log.probes)
+    names.push_back(probe.name);
+  return names;
+}
+
+void Simulation::probe(const std::string& name, const std::string& field, const geom::Vec3& place) {
+  value_at(impl_->model, impl_->state, field, place); // throws for a wrong field or place
+  for (const Probe& probe : impl_->log.probes)
+    if (probe.name == name)
+      throw geom::InputError("name", "\"" + name + "\"", "unique among the probes");
+  impl_->log.probes.push_back({name, field, place});
+}
+
+Snapshot Simulation::snapshot(const std::string& title) const { return make_snapshot(impl_->model, impl_->state, title); }
+
+Snapshot Simulation::last_good_snapshot(const std::string& title) const {
+  return make_snapshot(impl_->model, impl_->last_good, title);
+}
+
+} // namespace cdem

@@ -1,0 +1,46 @@
+#include "libcdem/state/state.hpp"
+
+namespace cdem {
+
+State initial_state(const Model& model) {
+  State state;
+  state.displacement.resize(model.node_position.size());
+  state.velocity.resize(model.node_position.size());
+  state.bond_offset.assign(model.points.size(), geom::Vec3::Zero());
+  state.bond_mode.resize(model.points.size());
+  for (std::size_t p = 0; p < model.points.size(); ++p) {
+    const bool bonded = model.joints[model.interfaces[model.points[p].interface].joint].bonded;
+    state.bond_mode[p] = static_cast<std::uint8_t>(bonded ? BondMode::intact : BondMode::contact);
+  }
+  state.initial_stress.assign(model.blocks.size(), Stress{});
+  return state;
+}
+
+std::vector<StateField> fields(State& s) {
+  const auto field = [](const char* name, const char* unit, FieldPlace place, const char* writer, auto& array,
+                        bool floating) {
+    return StateField{name, unit, place, writer, array.data(), array.size() * sizeof(array[0]), floating};
+  };
+  return {
+      {"time", "s", FieldPlace::model, "step", &s.time, sizeof s.time, true},
+      {"step", "1", FieldPlace::model, "step", &s.step, sizeof s.step, false},
+      field("displacement", "m", FieldPlace::node, "integrate", s.displacement, true),
+      field("velocity", "m/s", FieldPlace::node, "integrate", s.velocity, true),
+      field("bond_offset", "m", FieldPlace::bond, "spring_forces", s.bond_offset, true),
+      field("bond_mode", "1", FieldPlace::bond, "spring_forces", s.bond_mode, false),
+      field("initial_stress", "Pa", FieldPlace::block, "initial_stress", s.initial_stress, true),
+      {"spent", "J", FieldPlace::model, "step", &s.spent, sizeof s.spent, true},
+  };
+}
+
+std::uint64_t hash(const State& state) {
+  std::uint64_t h = 14695981039346656037ull;
+  for (const StateField& field : fields(const_cast<State&>(state))) {
+    const auto* byte = static_cast<const unsigned char*>(field.data);
+    for (std::size_t i = 0; i < field.bytes; ++i)
+      h = (h ^ byte[i]) * 1099511628211ull;
+  }
+  return h;
+}
+
+} // namespace cdem

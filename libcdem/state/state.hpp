@@ -1,0 +1,49 @@
+// State: every array that changes while stepping, with its meaning, unit, size and writer in one registry that
+// drives the hash, the carrying over at cuts, the watch for NaN and, later, checkpoints.
+#pragma once
+
+#include "libcdem/model/model.hpp"
+#include "libcdem/results/ledger.hpp"
+#include "libcdem/results/snapshot.hpp"
+
+#include <array>
+
+namespace cdem {
+
+using Stress = std::array<double, 6>; // Pa, tension positive: xx yy zz xy yz xz
+
+struct State {
+  double time = 0;       // s
+  std::int64_t step = 0; // over all stages
+
+  std::vector<Node> displacement;         // m (n_nodes); written by integrate
+  std::vector<Node> velocity;             // m/s, half a step behind (n_nodes); written by integrate
+  std::vector<geom::Vec3> bond_offset;    // m, jump at which the spring carries nothing: preload and slip (n_points)
+  std::vector<std::uint8_t> bond_mode;    // BondMode (n_points); bond_offset and bond_mode: written by spring_forces
+  std::vector<Stress> initial_stress;     // Pa (n_blocks); written by initial_stress
+
+  EnergyLedger spent; // J, the summed entries only (damping, friction, ... external); the stored ones stay 0
+};
+
+// A State at rest for the model: no displacement, contacts where the joint is not bonded.
+State initial_state(const Model&);
+
+enum class FieldPlace { model, node, bond, block };
+
+struct StateField {
+  const char* name;
+  const char* unit;
+  FieldPlace place;
+  const char* writer;
+  void* data;
+  std::size_t bytes;    // of the whole array
+  bool floating;        // made of doubles: watched for NaN
+};
+
+// Every field, in a fixed order.
+std::vector<StateField> fields(State&);
+
+// FNV-1a over all fields, bit for bit.
+std::uint64_t hash(const State&);
+
+} // namespace cdem

@@ -1,0 +1,133 @@
+#include "libcdem/step/relax.hpp"
+
+#include "libcdem/element/small_strain.hpp"
+#include "libcdem/interface/spring_forces.hpp"
+#include "libcdem/step/forces.hpp"
+
+#include <cmath>
+
+namespace cdem {
+namespace {
+
+// Part of the Gershgorin limit that a unit step uses; the rest covers the bound's round-off and closing contacts.
+constexpr double step_safety = 0.95;
+// Weight of a step's Rayleigh quotient in the smoothed one.
+constexpr double smoothing = 0.05;
+constexpr double most_damping = 1.8;
+// Supports with a given displacement get there in this many steps.
+constexpr int support_steps = 200;
+// The residual must stay under its goal this long: a body that swings through its balance is under it for a moment.
+constexpr int settled_steps = 10;
+
+// Net force over one component, integrated with m (v+ - v-) = F - c m (v+ + v-) / 2 and u += v+.
+struct Component {
+  double free, prescribed, applied;
+};
+
+inline void advance(double force, double previous, double mass, double damping, const Component& c, double& velocity,
+                    double& displacement, NodeSums& sums) {
+  const double before = velocity;
+  if (c.free != 0) {
+    sums.residual2 += force * force;
+    sums.applied2 += c.applied * c.applied;
+    sums.stiffness -= before * (force - previous);
+    sums.inertia += before * mass * before;
+    velocity = ((2 - damping) * before + 2 * force / mass) / (2 + damping);
+    const double mean = 0.5 * (before + velocity);
+    sums.external += c.applied * mean;
+    sums.damping += damping * mass * mean * mean;
+    sums.kinetic += 0.5 * mass * velocity * velocity;
+  } else {
+    sums.reaction2 += force * force;
+    velocity = c.prescribed;
+    // The support gives what the body's own forces do not: work of loads and reaction together.
+    sums.external += (c.applied - force) * 0.5 * (before + velocity);
+  }
+  displacement += velocity;
+}
+
+NodeSums integrate(const Model&, State& state, Workspace& work, Range nodes, double damping) {
+  NodeSums sums;
+  const ResolvedConditions& r = work.resolved;
+  for (std::int64_t i = nodes.begin; i < nodes.end; ++i) {
+    const Node& f = work.force[i];
+    Node& old = work.previous_force[i];
+    Node& v = state.velocity[i];
+    Node& u = state.displacement[i];
+    const double m = work.mass[i];
+    advance(f.x, old.x, m, damping, {r.free[i].x, r.prescribed[i].x, r.external[i].x}, v.x, u.x, sums);
+    advance(f.y, old.y, m, damping, {r.free[i].y, r.prescribed[i].y, r.external[i].y}, v.y, u.y, sums);
+    advance(f.z, old.z, m, damping, {r.free[i].z, r.prescribed[i].z, r.external[i].z}, v.z, u.z, sums);
+    old = f;
+  }
+  return sums;
+}
+
+// Velocities per step that bring held components to their given displacement.
+void aim_supports(const State& state, ResolvedConditions& r, int steps) {
+  const auto aim = [&](double target, double now) { return std::isnan(target) ? 0.0 : (target - now) / steps; };
+  for (std::size_t i = 0; i < r.target.size(); ++i)
+    r.prescribed[i] = {aim(r.target[i].x, state.displacement[i].x), aim(r.target[i].y, state.displacement[i].y),
+                       aim(r.target[i].z, state.displacement[i].z), 0};
+}
+
+} // namespace
+
+std::vector<double> fictitious_masses(const Model& model) {
+  std::vector<double> masses = stiffness_row_sums(model);
+  add_spring_row_sums(model, masses);
+  for (double& mass : masses)
+    mass /= 4 * step_safety * step_safety;
+  return masses;
+}
+
+RelaxResult relax(const StageContext& context, const RelaxOptions& options) {
+  State& state = context.state;
+  Stage stage(context, "relax", context.model.length);
+  stage.work.mass = fictitious_masses(context.model);
+  update_external(stage.work.resolved, state.time);
+  std::fill(state.velocity.begin(), state.velocity.end(), Node{});
+  aim_supports(state, stage.work.resolved, support_steps);
+  const int moving_steps = stage.work.resolved.has_target ? support_steps : 0;
+
+  Stage::StepReport report;
+  report.goals.residual_goal = options.residual;
+  report.goals.max_steps = options.max_steps;
+  double lambda = 0, damping = 0;
+  int settled = 0;
+  while (stage.step < options.max_steps && settled < settled_steps) {
+    if (stage.step == moving_steps)
+      std::fill(stage.work.resolved.prescribed.begin(), stage.work.resolved.prescribed.end(), Node{});
+    stage.spring_forces(options.breaking);
+    report.sums = stage.over_chunks([&](const BlockChunk& chunk) {
+      net_forces(context.model, state, stage.work, chunk);
+      return integrate(context.model, state, stage.work, chunk.nodes, damping);
+    });
+    report.residual = relative_residual(report.sums);
+    stage.after_step(report);
+
+    if (report.sums.inertia > 0) {
+      const double quotient = std::max(0.0, report.sums.stiffness / report.sums.inertia);
+      lambda += (stage.step < 3 ? 1.0 : smoothing) * (quotient - lambda);
+      damping = std::min(2 * std::sqrt(lambda), most_damping);
+    }
+    const bool balanced = report.residual <= options.residual && stage.broken_in_step() == 0 && stage.step > moving_steps;
+    settled = balanced ? settled + 1 : 0;
+    if (options.callback && options.callback_every > 0 && stage.step % options.callback_every == 0)
+      options.callback();
+  }
+  state.spent.fictitious += report.sums.kinetic;
+  std::fill(state.velocity.begin(), state.velocity.end(), Node{});
+  stage.finish(report);
+
+  RelaxResult result;
+  result.converged = settled >= settled_steps;
+  result.steps = stage.step;
+  result.residual = report.residual;
+  result.broken_tension = stage.broken_tension();
+  result.broken_shear = stage.broken_shear();
+  result.wall_time = stage.wall_time();
+  return result;
+}
+
+} // namespace cdem

@@ -1,0 +1,125 @@
+#include "libcdem/step/run.hpp"
+
+#include "libcdem/element/small_strain.hpp"
+#include "libcdem/interface/spring_forces.hpp"
+#include "libcdem/step/forces.hpp"
+#include "libgeom/core/error.hpp"
+
+#include <cmath>
+#include <fmt/format.h>
+
+namespace cdem {
+namespace {
+
+// Bodies in free flight may travel; only what leaves the scene altogether has run away.
+constexpr double run_away_lengths = 100;
+
+struct Component {
+  double free, prescribed, applied;
+};
+
+struct Stepping {
+  double time_step;     // s
+  double local_damping; // fraction of the out-of-balance force
+};
+
+// m dv/dt = F - mu V v - alpha |F| sign(v), with the viscous force at the mean velocity of the step.
+inline void advance(double force, double mass, double viscous, const Stepping& s, const Component& c, double& velocity,
+                    double& displacement, NodeSums& sums) {
+  const double before = velocity;
+  if (c.free != 0) {
+    sums.residual2 += force * force;
+    sums.applied2 += c.applied * c.applied;
+    const double against = s.local_damping * std::abs(force) * (before > 0 ? 1.0 : before < 0 ? -1.0 : 0.0);
+    const double inertia = mass / s.time_step;
+    velocity = ((inertia - 0.5 * viscous) * before + force - against) / (inertia + 0.5 * viscous);
+    const double mean = 0.5 * (before + velocity);
+    sums.external += c.applied * mean * s.time_step;
+    sums.damping += (viscous * mean + against) * mean * s.time_step;
+    sums.kinetic += 0.5 * mass * velocity * velocity;
+  } else {
+    sums.reaction2 += force * force;
+    velocity = c.prescribed;
+    sums.external += (c.applied - force) * 0.5 * (before + velocity) * s.time_step;
+  }
+  displacement += velocity * s.time_step;
+}
+
+NodeSums integrate(const Model& model, State& state, Workspace& work, Range nodes, const Stepping& stepping) {
+  NodeSums sums;
+  const ResolvedConditions& r = work.resolved;
+  for (std::int64_t i = nodes.begin; i < nodes.end; ++i) {
+    const Node& f = work.force[i];
+    Node& v = state.velocity[i];
+    Node& u = state.displacement[i];
+    const double viscous =
+        model.bodies[model.blocks[model.node_block[i]].body].material.viscosity * model.node_volume[i];
+    const double m = work.mass[i];
+    advance(f.x, m, viscous, stepping, {r.free[i].x, r.prescribed[i].x, r.external[i].x}, v.x, u.x, sums);
+    advance(f.y, m, viscous, stepping, {r.free[i].y, r.prescribed[i].y, r.external[i].y}, v.y, u.y, sums);
+    advance(f.z, m, viscous, stepping, {r.free[i].z, r.prescribed[i].z, r.external[i].z}, v.z, u.z, sums);
+  }
+  return sums;
+}
+
+double choose_time_step(const Model& model, const RunOptions& options) {
+  const double stable = stable_time_step(model);
+  if (options.time_step > stable)
+    throw geom::InputError("time_step", fmt::format("{:g}", options.time_step),
+                           fmt::format("at most the stable step, {:.4g} s", stable), "leave it out to use safety x stable");
+  return options.time_step > 0 ? options.time_step : options.safety * stable;
+}
+
+} // namespace
+
+double stable_time_step(const Model& model) {
+  std::vector<double> sums = stiffness_row_sums(model);
+  add_spring_row_sums(model, sums);
+  double largest = 0;
+  for (std::size_t i = 0; i < sums.size(); ++i)
+    largest = std::max(largest, sums[i] / model.node_mass[i]);
+  return 2 / std::sqrt(largest);
+}
+
+RunResult run(const StageContext& context, const RunOptions& options) {
+  State& state = context.state;
+  const Stepping stepping{choose_time_step(context.model, options), options.local_damping};
+  Stage stage(context, "run", run_away_lengths * context.model.length);
+  Stage::StepReport report;
+  const double start = state.time;
+  const std::int64_t steps =
+      options.steps > 0 ? options.steps : static_cast<std::int64_t>(std::ceil(options.duration / stepping.time_step - 1e-9));
+  report.goals.max_steps = steps;
+  report.goals.time_goal = start + static_cast<double>(steps) * stepping.time_step;
+  const std::int64_t ask_every = options.callback_every > 0 ? options.callback_every : 100;
+
+  bool stopped = false;
+  while (stage.step < steps && !stopped) {
+    update_external(stage.work.resolved, state.time);
+    stage.spring_forces(options.breaking);
+    report.sums = stage.over_chunks([&](const BlockChunk& chunk) {
+      net_forces(context.model, state, stage.work, chunk);
+      return integrate(context.model, state, stage.work, chunk.nodes, stepping);
+    });
+    report.residual = relative_residual(report.sums);
+    state.time = start + static_cast<double>(stage.step + 1) * stepping.time_step;
+    stage.after_step(report);
+    if (stage.step % ask_every == 0) {
+      if (options.callback && options.callback_every > 0)
+        options.callback();
+      stopped = options.stop && options.stop();
+    }
+  }
+  stage.finish(report);
+
+  RunResult result;
+  result.steps = stage.step;
+  result.time = state.time;
+  result.time_step = stepping.time_step;
+  result.broken_tension = stage.broken_tension();
+  result.broken_shear = stage.broken_shear();
+  result.wall_time = stage.wall_time();
+  return result;
+}
+
+} // namespace cdem

@@ -1,0 +1,15 @@
+// Explicit stepping in real time with the real masses (Han 2010 eqs 1 and 7, central differences).
+//
+// Stable for dt <= 2 / omega_max; Gershgorin: omega_max^2 <= max_i sum_j |K_ij| / m_i.
+#pragma once
+
+#include "libcdem/step/options.hpp"
+#include "libcdem/step/stage.hpp"
+
+namespace cdem {
+
+RunResult run(const StageContext&, const RunOptions&);
+
+double stable_time_step(const Model&); // s
+
+} // namespace cdem

@@ -1,0 +1,186 @@
+#include "libcdem/step/stage.hpp"
+
+#include "libcdem/element/small_strain.hpp"
+#include "libcdem/interface/spring_forces.hpp"
+#include "libcdem/results/fields.hpp"
+#include "libcdem/step/errors.hpp"
+
+#include <cmath>
+#include <fmt/format.h>
+
+namespace cdem {
+namespace {
+
+// Steps between looks at every node and element, and between copies of the state.
+constexpr std::int64_t watch_every = 200;
+constexpr std::int64_t poll_every = 16;
+constexpr double seconds_between_reports = 0.1;
+
+double seconds(std::chrono::steady_clock::duration d) { return std::chrono::duration<double>(d).count(); }
+
+std::string where(const Model& model, int node) {
+  const geom::Vec3& x = model.node_position[node];
+  const Block& block = model.blocks[model.node_block[node]];
+  return fmt::format("block {} of body \"{}\" at ({:.6g}, {:.6g}, {:.6g}) m", block.id, model.bodies[block.body].name,
+                     x.x(), x.y(), x.z());
+}
+
+} // namespace
+
+double relative_residual(const NodeSums& sums) {
+  const double reference = sums.applied2 > 0 ? sums.applied2 : sums.reaction2;
+  if (reference > 0)
+    return std::sqrt(sums.residual2 / reference);
+  return sums.residual2 > 0 ? 1.0 : std::isnan(sums.residual2) ? sums.residual2 : 0.0;
+}
+
+Stage::Stage(StageContext context, std::string kind, double run_away)
+    : work(context.model, context.state, context.conditions), context_(context), kind_(std::move(kind)),
+      run_away_(run_away), broken_tension_before_(context.log.broken_tension),
+      broken_shear_before_(context.log.broken_shear), start_(std::chrono::steady_clock::now()), told_(start_) {
+  context_.last_good = context_.state;
+}
+
+double Stage::wall_time() const { return seconds(std::chrono::steady_clock::now() - start_); }
+
+void Stage::spring_forces(bool breaking) {
+  const auto& chunks = context_.model.point_chunks;
+  for_chunks(static_cast<std::int64_t>(chunks.size()), context_.threads, [&](std::int64_t c) {
+    cdem::spring_forces(context_.model, context_.state, work, chunks[c], work.spring_sums[c], breaking);
+  });
+}
+
+NodeSums Stage::total() const {
+  NodeSums sum;
+  for (const NodeSums& s : work.node_sums) {
+    sum.residual2 += s.residual2;
+    sum.applied2 += s.applied2;
+    sum.reaction2 += s.reaction2;
+    sum.stiffness += s.stiffness;
+    sum.inertia += s.inertia;
+    sum.kinetic += s.kinetic;
+    sum.external += s.external;
+    sum.damping += s.damping;
+  }
+  return sum;
+}
+
+void Stage::record_breaks() {
+  EnergyLedger& spent = context_.state.spent;
+  broken_in_step_ = 0;
+  for (const SpringSums& sums : work.spring_sums) {
+    spent.friction += sums.friction;
+    spent.breaking += sums.breaking;
+    for (const BreakEvent& event : sums.broken) {
+      const BondPoint& point = context_.model.points[event.point];
+      const Interface& interface = context_.model.interfaces[point.interface];
+      BreakRow row;
+      row.stage = context_.number;
+      row.step = step;
+      row.time = context_.state.time;
+      row.mode = event.mode;
+      row.place = context_.model.point_position[event.point];
+      row.normal = point.normal;
+      row.area = point.area;
+      row.normal_traction = event.normal_traction;
+      row.shear_traction = event.shear_traction;
+      row.block_a = context_.model.blocks[interface.block_a].id;
+      row.block_b = context_.model.blocks[interface.block_b].id;
+      context_.log.breaks.push_back(row);
+      ++(event.mode == BondMode::broken_tension ? context_.log.broken_tension : context_.log.broken_shear);
+      ++broken_in_step_;
+    }
+  }
+}
+
+void Stage::record_history(const StepReport& report) {
+  HistoryRow row;
+  row.stage = context_.number;
+  row.step = context_.state.step;
+  row.time = context_.state.time;
+  row.residual = report.residual;
+  row.kinetic = report.sums.kinetic;
+  row.external = context_.state.spent.external;
+  row.broken_tension = context_.log.broken_tension;
+  row.broken_shear = context_.log.broken_shear;
+  for (const Probe& probe : context_.log.probes)
+    row.probes.push_back(value_at(context_.model, context_.state, probe.field, probe.place));
+  context_.log.add(std::move(row));
+}
+
+void Stage::after_step(const StepReport& report) {
+  EnergyLedger& spent = context_.state.spent;
+  record_breaks();
+  spent.external += report.sums.external;
+  spent.external_peak = std::max(spent.external_peak, std::abs(spent.external));
+  spent.damping += report.sums.damping;
+  ++step;
+  ++context_.state.step;
+  // A sum over all free forces and one over all velocities: a NaN anywhere shows here in the step it appears.
+  if (!std::isfinite(report.sums.residual2) || !std::isfinite(report.sums.kinetic) || step % watch_every == 0) {
+    watch();
+    context_.last_good = context_.state;
+  }
+  if (context_.log.due(context_.state.step))
+    record_history(report);
+  if (step % poll_every == 0) {
+    if (context_.observer.stop_requested())
+      throw Interrupted();
+    if (seconds(std::chrono::steady_clock::now() - told_) > seconds_between_reports)
+      tell(report, false);
+  }
+}
+
+void Stage::finish(const StepReport& report) {
+  watch();
+  context_.last_good = context_.state;
+  record_history(report);
+  tell(report, true);
+}
+
+void Stage::tell(const StepReport& report, bool last) {
+  const auto now = std::chrono::steady_clock::now();
+  Progress progress = report.goals;
+  progress.stage = context_.number;
+  progress.kind = kind_;
+  progress.step = step;
+  progress.residual = report.residual;
+  progress.time = context_.state.time;
+  progress.broken_tension = context_.log.broken_tension;
+  progress.broken_shear = context_.log.broken_shear;
+  const double since = seconds(now - told_);
+  progress.steps_per_second = since > 0 ? static_cast<double>(step - told_step_) / since : 0;
+  if (progress.time_goal > 0 && progress.time > 0)
+    progress.seconds_left = seconds(now - start_) * (progress.time_goal / progress.time - 1);
+  progress.last = last;
+  context_.observer.progress(progress);
+  told_ = now;
+  told_step_ = step;
+}
+
+void Stage::watch() const {
+  const Model& model = context_.model;
+  const State& state = context_.state;
+  const auto fail = [&](const std::string& what, int node, const std::string& advice) {
+    throw SolutionError(
+        fmt::format("stage {} ({}), step {}: {} in {}; {}", context_.number, kind_, step, what, where(model, node), advice));
+  };
+  for (int node = 0; node < static_cast<int>(model.node_position.size()); ++node) {
+    const Node& u = state.displacement[node];
+    const Node& v = state.velocity[node];
+    const Node& f = work.force[node];
+    if (!std::isfinite(u.x + u.y + u.z) || !std::isfinite(v.x + v.y + v.z) || !std::isfinite(f.x + f.y + f.z))
+      fail("displacement, velocity or force is not a number", node, "look at loads and stiffnesses there");
+    const double moved = std::sqrt(u.x * u.x + u.y * u.y + u.z * u.z);
+    if (moved > run_away_)
+      fail(fmt::format("run-away displacement of {:.3g} m (model {:.3g} m across)", moved, model.length), node,
+           "is this part held by supports, and can it carry its load?");
+  }
+  for (int tet = 0; tet < static_cast<int>(model.tets.size()); ++tet) {
+    const geom::Mat3 f = geom::Mat3::Identity() + displacement_gradient(model, state.displacement, tet);
+    if (f.determinant() <= 0)
+      fail("an element is turned inside out", model.tets[tet][0], "the load there is beyond what small strain can carry");
+  }
+}
+
+} // namespace cdem

@@ -1,0 +1,16 @@
+#include "libcdem/step/workspace.hpp"
+
+namespace cdem {
+
+Workspace::Workspace(const Model& model, const State& state, const Conditions& conditions)
+    : resolved(resolve(model, state, conditions)), force(model.node_position.size()),
+      previous_force(model.node_position.size()), mass(model.node_mass),
+      spring_force(model.points.size(), geom::Vec3::Zero()), spring_sums(model.point_chunks.size()),
+      node_sums(model.chunks.size()) {
+  for (const Interface& interface : model.interfaces) {
+    const Joint& joint = model.joints[interface.joint];
+    strength.push_back({joint.cohesion, std::tan(joint.friction_angle), joint.tensile_strength});
+  }
+}
+
+} // namespace cdem

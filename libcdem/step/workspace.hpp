@@ -1,0 +1,49 @@
+// What a solving call needs beside Model and State and throws away afterwards: forces, resolved conditions, partial
+// sums. Allocated once per stage; the step itself allocates nothing.
+#pragma once
+
+#include "libcdem/interface/spring_law.hpp"
+#include "libcdem/load/resolve.hpp"
+#include "libcdem/state/state.hpp"
+
+namespace cdem {
+
+struct BreakEvent {
+  int point = 0;
+  BondMode mode = BondMode::intact;
+  double normal_traction = 0, shear_traction = 0; // Pa, at breaking
+};
+
+// Sums of one chunk of springs.
+struct SpringSums {
+  double friction = 0; // J, this step
+  double breaking = 0; // J, this step
+  std::vector<BreakEvent> broken; // this step
+};
+
+// Sums of one chunk of blocks, over its free degrees of freedom.
+struct NodeSums {
+  double residual2 = 0;   // N2, out-of-balance forces
+  double applied2 = 0;    // N2, external forces
+  double reaction2 = 0;   // N2, out-of-balance forces where nodes are held
+  double stiffness = 0;   // J, -du . dF
+  double inertia = 0;     // J, du . M du
+  double kinetic = 0;     // J
+  double external = 0;    // J, this step
+  double damping = 0;     // J, this step
+};
+
+struct Workspace {
+  Workspace(const Model&, const State&, const Conditions&);
+
+  ResolvedConditions resolved;
+  std::vector<Node> force;              // N, net nodal force (n_nodes); w unused
+  std::vector<Node> previous_force;     // N, of the step before (n_nodes); only relaxation writes it
+  std::vector<double> mass;             // kg, real or fictitious (n_nodes)
+  std::vector<geom::Vec3> spring_force; // N, on side a (n_points); written by spring_forces
+  std::vector<SpringStrength> strength; // per interface
+  std::vector<SpringSums> spring_sums;  // per chunk of springs
+  std::vector<NodeSums> node_sums;      // per chunk of blocks
+};
+
+} // namespace cdem

@@ -1,0 +1,26 @@
+// A file that appears under its name only when it is complete.
+#pragma once
+
+#include <string>
+
+namespace cdem {
+
+class AtomicFile {
+public:
+  // Throws geom::InputError when the folder of `path` does not exist or `path` is a folder.
+  explicit AtomicFile(const std::string& path);
+  ~AtomicFile(); // without commit: the temporary file is removed
+  AtomicFile(const AtomicFile&) = delete;
+  AtomicFile& operator=(const AtomicFile&) = delete;
+
+  const std::string& temporary() const { return temporary_; } // write here
+  void commit();                                              // geom::InputError when the rename fails
+
+private:
+  std::string path_, temporary_;
+};
+
+// Throws geom::InputError unless the name of `path` ends with `extension` (".png").
+void require_extension(const std::string& path, const std::string& extension);
+
+} // namespace cdem

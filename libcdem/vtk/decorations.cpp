@@ -1,0 +1,240 @@
+#include "libcdem/vtk/decorations.hpp"
+
+#include "libcdem/vtk/labels.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+namespace cdem {
+namespace {
+
+constexpr Colour black = {0, 0, 0};
+constexpr std::size_t most_swatches = 12;
+constexpr double tick_length = 10, label_gap = 10, line_width = 2;
+
+std::vector<std::string> bar_labels(const BarContent& bar, const std::vector<double>& ticks) {
+  if (bar.ids.empty())
+    return tick_labels(ticks);
+  std::vector<std::string> labels;
+  for (const std::int64_t id : bar.ids)
+    labels.push_back((id < 0 ? "\u2212" : "") + std::to_string(std::abs(id)));
+  return labels;
+}
+
+// Shown numbers of the ticks; for swatches the middles of 0 .. n.
+std::vector<double> bar_ticks(const BarContent& bar, int count) {
+  if (bar.ids.empty())
+    return round_ticks(bar.factor * bar.scale.low, bar.factor * bar.scale.high, count);
+  std::vector<double> ticks;
+  for (std::size_t i = 0; i < bar.ids.size(); ++i)
+    ticks.push_back(static_cast<double>(i) + 0.5);
+  return ticks;
+}
+
+double widest(const Canvas& canvas, const std::vector<std::string>& labels, double font) {
+  double width = 0;
+  for (const std::string& label : labels)
+    width = std::max(width, canvas.text_width(label, font));
+  return width;
+}
+
+} // namespace
+
+std::optional<BarContent> bar_content(const FieldValues& field, const ColourScale& scale) {
+  BarContent bar;
+  bar.scale = scale;
+  std::set<std::int64_t> ids;
+  if (field.integer) {
+    for (const double value : field.values)
+      if (ids.size() <= most_swatches)
+        ids.insert(std::llround(value));
+    if (ids.size() <= most_swatches)
+      bar.ids.assign(ids.begin(), ids.end());
+  }
+  if (field.values.empty() || (scale.map == "categorical" && bar.ids.empty()))
+    return std::nullopt;
+  const DisplayUnit unit = bar.ids.empty()
+                               ? display_unit(field.unit, std::max(std::abs(scale.low), std::abs(scale.high)))
+                               : DisplayUnit{};
+  bar.factor = unit.factor;
+  bar.title = field.symbol + (unit.text.empty() ? "" : " (" + unit.text + ")");
+  const double slack = 1e-6 * (scale.high - scale.low);
+  for (const double value : field.values) {
+    bar.beyond_low = bar.beyond_low || value < scale.low - slack;
+    bar.beyond_high = bar.beyond_high || value > scale.high + slack;
+  }
+  return bar;
+}
+
+double bar_column_width(const Canvas& canvas, const BarContent& bar, double pixel) {
+  const double font = label_font * pixel;
+  const double labels = widest(canvas, bar_labels(bar, bar_ticks(bar, 8)), font);
+  const double strip = (44 + 36) * pixel;
+  return std::max(strip + (tick_length + label_gap) * pixel + labels,
+                  44 * pixel + canvas.text_width(bar.title, font));
+}
+
+void draw_bar(Canvas& canvas, const BarContent& bar, const Layout& layout, double pixel) {
+  const Rect& r = layout.bar;
+  const bool vertical = layout.bar_vertical;
+  const double font = label_font * pixel, length = vertical ? r.height : r.width;
+  const double start = vertical ? r.bottom : r.left, across = vertical ? r.width : r.height;
+  const auto piece = [&](double from, double to, const Colour& colour) { // along the bar, 0 .. 1
+    canvas.rectangle(vertical ? Rect{r.left, start + from * length, across, (to - from) * length}
+                              : Rect{start + from * length, r.bottom, (to - from) * length, across},
+                     colour);
+  };
+  const bool swatches = !bar.ids.empty();
+  const int n = swatches ? static_cast<int>(bar.ids.size()) : 256;
+  for (int i = 0; i < n; ++i) {
+    const double value = swatches ? static_cast<double>(bar.ids[static_cast<std::size_t>(i)])
+                                  : bar.scale.low + (bar.scale.high - bar.scale.low) * (i + 0.5) / n;
+    // A hair of overlap, so that no white line shows between two pieces.
+    piece(double(i) / n, std::min(1., (i + 1 + (swatches ? 0 : 0.5)) / n), bar.scale(value));
+  }
+  canvas.frame(r, line_width * pixel, black);
+  const auto point = [&](bool high) { // a triangle at the end: there are values beyond it
+    const double base = start + (high ? length : 0), tip = base + (high ? 1 : -1) * 0.7 * across;
+    const double side = vertical ? r.left : r.bottom;
+    const auto corner = [&](double along, double over) {
+      return vertical ? Canvas::Point{over, along} : Canvas::Point{along, over};
+    };
+    const std::vector<Canvas::Point> corners = {corner(base, side), corner(base, side + across),
+                                                corner(tip, side + across / 2)};
+    canvas.polygon(corners, bar.scale(high ? bar.scale.high : bar.scale.low));
+    for (std::size_t c = 0; c < 3; ++c)
+      canvas.line(corners[c], corners[(c + 1) % 3], line_width * pixel, black);
+  };
+  if (bar.beyond_low)
+    point(false);
+  if (bar.beyond_high)
+    point(true);
+
+  // As many ticks as their labels leave room for.
+  const double label_room =
+      vertical ? 2.6 * font : 2.0 * widest(canvas, bar_labels(bar, bar_ticks(bar, 6)), font) + font;
+  const std::vector<double> ticks = bar_ticks(bar, std::clamp(static_cast<int>(length / label_room), 2, 8));
+  const std::vector<std::string> labels = bar_labels(bar, ticks);
+  const double low = swatches ? 0 : bar.factor * bar.scale.low;
+  const double high = swatches ? n : bar.factor * bar.scale.high;
+  for (std::size_t i = 0; i < ticks.size(); ++i) {
+    const double at = start + length * (ticks[i] - low) / (high - low);
+    if (vertical) {
+      canvas.line({r.right(), at}, {r.right() + tick_length * pixel, at}, line_width * pixel, black);
+      canvas.text(labels[i], {r.right() + (tick_length + label_gap) * pixel, at}, font, HorizontalAlign::left,
+                  VerticalAlign::middle);
+    } else {
+      canvas.line({at, r.bottom}, {at, r.bottom - tick_length * pixel}, line_width * pixel, black);
+      canvas.text(labels[i], {at, r.bottom - (tick_length + label_gap) * pixel}, font,
+                  HorizontalAlign::centre, VerticalAlign::top);
+    }
+  }
+  const double above = r.top() + (vertical && bar.beyond_high ? 0.7 * across : 0) + 0.55 * font;
+  canvas.text(bar.title, {vertical ? r.left : r.centre_x(), above}, font,
+              vertical ? HorizontalAlign::left : HorizontalAlign::centre, VerticalAlign::baseline);
+}
+
+void draw_legend(Canvas& canvas, const std::vector<LegendEntry>& entries, const Layout& layout,
+                 double pixel) {
+  const double sample = 60 * pixel, gap = 14 * pixel, between = 56 * pixel;
+  double font = label_font * pixel, total = 0;
+  const auto width_of = [&](const LegendEntry& entry) {
+    return (entry.width > 0 ? sample + gap : 0) + canvas.text_width(entry.text, font);
+  };
+  const auto add_up = [&] {
+    total = -between;
+    for (const LegendEntry& entry : entries)
+      total += width_of(entry) + between;
+  };
+  add_up();
+  const double room = layout.size[0] - 64 * pixel;
+  if (total > room) {
+    font *= std::max(0.5, room / total);
+    add_up();
+  }
+  double x = std::clamp(layout.body.centre_x() - total / 2, 32 * pixel,
+                        std::max(32 * pixel, layout.size[0] - 32 * pixel - total));
+  for (const LegendEntry& entry : entries) {
+    double at = x;
+    if (entry.width > 0) {
+      canvas.polyline({{at, layout.legend_middle}, {at + sample, layout.legend_middle}}, entry.width,
+                      entry.colour, entry.dashed);
+      at += sample + gap;
+    }
+    canvas.text(entry.text, {at, layout.legend_middle}, font, HorizontalAlign::left, VerticalAlign::middle);
+    x += width_of(entry) + between;
+  }
+}
+
+AxesContent axes_content(const View& view, double pixel) {
+  AxesContent axes;
+  const double length = 84 * pixel, font = 0.9 * label_font * pixel;
+  const char* names[3] = {"x", "y", "z"};
+  Canvas::Point low{0, 0}, high{0, 0};
+  for (int i = 0; i < 3; ++i) {
+    const double along = view.right[i], upward = view.up[i];
+    if (std::hypot(along, upward) < 0.15) // points at the viewer or away
+      continue;
+    axes.arrows.push_back({names[i], {length * along, length * upward}});
+    // The letter stands beyond the tip and needs room all round.
+    const double reach = 1 + 0.6 * font / length / std::hypot(along, upward);
+    const Canvas::Point letter = {length * along * reach, length * upward * reach};
+    for (std::size_t k = 0; k < 2; ++k) {
+      low[k] = std::min(low[k], letter[k] - 0.5 * font);
+      high[k] = std::max(high[k], letter[k] + 0.5 * font);
+    }
+  }
+  axes.foot = {-low[0], -low[1]};
+  axes.size = {high[0] - low[0], high[1] - low[1]};
+  return axes;
+}
+
+void draw_axes(Canvas& canvas, const AxesContent& axes, const Layout& layout, double pixel) {
+  const Canvas::Point foot = {layout.axes_corner[0] + axes.foot[0], layout.axes_corner[1] + axes.foot[1]};
+  const double font = 0.9 * label_font * pixel;
+  for (const AxesContent::Arrow& arrow : axes.arrows) {
+    canvas.arrow(foot, {foot[0] + arrow.tip[0], foot[1] + arrow.tip[1]}, 3.5 * pixel, black);
+    const double reach = 1 + 0.6 * font / std::hypot(arrow.tip[0], arrow.tip[1]);
+    // Small letters: their middle lies at half the x-height, below that of a digit.
+    canvas.text(arrow.name, {foot[0] + reach * arrow.tip[0], foot[1] + reach * arrow.tip[1] + 0.09 * font},
+                font, HorizontalAlign::centre, VerticalAlign::middle);
+  }
+}
+
+void draw_overlays(Canvas& canvas, const std::vector<Marker>& markers, const std::vector<Polyline>& polylines,
+                   const View& view, const Layout& layout, double pixel) {
+  constexpr Colour white = {1, 1, 1};
+  for (const Polyline& line : polylines) {
+    std::vector<Canvas::Point> points;
+    for (const geom::Vec3& x : line.points)
+      if (view.in_front(x))
+        points.push_back(view.pixel(x));
+    canvas.polyline(points, (line.width + 3) * pixel, white);
+    canvas.polyline(points, line.width * pixel, line.colour, line.dashed);
+  }
+  const double font = label_font * pixel;
+  for (const Marker& marker : markers) {
+    if (!view.in_front(marker.position))
+      continue;
+    const Canvas::Point at = view.pixel(marker.position);
+    const Rect& r = layout.body;
+    if (at[0] < r.left || at[0] > r.right() || at[1] < r.bottom || at[1] > r.top())
+      continue;
+    const double radius = 0.5 * marker.size * pixel;
+    canvas.disc(at, radius + 2 * pixel, white);
+    canvas.disc(at, radius, marker.colour);
+    if (marker.label.empty())
+      continue;
+    // To the right of the marker, or to its left where the picture ends; on a white ground to be read on any
+    // colour.
+    const double width = canvas.text_width(marker.label, font), gap = radius + 10 * pixel;
+    const bool fits = at[0] + gap + width < layout.size[0] - 8 * pixel;
+    const double left = fits ? at[0] + gap : at[0] - gap - width;
+    canvas.rectangle({left - 5 * pixel, at[1] - 0.62 * font, width + 10 * pixel, 1.24 * font}, white);
+    canvas.text(marker.label, {left, at[1]}, font, HorizontalAlign::left, VerticalAlign::middle,
+                marker.colour);
+  }
+}
+
+} // namespace cdem

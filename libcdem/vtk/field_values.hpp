@@ -1,0 +1,26 @@
+// One number per point or surface triangle from a field name such as "stress.xx".
+#pragma once
+
+#include "libcdem/results/snapshot.hpp"
+
+#include <string>
+#include <vector>
+
+namespace cdem {
+
+struct FieldValues {
+  bool on_points = true;
+  std::vector<double> values; // per point, or per surface triangle
+  std::string symbol;         // "u_{x}", as the colour bar names it
+  std::string unit;           // SI
+  bool integer = false;       // ids, modes, counts
+  bool id = false;            // a name in numbers: its size means nothing
+};
+
+// Throws geom::InputError naming the nearest right names.
+FieldValues field_values(const Snapshot&, const std::string& field);
+
+// The point field "displacement", m, or nullptr.
+const SnapshotField* displacement_of(const std::vector<SnapshotField>& point_fields);
+
+} // namespace cdem

@@ -1,0 +1,26 @@
+// The one off-screen window of the process: renderers in, a PNG file out.
+#pragma once
+
+#include "libcdem/vtk/view.hpp"
+
+class vtkRenderer;
+
+namespace cdem {
+
+// Pictures are drawn with twice the pixels in each direction and averaged: smooth lines and text on any
+// OpenGL.
+inline constexpr int supersampling = 2;
+
+// Throws geom::InputError for a size outside 64 .. 8000 or a file that cannot be written. Cheap: call it
+// first.
+void check_picture(const std::array<int, 2>& size, const std::string& png_path);
+
+// Draws the renderers on top of each other, the first one at the bottom, on white. Viewports are set by the
+// caller. Throws std::runtime_error when the machine offers no off-screen OpenGL. One thread at a time.
+void draw_png(const std::array<int, 2>& size, const std::vector<vtkRenderer*>& layers,
+              const std::string& png_path);
+
+// The part of a picture of `size` that `frame` covers, as VTK wants it: fractions left, bottom, right, top.
+std::array<double, 4> viewport_of(const Rect& frame, const std::array<int, 2>& size);
+
+} // namespace cdem

@@ -1,0 +1,130 @@
+// Puts a picture together: what to colour, where the viewer stands, how the parts share the page, and draws
+// it.
+#include "libcdem/vtk/picture.hpp"
+
+#include "libcdem/vtk/decorations.hpp"
+#include "libcdem/vtk/offscreen.hpp"
+#include "libcdem/vtk/scene.hpp"
+#include "libgeom/core/check.hpp"
+#include "libgeom/core/error.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace cdem {
+namespace {
+
+void check_options(const PictureOptions& options) {
+  if (!std::isfinite(options.deformation))
+    throw geom::InputError("deformation", geom::text(options.deformation), "a finite number");
+  for (const Marker& marker : options.markers)
+    geom::require_finite("markers.position", marker.position);
+  for (const Polyline& line : options.polylines)
+    for (const geom::Vec3& x : line.points)
+      geom::require_finite("polylines.points", x);
+}
+
+std::vector<LegendEntry> legend_entries(const PictureOptions& options, const BrokenInterfaces& broken,
+                                        double pixel) {
+  std::vector<LegendEntry> entries;
+  if (!broken.tension.triangles.empty())
+    entries.push_back({"broken in tension", tension_colour, 7 * pixel});
+  if (!broken.shear.triangles.empty())
+    entries.push_back({"broken in shear", shear_colour, 7 * pixel});
+  for (const Polyline& line : options.polylines)
+    if (!line.label.empty())
+      entries.push_back({line.label, line.colour, line.width * pixel, line.dashed});
+  if (options.deformation != 0 && options.deformation != 1)
+    entries.push_back({"displacements \u00d7 " + geom::text(options.deformation)});
+  return entries;
+}
+
+} // namespace
+
+void render(const Snapshot& snapshot, const PictureOptions& options, const std::string& png_path) {
+  const bool free_height = options.size[1] == 0;
+  check_picture({options.size[0], free_height ? options.size[0] : options.size[1]}, png_path);
+  check_options(options);
+  if (snapshot.surface.empty())
+    throw geom::InputError("snapshot", "no faces", "a model with at least one block");
+
+  const SnapshotField* displacement = displacement_of(snapshot.point_fields);
+  if (options.deformation != 0 && !displacement)
+    throw geom::InputError("deformation", geom::text(options.deformation),
+                           "0: this result has no displacement");
+  const std::vector<geom::Vec3> points = deformed(snapshot.points, displacement, options.deformation);
+  BrokenInterfaces broken;
+  if (options.broken_bonds)
+    broken = broken_interfaces(snapshot.bonds, options.deformation);
+  std::optional<FieldValues> field;
+  ColourScale scale = colour_scale({}, false, options.colour_map, options.range);
+  if (!options.field.empty()) {
+    field = field_values(snapshot, options.field);
+    scale = colour_scale(field->values, field->id, options.colour_map, options.range);
+  }
+
+  View view = options.camera ? View::from(*options.camera) : View::named(options.view, options.up);
+  geom::Box extent = view.extent(points);
+  for (const auto* part : {&broken.tension, &broken.shear})
+    for (const geom::Triangle& t : part->triangles)
+      for (const int v : t)
+        extent.extend(view.in_view(broken.points[static_cast<std::size_t>(v)]));
+  for (const Marker& marker : options.markers)
+    extent.extend(view.in_view(marker.position));
+  for (const Polyline& line : options.polylines)
+    for (const geom::Vec3& x : line.points)
+      extent.extend(view.in_view(x));
+
+  const double pixel = std::min(options.size[0] / 1600., free_height ? 1e9 : options.size[1] / 1200.);
+  Canvas canvas;
+  std::optional<BarContent> bar;
+  if (field && options.colour_bar)
+    bar = bar_content(*field, scale);
+  std::vector<LegendEntry> legend;
+  if (options.legend)
+    legend = legend_entries(options, broken, pixel);
+  AxesContent axes;
+  if (options.axes)
+    axes = axes_content(view, pixel);
+
+  LayoutInput input;
+  input.size = options.size;
+  input.aspect = 0;
+  if (!view.literal)
+    input.aspect = std::clamp(extent.size().x() / std::max(extent.size().y(), 1e-300), 0.02, 50.);
+  input.pixel = pixel;
+  input.title = !options.title.empty();
+  input.bar = bar.has_value();
+  input.legend = !legend.empty();
+  input.bar_column = bar ? bar_column_width(canvas, *bar, pixel) : 0;
+  input.axes = axes.size;
+  const Layout layout = arrange(input);
+
+  if (view.literal)
+    view.place(layout.body);
+  else
+    view.fit(extent, layout.body, 6 * pixel);
+
+  if (input.title) {
+    const double room = layout.size[0] - 40 * pixel,
+                 wanted = canvas.text_width(options.title, title_font * pixel);
+    const double font = title_font * pixel * std::min(1., room / wanted), half = 0.5 * std::min(wanted, room);
+    const double x =
+        std::clamp(layout.body.centre_x(), 20 * pixel + half, layout.size[0] - 20 * pixel - half);
+    canvas.text(options.title, {x, layout.title_middle}, font, HorizontalAlign::centre,
+                VerticalAlign::middle);
+  }
+  if (bar)
+    draw_bar(canvas, *bar, layout, pixel);
+  draw_legend(canvas, legend, layout, pixel);
+  draw_axes(canvas, axes, layout, pixel);
+  draw_overlays(canvas, options.markers, options.polylines, view, layout, pixel);
+
+  const bool any_broken = !broken.tension.triangles.empty() || !broken.shear.triangles.empty();
+  Scene scene({snapshot, points, field ? &*field : nullptr, scale, any_broken ? &broken : nullptr,
+               options.edges, pixel},
+              view, layout.size);
+  draw_png(layout.size, {scene.renderer(), canvas.renderer()}, png_path);
+}
+
+} // namespace cdem

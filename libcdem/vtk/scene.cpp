@@ -1,0 +1,289 @@
+#include "libcdem/vtk/scene.hpp"
+
+#include "libcdem/vtk/offscreen.hpp"
+
+#include <vtkActor.h>
+#include <vtkCamera.h>
+#include <vtkCellArray.h>
+#include <vtkCellData.h>
+#include <vtkDoubleArray.h>
+#include <vtkLight.h>
+#include <vtkLookupTable.h>
+#include <vtkNew.h>
+#include <vtkPointData.h>
+#include <vtkPoints.h>
+#include <vtkPolyData.h>
+#include <vtkPolyDataMapper.h>
+#include <vtkProperty.h>
+#include <vtkRenderer.h>
+#include <vtkUnsignedCharArray.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace cdem {
+namespace {
+
+using geom::Vec3;
+
+constexpr Colour edge_colour = {0.13, 0.13, 0.13};
+constexpr double broken_width = 6, casing_width = 9; // pixels of a 1600 x 1200 picture
+
+void set_points(vtkPolyData* mesh, const std::vector<Vec3>& points) {
+  vtkNew<vtkPoints> out;
+  out->SetDataTypeToDouble();
+  out->SetNumberOfPoints(static_cast<vtkIdType>(points.size()));
+  for (std::size_t i = 0; i < points.size(); ++i)
+    out->SetPoint(static_cast<vtkIdType>(i), points[i].data());
+  mesh->SetPoints(out);
+}
+
+void set_triangles(vtkPolyData* mesh, const std::vector<geom::Triangle>& triangles) {
+  vtkNew<vtkCellArray> cells;
+  cells->AllocateExact(static_cast<vtkIdType>(triangles.size()),
+                       static_cast<vtkIdType>(3 * triangles.size()));
+  for (const geom::Triangle& t : triangles)
+    cells->InsertNextCell({t[0], t[1], t[2]});
+  mesh->SetPolys(cells);
+}
+
+// Strips of constant width in pixels along line segments.
+class Ribbons {
+public:
+  // `lift`: how far in front of the segments, pixels.
+  Ribbons(const View& view, double width, double lift) : view_(view), width_(width), lift_(lift) {}
+
+  // Ends are square, or round with the strip's width, or square and drawn out by `extension` pixels.
+  void add(const Vec3& from, const Vec3& to, bool round_ends, double extension = 0) {
+    Vec3 a = lifted(from), b = lifted(to);
+    const Vec3 along = b - a, sight = view_.direction_to_viewer(0.5 * (a + b));
+    const Vec3 side = along.cross(sight);
+    if (!(side.norm() > 1e-6 * along.norm()) || !view_.in_front(a) || !view_.in_front(b))
+      return; // seen from its end
+    const Vec3 unit = side.normalized();
+    if (extension > 0) {
+      const Vec3 longer = extension * view_.pixel_size(a) * along.normalized();
+      a -= longer;
+      b += longer;
+    }
+    const double ha = 0.5 * width_ * view_.pixel_size(a), hb = 0.5 * width_ * view_.pixel_size(b);
+    const int n = static_cast<int>(points.size());
+    points.insert(points.end(), {a - ha * unit, b - hb * unit, b + hb * unit, a + ha * unit});
+    triangles.push_back({n, n + 1, n + 2});
+    triangles.push_back({n, n + 2, n + 3});
+    if (round_ends) {
+      disc(a, ha);
+      disc(b, hb);
+    }
+  }
+
+  std::vector<Vec3> points;
+  std::vector<geom::Triangle> triangles;
+
+private:
+  Vec3 lifted(const Vec3& x) const { return x + lift_ * view_.pixel_size(x) * view_.direction_to_viewer(x); }
+  void disc(const Vec3& centre, double radius) {
+    constexpr int corners = 12;
+    const int n = static_cast<int>(points.size());
+    for (int i = 0; i < corners; ++i) {
+      const double turn = 2 * M_PI * i / corners;
+      points.push_back(centre + radius * (std::cos(turn) * view_.right + std::sin(turn) * view_.up));
+    }
+    for (int i = 1; i + 1 < corners; ++i)
+      triangles.push_back({n, n + i, n + i + 1});
+  }
+
+  const View& view_;
+  double width_, lift_;
+};
+
+// True when nearly all of the surface that faces the viewer is square to the line of sight: a plate seen from
+// the front. Such a picture is drawn without shading, so that its colours are those of the colour bar.
+bool flat_to_viewer(const Snapshot& s, const std::vector<Vec3>& points, const View& view) {
+  double square = 0, seen = 0;
+  for (const geom::Triangle& t : s.surface) {
+    const Vec3 &a = points[t[0]], &b = points[t[1]], &c = points[t[2]];
+    const Vec3 area = 0.5 * (b - a).cross(c - a);
+    const double facing = area.dot(view.toward), size = area.norm();
+    if (facing > 0.1 * size) {
+      seen += facing;
+      square += facing > 0.995 * size ? facing : 0;
+    }
+  }
+  return square > 0.95 * seen;
+}
+
+double median_edge_pixels(const Snapshot& s, const std::vector<Vec3>& points, const View& view) {
+  std::vector<double> lengths;
+  for (const auto& e : s.block_edges) {
+    const Vec3 d = points[e[1]] - points[e[0]];
+    const double length = std::hypot(view.right.dot(d), view.up.dot(d)) / view.metres_per_pixel;
+    if (length > 0.1)
+      lengths.push_back(length);
+  }
+  if (lengths.empty())
+    return 0;
+  const auto middle = lengths.begin() + static_cast<std::ptrdiff_t>(lengths.size() / 2);
+  std::nth_element(lengths.begin(), middle, lengths.end());
+  return *middle;
+}
+
+} // namespace
+
+struct Scene::Impl {
+  vtkNew<vtkRenderer> renderer;
+
+  vtkActor* add(vtkPolyData* mesh) {
+    vtkNew<vtkPolyDataMapper> mapper;
+    mapper->SetInputData(mesh);
+    mapper->ScalarVisibilityOff();
+    vtkNew<vtkActor> actor;
+    actor->SetMapper(mapper);
+    actor->GetProperty()->SetInterpolationToFlat();
+    renderer->AddActor(actor);
+    return actor;
+  }
+  void add_unlit(const std::vector<Vec3>& points, const std::vector<geom::Triangle>& triangles,
+                 const Colour& colour) {
+    if (triangles.empty())
+      return;
+    vtkNew<vtkPolyData> mesh;
+    set_points(mesh, points);
+    set_triangles(mesh, triangles);
+    vtkActor* actor = add(mesh);
+    actor->GetProperty()->SetColor(colour[0], colour[1], colour[2]);
+    actor->GetProperty()->LightingOff();
+  }
+  void add_body(const SceneInput&, const View&);
+  void add_broken(const SceneInput&, const View&);
+  void set_camera(const SceneInput&, const View&);
+};
+
+void Scene::Impl::add_body(const SceneInput& in, const View& view) {
+  vtkNew<vtkPolyData> mesh;
+  set_points(mesh, in.points);
+  set_triangles(mesh, in.snapshot.surface);
+  vtkActor* actor = add(mesh);
+  vtkProperty* property = actor->GetProperty();
+  property->SetColor(plain_block_colour[0], plain_block_colour[1], plain_block_colour[2]);
+  if (flat_to_viewer(in.snapshot, in.points, view)) {
+    property->LightingOff();
+  } else {
+    property->SetAmbient(0.5);
+    property->SetDiffuse(0.55);
+  }
+  if (!in.field)
+    return;
+  vtkMapper* mapper = actor->GetMapper();
+  mapper->ScalarVisibilityOn();
+  if (in.field->on_points && in.scale.map != "categorical") {
+    // Numbers are interpolated over a face and coloured then, so bands keep the colours of the bar.
+    vtkNew<vtkDoubleArray> values;
+    values->SetNumberOfValues(static_cast<vtkIdType>(in.field->values.size()));
+    std::copy(in.field->values.begin(), in.field->values.end(), values->GetPointer(0));
+    mesh->GetPointData()->SetScalars(values);
+    vtkNew<vtkLookupTable> table;
+    const int n = 512;
+    table->SetNumberOfTableValues(n);
+    table->SetTableRange(in.scale.low, in.scale.high);
+    for (int i = 0; i < n; ++i) {
+      const Colour c = in.scale(in.scale.low + (in.scale.high - in.scale.low) * (i + 0.5) / n);
+      table->SetTableValue(i, c[0], c[1], c[2]);
+    }
+    const Colour none = in.scale(std::nan(""));
+    table->SetNanColor(none[0], none[1], none[2], 1);
+    mapper->SetLookupTable(table);
+    mapper->UseLookupTableScalarRangeOn();
+    mapper->InterpolateScalarsBeforeMappingOn();
+    mapper->SetScalarModeToUsePointData();
+    return;
+  }
+  vtkNew<vtkUnsignedCharArray> colours;
+  colours->SetNumberOfComponents(3);
+  colours->SetNumberOfTuples(static_cast<vtkIdType>(in.field->values.size()));
+  for (std::size_t i = 0; i < in.field->values.size(); ++i) {
+    const Colour c = in.scale(in.field->values[i]);
+    for (int k = 0; k < 3; ++k)
+      colours->SetTypedComponent(
+          static_cast<vtkIdType>(i), k,
+          static_cast<unsigned char>(std::lround(255 * c[static_cast<std::size_t>(k)])));
+  }
+  mapper->SetColorModeToDirectScalars();
+  if (in.field->on_points) {
+    mesh->GetPointData()->SetScalars(colours);
+    mapper->SetScalarModeToUsePointData();
+  } else {
+    mesh->GetCellData()->SetScalars(colours);
+    mapper->SetScalarModeToUseCellData();
+  }
+}
+
+void Scene::Impl::add_broken(const SceneInput& in, const View& view) {
+  const auto outline = [&](const BrokenInterfaces::Part& part, double width, double lift, bool round,
+                           double extension, const Colour& colour) {
+    Ribbons ribbons(view, width * in.pixel, lift * in.pixel);
+    for (const auto& e : part.outline)
+      ribbons.add(in.broken->points[e[0]], in.broken->points[e[1]], round, extension * in.pixel);
+    add_unlit(ribbons.points, ribbons.triangles, colour);
+  };
+  // White casing below the colours keeps them apart from whatever the faces show. Its ends are square: round
+  // ones face the viewer and would come through the coloured strip where that leans away.
+  for (const auto* part : {&in.broken->tension, &in.broken->shear})
+    outline(*part, casing_width, 6, false, 0.5 * (casing_width - broken_width), {1, 1, 1});
+  outline(in.broken->shear, broken_width, 9, true, 0, shear_colour);
+  outline(in.broken->tension, broken_width, 10, true, 0, tension_colour);
+  add_unlit(in.broken->points, in.broken->tension.triangles, tension_colour);
+  add_unlit(in.broken->points, in.broken->shear.triangles, shear_colour);
+}
+
+void Scene::Impl::set_camera(const SceneInput& in, const View& view) {
+  vtkCamera* camera = renderer->GetActiveCamera();
+  const Vec3 position = view.focal_point + view.distance * view.toward;
+  camera->SetFocalPoint(view.focal_point.data());
+  camera->SetPosition(position.data());
+  camera->SetViewUp(view.up.data());
+  camera->SetParallelProjection(!view.perspective);
+  camera->SetParallelScale(0.5 * view.metres_per_pixel * view.frame.height);
+  camera->SetViewAngle(view.view_angle);
+  const geom::Box extent = view.extent(in.points);
+  const double camera_depth = view.toward.dot(position);
+  const double slack = 30 * view.metres_per_pixel + 1e-3 * view.distance;
+  const double far = camera_depth - extent.min.z() + slack, near = camera_depth - extent.max.z() - slack;
+  camera->SetClippingRange(view.perspective ? std::max(near, 1e-3 * view.distance) : near,
+                           std::max(far, near + slack));
+  for (const auto& [place, strength] :
+       {std::pair<Vec3, double>{{-0.5, 0.9, 1.2}, 0.85}, {{0.9, -0.2, 0.6}, 0.35}}) {
+    vtkNew<vtkLight> light;
+    light->SetLightTypeToCameraLight();
+    light->SetPosition(place.x(), place.y(), place.z());
+    light->SetFocalPoint(0, 0, 0);
+    light->SetIntensity(strength);
+    renderer->AddLight(light);
+  }
+}
+
+Scene::Scene(const SceneInput& in, const View& view, const std::array<int, 2>& size)
+    : impl_(std::make_unique<Impl>()) {
+  const std::array<double, 4> viewport = viewport_of(view.frame, size);
+  impl_->renderer->SetViewport(viewport[0], viewport[1], viewport[2], viewport[3]);
+  impl_->renderer->AutomaticLightCreationOff();
+  impl_->add_body(in, view);
+  if (in.edges) {
+    // Thinner lines for smaller blocks: the outlines of many small blocks would else hide their colours.
+    const double width =
+        std::clamp(0.03 * median_edge_pixels(in.snapshot, in.points, view), 0.3, 1.8 * in.pixel);
+    Ribbons ribbons(view, width, 2);
+    for (const auto& e : in.snapshot.block_edges)
+      ribbons.add(in.points[e[0]], in.points[e[1]], false);
+    impl_->add_unlit(ribbons.points, ribbons.triangles, edge_colour);
+  }
+  if (in.broken)
+    impl_->add_broken(in, view);
+  impl_->set_camera(in, view);
+}
+Scene::~Scene() = default;
+vtkRenderer* Scene::renderer() {
+  return impl_->renderer;
+}
+
+} // namespace cdem
