@@ -1,9 +1,11 @@
-// Runs one case script: sandbox, parameters, the `cdem` module, the models it makes. No Lua header is shown here.
+// Runs one case script: sandbox, parameters, the `cdem` module, the models it makes. No Lua header is shown
+// here.
 #pragma once
 
 #include "libcdem/step/observer.hpp"
 
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <memory>
 #include <stdexcept>
@@ -30,10 +32,12 @@ struct EngineSettings {
   std::filesystem::path results; // root of all results; the script may read everything below it
   int threads = 1;
   std::map<std::string, std::string> set; // --set name=value, as typed
-  bool unsafe = false;     // the whole Lua library, files anywhere
-  bool check_only = false; // solving calls return typed, empty results
+  bool unsafe = false;                    // the whole Lua library, files anywhere
+  bool check_only = false;                // solving calls return typed, empty results
   std::shared_ptr<Observer> observer;
-  std::string program;     // path of the cdem program, for sweeps
+  std::function<void(const std::filesystem::path&)>
+      will_write;      // told of each file just before it is written; may be empty
+  std::string program; // path of the cdem program, for sweeps
 };
 
 // One declared parameter of a script (cdem.parameter).
@@ -46,17 +50,21 @@ public:
   explicit Engine(EngineSettings);
   ~Engine();
 
-  // Throws ScriptError, FileError, cdem::SolutionError, cdem::Interrupted. An unknown --set name is a ScriptError that
-  // names the nearest declared parameter; judged when the script has ended, and at once when a name is close to none.
+  // Throws ScriptError, FileError, cdem::SolutionError, cdem::Interrupted. An unknown --set name is a
+  // ScriptError that names the nearest declared parameter; judged when the script has ended, and at once when
+  // a name is close to none.
   void run_file();
 
-  // repl: runs a line or chunk; returns the printed form of its values; incomplete = true when more lines are needed.
+  // repl: runs a line or chunk; returns the printed form of its values; incomplete = true when more lines are
+  // needed.
   std::string run_line(const std::string& text, bool& incomplete);
   std::vector<std::string> complete(const std::string& prefix) const; // names that start so, for the tab key
 
   std::vector<ParameterInfo> parameters() const;
-  std::string model_summary() const; // for `cdem check`: bodies, blocks, tets, bonds, conditions, stages, warnings
-  bool model_saved_after_failure(); // writes last_good.vtu of every model that failed; true when something was written
+  std::string
+  model_summary() const; // for `cdem check`: bodies, blocks, tets, bonds, conditions, stages, warnings
+  bool model_saved_after_failure(); // writes last_good.vtu of every model that failed; true when something
+                                    // was written
 
 private:
   struct Impl;
