@@ -37,35 +37,44 @@ void spring_forces(const Model& model, State& state, Workspace& work, Range rang
     const geom::Vec3 j = jump_at(point, u);
     const Interface& interface = model.interfaces[point.interface];
     const SpringStrength& strength = work.strength[point.interface];
-    double lost = 0;
+    const geom::Vec3 stretch = j - state.bond_offset[p];
+    const double open = stretch.dot(n);
+    const geom::Vec3 shear = stretch - open * n;
+    bool broke = false;
     if (is_intact(state.bond_mode[p])) {
-      const geom::Vec3 stretch = j - state.bond_offset[p];
-      const double open = stretch.dot(n);
-      const geom::Vec3 shear = stretch - open * n;
-      if (!breaking || !interface.may_break) {
+      if (breaking && interface.may_break) {
+        const double normal_traction = interface.kn * open, shear_traction = interface.ks * shear.norm();
+        const BondMode mode = breaks(strength, normal_traction, shear_traction);
+        broke = mode != BondMode::intact;
+        if (broke) {
+          state.bond_mode[p] = static_cast<std::uint8_t>(mode);
+          sums.broken.push_back({static_cast<int>(p), mode, normal_traction, shear_traction});
+        }
+      }
+      if (!broke) {
         work.spring_force[p] = point.kn_area * open * n + point.ks_area * shear;
         continue;
       }
-      const double normal_traction = interface.kn * open, shear_traction = interface.ks * shear.norm();
-      const BondMode mode = breaks(strength, normal_traction, shear_traction);
-      if (mode == BondMode::intact) {
-        work.spring_force[p] = point.kn_area * open * n + point.ks_area * shear;
-        continue;
-      }
-      state.bond_mode[p] = static_cast<std::uint8_t>(mode);
-      sums.broken.push_back({static_cast<int>(p), mode, normal_traction, shear_traction});
-      lost = 0.5 * (normal_traction * normal_traction / interface.kn + shear_traction * shear_traction / interface.ks);
     }
     // Contact: the spring was never bonded or has broken, at the latest just now.
     const SpringResponse r =
         contact_response(interface.kn, interface.ks, strength.tan_friction, n, j, state.bond_offset[p]);
     state.bond_offset[p] = r.offset;
+    const geom::Vec3 before = work.spring_force[p] / point.area;
     work.spring_force[p] = point.area * r.traction;
-    if (lost > 0)
-      sums.breaking += point.area * (lost - stored(interface, r.traction, n));
+
+    const geom::Vec3 normal_before = before.dot(n) * n, normal_after = r.traction.dot(n) * n;
+    const double lost = point.area * lost_energy(interface.ks, before - normal_before, r.traction - normal_after, shear);
+    if (broke)
+      sums.breaking += lost + point.area * lost_energy(interface.kn, normal_before, normal_after, open * n);
     else
-      sums.friction += point.area * r.friction_work;
+      sums.friction += lost;
   }
+}
+
+void start_spring_forces(const Model& model, const State& state, Workspace& work) {
+  for (int p = 0; p < static_cast<int>(model.points.size()); ++p)
+    work.spring_force[p] = model.points[p].area * traction(model, state, p);
 }
 
 geom::Vec3 traction(const Model& model, const State& state, int p) {

@@ -9,6 +9,9 @@ namespace cdem {
 // bond_mode and bond_offset.
 void spring_forces(const Model&, State&, Workspace&, Range points, SpringSums&, bool breaking);
 
+// Forces of the present state without any breaking or slip: what the first step's energy losses are counted from.
+void start_spring_forces(const Model&, const State&, Workspace&);
+
 // Jump of the displacement from side a to side b, m.
 geom::Vec3 jump(const BondPoint&, const std::vector<Node>& displacement);
 

@@ -30,7 +30,6 @@ inline BondMode breaks(const SpringStrength& s, double normal_traction, double s
 struct SpringResponse {
   geom::Vec3 traction = geom::Vec3::Zero(); // Pa, pulls a towards b when along the normal
   geom::Vec3 offset = geom::Vec3::Zero();   // m, new o
-  double friction_work = 0;                 // J/m2, turned into heat by slip or lost on opening
 };
 
 inline SpringResponse contact_response(double kn, double ks, double tan_friction, const geom::Vec3& normal,
@@ -41,7 +40,6 @@ inline SpringResponse contact_response(double kn, double ks, double tan_friction
   const geom::Vec3 shear = stretch - open * normal;
   if (open > 0) {
     r.offset = offset + shear;
-    r.friction_work = 0.5 * ks * shear.squaredNorm();
     return r;
   }
   const double normal_traction = kn * open;
@@ -55,9 +53,15 @@ inline SpringResponse contact_response(double kn, double ks, double tan_friction
     const geom::Vec3 slip = (1 - scale) * shear;
     r.offset += slip;
     r.traction = normal_traction * normal + (ks * scale) * shear;
-    r.friction_work = (ks * scale) * shear.dot(slip);
   }
   return r;
+}
+
+// Energy a spring lost over a step in which its traction went from t0 to t1 while its stretch would have become
+// `trial` with the offset held: work of the motion by the trapezoidal rule (which is what central differences do) less
+// the change of what is stored, J/m2. k: the stiffness in the direction of these vectors.
+inline double lost_energy(double k, const geom::Vec3& t0, const geom::Vec3& t1, const geom::Vec3& trial) {
+  return 0.5 * (t0 + t1).dot(trial - t0 / k) - 0.5 * (t1.squaredNorm() - t0.squaredNorm()) / k;
 }
 
 } // namespace cdem

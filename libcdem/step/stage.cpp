@@ -39,6 +39,7 @@ Stage::Stage(StageContext context, std::string kind, double run_away)
       run_away_(run_away), broken_tension_before_(context.log.broken_tension),
       broken_shear_before_(context.log.broken_shear), start_(std::chrono::steady_clock::now()), told_(start_) {
   context_.last_good = context_.state;
+  start_spring_forces(context_.model, context_.state, work);
 }
 
 double Stage::wall_time() const { return seconds(std::chrono::steady_clock::now() - start_); }

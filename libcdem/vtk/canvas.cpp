@@ -100,10 +100,11 @@ Canvas::Canvas() : impl_(std::make_unique<Impl>()) {
 Canvas::~Canvas() = default;
 
 void Canvas::polygon(const std::vector<Point>& corners, const Colour& colour) {
+  const double depth = -1e-6 * static_cast<double>(impl_->cells->GetNumberOfCells());
   impl_->cells->InsertNextCell(static_cast<int>(corners.size()));
   for (const Point& p : corners)
     impl_->cells->InsertCellPoint(
-        impl_->points->InsertNextPoint(supersampling * p[0], supersampling * p[1], 0));
+        impl_->points->InsertNextPoint(supersampling * p[0], supersampling * p[1], depth));
   std::array<unsigned char, 3> bytes;
   for (std::size_t c = 0; c < 3; ++c)
     bytes[c] = static_cast<unsigned char>(std::lround(255 * colour[c]));

@@ -126,8 +126,8 @@ Colour id_colour(std::int64_t id) {
   // Hue by the golden ratio, so that consecutive ids lie far apart; lightness in three steps.
   const double turn = static_cast<double>(id) * 0.6180339887498949;
   const double hue = 2 * M_PI * (turn - std::floor(turn));
-  const double light = 0.70 + 0.07 * static_cast<double>(((id % 3) + 3) % 3);
-  const double spread = 0.19;
+  const double light = 0.74 + 0.06 * static_cast<double>(((id % 3) + 3) % 3);
+  const double spread = 0.14;
   // Three cosines a third of a turn apart: even steps of hue without the glare of pure colours.
   const auto channel = [&](double shift) {
     return std::clamp(light + spread * std::cos(hue - shift), 0., 1.);

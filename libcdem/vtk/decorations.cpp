@@ -113,7 +113,7 @@ void draw_bar(Canvas& canvas, const BarContent& bar, const Layout& layout, doubl
 
   // As many ticks as their labels leave room for.
   const double label_room =
-      vertical ? 2.6 * font : 2.0 * widest(canvas, bar_labels(bar, bar_ticks(bar, 6)), font) + font;
+      vertical ? 2.4 * font : 1.3 * widest(canvas, bar_labels(bar, bar_ticks(bar, 6)), font) + font;
   const std::vector<double> ticks = bar_ticks(bar, std::clamp(static_cast<int>(length / label_room), 2, 8));
   const std::vector<std::string> labels = bar_labels(bar, ticks);
   const double low = swatches ? 0 : bar.factor * bar.scale.low;
@@ -130,7 +130,7 @@ void draw_bar(Canvas& canvas, const BarContent& bar, const Layout& layout, doubl
                   HorizontalAlign::centre, VerticalAlign::top);
     }
   }
-  const double above = r.top() + (vertical && bar.beyond_high ? 0.7 * across : 0) + 0.55 * font;
+  const double above = r.top() + (vertical && bar.beyond_high ? 0.7 * across : 0) + 0.8 * font;
   canvas.text(bar.title, {vertical ? r.left : r.centre_x(), above}, font,
               vertical ? HorizontalAlign::left : HorizontalAlign::centre, VerticalAlign::baseline);
 }

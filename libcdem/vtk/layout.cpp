@@ -8,7 +8,7 @@ namespace {
 
 constexpr double margin = 32, strip = 36, bar_gap = 44;
 constexpr double title_height = 1.75 * title_font, legend_height = 2 * label_font;
-constexpr double bar_title_height = 1.55 * label_font; // the line above the strip
+constexpr double bar_title_height = 1.8 * label_font; // the line above the strip
 constexpr double bar_row =
     0.9 * label_font + bar_title_height + strip + 1.75 * label_font; // a horizontal bar
 constexpr double shortest_bar = 300;
@@ -98,7 +98,7 @@ Layout arrange(const LayoutInput& in) {
                   std::round(strip * s), std::round(length)};
   } else if (in.bar) {
     const double length = std::min(0.72 * layout.size[0], 1100 * s);
-    const double top = below - (0.9 * label_font + bar_title_height) * s;
+    const double top = below - (0.6 * label_font + bar_title_height) * s;
     double left = layout.body.centre_x() - 0.5 * length;
     if (in.axes[0] > 0 && !best.axes_left) // beside the arrows
       left = std::max(left, layout.body.left + in.axes[0] + 1.5 * margin * s);

@@ -122,7 +122,7 @@ SurfacelessWindow& window() {
     w->SetOffScreenRendering(1);
     w->SetFrameBlitModeToNoBlit();
     w->SwapBuffersOff();
-    w->SetMultiSamples(0);
+    w->SetMultiSamples(4);
     w->SetDPI(72);
     return w;
   }();

@@ -165,12 +165,13 @@ void Scene::Impl::add_body(const SceneInput& in, const View& view) {
   set_triangles(mesh, in.snapshot.surface);
   vtkActor* actor = add(mesh);
   vtkProperty* property = actor->GetProperty();
+  property->BackfaceCullingOn(); // blocks are closed: nobody sees the inside of a face
   property->SetColor(plain_block_colour[0], plain_block_colour[1], plain_block_colour[2]);
   if (flat_to_viewer(in.snapshot, in.points, view)) {
     property->LightingOff();
   } else {
-    property->SetAmbient(0.5);
-    property->SetDiffuse(0.55);
+    property->SetAmbient(0.6);
+    property->SetDiffuse(0.45);
   }
   if (!in.field)
     return;
@@ -252,7 +253,7 @@ void Scene::Impl::set_camera(const SceneInput& in, const View& view) {
   camera->SetClippingRange(view.perspective ? std::max(near, 1e-3 * view.distance) : near,
                            std::max(far, near + slack));
   for (const auto& [place, strength] :
-       {std::pair<Vec3, double>{{-0.5, 0.9, 1.2}, 0.85}, {{0.9, -0.2, 0.6}, 0.35}}) {
+       {std::pair<Vec3, double>{{-0.4, 0.9, 1.1}, 1.}, {{0.9, -0.2, 0.6}, 0.2}}) {
     vtkNew<vtkLight> light;
     light->SetLightTypeToCameraLight();
     light->SetPosition(place.x(), place.y(), place.z());
