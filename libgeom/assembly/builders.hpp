@@ -7,6 +7,9 @@
 
 namespace geom {
 
+// Builders refuse what they cannot build by InputError, with the field's name as a script writes it; none
+// makes more than 10 million blocks.
+
 // Boxes in rows: divisions = {nx, ny, nz}, each >= 1; origin is the lower corner.
 Assembly grid(const Vec3& size, const std::array<int, 3>& divisions, const Vec3& origin = Vec3::Zero());
 

@@ -207,7 +207,7 @@ double clear_shift(std::vector<double> levels, double clearance, double rounding
     if (bottom - previous_top >= 2 * clearance)
       offer(std::clamp(0.0, previous_top + clearance, bottom - clearance));
     if (bottom - previous_top >= clearance && next - top >= clearance)
-      offer(std::clamp(0.0, top - rounding, bottom + rounding));
+      offer(top - rounding <= 0 && 0 <= bottom + rounding ? 0 : 0.5 * (bottom + top));
     previous_top = top;
     first = last + 1;
   }

@@ -1,0 +1,68 @@
+#include "libgeom/assembly/edit.hpp"
+
+#include "libgeom/core/check.hpp"
+#include "libgeom/core/error.hpp"
+#include "libgeom/polyhedron/cut.hpp"
+
+#include <cmath>
+
+namespace geom {
+
+Assembly cut_by_plane(Assembly assembly, const Plane& given, const PlaneCutOptions& options) {
+  const double length = given.normal.norm();
+  if (!(std::isfinite(length) && length > 0))
+    throw InputError("normal", text(given.normal), "three finite numbers, not all zero");
+  if (!std::isfinite(given.offset))
+    throw InputError("offset", text(given.offset), "a finite number (m)");
+  if (!(options.clearance >= 0 && std::isfinite(options.clearance)))
+    throw InputError("clearance", text(options.clearance), "finite and >= 0 m");
+  const Plane plane{given.normal / length, given.offset / length};
+
+  Assembly result;
+  result.blocks.reserve(assembly.blocks.size());
+  for (Polyhedron& block : assembly.blocks) {
+    const Box box = bounding_box(block);
+    const double reach = 0.5 * plane.normal.cwiseAbs().dot(box.size()) + options.clearance;
+    const bool near = std::abs(plane.level(box.centre())) <= reach;
+    if (!near || (options.inside && !options.inside->contains(mass_properties(block).centroid))) {
+      result.blocks.push_back(std::move(block));
+      continue;
+    }
+    Cut halves = cut(block, options.clearance > 0 ? shifted_clear_of_vertices(block, plane, options.clearance)
+                                                  : plane);
+    for (std::optional<Part>* part : {&halves.below, &halves.above})
+      if (*part)
+        result.blocks.push_back(std::move((*part)->shape));
+  }
+  return result;
+}
+
+Assembly translated(Assembly assembly, const Vec3& shift) {
+  require_finite("shift", shift);
+  for (Polyhedron& block : assembly.blocks)
+    for (Vec3& x : block.vertices)
+      x += shift;
+  return assembly;
+}
+
+Assembly rotated(Assembly assembly, const Vec3& axis, double angle, const Vec3& centre) {
+  if (!(axis.allFinite() && axis.norm() > 0))
+    throw InputError("axis", text(axis), "three finite numbers, not all zero");
+  if (!std::isfinite(angle))
+    throw InputError("angle", text(angle), "a finite number");
+  require_finite("centre", centre);
+  const Mat3 q = Eigen::AngleAxisd(angle, axis.normalized()).toRotationMatrix();
+  for (Polyhedron& block : assembly.blocks)
+    for (Vec3& x : block.vertices)
+      x = centre + q * (x - centre);
+  return assembly;
+}
+
+Assembly merged(const std::vector<Assembly>& assemblies) {
+  Assembly result;
+  for (const Assembly& assembly : assemblies)
+    result.blocks.insert(result.blocks.end(), assembly.blocks.begin(), assembly.blocks.end());
+  return result;
+}
+
+} // namespace geom
