@@ -1,0 +1,11 @@
+// What this program is.
+#pragma once
+
+#include <string>
+
+namespace cdem::app {
+
+std::string version();    // "0.1.0"
+std::string build_text(); // "Release, GNU 12.2.0"
+
+} // namespace cdem::app

@@ -1,0 +1,17 @@
+// The command line: which command with which options. The only place that sees the parser library.
+#pragma once
+
+#include "apps/cdem/exit_code.hpp"
+
+#include <functional>
+#include <string>
+
+namespace cdem::app {
+
+// What is to be done. Throws UsageError, naming the nearest right command or option.
+std::function<ExitCode()> parse_command_line(int argc, const char* const* argv);
+
+// docs/command-line.md: the help of every command.
+std::string command_line_manual();
+
+} // namespace cdem::app

@@ -1,0 +1,34 @@
+// cdem check: builds and validates what the script describes, without solving and without writing anything.
+#include "apps/cdem/commands/script_run.hpp"
+
+#include <cstdio>
+
+namespace cdem::app {
+
+ExitCode check(const CheckCommand& command) {
+  require_script(command.script);
+  script::EngineSettings settings;
+  settings.script = command.script;
+  settings.output = std::filesystem::path("results") / case_name(command.script, command.set);
+  settings.results = "results";
+  settings.threads = command.threads > 0 ? command.threads : available_cores();
+  settings.set = command.set;
+  settings.unsafe = command.unsafe;
+  settings.check_only = true;
+  settings.observer = std::make_shared<RunObserver>(ProgressStyle::plain, nullptr);
+  settings.program = program_path().string();
+
+  script::Engine engine(settings);
+  engine.run_file();
+  if (const auto parameters = engine.parameters(); !parameters.empty())
+    std::printf("parameters\n%s\n", parameter_table(parameters).c_str());
+  std::string summary = engine.model_summary();
+  while (!summary.empty() && summary.back() == '\n')
+    summary.pop_back();
+  if (!summary.empty())
+    std::printf("%s\n\n", summary.c_str());
+  std::printf("%s: no errors found\n", command.script.c_str());
+  return ExitCode::success;
+}
+
+} // namespace cdem::app

@@ -1,0 +1,71 @@
+// The commands. Each returns the exit code or throws what failure.hpp judges.
+#pragma once
+
+#include "apps/cdem/exit_code.hpp"
+#include "apps/cdem/progress/run_observer.hpp"
+
+#include <array>
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace cdem::app {
+
+using Settings = std::map<std::string, std::string>; // --set name=value, as typed
+
+struct RunCommand {
+  std::filesystem::path script;
+  std::filesystem::path output; // empty: results/<case>
+  int threads = 0;              // 0: every core this process may use
+  Settings set;
+  bool unsafe = false;
+  ProgressStyle progress = ProgressStyle::automatic;
+  std::string line; // the command line, for the log
+};
+ExitCode run(const RunCommand&);
+
+struct CheckCommand {
+  std::filesystem::path script;
+  int threads = 0;
+  Settings set;
+  bool unsafe = false;
+};
+ExitCode check(const CheckCommand&);
+
+struct RenderCommand {
+  std::filesystem::path file;   // .vtu
+  std::filesystem::path output; // empty: beside the file, named after it and the colour
+  std::string colour = "displacement.magnitude";
+  double deformation = 0;
+  std::string view = "front", up = "y", colour_map = "auto", title;
+  std::array<int, 2> size = {1600, 1200}; // pixels; height 0: as high as the picture needs
+  std::optional<std::array<double, 2>> range;
+  bool edges = true, broken_bonds = true, colour_bar = true, legend = true, axes = true;
+};
+ExitCode render_picture(const RenderCommand&);
+
+// About this program, a .vtu, a script or an output folder.
+ExitCode info(const std::filesystem::path&);
+
+struct SweepCommand {
+  std::filesystem::path script;
+  std::filesystem::path output;   // empty: results/<case>-sweep
+  std::vector<Settings> settings; // one run each
+  int jobs = 0;                   // side by side; 0: one a core
+  int threads = 0;                // of each run; 0: the cores shared among the jobs
+  bool unsafe = false, quiet = false;
+  std::string line;
+};
+ExitCode sweep(const SweepCommand&);
+
+struct ReplCommand {
+  int threads = 0;
+  bool unsafe = false;
+};
+ExitCode repl(const ReplCommand&);
+
+ExitCode print_annotations();
+
+} // namespace cdem::app

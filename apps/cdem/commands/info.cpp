@@ -1,0 +1,170 @@
+// cdem info: what this program is, or what a .vtu file, a script or an output folder holds.
+#include "apps/cdem/build_info.hpp"
+#include "apps/cdem/commands/script_run.hpp"
+#include "apps/cdem/failure.hpp"
+#include "apps/cdem/records.hpp"
+#include "apps/cdem/run_log.hpp"
+#include "apps/cdem/text.hpp"
+#include "libcdem/vtk/files.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <fstream>
+#include <sstream>
+
+namespace cdem::app {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+using Rows = std::vector<std::vector<std::string>>;
+
+void print_rows(const Rows& rows) {
+  std::fputs(table_text(rows).c_str(), stdout);
+}
+
+// "model name" of /proc/cpuinfo, and those of its flags the solver's speed depends on.
+std::string processor() {
+  std::ifstream in("/proc/cpuinfo");
+  std::string name, found;
+  for (std::string line; std::getline(in, line);) {
+    if (line.rfind("model name", 0) == 0 && name.empty())
+      name = line.substr(line.find(':') + 2);
+    if (line.rfind("flags", 0) != 0)
+      continue;
+    std::istringstream flags(line);
+    for (std::string flag; flags >> flag;)
+      if (flag == "avx2" || flag == "fma" || flag == "avx512f")
+        found += (found.empty() ? "" : ", ") + flag;
+    break;
+  }
+  return (name.empty() ? "unknown" : name) + (found.empty() ? "" : " (" + found + ")");
+}
+
+void about_program() {
+  const int cores = available_cores();
+  print_rows({{"version", version()},
+              {"build", build_text()},
+              {"program", program_path().string()},
+              {"processor", processor()},
+              {"threads", std::to_string(cores) + " unless --threads says otherwise"}});
+  std::printf("\nexit codes\n%s", exit_code_table().c_str());
+}
+
+void add_ranges(Rows& rows, const std::string& where, const std::vector<SnapshotField>& fields) {
+  for (const auto& field : fields) {
+    // Per component, and the magnitude of a vector.
+    const int n = std::max(field.components, 1);
+    double low = INFINITY, high = -INFINITY;
+    for (std::size_t i = 0; i + n <= field.values.size(); i += static_cast<std::size_t>(n)) {
+      double squares = 0;
+      for (int c = 0; c < n; ++c) {
+        const double value = field.values[i + c];
+        squares += value * value;
+        if (n != 3) {
+          low = std::min(low, value);
+          high = std::max(high, value);
+        }
+      }
+      if (n == 3) {
+        low = std::min(low, std::sqrt(squares));
+        high = std::max(high, std::sqrt(squares));
+      }
+    }
+    const std::string kind = n == 1 ? "scalar" : n == 3 ? "vector" : n == 6 ? "tensor" : std::to_string(n);
+    rows.push_back({where, field.name, kind, field.unit, field.values.empty() ? "" : number_text(low),
+                    field.values.empty() ? "" : number_text(high)});
+  }
+}
+
+void about_snapshot(const fs::path& file) {
+  const Snapshot snapshot = read_vtu(file.string());
+  print_rows({{"title", snapshot.title},
+              {"time", number_text(snapshot.time) + " s"},
+              {"step", count_text(snapshot.step)},
+              {"points", count_text(static_cast<std::int64_t>(snapshot.points.size()))},
+              {"tets", count_text(static_cast<std::int64_t>(snapshot.tets.size()))},
+              {"bond triangles", count_text(static_cast<std::int64_t>(snapshot.bonds.triangles.size()))}});
+  Rows rows = {{"at", "field", "kind", "unit", "lowest", "highest"}};
+  add_ranges(rows, "points", snapshot.point_fields);
+  add_ranges(rows, "tets", snapshot.cell_fields);
+  add_ranges(rows, "bonds", snapshot.bonds.point_fields);
+  std::puts("\nfields (of a vector: its magnitude)");
+  print_rows(rows);
+}
+
+void about_script(const fs::path& file) {
+  script::EngineSettings settings;
+  settings.script = file;
+  settings.output = fs::path("results") / case_name(file, {});
+  settings.results = "results";
+  settings.threads = available_cores();
+  settings.check_only = true;
+  settings.observer = std::make_shared<RunObserver>(ProgressStyle::none, nullptr);
+  settings.program = program_path().string();
+  script::Engine engine(settings);
+  engine.run_file();
+  const auto parameters = engine.parameters();
+  std::puts(parameters.empty() ? "no parameters" : "parameters (--set name=value)");
+  if (!parameters.empty())
+    std::fputs(parameter_table(parameters).c_str(), stdout);
+}
+
+void about_results(const fs::path& folder) {
+  const fs::path log = folder / run_log_name;
+  if (!is_run_log(log))
+    throw UsageError(folder.string() + " holds no " + run_log_name + ": not a folder of results");
+  const RunLogSummary summary = summary_of_run_log(log);
+  Rows rows = {{"run", summary.command}, {"started", summary.started}};
+  rows.push_back({"ended", summary.exit_code ? "with exit code " + std::to_string(*summary.exit_code)
+                                             : std::string("not yet, or killed")});
+  if (!summary.error.empty())
+    rows.push_back({"error", summary.error});
+  print_rows(rows);
+  if (const fs::path file = folder / "settings.json"; fs::exists(file)) {
+    Rows parameters;
+    for (const auto& [name, value] : read_parameters(file))
+      parameters.push_back({name, value});
+    if (!parameters.empty()) {
+      std::puts("\nparameters");
+      print_rows(parameters);
+    }
+  }
+  if (const fs::path file = folder / "report.json"; fs::exists(file)) {
+    Rows figures = {{"figure", "value", "unit", "reference", "kind", "within"}};
+    for (const auto& f : read_report(file))
+      figures.push_back({f.name, f.value, f.unit, f.reference, f.kind, f.within});
+    std::puts("\nreport");
+    print_rows(figures);
+  }
+  Rows files;
+  for (const auto& file : files_of_run_log(log))
+    if (std::error_code error; fs::exists(folder / file.name, error))
+      files.push_back(
+          {file.name, count_text(static_cast<std::int64_t>(fs::file_size(folder / file.name))) + " bytes"});
+  std::puts("\nfiles");
+  print_rows(files);
+}
+
+} // namespace
+
+ExitCode info(const fs::path& path) {
+  std::error_code none;
+  if (path.empty())
+    about_program();
+  else if (!fs::exists(path, none))
+    throw script::FileError(path.string() + ": no such file or folder");
+  else if (fs::is_directory(path, none))
+    about_results(path);
+  else if (path.extension() == ".vtu")
+    about_snapshot(path);
+  else if (path.extension() == ".lua")
+    about_script(path);
+  else
+    throw UsageError(path.string() + ": must be a .vtu file, a .lua script or a folder of results");
+  return ExitCode::success;
+}
+
+} // namespace cdem::app

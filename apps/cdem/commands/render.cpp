@@ -1,0 +1,42 @@
+// cdem render: a picture of a .vtu file.
+#include "apps/cdem/commands/commands.hpp"
+#include "libcdem/vtk/files.hpp"
+#include "libcdem/vtk/picture.hpp"
+#include "lua/binding/engine.hpp"
+
+#include <cstdio>
+
+namespace cdem::app {
+
+namespace fs = std::filesystem;
+
+ExitCode render_picture(const RenderCommand& command) {
+  std::error_code none;
+  if (!fs::exists(command.file, none))
+    throw script::FileError(command.file.string() + ": no such file");
+  fs::path output = command.output;
+  if (output.empty()) {
+    output = command.file;
+    output.replace_extension();
+    output += (command.colour.empty() ? std::string() : "-" + command.colour) + ".png";
+  }
+  PictureOptions options;
+  options.field = command.colour;
+  options.deformation = command.deformation;
+  options.view = command.view;
+  options.up = command.up;
+  options.size = command.size;
+  options.range = command.range;
+  options.colour_map = command.colour_map;
+  options.title = command.title;
+  options.edges = command.edges;
+  options.broken_bonds = command.broken_bonds;
+  options.colour_bar = command.colour_bar;
+  options.legend = command.legend;
+  options.axes = command.axes;
+  render(read_vtu(command.file.string()), options, output.string());
+  std::printf("%s\n", output.c_str());
+  return ExitCode::success;
+}
+
+} // namespace cdem::app

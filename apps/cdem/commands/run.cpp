@@ -1,0 +1,95 @@
+// cdem run: runs a case script; everything it makes goes into one folder, with the log and the script that
+// made it.
+#include "apps/cdem/build_info.hpp"
+#include "apps/cdem/commands/script_run.hpp"
+#include "apps/cdem/failure.hpp"
+#include "apps/cdem/records.hpp"
+
+#include <csignal>
+
+namespace cdem::app {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+// What can still be saved after a stop or a failure. Nothing here may hide the error that led to it.
+void save_last_states(script::Engine& engine, RunObserver& observer) {
+  try {
+    if (engine.model_saved_after_failure())
+      observer.message("the last good state is saved");
+  } catch (const std::exception& error) {
+    observer.message(std::string("the last good state could not be saved: ") + error.what());
+  }
+}
+
+void record_settings(const RunCommand& command, int threads, const script::Engine& engine,
+                     OutputFolder& folder) {
+  const fs::path file = folder.path() / "settings.json";
+  folder.will_write(file);
+  write_settings(
+      {command.script.string(), version(), threads, command.unsafe, command.set, engine.parameters()}, file);
+}
+
+// After a failure, whose own error matters more than this one.
+void record_if_possible(const RunCommand& command, int threads, const script::Engine& engine,
+                        OutputFolder& folder) {
+  try {
+    if (folder.begun())
+      record_settings(command, threads, engine, folder);
+  } catch (const std::exception& error) {
+    folder.log(error.what());
+  }
+}
+
+void run_script(const RunCommand& command, int threads, OutputFolder& folder,
+                const std::shared_ptr<RunObserver>& observer) {
+  script::EngineSettings settings;
+  settings.script = command.script;
+  settings.output = folder.path();
+  settings.results = "results";
+  settings.threads = threads;
+  settings.set = command.set;
+  settings.unsafe = command.unsafe;
+  settings.observer = observer;
+  settings.will_write = [&folder](const fs::path& file) { folder.will_write(file); };
+  settings.program = program_path().string();
+
+  script::Engine engine(settings);
+  try {
+    engine.run_file();
+  } catch (...) {
+    save_last_states(engine, *observer);
+    record_if_possible(command, threads, engine, folder);
+    throw;
+  }
+  record_settings(command, threads, engine, folder);
+}
+
+} // namespace
+
+ExitCode run(const RunCommand& command) {
+  require_script(command.script);
+  std::signal(SIGPIPE, SIG_IGN); // `cdem run ... | head` must not end a long run
+  const int threads = command.threads > 0 ? command.threads : available_cores();
+  const fs::path output =
+      command.output.empty() ? fs::path("results") / case_name(command.script, command.set) : command.output;
+
+  OutputFolder folder(output, command.script,
+                      "cdem " + version() + " (" + build_text() + "), " + std::to_string(threads) +
+                          (threads == 1 ? " thread, " : " threads, ") + command.line);
+  const auto observer = std::make_shared<RunObserver>(command.progress, &folder);
+  try {
+    run_script(command, threads, folder, observer);
+  } catch (...) {
+    observer->clear_line();
+    const Failure failure = current_failure();
+    folder.finish(failure.code, failure.details.empty() ? failure.line : failure.details);
+    throw;
+  }
+  observer->message("results in " + folder.path().string());
+  folder.finish(ExitCode::success, "");
+  return ExitCode::success;
+}
+
+} // namespace cdem::app

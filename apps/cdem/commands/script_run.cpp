@@ -1,0 +1,65 @@
+#include "apps/cdem/commands/script_run.hpp"
+
+#include "apps/cdem/failure.hpp"
+#include "apps/cdem/text.hpp"
+#include "lua/binding/nearest.hpp"
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <sched.h>
+#include <unistd.h>
+
+namespace cdem::app {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+// "; there is x.lua" for a name that nearly fits one in the same folder.
+std::string similar_file(const fs::path& file) {
+  std::vector<std::string> names;
+  std::error_code none;
+  const fs::path folder = file.has_parent_path() ? file.parent_path() : fs::path(".");
+  for (const auto& entry : fs::directory_iterator(folder, none))
+    names.push_back(entry.path().filename().string());
+  std::sort(names.begin(), names.end());
+  return script::did_you_mean(file.filename().string(), names);
+}
+
+} // namespace
+
+void require_script(const fs::path& script) {
+  std::error_code none;
+  if (!fs::exists(script, none))
+    throw script::FileError(script.string() + ": no such file" + similar_file(script));
+  if (fs::is_directory(script, none)) {
+    const fs::path inside = script / "case.lua";
+    throw UsageError(
+        script.string() + " is a folder, not a script" +
+        (fs::exists(inside, none) ? "; did you mean '" + inside.string() + "'?" : std::string()));
+  }
+  if (access(script.c_str(), R_OK) != 0)
+    throw script::FileError(script.string() + " cannot be read: " + std::strerror(errno));
+}
+
+int available_cores() {
+  cpu_set_t cores;
+  CPU_ZERO(&cores);
+  return sched_getaffinity(0, sizeof cores, &cores) == 0 ? std::max(1, CPU_COUNT(&cores)) : 1;
+}
+
+fs::path program_path() {
+  std::error_code error;
+  const fs::path path = fs::read_symlink("/proc/self/exe", error);
+  return error ? fs::path("cdem") : path;
+}
+
+std::string parameter_table(const std::vector<script::ParameterInfo>& parameters) {
+  std::vector<std::vector<std::string>> rows = {{"name", "value", "unit", "default", "range", "what it is"}};
+  for (const auto& p : parameters)
+    rows.push_back({p.name, p.value_text, p.unit, p.default_text, p.range_text, p.doc});
+  return table_text(rows);
+}
+
+} // namespace cdem::app

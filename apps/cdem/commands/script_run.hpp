@@ -1,0 +1,21 @@
+// What the commands that run a script share.
+#pragma once
+
+#include "apps/cdem/commands/commands.hpp"
+#include "lua/binding/engine.hpp"
+
+#include <memory>
+
+namespace cdem::app {
+
+// A script that is missing, a folder or unreadable: script::FileError, UsageError.
+void require_script(const std::filesystem::path&);
+
+int available_cores(); // this process may use
+
+std::filesystem::path program_path(); // of the running cdem
+
+// Rows for a person: name, value, unit, range, what it is.
+std::string parameter_table(const std::vector<script::ParameterInfo>&);
+
+} // namespace cdem::app

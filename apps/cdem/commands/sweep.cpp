@@ -1,0 +1,191 @@
+// cdem sweep: a script with every combination of values, as processes side by side. Each run has its folder
+// below the sweep's; sweep.csv gathers the figures of their reports, one row a run.
+#include "apps/cdem/build_info.hpp"
+#include "apps/cdem/commands/script_run.hpp"
+#include "apps/cdem/failure.hpp"
+#include "apps/cdem/interrupt.hpp"
+#include "apps/cdem/processes.hpp"
+#include "apps/cdem/progress/sweep_view.hpp"
+#include "apps/cdem/records.hpp"
+#include "apps/cdem/run_log.hpp"
+#include "apps/cdem/text.hpp"
+#include "libcdem/step/errors.hpp"
+#include "lua/binding/nearest.hpp"
+
+#include <algorithm>
+#include <cstdio>
+#include <fstream>
+#include <set>
+
+namespace cdem::app {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+struct SweptRun {
+  Settings set;
+  std::string name; // "pressure=24e6,cohesion=5e6", also its folder
+  fs::path folder;
+  int exit_code = -1; // not run
+  double wall = 0;    // s
+};
+
+// Folder name of a run: as case_name makes it of its settings alone.
+std::string run_name(const Settings& set) {
+  const std::string whole = case_name("/x/case.lua", set);
+  return whole.substr(whole.find('-') + 1);
+}
+
+std::string shown(const Settings& set) {
+  std::vector<std::string> words;
+  for (const auto& [name, value] : set)
+    words.push_back(name + "=" + value);
+  return script::joined(words, " ");
+}
+
+std::vector<std::string> run_arguments(const SweepCommand& command, const SweptRun& run, int threads) {
+  std::vector<std::string> words = {
+      program_path().string(), "run",      command.script.string(), "--machine-progress", "--threads",
+      std::to_string(threads), "--output", run.folder.string()};
+  if (command.unsafe)
+    words.push_back("--unsafe");
+  for (const auto& [name, value] : run.set) {
+    words.push_back("--set");
+    words.push_back(name + "=" + value);
+  }
+  return words;
+}
+
+std::string csv_cell(const std::string& text) {
+  if (text.find_first_of(",\"\n") == std::string::npos)
+    return text;
+  std::string quoted = "\"";
+  for (const char c : text)
+    quoted += c == '"' ? "\"\"" : std::string(1, c);
+  return quoted + "\"";
+}
+
+// Columns: the settings, exit code, wall time, then every figure that any report has, by name.
+void write_table(const std::vector<SweptRun>& runs, const fs::path& file) {
+  std::vector<std::map<std::string, std::string>> values(runs.size());
+  std::vector<std::string> names; // in order of appearance
+  for (std::size_t i = 0; i < runs.size(); ++i) {
+    const fs::path report = runs[i].folder / "report.json";
+    // A run that failed may have left a report of its first half: its exit code says so.
+    if (runs[i].exit_code < 0 || !fs::exists(report))
+      continue;
+    for (const auto& figure : read_report(report)) {
+      const std::string name =
+          figure.name + (figure.unit.empty() || figure.unit == "1" ? "" : " [" + figure.unit + "]");
+      values[i][name] = figure.value;
+      if (std::find(names.begin(), names.end(), name) == names.end())
+        names.push_back(name);
+    }
+  }
+  std::ofstream out(file);
+  for (const auto& [name, value] : runs.front().set)
+    out << csv_cell(name) << ',';
+  out << "exit_code,wall_time [s]";
+  for (const auto& name : names)
+    out << ',' << csv_cell(name);
+  out << '\n';
+  for (std::size_t i = 0; i < runs.size(); ++i) {
+    for (const auto& [name, value] : runs[i].set)
+      out << csv_cell(value) << ',';
+    out << (runs[i].exit_code < 0 ? "" : std::to_string(runs[i].exit_code)) << ','
+        << number_text(runs[i].wall);
+    for (const auto& name : names)
+      out << ',' << csv_cell(values[i][name]);
+    out << '\n';
+  }
+  if (!out.flush())
+    throw script::FileError(file.string() + " cannot be written");
+}
+
+std::vector<SweptRun> planned_runs(const SweepCommand& command, const fs::path& folder) {
+  std::vector<SweptRun> runs;
+  std::set<std::string> names;
+  for (const auto& set : command.settings) {
+    SweptRun run;
+    run.set = set;
+    run.name = run_name(set);
+    run.folder = folder / run.name;
+    if (!names.insert(run.name).second)
+      throw UsageError("--set gives the same run twice: " + shown(set));
+    runs.push_back(run);
+  }
+  return runs;
+}
+
+// The exit code of the whole: the worst that a run shows, in the order of the codes.
+ExitCode judge(const std::vector<SweptRun>& runs) {
+  int worst = 0;
+  for (const auto& run : runs)
+    worst = std::max(worst, run.exit_code);
+  return static_cast<ExitCode>(worst > 4 ? 1 : worst);
+}
+
+} // namespace
+
+ExitCode sweep(const SweepCommand& command) {
+  require_script(command.script);
+  const int cores = available_cores();
+  const int jobs =
+      std::min(command.jobs > 0 ? command.jobs : cores, static_cast<int>(command.settings.size()));
+  const int threads = command.threads > 0 ? command.threads : std::max(1, cores / jobs);
+  const fs::path root = command.output.empty()
+                            ? fs::path("results") / (case_name(command.script, {}) + "-sweep")
+                            : command.output;
+
+  auto runs = planned_runs(command, root);
+  OutputFolder folder(root, command.script, "cdem " + version() + " (" + build_text() + "), " + command.line);
+  folder.begin_results();
+  std::vector<std::vector<std::string>> arguments;
+  for (const auto& run : runs)
+    arguments.push_back(run_arguments(command, run, threads));
+
+  SweepView view(runs.size(), command.quiet);
+  const auto say = [&](const std::string& line) {
+    view.message(line);
+    folder.log(line);
+  };
+  say(count_text(static_cast<std::int64_t>(runs.size())) + " runs, " + std::to_string(jobs) +
+      " side by side, " + std::to_string(threads) + (threads == 1 ? " thread" : " threads") + " each");
+  ProcessEvents events;
+  events.started = [&](std::size_t job) { view.started(job, shown(runs[job].set)); };
+  events.printed = [&](std::size_t job, const std::string& line) { view.progress(job, line); };
+  events.ended = [&](std::size_t job, int exit_code, const std::string& error) {
+    runs[job].exit_code = exit_code;
+    runs[job].wall = view.ended(job);
+    const std::string colon_space = "cdem: error: ";
+    const std::string reason = error.rfind(colon_space, 0) == 0 ? error.substr(colon_space.size()) : error;
+    say(shown(runs[job].set) + ": " +
+        (exit_code == 0 ? "done"
+                        : "exit code " + std::to_string(exit_code) + (reason.empty() ? "" : ", " + reason)) +
+        ", " + duration_text(runs[job].wall));
+  };
+  events.tick = [&] { view.draw(); };
+  run_processes(arguments, jobs, interrupt::requested, events);
+  view.clear();
+
+  const fs::path table = root / "sweep.csv";
+  folder.will_write(table);
+  write_table(runs, table);
+  if (interrupt::requested()) {
+    folder.finish(interrupt::exit_code(), "stopped by the user");
+    throw Interrupted();
+  }
+  const auto failed =
+      std::count_if(runs.begin(), runs.end(), [](const SweptRun& run) { return run.exit_code != 0; });
+  const ExitCode code = judge(runs);
+  say("table in " + table.string());
+  const std::string verdict = std::to_string(failed) + " of " + std::to_string(runs.size()) +
+                              " runs failed; see " + (root / run_log_name).string();
+  folder.finish(code, failed > 0 ? verdict : "");
+  if (failed > 0)
+    print_failure({code, verdict, ""});
+  return code;
+}
+
+} // namespace cdem::app

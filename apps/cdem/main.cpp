@@ -1,0 +1,5 @@
+#include "apps/cdem/program.hpp"
+
+int main(int argc, char** argv) {
+  return cdem::app::run_program(argc, argv);
+}

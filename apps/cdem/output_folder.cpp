@@ -1,0 +1,228 @@
+#include "apps/cdem/output_folder.hpp"
+
+#include "apps/cdem/run_log.hpp"
+#include "lua/binding/engine.hpp"
+
+#include <algorithm>
+#include <cctype>
+#include <cerrno>
+#include <cstring>
+#include <ctime>
+#include <fcntl.h>
+#include <fstream>
+#include <sstream>
+#include <sys/file.h>
+#include <unistd.h>
+#include <vector>
+
+namespace cdem::app {
+
+namespace fs = std::filesystem;
+using script::FileError;
+
+namespace {
+
+constexpr const char* failed_log_name = "failed.log";
+
+std::string date_now() {
+  const std::time_t now = std::time(nullptr);
+  std::tm local{};
+  localtime_r(&now, &local);
+  char text[64];
+  std::strftime(text, sizeof text, "%Y-%m-%d %H:%M:%S %z", &local);
+  return text;
+}
+
+// The file as seen from the folder; empty when it lies outside.
+fs::path place_below(const fs::path& file, const fs::path& folder) {
+  std::error_code none;
+  const fs::path inner = fs::weakly_canonical(fs::absolute(file), none),
+                 outer = fs::weakly_canonical(fs::absolute(folder), none);
+  const auto [end, rest] = std::mismatch(outer.begin(), outer.end(), inner.begin(), inner.end());
+  if (end != outer.end())
+    return {};
+  fs::path place;
+  for (auto part = rest; part != inner.end(); ++part)
+    place /= *part;
+  return place;
+}
+
+// A free name beside the file: x.edited, x.edited.2, ...
+fs::path free_name(const fs::path& file) {
+  fs::path name = file.string() + ".edited";
+  for (int i = 2; fs::exists(name); ++i)
+    name = file.string() + ".edited." + std::to_string(i);
+  return name;
+}
+
+std::string hash_text(const std::string& text) { // FNV-1a, six digits
+  std::uint64_t hash = 14695981039346656037ull;
+  for (const unsigned char c : text)
+    hash = (hash ^ c) * 1099511628211ull;
+  char digits[8];
+  std::snprintf(digits, sizeof digits, "%06x", static_cast<unsigned>(hash >> 40));
+  return digits;
+}
+
+std::string system_reason() {
+  return std::strerror(errno);
+}
+
+std::string read_file(const fs::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  std::ostringstream text;
+  text << in.rdbuf();
+  if (!in)
+    throw FileError(file.string() + " cannot be read: " + system_reason());
+  return text.str();
+}
+
+} // namespace
+
+std::string case_name(const fs::path& script, const std::map<std::string, std::string>& settings) {
+  const fs::path file = fs::absolute(script).lexically_normal();
+  std::string name = file.parent_path().filename().string();
+  const std::string stem = file.stem().string();
+  if (stem != "case" || name.empty())
+    name += (name.empty() ? "" : "-") + stem;
+  std::string separator = "-";
+  for (const auto& [key, value] : settings) {
+    name += separator + key + "=" + value;
+    separator = ",";
+  }
+  constexpr std::size_t longest = 120; // file systems take 255 bytes
+  std::string clean = name.substr(0, longest);
+  for (char& c : clean)
+    if (std::strchr("+-=.,_", c) == nullptr && !std::isalnum(static_cast<unsigned char>(c)))
+      c = '_';
+  if (clean.front() == '.')
+    clean.front() = '_';
+  return clean == name ? clean : clean + "-" + hash_text(name);
+}
+
+OutputFolder::OutputFolder(fs::path folder, const fs::path& script, const std::string& command)
+    : folder_(std::move(folder)), script_(script) {
+  const std::string shown = folder_.string();
+  std::error_code error;
+  if (fs::exists(folder_, error) && !fs::is_directory(folder_))
+    throw FileError("output folder " + shown + " is a file; choose another with --output");
+  if (!place_below(script_, folder_).empty())
+    throw FileError("output folder " + shown + " holds the script itself; choose another with --output");
+  script_text_ = read_file(script_);
+  fs::create_directories(folder_, error);
+  if (error)
+    throw FileError("output folder " + shown + " cannot be made: " + error.message());
+  old_results_ = is_run_log(folder_ / run_log_name);
+  if (!old_results_ && !fs::is_empty(folder_))
+    throw FileError("output folder " + shown +
+                    " holds files that are not results of cdem; choose another with --output, or empty it");
+  lock_ = open(shown.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (lock_ >= 0 && flock(lock_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
+    close(lock_);
+    throw FileError("output folder " + shown + " is in use by another run; choose another with --output");
+  }
+  open_log(folder_ / (old_results_ ? failed_log_name : run_log_name), command);
+  if (!old_results_)
+    begin_results();
+}
+
+OutputFolder::~OutputFolder() {
+  if (log_ != nullptr)
+    std::fclose(log_);
+  if (lock_ >= 0)
+    close(lock_);
+}
+
+void OutputFolder::open_log(const fs::path& file, const std::string& command) {
+  log_ = std::fopen(file.c_str(), "we");
+  if (log_ == nullptr)
+    throw FileError(file.string() + " cannot be written: " + system_reason());
+  log_path_ = file;
+  std::fprintf(log_, "%s%s\nstarted %s\n", run_log_head, command.c_str(), date_now().c_str());
+  std::fflush(log_);
+}
+
+void OutputFolder::log(const std::string& text) {
+  if (log_ == nullptr)
+    return;
+  const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start_;
+  std::istringstream lines(text);
+  for (std::string line; std::getline(lines, line);)
+    std::fprintf(log_, "[%10.3f] %s\n", elapsed.count(), line.c_str());
+  std::fflush(log_); // a run that is killed leaves what it said
+}
+
+void OutputFolder::begin_results() {
+  if (begun_)
+    return;
+  begun_ = true;
+  if (old_results_) {
+    remove_old_results();
+    std::error_code error;
+    fs::rename(log_path_, folder_ / run_log_name, error);
+    if (error)
+      throw FileError((folder_ / run_log_name).string() + " cannot be written: " + error.message());
+    log_path_ = folder_ / run_log_name;
+  }
+  const fs::path copy = folder_ / script_.filename();
+  will_write(copy);
+  std::ofstream out(copy, std::ios::binary);
+  if (!out.write(script_text_.data(), static_cast<std::streamsize>(script_text_.size())).flush())
+    throw FileError(copy.string() + " cannot be written: " + system_reason());
+}
+
+void OutputFolder::will_write(const fs::path& file) {
+  begin_results();
+  const std::string name = place_below(file, folder_).string();
+  // --unsafe may write elsewhere; a line feed would break the list.
+  if (!name.empty() && name.find('\n') == std::string::npos && written_.insert(name).second)
+    log(run_log_writes + name);
+}
+
+void OutputFolder::remove_old_results() {
+  std::set<fs::path> parents;
+  for (const auto& listed : files_of_run_log(folder_ / run_log_name)) {
+    const fs::path file = folder_ / listed.name;
+    std::error_code error;
+    if (place_below(file, folder_).empty() || !fs::is_regular_file(file, error))
+      continue;
+    if (is_unchanged(file, listed)) {
+      fs::remove(file, error);
+    } else {
+      const fs::path kept = free_name(file);
+      fs::rename(file, kept, error);
+      log("kept " + listed.name + ", which was edited since the last run, as " + kept.filename().string());
+    }
+    for (fs::path parent = fs::path(listed.name).parent_path(); !parent.empty();
+         parent = parent.parent_path())
+      parents.insert(parent);
+  }
+  // Deepest first; remove() leaves a folder that is not empty.
+  for (auto parent = parents.rbegin(); parent != parents.rend(); ++parent) {
+    std::error_code not_empty;
+    fs::remove(folder_ / *parent, not_empty);
+  }
+}
+
+void OutputFolder::finish(ExitCode code, const std::string& error) {
+  if (log_ == nullptr)
+    return;
+  if (code == ExitCode::success)
+    begin_results();
+  if (!error.empty())
+    log("error: " + error);
+  for (const auto& name : written_)
+    std::fputs(run_log_file_line(folder_, name).c_str(), log_);
+  std::fprintf(log_, "%s%d, %s\n", run_log_end, to_int(code), date_now().c_str());
+  const bool written = std::fflush(log_) == 0 && std::ferror(log_) == 0;
+  std::fclose(log_);
+  log_ = nullptr;
+  if (begun_) {
+    std::error_code none;
+    fs::remove(folder_ / failed_log_name, none);
+  }
+  if (!written)
+    throw FileError(log_path_.string() + " cannot be written: the disk may be full");
+}
+
+} // namespace cdem::app

@@ -1,0 +1,63 @@
+// The folder a run writes into, and its log cdem.log.
+//
+// Nothing of the user's is lost: a folder that holds files but no cdem.log is refused. When the last run's
+// results are there, they stay until this run begins to produce its own (a script with a typo does not cost
+// them; its log is then failed.log). What goes then are exactly the files that run wrote, by the list in its
+// log; one that was edited since is kept under another name.
+#pragma once
+
+#include "apps/cdem/exit_code.hpp"
+
+#include <chrono>
+#include <cstdio>
+#include <filesystem>
+#include <map>
+#include <set>
+#include <string>
+
+namespace cdem::app {
+
+// Name of the case: the script's folder, with "-script" unless the script is case.lua, with "-name=value,..."
+// of the settings. Characters that do not belong into a file name become "_", and then a short hash keeps
+// cases apart.
+std::string case_name(const std::filesystem::path& script,
+                      const std::map<std::string, std::string>& settings);
+
+class OutputFolder {
+public:
+  // Makes the folder, locks it and opens the log. command: for the log's head. Throws script::FileError.
+  OutputFolder(std::filesystem::path folder, const std::filesystem::path& script, const std::string& command);
+  ~OutputFolder();
+  OutputFolder(const OutputFolder&) = delete;
+  OutputFolder& operator=(const OutputFolder&) = delete;
+
+  const std::filesystem::path& path() const { return folder_; }
+  bool begun() const { return begun_; }
+
+  void log(const std::string& text); // with the seconds since the start in front of each line
+
+  // From here on the folder is this run's: the old files go, the script's copy comes. Does nothing the second
+  // time.
+  void begin_results();
+
+  // Before a file is written: the results begin, and the file goes on the list.
+  void will_write(const std::filesystem::path& file);
+
+  // Writes the list of files and the end line. Throws script::FileError when the log could not be written
+  // whole.
+  void finish(ExitCode, const std::string& error);
+
+private:
+  void open_log(const std::filesystem::path&, const std::string& command);
+  void remove_old_results();
+
+  std::filesystem::path folder_, script_, log_path_;
+  std::string script_text_;       // as it was at the start: the copy shows what ran
+  std::set<std::string> written_; // relative to the folder
+  int lock_ = -1;
+  std::FILE* log_ = nullptr;
+  bool old_results_ = false, begun_ = false;
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+} // namespace cdem::app

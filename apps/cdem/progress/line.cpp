@@ -1,0 +1,106 @@
+#include "apps/cdem/progress/line.hpp"
+
+#include "apps/cdem/progress/terminal.hpp"
+#include "apps/cdem/text.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+namespace cdem::app {
+
+namespace {
+
+constexpr int bar_width = 16;
+
+std::string percent_text(double fraction) {
+  return std::to_string(static_cast<int>(std::floor(100 * fraction))) + " %";
+}
+
+// Where the stage stands against what it is to reach.
+std::string goal_text(const Progress& p) {
+  std::string text;
+  if (p.residual_goal > 0)
+    text = "residual " + number_text(p.residual) + " -> " + number_text(p.residual_goal);
+  else if (p.time_goal > 0)
+    text = "time " + number_text(p.time) + " of " + number_text(p.time_goal) + " s";
+  else if (p.time > 0)
+    text = "time " + number_text(p.time) + " s";
+  return text;
+}
+
+std::string broken_text(const Progress& p) {
+  return count_text(p.broken_tension + p.broken_shear) + " broken (" + count_text(p.broken_tension) +
+         " tension, " + count_text(p.broken_shear) + " shear)";
+}
+
+std::string rate_text(double rate) {
+  return (rate < 10 ? number_text(rate) : count_text(std::llround(rate))) + " steps/s";
+}
+
+struct Part {
+  std::string text;
+  int rank; // the highest goes first
+};
+
+std::string joined(const std::vector<Part>& parts) {
+  std::string line;
+  for (const auto& part : parts)
+    line += (line.empty() ? "" : "  ") + part.text;
+  return line;
+}
+
+} // namespace
+
+std::string live_line(const Progress& p, const TimeLeft& left, int columns) {
+  std::vector<Part> parts = {{"stage " + std::to_string(p.stage) + " " + p.kind, 0}};
+  const double fraction = left.fraction();
+  if (fraction >= 0) {
+    parts.push_back({bar_text(fraction, bar_width), 6});
+    parts.push_back({percent_text(fraction), 2});
+  }
+  parts.push_back({"step " + count_text(p.step), 5});
+  if (const std::string goal = goal_text(p); !goal.empty())
+    parts.push_back({goal, 1});
+  if (const auto broken = p.broken_tension + p.broken_shear; broken > 0)
+    parts.push_back({count_text(broken) + " broken", 4});
+  if (const double rate = left.steps_per_second(); rate > 0)
+    parts.push_back({rate_text(rate), 7});
+  if (const double seconds = left.seconds(); seconds >= 0 && !p.last)
+    parts.push_back({duration_text(seconds) + " left", 3});
+
+  const std::size_t room = static_cast<std::size_t>(std::max(columns, 1));
+  std::string line = joined(parts);
+  while (line.size() > room && parts.size() > 1) {
+    parts.erase(std::max_element(parts.begin(), parts.end(),
+                                 [](const Part& a, const Part& b) { return a.rank < b.rank; }));
+    line = joined(parts);
+  }
+  return line.substr(0, room);
+}
+
+std::string plain_line(const Progress& p, const TimeLeft& left) {
+  std::string line = "stage " + std::to_string(p.stage) + " " + p.kind + ": step " + count_text(p.step);
+  if (const std::string goal = goal_text(p); !goal.empty())
+    line += ", " + goal;
+  if (const double fraction = left.fraction(); fraction >= 0)
+    line += ", " + percent_text(fraction);
+  line += ", " + broken_text(p);
+  if (const double rate = left.steps_per_second(); rate > 0)
+    line += ", " + rate_text(rate);
+  if (const double seconds = left.seconds(); seconds >= 0)
+    line += ", " + duration_text(seconds) + " left";
+  return line;
+}
+
+std::string stage_line(const Progress& p, double wall) {
+  std::string line = "stage " + std::to_string(p.stage) + " " + p.kind + ": " + count_text(p.step) +
+                     " steps in " + duration_text(wall);
+  if (p.residual_goal > 0)
+    line += ", residual " + number_text(p.residual) + " (goal " + number_text(p.residual_goal) + ")";
+  else if (p.time > 0)
+    line += ", time " + number_text(p.time) + " s";
+  return line + ", " + broken_text(p);
+}
+
+} // namespace cdem::app

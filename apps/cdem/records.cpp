@@ -1,0 +1,75 @@
+#include "apps/cdem/records.hpp"
+
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+namespace cdem::app {
+
+namespace {
+
+using json = nlohmann::ordered_json;
+using script::FileError;
+
+json read(const std::filesystem::path& file) {
+  std::ifstream in(file);
+  if (!in)
+    throw FileError(file.string() + " cannot be read");
+  try {
+    return json::parse(in);
+  } catch (const json::exception&) {
+    throw FileError(file.string() + " is not a JSON file");
+  }
+}
+
+std::string text_of(const json& value) {
+  if (value.is_null())
+    return "";
+  return value.is_string() ? value.get<std::string>() : value.dump();
+}
+
+std::string member(const json& object, const char* name) {
+  return object.is_object() && object.contains(name) ? text_of(object[name]) : "";
+}
+
+// A number stays a number where its text is one.
+json value_of(const std::string& type, const std::string& text) {
+  if (type == "string")
+    return text;
+  const json value = json::parse(text, nullptr, false);
+  return value.is_discarded() ? json(text) : value;
+}
+
+} // namespace
+
+void write_settings(const RunRecord& record, const std::filesystem::path& file) {
+  json parameters = json::object();
+  for (const auto& p : record.parameters)
+    parameters[p.name] = {{"value", value_of(p.type, p.value_text)}, {"unit", p.unit}};
+  const json settings = {{"script", record.script}, {"version", record.version}, {"threads", record.threads},
+                         {"unsafe", record.unsafe}, {"set", record.set},         {"parameters", parameters}};
+  std::ofstream out(file);
+  out << settings.dump(2, ' ', false, json::error_handler_t::replace) << '\n';
+  if (!out.flush())
+    throw FileError(file.string() + " cannot be written");
+}
+
+std::vector<Figure> read_report(const std::filesystem::path& file) {
+  const json report = read(file);
+  std::vector<Figure> figures;
+  if (report.is_object() && report.contains("figures"))
+    for (const auto& f : report["figures"])
+      figures.push_back({member(f, "name"), member(f, "value"), member(f, "unit"), member(f, "reference"),
+                         member(f, "kind"), member(f, "within")});
+  return figures;
+}
+
+std::vector<std::pair<std::string, std::string>> read_parameters(const std::filesystem::path& settings_file) {
+  const json settings = read(settings_file);
+  std::vector<std::pair<std::string, std::string>> parameters;
+  if (settings.is_object() && settings.contains("parameters"))
+    for (const auto& [name, parameter] : settings["parameters"].items())
+      parameters.emplace_back(name, member(parameter, "value"));
+  return parameters;
+}
+
+} // namespace cdem::app
