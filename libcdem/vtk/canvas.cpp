@@ -2,14 +2,17 @@
 
 #include "libcdem/vtk/offscreen.hpp"
 
-#include <vtkActor2D.h>
+#include <vtkActor.h>
+#include <vtkCamera.h>
 #include <vtkCellArray.h>
 #include <vtkCellData.h>
 #include <vtkNew.h>
 #include <vtkPoints.h>
 #include <vtkPolyData.h>
-#include <vtkPolyDataMapper2D.h>
+#include <vtkPolyDataMapper.h>
+#include <vtkProperty.h>
 #include <vtkRenderer.h>
+#include <vtkSmartPointer.h>
 #include <vtkStdString.h>
 #include <vtkTextActor.h>
 #include <vtkTextProperty.h>
@@ -85,26 +88,26 @@ const std::string& font_file() {
 }
 
 struct Canvas::Impl {
-  vtkNew<vtkRenderer> renderer;
+  vtkNew<vtkRenderer> shapes, texts;
   vtkNew<vtkPoints> points;
   vtkNew<vtkCellArray> cells;
   vtkNew<vtkUnsignedCharArray> colours;
-  std::vector<vtkSmartPointer<vtkTextActor>> texts; // drawn after the shapes
-  bool finished = false;
 };
 
 Canvas::Canvas() : impl_(std::make_unique<Impl>()) {
+  impl_->points->SetDataTypeToDouble();
   impl_->colours->SetNumberOfComponents(3);
-  impl_->renderer->SetPreserveColorBuffer(1);
+  impl_->shapes->SetPreserveColorBuffer(1);
+  impl_->texts->SetPreserveColorBuffer(1);
 }
 Canvas::~Canvas() = default;
 
 void Canvas::polygon(const std::vector<Point>& corners, const Colour& colour) {
-  const double depth = -1e-6 * static_cast<double>(impl_->cells->GetNumberOfCells());
+  // Later shapes lie nearer to the viewer, so that they cover earlier ones.
+  const double height = static_cast<double>(impl_->cells->GetNumberOfCells());
   impl_->cells->InsertNextCell(static_cast<int>(corners.size()));
   for (const Point& p : corners)
-    impl_->cells->InsertCellPoint(
-        impl_->points->InsertNextPoint(supersampling * p[0], supersampling * p[1], depth));
+    impl_->cells->InsertCellPoint(impl_->points->InsertNextPoint(p[0], p[1], height));
   std::array<unsigned char, 3> bytes;
   for (std::size_t c = 0; c < 3; ++c)
     bytes[c] = static_cast<unsigned char>(std::lround(255 * colour[c]));
@@ -212,27 +215,35 @@ void Canvas::text(const std::string& markup, const Point& anchor, double size, H
     const double y = baseline + run.rise * size - descent * run.size * size; // lower edge of the line of text
     actor->SetPosition(std::round(supersampling * (anchor[0] + c * x - s * y)),
                        std::round(supersampling * (anchor[1] + s * x + c * y)));
-    impl_->texts.push_back(actor.Get());
+    impl_->texts->AddActor(actor);
     x += run_width(run.text, pixels) / supersampling;
   }
 }
 
-vtkRenderer* Canvas::renderer() {
-  if (!impl_->finished) {
-    vtkNew<vtkPolyData> shapes;
-    shapes->SetPoints(impl_->points);
-    shapes->SetPolys(impl_->cells);
-    shapes->GetCellData()->SetScalars(impl_->colours);
-    vtkNew<vtkPolyDataMapper2D> mapper;
-    mapper->SetInputData(shapes);
-    vtkNew<vtkActor2D> actor;
-    actor->SetMapper(mapper);
-    impl_->renderer->AddActor(actor);
-    for (const auto& text : impl_->texts)
-      impl_->renderer->AddActor(text);
-    impl_->finished = true;
-  }
-  return impl_->renderer;
+std::vector<vtkRenderer*> Canvas::renderers(const std::array<int, 2>& size) {
+  vtkNew<vtkPolyData> mesh;
+  mesh->SetPoints(impl_->points);
+  mesh->SetPolys(impl_->cells);
+  mesh->GetCellData()->SetScalars(impl_->colours);
+  // Not vtkPolyDataMapper2D: where its shapes overlap the first one wins.
+  vtkNew<vtkPolyDataMapper> mapper;
+  mapper->SetInputData(mesh);
+  mapper->SetColorModeToDirectScalars();
+  mapper->SetScalarModeToUseCellData();
+  vtkNew<vtkActor> actor;
+  actor->SetMapper(mapper);
+  actor->GetProperty()->LightingOff();
+  impl_->shapes->AddActor(actor);
+  vtkCamera* camera = impl_->shapes->GetActiveCamera();
+  const double x = 0.5 * size[0], y = 0.5 * size[1];
+  const double height = static_cast<double>(impl_->cells->GetNumberOfCells()) + 1;
+  camera->SetParallelProjection(1);
+  camera->SetParallelScale(y);
+  camera->SetFocalPoint(x, y, 0);
+  camera->SetPosition(x, y, height);
+  camera->SetViewUp(0, 1, 0);
+  camera->SetClippingRange(0.5, height + 0.5);
+  return {impl_->shapes, impl_->texts};
 }
 
 } // namespace cdem

@@ -35,7 +35,8 @@ public:
             const Colour& = {0, 0, 0}, double degrees = 0);
   double text_width(const std::string&, double size) const;
 
-  vtkRenderer* renderer(); // transparent, to be drawn on top
+  // Transparent, to be drawn on top of a picture of `size` pixels, in this order. Call once, at the end.
+  std::vector<vtkRenderer*> renderers(const std::array<int, 2>& size);
 
 private:
   struct Impl;

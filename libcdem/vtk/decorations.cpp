@@ -210,7 +210,8 @@ void draw_overlays(Canvas& canvas, const std::vector<Marker>& markers, const std
     for (const geom::Vec3& x : line.points)
       if (view.in_front(x))
         points.push_back(view.pixel(x));
-    canvas.polyline(points, (line.width + 3) * pixel, white);
+    if (!line.dashed) // the gaps of a dashed line show what lies below
+      canvas.polyline(points, (line.width + 3) * pixel, white);
     canvas.polyline(points, line.width * pixel, line.colour, line.dashed);
   }
   const double font = label_font * pixel;

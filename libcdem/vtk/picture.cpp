@@ -124,7 +124,9 @@ void render(const Snapshot& snapshot, const PictureOptions& options, const std::
   Scene scene({snapshot, points, field ? &*field : nullptr, scale, any_broken ? &broken : nullptr,
                options.edges, pixel},
               view, layout.size);
-  draw_png(layout.size, {scene.renderer(), canvas.renderer()}, png_path);
+  std::vector<vtkRenderer*> layers = canvas.renderers(layout.size);
+  layers.insert(layers.begin(), scene.renderer());
+  draw_png(layout.size, layers, png_path);
 }
 
 } // namespace cdem
