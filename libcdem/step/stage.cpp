@@ -15,6 +15,13 @@ namespace {
 constexpr std::int64_t watch_every = 200;
 constexpr std::int64_t poll_every = 16;
 constexpr double seconds_between_reports = 0.1;
+// Chunks a thread must have before a further one is worth its two barriers a step: about half a millisecond of work.
+constexpr std::int64_t chunks_per_thread = 32;
+
+int useful_threads(const Model& model, int threads) {
+  const auto chunks = static_cast<std::int64_t>(model.chunks.size());
+  return static_cast<int>(std::clamp<std::int64_t>(chunks / chunks_per_thread, 1, threads));
+}
 
 double seconds(std::chrono::steady_clock::duration d) { return std::chrono::duration<double>(d).count(); }
 
@@ -38,6 +45,7 @@ Stage::Stage(StageContext context, std::string kind, double run_away)
     : work(context.model, context.state, context.conditions), context_(context), kind_(std::move(kind)),
       run_away_(run_away), broken_tension_before_(context.log.broken_tension),
       broken_shear_before_(context.log.broken_shear), start_(std::chrono::steady_clock::now()), told_(start_) {
+  context_.threads = useful_threads(context_.model, context_.threads);
   context_.last_good = context_.state;
   start_spring_forces(context_.model, context_.state, work);
 }
