@@ -4,13 +4,13 @@
 #include "apps/cdem/commands/script_run.hpp"
 #include "apps/cdem/failure.hpp"
 #include "apps/cdem/interrupt.hpp"
-#include "apps/cdem/processes.hpp"
 #include "apps/cdem/progress/sweep_view.hpp"
 #include "apps/cdem/records.hpp"
 #include "apps/cdem/run_log.hpp"
 #include "apps/cdem/text.hpp"
 #include "libcdem/step/errors.hpp"
 #include "lua/binding/nearest.hpp"
+#include "lua/binding/process_pool.hpp"
 
 #include <algorithm>
 #include <cstdio>
@@ -26,9 +26,11 @@ namespace {
 struct SweptRun {
   Settings set;
   std::string name; // "pressure=24e6,cohesion=5e6", also its folder
-  fs::path folder;
+  fs::path folder;  // its results
+  fs::path console; // what it prints: its progress, then its error
+  bool ended = false;
   int exit_code = -1; // not run
-  double wall = 0;    // s
+  double seconds = 0; // wall clock
 };
 
 // Folder name of a run: as case_name makes it of its settings alone.
@@ -55,6 +57,14 @@ std::vector<std::string> run_arguments(const SweepCommand& command, const SweptR
     words.push_back(name + "=" + value);
   }
   return words;
+}
+
+std::string last_line(const fs::path& file) {
+  std::ifstream in(file);
+  std::string last;
+  for (std::string line; std::getline(in, line);)
+    last = line;
+  return last;
 }
 
 std::string csv_cell(const std::string& text) {
@@ -94,7 +104,7 @@ void write_table(const std::vector<SweptRun>& runs, const fs::path& file) {
     for (const auto& [name, value] : runs[i].set)
       out << csv_cell(value) << ',';
     out << (runs[i].exit_code < 0 ? "" : std::to_string(runs[i].exit_code)) << ','
-        << number_text(runs[i].wall);
+        << number_text(runs[i].seconds);
     for (const auto& name : names)
       out << ',' << csv_cell(values[i][name]);
     out << '\n';
@@ -111,11 +121,20 @@ std::vector<SweptRun> planned_runs(const SweepCommand& command, const fs::path& 
     run.set = set;
     run.name = run_name(set);
     run.folder = folder / run.name;
+    run.console = folder / (run.name + ".console");
     if (!names.insert(run.name).second)
       throw UsageError("--set gives the same run twice: " + shown(set));
     runs.push_back(run);
   }
   return runs;
+}
+
+std::string verdict_of(const SweptRun& run) {
+  if (run.exit_code == 0)
+    return "done";
+  const std::string front = "cdem: error: ", line = last_line(run.console);
+  return "exit code " + std::to_string(run.exit_code) +
+         (line.rfind(front, 0) == 0 ? ", " + line.substr(front.size()) : std::string());
 }
 
 // The exit code of the whole: the worst that a run shows, in the order of the codes.
@@ -141,9 +160,13 @@ ExitCode sweep(const SweepCommand& command) {
   auto runs = planned_runs(command, root);
   OutputFolder folder(root, command.script, "cdem " + version() + " (" + build_text() + "), " + command.line);
   folder.begin_results();
-  std::vector<std::vector<std::string>> arguments;
-  for (const auto& run : runs)
-    arguments.push_back(run_arguments(command, run, threads));
+  std::vector<script::Job> processes(runs.size());
+  for (std::size_t i = 0; i < runs.size(); ++i) {
+    processes[i].command = run_arguments(command, runs[i], threads);
+    processes[i].console = runs[i].console;
+    std::error_code none;
+    fs::remove(runs[i].console, none); // of a sweep that was killed; once it is there the run has started
+  }
 
   SweepView view(runs.size(), command.quiet);
   const auto say = [&](const std::string& line) {
@@ -152,22 +175,33 @@ ExitCode sweep(const SweepCommand& command) {
   };
   say(count_text(static_cast<std::int64_t>(runs.size())) + " runs, " + std::to_string(jobs) +
       " side by side, " + std::to_string(threads) + (threads == 1 ? " thread" : " threads") + " each");
-  ProcessEvents events;
-  events.started = [&](std::size_t job) { view.started(job, shown(runs[job].set)); };
-  events.printed = [&](std::size_t job, const std::string& line) { view.progress(job, line); };
-  events.ended = [&](std::size_t job, int exit_code, const std::string& error) {
-    runs[job].exit_code = exit_code;
-    runs[job].wall = view.ended(job);
-    const std::string colon_space = "cdem: error: ";
-    const std::string reason = error.rfind(colon_space, 0) == 0 ? error.substr(colon_space.size()) : error;
-    say(shown(runs[job].set) + ": " +
-        (exit_code == 0 ? "done"
-                        : "exit code " + std::to_string(exit_code) + (reason.empty() ? "" : ", " + reason)) +
-        ", " + duration_text(runs[job].wall));
+  const auto ended = [&](const script::Job& process) {
+    const auto index = static_cast<std::size_t>(&process - processes.data());
+    SweptRun& run = runs[index];
+    run.ended = true;
+    run.exit_code = process.exit_code;
+    run.seconds = process.seconds;
+    view.ended(index);
+    say(shown(run.set) + ": " + verdict_of(run) + ", " + duration_text(run.seconds));
+    std::error_code none;
+    fs::remove(run.console, none);
   };
-  events.tick = [&] { view.draw(); };
-  run_processes(arguments, jobs, interrupt::requested, events);
+  // Asked some times a second: the moment to look at what the runs print.
+  const auto stop = [&] {
+    if (view.is_due()) {
+      for (std::size_t i = 0; i < runs.size(); ++i)
+        if (!runs[i].ended && fs::exists(runs[i].console))
+          view.progress(i, shown(runs[i].set), last_line(runs[i].console));
+      view.draw();
+    }
+    return interrupt::requested();
+  };
+  script::run_jobs(processes, jobs, stop, ended);
   view.clear();
+  for (const auto& run : runs) {
+    std::error_code none;
+    fs::remove(run.console, none);
+  }
 
   const fs::path table = root / "sweep.csv";
   folder.will_write(table);

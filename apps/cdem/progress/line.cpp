@@ -38,6 +38,10 @@ std::string rate_text(double rate) {
   return (rate < 10 ? number_text(rate) : count_text(std::llround(rate))) + " steps/s";
 }
 
+std::string stage_text(const Progress& p) { // stage 0 is none: a sweep of the script
+  return p.stage > 0 ? "stage " + std::to_string(p.stage) + " " + p.kind : p.kind;
+}
+
 struct Part {
   std::string text;
   int rank; // the highest goes first
@@ -53,7 +57,7 @@ std::string joined(const std::vector<Part>& parts) {
 } // namespace
 
 std::string live_line(const Progress& p, const TimeLeft& left, int columns) {
-  std::vector<Part> parts = {{"stage " + std::to_string(p.stage) + " " + p.kind, 0}};
+  std::vector<Part> parts = {{stage_text(p), 0}};
   const double fraction = left.fraction();
   if (fraction >= 0) {
     parts.push_back({bar_text(fraction, bar_width), 6});
@@ -80,7 +84,7 @@ std::string live_line(const Progress& p, const TimeLeft& left, int columns) {
 }
 
 std::string plain_line(const Progress& p, const TimeLeft& left) {
-  std::string line = "stage " + std::to_string(p.stage) + " " + p.kind + ": step " + count_text(p.step);
+  std::string line = stage_text(p) + ": step " + count_text(p.step);
   if (const std::string goal = goal_text(p); !goal.empty())
     line += ", " + goal;
   if (const double fraction = left.fraction(); fraction >= 0)
@@ -94,8 +98,7 @@ std::string plain_line(const Progress& p, const TimeLeft& left) {
 }
 
 std::string stage_line(const Progress& p, double wall) {
-  std::string line = "stage " + std::to_string(p.stage) + " " + p.kind + ": " + count_text(p.step) +
-                     " steps in " + duration_text(wall);
+  std::string line = stage_text(p) + ": " + count_text(p.step) + " steps in " + duration_text(wall);
   if (p.residual_goal > 0)
     line += ", residual " + number_text(p.residual) + " (goal " + number_text(p.residual_goal) + ")";
   else if (p.time > 0)

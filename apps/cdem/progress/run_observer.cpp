@@ -5,6 +5,8 @@
 #include "apps/cdem/progress/terminal.hpp"
 
 #include <cstdio>
+#include <sys/stat.h>
+#include <unistd.h>
 
 namespace cdem::app {
 
@@ -17,6 +19,13 @@ constexpr milliseconds plain_interval{10000};
 
 double seconds(std::chrono::steady_clock::duration duration) {
   return std::chrono::duration<double>(duration).count();
+}
+
+// A sweep reads the last line of the file it gave us: there is no need for the older ones.
+void start_console_again() {
+  struct stat status {};
+  if (fstat(STDOUT_FILENO, &status) == 0 && S_ISREG(status.st_mode) && ftruncate(STDOUT_FILENO, 0) == 0)
+    lseek(STDOUT_FILENO, 0, SEEK_SET);
 }
 
 } // namespace
@@ -57,6 +66,7 @@ void RunObserver::show(const Progress& progress, Clock::time_point now) {
     line_shown_ = true;
     last_shown_ = now;
   } else if (style_ == ProgressStyle::machine && now - last_shown_ >= machine_interval) {
+    start_console_again();
     std::printf("@%d %s %.4f %.1f\n", progress.stage, progress.kind.c_str(), left_.fraction(),
                 left_.seconds());
     std::fflush(stdout);
@@ -74,8 +84,11 @@ void RunObserver::show(const Progress& progress, Clock::time_point now) {
 
 void RunObserver::end_stage(const Progress& progress, Clock::time_point now) {
   const std::string line = stage_line(progress, seconds(now - stage_start_));
-  stage_ = 0;
-  message(line);
+  stage_ = no_stage;
+  if (progress.stage > 0)
+    message(line);
+  else
+    clear_line(); // a sweep of the script: it tells itself how it ended
 }
 
 void RunObserver::message(const std::string& text) {

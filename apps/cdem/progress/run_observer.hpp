@@ -43,7 +43,8 @@ private:
   ProgressStyle style_;
   OutputFolder* folder_;
   TimeLeft left_;
-  int stage_ = 0;
+  static constexpr int no_stage = -1;
+  int stage_ = no_stage;
   bool line_shown_ = false;
   Clock::time_point stage_start_, last_shown_, last_logged_;
 };

@@ -21,29 +21,26 @@ double seconds_since(std::chrono::steady_clock::time_point start) {
 SweepView::SweepView(std::size_t runs, bool quiet)
     : runs_(runs), quiet_(quiet), live_(!quiet && is_live_terminal()) {}
 
-void SweepView::started(std::size_t run, const std::string& name) {
-  running_[run] = {name, "starts", -1, Clock::now()};
-}
-
-void SweepView::progress(std::size_t run, const std::string& line) {
+void SweepView::progress(std::size_t run, const std::string& name, const std::string& line) {
+  Shown& shown = running_.try_emplace(run, Shown{name, "starts", -1, Clock::now()}).first->second;
   std::istringstream words(line);
   char mark = 0;
   int stage = 0;
   std::string kind;
   double fraction = -1;
-  const auto shown = running_.find(run);
-  if (shown == running_.end() || !(words >> mark >> stage >> kind >> fraction) || mark != '@')
+  if (!(words >> mark >> stage >> kind >> fraction) || mark != '@')
     return;
-  shown->second.stage = "stage " + std::to_string(stage) + " " + kind;
-  shown->second.fraction = fraction;
+  shown.stage = "stage " + std::to_string(stage) + " " + kind;
+  shown.fraction = fraction;
 }
 
-double SweepView::ended(std::size_t run) {
-  const auto shown = running_.find(run);
-  const double wall = shown == running_.end() ? 0 : seconds_since(shown->second.start);
+void SweepView::ended(std::size_t run) {
   running_.erase(run);
   ++done_;
-  return wall;
+}
+
+bool SweepView::is_due() const {
+  return live_ && Clock::now() - drawn_ >= std::chrono::milliseconds(100);
 }
 
 void SweepView::message(const std::string& line) {
@@ -69,6 +66,7 @@ void SweepView::draw() {
   if (!live_)
     return;
   clear();
+  drawn_ = Clock::now();
   const std::size_t columns = static_cast<std::size_t>(std::max(terminal_columns() - 1, 1));
   const int room = std::max(terminal_rows() - 2, 1); // more lines than the screen could not be taken back
   std::string screen;

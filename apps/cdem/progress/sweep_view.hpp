@@ -15,10 +15,11 @@ public:
   SweepView(std::size_t runs, bool quiet);
   ~SweepView() { clear(); }
 
-  void started(std::size_t run, const std::string& name);
-  void progress(std::size_t run, const std::string& line); // "@stage kind fraction seconds_left" of a run
-  double ended(std::size_t run);                           // wall time, s
-  void message(const std::string&);                        // stays on the screen
+  // A run is at `line`: "@stage kind fraction seconds_left", or anything while it starts.
+  void progress(std::size_t run, const std::string& name, const std::string& line);
+  void ended(std::size_t run);
+  bool is_due() const;              // live, and some time has passed since the last draw
+  void message(const std::string&); // stays on the screen
   void draw();
   void clear();
 
@@ -35,7 +36,7 @@ private:
   bool quiet_, live_;
   std::map<std::size_t, Shown> running_;
   int lines_drawn_ = 0;
-  Clock::time_point start_ = Clock::now();
+  Clock::time_point start_ = Clock::now(), drawn_;
 };
 
 } // namespace cdem::app
