@@ -1,11 +1,10 @@
 // Shared faces of assemblies: counts from formulas, areas from the surface balance.
 #include "libgeom/assembly/assembly.hpp"
 #include "libgeom/assembly/builders.hpp"
+#include "tests/libgeom/assembly_laws.hpp"
 #include "tests/libgeom/random_shapes.hpp"
 
 #include <catch2/catch.hpp>
-
-#include <set>
 
 using namespace geom;
 
@@ -109,4 +108,38 @@ TEST_CASE("asking for changed blocks gives the pairs of all blocks that have one
   for (std::size_t i = 0; i < found.size(); ++i)
     CHECK(same(found[i], expected[i]));
   CHECK(shared_faces(blocks, std::vector<char>(blocks.size(), 0), 1e-9).empty());
+}
+
+TEST_CASE("the shared faces of blocks refined twice over at random cover all inner faces") {
+  // As refinement does: three parallel planes through a block, kept clear of its vertices; parts are cut
+  // again.
+  for (const auto& [offset, tolerance] : {std::pair{0.0, 1e-10}, std::pair{1e4, 1e-8}}) {
+    Assembly a = grid({1, 1, 1}, {3, 3, 3}, Vec3::Constant(offset));
+    testing::Draws draws{41, 1};
+    for (int pass = 0; pass < 2; ++pass)
+      for (std::size_t i = 0, n = a.blocks.size(); i < n; ++i) {
+        if (draws.uniform(0, 1) < 0.4)
+          continue;
+        const MassProperties m = mass_properties(a.blocks[i]);
+        const double h = std::cbrt(m.volume);
+        const Vec3 normal = draws.direction();
+        std::vector<Polyhedron> parts{a.blocks[i]};
+        for (double at : {-0.25, 0.0, 0.25}) {
+          const Plane plane = shifted_clear_of_vertices(
+              parts.back(), Plane::through(m.centroid + at * h * normal, normal), 0.01 * h);
+          Cut halves = cut(parts.back(), plane);
+          if (halves.above && halves.below) {
+            parts.back() = halves.below->shape;
+            parts.push_back(halves.above->shape);
+          }
+        }
+        a.blocks[i] = parts[0];
+        a.blocks.insert(a.blocks.end(), parts.begin() + 1, parts.end());
+      }
+    CHECK(a.blocks.size() > 150);
+    for (const Polyhedron& block : a.blocks)
+      CHECK_NOTHROW(validate(block));
+    CHECK(testing::total_volume(a) == Approx(1).epsilon(0.1 * tolerance));
+    CHECK(testing::loose_area(a, 6, tolerance) < 1000 * tolerance);
+  }
 }
