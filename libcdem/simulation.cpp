@@ -1,6 +1,7 @@
 #include "libcdem/simulation.hpp"
 
 #include "libcdem/element/small_strain.hpp"
+#include "libcdem/fracture/grow.hpp"
 #include "libcdem/fracture/rebuild.hpp"
 #include "libcdem/fracture/refine.hpp"
 #include "libcdem/interface/spring_forces.hpp"
@@ -276,6 +277,19 @@ std::vector<BlockCut> Simulation::refine(const RefineOptions& options) {
   ++impl_->stage;
   impl_->adopt(std::move(refined.rebuilt));
   return std::move(refined.cuts);
+}
+
+GrowResult Simulation::grow(const GrowOptions& options) {
+  Impl& s = *impl_;
+  const int stage = ++s.stage;
+  const auto relax = [&](const RelaxOptions& o, const std::string& kind) {
+    const RelaxResult result =
+        cdem::relax({s.model, s.state, s.conditions, s.log, s.last_good, *s.observer, s.threads, stage}, o, kind);
+    s.last_residual = result.residual;
+    return result;
+  };
+  return cdem::grow({s.model, s.state, s.log, *s.observer, stage, relax, [&](Rebuilt&& r) { s.adopt(std::move(r)); }},
+                    options);
 }
 
 ModelCounts Simulation::counts() const {

@@ -2,6 +2,7 @@
 // This is the whole public face of libcdem for the script layer.
 #pragma once
 
+#include "libcdem/fracture/grow_options.hpp"
 #include "libcdem/fracture/options.hpp"
 #include "libcdem/load/conditions.hpp"
 #include "libcdem/model/joint.hpp"
@@ -72,6 +73,7 @@ public:
   RelaxResult relax(const RelaxOptions&);
   RunResult run(const RunOptions&);
   std::vector<BlockCut> refine(const RefineOptions&);
+  GrowResult grow(const GrowOptions&); // one stage; see fracture/grow.hpp
 
   // Results.
   ModelCounts counts() const;

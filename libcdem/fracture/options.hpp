@@ -11,23 +11,34 @@ enum class Criterion { mohr_coulomb, griffith };
 enum class CutMode { tension, shear };
 enum class MayBreak { all, cut_faces, near_cuts };
 
+struct Ball {
+  geom::Vec3 centre = geom::Vec3::Zero(); // m
+  double radius = 0;                      // m
+};
+
 // Han 2010 eqs 13-17 as amended in docs/theory.md.
 struct RefineOptions {
-  double tension_threshold = 0;   // delta_t, Pa, >= 0: cut when sigma3 + sigma_t <= delta_t (compression positive)
-  double shear_threshold = 0;     // delta_tau, Pa, >= 0: cut when the Mohr-Coulomb excess >= -delta_tau
-  int planes = 3;                 // equally spaced parallel cuts, 1..15: planes + 1 sub-blocks
-  int max_depth = 1;              // a block of this generation is not cut again; 1..6
+  double tension_threshold =
+      0; // delta_t, Pa, >= 0: cut when sigma3 + sigma_t <= delta_t (compression positive)
+  double shear_threshold = 0; // delta_tau, Pa, >= 0: cut when the Mohr-Coulomb excess >= -delta_tau
+  int planes = 3;             // equally spaced parallel cuts, 1..15: planes + 1 sub-blocks
+  int max_depth = 1;          // a block of this generation is not cut again; 1..6
   Criterion criterion = Criterion::mohr_coulomb;
   std::optional<Selection> region; // blocks whose centroid lies in it
+  std::optional<Ball> near;        // and in this
+  // m; in a block that touches this place the planes are shifted so that one runs through it: cuts of
+  // neighbours line up at a crack's tip. Blocks that the plane through it would only graze are cut as if it
+  // were not given.
+  std::optional<geom::Vec3> anchor;
   // Strength used by the criterion; by default that of the joint inside the block's body.
   std::optional<double> cohesion, friction_angle, tensile_strength; // Pa, rad, Pa
-  // Which interfaces may break from now on: all, only the cut planes, or the cut planes and the original faces
-  // between two cut blocks (docs/theory.md).
+  // Which interfaces may break from now on: all, only the cut planes, or the cut planes and the original
+  // faces between two cut blocks (docs/theory.md).
   MayBreak may_break = MayBreak::near_cuts;
 };
 
 struct BlockCut {
-  std::int64_t block;     // id of the block that was cut
+  std::int64_t block; // id of the block that was cut
   CutMode mode;
   geom::Vec3 centroid;    // m
   geom::Vec3 normal;      // unit, of the cut planes

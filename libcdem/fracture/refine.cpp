@@ -13,6 +13,10 @@ namespace {
 
 // A cut plane stays this part of the block size away from vertices; it is shifted, never the vertex.
 constexpr double vertex_clearance = 0.01;
+// A place touches a block when it is nearer than this part of the block's size.
+constexpr double touching = 1e-3;
+// A plane nearer to the end of a block than this part of the planes' spacing would make a sliver.
+constexpr double grazing = 0.25;
 
 void check(const RefineOptions& o) {
   const auto require = [](bool ok, const char* field, const std::string& value, const char* allowed) {
@@ -22,10 +26,15 @@ void check(const RefineOptions& o) {
   const auto number = [](double x) { return fmt::format("{:g}", x); };
   require(std::isfinite(o.tension_threshold) && o.tension_threshold >= 0, "tension_threshold",
           number(o.tension_threshold), "a finite number >= 0 Pa");
-  require(std::isfinite(o.shear_threshold) && o.shear_threshold >= 0, "shear_threshold", number(o.shear_threshold),
-          "a finite number >= 0 Pa");
+  require(std::isfinite(o.shear_threshold) && o.shear_threshold >= 0, "shear_threshold",
+          number(o.shear_threshold), "a finite number >= 0 Pa");
   require(o.planes >= 1 && o.planes <= 15, "planes", std::to_string(o.planes), "an integer in 1..15");
-  require(o.max_depth >= 1 && o.max_depth <= 6, "max_depth", std::to_string(o.max_depth), "an integer in 1..6");
+  if (o.anchor)
+    require(o.anchor->allFinite(), "anchor",
+            fmt::format("({:g}, {:g}, {:g})", o.anchor->x(), o.anchor->y(), o.anchor->z()),
+            "a finite place, m");
+  require(o.max_depth >= 1 && o.max_depth <= 6, "max_depth", std::to_string(o.max_depth),
+          "an integer in 1..6");
 }
 
 BlockStrength strength_of(const Body& body, const RefineOptions& o) {
@@ -35,9 +44,10 @@ BlockStrength strength_of(const Body& body, const RefineOptions& o) {
 
 void require_strength(const Body& body, const BlockStrength& s) {
   if (s.cohesion <= 0 && s.tensile_strength <= 0)
-    throw geom::InputError("refine: body \"" + body.name +
-                           "\" has neither cohesion nor tensile_strength to judge its blocks by; give them to refine, "
-                           "to the body's joint, or leave the body out with region");
+    throw geom::InputError(
+        "refine: body \"" + body.name +
+        "\" has neither cohesion nor tensile_strength to judge its blocks by; give them to refine, "
+        "to the body's joint, or leave the body out with region");
 }
 
 // Rotation about the model's mass centre that fits the displacements best (least squares, small angles), as a
@@ -68,21 +78,51 @@ geom::Mat3 rigid_rotation(const Model& model, const State& state) {
   return turn;
 }
 
-// Parts of one block between `planes` equally spaced planes, from below upwards.
-std::vector<Successor> slice(const Model& model, int block, const geom::Vec3& normal, int planes) {
-  const Block& parent = model.blocks[block];
+bool touches(const Block& block, const geom::Vec3& place) {
+  for (int f = 0; f < static_cast<int>(block.shape.faces.size()); ++f) {
+    const geom::Vec3& corner = block.shape.vertices[block.shape.faces[f].loop.front()];
+    if (geom::face_normal(block.shape, f).dot(place - corner) > touching * block.size)
+      return false;
+  }
+  return true;
+}
+
+// Levels of the cut planes along the normal, from the block's centroid: equally spaced, or with the same
+// spacing and one plane through the anchor. An anchored plane keeps `grazing` of a spacing from the block's
+// ends, as do the others.
+std::vector<double> plane_levels(const Block& block, const geom::Vec3& normal, const RefineOptions& o) {
   double low = std::numeric_limits<double>::infinity(), high = -low;
-  for (const geom::Vec3& x : parent.shape.vertices) {
-    const double level = normal.dot(x - parent.mass.centroid);
+  for (const geom::Vec3& x : block.shape.vertices) {
+    const double level = normal.dot(x - block.mass.centroid);
     low = std::min(low, level);
     high = std::max(high, level);
   }
+  const double spacing = (high - low) / (o.planes + 1);
+  std::vector<double> levels;
+  if (o.anchor && touches(block, *o.anchor)) {
+    const double through = normal.dot(*o.anchor - block.mass.centroid);
+    const double first = low + grazing * spacing, last = high - grazing * spacing;
+    if (through >= first && through <= last) {
+      for (double k = std::ceil((first - through) / spacing); through + k * spacing <= last; ++k)
+        levels.push_back(through + k * spacing);
+      return levels;
+    }
+  }
+  for (int k = 1; k <= o.planes; ++k)
+    levels.push_back(low + k * spacing);
+  return levels;
+}
+
+// Parts of one block between parallel planes, from below upwards.
+std::vector<Successor> slice(const Model& model, int block, const geom::Vec3& normal,
+                             const std::vector<double>& levels) {
+  const Block& parent = model.blocks[block];
   std::vector<Successor> parts;
   Successor rest = whole_block(model, block);
-  for (int k = 1; k <= planes; ++k) {
-    const double level = low + (high - low) * k / (planes + 1);
+  for (const double level : levels) {
     const geom::Plane plane = geom::shifted_clear_of_vertices(
-        rest.shape, geom::Plane::through(parent.mass.centroid + level * normal, normal), vertex_clearance * parent.size);
+        rest.shape, geom::Plane::through(parent.mass.centroid + level * normal, normal),
+        vertex_clearance * parent.size);
     geom::Cut pieces = geom::cut(rest.shape, plane);
     if (!pieces.above || !pieces.below)
       continue;
@@ -102,13 +142,20 @@ std::vector<Successor> slice(const Model& model, int block, const geom::Vec3& no
   return parts;
 }
 
+bool is_candidate(const Model& model, int block, const RefineOptions& o) {
+  if (o.near && (model.blocks[block].mass.centroid - o.near->centre).norm() > o.near->radius)
+    return false;
+  return !o.region || selects_block(model, *o.region, block);
+}
+
 // Index of the joint that cut faces of each body get: bonded, with the strength the criterion used.
 std::vector<int> cut_joints(Model& frame, const RefineOptions& o) {
   std::vector<int> joints;
   for (int b = 0; b < static_cast<int>(frame.bodies.size()); ++b) {
     const BlockStrength strength = strength_of(frame.bodies[b], o);
     const Joint& own = frame.bodies[b].joint;
-    const bool same = own.bonded && own.cohesion == strength.cohesion && own.friction_angle == strength.friction_angle &&
+    const bool same = own.bonded && own.cohesion == strength.cohesion &&
+                      own.friction_angle == strength.friction_angle &&
                       own.tensile_strength == strength.tensile_strength;
     if (same) {
       joints.push_back(frame.pair_joint.at({b, b}));
@@ -138,21 +185,22 @@ Refined refine(const Model& model, const State& state, const RefineOptions& opti
   for (int b = 0; b < static_cast<int>(model.blocks.size()); ++b) {
     const Block& block = model.blocks[b];
     std::optional<FailurePlane> plane;
-    if (block.generation < options.max_depth && (!options.region || selects_block(model, *options.region, b))) {
+    if (block.generation < options.max_depth && is_candidate(model, b, options)) {
       const BlockStrength strength = strength_of(model.bodies[block.body], options);
       require_strength(model.bodies[block.body], strength);
-      plane = failure_plane(matrix(block_stress(model, state, b)), block_gradient(model, state.displacement, block) - turn,
-                            strength, options);
+      plane = failure_plane(matrix(block_stress(model, state, b)),
+                            block_gradient(model, state.displacement, block) - turn, strength, options);
     }
     std::vector<Successor> parts;
     if (plane)
-      parts = slice(model, b, plane->normal, options.planes);
+      parts = slice(model, b, plane->normal, plane_levels(block, plane->normal, options));
     if (parts.size() < 2) {
       successors.push_back(whole_block(model, b));
       continue;
     }
     result.cuts.push_back({block.id, plane->mode, block.mass.centroid, plane->normal, plane->principal,
-                           plane->angle_to_sigma1, block.generation, static_cast<int>(parts.size()), plane->tie});
+                           plane->angle_to_sigma1, block.generation, static_cast<int>(parts.size()),
+                           plane->tie});
     for (Successor& part : parts)
       successors.push_back(std::move(part));
   }

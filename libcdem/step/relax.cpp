@@ -81,9 +81,9 @@ std::vector<double> fictitious_masses(const Model& model) {
   return masses;
 }
 
-RelaxResult relax(const StageContext& context, const RelaxOptions& options) {
+RelaxResult relax(const StageContext& context, const RelaxOptions& options, const std::string& kind) {
   State& state = context.state;
-  Stage stage(context, "relax", context.model.length);
+  Stage stage(context, kind, context.model.length);
   stage.work.mass = fictitious_masses(context.model);
   update_external(stage.work.resolved, state.time);
   std::fill(state.velocity.begin(), state.velocity.end(), Node{});

@@ -10,7 +10,8 @@
 
 namespace cdem {
 
-RelaxResult relax(const StageContext&, const RelaxOptions&);
+// kind: what progress reports call it.
+RelaxResult relax(const StageContext&, const RelaxOptions&, const std::string& kind = "relax");
 
 // kg for a unit step, per node.
 std::vector<double> fictitious_masses(const Model&);

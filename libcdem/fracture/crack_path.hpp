@@ -1,0 +1,34 @@
+// Where a crack is: its tip, and the line it has taken from its start.
+//
+// The crack is the set of springs that are broken, or were unbonded by the user (a notch), with the triangles
+// between them. Distances run along these triangles; from one part of the crack to the next the way through
+// unbroken rock counts `bridge_cost` times its length. The crack starts at the notch, or without one at the
+// first face that broke.
+//
+// A place on the crack lies on its front when the two sides are still held together there: going round it
+// over intact bonds leads from one side to the other. The tip is the part of the front that is farthest along
+// the crack; the front of a crack that reaches a free surface all round is empty.
+#pragma once
+
+#include "libcdem/state/state.hpp"
+
+#include <optional>
+
+namespace cdem {
+
+struct CrackPath {
+  // m, undeformed, from the crack's mouth to its end; empty when there is no crack. The shortest way along
+  // the crack, so it follows one of its sides where the crack is wide.
+  std::vector<geom::Vec3> line;
+  geom::Vec3 tip =
+      geom::Vec3::Zero(); // m, mean of the farthest front places; the line's end when there is no front
+  bool has_front = false;
+};
+
+// first_break: place of the first spring that broke, the start when nothing was unbonded.
+CrackPath crack_path(const Model&, const State&, const std::optional<geom::Vec3>& first_break);
+
+// Volume of each piece that intact bonds hold together, largest first, m3.
+std::vector<double> piece_volumes(const Model&, const State&);
+
+} // namespace cdem
