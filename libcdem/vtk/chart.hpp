@@ -9,9 +9,9 @@ struct Series {
   std::string name;
   std::vector<double> x,
       y; // same length; pairs that are not finite, or not positive on a log axis, leave a gap
-  bool right_axis = false;      // y is read on the right
-  std::string style = "line";   // line, dashed, points, both
-  std::optional<Colour> colour; // else the next of the palette
+  bool right_axis = false;                     // y is read on the right
+  std::string style = "line";                  // line, dashed, points, both
+  std::optional<Colour> colour = std::nullopt; // else the next of the palette
 };
 
 struct ChartOptions {

@@ -1,0 +1,219 @@
+#include "libcdem/vtk/files.hpp"
+#include "libgeom/core/error.hpp"
+#include "tests/vtk/sample.hpp"
+#include "tests/vtk/temporary_folder.hpp"
+
+#include <catch2/catch.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <fstream>
+#include <set>
+#include <sstream>
+
+using namespace cdem;
+using Catch::Matchers::Contains;
+
+namespace {
+
+std::string contents(const std::string& path) {
+  std::ifstream in(path, std::ios::binary);
+  std::ostringstream out;
+  out << in.rdbuf();
+  return out.str();
+}
+
+void overwrite(const std::string& path, const std::string& text) {
+  std::ofstream(path, std::ios::binary) << text;
+}
+
+bool same_bits(const std::vector<double>& a, const std::vector<double>& b) {
+  return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(double)) == 0;
+}
+
+void require_same(const std::vector<SnapshotField>& a, const std::vector<SnapshotField>& b) {
+  REQUIRE(a.size() == b.size());
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    INFO(a[i].name);
+    CHECK(a[i].name == b[i].name);
+    CHECK(a[i].unit == b[i].unit);
+    CHECK(a[i].components == b[i].components);
+    CHECK(a[i].integer == b[i].integer);
+    CHECK(same_bits(a[i].values, b[i].values));
+  }
+}
+
+// Places instead of node numbers, so that two ways to number them compare equal.
+std::multiset<std::vector<double>> places(const Snapshot& s, const std::vector<geom::Triangle>& triangles) {
+  std::multiset<std::vector<double>> set;
+  for (const geom::Triangle& t : triangles) {
+    std::vector<double> key;
+    // Start at the smallest node, keep the sense: two triangles are equal only when they face the same way.
+    const std::size_t first = static_cast<std::size_t>(std::min_element(t.begin(), t.end()) - t.begin());
+    for (std::size_t c = 0; c < 3; ++c)
+      for (int k = 0; k < 3; ++k)
+        key.push_back(s.points[static_cast<std::size_t>(t[(first + c) % 3])][k]);
+    set.insert(key);
+  }
+  return set;
+}
+
+std::set<std::array<int, 2>> sorted(std::vector<std::array<int, 2>> edges) {
+  for (auto& e : edges)
+    std::sort(e.begin(), e.end());
+  return {edges.begin(), edges.end()};
+}
+
+} // namespace
+
+TEST_CASE("a snapshot written to .vtu reads back to the bit") {
+  const TemporaryFolder folder;
+  Snapshot s = sample::plate();
+  s.title = "plate <1> & \"2\", \u03c3 = \u221230 MPa";
+  s.time = 0.1 + 0.2;
+  s.step = (std::int64_t{1} << 40) + 1;
+  s.point_fields[0].values[0] = 5e-324; // a subnormal, a signed zero and the largest double survive too
+  s.point_fields[0].values[1] = -0.0;
+  s.point_fields[0].values[2] = 1.7976931348623157e308;
+  write_vtu(s, folder / "plate.vtu");
+  write_bonds(s, bonds_path(folder / "plate.vtu"));
+  const Snapshot r = read_vtu(folder / "plate.vtu");
+  CHECK(r.title == s.title);
+  CHECK(r.time == s.time);
+  CHECK(r.step == s.step);
+  CHECK(r.points == s.points);
+  CHECK(r.tets == s.tets);
+  require_same(r.point_fields, s.point_fields);
+  require_same(r.cell_fields, s.cell_fields);
+  CHECK(r.bonds.points == s.bonds.points);
+  CHECK(r.bonds.triangles == s.bonds.triangles);
+  require_same(r.bonds.point_fields, s.bonds.point_fields);
+  require_same(r.bonds.triangle_fields, s.bonds.triangle_fields);
+}
+
+TEST_CASE("surface and block edges are found again from tets and block ids") {
+  const TemporaryFolder folder;
+  const Snapshot s = sample::plate();
+  write_vtu(s, folder / "plate.vtu");
+  const Snapshot r = read_vtu(folder / "plate.vtu");
+  CHECK(places(r, r.surface) == places(s, s.surface));
+  CHECK(sorted(r.block_edges) == sorted(s.block_edges));
+  REQUIRE(r.surface_tet.size() == r.surface.size());
+  // Each triangle's three nodes belong to the tet it names, and its normal points away from the fourth.
+  bool belongs = true, outward = true;
+  for (std::size_t i = 0; i < r.surface.size(); ++i) {
+    const geom::Tet& tet = r.tets[static_cast<std::size_t>(r.surface_tet[i])];
+    const geom::Triangle& t = r.surface[i];
+    for (const int v : t)
+      belongs = belongs && std::count(tet.begin(), tet.end(), v) == 1;
+    const auto at = [&](int v) { return r.points[static_cast<std::size_t>(v)]; };
+    const geom::Vec3 normal = (at(t[1]) - at(t[0])).cross(at(t[2]) - at(t[0]));
+    for (const int v : tet)
+      outward = outward && normal.dot(at(v) - at(t[0])) <= 1e-15;
+  }
+  CHECK(belongs);
+  CHECK(outward);
+}
+
+TEST_CASE("tets of a block with nodes of their own share one surface") {
+  // Two tets of one block that meet in a face but repeat its three nodes: six outer faces, not eight.
+  Snapshot s;
+  s.points = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {1, 1, 1}};
+  s.tets = {{0, 1, 2, 3}, {4, 5, 6, 7}};
+  SnapshotField id{"block_id", "", 1, {7, 7}, true};
+  const TemporaryFolder folder;
+  s.cell_fields = {id};
+  write_vtu(s, folder / "one.vtu");
+  CHECK(read_vtu(folder / "one.vtu").surface.size() == 6);
+  s.cell_fields[0].values = {7, 8};
+  write_vtu(s, folder / "two.vtu");
+  CHECK(read_vtu(folder / "two.vtu").surface.size() == 8);
+}
+
+TEST_CASE("the files say what ParaView looks for") {
+  const TemporaryFolder folder;
+  write_vtu(sample::plate(), folder / "plate.vtu");
+  const std::string text = contents(folder / "plate.vtu");
+  CHECK_THAT(text, Contains("type=\"UnstructuredGrid\""));
+  CHECK_THAT(text, Contains("header_type=\"UInt64\""));
+  CHECK_THAT(text, Contains("compressor=\"vtkLZ4DataCompressor\""));
+  CHECK_THAT(text, Contains("<AppendedData encoding=\"raw\">"));
+  CHECK_THAT(text, Contains("Name=\"TimeValue\""));
+}
+
+TEST_CASE("a .pvd lists its files with their times") {
+  const TemporaryFolder folder;
+  write_pvd(folder / "run.pvd", {{0, "a_0.vtu"}, {0.1, "a & b.vtu"}});
+  CHECK(contents(folder / "run.pvd") ==
+        "<?xml version=\"1.0\"?>\n"
+        "<VTKFile type=\"Collection\" version=\"1.0\" byte_order=\"LittleEndian\">\n"
+        "  <Collection>\n"
+        "    <DataSet timestep=\"0\" group=\"\" part=\"0\" file=\"a_0.vtu\"/>\n"
+        "    <DataSet timestep=\"0.10000000000000001\" group=\"\" part=\"0\" file=\"a &amp; b.vtu\"/>\n"
+        "  </Collection>\n"
+        "</VTKFile>\n");
+}
+
+TEST_CASE("no temporary file stays behind") {
+  const TemporaryFolder folder;
+  const Snapshot s = sample::plate();
+  write_vtu(s, folder / "a.vtu");
+  write_bonds(s, folder / "a_bonds.vtu");
+  write_pvd(folder / "a.pvd", {});
+  CHECK(folder.names() == std::vector<std::string>{"a.pvd", "a.vtu", "a_bonds.vtu"});
+}
+
+TEST_CASE("a file that cannot be written is refused in one line") {
+  const TemporaryFolder folder;
+  const Snapshot s = sample::plate();
+  CHECK_THROWS_WITH(write_vtu(s, folder / "none/a.vtu"),
+                    Contains("none/a.vtu") && Contains("folder that exists"));
+  CHECK_THROWS_AS(write_vtu(s, folder / "none/a.vtu"), geom::InputError);
+  CHECK_THROWS_WITH(write_vtu(s, folder / "a.txt"), Contains("ending in .vtu"));
+  CHECK_THROWS_WITH(write_pvd(folder / "a.vtu", {}), Contains("ending in .pvd"));
+  CHECK(folder.names().empty());
+}
+
+TEST_CASE("a file that cannot be read is refused in one line") {
+  const TemporaryFolder folder;
+  const auto refused = [&](const std::string& path, const std::string& reason) {
+    INFO(path);
+    CHECK_THROWS_AS(read_vtu(path), geom::InputError);
+    CHECK_THROWS_WITH(read_vtu(path), Contains(reason) && !Contains("\n"));
+  };
+  refused(folder / "missing.vtu", "no such file");
+  refused(folder / "", "no such file");
+  overwrite(folder / "text.vtu", "not xml at all");
+  refused(folder / "text.vtu", "it is not, or it is incomplete");
+  overwrite(folder / "empty.vtu", "");
+  refused(folder / "empty.vtu", "it is not, or it is incomplete");
+  overwrite(folder / "other.vtu",
+            "<?xml version=\"1.0\"?><VTKFile type=\"UnstructuredGrid\">" + std::string(99, ' '));
+  refused(folder / "other.vtu", "it is not, or it is incomplete");
+
+  const Snapshot s = sample::plate();
+  write_bonds(s, folder / "bonds.vtu");
+  refused(folder / "bonds.vtu", "not tetrahedra");
+
+  write_vtu(s, folder / "whole.vtu");
+  const std::string whole = contents(folder / "whole.vtu");
+  for (const double part : {0.05, 0.3, 0.6, 0.9}) { // cut short, in the header and in the data
+    overwrite(folder / "short.vtu",
+              whole.substr(0, static_cast<std::size_t>(part * static_cast<double>(whole.size()))));
+    refused(folder / "short.vtu", "incomplete");
+  }
+}
+
+TEST_CASE("a file with any one byte changed is refused") {
+  const TemporaryFolder folder;
+  write_vtu(sample::blocks(sample::grid(1, 1, 2, 1), 0.5), folder / "whole.vtu");
+  const std::string whole = contents(folder / "whole.vtu");
+  for (std::size_t i = 0; i < whole.size(); i += 3) {
+    std::string changed = whole;
+    changed[i] = static_cast<char>(changed[i] ^ 0x55);
+    overwrite(folder / "changed.vtu", changed);
+    INFO("byte " << i << " of " << whole.size());
+    REQUIRE_THROWS_AS(read_vtu(folder / "changed.vtu"), geom::InputError);
+  }
+}

@@ -1,0 +1,359 @@
+#include "libcdem/vtk/layout.hpp"
+#include "libcdem/vtk/picture.hpp"
+#include "libcdem/vtk/scene.hpp"
+#include "libgeom/core/error.hpp"
+#include "tests/vtk/image.hpp"
+#include "tests/vtk/sample.hpp"
+#include "tests/vtk/temporary_folder.hpp"
+
+#include <catch2/catch.hpp>
+
+#include <cmath>
+#include <limits>
+
+using namespace cdem;
+using Catch::Matchers::Contains;
+
+namespace {
+
+// Three blocks side by side with a value each, and a point field that rises from 0 to 3 along x.
+Snapshot three_blocks() {
+  Snapshot s = sample::blocks(sample::grid(3, 1, 3, 1), 0.2);
+  SnapshotField level{"level", "1", 1, {}, false}, rise{"rise", "1", 1, {}, false};
+  for (const double id : s.cell_fields[0].values)
+    level.values.push_back(id - 1);
+  for (const geom::Vec3& x : s.points)
+    rise.values.push_back(x.x());
+  s.cell_fields.push_back(level);
+  s.point_fields.push_back(rise);
+  return s;
+}
+
+// Nothing but the body.
+PictureOptions bare(const std::string& field) {
+  PictureOptions o;
+  o.field = field;
+  o.colour_bar = o.edges = o.axes = o.legend = false;
+  o.size = {400, 300};
+  o.colour_map = "grey"; // 40 to 245 of 255
+  return o;
+}
+
+std::array<int, 3> bytes(const Colour& c) {
+  return {static_cast<int>(std::lround(255 * c[0])), static_cast<int>(std::lround(255 * c[1])),
+          static_cast<int>(std::lround(255 * c[2]))};
+}
+
+int grey_at(const Image& image, double along) { // along the width of the body
+  const Image::Bounds b = image.bounds();
+  const auto c =
+      image.at(static_cast<int>(std::lround(b.left + along * (b.right - b.left))), (b.bottom + b.top) / 2);
+  CHECK(c[0] == c[1]);
+  CHECK(c[1] == c[2]);
+  return c[0];
+}
+
+} // namespace
+
+TEST_CASE("a picture has the asked size and is not blank") {
+  const TemporaryFolder folder;
+  Snapshot s = sample::plate();
+  for (const std::string& field :
+       {"", "displacement.x", "displacement.magnitude", "stress.yy", "von_mises", "block_id"})
+    for (const char* view : {"front", "iso"}) {
+      INFO(field << " " << view);
+      PictureOptions o;
+      o.field = field;
+      o.view = view;
+      o.title = "a title";
+      o.size = {320, 240};
+      render(s, o, folder / "p.png");
+      const Image image = read_png(folder / "p.png");
+      CHECK(image.width == 320);
+      CHECK(image.height == 240);
+      CHECK(image.ink() > 320 * 240 / 8);
+    }
+  CHECK(folder.names() == std::vector<std::string>{"p.png"});
+}
+
+TEST_CASE("a free height is as high as the body needs") {
+  const TemporaryFolder folder;
+  PictureOptions o = bare("");
+  o.size = {400, 0};
+  render(three_blocks(), o, folder / "p.png");
+  const Image image = read_png(folder / "p.png");
+  const Image::Bounds b = image.bounds();
+  CHECK(image.width == 400);
+  CHECK(image.height < 200); // the body is three times as wide as high
+  CHECK((b.right - b.left) / double(b.top - b.bottom) == Approx(3).epsilon(0.02));
+  CHECK(b.right - b.left > 360);
+}
+
+TEST_CASE("cell values take the colours of the given range") {
+  const TemporaryFolder folder;
+  PictureOptions o = bare("level"); // 0, 1, 2
+  o.range = {{0, 2}};
+  render(three_blocks(), o, folder / "p.png");
+  Image image = read_png(folder / "p.png");
+  CHECK(std::abs(grey_at(image, 0.5 / 3) - 40) <= 1);
+  CHECK(std::abs(grey_at(image, 1.5 / 3) - (40 + 245) / 2) <= 1);
+  CHECK(std::abs(grey_at(image, 2.5 / 3) - 245) <= 1);
+  o.range = {{0, 1}}; // 2 lies beyond and takes the last colour
+  render(three_blocks(), o, folder / "p.png");
+  image = read_png(folder / "p.png");
+  CHECK(std::abs(grey_at(image, 1.5 / 3) - 245) <= 1);
+  CHECK(std::abs(grey_at(image, 2.5 / 3) - 245) <= 1);
+}
+
+TEST_CASE("point values are interpolated along a face") {
+  const TemporaryFolder folder;
+  PictureOptions o = bare("rise"); // 0 to 3
+  o.range = {{0, 3}};
+  render(three_blocks(), o, folder / "p.png");
+  const Image image = read_png(folder / "p.png");
+  for (const double along : {0.1, 0.25, 0.5, 0.8}) {
+    INFO(along);
+    CHECK(std::abs(grey_at(image, along) - (40 + along * 205)) <= 2);
+  }
+}
+
+TEST_CASE("the same picture twice gives the same pixels") {
+  const TemporaryFolder folder;
+  PictureOptions o;
+  o.field = "displacement.x";
+  o.size = {400, 300};
+  const Snapshot s = sample::plate();
+  render(s, o, folder / "a.png");
+  render(three_blocks(), bare("level"), folder / "other.png");
+  render(s, o, folder / "b.png");
+  CHECK(read_png(folder / "a.png").bytes == read_png(folder / "b.png").bytes);
+}
+
+TEST_CASE("broken interfaces are seen from the front of a plate one block thick") {
+  const TemporaryFolder folder;
+  PictureOptions o = bare("");
+  const auto pixels = [&](const Snapshot& s, const Colour& colour) {
+    render(s, o, folder / "p.png");
+    return read_png(folder / "p.png").count(bytes(colour), 2);
+  };
+  Snapshot s = three_blocks();
+  CHECK(pixels(s, tension_colour) == 0);
+  sample::add_interface(s, {1, 0}, {1, 1}, 0.2, BondMode::broken_tension, 2);
+  CHECK(pixels(s, tension_colour) > 100); // an upright line over the body's height of 120 pixels
+  CHECK(pixels(s, shear_colour) == 0);
+  sample::add_interface(s, {2, 0}, {2, 1}, 0.2, BondMode::broken_shear, 1);
+  CHECK(pixels(s, shear_colour) > 100);
+  o.broken_bonds = false;
+  CHECK(pixels(s, tension_colour) == 0);
+  o.broken_bonds = true;
+  Snapshot whole = three_blocks();
+  sample::add_interface(whole, {1, 0}, {1, 1}, 0.2, BondMode::intact, 1);
+  sample::add_interface(whole, {2, 0}, {2, 1}, 0.2, BondMode::contact, 1);
+  CHECK(pixels(whole, tension_colour) == 0);
+  CHECK(pixels(whole, shear_colour) == 0);
+}
+
+TEST_CASE("deformation moves the picture by the scaled displacement") {
+  const TemporaryFolder folder;
+  Snapshot s = sample::blocks(sample::grid(1, 1, 1, 1), 0.1);
+  SnapshotField u{"displacement", "m", 3, {}, false};
+  for (const geom::Vec3& x : s.points)
+    for (const double v : {1e-3 * x.x(), 0., 0.}) // stretched along x
+      u.values.push_back(v);
+  s.point_fields.push_back(u);
+  PictureOptions o = bare("");
+  o.deformation = 1000; // twice as wide as high
+  render(s, o, folder / "p.png");
+  const Image::Bounds b = read_png(folder / "p.png").bounds();
+  CHECK((b.right - b.left) / double(b.top - b.bottom) == Approx(2).epsilon(0.02));
+}
+
+TEST_CASE("views look where they say") {
+  using geom::Vec3;
+  const auto check = [](const char* name, const char* up_axis, const Vec3& toward, const Vec3& right) {
+    INFO(name << " " << up_axis);
+    const View view = View::named(name, up_axis);
+    CHECK((view.toward - toward).norm() < 1e-15);
+    CHECK((view.right - right).norm() < 1e-15);
+    CHECK((view.up - toward.cross(right)).norm() < 1e-15);
+  };
+  check("front", "y", {0, 0, 1}, {1, 0, 0});
+  check("back", "y", {0, 0, -1}, {-1, 0, 0});
+  check("left", "y", {-1, 0, 0}, {0, 0, 1});
+  check("right", "y", {1, 0, 0}, {0, 0, -1});
+  check("top", "y", {0, 1, 0}, {1, 0, 0});
+  check("bottom", "y", {0, -1, 0}, {1, 0, 0});
+  check("front", "z", {0, -1, 0}, {1, 0, 0});
+  check("left", "z", {-1, 0, 0}, {0, -1, 0});
+  check("top", "z", {0, 0, 1}, {1, 0, 0});
+  CHECK(View::named("iso", "y").up.y() > 0.5);
+  CHECK(View::named("iso", "z").up.z() > 0.5);
+}
+
+TEST_CASE("a camera of one's own shows a place where the pinhole formula puts it") {
+  // A cube of 2 cm about (0.3, 0.2, 0) seen from 2 m: the frame is the picture less 32 / 1600 of its width
+  // all round.
+  Snapshot s = sample::blocks(sample::grid(0.02, 0.02, 1, 1), 0.02);
+  for (geom::Vec3& x : s.points)
+    x += geom::Vec3(0.29, 0.19, -0.01);
+  const TemporaryFolder folder;
+  for (const bool perspective : {true, false}) {
+    INFO(perspective);
+    PictureOptions o = bare("");
+    o.size = {800, 600};
+    o.camera = Camera{{0, 0, 2}, {0, 0, 0}, {0, 1, 0}, 30, perspective};
+    render(s, o, folder / "p.png");
+    const Image::Bounds b = read_png(folder / "p.png").bounds();
+    const double frame_height = 600 - 2 * 16;
+    const double per_metre = frame_height / (2 * 2 * std::tan(15 * M_PI / 180)); // pixels, at 2 m
+    const double near = perspective ? 2 / 1.99 : 1;                              // the front face is nearer
+    CHECK(b.left == Approx(400 + 0.29 * per_metre * (perspective ? 2 / 2.01 : 1)).margin(1.5));
+    CHECK(b.right + 1 == Approx(400 + 0.31 * per_metre * near).margin(1.5));
+    CHECK(b.bottom == Approx(300 + 0.19 * per_metre * (perspective ? 2 / 2.01 : 1)).margin(1.5));
+    CHECK(b.top + 1 == Approx(300 + 0.21 * per_metre * near).margin(1.5));
+  }
+}
+
+TEST_CASE("markers lie where their place is drawn") {
+  const TemporaryFolder folder;
+  PictureOptions o = bare("");
+  o.size = {800, 600};
+  const Colour violet = {0.5, 0, 1};
+  o.markers.push_back({{3, 1, 0.2}, "", violet, 20}); // the upper right corner
+  o.markers.push_back({{1.5, 0.5, 0.2}, "", {0, 0, 1}, 20});
+  render(three_blocks(), o, folder / "p.png");
+  const Image image = read_png(folder / "p.png");
+  const Image::Bounds b = image.bounds();
+  CHECK(image.at((b.left + b.right) / 2, (b.bottom + b.top) / 2) == std::array<int, 3>{0, 0, 255});
+  CHECK(image.at(b.right - 5, b.top - 5) == bytes(violet));
+}
+
+TEST_CASE("title, body, bar, legend and axes never overlap and stay inside the picture") {
+  const auto apart = [](const Rect& a, const Rect& b) {
+    return a.right() <= b.left || b.right() <= a.left || a.top() <= b.bottom || b.top() <= a.bottom;
+  };
+  int checked = 0;
+  for (const std::array<int, 2>& size :
+       {std::array<int, 2>{1600, 1200}, {1600, 0}, {1200, 1600}, {1920, 1080}, {800, 600}})
+    for (const double aspect : {0.1, 0.4, 1., 1.5, 4.1, 12.})
+      for (int parts = 0; parts < 16; ++parts) {
+        LayoutInput in;
+        in.size = size;
+        in.aspect = aspect;
+        in.pixel = std::min(size[0] / 1600., size[1] > 0 ? size[1] / 1200. : 1e9);
+        in.title = parts & 1;
+        in.bar = parts & 2;
+        in.legend = parts & 4;
+        in.bar_column = 260 * in.pixel;
+        if (parts & 8)
+          in.axes = {130 * in.pixel, 130 * in.pixel};
+        const Layout out = arrange(in);
+        INFO(size[0] << " x " << size[1] << ", aspect " << aspect << ", parts " << parts);
+        const double font = label_font * in.pixel;
+        std::vector<Rect> rects = {out.body};
+        if (in.bar) {
+          Rect r = out.bar; // with its labels and title
+          const double below = out.bar_vertical ? 0.4 * font : 20 * in.pixel + font;
+          r = out.bar_vertical ? Rect{r.left, r.bottom - below, in.bar_column - 44 * in.pixel,
+                                      r.height + below + 1.5 * font}
+                               : Rect{r.left, r.bottom - below, r.width, r.height + below + 1.5 * font};
+          rects.push_back(r);
+        }
+        if (in.title)
+          rects.push_back({out.body.left, out.title_middle - 0.5 * title_font * in.pixel, out.body.width,
+                           title_font * in.pixel});
+        if (in.legend)
+          rects.push_back({out.body.left + (parts & 8 ? 150 * in.pixel : 0), out.legend_middle - 0.5 * font,
+                           std::max(0., out.body.width - (parts & 8 ? 150 * in.pixel : 0)), font});
+        if (parts & 8)
+          rects.push_back({out.axes_corner[0], out.axes_corner[1], in.axes[0], in.axes[1]});
+        const Rect page{0, 0, double(out.size[0]), double(out.size[1])};
+        for (std::size_t i = 0; i < rects.size(); ++i) {
+          CHECK(rects[i].left >= 0);
+          CHECK(rects[i].bottom >= 0);
+          CHECK(rects[i].right() <= page.right());
+          CHECK(rects[i].top() <= page.top());
+          for (std::size_t j = 0; j < i; ++j) {
+            INFO(i << " and " << j);
+            CHECK(apart(rects[i], rects[j]));
+            ++checked;
+          }
+        }
+      }
+  CHECK(checked > 1000);
+}
+
+TEST_CASE("an unknown field names the nearest right ones") {
+  const TemporaryFolder folder;
+  const Snapshot s = sample::plate();
+  const auto message = [&](const std::string& field) {
+    PictureOptions o;
+    o.field = field;
+    try {
+      render(s, o, folder / "p.png");
+    } catch (const geom::InputError& e) {
+      return std::string(e.what());
+    }
+    return std::string("no error");
+  };
+  CHECK_THAT(message("displacment.x"),
+             Contains("field = \"displacment.x\"") && Contains("did you mean displacement.x"));
+  CHECK_THAT(message("stress"), Contains("stress.xx"));
+  CHECK_THAT(message("stress.x"), Contains("stress.xx"));
+  CHECK_THAT(message("block_id.x"), Contains("block_id"));
+  CHECK_THAT(message("temperature"),
+             Contains("one of") && Contains("displacement.magnitude") && Contains("von_mises"));
+  CHECK(folder.names().empty());
+}
+
+TEST_CASE("von Mises stress comes from the stress when the result has none of its own") {
+  // Uniaxial stress s has von Mises stress |s|; a hydrostatic one has none; pure shear t has sqrt(3) t.
+  Snapshot s = three_blocks();
+  SnapshotField stress{"stress", "Pa", 6, {}, false};
+  for (const double id : s.cell_fields[0].values)
+    for (int c = 0; c < 6; ++c)
+      stress.values.push_back(id == 1 ? (c == 1 ? -5 : 0) : id == 2 ? (c < 3 ? 7 : 0) : (c == 4 ? 2 : 0));
+  s.cell_fields.push_back(stress);
+  const FieldValues v = field_values(s, "von_mises");
+  CHECK(v.unit == "Pa");
+  for (std::size_t i = 0; i < s.surface.size(); ++i) {
+    const double id = s.cell_fields[0].values[static_cast<std::size_t>(s.surface_tet[i])];
+    CHECK(v.values[i] == Approx(id == 1 ? 5. : id == 2 ? 0. : 2 * std::sqrt(3.)).margin(1e-14));
+  }
+}
+
+TEST_CASE("options that cannot be used are refused before anything is drawn") {
+  const TemporaryFolder folder;
+  const Snapshot s = three_blocks();
+  const auto refused = [&](PictureOptions o, const std::string& file, const std::string& reason) {
+    CHECK_THROWS_AS(render(s, o, folder / file), geom::InputError);
+    CHECK_THROWS_WITH(render(s, o, folder / file), Contains(reason) && !Contains("\n"));
+  };
+  PictureOptions o = bare("");
+  refused(o, "none/p.png", "folder that exists");
+  refused(o, "p.jpg", "ending in .png");
+  o.view = "side";
+  refused(o, "p.png", "front, back");
+  o = bare("");
+  o.up = "x";
+  refused(o, "p.png", "up = \"x\"");
+  o = bare("");
+  o.size = {10, 10};
+  refused(o, "p.png", "between 64 and 8000");
+  o = bare("");
+  o.deformation = 10; // there is no displacement
+  refused(o, "p.png", "no displacement");
+  o.deformation = std::numeric_limits<double>::quiet_NaN();
+  refused(o, "p.png", "deformation");
+  o = bare("level");
+  o.range = {{1, 0}};
+  refused(o, "p.png", "range");
+  o = bare("");
+  o.camera = Camera{{0, 0, 0}, {0, 0, 0}, {0, 1, 0}};
+  refused(o, "p.png", "camera.position");
+  o.camera = Camera{{0, 1, 0}, {0, 0, 0}, {0, 1, 0}};
+  refused(o, "p.png", "camera.up");
+  o = bare("");
+  CHECK_THROWS_WITH(render(Snapshot{}, o, folder / "p.png"), Contains("no faces"));
+  CHECK(folder.names().empty());
+}
