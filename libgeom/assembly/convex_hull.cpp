@@ -47,6 +47,7 @@ struct Hull {
 
 Hull triangulated(const std::vector<Vec3>& points) {
   std::vector<Kernel::Point_3> input;
+  input.reserve(points.size());
   for (const Vec3& x : points)
     input.emplace_back(x.x(), x.y(), x.z());
   HullMesh mesh;
