@@ -73,5 +73,7 @@ private:
 
 // LuaCATS annotations of the whole `cdem` module, generated from the same tables that check the arguments.
 std::string annotations();
+// The reference page of the script language, generated likewise.
+std::string reference();
 
 } // namespace cdem::script

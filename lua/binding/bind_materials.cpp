@@ -1,0 +1,162 @@
+// Materials and joints.
+#include "lua/binding/module.hpp"
+#include "lua/binding/objects.hpp"
+
+#include <cmath>
+
+namespace cdem::script {
+
+namespace {
+
+constexpr double radians(double degrees) {
+  return degrees * 3.14159265358979323846 / 180;
+}
+constexpr double degrees(double radians) {
+  return radians * 180 / 3.14159265358979323846;
+}
+
+Value elastic(Session&, Object*, const Arguments& a) {
+  auto object = std::make_shared<MaterialObject>();
+  object->elastic.youngs_modulus = a.number("youngs_modulus");
+  object->elastic.poissons_ratio = a.number("poissons_ratio");
+  object->elastic.density = a.number("density");
+  object->elastic.viscosity = a.number("viscosity");
+  validate(object->elastic);
+  return object;
+}
+
+std::vector<Field> stiffness_fields() {
+  return {number("thickness_ratio")
+              .above(0)
+              .standard(0.02)
+              .doc("equivalent thickness of the joint over the block size (cube root of its volume), which "
+                   "sets the "
+                   "stiffness E/L and G/L"),
+          number("thickness").above(0).unit("m").doc("equivalent thickness itself; wins over the ratio"),
+          number("normal_stiffness").above(0).unit("Pa/m").doc("instead of E/L"),
+          number("shear_stiffness").above(0).unit("Pa/m").doc("instead of G/L")};
+}
+
+void read_stiffness(const Arguments& a, Joint& joint) {
+  joint.thickness_ratio = a.number("thickness_ratio");
+  joint.thickness = a.optional_number("thickness");
+  joint.normal_stiffness = a.optional_number("normal_stiffness");
+  joint.shear_stiffness = a.optional_number("shear_stiffness");
+}
+
+Value mohr_coulomb(Session&, Object*, const Arguments& a) {
+  auto object = std::make_shared<JointObject>();
+  object->joint.bonded = true;
+  object->joint.cohesion = a.number("cohesion");
+  object->joint.friction_angle = radians(a.number("friction_angle"));
+  object->joint.tensile_strength = a.number("tensile_strength");
+  read_stiffness(a, object->joint);
+  validate(object->joint);
+  return object;
+}
+
+Value coulomb(Session&, Object*, const Arguments& a) {
+  auto object = std::make_shared<JointObject>();
+  object->joint.bonded = false;
+  object->joint.friction_angle = radians(a.number("friction_angle"));
+  read_stiffness(a, object->joint);
+  validate(object->joint);
+  return object;
+}
+
+template <class Get>
+Property material_property(std::string name, std::string unit, std::string doc, Get get) {
+  return {std::move(name), "number", std::move(unit), std::move(doc),
+          [get](Session&, Object& self) -> Value { return get(static_cast<MaterialObject&>(self).elastic); }};
+}
+
+template <class Get>
+Property joint_property(std::string name, std::string type, std::string unit, Get get) {
+  return {std::move(name), std::move(type), std::move(unit), "",
+          [get](Session&, Object& self) -> Value { return get(static_cast<JointObject&>(self).joint); }};
+}
+
+Value optional(const std::optional<double>& x) {
+  return x ? Value(*x) : Value();
+}
+
+} // namespace
+
+void bind_materials(Module& m) {
+  m.functions.push_back(
+      {"elastic",
+       "Isotropic linear elasticity (Han 2010 eq 3).",
+       {number("youngs_modulus").above(0).unit("Pa").required().doc("Young's modulus E"),
+        number("poissons_ratio").between(-1, 0.5).required().doc("Poisson's ratio nu"),
+        number("density").above(0).unit("kg/m3").required(),
+        number("viscosity")
+            .at_least(0)
+            .standard(0.0)
+            .unit("N s/m4")
+            .doc("damping force per volume and velocity, mu of Han 2010 eq 1; used by real-time stepping")},
+       false,
+       "cdem.Material",
+       "",
+       elastic});
+
+  std::vector<Field> bonded{number("cohesion").at_least(0).unit("Pa").required(),
+                            number("friction_angle").from(0, 90).unit("deg").required(),
+                            number("tensile_strength").at_least(0).unit("Pa").required()};
+  std::vector<Field> loose{number("friction_angle").from(0, 90).unit("deg").required()};
+  for (const Field& f : stiffness_fields()) {
+    bonded.push_back(f);
+    loose.push_back(f);
+  }
+  m.functions.push_back(
+      {"mohr_coulomb",
+       "Brittle bond between block faces: breaks in tension above the tensile strength and in shear "
+       "above cohesion + normal pressure x tan(friction angle); then it is a contact with the same "
+       "friction angle (Han 2010 eqs 8-11).",
+       bonded, false, "cdem.Joint", "", mohr_coulomb});
+  m.functions.push_back({"coulomb",
+                         "Contact that never was bonded: no tension, friction only (Han 2010 eq 9).", loose,
+                         false, "cdem.Joint", "", coulomb});
+
+  Class material{"Material", "Made by cdem.elastic."};
+  material.properties = {
+      material_property("youngs_modulus", "Pa", "", [](const Elastic& e) { return e.youngs_modulus; }),
+      material_property("poissons_ratio", "", "", [](const Elastic& e) { return e.poissons_ratio; }),
+      material_property("density", "kg/m3", "", [](const Elastic& e) { return e.density; }),
+      material_property("viscosity", "N s/m4", "", [](const Elastic& e) { return e.viscosity; }),
+      material_property("shear_modulus", "Pa", "G = E / 2(1 + nu)",
+                        [](const Elastic& e) { return e.shear_modulus(); }),
+      material_property("p_wave_modulus", "Pa", "lambda + 2 G",
+                        [](const Elastic& e) { return e.p_wave_modulus(); })};
+  material.text = [](const Object& self) {
+    const Elastic& e = static_cast<const MaterialObject&>(self).elastic;
+    return "cdem.Material (E " + number_text(e.youngs_modulus) + " Pa, nu " + number_text(e.poissons_ratio) +
+           ", " + number_text(e.density) + " kg/m3)";
+  };
+  m.classes.push_back(material);
+
+  Class joint{"Joint", "Made by cdem.mohr_coulomb or cdem.coulomb."};
+  joint.properties = {
+      joint_property("bonded", "boolean", "", [](const Joint& j) { return Value(j.bonded); }),
+      joint_property("cohesion", "number", "Pa", [](const Joint& j) { return Value(j.cohesion); }),
+      joint_property("friction_angle", "number", "deg",
+                     [](const Joint& j) { return Value(degrees(j.friction_angle)); }),
+      joint_property("tensile_strength", "number", "Pa",
+                     [](const Joint& j) { return Value(j.tensile_strength); }),
+      joint_property("thickness_ratio", "number", "",
+                     [](const Joint& j) { return Value(j.thickness_ratio); }),
+      joint_property("thickness", "number?", "m", [](const Joint& j) { return optional(j.thickness); }),
+      joint_property("normal_stiffness", "number?", "Pa/m",
+                     [](const Joint& j) { return optional(j.normal_stiffness); }),
+      joint_property("shear_stiffness", "number?", "Pa/m",
+                     [](const Joint& j) { return optional(j.shear_stiffness); })};
+  joint.text = [](const Object& self) {
+    const Joint& j = static_cast<const JointObject&>(self).joint;
+    return std::string(j.bonded ? "cdem.Joint (bonded, c " + number_text(j.cohesion) +
+                                      " Pa, tensile strength " + number_text(j.tensile_strength) + " Pa, "
+                                : std::string("cdem.Joint (contact, ")) +
+           "friction angle " + number_text(degrees(j.friction_angle)) + " deg)";
+  };
+  m.classes.push_back(joint);
+}
+
+} // namespace cdem::script

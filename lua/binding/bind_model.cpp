@@ -1,0 +1,208 @@
+// cdem.model, and what a model is apart from its conditions, stages and results.
+#include "lua/binding/model_object.hpp"
+#include "lua/binding/module.hpp"
+#include "lua/binding/nearest.hpp"
+#include "lua/binding/selections.hpp"
+
+#include "libgeom/core/error.hpp"
+
+#include <algorithm>
+
+namespace cdem::script {
+
+namespace {
+
+using geom::InputError;
+
+std::vector<std::string> read_bodies(const Arguments& a, ModelSpec& spec) {
+  std::vector<std::string> unjointed;
+  for (const Arguments& given : a.records("bodies")) {
+    const std::string path = "bodies[" + std::to_string(spec.bodies.size() + 1) + "]";
+    BodySpec body;
+    body.name = given.text_or("name", "body_" + std::to_string(spec.bodies.size() + 1));
+    const auto same = [&](const BodySpec& other) { return other.name == body.name; };
+    if (std::any_of(spec.bodies.begin(), spec.bodies.end(), same))
+      throw InputError(path + ".name", "\"" + body.name + "\"", "unique", "another body has it");
+    if (body.name.empty() || body.name == "all" ||
+        (body.name.size() == 2 && (body.name[1] == '-' || body.name[1] == '+')))
+      throw InputError(path + ".name", "\"" + body.name + "\"", "a word that is no side of the model");
+    body.shape = given.object<AssemblyObject>("shape")->assembly;
+    body.material = given.object<MaterialObject>("material")->elastic;
+    if (const auto joint = given.object<JointObject>("joint"))
+      body.joint = joint->joint;
+    else if (body.shape.blocks.size() > 1)
+      throw InputError(path + ".joint: missing; the body has " + std::to_string(body.shape.blocks.size()) +
+                       " blocks: say what holds them together, cdem.mohr_coulomb{...} or cdem.coulomb{...}");
+    else
+      unjointed.push_back(body.name);
+    spec.bodies.push_back(std::move(body));
+  }
+  return unjointed;
+}
+
+void read_pairs(const Arguments& a, ModelSpec& spec) {
+  std::vector<std::string> names;
+  for (const BodySpec& body : spec.bodies)
+    names.push_back(body.name);
+  std::size_t index = 0;
+  for (const Value& row : a.list("contacts")) {
+    const Values& items = row.table()->items;
+    PairSpec pair;
+    pair.body_a = *items[0].get<std::string>();
+    pair.body_b = *items[1].get<std::string>();
+    pair.joint = static_cast<const JointObject&>(*items[2].object()).joint;
+    ++index;
+    for (const std::string& name : {pair.body_a, pair.body_b})
+      if (std::find(names.begin(), names.end(), name) == names.end())
+        throw InputError("contacts[" + std::to_string(index) + "]: no body \"" + name + "\"" +
+                         did_you_mean(name, names) + " There are: " + joined(names));
+    spec.pairs.push_back(pair);
+  }
+}
+
+Value make_model(Session& session, Object*, const Arguments& a) {
+  ModelSpec spec;
+  const auto unjointed = read_bodies(a, spec);
+  read_pairs(a, spec);
+  // Lua sees only the few bytes it holds of a model, and would keep finished ones for long.
+  session.collect_garbage();
+  auto model =
+      std::make_shared<ModelObject>(Simulation(spec, session.settings.threads, session.settings.observer));
+  for (const BodySpec& body : spec.bodies)
+    model->body_names.push_back(body.name);
+  model->unjointed = unjointed;
+  model->number = static_cast<int>(session.models.size()) + 1;
+  model->memory = session.new_table(Table());
+  session.models.push_back(model);
+  return model;
+}
+
+Value select(Session&, ModelObject& model, const Arguments& a) {
+  const std::string& name = a.text("name");
+  const bool body =
+      std::find(model.body_names.begin(), model.body_names.end(), name) != model.body_names.end();
+  const bool side = name.size() == 2 && (name[1] == '-' || name[1] == '+');
+  if (name.empty() || name == "all" || body || side || model.places.count(name) > 0)
+    throw InputError("name", "\"" + name + "\"", "a new name",
+                     body || side || name == "all" || name.empty() ? "that one stands for something else"
+                                                                   : "it was given before");
+  model.places[name] = selections(model, a.value("on"), "on");
+  return {};
+}
+
+Value counts(Session&, ModelObject& model, const Arguments&) {
+  const ModelCounts c = model.simulation.counts();
+  return Table{{"bodies", c.bodies},
+               {"blocks", c.blocks},
+               {"nodes", c.nodes},
+               {"tets", c.tets},
+               {"interfaces", c.interfaces},
+               {"bonds", c.bonds},
+               {"intact", c.intact},
+               {"broken_tension", c.broken_tension},
+               {"broken_shear", c.broken_shear},
+               {"contacts", c.contacts}};
+}
+
+Value box(Session&, ModelObject& model, const Arguments&) {
+  const geom::Box box = model.simulation.box();
+  return Table{{"min", box.min}, {"max", box.max}};
+}
+
+template <class Get>
+Property simulation_property(std::string name, std::string type, std::string unit, std::string doc, Get get) {
+  return {std::move(name), std::move(type), std::move(unit), std::move(doc),
+          [get](Session&, Object& self) -> Value { return get(static_cast<ModelObject&>(self).simulation); }};
+}
+
+std::vector<Property> model_properties() {
+  Property memory{
+      "memory", "table", "",
+      "What callbacks must remember: only booleans, numbers, strings and tables of them. It is saved with "
+      "the model, a local variable is not.",
+      [](Session&, Object& self) -> Value { return static_cast<ModelObject&>(self).memory; }};
+  memory.set = [](Session& session, Object& self, const Value& value) {
+    if (!value.table())
+      throw InputError("memory", describe(value), "a table");
+    check_value(value, plain("memory").type, "memory");
+    static_cast<ModelObject&>(self).memory = session.new_table(value);
+  };
+  return {simulation_property("time", "number", "s", "", [](const Simulation& s) { return s.time(); }),
+          simulation_property("residual", "number", "", "out-of-balance force norm over applied force norm",
+                              [](const Simulation& s) { return s.residual(); }),
+          simulation_property("steps", "integer", "", "of all stages so far",
+                              [](const Simulation& s) { return s.steps(); }),
+          simulation_property("stable_time_step", "number", "s", "of real-time stepping",
+                              [](const Simulation& s) { return s.stable_time_step(); }),
+          simulation_property("state_hash", "string", "", "of every state field, bit for bit",
+                              [](const Simulation& s) {
+                                char text[17];
+                                std::snprintf(text, sizeof text, "%016llx",
+                                              static_cast<unsigned long long>(s.state_hash()));
+                                return std::string(text);
+                              }),
+          memory};
+}
+
+} // namespace
+
+void bind_model(Module& m) {
+  const Type pair = tuple_type({text_type(), text_type(), object_type("Joint")});
+  const std::vector<Field> body{
+      object("shape", "Assembly").required(), object("material", "Material").required(),
+      object("joint", "Joint")
+          .doc("between the body's own blocks; needed when there are several, or when they are cut"),
+      text("name").doc("for selections and contacts; body_1, body_2 ... by default"),
+      choice("element", {"small_strain"}).standard("small_strain").doc("how a block deforms")};
+  m.functions.push_back(
+      {"model",
+       "A model: bodies of blocks, and what holds touching bodies to each other.",
+       {list("bodies", record_type(body)).required(),
+        list("contacts", pair, 0).doc("{\"body a\", \"body b\", joint} for every two bodies that touch")},
+       false,
+       "cdem.Model",
+       "",
+       make_model});
+
+  m.records.push_back(
+      {"Counts",
+       "Each bond (spring point) stands in exactly one of intact, broken_tension, broken_shear and "
+       "contacts.",
+       {integer("bodies").required(), integer("blocks").required(), integer("nodes").required(),
+        integer("tets").required(), integer("interfaces").required(), integer("bonds").required(),
+        integer("intact").required(), integer("broken_tension").required(),
+        integer("broken_shear").required(), integer("contacts").required()}});
+  Class model{"Model", "Made by cdem.model."};
+  model.properties = model_properties();
+  model.text = [](const Object& self) {
+    const auto& object = static_cast<const ModelObject&>(self);
+    const ModelCounts c = object.simulation.counts();
+    return "cdem.Model (" + std::to_string(c.bodies) + (c.bodies == 1 ? " body, " : " bodies, ") +
+           std::to_string(c.blocks) + " blocks, " + std::to_string(c.tets) + " tets, " +
+           std::to_string(c.bonds) + " bonds)";
+  };
+  model.methods = {{"select",
+                    "Gives a place a name that `on` understands from now on.",
+                    {text("name").required(), place("on").required()},
+                    false,
+                    "",
+                    "",
+                    method<ModelObject>(select)},
+                   {"counts",
+                    "How many there are of everything.",
+                    {},
+                    true,
+                    "cdem.Counts",
+                    "",
+                    method<ModelObject>(counts)},
+                   {"box",
+                    "Smallest axis-aligned box around the undeformed model.",
+                    {},
+                    true,
+                    "cdem.Box",
+                    "",
+                    method<ModelObject>(box)}};
+  m.classes.push_back(model);
+}
+
+} // namespace cdem::script

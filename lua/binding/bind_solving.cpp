@@ -1,0 +1,305 @@
+// Solving calls: numbered stages, hashed by their arguments. In a check they return typed, empty results.
+#include "lua/binding/model_object.hpp"
+#include "lua/binding/module.hpp"
+#include "lua/binding/nearest.hpp"
+#include "lua/binding/selections.hpp"
+
+#include "libgeom/core/error.hpp"
+
+namespace cdem::script {
+
+namespace {
+
+using geom::InputError;
+
+constexpr double radians(double degrees) {
+  return degrees * 3.14159265358979323846 / 180;
+}
+constexpr double degrees(double radians) {
+  return radians * 180 / 3.14159265358979323846;
+}
+
+// A model whose stage ended early: its state and its history are worth saving.
+void keep_unfinished(Session& session, ModelObject& model) {
+  for (const auto& known : session.models)
+    if (known.lock().get() == &model)
+      session.failed.push_back(known.lock());
+  model.write_history(session);
+}
+
+// Runs `solve` as the next stage. The history is written however the stage ends; a model whose solution
+// failed is kept, so that its last good state can be saved.
+template <class Solve>
+Value stage(Session& session, ModelObject& model, const char* kind, const Arguments& arguments, Value empty,
+            Solve solve) {
+  model.require_idle(kind);
+  model.check_memory();
+  session.check_set_names();
+  Stage stage;
+  stage.number = static_cast<int>(session.stages.size()) + 1;
+  stage.model = model.number;
+  stage.kind = kind;
+  stage.hash = fnv1a(std::string(kind) + " " + std::to_string(model.number) + " " + arguments.canonical());
+  stage.result = empty;
+  session.stages.push_back(stage);
+  if (session.settings.check_only)
+    return empty;
+  const std::size_t index = session.stages.size() - 1;
+  struct Solving {
+    ModelObject& model;
+    explicit Solving(ModelObject& m) : model(m) { model.solving = true; }
+    ~Solving() { model.solving = false; }
+  };
+  Value result;
+  try {
+    Solving solving(model);
+    result = solve(model.simulation);
+  } catch (const SolutionError&) {
+    keep_unfinished(session, model);
+    throw;
+  } catch (const Interrupted&) {
+    keep_unfinished(session, model);
+    throw;
+  }
+  model.check_memory();
+  model.write_history(session);
+  session.stages[index].result = result;
+  return result;
+}
+
+std::function<void()> callback_of(const Arguments& a) {
+  const auto function = a.function("callback");
+  if (!function)
+    return {};
+  return [function] { function->call({}); };
+}
+
+std::int64_t callback_interval(const Arguments& a) {
+  if (a.has("callback") || a.has("stop"))
+    return a.has("every") ? a.integer("every") : 100;
+  if (a.has("every"))
+    throw InputError("every = " + describe(a.value("every")) +
+                     ": says how often callback is called; give one");
+  return 0;
+}
+
+Value relax_result(const RelaxResult& r) {
+  return Table{{"converged", r.converged},       {"steps", r.steps},
+               {"residual", r.residual},         {"broken_tension", r.broken_tension},
+               {"broken_shear", r.broken_shear}, {"wall_time", r.wall_time}};
+}
+
+Value relax(Session& session, ModelObject& model, const Arguments& a) {
+  RelaxOptions options;
+  options.residual = a.number("residual");
+  options.breaking = a.flag("breaking");
+  options.max_steps = a.integer("max_steps");
+  options.callback_every = callback_interval(a);
+  options.callback = callback_of(a);
+  return stage(session, model, "relax", a, relax_result({}), [&](Simulation& simulation) {
+    const RelaxResult result = simulation.relax(options);
+    if (!result.converged)
+      session.warn("relax: not converged after " + std::to_string(result.steps) + " steps, residual " +
+                   number_text(result.residual) + " above " + number_text(options.residual) +
+                   "; raise max_steps, or look whether something moves freely");
+    return relax_result(result);
+  });
+}
+
+Value run_result(const RunResult& r) {
+  return Table{{"steps", r.steps},
+               {"time", r.time},
+               {"time_step", r.time_step},
+               {"broken_tension", r.broken_tension},
+               {"broken_shear", r.broken_shear},
+               {"wall_time", r.wall_time}};
+}
+
+Value run(Session& session, ModelObject& model, const Arguments& a) {
+  RunOptions options;
+  options.duration = a.optional_number("duration").value_or(0);
+  options.steps = a.has("steps") ? a.integer("steps") : 0;
+  if (a.has("duration") && a.has("steps"))
+    throw InputError("duration and steps: give one of them");
+  if (!a.has("duration") && !a.has("steps") && !a.has("stop"))
+    throw InputError("duration: missing; give duration (s), steps, or stop = function() ... end");
+  options.safety = a.number("safety");
+  options.time_step = a.optional_number("time_step").value_or(0);
+  options.breaking = a.flag("breaking");
+  options.local_damping = a.number("local_damping");
+  options.callback_every = callback_interval(a);
+  options.callback = callback_of(a);
+  if (const auto stop = a.function("stop"))
+    options.stop = [stop] {
+      const Values answer = stop->call({});
+      const bool* yes = answer.empty() ? nullptr : answer[0].get<bool>();
+      if (!yes && !(answer.empty() || answer[0].is_nil()))
+        throw InputError("stop() of " + stop->place(), describe(answer[0]), "true or false");
+      return yes && *yes;
+    };
+  if (!a.has("duration") && !a.has("steps"))
+    options.steps = std::numeric_limits<std::int64_t>::max(); // until stop says so
+  return stage(session, model, "run", a, run_result({}),
+               [&](Simulation& simulation) { return run_result(simulation.run(options)); });
+}
+
+Value cut_row(const BlockCut& cut) {
+  return Table{{"block", cut.block},
+               {"mode", cut.mode == CutMode::shear ? "shear" : "tension"},
+               {"centroid", cut.centroid},
+               {"normal", cut.normal},
+               {"principal_stress", cut.principal},
+               {"angle_to_sigma1", degrees(cut.angle_to_sigma1)},
+               {"generation", cut.generation},
+               {"pieces", cut.pieces},
+               {"tie", cut.tie}};
+}
+
+Value refine(Session& session, ModelObject& model, const Arguments& a) {
+  if (!model.unjointed.empty())
+    throw InputError(
+        "body \"" + model.unjointed.front() +
+        "\" has no joint: give it one in cdem.model, which holds the faces of the cuts together");
+  RefineOptions options;
+  options.tension_threshold = a.number("tension_threshold");
+  options.shear_threshold = a.number("shear_threshold");
+  options.planes = static_cast<int>(a.integer("planes"));
+  options.max_depth = static_cast<int>(a.integer("max_depth"));
+  options.criterion = a.text("criterion") == "griffith" ? Criterion::griffith : Criterion::mohr_coulomb;
+  if (a.has("region"))
+    options.region = one_selection(model, a.value("region"), "region");
+  options.cohesion = a.optional_number("cohesion");
+  if (const auto angle = a.optional_number("friction_angle"))
+    options.friction_angle = radians(*angle);
+  options.tensile_strength = a.optional_number("tensile_strength");
+  const std::string& may_break = a.text("may_break");
+  options.may_break = may_break == "all"         ? MayBreak::all
+                      : may_break == "cut_faces" ? MayBreak::cut_faces
+                                                 : MayBreak::near_cuts;
+  return stage(session, model, "refine", a, Table(), [&](Simulation& simulation) {
+    Values rows;
+    for (const BlockCut& cut : simulation.refine(options))
+      rows.push_back(cut_row(cut));
+    return Value(Table::list(std::move(rows)));
+  });
+}
+
+std::string hex(std::uint64_t hash) {
+  char text[17];
+  std::snprintf(text, sizeof text, "%016llx", static_cast<unsigned long long>(hash));
+  return text;
+}
+
+Value stages(Session& session, ModelObject& model, const Arguments&) {
+  Values rows;
+  for (const Stage& stage : session.stages)
+    if (stage.model == model.number)
+      rows.emplace_back(Table{{"number", stage.number},
+                              {"kind", stage.kind},
+                              {"hash", hex(stage.hash)},
+                              {"result", stage.result}});
+  return Table::list(std::move(rows));
+}
+
+Field every() {
+  return integer("every").at_least(1).doc("steps between calls, 100 by default");
+}
+Field callback() {
+  return function("callback", "()").doc("called every so many steps; may read the model and write files");
+}
+Field breaking() {
+  return flag("breaking").standard(true).doc("bonds may break");
+}
+
+void bind_results(Module& m) {
+  m.records.push_back(
+      {"RelaxResult",
+       "What a relaxation came to.",
+       {flag("converged").required(), integer("steps").required(), number("residual").required(),
+        integer("broken_tension").required().doc("bonds, in this stage"),
+        integer("broken_shear").required().doc("bonds, in this stage"),
+        number("wall_time").unit("s").required()}});
+  m.records.push_back({"RunResult",
+                       "What real-time stepping came to.",
+                       {integer("steps").required(), number("time").unit("s").required().doc("of the model"),
+                        number("time_step").unit("s").required(),
+                        integer("broken_tension").required().doc("bonds, in this stage"),
+                        integer("broken_shear").required().doc("bonds, in this stage"),
+                        number("wall_time").unit("s").required()}});
+  m.records.push_back(
+      {"Cut",
+       "A block that was cut.",
+       {integer("block").required().doc("id"), choice("mode", {"tension", "shear"}).required(),
+        vec3("centroid").unit("m").required(), vec3("normal").required().doc("of the cut planes"),
+        vec3("principal_stress").unit("Pa").required().doc("compression positive, the largest first"),
+        number("angle_to_sigma1").unit("deg").required().doc("between the plane and the axis of the largest"),
+        integer("generation").required().doc("0 for an original block"), integer("pieces").required(),
+        flag("tie").required().doc("both conjugate planes were equally good")}});
+  m.records.push_back({"Stage",
+                       "A solving call.",
+                       {integer("number").required().doc("over all models"), text("kind").required(),
+                        text("hash").required().doc("of its arguments"), plain("result").required()}});
+}
+
+} // namespace
+
+void bind_solving(Module& m) {
+  bind_results(m);
+  Class& model = m.the_class("Model");
+  const auto add = [&](std::string name, std::string doc, std::vector<Field> fields, std::string returns,
+                       std::string returns_doc, auto body) {
+    model.methods.push_back({std::move(name), std::move(doc), std::move(fields), false, std::move(returns),
+                             std::move(returns_doc), method<ModelObject>(body)});
+  };
+  add("relax",
+      "Dynamic relaxation to static balance, with fictitious masses and adaptive damping (Han 2010 eq 12).",
+      {number("residual")
+           .between(0, 1)
+           .standard(1e-6)
+           .doc("goal: out-of-balance force norm over applied force norm"),
+       breaking(), integer("max_steps").at_least(1).standard(500000).doc("gives up with converged = false"),
+       every(), callback()},
+      "cdem.RelaxResult", "", relax);
+  add("run", "Explicit stepping in real time with the real masses.",
+      {number("duration").above(0).unit("s"), integer("steps").at_least(1).doc("instead of duration"),
+       number("safety").above(0).doc("time step over the stable one, at most 1").standard(0.9),
+       number("time_step").above(0).unit("s").doc("instead of safety; at most the stable one"), breaking(),
+       number("local_damping")
+           .from(0, 1)
+           .standard(0.0)
+           .doc("force against the motion as a fraction of the out-of-balance force (Cundall)"),
+       every(), callback(), function("stop", "(): boolean").doc("ends the stage when it returns true")},
+      "cdem.RunResult", "", run);
+  model.methods.back().fields[2].type.range = {0, 1, true, false};
+  add("refine",
+      "Cuts blocks near failure along their failure plane into slices (Han 2010 eqs 13-20); the pieces are "
+      "bonded and "
+      "carry the state over.",
+      {number("tension_threshold")
+           .at_least(0)
+           .unit("Pa")
+           .standard(0.0)
+           .doc("a block is cut when its stress is this close to the tensile strength"),
+       number("shear_threshold")
+           .at_least(0)
+           .unit("Pa")
+           .standard(0.0)
+           .doc("the same for the Mohr-Coulomb line"),
+       integer("planes").within(1, 15).standard(3).doc("equally spaced parallel cuts"),
+       integer("max_depth").within(1, 6).standard(1).doc("a block that was cut this often is left alone"),
+       choice("criterion", {"mohr_coulomb", "griffith"}).standard("mohr_coulomb"),
+       place("region").doc("only blocks whose centroid lies in this one place"),
+       number("cohesion").at_least(0).unit("Pa").doc("for the criterion, instead of the joint's"),
+       number("friction_angle").from(0, 90).unit("deg").doc("for the criterion, instead of the joint's"),
+       number("tensile_strength").at_least(0).unit("Pa").doc("for the criterion, instead of the joint's"),
+       choice("may_break", {"all", "cut_faces", "near_cuts"})
+           .standard("near_cuts")
+           .doc("interfaces that may break from now on: all, the cut planes, or these and the original faces "
+                "between "
+                "two cut blocks")},
+      "cdem.Cut[]", "one table per block that was cut", refine);
+  add("stages", "The model's solving calls so far.", {}, "cdem.Stage[]", "", stages);
+  model.methods.back().in_order = true;
+}
+
+} // namespace cdem::script

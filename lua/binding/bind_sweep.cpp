@@ -1,0 +1,196 @@
+// cdem.sweep: one script with many settings, as processes side by side.
+#include "lua/binding/module.hpp"
+#include "lua/binding/process_pool.hpp"
+#include "lua/binding/session.hpp"
+
+#include "libcdem/step/errors.hpp"
+#include "libgeom/core/error.hpp"
+
+#include <algorithm>
+#include <cctype>
+#include <sstream>
+
+namespace cdem::script {
+
+namespace {
+
+using geom::InputError;
+namespace fs = std::filesystem;
+
+std::string set_text(const Value& value) {
+  if (const std::string* text = value.get<std::string>())
+    return *text;
+  if (const Table* table = value.table()) {
+    std::string out;
+    for (const Value& item : table->items)
+      out += (out.empty() ? "" : ",") + set_text(item);
+    return out;
+  }
+  return describe(value);
+}
+
+struct Case {
+  Value set;
+  std::vector<std::string> settings; // "name=value"
+  std::string name;                  // of its folder: "case=1,depth=2"
+};
+
+std::vector<Case> read_cases(const Arguments& a) {
+  std::vector<Case> cases;
+  for (const Value& given : a.list("set")) {
+    const std::string path = "set[" + std::to_string(cases.size() + 1) + "]";
+    Case one;
+    one.set = given;
+    const Table* table = given.table();
+    if (!table || !table->items.empty())
+      throw InputError(path, describe(given), "a table of parameters, e.g. { pressure = 24e6 }");
+    for (const auto& [name, value] : table->named) {
+      if (value.table() && !value.table()->named.empty())
+        throw InputError(path + "." + name, describe(value),
+                         "a number, a string, a boolean or a list of these");
+      one.settings.push_back(name + "=" + set_text(value));
+      one.name += (one.name.empty() ? "" : ",") + one.settings.back();
+    }
+    for (char& c : one.name)
+      if (!std::isalnum(static_cast<unsigned char>(c)) && std::string("=,._+-").find(c) == std::string::npos)
+        c = '_';
+    if (one.name.empty() || one.name[0] == '.' || one.name.size() > 120)
+      one.name = "case_" + std::to_string(cases.size() + 1);
+    const auto same = [&](const Case& other) { return other.name == one.name; };
+    if (std::any_of(cases.begin(), cases.end(), same))
+      one.name += "_" + std::to_string(cases.size() + 1);
+    cases.push_back(std::move(one));
+  }
+  return cases;
+}
+
+std::string last_line(const fs::path& file) {
+  std::error_code error;
+  if (!fs::exists(file, error))
+    return {};
+  std::istringstream in(read_file(file));
+  std::string last;
+  for (std::string line; std::getline(in, line);)
+    if (!line.empty())
+      last = line;
+  return last;
+}
+
+Value result_of(Session& session, const Case& one, const Job& job, const fs::path& folder) {
+  Table figures;
+  const fs::path report = folder / "report.json";
+  std::error_code error;
+  if (job.exit_code == 0 && fs::exists(report, error)) {
+    const Value all = read_report(read_file(report), report.string());
+    const auto list =
+        all.table() ? all.table()->named.find("figures") : std::map<std::string, Value>::const_iterator();
+    if (all.table() && list != all.table()->named.end() && list->second.table())
+      for (const Value& figure : list->second.table()->items) {
+        const auto& named = figure.table()->named;
+        if (named.count("name") && named.count("value"))
+          figures.named[*named.at("name").get<std::string>()] = named.at("value");
+      }
+  }
+  Table row{{"set", one.set},
+            {"output", folder.lexically_relative(session.files.output()).string()},
+            {"exit_code", job.exit_code},
+            {"seconds", job.seconds},
+            {"figures", figures}};
+  return row;
+}
+
+std::vector<Job> make_jobs(const Session& session, const Arguments& a, const std::vector<Case>& cases,
+                           const fs::path& script) {
+  std::vector<Job> jobs;
+  for (const Case& one : cases) {
+    Job job;
+    job.command = {session.settings.program, session.settings.check_only ? "check" : "run", script.string()};
+    for (const std::string& setting : one.settings) {
+      job.command.emplace_back("--set");
+      job.command.push_back(setting);
+    }
+    if (session.settings.check_only) {
+      job.console = "/dev/null";
+    } else {
+      // Beside the case's folder, which a run takes only when it is empty or holds results of cdem.
+      job.console = session.files.to_write(one.name + ".console.txt");
+      job.command.insert(job.command.end(), {"--quiet", "--output", (session.files.output() / one.name).string(), "--threads",
+                                             std::to_string(a.integer("threads"))});
+    }
+    if (session.settings.unsafe)
+      job.command.emplace_back("--unsafe");
+    jobs.push_back(std::move(job));
+  }
+  return jobs;
+}
+
+Value sweep(Session& session, Object*, const Arguments& a) {
+  const fs::path script = session.files.to_read(a.text("script"));
+  if (!session.settings.script.empty() && fs::equivalent(script, session.settings.script))
+    throw InputError("script", "\"" + a.text("script") + "\"", "another script",
+                     "a script that sweeps itself would never end");
+  if (session.settings.program.empty())
+    throw InputError("sweep: only from the cdem program, which it starts for each case");
+  session.check_set_names();
+  const std::vector<Case> cases = read_cases(a);
+  std::vector<Job> jobs = make_jobs(session, a, cases, script);
+
+  const auto& observer = session.settings.observer;
+  const auto count = static_cast<std::int64_t>(jobs.size());
+  std::int64_t done = 0;
+  Progress progress;
+  progress.kind = "sweep";
+  progress.max_steps = count;
+  const auto tell = [&](const Job& job) {
+    const Case& one = cases[static_cast<std::size_t>(&job - jobs.data())];
+    progress.step = ++done;
+    progress.last = done == count;
+    if (observer)
+      observer->progress(progress);
+    std::ostringstream line;
+    line.precision(3);
+    line << "sweep " << done << "/" << count << ": " << one.name;
+    if (job.exit_code == 0)
+      line << " done in " << job.seconds << " s";
+    else
+      line << " failed with exit code " << job.exit_code << ": "
+           << (session.settings.check_only ? "cdem check tells why" : last_line(job.console));
+    session.message(line.str());
+  };
+  const auto stop = [&] { return observer && observer->stop_requested(); };
+  if (!run_jobs(jobs, static_cast<int>(a.integer("jobs")), stop, tell))
+    throw Interrupted();
+
+  Values results;
+  for (std::size_t i = 0; i < jobs.size(); ++i)
+    results.push_back(result_of(session, cases[i], jobs[i], session.files.output() / cases[i].name));
+  return Table::list(std::move(results));
+}
+
+} // namespace
+
+void bind_sweep(Module& m) {
+  m.records.push_back(
+      {"SweepResult",
+       "What one case of a sweep came to.",
+       {plain("set").required().doc("as given"),
+        text("output").required().doc("its folder, in the output folder"),
+        integer("exit_code").required().doc("0 when it succeeded"), number("seconds").unit("s").required(),
+        plain("figures").required().doc("values of its report by name; empty when it failed")}});
+  m.functions.push_back({"sweep",
+                         "Runs a script with many settings, as processes side by side, each with a folder of "
+                         "its own in the output "
+                         "folder.",
+                         {text("script").required().doc("another .lua file beside this one"),
+                          list("set", plain("").type)
+                              .required()
+                              .doc("one table of parameters per case, e.g. { { case = 1 }, { case = 2 } }"),
+                          integer("jobs").within(1, 1024).standard(1).doc("cases at a time"),
+                          integer("threads").within(1, 1024).standard(1).doc("of each case")},
+                         false,
+                         "cdem.SweepResult[]",
+                         "in the order given",
+                         sweep});
+}
+
+} // namespace cdem::script

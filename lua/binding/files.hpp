@@ -1,0 +1,46 @@
+// Which files a script may touch: it writes below the output folder only, and reads beside itself, below the
+// output folder and below the results. `..` and symbolic links are followed before the place is judged.
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace cdem::script {
+
+class Files {
+public:
+  // Relative folders are taken from the current one. results may be empty.
+  Files(const std::filesystem::path& script, const std::filesystem::path& output,
+        const std::filesystem::path& results, bool unsafe);
+
+  // Full path of a file to be written; makes its folder. A relative name is taken from the output folder.
+  // Throws geom::InputError when the place is not allowed, FileError when the folder cannot be made.
+  std::filesystem::path to_write(const std::string& name) const;
+  // Full path of an existing file to be read: looked for beside the script, in the output folder, from the
+  // folder that holds the results, and in the results. Throws geom::InputError when the place is not allowed,
+  // FileError when there is no such file.
+  std::filesystem::path to_read(const std::string& name) const;
+
+  std::function<void(const std::filesystem::path&)>
+      will_write; // told of each file that to_write allows; may be empty
+
+  const std::filesystem::path& output() const { return output_; }
+  const std::filesystem::path& script_folder() const { return script_folder_; }
+
+private:
+  std::filesystem::path script_folder_, output_, results_;
+  bool unsafe_;
+};
+
+// A script's path as messages show it: relative to the current folder when it lies below, the bare name when
+// long.
+std::string shown_name(const std::filesystem::path& script);
+
+// Writes through a temporary file and a rename, so that a reader never sees half a file. FileError on
+// failure.
+void write_file(const std::filesystem::path& path, const std::string& text);
+std::string read_file(const std::filesystem::path& path); // FileError on failure
+
+} // namespace cdem::script

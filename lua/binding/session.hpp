@@ -1,0 +1,55 @@
+// What a running script has declared and done so far. Knows nothing of Lua.
+#pragma once
+
+#include "lua/binding/engine.hpp"
+#include "lua/binding/files.hpp"
+#include "lua/binding/report.hpp"
+#include "lua/binding/value.hpp"
+
+#include <functional>
+
+namespace cdem::script {
+
+struct ModelObject;
+
+// A solving call: numbered, hashed by its arguments, so that a resumed script can tell a finished stage from
+// a changed one.
+struct Stage {
+  int number = 0; // over all models of the script, from 1
+  int model = 0;  // from 1, in the order the script made them
+  std::string kind;
+  std::uint64_t hash = 0; // of the kind, the model and the canonical text of the arguments
+  Value result;
+};
+
+struct Parameter {
+  ParameterInfo info;
+  Value value;
+};
+
+struct Session {
+  explicit Session(EngineSettings);
+
+  EngineSettings settings;
+  Files files;
+  std::vector<Parameter> parameters;
+  std::vector<Stage> stages;
+  std::vector<std::weak_ptr<ModelObject>> models;
+  std::vector<std::shared_ptr<ModelObject>> failed; // models whose stage failed or was stopped
+  std::vector<std::string> warnings;
+  Report report;
+
+  // Services of the Lua side.
+  std::function<std::shared_ptr<Reference>(const Value& plain_table)> new_table;
+  std::function<std::string()> where;    // "case.lua:12" of the running call
+  std::function<void()> collect_garbage; // lets go of models that the script no longer holds
+
+  void message(const std::string& line) const; // to the observer; to standard output without one
+  void warn(const std::string& text);          // with the place in the script
+
+  // Names given with --set that no cdem.parameter has declared: InputError naming the nearest. Called at the
+  // first solving call, before hours are spent with a misspelt name, and when the script has ended.
+  void check_set_names() const;
+};
+
+} // namespace cdem::script
