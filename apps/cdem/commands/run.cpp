@@ -17,7 +17,7 @@ namespace {
 void save_last_states(script::Engine& engine, RunObserver& observer) {
   try {
     if (engine.model_saved_after_failure())
-      observer.message("the last good state is saved");
+      observer.message("the last good state is in last_good.vtu");
   } catch (const std::exception& error) {
     observer.message(std::string("the last good state could not be saved: ") + error.what());
   }

@@ -82,21 +82,19 @@ void write_table(const std::vector<SweptRun>& runs, const fs::path& file) {
   std::vector<std::string> names; // in order of appearance
   for (std::size_t i = 0; i < runs.size(); ++i) {
     const fs::path report = runs[i].folder / "report.json";
-    // A run that failed may have left a report of its first half: its exit code says so.
-    if (runs[i].exit_code < 0 || !fs::exists(report))
+    // What a failed run has in its folder may be of an earlier sweep.
+    if (runs[i].exit_code != 0 || !fs::exists(report))
       continue;
     for (const auto& figure : read_report(report)) {
-      const std::string name =
-          figure.name + (figure.unit.empty() || figure.unit == "1" ? "" : " [" + figure.unit + "]");
-      values[i][name] = figure.value;
-      if (std::find(names.begin(), names.end(), name) == names.end())
-        names.push_back(name);
+      values[i][figure.name] = figure.value;
+      if (std::find(names.begin(), names.end(), figure.name) == names.end())
+        names.push_back(figure.name);
     }
   }
   std::ofstream out(file);
   for (const auto& [name, value] : runs.front().set)
     out << csv_cell(name) << ',';
-  out << "exit_code,wall_time [s]";
+  out << "exit_code,wall_time_s";
   for (const auto& name : names)
     out << ',' << csv_cell(name);
   out << '\n';

@@ -54,7 +54,11 @@ void RunObserver::start_stage(const Progress& progress, Clock::time_point now) {
   if (folder_ != nullptr)
     folder_->begin_results();
   stage_ = progress.stage;
-  stage_start_ = last_logged_ = now;
+  // The first call comes some steps into the stage.
+  const double gone =
+      progress.steps_per_second > 0 ? static_cast<double>(progress.step) / progress.steps_per_second : 0;
+  stage_start_ = now - std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(gone));
+  last_logged_ = now;
   last_shown_ = now - plain_interval;
 }
 
