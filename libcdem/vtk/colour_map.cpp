@@ -11,9 +11,9 @@ namespace {
 
 using Bytes = std::array<int, 3>;
 
-// viridis (van der Walt and Smith 2015), eleven samples
-const std::vector<Bytes> viridis = {{68, 1, 84},    {72, 37, 118},  {65, 68, 135},  {53, 96, 141},
-                                    {42, 120, 142}, {33, 144, 140}, {34, 168, 132}, {67, 191, 113},
+// viridis (van der Walt and Smith 2015) without its darkest fifth, on which outlines would not show
+const std::vector<Bytes> viridis = {{65, 68, 135},  {53, 96, 141},  {42, 120, 142},
+                                    {33, 144, 140}, {34, 168, 132}, {67, 191, 113},
                                     {122, 209, 81}, {187, 223, 39}, {253, 231, 37}};
 // ColorBrewer RdBu without the two darkest ends, on which outlines would not show; blue first
 const std::vector<Bytes> blue_white_red = {{33, 102, 172},  {67, 147, 195},  {146, 197, 222},

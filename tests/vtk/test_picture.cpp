@@ -58,7 +58,7 @@ int grey_at(const Image& image, double along) { // along the width of the body
 TEST_CASE("a picture has the asked size and is not blank") {
   const TemporaryFolder folder;
   Snapshot s = sample::plate();
-  for (const std::string& field :
+  for (const std::string field :
        {"", "displacement.x", "displacement.magnitude", "stress.yy", "von_mises", "block_id"})
     for (const char* view : {"front", "iso"}) {
       INFO(field << " " << view);
