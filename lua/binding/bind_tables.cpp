@@ -142,6 +142,16 @@ void bind_tables(Module& m) {
                          "string",
                          "",
                          {}});
+  m.functions.push_back({"elapsed",
+                         "Wall-clock time since the script began, s.",
+                         {},
+                         true,
+                         "number",
+                         "",
+                         [](Session& session, Object*, const Arguments&) -> Value {
+                           const auto since = std::chrono::steady_clock::now() - session.start;
+                           return std::chrono::duration<double>(since).count();
+                         }});
   m.constants.push_back({"version", "Version of the toolkit.", CDEM_VERSION});
 }
 

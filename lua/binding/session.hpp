@@ -6,6 +6,7 @@
 #include "lua/binding/report.hpp"
 #include "lua/binding/value.hpp"
 
+#include <chrono>
 #include <functional>
 
 namespace cdem::script {
@@ -30,6 +31,7 @@ struct Parameter {
 struct Session {
   explicit Session(EngineSettings);
 
+  const std::chrono::steady_clock::time_point start = std::chrono::steady_clock::now();
   EngineSettings settings;
   Files files;
   std::vector<Parameter> parameters;
