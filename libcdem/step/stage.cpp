@@ -18,11 +18,6 @@ constexpr double seconds_between_reports = 0.1;
 // Chunks a thread must have before a further one is worth its two barriers a step: about half a millisecond of work.
 constexpr std::int64_t chunks_per_thread = 32;
 
-int useful_threads(const Model& model, int threads) {
-  const auto chunks = static_cast<std::int64_t>(model.chunks.size());
-  return static_cast<int>(std::clamp<std::int64_t>(chunks / chunks_per_thread, 1, threads));
-}
-
 double seconds(std::chrono::steady_clock::duration d) { return std::chrono::duration<double>(d).count(); }
 
 std::string where(const Model& model, int node) {
@@ -33,6 +28,11 @@ std::string where(const Model& model, int node) {
 }
 
 } // namespace
+
+int useful_threads(const Model& model, int threads) {
+  const auto chunks = static_cast<std::int64_t>(model.chunks.size());
+  return static_cast<int>(std::clamp<std::int64_t>(chunks / chunks_per_thread, 1, threads));
+}
 
 double relative_residual(const NodeSums& sums) {
   const double reference = sums.applied2 > 0 ? sums.applied2 : sums.reaction2;

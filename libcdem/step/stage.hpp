@@ -68,6 +68,9 @@ private:
   std::int64_t told_step_ = 0;
 };
 
+// Of the threads allowed, as many as the model keeps busy.
+int useful_threads(const Model&, int threads);
+
 // Out-of-balance over applied force norm; reactions stand in for the loads where supports move.
 double relative_residual(const NodeSums&);
 

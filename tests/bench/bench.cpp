@@ -1,0 +1,87 @@
+// cdem_bench: how fast the solver steps, beside what the machine allows, measured in the same run.
+#include "tests/bench/bench.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <string>
+#include <thread>
+
+namespace bench {
+
+double copy_rate(int threads) {
+  constexpr std::size_t count = std::size_t{1} << 24; // 128 MiB an array, beyond any cache
+  std::vector<double> from(count, 1.0), to(count, 0.0);
+  double best = 0;
+  for (int repeat = 0; repeat < 5; ++repeat) {
+    const auto start = std::chrono::steady_clock::now();
+#pragma omp parallel for schedule(static) num_threads(threads)
+    for (std::size_t i = 0; i < count; ++i)
+      to[i] = from[i];
+    const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    best = std::max(best, 2 * sizeof(double) * static_cast<double>(count) / seconds);
+    from[static_cast<std::size_t>(repeat)] = to[count - 1 - static_cast<std::size_t>(repeat)] + repeat;
+  }
+  return best;
+}
+
+} // namespace bench
+
+namespace {
+
+std::vector<int> numbers(const char* option, const std::string& text) {
+  std::vector<int> list;
+  for (std::size_t begin = 0; begin <= text.size();) {
+    const std::size_t end = std::min(text.find(',', begin), text.size());
+    const int value = std::atoi(text.substr(begin, end - begin).c_str());
+    if (value < 1) {
+      std::fprintf(stderr, "cdem bench: error: %s = %s: must be a list of integers >= 1, e.g. 100,10000\n",
+                   option, text.c_str());
+      std::exit(2);
+    }
+    list.push_back(value);
+    begin = end + 1;
+  }
+  return list;
+}
+
+constexpr const char* help = R"(Usage: cdem bench [--sizes 100,10000,100000] [--threads 1,2] [--seconds 1]
+
+Steps plates of bonded blocks and prints rates beside the bare element kernel and a copy of memory.
+  --sizes    blocks in the plates
+  --threads  thread counts to compare
+  --seconds  stepping time per figure, at least
+)";
+
+} // namespace
+
+int main(int argc, char** argv) {
+  bench::Settings settings;
+  for (int i = 1; i < argc; ++i) {
+    const std::string option = argv[i];
+    if (option == "--help" || option == "-h") {
+      std::fputs(help, stdout);
+      return 0;
+    }
+    if (i + 1 == argc || (option != "--sizes" && option != "--threads" && option != "--seconds")) {
+      std::fprintf(stderr, "cdem bench: error: %s: must be --sizes, --threads or --seconds with a value\n%s",
+                   option.c_str(), help);
+      return 2;
+    }
+    const std::string value = argv[++i];
+    if (option == "--sizes")
+      settings.sizes = numbers("--sizes", value);
+    else if (option == "--threads")
+      settings.threads = numbers("--threads", value);
+    else
+      settings.seconds = numbers("--seconds", value)[0];
+  }
+  std::printf("%u processors\n\nmemory copy (read + written)\n", std::thread::hardware_concurrency());
+  for (const int threads : settings.threads)
+    std::printf("  %d thread%s  %5.1f GB/s\n", threads, threads == 1 ? " " : "s",
+                bench::copy_rate(threads) / 1e9);
+  bench::blocks(settings);
+  return 0;
+}

@@ -1,0 +1,18 @@
+// Benchmarks: each prints a table. What travels between machines are the ratios; absolute rates do not.
+#pragma once
+
+#include <vector>
+
+namespace bench {
+
+struct Settings {
+  std::vector<int> sizes{100, 10000, 100000}; // blocks
+  std::vector<int> threads{1, 2};
+  double seconds = 1; // of stepping per figure, at least
+};
+
+double copy_rate(int threads); // bytes moved per second, read and written, by a plain copy of a large array
+
+void blocks(const Settings&); // star blocks with bonds: full step beside the bare element kernel
+
+} // namespace bench
