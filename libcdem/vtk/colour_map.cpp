@@ -106,10 +106,6 @@ ColourScale colour_scale(const std::vector<double>& values, bool id, const std::
   const bool both_signs = low < 0 && high > 0 && std::min(-low, high) > 0.02 * std::max(-low, high);
   if (colour_map == "auto")
     scale.map = id ? "categorical" : both_signs ? "blue_white_red" : "viridis";
-  if (!range && diverging(scale.map) && both_signs) {
-    scale.high = std::max(-low, high);
-    scale.low = -scale.high;
-  }
   if (!(scale.low < scale.high)) { // one value everywhere: give it the middle of a range
     const double half = scale.low != 0 ? 0.5 * std::abs(scale.low) : 1;
     scale.low -= half;

@@ -76,8 +76,16 @@ double bar_column_width(const Canvas& canvas, const BarContent& bar, double pixe
 }
 
 void draw_bar(Canvas& canvas, const BarContent& bar, const Layout& layout, double pixel) {
-  const Rect& r = layout.bar;
+  Rect r = layout.bar;
   const bool vertical = layout.bar_vertical;
+  if (!bar.ids.empty()) { // a few ids need no long bar
+    const double enough = 90 * pixel * static_cast<double>(bar.ids.size());
+    const double spare = std::max(0., (vertical ? r.height : r.width) - enough);
+    if (vertical)
+      r = {r.left, r.bottom + spare, r.width, r.height - spare};
+    else
+      r = {r.left + spare / 2, r.bottom, r.width - spare, r.height};
+  }
   const double font = label_font * pixel, length = vertical ? r.height : r.width;
   const double start = vertical ? r.bottom : r.left, across = vertical ? r.width : r.height;
   const auto piece = [&](double from, double to, const Colour& colour) { // along the bar, 0 .. 1

@@ -64,12 +64,6 @@ std::vector<double> gather(std::size_t count, const Value& value) {
   return values;
 }
 
-const SnapshotField* find(const std::vector<SnapshotField>& fields, const std::string& name) {
-  const auto it =
-      std::find_if(fields.begin(), fields.end(), [&](const SnapshotField& f) { return f.name == name; });
-  return it == fields.end() ? nullptr : &*it;
-}
-
 [[noreturn]] void unknown_field(const Snapshot& snapshot, const std::string& field) {
   const std::vector<std::string> known = picture_fields(snapshot);
   std::vector<std::string> offer = nearest_names(field, known);
@@ -86,8 +80,14 @@ const SnapshotField* find(const std::vector<SnapshotField>& fields, const std::s
 
 } // namespace
 
+const SnapshotField* find_field(const std::vector<SnapshotField>& fields, const std::string& name) {
+  const auto it =
+      std::find_if(fields.begin(), fields.end(), [&](const SnapshotField& f) { return f.name == name; });
+  return it == fields.end() ? nullptr : &*it;
+}
+
 const SnapshotField* displacement_of(const std::vector<SnapshotField>& point_fields) {
-  const SnapshotField* field = find(point_fields, "displacement");
+  const SnapshotField* field = find_field(point_fields, "displacement");
   return field && field->components == 3 ? field : nullptr;
 }
 
@@ -101,8 +101,8 @@ std::vector<std::string> picture_fields(const Snapshot& snapshot) {
       for (const std::string& component : components)
         names.push_back(field.name + "." + component);
     }
-  const SnapshotField* stress = find(snapshot.cell_fields, "stress");
-  if (stress && stress->components == 6 && !find(snapshot.cell_fields, "von_mises"))
+  const SnapshotField* stress = find_field(snapshot.cell_fields, "stress");
+  if (stress && stress->components == 6 && !find_field(snapshot.cell_fields, "von_mises"))
     names.push_back("von_mises");
   return names;
 }
@@ -113,13 +113,13 @@ FieldValues field_values(const Snapshot& snapshot, const std::string& name) {
   std::string component = dot == std::string::npos ? std::string() : name.substr(dot + 1);
 
   FieldValues result;
-  const SnapshotField* field = find(snapshot.point_fields, base);
+  const SnapshotField* field = find_field(snapshot.point_fields, base);
   result.on_points = field != nullptr;
   if (!field)
-    field = find(snapshot.cell_fields, base);
+    field = find_field(snapshot.cell_fields, base);
   bool mises = false;
   if (!field && name == "von_mises") {
-    field = find(snapshot.cell_fields, "stress");
+    field = find_field(snapshot.cell_fields, "stress");
     mises = field && field->components == 6;
   }
   if (!field || (!mises && base == "von_mises" && field->components != 1))
@@ -135,7 +135,7 @@ FieldValues field_values(const Snapshot& snapshot, const std::string& name) {
   result.symbol = mises ? symbol_of("von_mises", {}) : symbol_of(base, component);
   result.unit = field->unit;
   result.integer = field->integer;
-  result.id = field->integer && ends_with(base, "_id");
+  result.id = field->integer && (ends_with(base, "_id") || base == "body");
 
   const auto n = static_cast<std::size_t>(field->components);
   const std::size_t chosen = components.empty() ? 0 : static_cast<std::size_t>(place - components.begin());

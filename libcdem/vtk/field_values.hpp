@@ -20,6 +20,9 @@ struct FieldValues {
 // Throws geom::InputError naming the nearest right names.
 FieldValues field_values(const Snapshot&, const std::string& field);
 
+// The field of that name, or nullptr.
+const SnapshotField* find_field(const std::vector<SnapshotField>&, const std::string& name);
+
 // The point field "displacement", m, or nullptr.
 const SnapshotField* displacement_of(const std::vector<SnapshotField>& point_fields);
 

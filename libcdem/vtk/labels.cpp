@@ -60,7 +60,8 @@ DisplayUnit display_unit(const std::string& unit, double largest) {
   if (!plain && takes_prefix(unit)) {
     for (const Prefix& prefix : prefixes) {
       const bool allowed = !(prefix.factor > 1 && stops_at_one(unit));
-      if (allowed && largest >= 0.1 * prefix.factor)
+      const double least = prefix.factor > 1e6 ? 1 : 0.1; // 110 MPa reads better than 0.11 GPa
+      if (allowed && largest >= least * prefix.factor)
         return {1 / prefix.factor, prefix.text + with_exponents(unit)};
     }
   }

@@ -12,8 +12,8 @@ struct DisplayUnit {
   std::string text;  // "mm", "MPa", "10^{-3}", empty for a plain number
 };
 
-// The largest prefix with which `largest` (SI, >= 0) is at least 0.1; powers of ten for units without
-// prefixes.
+// The largest prefix with which `largest` (SI, >= 0) is at least 0.1 (1 for giga); powers of ten for units
+// without prefixes.
 DisplayUnit display_unit(const std::string& unit, double largest);
 
 // Ticks at 1, 2, 2.5 or 5 times a power of ten inside [low, high], about `count` of them.

@@ -11,12 +11,6 @@ namespace {
 
 using geom::Vec3;
 
-const SnapshotField* find(const std::vector<SnapshotField>& fields, const char* name) {
-  const auto it =
-      std::find_if(fields.begin(), fields.end(), [&](const SnapshotField& f) { return f.name == name; });
-  return it == fields.end() ? nullptr : &*it;
-}
-
 std::int64_t block_of(const SnapshotField* block_id, std::size_t tet) {
   return block_id ? static_cast<std::int64_t>(block_id->values[tet]) : 0;
 }
@@ -60,7 +54,7 @@ constexpr int tet_faces[4][3] = {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}};
 } // namespace
 
 void find_surface(Snapshot& s) {
-  const SnapshotField* block_id = find(s.cell_fields, "block_id");
+  const SnapshotField* block_id = find_field(s.cell_fields, "block_id");
   const std::vector<geom::Tet> merged = merge_nodes(s, block_id);
   s.surface.clear();
   s.surface_tet.clear();
@@ -145,10 +139,10 @@ std::vector<Vec3> deformed(const std::vector<Vec3>& points, const SnapshotField*
 
 BrokenInterfaces broken_interfaces(const BondSnapshot& bonds, double deformation) {
   BrokenInterfaces broken;
-  const SnapshotField* mode = find(bonds.triangle_fields, "mode");
+  const SnapshotField* mode = find_field(bonds.triangle_fields, "mode");
   if (!mode)
     return broken;
-  const SnapshotField* interface_id = find(bonds.triangle_fields, "interface_id");
+  const SnapshotField* interface_id = find_field(bonds.triangle_fields, "interface_id");
   broken.points = deformed(bonds.points, displacement_of(bonds.point_fields), deformation);
 
   struct Edge {

@@ -48,7 +48,7 @@ struct PictureOptions {
   std::optional<Camera> camera;
   std::array<int, 2> size = {1600, 1200};     // pixels; height 0: as high as the picture needs
   std::optional<std::array<double, 2>> range; // of the colours, SI units
-  // "auto": blue_white_red centred on zero when the values change sign, else viridis; distinct colours for
+  // "auto": blue_white_red with white at zero when the values change sign, else viridis; distinct colours for
   // ids. Or one of blue_white_red, cool_warm, viridis, grey, categorical.
   std::string colour_map = "auto";
   std::string title;        // "_{...}" and "^{...}" set sub- and superscripts

@@ -1,7 +1,7 @@
 // .vtu files of ours back to snapshots, with every number in them checked before it is used.
 #include "libcdem/vtk/checksum.hpp"
 #include "libcdem/vtk/files.hpp"
-#include "libcdem/vtk/grid_data.hpp"
+#include "libcdem/vtk/header_names.hpp"
 #include "libcdem/vtk/outline.hpp"
 #include "libgeom/core/error.hpp"
 

@@ -27,7 +27,7 @@ namespace {
 using geom::Vec3;
 
 constexpr Colour edge_colour = {0.13, 0.13, 0.13};
-constexpr double broken_width = 6, casing_width = 9; // pixels of a 1600 x 1200 picture
+constexpr double broken_width = 6; // pixels of a 1600 x 1200 picture
 
 void set_points(vtkPolyData* mesh, const std::vector<Vec3>& points) {
   vtkNew<vtkPoints> out;
@@ -57,9 +57,9 @@ public:
   void add(const Vec3& from, const Vec3& to, bool round_ends, double extension = 0) {
     Vec3 a = lifted(from), b = lifted(to);
     const Vec3 along = b - a, sight = view_.direction_to_viewer(0.5 * (a + b));
-    const Vec3 side = along.cross(sight);
-    if (!(side.norm() > 1e-6 * along.norm()) || !view_.in_front(a) || !view_.in_front(b))
-      return; // seen from its end
+    const Vec3 side = along.cross(sight); // as long as the segment is seen to be
+    if (!(side.norm() > view_.pixel_size(a)) || !view_.in_front(a) || !view_.in_front(b))
+      return; // seen from its end, or too small to be seen
     const Vec3 unit = side.normalized();
     if (extension > 0) {
       const Vec3 longer = extension * view_.pixel_size(a) * along.normalized();
@@ -220,19 +220,23 @@ void Scene::Impl::add_body(const SceneInput& in, const View& view) {
 }
 
 void Scene::Impl::add_broken(const SceneInput& in, const View& view) {
-  const auto outline = [&](const BrokenInterfaces::Part& part, double width, double lift, bool round,
+  // Among small blocks thick lines would merge.
+  const double median = median_edge_pixels(in.snapshot, in.points, view);
+  const double width = std::clamp(0.07 * median, 1.5 * in.pixel, broken_width * in.pixel),
+               casing = 0.25 * width;
+  const auto outline = [&](const BrokenInterfaces::Part& part, double wide, double lift, bool round,
                            double extension, const Colour& colour) {
-    Ribbons ribbons(view, width * in.pixel, lift * in.pixel);
+    Ribbons ribbons(view, wide, lift * width);
     for (const auto& e : part.outline)
-      ribbons.add(in.broken->points[e[0]], in.broken->points[e[1]], round, extension * in.pixel);
+      ribbons.add(in.broken->points[e[0]], in.broken->points[e[1]], round, extension);
     add_unlit(ribbons.points, ribbons.triangles, colour);
   };
   // White casing below the colours keeps them apart from whatever the faces show. Its ends are square: round
   // ones face the viewer and would come through the coloured strip where that leans away.
   for (const auto* part : {&in.broken->tension, &in.broken->shear})
-    outline(*part, casing_width, 6, false, 0.5 * (casing_width - broken_width), {1, 1, 1});
-  outline(in.broken->shear, broken_width, 9, true, 0, shear_colour);
-  outline(in.broken->tension, broken_width, 10, true, 0, tension_colour);
+    outline(*part, width + 2 * casing, 1, false, casing, {1, 1, 1});
+  outline(in.broken->shear, width, 1.5, true, 0, shear_colour);
+  outline(in.broken->tension, width, 1.7, true, 0, tension_colour);
   add_unlit(in.broken->points, in.broken->tension.triangles, tension_colour);
   add_unlit(in.broken->points, in.broken->shear.triangles, shear_colour);
 }

@@ -2,7 +2,7 @@
 #include "libcdem/vtk/atomic_file.hpp"
 #include "libcdem/vtk/checksum.hpp"
 #include "libcdem/vtk/files.hpp"
-#include "libcdem/vtk/grid_data.hpp"
+#include "libcdem/vtk/header_names.hpp"
 #include "libgeom/core/error.hpp"
 
 #include <vtkCellArray.h>

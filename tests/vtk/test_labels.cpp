@@ -29,6 +29,8 @@ TEST_CASE("a unit prefix keeps the largest shown number between 0.1 and 1000") {
   CHECK(shown("Pa", 30e6) == "MPa");
   CHECK(shown("Pa", 0.7e6) == "MPa");
   CHECK(shown("Pa", 5e3) == "kPa");
+  CHECK(shown("Pa", 110e6) == "MPa");
+  CHECK(shown("Pa", 0.9e9) == "MPa");
   CHECK(shown("Pa", 30e9) == "GPa");
   CHECK(shown("m/s", 3e-3) == "mm/s");
   CHECK(shown("m/s2", 9.81) == "m/s\u00b2");
@@ -118,8 +120,10 @@ TEST_CASE("zero takes the middle colour of a map with two sides") {
   for (const std::vector<double>& values : {std::vector<double>{-1, 3}, {-3, 1}, {-2, 2}}) {
     const ColourScale scale = colour_scale(values, false, "auto", {});
     CHECK(scale.map == "blue_white_red");
-    CHECK(scale.low == -scale.high);
-    CHECK(scale.high == std::max(-values[0], values[1]));
+    CHECK(scale.low == values[0]); // the bar shows the range of the values, no more
+    CHECK(scale.high == values[1]);
+    CHECK(scale(values[-values[0] > values[1] ? 0 : 1]) ==
+          map_colour("blue_white_red", -values[0] > values[1] ? 0 : 1));
     CHECK(scale(0) == map_colour("blue_white_red", 0.5));
   }
   const ColourScale given = colour_scale({-1, 3}, false, "auto", std::array<double, 2>{-1, 3});
