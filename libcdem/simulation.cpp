@@ -250,6 +250,11 @@ std::int64_t Simulation::unbond(const Selection& on) {
   for (int p = 0; p < static_cast<int>(s.model.points.size()); ++p)
     if (selects_point(s.model, on, p)) {
       s.state.bond_mode[p] = static_cast<std::uint8_t>(BondMode::contact);
+      if (!s.state.bond_damage.empty()) {
+        s.state.bond_damage[p] = 0;
+        s.state.bond_offset[p] += s.state.bond_slip[p];
+        s.state.bond_slip[p].setZero();
+      }
       ++count;
     }
   if (count == 0)
@@ -304,6 +309,8 @@ ModelCounts Simulation::counts() const {
   std::int64_t* const by_mode[] = {&c.intact, &c.broken_tension, &c.broken_shear, &c.contacts};
   for (const std::uint8_t mode : impl_->state.bond_mode)
     ++*by_mode[mode];
+  for (std::size_t p = 0; p < impl_->state.bond_damage.size(); ++p)
+    c.damaged += impl_->state.bond_damage[p] > 0 && impl_->state.bond_mode[p] == 0;
   return c;
 }
 

@@ -43,6 +43,7 @@ struct ModelCounts {
   std::int64_t bodies = 0, blocks = 0, nodes = 0, tets = 0, interfaces = 0, bonds = 0;
   // bonds: spring points; each stands in exactly one of the following
   std::int64_t intact = 0, broken_tension = 0, broken_shear = 0, contacts = 0;
+  std::int64_t damaged = 0; // of the intact ones: have begun to soften
 };
 
 class Simulation {

@@ -199,6 +199,10 @@ private:
                                 : nearest_point(old_, *before, r.model.point_position[p]);
         r.state.bond_mode[p] = from_.bond_mode[source];
         r.state.bond_offset[p] = from_.bond_offset[source];
+        if (!from_.bond_damage.empty()) {
+          r.state.bond_damage[p] = from_.bond_damage[source];
+          r.state.bond_slip[p] = from_.bond_slip[source];
+        }
       } else if (now.origin == InterfaceOrigin::cut) {
         preload(r, now, p);
       }

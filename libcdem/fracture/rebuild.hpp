@@ -1,9 +1,9 @@
 // The only door through which topology changes: old Model and State in, new ones out, every field carried over.
 //
-// A successor block is a whole old block, or a part of one. Its nodes take displacement and velocity from the old
-// block's tets at their place. Springs of an interface that was there before take mode and offset (preload, slip) from
-// the nearest old spring. Springs on a new cut start intact with the traction the parent's stress has there, as an
-// offset: without it the cut would kick the model.
+// A successor block is a whole old block, or a part of one. Its nodes take displacement and velocity from the
+// old block's tets at their place. Springs of an interface that was there before take mode, offset (preload,
+// slip) and damage from the nearest old spring. Springs on a new cut start intact with the traction the
+// parent's stress has there, as an offset: without it the cut would kick the model.
 #pragma once
 
 #include "libcdem/fracture/options.hpp"

@@ -1,15 +1,17 @@
-// Forces of all springs, bonds and contacts alike, with breaking; each chunk of springs writes only its own springs.
+// Forces of all springs, bonds and contacts alike, with breaking; each chunk of springs writes only its own
+// springs.
 #pragma once
 
 #include "libcdem/step/workspace.hpp"
 
 namespace cdem {
 
-// Reads displacement; writes Workspace::spring_force, spring_sums and, where a spring breaks, slips or opens,
-// bond_mode and bond_offset.
+// Reads displacement; writes Workspace::spring_force, stretch, spring_sums and, where a spring breaks, slips,
+// opens or softens, bond_mode, bond_offset, bond_damage and bond_slip.
 void spring_forces(const Model&, State&, Workspace&, Range points, SpringSums&, bool breaking);
 
-// Forces of the present state without any breaking or slip: what the first step's energy losses are counted from.
+// Forces of the present state without any breaking or slip: what the first step's energy losses are counted
+// from.
 void start_spring_forces(const Model&, const State&, Workspace&);
 
 // Jump of the displacement from side a to side b, m.

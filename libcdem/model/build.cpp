@@ -116,6 +116,7 @@ void set_stiffness(const Model& model, Interface& interface) {
   const auto series = [&](double p, double q) { return 2 / (interface.thickness * (1 / p + 1 / q)); };
   interface.kn = joint.normal_stiffness.value_or(series(a.youngs_modulus, b.youngs_modulus));
   interface.ks = joint.shear_stiffness.value_or(series(a.shear_modulus(), b.shear_modulus()));
+  validate(joint, interface.kn, interface.ks);
 }
 
 std::vector<geom::Vec3> block_nodes(const Model& model, const Block& block) {

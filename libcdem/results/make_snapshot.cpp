@@ -29,7 +29,16 @@ bool broken(std::uint8_t mode) {
          mode == static_cast<std::uint8_t>(BondMode::broken_shear);
 }
 
-// Broken part of the bonded area around each block.
+// Of one bond: 0 whole, 1 broken; a contact that was none has nothing to lose.
+double damage_of(const State& state, std::size_t p) {
+  if (broken(state.bond_mode[p]))
+    return 1;
+  return state.bond_damage.empty() || state.bond_mode[p] == static_cast<std::uint8_t>(BondMode::contact)
+             ? 0
+             : state.bond_damage[p];
+}
+
+// Mean damage of the bonded area around each block: the broken part of it where bonds are brittle.
 std::vector<double> block_damage(const Model& model, const State& state) {
   std::vector<double> bonded(model.blocks.size(), 0.0), lost(model.blocks.size(), 0.0);
   for (std::size_t p = 0; p < model.points.size(); ++p) {
@@ -38,7 +47,7 @@ std::vector<double> block_damage(const Model& model, const State& state) {
       continue;
     for (const int block : {interface.block_a, interface.block_b}) {
       bonded[block] += model.points[p].area;
-      lost[block] += broken(state.bond_mode[p]) ? model.points[p].area : 0;
+      lost[block] += damage_of(state, p) * model.points[p].area;
     }
   }
   for (std::size_t b = 0; b < lost.size(); ++b)
@@ -96,6 +105,7 @@ void add_bonds(const Model& model, const State& state, BondSnapshot& bonds) {
   bonds.triangles = model.bond_triangles;
   SnapshotField mode = scalar("mode", "", n, true), opening = scalar("opening", "m", n), slip = scalar("slip", "m", n);
   SnapshotField traction = scalar("traction", "Pa", 3 * n), displacement = scalar("displacement", "m", 3 * n);
+  SnapshotField damage = scalar("damage", "1", n);
   traction.components = displacement.components = 3;
   for (std::size_t p = 0; p < n; ++p) {
     const BondPoint& point = model.points[p];
@@ -108,13 +118,14 @@ void add_bonds(const Model& model, const State& state, BondSnapshot& bonds) {
       u += 0.5 * (point.weight_a[k] * geom::Vec3(a.x, a.y, a.z) + point.weight_b[k] * geom::Vec3(b.x, b.y, b.z));
     }
     mode.values.push_back(state.bond_mode[p]);
+    damage.values.push_back(damage_of(state, p));
     opening.values.push_back(normal);
     slip.values.push_back((j - normal * point.normal).norm());
     traction.values.insert(traction.values.end(), t.data(), t.data() + 3);
     displacement.values.insert(displacement.values.end(), u.data(), u.data() + 3);
   }
-  bonds.point_fields = {std::move(mode), std::move(opening), std::move(slip), std::move(traction),
-                        std::move(displacement)};
+  bonds.point_fields = {std::move(mode), std::move(damage),   std::move(opening),
+                        std::move(slip), std::move(traction), std::move(displacement)};
 
   SnapshotField interface_id = scalar("interface_id", "", bonds.triangles.size(), true);
   SnapshotField worst = scalar("mode", "", bonds.triangles.size(), true);

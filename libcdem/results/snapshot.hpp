@@ -24,7 +24,7 @@ enum class BondMode : int { intact = 0, broken_tension = 1, broken_shear = 2, co
 struct BondSnapshot {
   std::vector<geom::Vec3> points;               // m, undeformed
   std::vector<geom::Triangle> triangles;        // over points
-  std::vector<SnapshotField> point_fields;      // "mode", "opening" m, "slip" m, "traction" Pa, "displacement" m
+  std::vector<SnapshotField> point_fields; // "mode", "damage", "opening" m, "slip" m, "traction" Pa, "displacement" m
   std::vector<SnapshotField> triangle_fields;   // "interface_id", "mode": the worst of its three points
 };
 

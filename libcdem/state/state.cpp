@@ -1,5 +1,7 @@
 #include "libcdem/state/state.hpp"
 
+#include <algorithm>
+
 namespace cdem {
 
 State initial_state(const Model& model) {
@@ -12,6 +14,10 @@ State initial_state(const Model& model) {
     const bool bonded = model.joints[model.interfaces[model.points[p].interface].joint].bonded;
     state.bond_mode[p] = static_cast<std::uint8_t>(bonded ? BondMode::intact : BondMode::contact);
   }
+  const bool softens = std::any_of(model.joints.begin(), model.joints.end(),
+                                   [](const Joint& joint) { return joint.softening != Softening::none; });
+  state.bond_damage.assign(softens ? model.points.size() : 0, 0.0);
+  state.bond_slip.assign(softens ? model.points.size() : 0, geom::Vec3::Zero());
   state.initial_stress.assign(model.blocks.size(), Stress{});
   return state;
 }
@@ -28,6 +34,8 @@ std::vector<StateField> fields(State& s) {
       field("velocity", "m/s", FieldPlace::node, "integrate", s.velocity, true),
       field("bond_offset", "m", FieldPlace::bond, "spring_forces", s.bond_offset, true),
       field("bond_mode", "1", FieldPlace::bond, "spring_forces", s.bond_mode, false),
+      field("bond_damage", "1", FieldPlace::bond, "spring_forces", s.bond_damage, true),
+      field("bond_slip", "m", FieldPlace::bond, "spring_forces", s.bond_slip, true),
       field("initial_stress", "Pa", FieldPlace::block, "initial_stress", s.initial_stress, true),
       {"spent", "J", FieldPlace::model, "step", &s.spent, sizeof s.spent, true},
   };

@@ -20,6 +20,9 @@ struct State {
   std::vector<Node> velocity;             // m/s, half a step behind (n_nodes); written by integrate
   std::vector<geom::Vec3> bond_offset;    // m, jump at which the spring carries nothing: preload and slip (n_points)
   std::vector<std::uint8_t> bond_mode;    // BondMode (n_points); bond_offset and bond_mode: written by spring_forces
+  // Of bonds that soften (interface/softening.hpp), written by spring_forces; empty where no joint of the model does.
+  std::vector<double> bond_damage;        // D, 0 whole .. 1 separated (n_points)
+  std::vector<geom::Vec3> bond_slip;      // m, slip of the damaged part, added to bond_offset at separation (n_points)
   std::vector<Stress> initial_stress;     // Pa (n_blocks); written by initial_stress
 
   EnergyLedger spent; // J, the summed entries only (damping, friction, ... external); the stored ones stay 0

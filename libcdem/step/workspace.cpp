@@ -10,7 +10,10 @@ Workspace::Workspace(const Model& model, const State& state, const Conditions& c
   for (const Interface& interface : model.interfaces) {
     const Joint& joint = model.joints[interface.joint];
     strength.push_back({joint.cohesion, std::tan(joint.friction_angle), joint.tensile_strength});
+    if (!state.bond_damage.empty())
+      softening.push_back(softening_law(joint, interface.kn, interface.ks));
   }
+  stretch.resize(state.bond_damage.size(), geom::Vec3::Zero());
 }
 
 } // namespace cdem

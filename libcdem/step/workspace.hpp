@@ -2,7 +2,7 @@
 // sums. Allocated once per stage; the step itself allocates nothing.
 #pragma once
 
-#include "libcdem/interface/spring_law.hpp"
+#include "libcdem/interface/softening.hpp"
 #include "libcdem/load/resolve.hpp"
 #include "libcdem/state/state.hpp"
 
@@ -42,6 +42,9 @@ struct Workspace {
   std::vector<double> mass;             // kg, real or fictitious (n_nodes)
   std::vector<geom::Vec3> spring_force; // N, on side a (n_points); written by spring_forces
   std::vector<SpringStrength> strength; // per interface
+  // Both empty in a model without softening joints.
+  std::vector<SofteningLaw> softening;    // per interface
+  std::vector<geom::Vec3> stretch;        // m, of each spring in the step before (n_points); written by spring_forces
   std::vector<SpringSums> spring_sums;  // per chunk of springs
   std::vector<NodeSums> node_sums;      // per chunk of blocks
 };
