@@ -9,6 +9,7 @@ local thickness_ratio = cdem.parameter{ name = "thickness_ratio", default = 0.02
                                         doc = "equivalent thickness L of a joint over the block size h" }
 local shear_threshold = cdem.parameter{ name = "shear_threshold", default = 0.7e6, range = {0, 1e8}, unit = "Pa",
                                         doc = "blocks this close to the Mohr-Coulomb line are cut" }
+local until_stage = cdem.parameter{ name = "until_stage", default = "failure", choices = {"elastic", "failure"} }
 
 local size, depth = 0.3, 0.3 / divisions -- m
 local rock = cdem.elastic{ youngs_modulus = 30e9, poissons_ratio = 0.25, density = 2500 }
@@ -25,6 +26,11 @@ model:traction{ on = "y+", stress = {0, -pressure, 0} }
 model:relax{ residual = 1e-6, breaking = false }
 local elastic_top = model:mean("displacement.y", "y+")
 local elastic_side = model:at("displacement.x", {size, size / 2, depth / 2})
+if until_stage == "elastic" then
+  cdem.report{ { name = "elastic_top_uy_mean_m", value = elastic_top, unit = "m" },
+               { name = "elastic_side_ux_m", value = elastic_side, unit = "m" } }
+  return
+end
 local cuts = model:refine{ shear_threshold = shear_threshold }
 model:relax{ residual = 1e-6, breaking = false }
 model:picture{ file = "cuts.png", title = "Blocks cut along their failure planes", broken_bonds = false }
