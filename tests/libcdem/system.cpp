@@ -1,0 +1,183 @@
+#include "tests/libcdem/system.hpp"
+
+#include "libcdem/element/small_strain.hpp"
+#include "libcdem/interface/spring_forces.hpp"
+#include "libcdem/model/build.hpp"
+#include "libcdem/step/forces.hpp"
+
+namespace testing {
+
+cdem::Elastic rock() {
+  cdem::Elastic m;
+  m.youngs_modulus = 30e9;
+  m.poissons_ratio = 0.25;
+  m.density = 2500;
+  return m;
+}
+
+cdem::Joint rock_joint() {
+  cdem::Joint j;
+  j.cohesion = 8e6;
+  j.friction_angle = 30 * degree;
+  j.tensile_strength = 5e6;
+  return j;
+}
+
+cdem::BodySpec body(std::string name, geom::Assembly shape, const cdem::Elastic& material,
+                    const cdem::Joint& joint) {
+  return {std::move(name), std::move(shape), material, joint};
+}
+
+cdem::Simulation simulation(geom::Assembly shape, const cdem::Elastic& material, const cdem::Joint& joint,
+                            std::shared_ptr<cdem::Observer> observer) {
+  cdem::ModelSpec spec;
+  spec.bodies.push_back(body("body", std::move(shape), material, joint));
+  return cdem::Simulation(spec, 1, std::move(observer));
+}
+
+cdem::Model build(const std::vector<cdem::BodySpec>& bodies, const std::vector<cdem::PairSpec>& pairs) {
+  cdem::Model frame;
+  std::vector<cdem::BlockSeed> seeds;
+  for (const cdem::BodySpec& spec : bodies) {
+    const int index = static_cast<int>(frame.bodies.size());
+    frame.bodies.push_back({spec.name, spec.material, spec.joint});
+    frame.pair_joint[{index, index}] = static_cast<int>(frame.joints.size());
+    frame.joints.push_back(spec.joint);
+    for (const geom::Polyhedron& block : spec.shape.blocks) {
+      cdem::BlockSeed seed;
+      seed.body = index;
+      seed.shape = block;
+      seeds.push_back(std::move(seed));
+    }
+  }
+  const auto index_of = [&](const std::string& name) {
+    int b = 0;
+    while (frame.bodies[b].name != name)
+      ++b;
+    return b;
+  };
+  for (const cdem::PairSpec& pair : pairs) {
+    frame.pair_joint[std::minmax(index_of(pair.body_a), index_of(pair.body_b))] =
+        static_cast<int>(frame.joints.size());
+    frame.joints.push_back(pair.joint);
+  }
+  return cdem::build_model(frame, std::move(seeds), cdem::default_traits);
+}
+
+cdem::Selection at_place(const geom::Vec3& x) {
+  return cdem::Selection::where([x](const geom::Vec3& y) { return (x - y).norm() < 1e-9 * (1 + x.norm()); },
+                                "a place");
+}
+
+std::array<bool, 3> axes(const std::string& names) {
+  return {names.find('x') != std::string::npos, names.find('y') != std::string::npos,
+          names.find('z') != std::string::npos};
+}
+
+System::System(cdem::Model m) : model(std::move(m)), state(cdem::initial_state(model)), last_good(state) {}
+
+cdem::RelaxResult System::relax(double residual, bool breaking) {
+  cdem::RelaxOptions options;
+  options.residual = residual;
+  options.breaking = breaking;
+  options.max_steps = 100000;
+  return cdem::relax({model, state, conditions, log, last_good, observer, threads, ++stage}, options);
+}
+
+cdem::RunResult System::run(const cdem::RunOptions& options) {
+  return cdem::run({model, state, conditions, log, last_good, observer, threads, ++stage}, options);
+}
+
+void System::hold(const cdem::Selection& on, const std::string& names) {
+  cdem::Fix fix;
+  fix.on = on;
+  fix.axes = axes(names);
+  conditions.fixes.push_back(fix);
+}
+
+void System::load_all_faces(const geom::Mat3& stress) {
+  for (const cdem::OuterFace& face : model.outer_faces) {
+    const cdem::Block& block = model.blocks[face.block];
+    cdem::Traction traction;
+    traction.on = at_place(model.node_position[block.face_centre(face.face)]);
+    traction.stress = stress * face.normal;
+    conditions.tractions.push_back(traction);
+  }
+}
+
+void System::adopt(cdem::Model&& m, cdem::State&& s) {
+  model = std::move(m);
+  state = std::move(s);
+}
+
+std::vector<geom::Vec3> System::net_forces() const {
+  cdem::Workspace work(model, state, conditions);
+  cdem::update_external(work.resolved, state.time);
+  cdem::start_spring_forces(model, state, work);
+  for (const cdem::BlockChunk& chunk : model.chunks)
+    cdem::net_forces(model, state, work, chunk);
+  std::vector<geom::Vec3> forces;
+  for (const cdem::Node& f : work.force)
+    forces.push_back(vec(f));
+  return forces;
+}
+
+double System::out_of_balance() const {
+  const cdem::ResolvedConditions r = cdem::resolve(model, state, conditions);
+  double residual = 0, applied = 0, reaction = 0;
+  const std::vector<geom::Vec3> forces = net_forces();
+  for (std::size_t i = 0; i < forces.size(); ++i) {
+    const geom::Vec3 free = vec(r.free[i]);
+    residual += forces[i].cwiseProduct(free).squaredNorm();
+    applied += vec(r.external[i]).cwiseProduct(free).squaredNorm();
+    reaction += forces[i].cwiseProduct(geom::Vec3::Ones() - free).squaredNorm();
+  }
+  return std::sqrt(residual / (applied > 0 ? applied : reaction));
+}
+
+geom::Vec3 vec(const cdem::Node& n) {
+  return {n.x, n.y, n.z};
+}
+cdem::Node node(const geom::Vec3& v) {
+  return {v.x(), v.y(), v.z(), 0};
+}
+
+geom::Mat3 hooke(const cdem::Elastic& m, const geom::Mat3& h) {
+  const double E = m.youngs_modulus, nu = m.poissons_ratio;
+  const geom::Mat3 strain = 0.5 * (h + h.transpose());
+  return E / (1 + nu) * (strain + nu / (1 - 2 * nu) * strain.trace() * geom::Mat3::Identity());
+}
+
+geom::Mat3 tet_stress(const System& s, int tet) {
+  const int block = s.model.tet_block[tet];
+  return hooke(s.model.bodies[s.model.blocks[block].body].material,
+               cdem::displacement_gradient(s.model, s.state.displacement, tet)) +
+         cdem::matrix(s.state.initial_stress[block]);
+}
+
+double stress_error(const System& s, const geom::Mat3& expected) {
+  double error = 0;
+  for (int tet = 0; tet < static_cast<int>(s.model.tets.size()); ++tet)
+    error = std::max(error, (tet_stress(s, tet) - expected).norm());
+  return error / expected.norm();
+}
+
+double traction_error(const System& s, const geom::Mat3& expected) {
+  double error = 0;
+  for (int p = 0; p < static_cast<int>(s.model.points.size()); ++p)
+    error =
+        std::max(error, (cdem::traction(s.model, s.state, p) - expected * s.model.points[p].normal).norm());
+  return error / expected.norm();
+}
+
+geom::Mat3 symmetric(double xx, double yy, double zz, double xy, double yz, double xz) {
+  geom::Mat3 m;
+  m << xx, xy, xz, xy, yy, yz, xz, yz, zz;
+  return m;
+}
+
+geom::Mat3 rotation(const geom::Vec3& axis, double angle) {
+  return Eigen::AngleAxisd(angle, axis.normalized()).toRotationMatrix();
+}
+
+} // namespace testing

@@ -1,0 +1,65 @@
+// A model with its state and conditions, open to the tests: what Simulation holds behind its door.
+#pragma once
+
+#include "libcdem/simulation.hpp"
+#include "libcdem/step/relax.hpp"
+#include "libcdem/step/run.hpp"
+
+namespace testing {
+
+inline constexpr double pi = 3.14159265358979323846;
+inline constexpr double degree = pi / 180;
+
+// Granite-like, as in Han 2010 example 4.1.
+cdem::Elastic rock();
+cdem::Joint rock_joint();
+
+cdem::BodySpec body(std::string name, geom::Assembly shape, const cdem::Elastic& = rock(),
+                    const cdem::Joint& = rock_joint());
+cdem::Simulation simulation(geom::Assembly, const cdem::Elastic& = rock(), const cdem::Joint& = rock_joint(),
+                            std::shared_ptr<cdem::Observer> = nullptr);
+cdem::Model build(const std::vector<cdem::BodySpec>&, const std::vector<cdem::PairSpec>& = {});
+
+// The place x to rounding, for conditions on single nodes and faces.
+cdem::Selection at_place(const geom::Vec3& x);
+std::array<bool, 3> axes(const std::string& names); // "xz" -> {true, false, true}
+
+struct System {
+  explicit System(cdem::Model);
+
+  cdem::RelaxResult relax(double residual, bool breaking = false);
+  cdem::RunResult run(const cdem::RunOptions&);
+  void hold(const cdem::Selection&, const std::string& names); // fixes where it is now
+  void load_all_faces(const geom::Mat3& stress);               // traction stress . n on every outer face
+  void adopt(cdem::Model&&, cdem::State&&);
+
+  // Net force on each node with the conditions of now, N.
+  std::vector<geom::Vec3> net_forces() const;
+  // Norm of the net force on the free components over that of the loads (of the reactions when there are
+  // none).
+  double out_of_balance() const;
+
+  cdem::Model model;
+  cdem::State state, last_good;
+  cdem::Conditions conditions;
+  cdem::RunLog log;
+  cdem::Observer observer;
+  int threads = 1, stage = 0;
+};
+
+geom::Vec3 vec(const cdem::Node&);
+cdem::Node node(const geom::Vec3&);
+
+// sigma = lambda tr(eps) I + 2 G eps, Pa.
+geom::Mat3 hooke(const cdem::Elastic&, const geom::Mat3& gradient);
+geom::Mat3 tet_stress(const System&, int tet); // initial stress included
+
+// Largest deviation of any tet's stress from `expected`, and of any spring's traction from expected . n (its
+// sign that of tension), over the norm of `expected`.
+double stress_error(const System&, const geom::Mat3& expected);
+double traction_error(const System&, const geom::Mat3& expected);
+
+geom::Mat3 symmetric(double xx, double yy, double zz, double xy, double yz, double xz);
+geom::Mat3 rotation(const geom::Vec3& axis, double angle);
+
+} // namespace testing
