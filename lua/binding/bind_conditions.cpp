@@ -150,7 +150,7 @@ Value unbond(Session&, ModelObject& model, const Arguments& a) {
   model.require_idle("unbond");
   std::int64_t count = 0;
   for (const Selection& on : selections(model, a.value("on"), "on"))
-    count += model.simulation.unbond(on);
+    count += model.simulation.unbond(on, a.flag("whole_faces"));
   note(model, std::to_string(count) + " bonds undone");
   return count;
 }
@@ -216,7 +216,11 @@ void bind_conditions(Module& m) {
       initial_velocity);
   add("remove", "Takes blocks out of the model (an excavation): those whose centroid is selected.", {on()},
       remove, "integer", "how many");
-  add("unbond", "Breaks bonds before anything is loaded (a notch): those whose point is selected.", {on()},
+  add("unbond", "Breaks bonds before anything is loaded (a notch): those whose point is selected.",
+      {on(), flag("whole_faces")
+                 .standard(false)
+                 .doc("only faces that are selected with all their points, so that faces that meet the notch "
+                      "at its tip stay bonded")},
       unbond, "integer", "how many");
 }
 

@@ -1,4 +1,5 @@
 // Materials and joints.
+#include "lua/binding/angles.hpp"
 #include "lua/binding/module.hpp"
 #include "lua/binding/objects.hpp"
 
@@ -7,13 +8,6 @@
 namespace cdem::script {
 
 namespace {
-
-constexpr double radians(double degrees) {
-  return degrees * 3.14159265358979323846 / 180;
-}
-constexpr double degrees(double radians) {
-  return radians * 180 / 3.14159265358979323846;
-}
 
 Value elastic(Session&, Object*, const Arguments& a) {
   auto object = std::make_shared<MaterialObject>();

@@ -161,6 +161,7 @@ void bind_measures(Module& m) {
                        std::string returns_doc, auto body, bool in_order = true) {
     model.methods.push_back({std::move(name), std::move(doc), std::move(fields), in_order, std::move(returns),
                              std::move(returns_doc), method<ModelObject>(body)});
+    model.methods.back().named_too = in_order;
   };
   const Field field =
       text("field").required().doc("e.g. \"displacement.x\", \"stress.yy\"; model:fields() has all");

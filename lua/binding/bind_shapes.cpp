@@ -1,17 +1,15 @@
 // Block assemblies: the builders of libgeom.
+#include "lua/binding/angles.hpp"
 #include "lua/binding/module.hpp"
 #include "lua/binding/objects.hpp"
 
 #include "libgeom/assembly/builders.hpp"
+#include "libgeom/assembly/edit.hpp"
 #include "libgeom/core/error.hpp"
 
 namespace cdem::script {
 
 namespace {
-
-constexpr double radians(double degrees) {
-  return degrees * 3.14159265358979323846 / 180;
-}
 
 Value made(geom::Assembly assembly) {
   auto object = std::make_shared<AssemblyObject>();
@@ -70,6 +68,39 @@ Value convex_hull(Session&, Object*, const Arguments& a) {
   geom::Assembly assembly;
   assembly.blocks.push_back(geom::convex_hull(points));
   return made(std::move(assembly));
+}
+
+Value cut_by_plane(Session&, Object*, const Arguments& a) {
+  const geom::Vec3 normal = a.vec3("normal");
+  if (!(normal.norm() > 0))
+    throw geom::InputError("normal", describe(a.value("normal")), "longer than zero");
+  geom::PlaneCutOptions options;
+  if (const auto inside = a.record("inside")) {
+    options.inside.emplace();
+    options.inside->min = inside->vec3("min");
+    options.inside->max = inside->vec3("max");
+    if ((options.inside->min.array() > options.inside->max.array()).any())
+      throw geom::InputError("inside.min", describe(inside->value("min")), "below inside.max in every axis");
+  }
+  options.clearance = a.number("clearance");
+  return made(geom::cut_by_plane(a.object<AssemblyObject>("shape")->assembly,
+                                 geom::Plane::through(a.vec3("point"), normal), options));
+}
+
+Value translate(Session&, Object*, const Arguments& a) {
+  return made(geom::translated(a.object<AssemblyObject>("shape")->assembly, a.vec3("shift")));
+}
+
+Value rotate(Session&, Object*, const Arguments& a) {
+  return made(geom::rotated(a.object<AssemblyObject>("shape")->assembly, a.vec3("axis"),
+                            radians(a.number("angle")), a.vec3("centre")));
+}
+
+Value merge(Session&, Object*, const Arguments& a) {
+  std::vector<geom::Assembly> parts;
+  for (const Value& shape : a.list("shapes"))
+    parts.push_back(static_cast<const AssemblyObject&>(*shape.object()).assembly);
+  return made(geom::merged(parts));
 }
 
 double volume(const geom::Assembly& assembly) {
@@ -146,10 +177,37 @@ void bind_builders(Module& m) {
       convex_hull);
 }
 
+void bind_edits(Module& m) {
+  const auto add = [&](std::string name, std::string doc, std::vector<Field> fields, auto body) {
+    m.functions.push_back(
+        {std::move(name), std::move(doc), std::move(fields), false, "cdem.Assembly", "", body});
+  };
+  const Field shape = object("shape", "Assembly").required().doc("left as it is; the result is a new one");
+  add("cut_by_plane", "Splits every block that a plane crosses.",
+      {shape, vec3("point").unit("m").required().doc("any point of the plane"),
+       vec3("normal").required().doc("of any length"),
+       record("inside", {vec3("min").unit("m").required(), vec3("max").unit("m").required()})
+           .doc("only blocks whose centroid lies in this box"),
+       number("clearance")
+           .at_least(0)
+           .unit("m")
+           .standard(0.0)
+           .doc("where a vertex of a block is nearer than this, the plane is shifted for that block")},
+      cut_by_plane);
+  add("translate", "Moves blocks.", {shape, vec3("shift").unit("m").required()}, translate);
+  add("rotate", "Turns blocks, right-handed, about an axis through `centre`.",
+      {shape, vec3("axis").required().doc("of any length"), number("angle").unit("deg").required(),
+       vec3("centre").unit("m").standard(Value(geom::Vec3(0, 0, 0)))},
+      rotate);
+  add("merge", "One assembly of the blocks of several.", {list("shapes", object_type("Assembly")).required()},
+      merge);
+}
+
 } // namespace
 
 void bind_shapes(Module& m) {
   bind_builders(m);
+  bind_edits(m);
 
   m.records.push_back(
       {"Box", "An axis-aligned box.", {vec3("min").unit("m").required(), vec3("max").unit("m").required()}});

@@ -1,8 +1,6 @@
 // Solving calls: numbered stages, hashed by their arguments. In a check they return typed, empty results.
-#include "lua/binding/model_object.hpp"
 #include "lua/binding/module.hpp"
-#include "lua/binding/nearest.hpp"
-#include "lua/binding/selections.hpp"
+#include "lua/binding/solving_stage.hpp"
 
 #include "libgeom/core/error.hpp"
 
@@ -11,61 +9,6 @@ namespace cdem::script {
 namespace {
 
 using geom::InputError;
-
-constexpr double radians(double degrees) {
-  return degrees * 3.14159265358979323846 / 180;
-}
-constexpr double degrees(double radians) {
-  return radians * 180 / 3.14159265358979323846;
-}
-
-// A model whose stage ended early: its state and its history are worth saving.
-void keep_unfinished(Session& session, ModelObject& model) {
-  for (const auto& known : session.models)
-    if (known.lock().get() == &model)
-      session.failed.push_back(known.lock());
-  model.write_history(session);
-}
-
-// Runs `solve` as the next stage. The history is written however the stage ends; a model whose solution
-// failed is kept, so that its last good state can be saved.
-template <class Solve>
-Value stage(Session& session, ModelObject& model, const char* kind, const Arguments& arguments, Value empty,
-            Solve solve) {
-  model.require_idle(kind);
-  model.check_memory();
-  session.check_set_names();
-  Stage stage;
-  stage.number = static_cast<int>(session.stages.size()) + 1;
-  stage.model = model.number;
-  stage.kind = kind;
-  stage.hash = fnv1a(std::string(kind) + " " + std::to_string(model.number) + " " + arguments.canonical());
-  stage.result = empty;
-  session.stages.push_back(stage);
-  if (session.settings.check_only)
-    return empty;
-  const std::size_t index = session.stages.size() - 1;
-  struct Solving {
-    ModelObject& model;
-    explicit Solving(ModelObject& m) : model(m) { model.solving = true; }
-    ~Solving() { model.solving = false; }
-  };
-  Value result;
-  try {
-    Solving solving(model);
-    result = solve(model.simulation);
-  } catch (const SolutionError&) {
-    keep_unfinished(session, model);
-    throw;
-  } catch (const Interrupted&) {
-    keep_unfinished(session, model);
-    throw;
-  }
-  model.check_memory();
-  model.write_history(session);
-  session.stages[index].result = result;
-  return result;
-}
 
 std::function<void()> callback_of(const Arguments& a) {
   const auto function = a.function("callback");
@@ -143,47 +86,6 @@ Value run(Session& session, ModelObject& model, const Arguments& a) {
                [&](Simulation& simulation) { return run_result(simulation.run(options)); });
 }
 
-Value cut_row(const BlockCut& cut) {
-  return Table{{"block", cut.block},
-               {"mode", cut.mode == CutMode::shear ? "shear" : "tension"},
-               {"centroid", cut.centroid},
-               {"normal", cut.normal},
-               {"principal_stress", cut.principal},
-               {"angle_to_sigma1", degrees(cut.angle_to_sigma1)},
-               {"generation", cut.generation},
-               {"pieces", cut.pieces},
-               {"tie", cut.tie}};
-}
-
-Value refine(Session& session, ModelObject& model, const Arguments& a) {
-  if (!model.unjointed.empty())
-    throw InputError(
-        "body \"" + model.unjointed.front() +
-        "\" has no joint: give it one in cdem.model, which holds the faces of the cuts together");
-  RefineOptions options;
-  options.tension_threshold = a.number("tension_threshold");
-  options.shear_threshold = a.number("shear_threshold");
-  options.planes = static_cast<int>(a.integer("planes"));
-  options.max_depth = static_cast<int>(a.integer("max_depth"));
-  options.criterion = a.text("criterion") == "griffith" ? Criterion::griffith : Criterion::mohr_coulomb;
-  if (a.has("region"))
-    options.region = one_selection(model, a.value("region"), "region");
-  options.cohesion = a.optional_number("cohesion");
-  if (const auto angle = a.optional_number("friction_angle"))
-    options.friction_angle = radians(*angle);
-  options.tensile_strength = a.optional_number("tensile_strength");
-  const std::string& may_break = a.text("may_break");
-  options.may_break = may_break == "all"         ? MayBreak::all
-                      : may_break == "cut_faces" ? MayBreak::cut_faces
-                                                 : MayBreak::near_cuts;
-  return stage(session, model, "refine", a, Table(), [&](Simulation& simulation) {
-    Values rows;
-    for (const BlockCut& cut : simulation.refine(options))
-      rows.push_back(cut_row(cut));
-    return Value(Table::list(std::move(rows)));
-  });
-}
-
 std::string hex(std::uint64_t hash) {
   char text[17];
   std::snprintf(text, sizeof text, "%016llx", static_cast<unsigned long long>(hash));
@@ -226,15 +128,6 @@ void bind_results(Module& m) {
                         integer("broken_tension").required().doc("bonds, in this stage"),
                         integer("broken_shear").required().doc("bonds, in this stage"),
                         number("wall_time").unit("s").required()}});
-  m.records.push_back(
-      {"Cut",
-       "A block that was cut.",
-       {integer("block").required().doc("id"), choice("mode", {"tension", "shear"}).required(),
-        vec3("centroid").unit("m").required(), vec3("normal").required().doc("of the cut planes"),
-        vec3("principal_stress").unit("Pa").required().doc("compression positive, the largest first"),
-        number("angle_to_sigma1").unit("deg").required().doc("between the plane and the axis of the largest"),
-        integer("generation").required().doc("0 for an original block"), integer("pieces").required(),
-        flag("tie").required().doc("both conjugate planes were equally good")}});
   m.records.push_back({"Stage",
                        "A solving call.",
                        {integer("number").required().doc("over all models"), text("kind").required(),
@@ -271,33 +164,6 @@ void bind_solving(Module& m) {
        every(), callback(), function("stop", "(): boolean").doc("ends the stage when it returns true")},
       "cdem.RunResult", "", run);
   model.methods.back().fields[2].type.range = {0, 1, true, false};
-  add("refine",
-      "Cuts blocks near failure along their failure plane into slices (Han 2010 eqs 13-20); the pieces are "
-      "bonded and "
-      "carry the state over.",
-      {number("tension_threshold")
-           .at_least(0)
-           .unit("Pa")
-           .standard(0.0)
-           .doc("a block is cut when its stress is this close to the tensile strength"),
-       number("shear_threshold")
-           .at_least(0)
-           .unit("Pa")
-           .standard(0.0)
-           .doc("the same for the Mohr-Coulomb line"),
-       integer("planes").within(1, 15).standard(3).doc("equally spaced parallel cuts"),
-       integer("max_depth").within(1, 6).standard(1).doc("a block that was cut this often is left alone"),
-       choice("criterion", {"mohr_coulomb", "griffith"}).standard("mohr_coulomb"),
-       place("region").doc("only blocks whose centroid lies in this one place"),
-       number("cohesion").at_least(0).unit("Pa").doc("for the criterion, instead of the joint's"),
-       number("friction_angle").from(0, 90).unit("deg").doc("for the criterion, instead of the joint's"),
-       number("tensile_strength").at_least(0).unit("Pa").doc("for the criterion, instead of the joint's"),
-       choice("may_break", {"all", "cut_faces", "near_cuts"})
-           .standard("near_cuts")
-           .doc("interfaces that may break from now on: all, the cut planes, or these and the original faces "
-                "between "
-                "two cut blocks")},
-      "cdem.Cut[]", "one table per block that was cut", refine);
   add("stages", "The model's solving calls so far.", {}, "cdem.Stage[]", "", stages);
   model.methods.back().in_order = true;
 }

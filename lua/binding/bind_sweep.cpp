@@ -114,8 +114,9 @@ std::vector<Job> make_jobs(const Session& session, const Arguments& a, const std
     } else {
       // Beside the case's folder, which a run takes only when it is empty or holds results of cdem.
       job.console = session.files.to_write(one.name + ".console.txt");
-      job.command.insert(job.command.end(), {"--quiet", "--output", (session.files.output() / one.name).string(), "--threads",
-                                             std::to_string(a.integer("threads"))});
+      job.command.insert(job.command.end(),
+                         {"--quiet", "--output", (session.files.output() / one.name).string(), "--threads",
+                          std::to_string(a.integer("threads"))});
     }
     if (session.settings.unsafe)
       job.command.emplace_back("--unsafe");

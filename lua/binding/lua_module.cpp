@@ -24,8 +24,13 @@ Arguments read_arguments(lua_State* L, const Bound& bound, int first) {
   Values given;
   for (int i = first; i <= lua_gettop(L); ++i)
     given.push_back(to_value(L, i));
-  if (function.in_order)
+  if (function.in_order) {
+    // max("displacement.x", "y+") may also be written max{ field = "displacement.x", on = "y+" }.
+    const Table* named = given.size() == 1 ? given[0].table() : nullptr;
+    if (function.named_too && named && named->items.empty() && !named->named.empty())
+      return check(given[0], function.fields);
     return check_in_order(given, function.fields);
+  }
   if (given.size() > 1)
     throw geom::InputError("takes one table: " + shown_call(bound));
   const Value argument = given.empty() ? Value() : given[0];

@@ -22,6 +22,7 @@ const Module& module() {
     bind_model(m);
     bind_conditions(m);
     bind_solving(m);
+    bind_fracture(m);
     bind_measures(m);
     bind_output(m);
     bind_charts(m);

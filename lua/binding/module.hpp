@@ -19,6 +19,7 @@ struct Function {
   std::string returns_doc{};
   // self is null for a function; an empty body: defined in lua/cdem, declared here for the annotations
   std::function<Value(Session&, Object* self, const Arguments&)> body;
+  bool named_too = false; // an in_order function that takes one table with its fields as well
 };
 
 struct Property {
@@ -74,6 +75,7 @@ void bind_selections(Module&);
 void bind_model(Module&);
 void bind_conditions(Module&);
 void bind_solving(Module&);
+void bind_fracture(Module&);
 void bind_measures(Module&);
 void bind_output(Module&);
 void bind_charts(Module&);

@@ -1,0 +1,56 @@
+#include "lua/binding/solving_stage.hpp"
+
+#include "libcdem/step/errors.hpp"
+
+namespace cdem::script {
+
+namespace {
+
+// A model whose stage ended early: its state and its history are worth saving.
+void keep_unfinished(Session& session, ModelObject& model) {
+  for (const auto& known : session.models)
+    if (known.lock().get() == &model)
+      session.failed.push_back(known.lock());
+  model.write_history(session);
+}
+
+} // namespace
+
+Value stage(Session& session, ModelObject& model, const char* kind, const Arguments& arguments,
+            const Value& empty, const std::function<Value(Simulation&)>& solve) {
+  model.require_idle(kind);
+  model.check_memory();
+  session.check_set_names();
+  Stage stage;
+  stage.number = static_cast<int>(session.stages.size()) + 1;
+  stage.model = model.number;
+  stage.kind = kind;
+  stage.hash = fnv1a(std::string(kind) + " " + std::to_string(model.number) + " " + arguments.canonical());
+  stage.result = empty;
+  session.stages.push_back(stage);
+  if (session.settings.check_only)
+    return empty;
+  const std::size_t index = session.stages.size() - 1;
+  struct Solving {
+    ModelObject& model;
+    explicit Solving(ModelObject& m) : model(m) { model.solving = true; }
+    ~Solving() { model.solving = false; }
+  };
+  Value result;
+  try {
+    Solving solving(model);
+    result = solve(model.simulation);
+  } catch (const SolutionError&) {
+    keep_unfinished(session, model);
+    throw;
+  } catch (const Interrupted&) {
+    keep_unfinished(session, model);
+    throw;
+  }
+  model.check_memory();
+  model.write_history(session);
+  session.stages[index].result = result;
+  return result;
+}
+
+} // namespace cdem::script

@@ -1,0 +1,16 @@
+// A solving call as a numbered stage.
+#pragma once
+
+#include "lua/binding/model_object.hpp"
+#include "lua/binding/schema.hpp"
+
+#include <functional>
+
+namespace cdem::script {
+
+// Runs `solve` as the next stage; in a check, returns `empty` instead. The history is written however the
+// stage ends; a model whose stage ended early is kept, so that its last good state can be saved.
+Value stage(Session&, ModelObject&, const char* kind, const Arguments&, const Value& empty,
+            const std::function<Value(Simulation&)>& solve);
+
+} // namespace cdem::script
