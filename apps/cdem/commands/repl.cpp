@@ -10,7 +10,6 @@
 #include <cstdlib>
 #include <cstring>
 #include <iostream>
-#include <optional>
 #include <poll.h>
 #include <readline/history.h>
 #include <readline/readline.h>
@@ -36,8 +35,8 @@ fs::path history_file() {
 
 // What readline's C callbacks reach.
 script::Engine* completing_engine = nullptr;
-std::optional<std::string> finished_line;
-bool line_finished = false;
+std::string finished_line;
+bool line_finished = false, input_ended = false;
 
 char* next_match(const char* word, int state) {
   static std::vector<std::string> matches;
@@ -56,10 +55,10 @@ char** complete_names(const char* text, int, int) {
 }
 
 void take_line(char* line) {
+  rl_callback_handler_remove(); // or it would print the prompt again
   line_finished = true;
-  finished_line.reset();
-  if (line != nullptr)
-    finished_line = line;
+  input_ended = line == nullptr; // Ctrl-D
+  finished_line = input_ended ? "" : line;
   std::free(line);
 }
 
@@ -122,11 +121,8 @@ public:
       }
       rl_callback_read_char();
     }
-    rl_callback_handler_remove();
-    if (!finished_line)
-      return Key::end;
-    line = *finished_line;
-    return Key::line;
+    line = finished_line;
+    return input_ended ? Key::end : Key::line;
   }
 
   void remember(const std::string& text) {

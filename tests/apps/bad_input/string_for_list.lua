@@ -1,0 +1,6 @@
+-- exit code: 2
+-- says: bodies
+-- says: list
+
+local cdem = require "cdem"
+cdem.model{ bodies = "plate" } -- wrong

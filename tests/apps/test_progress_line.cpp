@@ -1,0 +1,83 @@
+#include "apps/cdem/progress/line.hpp"
+#include "apps/cdem/progress/terminal.hpp"
+
+#include <catch2/catch.hpp>
+#include <cmath>
+
+using namespace cdem::app;
+using Catch::Matchers::Contains;
+using Catch::Matchers::StartsWith;
+using cdem::Progress;
+
+namespace {
+
+Progress half_way() {
+  Progress p;
+  p.stage = 3;
+  p.kind = "relax";
+  p.step = 12345;
+  p.max_steps = 500000;
+  p.residual = 1e-3;
+  p.residual_goal = 1e-6;
+  p.broken_tension = 4;
+  p.broken_shear = 1200;
+  p.steps_per_second = 860;
+  p.seconds_left = 75;
+  return p;
+}
+
+TimeLeft seen(const Progress& p) {
+  TimeLeft left;
+  Progress first = p;
+  first.step = 0;
+  first.residual = 1;
+  left.add(first, 0);
+  left.add(p, 1);
+  return left;
+}
+
+} // namespace
+
+TEST_CASE("a wide line says everything") {
+  const Progress p = half_way();
+  CHECK(live_line(p, seen(p), 200) ==
+        "stage 3 relax  [========>       ]  50 %  step 12,345  residual 0.001 -> 1e-06  "
+        "1,204 broken  860 steps/s  1 min 15 s left");
+}
+
+TEST_CASE("a line is never wider than the terminal, and says first what matters most") {
+  const Progress p = half_way();
+  const TimeLeft left = seen(p);
+  for (int columns = 1; columns <= 140; ++columns)
+    CHECK(live_line(p, left, columns).size() <= static_cast<std::size_t>(columns));
+  const std::string narrow = live_line(p, left, 64);
+  CHECK_THAT(narrow,
+             StartsWith("stage 3 relax  50 %") && Contains("residual 0.001 -> 1e-06") && Contains("left"));
+}
+
+TEST_CASE("the bar follows the decades of the residual, not its value") {
+  Progress p = half_way();
+  p.residual = std::pow(10, -1.5); // a quarter of the way from 1 to 1e-6
+  CHECK_THAT(live_line(p, seen(p), 200), Contains(" 25 %"));
+}
+
+TEST_CASE("a plain line names both kinds of breaking") {
+  const Progress p = half_way();
+  CHECK(plain_line(p, seen(p)) == "stage 3 relax: step 12,345, residual 0.001 -> 1e-06, 50 %, 1,204 broken "
+                                  "(4 tension, 1,200 shear), 860 steps/s, 1 min 15 s left");
+}
+
+TEST_CASE("the last line of a stage says what it came to") {
+  Progress p = half_way();
+  p.last = true;
+  CHECK(stage_line(p, 2.5) ==
+        "stage 3 relax: 12,345 steps in 2.5 s, residual 0.001 (goal 1e-06), 1,204 broken "
+        "(4 tension, 1,200 shear)");
+}
+
+TEST_CASE("a bar is empty at 0, full at 1 and as wide as asked at every fraction") {
+  CHECK(bar_text(0, 4) == "[    ]");
+  CHECK(bar_text(1, 4) == "[====]");
+  for (int i = 0; i <= 100; ++i)
+    CHECK(bar_text(0.01 * i, 17).size() == 19);
+}

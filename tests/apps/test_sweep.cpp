@@ -1,0 +1,95 @@
+#include "tests/apps/support/child.hpp"
+
+#include <catch2/catch.hpp>
+#include <csignal>
+
+using namespace testing;
+using Catch::Matchers::Contains;
+using Catch::Matchers::StartsWith;
+namespace fs = std::filesystem;
+
+namespace {
+
+const char* const sum = R"(
+local cdem = require "cdem"
+local a = cdem.parameter{ name = "a", default = 1 }
+local b = cdem.parameter{ name = "b", default = 1 }
+if a == 13 then error("13 brings no luck") end
+if b == 99 then while true do end end
+cdem.report{ { name = "sum_m", value = a + b, unit = "m" } }
+)";
+
+struct Place {
+  TempFolder folder;
+  Start start;
+  Place() {
+    start.folder = folder.path();
+    write_file(folder / "sum/case.lua", sum);
+  }
+  Outcome operator()(const std::vector<std::string>& arguments) const { return run_cdem(arguments, start); }
+  std::vector<std::string> table() const {
+    return lines_of(read_file(folder / "results/sum-sweep/sweep.csv"));
+  }
+};
+
+} // namespace
+
+TEST_CASE("a sweep runs every combination and gathers the figures") {
+  const Place cdem;
+  const Outcome outcome =
+      cdem({"sweep", "sum/case.lua", "--set", "a=1,2", "--set", "b=10,20,30", "--jobs", "2"});
+  INFO(outcome.out << outcome.err);
+  REQUIRE(outcome.exit_code == 0);
+  const auto table = cdem.table();
+  REQUIRE(table.size() == 7);
+  CHECK(table[0] == "a,b,exit_code,wall_time_s,sum_m");
+  const std::vector<std::string> settings = {"1,10", "1,20", "1,30", "2,10", "2,20", "2,30"},
+                                 sums = {"11", "21", "31", "12", "22", "32"};
+  for (std::size_t i = 0; i < 6; ++i) {
+    CHECK_THAT(table[i + 1], StartsWith(settings[i] + ",0,"));
+    CHECK(table[i + 1].substr(table[i + 1].rfind(',') + 1) == sums[i]);
+  }
+  CHECK(fs::exists(cdem.folder / "results/sum-sweep/a=2,b=30/report.json"));
+  CHECK_THAT(read_file(cdem.folder / "results/sum-sweep/cdem.log"), Contains("ended with exit code 0"));
+}
+
+TEST_CASE("a run of a sweep that fails is named, and the others go on") {
+  const Place cdem;
+  const Outcome outcome = cdem({"sweep", "sum/case.lua", "--set", "a=1,13,2"});
+  CHECK(outcome.exit_code == 2);
+  CHECK_THAT(outcome.out, Contains("a=13: exit code 2") && Contains("13 brings no luck"));
+  CHECK_THAT(outcome.err, Contains("cdem: error: 1 of 3 runs failed"));
+  CHECK(lines_of(outcome.err).size() == 1);
+  const auto table = cdem.table();
+  REQUIRE(table.size() == 4);
+  CHECK_THAT(table[1], StartsWith("1,0,"));
+  CHECK_THAT(table[2], StartsWith("13,2,"));
+  CHECK_THAT(table[3], StartsWith("2,0,"));
+}
+
+TEST_CASE("Ctrl-C ends a sweep and every run of it") {
+  Place cdem;
+  cdem.start.signal = SIGINT;
+  cdem.start.signal_after = "a=1 b=1: done";
+  const Outcome outcome = cdem({"sweep", "sum/case.lua", "--set", "a=1", "--set", "b=1,99", "--jobs", "1"});
+  CHECK(outcome.exit_code == 130);
+  CHECK(outcome.after_signal < 3);
+  const auto table = cdem.table();
+  REQUIRE(table.size() == 3);
+  CHECK_THAT(table[1], StartsWith("1,1,0,"));
+}
+
+TEST_CASE("a script can sweep another one") {
+  const Place cdem;
+  write_file(cdem.folder / "sum/all.lua", R"(
+local cdem = require "cdem"
+local runs = cdem.sweep{ script = "case.lua", set = { { a = 1 }, { a = 5 } }, jobs = 2 }
+for _, run in ipairs(runs) do print("a gives " .. run.figures.sum_m) end
+)");
+  for (int again = 0; again < 2; ++again) {
+    const Outcome outcome = cdem({"run", "sum/all.lua"});
+    INFO(outcome.out << outcome.err);
+    CHECK(outcome.exit_code == 0);
+    CHECK_THAT(outcome.out, Contains("a gives 2") && Contains("a gives 6"));
+  }
+}
