@@ -2,12 +2,12 @@
 
 #include "libcdem/element/small_strain.hpp"
 #include "libgeom/core/error.hpp"
+#include "libgeom/core/nearest.hpp"
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
-#include <numeric>
 
 namespace cdem {
 namespace {
@@ -18,47 +18,28 @@ struct FieldName {
 };
 
 constexpr FieldName all_fields[] = {
-    {"displacement.x", true},     {"displacement.y", true},     {"displacement.z", true},
-    {"displacement.magnitude", true}, {"velocity.x", true},     {"velocity.y", true},
-    {"velocity.z", true},         {"velocity.magnitude", true}, {"stress.xx", false},
-    {"stress.yy", false},         {"stress.zz", false},         {"stress.xy", false},
-    {"stress.yz", false},         {"stress.xz", false},         {"principal_stress.1", false},
-    {"principal_stress.2", false}, {"principal_stress.3", false}, {"von_mises", false},
+    {"displacement.x", true},      {"displacement.y", true},
+    {"displacement.z", true},      {"displacement.magnitude", true},
+    {"velocity.x", true},          {"velocity.y", true},
+    {"velocity.z", true},          {"velocity.magnitude", true},
+    {"stress.xx", false},          {"stress.yy", false},
+    {"stress.zz", false},          {"stress.xy", false},
+    {"stress.yz", false},          {"stress.xz", false},
+    {"principal_stress.1", false}, {"principal_stress.2", false},
+    {"principal_stress.3", false}, {"von_mises", false},
 };
 
-// Levenshtein distance, for "did you mean".
-std::size_t edit_distance(const std::string& a, const std::string& b) {
-  std::vector<std::size_t> row(b.size() + 1);
-  std::iota(row.begin(), row.end(), std::size_t{0});
-  for (std::size_t i = 1; i <= a.size(); ++i) {
-    std::size_t diagonal = row[0];
-    row[0] = i;
-    for (std::size_t j = 1; j <= b.size(); ++j) {
-      const std::size_t change = diagonal + (a[i - 1] != b[j - 1]);
-      diagonal = row[j];
-      row[j] = std::min({row[j] + 1, row[j - 1] + 1, change});
-    }
-  }
-  return row.back();
-}
-
 const FieldName& find_field(const std::string& name) {
-  const FieldName* nearest = nullptr;
-  std::size_t distance = 1000;
-  for (const FieldName& field : all_fields) {
+  for (const FieldName& field : all_fields)
     if (field.name == name)
       return field;
-    const std::size_t d = edit_distance(name, field.name);
-    if (d < distance) {
-      distance = d;
-      nearest = &field;
-    }
-  }
-  std::string names;
-  for (const FieldName& field : all_fields)
-    names += (names.empty() ? "" : " ") + std::string(field.name);
-  throw geom::InputError("field", "\"" + name + "\"", "one of " + names,
-                         "did you mean \"" + std::string(nearest->name) + "\"?");
+  const std::vector<std::string> names = field_names();
+  std::string list;
+  for (const std::string& known : names)
+    list += (list.empty() ? "" : " ") + known;
+  const std::string near = geom::nearest(name, names);
+  throw geom::InputError("field", "\"" + name + "\"", "one of " + list,
+                         near.empty() ? near : "did you mean \"" + near + "\"?");
 }
 
 double vector_component(const Node& n, const std::string& component) {
@@ -98,7 +79,8 @@ std::vector<int> selected_blocks(const Model& model, const Selection& on) {
 }
 
 [[noreturn]] void nothing_there(const Selection& on, const char* what) {
-  throw geom::InputError("on", on.text, std::string("a place that holds ") + what, "nothing of the model lies there");
+  throw geom::InputError("on", on.text, std::string("a place that holds ") + what,
+                         "nothing of the model lies there");
 }
 
 } // namespace
@@ -110,7 +92,9 @@ std::vector<std::string> field_names() {
   return names;
 }
 
-void check_field(const std::string& field) { find_field(field); }
+void check_field(const std::string& field) {
+  find_field(field);
+}
 
 std::array<double, 3> principal(const Stress& stress) {
   const Eigen::SelfAdjointEigenSolver<geom::Mat3> solver(matrix(stress), Eigen::EigenvaluesOnly);
@@ -123,16 +107,19 @@ double von_mises(const Stress& s) {
   return std::sqrt(0.5 * (a * a + b * b + c * c) + 3 * (s[3] * s[3] + s[4] * s[4] + s[5] * s[5]));
 }
 
-std::vector<FieldValue> values(const Model& model, const State& state, const std::string& field, const Selection& on) {
+std::vector<FieldValue> values(const Model& model, const State& state, const std::string& field,
+                               const Selection& on) {
   std::vector<FieldValue> list;
   if (find_field(field).nodal) {
     for (const int node : selected_nodes(model, on))
-      list.push_back({node_value(state, field, node), model.node_position[node], model.blocks[model.node_block[node]].id});
+      list.push_back({node_value(state, field, node), model.node_position[node],
+                      model.blocks[model.node_block[node]].id});
     if (list.empty())
       nothing_there(on, "nodes");
   } else {
     for (const int b : selected_blocks(model, on))
-      list.push_back({block_value(model, state, field, b), model.blocks[b].mass.centroid, model.blocks[b].id});
+      list.push_back(
+          {block_value(model, state, field, b), model.blocks[b].mass.centroid, model.blocks[b].id});
     if (list.empty())
       nothing_there(on, "block centroids");
   }

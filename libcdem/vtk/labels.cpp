@@ -1,9 +1,10 @@
 #include "libcdem/vtk/labels.hpp"
 
+#include "libgeom/core/nearest.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <numeric>
 
 namespace cdem {
 namespace {
@@ -30,21 +31,6 @@ std::string with_exponents(const std::string& unit) { // "m/s2" -> "m/s²"
   for (const char c : unit)
     text += c == '2' ? "\u00b2" : c == '3' ? "\u00b3" : std::string(1, c);
   return text;
-}
-
-int edit_distance(const std::string& a, const std::string& b) {
-  std::vector<int> row(b.size() + 1);
-  std::iota(row.begin(), row.end(), 0);
-  for (std::size_t i = 0; i < a.size(); ++i) {
-    int diagonal = row[0];
-    row[0] = static_cast<int>(i) + 1;
-    for (std::size_t j = 0; j < b.size(); ++j) {
-      const int change = diagonal + (a[i] == b[j] ? 0 : 1);
-      diagonal = row[j + 1];
-      row[j + 1] = std::min({change, row[j] + 1, diagonal + 1});
-    }
-  }
-  return row.back();
 }
 
 } // namespace
@@ -137,7 +123,7 @@ std::vector<std::string> nearest_names(const std::string& name, const std::vecto
   std::vector<std::pair<int, std::string>> near;
   for (const std::string& candidate : known) {
     const bool contains = name.size() >= 3 && candidate.find(name) != std::string::npos;
-    const int distance = contains ? 1 : edit_distance(name, candidate);
+    const int distance = contains ? 1 : geom::edit_distance(name, candidate);
     if (distance <= std::max<int>(2, static_cast<int>(name.size()) / 3))
       near.emplace_back(distance, candidate);
   }
