@@ -167,6 +167,21 @@ TEST_CASE("a script cannot keep an interrupt from ending it") {
   CHECK(outcome.after_signal < 2);
 }
 
+TEST_CASE("a second Ctrl-C ends a program that does not listen to the first") {
+  const TempFolder folder;
+  // Lua looks for interrupts between its instructions, and this is one that takes ages.
+  write_file(folder / "case.lua", "print('begins');\n(('a'):rep(100000)):find(('.-'):rep(20) .. 'b')\n");
+  Start start;
+  start.folder = folder.path();
+  start.terminal = true;
+  start.keys = {{"begins", "\x03"}, {"^C", "\x03", 1.0}};
+  start.limit = 20;
+  const Outcome outcome = run_cdem({"run", "case.lua"}, start);
+  CHECK_FALSE(outcome.timed_out);
+  CHECK(outcome.exit_code == 130);
+  CHECK_THAT(outcome.out, Contains("cdem: error: stopped at once by a second signal"));
+}
+
 TEST_CASE("files that are no scripts are refused") {
   const TempFolder folder;
   Start start;

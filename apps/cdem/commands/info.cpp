@@ -10,7 +10,9 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <cstdlib>
 #include <fstream>
+#include <functional>
 #include <sstream>
 
 namespace cdem::app {
@@ -53,30 +55,52 @@ void about_program() {
   std::printf("\nexit codes\n%s", exit_code_table().c_str());
 }
 
+// Names behind the point, as --colour takes them.
+std::vector<std::string> component_names(const SnapshotField& field) {
+  if (field.components == 6)
+    return {"xx", "yy", "zz", "xy", "yz", "xz"};
+  if (field.components == 3 && field.name.rfind("principal", 0) == 0)
+    return {"1", "2", "3"};
+  return {"x", "y", "z"};
+}
+
+void add_range(Rows& rows, const std::string& where, const SnapshotField& field, const std::string& name,
+               const std::function<double(const double*)>& value_of) {
+  const auto n = static_cast<std::size_t>(std::max(field.components, 1));
+  double low = INFINITY, high = -INFINITY;
+  for (std::size_t i = 0; i + n <= field.values.size(); i += n) {
+    const double value = value_of(&field.values[i]);
+    low = std::min(low, value);
+    high = std::max(high, value);
+  }
+  const bool empty = field.values.size() < n;
+  rows.push_back({where, name, field.unit, empty ? "" : number_text(low), empty ? "" : number_text(high)});
+}
+
 void add_ranges(Rows& rows, const std::string& where, const std::vector<SnapshotField>& fields) {
   for (const auto& field : fields) {
-    // Per component, and the magnitude of a vector.
-    const int n = std::max(field.components, 1);
-    double low = INFINITY, high = -INFINITY;
-    for (std::size_t i = 0; i + n <= field.values.size(); i += static_cast<std::size_t>(n)) {
-      double squares = 0;
-      for (int c = 0; c < n; ++c) {
-        const double value = field.values[i + c];
-        squares += value * value;
-        if (n != 3) {
-          low = std::min(low, value);
-          high = std::max(high, value);
-        }
-      }
-      if (n == 3) {
-        low = std::min(low, std::sqrt(squares));
-        high = std::max(high, std::sqrt(squares));
-      }
+    if (field.components == 1) {
+      add_range(rows, where, field, field.name, [](const double* v) { return v[0]; });
+      continue;
     }
-    const std::string kind = n == 1 ? "scalar" : n == 3 ? "vector" : n == 6 ? "tensor" : std::to_string(n);
-    rows.push_back({where, field.name, kind, field.unit, field.values.empty() ? "" : number_text(low),
-                    field.values.empty() ? "" : number_text(high)});
+    const auto names = component_names(field);
+    for (std::size_t c = 0; c < names.size(); ++c)
+      add_range(rows, where, field, field.name + "." + names[c], [c](const double* v) { return v[c]; });
+    if (names[0] == "x")
+      add_range(rows, where, field, field.name + ".magnitude",
+                [](const double* v) { return std::sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]); });
   }
+}
+
+// A number of a JSON file as a person wants to read it.
+std::string shortened(const std::string& text) {
+  char* end = nullptr;
+  const double value = std::strtod(text.c_str(), &end);
+  if (text.empty() || *end != '\0' || text.find_first_of(".e") == std::string::npos)
+    return text;
+  char buffer[32];
+  std::snprintf(buffer, sizeof buffer, "%.6g", value);
+  return buffer;
 }
 
 void about_snapshot(const fs::path& file) {
@@ -87,11 +111,11 @@ void about_snapshot(const fs::path& file) {
               {"points", count_text(static_cast<std::int64_t>(snapshot.points.size()))},
               {"tets", count_text(static_cast<std::int64_t>(snapshot.tets.size()))},
               {"bond triangles", count_text(static_cast<std::int64_t>(snapshot.bonds.triangles.size()))}});
-  Rows rows = {{"at", "field", "kind", "unit", "lowest", "highest"}};
+  Rows rows = {{"at", "field", "unit", "lowest", "highest"}};
   add_ranges(rows, "points", snapshot.point_fields);
   add_ranges(rows, "tets", snapshot.cell_fields);
   add_ranges(rows, "bonds", snapshot.bonds.point_fields);
-  std::puts("\nfields (of a vector: its magnitude)");
+  std::puts("\nfields");
   print_rows(rows);
 }
 
@@ -126,7 +150,7 @@ void about_results(const fs::path& folder) {
   if (const fs::path file = folder / "settings.json"; fs::exists(file)) {
     Rows parameters;
     for (const auto& [name, value] : read_parameters(file))
-      parameters.push_back({name, value});
+      parameters.push_back({name, shortened(value)});
     if (!parameters.empty()) {
       std::puts("\nparameters");
       print_rows(parameters);
@@ -135,7 +159,7 @@ void about_results(const fs::path& folder) {
   if (const fs::path file = folder / "report.json"; fs::exists(file)) {
     Rows figures = {{"figure", "value", "unit", "reference", "kind", "within"}};
     for (const auto& f : read_report(file))
-      figures.push_back({f.name, f.value, f.unit, f.reference, f.kind, f.within});
+      figures.push_back({f.name, shortened(f.value), f.unit, shortened(f.reference), f.kind, f.within});
     std::puts("\nreport");
     print_rows(figures);
   }

@@ -30,6 +30,8 @@ std::string goal_text(const Progress& p) {
 }
 
 std::string broken_text(const Progress& p) {
+  if (p.broken_tension + p.broken_shear == 0)
+    return "0 broken";
   return count_text(p.broken_tension + p.broken_shear) + " broken (" + count_text(p.broken_tension) +
          " tension, " + count_text(p.broken_shear) + " shear)";
 }

@@ -13,6 +13,7 @@
 #include <stdexcept>
 #include <sys/resource.h>
 #include <sys/wait.h>
+#include <thread>
 #include <unistd.h>
 
 namespace testing {
@@ -167,6 +168,7 @@ Outcome run_program(const std::vector<std::string>& command, const Start& start)
       if (const auto at = outcome.out.find(key.wait_for, seen); at != std::string::npos) {
         seen = at + key.wait_for.size();
         ++next_key;
+        std::this_thread::sleep_for(std::chrono::duration<double>(key.pause));
         write_all(child.in, key.press);
       }
     }

@@ -29,6 +29,7 @@ std::vector<std::string> lines_of(const std::string&);
 struct Key {
   std::string wait_for; // printed since the key before
   std::string press;
+  double pause = 0; // s, before it is pressed
 };
 
 struct Start {
