@@ -91,7 +91,7 @@ TEST_CASE("a quiet run prints nothing, and its log everything") {
   CHECK_THAT(read_file(cdem.folder / "out/cdem.log"), Contains("the bar stands"));
 }
 
-TEST_CASE("a rerun takes its own old files away; a script with a mistake does not cost them") {
+TEST_CASE("a rerun takes its own old files away, and a script with a mistake does not cost them") {
   const Place cdem;
   REQUIRE(cdem({"run", "bar/case.lua", "-q"}).exit_code == 0);
   const fs::path results = cdem.folder / "results/bar";

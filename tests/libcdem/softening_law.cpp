@@ -186,7 +186,7 @@ TEST_CASE("sliding a damaged bond to and fro dissipates by friction alone, in it
   CHECK(w.friction - friction == Approx(damage * limit * 2 * (1.5 * far - 2 * limit / ks)).epsilon(2e-3));
 }
 
-TEST_CASE("damage never heals and never gives energy, on random paths; the books balance") {
+TEST_CASE("damage never heals and never gives energy, on random paths, the books balance") {
   const Joint j = softening_joint(any_curve());
   const int seed = GENERATE(range(1, 9));
   Walker w(softening_law(j, 1e12, 4e11));

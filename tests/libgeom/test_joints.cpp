@@ -203,7 +203,7 @@ TEST_CASE("joints near the vertices of a block are shifted: no part is a sliver"
   CHECK(testing::total_volume(a) == Approx(1).epsilon(1e-13));
 }
 
-TEST_CASE("the same seed gives the same joints, another seed others; no sets change nothing") {
+TEST_CASE("the same seed gives the same joints, another seed others, no sets change nothing") {
   JointSet set;
   set.spacing = 0.2;
   set.spacing_scatter = 0.3;
