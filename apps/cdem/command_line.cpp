@@ -149,12 +149,12 @@ private:
     return names;
   }
 
-  void finish(CLI::App* command, const std::string& examples) {
+  void finish(CLI::App* command, const std::string& examples, const std::string& notes = {}) {
     command->group("commands");
     command->set_help_flag("-h,--help", "print this help and exit");
     command->allow_extras();
     if (!examples.empty())
-      command->footer("examples:\n" + examples);
+      command->footer("examples:\n" + examples + (notes.empty() ? notes : "\n" + notes));
   }
 
   void add_script_options(CLI::App* command) {
@@ -181,8 +181,13 @@ private:
     command->add_flag("--quiet,-q", typed_.quiet, "print nothing but errors");
     command->add_flag("--machine-progress", typed_.machine, "progress for a program that watches this run")
         ->group("");
-    finish(command, "  cdem run examples/uniaxial_compression/case.lua\n"
-                    "  cdem run case.lua --set pressure=24e6 --output results/gentle\n");
+    finish(
+        command,
+        "  cdem run examples/uniaxial_compression/case.lua\n"
+        "  cdem run case.lua --set pressure=24e6 --output results/gentle\n",
+        "A run takes away what the last run in the same folder wrote, once it produces results itself; a\n"
+        "file that was edited since is kept as FILE.edited. A folder with other files than results is\n"
+        "refused. Ctrl-C ends a run at the next step and saves the state; a second one ends it at once.\n");
   }
   void add_check() {
     auto* command =

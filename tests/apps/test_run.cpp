@@ -144,6 +144,7 @@ TEST_CASE("render draws a .vtu without a display") {
   CHECK_THAT(read_file(cdem.folder / "uy.png"), StartsWith("\x89PNG"));
   CHECK(cdem({"render", vtu, "--size", "320x240"}).exit_code == 0);
   CHECK(fs::exists(cdem.folder / "results/bar/bar-displacement.magnitude.png"));
+  CHECK(cdem({"render", vtu, "--output", "nowhere/uy.png"}).exit_code == 4);
   const Outcome wrong = cdem({"render", vtu, "--colour", "displacment.y"});
   CHECK(wrong.exit_code == 2);
   CHECK_THAT(wrong.err, Contains("displacement.y"));

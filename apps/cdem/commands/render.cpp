@@ -4,7 +4,10 @@
 #include "libcdem/vtk/picture.hpp"
 #include "lua/binding/engine.hpp"
 
+#include <cerrno>
 #include <cstdio>
+#include <cstring>
+#include <unistd.h>
 
 namespace cdem::app {
 
@@ -20,6 +23,11 @@ ExitCode render_picture(const RenderCommand& command) {
     output.replace_extension();
     output += (command.colour.empty() ? std::string() : "-" + command.colour) + ".png";
   }
+  const fs::path folder = output.has_parent_path() ? output.parent_path() : fs::path(".");
+  if (!fs::is_directory(folder, none))
+    throw script::FileError(output.string() + " cannot be written: there is no folder " + folder.string());
+  if (access(folder.c_str(), W_OK) != 0)
+    throw script::FileError(output.string() + " cannot be written: " + std::strerror(errno));
   PictureOptions options;
   options.field = command.colour;
   options.deformation = command.deformation;
