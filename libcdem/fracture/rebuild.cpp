@@ -110,6 +110,7 @@ public:
     result.state = initial_state(result.model);
     result.state.time = from_.time;
     result.state.step = from_.step;
+    result.state.velocity_lag = from_.velocity_lag;
     result.state.spent = from_.spent;
     for (const Successor& s : successors_)
       result.old_block.push_back(s.old_block);

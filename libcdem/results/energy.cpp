@@ -4,6 +4,21 @@
 #include "libcdem/interface/spring_forces.hpp"
 
 namespace cdem {
+namespace {
+
+// Central differences keep the balance where velocities and work stand, half a step before the displacements: there the
+// stored terms are taken too. Taken at the displacements they would be off by half a step's work, 0.2 % for a bar.
+State at_time_of_velocities(const State& state) {
+  State moved = state;
+  for (std::size_t i = 0; i < state.velocity.size(); ++i) {
+    moved.displacement[i].x -= state.velocity_lag * state.velocity[i].x;
+    moved.displacement[i].y -= state.velocity_lag * state.velocity[i].y;
+    moved.displacement[i].z -= state.velocity_lag * state.velocity[i].z;
+  }
+  return moved;
+}
+
+} // namespace
 
 double EnergyLedger::balance_error() const {
   return external_peak > 0 ? std::abs(total() - external) / external_peak : 0;
@@ -23,9 +38,10 @@ double elastic_energy(const Model& model, const State& state) {
 }
 
 EnergyLedger energy(const Model& model, const State& state) {
+  const State moved = at_time_of_velocities(state);
   EnergyLedger ledger = state.spent;
-  ledger.elastic = elastic_energy(model, state);
-  ledger.springs = spring_energy(model, state);
+  ledger.elastic = elastic_energy(model, moved);
+  ledger.springs = spring_energy(model, moved);
   for (std::size_t i = 0; i < state.velocity.size(); ++i) {
     const Node& v = state.velocity[i];
     ledger.kinetic += 0.5 * model.node_mass[i] * (v.x * v.x + v.y * v.y + v.z * v.z);

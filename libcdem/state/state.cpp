@@ -30,6 +30,7 @@ std::vector<StateField> fields(State& s) {
   return {
       {"time", "s", FieldPlace::model, "step", &s.time, sizeof s.time, true},
       {"step", "1", FieldPlace::model, "step", &s.step, sizeof s.step, false},
+      {"velocity_lag", "s", FieldPlace::model, "step", &s.velocity_lag, sizeof s.velocity_lag, true},
       field("displacement", "m", FieldPlace::node, "integrate", s.displacement, true),
       field("velocity", "m/s", FieldPlace::node, "integrate", s.velocity, true),
       field("bond_offset", "m", FieldPlace::bond, "spring_forces", s.bond_offset, true),

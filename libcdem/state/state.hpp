@@ -15,9 +15,10 @@ using Stress = std::array<double, 6>; // Pa, tension positive: xx yy zz xy yz xz
 struct State {
   double time = 0;       // s
   std::int64_t step = 0; // over all stages
+  double velocity_lag = 0; // s, velocities and the summed energies stand this long before the displacements
 
   std::vector<Node> displacement;         // m (n_nodes); written by integrate
-  std::vector<Node> velocity;             // m/s, half a step behind (n_nodes); written by integrate
+  std::vector<Node> velocity;             // m/s, velocity_lag behind (n_nodes); written by integrate
   std::vector<geom::Vec3> bond_offset;    // m, jump at which the spring carries nothing: preload and slip (n_points)
   std::vector<std::uint8_t> bond_mode;    // BondMode (n_points); bond_offset and bond_mode: written by spring_forces
   // Of bonds that soften (interface/softening.hpp), written by spring_forces; empty where no joint of the model does.

@@ -23,16 +23,20 @@ struct Stepping {
   double local_damping; // fraction of the out-of-balance force
 };
 
-// m dv/dt = F - mu V v - alpha |F| sign(v), with the viscous force at the mean velocity of the step.
+// m dv/dt = F - mu V v - alpha |F| sign(v), all at the mean velocity of the step: taken at the velocity before, local
+// damping would feed a node that turns round within the step, and blow up near the stable step.
 inline void advance(double force, double mass, double viscous, const Stepping& s, const Component& c, double& velocity,
                     double& displacement, NodeSums& sums) {
   const double before = velocity;
   if (c.free != 0) {
     sums.residual2 += force * force;
     sums.applied2 += c.applied * c.applied;
-    const double against = s.local_damping * std::abs(force) * (before > 0 ? 1.0 : before < 0 ? -1.0 : 0.0);
     const double inertia = mass / s.time_step;
-    velocity = ((inertia - 0.5 * viscous) * before + force - against) / (inertia + 0.5 * viscous);
+    const double undamped = ((inertia - 0.5 * viscous) * before + force) / (inertia + 0.5 * viscous);
+    const double most = s.local_damping * std::abs(force) / (inertia + 0.5 * viscous); // it can take off the velocity
+    // A node that it could hold at mean velocity 0 is held there, without loss.
+    velocity = before + undamped > most ? undamped - most : before + undamped < -most ? undamped + most : 0 - before;
+    const double against = (inertia + 0.5 * viscous) * (undamped - velocity);
     const double mean = 0.5 * (before + velocity);
     sums.external += c.applied * mean * s.time_step;
     sums.damping += (viscous * mean + against) * mean * s.time_step;
@@ -103,6 +107,7 @@ RunResult run(const StageContext& context, const RunOptions& options) {
     });
     report.residual = relative_residual(report.sums);
     state.time = start + static_cast<double>(stage.step + 1) * stepping.time_step;
+    state.velocity_lag = 0.5 * stepping.time_step;
     stage.after_step(report);
     if (stage.step % ask_every == 0) {
       if (options.callback && options.callback_every > 0)
