@@ -2,6 +2,7 @@
 
 #include "libcdem/element/small_strain.hpp"
 #include "libcdem/interface/spring_forces.hpp"
+#include "libcdem/results/energy.hpp"
 #include "libcdem/step/forces.hpp"
 
 #include <cmath>
@@ -74,6 +75,17 @@ void aim_supports(const State& state, ResolvedConditions& r, int steps) {
                        aim(r.target[i].z, state.displacement[i].z), 0};
 }
 
+// However a relaxation ends, it leaves the state at rest: its velocities are lengths per step of fictitious masses.
+struct AtRest {
+  State &state, &last_good;
+  const NodeSums& sums;
+  ~AtRest() {
+    state.spent.fictitious += sums.kinetic;
+    std::fill(state.velocity.begin(), state.velocity.end(), Node{});
+    std::fill(last_good.velocity.begin(), last_good.velocity.end(), Node{});
+  }
+};
+
 } // namespace
 
 std::vector<double> fictitious_masses(const Model& model) {
@@ -89,7 +101,10 @@ RelaxResult relax(const StageContext& context, const RelaxOptions& options, cons
   Stage stage(context, kind, context.model.length);
   stage.work.mass = fictitious_masses(context.model);
   update_external(stage.work.resolved, state.time);
+  const double moving = energy(context.model, state).total();
   std::fill(state.velocity.begin(), state.velocity.end(), Node{});
+  state.velocity_lag = 0;
+  state.spent.fictitious += moving - energy(context.model, state).total();
   aim_supports(state, stage.work.resolved, support_steps);
   const int moving_steps = stage.work.resolved.has_target ? support_steps : 0;
 
@@ -98,31 +113,32 @@ RelaxResult relax(const StageContext& context, const RelaxOptions& options, cons
   report.goals.max_steps = options.max_steps;
   double lambda = 0, damping = 0, largest_reaction2 = 0;
   int settled = 0;
-  while (stage.step < options.max_steps && settled < settled_steps) {
-    if (stage.step == moving_steps)
-      std::fill(stage.work.resolved.prescribed.begin(), stage.work.resolved.prescribed.end(), Node{});
-    stage.spring_forces(options.breaking);
-    report.sums = stage.over_chunks([&](const BlockChunk& chunk) {
-      net_forces(context.model, state, stage.work, chunk);
-      return integrate(context.model, state, stage.work, chunk.nodes, damping);
-    });
-    largest_reaction2 = std::max(largest_reaction2, report.sums.reaction2);
-    report.sums.reaction2 = std::max(report.sums.reaction2, reaction_floor2 * largest_reaction2);
-    report.residual = relative_residual(report.sums);
-    stage.after_step(report);
+  {
+    const AtRest at_rest{state, context.last_good, report.sums};
+    while (stage.step < options.max_steps && settled < settled_steps) {
+      if (stage.step == moving_steps)
+        std::fill(stage.work.resolved.prescribed.begin(), stage.work.resolved.prescribed.end(), Node{});
+      stage.spring_forces(options.breaking);
+      report.sums = stage.over_chunks([&](const BlockChunk& chunk) {
+        net_forces(context.model, state, stage.work, chunk);
+        return integrate(context.model, state, stage.work, chunk.nodes, damping);
+      });
+      largest_reaction2 = std::max(largest_reaction2, report.sums.reaction2);
+      report.sums.reaction2 = std::max(report.sums.reaction2, reaction_floor2 * largest_reaction2);
+      report.residual = relative_residual(report.sums);
+      stage.after_step(report);
 
-    if (report.sums.inertia > 0) {
-      const double quotient = std::max(0.0, report.sums.stiffness / report.sums.inertia);
-      lambda += (stage.step < 3 ? 1.0 : smoothing) * (quotient - lambda);
-      damping = std::min(2 * std::sqrt(lambda), most_damping);
+      if (report.sums.inertia > 0) {
+        const double quotient = std::max(0.0, report.sums.stiffness / report.sums.inertia);
+        lambda += (stage.step < 3 ? 1.0 : smoothing) * (quotient - lambda);
+        damping = std::min(2 * std::sqrt(lambda), most_damping);
+      }
+      const bool balanced = report.residual <= options.residual && stage.broken_in_step() == 0 && stage.step > moving_steps;
+      settled = balanced ? settled + 1 : 0;
+      if (options.callback && options.callback_every > 0 && stage.step % options.callback_every == 0)
+        options.callback();
     }
-    const bool balanced = report.residual <= options.residual && stage.broken_in_step() == 0 && stage.step > moving_steps;
-    settled = balanced ? settled + 1 : 0;
-    if (options.callback && options.callback_every > 0 && stage.step % options.callback_every == 0)
-      options.callback();
   }
-  state.spent.fictitious += report.sums.kinetic;
-  std::fill(state.velocity.begin(), state.velocity.end(), Node{});
   stage.finish(report);
 
   RelaxResult result;
