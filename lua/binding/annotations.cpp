@@ -91,7 +91,8 @@ void write_function(std::string& out, const std::string& shown, const std::strin
 std::string annotations() {
   const Module& all = module();
   std::string out = "---@meta cdem\n"
-                    "-- Generated from the declarations that check a script's arguments; do not edit.\n\n"
+                    "-- Generated from the declarations that check a script's arguments; do not edit.\n"
+                    "-- luacheck: no max line length\n\n"
                     "---@class cdem\n";
   for (const Constant& c : all.constants)
     out += "---@field " + c.name + " string " + c.doc + "\n";

@@ -69,9 +69,24 @@ int safe_pcall(lua_State* L) {
   return finish_pcall(L, status, 0);
 }
 
+// Upvalue 1: the script's message handler. It is left out for an interrupt: it would run inside the hook that
+// raised it, where no hook can end it.
+int handle_message(lua_State* L) {
+  if (LuaState::of(L).interrupted)
+    return 1;
+  lua_settop(L, 1);
+  lua_pushvalue(L, lua_upvalueindex(1));
+  lua_insert(L, 1);
+  lua_call(L, 1, 1);
+  return 1;
+}
+
 int safe_xpcall(lua_State* L) {
   const int n = lua_gettop(L);
   luaL_checktype(L, 2, LUA_TFUNCTION);
+  lua_pushvalue(L, 2);
+  lua_pushcclosure(L, handle_message, 1);
+  lua_replace(L, 2);
   lua_pushboolean(L, 1);
   lua_pushvalue(L, 1);
   lua_rotate(L, 3, 2);
@@ -102,6 +117,22 @@ int print(lua_State* L) {
   }
   LuaState::of(L).session.message(line);
   return 0;
+}
+
+// setmetatable without finalisers: Lua runs them with hooks off, so that one could never be interrupted.
+int set_metatable(lua_State* L) {
+  if (lua_type(L, 2) == LUA_TTABLE) {
+    lua_pushliteral(L, "__gc");
+    if (lua_rawget(L, 2) != LUA_TNIL)
+      return raise(L, LuaState::of(L).where(L) +
+                          ": setmetatable: __gc: not available to scripts; run with --unsafe "
+                          "to allow it");
+    lua_pop(L, 1);
+  }
+  lua_pushvalue(L, lua_upvalueindex(1));
+  lua_insert(L, 1);
+  lua_call(L, lua_gettop(L) - 1, 1);
+  return 1;
 }
 
 // load(chunk, name, mode, env) with mode "t" whatever was asked.
@@ -135,11 +166,12 @@ int open_file(lua_State* L) {
       lua_pushstring(L, error.what());
       return 2;
     }
+    lua_settop(L, 0);
     lua_pushvalue(L, lua_upvalueindex(1));
     lua_pushlstring(L, path.data(), path.size());
     lua_pushlstring(L, mode.data(), mode.size());
     lua_call(L, 2, LUA_MULTRET);
-    return lua_gettop(L) - 2;
+    return lua_gettop(L);
   });
 }
 
@@ -242,6 +274,7 @@ void keep_only(lua_State* L, const char* library, std::initializer_list<const ch
 void restrict_libraries(lua_State* L) {
   lua_pushglobaltable(L);
   replace_with(L, "load", load_text);
+  replace_with(L, "setmetatable", set_metatable);
   for (const char* name : {"dofile", "loadfile"})
     set_refused(L, "", name);
   lua_pop(L, 1);

@@ -43,7 +43,7 @@ void hook(lua_State* L, lua_Debug*) {
 
 // Makes a message out of whatever error value the script raised.
 int text_of_error(lua_State* L) {
-  if (lua_type(L, 1) == LUA_TSTRING)
+  if (lua_type(L, 1) == LUA_TSTRING || LuaState::of(L).interrupted)
     return 1;
   if (luaL_callmeta(L, 1, "__tostring") && lua_type(L, -1) == LUA_TSTRING)
     return 1;

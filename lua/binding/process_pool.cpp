@@ -77,7 +77,7 @@ bool ended(Running& running) {
 
 void end_all(std::vector<Running>& all) {
   for (const Running& running : all)
-    kill(running.pid, SIGINT);
+    kill(-running.pid, SIGINT);
   const auto asked = Clock::now();
   bool killed = false;
   while (!all.empty()) {
@@ -85,7 +85,7 @@ void end_all(std::vector<Running>& all) {
       it = ended(*it) ? all.erase(it) : it + 1;
     if (!killed && seconds_since(asked) > 10) {
       for (const Running& running : all)
-        kill(running.pid, SIGKILL);
+        kill(-running.pid, SIGKILL);
       killed = true;
     }
     std::this_thread::sleep_for(std::chrono::milliseconds(20));

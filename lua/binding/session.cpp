@@ -14,13 +14,23 @@ std::filesystem::path output_folder(const EngineSettings& settings) {
   return settings.output.empty() ? std::filesystem::path("results") : settings.output;
 }
 
+// examples/plate/case.lua is the case "plate", examples/plate/coarse.lua "plate-coarse".
+std::string case_name(const std::filesystem::path& script, const std::filesystem::path& output) {
+  if (script.empty())
+    return output.filename().string();
+  const std::string folder =
+      std::filesystem::absolute(script).lexically_normal().parent_path().filename().string();
+  const std::string stem = script.stem().string();
+  return stem == "case" ? folder : folder + "-" + stem;
+}
+
 } // namespace
 
 Session::Session(EngineSettings given)
     : settings(std::move(given)),
       files(settings.script, output_folder(settings), settings.results, settings.unsafe) {
   files.will_write = settings.will_write;
-  report.case_name = files.output().filename().string();
+  report.case_name = case_name(settings.script, files.output());
 }
 
 void Session::message(const std::string& line) const {

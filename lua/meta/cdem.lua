@@ -1,0 +1,836 @@
+---@meta cdem
+-- Generated from the declarations that check a script's arguments; do not edit.
+-- luacheck: no max line length
+
+---@class cdem
+---@field version string Version of the toolkit.
+local cdem = {}
+
+---A place: a side of the model's box ("x-" .. "z+"), "all", a body, a name given by model:select, a
+---cdem.select.* value, a function(x, y, z) of undeformed places (m), or a list of these.
+---@alias cdem.Place string|cdem.Selection|(fun(x: number, y: number, z: number): boolean)|cdem.Place[]
+
+---An axis-aligned box.
+---@class (exact) cdem.Box
+---@field min number[] m
+---@field max number[] m
+
+---One block of an assembly.
+---@class (exact) cdem.Block
+---@field centroid number[] m
+---@field volume number m3
+---@field faces integer number of faces
+---@field vertices number[][] m
+
+---Each bond (spring point) stands in exactly one of intact, broken_tension, broken_shear and contacts.
+---@class (exact) cdem.Counts
+---@field bodies integer
+---@field blocks integer
+---@field nodes integer
+---@field tets integer
+---@field interfaces integer
+---@field bonds integer
+---@field intact integer
+---@field broken_tension integer
+---@field broken_shear integer
+---@field contacts integer
+---@field damaged integer of the intact ones: have begun to soften
+
+---What a relaxation came to.
+---@class (exact) cdem.RelaxResult
+---@field converged boolean
+---@field steps integer
+---@field residual number
+---@field broken_tension integer bonds, in this stage
+---@field broken_shear integer bonds, in this stage
+---@field wall_time number s
+
+---What real-time stepping came to.
+---@class (exact) cdem.RunResult
+---@field steps integer
+---@field time number s: of the model
+---@field time_step number s
+---@field broken_tension integer bonds, in this stage
+---@field broken_shear integer bonds, in this stage
+---@field wall_time number s
+
+---A solving call.
+---@class (exact) cdem.Stage
+---@field number integer over all models
+---@field kind string
+---@field hash string of its arguments
+---@field result any
+
+---A block that was cut.
+---@class (exact) cdem.Cut
+---@field block integer id
+---@field mode "tension"|"shear"
+---@field centroid number[] m
+---@field normal number[] of the cut planes
+---@field principal_stress number[] Pa: compression positive, the largest first
+---@field angle_to_sigma1 number deg: between the plane and the axis of the largest
+---@field generation integer 0 for an original block
+---@field pieces integer
+---@field tie boolean both conjugate planes were equally good
+
+---A face of the crack, as it lay in the undeformed body.
+---@class (exact) cdem.CrackFace
+---@field interface integer id
+---@field pass integer
+---@field round integer within the pass
+---@field mode "tension"|"shear"
+---@field centroid number[] m
+---@field normal number[]
+---@field area number m2
+---@field ratio number traction over strength when it broke
+
+---One pass of a growing crack.
+---@class (exact) cdem.GrowPass
+---@field pass integer from 1
+---@field state "growing"|"arrested"|"through"|"stuck"
+---@field cuts cdem.Cut[]
+---@field faces cdem.CrackFace[] broken in this pass, in order
+---@field rounds integer times the worst faces broke and the model was relaxed again
+---@field first_ratio number traction over strength of the worst face before any broke
+---@field last_ratio number of the worst face that is left
+---@field tip number[] m
+---@field path number[][] m: from the crack's mouth to its end; empty while there is no crack
+---@field steps integer of relaxation
+
+---What growing a crack came to.
+---@class (exact) cdem.GrowResult
+---@field state "growing"|"arrested"|"through"|"stuck" arrested: nothing reaches its strength any more; through: the crack parts the body; stuck: no balance was reached
+---@field passes cdem.GrowPass[]
+
+---Where a field is largest or smallest.
+---@class (exact) cdem.Extreme
+---@field value number
+---@field place number[] m: undeformed
+---@field block integer id
+
+---Energy ledger, J: what is stored, what was spent, what was given.
+---@class (exact) cdem.Energy
+---@field elastic number J: stored in the blocks
+---@field springs number J: stored in bonds and contacts
+---@field kinetic number J: of the real masses, or of a relaxation's fictitious ones
+---@field damping number J
+---@field friction number J
+---@field breaking number J: lost by bonds that broke or softened
+---@field cutting number J: lost when blocks were cut
+---@field fictitious number J: kinetic energy a relaxation threw away at its end
+---@field external number J: work of loads, gravity and moving supports
+---@field external_peak number J: largest |external| so far
+---@field total number J: sum of all but external
+---@field balance_error number |total - external| over external_peak
+
+---A block of a model.
+---@class (exact) cdem.BlockState
+---@field id integer
+---@field parent integer id of the block it was cut from
+---@field generation integer how often it was cut
+---@field body string
+---@field centroid number[] m: undeformed
+---@field volume number m3
+---@field displacement number[] m: of the centroid
+---@field stress number[] Pa: {xx, yy, zz, xy, yz, xz}
+
+---A bond that broke.
+---@class (exact) cdem.Break
+---@field stage integer
+---@field step integer within the stage
+---@field time number s
+---@field mode "tension"|"shear"
+---@field place number[] m: undeformed
+---@field normal number[]
+---@field area number m2
+---@field normal_traction number Pa: when it broke, tension positive
+---@field shear_traction number Pa: when it broke
+---@field block_a integer id
+---@field block_b integer id
+
+---What one case of a sweep came to.
+---@class (exact) cdem.SweepResult
+---@field set any as given
+---@field output string its folder, in the output folder
+---@field exit_code integer 0 when it succeeded
+---@field seconds number s
+---@field figures any values of its report by name; empty when it failed
+
+---Made by cdem.elastic.
+---@class cdem.Material
+---@field youngs_modulus number Pa
+---@field poissons_ratio number
+---@field density number kg/m3
+---@field viscosity number N s/m4
+---@field shear_modulus number Pa: G = E / 2(1 + nu)
+---@field p_wave_modulus number Pa: lambda + 2 G
+local Material = {}
+
+---Made by cdem.mohr_coulomb or cdem.coulomb.
+---@class cdem.Joint
+---@field bonded boolean
+---@field cohesion number Pa
+---@field friction_angle number deg
+---@field tensile_strength number Pa
+---@field softening string
+---@field fracture_energy_1 number J/m2
+---@field fracture_energy_2 number J/m2
+---@field thickness_ratio number
+---@field thickness? number m
+---@field normal_stiffness? number Pa/m
+---@field shear_stiffness? number Pa/m
+local Joint = {}
+
+---Convex blocks, made by the builders; #assembly is the number of blocks.
+---@class cdem.Assembly
+---@operator len: integer
+local Assembly = {}
+
+---Sum over the blocks, m3.
+---@return number # m3
+function Assembly:volume() end
+
+---Smallest axis-aligned box that holds all blocks.
+---@return cdem.Box
+function Assembly:box() end
+
+---One table per block.
+---@return cdem.Block[]
+function Assembly:blocks() end
+
+---A place, made by cdem.select.*; judged on undeformed places, so it survives cutting.
+---@class cdem.Selection
+local Selection = {}
+
+---Made by cdem.model.
+---@class cdem.Model
+---@field time number s
+---@field residual number out-of-balance force norm over applied force norm
+---@field steps integer of all stages so far
+---@field stable_time_step number s: of real-time stepping
+---@field state_hash string of every state field, bit for bit
+---@field memory table What callbacks must remember: only booleans, numbers, strings and tables of them. It is saved with the model, a local variable is not.
+local Model = {}
+
+---@class (exact) cdem.ModelSelectOptions
+---@field name string
+---@field on cdem.Place
+
+---Gives a place a name that `on` understands from now on.
+---@param options cdem.ModelSelectOptions
+function Model:select(options) end
+
+---How many there are of everything.
+---@return cdem.Counts
+function Model:counts() end
+
+---Smallest axis-aligned box around the undeformed model.
+---@return cdem.Box
+function Model:box() end
+
+---@class (exact) cdem.ModelFixOptions
+---@field on cdem.Place where: a place or a list of places
+---@field axes? "x"|"y"|"z"|"xy"|"xz"|"yz"|"xyz" default "xyz": components held
+---@field displacement? number[] m: total value to be held; a relaxation moves there first
+---@field velocity? number[] m/s: in real-time stepping; zero when left out
+
+---Holds nodes, or moves them as told. A later call wins over an earlier one where they meet.
+---@param options cdem.ModelFixOptions
+function Model:fix(options) end
+
+---@class (exact) cdem.ModelReleaseOptions
+---@field on cdem.Place where: a place or a list of places
+---@field axes? "x"|"y"|"z"|"xy"|"xz"|"yz"|"xyz" default "xyz": components set free
+
+---Undoes fixes.
+---@param options cdem.ModelReleaseOptions
+function Model:release(options) end
+
+---@class (exact) cdem.ModelTractionOptions
+---@field on cdem.Place where: a place or a list of places
+---@field stress number[] Pa: force over area, not following the surface
+---@field amplitude? fun(time: number): number factor over time (s); a relaxation asks once at its start; 1 when left out
+
+---Force per undeformed area on outer faces.
+---@param options cdem.ModelTractionOptions
+function Model:traction(options) end
+
+---@class (exact) cdem.ModelForceOptions
+---@field on cdem.Place where: one place
+---@field force number[] N: total
+---@field amplitude? fun(time: number): number factor over time (s); a relaxation asks once at its start; 1 when left out
+
+---A total force, shared among the nodes of a place.
+---@param options cdem.ModelForceOptions
+function Model:force(options) end
+
+---@class (exact) cdem.ModelGravityOptions
+---@field vector number[] m/s2: acceleration, e.g. {0, 0, -9.81}
+---@field water_density? number kg/m3, >= 0, default 0: buoyancy: takes from the weight, never from the inertia
+---@field amplitude? fun(time: number): number factor over time (s); a relaxation asks once at its start; 1 when left out
+
+---Weight of all blocks; one at a time, the last call counts.
+---@param options cdem.ModelGravityOptions
+function Model:gravity(options) end
+
+---Takes away tractions, forces and gravity.
+function Model:clear_loads() end
+
+---@class (exact) cdem.ModelInitialStressOptions
+---@field on? cdem.Place default "all": where: one place
+---@field stress number[] Pa: {xx, yy, zz, xy, yz, xz}, tension positive
+
+---Stress present before anything moves, the same in all blocks of a place; interfaces between them start with its traction.
+---@param options cdem.ModelInitialStressOptions
+function Model:initial_stress(options) end
+
+---@class (exact) cdem.ModelInitialVelocityOptions
+---@field on? cdem.Place default "all": where: a place or a list of places
+---@field velocity number[] m/s
+
+---Velocity before the first real-time step.
+---@param options cdem.ModelInitialVelocityOptions
+function Model:initial_velocity(options) end
+
+---@class (exact) cdem.ModelRemoveOptions
+---@field on cdem.Place where: a place or a list of places
+
+---Takes blocks out of the model (an excavation): those whose centroid is selected.
+---@param options cdem.ModelRemoveOptions
+---@return integer # how many
+function Model:remove(options) end
+
+---@class (exact) cdem.ModelUnbondOptions
+---@field on cdem.Place where: a place or a list of places
+---@field whole_faces? boolean default false: only faces that are selected with all their points, so that faces that meet the notch at its tip stay bonded
+
+---Breaks bonds before anything is loaded (a notch): those whose point is selected.
+---@param options cdem.ModelUnbondOptions
+---@return integer # how many
+function Model:unbond(options) end
+
+---@class (exact) cdem.ModelRelaxOptions
+---@field residual? number in (0, 1), default 1e-06: goal: out-of-balance force norm over applied force norm
+---@field breaking? boolean default true: bonds may break
+---@field max_steps? integer >= 1, default 500000: gives up with converged = false
+---@field every? integer >= 1: steps between calls, 100 by default
+---@field callback? fun() called every so many steps; may read the model and write files
+
+---Dynamic relaxation to static balance, with fictitious masses and adaptive damping (Han 2010 eq 12).
+---@param options? cdem.ModelRelaxOptions
+---@return cdem.RelaxResult
+function Model:relax(options) end
+
+---@class (exact) cdem.ModelRunOptions
+---@field duration? number s, > 0
+---@field steps? integer >= 1: instead of duration
+---@field safety? number in (0, 1], default 0.9: time step over the stable one, at most 1
+---@field time_step? number s, > 0: instead of safety; at most the stable one
+---@field breaking? boolean default true: bonds may break
+---@field local_damping? number in [0, 1), default 0: force against the motion as a fraction of the out-of-balance force (Cundall)
+---@field every? integer >= 1: steps between calls, 100 by default
+---@field callback? fun() called every so many steps; may read the model and write files
+---@field stop? fun(): boolean ends the stage when it returns true
+
+---Explicit stepping in real time with the real masses.
+---@param options? cdem.ModelRunOptions
+---@return cdem.RunResult
+function Model:run(options) end
+
+---The model's solving calls so far.
+---@return cdem.Stage[]
+function Model:stages() end
+
+---@class (exact) cdem.ModelRefineOptions
+---@field tension_threshold? number Pa, >= 0, default 0: a block is cut when its stress is this close to the tensile strength
+---@field shear_threshold? number Pa, >= 0, default 0: the same for the Mohr-Coulomb line
+---@field planes? integer in [1, 15], default 3: equally spaced parallel cuts
+---@field max_depth? integer in [1, 6], default 1: a block that was cut this often is left alone
+---@field criterion? "mohr_coulomb"|"griffith" default "mohr_coulomb"
+---@field region? cdem.Place only blocks whose centroid lies in this one place
+---@field cohesion? number Pa, >= 0: for the criterion, instead of the joint's
+---@field friction_angle? number deg, in [0, 90): for the criterion, instead of the joint's
+---@field tensile_strength? number Pa, >= 0: for the criterion, instead of the joint's
+---@field may_break? "all"|"cut_faces"|"near_cuts" default "near_cuts": interfaces that may break from now on: all, the cut planes, or these and the original faces between two cut blocks
+
+---Cuts blocks near failure along their failure plane into slices (Han 2010 eqs 13-20); the pieces are bonded and carry the state over.
+---@param options? cdem.ModelRefineOptions
+---@return cdem.Cut[] # one table per block that was cut
+function Model:refine(options) end
+
+---@class (exact) cdem.ModelGrowOptions
+---@field passes? integer >= 1, default 3: at most this many
+---@field break_ratio? number in (0, 1], default 0.9: faces that carry this part of the worst ratio of traction to strength break together
+---@field tip_radius? number m, > 0: blocks with their centroid this near to the crack's tip are cut; one block size when left out
+---@field anchor_at_tip? boolean default true: one cut plane of the blocks at the tip passes through it
+---@field residual? number in (0, 1), default 1e-05: goal of every relaxation
+---@field max_steps? integer >= 1, default 500000: of every relaxation
+---@field max_rounds? integer >= 1, default 200: of breaking, in each pass
+---@field callback? fun(pass: cdem.GrowPass) called after every pass, with the model in balance; may read the model and write files
+---@field tension_threshold? number Pa, >= 0, default 0: a block is cut when its stress is this close to the tensile strength
+---@field shear_threshold? number Pa, >= 0, default 0: the same for the Mohr-Coulomb line
+---@field planes? integer in [1, 15], default 3: equally spaced parallel cuts
+---@field max_depth? integer in [1, 6], default 1: a block that was cut this often is left alone
+---@field criterion? "mohr_coulomb"|"griffith" default "mohr_coulomb"
+---@field region? cdem.Place only blocks whose centroid lies in this one place
+---@field cohesion? number Pa, >= 0: for the criterion, instead of the joint's
+---@field friction_angle? number deg, in [0, 90): for the criterion, instead of the joint's
+---@field tensile_strength? number Pa, >= 0: for the criterion, instead of the joint's
+---@field may_break? "all"|"cut_faces"|"near_cuts" default "near_cuts": interfaces that may break from now on: all, the cut planes, or these and the original faces between two cut blocks
+
+---Lets a crack advance in passes: blocks at its tip are cut along their failure plane, the worst faces break, the model finds its balance, until nothing breaks; then the next pass (Han 2010 example 4.2).
+---@param options? cdem.ModelGrowOptions
+---@return cdem.GrowResult
+function Model:grow(options) end
+
+---Largest value of a field.
+---@param field string e.g. "displacement.x", "stress.yy"; model:fields() has all
+---@param on? cdem.Place where: one place; the whole model when left out
+---@return number
+function Model:max(field, on) end
+
+---Smallest value of a field.
+---@param field string e.g. "displacement.x", "stress.yy"; model:fields() has all
+---@param on? cdem.Place where: one place; the whole model when left out
+---@return number
+function Model:min(field, on) end
+
+---Largest value of a field, and where it is.
+---@param field string e.g. "displacement.x", "stress.yy"; model:fields() has all
+---@param on? cdem.Place where: one place; the whole model when left out
+---@return cdem.Extreme
+function Model:find_max(field, on) end
+
+---Smallest value of a field, and where it is.
+---@param field string e.g. "displacement.x", "stress.yy"; model:fields() has all
+---@param on? cdem.Place where: one place; the whole model when left out
+---@return cdem.Extreme
+function Model:find_min(field, on) end
+
+---Mean of a field: over nodes, or over blocks by volume.
+---@param field string e.g. "displacement.x", "stress.yy"; model:fields() has all
+---@param on? cdem.Place where: one place; the whole model when left out
+---@return number
+function Model:mean(field, on) end
+
+---Value of a field at an undeformed place, interpolated in the block there.
+---@param field string e.g. "displacement.x", "stress.yy"; model:fields() has all
+---@param place number[] m
+---@return number
+function Model:at(field, place) end
+
+---Force of the supports on a place.
+---@param on cdem.Place where: one place
+---@return number[] # N, {x, y, z}
+function Model:reaction(on) end
+
+---Names that max, min, mean, at and probe understand.
+---@return string[]
+function Model:fields() end
+
+---Energy ledger.
+---@return cdem.Energy
+function Model:energy() end
+
+---One table per block.
+---@return cdem.BlockState[]
+function Model:blocks() end
+
+---One table per broken bond, the oldest first.
+---@return cdem.Break[]
+function Model:breaks() end
+
+---Histories as lists by name: stage, step, time, residual, kinetic_energy, external_work, broken_tension, broken_shear and the probes. The same are in history.csv after each stage.
+---@return table<string, number[]>
+function Model:history() end
+
+---@class (exact) cdem.ModelProbeOptions
+---@field name string of the column
+---@field field string e.g. "displacement.x", "stress.yy"; model:fields() has all
+---@field at number[] m: undeformed place
+
+---Samples a field at a place into the history.
+---@param options cdem.ModelProbeOptions
+function Model:probe(options) end
+
+---@class (exact) cdem.ModelSaveOptions
+---@field file string ends in .vtu; in the output folder
+---@field series? string ends in .pvd: a time series this file is added to
+
+---Writes the model for ParaView: blocks to the file, bonds beside it (result.vtu, result_bonds.vtu).
+---@param options cdem.ModelSaveOptions
+function Model:save(options) end
+
+---@class (exact) cdem.ModelPictureOptionsCamera
+---@field position number[] m
+---@field focal_point number[] m
+---@field up? number[] default {0, 1, 0}
+---@field view_angle? number deg, in (0, 180), default 30: over the height of the picture
+---@field perspective? boolean default true
+
+---@class (exact) cdem.ModelPictureOptionsMarkers
+---@field at number[] m: undeformed place
+---@field label? string
+---@field colour? number[] {red, green, blue}, each 0 .. 1
+---@field size? number > 0, default 14: pixels across
+
+---@class (exact) cdem.ModelPictureOptionsLines
+---@field points number[][] m
+---@field label? string
+---@field colour? number[] {red, green, blue}, each 0 .. 1
+---@field width? number > 0, default 4: pixels
+---@field dashed? boolean default false
+
+---@class (exact) cdem.ModelPictureOptions
+---@field file string ends in .png; in the output folder
+---@field colour? string field to colour by, e.g. "displacement.x", "stress.yy", "von_mises", "block_id"; plain blocks when left out
+---@field deformation? number default 0: displacements are drawn this many times larger; 0: undeformed
+---@field view? "front"|"back"|"left"|"right"|"top"|"bottom"|"iso" default "front": front looks along -z at the x-y plane
+---@field up? "y"|"z" default "y": z: front looks along y with z up
+---@field camera? cdem.ModelPictureOptionsCamera instead of view
+---@field size? number[] default {1600, 1200}: {width, height} in pixels; height 0: as high as it needs to be
+---@field range? number[] {lowest, highest} of the colours, SI units
+---@field colour_map? "auto"|"blue_white_red"|"cool_warm"|"viridis"|"grey"|"categorical" default "auto": auto: blue_white_red when values change sign, viridis when not
+---@field title? string _{...} and ^{...} set sub- and superscripts
+---@field edges? boolean default true: outlines of the blocks
+---@field broken_bonds? boolean default true: broken interfaces, coloured by how they broke
+---@field colour_bar? boolean default true
+---@field legend? boolean default true
+---@field axes? boolean default true: small arrows that name the directions
+---@field markers? cdem.ModelPictureOptionsMarkers[]
+---@field lines? cdem.ModelPictureOptionsLines[]
+
+---Draws the model, without a display.
+---@param options cdem.ModelPictureOptions
+function Model:picture(options) end
+
+---@class (exact) cdem.ModelChartOptions
+---@field file string ends in .png; in the output folder
+---@field y string[] histories, e.g. {"residual"}; model:history() has all
+---@field right? string[] histories read on the right
+---@field x? string default "step": history along the x axis
+---@field title? string _{...} and ^{...} set sub- and superscripts
+---@field x_label? string
+---@field y_label? string
+---@field right_label? string of the axis on the right
+---@field log_x? boolean default false
+---@field log_y? boolean default false
+---@field log_right? boolean default false
+---@field x_range? number[]
+---@field y_range? number[]
+---@field right_range? number[]
+---@field legend? "auto"|"top_left"|"top_right"|"bottom_left"|"bottom_right"|"none" default "auto"
+---@field size? number[] default {1600, 1200}: {width, height} in pixels; height 0: as high as it needs to be
+
+---Line chart of histories.
+---@param options cdem.ModelChartOptions
+function Model:chart(options) end
+
+---@class (exact) cdem.ParameterOptions
+---@field name string a word, as in --set pressure=24e6
+---@field default any value without --set; its type is the parameter's
+---@field type? "number"|"integer"|"string"|"boolean"|"list" only needed to let an integer default take any number
+---@field range? number[] {lowest, highest} allowed, for numbers and every item of a list
+---@field choices? (string|number|boolean)[] the values allowed
+---@field unit? string e.g. "Pa"
+---@field doc? string one sentence, shown by `cdem check`
+
+---Declares a value that the command line can change with --set name=value, and returns it. Its type is that of the default: number, integer, string, boolean or list. Parameters come before the first solving call.
+---@param options cdem.ParameterOptions
+---@return any # the value
+function cdem.parameter(options) end
+
+---@class (exact) cdem.ElasticOptions
+---@field youngs_modulus number Pa, > 0: Young's modulus E
+---@field poissons_ratio number in (-1, 0.5): Poisson's ratio nu
+---@field density number kg/m3, > 0
+---@field viscosity? number N s/m4, >= 0, default 0: damping force per volume and velocity, mu of Han 2010 eq 1; used by real-time stepping
+
+---Isotropic linear elasticity (Han 2010 eq 3).
+---@param options cdem.ElasticOptions
+---@return cdem.Material
+function cdem.elastic(options) end
+
+---@class (exact) cdem.MohrCoulombOptions
+---@field cohesion number Pa, >= 0
+---@field friction_angle number deg, in [0, 90)
+---@field tensile_strength number Pa, >= 0
+---@field softening? "none"|"linear"|"exponential" default "none": how the strength falls once it is reached; none: brittle. It needs both fracture energies, and tensile_strength at most cohesion / tan(friction angle)
+---@field fracture_energy_1? number J/m2, > 0: G_I, work per crack area that opening to separation takes, elastic part included
+---@field fracture_energy_2? number J/m2, > 0: G_II, the same for slip, beyond the work of friction
+---@field thickness_ratio? number > 0, default 0.02: equivalent thickness of the joint over the block size (cube root of its volume), which sets the stiffness E/L and G/L
+---@field thickness? number m, > 0: equivalent thickness itself; wins over the ratio
+---@field normal_stiffness? number Pa/m, > 0: instead of E/L
+---@field shear_stiffness? number Pa/m, > 0: instead of G/L
+
+---Bond between block faces: breaks in tension above the tensile strength and in shear above cohesion + normal pressure x tan(friction angle); then it is a contact with the same friction angle (Han 2010 eqs 8-11). With softening it loses its strength along a curve whose area is the fracture energy.
+---@param options cdem.MohrCoulombOptions
+---@return cdem.Joint
+function cdem.mohr_coulomb(options) end
+
+---@class (exact) cdem.CoulombOptions
+---@field friction_angle number deg, in [0, 90)
+---@field thickness_ratio? number > 0, default 0.02: equivalent thickness of the joint over the block size (cube root of its volume), which sets the stiffness E/L and G/L
+---@field thickness? number m, > 0: equivalent thickness itself; wins over the ratio
+---@field normal_stiffness? number Pa/m, > 0: instead of E/L
+---@field shear_stiffness? number Pa/m, > 0: instead of G/L
+
+---Contact that never was bonded: no tension, friction only (Han 2010 eq 9).
+---@param options cdem.CoulombOptions
+---@return cdem.Joint
+function cdem.coulomb(options) end
+
+---@class (exact) cdem.GridOptions
+---@field size number[] m, > 0: of the whole
+---@field divisions number[] >= 1: boxes along x, y and z
+---@field origin? number[] m, default {0, 0, 0}: lower corner
+
+---A box of equal boxes in rows.
+---@param options cdem.GridOptions
+---@return cdem.Assembly
+function cdem.grid(options) end
+
+---@class (exact) cdem.BoxOptions
+---@field size number[] m, > 0
+---@field origin? number[] m, default {0, 0, 0}: lower corner
+
+---One box.
+---@param options cdem.BoxOptions
+---@return cdem.Assembly
+function cdem.box(options) end
+
+---@class (exact) cdem.VoronoiOptions
+---@field size number[] m, > 0: of the whole
+---@field count integer >= 1: number of blocks
+---@field seed? integer >= 0, default 1: the same seed gives the same blocks on every machine
+---@field relaxations? integer in [0, 1000], default 3: Lloyd steps: each moves the points to their cells' centroids, which evens the cells out
+---@field extruded? boolean default false: cells in x and y, one block through z
+---@field origin? number[] m, default {0, 0, 0}: lower corner
+
+---A box of Voronoi cells about seeded random points.
+---@param options cdem.VoronoiOptions
+---@return cdem.Assembly
+function cdem.voronoi(options) end
+
+---@class (exact) cdem.BricksOptions
+---@field size number[] m, > 0: of the wall
+---@field brick number[] m, > 0: one brick
+---@field shift? number in [0, 1), default 0.5: of each course against the one below, as a fraction of the brick's length
+---@field origin? number[] m, default {0, 0, 0}: lower corner
+
+---A wall in running bond: courses laid along z, bricks running along x, the end bricks cut.
+---@param options cdem.BricksOptions
+---@return cdem.Assembly
+function cdem.bricks(options) end
+
+---@class (exact) cdem.CutByJointsOptionsSets
+---@field dip number deg, in [0, 90]: below the horizontal plane, z up
+---@field dip_direction number deg, in [0, 360]: clockwise from +y (north) seen from above
+---@field spacing number m, > 0: mean, along the normal
+---@field spacing_scatter? number in [0, 0.5), default 0: standard deviation over the mean
+---@field dip_scatter? number deg, in [0, 90], default 0: standard deviation
+---@field direction_scatter? number deg, in [0, 360], default 0: standard deviation
+
+---@class (exact) cdem.CutByJointsOptions
+---@field shape cdem.Assembly
+---@field sets cdem.CutByJointsOptionsSets[]
+---@field seed? integer >= 0, default 1: the same seed gives the same blocks on every machine
+
+---Cuts every block by the planes of joint sets, one set after the other.
+---@param options cdem.CutByJointsOptions
+---@return cdem.Assembly
+function cdem.cut_by_joints(options) end
+
+---@class (exact) cdem.ConvexHullOptions
+---@field points number[][] m: four or more, not in one plane
+
+---One block: the convex hull of points.
+---@param options cdem.ConvexHullOptions
+---@return cdem.Assembly
+function cdem.convex_hull(options) end
+
+---@class (exact) cdem.CutByPlaneOptionsInside
+---@field min number[] m
+---@field max number[] m
+
+---@class (exact) cdem.CutByPlaneOptions
+---@field shape cdem.Assembly left as it is; the result is a new one
+---@field point number[] m: any point of the plane
+---@field normal number[] of any length
+---@field inside? cdem.CutByPlaneOptionsInside only blocks whose centroid lies in this box
+---@field clearance? number m, >= 0, default 0: where a vertex of a block is nearer than this, the plane is shifted for that block
+
+---Splits every block that a plane crosses.
+---@param options cdem.CutByPlaneOptions
+---@return cdem.Assembly
+function cdem.cut_by_plane(options) end
+
+---@class (exact) cdem.TranslateOptions
+---@field shape cdem.Assembly left as it is; the result is a new one
+---@field shift number[] m
+
+---Moves blocks.
+---@param options cdem.TranslateOptions
+---@return cdem.Assembly
+function cdem.translate(options) end
+
+---@class (exact) cdem.RotateOptions
+---@field shape cdem.Assembly left as it is; the result is a new one
+---@field axis number[] of any length
+---@field angle number deg
+---@field centre? number[] m, default {0, 0, 0}
+
+---Turns blocks, right-handed, about an axis through `centre`.
+---@param options cdem.RotateOptions
+---@return cdem.Assembly
+function cdem.rotate(options) end
+
+---@class (exact) cdem.MergeOptions
+---@field shapes cdem.Assembly[]
+
+---One assembly of the blocks of several.
+---@param options cdem.MergeOptions
+---@return cdem.Assembly
+function cdem.merge(options) end
+
+cdem.select = {}
+
+---@class (exact) cdem.SelectPlaneOptions
+---@field point number[] m: any point of the plane
+---@field normal number[] of any length
+
+---Everything that lies on a plane.
+---@param options cdem.SelectPlaneOptions
+---@return cdem.Selection
+function cdem.select.plane(options) end
+
+---@class (exact) cdem.SelectBoxOptions
+---@field min number[] m
+---@field max number[] m
+
+---Everything inside an axis-aligned box, its faces included.
+---@param options cdem.SelectBoxOptions
+---@return cdem.Selection
+function cdem.select.box(options) end
+
+---Everything for whose undeformed place a function returns true.
+---@param predicate fun(x: number, y: number, z: number): boolean
+---@return cdem.Selection
+function cdem.select.where(predicate) end
+
+---@class (exact) cdem.ModelOptionsBodies
+---@field shape cdem.Assembly
+---@field material cdem.Material
+---@field joint? cdem.Joint between the body's own blocks; needed when there are several, or when they are cut
+---@field name? string for selections and contacts; body_1, body_2 ... by default
+---@field element? "small_strain" default "small_strain": how a block deforms
+
+---@class (exact) cdem.ModelOptions
+---@field bodies cdem.ModelOptionsBodies[]
+---@field contacts? [string, string, cdem.Joint][] {"body a", "body b", joint} for every two bodies that touch
+
+---A model: bodies of blocks, and what holds touching bodies to each other.
+---@param options cdem.ModelOptions
+---@return cdem.Model
+function cdem.model(options) end
+
+---@class (exact) cdem.FilmOptions
+---@field file string ends in .ogv; in the output folder
+---@field frames string[] names of the pictures, in order
+---@field frames_per_second? integer in [1, 120], default 12
+
+---A film (Ogg/Theora) from pictures of one size.
+---@param options cdem.FilmOptions
+function cdem.film(options) end
+
+---@class (exact) cdem.ChartOptionsSeries
+---@field name string in the legend
+---@field x (string|number|boolean)[]
+---@field y (string|number|boolean)[] as many; nan leaves a gap
+---@field right_axis? boolean default false: read y on the right
+---@field style? "line"|"dashed"|"points"|"both" default "line"
+---@field colour? number[] {red, green, blue}, each 0 .. 1
+
+---@class (exact) cdem.ChartOptions
+---@field file string ends in .png; in the output folder
+---@field series cdem.ChartOptionsSeries[]
+---@field title? string _{...} and ^{...} set sub- and superscripts
+---@field x_label? string
+---@field y_label? string
+---@field right_label? string of the axis on the right
+---@field log_x? boolean default false
+---@field log_y? boolean default false
+---@field log_right? boolean default false
+---@field x_range? number[]
+---@field y_range? number[]
+---@field right_range? number[]
+---@field legend? "auto"|"top_left"|"top_right"|"bottom_left"|"bottom_right"|"none" default "auto"
+---@field size? number[] default {1600, 1200}: {width, height} in pixels; height 0: as high as it needs to be
+
+---Line chart of lists of numbers.
+---@param options cdem.ChartOptions
+function cdem.chart(options) end
+
+---@class (exact) cdem.ReportOptionsfigures
+---@field name string name of the figure, with its unit at the end, e.g. "side_ux_max_m"
+---@field value? any number or text; leave out (nil) when there is none
+---@field unit? string
+---@field reference? any number or text to compare with
+---@field kind? "formula"|"paper"|"fe"|"trial" where the reference comes from; a trial figure is shown and never judged
+---@field source? string e.g. "Han 2010 fig 7"
+---@field tolerance? number >= 0: allowed |value - reference| over |reference|
+---@field tolerance_absolute? number >= 0: the same in the figure's unit, instead of tolerance
+
+---Writes figures beside their references to report.json and report.md in the output folder. Further calls add figures; a name given again takes the place of the earlier one. Numbers that are not finite become null, with a warning.
+---@param figures cdem.ReportOptionsfigures[] the figures, in order
+function cdem.report(figures) end
+
+---Reads columns of numbers; the first row has their names. Empty cells are nan.
+---@param file string beside the script, in the output folder or below the results
+---@return table<string, number[]> # lists by name
+function cdem.read_csv(file) end
+
+---@class (exact) cdem.WriteCsvOptionsColumns
+---@field name string
+---@field values (string|number|boolean)[] as many as in the others; nan leaves an empty cell
+
+---@class (exact) cdem.WriteCsvOptions
+---@field file string in the output folder
+---@field columns cdem.WriteCsvOptionsColumns[]
+
+---Writes columns of numbers.
+---@param options cdem.WriteCsvOptions
+function cdem.write_csv(options) end
+
+---Writes a line to the log and the terminal.
+---@param text string
+function cdem.log(text) end
+
+---Numbers at equal distances.
+---@param first number
+---@param last number
+---@param count integer >= 2
+---@return number[] # count numbers, both ends included
+function cdem.linspace(first, last, count) end
+
+---Any value as readable text, tables with their contents.
+---@param value? any
+---@return string
+function cdem.describe(value) end
+
+---Wall-clock time since the script began, s.
+---@return number
+function cdem.elapsed() end
+
+---@class (exact) cdem.SweepOptions
+---@field script string another .lua file beside this one
+---@field set any[] one table of parameters per case, e.g. { { case = 1 }, { case = 2 } }
+---@field jobs? integer in [1, 1024], default 1: cases at a time
+---@field threads? integer in [1, 1024], default 1: of each case
+
+---Runs a script with many settings, as processes side by side, each with a folder of its own in the output folder.
+---@param options cdem.SweepOptions
+---@return cdem.SweepResult[] # in the order given
+function cdem.sweep(options) end
+
+return cdem

@@ -1,0 +1,61 @@
+#include "lua/binding/module.hpp"
+#include "tests/lua/script.hpp"
+
+#include <catch2/catch.hpp>
+
+using namespace cdem::script;
+using namespace cdem::script::test;
+
+TEST_CASE("the committed editor annotations are those the binding generates", "[lua]") {
+  INFO("make them anew: cmake --build <build folder> --target lua_reference");
+  CHECK(read_file(fs::path(CDEM_SOURCE) / "lua/meta/cdem.lua") == annotations());
+}
+
+TEST_CASE("the committed reference page is the one the binding generates", "[lua]") {
+  INFO("make it anew: cmake --build <build folder> --target lua_reference");
+  CHECK(read_file(fs::path(CDEM_SOURCE) / "docs/script-reference.md") == reference());
+}
+
+TEST_CASE("every declared function is in the module, and nothing else", "[lua]") {
+  std::string declared;
+  for (const Function& f : module().functions)
+    declared +=
+        "assert(type(cdem." + f.name + ") == 'function', '" + f.name + "')\nknown['" + f.name + "'] = true\n";
+  for (const Constant& c : module().constants)
+    declared += "known['" + c.name + "'] = true\n";
+  CHECK(error_of("local cdem, known = require 'cdem', {}\n" + declared +
+                 "for name, entry in pairs(cdem) do\n"
+                 "  if type(entry) == 'table' then\n"
+                 "    for inner in pairs(entry) do assert(known[name .. '.' .. inner], inner) end\n"
+                 "  else assert(known[name], name) end\nend") == "");
+}
+
+TEST_CASE("every default satisfies its own declaration", "[lua]") {
+  const auto check_fields = [](const std::vector<Field>& fields) {
+    for (const Field& f : fields)
+      if (!f.standard_value.is_nil())
+        CHECK_NOTHROW(check_value(f.standard_value, f.type, f.name));
+  };
+  for (const Function& f : module().functions)
+    check_fields(f.fields);
+  for (const Class& c : module().classes)
+    for (const Function& f : c.methods)
+      check_fields(f.fields);
+}
+
+TEST_CASE("every class and table that an annotation mentions is declared", "[lua]") {
+  const std::string text = annotations();
+  for (auto at = text.find("cdem."); at != std::string::npos; at = text.find("cdem.", at + 1)) {
+    std::size_t end = at + 5;
+    while (end < text.size() && (std::isalnum(static_cast<unsigned char>(text[end])) || text[end] == '_'))
+      ++end;
+    const std::string name = text.substr(at, end - at);
+    if (name.size() < 6 || !std::isupper(static_cast<unsigned char>(name[5])))
+      continue; // a function, not a type
+    INFO(name);
+    const bool declared = text.find("---@class " + name + "\n") != std::string::npos ||
+                          text.find("---@class (exact) " + name + "\n") != std::string::npos ||
+                          text.find("---@alias " + name + " ") != std::string::npos;
+    CHECK(declared);
+  }
+}

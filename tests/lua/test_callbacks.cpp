@@ -1,0 +1,78 @@
+#include "tests/lua/script.hpp"
+
+#include <catch2/catch.hpp>
+
+using namespace cdem::script;
+using namespace cdem::script::test;
+using Catch::Matchers::Contains;
+
+TEST_CASE("a callback is called every so many steps", "[lua]") {
+  CHECK(printed_by(column() + "local n = 0\nmodel:run{ steps = 50, every = 10, callback = function() n = n + "
+                              "1 end }\nprint(n)") == "5");
+}
+
+TEST_CASE("stop ends a run", "[lua]") {
+  CHECK(printed_by(
+            column() +
+            "local n = 0\nlocal r = model:run{ every = 10, stop = function() n = n + 1 return n == 3 end }\n"
+            "print(r.steps)") == "30");
+}
+
+TEST_CASE("an error in a callback names its own line and ends the stage", "[lua]") {
+  CHECK_THAT(
+      error_of(column() +
+               "model:run{ steps = 50, every = 10,\n  callback = function()\n    local x = nil + 1\n  end }"),
+      Contains("case.lua:9: attempt to perform arithmetic on a nil value"));
+  CHECK(printed_by(column() + "print(pcall(function() model:run{ steps = 50, every = 10, callback = "
+                              "function() error('x', 0) end } end))\n"
+                              "model:run{ steps = 1 }") == "false\tx");
+}
+
+TEST_CASE("a callback may read the model and may not change it", "[lua]") {
+  const std::string front = column() + "model:run{ steps = 10, every = 10, callback = function() ";
+  CHECK(error_of(front + "local a, b, c = model.time, model:counts(), model:max('velocity.x') end }") == "");
+  for (const std::string call :
+       {"model:run{ steps = 1 }", "model:relax{}", "model:refine{}", "model:fix{ on = 'x+' }",
+        "model:gravity{ vector = {0, 0, -9.81} }", "model:remove{ on = 'all' }"})
+    CHECK_THAT(error_of(front + call + " end }"), Contains("not from a callback of a running stage"));
+}
+
+TEST_CASE("an amplitude must give a finite number, and is asked at once", "[lua]") {
+  const std::string front = column() + "model:traction{ on = 'x+', stress = {1, 0, 0}, amplitude = ";
+  CHECK_THAT(error_of(front + "function(t) return 0 / 0 end }"),
+             Contains("case.lua:7: model:traction: amplitude(0)"));
+  CHECK_THAT(error_of(front + "function(t) end }"), Contains("= nothing: must be a finite number"));
+  CHECK_THAT(error_of(front + "2 }"), Contains("amplitude = 2: must be a function"));
+}
+
+TEST_CASE("a predicate must say true or false", "[lua]") {
+  CHECK_THAT(error_of(column() + "model:fix{ on = function(x, y, z) return x end }"),
+             Contains("must be true or false"));
+  CHECK_THAT(error_of(column() + "model:fix{ on = cdem.select.where(3) }"),
+             Contains("predicate = 3: must be a function"));
+}
+
+TEST_CASE("callbacks work inside coroutines", "[lua]") {
+  CHECK(printed_by(
+            column() +
+            "local c = coroutine.wrap(function()\n"
+            "  model:fix{ on = function(x, y, z) return x > 1.9 end, axes = 'y' }\n  coroutine.yield(1)\n"
+            "  local n = 0\n  model:run{ steps = 20, every = 10, callback = function() n = n + 1 end }\n"
+            "  coroutine.yield(n)\nend)\nprint(c(), c())") == "1\t2");
+}
+
+TEST_CASE("model.memory holds plain values only", "[lua]") {
+  CHECK(printed_by(column() + "model.memory.count = 0\nmodel.memory.list = { 1, 2, { a = 'b' } }\n"
+                              "model:run{ steps = 20, every = 10, callback = function() model.memory.count = "
+                              "model.memory.count + 1 end }\n"
+                              "print(model.memory.count, model.memory.list[3].a)") == "2\tb");
+  CHECK(printed_by(column() + "model.memory = { a = 1 }\nprint(model.memory.a)") == "1");
+  const std::string run = "\nmodel:run{ steps = 1 }";
+  CHECK_THAT(error_of(column() + "model.memory.f = print" + run),
+             Contains("model.memory.f = function: must be a plain value"));
+  CHECK_THAT(error_of(column() + "model.memory.m = { model }" + run),
+             Contains("model.memory.m[1] = cdem.Model"));
+  CHECK_THAT(error_of(column() + "model.memory.t = model.memory" + run), Contains("does it contain itself?"));
+  CHECK_THAT(error_of(column() + "model.memory[2.5] = 1" + run), Contains("key 2.5"));
+  CHECK_THAT(error_of(column() + "model.memory = 3"), Contains("memory = 3: must be a table"));
+}

@@ -1,0 +1,127 @@
+// Every error is one line: script, line, call, field, value, what is allowed, what to do.
+#include "libcdem/step/errors.hpp"
+#include "tests/lua/script.hpp"
+
+#include <catch2/catch.hpp>
+
+using namespace cdem::script;
+using namespace cdem::script::test;
+using Catch::Matchers::Contains;
+
+namespace {
+const std::string head = "local cdem = require 'cdem'\n";
+}
+
+TEST_CASE("an error names script, line, call, field, value and range", "[lua]") {
+  CHECK(error_of(
+            head +
+            "\nlocal rock = cdem.elastic{ youngs_modulus = 30e9, poissons_ratio = 0.5, density = 2500 }") ==
+        "case.lua:3: cdem.elastic: poissons_ratio = 0.5: must be in (-1, 0.5)");
+  CHECK(error_of(head + "cdem.elastic{ youngs_modulus = 30e9, poissons_ratio = 0.2, density = -2500 }") ==
+        "case.lua:2: cdem.elastic: density = -2500: must be > 0");
+  CHECK(error_of(head + "cdem.elastic{ young_modulus = 30e9, poissons_ratio = 0.2, density = 2500 }") ==
+        "case.lua:2: cdem.elastic: young_modulus: no such key; did you mean youngs_modulus? Allowed: "
+        "youngs_modulus, "
+        "poissons_ratio, density, viscosity");
+  CHECK_THAT(error_of(head + "cdem.grid{ size = {0, 1, 1}, divisions = {1, 1, 1} }"),
+             Contains("case.lua:2: cdem.grid: size[1] = 0: must be > 0"));
+}
+
+TEST_CASE("an error inside a function of the script names the line that called", "[lua]") {
+  CHECK_THAT(
+      error_of(head +
+               "local function rock(nu)\n  return cdem.elastic{ youngs_modulus = 1, poissons_ratio = nu, "
+               "density = 1 }\nend\nrock(0.7)"),
+      Contains("case.lua:3: cdem.elastic: poissons_ratio = 0.7"));
+  CHECK_THAT(error_of(head + "pcall(print)\nlocal ok, e = pcall(cdem.elastic, { density = 1 })\nerror(e, 0)"),
+             Contains("case.lua:3: cdem.elastic: youngs_modulus: missing"));
+}
+
+TEST_CASE("an error in a required file names that file", "[lua]") {
+  Script script("require 'rocks'");
+  script.write("rocks.lua", head + "return cdem.elastic{}");
+  CHECK_THAT(script.error(), Contains("rocks.lua:2: cdem.elastic: youngs_modulus: missing"));
+}
+
+TEST_CASE("errors of Lua itself keep their line", "[lua]") {
+  CHECK_THAT(error_of("local x = nil\n\nprint(x.y)"), Contains("case.lua:3: attempt to index a nil value"));
+  CHECK_THAT(error_of("for i = 1, 3 do\n"), Contains("case.lua:"));
+  CHECK_THAT(error_of("for i = 1, 3 do\n"), Contains("'end' expected"));
+  CHECK(error_of("error('enough')") == "case.lua:1: enough");
+  CHECK_THAT(error_of("error({})"), Contains("case.lua:1: error value is a table"));
+  CHECK_THAT(error_of("error(setmetatable({}, { __tostring = function() return 'mine' end }))"),
+             Contains("mine"));
+}
+
+TEST_CASE("a first line for the shell and a byte order mark do not shift lines", "[lua]") {
+  CHECK(error_of("#!/usr/bin/env cdem\nerror('x')") == "case.lua:2: x");
+  CHECK(error_of("\xef\xbb\xbf"
+                 "error('x')") == "case.lua:1: x");
+}
+
+TEST_CASE("calling in the wrong way is explained", "[lua]") {
+  CHECK_THAT(error_of(head + "cdem.elastic(30e9)"), Contains("takes a table with named values, not 3e+10"));
+  CHECK_THAT(error_of(head + "cdem.elastic({}, 2)"), Contains("takes one table"));
+  CHECK_THAT(error_of(head + "cdem.elastics{}"),
+             Contains("case.lua:2: cdem.elastics: no such name; did you mean elastic?"));
+  CHECK_THAT(error_of(head + "cdem.select.plain{}"), Contains("did you mean plane?"));
+  CHECK_THAT(error_of(column() + "model.fix{ on = 'x-' }"),
+             Contains("call it with a colon on a cdem.Model: model:fix(...)"));
+  CHECK_THAT(error_of(column() + "model:fixx{ on = 'x-' }"),
+             Contains("cdem.Model: fixx: no such name; did you mean fix?"));
+  CHECK_THAT(error_of(column() + "print(rock.youngs)"), Contains("did you mean youngs_modulus?"));
+  CHECK_THAT(error_of(column() + "model:max('displacement.x', 'x-', 3)"),
+             Contains("3 arguments: takes (field, on)"));
+  CHECK_THAT(error_of(head + "local t = {}\nt.t = t\ncdem.report{ { name = 'a', value = t } }"),
+             Contains("does it contain itself?"));
+  CHECK_THAT(error_of(head + "cdem.model{ bodies = { { shape = coroutine.create(print) } } }"),
+             Contains("bodies[1].shape = a thread: must be a cdem.Assembly"));
+}
+
+TEST_CASE("errors of the mechanics carry the line of the call", "[lua]") {
+  CHECK_THAT(error_of(column() + "model:max('displacment.x')"), Contains("case.lua:7: model:max: "));
+  CHECK_THAT(error_of(column() + "model:max('displacment.x')"), Contains("displacement.x"));
+  CHECK_THAT(
+      error_of(column() + "model:fix{ on = cdem.select.plane{ point = {5, 0, 0}, normal = {1, 0, 0} } }"),
+      Contains("case.lua:7: model:fix: "));
+}
+
+TEST_CASE("an unknown place names the nearest and lists those there are", "[lua]") {
+  CHECK_THAT(error_of(column() + "model:fix{ on = 'q-' }"), Contains("on = \"q-\": no such place"));
+  CHECK_THAT(error_of(column() + "model:fix{ on = 'colum' }"),
+             Contains("did you mean column? There are: x-, x+, y-"));
+  CHECK_THAT(error_of(column() + "model:fix{ on = {'x+', 'colum'} }"), Contains("on[2] = \"colum\""));
+  CHECK_THAT(error_of(column() + "model:fix{ on = 3 }"), Contains("on = 3: must be a side"));
+}
+
+TEST_CASE("a script that is not there, or is a folder, is a file error", "[lua]") {
+  Script script("");
+  script.settings.script = script.folder / "missing.lua";
+  CHECK_THROWS_AS(script.run(), FileError);
+  script.settings.script = script.folder;
+  CHECK_THROWS_AS(script.run(), FileError);
+}
+
+TEST_CASE("a missing data file stays a file error on its way through the script", "[lua]") {
+  Script script(head + "cdem.read_csv('missing.csv')");
+  CHECK_THROWS_AS(script.run(), FileError);
+  Script rethrown(head + "local ok, e = pcall(cdem.read_csv, 'missing.csv')\nerror(e, 0)");
+  CHECK_THROWS_AS(rethrown.run(), FileError);
+}
+
+TEST_CASE("a solution that runs away is a SolutionError, which a script may catch", "[lua]") {
+  // A free block under a force has no balance: it is thrown out of the model.
+  const std::string runaway = column() + "model:release{ on = 'x-' }\n"
+                                         "model:initial_velocity{ velocity = {1e12, 0, 0} }\n";
+  const std::string solve = "model:run{ steps = 100000 }\n";
+  Script script(runaway + solve);
+  CHECK_THROWS_AS(script.run(), cdem::SolutionError);
+  CHECK(script.engine->model_saved_after_failure());
+  CHECK(script.wrote("last_good.vtu"));
+  Script caught(runaway + "local ok, e = pcall(function() " + solve + " end)\nprint(ok, e)");
+  const std::string printed = caught.printed();
+  CHECK(printed.rfind("false	", 0) == 0);
+  CHECK_THAT(printed, Contains("case.lua:9: model:run: ") && Contains("run-away"));
+  Script rethrown(runaway + "local ok, e = pcall(function() " + solve + " end)\nerror(e, 0)");
+  CHECK_THROWS_AS(rethrown.run(), cdem::SolutionError);
+}

@@ -1,0 +1,71 @@
+#include "libcdem/vtk/files.hpp"
+#include "tests/lua/script.hpp"
+
+#include <catch2/catch.hpp>
+#include <cmath>
+
+using namespace cdem::script;
+using namespace cdem::script::test;
+using Catch::Matchers::Contains;
+
+TEST_CASE("save writes blocks, bonds beside them, and a series", "[lua]") {
+  Script script(column() + "model:save{ file = 'a.vtu', series = 'all.pvd' }\nmodel:run{ steps = 3 }\n"
+                           "model:save{ file = 'sub/b.vtu', series = 'all.pvd' }");
+  script.run();
+  CHECK(script.wrote("a.vtu"));
+  CHECK(script.wrote("a_bonds.vtu"));
+  CHECK(script.wrote("sub/b_bonds.vtu"));
+  const std::string series = script.read("all.pvd");
+  CHECK(series.find("a.vtu") < series.find("sub/b.vtu"));
+  CHECK(series.find("sub/b.vtu") != std::string::npos);
+}
+
+TEST_CASE("pictures and charts are written as PNG", "[lua]") {
+  Script script(
+      column() +
+      "model:run{ steps = 20 }\n"
+      "model:picture{ file = 'p.png', colour = 'displacement.x', size = {320, 240},\n"
+      "  markers = { { at = {0, 0, 0}, label = 'here' } }, lines = { { points = { {0,0,0}, {1,0,0} } } } }\n"
+      "model:chart{ file = 'h.png', y = {'kinetic_energy'}, x = 'time', size = {320, 240} }\n"
+      "cdem.chart{ file = 'c.png', size = {320, 240}, series = { { name = 'a', x = {1, 2, 3}, y = {1, 0/0, "
+      "9} } } }");
+  script.run();
+  for (const std::string name : {"p.png", "h.png", "c.png"})
+    CHECK(script.read(name).rfind("\x89PNG", 0) == 0);
+}
+
+TEST_CASE("columns of numbers survive writing and reading", "[lua]") {
+  Script script(
+      "local cdem = require 'cdem'\n"
+      "cdem.write_csv{ file = 't.csv', columns = { { name = 'x', values = {0.1, 1e-300, -5} }, { name = 'y', "
+      "values = {1, 0/0, 3} } } }\n"
+      "local t = cdem.read_csv('t.csv')\nassert(t.x[1] == 0.1 and t.x[2] == 1e-300 and t.x[3] == -5)\n"
+      "assert(t.y[1] == 1 and t.y[2] ~= t.y[2] and t.y[3] == 3)");
+  CHECK(script.error() == "");
+  CHECK(script.read("t.csv") == "x,y\n0.1,1\n1e-300,\n-5,3\n");
+}
+
+TEST_CASE("tables that do not fit are refused with their row", "[lua]") {
+  const auto error_for = [](const std::string& text) {
+    Script script("require('cdem').read_csv('t.csv')");
+    script.write("t.csv", text);
+    return script.error();
+  };
+  CHECK_THAT(error_for("a,b\n1,2\n3\n"), Contains("row 3 has 1 values: must be 2"));
+  CHECK_THAT(error_for("a,b\n1,two\n"), Contains("row 2: \"two\": must be a number"));
+  CHECK_THAT(error_for(""), Contains("must begin with a row of column names"));
+}
+
+TEST_CASE("numbers at equal distances include both ends", "[lua]") {
+  CHECK(
+      error_of(
+          "local l = require('cdem').linspace(0.1, 0.7, 4)\nassert(#l == 4 and l[1] == 0.1 and l[4] == 0.7)\n"
+          "assert(math.abs(l[2] - 0.3) < 1e-15)") == "");
+}
+
+TEST_CASE("print, io.write and cdem.log go to the log, line by line", "[lua]") {
+  CHECK(
+      printed_by(
+          "print(1, 'a', nil, true)\nio.write('b', 2, '\\nc')\nio.write('d\\n')\nrequire('cdem').log('e')") ==
+      "1\ta\tnil\ttrue\nb2\ncd\ne");
+}
