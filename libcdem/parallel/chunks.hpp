@@ -23,8 +23,10 @@ inline std::vector<Range> split(std::int64_t n, std::int64_t grain) {
 
 // body(chunk) for every chunk, on `threads` threads; one barrier at the end.
 template <class Body>
-void for_chunks(std::int64_t chunks, int threads, const Body& body) {
+void for_chunks(std::int64_t chunks, [[maybe_unused]] int threads, const Body& body) {
+#ifdef _OPENMP // seen without it only by those that include this header and never call
 #pragma omp parallel for schedule(static) num_threads(threads) if (threads > 1 && chunks > 1)
+#endif
   for (std::int64_t chunk = 0; chunk < chunks; ++chunk)
     body(chunk);
 }
