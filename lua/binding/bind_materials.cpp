@@ -38,12 +38,50 @@ void read_stiffness(const Arguments& a, Joint& joint) {
   joint.shear_stiffness = a.optional_number("shear_stiffness");
 }
 
+std::vector<Field> softening_fields() {
+  return {choice("softening", {"none", "linear", "exponential"})
+              .standard("none")
+              .doc("how the strength falls once it is reached; none: brittle. It needs both fracture "
+                   "energies, and "
+                   "tensile_strength at most cohesion / tan(friction angle)"),
+          number("fracture_energy_1")
+              .above(0)
+              .unit("J/m2")
+              .doc("G_I, work per crack area that opening to separation takes, elastic part included"),
+          number("fracture_energy_2")
+              .above(0)
+              .unit("J/m2")
+              .doc("G_II, the same for slip, beyond the work of friction")};
+}
+
+void read_softening(const Arguments& a, Joint& joint) {
+  const std::string& curve = a.text("softening");
+  joint.softening = curve == "linear"        ? Softening::linear
+                    : curve == "exponential" ? Softening::exponential
+                                             : Softening::none;
+  joint.fracture_energy_1 = a.optional_number("fracture_energy_1").value_or(0);
+  joint.fracture_energy_2 = a.optional_number("fracture_energy_2").value_or(0);
+}
+
+std::string softening_name(const Joint& joint) {
+  switch (joint.softening) {
+  case Softening::none:
+    break;
+  case Softening::linear:
+    return "linear";
+  case Softening::exponential:
+    return "exponential";
+  }
+  return "none";
+}
+
 Value mohr_coulomb(Session&, Object*, const Arguments& a) {
   auto object = std::make_shared<JointObject>();
   object->joint.bonded = true;
   object->joint.cohesion = a.number("cohesion");
   object->joint.friction_angle = radians(a.number("friction_angle"));
   object->joint.tensile_strength = a.number("tensile_strength");
+  read_softening(a, object->joint);
   read_stiffness(a, object->joint);
   validate(object->joint);
   return object;
@@ -97,15 +135,18 @@ void bind_materials(Module& m) {
                             number("friction_angle").from(0, 90).unit("deg").required(),
                             number("tensile_strength").at_least(0).unit("Pa").required()};
   std::vector<Field> loose{number("friction_angle").from(0, 90).unit("deg").required()};
+  for (const Field& f : softening_fields())
+    bonded.push_back(f);
   for (const Field& f : stiffness_fields()) {
     bonded.push_back(f);
     loose.push_back(f);
   }
   m.functions.push_back(
       {"mohr_coulomb",
-       "Brittle bond between block faces: breaks in tension above the tensile strength and in shear "
+       "Bond between block faces: breaks in tension above the tensile strength and in shear "
        "above cohesion + normal pressure x tan(friction angle); then it is a contact with the same "
-       "friction angle (Han 2010 eqs 8-11).",
+       "friction angle (Han 2010 eqs 8-11). With softening it loses its strength along a curve whose "
+       "area is the fracture energy.",
        bonded, false, "cdem.Joint", "", mohr_coulomb});
   m.functions.push_back({"coulomb",
                          "Contact that never was bonded: no tension, friction only (Han 2010 eq 9).", loose,
@@ -136,6 +177,11 @@ void bind_materials(Module& m) {
                      [](const Joint& j) { return Value(degrees(j.friction_angle)); }),
       joint_property("tensile_strength", "number", "Pa",
                      [](const Joint& j) { return Value(j.tensile_strength); }),
+      joint_property("softening", "string", "", [](const Joint& j) { return Value(softening_name(j)); }),
+      joint_property("fracture_energy_1", "number", "J/m2",
+                     [](const Joint& j) { return Value(j.fracture_energy_1); }),
+      joint_property("fracture_energy_2", "number", "J/m2",
+                     [](const Joint& j) { return Value(j.fracture_energy_2); }),
       joint_property("thickness_ratio", "number", "",
                      [](const Joint& j) { return Value(j.thickness_ratio); }),
       joint_property("thickness", "number?", "m", [](const Joint& j) { return optional(j.thickness); }),
@@ -148,7 +194,12 @@ void bind_materials(Module& m) {
     return std::string(j.bonded ? "cdem.Joint (bonded, c " + number_text(j.cohesion) +
                                       " Pa, tensile strength " + number_text(j.tensile_strength) + " Pa, "
                                 : std::string("cdem.Joint (contact, ")) +
-           "friction angle " + number_text(degrees(j.friction_angle)) + " deg)";
+           "friction angle " + number_text(degrees(j.friction_angle)) + " deg" +
+           (j.softening == Softening::none
+                ? std::string()
+                : ", " + softening_name(j) + " softening, G_I " + number_text(j.fracture_energy_1) +
+                      " J/m2, G_II " + number_text(j.fracture_energy_2) + " J/m2") +
+           ")";
   };
   m.classes.push_back(joint);
 }

@@ -125,7 +125,7 @@ void bind_rows(Module& m) {
         number("kinetic").unit("J").required().doc(
             "of the real masses, or of a relaxation's fictitious ones"),
         number("damping").unit("J").required(), number("friction").unit("J").required(),
-        number("breaking").unit("J").required().doc("stored in bonds when they broke"),
+        number("breaking").unit("J").required().doc("lost by bonds that broke or softened"),
         number("cutting").unit("J").required().doc("lost when blocks were cut"),
         number("fictitious").unit("J").required().doc("kinetic energy a relaxation threw away at its end"),
         number("external").unit("J").required().doc("work of loads, gravity and moving supports"),

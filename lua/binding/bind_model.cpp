@@ -101,7 +101,8 @@ Value counts(Session&, ModelObject& model, const Arguments&) {
                {"intact", c.intact},
                {"broken_tension", c.broken_tension},
                {"broken_shear", c.broken_shear},
-               {"contacts", c.contacts}};
+               {"contacts", c.contacts},
+               {"damaged", c.damaged}};
 }
 
 Value box(Session&, ModelObject& model, const Arguments&) {
@@ -171,7 +172,8 @@ void bind_model(Module& m) {
        {integer("bodies").required(), integer("blocks").required(), integer("nodes").required(),
         integer("tets").required(), integer("interfaces").required(), integer("bonds").required(),
         integer("intact").required(), integer("broken_tension").required(),
-        integer("broken_shear").required(), integer("contacts").required()}});
+        integer("broken_shear").required(), integer("contacts").required(),
+        integer("damaged").required().doc("of the intact ones: have begun to soften")}});
   Class model{"Model", "Made by cdem.model."};
   model.properties = model_properties();
   model.text = [](const Object& self) {
