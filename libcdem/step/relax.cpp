@@ -19,8 +19,9 @@ constexpr double most_damping = 1.8;
 constexpr int support_steps = 200;
 // The residual must stay under its goal this long: a body that swings through its balance is under it for a moment.
 constexpr int settled_steps = 10;
-// Moved supports that have torn their part off carry nothing at last; the residual is then measured against this
-// fraction of the largest reaction of the stage (squared norms).
+// Without loads the residual is measured against the reactions. Moved supports that have torn their part off, and a free
+// body that springs back from its initial stress, leave none: then against this fraction of the largest reaction of the
+// stage or of the forces of the initial stress (squared norms).
 constexpr double reaction_floor2 = 1e-4;
 
 // Net force over one component, integrated with m (v+ - v-) = F - c m (v+ + v-) / 2 and u += v+.
@@ -75,6 +76,16 @@ void aim_supports(const State& state, ResolvedConditions& r, int steps) {
                        aim(r.target[i].z, state.displacement[i].z), 0};
 }
 
+// Squared norm of the initial stress's forces on free components, N2.
+double initial_stress_forces2(const ResolvedConditions& r) {
+  double sum = 0;
+  for (std::size_t i = 0; i < r.internal.size(); ++i) {
+    const double x = r.free[i].x * r.internal[i].x, y = r.free[i].y * r.internal[i].y, z = r.free[i].z * r.internal[i].z;
+    sum += x * x + y * y + z * z;
+  }
+  return sum;
+}
+
 // However a relaxation ends, it leaves the state at rest: its velocities are lengths per step of fictitious masses.
 struct AtRest {
   State &state, &last_good;
@@ -111,7 +122,7 @@ RelaxResult relax(const StageContext& context, const RelaxOptions& options, cons
   Stage::StepReport report;
   report.goals.residual_goal = options.residual;
   report.goals.max_steps = options.max_steps;
-  double lambda = 0, damping = 0, largest_reaction2 = 0;
+  double lambda = 0, damping = 0, largest_reaction2 = initial_stress_forces2(stage.work.resolved);
   int settled = 0;
   {
     const AtRest at_rest{state, context.last_good, report.sums};
