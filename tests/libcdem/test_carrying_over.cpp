@@ -1,0 +1,171 @@
+// Cutting and removing blocks: every field goes over to the new model.
+#include "tests/libcdem/random_cuts.hpp"
+#include "tests/libcdem/system.hpp"
+
+#include "libcdem/fracture/rebuild.hpp"
+#include "libgeom/assembly/builders.hpp"
+
+#include <catch2/catch.hpp>
+#include <cstring>
+#include <map>
+#include <set>
+
+using namespace testing;
+using geom::Vec3;
+
+namespace {
+
+// A wall that moves, with broken, slipped and open bonds.
+System battered_wall() {
+  geom::VoronoiOptions cells;
+  cells.size = {1, 1, 0.3};
+  cells.count = 20;
+  cdem::Joint joint = rock_joint();
+  joint.cohesion = joint.tensile_strength = 1e5;
+  System s(build({body("wall", geom::voronoi(cells), rock(), joint)}));
+  s.hold(cdem::Selection::side("y-"), "xyz");
+  cdem::Traction push;
+  push.on = cdem::Selection::side("y+");
+  push.stress = {1e6, -2e6, 0};
+  s.conditions.tractions = {push};
+  for (std::size_t b = 0; b < s.state.initial_stress.size(); ++b)
+    s.state.initial_stress[b][0] = 100.0 * static_cast<double>(b + 1);
+  cdem::RunOptions options;
+  options.steps = 400;
+  s.run(options);
+  REQUIRE(s.log.breaks.size() > 20);
+  return s;
+}
+
+template <class T>
+bool same_bits(const T* a, const T* b, int count) {
+  return std::memcmp(a, b, sizeof(T) * static_cast<std::size_t>(count)) == 0;
+}
+
+} // namespace
+
+TEST_CASE("blocks that are not cut keep id, displacement, velocity and stress bit for bit", "[carry]") {
+  System s = battered_wall();
+  const cdem::Model old = s.model;
+  const cdem::State from = s.state;
+  cut_at_random(s, {2, 5, 11}, 4);
+  REQUIRE(s.model.blocks.size() == old.blocks.size() + 3);
+
+  std::map<std::int64_t, int> old_block;
+  for (int b = 0; b < static_cast<int>(old.blocks.size()); ++b)
+    old_block[old.blocks[b].id] = b;
+  int kept = 0;
+  for (std::size_t b = 0; b < s.model.blocks.size(); ++b) {
+    const cdem::Block& now = s.model.blocks[b];
+    const auto found = old_block.find(now.id);
+    if (found == old_block.end())
+      continue;
+    ++kept;
+    const cdem::Block& before = old.blocks[found->second];
+    const int nodes = now.node_end - now.node_begin;
+    REQUIRE(nodes == before.node_end - before.node_begin);
+    CHECK(same_bits(&s.model.node_position[now.node_begin], &old.node_position[before.node_begin], nodes));
+    CHECK(same_bits(&s.state.displacement[now.node_begin], &from.displacement[before.node_begin], nodes));
+    CHECK(same_bits(&s.state.velocity[now.node_begin], &from.velocity[before.node_begin], nodes));
+    CHECK(s.state.initial_stress[b] == from.initial_stress[found->second]);
+    CHECK(now.generation == before.generation);
+    CHECK(now.parent == before.parent);
+  }
+  CHECK(kept == static_cast<int>(old.blocks.size()) - 3);
+  CHECK(s.state.time == from.time);
+  CHECK(s.state.step == from.step);
+  CHECK(s.state.velocity_lag == from.velocity_lag);
+  CHECK(same_bits(&s.state.spent, &from.spent, 1));
+}
+
+TEST_CASE("bonds between blocks that are not cut keep mode, preload and slip bit for bit", "[carry]") {
+  System s = battered_wall();
+  const cdem::Model old = s.model;
+  const cdem::State from = s.state;
+  cut_at_random(s, {2, 5, 11}, 4);
+  std::map<std::int64_t, const cdem::Interface*> before;
+  for (const cdem::Interface& face : old.interfaces)
+    before[face.id] = &face;
+  int kept = 0, broken = 0;
+  for (const cdem::Interface& now : s.model.interfaces) {
+    const auto found = before.find(now.id);
+    if (found == before.end())
+      continue;
+    const cdem::Interface& was = *found->second;
+    ++kept;
+    const int points = now.point_end - now.point_begin;
+    REQUIRE(points == was.point_end - was.point_begin);
+    CHECK(same_bits(&s.state.bond_mode[now.point_begin], &from.bond_mode[was.point_begin], points));
+    CHECK(same_bits(&s.state.bond_offset[now.point_begin], &from.bond_offset[was.point_begin], points));
+    CHECK(now.kn == was.kn);
+    broken += from.bond_mode[was.point_begin] != 0;
+  }
+  CHECK(kept > 20);
+  CHECK(broken > 0);
+}
+
+TEST_CASE("parts of a cut block inherit its field where it is linear, and its broken faces", "[carry]") {
+  System s(build({body("rock", geom::grid({1, 1, 1}, {2, 2, 2}))}));
+  geom::Mat3 gradient, spin;
+  gradient << 1e-3, 2e-3, 0, -1e-3, 5e-4, 3e-4, 0, 1e-3, -2e-3;
+  spin << 0, -1, 2, 1, 0, 3, -2, -3, 0;
+  for (std::size_t i = 0; i < s.model.node_position.size(); ++i) {
+    s.state.displacement[i] = node(gradient * s.model.node_position[i]);
+    s.state.velocity[i] = node(Vec3(1, 2, 3) + spin * s.model.node_position[i]);
+  }
+  // One interface broken and slipped as a whole.
+  const cdem::Interface broken = s.model.interfaces[0];
+  for (int p = broken.point_begin; p < broken.point_end; ++p) {
+    s.state.bond_mode[p] = 2;
+    s.state.bond_offset[p] = Vec3(1e-5, 2e-5, 3e-5);
+  }
+  const cdem::Model old = s.model;
+  cut_at_random(s, all_blocks(s.model), 8);
+
+  double displacement = 0, velocity = 0, volume = 0;
+  for (std::size_t i = 0; i < s.model.node_position.size(); ++i) {
+    displacement =
+        std::max(displacement, (vec(s.state.displacement[i]) - gradient * s.model.node_position[i]).norm());
+    velocity = std::max(velocity,
+                        (vec(s.state.velocity[i]) - Vec3(1, 2, 3) - spin * s.model.node_position[i]).norm());
+  }
+  CHECK(displacement < 1e-12 * gradient.norm());
+  CHECK(velocity < 1e-12 * spin.norm());
+
+  std::set<std::int64_t> ids;
+  for (const cdem::Block& block : s.model.blocks) {
+    volume += block.mass.volume;
+    CHECK(ids.insert(block.id).second);
+    CHECK(block.id >= old.next_id); // never one that was used before
+    CHECK(block.generation == 1);
+    CHECK(block.first_size == Approx(0.5));
+    const auto parent = std::find_if(old.blocks.begin(), old.blocks.end(),
+                                     [&](const cdem::Block& b) { return b.id == block.parent; });
+    REQUIRE(parent != old.blocks.end());
+    CHECK(geom::bounding_box(parent->shape).contains(block.mass.centroid));
+  }
+  CHECK(volume == Approx(1).epsilon(1e-12));
+
+  // The broken face is split into several, all broken, all slipped; nothing else is.
+  double area = 0;
+  for (int p = 0; p < static_cast<int>(s.model.points.size()); ++p)
+    if (s.state.bond_mode[p] == 2) {
+      area += s.model.points[p].area;
+      CHECK(s.state.bond_offset[p] == Vec3(1e-5, 2e-5, 3e-5));
+    }
+  CHECK(area == Approx(0.25).epsilon(1e-12));
+}
+
+TEST_CASE("the map from new to old blocks names the block each part lies in", "[carry]") {
+  System s(build({body("rock", geom::grid({1, 1, 1}, {3, 2, 1}))}));
+  std::vector<cdem::Successor> left;
+  for (const int b : {0, 2, 3, 5})
+    left.push_back(cdem::whole_block(s.model, b));
+  const cdem::Rebuilt r = cdem::rebuild(s.model, s.state, left, {}, cdem::MayBreak::all);
+  CHECK(r.old_block == std::vector<int>{0, 2, 3, 5});
+  for (std::size_t b = 0; b < r.old_block.size(); ++b) {
+    CHECK(r.model.blocks[b].id == s.model.blocks[r.old_block[b]].id);
+    CHECK(r.model.blocks[b].mass.centroid == s.model.blocks[r.old_block[b]].mass.centroid);
+  }
+  CHECK(r.model.next_id >= s.model.next_id); // ids of removed blocks do not come back
+}

@@ -1,0 +1,114 @@
+// Blocks taken out and bonds undone on the way.
+#include "tests/libcdem/system.hpp"
+
+#include "libgeom/assembly/builders.hpp"
+
+#include <catch2/catch.hpp>
+
+using namespace testing;
+using geom::Vec3;
+
+namespace {
+
+cdem::Fix fixed(const cdem::Selection& on, const char* names = "xyz") {
+  cdem::Fix f;
+  f.on = on;
+  f.axes = axes(names);
+  return f;
+}
+
+geom::Box box(double x0, double x1, double z0 = -10, double z1 = 10) {
+  return {{x0, -10, z0}, {x1, 10, z1}};
+}
+
+} // namespace
+
+TEST_CASE("a column whose upper part is taken away carries what is left", "[excavation]") {
+  cdem::Simulation s = simulation(geom::grid({0.1, 0.1, 0.5}, {1, 1, 5}));
+  s.fix(fixed(cdem::Selection::side("z-")));
+  cdem::Gravity gravity;
+  gravity.acceleration = {0, 0, -9.81};
+  s.gravity(gravity);
+  REQUIRE(s.relax({}).converged);
+  const double weight = rock().density * 9.81 * 1e-3; // N, of one block
+  CHECK(s.reaction(cdem::Selection::side("z-")).z() == Approx(5 * weight).epsilon(1e-4));
+  const std::int64_t bonds = s.counts().bonds;
+  CHECK(s.remove(cdem::Selection::in_box(box(-1, 1, 0.3, 1))) == 2);
+  CHECK(s.counts().blocks == 3);
+  CHECK(s.counts().interfaces == 2);
+  CHECK(s.counts().bonds == bonds / 2);
+  REQUIRE(s.relax({}).converged);
+  CHECK(s.reaction(cdem::Selection::side("z-")).z() == Approx(3 * weight).epsilon(1e-4));
+}
+
+TEST_CASE("a chamber cut out of stressed rock closes in on itself and stays in balance", "[excavation]") {
+  cdem::Joint joint = rock_joint();
+  cdem::Simulation s = simulation(geom::grid({0.7, 0.1, 0.7}, {7, 1, 7}, {-0.35, 0, -0.35}), rock(), joint);
+  s.initial_stress(cdem::Selection::everything(), {-2e6, 0, -2e6, 0, 0, 0});
+  for (const char* side : {"x-", "x+"})
+    s.fix(fixed(cdem::Selection::side(side), "x"));
+  for (const char* side : {"z-", "z+"})
+    s.fix(fixed(cdem::Selection::side(side), "z"));
+  s.fix(fixed(cdem::Selection::side("y-"), "y"));
+  s.fix(fixed(cdem::Selection::side("y+"), "y"));
+  cdem::RelaxOptions options;
+  options.breaking = false;
+  REQUIRE(s.relax(options).converged);
+  CHECK(s.max("displacement.magnitude").value < 1e-12);
+  CHECK(s.remove(cdem::Selection::in_box({{-0.06, -1, -0.06}, {0.06, 1, 0.06}})) == 1);
+  REQUIRE(s.relax(options).converged);
+  // The four walls move inwards by the same amount.
+  const double left = s.at("displacement.x", {-0.051, 0.05, 0}),
+               right = s.at("displacement.x", {0.051, 0.05, 0});
+  const double below = s.at("displacement.z", {0, 0.05, -0.051}),
+               above = s.at("displacement.z", {0, 0.05, 0.051});
+  CHECK(left > 0.5 * 2e6 / rock().youngs_modulus * 0.05);
+  CHECK(right == Approx(-left).epsilon(1e-5));
+  CHECK(below == Approx(left).epsilon(1e-5));
+  CHECK(above == Approx(-left).epsilon(1e-5));
+  CHECK(s.reaction(cdem::Selection::side("x-")).x() ==
+        Approx(-s.reaction(cdem::Selection::side("x+")).x()).epsilon(1e-5));
+}
+
+TEST_CASE("blocks that stay keep their state when others are taken out", "[excavation]") {
+  cdem::Simulation s = simulation(geom::grid({0.4, 0.1, 0.1}, {4, 1, 1}));
+  s.fix(fixed(cdem::Selection::side("x-")));
+  cdem::Traction pull;
+  pull.on = cdem::Selection::side("x+");
+  pull.stress = {1e6, 0, 0};
+  s.traction(pull);
+  cdem::RunOptions options;
+  options.steps = 100;
+  s.run(options);
+  const auto before = s.blocks();
+  s.clear_loads();
+  s.remove(cdem::Selection::in_box(box(0.3, 0.4)));
+  const auto after = s.blocks();
+  REQUIRE(after.size() == 3);
+  for (int b = 0; b < 3; ++b) {
+    CHECK(after[b].id == before[b].id);
+    CHECK(after[b].displacement == before[b].displacement);
+    CHECK(after[b].stress == before[b].stress);
+  }
+  CHECK(s.steps() == 100);
+}
+
+TEST_CASE("an unbonded section carries pressure and no tension", "[excavation]") {
+  cdem::Simulation s = simulation(geom::grid({0.4, 0.1, 0.1}, {4, 1, 1}));
+  s.fix(fixed(cdem::Selection::side("x-")));
+  const auto move_end = [&](double displacement) {
+    cdem::Fix pull = fixed(cdem::Selection::side("x+"));
+    pull.displacement = Vec3(displacement, 0, 0);
+    s.fix(pull);
+    REQUIRE(s.relax({}).converged);
+    return s.reaction(cdem::Selection::side("x+")).x();
+  };
+  const double bonded = move_end(1e-6);
+  CHECK(bonded > 0);
+  const std::int64_t bonds = s.counts().bonds;
+  CHECK(s.unbond(cdem::Selection::on_plane(geom::Plane::through({0.2, 0, 0}, {1, 0, 0}))) == bonds / 3);
+  CHECK(s.counts().contacts == bonds / 3);
+  CHECK(s.counts().intact == bonds - bonds / 3);
+  CHECK(std::abs(move_end(1e-6)) < 1e-6 * bonded);
+  CHECK(move_end(-1e-6) == Approx(-bonded).epsilon(1e-5));
+}

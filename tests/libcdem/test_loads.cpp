@@ -1,0 +1,151 @@
+// Loads and supports: what arrives at the nodes, and what comes back at the supports.
+#include "tests/libcdem/columns.hpp"
+
+#include "libgeom/assembly/builders.hpp"
+
+#include <catch2/catch.hpp>
+
+using namespace testing;
+using geom::Vec3;
+
+namespace {
+
+struct Resultant {
+  Vec3 force = Vec3::Zero(), moment = Vec3::Zero();
+};
+
+Resultant resultant(const System& s, double time = 0) {
+  cdem::ResolvedConditions r = cdem::resolve(s.model, s.state, s.conditions);
+  cdem::update_external(r, time);
+  Resultant sum;
+  for (std::size_t i = 0; i < r.external.size(); ++i) {
+    sum.force += vec(r.external[i]);
+    sum.moment += s.model.node_position[i].cross(vec(r.external[i]));
+  }
+  return sum;
+}
+
+cdem::Fix fixed(const cdem::Selection& on, const char* names = "xyz") {
+  cdem::Fix f;
+  f.on = on;
+  f.axes = axes(names);
+  return f;
+}
+
+} // namespace
+
+TEST_CASE("a traction on partly covered faces is stress times uncovered area, at its centroid", "[loads]") {
+  // A small block stands on a corner of a large one.
+  cdem::Joint joint = rock_joint();
+  System s(build({body("large", geom::grid({1, 1, 0.5}, {1, 1, 1})),
+                  body("small", geom::grid({0.4, 0.3, 0.2}, {1, 1, 1}, {0, 0, 0.5}))},
+                 {{"large", "small", joint}}));
+  cdem::Traction load;
+  load.on = cdem::Selection::on_plane(geom::Plane::through({0, 0, 0.5}, {0, 0, 1}));
+  load.stress = {3e5, -2e5, -1e6};
+  s.conditions.tractions = {load};
+  // Both faces in the plane: of the large block all but 0.4 x 0.3, of the small one nothing.
+  const double area = 1 - 0.12;
+  const Vec3 centroid = (Vec3(0.5, 0.5, 0.5) - 0.12 * Vec3(0.2, 0.15, 0.5)) / area;
+  const Resultant sum = resultant(s);
+  CHECK((sum.force - area * load.stress).norm() < 1e-10 * load.stress.norm());
+  CHECK((sum.moment - area * centroid.cross(load.stress)).norm() < 1e-10 * load.stress.norm());
+}
+
+TEST_CASE("a point force is shared among the nodes and sums to itself, at any time of its amplitude",
+          "[loads]") {
+  System s(build({body("rock", geom::grid({1, 1, 1}, {2, 2, 1}))}));
+  cdem::PointForce force;
+  force.on = cdem::Selection::on_plane(geom::Plane::through({0, 0.5, 0}, {0, 1, 0}));
+  force.force = {10, -20, 30};
+  s.conditions.forces = {force};
+  CHECK((resultant(s).force - force.force).norm() < 1e-12);
+  force.amplitude = [](double t) { return 0.5 * t; };
+  s.conditions.forces.push_back(force);
+  CHECK((resultant(s, 3).force - 2.5 * force.force).norm() < 1e-12);
+}
+
+TEST_CASE("a pressure all round has no resultant", "[loads]") {
+  geom::VoronoiOptions cells;
+  cells.count = 15;
+  System s(build({body("rock", geom::voronoi(cells))}));
+  s.load_all_faces(-1e6 * geom::Mat3::Identity());
+  CHECK(resultant(s).force.norm() < 1e-10 * 1e6);
+  CHECK(resultant(s).moment.norm() < 1e-10 * 1e6);
+}
+
+TEST_CASE("a column under its own weight carries rho g times the height above", "[loads]") {
+  cdem::Simulation s = simulation(geom::grid({0.1, 0.1, 1}, {1, 1, 10}));
+  s.fix(fixed(cdem::Selection::side("z-"), "z"));
+  s.fix(fixed(at_place({0, 0, 0}), "xy"));
+  s.fix(fixed(at_place({0.1, 0, 0}), "y"));
+  cdem::Gravity gravity;
+  gravity.acceleration = {0, 0, -9.81};
+  gravity.water_density = GENERATE(0.0, 1000.0);
+  s.gravity(gravity);
+  cdem::RelaxOptions options;
+  options.residual = 1e-9;
+  REQUIRE(s.relax(options).converged);
+  const double weight = (rock().density - gravity.water_density) * 9.81; // N/m3, buoyant under water
+  for (const auto& row : s.blocks())
+    CHECK(row.stress[2] == Approx(-weight * (1 - row.centroid.z())).epsilon(1e-6));
+  CHECK(s.reaction(cdem::Selection::side("z-")).z() == Approx(weight * 0.01).epsilon(1e-7));
+}
+
+TEST_CASE("water takes from the weight, never from the inertia", "[loads]") {
+  cdem::Simulation s = simulation(geom::grid({0.1, 0.1, 0.1}, {1, 1, 1}));
+  cdem::Gravity gravity;
+  gravity.acceleration = {0, 0, -9.81};
+  gravity.water_density = 1000;
+  s.gravity(gravity);
+  cdem::RunOptions options;
+  options.duration = 1e-3;
+  const cdem::RunResult run = s.run(options);
+  const double expected = -9.81 * (1 - 1000 / rock().density) * run.time;
+  CHECK(s.min("velocity.z").value == Approx(expected).epsilon(1e-9));
+  CHECK(s.max("velocity.z").value == Approx(expected).epsilon(1e-9));
+}
+
+TEST_CASE("a given displacement of a bar's end takes E A u over L with blocks and joints in series",
+          "[loads]") {
+  Bar bar;
+  bar.blocks = 6;
+  bar.poissons_ratio = 0.25;
+  cdem::Simulation s = simulation(bar.shape(), bar.material(), bar.joint());
+  s.fix(fixed(cdem::Selection::side("x-"), "x"));
+  cdem::Fix pull = fixed(cdem::Selection::side("x+"), "x");
+  pull.displacement = Vec3(1e-5, 0, 0);
+  s.fix(pull);
+  s.fix(fixed(at_place({0, 0, 0}), "yz"));
+  s.fix(fixed(at_place({0, bar.h(), 0}), "z"));
+  cdem::RelaxOptions options;
+  options.breaking = false;
+  options.residual = 1e-9;
+  REQUIRE(s.relax(options).converged);
+  const double young = bar.material().youngs_modulus;
+  const double force = 1e-5 * bar.area() * young / (bar.length + 5 * bar.thickness_ratio * bar.h());
+  CHECK(s.reaction(cdem::Selection::side("x+")).x() == Approx(force).epsilon(1e-7));
+  CHECK(s.reaction(cdem::Selection::side("x-")).x() == Approx(-force).epsilon(1e-7));
+  CHECK(s.mean("displacement.x", cdem::Selection::side("x+")) == Approx(1e-5).epsilon(1e-12));
+}
+
+TEST_CASE("a support with a given velocity moves with it and a later release wins over a fix", "[loads]") {
+  cdem::Simulation s = simulation(geom::grid({0.1, 0.1, 0.1}, {1, 1, 1}));
+  cdem::Fix move = fixed(cdem::Selection::everything());
+  move.velocity = Vec3(0.1, 0, -0.2);
+  s.fix(move);
+  s.release(cdem::Selection::everything(), axes("z"));
+  cdem::Gravity gravity;
+  gravity.acceleration = {5, 0, -9};
+  s.gravity(gravity);
+  cdem::RunOptions options;
+  options.steps = 100;
+  const cdem::RunResult run = s.run(options);
+  CHECK(s.min("displacement.x").value == Approx(0.1 * run.time).epsilon(1e-12));
+  CHECK(s.max("displacement.x").value == Approx(0.1 * run.time).epsilon(1e-12));
+  CHECK(s.max("velocity.z").value == Approx(-9 * run.time).epsilon(1e-9)); // free again, and falls
+  s.clear_loads();
+  const double v = s.max("velocity.z").value;
+  s.run(options);
+  CHECK(s.max("velocity.z").value == Approx(v).epsilon(1e-9));
+}
