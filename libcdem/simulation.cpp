@@ -6,6 +6,7 @@
 #include "libcdem/fracture/refine.hpp"
 #include "libcdem/interface/spring_forces.hpp"
 #include "libcdem/model/build.hpp"
+#include "libcdem/model/separate.hpp"
 #include "libcdem/results/energy.hpp"
 #include "libcdem/results/make_snapshot.hpp"
 #include "libcdem/step/forces.hpp"
@@ -64,10 +65,17 @@ Model first_model(const ModelSpec& spec) {
   for (const PairSpec& pair : spec.pairs) {
     validate(pair.joint);
     const int a = body_index(frame, pair.body_a), b = body_index(frame, pair.body_b);
-    frame.pair_joint[std::minmax(a, b)] = static_cast<int>(frame.joints.size());
+    const std::string both = "{\"" + pair.body_a + "\", \"" + pair.body_b + "\"}";
+    if (a == b)
+      throw geom::InputError("contacts", both, "two different bodies",
+                             "what holds a body's own blocks together is the body's joint");
+    if (!frame.pair_joint.emplace(std::minmax(a, b), static_cast<int>(frame.joints.size())).second)
+      throw geom::InputError("contacts", both, "given once", "two bodies have one joint between them");
     frame.joints.push_back(pair.joint);
   }
-  return build_model(frame, std::move(seeds), default_traits);
+  Model model = build_model(frame, std::move(seeds), default_traits);
+  require_separate(model);
+  return model;
 }
 
 void check(const RelaxOptions& o) {
@@ -278,6 +286,14 @@ RunResult Simulation::run(const RunOptions& options) {
 }
 
 std::vector<BlockCut> Simulation::refine(const RefineOptions& options) {
+  if (options.region) {
+    bool holds_blocks = false;
+    for (int b = 0; b < static_cast<int>(impl_->model.blocks.size()); ++b)
+      holds_blocks = holds_blocks || selects_block(impl_->model, *options.region, b);
+    if (!holds_blocks)
+      throw geom::InputError("region", options.region->text, "a place that holds block centroids",
+                             "nothing of the model lies there");
+  }
   Refined refined = cdem::refine(impl_->model, impl_->state, options);
   ++impl_->stage;
   impl_->adopt(std::move(refined.rebuilt));
@@ -344,6 +360,9 @@ double Simulation::at(const std::string& field, const geom::Vec3& place) const {
 
 geom::Vec3 Simulation::reaction(const Selection& on) const {
   const Impl& s = *impl_;
+  const std::vector<int> nodes = selected_nodes(s.model, on);
+  if (nodes.empty())
+    throw geom::InputError("on", on.text, "a place that holds nodes", "nothing of the model lies there");
   Workspace work(s.model, s.state, s.conditions);
   update_external(work.resolved, s.state.time);
   State state = s.state; // the springs' bookkeeping stays as it is
@@ -352,7 +371,7 @@ geom::Vec3 Simulation::reaction(const Selection& on) const {
   for (const BlockChunk& chunk : s.model.chunks)
     net_forces(s.model, state, work, chunk);
   geom::Vec3 sum = geom::Vec3::Zero();
-  for (const int node : selected_nodes(s.model, on)) {
+  for (const int node : nodes) {
     const Node &f = work.force[node], &free = work.resolved.free[node];
     sum -= geom::Vec3((1 - free.x) * f.x, (1 - free.y) * f.y, (1 - free.z) * f.z);
   }

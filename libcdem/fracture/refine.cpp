@@ -18,6 +18,8 @@ constexpr double touching = 1e-3;
 // A plane nearer to the end of a block than this part of the planes' spacing would make a sliver.
 constexpr double grazing = 0.25;
 
+constexpr double right_angle = 1.57079632679489661923; // rad
+
 void check(const RefineOptions& o) {
   const auto require = [](bool ok, const char* field, const std::string& value, const char* allowed) {
     if (!ok)
@@ -28,6 +30,15 @@ void check(const RefineOptions& o) {
           number(o.tension_threshold), "a finite number >= 0 Pa");
   require(std::isfinite(o.shear_threshold) && o.shear_threshold >= 0, "shear_threshold",
           number(o.shear_threshold), "a finite number >= 0 Pa");
+  if (o.cohesion)
+    require(std::isfinite(*o.cohesion) && *o.cohesion >= 0, "cohesion", number(*o.cohesion),
+            "a finite number >= 0 Pa");
+  if (o.friction_angle)
+    require(*o.friction_angle >= 0 && *o.friction_angle < right_angle, "friction_angle",
+            number(*o.friction_angle * 90 / right_angle), "in [0, 90) degrees");
+  if (o.tensile_strength)
+    require(std::isfinite(*o.tensile_strength) && *o.tensile_strength >= 0, "tensile_strength",
+            number(*o.tensile_strength), "a finite number >= 0 Pa");
   require(o.planes >= 1 && o.planes <= 15, "planes", std::to_string(o.planes), "an integer in 1..15");
   if (o.anchor)
     require(o.anchor->allFinite(), "anchor",

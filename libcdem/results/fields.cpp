@@ -52,17 +52,21 @@ double vector_component(const Node& n, const std::string& component) {
   return std::sqrt(n.x * n.x + n.y * n.y + n.z * n.z);
 }
 
+const std::vector<Node>& nodal_vectors(const State& state, const std::string& field) {
+  return field[0] == 'd' ? state.displacement : state.velocity;
+}
+
+std::string component_of(const std::string& field) { return field.substr(field.find('.') + 1); }
+
 double node_value(const State& state, const std::string& field, int node) {
-  const auto dot = field.find('.');
-  const auto& array = field[0] == 'd' ? state.displacement : state.velocity;
-  return vector_component(array[node], field.substr(dot + 1));
+  return vector_component(nodal_vectors(state, field)[node], component_of(field));
 }
 
 double block_value(const Model& model, const State& state, const std::string& field, int block) {
   const Stress stress = block_stress(model, state, block);
   if (field == "von_mises")
     return von_mises(stress);
-  const std::string component = field.substr(field.find('.') + 1);
+  const std::string component = component_of(field);
   if (field[0] == 'p')
     return principal(stress)[component[0] - '1'];
   static const char* const components[] = {"xx", "yy", "zz", "xy", "yz", "xz"};
@@ -169,8 +173,16 @@ double value_at(const Model& model, const State& state, const std::string& field
         continue;
       if (!nodal)
         return block_value(model, state, field, b);
-      return w0 * node_value(state, field, tet[0]) + w[0] * node_value(state, field, tet[1]) +
-             w[1] * node_value(state, field, tet[2]) + w[2] * node_value(state, field, tet[3]);
+      // The vector is interpolated and then measured: its length at the nodes says little about that between them.
+      const double weight[] = {w0, w[0], w[1], w[2]};
+      Node value;
+      for (int k = 0; k < 4; ++k) {
+        const Node& n = nodal_vectors(state, field)[tet[k]];
+        value.x += weight[k] * n.x;
+        value.y += weight[k] * n.y;
+        value.z += weight[k] * n.z;
+      }
+      return vector_component(value, component_of(field));
     }
   }
   throw geom::InputError("at", fmt::format("({:g}, {:g}, {:g})", place.x(), place.y(), place.z()),

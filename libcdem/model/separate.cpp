@@ -1,0 +1,81 @@
+#include "libcdem/model/separate.hpp"
+
+#include "libgeom/core/error.hpp"
+#include "libgeom/polyhedron/cut.hpp"
+#include "libgeom/query/box_pairs.hpp"
+
+#include <fmt/format.h>
+
+namespace cdem {
+namespace {
+
+// Blocks may reach this part of their size into each other, and share this part of their volume: rounding of
+// builders and of coordinates read from files.
+constexpr double depth_tolerance = 1e-6, volume_tolerance = 1e-6;
+
+std::vector<geom::Plane> face_planes(const geom::Polyhedron& shape) {
+  std::vector<geom::Plane> planes;
+  for (int f = 0; f < static_cast<int>(shape.faces.size()); ++f)
+    planes.push_back(
+        geom::Plane::through(shape.vertices[shape.faces[f].loop.front()], geom::face_normal(shape, f)));
+  return planes;
+}
+
+// Does a face of one block have all of the other outside? Settles all but a few pairs.
+bool apart(const std::vector<geom::Plane>& planes, const geom::Polyhedron& other, double depth) {
+  for (const geom::Plane& plane : planes) {
+    bool outside = true;
+    for (const geom::Vec3& x : other.vertices)
+      outside = outside && plane.level(x) >= -depth;
+    if (outside)
+      return true;
+  }
+  return false;
+}
+
+// What two convex blocks share: one cut by all the faces of the other.
+std::optional<geom::Polyhedron> common_part(const geom::Polyhedron& a,
+                                            const std::vector<geom::Plane>& planes_of_b, double tolerance) {
+  geom::Polyhedron rest = a;
+  for (const geom::Plane& plane : planes_of_b) {
+    geom::Cut parts = geom::cut(rest, plane, tolerance);
+    if (!parts.below)
+      return {};
+    rest = std::move(parts.below->shape);
+  }
+  return rest;
+}
+
+} // namespace
+
+void require_separate(const Model& model) {
+  std::vector<geom::Box> boxes;
+  std::vector<std::vector<geom::Plane>> planes;
+  for (const Block& block : model.blocks) {
+    boxes.push_back(geom::bounding_box(block.shape));
+    planes.push_back(face_planes(block.shape));
+  }
+  for (const auto& [a, b] : geom::touching_pairs(boxes)) {
+    const Block &one = model.blocks[a], &other = model.blocks[b];
+    const double depth = depth_tolerance * std::min(one.size, other.size);
+    if (apart(planes[a], other.shape, depth) || apart(planes[b], one.shape, depth))
+      continue;
+    const auto common = common_part(one.shape, planes[b], depth);
+    if (!common)
+      continue;
+    const geom::MassProperties shared = geom::mass_properties(*common);
+    if (shared.volume <= volume_tolerance * std::min(one.mass.volume, other.mass.volume))
+      continue;
+    const std::string &name = model.bodies[one.body].name, &other_name = model.bodies[other.body].name;
+    const geom::Vec3& x = shared.centroid;
+    throw geom::InputError((name == other_name
+                                ? "shape: two blocks of body \"" + name + "\""
+                                : "bodies: blocks of \"" + name + "\" and \"" + other_name + "\"") +
+                           fmt::format(" occupy the same place near ({:g}, {:g}, {:g}) m; blocks may touch "
+                                       "but not overlap: move or cut one "
+                                       "of them",
+                                       x.x(), x.y(), x.z()));
+  }
+}
+
+} // namespace cdem

@@ -1,0 +1,12 @@
+// Blocks must not occupy the same place: springs act on faces that meet, so blocks that overlap would pass
+// through each other unseen.
+#pragma once
+
+#include "libcdem/model/model.hpp"
+
+namespace cdem {
+
+// Throws geom::InputError naming the bodies and the place when two blocks share a volume.
+void require_separate(const Model&);
+
+} // namespace cdem
