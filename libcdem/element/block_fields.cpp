@@ -23,7 +23,9 @@ TetGeometry geometry(const Model& model, int tet) {
   return g;
 }
 
-geom::Vec3 vec(const Node& n) { return {n.x, n.y, n.z}; }
+geom::Vec3 vec(const Node& n) {
+  return {n.x, n.y, n.z};
+}
 
 } // namespace
 
@@ -34,10 +36,17 @@ geom::Mat3 matrix(const Stress& s) {
 }
 
 Stress tensor(const geom::Mat3& m) {
-  return {m(0, 0), m(1, 1), m(2, 2), 0.5 * (m(0, 1) + m(1, 0)), 0.5 * (m(1, 2) + m(2, 1)), 0.5 * (m(0, 2) + m(2, 0))};
+  return {m(0, 0),
+          m(1, 1),
+          m(2, 2),
+          0.5 * (m(0, 1) + m(1, 0)),
+          0.5 * (m(1, 2) + m(2, 1)),
+          0.5 * (m(0, 2) + m(2, 0))};
 }
 
-double tet_volume(const Model& model, int tet) { return geometry(model, tet).volume; }
+double tet_volume(const Model& model, int tet) {
+  return geometry(model, tet).volume;
+}
 
 geom::Mat3 displacement_gradient(const Model& model, const std::vector<Node>& displacement, int tet) {
   const TetGeometry g = geometry(model, tet);
@@ -73,7 +82,8 @@ Stress block_stress(const Model& model, const State& state, int block) {
   return stress;
 }
 
-void add_uniform_stress_forces(const Model& model, const Block& block, const Stress& stress, std::vector<Node>& force) {
+void add_uniform_stress_forces(const Model& model, const Block& block, const Stress& stress,
+                               std::vector<Node>& force) {
   const geom::Mat3 sigma = matrix(stress);
   for (int tet = block.tet_begin; tet < block.tet_end; ++tet) {
     const TetGeometry g = geometry(model, tet);
@@ -102,9 +112,8 @@ std::vector<double> stiffness_row_sums(const Model& model) {
           const geom::Vec3 &p = g.gradient[a], &q = g.gradient[b];
           const int row = 3 * (model.tets[tet][a] - block.node_begin);
           const int column = 3 * (model.tets[tet][b] - block.node_begin);
-          k.block<3, 3>(row, column) +=
-              g.volume * (lambda * p * q.transpose() + shear * (q * p.transpose()) +
-                          shear * p.dot(q) * geom::Mat3::Identity());
+          k.block<3, 3>(row, column) += g.volume * (lambda * p * q.transpose() + shear * (q * p.transpose()) +
+                                                    shear * p.dot(q) * geom::Mat3::Identity());
         }
     }
     for (int node = 0; node < n; ++node)

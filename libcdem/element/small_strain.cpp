@@ -5,8 +5,8 @@
 namespace cdem {
 
 // The kernel is compiled for several instruction sets; everything it calls is inlined into each of them.
-CDEM_KERNEL void add_small_strain_forces(const TetBatch* batches, std::int64_t count, const Node* displacement,
-                                         Node* force) {
+CDEM_KERNEL void add_small_strain_forces(const TetBatch* batches, std::int64_t count,
+                                         const Node* displacement, Node* force) {
   using simd::Oct;
   for (std::int64_t i = 0; i < count; ++i) {
     const TetBatch& batch = batches[i];
@@ -24,7 +24,8 @@ CDEM_KERNEL void add_small_strain_forces(const TetBatch* batches, std::int64_t c
     }
     const Oct two_g = simd::load(batch.two_g_volume);
     const Oct pressure = simd::load(batch.lambda_volume) * (h[0][0] + h[1][1] + h[2][2]);
-    const Oct xx = pressure + two_g * h[0][0], yy = pressure + two_g * h[1][1], zz = pressure + two_g * h[2][2];
+    const Oct xx = pressure + two_g * h[0][0], yy = pressure + two_g * h[1][1],
+              zz = pressure + two_g * h[2][2];
     const Oct xy = 0.5 * two_g * (h[0][1] + h[1][0]);
     const Oct yz = 0.5 * two_g * (h[1][2] + h[2][1]);
     const Oct xz = 0.5 * two_g * (h[0][2] + h[2][0]);

@@ -7,14 +7,15 @@
 namespace cdem {
 
 // Adds the nodal forces of `count` batches.
-void add_small_strain_forces(const TetBatch* batches, std::int64_t count, const Node* displacement, Node* force);
+void add_small_strain_forces(const TetBatch* batches, std::int64_t count, const Node* displacement,
+                             Node* force);
 
 // Nodal forces of a stress that is constant over the block.
 void add_uniform_stress_forces(const Model&, const Block&, const Stress&, std::vector<Node>& force);
 
 geom::Mat3 displacement_gradient(const Model&, const std::vector<Node>& displacement, int tet); // du_i / dx_j
-Stress elastic_stress(const Elastic&, const geom::Mat3& gradient);                              // without initial stress
-double tet_volume(const Model&, int tet);                                                       // m3, undeformed
+Stress elastic_stress(const Elastic&, const geom::Mat3& gradient); // without initial stress
+double tet_volume(const Model&, int tet);                          // m3, undeformed
 
 // Volume means over a block.
 geom::Mat3 block_gradient(const Model&, const std::vector<Node>& displacement, const Block&);

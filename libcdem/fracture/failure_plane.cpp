@@ -17,8 +17,8 @@ geom::Vec3 pointing_forward(const geom::Vec3& axis) {
 }
 
 // The conjugate plane at `angle` from the sigma1 axis along which the block slides more.
-void choose_conjugate(const geom::Vec3& axis1, const geom::Vec3& axis3, double angle, const geom::Mat3& gradient,
-                      FailurePlane& plane) {
+void choose_conjugate(const geom::Vec3& axis1, const geom::Vec3& axis3, double angle,
+                      const geom::Mat3& gradient, FailurePlane& plane) {
   plane.angle_to_sigma1 = angle;
   double slide[2];
   geom::Vec3 normal[2];
@@ -56,14 +56,17 @@ std::optional<FailurePlane> failure_plane(const geom::Mat3& stress, const geom::
     if (sigma1 + sigma3 <= 0)
       return {};
     const double difference = sigma1 - sigma3;
-    if (difference * difference / (8 * (sigma1 + sigma3)) - strength.tensile_strength < -options.tension_threshold)
+    if (difference * difference / (8 * (sigma1 + sigma3)) - strength.tensile_strength <
+        -options.tension_threshold)
       return {};
     plane.mode = CutMode::tension;
-    choose_conjugate(axis1, axis3, 0.5 * std::acos(std::min(1.0, difference / (2 * (sigma1 + sigma3)))), gradient, plane);
+    choose_conjugate(axis1, axis3, 0.5 * std::acos(std::min(1.0, difference / (2 * (sigma1 + sigma3)))),
+                     gradient, plane);
     return plane;
   }
   const double phi = strength.friction_angle;
-  const double excess = (sigma1 - sigma3) / (2 * std::cos(phi)) - (sigma1 + sigma3) * std::tan(phi) / 2 - strength.cohesion;
+  const double excess =
+      (sigma1 - sigma3) / (2 * std::cos(phi)) - (sigma1 + sigma3) * std::tan(phi) / 2 - strength.cohesion;
   if (excess < -options.shear_threshold)
     return {};
   plane.mode = CutMode::shear;

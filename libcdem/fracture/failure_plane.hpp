@@ -36,7 +36,7 @@ struct FailurePlane {
 
 // stress: Pa, tension positive. gradient: du_i/dx_j of the block, the whole model's rigid rotation taken out.
 // Empty when the block is not near failure.
-std::optional<FailurePlane> failure_plane(const geom::Mat3& stress, const geom::Mat3& gradient, const BlockStrength&,
-                                          const RefineOptions&);
+std::optional<FailurePlane> failure_plane(const geom::Mat3& stress, const geom::Mat3& gradient,
+                                          const BlockStrength&, const RefineOptions&);
 
 } // namespace cdem

@@ -45,8 +45,8 @@ Node blend(const std::vector<Node>& values, const geom::Tet& tet, const Eigen::V
 }
 
 // Displacement and velocity at a place of an old block: of the tet that holds it best.
-void carry_node(const Model& old, const State& from, const Block& block, const geom::Vec3& place, Node& displacement,
-                Node& velocity) {
+void carry_node(const Model& old, const State& from, const Block& block, const geom::Vec3& place,
+                Node& displacement, Node& velocity) {
   int best = block.tet_begin;
   Eigen::Vector4d best_weights = Eigen::Vector4d::Constant(-1e30);
   for (int tet = block.tet_begin; tet < block.tet_end; ++tet) {
@@ -67,7 +67,8 @@ geom::Mat3 stress_at(const Model& old, const State& from, int block, const geom:
   int count = 0;
   for (int tet = b.tet_begin; tet < b.tet_end; ++tet)
     if (weights(old, tet, place).minCoeff() >= inside) {
-      sum += matrix(elastic_stress(old.bodies[b.body].material, displacement_gradient(old, from.displacement, tet)));
+      sum += matrix(
+          elastic_stress(old.bodies[b.body].material, displacement_gradient(old, from.displacement, tet)));
       ++count;
     }
   if (count == 0)
@@ -97,10 +98,10 @@ bool may_break_now(MayBreak rule, InterfaceOrigin origin, const Block& a, const 
 
 class Rebuilder {
 public:
-  Rebuilder(const Model& old, const State& from, std::vector<Successor> successors, const std::vector<int>& cut_joint,
-            MayBreak may_break)
-      : old_(old), from_(from), successors_(std::move(successors)), cut_joint_(cut_joint), may_break_(may_break),
-        old_interfaces_(interfaces_by_face(old)) {}
+  Rebuilder(const Model& old, const State& from, std::vector<Successor> successors,
+            const std::vector<int>& cut_joint, MayBreak may_break)
+      : old_(old), from_(from), successors_(std::move(successors)), cut_joint_(cut_joint),
+        may_break_(may_break), old_interfaces_(interfaces_by_face(old)) {}
 
   Rebuilt operator()() {
     Rebuilt result;

@@ -29,6 +29,7 @@ Successor whole_block(const Model&, int block);
 
 // cut_joint: per body, index of the joint on faces that a cut makes (into Model::joints, which the caller may have
 // lengthened); empty: the body's own.
-Rebuilt rebuild(const Model&, const State&, std::vector<Successor>, const std::vector<int>& cut_joint, MayBreak);
+Rebuilt rebuild(const Model&, const State&, std::vector<Successor>, const std::vector<int>& cut_joint,
+                MayBreak);
 
 } // namespace cdem

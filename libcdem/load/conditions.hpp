@@ -15,8 +15,9 @@ struct Fix {
   Selection on;
   std::array<bool, 3> axes{true, true, true};
   bool release = false; // sets the components free instead; later ones win over earlier ones
-  std::optional<geom::Vec3> displacement; // m, total value; a relaxation moves there in its first steps and holds it
-  std::optional<geom::Vec3> velocity;     // m/s, in real-time stepping; zero when not given
+  std::optional<geom::Vec3>
+      displacement; // m, total value; a relaxation moves there in its first steps and holds it
+  std::optional<geom::Vec3> velocity; // m/s, in real-time stepping; zero when not given
 };
 
 struct Traction {
@@ -26,8 +27,8 @@ struct Traction {
 };
 
 struct PointForce {
-  Selection on;                            // nodes; shared in proportion to the volume around each
-  geom::Vec3 force = geom::Vec3::Zero();   // N, total
+  Selection on;                          // nodes; shared in proportion to the volume around each
+  geom::Vec3 force = geom::Vec3::Zero(); // N, total
   Amplitude amplitude;
 };
 

@@ -11,7 +11,9 @@ namespace {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
-double& component(Node& node, int axis) { return axis == 0 ? node.x : axis == 1 ? node.y : node.z; }
+double& component(Node& node, int axis) {
+  return axis == 0 ? node.x : axis == 1 ? node.y : node.z;
+}
 
 void add(Node& node, const geom::Vec3& v) {
   node.x += v.x();

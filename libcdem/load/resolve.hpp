@@ -15,10 +15,11 @@ struct VaryingLoad {
 struct ResolvedConditions {
   std::vector<Node> free;       // 1 where a component is free, 0 where it is held (n_nodes)
   std::vector<Node> prescribed; // m/s, velocity of the held components (n_nodes)
-  std::vector<Node> target;     // m, displacement the held components are to reach in a relaxation; NaN: none (n_nodes)
-  std::vector<Node> constant;   // N, loads that do not vary (n_nodes)
-  std::vector<Node> external;   // N, all loads at the present time (n_nodes)
-  std::vector<Node> internal;   // N, forces of the initial stress (n_nodes)
+  std::vector<Node>
+      target; // m, displacement the held components are to reach in a relaxation; NaN: none (n_nodes)
+  std::vector<Node> constant; // N, loads that do not vary (n_nodes)
+  std::vector<Node> external; // N, all loads at the present time (n_nodes)
+  std::vector<Node> internal; // N, forces of the initial stress (n_nodes)
   std::vector<VaryingLoad> varying;
   bool has_target = false;
   bool has_initial_stress = false;

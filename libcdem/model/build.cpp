@@ -16,7 +16,6 @@ constexpr double relative_tolerance = 1e-7;
 constexpr int tets_per_chunk = 384;
 constexpr int points_per_chunk = 512;
 
-
 // Returns the fans of the block's faces, in its own node numbers.
 std::vector<std::vector<geom::Triangle>> add_block(Model& model, BlockSeed&& seed) {
   Block block;
@@ -250,10 +249,10 @@ InterfaceTraits default_traits(const Model& model, int block_a, int, int block_b
   const auto pair = std::minmax(a.body, b.body);
   const auto found = model.pair_joint.find(pair);
   if (found == model.pair_joint.end())
-    throw geom::InputError("contacts: bodies \"" + model.bodies[pair.first].name + "\" and \"" +
-                           model.bodies[pair.second].name +
-                           "\" touch but no joint between them is given; add {\"" + model.bodies[pair.first].name +
-                           "\", \"" + model.bodies[pair.second].name + "\", joint} to contacts");
+    throw geom::InputError(
+        "contacts: bodies \"" + model.bodies[pair.first].name + "\" and \"" + model.bodies[pair.second].name +
+        "\" touch but no joint between them is given; add {\"" + model.bodies[pair.first].name + "\", \"" +
+        model.bodies[pair.second].name + "\", joint} to contacts");
   InterfaceTraits traits;
   traits.joint = found->second;
   const Joint& joint = model.joints[traits.joint];

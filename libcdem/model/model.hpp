@@ -28,7 +28,8 @@ struct Block {
   geom::Polyhedron shape;
   geom::MassProperties mass; // unit density
   double size = 0;           // h, cube root of the volume, m
-  double first_size = 0;     // h of the generation-0 block it comes from, m; joints keep their thickness through cuts
+  double first_size =
+      0; // h of the generation-0 block it comes from, m; joints keep their thickness through cuts
   int node_begin = 0, node_end = 0; // vertices, then one centre per face, then the centroid
   int tet_begin = 0, tet_end = 0;
 
@@ -77,7 +78,8 @@ struct OuterFace {
   int block = 0, face = 0;
   geom::Vec3 normal = geom::Vec3::Zero(); // unit, outward
   double area = 0;                        // m2, uncovered
-  std::vector<std::pair<int, double>> node_area; // node, integral of its shape function over the uncovered part, m2
+  std::vector<std::pair<int, double>>
+      node_area; // node, integral of its shape function over the uncovered part, m2
 };
 
 // Consecutive blocks, the smallest piece of parallel work. Its nodes and tets belong to no other chunk.
@@ -107,8 +109,8 @@ struct Model {
   std::vector<TetBatch> batches;
 
   std::vector<Interface> interfaces;
-  std::vector<BondPoint> points;             // springs (n_points)
-  std::vector<geom::Vec3> point_position;    // undeformed, m (n_points)
+  std::vector<BondPoint> points;              // springs (n_points)
+  std::vector<geom::Vec3> point_position;     // undeformed, m (n_points)
   std::vector<geom::Triangle> bond_triangles; // over points
 
   std::vector<std::int64_t> bond_begin; // (n_nodes + 1) into bonds_on_nodes
@@ -119,9 +121,9 @@ struct Model {
   std::vector<BlockChunk> chunks;
   std::vector<Range> point_chunks;
 
-  geom::Box box;         // undeformed
-  double length = 0;     // diagonal of the box, m
-  double tolerance = 0;  // places nearer than this are one, m
+  geom::Box box;        // undeformed
+  double length = 0;    // diagonal of the box, m
+  double tolerance = 0; // places nearer than this are one, m
   std::int64_t next_id = 1;
 };
 

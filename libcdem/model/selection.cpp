@@ -45,8 +45,8 @@ Selection Selection::on_plane(const geom::Plane& plane) {
   Selection s;
   s.kind = Kind::plane;
   s.plane = plane;
-  s.text = fmt::format("plane with normal ({:g}, {:g}, {:g}) and offset {:g} m", plane.normal.x(), plane.normal.y(),
-                       plane.normal.z(), plane.offset);
+  s.text = fmt::format("plane with normal ({:g}, {:g}, {:g}) and offset {:g} m", plane.normal.x(),
+                       plane.normal.y(), plane.normal.z(), plane.offset);
   return s;
 }
 
@@ -54,8 +54,8 @@ Selection Selection::in_box(const geom::Box& box) {
   Selection s;
   s.kind = Kind::box;
   s.box = box;
-  s.text = fmt::format("box from ({:g}, {:g}, {:g}) to ({:g}, {:g}, {:g})", box.min.x(), box.min.y(), box.min.z(),
-                       box.max.x(), box.max.y(), box.max.z());
+  s.text = fmt::format("box from ({:g}, {:g}, {:g}) to ({:g}, {:g}, {:g})", box.min.x(), box.min.y(),
+                       box.min.z(), box.max.x(), box.max.y(), box.max.z());
   return s;
 }
 

@@ -13,11 +13,11 @@ struct Selection {
   Kind kind = Kind::all;
   std::string text = "all"; // as the user wrote it, for messages
 
-  int axis = 0;             // side: 0 x, 1 y, 2 z
-  bool upper = false;       // side: x+ rather than x-
-  geom::Plane plane;        // plane
-  geom::Box box;            // box
-  std::string body;         // body, by name
+  int axis = 0;       // side: 0 x, 1 y, 2 z
+  bool upper = false; // side: x+ rather than x-
+  geom::Plane plane;  // plane
+  geom::Box box;      // box
+  std::string body;   // body, by name
   std::function<bool(const geom::Vec3&)> predicate;
 
   static Selection everything() { return {}; }
@@ -37,6 +37,7 @@ std::vector<int> selected_nodes(const Model&, const Selection&);
 std::vector<int> selected_outer_faces(const Model&, const Selection&);
 
 bool selects_block(const Model&, const Selection&, int block); // by its centroid
-bool selects_point(const Model&, const Selection&, int point); // by its place; a body selects the points of its faces
+bool selects_point(const Model&, const Selection&,
+                   int point); // by its place; a body selects the points of its faces
 
 } // namespace cdem

@@ -26,7 +26,9 @@ CDEM_INLINE Quad load(const Node& n) {
   return q;
 }
 
-CDEM_INLINE void store(Node& n, const Quad& q) { std::memcpy(&n.x, &q, sizeof q); }
+CDEM_INLINE void store(Node& n, const Quad& q) {
+  std::memcpy(&n.x, &q, sizeof q);
+}
 
 CDEM_INLINE Oct load(const double (&p)[lanes]) {
   Oct v;

@@ -56,7 +56,9 @@ const std::vector<Node>& nodal_vectors(const State& state, const std::string& fi
   return field[0] == 'd' ? state.displacement : state.velocity;
 }
 
-std::string component_of(const std::string& field) { return field.substr(field.find('.') + 1); }
+std::string component_of(const std::string& field) {
+  return field.substr(field.find('.') + 1);
+}
 
 double node_value(const State& state, const std::string& field, int node) {
   return vector_component(nodal_vectors(state, field)[node], component_of(field));

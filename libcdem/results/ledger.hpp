@@ -5,20 +5,23 @@ namespace cdem {
 
 struct EnergyLedger {
   // stored
-  double elastic = 0;   // blocks, sum V sigma : eps / 2
-  double springs = 0;   // bonds and contacts, sum F^2 / 2K
-  double kinetic = 0;   // real masses, or the fictitious ones of a relaxation
+  double elastic = 0; // blocks, sum V sigma : eps / 2
+  double springs = 0; // bonds and contacts, sum F^2 / 2K
+  double kinetic = 0; // real masses, or the fictitious ones of a relaxation
   // spent
   double damping = 0;
   double friction = 0;
-  double breaking = 0;  // stored in a spring when it broke and no longer stored after; damage of softening bonds
-  double cutting = 0;   // change of the stored energy when blocks are cut (positive: lost)
+  double breaking =
+      0; // stored in a spring when it broke and no longer stored after; damage of softening bonds
+  double cutting = 0;    // change of the stored energy when blocks are cut (positive: lost)
   double fictitious = 0; // kinetic energy thrown away when a relaxation ends or its masses are rebuilt
   // given
-  double external = 0;  // work of loads, gravity and moving supports
+  double external = 0;      // work of loads, gravity and moving supports
   double external_peak = 0; // largest |external| so far
 
-  double total() const { return elastic + springs + kinetic + damping + friction + breaking + cutting + fictitious; }
+  double total() const {
+    return elastic + springs + kinetic + damping + friction + breaking + cutting + fictitious;
+  }
   // |total - external| over the largest external work; 0 before anything happened.
   double balance_error() const;
 };

@@ -13,10 +13,10 @@ namespace cdem {
 // One broken bond.
 struct BreakRow {
   int stage = 0;
-  std::int64_t step = 0; // within the stage
-  double time = 0;       // s
-  BondMode mode = BondMode::intact; // broken_tension or broken_shear
-  geom::Vec3 place = geom::Vec3::Zero();  // m, undeformed
+  std::int64_t step = 0;                 // within the stage
+  double time = 0;                       // s
+  BondMode mode = BondMode::intact;      // broken_tension or broken_shear
+  geom::Vec3 place = geom::Vec3::Zero(); // m, undeformed
   geom::Vec3 normal = geom::Vec3::Zero();
   double area = 0;                                // m2
   double normal_traction = 0, shear_traction = 0; // Pa at breaking, tension positive
@@ -25,11 +25,11 @@ struct BreakRow {
 
 struct HistoryRow {
   int stage = 0;
-  std::int64_t step = 0; // over all stages
-  double time = 0;       // s
-  double residual = 0;   // out-of-balance force norm over applied force norm
-  double kinetic = 0;    // J
-  double external = 0;   // J, work of the loads so far
+  std::int64_t step = 0;                             // over all stages
+  double time = 0;                                   // s
+  double residual = 0;                               // out-of-balance force norm over applied force norm
+  double kinetic = 0;                                // J
+  double external = 0;                               // J, work of the loads so far
   std::int64_t broken_tension = 0, broken_shear = 0; // spring points so far
   std::vector<double> probes;
 };

@@ -83,8 +83,9 @@ void add_cells(const Model& model, const State& state, Snapshot& snapshot) {
     body.values.push_back(block.body);
     damage.values.push_back(damages[b]);
   }
-  snapshot.cell_fields = {std::move(stress), std::move(principal_stress), std::move(mises),  std::move(id),
-                          std::move(parent), std::move(generation),       std::move(body), std::move(damage)};
+  snapshot.cell_fields = {
+      std::move(stress), std::move(principal_stress), std::move(mises), std::move(id),
+      std::move(parent), std::move(generation),       std::move(body),  std::move(damage)};
 }
 
 void add_surface(const Model& model, Snapshot& snapshot) {
@@ -103,7 +104,8 @@ void add_bonds(const Model& model, const State& state, BondSnapshot& bonds) {
   const std::size_t n = model.points.size();
   bonds.points = model.point_position;
   bonds.triangles = model.bond_triangles;
-  SnapshotField mode = scalar("mode", "", n, true), opening = scalar("opening", "m", n), slip = scalar("slip", "m", n);
+  SnapshotField mode = scalar("mode", "", n, true), opening = scalar("opening", "m", n),
+                slip = scalar("slip", "m", n);
   SnapshotField traction = scalar("traction", "Pa", 3 * n), displacement = scalar("displacement", "m", 3 * n);
   SnapshotField damage = scalar("damage", "1", n);
   traction.components = displacement.components = 3;
@@ -115,7 +117,8 @@ void add_bonds(const Model& model, const State& state, BondSnapshot& bonds) {
     geom::Vec3 u = geom::Vec3::Zero();
     for (int k = 0; k < 3; ++k) {
       const Node &a = state.displacement[point.node_a[k]], &b = state.displacement[point.node_b[k]];
-      u += 0.5 * (point.weight_a[k] * geom::Vec3(a.x, a.y, a.z) + point.weight_b[k] * geom::Vec3(b.x, b.y, b.z));
+      u += 0.5 *
+           (point.weight_a[k] * geom::Vec3(a.x, a.y, a.z) + point.weight_b[k] * geom::Vec3(b.x, b.y, b.z));
     }
     mode.values.push_back(state.bond_mode[p]);
     damage.values.push_back(damage_of(state, p));
@@ -133,8 +136,8 @@ void add_bonds(const Model& model, const State& state, BondSnapshot& bonds) {
     for (int t = interface.triangle_begin; t < interface.triangle_end; ++t) {
       interface_id.values.push_back(static_cast<double>(interface.id));
       const geom::Triangle& triangle = bonds.triangles[t];
-      worst.values.push_back(std::max({state.bond_mode[triangle[0]], state.bond_mode[triangle[1]],
-                                       state.bond_mode[triangle[2]]}));
+      worst.values.push_back(std::max(
+          {state.bond_mode[triangle[0]], state.bond_mode[triangle[1]], state.bond_mode[triangle[2]]}));
     }
   bonds.triangle_fields = {std::move(interface_id), std::move(worst)};
 }
@@ -148,7 +151,8 @@ Snapshot make_snapshot(const Model& model, const State& state, const std::string
   snapshot.title = title;
   snapshot.points = model.node_position;
   snapshot.tets = model.tets;
-  snapshot.point_fields = {vectors("displacement", "m", state.displacement), vectors("velocity", "m/s", state.velocity)};
+  snapshot.point_fields = {vectors("displacement", "m", state.displacement),
+                           vectors("velocity", "m/s", state.velocity)};
   add_cells(model, state, snapshot);
   add_surface(model, snapshot);
   add_bonds(model, state, snapshot.bonds);

@@ -10,9 +10,9 @@
 namespace cdem {
 
 struct SnapshotField {
-  std::string name; // snake_case, e.g. "displacement", "stress", "block_id", "damage"
-  std::string unit; // "m", "Pa", "1"; empty for ids
-  int components = 1; // 1 scalar, 3 vector, 6 symmetric tensor in the order xx yy zz xy yz xz
+  std::string name;           // snake_case, e.g. "displacement", "stress", "block_id", "damage"
+  std::string unit;           // "m", "Pa", "1"; empty for ids
+  int components = 1;         // 1 scalar, 3 vector, 6 symmetric tensor in the order xx yy zz xy yz xz
   std::vector<double> values; // components values for each point or cell, cell-major
   bool integer = false;       // written as Int64 (ids, modes)
 };
@@ -22,23 +22,25 @@ enum class BondMode : int { intact = 0, broken_tension = 1, broken_shear = 2, co
 
 // Interfaces between blocks as triangles over the spring points (undeformed places).
 struct BondSnapshot {
-  std::vector<geom::Vec3> points;               // m, undeformed
-  std::vector<geom::Triangle> triangles;        // over points
-  std::vector<SnapshotField> point_fields; // "mode", "damage", "opening" m, "slip" m, "traction" Pa, "displacement" m
-  std::vector<SnapshotField> triangle_fields;   // "interface_id", "mode": the worst of its three points
+  std::vector<geom::Vec3> points;        // m, undeformed
+  std::vector<geom::Triangle> triangles; // over points
+  std::vector<SnapshotField>
+      point_fields; // "mode", "damage", "opening" m, "slip" m, "traction" Pa, "displacement" m
+  std::vector<SnapshotField> triangle_fields; // "interface_id", "mode": the worst of its three points
 };
 
 struct Snapshot {
-  double time = 0;          // s, or pseudo-time
+  double time = 0; // s, or pseudo-time
   std::int64_t step = 0;
-  std::string title;        // e.g. "uniaxial_compression, stage 3 (relax)"
-  std::vector<geom::Vec3> points;                // m, undeformed; blocks do not share points
-  std::vector<geom::Tet> tets;                   // over points
-  std::vector<SnapshotField> point_fields;       // "displacement" m, "velocity" m/s, ...
-  std::vector<SnapshotField> cell_fields;        // per tet: "stress" Pa (6), "principal_stress" Pa (3), "block_id", ...
-  std::vector<geom::Triangle> surface;           // triangles of all block faces, outward
-  std::vector<std::int64_t> surface_tet;         // the tet each surface triangle belongs to
-  std::vector<std::array<int, 2>> block_edges;   // true edges of the blocks, over points (for drawing)
+  std::string title;                       // e.g. "uniaxial_compression, stage 3 (relax)"
+  std::vector<geom::Vec3> points;          // m, undeformed; blocks do not share points
+  std::vector<geom::Tet> tets;             // over points
+  std::vector<SnapshotField> point_fields; // "displacement" m, "velocity" m/s, ...
+  std::vector<SnapshotField>
+      cell_fields;                     // per tet: "stress" Pa (6), "principal_stress" Pa (3), "block_id", ...
+  std::vector<geom::Triangle> surface; // triangles of all block faces, outward
+  std::vector<std::int64_t> surface_tet;       // the tet each surface triangle belongs to
+  std::vector<std::array<int, 2>> block_edges; // true edges of the blocks, over points (for drawing)
   BondSnapshot bonds;
 };
 

@@ -13,18 +13,21 @@ namespace cdem {
 using Stress = std::array<double, 6>; // Pa, tension positive: xx yy zz xy yz xz
 
 struct State {
-  double time = 0;       // s
-  std::int64_t step = 0; // over all stages
+  double time = 0;         // s
+  std::int64_t step = 0;   // over all stages
   double velocity_lag = 0; // s, velocities and the summed energies stand this long before the displacements
 
-  std::vector<Node> displacement;         // m (n_nodes); written by integrate
-  std::vector<Node> velocity;             // m/s, velocity_lag behind (n_nodes); written by integrate
-  std::vector<geom::Vec3> bond_offset;    // m, jump at which the spring carries nothing: preload and slip (n_points)
-  std::vector<std::uint8_t> bond_mode;    // BondMode (n_points); bond_offset and bond_mode: written by spring_forces
+  std::vector<Node> displacement; // m (n_nodes); written by integrate
+  std::vector<Node> velocity;     // m/s, velocity_lag behind (n_nodes); written by integrate
+  std::vector<geom::Vec3>
+      bond_offset; // m, jump at which the spring carries nothing: preload and slip (n_points)
+  std::vector<std::uint8_t>
+      bond_mode; // BondMode (n_points); bond_offset and bond_mode: written by spring_forces
   // Of bonds that soften (interface/softening.hpp), written by spring_forces; empty where no joint of the model does.
-  std::vector<double> bond_damage;        // D, 0 whole .. 1 separated (n_points)
-  std::vector<geom::Vec3> bond_slip;      // m, slip of the damaged part, added to bond_offset at separation (n_points)
-  std::vector<Stress> initial_stress;     // Pa (n_blocks); written by initial_stress
+  std::vector<double> bond_damage; // D, 0 whole .. 1 separated (n_points)
+  std::vector<geom::Vec3>
+      bond_slip; // m, slip of the damaged part, added to bond_offset at separation (n_points)
+  std::vector<Stress> initial_stress; // Pa (n_blocks); written by initial_stress
 
   EnergyLedger spent; // J, the summed entries only (damping, friction, ... external); the stored ones stay 0
 };
@@ -40,8 +43,8 @@ struct StateField {
   FieldPlace place;
   const char* writer;
   void* data;
-  std::size_t bytes;    // of the whole array
-  bool floating;        // made of doubles: watched for NaN
+  std::size_t bytes; // of the whole array
+  bool floating;     // made of doubles: watched for NaN
 };
 
 // Every field, in a fixed order.

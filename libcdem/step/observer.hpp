@@ -7,19 +7,19 @@
 namespace cdem {
 
 struct Progress {
-  int stage = 0;               // number of the solving call, from 1
-  std::string kind;            // "relax", "run", ...
-  std::int64_t step = 0;       // within the stage
-  std::int64_t max_steps = 0;  // limit, 0 when there is none
-  double residual = 0;         // out-of-balance force norm over applied force norm
-  double residual_goal = 0;    // 0 when the stage has none
-  double time = 0;             // s, real-time stages
-  double time_goal = 0;        // s, 0 when the stage has none
+  int stage = 0;                   // number of the solving call, from 1
+  std::string kind;                // "relax", "run", ...
+  std::int64_t step = 0;           // within the stage
+  std::int64_t max_steps = 0;      // limit, 0 when there is none
+  double residual = 0;             // out-of-balance force norm over applied force norm
+  double residual_goal = 0;        // 0 when the stage has none
+  double time = 0;                 // s, real-time stages
+  double time_goal = 0;            // s, 0 when the stage has none
   std::int64_t broken_tension = 0; // spring points broken so far, whole model
   std::int64_t broken_shear = 0;
   double steps_per_second = 0;
-  double seconds_left = -1;    // estimate; negative when unknown
-  bool last = false;           // the stage ends here
+  double seconds_left = -1; // estimate; negative when unknown
+  bool last = false;        // the stage ends here
 };
 
 class Observer {

@@ -21,29 +21,30 @@ struct RelaxResult {
   double residual = 0;
   std::int64_t broken_tension = 0; // in this stage
   std::int64_t broken_shear = 0;
-  double wall_time = 0;            // s
+  double wall_time = 0; // s
 };
 
 // Explicit stepping with the real masses.
 struct RunOptions {
-  double duration = 0;             // s; 0 when `steps` is given
+  double duration = 0; // s; 0 when `steps` is given
   std::int64_t steps = 0;
-  double safety = 0.9;             // time step over the stable one, in (0, 1]
-  double time_step = 0;            // s; 0 = safety x stable; refused above the stable one
+  double safety = 0.9;  // time step over the stable one, in (0, 1]
+  double time_step = 0; // s; 0 = safety x stable; refused above the stable one
   bool breaking = true;
-  double local_damping = 0;        // Cundall's: force against the motion, as a fraction of the out-of-balance force, [0, 1)
+  double local_damping =
+      0; // Cundall's: force against the motion, as a fraction of the out-of-balance force, [0, 1)
   std::int64_t callback_every = 0;
   std::function<void()> callback;
-  std::function<bool()> stop;      // asked every callback_every (default 100) steps
+  std::function<bool()> stop; // asked every callback_every (default 100) steps
 };
 
 struct RunResult {
   std::int64_t steps = 0;
-  double time = 0;                 // s, model time reached
-  double time_step = 0;            // s
+  double time = 0;      // s, model time reached
+  double time_step = 0; // s
   std::int64_t broken_tension = 0;
   std::int64_t broken_shear = 0;
-  double wall_time = 0;            // s
+  double wall_time = 0; // s
 };
 
 } // namespace cdem

@@ -29,8 +29,8 @@ struct Component {
   double free, prescribed, applied;
 };
 
-inline void advance(double force, double previous, double mass, double damping, const Component& c, double& velocity,
-                    double& displacement, NodeSums& sums) {
+inline void advance(double force, double previous, double mass, double damping, const Component& c,
+                    double& velocity, double& displacement, NodeSums& sums) {
   const double before = velocity;
   if (c.free != 0) {
     sums.residual2 += force * force;
@@ -70,9 +70,12 @@ NodeSums integrate(const Model&, State& state, Workspace& work, Range nodes, dou
 
 // Velocities per step that bring held components to their given displacement.
 void aim_supports(const State& state, ResolvedConditions& r, int steps) {
-  const auto aim = [&](double target, double now) { return std::isnan(target) ? 0.0 : (target - now) / steps; };
+  const auto aim = [&](double target, double now) {
+    return std::isnan(target) ? 0.0 : (target - now) / steps;
+  };
   for (std::size_t i = 0; i < r.target.size(); ++i)
-    r.prescribed[i] = {aim(r.target[i].x, state.displacement[i].x), aim(r.target[i].y, state.displacement[i].y),
+    r.prescribed[i] = {aim(r.target[i].x, state.displacement[i].x),
+                       aim(r.target[i].y, state.displacement[i].y),
                        aim(r.target[i].z, state.displacement[i].z), 0};
 }
 
@@ -80,7 +83,8 @@ void aim_supports(const State& state, ResolvedConditions& r, int steps) {
 double initial_stress_forces2(const ResolvedConditions& r) {
   double sum = 0;
   for (std::size_t i = 0; i < r.internal.size(); ++i) {
-    const double x = r.free[i].x * r.internal[i].x, y = r.free[i].y * r.internal[i].y, z = r.free[i].z * r.internal[i].z;
+    const double x = r.free[i].x * r.internal[i].x, y = r.free[i].y * r.internal[i].y,
+                 z = r.free[i].z * r.internal[i].z;
     sum += x * x + y * y + z * z;
   }
   return sum;
@@ -144,7 +148,8 @@ RelaxResult relax(const StageContext& context, const RelaxOptions& options, cons
         lambda += (stage.step < 3 ? 1.0 : smoothing) * (quotient - lambda);
         damping = std::min(2 * std::sqrt(lambda), most_damping);
       }
-      const bool balanced = report.residual <= options.residual && stage.broken_in_step() == 0 && stage.step > moving_steps;
+      const bool balanced =
+          report.residual <= options.residual && stage.broken_in_step() == 0 && stage.step > moving_steps;
       settled = balanced ? settled + 1 : 0;
       if (options.callback && options.callback_every > 0 && stage.step % options.callback_every == 0)
         options.callback();

@@ -25,17 +25,20 @@ struct Stepping {
 
 // m dv/dt = F - mu V v - alpha |F| sign(v), all at the mean velocity of the step: taken at the velocity before, local
 // damping would feed a node that turns round within the step, and blow up near the stable step.
-inline void advance(double force, double mass, double viscous, const Stepping& s, const Component& c, double& velocity,
-                    double& displacement, NodeSums& sums) {
+inline void advance(double force, double mass, double viscous, const Stepping& s, const Component& c,
+                    double& velocity, double& displacement, NodeSums& sums) {
   const double before = velocity;
   if (c.free != 0) {
     sums.residual2 += force * force;
     sums.applied2 += c.applied * c.applied;
     const double inertia = mass / s.time_step;
     const double undamped = ((inertia - 0.5 * viscous) * before + force) / (inertia + 0.5 * viscous);
-    const double most = s.local_damping * std::abs(force) / (inertia + 0.5 * viscous); // it can take off the velocity
+    const double most =
+        s.local_damping * std::abs(force) / (inertia + 0.5 * viscous); // it can take off the velocity
     // A node that it could hold at mean velocity 0 is held there, without loss.
-    velocity = before + undamped > most ? undamped - most : before + undamped < -most ? undamped + most : 0 - before;
+    velocity = before + undamped > most    ? undamped - most
+               : before + undamped < -most ? undamped + most
+                                           : 0 - before;
     const double against = (inertia + 0.5 * viscous) * (undamped - velocity);
     const double mean = 0.5 * (before + velocity);
     sums.external += c.applied * mean * s.time_step;
@@ -70,7 +73,8 @@ double choose_time_step(const Model& model, const RunOptions& options) {
   const double stable = stable_time_step(model);
   if (options.time_step > stable)
     throw geom::InputError("time_step", fmt::format("{:g}", options.time_step),
-                           fmt::format("at most the stable step, {:.4g} s", stable), "leave it out to use safety x stable");
+                           fmt::format("at most the stable step, {:.4g} s", stable),
+                           "leave it out to use safety x stable");
   return options.time_step > 0 ? options.time_step : options.safety * stable;
 }
 
@@ -92,7 +96,8 @@ RunResult run(const StageContext& context, const RunOptions& options) {
   Stage::StepReport report;
   const double start = state.time;
   const std::int64_t steps =
-      options.steps > 0 ? options.steps : static_cast<std::int64_t>(std::ceil(options.duration / stepping.time_step - 1e-9));
+      options.steps > 0 ? options.steps
+                        : static_cast<std::int64_t>(std::ceil(options.duration / stepping.time_step - 1e-9));
   report.goals.max_steps = steps;
   report.goals.time_goal = start + static_cast<double>(steps) * stepping.time_step;
   const std::int64_t ask_every = options.callback_every > 0 ? options.callback_every : 100;

@@ -18,13 +18,15 @@ constexpr double seconds_between_reports = 0.1;
 // Chunks a thread must have before a further one is worth its two barriers a step: about half a millisecond of work.
 constexpr std::int64_t chunks_per_thread = 32;
 
-double seconds(std::chrono::steady_clock::duration d) { return std::chrono::duration<double>(d).count(); }
+double seconds(std::chrono::steady_clock::duration d) {
+  return std::chrono::duration<double>(d).count();
+}
 
 std::string where(const Model& model, int node) {
   const geom::Vec3& x = model.node_position[node];
   const Block& block = model.blocks[model.node_block[node]];
-  return fmt::format("block {} of body \"{}\" at ({:.6g}, {:.6g}, {:.6g}) m", block.id, model.bodies[block.body].name,
-                     x.x(), x.y(), x.z());
+  return fmt::format("block {} of body \"{}\" at ({:.6g}, {:.6g}, {:.6g}) m", block.id,
+                     model.bodies[block.body].name, x.x(), x.y(), x.z());
 }
 
 } // namespace
@@ -44,13 +46,16 @@ double relative_residual(const NodeSums& sums) {
 Stage::Stage(StageContext context, std::string kind, double run_away)
     : work(context.model, context.state, context.conditions), context_(context), kind_(std::move(kind)),
       run_away_(run_away), broken_tension_before_(context.log.broken_tension),
-      broken_shear_before_(context.log.broken_shear), start_(std::chrono::steady_clock::now()), told_(start_) {
+      broken_shear_before_(context.log.broken_shear), start_(std::chrono::steady_clock::now()),
+      told_(start_) {
   context_.threads = useful_threads(context_.model, context_.threads);
   context_.last_good = context_.state;
   start_spring_forces(context_.model, context_.state, work);
 }
 
-double Stage::wall_time() const { return seconds(std::chrono::steady_clock::now() - start_); }
+double Stage::wall_time() const {
+  return seconds(std::chrono::steady_clock::now() - start_);
+}
 
 void Stage::spring_forces(bool breaking) {
   const auto& chunks = context_.model.point_chunks;
@@ -126,7 +131,8 @@ void Stage::after_step(const StepReport& report) {
   ++step;
   ++context_.state.step;
   // A sum over all free forces and one over all velocities: a NaN anywhere shows here in the step it appears.
-  if (!std::isfinite(report.sums.residual2) || !std::isfinite(report.sums.kinetic) || step % watch_every == 0) {
+  if (!std::isfinite(report.sums.residual2) || !std::isfinite(report.sums.kinetic) ||
+      step % watch_every == 0) {
     watch();
     context_.last_good = context_.state;
   }
@@ -171,8 +177,8 @@ void Stage::watch() const {
   const Model& model = context_.model;
   const State& state = context_.state;
   const auto fail = [&](const std::string& what, int node, const std::string& advice) {
-    throw SolutionError(
-        fmt::format("stage {} ({}), step {}: {} in {}; {}", context_.number, kind_, step, what, where(model, node), advice));
+    throw SolutionError(fmt::format("stage {} ({}), step {}: {} in {}; {}", context_.number, kind_, step,
+                                    what, where(model, node), advice));
   };
   for (int node = 0; node < static_cast<int>(model.node_position.size()); ++node) {
     const Node& u = state.displacement[node];
@@ -182,13 +188,14 @@ void Stage::watch() const {
       fail("displacement, velocity or force is not a number", node, "look at loads and stiffnesses there");
     const double moved = std::sqrt(u.x * u.x + u.y * u.y + u.z * u.z);
     if (moved > run_away_)
-      fail(fmt::format("run-away displacement of {:.3g} m (model {:.3g} m across)", moved, model.length), node,
-           "is this part held by supports, and can it carry its load?");
+      fail(fmt::format("run-away displacement of {:.3g} m (model {:.3g} m across)", moved, model.length),
+           node, "is this part held by supports, and can it carry its load?");
   }
   for (int tet = 0; tet < static_cast<int>(model.tets.size()); ++tet) {
     const geom::Mat3 f = geom::Mat3::Identity() + displacement_gradient(model, state.displacement, tet);
     if (f.determinant() <= 0)
-      fail("an element is turned inside out", model.tets[tet][0], "the load there is beyond what small strain can carry");
+      fail("an element is turned inside out", model.tets[tet][0],
+           "the load there is beyond what small strain can carry");
   }
 }
 

@@ -33,9 +33,8 @@ public:
   // body(chunk index, chunk) -> NodeSums over all chunks; returns the total, summed in order.
   template <class Body>
   NodeSums over_chunks(const Body& body) {
-    for_chunks(static_cast<std::int64_t>(context_.model.chunks.size()), context_.threads, [&](std::int64_t c) {
-      work.node_sums[c] = body(context_.model.chunks[c]);
-    });
+    for_chunks(static_cast<std::int64_t>(context_.model.chunks.size()), context_.threads,
+               [&](std::int64_t c) { work.node_sums[c] = body(context_.model.chunks[c]); });
     return total();
   }
 

@@ -16,21 +16,21 @@ struct BreakEvent {
 
 // Sums of one chunk of springs.
 struct SpringSums {
-  double friction = 0; // J, this step
-  double breaking = 0; // J, this step
+  double friction = 0;            // J, this step
+  double breaking = 0;            // J, this step
   std::vector<BreakEvent> broken; // this step
 };
 
 // Sums of one chunk of blocks, over its free degrees of freedom.
 struct NodeSums {
-  double residual2 = 0;   // N2, out-of-balance forces
-  double applied2 = 0;    // N2, external forces
-  double reaction2 = 0;   // N2, out-of-balance forces where nodes are held
-  double stiffness = 0;   // J, -du . dF
-  double inertia = 0;     // J, du . M du
-  double kinetic = 0;     // J
-  double external = 0;    // J, this step
-  double damping = 0;     // J, this step
+  double residual2 = 0; // N2, out-of-balance forces
+  double applied2 = 0;  // N2, external forces
+  double reaction2 = 0; // N2, out-of-balance forces where nodes are held
+  double stiffness = 0; // J, -du . dF
+  double inertia = 0;   // J, du . M du
+  double kinetic = 0;   // J
+  double external = 0;  // J, this step
+  double damping = 0;   // J, this step
 };
 
 struct Workspace {
@@ -43,10 +43,11 @@ struct Workspace {
   std::vector<geom::Vec3> spring_force; // N, on side a (n_points); written by spring_forces
   std::vector<SpringStrength> strength; // per interface
   // Both empty in a model without softening joints.
-  std::vector<SofteningLaw> softening;    // per interface
-  std::vector<geom::Vec3> stretch;        // m, of each spring in the step before (n_points); written by spring_forces
-  std::vector<SpringSums> spring_sums;  // per chunk of springs
-  std::vector<NodeSums> node_sums;      // per chunk of blocks
+  std::vector<SofteningLaw> softening; // per interface
+  std::vector<geom::Vec3>
+      stretch; // m, of each spring in the step before (n_points); written by spring_forces
+  std::vector<SpringSums> spring_sums; // per chunk of springs
+  std::vector<NodeSums> node_sums;     // per chunk of blocks
 };
 
 } // namespace cdem
