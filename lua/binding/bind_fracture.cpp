@@ -6,6 +6,8 @@
 
 #include "libgeom/core/error.hpp"
 
+#include <algorithm>
+
 namespace cdem::script {
 
 namespace {
@@ -57,8 +59,16 @@ RefineOptions refine_options(const ModelObject& model, const Arguments& a) {
 
 Value refine(Session& session, ModelObject& model, const Arguments& a) {
   const RefineOptions options = refine_options(model, a);
-  return stage(session, model, "refine", a, Table(),
-               [&](Simulation& simulation) { return cut_rows(simulation.refine(options)); });
+  return stage(session, model, "refine", a, Table(), [&](Simulation& simulation) {
+    const std::vector<BlockCut> cuts = simulation.refine(options);
+    const auto shear = std::count_if(cuts.begin(), cuts.end(),
+                                     [](const BlockCut& cut) { return cut.mode == CutMode::shear; });
+    session.message(
+        "stage " + std::to_string(session.stages.size()) + " refine: " + std::to_string(cuts.size()) +
+        " blocks cut (" + std::to_string(static_cast<std::int64_t>(cuts.size()) - shear) + " tension, " +
+        std::to_string(shear) + " shear), " + std::to_string(simulation.counts().blocks) + " blocks now");
+    return cut_rows(cuts);
+  });
 }
 
 Value pass_row(const GrowPass& pass) {

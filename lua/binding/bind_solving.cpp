@@ -86,21 +86,18 @@ Value run(Session& session, ModelObject& model, const Arguments& a) {
                [&](Simulation& simulation) { return run_result(simulation.run(options)); });
 }
 
-std::string hex(std::uint64_t hash) {
-  char text[17];
-  std::snprintf(text, sizeof text, "%016llx", static_cast<unsigned long long>(hash));
-  return text;
-}
-
 Value stages(Session& session, ModelObject& model, const Arguments&) {
   Values rows;
   for (const Stage& stage : session.stages)
     if (stage.model == model.number)
-      rows.emplace_back(Table{{"number", stage.number},
-                              {"kind", stage.kind},
-                              {"hash", hex(stage.hash)},
-                              {"result", stage.result}});
+      rows.push_back(stage_row(stage));
   return Table::list(std::move(rows));
+}
+
+Value after_stage(Session&, ModelObject& model, const Arguments& a) {
+  model.require_idle("after_stage");
+  model.after_stage.push_back(a.function("callback"));
+  return {};
 }
 
 Field every() {
@@ -164,6 +161,11 @@ void bind_solving(Module& m) {
        every(), callback(), function("stop", "(): boolean").doc("ends the stage when it returns true")},
       "cdem.RunResult", "", run);
   model.methods.back().fields[2].type.range = {0, 1, true, false};
+  add("after_stage",
+      "Has a function called after every solving call from now on, for what each stage should leave behind.",
+      {function("callback", "(stage: cdem.Stage)").required().doc("may read the model and write files")}, "",
+      "", after_stage);
+  model.methods.back().in_order = true;
   add("stages", "The model's solving calls so far.", {}, "cdem.Stage[]", "", stages);
   model.methods.back().in_order = true;
 }

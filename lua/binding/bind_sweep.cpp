@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cctype>
 #include <sstream>
+#include <thread>
 
 namespace cdem::script {
 
@@ -125,6 +126,13 @@ std::vector<Job> make_jobs(const Session& session, const Arguments& a, const std
   return jobs;
 }
 
+int jobs_at_a_time(const Arguments& a) {
+  if (a.has("jobs"))
+    return static_cast<int>(a.integer("jobs"));
+  const auto processors = static_cast<std::int64_t>(std::thread::hardware_concurrency());
+  return static_cast<int>(std::max<std::int64_t>(1, processors / a.integer("threads")));
+}
+
 Value sweep(Session& session, Object*, const Arguments& a) {
   const fs::path script = session.files.to_read(a.text("script"));
   if (!session.settings.script.empty() && fs::equivalent(script, session.settings.script))
@@ -159,7 +167,7 @@ Value sweep(Session& session, Object*, const Arguments& a) {
     session.message(line.str());
   };
   const auto stop = [&] { return observer && observer->stop_requested(); };
-  if (!run_jobs(jobs, static_cast<int>(a.integer("jobs")), stop, tell))
+  if (!run_jobs(jobs, jobs_at_a_time(a), stop, tell))
     throw Interrupted();
 
   Values results;
@@ -186,7 +194,8 @@ void bind_sweep(Module& m) {
                           list("set", plain("").type)
                               .required()
                               .doc("one table of parameters per case, e.g. { { case = 1 }, { case = 2 } }"),
-                          integer("jobs").within(1, 1024).standard(1).doc("cases at a time"),
+                          integer("jobs").within(1, 1024).doc(
+                              "cases at a time; as many as there are processors for when left out"),
                           integer("threads").within(1, 1024).standard(1).doc("of each case")},
                          false,
                          "cdem.SweepResult[]",

@@ -18,6 +18,7 @@ struct ModelObject final : Object {
   std::map<std::string, std::vector<Selection>> places;   // by model:select
   std::vector<std::string> conditions;                    // one line each, for the summary
   std::map<std::string, std::vector<SeriesEntry>> series; // by .pvd, in the order saved
+  std::vector<std::shared_ptr<Reference>> after_stage;    // called with each stage that has ended
   std::shared_ptr<Reference> memory;                      // table model.memory
   bool solving = false;                                   // a callback of a stage may look and not touch
 

@@ -2,6 +2,8 @@
 
 #include "libcdem/step/errors.hpp"
 
+#include <cstdio>
+
 namespace cdem::script {
 
 namespace {
@@ -16,6 +18,13 @@ void keep_unfinished(Session& session, ModelObject& model) {
 
 } // namespace
 
+Value stage_row(const Stage& stage) {
+  char hash[17];
+  std::snprintf(hash, sizeof hash, "%016llx", static_cast<unsigned long long>(stage.hash));
+  return Table{
+      {"number", stage.number}, {"kind", stage.kind}, {"hash", std::string(hash)}, {"result", stage.result}};
+}
+
 Value stage(Session& session, ModelObject& model, const char* kind, const Arguments& arguments,
             const Value& empty, const std::function<Value(Simulation&)>& solve) {
   model.require_idle(kind);
@@ -28,18 +37,17 @@ Value stage(Session& session, ModelObject& model, const char* kind, const Argume
   stage.hash = fnv1a(std::string(kind) + " " + std::to_string(model.number) + " " + arguments.canonical());
   stage.result = empty;
   session.stages.push_back(stage);
-  if (session.settings.check_only)
-    return empty;
   const std::size_t index = session.stages.size() - 1;
   struct Solving {
     ModelObject& model;
     explicit Solving(ModelObject& m) : model(m) { model.solving = true; }
     ~Solving() { model.solving = false; }
   };
-  Value result;
+  Value result = empty;
   try {
     Solving solving(model);
-    result = solve(model.simulation);
+    if (!session.settings.check_only)
+      result = solve(model.simulation);
   } catch (const SolutionError&) {
     keep_unfinished(session, model);
     throw;
@@ -47,9 +55,15 @@ Value stage(Session& session, ModelObject& model, const char* kind, const Argume
     keep_unfinished(session, model);
     throw;
   }
-  model.check_memory();
-  model.write_history(session);
   session.stages[index].result = result;
+  if (!session.settings.check_only)
+    model.write_history(session);
+  {
+    Solving solving(model);
+    for (const auto& callback : model.after_stage)
+      callback->call({stage_row(session.stages[index])});
+  }
+  model.check_memory();
   return result;
 }
 

@@ -337,6 +337,10 @@ function Model:relax(options) end
 ---@return cdem.RunResult
 function Model:run(options) end
 
+---Has a function called after every solving call from now on, for what each stage should leave behind.
+---@param callback fun(stage: cdem.Stage) may read the model and write files
+function Model:after_stage(callback) end
+
 ---The model's solving calls so far.
 ---@return cdem.Stage[]
 function Model:stages() end

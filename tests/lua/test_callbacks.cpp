@@ -76,3 +76,13 @@ TEST_CASE("model.memory holds plain values only", "[lua]") {
   CHECK_THAT(error_of(column() + "model.memory[2.5] = 1" + run), Contains("key 2.5"));
   CHECK_THAT(error_of(column() + "model.memory = 3"), Contains("memory = 3: must be a table"));
 }
+
+TEST_CASE("a function is called after every stage", "[lua]") {
+  CHECK(printed_by(
+            column() +
+            "model:after_stage(function(stage) print(stage.number, stage.kind, stage.result.steps) end)\n"
+            "model:run{ steps = 7 }\nmodel:run{ steps = 8 }") == "1\trun\t7\n2\trun\t8");
+  CHECK_THAT(
+      error_of(column() + "model:after_stage(function() model:run{ steps = 1 } end)\nmodel:run{ steps = 1 }"),
+      Contains("not from a callback of a running stage"));
+}

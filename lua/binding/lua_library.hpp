@@ -1,0 +1,42 @@
+// What the functions that replace Lua's own have in common. Only lua_*.cpp include it.
+#pragma once
+
+#include "lua/binding/lua_state.hpp"
+
+namespace cdem::script {
+
+inline int raise(lua_State* L, const std::string& message) {
+  lua_pushlstring(L, message.data(), message.size());
+  return lua_error(L);
+}
+
+// Runs body, which may throw; a C++ exception becomes a Lua error with the place in front.
+template <class Body>
+int guarded(lua_State* L, const char* shown, Body body) {
+  std::string message;
+  try {
+    return body();
+  } catch (const std::exception&) {
+    message = LuaState::of(L).message_of_current_exception(L, shown);
+  }
+  return raise(L, message);
+}
+
+// Replaces the entry `name` of the table on top by `wrapper`, which gets the old one as its first upvalue.
+inline void replace_with(lua_State* L, const char* name, lua_CFunction wrapper) {
+  lua_getfield(L, -1, name);
+  lua_pushcclosure(L, wrapper, 1);
+  lua_setfield(L, -2, name);
+}
+
+// pcall, xpcall and coroutines that let an interrupt pass (lua_protected.cpp).
+void use_interruptible_calls(lua_State* L);
+
+// lua_files.cpp. Upvalue 1 of the first two: the library's own function; of write_text: an empty string; of
+// require_beside: the table of what has been loaded.
+int open_file(lua_State* L);
+int lines_of_file(lua_State* L);
+int write_text(lua_State* L);
+int require_beside(lua_State* L);
+
+} // namespace cdem::script
