@@ -251,12 +251,21 @@ std::int64_t Simulation::remove(const Selection& on) {
   return removed;
 }
 
-std::int64_t Simulation::unbond(const Selection& on) {
+std::int64_t Simulation::unbond(const Selection& on, bool whole_faces) {
   Impl& s = *impl_;
+  std::vector<char> selected(s.model.points.size());
+  for (int p = 0; p < static_cast<int>(selected.size()); ++p)
+    selected[p] = selects_point(s.model, on, p);
+  if (whole_faces)
+    for (const Interface& interface : s.model.interfaces) {
+      const auto begin = selected.begin() + interface.point_begin, end = selected.begin() + interface.point_end;
+      if (std::find(begin, end, 0) != end)
+        std::fill(begin, end, 0);
+    }
   std::int64_t count = 0;
   const double before = s.stored_energy();
   for (int p = 0; p < static_cast<int>(s.model.points.size()); ++p)
-    if (selects_point(s.model, on, p)) {
+    if (selected[p]) {
       s.state.bond_mode[p] = static_cast<std::uint8_t>(BondMode::contact);
       if (!s.state.bond_damage.empty()) {
         s.state.bond_damage[p] = 0;
@@ -266,7 +275,8 @@ std::int64_t Simulation::unbond(const Selection& on) {
       ++count;
     }
   if (count == 0)
-    throw geom::InputError("on", on.text, "a place that holds bonds", "nothing of the model lies there");
+    throw geom::InputError("on", on.text, whole_faces ? "a place that holds whole interfaces" : "a place that holds bonds",
+                           "nothing of the model lies there");
   s.state.spent.cutting += before - s.stored_energy();
   return count;
 }

@@ -67,8 +67,9 @@ public:
   void initial_velocity(const Selection&, const geom::Vec3&);
   // Blocks whose centroid is selected are taken out, with their bonds. Returns how many.
   std::int64_t remove(const Selection&);
-  // Bonds whose point is selected are broken from now on (a notch); returns how many.
-  std::int64_t unbond(const Selection&);
+  // Bonds whose point is selected are broken from now on (a notch); returns how many. whole_faces: only those of
+  // interfaces that are selected with all their points, so that faces which meet the notch at its tip stay bonded.
+  std::int64_t unbond(const Selection&, bool whole_faces = false);
 
   // Solving calls. Each is a numbered stage. SolutionError, Interrupted as in step/errors.hpp.
   RelaxResult relax(const RelaxOptions&);
