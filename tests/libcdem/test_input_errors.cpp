@@ -266,30 +266,6 @@ TEST_CASE("questions about what is not there are refused", "[input]") {
   CHECK_THAT(refusal([&] { s.reaction(nowhere()); }), Contains("holds nodes"));
 }
 
-TEST_CASE("blocks that occupy the same place are refused with their bodies and the place", "[input]") {
-  cdem::ModelSpec spec;
-  spec.bodies = {body("one", bar()),
-                 body("other", geom::grid({0.2, 0.1, 0.1}, {1, 1, 1}, {0.19, 0.09, 0.08}))};
-  CHECK_THAT(refused(spec), Contains("\"one\" and \"other\"") && Contains("near (0.195, 0.095, 0.09) m"));
-  geom::Assembly twice = bar();
-  twice.blocks.push_back(twice.blocks[0]);
-  spec.bodies = {body("one", twice)};
-  CHECK_THAT(refused(spec), Contains("two blocks of body \"one\"") && Contains("near (0.05, 0.05, 0.05) m"));
-  // Edge against edge, with boxes that overlap and no face between them: still apart.
-  const double h = 0.1;
-  geom::Assembly lower, upper;
-  lower.blocks = {
-      geom::convex_hull({{0, 0, 0}, {1, 0, 0}, {0, 1, -1}, {1, 1, -1}, {0, -1, -1}, {1, -1, -1}})};
-  upper.blocks = {geom::convex_hull(
-      {{0.5, -0.5, -h}, {0.5, 0.5, -h}, {-0.5, -0.5, 1}, {-0.5, 0.5, 1}, {1.5, -0.5, 1}, {1.5, 0.5, 1}})};
-  spec.bodies = {body("lower", lower), body("upper", upper)};
-  CHECK_THAT(refused(spec), Contains("occupy the same place"));
-  for (geom::Vec3& x : upper.blocks[0].vertices)
-    x.z() += 1.001 * h;
-  spec.bodies[1].shape = upper;
-  CHECK(refused(spec).empty());
-}
-
 TEST_CASE("a pair of a body with itself is refused: its own joint stands with the body", "[input]") {
   cdem::ModelSpec spec;
   spec.bodies = {body("rock", bar())};
