@@ -35,7 +35,7 @@ Amplitude amplitude_of(const Arguments& a) {
 }
 
 void note(ModelObject& model, const std::string& line) {
-  model.conditions.push_back(line);
+  model.notes->conditions.push_back(line);
 }
 
 std::string shown(const Selection& s) {

@@ -60,6 +60,15 @@ void read_pairs(const Arguments& a, ModelSpec& spec) {
   }
 }
 
+std::string shown_build(const ModelObject& model) {
+  const ModelCounts c = model.simulation.counts();
+  return std::to_string(c.bodies) + (c.bodies == 1 ? " body (" : " bodies (") + joined(model.body_names) +
+         "), " + std::to_string(c.blocks) + (c.blocks == 1 ? " block, " : " blocks, ") +
+         std::to_string(c.tets) + " tets, " + std::to_string(c.interfaces) +
+         (c.interfaces == 1 ? " interface, " : " interfaces, ") + std::to_string(c.bonds) + " bonds; size " +
+         describe(Value(geom::Vec3(model.simulation.box().size()))) + " m";
+}
+
 Value make_model(Session& session, Object*, const Arguments& a) {
   ModelSpec spec;
   const auto unjointed = read_bodies(a, spec);
@@ -73,7 +82,9 @@ Value make_model(Session& session, Object*, const Arguments& a) {
   model->unjointed = unjointed;
   model->number = static_cast<int>(session.models.size()) + 1;
   model->memory = session.new_table(Table());
+  model->notes->built = shown_build(*model);
   session.models.push_back(model);
+  session.notes.push_back(model->notes);
   return model;
 }
 

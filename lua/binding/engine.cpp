@@ -169,22 +169,10 @@ std::vector<ParameterInfo> Engine::parameters() const {
 std::string Engine::model_summary() const {
   const Session& session = impl_->session;
   std::string out;
-  int number = 0;
-  for (const auto& known : session.models) {
-    ++number;
-    const auto model = known.lock();
-    if (!model)
-      continue;
-    const ModelCounts c = model->simulation.counts();
-    const geom::Vec3 size = model->simulation.box().size();
-    out += "model " + std::to_string(number) + ": " + std::to_string(c.bodies) +
-           (c.bodies == 1 ? " body (" : " bodies (");
-    for (std::size_t i = 0; i < model->body_names.size(); ++i)
-      out += (i > 0 ? ", " : "") + model->body_names[i];
-    out += "), " + std::to_string(c.blocks) + " blocks, " + std::to_string(c.tets) + " tets, " +
-           std::to_string(c.interfaces) + " interfaces, " + std::to_string(c.bonds) + " bonds; size " +
-           describe(Value(size)) + " m\n";
-    for (const std::string& line : model->conditions)
+  for (std::size_t i = 0; i < session.notes.size(); ++i) {
+    const int number = static_cast<int>(i) + 1;
+    out += "model " + std::to_string(number) + ": " + session.notes[i]->built + "\n";
+    for (const std::string& line : session.notes[i]->conditions)
       out += "  " + line + "\n";
     for (const Stage& stage : session.stages)
       if (stage.model == number)

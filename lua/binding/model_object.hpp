@@ -14,9 +14,9 @@ struct ModelObject final : Object {
   Simulation simulation;
   int number = 1; // in the order the script made them
   std::vector<std::string> body_names;
-  std::vector<std::string> unjointed;                     // bodies without a joint of their own
-  std::map<std::string, std::vector<Selection>> places;   // by model:select
-  std::vector<std::string> conditions;                    // one line each, for the summary
+  std::vector<std::string> unjointed;                   // bodies without a joint of their own
+  std::map<std::string, std::vector<Selection>> places; // by model:select
+  std::shared_ptr<ModelNotes> notes = std::make_shared<ModelNotes>();
   std::map<std::string, std::vector<SeriesEntry>> series; // by .pvd, in the order saved
   std::vector<std::shared_ptr<Reference>> after_stage;    // called with each stage that has ended
   std::shared_ptr<Reference> memory;                      // table model.memory

@@ -23,6 +23,12 @@ struct Stage {
   Value result;
 };
 
+// What is said about a model even after the script has let go of it.
+struct ModelNotes {
+  std::string built;                   // bodies, blocks, tets, bonds, size
+  std::vector<std::string> conditions; // one line each
+};
+
 struct Parameter {
   ParameterInfo info;
   Value value;
@@ -37,6 +43,7 @@ struct Session {
   std::vector<Parameter> parameters;
   std::vector<Stage> stages;
   std::vector<std::weak_ptr<ModelObject>> models;
+  std::vector<std::shared_ptr<ModelNotes>> notes;   // of the same models
   std::vector<std::shared_ptr<ModelObject>> failed; // models whose stage failed or was stopped
   std::vector<std::string> warnings;
   Report report;

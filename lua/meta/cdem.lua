@@ -829,7 +829,7 @@ function cdem.elapsed() end
 ---@class (exact) cdem.SweepOptions
 ---@field script string another .lua file beside this one
 ---@field set any[] one table of parameters per case, e.g. { { case = 1 }, { case = 2 } }
----@field jobs? integer in [1, 1024], default 1: cases at a time
+---@field jobs? integer in [1, 1024]: cases at a time; as many as there are processors for when left out
 ---@field threads? integer in [1, 1024], default 1: of each case
 
 ---Runs a script with many settings, as processes side by side, each with a folder of its own in the output folder.

@@ -208,3 +208,14 @@ TEST_CASE("the repl prints values, waits for more lines and completes names", "[
   CHECK(has(engine.complete("string.f"), "string.format"));
   CHECK(engine.complete("nothing.at.all").empty());
 }
+
+TEST_CASE("a check tells of models that the script has let go of", "[lua]") {
+  Script script(
+      column() +
+      "model = nil\ncollectgarbage()\n"
+      "model = cdem.model{ bodies = { { shape = cdem.box{ size = {1, 1, 1} }, material = rock } } }");
+  script.settings.check_only = true;
+  script.run();
+  CHECK_THAT(script.engine->model_summary(), Contains("model 1: 1 body (column), 2 blocks") &&
+                                                 Contains("model 2: 1 body (body_1), 1 block, 24 tets"));
+}
