@@ -16,26 +16,17 @@ bool is_intact(const State& state, int point) {
   return state.bond_mode[point] == static_cast<std::uint8_t>(BondMode::intact);
 }
 
-double over(double traction, double strength) {
-  if (traction <= 0)
+double over(double load, double strength) {
+  if (load <= 0)
     return 0;
-  return strength > 0 ? traction / strength : std::numeric_limits<double>::infinity();
-}
-
-double stored_in(const Model& model, const State& state, int p) {
-  const BondPoint& point = model.points[p];
-  const Interface& interface = model.interfaces[point.interface];
-  const geom::Vec3 t = traction(model, state, p);
-  const double normal = t.dot(point.normal);
-  return 0.5 * point.area *
-         (normal * normal / interface.kn + (t.squaredNorm() - normal * normal) / interface.ks);
+  return strength > 0 ? load / strength : std::numeric_limits<double>::infinity();
 }
 
 } // namespace
 
 LoadRatio load_ratio(const SpringStrength& s, double normal_traction, double shear_traction) {
   const double tension = over(normal_traction, s.tensile_strength);
-  const double shear = over(shear_traction, s.cohesion - normal_traction * s.tan_friction);
+  const double shear = over(shear_traction + normal_traction * s.tan_friction, s.cohesion);
   return shear > tension ? LoadRatio{shear, BondMode::broken_shear}
                          : LoadRatio{tension, BondMode::broken_tension};
 }
@@ -79,6 +70,7 @@ std::vector<FaceLoad> worst_faces(const std::vector<FaceLoad>& loads, double bre
 CrackFace break_face(const Model& model, State& state, RunLog& log, int stage, const FaceLoad& load) {
   const Interface& interface = model.interfaces[load.interface];
   const double tan_friction = strength_of(model, interface).tan_friction;
+  const double before = spring_energy(model, state);
   CrackFace face;
   face.interface = interface.id;
   face.mode = load.ratio.mode;
@@ -89,13 +81,17 @@ CrackFace break_face(const Model& model, State& state, RunLog& log, int stage, c
       continue;
     const BondPoint& point = model.points[p];
     const geom::Vec3 t = traction(model, state, p);
-    const double stored = stored_in(model, state, p);
     state.bond_mode[p] = static_cast<std::uint8_t>(load.ratio.mode);
+    if (!state.bond_damage.empty()) {
+      // The slip of the rubbing part goes on as the contact's.
+      state.bond_damage[p] = 0;
+      state.bond_offset[p] += state.bond_slip[p];
+      state.bond_slip[p].setZero();
+    }
     // The offset moves with the stress drop at once, so that the next step does not count it as sliding.
     state.bond_offset[p] = contact_response(interface.kn, interface.ks, tan_friction, point.normal,
                                             jump(point, state.displacement), state.bond_offset[p])
                                .offset;
-    state.spent.breaking += stored - stored_in(model, state, p);
 
     BreakRow row;
     row.stage = stage;
@@ -114,6 +110,7 @@ CrackFace break_face(const Model& model, State& state, RunLog& log, int stage, c
     face.centroid += point.area * model.point_position[p];
   }
   face.centroid /= face.area;
+  state.spent.breaking += before - spring_energy(model, state);
   return face;
 }
 

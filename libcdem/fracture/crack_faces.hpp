@@ -11,8 +11,9 @@
 
 namespace cdem {
 
-// Traction over strength: the larger of the tension and the Mohr-Coulomb one (Han 2010 eqs 10-11, signed
-// t_n); 1 at breaking, infinite where there is no strength left. mode: which of the two it is.
+// How many times over its strength a traction is: one over the factor that would scale it to the limit. The
+// larger of tension, t_n / sigma_t, and Mohr-Coulomb, (|t_s| + t_n tan(phi)) / c0 (Han 2010 eqs 10-11, signed
+// t_n); 1 at breaking, infinite where there is no strength. mode: which of the two it is.
 struct LoadRatio {
   double value = 0;
   BondMode mode = BondMode::broken_tension;

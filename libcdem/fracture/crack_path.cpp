@@ -11,11 +11,8 @@ namespace {
 constexpr double infinity = std::numeric_limits<double>::infinity();
 // A way through rock that holds counts this much more than one along the crack.
 constexpr double bridge_cost = 5;
-// Places whose distances from the start agree to this part of the local block size are equally far.
-constexpr double equally_far = 1e-3;
-// Equally far places nearer to each other than this many block sizes belong to one tip (they lie along its
-// edge).
-constexpr double one_tip = 2;
+// Places of the front within this part of a block size of its farthest place are one tip.
+constexpr double about_as_far = 0.5;
 
 class Pieces {
 public:
@@ -92,10 +89,11 @@ bool on_front(const Model& model, const State& state, const std::vector<int>& po
 
 // The crack as a graph over places.
 struct Crack {
+  std::vector<int> front_interfaces;
   std::vector<geom::Vec3> place;
   std::vector<std::vector<int>> next; // along triangles
   std::vector<char> notch, front;
-  std::vector<double> size; // m, of the smaller block beside it
+  std::vector<double> size; // m, first size of the smaller block beside it
 };
 
 Crack crack_of(const Model& model, const State& state) {
@@ -112,14 +110,20 @@ Crack crack_of(const Model& model, const State& state) {
     crack.place.push_back(model.point_position[p]);
     crack.front.push_back(on_front(model, state, here));
     crack.size.push_back(
-        std::min(model.blocks[interface.block_a].size, model.blocks[interface.block_b].size));
+        std::min(model.blocks[interface.block_a].first_size, model.blocks[interface.block_b].first_size));
     crack.notch.push_back(0);
     for (const int q : here)
-      if (!is(state, q, BondMode::intact)) {
+      if (is(state, q, BondMode::intact)) {
+        if (crack.front.back())
+          crack.front_interfaces.push_back(model.points[q].interface);
+      } else {
         node[q] = n;
         crack.notch[n] |= is(state, q, BondMode::contact);
       }
   }
+  auto& meeting = crack.front_interfaces;
+  std::sort(meeting.begin(), meeting.end());
+  meeting.erase(std::unique(meeting.begin(), meeting.end()), meeting.end());
   crack.next.resize(crack.place.size());
   for (const geom::Triangle& t : model.bond_triangles)
     for (int k = 0; k < 3; ++k) {
@@ -191,11 +195,32 @@ int nearest(const Crack& crack, const geom::Vec3& place) {
   return best;
 }
 
+// Middle of the stretch of front through `from` that is about as far from the start: a tip that runs through
+// the thickness.
+geom::Vec3 middle_of_front(const Crack& crack, const std::vector<double>& length, int from) {
+  std::vector<char> seen(crack.place.size(), 0);
+  std::vector<int> left{from};
+  seen[from] = 1;
+  geom::Box around;
+  while (!left.empty()) {
+    const int i = left.back();
+    left.pop_back();
+    around.extend(crack.place[i]);
+    for (const int j : crack.next[i])
+      if (crack.front[j] && !seen[j] && length[j] >= length[from] - about_as_far * crack.size[from]) {
+        seen[j] = 1;
+        left.push_back(j);
+      }
+  }
+  return around.centre();
+}
+
 } // namespace
 
 CrackPath crack_path(const Model& model, const State& state, const std::optional<geom::Vec3>& first_break) {
-  const Crack crack = crack_of(model, state);
+  Crack crack = crack_of(model, state);
   CrackPath path;
+  path.front_interfaces = std::move(crack.front_interfaces);
   if (crack.place.empty())
     return path;
   std::vector<int> start;
@@ -225,16 +250,9 @@ CrackPath crack_path(const Model& model, const State& state, const std::optional
     path.line = std::move(line);
   }
 
-  geom::Vec3 sum = geom::Vec3::Zero();
-  int count = 0;
-  for (int i = 0; i < static_cast<int>(crack.place.size()); ++i)
-    if ((path.has_front ? crack.front[i] != 0 : i == end) &&
-        d.length[i] >= d.length[end] - equally_far * crack.size[end] &&
-        (crack.place[i] - crack.place[end]).norm() <= one_tip * crack.size[end]) {
-      sum += crack.place[i];
-      ++count;
-    }
-  path.tip = sum / count;
+  path.tip = path.has_front ? middle_of_front(crack, d.length, end) : crack.place[end];
+  if (path.line.size() > 1)
+    path.ahead = path.line.back() - path.line[path.line.size() - 2];
   return path;
 }
 

@@ -22,7 +22,9 @@ struct CrackPath {
   std::vector<geom::Vec3> line;
   geom::Vec3 tip =
       geom::Vec3::Zero(); // m, mean of the farthest front places; the line's end when there is no front
+  geom::Vec3 ahead = geom::Vec3::Zero(); // m, the last stretch of the way to the tip; zero when there is none
   bool has_front = false;
+  std::vector<int> front_interfaces; // ascending; indices of the intact ones that meet the front
 };
 
 // first_break: place of the first spring that broke, the start when nothing was unbonded.

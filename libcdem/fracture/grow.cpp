@@ -4,8 +4,10 @@
 #include "libcdem/fracture/refine.hpp"
 #include "libgeom/core/error.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
+#include <limits>
 
 namespace cdem {
 namespace {
@@ -69,7 +71,7 @@ private:
     cut_near_tip();
     if (!pass_.cuts.empty() && !balance())
       return;
-    const auto loads = face_loads(context_.model, context_.state);
+    const auto loads = candidates();
     pass_.first_ratio = pass_.last_ratio = worst_ratio(loads);
     for (auto worst = worst_faces(loads, options_.break_ratio); !worst.empty();) {
       if (pass_.rounds == options_.max_rounds) {
@@ -85,7 +87,7 @@ private:
       }
       if (!balance())
         break;
-      const auto left = face_loads(context_.model, context_.state);
+      const auto left = candidates();
       pass_.last_ratio = worst_ratio(left);
       worst = worst_faces(left, options_.break_ratio);
     }
@@ -120,10 +122,23 @@ private:
     const CrackPath path = present_path();
     RefineOptions refine = options_.refine;
     if (!path.line.empty()) {
-      refine.near = Ball{path.tip, options_.tip_radius.value_or(size_at(path.tip))};
-      if (options_.anchor_at_tip)
+      const double radius = options_.tip_radius.value_or(size_at(path.tip));
+      if (options_.judged_by == JudgedBy::tip) {
+        refine.judged_by = Ball{path.tip, radius};
+        // A mean around the tip is no measure of strength: a tip in tension is always given planes, and the
+        // load of their faces decides whether they break.
+        refine.tension_threshold = std::numeric_limits<double>::max();
+      }
+      refine.near = Ball{path.tip, options_.anchor_at_tip ? 0 : radius};
+      if (options_.anchor_at_tip) {
         refine.anchor = path.tip;
+        refine.ahead = path.ahead;
+      }
     }
+    // Cuts that line up carry the crack on by themselves; others need the faces between cut blocks to link
+    // them.
+    refine.may_break =
+        options_.may_break.value_or(options_.anchor_at_tip ? MayBreak::cut_faces : MayBreak::near_cuts);
     Refined refined = cdem::refine(context_.model, context_.state, refine);
     pass_.cuts = std::move(refined.cuts);
     context_.adopt(std::move(refined.rebuilt));
@@ -145,6 +160,22 @@ private:
         fmt::format("  grow, pass {} {}: {} cut, {} faces broken in {} rounds, {} steps{}", pass_.pass,
                     name(pass_.state), blocks(pass_.cuts.size()), pass_.faces.size(), pass_.rounds,
                     pass_.steps, pass_.path.empty() ? "" : ", tip at " + place(pass_.tip)));
+  }
+
+  // Faces that may break now.
+  std::vector<FaceLoad> candidates() const {
+    std::vector<FaceLoad> loads = face_loads(context_.model, context_.state);
+    if (options_.where == BreakWhere::anywhere)
+      return loads;
+    const CrackPath path = present_path();
+    if (path.line.empty())
+      return loads;
+    const auto& front = path.front_interfaces;
+    const auto off_front = [&](const FaceLoad& load) {
+      return !std::binary_search(front.begin(), front.end(), load.interface);
+    };
+    loads.erase(std::remove_if(loads.begin(), loads.end(), off_front), loads.end());
+    return loads;
   }
 
   static std::string blocks(std::size_t count) {

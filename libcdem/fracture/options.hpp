@@ -25,11 +25,14 @@ struct RefineOptions {
   int max_depth = 1;          // a block of this generation is not cut again; 1..6
   Criterion criterion = Criterion::mohr_coulomb;
   std::optional<Selection> region; // blocks whose centroid lies in it
-  std::optional<Ball> near;        // and in this
-  // m; in a block that touches this place the planes are shifted so that one runs through it: cuts of
-  // neighbours line up at a crack's tip. Blocks that the plane through it would only graze are cut as if it
-  // were not given.
+  std::optional<Ball> near;        // and those that reach into this
+  std::optional<Ball>
+      judged_by; // every block by the mean stress here (fracture/tip_field.hpp), not by its own
+  // m; a crack's tip. In a block that touches it the planes are shifted so that one runs through it, and
+  // turned a little where that one would pass close by a vertex: the cuts of neighbours line up. A block that
+  // the plane through it does not enter stays whole.
   std::optional<geom::Vec3> anchor;
+  std::optional<geom::Vec3> ahead; // way the crack has come; with an anchor: blocks behind it stay whole
   // Strength used by the criterion; by default that of the joint inside the block's body.
   std::optional<double> cohesion, friction_angle, tensile_strength; // Pa, rad, Pa
   // Which interfaces may break from now on: all, only the cut planes, or the cut planes and the original

@@ -2,6 +2,8 @@
 
 #include "libcdem/element/small_strain.hpp"
 #include "libcdem/fracture/failure_plane.hpp"
+#include "libcdem/fracture/slicing.hpp"
+#include "libcdem/fracture/tip_field.hpp"
 #include "libgeom/core/error.hpp"
 #include "libgeom/polyhedron/cut.hpp"
 
@@ -11,12 +13,8 @@
 namespace cdem {
 namespace {
 
-// A cut plane stays this part of the block size away from vertices; it is shifted, never the vertex.
-constexpr double vertex_clearance = 0.01;
-// A place touches a block when it is nearer than this part of the block's size.
-constexpr double touching = 1e-3;
-// A plane nearer to the end of a block than this part of the planes' spacing would make a sliver.
-constexpr double grazing = 0.25;
+// A vertex nearer to a plane than this part of the block's size lies on it.
+constexpr double on_plane = 1e-9;
 
 constexpr double right_angle = 1.57079632679489661923; // rad
 
@@ -89,52 +87,12 @@ geom::Mat3 rigid_rotation(const Model& model, const State& state) {
   return turn;
 }
 
-bool touches(const Block& block, const geom::Vec3& place) {
-  for (int f = 0; f < static_cast<int>(block.shape.faces.size()); ++f) {
-    const geom::Vec3& corner = block.shape.vertices[block.shape.faces[f].loop.front()];
-    if (geom::face_normal(block.shape, f).dot(place - corner) > touching * block.size)
-      return false;
-  }
-  return true;
-}
-
-// Levels of the cut planes along the normal, from the block's centroid: equally spaced, or with the same
-// spacing and one plane through the anchor. An anchored plane keeps `grazing` of a spacing from the block's
-// ends, as do the others.
-std::vector<double> plane_levels(const Block& block, const geom::Vec3& normal, const RefineOptions& o) {
-  double low = std::numeric_limits<double>::infinity(), high = -low;
-  for (const geom::Vec3& x : block.shape.vertices) {
-    const double level = normal.dot(x - block.mass.centroid);
-    low = std::min(low, level);
-    high = std::max(high, level);
-  }
-  const double spacing = (high - low) / (o.planes + 1);
-  std::vector<double> levels;
-  if (o.anchor && touches(block, *o.anchor)) {
-    const double through = normal.dot(*o.anchor - block.mass.centroid);
-    const double first = low + grazing * spacing, last = high - grazing * spacing;
-    if (through >= first && through <= last) {
-      for (double k = std::ceil((first - through) / spacing); through + k * spacing <= last; ++k)
-        levels.push_back(through + k * spacing);
-      return levels;
-    }
-  }
-  for (int k = 1; k <= o.planes; ++k)
-    levels.push_back(low + k * spacing);
-  return levels;
-}
-
 // Parts of one block between parallel planes, from below upwards.
-std::vector<Successor> slice(const Model& model, int block, const geom::Vec3& normal,
-                             const std::vector<double>& levels) {
-  const Block& parent = model.blocks[block];
+std::vector<Successor> slice(const Model& model, int block, const std::vector<geom::Plane>& planes) {
   std::vector<Successor> parts;
   Successor rest = whole_block(model, block);
-  for (const double level : levels) {
-    const geom::Plane plane = geom::shifted_clear_of_vertices(
-        rest.shape, geom::Plane::through(parent.mass.centroid + level * normal, normal),
-        vertex_clearance * parent.size);
-    geom::Cut pieces = geom::cut(rest.shape, plane);
+  for (const geom::Plane& plane : planes) {
+    geom::Cut pieces = geom::cut(rest.shape, plane, on_plane * model.blocks[block].size);
     if (!pieces.above || !pieces.below)
       continue;
     const auto inherit = [&](const geom::Part& piece) {
@@ -154,7 +112,7 @@ std::vector<Successor> slice(const Model& model, int block, const geom::Vec3& no
 }
 
 bool is_candidate(const Model& model, int block, const RefineOptions& o) {
-  if (o.near && (model.blocks[block].mass.centroid - o.near->centre).norm() > o.near->radius)
+  if (o.near && !is_near(model.blocks[block], o.near->centre, o.near->radius))
     return false;
   return !o.region || selects_block(model, *o.region, block);
 }
@@ -190,6 +148,9 @@ Refined refine(const Model& model, const State& state, const RefineOptions& opti
   Model frame = model;
   const std::vector<int> joints = cut_joints(frame, options);
   const geom::Mat3 turn = rigid_rotation(model, state);
+  std::optional<MeanField> around;
+  if (options.judged_by)
+    around = mean_field(model, state, options.judged_by->centre, options.judged_by->radius);
 
   Refined result;
   std::vector<Successor> successors;
@@ -199,12 +160,17 @@ Refined refine(const Model& model, const State& state, const RefineOptions& opti
     if (block.generation < options.max_depth && is_candidate(model, b, options)) {
       const BlockStrength strength = strength_of(model.bodies[block.body], options);
       require_strength(model.bodies[block.body], strength);
-      plane = failure_plane(matrix(block_stress(model, state, b)),
-                            block_gradient(model, state.displacement, block) - turn, strength, options);
+      const MeanField field = around ? *around
+                                     : MeanField{matrix(block_stress(model, state, b)),
+                                                 block_gradient(model, state.displacement, block)};
+      plane = failure_plane(field.stress, field.gradient - turn, strength, options);
     }
     std::vector<Successor> parts;
-    if (plane)
-      parts = slice(model, b, plane->normal, plane_levels(block, plane->normal, options));
+    if (plane) {
+      const Slicing cuts = slicing(block, plane->normal, options);
+      plane->normal = cuts.normal;
+      parts = slice(model, b, cuts.planes);
+    }
     if (parts.size() < 2) {
       successors.push_back(whole_block(model, b));
       continue;
