@@ -21,7 +21,9 @@
 namespace cdem {
 namespace {
 
-std::string number(double x) { return fmt::format("{:g}", x); }
+std::string number(double x) {
+  return fmt::format("{:g}", x);
+}
 
 void require_finite(const char* field, const geom::Vec3& v) {
   if (!v.allFinite())
@@ -40,7 +42,8 @@ int body_index(const Model& model, const std::string& name) {
 
 Model first_model(const ModelSpec& spec) {
   if (spec.bodies.empty())
-    throw geom::InputError("bodies", "{}", "a list of at least one body", "add { shape = ..., material = ... }");
+    throw geom::InputError("bodies", "{}", "a list of at least one body",
+                           "add { shape = ..., material = ... }");
   Model frame;
   std::set<std::string> names;
   std::vector<BlockSeed> seeds;
@@ -207,7 +210,8 @@ void Simulation::initial_stress(const Selection& on, const std::array<double, 6>
         s.state.initial_stress[b][c] += stress[c];
     }
   if (std::find(selected.begin(), selected.end(), 1) == selected.end())
-    throw geom::InputError("on", on.text, "a place that holds block centroids", "nothing of the model lies there");
+    throw geom::InputError("on", on.text, "a place that holds block centroids",
+                           "nothing of the model lies there");
   const geom::Mat3 sigma = matrix(stress);
   for (std::size_t p = 0; p < s.model.points.size(); ++p) {
     const Interface& interface = s.model.interfaces[s.model.points[p].interface];
@@ -215,7 +219,8 @@ void Simulation::initial_stress(const Selection& on, const std::array<double, 6>
       continue;
     const geom::Vec3 t = sigma * interface.normal;
     const double normal = t.dot(interface.normal);
-    s.state.bond_offset[p] -= normal / interface.kn * interface.normal + (t - normal * interface.normal) / interface.ks;
+    s.state.bond_offset[p] -=
+        normal / interface.kn * interface.normal + (t - normal * interface.normal) / interface.ks;
   }
   s.state.spent.cutting += before - s.stored_energy();
 }
@@ -244,9 +249,11 @@ std::int64_t Simulation::remove(const Selection& on) {
       left.push_back(whole_block(s.model, b));
   const auto removed = static_cast<std::int64_t>(s.model.blocks.size() - left.size());
   if (removed == 0)
-    throw geom::InputError("on", on.text, "a place that holds block centroids", "nothing of the model lies there");
+    throw geom::InputError("on", on.text, "a place that holds block centroids",
+                           "nothing of the model lies there");
   if (left.empty())
-    throw geom::InputError("on", on.text, "a part of the model", "removing everything leaves nothing to solve");
+    throw geom::InputError("on", on.text, "a part of the model",
+                           "removing everything leaves nothing to solve");
   s.adopt(rebuild(s.model, s.state, std::move(left), {}, MayBreak::all));
   return removed;
 }
@@ -258,7 +265,8 @@ std::int64_t Simulation::unbond(const Selection& on, bool whole_faces) {
     selected[p] = selects_point(s.model, on, p);
   if (whole_faces)
     for (const Interface& interface : s.model.interfaces) {
-      const auto begin = selected.begin() + interface.point_begin, end = selected.begin() + interface.point_end;
+      const auto begin = selected.begin() + interface.point_begin,
+                 end = selected.begin() + interface.point_end;
       if (std::find(begin, end, 0) != end)
         std::fill(begin, end, 0);
     }
@@ -275,7 +283,8 @@ std::int64_t Simulation::unbond(const Selection& on, bool whole_faces) {
       ++count;
     }
   if (count == 0)
-    throw geom::InputError("on", on.text, whole_faces ? "a place that holds whole interfaces" : "a place that holds bonds",
+    throw geom::InputError("on", on.text,
+                           whole_faces ? "a place that holds whole interfaces" : "a place that holds bonds",
                            "nothing of the model lies there");
   s.state.spent.cutting += before - s.stored_energy();
   return count;
@@ -314,13 +323,14 @@ GrowResult Simulation::grow(const GrowOptions& options) {
   Impl& s = *impl_;
   const int stage = ++s.stage;
   const auto relax = [&](const RelaxOptions& o, const std::string& kind) {
-    const RelaxResult result =
-        cdem::relax({s.model, s.state, s.conditions, s.log, s.last_good, *s.observer, s.threads, stage}, o, kind);
+    const RelaxResult result = cdem::relax(
+        {s.model, s.state, s.conditions, s.log, s.last_good, *s.observer, s.threads, stage}, o, kind);
     s.last_residual = result.residual;
     return result;
   };
-  return cdem::grow({s.model, s.state, s.log, *s.observer, stage, relax, [&](Rebuilt&& r) { s.adopt(std::move(r)); }},
-                    options);
+  return cdem::grow(
+      {s.model, s.state, s.log, *s.observer, stage, relax, [&](Rebuilt&& r) { s.adopt(std::move(r)); }},
+      options);
 }
 
 ModelCounts Simulation::counts() const {
@@ -340,24 +350,44 @@ ModelCounts Simulation::counts() const {
   return c;
 }
 
-double Simulation::time() const { return impl_->state.time; }
-double Simulation::residual() const { return impl_->last_residual; }
-double Simulation::stable_time_step() const { return cdem::stable_time_step(impl_->model); }
-int Simulation::stage() const { return impl_->stage; }
-std::int64_t Simulation::steps() const { return impl_->state.step; }
-EnergyLedger Simulation::energy() const { return cdem::energy(impl_->model, impl_->state); }
-std::uint64_t Simulation::state_hash() const { return hash(impl_->state); }
-geom::Box Simulation::box() const { return impl_->model.box; }
-std::vector<std::string> Simulation::field_names() { return cdem::field_names(); }
+double Simulation::time() const {
+  return impl_->state.time;
+}
+double Simulation::residual() const {
+  return impl_->last_residual;
+}
+double Simulation::stable_time_step() const {
+  return cdem::stable_time_step(impl_->model);
+}
+int Simulation::stage() const {
+  return impl_->stage;
+}
+std::int64_t Simulation::steps() const {
+  return impl_->state.step;
+}
+EnergyLedger Simulation::energy() const {
+  return cdem::energy(impl_->model, impl_->state);
+}
+std::uint64_t Simulation::state_hash() const {
+  return hash(impl_->state);
+}
+geom::Box Simulation::box() const {
+  return impl_->model.box;
+}
+std::vector<std::string> Simulation::field_names() {
+  return cdem::field_names();
+}
 
 FieldValue Simulation::max(const std::string& field, const Selection& on) const {
   const auto list = values(impl_->model, impl_->state, field, on);
-  return *std::max_element(list.begin(), list.end(), [](const auto& a, const auto& b) { return a.value < b.value; });
+  return *std::max_element(list.begin(), list.end(),
+                           [](const auto& a, const auto& b) { return a.value < b.value; });
 }
 
 FieldValue Simulation::min(const std::string& field, const Selection& on) const {
   const auto list = values(impl_->model, impl_->state, field, on);
-  return *std::min_element(list.begin(), list.end(), [](const auto& a, const auto& b) { return a.value < b.value; });
+  return *std::min_element(list.begin(), list.end(),
+                           [](const auto& a, const auto& b) { return a.value < b.value; });
 }
 
 double Simulation::mean(const std::string& field, const Selection& on) const {
@@ -394,14 +424,19 @@ std::vector<Simulation::BlockRow> Simulation::blocks() const {
   for (int b = 0; b < static_cast<int>(s.model.blocks.size()); ++b) {
     const Block& block = s.model.blocks[b];
     const Node& u = s.state.displacement[block.centroid_node()];
-    rows.push_back({block.id, block.parent, block.generation, s.model.bodies[block.body].name, block.mass.centroid,
-                    geom::Vec3(u.x, u.y, u.z), block.mass.volume, block_stress(s.model, s.state, b)});
+    rows.push_back({block.id, block.parent, block.generation, s.model.bodies[block.body].name,
+                    block.mass.centroid, geom::Vec3(u.x, u.y, u.z), block.mass.volume,
+                    block_stress(s.model, s.state, b)});
   }
   return rows;
 }
 
-const std::vector<BreakRow>& Simulation::breaks() const { return impl_->log.breaks; }
-const std::vector<HistoryRow>& Simulation::history() const { return impl_->log.history; }
+const std::vector<BreakRow>& Simulation::breaks() const {
+  return impl_->log.breaks;
+}
+const std::vector<HistoryRow>& Simulation::history() const {
+  return impl_->log.history;
+}
 
 std::vector<std::string> Simulation::probe_names() const {
   std::vector<std::string> names;
@@ -418,7 +453,9 @@ void Simulation::probe(const std::string& name, const std::string& field, const 
   impl_->log.probes.push_back({name, field, place});
 }
 
-Snapshot Simulation::snapshot(const std::string& title) const { return make_snapshot(impl_->model, impl_->state, title); }
+Snapshot Simulation::snapshot(const std::string& title) const {
+  return make_snapshot(impl_->model, impl_->state, title);
+}
 
 Snapshot Simulation::last_good_snapshot(const std::string& title) const {
   return make_snapshot(impl_->model, impl_->last_good, title);

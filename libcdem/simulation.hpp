@@ -79,11 +79,11 @@ public:
 
   // Results.
   ModelCounts counts() const;
-  double time() const;              // s
-  double residual() const;          // out-of-balance force norm over applied force norm
-  double stable_time_step() const;  // s
-  int stage() const;                // solving calls so far
-  std::int64_t steps() const;       // steps of all stages
+  double time() const;             // s
+  double residual() const;         // out-of-balance force norm over applied force norm
+  double stable_time_step() const; // s
+  int stage() const;               // solving calls so far
+  std::int64_t steps() const;      // steps of all stages
   EnergyLedger energy() const;
   std::uint64_t state_hash() const; // of every State field, bit for bit
   geom::Box box() const;            // undeformed
@@ -94,9 +94,11 @@ public:
   static std::vector<std::string> field_names();
   FieldValue max(const std::string& field, const Selection& = {}) const;
   FieldValue min(const std::string& field, const Selection& = {}) const;
-  double mean(const std::string& field, const Selection& = {}) const; // plain mean over nodes, volume mean over blocks
-  double at(const std::string& field, const geom::Vec3& place) const;  // interpolated in the block that holds place
-  geom::Vec3 reaction(const Selection&) const;                         // N, force of the supports on the selected nodes
+  double mean(const std::string& field,
+              const Selection& = {}) const; // plain mean over nodes, volume mean over blocks
+  double at(const std::string& field,
+            const geom::Vec3& place) const;    // interpolated in the block that holds place
+  geom::Vec3 reaction(const Selection&) const; // N, force of the supports on the selected nodes
 
   // One row per block: id, parent, generation, centroid, volume, displacement of the centroid, stress.
   struct BlockRow {

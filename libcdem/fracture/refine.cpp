@@ -181,7 +181,9 @@ Refined refine(const Model& model, const State& state, const RefineOptions& opti
     for (Successor& part : parts)
       successors.push_back(std::move(part));
   }
-  result.rebuilt = rebuild(frame, state, std::move(successors), joints, options.may_break);
+  // Where nothing is cut, what may break stays as it was: a rule about cuts would leave nothing that may.
+  const MayBreak may_break = result.cuts.empty() ? MayBreak::all : options.may_break;
+  result.rebuilt = rebuild(frame, state, std::move(successors), joints, may_break);
   return result;
 }
 

@@ -8,6 +8,28 @@
 
 namespace geom {
 
+namespace {
+
+// What is left of the block between the box's six planes has a volume.
+bool reaches_into(const Polyhedron& block, const Box& box) {
+  const Box own = bounding_box(block);
+  const double tolerance = 1e-6 * own.size().norm();
+  if (((own.max - box.min).array() <= tolerance).any() || ((box.max - own.min).array() <= tolerance).any())
+    return false;
+  Polyhedron left = block;
+  for (int axis = 0; axis < 3; ++axis)
+    for (const double side : {1.0, -1.0}) {
+      const Vec3 outward = side * Vec3::Unit(axis);
+      Cut halves = cut(left, Plane::through(side > 0 ? box.max : box.min, outward));
+      if (!halves.below)
+        return false;
+      left = std::move(halves.below->shape);
+    }
+  return true;
+}
+
+} // namespace
+
 Assembly cut_by_plane(Assembly assembly, const Plane& given, const PlaneCutOptions& options) {
   const double length = given.normal.norm();
   if (!(std::isfinite(length) && length > 0))
@@ -24,7 +46,8 @@ Assembly cut_by_plane(Assembly assembly, const Plane& given, const PlaneCutOptio
     const Box box = bounding_box(block);
     const double reach = 0.5 * plane.normal.cwiseAbs().dot(box.size()) + options.clearance;
     const bool near = std::abs(plane.level(box.centre())) <= reach;
-    if (!near || (options.inside && !options.inside->contains(mass_properties(block).centroid))) {
+    if (!near || (options.inside && !options.inside->contains(mass_properties(block).centroid)) ||
+        (options.crossing && !reaches_into(block, *options.crossing))) {
       result.blocks.push_back(std::move(block));
       continue;
     }
@@ -34,6 +57,17 @@ Assembly cut_by_plane(Assembly assembly, const Plane& given, const PlaneCutOptio
       if (*part)
         result.blocks.push_back(std::move((*part)->shape));
   }
+  return result;
+}
+
+Assembly kept(Assembly assembly, const Box& inside) {
+  Assembly result;
+  for (Polyhedron& block : assembly.blocks)
+    if (inside.contains(mass_properties(block).centroid))
+      result.blocks.push_back(std::move(block));
+  if (result.blocks.empty())
+    throw InputError("inside", text(inside.min) + " to " + text(inside.max),
+                     "a box that holds a block's centroid");
   return result;
 }
 

@@ -11,6 +11,9 @@ struct PlaneCutOptions {
   std::optional<Box> inside; // only blocks whose centroid lies in this box are cut
   double clearance =
       0; // m; where a vertex of a block is nearer than this, the plane is shifted for that block
+  // Only blocks that reach into this box, by more than 1e-6 of their size, are cut: a notch or a load line that
+  // no block boundary meets.
+  std::optional<Box> crossing{};
 };
 
 // Splits every block that the plane crosses; the two parts take its place, the lower one first. The normal
@@ -18,6 +21,7 @@ struct PlaneCutOptions {
 // negative clearance.
 Assembly cut_by_plane(Assembly, const Plane&, const PlaneCutOptions& = {});
 
+Assembly kept(Assembly, const Box& inside);       // the blocks whose centroid lies in the box
 Assembly translated(Assembly, const Vec3& shift); // m
 // Right-handed about the axis through `centre`; angle in rad.
 Assembly rotated(Assembly, const Vec3& axis, double angle, const Vec3& centre = Vec3::Zero());

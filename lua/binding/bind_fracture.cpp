@@ -33,6 +33,10 @@ Value cut_rows(const std::vector<BlockCut>& cuts) {
   return Table::list(std::move(rows));
 }
 
+MayBreak may_break_of(const std::string& text) {
+  return text == "all" ? MayBreak::all : text == "cut_faces" ? MayBreak::cut_faces : MayBreak::near_cuts;
+}
+
 RefineOptions refine_options(const ModelObject& model, const Arguments& a) {
   if (!model.unjointed.empty())
     throw InputError(
@@ -50,23 +54,21 @@ RefineOptions refine_options(const ModelObject& model, const Arguments& a) {
   if (const auto angle = a.optional_number("friction_angle"))
     options.friction_angle = radians(*angle);
   options.tensile_strength = a.optional_number("tensile_strength");
-  const std::string& may_break = a.text("may_break");
-  options.may_break = may_break == "all"         ? MayBreak::all
-                      : may_break == "cut_faces" ? MayBreak::cut_faces
-                                                 : MayBreak::near_cuts;
   return options;
 }
 
 Value refine(Session& session, ModelObject& model, const Arguments& a) {
-  const RefineOptions options = refine_options(model, a);
+  RefineOptions options = refine_options(model, a);
+  options.may_break = may_break_of(a.text("may_break"));
   return stage(session, model, "refine", a, Table(), [&](Simulation& simulation) {
     const std::vector<BlockCut> cuts = simulation.refine(options);
     const auto shear = std::count_if(cuts.begin(), cuts.end(),
                                      [](const BlockCut& cut) { return cut.mode == CutMode::shear; });
-    session.message(
-        "stage " + std::to_string(session.stages.size()) + " refine: " + std::to_string(cuts.size()) +
-        " blocks cut (" + std::to_string(static_cast<std::int64_t>(cuts.size()) - shear) + " tension, " +
-        std::to_string(shear) + " shear), " + std::to_string(simulation.counts().blocks) + " blocks now");
+    session.message("stage " + std::to_string(session.stages.size()) +
+                    " refine: " + std::to_string(cuts.size()) + " blocks cut (" +
+                    std::to_string(static_cast<std::int64_t>(cuts.size()) - shear) + " tension, " +
+                    std::to_string(shear) + " shear), " + std::to_string(simulation.counts().blocks) +
+                    " blocks now" + (cuts.empty() ? "; what may break stays as it was" : ""));
     return cut_rows(cuts);
   });
 }
@@ -107,6 +109,10 @@ Value grow(Session& session, ModelObject& model, const Arguments& a) {
   options.break_ratio = a.number("break_ratio");
   options.tip_radius = a.optional_number("tip_radius");
   options.anchor_at_tip = a.flag("anchor_at_tip");
+  options.judged_by = a.text("judged_by") == "block" ? JudgedBy::block : JudgedBy::tip;
+  options.where = a.text("breaking") == "anywhere" ? BreakWhere::anywhere : BreakWhere::front;
+  if (a.has("may_break"))
+    options.may_break = may_break_of(a.text("may_break"));
   options.residual = a.number("residual");
   options.max_steps = a.integer("max_steps");
   options.max_rounds = static_cast<int>(a.integer("max_rounds"));
@@ -123,29 +129,29 @@ Value grow(Session& session, ModelObject& model, const Arguments& a) {
 }
 
 std::vector<Field> refine_fields() {
-  return {
-      number("tension_threshold")
-          .at_least(0)
-          .unit("Pa")
-          .standard(0.0)
-          .doc("a block is cut when its stress is this close to the tensile strength"),
-      number("shear_threshold")
-          .at_least(0)
-          .unit("Pa")
-          .standard(0.0)
-          .doc("the same for the Mohr-Coulomb line"),
-      integer("planes").within(1, 15).standard(3).doc("equally spaced parallel cuts"),
-      integer("max_depth").within(1, 6).standard(1).doc("a block that was cut this often is left alone"),
-      choice("criterion", {"mohr_coulomb", "griffith"}).standard("mohr_coulomb"),
-      place("region").doc("only blocks whose centroid lies in this one place"),
-      number("cohesion").at_least(0).unit("Pa").doc("for the criterion, instead of the joint's"),
-      number("friction_angle").from(0, 90).unit("deg").doc("for the criterion, instead of the joint's"),
-      number("tensile_strength").at_least(0).unit("Pa").doc("for the criterion, instead of the joint's"),
-      choice("may_break", {"all", "cut_faces", "near_cuts"})
-          .standard("near_cuts")
-          .doc("interfaces that may break from now on: all, the cut planes, or these and the original faces "
-               "between "
-               "two cut blocks")};
+  return {number("tension_threshold")
+              .at_least(0)
+              .unit("Pa")
+              .standard(0.0)
+              .doc("a block is cut when its stress is this close to the tensile strength"),
+          number("shear_threshold")
+              .at_least(0)
+              .unit("Pa")
+              .standard(0.0)
+              .doc("the same for the Mohr-Coulomb line"),
+          integer("planes").within(1, 15).standard(3).doc("equally spaced parallel cuts"),
+          integer("max_depth").within(1, 6).standard(1).doc("a block that was cut this often is left alone"),
+          choice("criterion", {"mohr_coulomb", "griffith"}).standard("mohr_coulomb"),
+          place("region").doc("only blocks whose centroid lies in this one place"),
+          number("cohesion").at_least(0).unit("Pa").doc("for the criterion, instead of the joint's"),
+          number("friction_angle").from(0, 90).unit("deg").doc("for the criterion, instead of the joint's"),
+          number("tensile_strength").at_least(0).unit("Pa").doc("for the criterion, instead of the joint's")};
+}
+
+Field may_break_field() {
+  return choice("may_break", {"all", "cut_faces", "near_cuts"})
+      .doc("interfaces that may break from now on: all, the cut planes, or these and the original faces "
+           "between two cut blocks");
 }
 
 std::vector<Field> grow_fields() {
@@ -155,12 +161,22 @@ std::vector<Field> grow_fields() {
           .within(0, 1)
           .standard(0.9)
           .doc("faces that carry this part of the worst ratio of traction to strength break together"),
+      choice("breaking", {"front", "anywhere"})
+          .standard("front")
+          .doc(
+              "faces that may break: those that meet the crack's front, or any; any while there is no crack"),
+      flag("anchor_at_tip")
+          .standard(true)
+          .doc("blocks that the crack enters are cut, and one plane passes through its tip"),
+      choice("judged_by", {"tip", "block"})
+          .standard("tip")
+          .doc("what turns the planes: the stress around the tip, or each block's own mean (Han 2010)"),
       number("tip_radius")
           .above(0)
           .unit("m")
-          .doc("blocks with their centroid this near to the crack's tip are cut; one block size when left "
-               "out"),
-      flag("anchor_at_tip").standard(true).doc("one cut plane of the blocks at the tip passes through it"),
+          .doc(
+              "reach of the stress around the tip and, without anchor_at_tip, of the cutting; one block size "
+              "when left out"),
       number("residual").between(0, 1).standard(1e-5).doc("goal of every relaxation"),
       integer("max_steps").at_least(1).standard(500000).doc("of every relaxation"),
       integer("max_rounds").at_least(1).standard(200).doc("of breaking, in each pass"),
@@ -169,6 +185,8 @@ std::vector<Field> grow_fields() {
   fields[1].type.range.low_open = true;
   for (const Field& field : refine_fields())
     fields.push_back(field);
+  fields.push_back(may_break_field());
+  fields.back().doc_text += "; the cut planes when left out, near_cuts without anchor_at_tip";
   return fields;
 }
 
@@ -220,17 +238,18 @@ void bind_fracture_records(Module& m) {
 void bind_fracture(Module& m) {
   bind_fracture_records(m);
   Class& model = m.the_class("Model");
+  std::vector<Field> of_refine = refine_fields();
+  of_refine.push_back(may_break_field().standard("near_cuts"));
   model.methods.push_back({"refine",
                            "Cuts blocks near failure along their failure plane into slices (Han 2010 eqs "
                            "13-20); the pieces are bonded and "
                            "carry the state over.",
-                           refine_fields(), false, "cdem.Cut[]", "one table per block that was cut",
+                           of_refine, false, "cdem.Cut[]", "one table per block that was cut",
                            method<ModelObject>(refine)});
   model.methods.push_back(
       {"grow",
        "Lets a crack advance in passes: blocks at its tip are cut along their failure plane, the worst faces "
-       "break, the "
-       "model finds its balance, until nothing breaks; then the next pass (Han 2010 example 4.2).",
+       "break, the model finds its balance, until nothing breaks; then the next pass (Han 2010 example 4.2).",
        grow_fields(), false, "cdem.GrowResult", "", method<ModelObject>(grow)});
 }
 

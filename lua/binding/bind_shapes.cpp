@@ -70,18 +70,30 @@ Value convex_hull(Session&, Object*, const Arguments& a) {
   return made(std::move(assembly));
 }
 
+std::optional<geom::Box> optional_box(const Arguments& a, const std::string& name) {
+  const auto given = a.record(name);
+  if (!given)
+    return {};
+  geom::Box box;
+  box.min = given->vec3("min");
+  box.max = given->vec3("max");
+  if ((box.min.array() > box.max.array()).any())
+    throw geom::InputError(name + ".min", describe(given->value("min")),
+                           "below " + name + ".max in every axis");
+  return box;
+}
+
+Value keep(Session&, Object*, const Arguments& a) {
+  return made(geom::kept(a.object<AssemblyObject>("shape")->assembly, *optional_box(a, "inside")));
+}
+
 Value cut_by_plane(Session&, Object*, const Arguments& a) {
   const geom::Vec3 normal = a.vec3("normal");
   if (!(normal.norm() > 0))
     throw geom::InputError("normal", describe(a.value("normal")), "longer than zero");
   geom::PlaneCutOptions options;
-  if (const auto inside = a.record("inside")) {
-    options.inside.emplace();
-    options.inside->min = inside->vec3("min");
-    options.inside->max = inside->vec3("max");
-    if ((options.inside->min.array() > options.inside->max.array()).any())
-      throw geom::InputError("inside.min", describe(inside->value("min")), "below inside.max in every axis");
-  }
+  options.inside = optional_box(a, "inside");
+  options.crossing = optional_box(a, "crossing");
   options.clearance = a.number("clearance");
   return made(geom::cut_by_plane(a.object<AssemblyObject>("shape")->assembly,
                                  geom::Plane::through(a.vec3("point"), normal), options));
@@ -177,6 +189,10 @@ void bind_builders(Module& m) {
       convex_hull);
 }
 
+Field box_field(std::string name) {
+  return record(std::move(name), {vec3("min").unit("m").required(), vec3("max").unit("m").required()});
+}
+
 void bind_edits(Module& m) {
   const auto add = [&](std::string name, std::string doc, std::vector<Field> fields, auto body) {
     m.functions.push_back(
@@ -186,14 +202,16 @@ void bind_edits(Module& m) {
   add("cut_by_plane", "Splits every block that a plane crosses.",
       {shape, vec3("point").unit("m").required().doc("any point of the plane"),
        vec3("normal").required().doc("of any length"),
-       record("inside", {vec3("min").unit("m").required(), vec3("max").unit("m").required()})
-           .doc("only blocks whose centroid lies in this box"),
+       box_field("inside").doc("only blocks whose centroid lies in this box"),
+       box_field("crossing")
+           .doc("only blocks that reach into this box: the notch or the load line to be cut"),
        number("clearance")
            .at_least(0)
            .unit("m")
            .standard(0.0)
            .doc("where a vertex of a block is nearer than this, the plane is shifted for that block")},
       cut_by_plane);
+  add("keep", "The blocks whose centroid lies in a box.", {shape, box_field("inside").required()}, keep);
   add("translate", "Moves blocks.", {shape, vec3("shift").unit("m").required()}, translate);
   add("rotate", "Turns blocks, right-handed, about an axis through `centre`.",
       {shape, vec3("axis").required().doc("of any length"), number("angle").unit("deg").required(),

@@ -365,8 +365,10 @@ function Model:refine(options) end
 ---@class (exact) cdem.ModelGrowOptions
 ---@field passes? integer >= 1, default 3: at most this many
 ---@field break_ratio? number in (0, 1], default 0.9: faces that carry this part of the worst ratio of traction to strength break together
----@field tip_radius? number m, > 0: blocks with their centroid this near to the crack's tip are cut; one block size when left out
----@field anchor_at_tip? boolean default true: one cut plane of the blocks at the tip passes through it
+---@field breaking? "front"|"anywhere" default "front": faces that may break: those that meet the crack's front, or any; any while there is no crack
+---@field anchor_at_tip? boolean default true: blocks that the crack enters are cut, and one plane passes through its tip
+---@field judged_by? "tip"|"block" default "tip": what turns the planes: the stress around the tip, or each block's own mean (Han 2010)
+---@field tip_radius? number m, > 0: reach of the stress around the tip and, without anchor_at_tip, of the cutting; one block size when left out
 ---@field residual? number in (0, 1), default 1e-05: goal of every relaxation
 ---@field max_steps? integer >= 1, default 500000: of every relaxation
 ---@field max_rounds? integer >= 1, default 200: of breaking, in each pass
@@ -380,7 +382,7 @@ function Model:refine(options) end
 ---@field cohesion? number Pa, >= 0: for the criterion, instead of the joint's
 ---@field friction_angle? number deg, in [0, 90): for the criterion, instead of the joint's
 ---@field tensile_strength? number Pa, >= 0: for the criterion, instead of the joint's
----@field may_break? "all"|"cut_faces"|"near_cuts" default "near_cuts": interfaces that may break from now on: all, the cut planes, or these and the original faces between two cut blocks
+---@field may_break? "all"|"cut_faces"|"near_cuts" interfaces that may break from now on: all, the cut planes, or these and the original faces between two cut blocks; the cut planes when left out, near_cuts without anchor_at_tip
 
 ---Lets a crack advance in passes: blocks at its tip are cut along their failure plane, the worst faces break, the model finds its balance, until nothing breaks; then the next pass (Han 2010 example 4.2).
 ---@param options? cdem.ModelGrowOptions
@@ -657,17 +659,35 @@ function cdem.convex_hull(options) end
 ---@field min number[] m
 ---@field max number[] m
 
+---@class (exact) cdem.CutByPlaneOptionsCrossing
+---@field min number[] m
+---@field max number[] m
+
 ---@class (exact) cdem.CutByPlaneOptions
 ---@field shape cdem.Assembly left as it is; the result is a new one
 ---@field point number[] m: any point of the plane
 ---@field normal number[] of any length
 ---@field inside? cdem.CutByPlaneOptionsInside only blocks whose centroid lies in this box
+---@field crossing? cdem.CutByPlaneOptionsCrossing only blocks that reach into this box: the notch or the load line to be cut
 ---@field clearance? number m, >= 0, default 0: where a vertex of a block is nearer than this, the plane is shifted for that block
 
 ---Splits every block that a plane crosses.
 ---@param options cdem.CutByPlaneOptions
 ---@return cdem.Assembly
 function cdem.cut_by_plane(options) end
+
+---@class (exact) cdem.KeepOptionsInside
+---@field min number[] m
+---@field max number[] m
+
+---@class (exact) cdem.KeepOptions
+---@field shape cdem.Assembly left as it is; the result is a new one
+---@field inside cdem.KeepOptionsInside
+
+---The blocks whose centroid lies in a box.
+---@param options cdem.KeepOptions
+---@return cdem.Assembly
+function cdem.keep(options) end
 
 ---@class (exact) cdem.TranslateOptions
 ---@field shape cdem.Assembly left as it is; the result is a new one

@@ -1,5 +1,6 @@
 #include "libgeom/assembly/builders.hpp"
 #include "libgeom/assembly/edit.hpp"
+#include "libgeom/core/error.hpp"
 #include "tests/libgeom/assembly_laws.hpp"
 
 #include <catch2/catch.hpp>
@@ -61,4 +62,26 @@ TEST_CASE("merged assemblies share the faces in which they touch") {
   CHECK(a.blocks.size() == 8 + 27);
   // 2 x 2 against 3 x 3 faces: lines at 1/2 and at 1/3, 2/3 cut the common square into 4 x 4 pieces.
   CHECK(shared_faces(a.blocks, 1e-9).size() == 12 + 54 + 16);
+}
+
+TEST_CASE("only blocks that reach into the crossing box are cut") {
+  PlaneCutOptions options;
+  options.crossing = Box{{0.5 - 1e-6, 0, 0}, {0.5 + 1e-6, 0.9, 1}};
+  // 3 x 3 blocks; the line x = 0.5, y <= 0.9 runs through the middle column, all three rows of it.
+  CHECK(cut_by_plane(grid({1, 1, 1}, {3, 3, 1}), {Vec3::UnitX(), 0.5}, options).blocks.size() == 12);
+  options.crossing->max.y() = 1.0 / 3; // up to the face between the first and the second row
+  CHECK(cut_by_plane(grid({1, 1, 1}, {3, 3, 1}), {Vec3::UnitX(), 0.5}, options).blocks.size() == 10);
+  // A block that the box only passes by, though the boxes around both meet.
+  const Assembly turned = rotated(grid({1, 1, 1}, {1, 1, 1}), Vec3::UnitZ(), 0.7853981633974483);
+  options.crossing = Box{{0.5, 0, 0}, {0.7, 0.2, 1}};
+  CHECK(cut_by_plane(turned, {Vec3::UnitX(), 0.1}, options).blocks.size() == 1);
+  options.crossing = Box{{0, 0.2, 0}, {0.1, 0.3, 1}};
+  CHECK(cut_by_plane(turned, {Vec3::UnitX(), 0.1}, options).blocks.size() == 2);
+}
+
+TEST_CASE("blocks are kept by their centroids") {
+  const Assembly a = kept(grid({4, 4, 1}, {4, 4, 1}), {{1, 1, 0}, {3, 3, 1}});
+  CHECK(a.blocks.size() == 4);
+  CHECK((bounding_box(a).min - Vec3(1, 1, 0)).norm() == 0);
+  CHECK_THROWS_AS(kept(a, {{10, 10, 10}, {11, 11, 11}}), geom::InputError);
 }

@@ -27,7 +27,7 @@ TEST_CASE("a parameter without --set has its default", "[lua]") {
   CHECK(printed_by(head + "print(cdem.parameter{ name = 'pressure', default = 30e6 })") == "30000000.0");
 }
 
-TEST_CASE("--set is read with the type of the default", "[lua]") {
+TEST_CASE("the option --set is read with the type of the default", "[lua]") {
   CHECK(value_of("default = 30e6", "24e6") == "float\t24000000.0");
   CHECK(value_of("default = 3", "7") == "integer\t7");
   CHECK(value_of("default = 3", "1e3") == "integer\t1000");

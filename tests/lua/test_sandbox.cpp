@@ -133,7 +133,7 @@ TEST_CASE("a script that takes more memory than allowed ends with a clear error"
              Contains("need more than 4 GiB"));
 }
 
-TEST_CASE("--unsafe gives the whole library", "[lua]") {
+TEST_CASE("the option --unsafe gives the whole library", "[lua]") {
   Script script("print(os.getenv('HOME') ~= nil, io.popen ~= nil, debug.getinfo(1).currentline)\n"
                 "print(require('cdem').version ~= nil, require('tools').x)");
   script.write("tools.lua", "return { x = 5 }");
