@@ -15,6 +15,7 @@ constexpr double depth_tolerance = 1e-6, volume_tolerance = 1e-6;
 
 std::vector<geom::Plane> face_planes(const geom::Polyhedron& shape) {
   std::vector<geom::Plane> planes;
+  planes.reserve(shape.faces.size());
   for (int f = 0; f < static_cast<int>(shape.faces.size()); ++f)
     planes.push_back(
         geom::Plane::through(shape.vertices[shape.faces[f].loop.front()], geom::face_normal(shape, f)));

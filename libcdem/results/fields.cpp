@@ -104,7 +104,7 @@ void check_field(const std::string& field) {
 
 std::array<double, 3> principal(const Stress& stress) {
   const Eigen::SelfAdjointEigenSolver<geom::Mat3> solver(matrix(stress), Eigen::EigenvaluesOnly);
-  const geom::Vec3 e = solver.eigenvalues();
+  const geom::Vec3& e = solver.eigenvalues();
   return {e[2], e[1], e[0]};
 }
 
