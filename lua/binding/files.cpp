@@ -19,7 +19,7 @@ fs::path resolved(const fs::path& path) {
   fs::path place = fs::absolute(path).lexically_normal();
   for (int links = 0; links < 40; ++links) {
     std::error_code error;
-    const fs::path canonical = fs::weakly_canonical(place, error);
+    fs::path canonical = fs::weakly_canonical(place, error);
     if (error)
       throw FileError(path.string() + ": " + error.message());
     if (!fs::is_symlink(fs::symlink_status(canonical, error)))
@@ -48,7 +48,7 @@ Files::Files(const fs::path& script, const fs::path& output, const fs::path& res
 fs::path Files::to_write(const std::string& name) const {
   if (name.empty() || name.find('\0') != std::string::npos)
     throw geom::InputError("file", "\"" + name.substr(0, name.find('\0')) + "\"", "a file name");
-  const fs::path path = resolved(output_ / name);
+  fs::path path = resolved(output_ / name);
   if (!unsafe_ && !below(path, output_))
     throw geom::InputError("file", "\"" + name + "\"", "inside the output folder " + output_.string(),
                            "give a name without .. and without a leading /, or run with --unsafe");
@@ -79,7 +79,7 @@ fs::path Files::to_read(const std::string& name) const {
   bool refused = false;
   for (const fs::path& candidate : places) {
     std::error_code error;
-    const fs::path path = resolved(candidate);
+    fs::path path = resolved(candidate);
     if (!unsafe_ && !below(path, script_folder_) && !below(path, output_) && !below(path, results_)) {
       refused = true;
       continue;

@@ -175,7 +175,7 @@ void push(lua_State* L, const Value& value) {
     lua_createtable(L, static_cast<int>(table->items.size()), static_cast<int>(table->named.size()));
     for (std::size_t i = 0; i < table->items.size(); ++i) {
       push(L, table->items[i]);
-      lua_rawseti(L, -2, static_cast<lua_Integer>(i + 1));
+      lua_rawseti(L, -2, static_cast<lua_Integer>(i) + 1);
     }
     for (const auto& [name, entry] : table->named) {
       lua_pushlstring(L, name.data(), name.size());

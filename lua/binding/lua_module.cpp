@@ -41,7 +41,7 @@ Arguments read_arguments(lua_State* L, const Bound& bound, int first) {
 }
 
 std::shared_ptr<Object> read_self(lua_State* L, const Bound& bound) {
-  const auto object = lua_gettop(L) >= 1 ? to_value(L, 1).object() : nullptr;
+  auto object = lua_gettop(L) >= 1 ? to_value(L, 1).object() : nullptr;
   if (!object || object->class_name() != bound.owner->name)
     throw geom::InputError("call it with a colon on a cdem." + bound.owner->name + ": " + bound.shown +
                            "(...)");

@@ -29,6 +29,7 @@ using geom::InputError;
 
 std::vector<std::string> names_of(const std::vector<Field>& fields) {
   std::vector<std::string> names;
+  names.reserve(fields.size());
   for (const Field& f : fields)
     names.push_back(f.name);
   return names;
