@@ -23,7 +23,8 @@ model:fix{ on = {"z-", "z+"}, axes = "z" }
 model:fix{ on = cdem.select.where(function(x, y) return y < 1e-9 and (x < reach + 1e-9 or x > length - reach - 1e-9) end) }
 model:force{ on = cdem.select.where(function(x, y) return y > height - 1e-9 and math.abs(x - length / 2) < 1e-9 end),
              force = {0, -load, 0} }
-model:unbond{ on = cdem.select.box{ min = {notch_x - 1e-6, 0, 0}, max = {notch_x + 1e-6, notch_y, depth} }, whole_faces = true }
+model:unbond{ on = cdem.select.box{ min = {notch_x - 1e-6, 0, 0}, max = {notch_x + 1e-6, notch_y, depth} },
+              whole_faces = true }
 
 model:relax{ residual = 1e-6, breaking = false }
 local midspan = model:at("displacement.y", {length / 2, 1e-6, depth / 2})
@@ -77,7 +78,8 @@ local paper = load == 2.5e4 or nil
 cdem.report{
   { name = "crack_tip_x_m", value = last and last.tip[1], unit = "m", reference = paper and 0.599, kind = "trial" },
   { name = "crack_tip_y_m", value = last and last.tip[2], unit = "m", reference = paper and 0.21, kind = "trial" },
-  { name = "path_rms_to_reference_m", value = count > 0 and math.sqrt(sum / count) or nil, unit = "m", reference = 0, kind = "trial",
+  { name = "path_rms_to_reference_m", value = count > 0 and math.sqrt(sum / count) or nil, unit = "m", reference = 0,
+    kind = "trial",
     source = "horizontal distance at the heights of " .. count .. " of " .. #reference .. " reference points" },
   { name = "passes", value = #growth.passes, source = growth.state },
   { name = "elastic_midspan_uy_m", value = midspan, unit = "m",
