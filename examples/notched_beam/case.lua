@@ -67,8 +67,8 @@ if #path > 0 then
   for i, p in ipairs(path) do x[i], y[i], line[i] = p[1], p[2], {p[1], p[2], depth} end
   for i, p in ipairs(reference) do trial[i] = {p[1], p[2], depth} end
   cdem.write_csv{ file = "path.csv", columns = { { name = "x_m", values = x }, { name = "y_m", values = y } } }
-  model:picture{ file = "ux.png", colour = "displacement.x", deformation = 200, title = "Horizontal displacement", size = {1600, 0},
-                 broken_bonds = false }
+  model:picture{ file = "ux.png", colour = "displacement.x", deformation = 200, title = "Horizontal displacement",
+                 size = {1600, 0}, broken_bonds = false }
   model:picture{ file = "path.png", title = "Path of the crack", size = {1600, 0}, broken_bonds = false,
                  lines = { { points = line, label = "cdem", colour = {0.75, 0, 0.38} },
                            { points = trial, label = "reference points", colour = {0, 0.38, 0.75}, dashed = true } } }
