@@ -20,6 +20,7 @@ struct Component {
 
 struct Stepping {
   double time_step;     // s
+  double kick;          // s, from the time of the velocities to half a step ahead
   double local_damping; // fraction of the out-of-balance force
 };
 
@@ -31,7 +32,7 @@ inline void advance(double force, double mass, double viscous, const Stepping& s
   if (c.free != 0) {
     sums.residual2 += force * force;
     sums.applied2 += c.applied * c.applied;
-    const double inertia = mass / s.time_step;
+    const double inertia = mass / s.kick;
     const double undamped = ((inertia - 0.5 * viscous) * before + force) / (inertia + 0.5 * viscous);
     const double most =
         s.local_damping * std::abs(force) / (inertia + 0.5 * viscous); // it can take off the velocity
@@ -41,13 +42,14 @@ inline void advance(double force, double mass, double viscous, const Stepping& s
                                            : 0 - before;
     const double against = (inertia + 0.5 * viscous) * (undamped - velocity);
     const double mean = 0.5 * (before + velocity);
-    sums.external += c.applied * mean * s.time_step;
-    sums.damping += (viscous * mean + against) * mean * s.time_step;
+    sums.external += c.applied * mean * s.kick;
+    sums.damping += (viscous * mean + against) * mean * s.kick;
     sums.kinetic += 0.5 * mass * velocity * velocity;
   } else {
     sums.reaction2 += force * force;
     velocity = c.prescribed;
-    sums.external += (c.applied - force) * 0.5 * (before + velocity) * s.time_step;
+    const double ahead = 0.5 * s.time_step;
+    sums.external += (c.applied - force) * ((s.kick - ahead) * before + ahead * velocity);
   }
   displacement += velocity * s.time_step;
 }
@@ -91,7 +93,7 @@ double stable_time_step(const Model& model) {
 
 RunResult run(const StageContext& context, const RunOptions& options) {
   State& state = context.state;
-  const Stepping stepping{choose_time_step(context.model, options), options.local_damping};
+  Stepping stepping{choose_time_step(context.model, options), 0, options.local_damping};
   Stage stage(context, "run", run_away_lengths * context.model.length);
   Stage::StepReport report;
   const double start = state.time;
@@ -106,6 +108,8 @@ RunResult run(const StageContext& context, const RunOptions& options) {
   while (stage.step < steps && !stopped) {
     update_external(stage.work.resolved, state.time);
     stage.spring_forces(options.breaking);
+    // Velocities that stand at the time of the displacements, at the start or after a relaxation, take half a step.
+    stepping.kick = state.velocity_lag + 0.5 * stepping.time_step;
     report.sums = stage.over_chunks([&](const BlockChunk& chunk) {
       net_forces(context.model, state, stage.work, chunk);
       return integrate(context.model, state, stage.work, chunk.nodes, stepping);
