@@ -1,0 +1,16 @@
+// Tetrahedra of a solid: Delaunay, then optimised, by gmsh. The same solid and sizes give the same mesh.
+#pragma once
+
+#include "libgeom/mesh/mesh_size.hpp"
+#include "libgeom/mesh/tet_mesh.hpp"
+#include "libgeom/solid/solid.hpp"
+
+namespace geom {
+
+inline constexpr double max_tets = 2e7; // more would not fit the memory of one machine
+
+// Throws InputError when the sizes ask for more than max_tets, and when gmsh cannot mesh the solid or leaves
+// a part of it empty; the process can mesh on after that.
+TetMesh mesh_solid(const Solid&, const MeshSize&);
+
+} // namespace geom
