@@ -53,7 +53,7 @@ constexpr int tet_faces[4][3] = {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}};
 
 } // namespace
 
-void find_surface(Snapshot& s) {
+void find_surface(Snapshot& s, double crease) {
   const SnapshotField* block_id = find_field(s.cell_fields, "block_id");
   const std::vector<geom::Tet> merged = merge_nodes(s, block_id);
   s.surface.clear();
@@ -116,7 +116,7 @@ void find_surface(Snapshot& s) {
     }
   }
   std::stable_sort(edges.begin(), edges.end(), [](const Edge& a, const Edge& b) { return a.key < b.key; });
-  const double flat = std::cos(0.1 * M_PI / 180);
+  const double flat = crease < 0 ? 2 : std::cos(crease);
   for (std::size_t i = 0; i < edges.size();) {
     std::size_t j = i + 1;
     bool corner = false;

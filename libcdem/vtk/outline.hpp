@@ -8,8 +8,10 @@ namespace cdem {
 
 // Fills surface, surface_tet and block_edges from the tets and the cell field "block_id" (without it: one
 // block). A face belongs to the surface when only one tet of its block has it, an edge to the outline when
-// the surface has a corner of more than 0.1 degrees there. Nodes of a block at the same place count as one.
-void find_surface(Snapshot&);
+// the surface has a corner of more than `crease` there (radians; below 0: every edge). Nodes of a block at the
+// same place count as one.
+inline constexpr double flat_crease = 0.1 * 3.14159265358979323846 / 180;
+void find_surface(Snapshot&, double crease = flat_crease);
 
 struct BrokenInterfaces {
   std::vector<geom::Vec3> points; // m, moved by the scaled displacement

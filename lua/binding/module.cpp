@@ -18,6 +18,9 @@ const Module& module() {
     bind_parameters(m);
     bind_materials(m);
     bind_shapes(m);
+    bind_solids(m);
+    bind_armour_units(m);
+    bind_tet_meshes(m);
     bind_selections(m);
     bind_model(m);
     bind_conditions(m);

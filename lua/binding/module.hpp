@@ -71,6 +71,9 @@ auto method(Body body) {
 void bind_parameters(Module&);
 void bind_materials(Module&);
 void bind_shapes(Module&);
+void bind_solids(Module&);
+void bind_armour_units(Module&);
+void bind_tet_meshes(Module&);
 void bind_selections(Module&);
 void bind_model(Module&);
 void bind_conditions(Module&);

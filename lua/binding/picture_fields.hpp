@@ -15,6 +15,10 @@ std::optional<Colour> colour_of(const Arguments&);
 std::optional<std::array<double, 2>> limits_of(const Arguments&,
                                                const std::string& name); // {lowest, highest}
 
+// What every picture takes: file, colour, where to look from, and what is written around the body.
+std::vector<Field> view_fields(const std::string& colour_doc);
+PictureOptions view_options(const Arguments&);
+
 // Throws geom::InputError when a file name has another ending.
 void require_ending(const std::string& file, const std::string& ending);
 

@@ -1,0 +1,24 @@
+// A bare mesh of tetrahedra as a snapshot, to be drawn and written for ParaView before there is a model of
+// it.
+#pragma once
+
+#include "libcdem/results/snapshot.hpp"
+#include "libgeom/mesh/tet_mesh.hpp"
+
+#include <map>
+
+namespace cdem {
+
+// Outer faces that were given a name: indices into geom::outer_faces.
+using NamedFaces = std::map<std::string, std::vector<int>>;
+
+// Cell fields: "region", "radius_ratio" (1 regular, 0 flat), "min_dihedral" degrees, "volume" m3; point
+// fields: "on_<name>", 1 on the nodes of the named faces. Edges of the surface are outlined where it has a
+// corner of more than `crease` (radians; below 0: every edge of the surface mesh).
+Snapshot mesh_snapshot(const geom::TetMesh&, const NamedFaces&, double crease);
+
+// The mesh in a file written by write_vtu. Throws geom::InputError as read_vtu does, and when the mesh is not
+// valid.
+geom::TetMesh read_vtu_mesh(const std::string& path);
+
+} // namespace cdem

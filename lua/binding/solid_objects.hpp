@@ -1,0 +1,36 @@
+// Solids and their meshes as a script holds them.
+#pragma once
+
+#include "lua/binding/value.hpp"
+
+#include "libcdem/vtk/mesh_snapshot.hpp"
+#include "libgeom/solid/solid.hpp"
+
+#include <optional>
+
+namespace cdem::script {
+
+struct SolidObject final : Object {
+  explicit SolidObject(geom::Solid given) : solid(std::move(given)) {}
+
+  geom::Solid solid;
+  std::string kind = "solid";      // "accropode", ...
+  std::optional<double> height;    // m, of an armour unit as it was made
+  std::optional<double> density;   // kg/m3
+  std::optional<double> mesh_size; // m, unless mesh{} gives another
+
+  const char* class_name() const override { return "Solid"; }
+};
+
+struct TetMeshObject final : Object {
+  explicit TetMeshObject(geom::TetMesh given) : mesh(std::move(given)), faces(geom::outer_faces(mesh)) {}
+
+  geom::TetMesh mesh;
+  std::vector<geom::OuterFace> faces;
+  NamedFaces named;
+  std::string title;
+
+  const char* class_name() const override { return "TetMesh"; }
+};
+
+} // namespace cdem::script
