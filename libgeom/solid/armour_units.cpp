@@ -48,10 +48,16 @@ void require_fraction(const std::string& field, double value, double low, double
   require_between(field, value, low, high, "");
 }
 
+// Units are made 1 m high and then scaled: OpenCASCADE's tolerances are lengths, and what works at one size
+// works at every size.
+Solid sized(const Solid& unit, double height) {
+  require_positive("height", height);
+  return scaled(unit, height, Vec3::Zero());
+}
+
 } // namespace
 
 Solid accropode(double height, const AccropodeShape& shape) {
-  require_positive("height", height);
   require_fraction("width", shape.width, 0.1, 0.9);
   require_fraction("bar", shape.bar, 0.1, 0.45);
   require_fraction("core", shape.core, 0.1, 0.9);
@@ -59,7 +65,7 @@ Solid accropode(double height, const AccropodeShape& shape) {
   require_fraction("taper", shape.taper, 0.2, 1);
   require_fraction("corner", shape.corner, 0.02, 0.45);
 
-  const double H = height, x = 0.5 * shape.width * H, b = 0.5 * shape.bar * H, z = 0.5 * shape.core * H;
+  const double H = 1, x = 0.5 * shape.width * H, b = 0.5 * shape.bar * H, z = 0.5 * shape.core * H;
   const double web = 0.5 * H - 2 * b; // half of the gap between the end bars
   const double end_corner = shape.corner * 2 * std::min(x, b);
   const double nose_corner = shape.corner * 2 * std::min(web, z);
@@ -77,16 +83,15 @@ Solid accropode(double height, const AccropodeShape& shape) {
   parts.push_back(bar({shrunk(at_core, -0.5 * shape.length * H, shape.taper), at_core, shrunk(at_core, x, 1),
                        shrunk(at_core, 0.5 * shape.length * H, shape.taper)},
                       Vec3::Zero(), Vec3::UnitY(), Vec3::UnitZ()));
-  return united(parts);
+  return sized(united(parts), height);
 }
 
 Solid dolos(double height, const DolosShape& shape) {
-  require_positive("height", height);
   require_fraction("tip", shape.tip, 0.05, 0.45);
   require_fraction("waist", shape.waist, 0.1, 0.45);
   require_between("root", shape.root, std::max(shape.waist, shape.tip), 0.48, "and as wide as waist and tip");
 
-  const double C = height;
+  const double C = 1;
   const double facet = std::sqrt(2.) - 1; // of a regular octagon, over its width
   const auto octagon = [&](double place, double width, double side) {
     return Section{place, 0.5 * width * C, 0.5 * width * C, 0.5 * (width - side) * C};
@@ -97,35 +102,48 @@ Solid dolos(double height, const DolosShape& shape) {
   const double middle = 0.5 * C * (1 - shape.root); // of a fluke, along x
   const std::vector<Section> fluke{regular(-0.5 * C, shape.tip), regular(0, shape.root),
                                    regular(0.5 * C, shape.tip)};
-  return united({bar({octagon(-middle, shape.waist, side), octagon(middle, shape.waist, side)}, Vec3::Zero(),
-                     Vec3::UnitY(), Vec3::UnitZ()),
-                 bar(fluke, {-middle, 0, 0}, Vec3::UnitX(), Vec3::UnitY()),
-                 bar(fluke, {middle, 0, 0}, Vec3::UnitZ(), Vec3::UnitX())});
+  const Solid unit = united({bar({octagon(-middle, shape.waist, side), octagon(middle, shape.waist, side)},
+                                 Vec3::Zero(), Vec3::UnitY(), Vec3::UnitZ()),
+                             bar(fluke, {-middle, 0, 0}, Vec3::UnitX(), Vec3::UnitY()),
+                             bar(fluke, {middle, 0, 0}, Vec3::UnitZ(), Vec3::UnitX())});
+  return sized(unit, height);
 }
 
 Solid tetrapod(double height, const TetrapodShape& shape) {
-  require_positive("height", height);
   require_fraction("tip", shape.tip, 0.05, 0.6);
   require_between("root", shape.root, shape.tip, 0.7, "and as wide as tip");
 
   // Legs are at arccos(-1/3) to each other; sine and cosine of a lower leg's angle below the horizontal:
   const double sine = 1. / 3, cosine = std::sqrt(8.) / 3;
-  const double tip = 0.5 * shape.tip * height, root = 0.5 * shape.root * height;
+  const double tip = 0.5 * shape.tip, root = 0.5 * shape.root; // in heights
   // Up the leg on top and down to the lowest point of the others' rims: length (1 + sine) + tip cosine =
   // height.
-  const double length = (height - tip * cosine) / (1 + sine);
+  const double length = (1 - tip * cosine) / (1 + sine);
   // Two legs meet in the plane halfway between them, where a point at radius r is r / sqrt(2) along both.
   const double meeting = root / std::sqrt(2.);
   const double at_centre = root + (root - tip) * meeting / (length - meeting);
-  const Vec3 centre(0, 0, 0.5 * height - length);
+  const Vec3 centre(0, 0, 0.5 - length);
 
-  std::vector<Solid> legs{cone(centre, {0, 0, length}, at_centre, tip)};
+  // OpenCASCADE is not to be trusted with four cones that meet: each leg is cut by the planes halfway to the
+  // others first, which leaves four pieces that only touch. These planes meet along the rays opposite to the
+  // other legs.
+  Polyhedron part;
+  part.vertices = {centre};
   for (int i = 0; i < 3; ++i) {
     const double turn = 2 * M_PI * i / 3;
-    legs.push_back(
-        cone(centre, length * Vec3(cosine * std::cos(turn), cosine * std::sin(turn), -sine), at_centre, tip));
+    part.vertices.push_back(centre +
+                            5 * length * Vec3(-cosine * std::cos(turn), -cosine * std::sin(turn), sine));
   }
-  return united(legs);
+  part.faces = {{{0, 2, 1}}, {{0, 3, 2}}, {{0, 1, 3}}, {{1, 2, 3}}};
+  const Solid leg = common(cone(centre, {0, 0, length}, at_centre, tip), make_solid(part));
+  std::vector<Solid> legs{leg};
+  for (int i = 0; i < 3; ++i) {
+    const double turn = 2 * M_PI * i / 3;
+    // About the bisector of up and the leg, which leaves the other two in place.
+    const Vec3 lower(cosine * std::cos(turn), cosine * std::sin(turn), -sine);
+    legs.push_back(rotated(leg, lower + Vec3::UnitZ(), M_PI, centre));
+  }
+  return sized(united(legs), height);
 }
 
 Solid cube(double height) {
@@ -134,19 +152,18 @@ Solid cube(double height) {
 }
 
 Solid antifer(double height, const AntiferShape& shape) {
-  require_positive("height", height);
   require_fraction("bottom", shape.bottom, 0.5, 2);
   require_fraction("top", shape.top, 0.5, 2);
   require_fraction("groove", shape.groove, 0, 0.2);
 
-  const double H = height, low = 0.5 * shape.bottom * H, high = 0.5 * shape.top * H;
+  const double H = 1, low = 0.5 * shape.bottom * H, high = 0.5 * shape.top * H;
   Polyhedron body = make_box({-low, -low, -0.5 * H}, {low, low, 0.5 * H});
   for (Vec3& x : body.vertices)
     if (x.z() > 0)
       x.head<2>() *= high / low;
   const Solid smooth = make_solid(body);
   if (shape.groove == 0)
-    return smooth;
+    return sized(smooth, height);
   std::vector<Solid> grooves;
   for (int side = 0; side < 4; ++side) {
     const Vec3 outward(std::cos(0.5 * M_PI * side), std::sin(0.5 * M_PI * side), 0);
@@ -154,7 +171,7 @@ Solid antifer(double height, const AntiferShape& shape) {
     const Vec3 over = 0.5 * (to - from); // beyond both ends, so that they come out level with the faces
     grooves.push_back(cylinder(from - over, to - from + 2 * over, shape.groove * H));
   }
-  return cut(smooth, grooves);
+  return sized(cut(smooth, grooves), height);
 }
 
 Solid slope(double gradient, double length, double width) {

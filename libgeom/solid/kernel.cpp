@@ -472,7 +472,18 @@ TetMesh mesh_solid(const Solid& solid, const MeshSize& sizes) {
     gmsh::model::mesh::setSizeCallback([&](int, int, double x, double y, double z) {
       return size_at(sizes, {x, y, z});
     });
+    // Surfaces are meshed in a parallel region, from which nothing can be thrown: errors are asked for after
+    // it.
+    gmsh::option::setNumber("General.AbortOnError", 0);
+    gmsh::logger::start();
     gmsh::model::mesh::generate(3);
+    std::vector<std::string> log;
+    gmsh::logger::get(log);
+    gmsh::logger::stop();
+    for (const std::string& line : log)
+      if (line.compare(0, 6, "Error:") == 0)
+        throw InputError("mesh: the solid cannot be meshed with this size:" + line.substr(6) +
+                         "; try another size, and make sure that no faces nearly touch");
     return collect("mesh");
   });
   validate(mesh, "mesh");
