@@ -33,13 +33,14 @@ for _, unit in ipairs(units) do
   figures[#figures + 1] = { name = unit.name .. "_min_radius_ratio", value = quality.min_radius_ratio }
 end
 
--- A unit that is held at its feet, finer near the root of one leg: faces picked by side and shown.
-local root = units[1].solid:mesh{ size = units[1].solid.height / 12,
-                                  refine = { { at = {0.25 * units[1].solid.height, 0, 0}, size = units[1].solid.height / 40,
-                                               radius = 0.05 * units[1].solid.height } } }
+-- A unit held at its feet, finer along the root of a nose: faces picked by side and named.
+local H = units[1].solid.height
+local root = units[1].solid:mesh{ size = H / 12,
+                                  refine = { { line = { {0.21 * H, -0.1 * H, 0.21 * H}, {0.21 * H, 0.1 * H, 0.21 * H} },
+                                               size = H / 60, radius = 0.02 * H } } }
 local held = root:faces{ side = "z-", name = "held" }
 root:save{ file = "refined.vtu" }
-root:picture{ file = "refined.png", title = "finer near a nose's root", colour = "min_dihedral", edges = "mesh", view = "iso", up = "z",
+root:picture{ file = "refined.png", title = "finer along a nose's root", colour = "min_dihedral", edges = "mesh", view = "iso", up = "z",
               size = {1000, 800} }
 
 -- Boolean operations: a ball cut out of a box, the two shared out into regions that share nodes.

@@ -1,0 +1,135 @@
+// STL surfaces and mesh files: what is right comes in whole, what is wrong is named.
+#include "libgeom/core/error.hpp"
+#include "libgeom/mesh/read_mesh.hpp"
+#include "libgeom/mesh/solid_mesh.hpp"
+#include "libgeom/solid/read_stl.hpp"
+#include "tests/vtk/temporary_folder.hpp"
+
+#include <catch2/catch.hpp>
+
+#include <cstring>
+#include <fstream>
+
+using namespace geom;
+using Catch::Matchers::Contains;
+
+namespace {
+
+std::string message(const std::function<void()>& call) {
+  try {
+    call();
+  } catch (const InputError& e) {
+    return e.what();
+  }
+  return "no error";
+}
+
+std::vector<std::array<Vec3, 3>> box_triangles() {
+  const Polyhedron p = make_box({0, 0, 0}, {1, 2, 3});
+  std::vector<std::array<Vec3, 3>> out;
+  for (const PolyhedronFace& face : p.faces)
+    for (std::size_t i = 2; i < face.loop.size(); ++i)
+      out.push_back({p.vertices[face.loop[0]], p.vertices[face.loop[i - 1]], p.vertices[face.loop[i]]});
+  return out;
+}
+
+std::string text_stl(const std::vector<std::array<Vec3, 3>>& triangles) {
+  std::ostringstream out;
+  out << "solid box\n";
+  for (const auto& t : triangles) {
+    out << "facet normal 0 0 0\nouter loop\n";
+    for (const Vec3& x : t)
+      out << "vertex " << x.x() << ' ' << x.y() << ' ' << x.z() << '\n';
+    out << "endloop\nendfacet\n";
+  }
+  out << "endsolid box\n";
+  return out.str();
+}
+
+std::string binary_stl(const std::vector<std::array<Vec3, 3>>& triangles) {
+  std::string out(84 + 50 * triangles.size(), '\0');
+  const auto count = static_cast<std::uint32_t>(triangles.size());
+  std::memcpy(&out[80], &count, 4);
+  for (std::size_t t = 0; t < triangles.size(); ++t)
+    for (std::size_t c = 0; c < 3; ++c)
+      for (int i = 0; i < 3; ++i) {
+        const auto x = static_cast<float>(triangles[t][c][i]);
+        std::memcpy(&out[84 + 50 * t + 12 + 12 * c + 4 * static_cast<std::size_t>(i)], &x, 4);
+      }
+  return out;
+}
+
+struct Stl {
+  TemporaryFolder folder;
+  std::string operator()(const std::string& bytes) const {
+    std::ofstream(folder / "part.stl", std::ios::binary) << bytes;
+    return folder / "part.stl";
+  }
+};
+
+// One tet in gmsh's format 2.2, with a node and an element to spoil.
+std::string msh(const std::string& third_node, const std::string& element) {
+  return "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n4\n1 0 0 0\n2 1 0 0\n3 " + third_node +
+         "\n4 0 0 1\n$EndNodes\n$Elements\n1\n1 " + element + "\n$EndElements\n";
+}
+
+} // namespace
+
+TEST_CASE("a closed STL surface, text or binary, becomes a solid of its volume that can be meshed") {
+  const Stl write;
+  for (const std::string& bytes : {text_stl(box_triangles()), binary_stl(box_triangles())}) {
+    const Solid solid = make_solid(read_stl(write(bytes), 0.5));
+    CHECK(mass_properties(solid).volume == Approx(6 * 0.125).epsilon(1e-6));
+    CHECK(volume(mesh_solid(solid, {0.3})) == Approx(0.75).epsilon(1e-6));
+  }
+}
+
+TEST_CASE("an STL with all normals inward is turned outward") {
+  const Stl write;
+  auto triangles = box_triangles();
+  for (auto& t : triangles)
+    std::swap(t[0], t[1]);
+  CHECK(mass_properties(make_solid(read_stl(write(text_stl(triangles))))).volume == Approx(6).epsilon(1e-6));
+}
+
+TEST_CASE("an STL that is no closed surface is refused with the place") {
+  const Stl write;
+  auto open = box_triangles();
+  open.pop_back();
+  CHECK_THAT(message([&] { read_stl(write(text_stl(open))); }),
+             Contains("it is open: 3 edges belong to one triangle only"));
+  auto flipped = box_triangles();
+  std::swap(flipped[0][0], flipped[0][1]);
+  CHECK_THAT(message([&] { read_stl(write(text_stl(flipped))); }), Contains("point different ways near {"));
+  auto two = box_triangles();
+  for (const auto& t : box_triangles())
+    two.push_back({t[0] + Vec3(9, 0, 0), t[1] + Vec3(9, 0, 0), t[2] + Vec3(9, 0, 0)});
+  CHECK_THAT(message([&] { read_stl(write(text_stl(two))); }), Contains("it holds several"));
+  std::string nan = text_stl(box_triangles());
+  nan.replace(nan.find("vertex ") + 7, 1, "nan");
+  CHECK_THAT(message([&] { read_stl(write(nan)); }), Contains("triangle 1 has a corner at {nan"));
+  CHECK_THAT(message([&] { read_stl(write("not a surface")); }),
+             Contains("neither a text nor a whole binary one"));
+  CHECK_THAT(message([&] { read_stl(write(binary_stl(box_triangles()).substr(0, 300))); }),
+             Contains("must be an STL file"));
+  CHECK_THAT(message([&] { read_stl(write.folder / "none.stl"); }), Contains("an existing STL file"));
+}
+
+TEST_CASE("a gmsh file gives its tets; what is wrong in one is named") {
+  const TemporaryFolder folder;
+  const auto read = [&](const std::string& bytes) {
+    std::ofstream(folder / "part.msh") << bytes;
+    return read_mesh(folder / "part.msh");
+  };
+  const TetMesh one = read(msh("0 1 0", "4 2 0 1 1 2 3 4"));
+  CHECK(one.tets.size() == 1);
+  CHECK(volume(one) == Approx(1. / 6));
+  CHECK_THAT(message([&] { read(msh("0 nan 0", "4 2 0 1 1 2 3 4")); }),
+             Contains("every coordinate must be a finite number"));
+  CHECK_THAT(message([&] { read(msh("0 1 0", "4 2 0 1 2 1 3 4")); }), Contains("is inverted"));
+  CHECK_THAT(message([&] { read(msh("1 1 0", "2 2 0 1 1 2 3")); }),
+             Contains("no tetrahedra; a mesh of volume elements is needed"));
+  CHECK_THAT(message([&] { read_mesh(folder / "none.msh"); }), Contains("an existing mesh file"));
+  CHECK(message([&] { read("no mesh at all\n"); }) != "no error");
+  CHECK(read(msh("0 1 0", "4 2 0 1 1 2 3 4")).tets.size() == 1); // and reading goes on
+}
