@@ -3,7 +3,7 @@
 #pragma once
 
 #include "libcdem/results/snapshot.hpp"
-#include "libgeom/mesh/tet_mesh.hpp"
+#include "libgeom/mesh/boundary.hpp"
 
 #include <map>
 

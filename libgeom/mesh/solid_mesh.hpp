@@ -7,8 +7,6 @@
 
 namespace geom {
 
-inline constexpr double max_tets = 2e7; // more would not fit the memory of one machine
-
 // Throws InputError when the sizes ask for more than max_tets, and when gmsh cannot mesh the solid or leaves
 // a part of it empty; the process can mesh on after that.
 TetMesh mesh_solid(const Solid&, const MeshSize&);

@@ -1,5 +1,7 @@
 #include "libgeom/mesh/tet_quality.hpp"
 
+#include "libgeom/mesh/boundary.hpp"
+
 #include <algorithm>
 #include <cmath>
 

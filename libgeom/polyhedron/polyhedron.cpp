@@ -1,6 +1,8 @@
 // Areas, centroids and mass properties by fans of triangles and tets about a corner of the block itself.
 #include "libgeom/polyhedron/polyhedron.hpp"
 
+#include <Eigen/Eigenvalues>
+
 #include <algorithm>
 #include <cassert>
 
@@ -91,6 +93,12 @@ MassProperties mass_properties(const Polyhedron& p) {
   const Vec3 centroid = first / volume;
   second -= volume * centroid * centroid.transpose();
   return {volume, origin + centroid, second.trace() * Mat3::Identity() - second};
+}
+
+double principal_inertia_ratio(const MassProperties& m) {
+  const Vec3 moments =
+      Eigen::SelfAdjointEigenSolver<Mat3>(m.inertia, Eigen::EigenvaluesOnly).eigenvalues(); // ascending
+  return moments[2] / moments[0];
 }
 
 } // namespace geom

@@ -39,4 +39,6 @@ struct MassProperties {
 // away keeps its digits.
 MassProperties mass_properties(const Polyhedron&);
 
+double principal_inertia_ratio(const MassProperties&); // largest over smallest principal moment
+
 } // namespace geom

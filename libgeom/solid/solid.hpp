@@ -1,5 +1,5 @@
 // Free-form solids: what is not a convex block. A Solid is a value: OpenCASCADE's boundary representation as
-// text, shared between copies and never changed. gmsh, which drives OpenCASCADE, is seen by kernel.cpp alone.
+// text, shared between copies and never changed. gmsh, which drives OpenCASCADE, stays in the sources behind.
 //
 // Lengths below min_length or coordinates beyond max_coordinate are refused: OpenCASCADE takes points nearer
 // than 1e-7 m for one.

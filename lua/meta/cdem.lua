@@ -22,6 +22,37 @@ local cdem = {}
 ---@field faces integer number of faces
 ---@field vertices number[][] m
 
+---About the centroid.
+---@class (exact) cdem.Inertia
+---@field mass number kg
+---@field centroid number[] m
+---@field tensor number[][] kg m2: three rows
+---@field principal number[] kg m2: ascending
+
+---How good the tetrahedra of a mesh are.
+---@class (exact) cdem.MeshQuality
+---@field nodes integer
+---@field tets integer
+---@field outer_faces integer
+---@field volume number m3
+---@field min_volume number m3
+---@field max_volume number m3
+---@field min_radius_ratio number 3 r_inscribed / r_circumscribed: 1 regular, 0 flat
+---@field mean_radius_ratio number
+---@field min_dihedral number deg: 70.5 in a regular tetrahedron
+---@field max_dihedral number deg
+---@field min_height number m: corner to opposite face: limits the time step
+---@field min_edge number m
+---@field mean_edge number m
+---@field max_edge number m
+
+---Outer faces of a mesh that were picked.
+---@class (exact) cdem.FaceGroup
+---@field count integer
+---@field area number m2
+---@field centroid number[] m
+---@field area_vector number[] m2: sum of outward normals times area
+
 ---Each bond (spring point) stands in exactly one of intact, broken_tension, broken_shear and contacts.
 ---@class (exact) cdem.Counts
 ---@field bodies integer
@@ -197,6 +228,172 @@ function Assembly:box() end
 ---One table per block.
 ---@return cdem.Block[]
 function Assembly:blocks() end
+
+---A free-form solid, made by cdem.solid.* and the armour units; it never changes.
+---@class cdem.Solid
+---@field height? number m: of an armour unit as it was made
+---@field density? number kg/m3
+---@operator len: integer
+local Solid = {}
+
+---
+---@return number # m3
+function Solid:volume() end
+
+---Volume of each region, m3.
+---@return number[]
+function Solid:regions() end
+
+---Axis-aligned box around the solid; where curved faces are cut by others it may be up to 1 % too large.
+---@return cdem.Box
+function Solid:box() end
+
+---@class (exact) cdem.SolidInertiaOptions
+---@field density? number kg/m3, > 0: the solid's own when left out; 1 when it has none
+
+---Mass, centroid and inertia about the centroid.
+---@param options? cdem.SolidInertiaOptions
+---@return cdem.Inertia
+function Solid:inertia(options) end
+
+---@class (exact) cdem.SolidMeshOptionsRefineBox
+---@field min number[] m
+---@field max number[] m
+
+---@class (exact) cdem.SolidMeshOptionsRefine
+---@field at? number[] m: near a point
+---@field line? number[][] m: along a line, an edge
+---@field box? cdem.SolidMeshOptionsRefineBox in a box
+---@field size number m, > 0
+---@field radius? number m, >= 0, default 0: how far the size holds
+
+---@class (exact) cdem.SolidMeshOptions
+---@field size? number m, > 0: edge length; the solid's mesh_size when left out
+---@field refine? cdem.SolidMeshOptionsRefine[] smaller tetrahedra in some places
+---@field growth? number in [0.05, 2], default 0.3: m of size per m of distance from a refined place
+
+---Tetrahedra that fill the solid; the same call gives the same mesh.
+---@param options? cdem.SolidMeshOptions
+---@return cdem.TetMesh
+function Solid:mesh(options) end
+
+---@class (exact) cdem.SolidTranslateOptions
+---@field shift number[] m
+
+---A moved copy.
+---@param options cdem.SolidTranslateOptions
+---@return cdem.Solid
+function Solid:translate(options) end
+
+---@class (exact) cdem.SolidRotateOptions
+---@field axis number[] of any length
+---@field angle number deg
+---@field centre? number[] m, default {0, 0, 0}
+
+---A copy turned, right-handed, about an axis through `centre`.
+---@param options cdem.SolidRotateOptions
+---@return cdem.Solid
+function Solid:rotate(options) end
+
+---@class (exact) cdem.SolidScaleOptions
+---@field factor number > 0
+---@field centre? number[] m, default {0, 0, 0}
+
+---A copy of another size.
+---@param options cdem.SolidScaleOptions
+---@return cdem.Solid
+function Solid:scale(options) end
+
+---@class (exact) cdem.SolidSaveOptions
+---@field file string ends in .step; in the output folder
+
+---Writes a STEP file.
+---@param options cdem.SolidSaveOptions
+function Solid:save(options) end
+
+---Tetrahedra, made by solid:mesh{} or cdem.read_mesh.
+---@class cdem.TetMesh
+---@field nodes integer how many
+---@field tets integer how many
+local TetMesh = {}
+
+---
+---@return number # m3
+function TetMesh:volume() end
+
+---Smallest axis-aligned box that holds all nodes.
+---@return cdem.Box
+function TetMesh:box() end
+
+---How good the tetrahedra are.
+---@return cdem.MeshQuality
+function TetMesh:quality() end
+
+---@class (exact) cdem.TetMeshFacesOptionsPlane
+---@field point number[] m
+---@field normal number[]
+
+---@class (exact) cdem.TetMeshFacesOptions
+---@field side? "x-"|"x+"|"y-"|"y+"|"z-"|"z+" faces in that face of the mesh's box
+---@field plane? cdem.TetMeshFacesOptionsPlane faces in a plane
+---@field tolerance? number m, >= 0: of plane; 1e-6 of the mesh's size when left out
+---@field direction? number[] faces whose outward normal points this way
+---@field angle? number deg, in [0, 90], default 10: of direction: how far off a normal may be
+---@field name? string
+
+---Picks outer faces; with a name they show as point field on_<name> in files and pictures.
+---@param options? cdem.TetMeshFacesOptions
+---@return cdem.FaceGroup
+function TetMesh:faces(options) end
+
+---@class (exact) cdem.TetMeshSaveOptions
+---@field file string ends in .vtu; in the output folder
+
+---Writes the mesh for ParaView.
+---@param options cdem.TetMeshSaveOptions
+function TetMesh:save(options) end
+
+---@class (exact) cdem.TetMeshPictureOptionsCamera
+---@field position number[] m
+---@field focal_point number[] m
+---@field up? number[] default {0, 1, 0}
+---@field view_angle? number deg, in (0, 180), default 30: over the height of the picture
+---@field perspective? boolean default true
+
+---@class (exact) cdem.TetMeshPictureOptionsMarkers
+---@field at number[] m: undeformed place
+---@field label? string
+---@field colour? number[] {red, green, blue}, each 0 .. 1
+---@field size? number > 0, default 14: pixels across
+
+---@class (exact) cdem.TetMeshPictureOptionsLines
+---@field points number[][] m
+---@field label? string
+---@field colour? number[] {red, green, blue}, each 0 .. 1
+---@field width? number > 0, default 4: pixels
+---@field dashed? boolean default false
+
+---@class (exact) cdem.TetMeshPictureOptions
+---@field file string ends in .png; in the output folder
+---@field colour? string "region", "radius_ratio", "min_dihedral", "volume" of the tetrahedra, "on_<name>" of named faces; plain when left out
+---@field view? "front"|"back"|"left"|"right"|"top"|"bottom"|"iso" default "front": front looks along -z at the x-y plane
+---@field up? "y"|"z" default "y": z: front looks along y with z up
+---@field camera? cdem.TetMeshPictureOptionsCamera instead of view
+---@field size? number[] default {1600, 1200}: {width, height} in pixels; height 0: as high as it needs to be
+---@field range? number[] {lowest, highest} of the colours, SI units
+---@field colour_map? "auto"|"blue_white_red"|"cool_warm"|"viridis"|"grey"|"categorical" default "auto": auto: blue_white_red when values change sign, viridis when not
+---@field title? string _{...} and ^{...} set sub- and superscripts
+---@field colour_bar? boolean default true
+---@field legend? boolean default true
+---@field axes? boolean default true: small arrows that name the directions
+---@field markers? cdem.TetMeshPictureOptionsMarkers[]
+---@field lines? cdem.TetMeshPictureOptionsLines[]
+---@field edges? "creases"|"mesh"|"none" default "creases": lines on the surface
+---@field crease? number deg, in [0, 180], default 25: the surface is outlined where it turns by more than this
+
+---Draws the mesh, without a display.
+---@param options cdem.TetMeshPictureOptions
+function TetMesh:picture(options) end
 
 ---A place, made by cdem.select.*; judged on undeformed places, so it survives cutting.
 ---@class cdem.Selection
@@ -498,13 +695,13 @@ function Model:save(options) end
 ---@field range? number[] {lowest, highest} of the colours, SI units
 ---@field colour_map? "auto"|"blue_white_red"|"cool_warm"|"viridis"|"grey"|"categorical" default "auto": auto: blue_white_red when values change sign, viridis when not
 ---@field title? string _{...} and ^{...} set sub- and superscripts
----@field edges? boolean default true: outlines of the blocks
----@field broken_bonds? boolean default true: broken interfaces, coloured by how they broke
 ---@field colour_bar? boolean default true
 ---@field legend? boolean default true
 ---@field axes? boolean default true: small arrows that name the directions
 ---@field markers? cdem.ModelPictureOptionsMarkers[]
 ---@field lines? cdem.ModelPictureOptionsLines[]
+---@field edges? boolean default true: outlines of the blocks
+---@field broken_bonds? boolean default true: broken interfaces, coloured by how they broke
 
 ---Draws the model, without a display.
 ---@param options cdem.ModelPictureOptions
@@ -716,6 +913,180 @@ function cdem.rotate(options) end
 ---@param options cdem.MergeOptions
 ---@return cdem.Assembly
 function cdem.merge(options) end
+
+cdem.solid = {}
+
+---@class (exact) cdem.SolidBoxOptions
+---@field size number[] m, > 0
+---@field origin? number[] m, default {0, 0, 0}: lower corner
+
+---A box.
+---@param options cdem.SolidBoxOptions
+---@return cdem.Solid
+function cdem.solid.box(options) end
+
+---@class (exact) cdem.SolidCylinderOptions
+---@field radius number m, > 0
+---@field axis number[] m: from the middle of the base to that of the top
+---@field base? number[] m, default {0, 0, 0}: middle of the base
+
+---A cylinder.
+---@param options cdem.SolidCylinderOptions
+---@return cdem.Solid
+function cdem.solid.cylinder(options) end
+
+---@class (exact) cdem.SolidConeOptions
+---@field radius number m, >= 0: of the base
+---@field top_radius? number m, >= 0, default 0
+---@field axis number[] m: from the middle of the base to that of the top
+---@field base? number[] m, default {0, 0, 0}: middle of the base
+
+---A cone, cut off at the top unless top_radius is 0.
+---@param options cdem.SolidConeOptions
+---@return cdem.Solid
+function cdem.solid.cone(options) end
+
+---@class (exact) cdem.SolidSphereOptions
+---@field radius number m, > 0
+---@field centre? number[] m, default {0, 0, 0}
+
+---A ball.
+---@param options cdem.SolidSphereOptions
+---@return cdem.Solid
+function cdem.solid.sphere(options) end
+
+---@class (exact) cdem.SolidReadOptions
+---@field file string ends in .step, .stp or .stl
+---@field scale? number > 0, default 1: 0.001 for an STL in millimetres
+
+---A solid from a STEP file (in the file's units) or from a closed STL surface, whose triangles become its faces and bound the mesh size from above.
+---@param options cdem.SolidReadOptions
+---@return cdem.Solid
+function cdem.solid.read(options) end
+
+---@class (exact) cdem.SolidUnionOptions
+---@field solids cdem.Solid[]
+
+---All of several solids as one.
+---@param options cdem.SolidUnionOptions
+---@return cdem.Solid
+function cdem.solid.union(options) end
+
+---@class (exact) cdem.SolidCutOptions
+---@field solid cdem.Solid left as it is; the result is a new one
+---@field tools cdem.Solid[] what is taken away
+
+---A solid without the parts that others cover.
+---@param options cdem.SolidCutOptions
+---@return cdem.Solid
+function cdem.solid.cut(options) end
+
+---@class (exact) cdem.SolidCommonOptions
+---@field solid cdem.Solid left as it is; the result is a new one
+---@field other cdem.Solid
+
+---What two solids have in common.
+---@param options cdem.SolidCommonOptions
+---@return cdem.Solid
+function cdem.solid.common(options) end
+
+---@class (exact) cdem.SolidFragmentsOptions
+---@field solids cdem.Solid[]
+
+---The pieces that solids cut each other into, as regions of one solid; neighbours share faces, and their meshes share nodes.
+---@param options cdem.SolidFragmentsOptions
+---@return cdem.Solid
+function cdem.solid.fragments(options) end
+
+---@class (exact) cdem.AccropodeOptions
+---@field height? number m, > 0
+---@field mass? number kg, > 0: with density, instead of height: the volume is met exactly
+---@field density? number kg/m3, > 0
+---@field mesh_size? number m, > 0: what solid:mesh{} takes when it is given no size
+---@field shape? "slender"|"stocky" default "slender"
+---@field width? number > 0: of the end bars and the core along x: 0.42 or 0.386
+---@field bar? number > 0: of an end bar along y: 0.33 or 0.30
+---@field core? number > 0: of the core and the middle bar along z: 0.42
+---@field length? number > 0: of the middle bar along x: 1 or 0.80
+---@field taper? number > 0: size of a bar's end over that at the core: 0.70 or 0.95
+---@field corner? number > 0: cut off a bar's edges, over the shorter side of its section: 0.20
+
+---An accropode-like unit, V = 0.34 H^3: two end bars along z, a middle bar along x, a core. Centred on the origin. Proportions are fractions of the height; those left out are the shape's.
+---@param options? cdem.AccropodeOptions
+---@return cdem.Solid
+function cdem.accropode(options) end
+
+---@class (exact) cdem.DolosOptions
+---@field height? number m, > 0
+---@field mass? number kg, > 0: with density, instead of height: the volume is met exactly
+---@field density? number kg/m3, > 0
+---@field mesh_size? number m, > 0: what solid:mesh{} takes when it is given no size
+---@field tip? number > 0, default 0.2: width of a fluke at its ends, over the height
+---@field waist? number > 0, default 0.32: width of the shank, over the height
+---@field root? number > 0, default 0.364: width of a fluke at its middle, over the height
+
+---A dolos without fillets, V = 0.163 C^3: octagonal flukes along z and y at the ends of a shank along x.
+---@param options? cdem.DolosOptions
+---@return cdem.Solid
+function cdem.dolos(options) end
+
+---@class (exact) cdem.TetrapodOptions
+---@field height? number m, > 0
+---@field mass? number kg, > 0: with density, instead of height: the volume is met exactly
+---@field density? number kg/m3, > 0
+---@field mesh_size? number m, > 0: what solid:mesh{} takes when it is given no size
+---@field tip? number > 0, default 0.302: diameter of a leg at its end, over the height
+---@field root? number > 0, default 0.47: diameter of a leg where it meets the others
+
+---A tetrapod, V = 0.28 H^3: four conical legs, one of them up.
+---@param options? cdem.TetrapodOptions
+---@return cdem.Solid
+function cdem.tetrapod(options) end
+
+---@class (exact) cdem.CubeOptions
+---@field height? number m, > 0
+---@field mass? number kg, > 0: with density, instead of height: the volume is met exactly
+---@field density? number kg/m3, > 0
+---@field mesh_size? number m, > 0: what solid:mesh{} takes when it is given no size
+
+---A plain cube.
+---@param options? cdem.CubeOptions
+---@return cdem.Solid
+function cdem.cube(options) end
+
+---@class (exact) cdem.AntiferOptions
+---@field height? number m, > 0
+---@field mass? number kg, > 0: with density, instead of height: the volume is met exactly
+---@field density? number kg/m3, > 0
+---@field mesh_size? number m, > 0: what solid:mesh{} takes when it is given no size
+---@field bottom? number > 0, default 1.086: width of the lower face, over the height
+---@field top? number > 0, default 1.005: width of the upper face
+---@field groove? number >= 0, default 0.1047: radius of the grooves; 0: none
+
+---An antifer cube, V = 1.0247 H^3: its sides lean in and have a round groove each.
+---@param options? cdem.AntiferOptions
+---@return cdem.Solid
+function cdem.antifer(options) end
+
+---@class (exact) cdem.SlopeOptions
+---@field gradient number > 0: rise over run: 1/1.5
+---@field length number m, > 0: along x
+---@field width number m, > 0: along y
+---@field mesh_size? number m, > 0
+
+---A wedge that rises along +x from x = 0, z = 0; y from -width/2 to width/2.
+---@param options cdem.SlopeOptions
+---@return cdem.Solid
+function cdem.slope(options) end
+
+---@class (exact) cdem.ReadMeshOptions
+---@field file string
+---@field scale? number > 0, default 1: 0.001 for a mesh in millimetres
+
+---Linear tetrahedra from a file: gmsh .msh, Medit .mesh, Abaqus .inp, Nastran .bdf, I-deas .unv, legacy .vtk, or a .vtu written by cdem. What is wrong with them is said.
+---@param options cdem.ReadMeshOptions
+---@return cdem.TetMesh
+function cdem.read_mesh(options) end
 
 cdem.select = {}
 

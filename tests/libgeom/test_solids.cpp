@@ -78,7 +78,7 @@ TEST_CASE("moving and turning keep volume, scaling multiplies it by the cube") {
   CHECK((mass_properties(large).centroid - expected).norm() < 1e-8);
 }
 
-TEST_CASE("a quarter turn about z takes x to y") {
+TEST_CASE("a solid turned by a quarter about z has its x along y") {
   const Box turned = bounding_box(rotated(left, {0, 0, 2}, M_PI / 2, {0, 0, 0}));
   CHECK((turned.min - Vec3(-2, 0, 0)).norm() < 1e-6);
   CHECK((turned.max - Vec3(0, 1, 3)).norm() < 1e-6);

@@ -1,6 +1,8 @@
 // Shape measures against the regular and the right-angled tetrahedron; what makes a mesh invalid; size
 // fields.
 #include "libgeom/core/error.hpp"
+#include "libgeom/mesh/boundary.hpp"
+#include "libgeom/mesh/box_mesh.hpp"
 #include "libgeom/mesh/mesh_size.hpp"
 #include "libgeom/mesh/tet_quality.hpp"
 
@@ -135,4 +137,22 @@ TEST_CASE("a size field is the smallest of what is asked for, growing with the d
   CHECK(distance_to(sizes.refinements[0], {3, 0, 0}) == Approx(1));
   sizes.refinements[0].size = 0;
   CHECK_THROWS_WITH(validate(sizes), "refine.size = 0: must be finite and > 0 m");
+}
+
+TEST_CASE("a mesh has the volume, centroid and inertia of the box it fills, wherever it is") {
+  TetMesh mesh = box_mesh({1, 2, 3}, {2, 2, 3}, 0.1);
+  for (Vec3& x : mesh.nodes)
+    x += Vec3(1e4, 2e4, -3e4);
+  const MassProperties m = mass_properties(mesh);
+  CHECK(m.volume == Approx(6).epsilon(1e-10));
+  CHECK((m.centroid - Vec3(1e4 + 0.5, 2e4 + 1, -3e4 + 1.5)).norm() < 1e-9);
+  const Mat3 exact = 0.5 * Vec3(4 + 9, 1 + 9, 1 + 4).asDiagonal().toDenseMatrix(); // V (b^2 + c^2) / 12
+  CHECK((m.inertia - exact).norm() < 1e-9);
+  CHECK(principal_inertia_ratio(m) == Approx(13. / 5).epsilon(1e-9));
+}
+
+TEST_CASE("the ratio of principal inertias does not depend on the axes") {
+  const Mat3 turn = Eigen::AngleAxisd(0.7, Vec3(1, 2, 3).normalized()).toRotationMatrix();
+  const Mat3 diagonal = Vec3(2, 3, 4).asDiagonal();
+  CHECK(principal_inertia_ratio({1, {0, 0, 0}, turn * diagonal * turn.transpose()}) == Approx(2));
 }

@@ -1,0 +1,118 @@
+// Tetrahedra made or read by gmsh.
+#include "libgeom/mesh/read_mesh.hpp"
+#include "libgeom/mesh/solid_mesh.hpp"
+#include "libgeom/solid/gmsh_session.hpp"
+
+#include "libgeom/core/check.hpp"
+
+#include <gmsh.h>
+
+#include <cmath>
+#include <filesystem>
+#include <unordered_map>
+
+namespace geom {
+namespace {
+
+// The tets of gmsh's model, each volume a region, and the nodes they use in the order they are met.
+TetMesh collect(const std::string& what) {
+  constexpr int linear_tet = 4; // gmsh's number of the element
+  std::vector<std::size_t> tags;
+  std::vector<double> coordinates, ignored;
+  gmsh::model::mesh::getNodes(tags, coordinates, ignored, -1, -1, false, false);
+  std::unordered_map<std::size_t, std::size_t> place; // by tag
+  for (std::size_t i = 0; i < tags.size(); ++i)
+    place[tags[i]] = i;
+
+  TetMesh mesh;
+  std::unordered_map<std::size_t, int> node_of; // by tag
+  Pieces volumes;
+  gmsh::model::getEntities(volumes, 3);
+  int region = 0;
+  for (const auto& [dim, tag] : volumes) {
+    std::vector<int> types;
+    std::vector<std::vector<std::size_t>> elements, corners;
+    gmsh::model::mesh::getElements(types, elements, corners, dim, tag);
+    for (std::size_t k = 0; k < types.size(); ++k) {
+      if (types[k] != linear_tet)
+        throw InputError(what +
+                         ": has volume elements that are not tetrahedra with four nodes; mesh it with linear "
+                         "tetrahedra");
+      for (std::size_t t = 0; t < elements[k].size(); ++t) {
+        Tet tet;
+        for (std::size_t c = 0; c < 4; ++c) {
+          const std::size_t corner = corners[k][4 * t + c];
+          const auto at = place.find(corner);
+          if (at == place.end())
+            throw InputError(what + ": an element names node " + std::to_string(corner) +
+                             ", which is not there");
+          const auto [node, added] = node_of.try_emplace(corner, static_cast<int>(mesh.nodes.size()));
+          if (added)
+            mesh.nodes.emplace_back(Eigen::Map<const Vec3>(&coordinates[3 * at->second]));
+          tet[c] = node->second;
+        }
+        mesh.tets.push_back(tet);
+        mesh.region.push_back(region);
+      }
+    }
+    if (mesh.region.empty() || mesh.region.back() != region)
+      throw InputError(what + ": volume " + std::to_string(region + 1) + " has no tetrahedra");
+    ++region;
+  }
+  return mesh;
+}
+
+} // namespace
+
+TetMesh mesh_solid(const Solid& solid, const MeshSize& sizes) {
+  validate(sizes);
+  const double expected = expected_tets(sizes, bounding_box(solid), mass_properties(solid).volume);
+  if (!(expected <= max_tets))
+    throw InputError("size", text(sizes.size), "such that there are at most 20 million tetrahedra",
+                     "this asks for about " + text(std::round(expected * 1e-6)) + " million");
+  TetMesh mesh = in_session("mesh", [&] {
+    // Delaunay (1), not HXT (10): HXT's mesh differs from run to run, even on one thread.
+    for (const auto& [name, value] : {std::pair<const char*, double>{"Mesh.Algorithm", 6},
+                                      {"Mesh.Algorithm3D", 1},
+                                      {"Mesh.MaxNumThreads1D", 1},
+                                      {"Mesh.MaxNumThreads2D", 1},
+                                      {"Mesh.MaxNumThreads3D", 1},
+                                      {"Mesh.Optimize", 1},
+                                      {"Mesh.MeshSizeExtendFromBoundary", 0},
+                                      {"Mesh.MeshSizeFromPoints", 0}})
+      gmsh::option::setNumber(name, value);
+    load(solid);
+    gmsh::model::occ::synchronize();
+    gmsh::model::mesh::setSizeCallback([&](int, int, double x, double y, double z) {
+      return size_at(sizes, {x, y, z});
+    });
+    // Surfaces are meshed in a parallel region, from which nothing can be thrown: errors are asked for after
+    // it.
+    gmsh::option::setNumber("General.AbortOnError", 0);
+    gmsh::logger::start();
+    gmsh::model::mesh::generate(3);
+    std::vector<std::string> log;
+    gmsh::logger::get(log);
+    gmsh::logger::stop();
+    for (const std::string& line : log)
+      if (line.compare(0, 6, "Error:") == 0)
+        throw InputError("mesh: the solid cannot be meshed with this size:" + line.substr(6) +
+                         "; try another size, and make sure that no faces nearly touch");
+    return collect("mesh");
+  });
+  validate(mesh, "mesh");
+  return mesh;
+}
+
+TetMesh read_mesh(const std::string& path) {
+  if (!std::filesystem::is_regular_file(path))
+    throw InputError("file", '"' + path + '"', "an existing mesh file");
+  TetMesh mesh = in_session("reading " + path, [&] {
+    gmsh::merge(path);
+    return collect(path);
+  });
+  validate(mesh, path);
+  return mesh;
+}
+
+} // namespace geom

@@ -1,0 +1,97 @@
+#include "libgeom/solid/gmsh_session.hpp"
+
+#include "libgeom/core/check.hpp"
+
+#include <gmsh.h>
+
+#include <filesystem>
+#include <fstream>
+#include <iostream>
+#include <sstream>
+
+#include <unistd.h>
+
+namespace geom {
+namespace {
+
+std::mutex& one_at_a_time() {
+  static std::mutex one;
+  return one;
+}
+
+} // namespace
+
+GmshSession::GmshSession() : lock_(one_at_a_time()), cout_(std::cout.rdbuf(nullptr)) {
+  gmsh::initialize(0, nullptr, false);
+  for (const auto& [name, value] : {std::pair<const char*, double>{"General.Terminal", 0},
+                                    {"General.NumThreads", 1},
+                                    {"Geometry.OCCParallel", 0},
+                                    {"Geometry.OCCUnionUnify", 1}})
+    gmsh::option::setNumber(name, value);
+}
+
+GmshSession::~GmshSession() {
+  try {
+    gmsh::finalize();
+  } catch (...) { // nothing is left to be done about it
+  }
+  std::cout.rdbuf(cout_);
+  std::cout.clear();
+}
+
+TemporaryFile::TemporaryFile(const std::string& ending)
+    : path_((std::filesystem::temp_directory_path() / ("cdem-XXXXXX" + ending)).string()) {
+  const int file = mkstemps(path_.data(), static_cast<int>(ending.size()));
+  if (file < 0)
+    throw std::runtime_error("cannot write a temporary file " + path_);
+  close(file);
+}
+
+TemporaryFile::~TemporaryFile() {
+  std::error_code ignored;
+  std::filesystem::remove(path_, ignored);
+}
+
+Pieces load(const Solid& solid) {
+  const TemporaryFile file(".brep");
+  std::ofstream(file.path()) << solid.brep();
+  Pieces pieces;
+  gmsh::model::occ::importShapes(file.path(), pieces, true, "brep");
+  return pieces;
+}
+
+// The model's volumes as a value.
+Solid store(const std::string& what) {
+  gmsh::model::occ::synchronize();
+  Pieces volumes;
+  gmsh::model::getEntities(volumes, 3);
+  if (volumes.empty())
+    throw InputError(what + ": nothing is left");
+  const TemporaryFile file(".brep");
+  gmsh::write(file.path());
+  std::ostringstream text;
+  text << std::ifstream(file.path()).rdbuf();
+  return {text.str(), static_cast<int>(volumes.size())};
+}
+
+Pieces load_all(const std::vector<Solid>& solids, std::size_t from) {
+  Pieces all;
+  for (std::size_t i = from; i < solids.size(); ++i) {
+    const Pieces pieces = load(solids[i]);
+    all.insert(all.end(), pieces.begin(), pieces.end());
+  }
+  return all;
+}
+
+void require_place(const std::string& field, const Vec3& x) {
+  require_finite(field, x);
+  if (!(x.cwiseAbs().maxCoeff() <= max_coordinate))
+    throw InputError(field, text(x), "within 100 km of the origin");
+}
+
+void require_length(const std::string& field, double x) {
+  if (!(x >= min_length && x <= max_coordinate))
+    throw InputError(field, text(x), "from 0.1 mm to 100 km");
+}
+
+} // namespace geom

@@ -1,0 +1,65 @@
+// What the wrappers of gmsh share: one operation at a time, failures as our own errors, solids in and out.
+// gmsh is one global thing per process that stays "busy" after an error: every operation therefore starts it,
+// works and shuts it down, so that a failure leaves nothing behind. It throws std::string.
+#pragma once
+
+#include "libgeom/core/error.hpp"
+#include "libgeom/solid/solid.hpp"
+
+#include <mutex>
+#include <streambuf>
+
+namespace geom {
+
+using Pieces = std::vector<std::pair<int, int>>; // (dimension, tag) in gmsh's model
+
+// Holds gmsh for one operation; what it or OpenCASCADE says on std::cout is dropped.
+class GmshSession {
+public:
+  GmshSession();
+  ~GmshSession();
+  GmshSession(const GmshSession&) = delete;
+  GmshSession& operator=(const GmshSession&) = delete;
+
+private:
+  std::lock_guard<std::mutex> lock_;
+  std::streambuf* cout_;
+};
+
+// Runs body in a session; every failure of gmsh arrives as an InputError that says what was being done.
+template <class Body>
+auto in_session(const std::string& what, Body body) {
+  try {
+    const GmshSession session;
+    return body();
+  } catch (const std::string& message) {
+    throw InputError(what + ": the geometry kernel cannot do it: " + message);
+  } catch (const std::exception&) {
+    throw;
+  } catch (...) { // OpenCASCADE's failures are no std::exception
+    throw InputError(what + ": the geometry kernel cannot do it");
+  }
+}
+
+// Throws std::runtime_error when the system's temporary folder cannot be written.
+class TemporaryFile {
+public:
+  explicit TemporaryFile(const std::string& ending);
+  ~TemporaryFile();
+  TemporaryFile(const TemporaryFile&) = delete;
+  TemporaryFile& operator=(const TemporaryFile&) = delete;
+  const std::string& path() const { return path_; }
+
+private:
+  std::string path_;
+};
+
+// Inside a session only. `what` begins the messages.
+Pieces load(const Solid&);
+Pieces load_all(const std::vector<Solid>&, std::size_t from);
+Solid store(const std::string& what); // the model's volumes; throws InputError when there are none
+
+void require_place(const std::string& field, const Vec3&);    // finite, within max_coordinate
+void require_length(const std::string& field, double length); // min_length .. max_coordinate
+
+} // namespace geom

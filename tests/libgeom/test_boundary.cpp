@@ -1,0 +1,115 @@
+// Faces of tet meshes: what closes, what is shared, where the outside turns.
+#include "libgeom/core/error.hpp"
+#include "libgeom/mesh/boundary.hpp"
+#include "libgeom/mesh/box_mesh.hpp"
+
+#include <catch2/catch.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+using namespace geom;
+
+namespace {
+
+const TetMesh box = box_mesh({1, 2, 3}, {3, 4, 5}, 0.15, 7);
+
+} // namespace
+
+TEST_CASE("every face of every tet is either outside or between two tets") {
+  const auto outer = outer_faces(box);
+  const auto inner = inner_faces(box);
+  CHECK(outer.size() == 2 * 2 * (3 * 4 + 4 * 5 + 5 * 3)); // two triangles on each cell's outer face
+  CHECK(outer.size() + 2 * inner.size() == 4 * box.tets.size());
+  std::set<std::array<int, 2>> met; // tet, face
+  for (const OuterFace& f : outer)
+    CHECK(met.insert({f.tet, f.face}).second);
+  for (const InnerFace& f : inner)
+    for (std::size_t s = 0; s < 2; ++s)
+      CHECK(met.insert({f.tets[s], f.faces[s]}).second);
+}
+
+TEST_CASE("neighbours are mutual and share three nodes, none of which is the corner opposite to the face") {
+  const std::vector<int> other = face_neighbours(box.tets, box.nodes.size());
+  REQUIRE(other.size() == 4 * box.tets.size());
+  bool mutual = true, shared = true;
+  for (std::size_t i = 0; i < other.size(); ++i) {
+    if (other[i] < 0)
+      continue;
+    mutual = mutual && other[other[i]] == static_cast<int>(i);
+    const Tet &a = box.tets[i / 4], &b = box.tets[other[i] / 4];
+    for (std::size_t c = 0; c < 4; ++c)
+      shared = shared && (std::count(b.begin(), b.end(), a[c]) == 1) == (c != i % 4);
+  }
+  CHECK(mutual);
+  CHECK(shared);
+}
+
+TEST_CASE("outer faces point outward: the divergence theorem gives the volume") {
+  double flux = 0; // of x over the outside, 3 V
+  Vec3 sum = Vec3::Zero();
+  for (const OuterFace& f : outer_faces(box)) {
+    const Vec3 &a = box.nodes[f.nodes[0]], &b = box.nodes[f.nodes[1]], &c = box.nodes[f.nodes[2]];
+    const Vec3 area = 0.5 * (b - a).cross(c - a);
+    flux += area.dot(a + b + c) / 3;
+    sum += area;
+    for (std::size_t i = 0; i < 3; ++i)
+      CHECK(f.nodes[i] == box.tets[f.tet][tet_faces[f.face][i]]);
+  }
+  CHECK(flux == Approx(3 * 6.).epsilon(1e-12));
+  CHECK(sum.norm() < 1e-12);
+}
+
+TEST_CASE("an inner face is seen from outside its first tet and lists the same nodes in both") {
+  for (const InnerFace& f : inner_faces(box)) {
+    REQUIRE(f.tets[0] < f.tets[1]);
+    for (std::size_t s = 0; s < 2; ++s)
+      for (std::size_t i = 0; i < 3; ++i) {
+        REQUIRE(box.tets[f.tets[s]][f.corners[s][i]] == f.nodes[i]);
+        REQUIRE(f.corners[s][i] != f.faces[s]); // the corner opposite to it
+      }
+    const Vec3& a = box.nodes[f.nodes[0]];
+    const Vec3 normal = (box.nodes[f.nodes[1]] - a).cross(box.nodes[f.nodes[2]] - a);
+    REQUIRE(normal.dot(box.nodes[box.tets[f.tets[0]][f.faces[0]]] - a) < 0);
+    REQUIRE(normal.dot(box.nodes[box.tets[f.tets[1]][f.faces[1]]] - a) > 0);
+  }
+}
+
+TEST_CASE("lists of faces are in the order of tets and their faces") {
+  const auto outer = outer_faces(box);
+  CHECK(std::is_sorted(outer.begin(), outer.end(), [](const OuterFace& a, const OuterFace& b) {
+    return std::tie(a.tet, a.face) < std::tie(b.tet, b.face);
+  }));
+  const auto inner = inner_faces(box);
+  CHECK(std::is_sorted(inner.begin(), inner.end(), [](const InnerFace& a, const InnerFace& b) {
+    return std::tie(a.tets[0], a.faces[0]) < std::tie(b.tets[0], b.faces[0]);
+  }));
+}
+
+TEST_CASE("a box has feature edges along its twelve edges, of a right angle each") {
+  const auto edges = feature_edges(box, outer_faces(box), 0.1);
+  CHECK(edges.size() == 4 * (3 + 4 + 5));
+  double length = 0;
+  for (const FeatureEdge& e : edges) {
+    CHECK(e.nodes[0] < e.nodes[1]);
+    CHECK(e.angle == Approx(M_PI / 2));
+    length += (box.nodes[e.nodes[0]] - box.nodes[e.nodes[1]]).norm();
+  }
+  CHECK(length == Approx(4 * (1 + 2 + 3)));
+  CHECK(feature_edges(box, outer_faces(box), 0.51 * M_PI).empty());
+}
+
+TEST_CASE("a regular tet turns by pi less its dihedral angle on six edges") {
+  const TetMesh one{{{1, 1, 1}, {-1, 1, -1}, {1, -1, -1}, {-1, -1, 1}}, {{0, 1, 2, 3}}, {0}};
+  REQUIRE(volume(one) > 0);
+  const auto edges = feature_edges(one, outer_faces(one), 0);
+  CHECK(edges.size() == 6);
+  for (const FeatureEdge& e : edges)
+    CHECK(e.angle == Approx(M_PI - std::acos(1. / 3)));
+}
+
+TEST_CASE("three tets on one face are refused with their numbers") {
+  const std::vector<Tet> tets{{0, 1, 2, 3}, {0, 2, 1, 4}, {0, 2, 1, 5}};
+  CHECK_THROWS_WITH(face_neighbours(tets, 6), "tetrahedra 1, 2 and 3 share one face; at most two may");
+}
