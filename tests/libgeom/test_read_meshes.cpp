@@ -115,7 +115,7 @@ TEST_CASE("an STL that is no closed surface is refused with the place") {
   CHECK_THAT(message([&] { read_stl(write.folder / "none.stl"); }), Contains("an existing STL file"));
 }
 
-TEST_CASE("a gmsh file gives its tets; what is wrong in one is named") {
+TEST_CASE("a gmsh file gives its tets, and what is wrong in one is named") {
   const TemporaryFolder folder;
   const auto read = [&](const std::string& bytes) {
     std::ofstream(folder / "part.msh") << bytes;
