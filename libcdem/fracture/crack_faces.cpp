@@ -82,12 +82,6 @@ CrackFace break_face(const Model& model, State& state, RunLog& log, int stage, c
     const BondPoint& point = model.points[p];
     const geom::Vec3 t = traction(model, state, p);
     state.bond_mode[p] = static_cast<std::uint8_t>(load.ratio.mode);
-    if (!state.bond_damage.empty()) {
-      // The slip of the rubbing part goes on as the contact's.
-      state.bond_damage[p] = 0;
-      state.bond_offset[p] += state.bond_slip[p];
-      state.bond_slip[p].setZero();
-    }
     // The offset moves with the stress drop at once, so that the next step does not count it as sliding.
     state.bond_offset[p] = contact_response(interface.kn, interface.ks, tan_friction, point.normal,
                                             jump(point, state.displacement), state.bond_offset[p])

@@ -33,6 +33,21 @@ void check(const GrowOptions& o) {
   require(o.max_rounds >= 1, "max_rounds", std::to_string(o.max_rounds), "an integer >= 1");
 }
 
+// Whole faces break at the mean of their tractions: the energy that a softening bond has yet to take is no part of it.
+void refuse_softening(const Model& model) {
+  for (const auto& [bodies, joint] : model.pair_joint) {
+    const Softening softening = model.joints[joint].softening;
+    if (softening == Softening::none)
+      continue;
+    const std::string &a = model.bodies[bodies.first].name, &b = model.bodies[bodies.second].name;
+    throw geom::InputError(fmt::format(
+        "the joint {} softens (softening = \"{}\"), and grow breaks whole faces at their strength; "
+        "leave softening out, or load in small increments with relax, which follows the curve",
+        a == b ? "inside \"" + a + "\"" : "between \"" + a + "\" and \"" + b + "\"",
+        softening == Softening::linear ? "linear" : "exponential"));
+  }
+}
+
 double worst_ratio(const std::vector<FaceLoad>& loads) {
   double worst = 0;
   for (const FaceLoad& load : loads)
@@ -229,6 +244,7 @@ const char* name(GrowState state) {
 
 GrowResult grow(const GrowContext& context, const GrowOptions& options) {
   check(options);
+  refuse_softening(context.model);
   return Driver(context, options)();
 }
 

@@ -22,7 +22,7 @@ struct GrowContext {
   std::function<void(Rebuilt&&)> adopt;
 };
 
-// Throws geom::InputError when a value cannot be used; SolutionError and Interrupted as the relaxations do.
+// Throws geom::InputError when a value cannot be used or a joint softens; SolutionError and Interrupted as the relaxations do.
 GrowResult grow(const GrowContext&, const GrowOptions&);
 
 } // namespace cdem
