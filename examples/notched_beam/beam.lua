@@ -60,7 +60,8 @@ function beam.model(bodies, support, contacts)
   local reach = support == "face" and 0.03 or 0
   model:select{ name = "left support", on = bottom(0, reach) }
   model:select{ name = "right support", on = bottom(beam.length - reach, beam.length) }
-  model:select{ name = "load line", on = cdem.select.where(function(x, y) return near(y, beam.height) and near(x, beam.midspan) end) }
+  local function above_midspan(x, y) return near(y, beam.height) and near(x, beam.midspan) end
+  model:select{ name = "load line", on = cdem.select.where(above_midspan) }
   model:fix{ on = {"z-", "z+"}, axes = "z" }
   model:fix{ on = "left support" }
   model:fix{ on = "right support", axes = support == "roller" and "yz" or "xyz" }

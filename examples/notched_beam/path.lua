@@ -44,7 +44,8 @@ local function add_distances(from, to, top, sum)
       local p = {a[1] + t * (b[1] - a[1]), a[2] + t * (b[2] - a[2])}
       if p[2] <= top then
         local d = distance_to_line(p, to)
-        sum.square, sum.length, sum.most = sum.square + length / pieces * d * d, sum.length + length / pieces, math.max(sum.most, d)
+        sum.square, sum.length = sum.square + length / pieces * d * d, sum.length + length / pieces
+        sum.most = math.max(sum.most, d)
       end
     end
   end

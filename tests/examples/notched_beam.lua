@@ -4,7 +4,8 @@ local cdem = require "cdem"
 local expect = require "expect"
 
 local results = cdem.sweep{ script = "../../examples/notched_beam/case.lua",
-                            set = { { support = "pinned" }, { support = "face", passes = 0 }, { support = "roller", passes = 0 } } }
+                            set = { { support = "pinned" }, { support = "face", passes = 0 },
+                                    { support = "roller", passes = 0 } } }
 for _, result in ipairs(results) do
   if result.exit_code ~= 0 then error("the example ended with exit code " .. result.exit_code) end
 end
