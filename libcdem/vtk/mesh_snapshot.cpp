@@ -36,6 +36,33 @@ Snapshot mesh_snapshot(const geom::TetMesh& mesh, const NamedFaces& named, doubl
   return snapshot;
 }
 
+void set_apart(Snapshot& snapshot, const std::vector<geom::OuterFace>& faces, const NamedFaces& named) {
+  std::map<geom::Triangle, std::size_t> place; // in the surface, by nodes
+  for (std::size_t i = 0; i < snapshot.surface.size(); ++i)
+    place[snapshot.surface[i]] = i;
+  std::map<std::size_t, std::array<int, 3>> own; // points by place in the surface
+  for (const auto& [name, chosen] : named)
+    for (const int face : chosen) {
+      const auto at = place.find(faces[face].nodes);
+      if (at == place.end() || own.count(at->second) > 0)
+        continue;
+      std::array<int, 3>& points = own[at->second];
+      for (std::size_t c = 0; c < 3; ++c) {
+        points[c] = static_cast<int>(snapshot.points.size());
+        snapshot.points.push_back(snapshot.points[faces[face].nodes[c]]);
+      }
+    }
+  for (const auto& [i, points] : own)
+    snapshot.surface[i] = points;
+  for (SnapshotField& field : snapshot.point_fields) {
+    field.values.assign(snapshot.points.size(), 0.);
+    for (const int face : named.at(field.name.substr(3)))
+      if (const auto at = place.find(faces[face].nodes); at != place.end())
+        for (const int point : own.at(at->second))
+          field.values[point] = 1;
+  }
+}
+
 geom::TetMesh read_vtu_mesh(const std::string& path) {
   const Snapshot snapshot = read_vtu(path);
   geom::TetMesh mesh;

@@ -170,8 +170,9 @@ void Scene::Impl::add_body(const SceneInput& in, const View& view) {
   if (flat_to_viewer(in.snapshot, in.points, view)) {
     property->LightingOff();
   } else {
-    property->SetAmbient(0.6);
-    property->SetDiffuse(0.45);
+    // Where colours are to be read off the colour bar shading is only as strong as shapes need.
+    property->SetAmbient(in.field ? 0.86 : 0.6);
+    property->SetDiffuse(in.field ? 0.16 : 0.45);
   }
   if (!in.field)
     return;

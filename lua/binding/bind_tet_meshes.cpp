@@ -8,6 +8,7 @@
 
 #include "libcdem/vtk/files.hpp"
 #include "libgeom/core/error.hpp"
+#include "libgeom/mesh/box_mesh.hpp"
 #include "libgeom/mesh/read_mesh.hpp"
 #include "libgeom/mesh/tet_quality.hpp"
 
@@ -27,6 +28,14 @@ Value read_mesh(Session& session, Object*, const Arguments& a) {
     x *= a.number("scale");
   auto object = std::make_shared<TetMeshObject>(std::move(mesh));
   object->title = path.stem().string();
+  return object;
+}
+
+Value box_mesh(Session&, Object*, const Arguments& a) {
+  auto object =
+      std::make_shared<TetMeshObject>(geom::box_mesh(a.vec3("size"), a.ivec3("divisions"), a.number("jitter"),
+                                                     static_cast<std::uint64_t>(a.integer("seed"))));
+  object->title = "box";
   return object;
 }
 
@@ -51,7 +60,7 @@ Value quality(Session&, TetMeshObject& self, const Arguments&) {
 
 std::vector<int> picked(const TetMeshObject& self, const Arguments& a) {
   if (a.has("side") + a.has("plane") + a.has("direction") != 1)
-    throw InputError("faces: must have one of side, plane and direction");
+    throw InputError("must have one of side, plane and direction");
   if (a.has("side"))
     return geom::faces_on_side(self.mesh, self.faces, a.text("side"));
   if (a.has("direction"))
@@ -68,7 +77,7 @@ std::vector<int> picked(const TetMeshObject& self, const Arguments& a) {
 Value faces(Session&, TetMeshObject& self, const Arguments& a) {
   const std::vector<int> chosen = picked(self, a);
   if (chosen.empty())
-    throw InputError("faces: no outer face of the mesh lies there" +
+    throw InputError("no outer face of the mesh lies there" +
                      std::string(a.has("side")
                                      ? "; where the solid is not flat on that side pick a plane with a "
                                        "tolerance, or a direction"
@@ -97,8 +106,9 @@ Value picture(Session& session, TetMeshObject& self, const Arguments& a) {
   require_ending(a.text("file"), ".png");
   PictureOptions options = view_options(a);
   options.edges = a.text("edges") != "none";
-  const Snapshot snapshot =
+  Snapshot snapshot =
       mesh_snapshot(self.mesh, self.named, a.text("edges") == "mesh" ? -1 : radians(a.number("crease")));
+  set_apart(snapshot, self.faces, self.named);
   if (!session.settings.check_only) {
     render(snapshot, options, session.files.to_write(a.text("file")).string());
     return {};
@@ -160,6 +170,19 @@ void bind_tet_meshes(Module& m) {
                          "cdem.TetMesh",
                          "",
                          read_mesh});
+  m.functions.push_back({"box_mesh",
+                         "A box of nx ny nz cells with six tetrahedra each; lower corner at the origin.",
+                         {vec3("size").above(0).unit("m").required(),
+                          ivec3("divisions").at_least(1).required().doc("cells along x, y and z"),
+                          number("jitter")
+                              .within(0, geom::max_box_jitter)
+                              .standard(0.0)
+                              .doc("inner nodes move along each axis by up to this share of a cell"),
+                          integer("seed").at_least(0).standard(1).doc("of the jitter")},
+                         false,
+                         "cdem.TetMesh",
+                         "",
+                         box_mesh});
   bind_records(m);
   Class mesh{"TetMesh", "Tetrahedra, made by solid:mesh{} or cdem.read_mesh."};
   const auto of = [](const Object& self) -> const TetMeshObject& {
@@ -193,6 +216,15 @@ void bind_tet_meshes(Module& m) {
        method<TetMeshObject>([](Session&, TetMeshObject& self, const Arguments&) -> Value {
          const geom::Box box = geom::bounding_box(self.mesh);
          return Table{{"min", box.min}, {"max", box.max}};
+       })},
+      {"inertia",
+       "Mass, centroid and inertia about the centroid of the tetrahedra.",
+       {number("density").above(0).unit("kg/m3").standard(1.0)},
+       false,
+       "cdem.Inertia",
+       "",
+       method<TetMeshObject>([](Session&, TetMeshObject& self, const Arguments& a) -> Value {
+         return inertia_table(geom::mass_properties(self.mesh), a.number("density"));
        })},
       {"quality",
        "How good the tetrahedra are.",

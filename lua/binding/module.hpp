@@ -72,6 +72,7 @@ void bind_parameters(Module&);
 void bind_materials(Module&);
 void bind_shapes(Module&);
 void bind_solids(Module&);
+void bind_solid_class(Module&); // by bind_solids
 void bind_armour_units(Module&);
 void bind_tet_meshes(Module&);
 void bind_selections(Module&);

@@ -33,4 +33,7 @@ struct TetMeshObject final : Object {
   const char* class_name() const override { return "TetMesh"; }
 };
 
+// The record cdem.Inertia; density in kg/m3.
+Value inertia_table(const geom::MassProperties&, double density);
+
 } // namespace cdem::script

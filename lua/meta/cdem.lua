@@ -28,6 +28,7 @@ local cdem = {}
 ---@field centroid number[] m
 ---@field tensor number[][] kg m2: three rows
 ---@field principal number[] kg m2: ascending
+---@field principal_ratio number largest over smallest of them
 
 ---How good the tetrahedra of a mesh are.
 ---@class (exact) cdem.MeshQuality
@@ -324,6 +325,14 @@ function TetMesh:volume() end
 ---Smallest axis-aligned box that holds all nodes.
 ---@return cdem.Box
 function TetMesh:box() end
+
+---@class (exact) cdem.TetMeshInertiaOptions
+---@field density? number kg/m3, > 0, default 1
+
+---Mass, centroid and inertia about the centroid of the tetrahedra.
+---@param options? cdem.TetMeshInertiaOptions
+---@return cdem.Inertia
+function TetMesh:inertia(options) end
 
 ---How good the tetrahedra are.
 ---@return cdem.MeshQuality
@@ -1087,6 +1096,17 @@ function cdem.slope(options) end
 ---@param options cdem.ReadMeshOptions
 ---@return cdem.TetMesh
 function cdem.read_mesh(options) end
+
+---@class (exact) cdem.BoxMeshOptions
+---@field size number[] m, > 0
+---@field divisions number[] >= 1: cells along x, y and z
+---@field jitter? number in [0, 0.16], default 0: inner nodes move along each axis by up to this share of a cell
+---@field seed? integer >= 0, default 1: of the jitter
+
+---A box of nx ny nz cells with six tetrahedra each; lower corner at the origin.
+---@param options cdem.BoxMeshOptions
+---@return cdem.TetMesh
+function cdem.box_mesh(options) end
 
 cdem.select = {}
 
