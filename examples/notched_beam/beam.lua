@@ -8,6 +8,17 @@ beam.supports = { "pinned", "roller", "face" }
 -- One of the paths the paper's pictures allow, from an independent program of the same method.
 beam.reference = { {0.435, 0}, {0.449, 0.06}, {0.480, 0.09}, {0.510, 0.116}, {0.540, 0.142}, {0.570, 0.172}, {0.599, 0.21} }
 
+-- Paths that follow the largest hoop stress at the tip (Erdogan and Sih 1963), plane strain, from an independent
+-- finite-element program: quadratic triangles of 0.5 mm at the tip, K by the interaction integral, 10 mm a step.
+beam.hoop_stress_path = {
+  pinned = { {0.435, 0}, {0.435, 0.030}, {0.441, 0.059}, {0.451, 0.088}, {0.464, 0.115}, {0.480, 0.140},
+             {0.499, 0.164}, {0.520, 0.185}, {0.543, 0.204}, {0.568, 0.220}, {0.594, 0.236}, {0.616, 0.256} },
+  roller = { {0.435, 0}, {0.435, 0.030}, {0.438, 0.060}, {0.443, 0.089}, {0.449, 0.119}, {0.455, 0.148},
+             {0.462, 0.177}, {0.468, 0.207}, {0.473, 0.236}, {0.476, 0.266}, {0.477, 0.286} },
+  face = { {0.435, 0}, {0.435, 0.030}, {0.443, 0.059}, {0.457, 0.086}, {0.474, 0.110}, {0.494, 0.132},
+             {0.517, 0.152}, {0.541, 0.170}, {0.566, 0.187}, {0.590, 0.204}, {0.613, 0.223}, {0.618, 0.232} },
+}
+
 local size = {beam.length, beam.height, beam.depth}
 
 -- Cubes of 0.03 m in rows that rise by 15 degrees, cut off at the beam's sides.

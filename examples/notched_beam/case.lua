@@ -44,17 +44,20 @@ end
 
 local first, last = growth.passes[1], growth.passes[#growth.passes]
 local path = last and last.path or {}
+local rms_to_hoop_stress = #path > 1 and crack.distance(path, beam.hoop_stress_path[support]) or nil
 local rms, heights = crack.rms_to_points(path, beam.reference)
 
 if #path > 0 then
-  local x, y, line, trial = {}, {}, {}, {}
+  local x, y, line, trial, hoop = {}, {}, {}, {}, {}
   for i, p in ipairs(path) do x[i], y[i], line[i] = p[1], p[2], {p[1], p[2], beam.depth} end
   for i, p in ipairs(beam.reference) do trial[i] = {p[1], p[2], beam.depth} end
+  for i, p in ipairs(beam.hoop_stress_path[support]) do hoop[i] = {p[1], p[2], beam.depth} end
   cdem.write_csv{ file = "path.csv", columns = { { name = "x_m", values = x }, { name = "y_m", values = y } } }
   model:picture{ file = "ux.png", colour = "displacement.x", deformation = 200, title = "Horizontal displacement",
                  size = {1600, 0}, broken_bonds = false }
   model:picture{ file = "path.png", title = "Path of the crack", size = {1600, 0}, broken_bonds = false,
                  lines = { { points = line, label = "cdem", colour = {0.75, 0, 0.38} },
+                           { points = hoop, label = "largest hoop stress", colour = {0, 0, 0}, dashed = true },
                            { points = trial, label = "reference points", colour = {0, 0.38, 0.75}, dashed = true } } }
 end
 
@@ -68,6 +71,8 @@ cdem.report{
   { name = "crack_tip_y_m", value = last and last.tip[2], unit = "m", reference = paper and 0.21, kind = "trial" },
   { name = "path_rms_to_reference_m", value = rms, unit = "m", reference = 0, kind = "trial",
     source = "horizontal distance at the heights of " .. heights .. " of " .. #beam.reference .. " reference points" },
+  { name = "path_rms_to_hoop_stress_m", value = rms_to_hoop_stress, unit = "m", reference = 0, kind = "fe",
+    source = "largest hoop stress at the tip of a crack in finite elements, distance to the nearest place" },
   { name = "passes", value = #growth.passes, source = growth.state },
   { name = "load_that_starts_the_crack_N", value = first and first.first_ratio > 0 and load / first.first_ratio or nil,
     unit = "N", source = "load over the ratio of the first face's traction to its strength; the beam is linear until then" },
