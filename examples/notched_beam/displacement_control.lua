@@ -110,8 +110,10 @@ local function two_halves()
   local shape = beam.shape("41x10")
   for i = 2, #line do
     local a, b = line[i - 1], line[i]
-    if b[2] > beam.notch_height + 1e-9 then
-      local x, y = (a[1] + b[1]) / 2, (a[2] + b[2]) / 2
+    local pieces = b[2] > beam.notch_height + 1e-9 and 20 or 0 -- each in one block or along its sides
+    for k = 1, pieces do
+      local t = (k - 0.5) / pieces
+      local x, y = a[1] + t * (b[1] - a[1]), a[2] + t * (b[2] - a[2])
       shape = cdem.cut_by_plane{ shape = shape, point = a, normal = {b[2] - a[2], a[1] - b[1], 0},
                                  crossing = { min = {x - 1e-6, y - 1e-6, 0}, max = {x + 1e-6, y + 1e-6, beam.depth} } }
     end
