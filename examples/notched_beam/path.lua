@@ -61,4 +61,17 @@ function path.distance(one, other)
   return math.sqrt(sum.square / sum.length), sum.most
 end
 
+-- Sum of a line's turns, degrees, and its length over the straight way from its first to its last place.
+function path.wandering(line)
+  local turns, length, before = 0, 0, nil
+  for i = 2, #line do
+    local dx, dy = line[i][1] - line[i - 1][1], line[i][2] - line[i - 1][2]
+    local angle = math.deg(math.atan(dy, dx))
+    if before then turns = turns + math.abs((angle - before + 180) % 360 - 180) end
+    length, before = length + math.sqrt(dx * dx + dy * dy), angle
+  end
+  local first, last = line[1], line[#line]
+  return turns, length / math.sqrt((last[1] - first[1]) ^ 2 + (last[2] - first[2]) ^ 2)
+end
+
 return path

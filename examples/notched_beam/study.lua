@@ -2,6 +2,7 @@
 --
 --   ./cdem run examples/notched_beam/study.lua                        # first meshes
 --   ./cdem run examples/notched_beam/study.lua --set group=choices    # one choice changed at a time, 41 x 10 blocks
+--   ./cdem run examples/notched_beam/study.lua --set group=anchor     # a cut plane through the tip, or not
 local cdem = require "cdem"
 local beam = require "beam"
 local crack = require "path"
@@ -23,13 +24,18 @@ local groups = {
     { label = "joints 2.5 x thicker", set = { thickness_ratio = 0.05 } },
     { label = "face supports", set = { support = "face" } },
   },
+  anchor = {
+    { label = "anchored", set = {} }, { label = "not anchored", set = { anchored = false } },
+    { label = "Voronoi, anchored", set = { mesh = "voronoi" } },
+    { label = "Voronoi, not anchored", set = { mesh = "voronoi", anchored = false } },
+  },
   quick = { { label = "21 x 5", set = { mesh = "21x5" } }, { label = "21 x 5, thick joints",
                                                            set = { mesh = "21x5", thickness_ratio = 0.05 } } },
 }
-local group = cdem.parameter{ name = "group", default = "meshes", choices = { "meshes", "choices", "quick" },
-                              doc = "first meshes, growth with one choice changed, or two small cases" }
+local group = cdem.parameter{ name = "group", default = "meshes", choices = { "meshes", "choices", "anchor", "quick" },
+                              doc = "what is compared; quick: two small cases" }
 local cases = groups[group]
-local coarsest = group == "choices" and 0.03 or 0.06 -- m, edge of the largest block among them
+local coarsest = (group == "choices" or group == "anchor") and 0.03 or 0.06 -- m, edge of the largest block among them
 
 local sets = {}
 for i, case in ipairs(cases) do sets[i] = case.set end
@@ -57,21 +63,23 @@ cdem.write_csv{ file = "distances.csv", columns = {
   { name = "case", values = pairs_csv.one }, { name = "other_case", values = pairs_csv.other },
   { name = "rms_m", values = pairs_csv.rms }, { name = "largest_m", values = pairs_csv.most } } }
 
-local columns = { case = {}, tip_x = {}, tip_y = {}, rms = {}, most = {}, start = {} }
+local columns = { case = {}, tip_x = {}, tip_y = {}, rms = {}, most = {}, start = {}, turns = {}, length = {} }
 local low, high = {math.huge, math.huge}, {-math.huge, -math.huge}
 for i, line in ipairs(lines) do
   local tip = line[#line]
   columns.case[i], columns.tip_x[i], columns.tip_y[i] = i, tip[1], tip[2]
   columns.rms[i], columns.most[i] = crack.distance(line, beam.hoop_stress_path[cases[i].set.support or "pinned"])
   columns.start[i] = results[i].figures.load_that_starts_the_crack_N
+  columns.turns[i], columns.length[i] = crack.wandering(line)
   for k = 1, 2 do low[k], high[k] = math.min(low[k], tip[k]), math.max(high[k], tip[k]) end
-  cdem.log(string.format("case %d, %s: tip (%.4f, %.4f) m, from the hoop stress path rms %.4f m, at most %.4f m", i,
-                         cases[i].label, tip[1], tip[2], columns.rms[i], columns.most[i]))
+  cdem.log(string.format("%d, %s: tip (%.4f, %.4f) m; from the hoop stress path rms %.4f m, at most %.4f m; turns %.0f deg", i,
+                         cases[i].label, tip[1], tip[2], columns.rms[i], columns.most[i], columns.turns[i]))
 end
 cdem.write_csv{ file = "cases.csv", columns = {
   { name = "case", values = columns.case }, { name = "tip_x_m", values = columns.tip_x },
   { name = "tip_y_m", values = columns.tip_y }, { name = "rms_to_hoop_stress_m", values = columns.rms },
   { name = "largest_to_hoop_stress_m", values = columns.most },
+  { name = "sum_of_turns_deg", values = columns.turns }, { name = "length_over_straight_way", values = columns.length },
   { name = "load_that_starts_the_crack_N", values = columns.start } } }
 
 -- One picture: the middle of the beam, drawn with the coarsest blocks.
