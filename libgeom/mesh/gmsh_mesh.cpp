@@ -9,6 +9,7 @@
 
 #include <cmath>
 #include <filesystem>
+#include <fstream>
 #include <unordered_map>
 
 namespace geom {
@@ -104,9 +105,28 @@ TetMesh mesh_solid(const Solid& solid, const MeshSize& sizes) {
   return mesh;
 }
 
-TetMesh read_mesh(const std::string& path) {
+namespace {
+
+// gmsh takes files that it does not know for scripts of its own, which can run commands: only formats it knows
+// by their ending may reach it, and .msh, which it knows by its first line.
+void require_mesh_format(const std::string& path) {
   if (!std::filesystem::is_regular_file(path))
     throw InputError("file", '"' + path + '"', "an existing mesh file");
+  const std::string ending = std::filesystem::path(path).extension().string();
+  if (ending != ".msh" && ending != ".mesh" && ending != ".bdf" && ending != ".unv" && ending != ".vtk")
+    throw InputError("file", '"' + path + '"', "a name that ends in .msh, .mesh, .bdf, .unv or .vtk");
+  if (ending != ".msh")
+    return;
+  std::string line;
+  std::getline(std::ifstream(path), line);
+  if (line.rfind("$MeshFormat", 0) != 0 && line.rfind("$NOD", 0) != 0)
+    throw InputError("file", '"' + path + '"', "a gmsh mesh", "its first line must be $MeshFormat");
+}
+
+} // namespace
+
+TetMesh read_mesh(const std::string& path) {
+  require_mesh_format(path);
   TetMesh mesh = in_session("reading " + path, [&] {
     gmsh::merge(path);
     return collect(path);

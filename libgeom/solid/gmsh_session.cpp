@@ -4,11 +4,13 @@
 
 #include <gmsh.h>
 
+#include <clocale>
 #include <filesystem>
 #include <fstream>
 #include <iostream>
 #include <sstream>
 
+#include <omp.h>
 #include <unistd.h>
 
 namespace geom {
@@ -21,7 +23,9 @@ std::mutex& one_at_a_time() {
 
 } // namespace
 
-GmshSession::GmshSession() : lock_(one_at_a_time()), cout_(std::cout.rdbuf(nullptr)) {
+GmshSession::GmshSession()
+    : lock_(one_at_a_time()), cout_(std::cout.rdbuf(nullptr)), locale_(std::setlocale(LC_ALL, nullptr)),
+      threads_(omp_get_max_threads()) {
   gmsh::initialize(0, nullptr, false);
   for (const auto& [name, value] : {std::pair<const char*, double>{"General.Terminal", 0},
                                     {"General.NumThreads", 1},
@@ -35,6 +39,8 @@ GmshSession::~GmshSession() {
     gmsh::finalize();
   } catch (...) { // nothing is left to be done about it
   }
+  omp_set_num_threads(threads_);
+  std::setlocale(LC_ALL, locale_.c_str());
   std::cout.rdbuf(cout_);
   std::cout.clear();
 }

@@ -13,7 +13,8 @@ namespace geom {
 
 using Pieces = std::vector<std::pair<int, int>>; // (dimension, tag) in gmsh's model
 
-// Holds gmsh for one operation; what it or OpenCASCADE says on std::cout is dropped.
+// Holds gmsh for one operation; what it or OpenCASCADE says on std::cout is dropped, and what gmsh changes of
+// the process, the number of OpenMP threads and the locale, is put back.
 class GmshSession {
 public:
   GmshSession();
@@ -24,6 +25,8 @@ public:
 private:
   std::lock_guard<std::mutex> lock_;
   std::streambuf* cout_;
+  std::string locale_;
+  int threads_;
 };
 
 // Runs body in a session; every failure of gmsh arrives as an InputError that says what was being done.

@@ -161,9 +161,9 @@ void bind_records(Module& m) {
 
 void bind_tet_meshes(Module& m) {
   m.functions.push_back({"read_mesh",
-                         "Linear tetrahedra from a file: gmsh .msh, Medit .mesh, Abaqus .inp, Nastran .bdf, "
-                         "I-deas .unv, legacy "
-                         ".vtk, or a .vtu written by cdem. What is wrong with them is said.",
+                         "Linear tetrahedra from a file: gmsh .msh, Medit .mesh, Nastran .bdf, I-deas .unv, "
+                         "legacy .vtk, or a .vtu "
+                         "written by cdem. What is wrong with them is said.",
                          {text("file").required(),
                           number("scale").above(0).standard(1.0).doc("0.001 for a mesh in millimetres")},
                          false,

@@ -1092,7 +1092,7 @@ function cdem.slope(options) end
 ---@field file string
 ---@field scale? number > 0, default 1: 0.001 for a mesh in millimetres
 
----Linear tetrahedra from a file: gmsh .msh, Medit .mesh, Abaqus .inp, Nastran .bdf, I-deas .unv, legacy .vtk, or a .vtu written by cdem. What is wrong with them is said.
+---Linear tetrahedra from a file: gmsh .msh, Medit .mesh, Nastran .bdf, I-deas .unv, legacy .vtk, or a .vtu written by cdem. What is wrong with them is said.
 ---@param options cdem.ReadMeshOptions
 ---@return cdem.TetMesh
 function cdem.read_mesh(options) end

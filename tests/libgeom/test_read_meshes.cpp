@@ -130,6 +130,52 @@ TEST_CASE("a gmsh file gives its tets, and what is wrong in one is named") {
   CHECK_THAT(message([&] { read(msh("1 1 0", "2 2 0 1 1 2 3")); }),
              Contains("no tetrahedra; a mesh of volume elements is needed"));
   CHECK_THAT(message([&] { read_mesh(folder / "none.msh"); }), Contains("an existing mesh file"));
-  CHECK(message([&] { read("no mesh at all\n"); }) != "no error");
+  CHECK_THAT(message([&] { read("no mesh at all\n"); }), Contains("its first line must be $MeshFormat"));
+  CHECK_THAT(message([&] { read("$MeshFormat\nnonsense\n"); }), Contains("part.msh"));
+  CHECK_THAT(message([&] { read(msh("0 1 0", "5 2 0 1 1 2 3 4 1 2 3 4")); }),
+             Contains("not tetrahedra with four nodes"));
   CHECK(read(msh("0 1 0", "4 2 0 1 1 2 3 4")).tets.size() == 1); // and reading goes on
+}
+
+TEST_CASE("Medit, Nastran, I-deas and VTK files give their tets") {
+  const TemporaryFolder folder;
+  const std::vector<std::pair<std::string, std::string>> files{
+      {"a.mesh", "MeshVersionFormatted 2\nDimension 3\nVertices\n4\n0 0 0 1\n1 0 0 1\n0 1 0 1\n0 0 1 1\n"
+                 "Tetrahedra\n1\n1 2 3 4 1\nEnd\n"},
+      {"a.bdf", "GRID,1,,0.,0.,0.\nGRID,2,,1.,0.,0.\nGRID,3,,0.,1.,0.\nGRID,4,,0.,0.,1.\n"
+                "CTETRA,1,1,1,2,3,4\nENDDATA\n"},
+      {"a.unv",
+       "    -1\n  2411\n         1         1         1        11\n   0.0D+00   0.0D+00   0.0D+00\n"
+       "         2         1         1        11\n   1.0D+00   0.0D+00   0.0D+00\n"
+       "         3         1         1        11\n   0.0D+00   1.0D+00   0.0D+00\n"
+       "         4         1         1        11\n   0.0D+00   0.0D+00   1.0D+00\n    -1\n    -1\n  2412\n"
+       "         1       111         1         1         7         4\n"
+       "         1         2         3         4\n    -1\n"},
+      {"a.vtk", "# vtk DataFile Version 2.0\ntet\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 4 double\n"
+                "0 0 0\n1 0 0\n0 1 0\n0 0 1\nCELLS 1 5\n4 0 1 2 3\nCELL_TYPES 1\n10\n"}};
+  for (const auto& [name, text] : files) {
+    INFO(name);
+    std::ofstream(folder / name) << text;
+    const TetMesh mesh = read_mesh(folder / name);
+    CHECK(mesh.tets.size() == 1);
+    CHECK(volume(mesh) == Approx(1. / 6));
+  }
+}
+
+TEST_CASE("a script of gmsh's passed off as a mesh runs nothing") {
+  const TemporaryFolder folder;
+  const std::string trace = folder / "trace";
+  for (const std::string ending :
+       {".msh", ".mesh", ".bdf", ".unv", ".vtk", ".geo", ".inp", ".txt", ".MSH", ""}) {
+    const std::string path = folder / ("script" + ending);
+    std::ofstream(path) << "SystemCall \"touch " << trace << "\";\n";
+    CHECK(message([&] { read_mesh(path); }) != "no error");
+    CHECK_FALSE(std::ifstream(trace).good());
+  }
+  const std::string step = folder / "script.step", stl = folder / "script.stl";
+  for (const std::string& path : {step, stl})
+    std::ofstream(path) << "SystemCall \"touch " << trace << "\";\n";
+  CHECK_THROWS_AS(read_step(step), InputError);
+  CHECK_THROWS_AS(read_stl(stl), InputError);
+  CHECK_FALSE(std::ifstream(trace).good());
 }

@@ -9,9 +9,13 @@
 
 #include <catch2/catch.hpp>
 
+#include <clocale>
 #include <cmath>
 #include <fstream>
+#include <iostream>
 #include <set>
+
+#include <omp.h>
 
 using namespace geom;
 using Catch::Matchers::Contains;
@@ -143,6 +147,19 @@ TEST_CASE("a solid that cannot be meshed says so, and the next one is meshed as 
     CHECK_THROWS_AS(mesh_solid(make_solid(read_stl(folder / "knot.stl")), {0.2}), InputError);
     CHECK(mesh_solid(good, {0.15}).tets.size() == before);
   }
+}
+
+TEST_CASE("meshing leaves the process's threads, locale and output as they were") {
+  const int threads = omp_get_max_threads();
+  const std::string locale = std::setlocale(LC_ALL, nullptr);
+  omp_set_num_threads(3);
+  mesh_solid(cube(1), {0.5});
+  CHECK_THROWS(mesh_solid(cube(1), {-1}));
+  CHECK_THROWS(read_step("none.step"));
+  CHECK(omp_get_max_threads() == 3);
+  CHECK(std::setlocale(LC_ALL, nullptr) == locale);
+  CHECK(std::cout.good());
+  omp_set_num_threads(threads);
 }
 
 TEST_CASE("sizes that ask for too many tets or none are refused") {
