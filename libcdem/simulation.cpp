@@ -14,6 +14,7 @@
 #include "libcdem/step/run.hpp"
 #include "libgeom/core/error.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
 #include <set>
@@ -331,6 +332,26 @@ GrowResult Simulation::grow(const GrowOptions& options) {
   return cdem::grow(
       {s.model, s.state, s.log, *s.observer, stage, relax, [&](Rebuilt&& r) { s.adopt(std::move(r)); }},
       options);
+}
+
+Deformation Simulation::deformation() const {
+  return largest_deformation(impl_->model, impl_->state);
+}
+
+bool Simulation::anything_acts() const {
+  const Conditions& c = impl_->conditions;
+  if (!c.tractions.empty() || !c.forces.empty() || c.gravity)
+    return true;
+  const State& s = impl_->state;
+  const auto moves = [](const Fix& fix) { return fix.displacement || fix.velocity; };
+  const auto is_nonzero = [](const Node& n) { return n.x != 0 || n.y != 0 || n.z != 0; };
+  const auto is_stressed = [](const Stress& stress) {
+    return std::any_of(stress.begin(), stress.end(), [](double x) { return x != 0; });
+  };
+  return std::any_of(c.fixes.begin(), c.fixes.end(), moves) ||
+         std::any_of(s.displacement.begin(), s.displacement.end(), is_nonzero) ||
+         std::any_of(s.velocity.begin(), s.velocity.end(), is_nonzero) ||
+         std::any_of(s.initial_stress.begin(), s.initial_stress.end(), is_stressed);
 }
 
 ModelCounts Simulation::counts() const {

@@ -7,6 +7,7 @@
 #include "libcdem/load/conditions.hpp"
 #include "libcdem/model/joint.hpp"
 #include "libcdem/model/material.hpp"
+#include "libcdem/results/deformation.hpp"
 #include "libcdem/results/fields.hpp"
 #include "libcdem/results/ledger.hpp"
 #include "libcdem/results/log.hpp"
@@ -65,7 +66,7 @@ public:
   // interfaces between two selected blocks start with its traction.
   void initial_stress(const Selection&, const std::array<double, 6>&);
   void initial_velocity(const Selection&, const geom::Vec3&);
-  // Blocks whose centroid is selected are taken out, with their bonds. Returns how many.
+  // Selected blocks (by centroid; by a face on a side) are taken out, with their bonds. Returns how many.
   std::int64_t remove(const Selection&);
   // Bonds whose point is selected are broken from now on (a notch); returns how many. whole_faces: only those of
   // interfaces that are selected with all their points, so that faces which meet the notch at its tip stay bonded.
@@ -87,6 +88,10 @@ public:
   EnergyLedger energy() const;
   std::uint64_t state_hash() const; // of every State field, bit for bit
   geom::Box box() const;            // undeformed
+  Deformation deformation() const;  // how far from small strain
+  // There is something that could move the model: a load, a support that moves it, an initial stress or velocity, or
+  // a state that is deformed already.
+  bool anything_acts() const;
 
   // Fields by name with a component: "displacement.x|y|z|magnitude", "velocity.*" at nodes; "stress.xx".., "von_mises",
   // "principal_stress.1..3" (tension positive, 1 the largest) as block averages. Unknown name: geom::InputError that
@@ -94,8 +99,8 @@ public:
   static std::vector<std::string> field_names();
   FieldValue max(const std::string& field, const Selection& = {}) const;
   FieldValue min(const std::string& field, const Selection& = {}) const;
-  double mean(const std::string& field,
-              const Selection& = {}) const; // plain mean over nodes, volume mean over blocks
+  // Of nodes: over the outer faces on a side or plane that has some, else over the volume; of blocks: over the volume.
+  double mean(const std::string& field, const Selection& = {}) const;
   double at(const std::string& field,
             const geom::Vec3& place) const;    // interpolated in the block that holds place
   geom::Vec3 reaction(const Selection&) const; // N, force of the supports on the selected nodes
@@ -114,7 +119,7 @@ public:
   // Broken bonds, oldest first.
   const std::vector<BreakRow>& breaks() const;
 
-  // History of the run: one sample every `history_every` steps (default 10, thinned by halves beyond 20000 rows).
+  // One sample every 10 steps and at the end of each stage; thinned by halves beyond 20000 rows.
   const std::vector<HistoryRow>& history() const;
   std::vector<std::string> probe_names() const;
   // A value sampled into the history: field at a place.

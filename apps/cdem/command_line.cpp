@@ -178,13 +178,18 @@ private:
     add_output(command, "DIR", "folder for results and log (results/<case>)");
     add_threads(command, "threads (every core); results are the same bits for any number");
     add_set(command, "NAME=VALUE", "value of a parameter of the script; may be repeated");
-    command->add_flag("--quiet,-q", typed_.quiet, "print nothing but errors");
+    command->add_flag("--quiet,-q", typed_.quiet, "print nothing but warnings and errors");
     command->add_flag("--machine-progress", typed_.machine, "progress for a program that watches this run")
         ->group("");
     finish(
         command,
         "  cdem run examples/uniaxial_compression/case.lua\n"
         "  cdem run case.lua --set pressure=24e6 --output results/gentle\n",
+        "<case> is the name of the script's folder, with -SCRIPT unless it is case.lua, and with the\n"
+        "settings: --set pressure=24e6 gives results/uniaxial_compression-pressure=24e6, several are\n"
+        "joined by commas in the order of their names. Other characters than letters, digits and +-=.,_\n"
+        "become _, and then a short hash keeps cases apart.\n"
+        "\n"
         "A run takes away what the last run in the same folder wrote, once it produces results itself; a\n"
         "file that was edited since is kept as FILE.edited. A folder with other files than results is\n"
         "refused. Ctrl-C ends a run at the next step and saves the state; a second one ends it at once.\n");
@@ -195,7 +200,10 @@ private:
     add_script_options(command);
     add_threads(command, "threads (every core)");
     add_set(command, "NAME=VALUE", "value of a parameter of the script; may be repeated");
-    finish(command, "  cdem check case.lua --set pressure=24e6\n");
+    finish(
+        command, "  cdem check case.lua --set pressure=24e6\n",
+        "Parameters, what each model is made of, its box from corner to corner, conditions and stages are\n"
+        "printed. Solving calls return empty results; what a script prints after the first is left out.\n");
   }
   void add_sweep() {
     auto* command =
@@ -205,7 +213,7 @@ private:
     command->add_option("--jobs,-j", typed_.jobs, "runs side by side (one a core)")->option_text("N");
     add_threads(command, "threads of each run (the cores shared among the jobs)");
     add_output(command, "DIR", "folder for the runs and sweep.csv (results/<case>-sweep)");
-    command->add_flag("--quiet,-q", typed_.quiet, "print nothing but errors");
+    command->add_flag("--quiet,-q", typed_.quiet, "print nothing but warnings and errors");
     finish(command, "  cdem sweep case.lua --set pressure=20e6,25e6,30e6 --set cohesion=5e6,8e6 --jobs 2\n");
   }
   void add_render() {

@@ -23,6 +23,7 @@ using script::FileError;
 namespace {
 
 constexpr const char* failed_log_name = "failed.log";
+constexpr const char* settings_name = "settings.json";
 
 std::string date_now() {
   const std::time_t now = std::time(nullptr);
@@ -109,6 +110,9 @@ OutputFolder::OutputFolder(fs::path folder, const fs::path& script, const std::s
   if (!place_below(script_, folder_).empty())
     throw FileError("output folder " + shown + " holds the script itself; choose another with --output");
   script_text_ = read_file(script_);
+  for (fs::path made = fs::absolute(folder_).lexically_normal();
+       !made.empty() && !fs::exists(made, error) && made != made.parent_path(); made = made.parent_path())
+    first_made_ = made;
   fs::create_directories(folder_, error);
   if (error)
     throw FileError("output folder " + shown + " cannot be made: " + error.message());
@@ -143,6 +147,11 @@ void OutputFolder::open_log(const fs::path& file, const std::string& command) {
 }
 
 void OutputFolder::log(const std::string& text) {
+  has_said_ = true;
+  write_to_log(text);
+}
+
+void OutputFolder::write_to_log(const std::string& text) {
   if (log_ == nullptr)
     return;
   const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start_;
@@ -176,7 +185,7 @@ void OutputFolder::will_write(const fs::path& file) {
   const std::string name = place_below(file, folder_).string();
   // --unsafe may write elsewhere; a line feed would break the list.
   if (!name.empty() && name.find('\n') == std::string::npos && written_.insert(name).second)
-    log(run_log_writes + name);
+    write_to_log(run_log_writes + name);
 }
 
 void OutputFolder::remove_old_results() {
@@ -204,9 +213,28 @@ void OutputFolder::remove_old_results() {
   }
 }
 
+// Only what stands in it by our hand: log, script and settings; then the folders that were made for it.
+void OutputFolder::take_away() {
+  std::fclose(log_);
+  log_ = nullptr;
+  std::error_code not_empty;
+  fs::remove(log_path_, not_empty);
+  for (const auto& name : written_)
+    fs::remove(folder_ / name, not_empty);
+  for (fs::path folder = fs::absolute(folder_).lexically_normal(); fs::remove(folder, not_empty);
+       folder = folder.parent_path())
+    if (folder == first_made_)
+      return;
+}
+
 void OutputFolder::finish(ExitCode code, const std::string& error) {
   if (log_ == nullptr)
     return;
+  const bool made_something = std::any_of(written_.begin(), written_.end(), [&](const std::string& name) {
+    return name != script_.filename().string() && name != settings_name;
+  });
+  if (code == ExitCode::bad_input && !has_said_ && !made_something && !first_made_.empty())
+    return take_away();
   if (code == ExitCode::success)
     begin_results();
   if (!error.empty())

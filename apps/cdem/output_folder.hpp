@@ -43,12 +43,15 @@ public:
   // Before a file is written: the results begin, and the file goes on the list.
   void will_write(const std::filesystem::path& file);
 
-  // Writes the list of files and the end line. Throws script::FileError when the log could not be written
+  // Writes the list of files and the end line. A run that bad input ended before it said or made anything leaves
+  // no folder that it had to make. Throws script::FileError when the log could not be written
   // whole.
   void finish(ExitCode, const std::string& error);
 
 private:
   void open_log(const std::filesystem::path&, const std::string& command);
+  void write_to_log(const std::string& text);
+  void take_away();
   void remove_old_results();
 
   std::filesystem::path folder_, script_, log_path_;
@@ -56,7 +59,8 @@ private:
   std::set<std::string> written_; // relative to the folder
   int lock_ = -1;
   std::FILE* log_ = nullptr;
-  bool old_results_ = false, begun_ = false;
+  bool old_results_ = false, begun_ = false, has_said_ = false;
+  std::filesystem::path first_made_; // outermost folder that was made for this run; empty: none
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 

@@ -93,6 +93,8 @@ RunLogSummary summary_of_run_log(const fs::path& log) {
     else if (const std::string message = message_of(line);
              starts_with(message, error) && summary.error.empty())
       summary.error = message.substr(error.size());
+    else if (message.find(": warning: ") != std::string::npos || starts_with(message, "warning: "))
+      ++summary.warnings;
   }
   return summary;
 }

@@ -43,6 +43,7 @@ struct RunLogSummary {
   std::string command, started;
   std::optional<int> exit_code; // none: still running, or killed
   std::string error;            // the first line of what it ended with
+  int warnings = 0;
 };
 RunLogSummary summary_of_run_log(const std::filesystem::path& log);
 

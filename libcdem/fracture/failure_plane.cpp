@@ -9,11 +9,23 @@ namespace {
 
 constexpr double quarter_turn = 1.57079632679489661923;
 constexpr double tie_tolerance = 1e-6;
+// Two principal stresses this close, over sigma1 - sigma3, are equal: the rest is what a relaxation leaves.
+constexpr double equal_stress = 1e-4;
 
 geom::Vec3 pointing_forward(const geom::Vec3& axis) {
   Eigen::Index largest = 0;
   axis.cwiseAbs().maxCoeff(&largest);
   return axis[largest] < 0 ? geom::Vec3(-axis) : axis;
+}
+
+// Of an axis that stress leaves free to turn about `fixed`: the first of x, y, z that stands at least 45 degrees off it,
+// turned square to it.
+geom::Vec3 chosen_across(const geom::Vec3& fixed) {
+  const double half = std::sqrt(0.5) * (1 + 1e-9);
+  const geom::Vec3 axis = std::abs(fixed.x()) <= half   ? geom::Vec3::UnitX()
+                          : std::abs(fixed.y()) <= half ? geom::Vec3::UnitY()
+                                                        : geom::Vec3::UnitZ();
+  return (axis - axis.dot(fixed) * fixed).normalized();
 }
 
 // The conjugate plane at `angle` from the sigma1 axis along which the block slides more.
@@ -39,8 +51,13 @@ std::optional<FailurePlane> failure_plane(const geom::Mat3& stress, const geom::
   // Eigenvalues of the compression-positive stress, ascending: sigma3, sigma2, sigma1.
   const Eigen::SelfAdjointEigenSolver<geom::Mat3> solver(-stress);
   const double sigma3 = solver.eigenvalues()[0], sigma1 = solver.eigenvalues()[2];
-  const geom::Vec3 axis3 = pointing_forward(solver.eigenvectors().col(0));
-  const geom::Vec3 axis1 = pointing_forward(solver.eigenvectors().col(2));
+  geom::Vec3 axis3 = pointing_forward(solver.eigenvectors().col(0));
+  geom::Vec3 axis1 = pointing_forward(solver.eigenvectors().col(2));
+  const double equal = equal_stress * (sigma1 - sigma3), sigma2 = solver.eigenvalues()[1];
+  if (sigma2 - sigma3 <= equal)
+    axis3 = pointing_forward(chosen_across(axis1));
+  else if (sigma1 - sigma2 <= equal)
+    axis1 = pointing_forward(chosen_across(axis3));
 
   FailurePlane plane;
   plane.principal = solver.eigenvalues().reverse();

@@ -12,6 +12,11 @@
 // the larger |t . grad(u) . n|, grad(u) with the block's rotation in it. When both are equal to 1e-6 of the larger,
 // it is the plane that turns from sigma1 towards sigma3, both axes pointing so that their largest component is
 // positive, and `tie` says so.
+//
+// Where two principal stresses are equal to 1e-4 of sigma1 - sigma3, stress leaves their axes free to turn about the
+// third, and rounding would choose. The axis of sigma3 (of sigma1, when sigma1 = sigma2) is then taken in the plane of
+// the third axis and the first of x, y, z that stands at least 45 degrees off it: for models drawn in the x-y plane the
+// plane of failure stands upright on it.
 #pragma once
 
 #include "libcdem/fracture/options.hpp"

@@ -15,8 +15,8 @@ struct Fix {
   Selection on;
   std::array<bool, 3> axes{true, true, true};
   bool release = false; // sets the components free instead; later ones win over earlier ones
-  std::optional<geom::Vec3>
-      displacement; // m, total value; a relaxation moves there in its first steps and holds it
+  // m, total value; a relaxation moves there in its first steps and holds it
+  std::optional<geom::Vec3> displacement;
   std::optional<geom::Vec3> velocity; // m/s, in real-time stepping; zero when not given
 };
 

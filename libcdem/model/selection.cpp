@@ -3,6 +3,7 @@
 #include "libcdem/model/model.hpp"
 #include "libgeom/core/error.hpp"
 
+#include <algorithm>
 #include <fmt/format.h>
 
 namespace cdem {
@@ -76,6 +77,14 @@ Selection Selection::where(std::function<bool(const geom::Vec3&)> predicate, std
 }
 
 bool selects_block(const Model& model, const Selection& selection, int block) {
+  if (selection.kind == Selection::Kind::side) {
+    const geom::Polyhedron& shape = model.blocks[block].shape;
+    return std::any_of(shape.faces.begin(), shape.faces.end(), [&](const auto& face) {
+      return std::all_of(face.loop.begin(), face.loop.end(), [&](int v) {
+        return selects(model, selection, shape.vertices[v], model.blocks[block].body);
+      });
+    });
+  }
   return selects(model, selection, model.blocks[block].mass.centroid, model.blocks[block].body);
 }
 

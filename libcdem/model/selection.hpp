@@ -36,8 +36,9 @@ std::vector<int> selected_nodes(const Model&, const Selection&);
 // Outer faces (index into Model::outer_faces) all of whose vertices are selected; for a predicate, whose centre is.
 std::vector<int> selected_outer_faces(const Model&, const Selection&);
 
-bool selects_block(const Model&, const Selection&, int block); // by its centroid
-bool selects_point(const Model&, const Selection&,
-                   int point); // by its place; a body selects the points of its faces
+// By its centroid; a side selects the blocks that have a face on it.
+bool selects_block(const Model&, const Selection&, int block);
+// By its place; a body selects the points of its faces.
+bool selects_point(const Model&, const Selection&, int point);
 
 } // namespace cdem

@@ -127,7 +127,7 @@ std::vector<FieldValue> values(const Model& model, const State& state, const std
       list.push_back(
           {block_value(model, state, field, b), model.blocks[b].mass.centroid, model.blocks[b].id});
     if (list.empty())
-      nothing_there(on, "block centroids");
+      nothing_there(on, "block centroids, or a side");
   }
   return list;
 }
@@ -142,7 +142,7 @@ double mean_value(const Model& model, const State& state, const std::string& fie
     for (const int b : selected_blocks(model, on))
       add(block_value(model, state, field, b), model.blocks[b].mass.volume);
     if (weight == 0)
-      nothing_there(on, "block centroids");
+      nothing_there(on, "block centroids, or a side");
     return sum / weight;
   }
   if (on.kind == Selection::Kind::side || on.kind == Selection::Kind::plane)
@@ -188,7 +188,10 @@ double value_at(const Model& model, const State& state, const std::string& field
     }
   }
   throw geom::InputError("at", fmt::format("({:g}, {:g}, {:g})", place.x(), place.y(), place.z()),
-                         "a place inside a block", "the model's box is printed by `cdem check`");
+                         fmt::format("a place inside a block; the model's box is from ({:g}, {:g}, {:g}) to "
+                                     "({:g}, {:g}, {:g}) m",
+                                     model.box.min.x(), model.box.min.y(), model.box.min.z(),
+                                     model.box.max.x(), model.box.max.y(), model.box.max.z()));
 }
 
 } // namespace cdem

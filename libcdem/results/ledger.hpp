@@ -11,8 +11,8 @@ struct EnergyLedger {
   // spent
   double damping = 0;
   double friction = 0;
-  double breaking =
-      0; // stored in a spring when it broke and no longer stored after; damage of softening bonds
+  // Stored in a spring when it broke and no longer stored after; damage of softening bonds.
+  double breaking = 0;
   double cutting = 0;    // change of the stored energy when blocks are cut (positive: lost)
   double fictitious = 0; // kinetic energy thrown away when a relaxation ends or its masses are rebuilt
   // given

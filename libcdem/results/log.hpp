@@ -45,6 +45,7 @@ public:
   std::vector<HistoryRow> history;
   std::vector<Probe> probes;
   std::int64_t broken_tension = 0, broken_shear = 0;
+  std::int64_t told_tension = 0, told_shear = 0; // of these: told of when earlier stages ended
 
   // A sample is due at this step (over all stages).
   bool due(std::int64_t step) const { return step % every_ == 0; }

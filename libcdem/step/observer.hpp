@@ -15,7 +15,7 @@ struct Progress {
   double residual_goal = 0;        // 0 when the stage has none
   double time = 0;                 // s, real-time stages
   double time_goal = 0;            // s, 0 when the stage has none
-  std::int64_t broken_tension = 0; // spring points broken so far, whole model
+  std::int64_t broken_tension = 0; // spring points broken so far in this stage
   std::int64_t broken_shear = 0;
   double steps_per_second = 0;
   double seconds_left = -1; // estimate; negative when unknown
@@ -27,8 +27,10 @@ public:
   virtual ~Observer() = default;
   // Called at the first and last step of a stage and about ten times a second in between, from the calling thread.
   virtual void progress(const Progress&) {}
-  // A line for the log: warnings, results of a stage.
+  // A line for the log: what the script prints, results of a stage.
   virtual void message(const std::string&) {}
+  // A line that a user must see even of a quiet run.
+  virtual void warning(const std::string& line) { message(line); }
   // Polled every few steps: true ends the stage cleanly by throwing Interrupted.
   virtual bool stop_requested() { return false; }
 };

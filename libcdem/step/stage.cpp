@@ -144,6 +144,8 @@ void Stage::after_step(const StepReport& report) {
     if (seconds(std::chrono::steady_clock::now() - told_) > seconds_between_reports)
       tell(report, false);
   }
+  if (step == 1)
+    tell(report, false);
 }
 
 void Stage::finish(const StepReport& report) {
@@ -161,13 +163,17 @@ void Stage::tell(const StepReport& report, bool last) {
   progress.step = step;
   progress.residual = report.residual;
   progress.time = context_.state.time;
-  progress.broken_tension = context_.log.broken_tension;
-  progress.broken_shear = context_.log.broken_shear;
+  progress.broken_tension = context_.log.broken_tension - context_.log.told_tension;
+  progress.broken_shear = context_.log.broken_shear - context_.log.told_shear;
   const double since = seconds(now - told_);
   progress.steps_per_second = since > 0 ? static_cast<double>(step - told_step_) / since : 0;
   if (progress.time_goal > 0 && progress.time > 0)
     progress.seconds_left = seconds(now - start_) * (progress.time_goal / progress.time - 1);
   progress.last = last;
+  if (last) {
+    context_.log.told_tension = context_.log.broken_tension;
+    context_.log.told_shear = context_.log.broken_shear;
+  }
   context_.observer.progress(progress);
   told_ = now;
   told_step_ = step;

@@ -44,8 +44,8 @@ struct Workspace {
   std::vector<SpringStrength> strength; // per interface
   // Both empty in a model without softening joints.
   std::vector<SofteningLaw> softening; // per interface
-  std::vector<geom::Vec3>
-      stretch; // m, of each spring in the step before (n_points); written by spring_forces
+  // m, of each spring in the step before (n_points); written by spring_forces
+  std::vector<geom::Vec3> stretch;
   std::vector<SpringSums> spring_sums; // per chunk of springs
   std::vector<NodeSums> node_sums;     // per chunk of blocks
 };

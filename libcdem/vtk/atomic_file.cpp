@@ -1,8 +1,12 @@
 #include "libcdem/vtk/atomic_file.hpp"
 
+#include "libcdem/vtk/file_error.hpp"
 #include "libgeom/core/error.hpp"
 
+#include <cerrno>
+#include <cstring>
 #include <filesystem>
+#include <fstream>
 
 namespace cdem {
 
@@ -12,10 +16,14 @@ AtomicFile::AtomicFile(const std::string& path) : path_(path), temporary_(path +
   std::error_code ignored;
   const fs::path folder = fs::path(path).parent_path();
   if (!folder.empty() && !fs::is_directory(folder, ignored))
-    throw geom::InputError("file", '"' + path + '"', "in a folder that exists",
-                           "make the folder " + folder.string());
-  if (path.empty() || fs::is_directory(path, ignored))
-    throw geom::InputError("file", '"' + path + '"', "the name of a file");
+    throw FileError(path + " cannot be written: there is no folder " + folder.string());
+  if (path.empty())
+    throw geom::InputError("file", "\"\"", "the name of a file");
+  if (fs::is_directory(path, ignored))
+    throw FileError(path + " cannot be written: it is a folder");
+  // Asked before libraries write, since they say less about what went wrong.
+  if (!std::ofstream(temporary_))
+    throw FileError(path + " cannot be written: " + std::strerror(errno));
 }
 
 AtomicFile::~AtomicFile() {
@@ -27,7 +35,11 @@ void AtomicFile::commit() {
   std::error_code failure;
   fs::rename(temporary_, path_, failure);
   if (failure)
-    throw geom::InputError("file", '"' + path_ + '"', "writable", failure.message());
+    throw FileError(path_ + " cannot be written: " + failure.message());
+}
+
+void AtomicFile::refuse() const {
+  throw FileError(path_ + " cannot be written: is there room on the disk?");
 }
 
 void require_extension(const std::string& path, const std::string& extension) {

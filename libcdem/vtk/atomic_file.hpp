@@ -7,14 +7,15 @@ namespace cdem {
 
 class AtomicFile {
 public:
-  // Throws geom::InputError when the folder of `path` does not exist or `path` is a folder.
+  // Throws FileError (file_error.hpp) when `path` is a folder, in none, or not writable.
   explicit AtomicFile(const std::string& path);
   ~AtomicFile(); // without commit: the temporary file is removed
   AtomicFile(const AtomicFile&) = delete;
   AtomicFile& operator=(const AtomicFile&) = delete;
 
   const std::string& temporary() const { return temporary_; } // write here
-  void commit();                                              // geom::InputError when the rename fails
+  void commit();                                              // FileError when the rename fails
+  [[noreturn]] void refuse() const;                           // throws FileError: not written to the end
 
 private:
   std::string path_, temporary_;

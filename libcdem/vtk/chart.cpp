@@ -6,6 +6,7 @@
 #include "libcdem/vtk/canvas.hpp"
 #include "libcdem/vtk/chart_axis.hpp"
 #include "libcdem/vtk/colour_map.hpp"
+#include "libcdem/vtk/labels.hpp"
 #include "libcdem/vtk/layout.hpp"
 #include "libcdem/vtk/offscreen.hpp"
 #include "libgeom/core/error.hpp"
@@ -84,6 +85,10 @@ bool clip(Canvas::Point& a, Canvas::Point& b, const Rect& r) {
   return true;
 }
 
+std::string shown_label(const std::string& label, const ChartAxis& axis) {
+  return axis.unit.empty() ? label : with_unit(label, axis.unit);
+}
+
 class ChartDrawing {
 public:
   ChartDrawing(const std::vector<Series>& series, const ChartOptions& options);
@@ -127,10 +132,12 @@ ChartDrawing::ChartDrawing(const std::vector<Series>& series, const ChartOptions
   }
   const int across = std::max(3, static_cast<int>(options.size[0] / pixel_ / 200));
   const int upward = std::max(3, static_cast<int>(options.size[1] / pixel_ / 170));
-  x_ = chart_axis(all_x, options.log_x, points, across, options.x_range, "x_range");
-  left_ = chart_axis(gather(series, false), options.log_y, true, upward, options.y_range, "y_range");
-  right_ =
-      chart_axis(gather(series, true), options.log_right, true, upward, options.right_range, "right_range");
+  x_ = chart_axis(all_x, options.log_x, points, across, options.x_range, "x_range",
+                  unit_of_label(options.x_label));
+  left_ = chart_axis(gather(series, false), options.log_y, true, upward, options.y_range, "y_range",
+                     unit_of_label(options.y_label));
+  right_ = chart_axis(gather(series, true), options.log_right, true, upward, options.right_range,
+                      "right_range", unit_of_label(options.right_label));
 }
 
 Colour ChartDrawing::axis_colour(bool right) const {
@@ -212,8 +219,8 @@ void ChartDrawing::draw_vertical_axis(const ChartAxis& axis, bool right, const s
   if (label.empty())
     return;
   const double edge = right ? options_.size[0] - margin * s - 0.05 * font_ : margin * s + 0.75 * font_;
-  canvas_.text(label, {edge, plot_.centre_y()}, font_, HorizontalAlign::centre, VerticalAlign::baseline, ink,
-               90);
+  canvas_.text(shown_label(label, axis), {edge, plot_.centre_y()}, font_, HorizontalAlign::centre,
+               VerticalAlign::baseline, ink, 90);
 }
 
 void ChartDrawing::draw_axes() {
@@ -238,8 +245,8 @@ void ChartDrawing::draw_axes() {
     canvas_.text(x_.labels[i], {plot_.left + x_.place(x_.major[i]) * plot_.width, under}, font_,
                  HorizontalAlign::centre, VerticalAlign::top);
   const double label_line = margin * s + 0.1 * font_;
-  canvas_.text(options_.x_label, {plot_.centre_x(), label_line}, font_, HorizontalAlign::centre,
-               VerticalAlign::baseline);
+  canvas_.text(shown_label(options_.x_label, x_), {plot_.centre_x(), label_line}, font_,
+               HorizontalAlign::centre, VerticalAlign::baseline);
   canvas_.text(x_.multiplier, {plot_.right(), label_line}, font_, HorizontalAlign::right,
                VerticalAlign::baseline);
   draw_vertical_axis(left_, false, options_.y_label);

@@ -7,8 +7,8 @@ namespace cdem {
 
 struct Series {
   std::string name;
-  std::vector<double> x,
-      y; // same length; pairs that are not finite, or not positive on a log axis, leave a gap
+  // Same length; pairs that are not finite, or not positive on a log axis, leave a gap.
+  std::vector<double> x, y;
   bool right_axis = false;                     // y is read on the right
   std::string style = "line";                  // line, dashed, points, both
   std::optional<Colour> colour = std::nullopt; // else the next of the palette
@@ -16,7 +16,9 @@ struct Series {
 
 struct ChartOptions {
   std::string title;
-  std::string x_label, y_label, right_label; // "_{...}" and "^{...}" set sub- and superscripts
+  // "_{...}" and "^{...}" set sub- and superscripts. A label that ends in an SI unit, "opening (m)", is that of values
+  // in it; a linear axis then shows them with the prefix that suits, "opening (mm)".
+  std::string x_label, y_label, right_label;
   bool log_x = false, log_y = false, log_right = false;
   std::array<int, 2> size = {1600, 1200}; // pixels
   std::string legend = "auto"; // auto: above the plot, where it covers no line; or top_left top_right

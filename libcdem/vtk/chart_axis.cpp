@@ -98,7 +98,8 @@ double ChartAxis::place(double value) const {
 }
 
 ChartAxis chart_axis(const std::vector<double>& values, bool log, bool padded, int ticks,
-                     const std::optional<std::array<double, 2>>& range, const std::string& name) {
+                     const std::optional<std::array<double, 2>>& range, const std::string& name,
+                     const std::string& unit) {
   ChartAxis axis;
   axis.log = log;
   if (range) {
@@ -131,12 +132,17 @@ ChartAxis chart_axis(const std::vector<double>& values, bool log, bool padded, i
   }
   // One power of ten for all labels where they would be long.
   const double largest = std::max(std::abs(axis.low), std::abs(axis.high));
-  int exponent = 0;
-  if (largest >= 1e5 || largest < 2e-2)
-    exponent = 3 * static_cast<int>(std::floor(std::log10(largest) / 3 + 1e-9));
-  const double factor = std::pow(10., -exponent);
-  if (exponent != 0)
-    axis.multiplier = "\u00d7" + power_of_ten(exponent);
+  double factor = 1;
+  if (takes_prefix(unit)) {
+    const DisplayUnit shown = display_unit(unit, largest);
+    factor = shown.factor;
+    axis.unit = shown.text;
+  } else if (largest >= 1e5 || largest < 2e-2) {
+    const int exponent = 3 * static_cast<int>(std::floor(std::log10(largest) / 3 + 1e-9));
+    factor = std::pow(10., -exponent);
+    if (exponent != 0)
+      axis.multiplier = "\u00d7" + power_of_ten(exponent);
+  }
   std::vector<double> shown = round_ticks(axis.low * factor, axis.high * factor, ticks);
   if (!range && shown.size() > 1) { // reach for the next round number when it is near
     const double step = shown[1] - shown[0], reach = 0.03 * (axis.high - axis.low);

@@ -43,10 +43,13 @@ std::uint64_t length_of(std::ifstream& in) {
 
 } // namespace
 
-void add_checksum(const std::string& path) {
+bool add_checksum(const std::string& path) {
   std::ifstream in(path, std::ios::binary);
   const std::uint64_t hash = hash_of(in, length_of(in));
-  std::ofstream(path, std::ios::binary | std::ios::app) << last_line(hash);
+  std::ofstream out(path, std::ios::binary | std::ios::app);
+  out << last_line(hash);
+  out.close();
+  return static_cast<bool>(out);
 }
 
 Checksum check_checksum(const std::string& path) {

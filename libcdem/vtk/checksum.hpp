@@ -6,7 +6,7 @@
 
 namespace cdem {
 
-void add_checksum(const std::string& path);
+bool add_checksum(const std::string& path); // false when it cannot be written
 
 enum class Checksum { none, wrong, right };
 Checksum check_checksum(const std::string& path); // none: no such line, the file is not one of ours

@@ -11,8 +11,8 @@
 namespace cdem {
 
 // Points, tets and all fields, values to the bit; time ("TimeValue", where ParaView looks for it), step and
-// title as field data. Binary, LZ4. Throws geom::InputError when the name does not end in .vtu or its folder
-// does not exist.
+// title as field data. Binary, LZ4. Throws geom::InputError when the name does not end in .vtu, FileError
+// when the file cannot be written.
 void write_vtu(const Snapshot&, const std::string& path);
 
 // The triangles of the interfaces with mode, opening, slip, traction. The picture of a .vtu finds its bonds
@@ -28,7 +28,8 @@ void write_pvd(const std::string& path, const std::vector<SeriesEntry>&);
 
 // A snapshot written by write_vtu, with its bonds when bonds_path(path) is there. The surface and the block
 // edges are found again from the tets and "block_id": the outside of each block, and the edges where that
-// outside has a corner. Throws geom::InputError when the file is missing, damaged or not one of ours.
+// outside has a corner. Throws FileError when there is no such file,
+// geom::InputError when it is damaged or not one of ours.
 Snapshot read_vtu(const std::string& path);
 
 } // namespace cdem

@@ -57,7 +57,7 @@ void write_film(const std::vector<std::string>& png_frames, int frames_per_secon
   }
   writer->End();
   if (writer->GetError() != 0)
-    throw geom::InputError("file", '"' + ogv_path + '"', "writable", "is there room on the disk?");
+    file.refuse();
   file.commit();
 }
 

@@ -16,12 +16,6 @@ struct Prefix {
 constexpr std::array<Prefix, 7> prefixes = {
     {{"G", 1e9}, {"M", 1e6}, {"k", 1e3}, {"", 1}, {"m", 1e-3}, {"\u00b5", 1e-6}, {"n", 1e-9}}};
 
-// Only units whose prefix multiplies the whole unit: mm2 is not 1e-3 m2. Lengths and times stop at m and s.
-bool takes_prefix(const std::string& unit) {
-  static const std::vector<std::string> units = {"m", "m/s", "m/s2", "s",   "Pa",   "N",
-                                                 "J", "W",   "Hz",   "N/m", "Pa/m", "Pa/s"};
-  return std::find(units.begin(), units.end(), unit) != units.end();
-}
 bool stops_at_one(const std::string& unit) {
   return unit[0] == 'm' || unit == "s";
 }
@@ -35,6 +29,23 @@ std::string with_exponents(const std::string& unit) { // "m/s2" -> "m/s²"
 
 } // namespace
 
+// Only units whose prefix multiplies the whole unit: mm2 is not 1e-3 m2. Lengths and times stop at m and s.
+bool takes_prefix(const std::string& unit) {
+  static const std::vector<std::string> units = {"m", "m/s", "m/s2", "s",   "Pa",   "N",
+                                                 "J", "W",   "Hz",   "N/m", "Pa/m", "Pa/s"};
+  return std::find(units.begin(), units.end(), unit) != units.end();
+}
+
+std::string unit_of_label(const std::string& label) {
+  const auto open = label.rfind('(');
+  return open == std::string::npos || label.back() != ')' ? std::string()
+                                                          : label.substr(open + 1, label.size() - open - 2);
+}
+
+std::string with_unit(const std::string& label, const std::string& unit) {
+  return label.substr(0, label.rfind('(')) + "(" + unit + ")";
+}
+
 std::string power_of_ten(int exponent) {
   return "10^{" + std::string(exponent < 0 ? "\u2212" : "") + std::to_string(std::abs(exponent)) + "}";
 }
@@ -43,7 +54,7 @@ DisplayUnit display_unit(const std::string& unit, double largest) {
   const bool plain = unit.empty() || unit == "1";
   if (!(largest > 0) || !std::isfinite(largest))
     return {1, plain ? std::string() : with_exponents(unit)};
-  if (!plain && takes_prefix(unit)) {
+  if (takes_prefix(unit)) {
     for (const Prefix& prefix : prefixes) {
       const bool allowed = !(prefix.factor > 1 && stops_at_one(unit));
       const double least = prefix.factor > 1e6 ? 1 : 0.1; // 110 MPa reads better than 0.11 GPa

@@ -16,6 +16,12 @@ struct DisplayUnit {
 // without prefixes.
 DisplayUnit display_unit(const std::string& unit, double largest);
 
+bool takes_prefix(const std::string& unit); // "Pa", "m": kPa and mm are units too
+
+// "opening (m)": "m"; empty when the label ends otherwise. with_unit: the label with another unit there.
+std::string unit_of_label(const std::string& label);
+std::string with_unit(const std::string& label, const std::string& unit);
+
 // Ticks at 1, 2, 2.5 or 5 times a power of ten inside [low, high], about `count` of them.
 std::vector<double> round_ticks(double low, double high, int count);
 

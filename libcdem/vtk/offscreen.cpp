@@ -203,7 +203,7 @@ void draw_png(const std::array<int, 2>& size, const std::vector<vtkRenderer*>& l
   writer->SetInputData(image);
   writer->Write();
   if (writer->GetErrorCode() != 0)
-    throw geom::InputError("file", '"' + png_path + '"', "writable");
+    file.refuse();
   file.commit();
 }
 

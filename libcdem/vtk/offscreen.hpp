@@ -11,8 +11,8 @@ namespace cdem {
 // OpenGL.
 inline constexpr int supersampling = 2;
 
-// Throws geom::InputError for a size outside 64 .. 8000 or a file that cannot be written. Cheap: call it
-// first.
+// Throws geom::InputError for a size outside 64 .. 8000, FileError for a file that cannot be written. Cheap: call
+// it first.
 void check_picture(const std::array<int, 2>& size, const std::string& png_path);
 
 // Draws the renderers on top of each other, the first one at the bottom, on white. Viewports are set by the

@@ -1,5 +1,6 @@
 // .vtu files of ours back to snapshots, with every number in them checked before it is used.
 #include "libcdem/vtk/checksum.hpp"
+#include "libcdem/vtk/file_error.hpp"
 #include "libcdem/vtk/files.hpp"
 #include "libcdem/vtk/header_names.hpp"
 #include "libcdem/vtk/outline.hpp"
@@ -29,7 +30,7 @@ namespace {
 vtkSmartPointer<vtkUnstructuredGrid> read_grid(const std::string& path) {
   std::error_code ignored;
   if (!std::filesystem::is_regular_file(path, ignored))
-    refuse(path, "there is no such file");
+    throw FileError('"' + path + "\" cannot be read: there is no such file");
   switch (check_checksum(path)) {
   case Checksum::none: // another program's file, or one of ours cut short
     refuse(path, "it is not, or it is incomplete");

@@ -20,6 +20,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 namespace cdem {
 namespace {
@@ -97,8 +98,41 @@ private:
   double width_, lift_;
 };
 
+// Number of each point among those in one place: faces may have points of their own.
+std::vector<int> places_of(const std::vector<Vec3>& points) {
+  std::vector<int> order(points.size()), place(points.size());
+  std::iota(order.begin(), order.end(), 0);
+  const auto coordinates = [&](int i) {
+    return std::array<double, 3>{points[i].x(), points[i].y(), points[i].z()};
+  };
+  std::sort(order.begin(), order.end(), [&](int a, int b) { return coordinates(a) < coordinates(b); });
+  for (std::size_t i = 1; i < order.size(); ++i)
+    place[order[i]] = place[order[i - 1]] + (points[order[i]] == points[order[i - 1]] ? 0 : 1);
+  return place;
+}
+
+std::array<int, 2> edge_between(int a, int b) {
+  return {std::min(a, b), std::max(a, b)};
+}
+
+// Edges of faces that look at the viewer, between places, sorted. The others are hidden by their own block; their first
+// pixels would come through where they leave a corner.
+std::vector<std::array<int, 2>> seen_edges(const Snapshot& s, const std::vector<Vec3>& points,
+                                           const std::vector<int>& place, const View& view) {
+  std::vector<std::array<int, 2>> edges;
+  for (const geom::Triangle& t : s.surface) {
+    const Vec3 &a = points[t[0]], &b = points[t[1]], &c = points[t[2]];
+    if ((b - a).cross(c - a).dot(view.direction_to_viewer((a + b + c) / 3)) <= 0)
+      continue;
+    for (int k = 0; k < 3; ++k)
+      edges.push_back(edge_between(place[t[k]], place[t[(k + 1) % 3]]));
+  }
+  std::sort(edges.begin(), edges.end());
+  return edges;
+}
+
 // True when nearly all of the surface that faces the viewer is square to the line of sight: a plate seen from
-// the front. Such a picture is drawn without shading, so that its colours are those of the colour bar.
+// the front. Such a picture is drawn without shading.
 bool flat_to_viewer(const Snapshot& s, const std::vector<Vec3>& points, const View& view) {
   double square = 0, seen = 0;
   for (const geom::Triangle& t : s.surface) {
@@ -167,10 +201,10 @@ void Scene::Impl::add_body(const SceneInput& in, const View& view) {
   vtkProperty* property = actor->GetProperty();
   property->BackfaceCullingOn(); // blocks are closed: nobody sees the inside of a face
   property->SetColor(plain_block_colour[0], plain_block_colour[1], plain_block_colour[2]);
-  if (flat_to_viewer(in.snapshot, in.points, view)) {
+  // Colours that stand for numbers are those of the colour bar; plain blocks are shaded, ids a little.
+  if ((in.field && in.scale.map != "categorical") || flat_to_viewer(in.snapshot, in.points, view)) {
     property->LightingOff();
   } else {
-    // Where colours are to be read off the colour bar shading is only as strong as shapes need.
     property->SetAmbient(in.field ? 0.86 : 0.6);
     property->SetDiffuse(in.field ? 0.16 : 0.45);
   }
@@ -279,8 +313,11 @@ Scene::Scene(const SceneInput& in, const View& view, const std::array<int, 2>& s
     const double width =
         std::clamp(0.03 * median_edge_pixels(in.snapshot, in.points, view), 0.3, 1.8 * in.pixel);
     Ribbons ribbons(view, width, 2);
+    const std::vector<int> place = places_of(in.points);
+    const auto seen = seen_edges(in.snapshot, in.points, place, view);
     for (const auto& e : in.snapshot.block_edges)
-      ribbons.add(in.points[e[0]], in.points[e[1]], false);
+      if (std::binary_search(seen.begin(), seen.end(), edge_between(place[e[0]], place[e[1]])))
+        ribbons.add(in.points[e[0]], in.points[e[1]], false);
     impl_->add_unlit(ribbons.points, ribbons.triangles, edge_colour);
   }
   if (in.broken)

@@ -3,7 +3,6 @@
 #include "libcdem/vtk/checksum.hpp"
 #include "libcdem/vtk/files.hpp"
 #include "libcdem/vtk/header_names.hpp"
-#include "libgeom/core/error.hpp"
 
 #include <vtkCellArray.h>
 #include <vtkCellData.h>
@@ -112,9 +111,8 @@ void write_grid(vtkUnstructuredGrid* grid, const std::string& path) {
   writer->EncodeAppendedDataOff();
   writer->SetHeaderTypeToUInt64();
   writer->SetCompressorTypeToLZ4();
-  if (writer->Write() != 1 || writer->GetErrorCode() != 0)
-    throw geom::InputError("file", '"' + path + '"', "writable", "is there room on the disk?");
-  add_checksum(file.temporary());
+  if (writer->Write() != 1 || writer->GetErrorCode() != 0 || !add_checksum(file.temporary()))
+    file.refuse();
   file.commit();
 }
 
@@ -180,7 +178,7 @@ void write_pvd(const std::string& path, const std::vector<SeriesEntry>& series) 
   out << "  </Collection>\n</VTKFile>\n";
   out.close();
   if (!out)
-    throw geom::InputError("file", '"' + path + '"', "writable", "is there room on the disk?");
+    file.refuse();
   file.commit();
 }
 

@@ -18,7 +18,8 @@ using geom::InputError;
 std::vector<Field> chart_fields() {
   return {text("file").required().doc("ends in .png; in the output folder"),
           text("title").doc("_{...} and ^{...} set sub- and superscripts"),
-          text("x_label"),
+          text("x_label").doc(
+              "ending in an SI unit, \"opening (m)\", the axis is shown with the prefix that suits: mm"),
           text("y_label"),
           text("right_label").doc("of the axis on the right"),
           flag("log_x").standard(false),
@@ -86,8 +87,7 @@ const std::vector<double>& column(const std::vector<std::pair<std::string, std::
       return values;
     names.push_back(other);
   }
-  throw InputError(key + " = \"" + name + "\": no such history" + did_you_mean(name, names) +
-                   " There are: " + joined(names));
+  throw InputError(key + " = \"" + name + "\": no such history" + which_there_are(name, names));
 }
 
 Value chart_of_histories(Session& session, ModelObject& model, const Arguments& a) {

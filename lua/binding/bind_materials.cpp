@@ -2,6 +2,7 @@
 #include "lua/binding/angles.hpp"
 #include "lua/binding/module.hpp"
 #include "lua/binding/objects.hpp"
+#include "lua/binding/session.hpp"
 
 #include <cmath>
 
@@ -9,13 +10,19 @@ namespace cdem::script {
 
 namespace {
 
-Value elastic(Session&, Object*, const Arguments& a) {
+// Softer than gelatine or stiffer than diamond: a unit is wrong.
+constexpr double softest = 1e5, stiffest = 1e13; // Pa
+
+Value elastic(Session& session, Object*, const Arguments& a) {
   auto object = std::make_shared<MaterialObject>();
   object->elastic.youngs_modulus = a.number("youngs_modulus");
   object->elastic.poissons_ratio = a.number("poissons_ratio");
   object->elastic.density = a.number("density");
   object->elastic.viscosity = a.number("viscosity");
   validate(object->elastic);
+  if (object->elastic.youngs_modulus < softest || object->elastic.youngs_modulus > stiffest)
+    session.warn("cdem.elastic: youngs_modulus = " + describe(a.value("youngs_modulus")) +
+                 ": no rock is like that; it is in Pa, rock has 1e9 to 1e11");
   return object;
 }
 

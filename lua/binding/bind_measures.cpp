@@ -165,7 +165,9 @@ void bind_measures(Module& m) {
   };
   const Field field =
       text("field").required().doc("e.g. \"displacement.x\", \"stress.yy\"; model:fields() has all");
-  const Field on = place("on").doc("where: one place; the whole model when left out");
+  const Field on = place("on").doc("where: one place; the whole model when left out. Stresses are those of "
+                                   "blocks: on a side, of those that have "
+                                   "a face there; elsewhere of those whose centroid is there");
   add("max", "Largest value of a field.", {field, on}, "number", "", max);
   add("min", "Smallest value of a field.", {field, on}, "number", "", min);
   add("find_max", "Largest value of a field, and where it is.", {field, on}, "cdem.Extreme", "", find_max);

@@ -55,18 +55,20 @@ void read_pairs(const Arguments& a, ModelSpec& spec) {
     for (const std::string& name : {pair.body_a, pair.body_b})
       if (std::find(names.begin(), names.end(), name) == names.end())
         throw InputError("contacts[" + std::to_string(index) + "]: no body \"" + name + "\"" +
-                         did_you_mean(name, names) + " There are: " + joined(names));
+                         which_there_are(name, names));
     spec.pairs.push_back(pair);
   }
 }
 
 std::string shown_build(const ModelObject& model) {
   const ModelCounts c = model.simulation.counts();
+  const geom::Box box = model.simulation.box();
   return std::to_string(c.bodies) + (c.bodies == 1 ? " body (" : " bodies (") + joined(model.body_names) +
          "), " + std::to_string(c.blocks) + (c.blocks == 1 ? " block, " : " blocks, ") +
          std::to_string(c.tets) + " tets, " + std::to_string(c.interfaces) +
-         (c.interfaces == 1 ? " interface, " : " interfaces, ") + std::to_string(c.bonds) + " bonds; size " +
-         describe(Value(geom::Vec3(model.simulation.box().size()))) + " m";
+         (c.interfaces == 1 ? " interface, " : " interfaces, ") + std::to_string(c.bonds) +
+         " bonds; box from " + describe(Value(box.min)) + " to " + describe(Value(box.max)) + " m, size " +
+         describe(Value(geom::Vec3(box.size()))) + " m";
 }
 
 Value make_model(Session& session, Object*, const Arguments& a) {
@@ -81,7 +83,7 @@ Value make_model(Session& session, Object*, const Arguments& a) {
     model->body_names.push_back(body.name);
   model->unjointed = unjointed;
   model->number = static_cast<int>(session.models.size()) + 1;
-  model->memory = session.new_table(Table());
+  model->memory = session.new_memory(Table());
   model->notes->built = shown_build(*model);
   session.models.push_back(model);
   session.notes.push_back(model->notes);
@@ -137,7 +139,7 @@ std::vector<Property> model_properties() {
     if (!value.table())
       throw InputError("memory", describe(value), "a table");
     check_value(value, plain("memory").type, "memory");
-    static_cast<ModelObject&>(self).memory = session.new_table(value);
+    static_cast<ModelObject&>(self).memory = session.new_memory(value);
   };
   return {simulation_property("time", "number", "s", "", [](const Simulation& s) { return s.time(); }),
           simulation_property("residual", "number", "", "out-of-balance force norm over applied force norm",

@@ -55,7 +55,7 @@ Value picture(Session& session, ModelObject& model, const Arguments& a) {
     const auto names = picture_fields(model.simulation.snapshot(""));
     if (!options.field.empty() && std::find(names.begin(), names.end(), options.field) == names.end())
       throw InputError("colour = \"" + options.field + "\": no such field" +
-                       did_you_mean(options.field, names) + " There are: " + joined(names));
+                       which_there_are(options.field, names));
     return {};
   }
   render(model.simulation.snapshot(model.title(session)), options,

@@ -17,9 +17,9 @@ Value finite_or_nil(Session& session, const std::string& name, const char* field
       session.warn("cdem.report: " + name + ": " + field + " is " + describe(value) + "; written as null");
     return {};
   }
-  if (!value.is_nil() && !value.is_number() && !value.get<std::string>())
+  if (!value.is_nil() && !value.is_number() && !value.get<std::string>() && !value.get<bool>())
     throw geom::InputError(name + ": " + field + " = " + describe(value) +
-                           ": must be a number, a string or nil");
+                           ": must be a number, a string, a boolean or nil");
   return value;
 }
 
@@ -49,10 +49,7 @@ Value report(Session& session, Object*, const Arguments& arguments) {
                              "the tolerance out");
     session.report.add(figure);
   }
-  if (!session.settings.check_only) {
-    write_file(session.files.to_write("report.json"), session.report.json());
-    write_file(session.files.to_write("report.md"), session.report.markdown());
-  }
+  session.write_report();
   return {};
 }
 
@@ -61,9 +58,9 @@ Value report(Session& session, Object*, const Arguments& arguments) {
 void bind_report(Module& m) {
   const std::vector<Field> figure{
       text("name").required().doc("name of the figure, with its unit at the end, e.g. \"side_ux_max_m\""),
-      plain("value").doc("number or text; leave out (nil) when there is none"),
+      plain("value").doc("number, text or boolean; leave out (nil) when there is none"),
       text("unit"),
-      plain("reference").doc("number or text to compare with"),
+      plain("reference").doc("number, text or boolean to compare with"),
       choice("kind", {"formula", "paper", "fe", "trial"})
           .doc("where the reference comes from; a trial figure is shown and never judged"),
       text("source").doc("e.g. \"Han 2010 fig 7\""),
@@ -74,7 +71,9 @@ void bind_report(Module& m) {
       {"report",
        "Writes figures beside their references to report.json and report.md in the output folder. "
        "Further calls add figures; a name given again takes the place of the earlier one. Numbers "
-       "that are not finite become null, with a warning.",
+       "that are not finite become null, with a warning. Booleans are judged by equality. The warnings of "
+       "the "
+       "run stand in the report too.",
        {list("figures", record_type(figure)).required().doc("the figures, in order")},
        true,
        "",

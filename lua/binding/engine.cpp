@@ -51,6 +51,8 @@ void Engine::run_file() {
   } catch (const geom::InputError& wrong) {
     throw ScriptError(shown_name(script) + ": " + wrong.what());
   }
+  if (!session.report.figures.empty() && session.report.warnings.size() < session.warnings.size())
+    session.write_report(); // with the warnings that came after the last figure
 }
 
 std::string Engine::run_line(const std::string& text, bool& incomplete) {
@@ -178,8 +180,6 @@ std::string Engine::model_summary() const {
       if (stage.model == number)
         out += "  stage " + std::to_string(stage.number) + ": " + stage.kind + "\n";
   }
-  for (const std::string& line : session.warnings)
-    out += line + "\n";
   return out;
 }
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "libcdem/step/observer.hpp"
+#include "libcdem/vtk/file_error.hpp"
 
 #include <filesystem>
 #include <functional>
@@ -20,11 +21,7 @@ public:
   using std::runtime_error::runtime_error;
 };
 
-// A file could not be read or written. Exit code 4.
-class FileError : public std::runtime_error {
-public:
-  using std::runtime_error::runtime_error;
-};
+using cdem::FileError; // a file could not be read or written; exit code 4
 
 struct EngineSettings {
   std::filesystem::path script;  // the .lua file; empty for the repl
@@ -61,10 +58,9 @@ public:
   std::vector<std::string> complete(const std::string& prefix) const; // names that start so, for the tab key
 
   std::vector<ParameterInfo> parameters() const;
-  std::string
-  model_summary() const; // for `cdem check`: bodies, blocks, tets, bonds, conditions, stages, warnings
-  bool model_saved_after_failure(); // writes last_good.vtu of every model that failed; true when something
-                                    // was written
+  std::string model_summary() const; // for `cdem check`: bodies, blocks, tets, bonds, box, conditions, stages
+  // Writes last_good.vtu of every model that failed; true when something was written.
+  bool model_saved_after_failure();
 
 private:
   struct Impl;

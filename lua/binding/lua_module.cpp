@@ -113,8 +113,8 @@ int index_object(lua_State* L) {
       return 1;
     }
     throw geom::InputError(
-        key + ": no such name" + did_you_mean(key, member_names(c)) +
-        (c.methods.empty() && c.properties.empty() ? "" : " It has: " + joined(member_names(c))));
+        key + ": no such name" +
+        (c.methods.empty() && c.properties.empty() ? "" : which_there_are(key, member_names(c), "It has")));
   } catch (const std::exception&) {
     message = state.message_of_current_exception(L, "cdem." + c.name);
   }

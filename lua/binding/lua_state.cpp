@@ -3,6 +3,7 @@
 
 #include "libcdem/step/errors.hpp"
 #include "libgeom/core/error.hpp"
+#include "lua/binding/schema.hpp"
 
 #include <cstdlib>
 #include <cstring>
@@ -53,6 +54,32 @@ int text_of_error(lua_State* L) {
   return 1;
 }
 
+// model.memory.key = value: what a checkpoint could not hold is refused in the line that assigns it.
+int set_in_memory(lua_State* L) {
+  LuaState& state = LuaState::of(L);
+  std::string message;
+  try {
+    if (lua_type(L, 2) == LUA_TSTRING)
+      check_value(to_value(L, 3), plain("").type, "model.memory." + std::string(lua_tostring(L, 2)));
+    lua_rawset(L, 1);
+    return 0;
+  } catch (const std::exception&) {
+    message = state.message_of_current_exception(L, "cdem.Model");
+  }
+  lua_pushlstring(L, message.data(), message.size());
+  return lua_error(L);
+}
+
+// Of the table on top of the stack. Lua asks for new keys only; the rest is looked at when a stage begins and ends.
+void guard_memory(lua_State* L) {
+  lua_newtable(L);
+  lua_pushcfunction(L, set_in_memory);
+  lua_setfield(L, -2, "__newindex");
+  lua_pushboolean(L, 0);
+  lua_setfield(L, -2, "__metatable");
+  lua_setmetatable(L, -2);
+}
+
 } // namespace
 
 LuaState::LuaState(Session& given)
@@ -64,8 +91,9 @@ LuaState::LuaState(Session& given)
   *static_cast<LuaState**>(lua_getextraspace(main)) = this;
   lua_sethook(main, hook, LUA_MASKCOUNT, hook_interval);
   session.where = [this] { return where(current); };
-  session.new_table = [this](const Value& table) {
+  session.new_memory = [this](const Value& table) {
     push(current, table);
+    guard_memory(current);
     auto reference = make_reference(current, -1);
     lua_pop(current, 1);
     return reference;
@@ -77,7 +105,7 @@ LuaState::LuaState(Session& given)
 LuaState::~LuaState() {
   *alive = nullptr;
   session.where = nullptr;
-  session.new_table = nullptr;
+  session.new_memory = nullptr;
   session.collect_garbage = nullptr;
   lua_close(main);
 }

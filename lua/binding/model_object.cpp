@@ -108,8 +108,7 @@ std::vector<Selection> by_name(const ModelObject& model, const std::string& name
   if (name.size() == 2 && name[0] >= 'x' && name[0] <= 'z' && (name[1] == '-' || name[1] == '+'))
     return {Selection::side(name)};
   const auto names = place_names(model);
-  throw geom::InputError(key + " = \"" + name + "\": no such place" + did_you_mean(name, names) +
-                         " There are: " + joined(names));
+  throw geom::InputError(key + " = \"" + name + "\": no such place" + which_there_are(name, names));
 }
 
 } // namespace

@@ -65,7 +65,7 @@ std::string shown(const Value& value) {
   return describe(value);
 }
 
-std::string cell(std::string text) {
+std::string cell(const std::string& text) {
   std::string out;
   for (const char c : text) {
     if (c == '|')
@@ -102,7 +102,11 @@ std::string tolerance_text(const Figure& f) {
 } // namespace
 
 std::optional<bool> Figure::within() const {
-  if (kind == "trial" || kind.empty() || !tolerance || !reference.is_number())
+  if (kind == "trial" || kind.empty())
+    return std::nullopt;
+  if (const bool* ours = value.get<bool>(), *theirs = reference.get<bool>(); ours && theirs)
+    return *ours == *theirs;
+  if (!tolerance || !reference.is_number())
     return std::nullopt;
   if (!value.is_number())
     return std::nullopt;
@@ -141,6 +145,7 @@ std::string Report::json() const {
   Json all;
   all["case"] = case_name;
   all["figures"] = list;
+  all["warnings"] = warnings;
   return all.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
@@ -155,6 +160,10 @@ std::string Report::markdown() const {
            tolerance_text(f) + " | " + (judged ? (*judged ? "yes" : "**no**") : "-") + " | " +
            cell(f.source) + " |\n";
   }
+  if (!warnings.empty())
+    out += "\nWarnings of the run:\n\n";
+  for (const std::string& warning : warnings)
+    out += "- " + cell(warning) + "\n";
   return out;
 }
 

@@ -77,8 +77,7 @@ std::shared_ptr<Table> checked_record(const Value& given, const std::vector<Fiel
     throw InputError(in + table->odd_keys);
   for (const auto& [name, value] : table->named) {
     if (std::find(names.begin(), names.end(), name) == names.end())
-      throw InputError(in + name + ": no such key" + did_you_mean(name, names) +
-                       " Allowed: " + joined(names));
+      throw InputError(in + name + ": no such key" + which_there_are(name, names, "Allowed"));
   }
   if (!table->items.empty())
     throw InputError(in + describe(table->items[0]) +

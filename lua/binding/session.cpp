@@ -34,6 +34,8 @@ Session::Session(EngineSettings given)
 }
 
 void Session::message(const std::string& line) const {
+  if (settings.check_only && !stages.empty())
+    return; // figures made of the empty results of solving calls
   if (settings.observer)
     settings.observer->message(line);
   else
@@ -46,7 +48,18 @@ void Session::warn(const std::string& text) {
   if (std::find(warnings.begin(), warnings.end(), line) != warnings.end())
     return;
   warnings.push_back(line);
-  message(line);
+  if (settings.observer)
+    settings.observer->warning(line);
+  else
+    std::fprintf(stderr, "%s\n", line.c_str());
+}
+
+void Session::write_report() {
+  if (settings.check_only)
+    return;
+  report.warnings = warnings;
+  write_file(files.to_write("report.json"), report.json());
+  write_file(files.to_write("report.md"), report.markdown());
 }
 
 void Session::check_set_names() const {
@@ -57,8 +70,7 @@ void Session::check_set_names() const {
     if (std::find(names.begin(), names.end(), name) != names.end())
       continue;
     throw geom::InputError("--set " + name + "=" + value + ": the script has no such parameter" +
-                           did_you_mean(name, names) +
-                           (names.empty() ? "; it declares none" : " Declared: " + joined(names)));
+                           (names.empty() ? "; it declares none" : which_there_are(name, names, "Declared")));
   }
 }
 

@@ -46,15 +46,19 @@ struct Session {
   std::vector<std::shared_ptr<ModelNotes>> notes;   // of the same models
   std::vector<std::shared_ptr<ModelObject>> failed; // models whose stage failed or was stopped
   std::vector<std::string> warnings;
-  Report report;
+  Report report; // its warnings are those above
 
   // Services of the Lua side.
-  std::function<std::shared_ptr<Reference>(const Value& plain_table)> new_table;
+  std::function<std::shared_ptr<Reference>(const Value& plain_table)> new_memory; // for model.memory
   std::function<std::string()> where;    // "case.lua:12" of the running call
   std::function<void()> collect_garbage; // lets go of models that the script no longer holds
 
-  void message(const std::string& line) const; // to the observer; to standard output without one
-  void warn(const std::string& text);          // with the place in the script
+  // To the observer; to standard output without one. In a check, nothing once a solving call was passed.
+  void message(const std::string& line) const;
+  void warn(const std::string& text); // with the place in the script
+
+  // report.json and report.md; not in a check. FileError when they cannot be written.
+  void write_report();
 
   // Names given with --set that no cdem.parameter has declared: InputError naming the nearest. Called at the
   // first solving call, before hours are spent with a misspelt name, and when the script has ended.

@@ -1,6 +1,7 @@
 #include "lua/binding/solving_stage.hpp"
 
 #include "libcdem/step/errors.hpp"
+#include "lua/binding/angles.hpp"
 
 #include <cstdio>
 
@@ -16,7 +17,32 @@ void keep_unfinished(Session& session, ModelObject& model) {
   model.write_history(session);
 }
 
+constexpr double small_strain = 0.01;
+constexpr double small_turn = 1; // degree
+
+// One line a stage, of what small strain cannot hold (results/deformation.hpp says why these limits).
+void warn_of_large_deformation(Session& session, const ModelObject& model, const Stage& stage) {
+  const Deformation d = model.simulation.deformation();
+  std::string found;
+  if (d.strain > small_strain)
+    found = "block " + std::to_string(d.strain_block) + " is strained by " + three_digits(100 * d.strain) +
+            " % (more than 1 %)";
+  if (degrees(d.turn) > small_turn)
+    found += (found.empty() ? "block " : ", block ") + std::to_string(d.turn_block) + " has turned by " +
+             three_digits(degrees(d.turn)) + " degrees (more than 1), a false strain of " +
+             three_digits(50 * d.turn * d.turn) + " %";
+  if (!found.empty())
+    session.warn("stage " + std::to_string(stage.number) + " (" + stage.kind +
+                 "): beyond small strain: " + found);
+}
+
 } // namespace
+
+std::string three_digits(double x) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.3g", x);
+  return text;
+}
 
 Value stage_row(const Stage& stage) {
   char hash[17];
@@ -56,6 +82,8 @@ Value stage(Session& session, ModelObject& model, const char* kind, const Argume
     throw;
   }
   session.stages[index].result = result;
+  if (!session.settings.check_only)
+    warn_of_large_deformation(session, model, stage);
   if (!session.settings.check_only)
     model.write_history(session);
   {

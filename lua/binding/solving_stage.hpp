@@ -8,6 +8,8 @@
 
 namespace cdem::script {
 
+std::string three_digits(double); // for messages
+
 // A stage as scripts see it: number, kind, hash, result.
 Value stage_row(const Stage&);
 

@@ -597,31 +597,31 @@ function Model:grow(options) end
 
 ---Largest value of a field.
 ---@param field string e.g. "displacement.x", "stress.yy"; model:fields() has all
----@param on? cdem.Place where: one place; the whole model when left out
+---@param on? cdem.Place where: one place; the whole model when left out. Stresses are those of blocks: on a side, of those that have a face there; elsewhere of those whose centroid is there
 ---@return number
 function Model:max(field, on) end
 
 ---Smallest value of a field.
 ---@param field string e.g. "displacement.x", "stress.yy"; model:fields() has all
----@param on? cdem.Place where: one place; the whole model when left out
+---@param on? cdem.Place where: one place; the whole model when left out. Stresses are those of blocks: on a side, of those that have a face there; elsewhere of those whose centroid is there
 ---@return number
 function Model:min(field, on) end
 
 ---Largest value of a field, and where it is.
 ---@param field string e.g. "displacement.x", "stress.yy"; model:fields() has all
----@param on? cdem.Place where: one place; the whole model when left out
+---@param on? cdem.Place where: one place; the whole model when left out. Stresses are those of blocks: on a side, of those that have a face there; elsewhere of those whose centroid is there
 ---@return cdem.Extreme
 function Model:find_max(field, on) end
 
 ---Smallest value of a field, and where it is.
 ---@param field string e.g. "displacement.x", "stress.yy"; model:fields() has all
----@param on? cdem.Place where: one place; the whole model when left out
+---@param on? cdem.Place where: one place; the whole model when left out. Stresses are those of blocks: on a side, of those that have a face there; elsewhere of those whose centroid is there
 ---@return cdem.Extreme
 function Model:find_min(field, on) end
 
 ---Mean of a field: over nodes, or over blocks by volume.
 ---@param field string e.g. "displacement.x", "stress.yy"; model:fields() has all
----@param on? cdem.Place where: one place; the whole model when left out
+---@param on? cdem.Place where: one place; the whole model when left out. Stresses are those of blocks: on a side, of those that have a face there; elsewhere of those whose centroid is there
 ---@return number
 function Model:mean(field, on) end
 
@@ -722,7 +722,7 @@ function Model:picture(options) end
 ---@field right? string[] histories read on the right
 ---@field x? string default "step": history along the x axis
 ---@field title? string _{...} and ^{...} set sub- and superscripts
----@field x_label? string
+---@field x_label? string ending in an SI unit, "opening (m)", the axis is shown with the prefix that suits: mm
 ---@field y_label? string
 ---@field right_label? string of the axis on the right
 ---@field log_x? boolean default false
@@ -1170,7 +1170,7 @@ function cdem.film(options) end
 ---@field file string ends in .png; in the output folder
 ---@field series cdem.ChartOptionsSeries[]
 ---@field title? string _{...} and ^{...} set sub- and superscripts
----@field x_label? string
+---@field x_label? string ending in an SI unit, "opening (m)", the axis is shown with the prefix that suits: mm
 ---@field y_label? string
 ---@field right_label? string of the axis on the right
 ---@field log_x? boolean default false
@@ -1188,15 +1188,15 @@ function cdem.chart(options) end
 
 ---@class (exact) cdem.ReportOptionsfigures
 ---@field name string name of the figure, with its unit at the end, e.g. "side_ux_max_m"
----@field value? any number or text; leave out (nil) when there is none
+---@field value? any number, text or boolean; leave out (nil) when there is none
 ---@field unit? string
----@field reference? any number or text to compare with
+---@field reference? any number, text or boolean to compare with
 ---@field kind? "formula"|"paper"|"fe"|"trial" where the reference comes from; a trial figure is shown and never judged
 ---@field source? string e.g. "Han 2010 fig 7"
 ---@field tolerance? number >= 0: allowed |value - reference| over |reference|
 ---@field tolerance_absolute? number >= 0: the same in the figure's unit, instead of tolerance
 
----Writes figures beside their references to report.json and report.md in the output folder. Further calls add figures; a name given again takes the place of the earlier one. Numbers that are not finite become null, with a warning.
+---Writes figures beside their references to report.json and report.md in the output folder. Further calls add figures; a name given again takes the place of the earlier one. Numbers that are not finite become null, with a warning. Booleans are judged by equality. The warnings of the run stand in the report too.
 ---@param figures cdem.ReportOptionsfigures[] the figures, in order
 function cdem.report(figures) end
 

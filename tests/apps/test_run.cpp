@@ -185,3 +185,120 @@ TEST_CASE("a run that is stopped leaves what it had reached") {
   CHECK(fs::exists(results / "history.csv"));
   CHECK_THAT(read_file(results / "cdem.log"), Contains("ended with exit code 143"));
 }
+
+TEST_CASE("a warning is seen on stderr of a quiet run, in the log, in the closing line and by info") {
+  const Place cdem;
+  std::string text = bar;
+  const std::string goal = "residual = 1e-4";
+  text.replace(text.find(goal), goal.size(), "max_steps = 3");
+  write_file(cdem.folder / "bar/short.lua", text);
+  const Outcome quiet = cdem({"run", "bar/short.lua", "-q"});
+  CHECK(quiet.exit_code == 0);
+  CHECK(quiet.out.empty());
+  REQUIRE(lines_of(quiet.err).size() == 1);
+  CHECK_THAT(quiet.err, StartsWith("bar/short.lua:11: warning: relax: not converged after 3 steps"));
+  const Outcome loud = cdem({"run", "bar/short.lua"});
+  CHECK(loud.err == quiet.err);
+  CHECK_THAT(loud.out, EndsWith("1 warning; results in results/bar-short\n"));
+  CHECK_THAT(read_file(cdem.folder / "results/bar-short/cdem.log"),
+             Contains("warning: relax: not converged"));
+  CHECK_THAT(read_file(cdem.folder / "results/bar-short/report.json"),
+             Contains("warning: relax: not converged"));
+  CHECK_THAT(cdem({"info", "results/bar-short"}).out, Contains("warnings  1, in cdem.log"));
+}
+
+TEST_CASE("each stage tells what broke in it, and the closing line what broke in all") {
+  const Place cdem;
+  write_file(cdem.folder / "pull.lua", R"(
+local cdem = require "cdem"
+local rock = cdem.elastic{ youngs_modulus = 30e9, poissons_ratio = 0, density = 2500 }
+local joint = cdem.mohr_coulomb{ cohesion = 8e9, friction_angle = 30, tensile_strength = 1e5 }
+local shape = cdem.grid{ size = {2, 1, 1}, divisions = {2, 1, 1} }
+local model = cdem.model{ bodies = { { shape = shape, material = rock, joint = joint } } }
+model:fix{ on = {"x-", "x+"}, axes = "xyz" }
+model:fix{ on = "x+", axes = "x", displacement = {1e-4, 0, 0} }
+model:relax{}
+model:run{ steps = 10 }
+)");
+  const Outcome outcome = cdem({"run", "pull.lua", "-o", "out"});
+  INFO(outcome.out << outcome.err);
+  REQUIRE(outcome.exit_code == 0);
+  const auto lines = lines_of(outcome.out);
+  REQUIRE(lines.size() == 3);
+  CHECK_THAT(lines[0], StartsWith("stage 1 relax: ") && EndsWith(", 5 broken (5 tension, 0 shear)"));
+  CHECK_THAT(lines[1], StartsWith("stage 2 run: 10 steps") && EndsWith(", 0 broken"));
+  CHECK(lines[2] == "5 broken (5 tension, 0 shear); results in out");
+}
+
+TEST_CASE("a file that cannot be written ends with exit code 4 and one line that names it") {
+  const Place cdem;
+  const std::string model = std::string(bar).substr(0, std::string(bar).find("model:relax"));
+  const auto ends = [&](const std::string& line, const std::string& file) {
+    write_file(cdem.folder / "bar/write.lua", model + line);
+    const Outcome outcome = cdem({"run", "bar/write.lua", "-q"});
+    INFO(line << ": " << outcome.err);
+    CHECK(outcome.exit_code == 4);
+    CHECK(lines_of(outcome.err).size() == 1);
+    CHECK_THAT(outcome.err, StartsWith("cdem: error: ") && Contains(file));
+  };
+  ends("io.open('file', 'w'):write('x'):close()\nmodel:save{ file = 'file/a.vtu' }", "file");
+  ends("io.open('file', 'w'):write('x'):close()\nmodel:picture{ file = 'file/a.png', size = {320, 240} }",
+       "file");
+}
+
+TEST_CASE("a full disk ends with exit code 4") {
+  const Place cdem;
+  write_file(cdem.folder / "bar/full.lua", std::string(bar).substr(0, std::string(bar).find("model:relax")) +
+                                               "model:save{ file = 'a.vtu' }\n");
+  // No file may grow beyond 4 KiB: the log fits, the model does not.
+  const Outcome outcome =
+      run_program({"/bin/bash", "-c",
+                   std::string("trap '' XFSZ; ulimit -f 4; exec ") + CDEM_PROGRAM + " run bar/full.lua -q"},
+                  cdem.start);
+  INFO(outcome.out << outcome.err);
+  CHECK(outcome.exit_code == 4);
+  CHECK_THAT(outcome.err, Contains("a.vtu cannot be written"));
+  CHECK_FALSE(fs::exists(cdem.folder / "results/bar-full/a.vtu"));
+  CHECK_FALSE(fs::exists(cdem.folder / "results/bar-full/a.vtu.part"));
+}
+
+TEST_CASE("a check shows the model's box, also when it fails further down") {
+  const Place cdem;
+  const std::string box = "box from {0, 0, 0} to {0.2, 0.4, 0.2} m, size {0.2, 0.4, 0.2} m";
+  CHECK_THAT(cdem({"check", "bar/case.lua"}).out, Contains(box));
+  write_file(cdem.folder / "bar/outside.lua",
+             std::string(bar) + "model:probe{ name = 'p', field = 'stress.yy', at = {0.1, 0.5, 0.1} }\n");
+  const Outcome outcome = cdem({"check", "bar/outside.lua"});
+  CHECK(outcome.exit_code == 2);
+  CHECK_THAT(outcome.out, Contains(box) && !Contains("no errors found"));
+  CHECK(lines_of(outcome.err).size() == 1);
+  CHECK_THAT(outcome.err, Contains("the model's box is from (0, 0, 0) to (0.2, 0.4, 0.2) m"));
+}
+
+TEST_CASE("a setting that cannot be read leaves no folder behind, and takes none of the user's") {
+  const Place cdem;
+  CHECK(cdem({"run", "bar/case.lua", "-q", "--set", "pressure=ten"}).exit_code == 2);
+  CHECK_FALSE(fs::exists(cdem.folder / "results"));
+  fs::create_directories(cdem.folder / "mine");
+  CHECK(cdem({"run", "bar/case.lua", "-q", "--set", "pressure=ten", "-o", "mine/a/b"}).exit_code == 2);
+  CHECK(fs::exists(cdem.folder / "mine"));
+  CHECK_FALSE(fs::exists(cdem.folder / "mine/a"));
+}
+
+TEST_CASE("info of a file of bonds names the file that it belongs to") {
+  const Place cdem;
+  REQUIRE(cdem({"run", "bar/case.lua", "-q"}).exit_code == 0);
+  const Outcome outcome = cdem({"info", "results/bar/bar_bonds.vtu"});
+  CHECK(outcome.exit_code == 2);
+  CHECK_THAT(outcome.err, Contains("holds the bonds of results/bar/bar.vtu; give that file"));
+}
+
+TEST_CASE("a check prints what a script says before it solves, and nothing made of empty results") {
+  const Place cdem;
+  write_file(cdem.folder / "bar/says.lua",
+             std::string(bar) + "print('top moved by', model:max('displacement.y'))\n");
+  const Outcome outcome = cdem({"check", "bar/says.lua"});
+  CHECK(outcome.exit_code == 0);
+  CHECK_THAT(outcome.out, Contains("the bar stands") && !Contains("top moved"));
+  CHECK_THAT(cdem({"run", "bar/says.lua"}).out, Contains("top moved"));
+}

@@ -153,3 +153,35 @@ TEST_CASE("the failure plane turns with the block", "[failure_plane]") {
     CHECK(std::abs(turned->normal.dot(q * straight->normal)) == Approx(1).epsilon(1e-9));
   }
 }
+
+TEST_CASE("under uniaxial stress the failure plane's azimuth is that of the first axis at least 45 degrees "
+          "off sigma1, "
+          "whatever the rounding",
+          "[failure_plane]") {
+  const cdem::BlockStrength strength{8e6, 30 * degree, 5e6};
+  for (std::uint64_t i = 0; i < 200; ++i) {
+    const auto draw = [&](std::uint64_t k) { return 2 * geom::uniform(11, i, k) - 1; };
+    const Vec3 axis = Vec3(draw(0), draw(1), draw(2)).normalized();
+    const Mat3 rough = symmetric(draw(6), draw(7), draw(8), draw(9), draw(10), draw(11));
+    const auto plane =
+        plane_of(-40e6 * axis * axis.transpose() + 40 * rough, strength); // 1e-6 of it is noise
+    REQUIRE(plane);
+    const double limit = std::sqrt(0.5);
+    const Vec3 across = std::abs(axis.x()) < limit   ? Vec3::UnitX()
+                        : std::abs(axis.y()) < limit ? Vec3::UnitY()
+                                                     : Vec3::UnitZ();
+    CAPTURE(axis.transpose(), plane->normal.transpose());
+    CHECK(std::abs(plane->normal.dot(axis.cross(across).normalized())) < 1e-4);
+    CHECK(std::abs(plane->normal.dot(axis)) == Approx(std::sin(30 * degree)).epsilon(1e-4));
+  }
+}
+
+TEST_CASE("under equal biaxial tension the crack stands across the first axis at least 45 degrees off sigma1",
+          "[failure_plane]") {
+  const cdem::BlockStrength strength{8e6, 30 * degree, 5e6};
+  const double noise = GENERATE(-1.0, 1.0);
+  const auto plane = plane_of(symmetric(6e6 + noise, 0, 6e6 - noise, 0, 0, 0), strength); // free along y
+  REQUIRE(plane);
+  CHECK(plane->mode == CutMode::tension);
+  CHECK(std::abs(plane->normal.x()) == Approx(1).epsilon(1e-9));
+}

@@ -155,3 +155,23 @@ TEST_CASE("a snapshot holds as many values as points and tets and bonds, and the
     surface += shot.points[t[0]].dot(shot.points[t[1]].cross(shot.points[t[2]])) / 6;
   CHECK(surface == Approx(1).epsilon(1e-10));
 }
+
+TEST_CASE("a side selects, for block fields, the blocks that have a face on it", "[results]") {
+  cdem::Simulation s = simulation(geom::grid({0.1, 0.1, 0.3}, {1, 1, 3}));
+  cdem::Fix floor;
+  floor.on = cdem::Selection::side("z-");
+  s.fix(floor);
+  cdem::Gravity gravity;
+  gravity.acceleration = {0, 0, -9.81};
+  s.gravity(gravity);
+  cdem::RelaxOptions options;
+  options.residual = 1e-9;
+  REQUIRE(s.relax(options).converged);
+  // Balance of a block's first moment: its mean stress carries what is above its middle.
+  const double weight = rock().density * 9.81;
+  const cdem::Selection bottom = cdem::Selection::side("z-"), top = cdem::Selection::side("z+");
+  CHECK(s.mean("stress.zz", bottom) == Approx(-weight * 0.25).epsilon(1e-6));
+  CHECK(s.max("stress.zz", bottom).value == s.min("stress.zz", bottom).value);
+  CHECK(s.mean("stress.zz", top) == Approx(-weight * 0.05).epsilon(1e-6));
+  CHECK(s.min("stress.zz", cdem::Selection::side("x+")).value == Approx(-weight * 0.25).epsilon(1e-6));
+}

@@ -67,11 +67,15 @@ TEST_CASE("model.memory holds plain values only", "[lua]") {
                               "model.memory.count + 1 end }\n"
                               "print(model.memory.count, model.memory.list[3].a)") == "2\tb");
   CHECK(printed_by(column() + "model.memory = { a = 1 }\nprint(model.memory.a)") == "1");
+  // In the line that assigns them.
+  CHECK_THAT(error_of(column() + "model.memory.f = print\n"),
+             Contains("case.lua:7: ") && Contains("model.memory.f = function: must be a plain value"));
+  CHECK_THAT(error_of(column() + "model.memory = { a = 1 }\nmodel.memory.m = { model }\n"),
+             Contains("case.lua:8: ") && Contains("model.memory.m[1] = cdem.Model"));
+  // What goes round that door when the next stage begins.
   const std::string run = "\nmodel:run{ steps = 1 }";
-  CHECK_THAT(error_of(column() + "model.memory.f = print" + run),
+  CHECK_THAT(error_of(column() + "model.memory.f = 1\nmodel.memory.f = print" + run),
              Contains("model.memory.f = function: must be a plain value"));
-  CHECK_THAT(error_of(column() + "model.memory.m = { model }" + run),
-             Contains("model.memory.m[1] = cdem.Model"));
   CHECK_THAT(error_of(column() + "model.memory.t = model.memory" + run), Contains("does it contain itself?"));
   CHECK_THAT(error_of(column() + "model.memory[2.5] = 1" + run), Contains("key 2.5"));
   CHECK_THAT(error_of(column() + "model.memory = 3"), Contains("memory = 3: must be a table"));

@@ -111,3 +111,17 @@ TEST_CASE("a report that cannot be judged is refused", "[lua]") {
   CHECK_THAT(error_of(head + "cdem.report{ name = 'a', value = 1 }"), Contains("one more pair of braces"));
   CHECK_THAT(error_of(head + "cdem.report{ { value = 1 } }"), Contains("figures[1]: name: missing"));
 }
+
+TEST_CASE("booleans are reported, and judged by equality", "[lua]") {
+  Script script(head + "cdem.report{ { name = 'whole', value = true, reference = true, kind = 'paper' },\n"
+                       "  { name = 'cut', value = false, reference = true, kind = 'paper' },\n"
+                       "  { name = 'converged', value = true } }");
+  script.run();
+  const std::string json = script.read("report.json");
+  CHECK(*entry(json, 0).at("value").get<bool>());
+  CHECK(*entry(json, 0).at("within").get<bool>());
+  CHECK_FALSE(*entry(json, 1).at("within").get<bool>());
+  CHECK(entry(json, 2).count("within") == 0);
+  CHECK_THAT(script.read("report.md"), Contains("| cut | false |") && Contains("| **no** |"));
+  CHECK_THAT(error_of(head + "cdem.report{ { name = 'a', value = { 1 } } }"), Contains("a boolean or nil"));
+}

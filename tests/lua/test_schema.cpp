@@ -55,7 +55,7 @@ TEST_CASE("an unknown key names the nearest right one and lists those allowed", 
   CHECK(error_for({{"cuont", 3}}) ==
         "cuont: no such key; did you mean count? Allowed: ratio, count, name, open, axes, size, divisions, "
         "values, rows, pairs, call, on");
-  CHECK_THAT(error_for({{"banana", 3}}), Contains("banana: no such key Allowed: ratio"));
+  CHECK_THAT(error_for({{"banana", 3}}), Contains("banana: no such key. Allowed: ratio"));
 }
 
 TEST_CASE("a missing argument says what it must be", "[lua]") {

@@ -113,7 +113,7 @@ TEST_CASE("series and options of a chart that cannot be used are refused") {
   CHECK_THROWS_WITH(chart({}, o, file), Contains("series = none"));
   CHECK_THROWS_WITH(chart({{"a", {1, 2}, {1}}}, o, file), Contains("series \"a\" = 2 x and 1 y"));
   CHECK_THROWS_WITH(chart({{"a", {1}, {1}, false, "dots"}}, o, file), Contains("style = \"dots\""));
-  CHECK_THROWS_WITH(chart({{"a", {1}, {1}}}, o, folder / "none/c.png"), Contains("folder that exists"));
+  CHECK_THROWS_WITH(chart({{"a", {1}, {1}}}, o, folder / "none/c.png"), Contains("there is no folder"));
   o.legend = "left";
   CHECK_THROWS_WITH(chart({{"a", {1}, {1}}}, o, file), Contains("legend = \"left\""));
   o.legend = "auto";

@@ -150,3 +150,30 @@ TEST_CASE("a colour map or range that cannot be used is refused") {
   CHECK_THROWS_AS(colour_scale({1}, false, "auto", std::array<double, 2>{1, 1}), geom::InputError);
   CHECK_THROWS_AS(colour_scale({1}, false, "auto", std::array<double, 2>{0, nan_value}), geom::InputError);
 }
+
+TEST_CASE("an axis in an SI unit is shown with the prefix that keeps its labels short") {
+  const auto axis = [](double high, const std::string& unit) {
+    return chart_axis({0, high}, false, false, 5, std::array<double, 2>{0, high}, "x_range", unit);
+  };
+  CHECK(axis(2e-4, "m").unit == "mm");
+  CHECK(axis(2e-4, "m").labels == std::vector<std::string>{"0.00", "0.05", "0.10", "0.15", "0.20"});
+  CHECK(axis(2e-4, "m").major.back() == Approx(2e-4)); // places stay in metres
+  CHECK(axis(2e-4, "m").multiplier.empty());
+  CHECK(axis(5e6, "Pa").unit == "MPa");
+  CHECK(axis(4e3, "Pa").unit == "kPa");
+  CHECK(axis(40, "m").unit == "m");
+  CHECK(axis(0.02, "s").unit == "ms");
+  CHECK(axis(4e6, "kPa").unit.empty()); // scaled by whoever gave it
+  CHECK(axis(4e6, "kPa").multiplier == "\u00d710^{6}");
+  CHECK(axis(1e-4, "").multiplier == "\u00d710^{\u22126}");
+  CHECK(chart_axis({1e-6, 1}, true, false, 5, {}, "x_range", "m").unit.empty()); // powers of ten
+}
+
+TEST_CASE("the unit of a label stands in brackets at its end") {
+  CHECK(unit_of_label("opening (m)") == "m");
+  CHECK(unit_of_label("force / area (Pa)") == "Pa");
+  CHECK(unit_of_label("step").empty());
+  CHECK(unit_of_label("").empty());
+  CHECK(unit_of_label("f(x) of it").empty());
+  CHECK(with_unit("crack (tip) opening (m)", "mm") == "crack (tip) opening (mm)");
+}

@@ -1,3 +1,4 @@
+#include "libcdem/vtk/file_error.hpp"
 #include "libcdem/vtk/layout.hpp"
 #include "libcdem/vtk/picture.hpp"
 #include "libcdem/vtk/scene.hpp"
@@ -330,7 +331,7 @@ TEST_CASE("options that cannot be used are refused before anything is drawn") {
     CHECK_THROWS_WITH(render(s, o, folder / file), Contains(reason) && !Contains("\n"));
   };
   PictureOptions o = bare("");
-  refused(o, "none/p.png", "folder that exists");
+  CHECK_THROWS_AS(render(s, o, folder / "none/p.png"), FileError);
   refused(o, "p.jpg", "ending in .png");
   o.view = "side";
   refused(o, "p.png", "front, back");
@@ -356,4 +357,52 @@ TEST_CASE("options that cannot be used are refused before anything is drawn") {
   o = bare("");
   CHECK_THROWS_WITH(render(Snapshot{}, o, folder / "p.png"), Contains("no faces"));
   CHECK(folder.names().empty());
+}
+
+TEST_CASE("colours of numbers are those of the colour bar from every side") {
+  const TemporaryFolder folder;
+  Snapshot s = three_blocks();
+  for (double& level : s.cell_fields.back().values)
+    level = 1;
+  PictureOptions o = bare("level");
+  o.range = {{0, 2}};
+  o.view = GENERATE("iso", "front", "top");
+  render(s, o, folder / "p.png");
+  const Image image = read_png(folder / "p.png");
+  const int middle = (40 + 245) / 2;
+  int inside = 0, other = 0;
+  for (int y = 0; y < image.height; ++y)
+    for (int x = 0; x < image.width; ++x) {
+      const int grey = image.at(x, y)[0];
+      inside += std::abs(grey - middle) <= 1 ? 1 : 0;
+      other += std::abs(grey - middle) > 1 && grey < middle ? 1 : 0; // the rim is mixed with white
+    }
+  CHECK(inside > 5000);
+  CHECK(other == 0);
+}
+
+TEST_CASE("edges that their own block hides leave no trace") {
+  const TemporaryFolder folder;
+  const Snapshot s = sample::blocks(sample::grid(1, 1, 1, 1), 1);
+  PictureOptions o = bare("");
+  o.edges = true;
+  o.view = "iso";
+  o.size = {800, 600};
+  render(s, o, folder / "all.png");
+  Snapshot seen =
+      s; // without the three edges at the corner that looks away: it has no face towards the viewer
+  const View iso = View::named("iso", "y");
+  const auto depth = [&](int p) { return iso.toward.dot(s.points[p]); };
+  int farthest = s.block_edges[0][0];
+  for (const auto& e : s.block_edges)
+    for (const int p : e)
+      if (depth(p) < depth(farthest))
+        farthest = p;
+  seen.block_edges.clear();
+  for (const auto& e : s.block_edges)
+    if (e[0] != farthest && e[1] != farthest)
+      seen.block_edges.push_back(e);
+  REQUIRE(seen.block_edges.size() + 3 == s.block_edges.size());
+  render(seen, o, folder / "seen.png");
+  CHECK(read_png(folder / "all.png").bytes == read_png(folder / "seen.png").bytes);
 }

@@ -5,6 +5,20 @@
 
 namespace cdem::app {
 
+namespace {
+
+void print_what_there_is(const script::Engine& engine) {
+  if (const auto parameters = engine.parameters(); !parameters.empty())
+    std::printf("parameters\n%s\n", parameter_table(parameters).c_str());
+  std::string summary = engine.model_summary();
+  while (!summary.empty() && summary.back() == '\n')
+    summary.pop_back();
+  if (!summary.empty())
+    std::printf("%s\n\n", summary.c_str());
+}
+
+} // namespace
+
 ExitCode check(const CheckCommand& command) {
   require_script(command.script);
   script::EngineSettings settings;
@@ -15,19 +29,19 @@ ExitCode check(const CheckCommand& command) {
   settings.set = command.set;
   settings.unsafe = command.unsafe;
   settings.check_only = true;
-  settings.observer = std::make_shared<RunObserver>(ProgressStyle::plain, nullptr);
+  const auto observer = std::make_shared<RunObserver>(ProgressStyle::plain, nullptr);
+  settings.observer = observer;
   settings.program = program_path().string();
 
   script::Engine engine(settings);
-  engine.run_file();
-  if (const auto parameters = engine.parameters(); !parameters.empty())
-    std::printf("parameters\n%s\n", parameter_table(parameters).c_str());
-  std::string summary = engine.model_summary();
-  while (!summary.empty() && summary.back() == '\n')
-    summary.pop_back();
-  if (!summary.empty())
-    std::printf("%s\n\n", summary.c_str());
-  std::printf("%s: no errors found\n", command.script.c_str());
+  try {
+    engine.run_file();
+  } catch (...) {
+    print_what_there_is(engine); // a place outside the model is found with the model's box in sight
+    throw;
+  }
+  print_what_there_is(engine);
+  std::printf("%s: %sno errors found\n", command.script.c_str(), observer->in_all().c_str());
   return ExitCode::success;
 }
 

@@ -104,6 +104,12 @@ std::string shortened(const std::string& text) {
 }
 
 void about_snapshot(const fs::path& file) {
+  const std::string name = file.filename().string(), bonds = "_bonds.vtu";
+  if (name.size() > bonds.size() && name.substr(name.size() - bonds.size()) == bonds) {
+    const fs::path blocks = file.parent_path() / (name.substr(0, name.size() - bonds.size()) + ".vtu");
+    throw UsageError(file.string() + " holds the bonds of " + blocks.string() +
+                     "; give that file, its bonds are told with it");
+  }
   const Snapshot snapshot = read_vtu(file.string());
   print_rows({{"title", snapshot.title},
               {"time", number_text(snapshot.time) + " s"},
@@ -146,6 +152,8 @@ void about_results(const fs::path& folder) {
                                              : std::string("not yet, or killed")});
   if (!summary.error.empty())
     rows.push_back({"error", summary.error});
+  if (summary.warnings > 0)
+    rows.push_back({"warnings", std::to_string(summary.warnings) + ", in " + run_log_name});
   print_rows(rows);
   if (const fs::path file = folder / "settings.json"; fs::exists(file)) {
     Rows parameters;

@@ -87,7 +87,7 @@ ExitCode run(const RunCommand& command) {
     folder.finish(failure.code, failure.details.empty() ? failure.line : failure.details);
     throw;
   }
-  observer->message("results in " + folder.path().string());
+  observer->message(observer->in_all() + "results in " + folder.path().string());
   folder.finish(ExitCode::success, "");
   return ExitCode::success;
 }

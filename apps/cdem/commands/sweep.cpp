@@ -128,8 +128,12 @@ std::vector<SweptRun> planned_runs(const SweepCommand& command, const fs::path& 
 }
 
 std::string verdict_of(const SweptRun& run) {
-  if (run.exit_code == 0)
-    return "done";
+  if (run.exit_code == 0) {
+    const int warnings = summary_of_run_log(run.folder / run_log_name).warnings;
+    return warnings == 0
+               ? "done"
+               : "done with " + std::to_string(warnings) + (warnings == 1 ? " warning" : " warnings");
+  }
   const std::string front = "cdem: error: ", line = last_line(run.console);
   return "exit code " + std::to_string(run.exit_code) +
          (line.rfind(front, 0) == 0 ? ", " + line.substr(front.size()) : std::string());

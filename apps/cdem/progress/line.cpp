@@ -29,13 +29,6 @@ std::string goal_text(const Progress& p) {
   return text;
 }
 
-std::string broken_text(const Progress& p) {
-  if (p.broken_tension + p.broken_shear == 0)
-    return "0 broken";
-  return count_text(p.broken_tension + p.broken_shear) + " broken (" + count_text(p.broken_tension) +
-         " tension, " + count_text(p.broken_shear) + " shear)";
-}
-
 std::string rate_text(double rate) {
   return (rate < 10 ? number_text(rate) : count_text(std::llround(rate))) + " steps/s";
 }
@@ -57,6 +50,13 @@ std::string joined(const std::vector<Part>& parts) {
 }
 
 } // namespace
+
+std::string broken_text(std::int64_t tension, std::int64_t shear) {
+  if (tension + shear == 0)
+    return "0 broken";
+  return count_text(tension + shear) + " broken (" + count_text(tension) + " tension, " + count_text(shear) +
+         " shear)";
+}
 
 std::string live_line(const Progress& p, const TimeLeft& left, int columns) {
   std::vector<Part> parts = {{stage_text(p), 0}};
@@ -91,7 +91,7 @@ std::string plain_line(const Progress& p, const TimeLeft& left) {
     line += ", " + goal;
   if (const double fraction = left.fraction(); fraction >= 0)
     line += ", " + percent_text(fraction);
-  line += ", " + broken_text(p);
+  line += ", " + broken_text(p.broken_tension, p.broken_shear);
   if (const double rate = left.steps_per_second(); rate > 0)
     line += ", " + rate_text(rate);
   if (const double seconds = left.seconds(); seconds >= 0)
@@ -105,7 +105,7 @@ std::string stage_line(const Progress& p, double wall) {
     line += ", residual " + number_text(p.residual) + " (goal " + number_text(p.residual_goal) + ")";
   else if (p.time > 0)
     line += ", time " + number_text(p.time) + " s";
-  return line + ", " + broken_text(p);
+  return line + ", " + broken_text(p.broken_tension, p.broken_shear);
 }
 
 } // namespace cdem::app

@@ -14,6 +14,9 @@ std::string live_line(const Progress&, const TimeLeft&, int columns);
 // For a file or a pipe.
 std::string plain_line(const Progress&, const TimeLeft&);
 
+// "1,204 broken (4 tension, 1,200 shear)"
+std::string broken_text(std::int64_t tension, std::int64_t shear);
+
 // Once a stage has ended. wall: s.
 std::string stage_line(const Progress&, double wall);
 

@@ -3,6 +3,7 @@
 #include "apps/cdem/interrupt.hpp"
 #include "apps/cdem/progress/line.hpp"
 #include "apps/cdem/progress/terminal.hpp"
+#include "apps/cdem/text.hpp"
 
 #include <cstdio>
 #include <sys/stat.h>
@@ -54,7 +55,7 @@ void RunObserver::start_stage(const Progress& progress, Clock::time_point now) {
   if (folder_ != nullptr)
     folder_->begin_results();
   stage_ = progress.stage;
-  // The first call comes some steps into the stage.
+  // The first call comes one step into the stage.
   const double gone =
       progress.steps_per_second > 0 ? static_cast<double>(progress.step) / progress.steps_per_second : 0;
   stage_start_ = now - std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(gone));
@@ -89,6 +90,8 @@ void RunObserver::show(const Progress& progress, Clock::time_point now) {
 void RunObserver::end_stage(const Progress& progress, Clock::time_point now) {
   const std::string line = stage_line(progress, seconds(now - stage_start_));
   stage_ = no_stage;
+  broken_tension_ += progress.broken_tension;
+  broken_shear_ += progress.broken_shear;
   if (progress.stage > 0)
     message(line);
   else
@@ -100,6 +103,25 @@ void RunObserver::message(const std::string& text) {
     print(text);
   if (folder_ != nullptr)
     folder_->log(text);
+}
+
+void RunObserver::warning(const std::string& text) {
+  ++warnings_;
+  if (style_ != ProgressStyle::machine) { // the sweep that watches this run shows its own
+    clear_line();
+    std::fprintf(stderr, "%s\n", text.c_str());
+  }
+  if (folder_ != nullptr)
+    folder_->log(text);
+}
+
+std::string RunObserver::in_all() const {
+  std::string text;
+  if (broken_tension_ + broken_shear_ > 0)
+    text = broken_text(broken_tension_, broken_shear_);
+  if (warnings_ > 0)
+    text += (text.empty() ? "" : ", ") + count_text(warnings_) + (warnings_ == 1 ? " warning" : " warnings");
+  return text.empty() ? text : text + "; ";
 }
 
 bool RunObserver::stop_requested() {

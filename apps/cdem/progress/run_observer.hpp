@@ -1,5 +1,5 @@
 // Shows a run while it goes on: one line that changes on a terminal, a plain line every ten seconds
-// elsewhere, all of it in the log. Asks the run to stop after Ctrl-C.
+// elsewhere, all of it in the log; warnings on stderr. Asks the run to stop after Ctrl-C.
 #pragma once
 
 #include "apps/cdem/output_folder.hpp"
@@ -28,10 +28,14 @@ public:
 
   void progress(const Progress&) override;
   void message(const std::string&) override;
+  void warning(const std::string&) override; // on stderr, of a quiet run too
   bool stop_requested() override;
 
   // Takes the live line off the screen; before anything else prints.
   void clear_line();
+
+  // "1,204 broken (4 tension, 1,200 shear), 1 warning; " of all stages; "" when there was nothing of it.
+  std::string in_all() const;
 
 private:
   using Clock = std::chrono::steady_clock;
@@ -46,6 +50,7 @@ private:
   static constexpr int no_stage = -1;
   int stage_ = no_stage;
   bool line_shown_ = false;
+  std::int64_t broken_tension_ = 0, broken_shear_ = 0, warnings_ = 0; // of all stages so far
   Clock::time_point stage_start_, last_shown_, last_logged_;
 };
 
