@@ -56,6 +56,7 @@ end
 -- just starts the break: these are the points of a test led by the opening itself.
 local whole = cdem.mohr_coulomb{ cohesion = 10e6, friction_angle = 30, tensile_strength = 2e6 }
 local brittle = beam.model({ { shape = beam.shape("41x10"), material = beam.rock, joint = whole, name = "beam" } }, support)
+local near_the_top = 0.85 * beam.height -- under the last row of blocks the crack turns aside
 local by_opening = { opening = {0}, load = {0} }
 local starts, path
 local saw = lead(brittle, function(note)
@@ -63,8 +64,10 @@ local saw = lead(brittle, function(note)
   local load, opening = note()
   local growth = brittle:grow{ passes = 100, callback = function(pass)
     if #pass.faces == 0 then return end
-    table.insert(by_opening.load, load / pass.first_ratio)
-    table.insert(by_opening.opening, opening / pass.first_ratio)
+    if pass.tip[2] < near_the_top then
+      table.insert(by_opening.load, load / pass.first_ratio)
+      table.insert(by_opening.opening, opening / pass.first_ratio)
+    end
     load, opening = note()
   end }
   path = growth.passes[#growth.passes].path
@@ -86,10 +89,10 @@ end
 draw("brittle, led by the displacement", saw, "line")
 draw("brittle, led by the opening", by_opening, "both")
 
--- The path as far as it rises: under the last row of blocks a crack may turn aside.
+-- The path as far as it rises.
 local line = {path[1]}
 for i = 2, #path do
-  if path[i][2] <= line[#line][2] or path[i][2] > 0.85 * beam.height then break end
+  if path[i][2] <= line[#line][2] or path[i][2] > near_the_top then break end
   line[i] = path[i]
 end
 local tip = line[#line]
