@@ -17,13 +17,11 @@ local groups = {
   },
   choices = {
     { label = "as it is", set = {} },
-    { label = "not anchored", set = { anchored = false } },
     { label = "judged by the block", set = { judged_by = "block" } },
     { label = "stress within 0.015 m", set = { tip_radius = 0.015 } },
     { label = "stress within 0.06 m", set = { tip_radius = 0.06 } },
     { label = "joints 4 x thinner", set = { thickness_ratio = 0.005 } },
     { label = "joints 2.5 x thicker", set = { thickness_ratio = 0.05 } },
-    { label = "face supports", set = { support = "face" } },
   },
   supports = {
     { label = "pinned", set = {} }, { label = "face", set = { support = "face" } },
@@ -98,9 +96,13 @@ local function draw(line, label, colour, style)
   series[#series + 1] = { name = label, x = x, y = y, colour = colour, style = style }
 end
 for i, line in ipairs(lines) do draw(line, cases[i].label, colours[i], "line") end
-for _, support in ipairs(group == "supports" and beam.supports or {"pinned"}) do
-  local label = "largest hoop stress" .. (group == "supports" and ", " .. support or "")
-  draw(beam.hoop_stress_path[support], label, {0, 0, 0}, "dashed")
+if group == "supports" then
+  for i, case in ipairs(cases) do
+    local support = case.set.support or "pinned"
+    draw(beam.hoop_stress_path[support], "largest hoop stress, " .. support, colours[i], "dashed")
+  end
+else
+  draw(beam.hoop_stress_path.pinned, "largest hoop stress", {0, 0, 0}, "dashed")
 end
 draw(beam.reference, "reference points", {0.5, 0.5, 0.5}, "dashed")
 draw({ {0, 0}, {beam.length, 0}, {beam.length, beam.height}, {0, beam.height}, {0, 0} }, "outline of the beam", {0, 0, 0}, "line")

@@ -53,7 +53,7 @@ Simulation notched_beam(double load, const Joint& joint = brittle()) {
   return s;
 }
 
-std::string refusal(GrowOptions options, const Joint& joint = brittle()) {
+std::string refusal(const GrowOptions& options, const Joint& joint = brittle()) {
   try {
     notched_beam(1e3, joint).grow(options);
   } catch (const geom::InputError& e) {
