@@ -26,8 +26,8 @@ struct RefineOptions {
   Criterion criterion = Criterion::mohr_coulomb;
   std::optional<Selection> region; // blocks whose centroid lies in it
   std::optional<Ball> near;        // and those that reach into this
-  std::optional<Ball>
-      judged_by; // every block by the mean stress here (fracture/tip_field.hpp), not by its own
+  // Every block by the mean stress here (fracture/tip_field.hpp), not by its own.
+  std::optional<Ball> judged_by;
   // m; a crack's tip. In a block that touches it the planes are shifted so that one runs through it, and
   // turned a little where that one would pass close by a vertex: the cuts of neighbours line up. A block that
   // the plane through it does not enter stays whole.

@@ -24,8 +24,8 @@ enum class BondMode : int { intact = 0, broken_tension = 1, broken_shear = 2, co
 struct BondSnapshot {
   std::vector<geom::Vec3> points;        // m, undeformed
   std::vector<geom::Triangle> triangles; // over points
-  std::vector<SnapshotField>
-      point_fields; // "mode", "damage", "opening" m, "slip" m, "traction" Pa, "displacement" m
+  // "mode", "damage", "opening" m, "slip" m, "traction" Pa, "displacement" m.
+  std::vector<SnapshotField> point_fields;
   std::vector<SnapshotField> triangle_fields; // "interface_id", "mode": the worst of its three points
 };
 
@@ -36,9 +36,9 @@ struct Snapshot {
   std::vector<geom::Vec3> points;          // m, undeformed; blocks do not share points
   std::vector<geom::Tet> tets;             // over points
   std::vector<SnapshotField> point_fields; // "displacement" m, "velocity" m/s, ...
-  std::vector<SnapshotField>
-      cell_fields;                     // per tet: "stress" Pa (6), "principal_stress" Pa (3), "block_id", ...
-  std::vector<geom::Triangle> surface; // triangles of all block faces, outward
+  // Per tet: "stress" Pa (6), "principal_stress" Pa (3), "block_id", ...
+  std::vector<SnapshotField> cell_fields;
+  std::vector<geom::Triangle> surface;         // triangles of all block faces, outward
   std::vector<std::int64_t> surface_tet;       // the tet each surface triangle belongs to
   std::vector<std::array<int, 2>> block_edges; // true edges of the blocks, over points (for drawing)
   BondSnapshot bonds;

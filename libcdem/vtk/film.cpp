@@ -1,6 +1,7 @@
 #include "libcdem/vtk/film.hpp"
 
 #include "libcdem/vtk/atomic_file.hpp"
+#include "libcdem/vtk/quiet.hpp"
 #include "libgeom/core/error.hpp"
 
 #include <vtkImageData.h>
@@ -21,6 +22,7 @@ void write_film(const std::vector<std::string>& png_frames, int frames_per_secon
   if (frames_per_second < 1 || frames_per_second > 120)
     throw geom::InputError("frames_per_second", std::to_string(frames_per_second), "between 1 and 120");
   AtomicFile file(ogv_path);
+  const Quiet quiet;
   vtkNew<vtkOggTheoraWriter> writer;
   writer->SetFileName(file.temporary().c_str());
   writer->SetRate(frames_per_second);

@@ -19,6 +19,7 @@
 #include <vtkRendererCollection.h>
 #include <vtkUnsignedCharArray.h>
 
+#include <fstream>
 #include <stdexcept>
 
 VTK_MODULE_INIT(vtkRenderingOpenGL2);
@@ -199,10 +200,14 @@ void draw_png(const std::array<int, 2>& size, const std::vector<vtkRenderer*>& l
       }
   AtomicFile file(png_path);
   vtkNew<vtkPNGWriter> writer;
-  writer->SetFileName(file.temporary().c_str());
+  writer->WriteToMemoryOn(); // libpng would print what goes wrong with a file
   writer->SetInputData(image);
   writer->Write();
-  if (writer->GetErrorCode() != 0)
+  vtkUnsignedCharArray* bytes = writer->GetResult();
+  std::ofstream stream(file.temporary(), std::ios::binary);
+  stream.write(reinterpret_cast<const char*>(bytes->GetPointer(0)), bytes->GetNumberOfValues());
+  stream.close();
+  if (!stream)
     file.refuse();
   file.commit();
 }

@@ -42,8 +42,8 @@ struct PictureOptions {
   // ... A vector without component means its magnitude. "" draws plain blocks.
   std::string field;
   double deformation = 0; // scale of the displacement, 0: undeformed
-  std::string view =
-      "front";          // front back left right top bottom iso; front looks along -z at the x-y plane, y up
+  // front back left right top bottom iso; front looks along -z at the x-y plane, y up
+  std::string view = "front";
   std::string up = "y"; // "z": front looks along y with z up, and the other views turn with it
   std::optional<Camera> camera;
   std::array<int, 2> size = {1600, 1200};     // pixels; height 0: as high as the picture needs

@@ -3,6 +3,7 @@
 #include "libcdem/vtk/checksum.hpp"
 #include "libcdem/vtk/files.hpp"
 #include "libcdem/vtk/header_names.hpp"
+#include "libcdem/vtk/quiet.hpp"
 
 #include <vtkCellArray.h>
 #include <vtkCellData.h>
@@ -104,6 +105,7 @@ void add_header(vtkUnstructuredGrid* grid, const Snapshot& snapshot) {
 void write_grid(vtkUnstructuredGrid* grid, const std::string& path) {
   require_extension(path, ".vtu");
   AtomicFile file(path);
+  const Quiet quiet;
   vtkNew<vtkXMLUnstructuredGridWriter> writer;
   writer->SetFileName(file.temporary().c_str());
   writer->SetInputData(grid);

@@ -32,8 +32,8 @@ struct EngineSettings {
   bool unsafe = false;                    // the whole Lua library, files anywhere
   bool check_only = false;                // solving calls return typed, empty results
   std::shared_ptr<Observer> observer;
-  std::function<void(const std::filesystem::path&)>
-      will_write;      // told of each file just before it is written; may be empty
+  // Told of each file just before it is written; may be empty.
+  std::function<void(const std::filesystem::path&)> will_write;
   std::string program; // path of the cdem program, for sweeps
 };
 

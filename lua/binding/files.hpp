@@ -23,8 +23,8 @@ public:
   // FileError when there is no such file.
   std::filesystem::path to_read(const std::string& name) const;
 
-  std::function<void(const std::filesystem::path&)>
-      will_write; // told of each file that to_write allows; may be empty
+  // Told of each file that to_write allows; may be empty.
+  std::function<void(const std::filesystem::path&)> will_write;
 
   const std::filesystem::path& output() const { return output_; }
   const std::filesystem::path& script_folder() const { return script_folder_; }

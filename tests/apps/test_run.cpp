@@ -246,10 +246,13 @@ TEST_CASE("a file that cannot be written ends with exit code 4 and one line that
        "file");
 }
 
-TEST_CASE("a full disk ends with exit code 4") {
+TEST_CASE("a full disk ends with exit code 4 and one line") {
   const Place cdem;
-  write_file(cdem.folder / "bar/full.lua", std::string(bar).substr(0, std::string(bar).find("model:relax")) +
-                                               "model:save{ file = 'a.vtu' }\n");
+  const auto [call, file] =
+      GENERATE(std::pair<std::string, std::string>{"model:save{ file = 'a.vtu' }", "a.vtu"},
+               std::pair<std::string, std::string>{"model:picture{ file = 'a.png' }", "a.png"});
+  write_file(cdem.folder / "bar/full.lua",
+             std::string(bar).substr(0, std::string(bar).find("model:relax")) + call + "\n");
   // No file may grow beyond 4 KiB: the log fits, the model does not.
   const Outcome outcome =
       run_program({"/bin/bash", "-c",
@@ -257,9 +260,10 @@ TEST_CASE("a full disk ends with exit code 4") {
                   cdem.start);
   INFO(outcome.out << outcome.err);
   CHECK(outcome.exit_code == 4);
-  CHECK_THAT(outcome.err, Contains("a.vtu cannot be written"));
-  CHECK_FALSE(fs::exists(cdem.folder / "results/bar-full/a.vtu"));
-  CHECK_FALSE(fs::exists(cdem.folder / "results/bar-full/a.vtu.part"));
+  CHECK(lines_of(outcome.err).size() == 1);
+  CHECK_THAT(outcome.err, Contains(file + " cannot be written"));
+  CHECK_FALSE(fs::exists(cdem.folder / "results/bar-full" / file));
+  CHECK_FALSE(fs::exists(cdem.folder / "results/bar-full" / (file + ".part")));
 }
 
 TEST_CASE("a check shows the model's box, also when it fails further down") {
