@@ -28,16 +28,16 @@ model:force{ on = "load line", force = {0, -load, 0} }
 model:relax{ residual = 1e-6, breaking = false }
 local midspan = model:at("displacement.y", {beam.midspan, 1e-6, beam.depth / 2})
 
-local function picture(name, title)
-  model:picture{ file = name .. ".png", title = title, size = {1600, 0} }
-  model:save{ file = name .. ".vtu", series = "beam.pvd" }
-end
+-- A ParaView frame of every pass, pictures of the paper's three and of the end.
+local function picture(name, title) model:picture{ file = name .. ".png", title = title, size = {1600, 0} } end
 
 local growth = { state = "not loaded", passes = {} }
 if passes > 0 then
   growth = model:grow{ passes = passes, anchor_at_tip = anchored, judged_by = judged_by,
                        tip_radius = tip_radius > 0 and tip_radius or nil, callback = function(pass)
-    if pass.pass <= 3 then picture("pass_" .. pass.pass, "Crack after pass " .. pass.pass) end
+    local name = "pass_" .. pass.pass
+    model:save{ file = name .. ".vtu", series = "beam.pvd" }
+    if pass.pass <= 3 then picture(name, "Crack after pass " .. pass.pass) end
   end }
   picture("crack", "Crack at the end")
 end
