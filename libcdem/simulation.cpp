@@ -1,5 +1,6 @@
 #include "libcdem/simulation.hpp"
 
+#include "libcdem/element/mesh_fields.hpp"
 #include "libcdem/element/small_strain.hpp"
 #include "libcdem/fracture/grow.hpp"
 #include "libcdem/fracture/rebuild.hpp"
@@ -10,6 +11,7 @@
 #include "libcdem/results/energy.hpp"
 #include "libcdem/results/make_snapshot.hpp"
 #include "libcdem/step/forces.hpp"
+#include "libcdem/step/mesh_forces.hpp"
 #include "libcdem/step/relax.hpp"
 #include "libcdem/step/run.hpp"
 #include "libgeom/core/error.hpp"
@@ -41,6 +43,29 @@ int body_index(const Model& model, const std::string& name) {
   throw geom::InputError("contacts", "\"" + name + "\"", "the name of a body (" + names + ")");
 }
 
+void validate_meshed(const BodySpec& body) {
+  const Bonding& b = body.bonding;
+  if (!(b.stiffness_ratio > 0 && b.stiffness_ratio <= 1e4))
+    throw geom::InputError("stiffness_ratio", number(b.stiffness_ratio), "in (0, 1e4]",
+                           "10 keeps about 0.91 of Young's modulus");
+  if (!(b.shear_ratio > 0 && b.shear_ratio <= 100))
+    throw geom::InputError("shear_ratio", number(b.shear_ratio), "in (0, 100]", "1 is usual");
+  if (!b.none() && body.joint.softening != Softening::none)
+    throw geom::InputError("softening", "on the faces of a mesh", "none there",
+                           "only bonds between convex blocks soften");
+  if (!body.shape.blocks.empty())
+    throw geom::InputError("shape", "blocks and meshes in one body", "one of them", "make two bodies");
+  for (std::size_t i = 0; i < body.meshes.size(); ++i) {
+    const geom::TetMesh& mesh = body.meshes[i];
+    geom::validate(mesh, "the mesh of body \"" + body.name + "\"");
+    const int regions = *std::max_element(mesh.region.begin(), mesh.region.end()) + 1;
+    for (const int region : b.regions)
+      if (region < 0 || region >= regions)
+        throw geom::InputError("bonds", std::to_string(region + 1),
+                               "a region of the mesh (1 to " + std::to_string(regions) + ")");
+  }
+}
+
 Model first_model(const ModelSpec& spec) {
   if (spec.bodies.empty())
     throw geom::InputError("bodies", "{}", "a list of at least one body",
@@ -48,15 +73,22 @@ Model first_model(const ModelSpec& spec) {
   Model frame;
   std::set<std::string> names;
   std::vector<BlockSeed> seeds;
+  std::vector<MeshSeed> meshes;
   for (const BodySpec& body : spec.bodies) {
     if (!names.insert(body.name).second)
       throw geom::InputError("name", "\"" + body.name + "\"", "unique among the bodies");
-    if (body.shape.blocks.empty())
+    if (body.shape.blocks.empty() && body.meshes.empty())
       throw geom::InputError("shape", "an empty assembly", "at least one block");
     validate(body.material);
     validate(body.joint);
+    const bool meshed = !body.meshes.empty();
+    if (meshed)
+      validate_meshed(body);
     const int index = static_cast<int>(frame.bodies.size());
-    frame.bodies.push_back({body.name, body.material, body.joint});
+    frame.bodies.push_back({body.name, body.material, body.joint, body.bonding,
+                            meshed ? Element::finite_volume : Element::small_strain});
+    for (const geom::TetMesh& mesh : body.meshes)
+      meshes.push_back({0, index, mesh});
     frame.pair_joint[{index, index}] = static_cast<int>(frame.joints.size());
     frame.joints.push_back(body.joint);
     for (const geom::Polyhedron& block : body.shape.blocks) {
@@ -77,7 +109,7 @@ Model first_model(const ModelSpec& spec) {
       throw geom::InputError("contacts", both, "given once", "two bodies have one joint between them");
     frame.joints.push_back(pair.joint);
   }
-  Model model = build_model(frame, std::move(seeds), default_traits);
+  Model model = build_model(frame, std::move(seeds), default_traits, std::move(meshes));
   require_separate(model);
   return model;
 }
@@ -129,7 +161,17 @@ struct Simulation::Impl {
     conditions = std::move(changed);
   }
 
-  double stored_energy() const { return elastic_energy(model, state) + spring_energy(model, state); }
+  double stored_energy() const {
+    return elastic_energy(model, state) + spring_energy(model, state) + mesh_spring_energy(model, state);
+  }
+
+  // Cutting and removing know convex blocks only.
+  void require_blocks(const char* call) const {
+    if (!model.mesh.empty())
+      throw geom::InputError(std::string(call) +
+                             ": the model has meshed bodies; only a model of convex blocks alone "
+                             "can be cut or lose blocks");
+  }
 
   // A change of topology or of the stress state between stages: the ledger counts what it does to the stored energy.
   void adopt(Rebuilt&& rebuilt) {
@@ -207,6 +249,9 @@ void Simulation::initial_stress(const Selection& on, const std::array<double, 6>
   for (std::size_t b = 0; b < selected.size(); ++b)
     if (selects_block(s.model, on, static_cast<int>(b))) {
       selected[b] = 1;
+      if (s.model.blocks[b].meshed)
+        throw geom::InputError("on", on.text, "convex blocks",
+                               "an initial stress cannot be given to a meshed body");
       for (int c = 0; c < 6; ++c)
         s.state.initial_stress[b][c] += stress[c];
     }
@@ -244,6 +289,7 @@ void Simulation::initial_velocity(const Selection& on, const geom::Vec3& velocit
 
 std::int64_t Simulation::remove(const Selection& on) {
   Impl& s = *impl_;
+  s.require_blocks("remove");
   std::vector<Successor> left;
   for (int b = 0; b < static_cast<int>(s.model.blocks.size()); ++b)
     if (!selects_block(s.model, on, b))
@@ -283,6 +329,15 @@ std::int64_t Simulation::unbond(const Selection& on, bool whole_faces) {
       }
       ++count;
     }
+  if (!whole_faces)
+    each_face_spring(s.model.mesh, [&](const MeshChunk& chunk, const FaceSpringPlace& at) {
+      std::uint8_t& mode = s.state.faces[at.batch].mode[at.point][at.lane];
+      if (mode != static_cast<std::uint8_t>(BondMode::contact) &&
+          selects_place(s.model, on, face_point(s.model, at), chunk.block)) {
+        mode = static_cast<std::uint8_t>(BondMode::contact);
+        ++count;
+      }
+    });
   if (count == 0)
     throw geom::InputError("on", on.text,
                            whole_faces ? "a place that holds whole interfaces" : "a place that holds bonds",
@@ -306,6 +361,7 @@ RunResult Simulation::run(const RunOptions& options) {
 }
 
 std::vector<BlockCut> Simulation::refine(const RefineOptions& options) {
+  impl_->require_blocks("refine");
   if (options.region) {
     bool holds_blocks = false;
     for (int b = 0; b < static_cast<int>(impl_->model.blocks.size()); ++b)
@@ -321,6 +377,7 @@ std::vector<BlockCut> Simulation::refine(const RefineOptions& options) {
 }
 
 GrowResult Simulation::grow(const GrowOptions& options) {
+  impl_->require_blocks("grow");
   Impl& s = *impl_;
   const int stage = ++s.stage;
   const auto relax = [&](const RelaxOptions& o, const std::string& kind) {
@@ -366,6 +423,10 @@ ModelCounts Simulation::counts() const {
   std::int64_t* const by_mode[] = {&c.intact, &c.broken_tension, &c.broken_shear, &c.contacts};
   for (const std::uint8_t mode : impl_->state.bond_mode)
     ++*by_mode[mode];
+  each_face_spring(m.mesh, [&](const MeshChunk&, const FaceSpringPlace& at) {
+    ++c.bonds;
+    ++*by_mode[impl_->state.faces[at.batch].mode[at.point][at.lane]];
+  });
   for (std::size_t p = 0; p < impl_->state.bond_damage.size(); ++p)
     c.damaged += impl_->state.bond_damage[p] > 0 && impl_->state.bond_mode[p] == 0;
   return c;
@@ -429,6 +490,8 @@ geom::Vec3 Simulation::reaction(const Selection& on) const {
   State state = s.state; // the springs' bookkeeping stays as it is
   for (const Range& range : s.model.point_chunks)
     spring_forces(s.model, state, work, range, work.spring_sums[0], false);
+  for (std::size_t c = 0; c < s.model.mesh.chunks.size(); ++c)
+    mesh_forces(s.model, state, work, static_cast<std::int64_t>(c), false);
   for (const BlockChunk& chunk : s.model.chunks)
     net_forces(s.model, state, work, chunk);
   geom::Vec3 sum = geom::Vec3::Zero();

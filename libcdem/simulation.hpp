@@ -5,6 +5,7 @@
 #include "libcdem/fracture/grow_options.hpp"
 #include "libcdem/fracture/options.hpp"
 #include "libcdem/load/conditions.hpp"
+#include "libcdem/model/bonding.hpp"
 #include "libcdem/model/joint.hpp"
 #include "libcdem/model/material.hpp"
 #include "libcdem/results/deformation.hpp"
@@ -16,6 +17,7 @@
 #include "libcdem/step/observer.hpp"
 #include "libcdem/step/options.hpp"
 #include "libgeom/assembly/assembly.hpp"
+#include "libgeom/mesh/tet_mesh.hpp"
 
 #include <memory>
 #include <string>
@@ -23,11 +25,14 @@
 
 namespace cdem {
 
+// Convex blocks (shape), or meshed solids (meshes), each of which becomes one block of finite-volume tetrahedra.
 struct BodySpec {
   std::string name; // unique; "body_1", ... when the user gives none
   geom::Assembly shape;
   Elastic material;
-  Joint joint; // between the body's own blocks
+  Joint joint; // between the body's own blocks; of a meshed body on the inner faces that `bonding` names
+  std::vector<geom::TetMesh> meshes = {};
+  Bonding bonding = {};
 };
 
 struct PairSpec {

@@ -1,4 +1,5 @@
 // Strain and stress of tets and blocks, outside the step: for results, criteria and the stiffness bound.
+#include "libcdem/element/mesh_fields.hpp"
 #include "libcdem/element/small_strain.hpp"
 
 namespace cdem {
@@ -75,6 +76,16 @@ geom::Mat3 block_gradient(const Model& model, const std::vector<Node>& displacem
 
 Stress block_stress(const Model& model, const State& state, int block) {
   const Block& b = model.blocks[block];
+  if (b.meshed) {
+    Stress sum{};
+    for (int tet = b.tet_begin; tet < b.tet_end; ++tet) {
+      const Stress stress = tet_stress(model, state, tet);
+      const double part = tet_volume(model, tet) / b.mass.volume;
+      for (int c = 0; c < 6; ++c)
+        sum[c] += part * stress[c];
+    }
+    return sum;
+  }
   // Linear elasticity: the mean stress is the stress of the mean gradient.
   Stress stress = elastic_stress(model.bodies[b.body].material, block_gradient(model, state.displacement, b));
   for (int c = 0; c < 6; ++c)
@@ -101,6 +112,8 @@ std::vector<double> stiffness_row_sums(const Model& model) {
   std::vector<double> sums(model.node_position.size(), 0.0);
   Eigen::MatrixXd k;
   for (const Block& block : model.blocks) {
+    if (block.meshed)
+      continue;
     const Elastic& material = model.bodies[block.body].material;
     const double lambda = material.lame_lambda(), shear = material.shear_modulus();
     const int n = block.node_end - block.node_begin;

@@ -24,7 +24,7 @@ Stress block_stress(const Model&, const State&, int block); // initial stress in
 geom::Mat3 matrix(const Stress&);
 Stress tensor(const geom::Mat3&); // symmetric part
 
-// Row sums of |K| of the blocks' own stiffness, N/m: per node the largest of its three rows. A Gershgorin bound.
+// Row sums of |K| of the star blocks' own stiffness, N/m: per node the largest of its three rows. A Gershgorin bound.
 std::vector<double> stiffness_row_sums(const Model&);
 
 } // namespace cdem

@@ -260,7 +260,8 @@ InterfaceTraits default_traits(const Model& model, int block_a, int, int block_b
   return traits;
 }
 
-Model build_model(const Model& frame, std::vector<BlockSeed> seeds, const InterfaceRule& rule) {
+Model build_model(const Model& frame, std::vector<BlockSeed> seeds, const InterfaceRule& rule,
+                  std::vector<MeshSeed> meshes) {
   Model model;
   model.bodies = frame.bodies;
   model.joints = frame.joints;
@@ -280,16 +281,20 @@ Model build_model(const Model& frame, std::vector<BlockSeed> seeds, const Interf
     shapes.push_back(model.blocks.back().shape);
     smallest = std::min(smallest, model.blocks.back().size);
   }
+  for (const geom::SharedFace& pair : geom::shared_faces(shapes, relative_tolerance * smallest))
+    add_interface(model, pair, rule, fans);
+  add_outer_faces(model, fans);
+  add_chunks(model);
+  if (!meshes.empty())
+    add_meshes(model, std::move(meshes));
+  add_bonds_on_nodes(model);
+
+  for (const Block& block : model.blocks)
+    smallest = std::min(smallest, block.size);
   for (const geom::Vec3& x : model.node_position)
     model.box.extend(x);
   model.length = model.box.size().norm();
   model.tolerance = relative_tolerance * smallest;
-
-  for (const geom::SharedFace& pair : geom::shared_faces(shapes, model.tolerance))
-    add_interface(model, pair, rule, fans);
-  add_bonds_on_nodes(model);
-  add_outer_faces(model, fans);
-  add_chunks(model);
   return model;
 }
 

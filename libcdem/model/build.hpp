@@ -1,7 +1,7 @@
 // From shapes to a Model: star meshes, node numbering, interfaces with their springs, uncovered faces, chunks.
 #pragma once
 
-#include "libcdem/model/model.hpp"
+#include "libcdem/model/add_meshes.hpp"
 
 #include <functional>
 
@@ -29,7 +29,8 @@ using InterfaceRule =
 
 // bodies, joints, pair_joint and next_id of `frame` are taken over. Throws geom::InputError for overlapping or
 // touching bodies without a joint.
-Model build_model(const Model& frame, std::vector<BlockSeed> blocks, const InterfaceRule& rule);
+Model build_model(const Model& frame, std::vector<BlockSeed> blocks, const InterfaceRule& rule,
+                  std::vector<MeshSeed> meshes = {});
 
 // The rule of a first model: the body's own joint, or that of the pair of bodies; L from the joint.
 InterfaceTraits default_traits(const Model&, int block_a, int face_a, int block_b, int face_b);

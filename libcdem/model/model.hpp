@@ -1,8 +1,12 @@
 // Model: everything that stays as it is while the solver steps. Only fracture/ makes a new one, between steps.
 #pragma once
 
+#include "libcdem/element/finite_volume.hpp"
+#include "libcdem/interface/face_bonds.hpp"
+#include "libcdem/model/bonding.hpp"
 #include "libcdem/model/joint.hpp"
 #include "libcdem/model/material.hpp"
+#include "libcdem/model/mesh.hpp"
 #include "libcdem/parallel/chunks.hpp"
 #include "libcdem/parallel/node.hpp"
 #include "libgeom/polyhedron/polyhedron.hpp"
@@ -14,23 +18,34 @@
 
 namespace cdem {
 
+// How a body's tets deform.
+enum class Element {
+  small_strain, // star meshes of convex blocks, Han 2010 eqs 1-7
+  finite_volume // meshes that may move far, Feng 2014 eqs 2-14
+};
+
 struct Body {
   std::string name;
   Elastic material;
   Joint joint; // between its own blocks; its strength is that of the blocks themselves when they are cut
+  Bonding bonding = {}; // of a meshed body: which of its faces carry that joint
+  Element element = Element::small_strain;
 };
 
+// A part of a body with nodes of its own: a convex block with its star mesh, or a meshed solid.
 struct Block {
   std::int64_t id = 0;      // stable, never used again
   std::int64_t parent = -1; // id of the block it was cut from
   int generation = 0;       // cuts between the first block and this one
   int body = 0;
-  geom::Polyhedron shape;
+  bool meshed = false;       // a meshed solid
+  geom::Polyhedron shape;    // empty when meshed
   geom::MassProperties mass; // unit density
   double size = 0;           // h, cube root of the volume, m
   double first_size =
       0; // h of the generation-0 block it comes from, m; joints keep their thickness through cuts
-  int node_begin = 0, node_end = 0; // vertices, then one centre per face, then the centroid
+  int node_begin = 0,
+      node_end = 0; // of a convex block: vertices, then one centre per face, then the centroid
   int tet_begin = 0, tet_end = 0;
 
   int face_centre(int face) const { return node_begin + static_cast<int>(shape.vertices.size()) + face; }
@@ -76,13 +91,15 @@ struct TetBatch {
 // Part of the boundary of a block that no other block covers.
 struct OuterFace {
   int block = 0, face = 0;
+  int boundary = -1;                      // of a meshed block: index into MeshData::boundary
   geom::Vec3 normal = geom::Vec3::Zero(); // unit, outward
   double area = 0;                        // m2, uncovered
   std::vector<std::pair<int, double>>
       node_area; // node, integral of its shape function over the uncovered part, m2
 };
 
-// Consecutive blocks, the smallest piece of parallel work. Its nodes and tets belong to no other chunk.
+// Consecutive blocks, or a part of a meshed one: the smallest piece of parallel work. Its nodes belong to no other
+// chunk. batches: of small-strain tets; empty for a part of a mesh, whose forces come by MeshChunk.
 struct BlockChunk {
   Range blocks, nodes, batches;
 };
@@ -118,7 +135,9 @@ struct Model {
 
   std::vector<OuterFace> outer_faces;
 
-  std::vector<BlockChunk> chunks;
+  MeshData mesh;
+
+  std::vector<BlockChunk> chunks; // those of star blocks, then one for each MeshChunk
   std::vector<Range> point_chunks;
 
   geom::Box box;        // undeformed

@@ -76,6 +76,10 @@ Selection Selection::where(std::function<bool(const geom::Vec3&)> predicate, std
   return s;
 }
 
+bool selects_place(const Model& model, const Selection& selection, const geom::Vec3& place, int block) {
+  return selects(model, selection, place, model.blocks[block].body);
+}
+
 bool selects_block(const Model& model, const Selection& selection, int block) {
   if (selection.kind == Selection::Kind::side) {
     const geom::Polyhedron& shape = model.blocks[block].shape;
@@ -109,7 +113,15 @@ std::vector<int> selected_outer_faces(const Model& model, const Selection& selec
     const OuterFace& face = model.outer_faces[f];
     const Block& block = model.blocks[face.block];
     bool selected = true;
-    if (selection.kind == Selection::Kind::predicate)
+    if (face.boundary >= 0) {
+      const geom::Triangle& t = model.mesh.boundary[face.boundary].nodes;
+      const auto& x = model.node_position;
+      if (selection.kind == Selection::Kind::predicate)
+        selected = selects(model, selection, (x[t[0]] + x[t[1]] + x[t[2]]) / 3, block.body);
+      else
+        for (const int node : t)
+          selected = selected && selects(model, selection, x[node], block.body);
+    } else if (selection.kind == Selection::Kind::predicate)
       selected = selects(model, selection, model.node_position[block.face_centre(face.face)], block.body);
     else
       for (const int v : block.shape.faces[face.face].loop)

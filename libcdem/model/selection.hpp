@@ -36,6 +36,7 @@ std::vector<int> selected_nodes(const Model&, const Selection&);
 // Outer faces (index into Model::outer_faces) all of whose vertices are selected; for a predicate, whose centre is.
 std::vector<int> selected_outer_faces(const Model&, const Selection&);
 
+bool selects_place(const Model&, const Selection&, const geom::Vec3& place, int block);
 // By its centroid; a side selects the blocks that have a face on it.
 bool selects_block(const Model&, const Selection&, int block);
 // By its place; a body selects the points of its faces.

@@ -36,6 +36,10 @@ CDEM_INLINE Oct load(const double (&p)[lanes]) {
   return v;
 }
 
+CDEM_INLINE void store(double (&p)[lanes], const Oct& v) {
+  std::memcpy(p, &v, sizeof v);
+}
+
 CDEM_INLINE void transpose(Quad& a, Quad& b, Quad& c, Quad& d) {
   const Quad ab_lo = __builtin_shufflevector(a, b, 0, 4, 2, 6); // a0 b0 a2 b2
   const Quad ab_hi = __builtin_shufflevector(a, b, 1, 5, 3, 7); // a1 b1 a3 b3
@@ -64,7 +68,8 @@ CDEM_INLINE Vec gather(const Node* nodes, const int (&index)[lanes]) {
 }
 
 // Adds one lane to each of eight nodes, in lane order (a node may occur twice).
-CDEM_INLINE void scatter_add(Node* nodes, const int (&index)[lanes], const Vec& v) {
+template <class Index>
+CDEM_INLINE void scatter_add(Node* nodes, const Index (&index)[lanes], const Vec& v) {
   const Quad zero{};
   Quad lo[4] = {__builtin_shufflevector(v.x, v.x, 0, 1, 2, 3), __builtin_shufflevector(v.y, v.y, 0, 1, 2, 3),
                 __builtin_shufflevector(v.z, v.z, 0, 1, 2, 3), zero};

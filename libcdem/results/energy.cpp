@@ -1,32 +1,19 @@
 #include "libcdem/results/energy.hpp"
 
+#include "libcdem/element/mesh_fields.hpp"
 #include "libcdem/element/small_strain.hpp"
 #include "libcdem/interface/spring_forces.hpp"
 
 namespace cdem {
-namespace {
-
-// Central differences keep the balance where velocities and work stand, half a step before the displacements: there the
-// stored terms are taken too. Taken at the displacements they would be off by half a step's work, 0.2 % for a bar.
-State at_time_of_velocities(const State& state) {
-  State moved = state;
-  for (std::size_t i = 0; i < state.velocity.size(); ++i) {
-    moved.displacement[i].x -= state.velocity_lag * state.velocity[i].x;
-    moved.displacement[i].y -= state.velocity_lag * state.velocity[i].y;
-    moved.displacement[i].z -= state.velocity_lag * state.velocity[i].z;
-  }
-  return moved;
-}
-
-} // namespace
 
 double EnergyLedger::balance_error() const {
   return external_peak > 0 ? std::abs(total() - external) / external_peak : 0;
 }
 
 double elastic_energy(const Model& model, const State& state) {
-  double energy = 0;
-  for (int tet = 0; tet < static_cast<int>(model.tets.size()); ++tet) {
+  double energy = mesh_elastic_energy(model, state);
+  const int star_tets = model.mesh.empty() ? static_cast<int>(model.tets.size()) : model.mesh.first_tet;
+  for (int tet = 0; tet < star_tets; ++tet) {
     const int block = model.tet_block[tet];
     const geom::Mat3 h = displacement_gradient(model, state.displacement, tet);
     const geom::Mat3 strain = 0.5 * (h + h.transpose());
@@ -38,10 +25,12 @@ double elastic_energy(const Model& model, const State& state) {
 }
 
 EnergyLedger energy(const Model& model, const State& state) {
-  const State moved = at_time_of_velocities(state);
+  // Central differences keep the balance where velocities and work stand, half a step before the displacements: there
+  // the stored terms are taken too. Taken at the displacements they would be off by half a step's work, 0.2 % for a bar.
+  const State moved = moved_back(model, state, state.velocity_lag);
   EnergyLedger ledger = state.spent;
   ledger.elastic = elastic_energy(model, moved);
-  ledger.springs = spring_energy(model, moved);
+  ledger.springs = spring_energy(model, moved) + mesh_spring_energy(model, moved);
   for (std::size_t i = 0; i < state.velocity.size(); ++i) {
     const Node& v = state.velocity[i];
     ledger.kinetic += 0.5 * model.node_mass[i] * (v.x * v.x + v.y * v.y + v.z * v.z);

@@ -162,7 +162,7 @@ double value_at(const Model& model, const State& state, const std::string& field
   const bool nodal = find_field(field).nodal;
   for (int b = 0; b < static_cast<int>(model.blocks.size()); ++b) {
     const Block& block = model.blocks[b];
-    if (!geom::bounding_box(block.shape).contains(place, model.tolerance))
+    if (!block.meshed && !geom::bounding_box(block.shape).contains(place, model.tolerance))
       continue;
     for (int t = block.tet_begin; t < block.tet_end; ++t) {
       const geom::Tet& tet = model.tets[t];

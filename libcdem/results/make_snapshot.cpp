@@ -1,8 +1,11 @@
 #include "libcdem/results/make_snapshot.hpp"
 
-#include "libcdem/element/small_strain.hpp"
+#include "libcdem/element/mesh_fields.hpp"
 #include "libcdem/interface/spring_forces.hpp"
+#include "libcdem/model/add_meshes.hpp"
 #include "libcdem/results/fields.hpp"
+
+#include <map>
 
 namespace cdem {
 namespace {
@@ -55,6 +58,26 @@ std::vector<double> block_damage(const Model& model, const State& state) {
   return lost;
 }
 
+// Broken part of the bonds around each tet of a mesh.
+std::vector<double> mesh_damage(const Model& model, const State& state) {
+  std::vector<double> bonded(model.tets.size() - static_cast<std::size_t>(model.mesh.first_tet), 0.0),
+      lost = bonded;
+  each_face_spring(model.mesh, [&](const MeshChunk&, const FaceSpringPlace& at) {
+    const FaceTets& tets = model.mesh.face_tets[at.batch * lanes + at.lane];
+    const double area = model.mesh.faces[at.batch].area[at.lane];
+    const std::uint8_t mode = state.faces[at.batch].mode[at.point][at.lane];
+    if (mode == static_cast<std::uint8_t>(BondMode::contact))
+      return;
+    for (const int tet : {tets.tet_a, tets.tet_b}) {
+      bonded[tet - model.mesh.first_tet] += area;
+      lost[tet - model.mesh.first_tet] += broken(mode) ? area : 0;
+    }
+  });
+  for (std::size_t t = 0; t < lost.size(); ++t)
+    lost[t] = bonded[t] > 0 ? lost[t] / bonded[t] : 0;
+  return lost;
+}
+
 void add_cells(const Model& model, const State& state, Snapshot& snapshot) {
   const std::size_t n = model.tets.size();
   SnapshotField stress = scalar("stress", "Pa", 6 * n);
@@ -65,14 +88,11 @@ void add_cells(const Model& model, const State& state, Snapshot& snapshot) {
   SnapshotField damage = scalar("damage", "1", n);
   stress.components = 6;
   principal_stress.components = 3;
-  const std::vector<double> damages = block_damage(model, state);
+  const std::vector<double> damages = block_damage(model, state), mesh_damages = mesh_damage(model, state);
   for (std::size_t t = 0; t < n; ++t) {
     const int b = model.tet_block[t];
     const Block& block = model.blocks[b];
-    Stress s = elastic_stress(model.bodies[block.body].material,
-                              displacement_gradient(model, state.displacement, static_cast<int>(t)));
-    for (int c = 0; c < 6; ++c)
-      s[c] += state.initial_stress[b][c];
+    const Stress s = tet_stress(model, state, static_cast<int>(t));
     const std::array<double, 3> p = principal(s);
     stress.values.insert(stress.values.end(), s.begin(), s.end());
     principal_stress.values.insert(principal_stress.values.end(), p.begin(), p.end());
@@ -81,15 +101,61 @@ void add_cells(const Model& model, const State& state, Snapshot& snapshot) {
     parent.values.push_back(static_cast<double>(block.parent));
     generation.values.push_back(block.generation);
     body.values.push_back(block.body);
-    damage.values.push_back(damages[b]);
+    damage.values.push_back(block.meshed ? mesh_damages[t - model.mesh.first_tet] : damages[b]);
   }
   snapshot.cell_fields = {
       std::move(stress), std::move(principal_stress), std::move(mises), std::move(id),
       std::move(parent), std::move(generation),       std::move(body),  std::move(damage)};
 }
 
+// Edges at which the surface of a mesh turns by more than this are drawn: cos of 30 degrees.
+constexpr double flat = 0.866;
+
+bool opened(const Model& model, const State& state, std::size_t face) {
+  const FaceTets& tets = model.mesh.face_tets[face];
+  if (tets.tet_a < 0)
+    return false;
+  for (const auto& point : state.faces[face / lanes].mode)
+    if (point[face % lanes] == static_cast<std::uint8_t>(BondMode::intact))
+      return false;
+  return true;
+}
+
+// The outer faces of meshed blocks, both sides of faces whose three springs have broken, and sharp edges.
+void add_mesh_surface(const Model& model, const State& state, Snapshot& snapshot) {
+  std::map<std::array<int, 2>, geom::Vec3> normal_at; // of the first triangle that has the edge
+  for (const BoundaryTriangle& triangle : model.mesh.boundary) {
+    snapshot.surface.push_back(triangle.nodes);
+    snapshot.surface_tet.push_back(triangle.tet);
+    const auto& x = model.node_position;
+    const geom::Vec3 normal = (x[triangle.nodes[1]] - x[triangle.nodes[0]])
+                                  .cross(x[triangle.nodes[2]] - x[triangle.nodes[0]])
+                                  .normalized();
+    for (int i = 0; i < 3; ++i) {
+      const std::array<int, 2> ends{triangle.nodes[i], triangle.nodes[(i + 1) % 3]};
+      const int a = model.mesh.original[ends[0] - model.mesh.first_node],
+                b = model.mesh.original[ends[1] - model.mesh.first_node];
+      const auto [found, first] =
+          normal_at.emplace(std::array<int, 2>{std::min(a, b), std::max(a, b)}, normal);
+      if (!first && found->second.dot(normal) < flat)
+        snapshot.block_edges.push_back(ends);
+    }
+  }
+  for (std::size_t face = 0; face < model.mesh.face_tets.size(); ++face)
+    if (opened(model, state, face)) {
+      const FaceBatch& batch = model.mesh.faces[face / lanes];
+      const std::size_t lane = face % lanes;
+      snapshot.surface.push_back({batch.node_a[0][lane], batch.node_a[1][lane], batch.node_a[2][lane]});
+      snapshot.surface_tet.push_back(model.mesh.face_tets[face].tet_a);
+      snapshot.surface.push_back({batch.node_b[0][lane], batch.node_b[2][lane], batch.node_b[1][lane]});
+      snapshot.surface_tet.push_back(model.mesh.face_tets[face].tet_b);
+    }
+}
+
 void add_surface(const Model& model, Snapshot& snapshot) {
   for (const Block& block : model.blocks) {
+    if (block.meshed)
+      continue;
     for (const auto& edge : geom::edges(block.shape))
       snapshot.block_edges.push_back({block.node_begin + edge[0], block.node_begin + edge[1]});
     // The star mesh makes one tet for each triangle of the faces' fans, corner 0 at the centroid, in the same order.
@@ -100,46 +166,88 @@ void add_surface(const Model& model, Snapshot& snapshot) {
   }
 }
 
-void add_bonds(const Model& model, const State& state, BondSnapshot& bonds) {
-  const std::size_t n = model.points.size();
-  bonds.points = model.point_position;
-  bonds.triangles = model.bond_triangles;
-  SnapshotField mode = scalar("mode", "", n, true), opening = scalar("opening", "m", n),
-                slip = scalar("slip", "m", n);
-  SnapshotField traction = scalar("traction", "Pa", 3 * n), displacement = scalar("displacement", "m", 3 * n);
-  SnapshotField damage = scalar("damage", "1", n);
-  traction.components = displacement.components = 3;
-  for (std::size_t p = 0; p < n; ++p) {
+// Bond fields, filled spring by spring.
+struct BondFields {
+  explicit BondFields(std::size_t n)
+      : mode(scalar("mode", "", n, true)), damage(scalar("damage", "1", n)),
+        opening(scalar("opening", "m", n)), slip(scalar("slip", "m", n)),
+        traction(scalar("traction", "Pa", 3 * n)), displacement(scalar("displacement", "m", 3 * n)) {
+    traction.components = displacement.components = 3;
+  }
+  SnapshotField mode, damage, opening, slip, traction, displacement;
+
+  void add(std::uint8_t bond_mode, double lost, const geom::Vec3& jump, const geom::Vec3& normal,
+           const geom::Vec3& pull, const geom::Vec3& moved) {
+    const double open = jump.dot(normal);
+    mode.values.push_back(bond_mode);
+    damage.values.push_back(lost);
+    opening.values.push_back(open);
+    slip.values.push_back((jump - open * normal).norm());
+    traction.values.insert(traction.values.end(), pull.data(), pull.data() + 3);
+    displacement.values.insert(displacement.values.end(), moved.data(), moved.data() + 3);
+  }
+};
+
+void add_springs(const Model& model, const State& state, BondFields& fields) {
+  for (std::size_t p = 0; p < model.points.size(); ++p) {
     const BondPoint& point = model.points[p];
-    const geom::Vec3 j = jump(point, state.displacement);
-    const double normal = j.dot(point.normal);
-    const geom::Vec3 t = cdem::traction(model, state, static_cast<int>(p));
-    geom::Vec3 u = geom::Vec3::Zero();
+    geom::Vec3 moved = geom::Vec3::Zero();
     for (int k = 0; k < 3; ++k) {
       const Node &a = state.displacement[point.node_a[k]], &b = state.displacement[point.node_b[k]];
-      u += 0.5 *
-           (point.weight_a[k] * geom::Vec3(a.x, a.y, a.z) + point.weight_b[k] * geom::Vec3(b.x, b.y, b.z));
+      moved += 0.5 * (point.weight_a[k] * geom::Vec3(a.x, a.y, a.z) +
+                      point.weight_b[k] * geom::Vec3(b.x, b.y, b.z));
     }
-    mode.values.push_back(state.bond_mode[p]);
-    damage.values.push_back(damage_of(state, p));
-    opening.values.push_back(normal);
-    slip.values.push_back((j - normal * point.normal).norm());
-    traction.values.insert(traction.values.end(), t.data(), t.data() + 3);
-    displacement.values.insert(displacement.values.end(), u.data(), u.data() + 3);
+    fields.add(state.bond_mode[p], damage_of(state, p), jump(point, state.displacement), point.normal,
+               traction(model, state, static_cast<int>(p)), moved);
   }
-  bonds.point_fields = {std::move(mode), std::move(damage),   std::move(opening),
-                        std::move(slip), std::move(traction), std::move(displacement)};
+}
+
+void add_face_springs(const Model& model, const State& state, BondFields& fields, BondSnapshot& bonds) {
+  if (model.mesh.faces.empty())
+    return;
+  const std::vector<Node> position = present_places(model, state);
+  each_face_spring(model.mesh, [&](const MeshChunk& chunk, const FaceSpringPlace& at) {
+    const FaceBatch& batch = model.mesh.faces[at.batch];
+    const FaceLaw law = face_law(model.bodies[model.blocks[chunk.block].body]);
+    const FaceSpring spring =
+        face_spring(batch, at.point, at.lane, position.data(), law, state.faces[at.batch]);
+    geom::Vec3 moved = geom::Vec3::Zero();
+    for (int k = 0; k < 3; ++k) {
+      const Node &a = state.displacement[batch.node_a[k][at.lane]],
+                 &b = state.displacement[batch.node_b[k][at.lane]];
+      moved += 0.5 * (k == at.point ? 2.0 / 3 : 1.0 / 6) * geom::Vec3(a.x + b.x, a.y + b.y, a.z + b.z);
+    }
+    const std::uint8_t mode = state.faces[at.batch].mode[at.point][at.lane];
+    fields.add(mode, broken(mode) ? 1 : 0, spring.gap, spring.normal, spring.force / batch.area[at.lane],
+               moved);
+    bonds.points.push_back(face_point(model, at));
+    if (at.point == 2) {
+      const int last = static_cast<int>(bonds.points.size()) - 1;
+      bonds.triangles.push_back({last - 2, last - 1, last});
+    }
+  });
+}
+
+void add_bonds(const Model& model, const State& state, BondSnapshot& bonds) {
+  bonds.points = model.point_position;
+  bonds.triangles = model.bond_triangles;
+  BondFields fields(model.points.size() + 3 * model.mesh.face_tets.size());
+  add_springs(model, state, fields);
+  add_face_springs(model, state, fields, bonds);
 
   SnapshotField interface_id = scalar("interface_id", "", bonds.triangles.size(), true);
   SnapshotField worst = scalar("mode", "", bonds.triangles.size(), true);
   for (const Interface& interface : model.interfaces)
-    for (int t = interface.triangle_begin; t < interface.triangle_end; ++t) {
-      interface_id.values.push_back(static_cast<double>(interface.id));
-      const geom::Triangle& triangle = bonds.triangles[t];
-      worst.values.push_back(std::max(
-          {state.bond_mode[triangle[0]], state.bond_mode[triangle[1]], state.bond_mode[triangle[2]]}));
-    }
+    interface_id.values.insert(interface_id.values.end(), interface.triangle_end - interface.triangle_begin,
+                               static_cast<double>(interface.id));
+  // Faces of a mesh have no interface: -1.
+  interface_id.values.resize(bonds.triangles.size(), -1);
+  for (const geom::Triangle& t : bonds.triangles)
+    worst.values.push_back(
+        std::max({fields.mode.values[t[0]], fields.mode.values[t[1]], fields.mode.values[t[2]]}));
   bonds.triangle_fields = {std::move(interface_id), std::move(worst)};
+  bonds.point_fields = {std::move(fields.mode), std::move(fields.damage),   std::move(fields.opening),
+                        std::move(fields.slip), std::move(fields.traction), std::move(fields.displacement)};
 }
 
 } // namespace
@@ -155,6 +263,7 @@ Snapshot make_snapshot(const Model& model, const State& state, const std::string
                            vectors("velocity", "m/s", state.velocity)};
   add_cells(model, state, snapshot);
   add_surface(model, snapshot);
+  add_mesh_surface(model, state, snapshot);
   add_bonds(model, state, snapshot.bonds);
   return snapshot;
 }

@@ -19,6 +19,13 @@ State initial_state(const Model& model) {
   state.bond_damage.assign(softens ? model.points.size() : 0, 0.0);
   state.bond_slip.assign(softens ? model.points.size() : 0, geom::Vec3::Zero());
   state.initial_stress.assign(model.blocks.size(), Stress{});
+  state.stress.assign(model.mesh.batches.size(), StressBatch{});
+  state.faces.assign(model.mesh.faces.size(), FaceStateBatch{});
+  for (const MeshChunk& chunk : model.mesh.chunks)
+    if (!model.bodies[model.blocks[chunk.block].body].joint.bonded)
+      for (std::int64_t f = chunk.face_batches.begin; f < chunk.face_batches.end; ++f)
+        for (auto& point : state.faces[f].mode)
+          std::fill(std::begin(point), std::end(point), static_cast<std::uint8_t>(BondMode::contact));
   return state;
 }
 
@@ -38,6 +45,8 @@ std::vector<StateField> fields(State& s) {
       field("bond_damage", "1", FieldPlace::bond, "spring_forces", s.bond_damage, true),
       field("bond_slip", "m", FieldPlace::bond, "spring_forces", s.bond_slip, true),
       field("initial_stress", "Pa", FieldPlace::block, "initial_stress", s.initial_stress, true),
+      field("stress", "Pa", FieldPlace::tet, "mesh_forces", s.stress, true),
+      field("faces", "m", FieldPlace::bond, "mesh_forces", s.faces, false),
       {"spent", "J", FieldPlace::model, "step", &s.spent, sizeof s.spent, true},
   };
 }

@@ -6,11 +6,7 @@
 #include "libcdem/results/ledger.hpp"
 #include "libcdem/results/snapshot.hpp"
 
-#include <array>
-
 namespace cdem {
-
-using Stress = std::array<double, 6>; // Pa, tension positive: xx yy zz xy yz xz
 
 struct State {
   double time = 0;         // s
@@ -28,6 +24,9 @@ struct State {
   std::vector<geom::Vec3>
       bond_slip; // m, slip of the damaged part, added to bond_offset at separation (n_points)
   std::vector<Stress> initial_stress; // Pa (n_blocks); written by initial_stress
+  // Of meshed bodies.
+  std::vector<StressBatch> stress;   // Pa (n mesh batches); written by mesh_forces
+  std::vector<FaceStateBatch> faces; // (n face batches); written by mesh_forces
 
   EnergyLedger spent; // J, the summed entries only (damping, friction, ... external); the stored ones stay 0
 };
@@ -35,7 +34,7 @@ struct State {
 // A State at rest for the model: no displacement, contacts where the joint is not bonded.
 State initial_state(const Model&);
 
-enum class FieldPlace { model, node, bond, block };
+enum class FieldPlace { model, node, bond, block, tet };
 
 struct StateField {
   const char* name;

@@ -30,12 +30,29 @@ void add(std::vector<Node>& force, const std::vector<Node>& more, Range nodes) {
   }
 }
 
+// The owner of a node adds the partial forces of all chunks that touch it, in order.
+void add_mesh_forces(const Model& model, Workspace& work, Range nodes) {
+  const MeshData& mesh = model.mesh;
+  for (std::int64_t node = std::max<std::int64_t>(nodes.begin, mesh.first_node); node < nodes.end; ++node) {
+    Node& f = work.force[node];
+    const int* share = mesh.shares.data() + mesh.share_begin[node - mesh.first_node];
+    const int* const end = mesh.shares.data() + mesh.share_begin[node - mesh.first_node + 1];
+    for (; share != end; ++share) {
+      const Node& p = work.partial[*share];
+      f.x += p.x;
+      f.y += p.y;
+      f.z += p.z;
+    }
+  }
+}
+
 } // namespace
 
 void net_forces(const Model& model, const State& state, Workspace& work, const BlockChunk& chunk) {
   clear_forces(work, chunk.nodes);
   add_small_strain_forces(model.batches.data() + chunk.batches.begin, chunk.batches.size(),
                           state.displacement.data(), work.force.data());
+  add_mesh_forces(model, work, chunk.nodes);
   add_spring_forces(model, work, chunk.nodes);
   if (work.resolved.has_initial_stress)
     add(work.force, work.resolved.internal, chunk.nodes);

@@ -5,7 +5,8 @@
 
 namespace cdem {
 
-// Clear, elements, springs, loads: Workspace::force of the chunk's nodes. spring_forces has run before.
+// Clear, elements, springs, loads: Workspace::force of the chunk's nodes. spring_forces and mesh_forces have run
+// before.
 void net_forces(const Model&, const State&, Workspace&, const BlockChunk&);
 
 } // namespace cdem

@@ -1,9 +1,9 @@
 #include "libcdem/step/relax.hpp"
 
-#include "libcdem/element/small_strain.hpp"
-#include "libcdem/interface/spring_forces.hpp"
 #include "libcdem/results/energy.hpp"
 #include "libcdem/step/forces.hpp"
+#include "libcdem/step/mesh_forces.hpp"
+#include "libcdem/step/row_sums.hpp"
 
 #include <cmath>
 
@@ -51,7 +51,7 @@ inline void advance(double force, double previous, double mass, double damping, 
   displacement += velocity;
 }
 
-NodeSums integrate(const Model&, State& state, Workspace& work, Range nodes, double damping) {
+NodeSums integrate(const Model& model, State& state, Workspace& work, Range nodes, double damping) {
   NodeSums sums;
   const ResolvedConditions& r = work.resolved;
   for (std::int64_t i = nodes.begin; i < nodes.end; ++i) {
@@ -65,6 +65,7 @@ NodeSums integrate(const Model&, State& state, Workspace& work, Range nodes, dou
     advance(f.z, old.z, m, damping, {r.free[i].z, r.prescribed[i].z, r.external[i].z}, v.z, u.z, sums);
     old = f;
   }
+  move_positions(model, state, work, nodes);
   return sums;
 }
 
@@ -92,9 +93,11 @@ double initial_stress_forces2(const ResolvedConditions& r) {
 
 // However a relaxation ends, it leaves the state at rest: its velocities are lengths per step of fictitious masses.
 struct AtRest {
+  Stage& stage;
   State &state, &last_good;
   const NodeSums& sums;
   ~AtRest() {
+    stage.catch_up();
     state.spent.fictitious += sums.kinetic;
     std::fill(state.velocity.begin(), state.velocity.end(), Node{});
     std::fill(last_good.velocity.begin(), last_good.velocity.end(), Node{});
@@ -104,8 +107,7 @@ struct AtRest {
 } // namespace
 
 std::vector<double> fictitious_masses(const Model& model) {
-  std::vector<double> masses = stiffness_row_sums(model);
-  add_spring_row_sums(model, masses);
+  std::vector<double> masses = all_row_sums(model);
   for (double& mass : masses)
     mass /= 4 * step_safety * step_safety;
   return masses;
@@ -129,15 +131,16 @@ RelaxResult relax(const StageContext& context, const RelaxOptions& options, cons
   double lambda = 0, damping = 0, largest_reaction2 = initial_stress_forces2(stage.work.resolved);
   int settled = 0;
   {
-    const AtRest at_rest{state, context.last_good, report.sums};
+    const AtRest at_rest{stage, state, context.last_good, report.sums};
     while (stage.step < options.max_steps && settled < settled_steps) {
       if (stage.step == moving_steps)
         std::fill(stage.work.resolved.prescribed.begin(), stage.work.resolved.prescribed.end(), Node{});
-      stage.spring_forces(options.breaking);
+      stage.shared_forces(options.breaking);
       report.sums = stage.over_chunks([&](const BlockChunk& chunk) {
         net_forces(context.model, state, stage.work, chunk);
         return integrate(context.model, state, stage.work, chunk.nodes, damping);
       });
+      stage.work.strain_step = 1; // velocities are lengths per step
       largest_reaction2 = std::max(largest_reaction2, report.sums.reaction2);
       report.sums.reaction2 = std::max(report.sums.reaction2, reaction_floor2 * largest_reaction2);
       report.residual = relative_residual(report.sums);

@@ -1,8 +1,8 @@
 #include "libcdem/step/run.hpp"
 
-#include "libcdem/element/small_strain.hpp"
-#include "libcdem/interface/spring_forces.hpp"
 #include "libcdem/step/forces.hpp"
+#include "libcdem/step/mesh_forces.hpp"
+#include "libcdem/step/row_sums.hpp"
 #include "libgeom/core/error.hpp"
 
 #include <cmath>
@@ -68,6 +68,7 @@ NodeSums integrate(const Model& model, State& state, Workspace& work, Range node
     advance(f.y, m, viscous, stepping, {r.free[i].y, r.prescribed[i].y, r.external[i].y}, v.y, u.y, sums);
     advance(f.z, m, viscous, stepping, {r.free[i].z, r.prescribed[i].z, r.external[i].z}, v.z, u.z, sums);
   }
+  move_positions(model, state, work, nodes);
   return sums;
 }
 
@@ -83,8 +84,7 @@ double choose_time_step(const Model& model, const RunOptions& options) {
 } // namespace
 
 double stable_time_step(const Model& model) {
-  std::vector<double> sums = stiffness_row_sums(model);
-  add_spring_row_sums(model, sums);
+  const std::vector<double> sums = all_row_sums(model);
   double largest = 0;
   for (std::size_t i = 0; i < sums.size(); ++i)
     largest = std::max(largest, sums[i] / model.node_mass[i]);
@@ -107,13 +107,14 @@ RunResult run(const StageContext& context, const RunOptions& options) {
   bool stopped = false;
   while (stage.step < steps && !stopped) {
     update_external(stage.work.resolved, state.time);
-    stage.spring_forces(options.breaking);
+    stage.shared_forces(options.breaking);
     // Velocities that stand at the time of the displacements, at the start or after a relaxation, take half a step.
     stepping.kick = state.velocity_lag + 0.5 * stepping.time_step;
     report.sums = stage.over_chunks([&](const BlockChunk& chunk) {
       net_forces(context.model, state, stage.work, chunk);
       return integrate(context.model, state, stage.work, chunk.nodes, stepping);
     });
+    stage.work.strain_step = stepping.time_step;
     report.residual = relative_residual(report.sums);
     state.time = start + static_cast<double>(stage.step + 1) * stepping.time_step;
     state.velocity_lag = 0.5 * stepping.time_step;

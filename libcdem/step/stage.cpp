@@ -2,8 +2,10 @@
 
 #include "libcdem/element/small_strain.hpp"
 #include "libcdem/interface/spring_forces.hpp"
+#include "libcdem/model/add_meshes.hpp"
 #include "libcdem/results/fields.hpp"
 #include "libcdem/step/errors.hpp"
+#include "libcdem/step/mesh_forces.hpp"
 
 #include <cmath>
 #include <fmt/format.h>
@@ -57,11 +59,31 @@ double Stage::wall_time() const {
   return seconds(std::chrono::steady_clock::now() - start_);
 }
 
-void Stage::spring_forces(bool breaking) {
-  const auto& chunks = context_.model.point_chunks;
-  for_chunks(static_cast<std::int64_t>(chunks.size()), context_.threads, [&](std::int64_t c) {
-    cdem::spring_forces(context_.model, context_.state, work, chunks[c], work.spring_sums[c], breaking);
+void Stage::shared_forces(bool breaking) {
+  const Model& model = context_.model;
+  const auto springs = static_cast<std::int64_t>(model.point_chunks.size());
+  const auto meshes = static_cast<std::int64_t>(model.mesh.chunks.size());
+  for_chunks(springs + meshes, context_.threads, [&](std::int64_t c) {
+    if (c < springs)
+      spring_forces(model, context_.state, work, model.point_chunks[c], work.spring_sums[c], breaking);
+    else
+      mesh_forces(model, context_.state, work, c - springs, breaking);
   });
+  work.strain_step = 0;
+}
+
+void Stage::catch_up() {
+  const auto meshes = static_cast<std::int64_t>(context_.model.mesh.chunks.size());
+  if (work.strain_step > 0)
+    for_chunks(meshes, context_.threads,
+               [&](std::int64_t c) { mesh_forces(context_.model, context_.state, work, c, false); });
+  work.strain_step = 0;
+}
+
+void Stage::keep_state() {
+  watch();
+  catch_up();
+  context_.last_good = context_.state;
 }
 
 NodeSums Stage::total() const {
@@ -107,6 +129,35 @@ void Stage::record_breaks() {
   }
 }
 
+void Stage::record_face_breaks() {
+  const Model& model = context_.model;
+  for (std::size_t c = 0; c < work.face_sums.size(); ++c) {
+    const FaceSums& sums = work.face_sums[c];
+    const MeshChunk& chunk = model.mesh.chunks[c];
+    context_.state.spent.friction += sums.friction;
+    context_.state.spent.breaking += sums.breaking;
+    for (const FaceBreak& broken : sums.broken) {
+      const FaceSpringPlace at{chunk.face_batches.begin + broken.spring / (3 * lanes),
+                               static_cast<int>(broken.spring / lanes % 3),
+                               static_cast<int>(broken.spring % lanes)};
+      BreakRow row;
+      row.stage = context_.number;
+      row.step = step;
+      row.time = context_.state.time;
+      row.mode = broken.mode;
+      row.place = face_point(model, at);
+      row.normal = broken.normal;
+      row.area = model.mesh.faces[at.batch].area[at.lane];
+      row.normal_traction = broken.normal_traction;
+      row.shear_traction = broken.shear_traction;
+      row.block_a = row.block_b = model.blocks[chunk.block].id;
+      context_.log.breaks.push_back(row);
+      ++(broken.mode == BondMode::broken_tension ? context_.log.broken_tension : context_.log.broken_shear);
+      ++broken_in_step_;
+    }
+  }
+}
+
 void Stage::record_history(const StepReport& report) {
   HistoryRow row;
   row.stage = context_.number;
@@ -125,17 +176,15 @@ void Stage::record_history(const StepReport& report) {
 void Stage::after_step(const StepReport& report) {
   EnergyLedger& spent = context_.state.spent;
   record_breaks();
+  record_face_breaks();
   spent.external += report.sums.external;
   spent.external_peak = std::max(spent.external_peak, std::abs(spent.external));
   spent.damping += report.sums.damping;
   ++step;
   ++context_.state.step;
   // A sum over all free forces and one over all velocities: a NaN anywhere shows here in the step it appears.
-  if (!std::isfinite(report.sums.residual2) || !std::isfinite(report.sums.kinetic) ||
-      step % watch_every == 0) {
-    watch();
-    context_.last_good = context_.state;
-  }
+  if (!std::isfinite(report.sums.residual2) || !std::isfinite(report.sums.kinetic) || step % watch_every == 0)
+    keep_state();
   if (context_.log.due(context_.state.step))
     record_history(report);
   if (step % poll_every == 0) {
@@ -149,8 +198,7 @@ void Stage::after_step(const StepReport& report) {
 }
 
 void Stage::finish(const StepReport& report) {
-  watch();
-  context_.last_good = context_.state;
+  keep_state();
   record_history(report);
   tell(report, true);
 }

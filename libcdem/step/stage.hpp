@@ -25,11 +25,17 @@ class Stage {
 public:
   // run_away: displacement that ends the stage with a SolutionError, m.
   Stage(StageContext context, std::string kind, double run_away);
+  ~Stage() { catch_up(); }
+  Stage(const Stage&) = delete;
+  Stage& operator=(const Stage&) = delete;
 
   Workspace work;
   std::int64_t step = 0; // within the stage
 
-  void spring_forces(bool breaking);
+  // Springs between faces and parts of meshes: all that pulls at nodes of more than one chunk.
+  void shared_forces(bool breaking);
+  // Brings the stress of meshes up to where the nodes are; before a state is kept or handed out.
+  void catch_up();
   // body(chunk index, chunk) -> NodeSums over all chunks; returns the total, summed in order.
   template <class Body>
   NodeSums over_chunks(const Body& body) {
@@ -54,7 +60,9 @@ public:
 private:
   NodeSums total() const;
   void record_breaks();
+  void record_face_breaks();
   void record_history(const StepReport&);
+  void keep_state();
   void watch() const;
   void tell(const StepReport&, bool last);
 

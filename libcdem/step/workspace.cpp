@@ -1,5 +1,7 @@
 #include "libcdem/step/workspace.hpp"
 
+#include "libcdem/step/mesh_forces.hpp"
+
 namespace cdem {
 
 Workspace::Workspace(const Model& model, const State& state, const Conditions& conditions)
@@ -7,6 +9,12 @@ Workspace::Workspace(const Model& model, const State& state, const Conditions& c
       previous_force(model.node_position.size()), mass(model.node_mass),
       spring_force(model.points.size(), geom::Vec3::Zero()), spring_sums(model.point_chunks.size()),
       node_sums(model.chunks.size()) {
+  if (!model.mesh.empty()) {
+    position.resize(model.node_position.size());
+    partial.resize(model.mesh.partial_node.size());
+    face_sums.resize(model.mesh.chunks.size());
+    move_positions(model, state, *this, {0, static_cast<std::int64_t>(position.size())});
+  }
   for (const Interface& interface : model.interfaces) {
     const Joint& joint = model.joints[interface.joint];
     strength.push_back({joint.cohesion, std::tan(joint.friction_angle), joint.tensile_strength});

@@ -47,7 +47,12 @@ struct Workspace {
   // m, of each spring in the step before (n_points); written by spring_forces
   std::vector<geom::Vec3> stretch;
   std::vector<SpringSums> spring_sums; // per chunk of springs
-  std::vector<NodeSums> node_sums;     // per chunk of blocks
+  // Of meshed bodies; empty without them.
+  std::vector<Node> position;      // m, present place (n_nodes); written by integrate
+  std::vector<Node> partial;       // N, per place of each mesh chunk; written by mesh_forces
+  std::vector<FaceSums> face_sums; // per mesh chunk
+  double strain_step = 0;          // s, by which their stress stands behind the nodes
+  std::vector<NodeSums> node_sums; // per chunk of blocks
 };
 
 } // namespace cdem

@@ -1,9 +1,11 @@
 #include "tests/libcdem/system.hpp"
 
+#include "libcdem/element/mesh_fields.hpp"
 #include "libcdem/element/small_strain.hpp"
 #include "libcdem/interface/spring_forces.hpp"
 #include "libcdem/model/build.hpp"
 #include "libcdem/step/forces.hpp"
+#include "libcdem/step/mesh_forces.hpp"
 
 namespace testing {
 
@@ -25,7 +27,12 @@ cdem::Joint rock_joint() {
 
 cdem::BodySpec body(std::string name, geom::Assembly shape, const cdem::Elastic& material,
                     const cdem::Joint& joint) {
-  return {std::move(name), std::move(shape), material, joint};
+  return {std::move(name), std::move(shape), material, joint, {}, {}};
+}
+
+cdem::BodySpec meshed(std::string name, geom::TetMesh mesh, const cdem::Bonding& bonding,
+                      const cdem::Elastic& material, const cdem::Joint& joint) {
+  return {std::move(name), {}, material, joint, {std::move(mesh)}, bonding};
 }
 
 cdem::Simulation simulation(geom::Assembly shape, const cdem::Elastic& material, const cdem::Joint& joint,
@@ -38,9 +45,14 @@ cdem::Simulation simulation(geom::Assembly shape, const cdem::Elastic& material,
 cdem::Model build(const std::vector<cdem::BodySpec>& bodies, const std::vector<cdem::PairSpec>& pairs) {
   cdem::Model frame;
   std::vector<cdem::BlockSeed> seeds;
+  std::vector<cdem::MeshSeed> meshes;
   for (const cdem::BodySpec& spec : bodies) {
     const int index = static_cast<int>(frame.bodies.size());
-    frame.bodies.push_back({spec.name, spec.material, spec.joint});
+    frame.bodies.push_back(
+        {spec.name, spec.material, spec.joint, spec.bonding,
+         spec.meshes.empty() ? cdem::Element::small_strain : cdem::Element::finite_volume});
+    for (const geom::TetMesh& mesh : spec.meshes)
+      meshes.push_back({0, index, mesh});
     frame.pair_joint[{index, index}] = static_cast<int>(frame.joints.size());
     frame.joints.push_back(spec.joint);
     for (const geom::Polyhedron& block : spec.shape.blocks) {
@@ -61,7 +73,7 @@ cdem::Model build(const std::vector<cdem::BodySpec>& bodies, const std::vector<c
         static_cast<int>(frame.joints.size());
     frame.joints.push_back(pair.joint);
   }
-  return cdem::build_model(frame, std::move(seeds), cdem::default_traits);
+  return cdem::build_model(frame, std::move(seeds), cdem::default_traits, std::move(meshes));
 }
 
 cdem::Selection at_place(const geom::Vec3& x) {
@@ -95,11 +107,17 @@ void System::hold(const cdem::Selection& on, const std::string& names) {
   conditions.fixes.push_back(fix);
 }
 
+geom::Vec3 centre(const cdem::Model& model, const cdem::OuterFace& face) {
+  if (face.boundary < 0)
+    return model.node_position[model.blocks[face.block].face_centre(face.face)];
+  const geom::Triangle& t = model.mesh.boundary[face.boundary].nodes;
+  return (model.node_position[t[0]] + model.node_position[t[1]] + model.node_position[t[2]]) / 3;
+}
+
 void System::load_all_faces(const geom::Mat3& stress) {
   for (const cdem::OuterFace& face : model.outer_faces) {
-    const cdem::Block& block = model.blocks[face.block];
     cdem::Traction traction;
-    traction.on = at_place(model.node_position[block.face_centre(face.face)]);
+    traction.on = at_place(centre(model, face));
     traction.stress = stress * face.normal;
     conditions.tractions.push_back(traction);
   }
@@ -114,6 +132,9 @@ std::vector<geom::Vec3> System::net_forces() const {
   cdem::Workspace work(model, state, conditions);
   cdem::update_external(work.resolved, state.time);
   cdem::start_spring_forces(model, state, work);
+  cdem::State advanced = state; // with a step of 0 nothing advances
+  for (std::size_t c = 0; c < model.mesh.chunks.size(); ++c)
+    cdem::mesh_forces(model, advanced, work, static_cast<std::int64_t>(c), false);
   for (const cdem::BlockChunk& chunk : model.chunks)
     cdem::net_forces(model, state, work, chunk);
   std::vector<geom::Vec3> forces;
@@ -150,6 +171,8 @@ geom::Mat3 hooke(const cdem::Elastic& m, const geom::Mat3& h) {
 
 geom::Mat3 tet_stress(const System& s, int tet) {
   const int block = s.model.tet_block[tet];
+  if (s.model.blocks[block].meshed)
+    return cdem::matrix(cdem::tet_stress(s.model, s.state, tet));
   return hooke(s.model.bodies[s.model.blocks[block].body].material,
                cdem::displacement_gradient(s.model, s.state.displacement, tet)) +
          cdem::matrix(s.state.initial_stress[block]);

@@ -16,9 +16,13 @@ cdem::Joint rock_joint();
 
 cdem::BodySpec body(std::string name, geom::Assembly shape, const cdem::Elastic& = rock(),
                     const cdem::Joint& = rock_joint());
+cdem::BodySpec meshed(std::string name, geom::TetMesh, const cdem::Bonding& = {},
+                      const cdem::Elastic& = rock(), const cdem::Joint& = rock_joint());
 cdem::Simulation simulation(geom::Assembly, const cdem::Elastic& = rock(), const cdem::Joint& = rock_joint(),
                             std::shared_ptr<cdem::Observer> = nullptr);
 cdem::Model build(const std::vector<cdem::BodySpec>&, const std::vector<cdem::PairSpec>& = {});
+
+geom::Vec3 centre(const cdem::Model&, const cdem::OuterFace&); // undeformed, m
 
 // The place x to rounding, for conditions on single nodes and faces.
 cdem::Selection at_place(const geom::Vec3& x);

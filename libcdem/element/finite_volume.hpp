@@ -1,0 +1,27 @@
+// Tetrahedra for large motion, by finite volumes (Feng 2014 eqs 2-14). Over a step of length dt in which the corners
+// came with velocity v to where they are now, with the geometry of the middle of the step and c_k the area vectors
+//   c_1 = e_2 x e_3, ...,  6 V = e_1 . c_1,   grad v = sum_k (v_k - v_0) (x) c_k / 6V                     (eqs 2-6)
+//   sigma <- Q sigma Q^T + dt (lambda tr(D) I + 2 G D),  D, W: symmetric and skew part of grad v          (eqs 7-11)
+//   Q = I + (W + W^2 / 2) / (1 + |w|^2 / 4),  w the axial vector of dt W (Hughes and Winget 1980)
+// and with the geometry of its end the force on a corner over its three faces, normals outward
+//   f_k = -sigma c_k / 6,  f_0 = -sum f_k                                                                 (eq 12)
+// The paper prints no rotation of the stress and the geometry of the start: one slow turn then leaves 9 MPa of stress
+// in concrete. c_k / 6V is the gradient of the shape function, the same as the sum over face areas with one division.
+#pragma once
+
+#include "libcdem/model/mesh.hpp"
+#include "libcdem/state/stress_batch.hpp"
+
+namespace cdem {
+
+struct TetStiffness {
+  double lambda = 0, two_g = 0; // Pa
+};
+
+// Of a run of batches, the last with `last_lanes` tets. Advances `stress` by the last step of dt (s; with 0 nothing
+// changes) and adds the nodal forces to `partial`, one entry for each place of the chunk.
+void finite_volume_forces(const MeshBatch* batches, std::int64_t count, int last_lanes, const Node* position,
+                          const Node* velocity, double dt, const TetStiffness&, StressBatch* stress,
+                          Node* partial);
+
+} // namespace cdem

@@ -1,0 +1,89 @@
+// The part of a Model that bodies meshed with tetrahedra make: finite-volume tets that share nodes, and bonds between
+// the two sides of inner faces where a joint was asked for (Feng 2014 section 2).
+//
+// A copy of a node is a connected component of the tets around it through faces without bonds: where every face is
+// bonded each tet has its own four nodes, where none is the nodes are those of the mesh.
+//
+// Tets stand in the order of a Hilbert curve and nodes in that of first touch. A chunk is a run of tets; it owns the
+// nodes it is the first to touch and lists the others it needs. It sums the forces of its tets and faces into its own
+// slice of an array of partial forces; the owner of a node adds the slices in a fixed order. Nothing is written twice.
+#pragma once
+
+#include "libcdem/parallel/chunks.hpp"
+#include "libcdem/parallel/node.hpp"
+#include "libgeom/core/types.hpp"
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+namespace cdem {
+
+// Eight tets of one chunk. Lanes past the chunk's last tet repeat its first one and are given no stiffness.
+struct MeshBatch {
+  int node[4][lanes];            // of the model
+  std::uint16_t place[4][lanes]; // of the same nodes among those of the chunk
+};
+
+// Eight bonded faces of one chunk: corner i of side a against corner i of side b, counter-clockwise seen from b.
+// Lanes past the last face repeat the first one with kn = 0.
+struct FaceBatch {
+  int node_a[3][lanes], node_b[3][lanes];
+  std::uint16_t place_a[3][lanes], place_b[3][lanes];
+  double kn[lanes];   // N/m, of one of the face's three springs
+  double area[lanes]; // m2, of one of them: a third of the face
+};
+
+struct MeshChunk {
+  int block = 0;
+  Range nodes;        // its own
+  Range tets;         // of the model
+  Range batches;      // into MeshData::batches
+  Range face_batches; // into MeshData::faces
+  int faces = 0;      // in them
+  Range partial;      // its slice of the partial forces: its own nodes first, then the others it touches
+};
+
+struct BoundaryTriangle {
+  geom::Triangle nodes{}; // of the model, counter-clockwise seen from outside
+  int tet = 0;
+  int block = 0;
+};
+
+// The two tets at a bonded face, in the place batch * lanes + lane.
+struct FaceTets {
+  int tet_a = -1, tet_b = -1; // -1: an empty lane
+};
+
+struct MeshData {
+  int first_node = 0, first_tet = 0; // of the model; those before belong to blocks with star meshes
+  std::vector<MeshBatch> batches;
+  std::vector<FaceBatch> faces;
+  std::vector<FaceTets> face_tets; // (faces.size() * lanes)
+  std::vector<MeshChunk> chunks;
+  std::vector<int> tet_slot;     // (n mesh tets) batch * lanes + lane
+  std::vector<int> partial_node; // of each partial force: the node of the model
+  std::vector<int> original;     // (n mesh nodes) one number for all copies of a node
+  // Which partial forces add up to that of a node, in order: (n mesh nodes + 1) into `shares`.
+  std::vector<int> share_begin, shares;
+  std::vector<BoundaryTriangle> boundary;
+
+  bool empty() const { return batches.empty(); }
+};
+
+// One spring of a bonded face.
+struct FaceSpringPlace {
+  std::int64_t batch = 0;
+  int point = 0, lane = 0;
+};
+
+// visit(chunk, place) for every spring, in order.
+template <class Visit>
+void each_face_spring(const MeshData& mesh, const Visit& visit) {
+  for (const MeshChunk& chunk : mesh.chunks)
+    for (int face = 0; face < chunk.faces; ++face)
+      for (int point = 0; point < 3; ++point)
+        visit(chunk, FaceSpringPlace{chunk.face_batches.begin + face / lanes, point, face % lanes});
+}
+
+} // namespace cdem
