@@ -9,7 +9,10 @@
 #include "libcdem/model/build.hpp"
 #include "libcdem/model/separate.hpp"
 #include "libcdem/results/energy.hpp"
+#include "libcdem/results/fragments.hpp"
 #include "libcdem/results/make_snapshot.hpp"
+#include "libcdem/simulation_checks.hpp"
+#include "libcdem/step/critical_flow.hpp"
 #include "libcdem/step/forces.hpp"
 #include "libcdem/step/mesh_forces.hpp"
 #include "libcdem/step/relax.hpp"
@@ -24,15 +27,6 @@
 namespace cdem {
 namespace {
 
-std::string number(double x) {
-  return fmt::format("{:g}", x);
-}
-
-void require_finite(const char* field, const geom::Vec3& v) {
-  if (!v.allFinite())
-    throw geom::InputError(field, fmt::format("({:g}, {:g}, {:g})", v.x(), v.y(), v.z()), "finite");
-}
-
 int body_index(const Model& model, const std::string& name) {
   for (int b = 0; b < static_cast<int>(model.bodies.size()); ++b)
     if (model.bodies[b].name == name)
@@ -41,29 +35,6 @@ int body_index(const Model& model, const std::string& name) {
   for (const Body& body : model.bodies)
     names += (names.empty() ? "\"" : ", \"") + body.name + "\"";
   throw geom::InputError("contacts", "\"" + name + "\"", "the name of a body (" + names + ")");
-}
-
-void validate_meshed(const BodySpec& body) {
-  const Bonding& b = body.bonding;
-  if (!(b.stiffness_ratio > 0 && b.stiffness_ratio <= 1e4))
-    throw geom::InputError("stiffness_ratio", number(b.stiffness_ratio), "in (0, 1e4]",
-                           "10 keeps about 0.91 of Young's modulus");
-  if (!(b.shear_ratio > 0 && b.shear_ratio <= 100))
-    throw geom::InputError("shear_ratio", number(b.shear_ratio), "in (0, 100]", "1 is usual");
-  if (!b.none() && body.joint.softening != Softening::none)
-    throw geom::InputError("softening", "on the faces of a mesh", "none there",
-                           "only bonds between convex blocks soften");
-  if (!body.shape.blocks.empty())
-    throw geom::InputError("shape", "blocks and meshes in one body", "one of them", "make two bodies");
-  for (std::size_t i = 0; i < body.meshes.size(); ++i) {
-    const geom::TetMesh& mesh = body.meshes[i];
-    geom::validate(mesh, "the mesh of body \"" + body.name + "\"");
-    const int regions = *std::max_element(mesh.region.begin(), mesh.region.end()) + 1;
-    for (const int region : b.regions)
-      if (region < 0 || region >= regions)
-        throw geom::InputError("bonds", std::to_string(region + 1),
-                               "a region of the mesh (1 to " + std::to_string(regions) + ")");
-  }
 }
 
 Model first_model(const ModelSpec& spec) {
@@ -112,27 +83,6 @@ Model first_model(const ModelSpec& spec) {
   Model model = build_model(frame, std::move(seeds), default_traits, std::move(meshes));
   require_separate(model);
   return model;
-}
-
-void check(const RelaxOptions& o) {
-  if (!(o.residual > 0 && o.residual < 1))
-    throw geom::InputError("residual", number(o.residual), "in (0, 1)", "1e-6 is usual");
-  if (o.max_steps <= 0)
-    throw geom::InputError("max_steps", std::to_string(o.max_steps), "an integer > 0");
-}
-
-void check(const RunOptions& o) {
-  const bool by_time = o.duration != 0;
-  if (!std::isfinite(o.duration) || o.duration < 0)
-    throw geom::InputError("duration", number(o.duration), "a finite number > 0 s");
-  if (by_time == (o.steps != 0) || o.steps < 0)
-    throw geom::InputError("run: give either duration (s) or steps (an integer > 0)");
-  if (!(o.safety > 0 && o.safety <= 1))
-    throw geom::InputError("safety", number(o.safety), "in (0, 1]");
-  if (!(o.time_step >= 0) || !std::isfinite(o.time_step))
-    throw geom::InputError("time_step", number(o.time_step), "a finite number > 0 s");
-  if (!(o.local_damping >= 0 && o.local_damping < 1))
-    throw geom::InputError("local_damping", number(o.local_damping), "in [0, 1)");
 }
 
 } // namespace
@@ -233,7 +183,13 @@ void Simulation::gravity(const Gravity& gravity) {
   impl_->conditions.gravity = gravity;
 }
 
+void Simulation::flow(const Flow& flow) {
+  check(flow);
+  impl_->change_conditions([&](Conditions& c) { c.flows.push_back(flow); });
+}
+
 void Simulation::clear_loads() {
+  impl_->conditions.flows.clear();
   impl_->conditions.tractions.clear();
   impl_->conditions.forces.clear();
   impl_->conditions.gravity.reset();
@@ -397,7 +353,7 @@ Deformation Simulation::deformation() const {
 
 bool Simulation::anything_acts() const {
   const Conditions& c = impl_->conditions;
-  if (!c.tractions.empty() || !c.forces.empty() || c.gravity)
+  if (!c.tractions.empty() || !c.forces.empty() || c.gravity || !c.flows.empty())
     return true;
   const State& s = impl_->state;
   const auto moves = [](const Fix& fix) { return fix.displacement || fix.velocity; };
@@ -409,6 +365,17 @@ bool Simulation::anything_acts() const {
          std::any_of(s.displacement.begin(), s.displacement.end(), is_nonzero) ||
          std::any_of(s.velocity.begin(), s.velocity.end(), is_nonzero) ||
          std::any_of(s.initial_stress.begin(), s.initial_stress.end(), is_stressed);
+}
+
+CriticalFlowResult Simulation::critical_flow(const CriticalFlowOptions& options) {
+  check(options);
+  const CriticalFlowResult result = cdem::critical_flow(impl_->begin_stage(), options);
+  impl_->last_residual = impl_->log.history.back().residual;
+  return result;
+}
+
+std::vector<Fragment> Simulation::fragments() const {
+  return cdem::fragments(impl_->model, impl_->state, resolve(impl_->model, impl_->state, impl_->conditions));
 }
 
 ModelCounts Simulation::counts() const {

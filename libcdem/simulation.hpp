@@ -13,6 +13,7 @@
 #include "libcdem/results/ledger.hpp"
 #include "libcdem/results/log.hpp"
 #include "libcdem/results/snapshot.hpp"
+#include "libcdem/step/critical_flow_options.hpp"
 #include "libcdem/step/errors.hpp"
 #include "libcdem/step/observer.hpp"
 #include "libcdem/step/options.hpp"
@@ -66,7 +67,8 @@ public:
   void traction(const Traction&);
   void force(const PointForce&);
   void gravity(const Gravity&);
-  void clear_loads(); // tractions, forces and gravity
+  void flow(const Flow&);
+  void clear_loads(); // tractions, forces, gravity and flows
   // Stress present before anything moves, Pa, tension positive (xx yy zz xy yz xz), constant over the selected blocks;
   // interfaces between two selected blocks start with its traction.
   void initial_stress(const Selection&, const std::array<double, 6>&);
@@ -81,7 +83,8 @@ public:
   RelaxResult relax(const RelaxOptions&);
   RunResult run(const RunOptions&);
   std::vector<BlockCut> refine(const RefineOptions&);
-  GrowResult grow(const GrowOptions&); // one stage; see fracture/grow.hpp
+  GrowResult grow(const GrowOptions&);                          // one stage; see fracture/grow.hpp
+  CriticalFlowResult critical_flow(const CriticalFlowOptions&); // one stage; see step/critical_flow.hpp
 
   // Results.
   ModelCounts counts() const;
@@ -97,6 +100,7 @@ public:
   // There is something that could move the model: a load, a support that moves it, an initial stress or velocity, or
   // a state that is deformed already.
   bool anything_acts() const;
+  std::vector<Fragment> fragments() const; // largest first
 
   // Fields by name with a component: "displacement.x|y|z|magnitude", "velocity.*" at nodes; "stress.xx".., "von_mises",
   // "principal_stress.1..3" (tension positive, 1 the largest) as block averages. Unknown name: geom::InputError that

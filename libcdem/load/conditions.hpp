@@ -4,6 +4,7 @@
 #include "libcdem/model/selection.hpp"
 
 #include <array>
+#include <cmath>
 #include <optional>
 
 namespace cdem {
@@ -38,11 +39,30 @@ struct Gravity {
   Amplitude amplitude;
 };
 
+// Pressure of a steady stream on what faces it (Feng 2014 eqs 19-20): traction alpha F along the flow, alpha = d . n
+// with n the inward normal of an outer face where it stands now, F = rho V^2 / 2; none where alpha <= 0. Shielding by
+// other bodies, or by other parts of the same one, is not modelled.
+struct Flow {
+  Selection on;                                // outer faces
+  geom::Vec3 direction = geom::Vec3::Zero();   // d, made a unit vector
+  double water_density = 1025;                 // kg/m3; the paper gives none, this is sea water
+  std::function<double(double time)> velocity; // V, m/s, >= 0
+  bool new_faces = false;                      // faces opened by cracks take the pressure too
+};
+
+inline double flow_pressure(double velocity, double water_density) { // F, Pa
+  return 0.5 * water_density * velocity * velocity;
+}
+inline double flow_velocity(double pressure, double water_density) { // V, m/s
+  return std::sqrt(2 * pressure / water_density);
+}
+
 struct Conditions {
   std::vector<Fix> fixes;
   std::vector<Traction> tractions;
   std::vector<PointForce> forces;
   std::optional<Gravity> gravity;
+  std::vector<Flow> flows;
 };
 
 } // namespace cdem

@@ -1,6 +1,7 @@
 #include "libcdem/load/resolve.hpp"
 
 #include "libcdem/element/small_strain.hpp"
+#include "libcdem/load/flow.hpp"
 #include "libgeom/core/error.hpp"
 
 #include <cmath>
@@ -85,7 +86,31 @@ void load(ResolvedConditions& r, Pattern&& pattern, const Amplitude& amplitude) 
       add(r.constant[node], force);
 }
 
+void add_flow(const Model& model, const Flow& flow, ResolvedConditions& r) {
+  ResolvedFlow resolved;
+  resolved.direction = flow.direction.normalized();
+  resolved.faces = selected_outer_faces(model, flow.on);
+  if (resolved.faces.empty())
+    selects_nothing("outer faces", flow.on);
+  resolved.new_faces = flow.new_faces;
+  resolved.load = r.varying.size();
+  r.flows.push_back(std::move(resolved));
+  const double density = flow.water_density;
+  const auto velocity = flow.velocity;
+  r.varying.push_back(
+      {{}, [density, velocity](double time) { return flow_pressure(velocity(time), density); }});
+}
+
 } // namespace
+
+void refresh_flows(const Model& model, const State& state, ResolvedConditions& r) {
+  for (const ResolvedFlow& flow : r.flows) {
+    // What the pattern leaves keeps no force of it.
+    for (const auto& [node, force] : r.varying[flow.load].forces)
+      r.external[node] = r.constant[node];
+    r.varying[flow.load].forces = flow_pattern(model, state, flow);
+  }
+}
 
 ResolvedConditions resolve(const Model& model, const State& state, const Conditions& conditions) {
   ResolvedConditions r;
@@ -103,19 +128,22 @@ ResolvedConditions resolve(const Model& model, const State& state, const Conditi
     load(r, force_pattern(model, force), force.amplitude);
   if (conditions.gravity)
     load(r, gravity_pattern(model, *conditions.gravity), conditions.gravity->amplitude);
+  for (const Flow& flow : conditions.flows)
+    add_flow(model, flow, r);
+  r.external = r.constant;
+  refresh_flows(model, state, r);
   for (std::size_t b = 0; b < model.blocks.size(); ++b)
     if (state.initial_stress[b] != Stress{}) {
       add_uniform_stress_forces(model, model.blocks[b], state.initial_stress[b], r.internal);
       r.has_initial_stress = true;
     }
-  r.external = r.constant;
   return r;
 }
 
 void update_external(ResolvedConditions& r, double time) {
-  if (r.varying.empty())
-    return;
-  r.external = r.constant;
+  for (const VaryingLoad& load : r.varying)
+    for (const auto& [node, force] : load.forces)
+      r.external[node] = r.constant[node];
   for (const VaryingLoad& load : r.varying) {
     const double factor = load.amplitude(time);
     for (const auto& [node, force] : load.forces)

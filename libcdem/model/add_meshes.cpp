@@ -205,8 +205,7 @@ void add_nodes(Model& model, const geom::TetMesh& mesh, const SplitMesh& split, 
   }
 }
 
-void add_boundary(Model& model, const geom::TetMesh& mesh, const std::vector<geom::OuterFace>& outer,
-                  int block) {
+void add_boundary(Model& model, const std::vector<geom::OuterFace>& outer, int block) {
   const int first_tet = model.blocks[block].tet_begin;
   for (const geom::OuterFace& face : outer) {
     BoundaryTriangle triangle;

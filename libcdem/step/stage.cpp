@@ -16,6 +16,8 @@ namespace {
 // Steps between looks at every node and element, and between copies of the state.
 constexpr std::int64_t watch_every = 200;
 constexpr std::int64_t poll_every = 16;
+// Steps between looks at which faces a flow meets: they turn by next to nothing in between.
+constexpr std::int64_t flow_every = 100;
 constexpr double seconds_between_reports = 0.1;
 // Chunks a thread must have before a further one is worth its two barriers a step: about half a millisecond of work.
 constexpr std::int64_t chunks_per_thread = 32;
@@ -185,6 +187,8 @@ void Stage::after_step(const StepReport& report) {
   // A sum over all free forces and one over all velocities: a NaN anywhere shows here in the step it appears.
   if (!std::isfinite(report.sums.residual2) || !std::isfinite(report.sums.kinetic) || step % watch_every == 0)
     keep_state();
+  if (step % flow_every == 0)
+    refresh_flows(context_.model, context_.state, work.resolved);
   if (context_.log.due(context_.state.step))
     record_history(report);
   if (step % poll_every == 0) {

@@ -1,0 +1,69 @@
+#include "libcdem/load/flow.hpp"
+
+namespace cdem {
+namespace {
+
+using Pattern = std::vector<std::pair<int, geom::Vec3>>;
+
+geom::Vec3 place(const Model& model, const State& state, int node) {
+  const Node& u = state.displacement[node];
+  return model.node_position[node] + geom::Vec3(u.x, u.y, u.z);
+}
+
+// nodes: counter-clockwise seen from outside.
+void add_triangle(const Model& model, const State& state, const geom::Triangle& nodes,
+                  const geom::Vec3& direction, Pattern& pattern) {
+  const geom::Vec3 x0 = place(model, state, nodes[0]);
+  const geom::Vec3 outward =
+      0.5 * (place(model, state, nodes[1]) - x0).cross(place(model, state, nodes[2]) - x0);
+  const double facing = -outward.dot(direction); // A alpha
+  if (facing <= 0)
+    return;
+  for (const int node : nodes)
+    pattern.emplace_back(node, facing / 3 * direction);
+}
+
+// A star block hardly turns: its undeformed faces do.
+void add_block_face(const OuterFace& face, const geom::Vec3& direction, Pattern& pattern) {
+  const double alpha = -face.normal.dot(direction);
+  if (alpha <= 0)
+    return;
+  for (const auto& [node, area] : face.node_area)
+    pattern.emplace_back(node, area * alpha * direction);
+}
+
+bool open(const FaceStateBatch& state, int lane) {
+  for (const auto& point : state.mode)
+    if (point[lane] == static_cast<std::uint8_t>(BondMode::intact))
+      return false;
+  return true;
+}
+
+void add_new_faces(const Model& model, const State& state, const geom::Vec3& direction, Pattern& pattern) {
+  for (std::size_t i = 0; i < model.mesh.face_tets.size(); ++i) {
+    const int lane = static_cast<int>(i % lanes);
+    if (model.mesh.face_tets[i].tet_a < 0 || !open(state.faces[i / lanes], lane))
+      continue;
+    const FaceBatch& f = model.mesh.faces[i / lanes];
+    add_triangle(model, state, {f.node_a[0][lane], f.node_a[1][lane], f.node_a[2][lane]}, direction, pattern);
+    add_triangle(model, state, {f.node_b[0][lane], f.node_b[2][lane], f.node_b[1][lane]}, direction, pattern);
+  }
+}
+
+} // namespace
+
+Pattern flow_pattern(const Model& model, const State& state, const ResolvedFlow& flow) {
+  Pattern pattern;
+  for (const int f : flow.faces) {
+    const OuterFace& face = model.outer_faces[f];
+    if (face.boundary >= 0)
+      add_triangle(model, state, model.mesh.boundary[face.boundary].nodes, flow.direction, pattern);
+    else
+      add_block_face(face, flow.direction, pattern);
+  }
+  if (flow.new_faces)
+    add_new_faces(model, state, flow.direction, pattern);
+  return pattern;
+}
+
+} // namespace cdem

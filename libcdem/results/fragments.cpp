@@ -1,0 +1,80 @@
+#include "libcdem/results/fragments.hpp"
+
+#include <algorithm>
+#include <numeric>
+
+namespace cdem {
+namespace {
+
+// Disjoint sets of nodes by path halving; the smallest member stands for its set.
+class NodeSets {
+public:
+  explicit NodeSets(std::size_t nodes) : parent_(nodes) { std::iota(parent_.begin(), parent_.end(), 0); }
+  int find(int i) {
+    while (parent_[i] != i)
+      i = parent_[i] = parent_[parent_[i]];
+    return i;
+  }
+  void unite(int a, int b) {
+    a = find(a);
+    b = find(b);
+    parent_[std::max(a, b)] = std::min(a, b);
+  }
+
+private:
+  std::vector<int> parent_;
+};
+
+bool intact(std::uint8_t mode) {
+  return mode == static_cast<std::uint8_t>(BondMode::intact);
+}
+
+} // namespace
+
+std::vector<Fragment> fragments(const Model& model, const State& state,
+                                const ResolvedConditions& conditions) {
+  NodeSets sets(model.node_position.size());
+  for (const geom::Tet& tet : model.tets)
+    for (int k = 1; k < 4; ++k)
+      sets.unite(tet[0], tet[k]);
+  for (std::size_t p = 0; p < model.points.size(); ++p)
+    if (intact(state.bond_mode[p]))
+      sets.unite(model.points[p].node_a[0], model.points[p].node_b[0]);
+  each_face_spring(model.mesh, [&](const MeshChunk&, const FaceSpringPlace& at) {
+    const FaceBatch& batch = model.mesh.faces[at.batch];
+    if (intact(state.faces[at.batch].mode[at.point][at.lane]))
+      sets.unite(batch.node_a[0][at.lane], batch.node_b[0][at.lane]);
+  });
+
+  std::vector<int> place(model.node_position.size(), -1);
+  std::vector<Fragment> list;
+  const auto of = [&](int node) -> Fragment& {
+    int& i = place[sets.find(node)];
+    if (i < 0) {
+      i = static_cast<int>(list.size());
+      list.emplace_back();
+    }
+    return list[i];
+  };
+  for (const geom::Tet& tet : model.tets) {
+    const auto& x = model.node_position;
+    const double volume =
+        (x[tet[1]] - x[tet[0]]).dot((x[tet[2]] - x[tet[0]]).cross(x[tet[3]] - x[tet[0]])) / 6;
+    Fragment& fragment = of(tet[0]);
+    fragment.volume += volume;
+    fragment.centroid += volume / 4 * (x[tet[0]] + x[tet[1]] + x[tet[2]] + x[tet[3]]);
+    ++fragment.tets;
+  }
+  for (int node = 0; node < static_cast<int>(model.node_position.size()); ++node) {
+    const Node& free = conditions.free[node];
+    if (free.x == 0 || free.y == 0 || free.z == 0)
+      of(node).held = true;
+  }
+  for (Fragment& fragment : list)
+    fragment.centroid /= fragment.volume;
+  std::stable_sort(list.begin(), list.end(),
+                   [](const Fragment& a, const Fragment& b) { return a.volume > b.volume; });
+  return list;
+}
+
+} // namespace cdem

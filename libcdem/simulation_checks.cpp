@@ -1,0 +1,89 @@
+#include "libcdem/simulation_checks.hpp"
+
+#include "libgeom/core/error.hpp"
+
+#include <cmath>
+#include <fmt/format.h>
+
+namespace cdem {
+
+std::string number(double x) {
+  return fmt::format("{:g}", x);
+}
+
+void require_finite(const char* field, const geom::Vec3& v) {
+  if (!v.allFinite())
+    throw geom::InputError(field, fmt::format("({:g}, {:g}, {:g})", v.x(), v.y(), v.z()), "finite");
+}
+
+void validate_meshed(const BodySpec& body) {
+  const Bonding& b = body.bonding;
+  if (!(b.stiffness_ratio > 0 && b.stiffness_ratio <= 1e4))
+    throw geom::InputError("stiffness_ratio", number(b.stiffness_ratio), "in (0, 1e4]",
+                           "10 keeps about 0.91 of Young's modulus");
+  if (!(b.shear_ratio > 0 && b.shear_ratio <= 100))
+    throw geom::InputError("shear_ratio", number(b.shear_ratio), "in (0, 100]", "1 is usual");
+  if (!b.none() && body.joint.softening != Softening::none)
+    throw geom::InputError("softening", "on the faces of a mesh", "none there",
+                           "only bonds between convex blocks soften");
+  if (!body.shape.blocks.empty())
+    throw geom::InputError("shape", "blocks and meshes in one body", "one of them", "make two bodies");
+  for (std::size_t i = 0; i < body.meshes.size(); ++i) {
+    const geom::TetMesh& mesh = body.meshes[i];
+    geom::validate(mesh, "the mesh of body \"" + body.name + "\"");
+    const int regions = *std::max_element(mesh.region.begin(), mesh.region.end()) + 1;
+    for (const int region : b.regions)
+      if (region < 0 || region >= regions)
+        throw geom::InputError("bonds", std::to_string(region + 1),
+                               "a region of the mesh (1 to " + std::to_string(regions) + ")");
+  }
+}
+
+void check(const RelaxOptions& o) {
+  if (!(o.residual > 0 && o.residual < 1))
+    throw geom::InputError("residual", number(o.residual), "in (0, 1)", "1e-6 is usual");
+  if (o.max_steps <= 0)
+    throw geom::InputError("max_steps", std::to_string(o.max_steps), "an integer > 0");
+}
+
+void check(const RunOptions& o) {
+  const bool by_time = o.duration != 0;
+  if (!std::isfinite(o.duration) || o.duration < 0)
+    throw geom::InputError("duration", number(o.duration), "a finite number > 0 s");
+  if (by_time == (o.steps != 0) || o.steps < 0)
+    throw geom::InputError("run: give either duration (s) or steps (an integer > 0)");
+  if (!(o.safety > 0 && o.safety <= 1))
+    throw geom::InputError("safety", number(o.safety), "in (0, 1]");
+  if (!(o.time_step >= 0) || !std::isfinite(o.time_step))
+    throw geom::InputError("time_step", number(o.time_step), "a finite number > 0 s");
+  if (!(o.local_damping >= 0 && o.local_damping < 1))
+    throw geom::InputError("local_damping", number(o.local_damping), "in [0, 1)");
+}
+
+void check(const Flow& flow) {
+  require_finite("direction", flow.direction);
+  if (!(flow.direction.norm() > 0))
+    throw geom::InputError("direction", "(0, 0, 0)", "longer than zero");
+  if (!(flow.water_density > 0) || !std::isfinite(flow.water_density))
+    throw geom::InputError("water_density", number(flow.water_density), "a finite number > 0 kg/m3");
+}
+
+void check(const CriticalFlowOptions& o) {
+  check(o.flow);
+  const auto require = [](const char* field, double value, double low, double high, const char* allowed) {
+    if (!(value > low && value < high))
+      throw geom::InputError(field, number(value), allowed);
+  };
+  const double infinity = std::numeric_limits<double>::infinity();
+  require("pressure_rate", o.pressure_rate, 0, infinity, "a finite number > 0 Pa/s");
+  require("hold_periods", o.hold_periods, 0, infinity, "a finite number > 0");
+  require("fragment_fraction", o.fragment_fraction, 0, 1, "in (0, 1)");
+  require("compliance_ratio", o.compliance_ratio, 1, infinity, "a finite number > 1");
+  require("max_velocity", o.max_velocity, 1, infinity, "a finite number > 1 m/s");
+  if (!(o.safety > 0 && o.safety <= 1))
+    throw geom::InputError("safety", number(o.safety), "in (0, 1]");
+  if (!(o.local_damping >= 0 && o.local_damping < 1))
+    throw geom::InputError("local_damping", number(o.local_damping), "in [0, 1)");
+}
+
+} // namespace cdem
