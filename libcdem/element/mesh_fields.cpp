@@ -142,8 +142,8 @@ double mesh_spring_energy(const Model& model, const State& state) {
   double energy = 0;
   each_face_spring(model.mesh, [&](const MeshChunk& chunk, const FaceSpringPlace& at) {
     const Body& body = model.bodies[model.blocks[chunk.block].body];
-    energy += face_spring(model.mesh.faces[at.batch], at.point, at.lane, position.data(), face_law(body),
-                          state.faces[at.batch])
+    energy += face_spring(model.mesh.faces[at.batch], at.point, at.lane, position.data(),
+                          state.displacement.data(), face_law(body), state.faces[at.batch])
                   .energy;
   });
   return energy;

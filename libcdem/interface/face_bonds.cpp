@@ -36,13 +36,20 @@ struct Points {
   Vec normal; // not made a unit vector: four times the area
 };
 
-CDEM_INLINE Points points_of(const FaceBatch& batch, const Node* position) {
-  const Vec a0 = simd::gather(position, batch.node_a[0]), b0 = simd::gather(position, batch.node_b[0]);
-  const Vec a1 = simd::gather(position, batch.node_a[1]), b1 = simd::gather(position, batch.node_b[1]);
-  const Vec a2 = simd::gather(position, batch.node_a[2]), b2 = simd::gather(position, batch.node_b[2]);
+// Both sides of a face were one place: the gap is the difference of their displacements, with all its digits, and the
+// corners of b stand where those of a do plus the gap.
+CDEM_INLINE Points points_of(const FaceBatch& batch, const Node* position, const Node* displacement) {
+  const Vec d0 =
+      minus(simd::gather(displacement, batch.node_b[0]), simd::gather(displacement, batch.node_a[0]));
+  const Vec d1 =
+      minus(simd::gather(displacement, batch.node_b[1]), simd::gather(displacement, batch.node_a[1]));
+  const Vec d2 =
+      minus(simd::gather(displacement, batch.node_b[2]), simd::gather(displacement, batch.node_a[2]));
+  const Vec a0 = simd::gather(position, batch.node_a[0]);
+  const Vec e1 = minus(simd::gather(position, batch.node_a[1]), a0);
+  const Vec e2 = minus(simd::gather(position, batch.node_a[2]), a0);
   Points p;
-  p.normal = plus(cross(minus(a1, a0), minus(a2, a0)), cross(minus(b1, b0), minus(b2, b0)));
-  const Vec d0 = minus(b0, a0), d1 = minus(b1, a1), d2 = minus(b2, a2);
+  p.normal = plus(cross(e1, e2), cross(plus(e1, minus(d1, d0)), plus(e2, minus(d2, d0))));
   const Oct sixth = Oct{} + 1.0 / 6, half = Oct{} + 0.5;
   const Vec common = scaled(sixth, plus(plus(d0, d1), d2));
   p.gap[0] = plus(common, scaled(half, d0));
@@ -180,11 +187,11 @@ __attribute__((noinline)) void one_by_one(const FaceBatch& batch, int faces, con
 
 // The kernel is compiled for several instruction sets; everything it calls on the way of intact bonds is inlined.
 CDEM_KERNEL void face_bond_forces(const FaceBatch* batches, std::int64_t count, int faces,
-                                  const Node* position, const FaceLaw& law, bool breaking,
-                                  FaceStateBatch* state, Node* partial, FaceSums& sums) {
+                                  const Node* position, const Node* displacement, const FaceLaw& law,
+                                  bool breaking, FaceStateBatch* state, Node* partial, FaceSums& sums) {
   for (std::int64_t i = 0; i < count; ++i) {
     const FaceBatch& batch = batches[i];
-    const Points p = points_of(batch, position);
+    const Points p = points_of(batch, position, displacement);
     const Oct kn = simd::load(batch.kn), ks = law.shear_ratio * kn;
     const Oct difference = (kn - ks) / dot(p.normal, p.normal);
     Vec force[3];
@@ -204,9 +211,9 @@ CDEM_KERNEL void face_bond_forces(const FaceBatch* batches, std::int64_t count, 
   }
 }
 
-FaceSpring face_spring(const FaceBatch& batch, int point, int lane, const Node* position, const FaceLaw& law,
-                       const FaceStateBatch& state) {
-  const Points p = points_of(batch, position);
+FaceSpring face_spring(const FaceBatch& batch, int point, int lane, const Node* position,
+                       const Node* displacement, const FaceLaw& law, const FaceStateBatch& state) {
+  const Points p = points_of(batch, position, displacement);
   FaceSpring spring;
   spring.gap = lane_of(p.gap[point], lane);
   spring.normal = lane_of(p.normal, lane).normalized();

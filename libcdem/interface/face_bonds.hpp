@@ -41,9 +41,10 @@ struct FaceSums {
   std::vector<FaceBreak> broken;
 };
 
-// Adds the forces of `faces` faces in `count` batches to `partial`; breaking: springs may break.
-void face_bond_forces(const FaceBatch*, std::int64_t count, int faces, const Node* position, const FaceLaw&,
-                      bool breaking, FaceStateBatch*, Node* partial, FaceSums&);
+// position, displacement: m (n_nodes). Adds the forces of `faces` faces in `count` batches to `partial`; breaking: springs may break.
+void face_bond_forces(const FaceBatch*, std::int64_t count, int faces, const Node* position,
+                      const Node* displacement, const FaceLaw&, bool breaking, FaceStateBatch*, Node* partial,
+                      FaceSums&);
 
 // Of one spring.
 struct FaceSpring {
@@ -52,7 +53,7 @@ struct FaceSpring {
   geom::Vec3 force = geom::Vec3::Zero();  // N, on side a
   double energy = 0;                      // J
 };
-FaceSpring face_spring(const FaceBatch&, int point, int lane, const Node* position, const FaceLaw&,
-                       const FaceStateBatch&);
+FaceSpring face_spring(const FaceBatch&, int point, int lane, const Node* position, const Node* displacement,
+                       const FaceLaw&, const FaceStateBatch&);
 
 } // namespace cdem

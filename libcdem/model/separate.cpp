@@ -47,17 +47,33 @@ std::optional<geom::Polyhedron> common_part(const geom::Polyhedron& a,
   return rest;
 }
 
+geom::Box box_of_nodes(const Model& model, const Block& block) {
+  geom::Box box;
+  for (int node = block.node_begin; node < block.node_end; ++node)
+    box.extend(model.node_position[node]);
+  return box;
+}
+
+[[noreturn]] void refuse_contact(const Model& model, const Block& one, const Block& other) {
+  throw geom::InputError(
+      "bodies: \"" + model.bodies[one.body].name + "\" and \"" + model.bodies[other.body].name +
+      "\" may touch, and there is no contact yet between a mesh and another body; move them "
+      "apart, or unite them to one solid before meshing");
+}
+
 } // namespace
 
 void require_separate(const Model& model) {
   std::vector<geom::Box> boxes;
   std::vector<std::vector<geom::Plane>> planes;
   for (const Block& block : model.blocks) {
-    boxes.push_back(geom::bounding_box(block.shape));
-    planes.push_back(face_planes(block.shape));
+    boxes.push_back(block.meshed ? box_of_nodes(model, block) : geom::bounding_box(block.shape));
+    planes.push_back(block.meshed ? std::vector<geom::Plane>() : face_planes(block.shape));
   }
   for (const auto& [a, b] : geom::touching_pairs(boxes)) {
     const Block &one = model.blocks[a], &other = model.blocks[b];
+    if (one.meshed || other.meshed)
+      refuse_contact(model, one, other);
     const double depth = depth_tolerance * std::min(one.size, other.size);
     if (apart(planes[a], other.shape, depth) || apart(planes[b], one.shape, depth))
       continue;

@@ -19,7 +19,7 @@ void mesh_forces(const Model& model, State& state, Workspace& work, std::int64_t
   if (chunk.faces == 0)
     return;
   face_bond_forces(model.mesh.faces.data() + chunk.face_batches.begin, chunk.face_batches.size(), chunk.faces,
-                   work.position.data(), face_law(body), breaking,
+                   work.position.data(), state.displacement.data(), face_law(body), breaking,
                    state.faces.data() + chunk.face_batches.begin, partial, sums);
 }
 

@@ -187,8 +187,10 @@ void Stage::after_step(const StepReport& report) {
   // A sum over all free forces and one over all velocities: a NaN anywhere shows here in the step it appears.
   if (!std::isfinite(report.sums.residual2) || !std::isfinite(report.sums.kinetic) || step % watch_every == 0)
     keep_state();
-  if (step % flow_every == 0)
+  if (!work.resolved.flows.empty() && step % flow_every == 0) {
     refresh_flows(context_.model, context_.state, work.resolved);
+    update_external(work.resolved, context_.state.time);
+  }
   if (context_.log.due(context_.state.step))
     record_history(report);
   if (step % poll_every == 0) {

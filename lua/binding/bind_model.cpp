@@ -3,6 +3,7 @@
 #include "lua/binding/module.hpp"
 #include "lua/binding/nearest.hpp"
 #include "lua/binding/selections.hpp"
+#include "lua/binding/solid_objects.hpp"
 
 #include "libgeom/core/error.hpp"
 
@@ -13,6 +14,41 @@ namespace cdem::script {
 namespace {
 
 using geom::InputError;
+
+// A meshed body: its joint stands on all inner faces unless `bonds` says which.
+void read_mesh(const Arguments& given, const std::string& path, const geom::TetMesh& mesh, BodySpec& body) {
+  if (given.has("element") && given.text("element") != "finite_volume")
+    throw InputError(path + ".element", "\"" + given.text("element") + "\"", "finite_volume for a mesh",
+                     "small_strain is for assemblies of convex blocks");
+  const std::string bonds = given.text_or("bonds", given.has("joint") ? "all" : "none");
+  if (bonds != "none" && !given.has("joint"))
+    throw InputError(path + ".joint: missing; bonds = \"" + bonds +
+                     "\" needs to know what holds the faces, cdem.mohr_coulomb{...}");
+  if (bonds == "none" && given.has("joint"))
+    throw InputError(path + ".bonds", "\"none\"", "all, regions or listed with a joint",
+                     "leave the joint out");
+  if ((bonds == "listed") != given.has("bonded_regions"))
+    throw InputError(path +
+                     ".bonded_regions: goes with bonds = \"listed\", the regions whose faces are bonded");
+  body.meshes = {mesh};
+  body.bonding.everywhere = bonds == "all";
+  body.bonding.between_regions = bonds == "regions";
+  for (const double region : given.numbers("bonded_regions"))
+    body.bonding.regions.push_back(static_cast<int>(region) - 1);
+  body.bonding.stiffness_ratio =
+      given.optional_number("stiffness_ratio").value_or(body.bonding.stiffness_ratio);
+  body.bonding.shear_ratio = given.optional_number("shear_ratio").value_or(body.bonding.shear_ratio);
+}
+
+void require_blocks(const Arguments& given, const std::string& path) {
+  if (given.has("element") && given.text("element") != "small_strain")
+    throw InputError(path + ".element", "\"" + given.text("element") + "\"",
+                     "small_strain for an assembly of blocks",
+                     "finite_volume is for meshes, made by solid:mesh{} or cdem.read_mesh{}");
+  for (const char* const only : {"bonds", "bonded_regions", "stiffness_ratio", "shear_ratio"})
+    if (given.has(only))
+      throw InputError(path + "." + only + ": only for a meshed body; an assembly's faces are all bonded");
+}
 
 std::vector<std::string> read_bodies(const Arguments& a, ModelSpec& spec) {
   std::vector<std::string> unjointed;
@@ -26,14 +62,20 @@ std::vector<std::string> read_bodies(const Arguments& a, ModelSpec& spec) {
     if (body.name.empty() || body.name == "all" ||
         (body.name.size() == 2 && (body.name[1] == '-' || body.name[1] == '+')))
       throw InputError(path + ".name", "\"" + body.name + "\"", "a word that is no side of the model");
-    body.shape = given.object<AssemblyObject>("shape")->assembly;
     body.material = given.object<MaterialObject>("material")->elastic;
     if (const auto joint = given.object<JointObject>("joint"))
       body.joint = joint->joint;
-    else if (body.shape.blocks.size() > 1)
+    if (const auto mesh = given.object<TetMeshObject>("shape")) {
+      read_mesh(given, path, mesh->mesh, body);
+      spec.bodies.push_back(std::move(body));
+      continue;
+    }
+    require_blocks(given, path);
+    body.shape = given.object<AssemblyObject>("shape")->assembly;
+    if (!given.has("joint") && body.shape.blocks.size() > 1)
       throw InputError(path + ".joint: missing; the body has " + std::to_string(body.shape.blocks.size()) +
                        " blocks: say what holds them together, cdem.mohr_coulomb{...} or cdem.coulomb{...}");
-    else
+    if (!given.has("joint"))
       unjointed.push_back(body.name);
     spec.bodies.push_back(std::move(body));
   }
@@ -162,12 +204,31 @@ std::vector<Property> model_properties() {
 
 void bind_model(Module& m) {
   const Type pair = tuple_type({text_type(), text_type(), object_type("Joint")});
+  Type whole_number;
+  whole_number.kind = Kind::integer;
   const std::vector<Field> body{
-      object("shape", "Assembly").required(), object("material", "Material").required(),
+      object("shape", "Assembly|TetMesh").required().doc("blocks, or a mesh of tetrahedra"),
+      object("material", "Material").required(),
       object("joint", "Joint")
-          .doc("between the body's own blocks; needed when there are several, or when they are cut"),
+          .doc("between the body's own blocks; needed when there are several, or when they are cut. Of a "
+               "mesh: on "
+               "inner faces, which can break then"),
       text("name").doc("for selections and contacts; body_1, body_2 ... by default"),
-      choice("element", {"small_strain"}).standard("small_strain").doc("how a block deforms")};
+      choice("element", {"small_strain", "finite_volume"})
+          .doc("how tets deform: small_strain for assemblies (Han 2010), finite_volume for meshes (Feng "
+               "2014), as "
+               "they are by default"),
+      choice("bonds", {"none", "all", "regions", "listed"})
+          .doc("of a mesh, which inner faces carry the joint: all (default with a joint), those between "
+               "different "
+               "regions, or all of the bonded_regions"),
+      list("bonded_regions", whole_number, 1).doc("numbers of regions, from 1, with bonds = \"listed\""),
+      number("stiffness_ratio")
+          .above(0)
+          .doc(
+              "of a mesh, beta in Kn = beta E A / (3 d); 10 by default. A body bonded everywhere keeps about "
+              "E / (1 + 1/beta)"),
+      number("shear_ratio").above(0).doc("of a mesh, Ks / Kn; 1 by default")};
   m.functions.push_back(
       {"model",
        "A model: bodies of blocks, and what holds touching bodies to each other.",

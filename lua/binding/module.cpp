@@ -26,6 +26,7 @@ const Module& module() {
     bind_conditions(m);
     bind_solving(m);
     bind_fracture(m);
+    bind_flow(m);
     bind_measures(m);
     bind_output(m);
     bind_charts(m);

@@ -80,6 +80,7 @@ void bind_model(Module&);
 void bind_conditions(Module&);
 void bind_solving(Module&);
 void bind_fracture(Module&);
+void bind_flow(Module&);
 void bind_measures(Module&);
 void bind_output(Module&);
 void bind_charts(Module&);

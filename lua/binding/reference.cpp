@@ -29,9 +29,9 @@ std::string type_text(const Type& type) {
   case Kind::place:
     return "place";
   case Kind::function:
-    return "function " + type.name;
+    return (type.or_number ? "number or function " : "function ") + type.name;
   case Kind::object:
-    return type.name;
+    return with_or(type.name, " or ");
   case Kind::tuple: {
     std::string out;
     for (const Type& item : type.items)

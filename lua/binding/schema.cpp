@@ -8,6 +8,12 @@ bool Range::holds(double x) const {
   return (low_open ? x > low : x >= low) && (high_open ? x < high : x <= high);
 }
 
+std::string with_or(std::string names, const std::string& between) {
+  for (std::size_t at = 0; (at = names.find('|', at)) != std::string::npos; at += between.size())
+    names.replace(at, 1, between);
+  return names;
+}
+
 std::string Range::text() const {
   const bool has_low = low > -std::numeric_limits<double>::infinity();
   const bool has_high = high < std::numeric_limits<double>::infinity();
@@ -39,9 +45,9 @@ std::string Type::lua_type() const {
     return (compound ? "(" + item + ")" : item) + "[]";
   }
   case Kind::function:
-    return "fun" + name;
+    return (or_number ? "number|fun" : "fun") + name;
   case Kind::object:
-    return "cdem." + name;
+    return "cdem." + with_or(name, "|cdem.");
   case Kind::place:
     return "cdem.Place";
   case Kind::scalar:
@@ -93,9 +99,9 @@ std::string Type::words() const {
   case Kind::record:
     return "a table with named values";
   case Kind::function:
-    return "a function";
+    return or_number ? "a number or a function" : "a function";
   case Kind::object:
-    return "a cdem." + name;
+    return "a cdem." + with_or(name, " or a cdem.");
   case Kind::place:
     return "a side (\"x-\" .. \"z+\"), a name, a cdem.select.* value, a function(x, y, z), or a list of "
            "these";
@@ -205,6 +211,12 @@ Field ivec3(std::string name) {
   type.whole = true;
   return with(std::move(name), std::move(type));
 }
+Field number_or_function(std::string name, std::string signature) {
+  Field field = function(std::move(name), std::move(signature));
+  field.type.or_number = true;
+  return field;
+}
+
 Field function(std::string name, std::string signature) {
   Type type = of(Kind::function);
   type.name = std::move(signature);

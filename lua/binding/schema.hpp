@@ -26,6 +26,9 @@ enum class Kind {
   plain,    // scalar or table of plain values
 };
 
+// "A|B" as a message or a type says it.
+std::string with_or(std::string names, const std::string& between);
+
 struct Range {
   double low = -std::numeric_limits<double>::infinity();
   double high = std::numeric_limits<double>::infinity();
@@ -42,7 +45,9 @@ struct Type {
   Range range{};                      // integer, number, and every component of vec3
   bool whole = false;                 // vec3 of whole numbers
   std::vector<std::string> choices{}; // choice
-  std::string name{};          // object: class; function: its parameters, e.g. "(time: number): number"
+  bool or_number = false; // function: a finite number in the range will do, for one that does not vary
+  std::string
+      name{}; // object: class, or "A|B" for either; function: its parameters, e.g. "(time: number): number"
   std::vector<Type> items{};   // list: one; tuple: one per place
   std::size_t min_items = 0;   // list
   std::vector<Field> fields{}; // record
@@ -80,6 +85,7 @@ Field ivec3(std::string name);
 Field object(std::string name, std::string class_name);
 Field place(std::string name);
 Field function(std::string name, std::string signature);
+Field number_or_function(std::string name, std::string signature);
 Field scalar(std::string name);
 Field plain(std::string name);
 Field record(std::string name, std::vector<Field> fields);

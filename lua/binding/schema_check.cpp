@@ -212,6 +212,8 @@ Value check_value(const Value& given, const Type& type, const std::string& path)
       wrong_type(path, given, type);
     return given;
   case Kind::function: {
+    if (type.or_number && given.is_number())
+      return checked_number(given, type, path);
     if (!given.reference())
       wrong_type(path, given, type);
     return given;
@@ -222,7 +224,8 @@ Value check_value(const Value& given, const Type& type, const std::string& path)
     return given;
   case Kind::object: {
     const auto object = given.object();
-    if (!object || object->class_name() != type.name)
+    if (!object ||
+        ("|" + type.name + "|").find(std::string("|") + object->class_name() + "|") == std::string::npos)
       wrong_type(path, given, type);
     return given;
   }

@@ -134,6 +134,40 @@ local cdem = {}
 ---@field state "growing"|"arrested"|"through"|"stuck" arrested: nothing reaches its strength any more; through: the crack parts the body; stuck: no balance was reached
 ---@field passes cdem.GrowPass[]
 
+---A piece of a model that unbroken bonds hold together.
+---@class (exact) cdem.Fragment
+---@field volume number m3
+---@field centroid number[] m
+---@field tets integer
+---@field held boolean some node of it is held
+
+---One moment of a search.
+---@class (exact) cdem.CriticalFlowSample
+---@field time number s
+---@field pressure number Pa
+---@field velocity number m/s
+---@field displacement number m: mean where the flow pushes, along it
+---@field broken integer bonds so far
+
+---What the search for the critical flow came to.
+---@class (exact) cdem.CriticalFlowResult
+---@field reason "fragment"|"compliance"|"limit" a piece came off; the compliance grew; or max_velocity was reached
+---@field velocity number m/s
+---@field pressure number Pa
+---@field time number s
+---@field period number s: of the first mode
+---@field compliance number m/Pa: of the unbroken solid at rest
+---@field fragments cdem.Fragment[] largest first
+---@field broken_area number m2
+---@field place? number[] m: centroid of the broken area; nil when nothing broke
+---@field place_fraction? number[] the same in parts of the model's box, 0 to 1
+---@field height_fraction? number along the held side's normal, from that side on
+---@field part? "root"|"waist"|"top" third of that height
+---@field broken_tension integer
+---@field broken_shear integer
+---@field steps integer
+---@field curve cdem.CriticalFlowSample[] every 100 steps
+
 ---Where a field is largest or smallest.
 ---@class (exact) cdem.Extreme
 ---@field value number
@@ -594,6 +628,41 @@ function Model:refine(options) end
 ---@param options? cdem.ModelGrowOptions
 ---@return cdem.GrowResult
 function Model:grow(options) end
+
+---@class (exact) cdem.ModelFlowOptions
+---@field direction number[] of the flow; made a unit vector
+---@field velocity number|fun(time: number): number m/s, >= 0
+---@field on? cdem.Place default "all": outer faces that may take it: one place
+---@field water_density? number kg/m3, > 0, default 1025: sea water by default
+---@field new_faces? boolean default false: faces opened by cracks take the pressure too
+
+---Pressure of a flow on the outer faces that look towards it, as they stand at each moment: alpha F along the flow, alpha the cosine to the inward normal (Feng 2014 eqs 19-20). Shielding is not modelled.
+---@param options cdem.ModelFlowOptions
+function Model:flow(options) end
+
+---@class (exact) cdem.ModelCriticalFlowOptions
+---@field direction number[] of the flow; made a unit vector
+---@field on? cdem.Place default "all": outer faces that may take it: one place
+---@field water_density? number kg/m3, > 0, default 1025: sea water by default
+---@field new_faces? boolean default false: faces opened by cracks take the pressure too
+---@field mode? "hold"|"ramp" default "hold": hold: the pressure rises only while no bond broke for hold_periods, the static strength; ramp: always, and inertia has its part
+---@field held? "x-"|"x+"|"y-"|"y+"|"z-"|"z+" the side that is fixed: then the result says at which part of the height the solid broke
+---@field pressure_rate? number Pa/s, > 0, default 5e+06
+---@field hold_periods? number > 0, default 3: hold time in periods of the first mode
+---@field fragment_fraction? number in (0, 1), default 0.1: of the volume: what counts as broken off
+---@field compliance_ratio? number > 1, default 10: to the unbroken, static one: what counts as broken
+---@field max_velocity? number m/s, > 1, default 100: gives up there
+---@field safety? number in [0, 1], default 0.9: time step over the stable one
+---@field local_damping? number in [0, 1), default 0.1: above 0.2 it acts as added mass
+
+---Raises a flow from 1 m/s until a held solid breaks: a piece of it comes off, or it has become compliant.
+---@param options cdem.ModelCriticalFlowOptions
+---@return cdem.CriticalFlowResult
+function Model:critical_flow(options) end
+
+---Pieces that unbroken bonds hold together.
+---@return cdem.Fragment[] # largest first
+function Model:fragments() end
 
 ---Largest value of a field.
 ---@param field string e.g. "displacement.x", "stress.yy"; model:fields() has all
@@ -1134,11 +1203,15 @@ function cdem.select.box(options) end
 function cdem.select.where(predicate) end
 
 ---@class (exact) cdem.ModelOptionsBodies
----@field shape cdem.Assembly
+---@field shape cdem.Assembly|cdem.TetMesh blocks, or a mesh of tetrahedra
 ---@field material cdem.Material
----@field joint? cdem.Joint between the body's own blocks; needed when there are several, or when they are cut
+---@field joint? cdem.Joint between the body's own blocks; needed when there are several, or when they are cut. Of a mesh: on inner faces, which can break then
 ---@field name? string for selections and contacts; body_1, body_2 ... by default
----@field element? "small_strain" default "small_strain": how a block deforms
+---@field element? "small_strain"|"finite_volume" how tets deform: small_strain for assemblies (Han 2010), finite_volume for meshes (Feng 2014), as they are by default
+---@field bonds? "none"|"all"|"regions"|"listed" of a mesh, which inner faces carry the joint: all (default with a joint), those between different regions, or all of the bonded_regions
+---@field bonded_regions? integer[] numbers of regions, from 1, with bonds = "listed"
+---@field stiffness_ratio? number > 0: of a mesh, beta in Kn = beta E A / (3 d); 10 by default. A body bonded everywhere keeps about E / (1 + 1/beta)
+---@field shear_ratio? number > 0: of a mesh, Ks / Kn; 1 by default
 
 ---@class (exact) cdem.ModelOptions
 ---@field bodies cdem.ModelOptionsBodies[]
@@ -1148,6 +1221,18 @@ function cdem.select.where(predicate) end
 ---@param options cdem.ModelOptions
 ---@return cdem.Model
 function cdem.model(options) end
+
+---Pressure of a stream, rho V^2 / 2 (Feng 2014 eq 20), Pa.
+---@param velocity number m/s, >= 0
+---@param water_density? number kg/m3, > 0, default 1025: sea water by default
+---@return number
+function cdem.flow_pressure(velocity, water_density) end
+
+---Velocity of a stream from its pressure, sqrt(2 F / rho), m/s.
+---@param pressure number Pa, >= 0
+---@param water_density? number kg/m3, > 0, default 1025: sea water by default
+---@return number
+function cdem.flow_velocity(pressure, water_density) end
 
 ---@class (exact) cdem.FilmOptions
 ---@field file string ends in .ogv; in the output folder
