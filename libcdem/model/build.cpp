@@ -285,8 +285,7 @@ Model build_model(const Model& frame, std::vector<BlockSeed> seeds, const Interf
     add_interface(model, pair, rule, fans);
   add_outer_faces(model, fans);
   add_chunks(model);
-  if (!meshes.empty())
-    add_meshes(model, std::move(meshes));
+  add_meshes(model, std::move(meshes));
   add_bonds_on_nodes(model);
 
   for (const Block& block : model.blocks)

@@ -56,7 +56,8 @@ struct FaceTets {
 };
 
 struct MeshData {
-  int first_node = 0, first_tet = 0; // of the model; those before belong to blocks with star meshes
+  int first_node = 0,
+      first_tet = 0; // of the model; those before belong to blocks with star meshes, all without meshes
   std::vector<MeshBatch> batches;
   std::vector<FaceBatch> faces;
   std::vector<FaceTets> face_tets; // (faces.size() * lanes)

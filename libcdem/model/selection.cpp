@@ -82,7 +82,14 @@ bool selects_place(const Model& model, const Selection& selection, const geom::V
 
 bool selects_block(const Model& model, const Selection& selection, int block) {
   if (selection.kind == Selection::Kind::side) {
-    const geom::Polyhedron& shape = model.blocks[block].shape;
+    const Block& b = model.blocks[block];
+    if (b.meshed) {
+      const auto begin = model.node_position.begin() + b.node_begin,
+                 end = model.node_position.begin() + b.node_end;
+      return std::any_of(begin, end,
+                         [&](const geom::Vec3& x) { return selects(model, selection, x, b.body); });
+    }
+    const geom::Polyhedron& shape = b.shape;
     return std::any_of(shape.faces.begin(), shape.faces.end(), [&](const auto& face) {
       return std::all_of(face.loop.begin(), face.loop.end(), [&](int v) {
         return selects(model, selection, shape.vertices[v], model.blocks[block].body);

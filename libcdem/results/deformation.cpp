@@ -24,6 +24,8 @@ double turn_of(const geom::Mat3& gradient) {
 Deformation largest_deformation(const Model& model, const State& state) {
   Deformation found;
   for (const Block& block : model.blocks) {
+    if (block.meshed)
+      continue; // made for large motion
     const double turn = turn_of(block_gradient(model, state.displacement, block));
     if (turn > found.turn) {
       found.turn = turn;

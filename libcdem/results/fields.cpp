@@ -1,5 +1,6 @@
 #include "libcdem/results/fields.hpp"
 
+#include "libcdem/element/mesh_fields.hpp"
 #include "libcdem/element/small_strain.hpp"
 #include "libgeom/core/error.hpp"
 #include "libgeom/core/nearest.hpp"
@@ -64,8 +65,15 @@ double node_value(const State& state, const std::string& field, int node) {
   return vector_component(nodal_vectors(state, field)[node], component_of(field));
 }
 
-double block_value(const Model& model, const State& state, const std::string& field, int block) {
-  const Stress stress = block_stress(model, state, block);
+// Where a field of stress has one value: a convex block (its volume mean), or a tet of a mesh.
+struct Cell {
+  int block = 0;
+  int tet = -1; // of a mesh
+};
+
+double cell_value(const Model& model, const State& state, const std::string& field, const Cell& cell) {
+  const Stress stress =
+      cell.tet < 0 ? block_stress(model, state, cell.block) : tet_stress(model, state, cell.tet);
   if (field == "von_mises")
     return von_mises(stress);
   const std::string component = component_of(field);
@@ -76,12 +84,39 @@ double block_value(const Model& model, const State& state, const std::string& fi
   return stress[found - std::begin(components)];
 }
 
-std::vector<int> selected_blocks(const Model& model, const Selection& on) {
-  std::vector<int> blocks;
-  for (int b = 0; b < static_cast<int>(model.blocks.size()); ++b)
-    if (selects_block(model, on, b))
-      blocks.push_back(b);
-  return blocks;
+geom::Vec3 cell_place(const Model& model, const Cell& cell) {
+  if (cell.tet < 0)
+    return model.blocks[cell.block].mass.centroid;
+  geom::Vec3 centre = geom::Vec3::Zero();
+  for (const int node : model.tets[cell.tet])
+    centre += 0.25 * model.node_position[node];
+  return centre;
+}
+
+double cell_volume(const Model& model, const Cell& cell) {
+  return cell.tet < 0 ? model.blocks[cell.block].mass.volume : tet_volume(model, cell.tet);
+}
+
+// Blocks and tets by their centroid; a side selects those that have a face on it.
+std::vector<Cell> selected_cells(const Model& model, const Selection& on) {
+  std::vector<Cell> cells;
+  std::vector<char> on_side(on.kind == Selection::Kind::side ? model.tets.size() : 0, 0);
+  if (!on_side.empty())
+    for (const int f : selected_outer_faces(model, on))
+      if (model.outer_faces[f].boundary >= 0)
+        on_side[model.mesh.boundary[model.outer_faces[f].boundary].tet] = 1;
+  for (int b = 0; b < static_cast<int>(model.blocks.size()); ++b) {
+    const Block& block = model.blocks[b];
+    if (!block.meshed) {
+      if (selects_block(model, on, b))
+        cells.push_back({b, -1});
+      continue;
+    }
+    for (int t = block.tet_begin; t < block.tet_end; ++t)
+      if (on_side.empty() ? selects_place(model, on, cell_place(model, {b, t}), b) : on_side[t] != 0)
+        cells.push_back({b, t});
+  }
+  return cells;
 }
 
 [[noreturn]] void nothing_there(const Selection& on, const char* what) {
@@ -123,9 +158,9 @@ std::vector<FieldValue> values(const Model& model, const State& state, const std
     if (list.empty())
       nothing_there(on, "nodes");
   } else {
-    for (const int b : selected_blocks(model, on))
+    for (const Cell& cell : selected_cells(model, on))
       list.push_back(
-          {block_value(model, state, field, b), model.blocks[b].mass.centroid, model.blocks[b].id});
+          {cell_value(model, state, field, cell), cell_place(model, cell), model.blocks[cell.block].id});
     if (list.empty())
       nothing_there(on, "block centroids, or a side");
   }
@@ -139,8 +174,8 @@ double mean_value(const Model& model, const State& state, const std::string& fie
     weight += w;
   };
   if (!find_field(field).nodal) {
-    for (const int b : selected_blocks(model, on))
-      add(block_value(model, state, field, b), model.blocks[b].mass.volume);
+    for (const Cell& cell : selected_cells(model, on))
+      add(cell_value(model, state, field, cell), cell_volume(model, cell));
     if (weight == 0)
       nothing_there(on, "block centroids, or a side");
     return sum / weight;
@@ -174,7 +209,7 @@ double value_at(const Model& model, const State& state, const std::string& field
       if (std::min(w0, w.minCoeff()) < -1e-6)
         continue;
       if (!nodal)
-        return block_value(model, state, field, b);
+        return cell_value(model, state, field, {b, block.meshed ? t : -1});
       // The vector is interpolated and then measured: its length at the nodes says little about that between them.
       const double weight[] = {w0, w[0], w[1], w[2]};
       Node value;

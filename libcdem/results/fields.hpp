@@ -1,5 +1,5 @@
 // Named values of a state: "displacement.x", "velocity.magnitude" at nodes; "stress.xy", "principal_stress.1",
-// "von_mises" as volume means of blocks.
+// "von_mises" as volume means of convex blocks, and of each tet of a mesh.
 #pragma once
 
 #include "libcdem/model/selection.hpp"
