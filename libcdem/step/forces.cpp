@@ -33,6 +33,8 @@ void add(std::vector<Node>& force, const std::vector<Node>& more, Range nodes) {
 // The owner of a node adds the partial forces of all chunks that touch it, in order.
 void add_mesh_forces(const Model& model, Workspace& work, Range nodes) {
   const MeshData& mesh = model.mesh;
+  if (mesh.empty())
+    return;
   for (std::int64_t node = std::max<std::int64_t>(nodes.begin, mesh.first_node); node < nodes.end; ++node) {
     Node& f = work.force[node];
     const int* share = mesh.shares.data() + mesh.share_begin[node - mesh.first_node];

@@ -1,8 +1,7 @@
 // cdem_bench: how fast the solver steps, beside what the machine allows, measured in the same run.
-#include "tests/bench/bench.hpp"
+#include "tests/bench/measure.hpp"
 
 #include <algorithm>
-#include <chrono>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
@@ -16,11 +15,11 @@ double copy_rate(int threads) {
   std::vector<double> from(count, 1.0), to(count, 0.0);
   double best = 0;
   for (int repeat = 0; repeat < 5; ++repeat) {
-    const auto start = std::chrono::steady_clock::now();
+    const Stopwatch watch(threads);
 #pragma omp parallel for schedule(static) num_threads(threads)
     for (std::size_t i = 0; i < count; ++i)
       to[i] = from[i];
-    const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    const double seconds = watch.seconds();
     best = std::max(best, 2 * sizeof(double) * static_cast<double>(count) / seconds);
     from[static_cast<std::size_t>(repeat)] = to[count - 1 - static_cast<std::size_t>(repeat)] + repeat;
   }
@@ -33,6 +32,8 @@ namespace {
 
 std::vector<int> numbers(const char* option, const std::string& text) {
   std::vector<int> list;
+  if (text == "0" && std::strcmp(option, "--threads") != 0 && std::strcmp(option, "--seconds") != 0)
+    return list;
   for (std::size_t begin = 0; begin <= text.size();) {
     const std::size_t end = std::min(text.find(',', begin), text.size());
     const int value = std::atoi(text.substr(begin, end - begin).c_str());
@@ -47,10 +48,13 @@ std::vector<int> numbers(const char* option, const std::string& text) {
   return list;
 }
 
-constexpr const char* help = R"(Usage: cdem bench [--sizes 100,10000,100000] [--threads 1,2] [--seconds 1]
+constexpr const char* help =
+    R"(Usage: cdem bench [--sizes 100,10000,100000] [--tets 10000,105000] [--threads 1,2] [--seconds 1]
 
-Steps plates of bonded blocks and prints rates beside the bare element kernel and a copy of memory.
-  --sizes    blocks in the plates
+Steps plates of bonded blocks and meshed cubes, continuous and with every face bonded, and prints rates beside the
+bare element kernels and a copy of memory.
+  --sizes    blocks in the plates; 0: none
+  --tets     tetrahedra in the cubes, e.g. 10000,105000,1000000; 0: none
   --threads  thread counts to compare
   --seconds  stepping time per figure, at least
 )";
@@ -65,23 +69,32 @@ int main(int argc, char** argv) {
       std::fputs(help, stdout);
       return 0;
     }
-    if (i + 1 == argc || (option != "--sizes" && option != "--threads" && option != "--seconds")) {
-      std::fprintf(stderr, "cdem bench: error: %s: must be --sizes, --threads or --seconds with a value\n%s",
+    if (i + 1 == argc ||
+        (option != "--sizes" && option != "--tets" && option != "--threads" && option != "--seconds")) {
+      std::fprintf(stderr,
+                   "cdem bench: error: %s: must be --sizes, --tets, --threads or --seconds with a value\n%s",
                    option.c_str(), help);
       return 2;
     }
     const std::string value = argv[++i];
     if (option == "--sizes")
       settings.sizes = numbers("--sizes", value);
+    else if (option == "--tets")
+      settings.tets = numbers("--tets", value);
     else if (option == "--threads")
       settings.threads = numbers("--threads", value);
     else
       settings.seconds = numbers("--seconds", value)[0];
   }
-  std::printf("%u processors\n\nmemory copy (read + written)\n", std::thread::hardware_concurrency());
+  std::printf("%u processors; rates of one thread by its processor time, of more by the clock\n\nmemory copy "
+              "(read + written)\n",
+              std::thread::hardware_concurrency());
   for (const int threads : settings.threads)
     std::printf("  %d thread%s  %5.1f GB/s\n", threads, threads == 1 ? " " : "s",
                 bench::copy_rate(threads) / 1e9);
-  bench::blocks(settings);
+  if (!settings.sizes.empty())
+    bench::blocks(settings);
+  if (!settings.tets.empty())
+    bench::meshes(settings);
   return 0;
 }

@@ -7,6 +7,7 @@ namespace bench {
 
 struct Settings {
   std::vector<int> sizes{100, 10000, 100000}; // blocks
+  std::vector<int> tets{10000, 105000};       // of meshed cubes
   std::vector<int> threads{1, 2};
   double seconds = 1; // of stepping per figure, at least
 };
@@ -14,5 +15,6 @@ struct Settings {
 double copy_rate(int threads); // bytes moved per second, read and written, by a plain copy of a large array
 
 void blocks(const Settings&); // star blocks with bonds: full step beside the bare element kernel
+void meshes(const Settings&); // meshed cubes, continuous and bonded: full step beside the bare kernels
 
 } // namespace bench

@@ -2,27 +2,17 @@
 // failure.
 #include "libcdem/element/small_strain.hpp"
 #include "libcdem/model/build.hpp"
-#include "libcdem/step/run.hpp"
+#include "libcdem/step/stage.hpp"
 #include "libgeom/assembly/builders.hpp"
-#include "tests/bench/bench.hpp"
+#include "tests/bench/measure.hpp"
 
-#include <chrono>
 #include <cmath>
 #include <cstdio>
-#include <fstream>
-#include <unistd.h>
 
 namespace bench {
 namespace {
 
 using namespace cdem;
-
-double resident_bytes() {
-  std::ifstream statm("/proc/self/statm");
-  double pages = 0, resident = 0;
-  statm >> pages >> resident;
-  return resident * static_cast<double>(sysconf(_SC_PAGESIZE));
-}
 
 // A block of rock, nearly cubic, of about `count` blocks.
 Model build(int count) {
@@ -48,50 +38,17 @@ Model build(int count) {
   return build_model(frame, std::move(seeds), default_traits);
 }
 
-// Repetitions per second; `repeat(n)` returns how long n of them took, n raised until that is long enough.
-template <class Repeat>
-double rate(double at_least, const Repeat& repeat) {
-  for (std::int64_t n = 1;; n *= 2) {
-    const double seconds = repeat(n);
-    if (seconds >= at_least)
-      return static_cast<double>(n) / seconds;
-  }
-}
-
 double kernel_rate(const Model& model, const State& state, int threads, double at_least) {
   std::vector<Node> force(model.node_position.size());
   return rate(at_least, [&](std::int64_t n) {
-    const auto start = std::chrono::steady_clock::now();
+    const Stopwatch watch(threads);
     for (std::int64_t i = 0; i < n; ++i)
       for_chunks(static_cast<std::int64_t>(model.chunks.size()), threads, [&](std::int64_t c) {
         const BlockChunk& chunk = model.chunks[c];
         add_small_strain_forces(model.batches.data() + chunk.batches.begin, chunk.batches.size(),
                                 state.displacement.data(), force.data());
       });
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  });
-}
-
-double step_rate(const Model& model, int threads, double at_least) {
-  State state = initial_state(model), last_good;
-  for (std::size_t i = 0; i < state.velocity.size(); ++i)
-    state.velocity[i].x = 1e-3 * std::sin(static_cast<double>(i)); // far below what breaks a bond
-  const Conditions none;
-  Observer quiet;
-  // From the first step to the last: what a stage does once, at its start and end, is left out.
-  return rate(at_least, [&](std::int64_t n) {
-    RunLog log;
-    std::chrono::steady_clock::time_point first, last;
-    RunOptions options;
-    options.steps = n + 1;
-    options.callback_every = 1;
-    options.callback = [&] {
-      last = std::chrono::steady_clock::now();
-      if (first == std::chrono::steady_clock::time_point())
-        first = last;
-    };
-    run({model, state, none, log, last_good, quiet, threads, 1}, options);
-    return std::chrono::duration<double>(last - first).count();
+    return watch.seconds();
   });
 }
 

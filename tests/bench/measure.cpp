@@ -1,0 +1,52 @@
+#include "tests/bench/measure.hpp"
+
+#include "libcdem/step/run.hpp"
+
+#include <cmath>
+#include <ctime>
+#include <fstream>
+#include <malloc.h>
+#include <unistd.h>
+
+namespace bench {
+
+using namespace cdem;
+
+double resident_bytes() {
+  malloc_trim(0);
+  std::ifstream statm("/proc/self/statm");
+  double pages = 0, resident = 0;
+  statm >> pages >> resident;
+  return resident * static_cast<double>(sysconf(_SC_PAGESIZE));
+}
+
+double Stopwatch::now() const {
+  timespec t{};
+  clock_gettime(own_ ? CLOCK_THREAD_CPUTIME_ID : CLOCK_MONOTONIC, &t);
+  return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
+}
+
+double step_rate(const Model& model, int threads, double at_least) {
+  State state = initial_state(model), last_good;
+  for (std::size_t i = 0; i < state.velocity.size(); ++i)
+    state.velocity[i].x = 1e-3 * std::sin(static_cast<double>(i));
+  const Conditions none;
+  Observer quiet;
+  return rate(at_least, [&](std::int64_t n) {
+    RunLog log;
+    const Stopwatch watch(threads);
+    double first = -1, last = 0; // s
+    RunOptions options;
+    options.steps = n + 1;
+    options.callback_every = 1;
+    options.callback = [&] {
+      last = watch.seconds();
+      if (first < 0)
+        first = last;
+    };
+    run({model, state, none, log, last_good, quiet, threads, 1}, options);
+    return last - first;
+  });
+}
+
+} // namespace bench

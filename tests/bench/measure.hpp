@@ -1,0 +1,37 @@
+// What the benchmarks share: rates, memory, and the solver's own step from outside.
+#pragma once
+
+#include "libcdem/state/state.hpp"
+#include "tests/bench/bench.hpp"
+
+namespace bench {
+
+double resident_bytes(); // of this process, after what was freed is given back
+
+// Of one thread its processor time, which other programs on the machine do not lengthen; of more the time on the wall.
+class Stopwatch {
+public:
+  explicit Stopwatch(int threads) : own_(threads == 1), start_(now()) {}
+  double seconds() const { return now() - start_; }
+
+private:
+  double now() const;
+  bool own_;
+  double start_;
+};
+
+// Repetitions per second; `repeat(n)` returns how long n of them took, n raised until that is long enough.
+template <class Repeat>
+double rate(double at_least, const Repeat& repeat) {
+  for (std::int64_t n = 1;; n *= 2) {
+    const double seconds = repeat(n);
+    if (seconds >= at_least)
+      return static_cast<double>(n) / seconds;
+  }
+}
+
+// Steps per second of `run`, breaking on, with velocities far below what breaks a bond. From the first step to the
+// last: what a stage does once, at its start and end, is left out.
+double step_rate(const cdem::Model&, int threads, double at_least);
+
+} // namespace bench
