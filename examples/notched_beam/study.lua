@@ -1,6 +1,7 @@
 -- Does the crack's path depend on the first mesh, or on what was chosen for its growth? Cases of case.lua side by side.
 --
 --   ./cdem run examples/notched_beam/study.lua                        # first meshes
+--   ./cdem run examples/notched_beam/study.lua --set group=faces      # first meshes, ends held by faces
 --   ./cdem run examples/notched_beam/study.lua --set group=choices    # one choice changed at a time, 41 x 10 blocks
 --   ./cdem run examples/notched_beam/study.lua --set group=anchor     # a cut plane through the tip, or not
 --   ./cdem run examples/notched_beam/study.lua --set group=supports
@@ -14,6 +15,13 @@ local groups = {
     { label = "21 x 5", set = { mesh = "21x5" } }, { label = "turned by 15 deg", set = { mesh = "turned" } },
     { label = "Voronoi 1", set = { mesh = "voronoi", seed = 1 } }, { label = "Voronoi 2", set = { mesh = "voronoi", seed = 2 } },
     { label = "Voronoi 3", set = { mesh = "voronoi", seed = 3 } },
+  },
+  faces = { -- the same where no support depends on the mesh as a held edge does
+    { label = "turned by 15 deg", set = { mesh = "turned", support = "face" } },
+    { label = "41 x 10", set = { mesh = "41x10", support = "face" } },
+    { label = "21 x 5", set = { mesh = "21x5", support = "face" } },
+    { label = "Voronoi 2", set = { mesh = "voronoi", seed = 2, support = "face" } },
+    { label = "Voronoi 3", set = { mesh = "voronoi", seed = 3, support = "face" } },
   },
   choices = {
     { label = "as it is", set = {} },
@@ -36,7 +44,7 @@ local groups = {
                                                            set = { mesh = "21x5", thickness_ratio = 0.05 } } },
 }
 local group = cdem.parameter{ name = "group", default = "meshes",
-                              choices = { "meshes", "choices", "anchor", "supports", "quick" },
+                              choices = { "meshes", "faces", "choices", "anchor", "supports", "quick" },
                               doc = "what is compared; quick: two small cases" }
 local cases = groups[group]
 local coarsest = (group == "choices" or group == "anchor") and 0.03 or 0.06 -- m, edge of the largest block
@@ -102,7 +110,7 @@ if group == "supports" then
     draw(beam.hoop_stress_path[support], "largest hoop stress, " .. support, colours[i], "dashed")
   end
 else
-  draw(beam.hoop_stress_path.pinned, "largest hoop stress", {0, 0, 0}, "dashed")
+  draw(beam.hoop_stress_path[cases[1].set.support or "pinned"], "largest hoop stress", {0, 0, 0}, "dashed")
 end
 draw(beam.reference, "reference points", {0.5, 0.5, 0.5}, "dashed")
 draw({ {0, 0}, {beam.length, 0}, {beam.length, beam.height}, {0, beam.height}, {0, 0} }, "outline of the beam", {0, 0, 0}, "line")
