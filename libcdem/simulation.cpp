@@ -122,7 +122,16 @@ void Simulation::gravity(const Gravity& gravity) {
 
 void Simulation::flow(const Flow& flow) {
   check(flow);
-  impl_->change_conditions([&](Conditions& c) { c.flows.push_back(flow); });
+  Conditions changed = impl_->conditions;
+  changed.flows.push_back(flow);
+  const ResolvedConditions resolved = resolve(impl_->model, impl_->state, changed);
+  if (!flow.new_faces && resolved.varying[resolved.flows.back().load].forces.empty())
+    throw geom::InputError("direction",
+                           fmt::format("({:g}, {:g}, {:g})", flow.direction.x(), flow.direction.y(),
+                                       flow.direction.z()),
+                           "a direction that meets an outer face of the place (" + flow.on.text + ")",
+                           "a flow along x+ pushes on the side x-");
+  impl_->conditions = std::move(changed);
 }
 
 void Simulation::clear_loads() {
@@ -222,15 +231,17 @@ std::int64_t Simulation::unbond(const Selection& on, bool whole_faces) {
       }
       ++count;
     }
-  if (!whole_faces)
-    each_face_spring(s.model.mesh, [&](const MeshChunk& chunk, const FaceSpringPlace& at) {
-      std::uint8_t& mode = s.state.faces[at.batch].mode[at.point][at.lane];
-      if (mode != static_cast<std::uint8_t>(BondMode::contact) &&
-          selects_place(s.model, on, face_point(s.model, at), chunk.block)) {
-        mode = static_cast<std::uint8_t>(BondMode::contact);
-        ++count;
-      }
-    });
+  each_face_spring(s.model.mesh, [&](const MeshChunk& chunk, FaceSpringPlace at) {
+    const auto holds = [&](int point) {
+      at.point = point;
+      return selects_place(s.model, on, face_point(s.model, at), chunk.block);
+    };
+    const int point = at.point;
+    if (whole_faces ? !(holds(0) && holds(1) && holds(2)) : !holds(point))
+      return;
+    s.state.faces[at.batch].mode[point][at.lane] = static_cast<std::uint8_t>(BondMode::contact);
+    ++count;
+  });
   if (count == 0)
     throw geom::InputError("on", on.text,
                            whole_faces ? "a place that holds whole interfaces" : "a place that holds bonds",

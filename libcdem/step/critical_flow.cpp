@@ -68,6 +68,10 @@ void require_held(const ResolvedConditions& r) {
         "critical_flow: nothing is held, the flow would carry the model away; hold a side with fix");
 }
 
+bool loaded(const Conditions& c) {
+  return !c.tractions.empty() || !c.forces.empty() || c.gravity || !c.flows.empty();
+}
+
 double volume_of(const Model& model) {
   double volume = 0;
   for (const Block& block : model.blocks)
@@ -109,10 +113,12 @@ CriticalFlowResult critical_flow(const StageContext& context, const CriticalFlow
     throw geom::InputError(
         "critical_flow: no outer face of the place looks towards the flow; turn its direction");
 
-  const std::vector<Node> start = state.displacement;
   RelaxOptions rest;
   rest.residual = reference_residual;
   rest.breaking = false;
+  if (loaded(context.conditions)) // what they do is none of the flow's
+    relax(context, rest, "critical_flow: other loads");
+  const std::vector<Node> start = state.displacement;
   relax(with_flow, rest, "critical_flow: reference");
 
   CriticalFlowResult result;

@@ -7,6 +7,7 @@
 
 #include <cmath>
 #include <fmt/format.h>
+#include <limits>
 
 namespace cdem {
 namespace {
@@ -100,8 +101,11 @@ RunResult run(const StageContext& context, const RunOptions& options) {
   const std::int64_t steps =
       options.steps > 0 ? options.steps
                         : static_cast<std::int64_t>(std::ceil(options.duration / stepping.time_step - 1e-9));
-  report.goals.max_steps = steps;
-  report.goals.time_goal = start + static_cast<double>(steps) * stepping.time_step;
+  // What only `stop` ends has no goal to tell of.
+  if (steps < std::numeric_limits<std::int64_t>::max()) {
+    report.goals.max_steps = steps;
+    report.goals.time_goal = start + static_cast<double>(steps) * stepping.time_step;
+  }
   const std::int64_t ask_every = options.callback_every > 0 ? options.callback_every : 100;
 
   bool stopped = false;

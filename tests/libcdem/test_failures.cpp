@@ -2,6 +2,7 @@
 #include "tests/libcdem/system.hpp"
 
 #include "libgeom/assembly/builders.hpp"
+#include "libgeom/mesh/box_mesh.hpp"
 
 #include <catch2/catch.hpp>
 #include <cmath>
@@ -65,6 +66,29 @@ TEST_CASE("a force that is not a number stops the run in its step and names bloc
   CHECK(finite(s.last_good_snapshot("before")));
   CHECK(s.last_good_snapshot("before").step == 200); // the last look at everything
   CHECK(s.max("displacement.x", cdem::Selection::side("x-")).value == 0);
+}
+
+TEST_CASE("a force that is not a number on a node of a mesh stops the run and names its place", "[failures][mesh]") {
+  const bool bonded = GENERATE(false, true);
+  cdem::ModelSpec spec;
+  cdem::Bonding bonding;
+  bonding.everywhere = bonded;
+  spec.bodies = {meshed("unit", geom::box_mesh({0.3, 0.2, 0.2}, {3, 2, 2}), bonding)};
+  cdem::Simulation s(spec, 1, nullptr);
+  s.fix(fixed(cdem::Selection::side("x-")));
+  cdem::PointForce force;
+  force.on = at_place({0.2, 0.1, 0.1});
+  force.force = {1, 0, 0};
+  const double dt = 0.9 * s.stable_time_step();
+  force.amplitude = [=](double t) { return t > 249.5 * dt ? std::nan("") : 1.0; };
+  s.force(force);
+  cdem::RunOptions options;
+  options.steps = 1000;
+  const std::string message = failure([&] { s.run(options); });
+  CHECK_THAT(message, Contains("not a number") && Contains("stage 1 (run)") && Contains("step 251") &&
+                          Contains("of body \"unit\"") && Contains("(0.2, 0.1, 0.1) m"));
+  CHECK(finite(s.last_good_snapshot("before")));
+  CHECK(s.last_good_snapshot("before").step == 200);
 }
 
 TEST_CASE("a state that is not a number stops a relaxation too", "[failures]") {

@@ -7,6 +7,7 @@
 #include "libcdem/results/energy.hpp"
 #include "libcdem/state/state.hpp"
 #include "libcdem/step/mesh_forces.hpp"
+#include "libcdem/step/stage.hpp"
 
 #include <catch2/catch.hpp>
 
@@ -137,16 +138,26 @@ TEST_CASE("finite volume: a body bonded everywhere has E / (1 + 1/beta) left", "
 
 TEST_CASE("finite volume: the same bits for 1, 2 and 4 threads", "[hash][mesh]") {
   std::uint64_t first = 0;
+  // Chunks that share nodes, and enough small ones that four threads are worth their barriers.
+  cdem::BodySpec unit = meshed("unit", geom::box_mesh({1, 1, 1}, {12, 12, 12}, 0.15), everywhere(3));
+  for (int i = 0; i < 120; ++i) {
+    geom::TetMesh crumb = geom::box_mesh({0.1, 0.1, 0.1}, {1, 1, 1});
+    for (geom::Vec3& x : crumb.nodes)
+      x += geom::Vec3(2 + 0.2 * i, 0.5, 0.5);
+    unit.meshes.push_back(std::move(crumb));
+  }
+  const cdem::Model model = build({unit});
   for (const int threads : {1, 2, 4}) {
-    System s(build({meshed("unit", geom::box_mesh({1, 1, 1}, {16, 16, 16}, 0.15), everywhere(3))}));
+    System s(model);
+    REQUIRE(cdem::useful_threads(s.model, threads) == threads);
     s.threads = threads;
     s.hold(cdem::Selection::side("z-"), "xyz");
     cdem::Traction pull;
     pull.on = cdem::Selection::side("z+");
-    pull.stress = {3e6, 0, 6e6};
+    pull.stress = {3e6, 0, 8e6};
     s.conditions.tractions.push_back(pull);
     cdem::RunOptions options;
-    options.steps = 120;
+    options.steps = 40;
     s.run(options);
     if (threads == 1) {
       first = cdem::hash(s.state);

@@ -1,0 +1,272 @@
+// Bonds on the faces of a mesh, their strengths and the contact they leave: two halves of a box led apart.
+#include "libgeom/mesh/box_mesh.hpp"
+#include "tests/libcdem/system.hpp"
+
+#include "libcdem/results/energy.hpp"
+#include "libcdem/results/fragments.hpp"
+#include "libcdem/step/forces.hpp"
+#include "libcdem/step/mesh_forces.hpp"
+
+#include <catch2/catch.hpp>
+
+using namespace testing;
+using geom::Vec3;
+
+namespace {
+
+constexpr double side = 0.6, half = 0.3; // m
+constexpr double beta = 10, shear_ratio = 0.4;
+constexpr double area = side * side;
+
+// A box whose upper half is region 1: n cells along each axis in each half.
+geom::TetMesh two_halves(int n) {
+  geom::TetMesh mesh = geom::box_mesh({side, side, 2 * half}, {n, n, 2 * n});
+  for (std::size_t t = 0; t < mesh.tets.size(); ++t) {
+    double z = 0;
+    for (const int node : mesh.tets[t])
+      z += mesh.nodes[node].z() / 4;
+    mesh.region[t] = z > half;
+  }
+  return mesh;
+}
+
+cdem::Bonding between_halves() {
+  cdem::Bonding bonding;
+  bonding.between_regions = true;
+  bonding.stiffness_ratio = beta;
+  bonding.shear_ratio = shear_ratio;
+  return bonding;
+}
+
+cdem::Joint joint(bool bonded = true) {
+  cdem::Joint j;
+  j.bonded = bonded;
+  j.cohesion = 2e6;
+  j.friction_angle = 35 * degree;
+  j.tensile_strength = 1.5e6;
+  return j;
+}
+
+// Leads the upper half by a given gap, everything turned by `turn`, and asks for the force.
+class Halves {
+public:
+  explicit Halves(const cdem::Joint& j, geom::Mat3 turn = geom::Mat3::Identity())
+      : s_(build({meshed("unit", two_halves(1), between_halves(), rock(), j)})), turn_(std::move(turn)),
+        upper_(s_.model.node_position.size(), 0) {
+    // d = 3 (V1 + V2) / 4A with V = h^2 half / 6 and A = h^2 / 2.
+    kn_ = beta * rock().youngs_modulus / (half / 2);
+    for (const geom::Tet& tet : s_.model.tets) {
+      double z = 0;
+      for (const int node : tet)
+        z += s_.model.node_position[node].z() / 4;
+      for (const int node : tet)
+        upper_[node] = z > half;
+    }
+  }
+
+  // To where an elastic bond would carry this traction, Pa; what the upper half feels of the lower one, Pa.
+  Vec3 go(const Vec3& traction) {
+    const double ks = shear_ratio * kn_;
+    const Vec3 gap(traction.x() / ks, traction.y() / ks, traction.z() / kn_);
+    for (std::size_t i = 0; i < upper_.size(); ++i) {
+      const Vec3& x = s_.model.node_position[i];
+      s_.state.displacement[i] = node(turn_ * x - x + (upper_[i] ? Vec3(turn_ * gap) : Vec3::Zero()));
+    }
+    cdem::Workspace work(s_.model, s_.state, s_.conditions);
+    cdem::mesh_forces(s_.model, s_.state, work, 0, true);
+    for (const cdem::FaceBreak& broken : work.face_sums[0].broken)
+      breaks_.push_back(broken);
+    Vec3 force = Vec3::Zero();
+    for (const cdem::BlockChunk& chunk : s_.model.chunks)
+      cdem::net_forces(s_.model, s_.state, work, chunk);
+    for (std::size_t i = 0; i < upper_.size(); ++i)
+      if (upper_[i])
+        force += vec(work.force[i]);
+    return turn_.transpose() * force / area;
+  }
+
+  int with_mode(cdem::BondMode mode) const {
+    int count = 0;
+    each_face_spring(s_.model.mesh, [&](const cdem::MeshChunk&, const cdem::FaceSpringPlace& at) {
+      count += s_.state.faces[at.batch].mode[at.point][at.lane] == static_cast<std::uint8_t>(mode);
+    });
+    return count;
+  }
+  const std::vector<cdem::FaceBreak>& breaks() const { return breaks_; }
+
+private:
+  System s_;
+  geom::Mat3 turn_;
+  std::vector<char> upper_;
+  double kn_ = 0;
+  std::vector<cdem::FaceBreak> breaks_;
+};
+
+constexpr int springs = 6; // two triangles
+
+geom::Mat3 some_turn() {
+  return rotation({1, -2, 0.5}, 70 * degree);
+}
+
+cdem::Simulation simulation_of(const cdem::Joint& j, int cells) {
+  cdem::ModelSpec spec;
+  cdem::Bonding bonding = between_halves();
+  bonding.shear_ratio = 1;
+  spec.bodies = {meshed("unit", two_halves(cells), bonding, rock(), j)};
+  return cdem::Simulation(spec, 1, nullptr);
+}
+
+} // namespace
+
+TEST_CASE("face bonds: tension up to T A, nothing above", "[bonds][mesh]") {
+  const geom::Mat3 turn = GENERATE(geom::Mat3(geom::Mat3::Identity()), some_turn());
+  const double strength = joint().tensile_strength;
+  Halves halves(joint(), turn);
+  CHECK((halves.go({0, 0, 0.999 * strength}) + Vec3(0, 0, 0.999 * strength)).norm() < 1e-7 * strength);
+  CHECK(halves.with_mode(cdem::BondMode::intact) == springs);
+  CHECK(halves.go({0, 0, 1.001 * strength}).norm() == 0);
+  CHECK(halves.with_mode(cdem::BondMode::broken_tension) == springs);
+  for (const cdem::FaceBreak& row : halves.breaks())
+    CHECK(row.normal_traction == Approx(strength).epsilon(2e-3));
+}
+
+TEST_CASE("face bonds: shear up to (c - t_n tan phi) A, then friction alone", "[bonds][mesh]") {
+  const geom::Mat3 turn = GENERATE(geom::Mat3(geom::Mat3::Identity()), some_turn());
+  const double tn = GENERATE(-8e6, -2e6, -1e5, 0.0, 1e6);
+  const double tangent = std::tan(joint().friction_angle);
+  const double strength = joint().cohesion - tn * tangent;
+  const Vec3 along(0.6, -0.8, 0);
+  Halves halves(joint(), turn);
+  const Vec3 before = halves.go(0.999 * strength * along + Vec3(0, 0, tn));
+  CHECK((before + 0.999 * strength * along + Vec3(0, 0, tn)).norm() < 1e-7 * strength);
+  CHECK(halves.with_mode(cdem::BondMode::intact) == springs);
+
+  const Vec3 after = halves.go(1.001 * strength * along + Vec3(0, 0, tn));
+  CHECK(halves.with_mode(cdem::BondMode::broken_shear) == springs);
+  const Vec3 friction = std::max(0.0, -tn) * tangent * along;
+  CHECK((after + friction + Vec3(0, 0, std::min(tn, 0.0))).norm() < 1e-7 * strength);
+}
+
+TEST_CASE("face bonds: a broken one and a contact that never was bonded give the same forces",
+          "[bonds][mesh]") {
+  Halves broken(joint(), some_turn()), never(joint(false), some_turn());
+  CHECK(never.with_mode(cdem::BondMode::contact) == springs);
+  const Vec3 path[] = {{0, 0, 2e6},        {0, 0, 1e5},        {1e6, 0, -1e6},       {3e6, 1e6, -2e6},
+                       {-2e6, 4e6, -1e6},  {-2e6, 4e6, -5e6},  {0, 0, -5e6},         {1e6, 1e6, 1e6},
+                       {2e6, 1e6, -3e6},   {2.5e6, 1e6, -3e6}, {-9e6, -9e6, -0.1e6}, {-8e6, -9e6, -10e6},
+                       {-8e6, -9e6, -1e-3}};
+  double largest = 0;
+  for (const Vec3& traction : path) {
+    const Vec3 a = broken.go(traction), b = never.go(traction);
+    INFO("at " << traction.transpose() << ": " << a.transpose() << " against " << b.transpose());
+    CHECK((a - b).norm() <= 1e-12 * 1e6);
+    largest = std::max(largest, b.norm());
+  }
+  CHECK(largest > 1e7);
+  CHECK(broken.with_mode(cdem::BondMode::broken_tension) == springs);
+}
+
+TEST_CASE("face bonds: nodes are shared wherever no joint is asked for", "[bonds][mesh]") {
+  // Two cells along each axis in each half: (3 x 3 x 5) nodes, 8 cells of 6 tets in each half.
+  const auto built = [](const cdem::Bonding& bonding) {
+    return build({meshed("unit", two_halves(2), bonding, rock(), joint())});
+  };
+  const auto faces = [](const cdem::Model& model) {
+    int count = 0;
+    each_face_spring(model.mesh, [&](const cdem::MeshChunk&, const cdem::FaceSpringPlace&) { ++count; });
+    return count / 3;
+  };
+  const int tets = 2 * 8 * 6, outer = 4 * 2 * 8 + 2 * 8, inner = (4 * tets - outer) / 2;
+  SECTION("none") {
+    const cdem::Model model = built({});
+    CHECK(model.node_position.size() == 45);
+    CHECK(faces(model) == 0);
+  }
+  SECTION("between regions: the nine nodes of the plane are there twice") {
+    const cdem::Model model = built(between_halves());
+    CHECK(model.node_position.size() == 45 + 9);
+    CHECK(faces(model) == 8);
+  }
+  SECTION("one region: its tets have their own nodes, the others keep theirs") {
+    cdem::Bonding bonding;
+    bonding.regions = {1};
+    const cdem::Model model = built(bonding);
+    CHECK(model.node_position.size() == 27 + 4 * tets / 2);
+    CHECK(faces(model) == (4 * tets / 2 - (outer - 8 - 4 * 8) - 8) / 2 + 8);
+  }
+  SECTION("everywhere") {
+    cdem::Bonding bonding;
+    bonding.everywhere = true;
+    const cdem::Model model = built(bonding);
+    CHECK(model.node_position.size() == 4 * static_cast<std::size_t>(tets));
+    CHECK(faces(model) == inner);
+  }
+}
+
+TEST_CASE("face bonds: a body pulled apart breaks between its regions and falls into them", "[bonds][mesh]") {
+  cdem::Simulation s = simulation_of(joint(), 2);
+  cdem::Fix foot;
+  foot.on = cdem::Selection::side("z-");
+  s.fix(foot);
+  REQUIRE(s.fragments().size() == 1);
+  CHECK(s.fragments()[0].volume == Approx(area * 2 * half).epsilon(1e-12));
+  cdem::Traction pull;
+  pull.on = cdem::Selection::side("z+");
+  pull.stress = {0.5e6, 0, 2e6}; // in the middle of a bar the step passes once without overshoot
+  s.traction(pull);
+  cdem::RunOptions options;
+  options.steps = 400;
+  s.run(options);
+  CHECK(s.counts().intact == 0);
+  CHECK(s.breaks().size() == static_cast<std::size_t>(s.counts().bonds));
+  for (const cdem::BreakRow& row : s.breaks())
+    CHECK(row.place.z() == Approx(half).epsilon(1e-12));
+  const auto pieces = s.fragments();
+  REQUIRE(pieces.size() == 2);
+  for (const cdem::Fragment& piece : pieces) {
+    CHECK(piece.volume == Approx(area * half).epsilon(1e-12));
+    CHECK(piece.tets == 48);
+    CHECK(piece.held == (piece.centroid.z() < half));
+    CHECK(std::abs(piece.centroid.z() - half) == Approx(half / 2).epsilon(1e-12));
+  }
+}
+
+TEST_CASE("face bonds: unbond makes them contacts, which still carry pressure", "[bonds][mesh]") {
+  const bool whole_faces = GENERATE(false, true);
+  cdem::Simulation s = simulation_of(joint(), 2);
+  cdem::Fix foot;
+  foot.on = cdem::Selection::side("z-");
+  s.fix(foot);
+  const auto left = cdem::Selection::where([](const Vec3& x) { return x.x() < 0.49 * side; }, "the left half");
+  const auto plane = cdem::Selection::on_plane(geom::Plane::through({0, 0, half}, {0, 0, 1}));
+  CHECK(s.unbond(left, whole_faces) == 12);
+  CHECK(s.fragments().size() == 1);
+  CHECK(s.unbond(plane, whole_faces) == 24);
+  CHECK(s.counts().contacts == 24);
+  CHECK(s.counts().intact == 0);
+  CHECK(s.fragments().size() == 2);
+  cdem::Traction press;
+  press.on = cdem::Selection::side("z+");
+  press.stress = {0, 0, -1e6};
+  s.traction(press);
+  REQUIRE(s.relax({}).converged);
+  CHECK(s.reaction(cdem::Selection::side("z-")).z() == Approx(1e6 * area).epsilon(1e-5));
+}
+
+TEST_CASE("face bonds: the energy balance closes where one half slides over the other", "[energy][mesh]") {
+  cdem::Joint rough = joint(false);
+  System s(build({meshed("unit", two_halves(2), between_halves(), rock(), rough)}));
+  s.hold(cdem::Selection::side("z-"), "xyz");
+  cdem::Traction push;
+  push.on = cdem::Selection::side("z+");
+  push.stress = {1e6, 0.3e6, -1e6}; // tan(phi) = 0.70
+  s.conditions.tractions = {push};
+  cdem::RunOptions options;
+  options.steps = 2000;
+  options.safety = 0.5;
+  s.run(options);
+  const cdem::EnergyLedger ledger = cdem::energy(s.model, s.state);
+  INFO("friction " << ledger.friction << " of " << ledger.external << " J, error " << ledger.balance_error());
+  CHECK(ledger.friction > 0.1 * ledger.external);
+  CHECK(ledger.balance_error() < 0.01);
+}
