@@ -126,11 +126,11 @@ void Simulation::flow(const Flow& flow) {
   changed.flows.push_back(flow);
   const ResolvedConditions resolved = resolve(impl_->model, impl_->state, changed);
   if (!flow.new_faces && resolved.varying[resolved.flows.back().load].forces.empty())
-    throw geom::InputError("direction",
-                           fmt::format("({:g}, {:g}, {:g})", flow.direction.x(), flow.direction.y(),
-                                       flow.direction.z()),
-                           "a direction that meets an outer face of the place (" + flow.on.text + ")",
-                           "a flow along x+ pushes on the side x-");
+    throw geom::InputError(
+        "direction",
+        fmt::format("({:g}, {:g}, {:g})", flow.direction.x(), flow.direction.y(), flow.direction.z()),
+        "a direction that meets an outer face of the place (" + flow.on.text + ")",
+        "a flow along x+ pushes on the side x-");
   impl_->conditions = std::move(changed);
 }
 

@@ -255,8 +255,9 @@ void Stage::watch() const {
     const geom::Mat3 f = geom::Mat3::Identity() + displacement_gradient(model, state.displacement, tet);
     if (f.determinant() <= 0)
       fail("an element is turned inside out", model.tets[tet][0],
-           model.blocks[model.tet_block[tet]].meshed ? "the load there crushes the mesh"
-                                                     : "the load there is beyond what small strain can carry");
+           model.blocks[model.tet_block[tet]].meshed
+               ? "the load there crushes the mesh"
+               : "the load there is beyond what small strain can carry");
   }
 }
 

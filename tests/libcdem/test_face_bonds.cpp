@@ -237,7 +237,8 @@ TEST_CASE("face bonds: unbond makes them contacts, which still carry pressure", 
   cdem::Fix foot;
   foot.on = cdem::Selection::side("z-");
   s.fix(foot);
-  const auto left = cdem::Selection::where([](const Vec3& x) { return x.x() < 0.49 * side; }, "the left half");
+  const auto left =
+      cdem::Selection::where([](const Vec3& x) { return x.x() < 0.49 * side; }, "the left half");
   const auto plane = cdem::Selection::on_plane(geom::Plane::through({0, 0, half}, {0, 0, 1}));
   CHECK(s.unbond(left, whole_faces) == 12);
   CHECK(s.fragments().size() == 1);

@@ -68,7 +68,8 @@ TEST_CASE("a force that is not a number stops the run in its step and names bloc
   CHECK(s.max("displacement.x", cdem::Selection::side("x-")).value == 0);
 }
 
-TEST_CASE("a force that is not a number on a node of a mesh stops the run and names its place", "[failures][mesh]") {
+TEST_CASE("a force that is not a number on a node of a mesh stops the run and names its place",
+          "[failures][mesh]") {
   const bool bonded = GENERATE(false, true);
   cdem::ModelSpec spec;
   cdem::Bonding bonding;

@@ -116,7 +116,8 @@ TEST_CASE("faces that a crack opened take the flow only when asked", "[flow]") {
   cdem::update_external(r, 0);
   CHECK((resultant(r) - Vec3(0, 0, -whole)).norm() < 1e-10 * whole);
   each_face_spring(s.model.mesh, [&](const cdem::MeshChunk&, const cdem::FaceSpringPlace& at) {
-    s.state.faces[at.batch].mode[at.point][at.lane] = static_cast<std::uint8_t>(cdem::BondMode::broken_tension);
+    s.state.faces[at.batch].mode[at.point][at.lane] =
+        static_cast<std::uint8_t>(cdem::BondMode::broken_tension);
   });
   cdem::refresh_flows(s.model, s.state, r);
   cdem::update_external(r, 0);

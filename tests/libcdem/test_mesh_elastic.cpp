@@ -47,8 +47,8 @@ double measured_frequency(int elements, double length, const cdem::Elastic& mate
 double relative_deflection(int cells_high) {
   const double height = 0.8, length = 3 * height, width = height / cells_high, shear_stress = 1e4;
   const cdem::Elastic m = rock();
-  System s(build({meshed(
-      "beam", geom::box_mesh({length, height, width}, {3 * cells_high, cells_high, 1}), {}, m)}));
+  System s(build(
+      {meshed("beam", geom::box_mesh({length, height, width}, {3 * cells_high, cells_high, 1}), {}, m)}));
   s.hold(cdem::Selection::side("x-"), "xyz");
   cdem::Traction end;
   end.on = cdem::Selection::side("x+");
@@ -88,15 +88,19 @@ TEST_CASE("finite volume: a fixed-free bar swings at sqrt(E / rho) / 4 L, of sec
   CHECK(std::log2(coarse / middle) >= 1.8);
 }
 
-TEST_CASE("finite volume: a cantilever's deflection closes on P L^3 / 3 E I + P L / k G A", "[cantilever][mesh]") {
-  const double coarse = relative_deflection(4), middle = relative_deflection(8), fine = relative_deflection(16);
+TEST_CASE("finite volume: a cantilever's deflection closes on P L^3 / 3 E I + P L / k G A",
+          "[cantilever][mesh]") {
+  const double coarse = relative_deflection(4), middle = relative_deflection(8),
+               fine = relative_deflection(16);
   const double order = std::log2((middle - coarse) / (fine - middle));
   const double limit = fine + (fine - middle) / (std::pow(2.0, order) - 1);
-  WARN("deflection over exact " << coarse << ", " << middle << ", " << fine << " at H / 4, 8, 16; order "
+  INFO("deflection over exact " << coarse << ", " << middle << ", " << fine << " at H / 4, 8, 16; order "
                                 << order << ", extrapolated " << limit);
+  // Constant-strain tets are stiff in bending: 6 % at H / 8, 2 % at H / 16, closing with order 1.6 on the way to 2.
   CHECK(order > 1.5);
-  CHECK(limit == Approx(1).epsilon(0.02));
+  CHECK(fine < 1);
   CHECK(fine == Approx(1).epsilon(0.05));
+  CHECK(limit == Approx(1).epsilon(0.02));
 }
 
 TEST_CASE("finite volume: a pressure step runs at sqrt((lambda + 2 mu) / rho) with v = sigma0 / (rho c)",

@@ -1,0 +1,11 @@
+-- exit code: 2
+-- says: must be a direction that meets an outer face of the place
+-- says: a flow along x+ pushes on the side x-
+
+local cdem = require "cdem"
+local concrete = cdem.elastic{ youngs_modulus = 30e9, poissons_ratio = 0.2, density = 2500 }
+local bond = cdem.mohr_coulomb{ cohesion = 5e6, friction_angle = 35, tensile_strength = 2e6 }
+local mesh = cdem.box_mesh{ size = {1, 1, 1}, divisions = {2, 2, 2} }
+local model = cdem.model{ bodies = { { shape = mesh, material = concrete, joint = bond } } }
+model:fix{ on = "z-" }
+model:flow{ on = "x+", direction = {1, 0, 0}, velocity = 3 } -- wrong

@@ -1,0 +1,8 @@
+-- exit code: 2
+-- says: bonds = "none": must be all, regions or listed with a joint
+
+local cdem = require "cdem"
+local concrete = cdem.elastic{ youngs_modulus = 30e9, poissons_ratio = 0.2, density = 2500 }
+local bond = cdem.mohr_coulomb{ cohesion = 5e6, friction_angle = 35, tensile_strength = 2e6 }
+local mesh = cdem.box_mesh{ size = {1, 1, 1}, divisions = {2, 2, 2} }
+cdem.model{ bodies = { { shape = mesh, material = concrete, joint = bond, bonds = "none" } } } -- wrong

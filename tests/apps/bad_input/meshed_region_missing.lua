@@ -1,0 +1,9 @@
+-- exit code: 2
+-- says: must be a region of the mesh (1 to 1)
+
+local cdem = require "cdem"
+local concrete = cdem.elastic{ youngs_modulus = 30e9, poissons_ratio = 0.2, density = 2500 }
+local bond = cdem.mohr_coulomb{ cohesion = 5e6, friction_angle = 35, tensile_strength = 2e6 }
+local mesh = cdem.box_mesh{ size = {1, 1, 1}, divisions = {2, 2, 2} }
+cdem.model{ bodies = { -- wrong
+  { shape = mesh, material = concrete, joint = bond, bonds = "listed", bonded_regions = {3} } } }

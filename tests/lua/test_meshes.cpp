@@ -1,0 +1,209 @@
+// Meshed bodies, flow and the search for the critical flow in scripts.
+#include "tests/lua/script.hpp"
+
+#include <catch2/catch.hpp>
+
+using namespace cdem::script;
+using namespace cdem::script::test;
+using Catch::Matchers::Contains;
+
+namespace {
+
+const std::string head =
+    "local cdem = require 'cdem'\n"
+    "local function close(a, b, tolerance)\n"
+    "  assert(math.abs(a - b) <= (tolerance or 1e-9) * math.max(1, math.abs(b)), a .. ' is not ' .. b)\nend\n"
+    "local concrete = cdem.elastic{ youngs_modulus = 30e9, poissons_ratio = 0.2, density = 2500 }\n"
+    "local bond = cdem.mohr_coulomb{ cohesion = 5e6, friction_angle = 35, tensile_strength = 2e6 }\n"
+    "local cube = cdem.box_mesh{ size = {1, 1, 1}, divisions = {2, 2, 2} }\n"
+    "local function model_of(body)\n"
+    "  body.shape, body.material = body.shape or cube, concrete\n  return cdem.model{ bodies = { body } "
+    "}\nend\n";
+
+const std::string held = head + "local model = model_of{ joint = bond }\nmodel:fix{ on = 'z-' }\n";
+
+// Two cubes of 1 m, one on the other, as regions 1 and 2 of one mesh.
+const std::string tower =
+    head + "local tower = cdem.solid.fragments{ solids = { cdem.solid.box{ size = {1, 1, 1} },\n"
+           "  cdem.solid.box{ size = {1, 1, 1}, origin = {0, 0, 1} } } }:mesh{ size = 0.6 }\n";
+
+} // namespace
+
+TEST_CASE("a meshed body has bonds where its joint is asked for", "[lua]") {
+  // 8 cells of 6 tets, 48 outer faces: (4 * 48 - 48) / 2 = 72 inner ones with three bonds each.
+  CHECK(error_of(head + "local c = model_of{}:counts()\n"
+                        "assert(c.blocks == 1 and c.tets == 48 and c.nodes == 27 and c.bonds == 0)\n"
+                        "c = model_of{ joint = bond }:counts()\n"
+                        "assert(c.tets == 48 and c.nodes == 192 and c.bonds == 216 and c.intact == 216)\n"
+                        "c = model_of{ joint = cdem.coulomb{ friction_angle = 35 } }:counts()\n"
+                        "assert(c.bonds == 216 and c.contacts == 216)") == "");
+}
+
+TEST_CASE("bonds between regions alone let a body part there alone", "[lua]") {
+  CHECK(error_of(tower + "local whole = model_of{ shape = tower }:counts()\n"
+                         "local model = model_of{ shape = tower, joint = bond, bonds = 'regions' }\n"
+                         "local c = model:counts()\n"
+                         "assert(c.nodes > whole.nodes and c.bonds > 0 and c.tets == whole.tets)\n"
+                         "local listed = model_of{ shape = tower, joint = bond, bonds = 'listed', "
+                         "bonded_regions = {2} }:counts()\n"
+                         "assert(listed.bonds > c.bonds and listed.nodes > c.nodes)\n"
+                         "model:fix{ on = 'z-' }\n"
+                         "assert(#model:fragments() == 1)\nclose(model:fragments()[1].volume, 2)\n"
+                         "local plane = cdem.select.plane{ point = {0, 0, 1}, normal = {0, 0, 1} }\n"
+                         "assert(model:unbond{ on = plane } == c.bonds)\n"
+                         "local pieces = model:fragments()\nassert(#pieces == 2)\n"
+                         "for _, piece in ipairs(pieces) do\n"
+                         "  close(piece.volume, 1)\n  assert(piece.held == (piece.centroid[3] < 1))\nend") ==
+        "");
+}
+
+TEST_CASE("a meshed body under its weight: reaction, stress and energy", "[lua]") {
+  CHECK(error_of(head + "local model = model_of{}\nmodel:fix{ on = 'z-' }\n"
+                        "model:gravity{ vector = {0, 0, -9.81} }\n"
+                        "assert(model:relax{ residual = 1e-8 }.converged)\n"
+                        "close(model:reaction('z-')[3], 2500 * 9.81, 1e-6)\n"
+                        "close(model:mean('stress.zz'), -2500 * 9.81 / 2, 1e-3)\n"
+                        "assert(model:max('displacement.z') < 1e-9)\n"
+                        "assert(model:energy().balance_error < 1e-2)") == "");
+}
+
+TEST_CASE("meshed bodies that do not fit are refused", "[lua]") {
+  const auto refused = [](const std::string& body) { return error_of(head + "model_of{ " + body + " }"); };
+  CHECK_THAT(refused("element = 'small_strain'"),
+             Contains("bodies[1].element = \"small_strain\": must be finite_volume for a mesh"));
+  CHECK_THAT(refused("bonds = 'all'"), Contains("bodies[1].joint: missing; bonds = \"all\""));
+  CHECK_THAT(refused("joint = bond, bonds = 'none'"), Contains("bodies[1].bonds = \"none\""));
+  CHECK_THAT(refused("joint = bond, bonds = 'some'"), Contains("bonds = \"some\": must be one of"));
+  CHECK_THAT(refused("joint = bond, bonds = 'listed'"), Contains("bodies[1].bonded_regions: goes with"));
+  CHECK_THAT(refused("joint = bond, bonded_regions = {1}"), Contains("bodies[1].bonded_regions: goes with"));
+  for (const std::string region : {"0", "2", "-1"})
+    CHECK_THAT(refused("joint = bond, bonds = 'listed', bonded_regions = {" + region + "}"),
+               Contains("= " + region + ": must be a region of the mesh (1 to 1)"));
+  CHECK_THAT(refused("joint = bond, stiffness_ratio = 0"), Contains("stiffness_ratio = 0: must be > 0"));
+  CHECK_THAT(refused("joint = bond, stiffness_ratio = 1e5"), Contains("stiffness_ratio = 100000: must be"));
+  CHECK_THAT(refused("joint = bond, shear_ratio = -1"), Contains("shear_ratio = -1: must be > 0"));
+  CHECK_THAT(
+      refused("joint = cdem.mohr_coulomb{ cohesion = 5e6, friction_angle = 35, tensile_strength = 2e6, "
+              "softening = 'linear', fracture_energy_1 = 100, fracture_energy_2 = 400 }"),
+      Contains("softening") && Contains("only bonds between convex blocks soften"));
+  CHECK_THAT(error_of(head + "cdem.model{ bodies = { { shape = cdem.box{ size = {1, 1, 1} }, material = "
+                             "concrete, bonds = 'all' } } }"),
+             Contains("bodies[1].bonds: only for a meshed body"));
+  CHECK_THAT(error_of(head + "cdem.model{ bodies = { { shape = cdem.box{ size = {1, 1, 1} }, material = "
+                             "concrete, element = 'finite_volume' } } }"),
+             Contains("bodies[1].element = \"finite_volume\": must be small_strain"));
+}
+
+TEST_CASE("a mesh that may touch another body is refused: there is no contact yet", "[lua]") {
+  const auto beside = [](const std::string& x) {
+    return error_of(head +
+                    "cdem.model{ bodies = { { shape = cube, material = concrete, name = 'unit' },\n"
+                    "  { shape = cdem.box{ size = {1, 1, 1}, origin = {" +
+                    x + ", 0, 0} }, material = concrete, name = 'slope' } } }");
+  };
+  CHECK_THAT(beside("1"), Contains("\"unit\"") && Contains("\"slope\"") && Contains("no contact yet"));
+  CHECK_THAT(beside("0.5"), Contains("no contact yet"));
+  CHECK(beside("1.1") == "");
+}
+
+TEST_CASE("cutting, growing and removing refuse a model with meshed bodies", "[lua]") {
+  for (const std::string call : {"refine{ shear_threshold = 1e5 }", "grow{}", "remove{ on = 'z+' }"}) {
+    INFO(call);
+    CHECK_THAT(error_of(held + "model:" + call), Contains("the model has meshed bodies"));
+  }
+  CHECK_THAT(error_of(held + "model:initial_stress{ on = 'all', stress = {1e5, 0, 0, 0, 0, 0} }"),
+             Contains("meshed body"));
+}
+
+TEST_CASE("a flow pushes with its pressure on the area that faces it", "[lua]") {
+  const std::string velocity = GENERATE(as<std::string>{}, "10", "function(t) return 10 end");
+  CHECK(
+      error_of(
+          held + "model:flow{ direction = {2, 0, 0}, velocity = " + velocity +
+          ", water_density = 1000 }\n"
+          "assert(model:relax{ residual = 1e-8, breaking = false }.converged)\n"
+          "local r = model:reaction('z-')\nclose(r[1], -50000, 1e-6)\nclose(r[3], 0, 1e-1)\n"
+          "model:clear_loads()\nmodel:flow{ direction = {-1, 0, -1}, velocity = 10, water_density = 1000 }\n"
+          "assert(model:relax{ residual = 1e-8, breaking = false }.converged)\n"
+          "close(model:reaction('z-')[1], 50000, 1e-6)\nclose(model:reaction('z-')[3], 50000, 1e-6)") == "");
+}
+
+TEST_CASE("pressure and velocity of a flow turn into each other", "[lua]") {
+  CHECK(error_of(head + "close(cdem.flow_pressure{ velocity = 10 }, 51250)\n"
+                        "close(cdem.flow_velocity{ pressure = 51250 }, 10)\n"
+                        "close(cdem.flow_velocity{ pressure = 50000, water_density = 1000 }, 10)") == "");
+  CHECK_THAT(error_of(head + "cdem.flow_pressure{ velocity = -1 }"), Contains("velocity = -1: must be >= 0"));
+  CHECK_THAT(error_of(head + "cdem.flow_velocity{ pressure = -1 }"), Contains("pressure = -1: must be >= 0"));
+}
+
+TEST_CASE("a flow that cannot be is refused", "[lua]") {
+  const auto refused = [](const std::string& flow) { return error_of(held + "model:flow{ " + flow + " }"); };
+  CHECK_THAT(refused("direction = {0, 0, 0}, velocity = 1"),
+             Contains("direction") && Contains("longer than zero"));
+  CHECK_THAT(refused("direction = {1, 0, 0}, velocity = -1"), Contains("velocity = -1: must be >= 0"));
+  CHECK_THAT(refused("direction = {1, 0, 0}"), Contains("velocity: missing"));
+  CHECK_THAT(refused("direction = {1, 0, 0}, velocity = 1, water_density = 0"),
+             Contains("water_density = 0"));
+  CHECK_THAT(refused("direction = {1, 0, 0}, velocity = function() return -2 end"),
+             Contains("velocity(0)") && Contains("-2: must be a finite number >= 0 m/s"));
+  CHECK_THAT(refused("direction = {1, 0, 0}, velocity = function() end"),
+             Contains("nothing: must be a finite"));
+  CHECK_THAT(refused("direction = {1, 0, 0}, velocity = function() return 0 / 0 end"),
+             Contains("finite number"));
+  CHECK_THAT(error_of(held +
+                      "model:flow{ direction = {1, 0, 0}, velocity = function(t) return 1 - 1e6 * t end }\n"
+                      "model:run{ steps = 1000 }"),
+             Contains("must be a finite number >= 0 m/s"));
+  CHECK_THAT(refused("direction = {1, 0, 0}, velocity = 1, on = 'x+'"),
+             Contains("direction = (1, 0, 0): must be a direction that meets an outer face") &&
+                 Contains("x+"));
+  CHECK(refused("direction = {1, 0, 0}, velocity = 1, on = 'x-'") == "");
+}
+
+TEST_CASE("the search for the critical flow tells what broke, where and when", "[lua]") {
+  CHECK(error_of(head +
+                 "local column = cdem.box_mesh{ size = {0.3, 0.3, 0.75}, divisions = {2, 2, 5} }\n"
+                 "local model = model_of{ shape = column, joint = bond }\nmodel:fix{ on = 'z-' }\n"
+                 "local r = model:critical_flow{ direction = {1, 0, 0}, held = 'z-', mode = 'ramp', "
+                 "pressure_rate = 2e7 }\n"
+                 "assert(r.reason == 'fragment' or r.reason == 'compliance', r.reason)\n"
+                 "close(r.pressure, cdem.flow_pressure{ velocity = r.velocity })\n"
+                 "assert(r.part == 'root' and r.height_fraction < 1 / 3 and r.place_fraction[3] == "
+                 "r.height_fraction)\n"
+                 "assert(r.broken_area > 0 and r.broken_tension > 0 and #r.curve > 2 and r.period > 0)\n"
+                 "close(r.curve[#r.curve].velocity, r.velocity)\nassert(#r.fragments == #model:fragments())\n"
+                 "assert(#model:breaks() == r.broken_tension + r.broken_shear)") == "");
+}
+
+TEST_CASE("a search that reaches max_velocity warns and says limit", "[lua]") {
+  Script script(held +
+                "local r = model:critical_flow{ direction = {1, 0, 0}, max_velocity = 2, pressure_rate = "
+                "1e6 }\nassert(r.reason == 'limit' and r.place == nil and r.part == nil)");
+  script.run();
+  const auto& lines = script.listener->lines;
+  CHECK(std::count_if(lines.begin(), lines.end(), [](const std::string& line) {
+          return line.find("warning: critical_flow: nothing broke off up to max_velocity = 2 m/s") !=
+                 std::string::npos;
+        }) == 1);
+}
+
+TEST_CASE("a search that cannot be is refused", "[lua]") {
+  const auto refused = [](const std::string& more) {
+    return error_of(held + "model:critical_flow{ direction = {1, 0, 0}, " + more + " }");
+  };
+  CHECK_THAT(error_of(head + "model_of{ joint = bond }:critical_flow{ direction = {1, 0, 0} }"),
+             Contains("critical_flow: nothing is held"));
+  CHECK_THAT(error_of(held + "model:critical_flow{}"), Contains("direction: missing"));
+  CHECK_THAT(refused("on = 'x+'"), Contains("no outer face of the place looks towards the flow"));
+  CHECK_THAT(refused("mode = 'rampe'"), Contains("mode = \"rampe\": must be one of \"hold\", \"ramp\""));
+  CHECK_THAT(refused("held = 'z'"), Contains("held = \"z\""));
+  CHECK_THAT(refused("pressure_rate = 0"), Contains("pressure_rate = 0: must be > 0"));
+  CHECK_THAT(refused("hold_periods = 0"), Contains("hold_periods = 0: must be > 0"));
+  CHECK_THAT(refused("fragment_fraction = 1"), Contains("fragment_fraction = 1"));
+  CHECK_THAT(refused("fragment_fraction = 0"), Contains("fragment_fraction = 0"));
+  CHECK_THAT(refused("compliance_ratio = 1"), Contains("compliance_ratio = 1: must be > 1"));
+  CHECK_THAT(refused("max_velocity = 1"), Contains("max_velocity = 1: must be > 1"));
+  CHECK_THAT(refused("safety = 1.5"), Contains("safety = 1.5"));
+  CHECK_THAT(refused("local_damping = 1"), Contains("local_damping = 1"));
+  CHECK_THAT(refused("velocity = 3"), Contains("velocity"));
+}
