@@ -317,7 +317,7 @@ bool Simulation::anything_acts() const {
 
 CriticalFlowResult Simulation::critical_flow(const CriticalFlowOptions& options) {
   check(options);
-  const CriticalFlowResult result = cdem::critical_flow(impl_->begin_stage(), options);
+  CriticalFlowResult result = cdem::critical_flow(impl_->begin_stage(), options);
   impl_->last_residual = impl_->log.history.back().residual;
   return result;
 }

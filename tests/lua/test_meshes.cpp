@@ -115,6 +115,7 @@ TEST_CASE("cutting, growing and removing refuse a model with meshed bodies", "[l
              Contains("meshed body"));
 }
 
+// To 1e-5: the faces are taken as the load strains them, by 1.7e-6.
 TEST_CASE("a flow pushes with its pressure on the area that faces it", "[lua]") {
   const std::string velocity = GENERATE(as<std::string>{}, "10", "function(t) return 10 end");
   CHECK(
@@ -122,18 +123,18 @@ TEST_CASE("a flow pushes with its pressure on the area that faces it", "[lua]") 
           held + "model:flow{ direction = {2, 0, 0}, velocity = " + velocity +
           ", water_density = 1000 }\n"
           "assert(model:relax{ residual = 1e-8, breaking = false }.converged)\n"
-          "local r = model:reaction('z-')\nclose(r[1], -50000, 1e-6)\nclose(r[3], 0, 1e-1)\n"
+          "local r = model:reaction('z-')\nclose(r[1], -50000, 1e-5)\nclose(r[3], 0, 1e-1)\n"
           "model:clear_loads()\nmodel:flow{ direction = {-1, 0, -1}, velocity = 10, water_density = 1000 }\n"
           "assert(model:relax{ residual = 1e-8, breaking = false }.converged)\n"
-          "close(model:reaction('z-')[1], 50000, 1e-6)\nclose(model:reaction('z-')[3], 50000, 1e-6)") == "");
+          "close(model:reaction('z-')[1], 50000, 1e-5)\nclose(model:reaction('z-')[3], 50000, 1e-5)") == "");
 }
 
 TEST_CASE("pressure and velocity of a flow turn into each other", "[lua]") {
-  CHECK(error_of(head + "close(cdem.flow_pressure{ velocity = 10 }, 51250)\n"
-                        "close(cdem.flow_velocity{ pressure = 51250 }, 10)\n"
-                        "close(cdem.flow_velocity{ pressure = 50000, water_density = 1000 }, 10)") == "");
-  CHECK_THAT(error_of(head + "cdem.flow_pressure{ velocity = -1 }"), Contains("velocity = -1: must be >= 0"));
-  CHECK_THAT(error_of(head + "cdem.flow_velocity{ pressure = -1 }"), Contains("pressure = -1: must be >= 0"));
+  CHECK(error_of(head + "close(cdem.flow_pressure(10), 51250)\n"
+                        "close(cdem.flow_velocity(51250), 10)\n"
+                        "close(cdem.flow_velocity(50000, 1000), 10)") == "");
+  CHECK_THAT(error_of(head + "cdem.flow_pressure(-1)"), Contains("velocity = -1: must be >= 0"));
+  CHECK_THAT(error_of(head + "cdem.flow_velocity(-1)"), Contains("pressure = -1: must be >= 0"));
 }
 
 TEST_CASE("a flow that cannot be is refused", "[lua]") {
@@ -167,7 +168,7 @@ TEST_CASE("the search for the critical flow tells what broke, where and when", "
                  "local r = model:critical_flow{ direction = {1, 0, 0}, held = 'z-', mode = 'ramp', "
                  "pressure_rate = 2e7 }\n"
                  "assert(r.reason == 'fragment' or r.reason == 'compliance', r.reason)\n"
-                 "close(r.pressure, cdem.flow_pressure{ velocity = r.velocity })\n"
+                 "close(r.pressure, cdem.flow_pressure(r.velocity))\n"
                  "assert(r.part == 'root' and r.height_fraction < 1 / 3 and r.place_fraction[3] == "
                  "r.height_fraction)\n"
                  "assert(r.broken_area > 0 and r.broken_tension > 0 and #r.curve > 2 and r.period > 0)\n"
