@@ -55,7 +55,7 @@ TEST_CASE("critical flow: hold is no higher than ramp, half the strength is 0.70
   CHECK(large.velocity == Approx(hold.velocity).epsilon(0.02));
   CHECK(half.velocity / hold.velocity == Approx(std::sqrt(0.5)).epsilon(0.02));
   CHECK(hold.pressure == Approx(cdem::flow_pressure(hold.velocity, 1025)));
-  // Bent over, it breaks in its lower half, across the whole section at least, and the largest piece is loose.
+  // Bent over, it breaks in its lower half, across the whole section at least; the largest piece is loose.
   CHECK(hold.place.z() < 0.375);
   CHECK(hold.broken_area > 0.09);
   REQUIRE(hold.fragments.size() >= 2);
@@ -91,8 +91,8 @@ TEST_CASE("critical flow: the unbroken column's compliance and period are those 
   CHECK(r.broken_tension + r.broken_shear == 0);
   CHECK(r.place == Vec3::Zero());
   CHECK(r.fragments.size() == 1);
-  // Mean deflection under a uniform load q: q L^4 / 20 E I + q L^2 / 3 k G A. Period: 1 / omega^2 is the sum of that of
-  // bending, omega_b = 3.516 sqrt(E I / rho A L^4), and that of shear, omega_s = pi / 2L sqrt(k G / rho).
+  // Mean deflection under a uniform load q: q L^4 / 20 E I + q L^2 / 3 k G A. Period: 1 / omega^2 is the sum
+  // of that of bending, omega_b = 3.516 sqrt(E I / rho A L^4), and of shear, omega_s = pi / 2L sqrt(k G / rho).
   const cdem::Elastic m = rock();
   const double inertia = std::pow(b, 4) / 12, area = b * b;
   const double k = 10 * (1 + m.poissons_ratio) / (12 + 11 * m.poissons_ratio), shear = k * m.shear_modulus();
@@ -102,8 +102,8 @@ TEST_CASE("critical flow: the unbroken column's compliance and period are those 
       std::pow(3.516, 2) * m.youngs_modulus * inertia / (m.density * area * std::pow(length, 4));
   const double shear2 = std::pow(0.5 * pi / length, 2) * shear / m.density;
   const double period = 2 * pi * std::sqrt(1 / bending2 + 1 / shear2);
-  // Constant-strain tets six to a side are too stiff by about a tenth, and never too soft; what they do to the
-  // compliance they do to the square of the period.
+  // Constant-strain tets six to a side are too stiff by about a tenth, and never too soft; what they do to
+  // the compliance they do to the square of the period.
   const double compliance_ratio = r.compliance / exact, period_ratio = r.period / period;
   INFO("compliance " << compliance_ratio << " and period " << period_ratio << " of the formula");
   CHECK(compliance_ratio < 1);

@@ -96,7 +96,7 @@ TEST_CASE("finite volume: a cantilever's deflection closes on P L^3 / 3 E I + P 
   const double limit = fine + (fine - middle) / (std::pow(2.0, order) - 1);
   INFO("deflection over exact " << coarse << ", " << middle << ", " << fine << " at H / 4, 8, 16; order "
                                 << order << ", extrapolated " << limit);
-  // Constant-strain tets are stiff in bending: 6 % at H / 8, 2 % at H / 16, closing with order 1.6 on the way to 2.
+  // Constant-strain tets are stiff in bending: 6 % at H / 8, 2 % at H / 16; the order is 1.6 on its way to 2.
   CHECK(order > 1.5);
   CHECK(fine < 1);
   CHECK(fine == Approx(1).epsilon(0.05));

@@ -51,8 +51,8 @@ TEST_CASE("finite volume: a free bonded body keeps its momentum over 1e5 steps",
   options.steps = 20000;
   s.run(options);
   CHECK((s.log.broken_tension + s.log.broken_shear > 0) == breaking);
-  // The forces of a contact act on its two points, which part as the faces slide: their distance is an arm. Intact
-  // bonds with Ks = Kn pull along it and have none.
+  // The forces of a contact act on its two points, which part as the faces slide: their distance is an arm.
+  // Intact bonds with Ks = Kn pull along it and have none.
   CHECK(angular_drift() < (breaking ? 1e-6 : 1e-12));
   options.steps = 80000;
   s.run(options);

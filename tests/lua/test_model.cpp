@@ -143,7 +143,7 @@ TEST_CASE("bodies and contacts that do not fit are refused", "[lua]") {
   CHECK_THAT(
       error_of(column() + box +
                "cdem.model{ bodies = { { shape = a, material = rock, joint = joint, element = 'rigd' } } }"),
-      Contains("element = \"rigd\": must be \"small_strain\""));
+      Contains("element = \"rigd\": must be one of \"small_strain\", \"finite_volume\""));
   CHECK_THAT(error_of(column() + "cdem.model{ bodies = {} }"),
              Contains("bodies = {}: must be a list of at least 1 item"));
 }
