@@ -162,7 +162,8 @@ CriticalFlowResult critical_flow(const StageContext& context, const CriticalFlow
   stepping.callback_every = steps_per_look;
   stepping.callback = look;
   stepping.stop = [&] { return ended; };
-  const RunResult run_result = run(with_flow, stepping);
+  const RunResult run_result =
+      run(with_flow, stepping, options.hold ? "critical_flow: hold" : "critical_flow: ramp");
 
   result.pressure = pressure.at(state.time);
   result.velocity = flow_velocity(result.pressure, density);

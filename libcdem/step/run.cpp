@@ -92,10 +92,10 @@ double stable_time_step(const Model& model) {
   return 2 / std::sqrt(largest);
 }
 
-RunResult run(const StageContext& context, const RunOptions& options) {
+RunResult run(const StageContext& context, const RunOptions& options, const std::string& kind) {
   State& state = context.state;
   Stepping stepping{choose_time_step(context.model, options), 0, options.local_damping};
-  Stage stage(context, "run", run_away_lengths * context.model.length);
+  Stage stage(context, kind, run_away_lengths * context.model.length);
   Stage::StepReport report;
   const double start = state.time;
   const std::int64_t steps =

@@ -8,7 +8,8 @@
 
 namespace cdem {
 
-RunResult run(const StageContext&, const RunOptions&);
+// kind: what progress reports call it.
+RunResult run(const StageContext&, const RunOptions&, const std::string& kind = "run");
 
 double stable_time_step(const Model&); // s
 
