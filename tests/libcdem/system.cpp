@@ -143,6 +143,15 @@ std::vector<geom::Vec3> System::net_forces() const {
   return forces;
 }
 
+std::vector<geom::Vec3> System::advance_springs(std::vector<cdem::FaceBreak>& broken) {
+  cdem::Workspace work(model, state, conditions);
+  for (std::size_t c = 0; c < model.mesh.chunks.size(); ++c) {
+    cdem::mesh_forces(model, state, work, static_cast<std::int64_t>(c), true);
+    broken.insert(broken.end(), work.face_sums[c].broken.begin(), work.face_sums[c].broken.end());
+  }
+  return net_forces();
+}
+
 double System::out_of_balance() const {
   const cdem::ResolvedConditions r = cdem::resolve(model, state, conditions);
   double residual = 0, applied = 0, reaction = 0;

@@ -39,6 +39,8 @@ struct System {
 
   // Net force on each node with the conditions of now, N.
   std::vector<geom::Vec3> net_forces() const;
+  // The same with the springs of meshes advanced in `state`, bonds breaking; what broke is added to `broken`.
+  std::vector<geom::Vec3> advance_springs(std::vector<cdem::FaceBreak>& broken);
   // Norm of the net force on the free components over that of the loads (of the reactions when there are
   // none).
   double out_of_balance() const;

@@ -4,8 +4,6 @@
 
 #include "libcdem/results/energy.hpp"
 #include "libcdem/results/fragments.hpp"
-#include "libcdem/step/forces.hpp"
-#include "libcdem/step/mesh_forces.hpp"
 
 #include <catch2/catch.hpp>
 
@@ -72,16 +70,11 @@ public:
       const Vec3& x = s_.model.node_position[i];
       s_.state.displacement[i] = node(turn_ * x - x + (upper_[i] ? Vec3(turn_ * gap) : Vec3::Zero()));
     }
-    cdem::Workspace work(s_.model, s_.state, s_.conditions);
-    cdem::mesh_forces(s_.model, s_.state, work, 0, true);
-    for (const cdem::FaceBreak& broken : work.face_sums[0].broken)
-      breaks_.push_back(broken);
+    const std::vector<Vec3> forces = s_.advance_springs(breaks_);
     Vec3 force = Vec3::Zero();
-    for (const cdem::BlockChunk& chunk : s_.model.chunks)
-      cdem::net_forces(s_.model, s_.state, work, chunk);
     for (std::size_t i = 0; i < upper_.size(); ++i)
       if (upper_[i])
-        force += vec(work.force[i]);
+        force += forces[i];
     return turn_.transpose() * force / area;
   }
 
