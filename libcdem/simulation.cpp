@@ -402,17 +402,13 @@ geom::Vec3 Simulation::reaction(const Selection& on) const {
     throw geom::InputError("on", on.text, "a place that holds nodes", "nothing of the model lies there");
   Workspace work(s.model, s.state, s.conditions);
   update_external(work.resolved, s.state.time);
-  State state = s.state; // the springs' bookkeeping stays as it is
-  for (const Range& range : s.model.point_chunks)
-    spring_forces(s.model, state, work, range, work.spring_sums[0], false);
-  for (std::size_t c = 0; c < s.model.mesh.chunks.size(); ++c)
-    mesh_forces(s.model, state, work, static_cast<std::int64_t>(c), false);
-  for (const BlockChunk& chunk : s.model.chunks)
-    net_forces(s.model, state, work, chunk);
+  const std::vector<Node> force = net_forces(s.model, s.state, work);
   geom::Vec3 sum = geom::Vec3::Zero();
-  for (const int node : nodes) {
-    const Node &f = work.force[node], &free = work.resolved.free[node];
-    sum -= geom::Vec3((1 - free.x) * f.x, (1 - free.y) * f.y, (1 - free.z) * f.z);
+  for (const HeldNode& h : work.resolved.held) {
+    if (!std::binary_search(nodes.begin(), nodes.end(), h.node))
+      continue;
+    const Node& f = force[h.node];
+    sum -= geom::Vec3((1 - h.free.x) * f.x, (1 - h.free.y) * f.y, (1 - h.free.z) * f.z);
   }
   return sum;
 }

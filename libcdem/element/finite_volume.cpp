@@ -48,7 +48,7 @@ CDEM_INLINE Vec corner_force(const Symmetric& s, const Vec& c) {
 // The kernel is compiled for several instruction sets; everything it calls is inlined into each of them.
 CDEM_KERNEL void finite_volume_forces(const MeshBatch* batches, std::int64_t count, int last_lanes,
                                       const Node* position, const Node* velocity, double dt,
-                                      const TetStiffness& stiffness, StressBatch* stress, Node* partial) {
+                                      const TetStiffness& stiffness, StressBatch* stress, Node* force) {
   const Oct half_dt = Oct{} + 0.5 * dt;
   for (std::int64_t i = 0; i < count; ++i) {
     const MeshBatch& batch = batches[i];
@@ -57,13 +57,13 @@ CDEM_KERNEL void finite_volume_forces(const MeshBatch* batches, std::int64_t cou
       for (int lane = last_lanes; lane < lanes; ++lane)
         lambda[lane] = two_g[lane] = 0;
 
-    const Vec x0 = simd::gather(position, batch.node[0]), v0 = simd::gather(velocity, batch.node[0]);
-    const Vec e1 = minus(simd::gather(position, batch.node[1]), x0);
-    const Vec e2 = minus(simd::gather(position, batch.node[2]), x0);
-    const Vec e3 = minus(simd::gather(position, batch.node[3]), x0);
-    const Vec v1 = minus(simd::gather(velocity, batch.node[1]), v0);
-    const Vec v2 = minus(simd::gather(velocity, batch.node[2]), v0);
-    const Vec v3 = minus(simd::gather(velocity, batch.node[3]), v0);
+    const Vec x0 = simd::gather(position, batch.place[0]), v0 = simd::gather(velocity, batch.place[0]);
+    const Vec e1 = minus(simd::gather(position, batch.place[1]), x0);
+    const Vec e2 = minus(simd::gather(position, batch.place[2]), x0);
+    const Vec e3 = minus(simd::gather(position, batch.place[3]), x0);
+    const Vec v1 = minus(simd::gather(velocity, batch.place[1]), v0);
+    const Vec v2 = minus(simd::gather(velocity, batch.place[2]), v0);
+    const Vec v3 = minus(simd::gather(velocity, batch.place[3]), v0);
 
     // dt grad v in the middle of the step.
     const Vec m1 = minus(e1, scaled(half_dt, v1)), m2 = minus(e2, scaled(half_dt, v2)),
@@ -116,10 +116,10 @@ CDEM_KERNEL void finite_volume_forces(const MeshBatch* batches, std::int64_t cou
     const Symmetric r{rxx, ryy, rzz, rxy, ryz, rxz};
     const Vec f1 = corner_force(r, end.c1), f2 = corner_force(r, end.c2), f3 = corner_force(r, end.c3);
     const Vec f0{-(f1.x + f2.x + f3.x), -(f1.y + f2.y + f3.y), -(f1.z + f2.z + f3.z)};
-    simd::scatter_add(partial, batch.place[0], f0);
-    simd::scatter_add(partial, batch.place[1], f1);
-    simd::scatter_add(partial, batch.place[2], f2);
-    simd::scatter_add(partial, batch.place[3], f3);
+    simd::scatter_add(force, batch.place[0], f0);
+    simd::scatter_add(force, batch.place[1], f1);
+    simd::scatter_add(force, batch.place[2], f2);
+    simd::scatter_add(force, batch.place[3], f3);
   }
 }
 

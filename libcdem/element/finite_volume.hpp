@@ -19,9 +19,9 @@ struct TetStiffness {
 };
 
 // Of a run of batches, the last with `last_lanes` tets. Advances `stress` by the last step of dt (s; with 0 nothing
-// changes) and adds the nodal forces to `partial`, one entry for each place of the chunk.
+// changes) and adds to `force`. position (m), velocity, force: one entry for each place of the chunk.
 void finite_volume_forces(const MeshBatch* batches, std::int64_t count, int last_lanes, const Node* position,
                           const Node* velocity, double dt, const TetStiffness&, StressBatch* stress,
-                          Node* partial);
+                          Node* force);
 
 } // namespace cdem

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 
 namespace cdem {
 namespace {
@@ -38,16 +39,15 @@ struct Points {
 
 // Both sides of a face were one place: the gap is the difference of their displacements, with all its digits, and the
 // corners of b stand where those of a do plus the gap.
-CDEM_INLINE Points points_of(const FaceBatch& batch, const Node* position, const Node* displacement) {
-  const Vec d0 =
-      minus(simd::gather(displacement, batch.node_b[0]), simd::gather(displacement, batch.node_a[0]));
-  const Vec d1 =
-      minus(simd::gather(displacement, batch.node_b[1]), simd::gather(displacement, batch.node_a[1]));
-  const Vec d2 =
-      minus(simd::gather(displacement, batch.node_b[2]), simd::gather(displacement, batch.node_a[2]));
-  const Vec a0 = simd::gather(position, batch.node_a[0]);
-  const Vec e1 = minus(simd::gather(position, batch.node_a[1]), a0);
-  const Vec e2 = minus(simd::gather(position, batch.node_a[2]), a0);
+template <class Index>
+CDEM_INLINE Points points_of(const Index (&a)[3][lanes], const Index (&b)[3][lanes], const Node* position,
+                             const Node* displacement) {
+  const Vec d0 = minus(simd::gather(displacement, b[0]), simd::gather(displacement, a[0]));
+  const Vec d1 = minus(simd::gather(displacement, b[1]), simd::gather(displacement, a[1]));
+  const Vec d2 = minus(simd::gather(displacement, b[2]), simd::gather(displacement, a[2]));
+  const Vec a0 = simd::gather(position, a[0]);
+  const Vec e1 = minus(simd::gather(position, a[1]), a0);
+  const Vec e2 = minus(simd::gather(position, a[2]), a0);
   Points p;
   p.normal = plus(cross(e1, e2), cross(plus(e1, minus(d1, d0)), plus(e2, minus(d2, d0))));
   const Oct sixth = Oct{} + 1.0 / 6, half = Oct{} + 0.5;
@@ -65,11 +65,12 @@ CDEM_INLINE bool all_intact(const FaceStateBatch& state) {
   return (modes[0] | modes[1] | modes[2]) == 0;
 }
 
-CDEM_INLINE bool any(const decltype(Oct{} < Oct{}) & mask) {
-  long long hit = 0;
-  for (int lane = 0; lane < lanes; ++lane)
-    hit |= mask[lane];
-  return hit != 0;
+using Mask = decltype(Oct{} < Oct{});
+
+CDEM_INLINE bool any(const Mask& mask) {
+  const auto four =
+      __builtin_shufflevector(mask, mask, 0, 1, 2, 3) | __builtin_shufflevector(mask, mask, 4, 5, 6, 7);
+  return (four[0] | four[1] | four[2] | four[3]) != 0;
 }
 
 // Some spring of the batch may be at its strength. Judged without roots: the length of the normal from the face's area,
@@ -82,7 +83,7 @@ CDEM_INLINE bool near_strength(const FaceBatch& batch, const Points& p, const Fa
   const Oct once = guess * (1.5 - 0.5 * n2 * guess * guess);
   const Oct inverse = once * (1.5 - 0.5 * n2 * once * once); // 1 / |n|, by Newton
   const Oct tension = (margin * law.tensile_strength) * area, cohesion = (margin * law.cohesion) * area;
-  bool near = false;
+  Mask near{};
   for (int i = 0; i < 3; ++i) {
     const Oct gn = dot(p.gap[i], p.normal) * inverse;
     const Oct g2 = dot(p.gap[i], p.gap[i]);
@@ -90,9 +91,9 @@ CDEM_INLINE bool near_strength(const FaceBatch& batch, const Points& p, const Fa
     const Oct shear2 = (law.shear_ratio * law.shear_ratio) * kn * kn * (g2 - gn * gn);
     const Oct left =
         cohesion - margin * law.tan_friction * fn; // of the shear strength; negative: beyond the cone's tip
-    near = near || any(fn >= tension) || any(shear2 >= left * left) || any(left <= Oct{});
+    near |= (fn >= tension) | (shear2 >= left * left) | (left <= Oct{});
   }
-  return near;
+  return any(near);
 }
 
 struct Response {
@@ -185,35 +186,45 @@ __attribute__((noinline)) void one_by_one(const FaceBatch& batch, int faces, con
 
 } // namespace
 
+// Batches by which reading runs ahead.
+constexpr int ahead = 3;
+
 // The kernel is compiled for several instruction sets; everything it calls on the way of intact bonds is inlined.
 CDEM_KERNEL void face_bond_forces(const FaceBatch* batches, std::int64_t count, int faces,
                                   const Node* position, const Node* displacement, const FaceLaw& law,
-                                  bool breaking, FaceStateBatch* state, Node* partial, FaceSums& sums) {
+                                  bool breaking, FaceStateBatch* state, Node* total, FaceSums& sums) {
   for (std::int64_t i = 0; i < count; ++i) {
     const FaceBatch& batch = batches[i];
-    const Points p = points_of(batch, position, displacement);
+    simd::prefetch(batches + i + ahead, offsetof(FaceBatch, node_a));
+    simd::prefetch(state[i + ahead].mode, sizeof state->mode);
+    const Points p = points_of(batch.place_a, batch.place_b, position, displacement);
     const Oct kn = simd::load(batch.kn), ks = law.shear_ratio * kn;
     const Oct difference = (kn - ks) / dot(p.normal, p.normal);
     Vec force[3];
     for (int point = 0; point < 3; ++point)
       force[point] =
           plus(scaled(ks, p.gap[point]), scaled(difference * dot(p.gap[point], p.normal), p.normal));
-    if (!all_intact(state[i]) || (breaking && near_strength(batch, p, law)))
-      one_by_one(batch, static_cast<int>(std::min<std::int64_t>(lanes, faces - i * lanes)), p, law, breaking,
-                 i * 3 * lanes, state[i], force, sums);
+    if (!all_intact(state[i]) || (breaking && near_strength(batch, p, law))) {
+      const Points copy = p; // what is handed on by reference does not stay in registers
+      Vec changed[3] = {force[0], force[1], force[2]};
+      one_by_one(batch, static_cast<int>(std::min<std::int64_t>(lanes, faces - i * lanes)), copy, law,
+                 breaking, i * 3 * lanes, state[i], changed, sums);
+      for (int point = 0; point < 3; ++point)
+        force[point] = changed[point];
+    }
     const Oct sixth = Oct{} + 1.0 / 6, half = Oct{} + 0.5;
     const Vec common = scaled(sixth, plus(plus(force[0], force[1]), force[2]));
     for (int corner = 0; corner < 3; ++corner) {
       const Vec f = plus(common, scaled(half, force[corner]));
-      simd::scatter_add(partial, batch.place_a[corner], f);
-      simd::scatter_add(partial, batch.place_b[corner], Vec{-f.x, -f.y, -f.z});
+      simd::scatter_add(total, batch.place_a[corner], f);
+      simd::scatter_add(total, batch.place_b[corner], Vec{-f.x, -f.y, -f.z});
     }
   }
 }
 
 FaceSpring face_spring(const FaceBatch& batch, int point, int lane, const Node* position,
                        const Node* displacement, const FaceLaw& law, const FaceStateBatch& state) {
-  const Points p = points_of(batch, position, displacement);
+  const Points p = points_of(batch.node_a, batch.node_b, position, displacement);
   FaceSpring spring;
   spring.gap = lane_of(p.gap[point], lane);
   spring.normal = lane_of(p.normal, lane).normalized();

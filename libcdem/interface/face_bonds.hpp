@@ -41,12 +41,13 @@ struct FaceSums {
   std::vector<FaceBreak> broken;
 };
 
-// position, displacement: m (n_nodes). Adds the forces of `faces` faces in `count` batches to `partial`; breaking: springs may break.
+// Adds the forces of `faces` faces in `count` batches to `force`; breaking: springs may break. position, displacement
+// (m), force: one entry for each place of the chunk.
 void face_bond_forces(const FaceBatch*, std::int64_t count, int faces, const Node* position,
-                      const Node* displacement, const FaceLaw&, bool breaking, FaceStateBatch*, Node* partial,
+                      const Node* displacement, const FaceLaw&, bool breaking, FaceStateBatch*, Node* force,
                       FaceSums&);
 
-// Of one spring.
+// Of one spring; position, displacement: m (n_nodes).
 struct FaceSpring {
   geom::Vec3 gap = geom::Vec3::Zero();    // m, from a to b
   geom::Vec3 normal = geom::Vec3::Zero(); // unit, from a to b

@@ -6,6 +6,7 @@
 
 #include <cmath>
 #include <limits>
+#include <map>
 
 namespace cdem {
 namespace {
@@ -27,19 +28,24 @@ void add(Node& node, const geom::Vec3& v) {
                          "nothing of the model lies there; `cdem check` prints the model's box");
 }
 
-void hold(const Model& model, const Fix& fix, ResolvedConditions& r) {
+// Every node named by a fix, free or not.
+using HeldNodes = std::map<int, HeldNode>;
+
+void hold(const Model& model, const Fix& fix, HeldNodes& held, ResolvedConditions& r) {
   const std::vector<int> nodes = selected_nodes(model, fix.on);
   if (nodes.empty())
     selects_nothing("nodes", fix.on);
-  for (const int node : nodes)
+  for (const int node : nodes) {
+    HeldNode& h = held.try_emplace(node, HeldNode{node, {1, 1, 1, 0}, {}, {nan, nan, nan, 0}}).first->second;
     for (int axis = 0; axis < 3; ++axis) {
       if (!fix.axes[axis])
         continue;
-      component(r.free[node], axis) = fix.release ? 1 : 0;
-      component(r.prescribed[node], axis) = fix.velocity && !fix.release ? (*fix.velocity)[axis] : 0;
-      component(r.target[node], axis) = fix.displacement && !fix.release ? (*fix.displacement)[axis] : nan;
+      component(h.free, axis) = fix.release ? 1 : 0;
+      component(h.prescribed, axis) = fix.velocity && !fix.release ? (*fix.velocity)[axis] : 0;
+      component(h.target, axis) = fix.displacement && !fix.release ? (*fix.displacement)[axis] : nan;
       r.has_target = r.has_target || fix.displacement;
     }
+  }
 }
 
 using Pattern = std::vector<std::pair<int, geom::Vec3>>;
@@ -83,7 +89,7 @@ void load(ResolvedConditions& r, Pattern&& pattern, const Amplitude& amplitude) 
     r.varying.push_back({std::move(pattern), amplitude});
   else
     for (const auto& [node, force] : pattern)
-      add(r.constant[node], force);
+      add(r.external[node], force);
 }
 
 void add_flow(const Model& model, const Flow& flow, ResolvedConditions& r) {
@@ -115,13 +121,15 @@ void refresh_flows(const Model& model, const State& state, ResolvedConditions& r
 ResolvedConditions resolve(const Model& model, const State& state, const Conditions& conditions) {
   ResolvedConditions r;
   const std::size_t n = model.node_position.size();
-  r.free.assign(n, Node{1, 1, 1, 0});
-  r.prescribed.resize(n);
-  r.target.assign(n, Node{nan, nan, nan, 0});
-  r.constant.resize(n);
-  r.internal.resize(n);
+  HeldNodes held;
   for (const Fix& fix : conditions.fixes)
-    hold(model, fix, r);
+    hold(model, fix, held, r);
+  for (const auto& [node, h] : held)
+    if (h.free.x == 0 || h.free.y == 0 || h.free.z == 0)
+      r.held.push_back(h);
+  if (!conditions.tractions.empty() || !conditions.forces.empty() || conditions.gravity ||
+      !conditions.flows.empty())
+    r.external.resize(n);
   for (const Traction& traction : conditions.tractions)
     load(r, traction_pattern(model, traction), traction.amplitude);
   for (const PointForce& force : conditions.forces)
@@ -130,12 +138,13 @@ ResolvedConditions resolve(const Model& model, const State& state, const Conditi
     load(r, gravity_pattern(model, *conditions.gravity), conditions.gravity->amplitude);
   for (const Flow& flow : conditions.flows)
     add_flow(model, flow, r);
-  r.external = r.constant;
+  if (!r.varying.empty())
+    r.constant = r.external;
   refresh_flows(model, state, r);
   for (std::size_t b = 0; b < model.blocks.size(); ++b)
     if (state.initial_stress[b] != Stress{}) {
+      r.internal.resize(n);
       add_uniform_stress_forces(model, model.blocks[b], state.initial_stress[b], r.internal);
-      r.has_initial_stress = true;
     }
   return r;
 }

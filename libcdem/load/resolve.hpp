@@ -20,19 +20,39 @@ struct ResolvedFlow {
   std::size_t load = 0; // its place in ResolvedConditions::varying
 };
 
+// A node of which a component at least is held.
+struct HeldNode {
+  int node = 0;
+  Node free;       // 1 where a component is free, 0 where it is held
+  Node prescribed; // m/s, velocity of the held components
+  Node target;     // m, displacement the held components are to reach in a relaxation; NaN: none
+};
+
 struct ResolvedConditions {
-  std::vector<Node> free;       // 1 where a component is free, 0 where it is held (n_nodes)
-  std::vector<Node> prescribed; // m/s, velocity of the held components (n_nodes)
-  std::vector<Node>
-      target; // m, displacement the held components are to reach in a relaxation; NaN: none (n_nodes)
-  std::vector<Node> constant; // N, loads that do not vary (n_nodes)
-  std::vector<Node> external; // N, all loads at the present time (n_nodes)
-  std::vector<Node> internal; // N, forces of the initial stress (n_nodes)
+  std::vector<HeldNode> held; // by number
+  std::vector<Node> constant; // N, loads that do not vary (n_nodes); empty where none varies
+  std::vector<Node> external; // N, all loads at the present time (n_nodes); empty without loads
+  std::vector<Node> internal; // N, forces of the initial stress (n_nodes); empty without
   std::vector<VaryingLoad> varying;
   std::vector<ResolvedFlow> flows;
   bool has_target = false;
-  bool has_initial_stress = false;
 };
+
+// free(range) for the runs of nodes between held ones, held(node) for these, all in order.
+template <class Free, class Held>
+void each_node(const ResolvedConditions& r, Range nodes, const Free& free, const Held& held) {
+  auto next = std::lower_bound(r.held.begin(), r.held.end(), nodes.begin,
+                               [](const HeldNode& h, std::int64_t node) { return h.node < node; });
+  std::int64_t begin = nodes.begin;
+  for (; next != r.held.end() && next->node < nodes.end; ++next) {
+    if (begin < next->node)
+      free(Range{begin, next->node});
+    held(*next);
+    begin = next->node + 1;
+  }
+  if (begin < nodes.end)
+    free(Range{begin, nodes.end});
+}
 
 // Throws geom::InputError when a condition selects nothing.
 ResolvedConditions resolve(const Model&, const State&, const Conditions&);

@@ -128,6 +128,42 @@ std::vector<BondedFace> bonded_faces(const geom::TetMesh& mesh, const std::vecto
   return bonded;
 }
 
+// Numbers the copies anew, chunk by chunk: first those that no other chunk touches. Returns for each chunk how many.
+std::vector<std::int64_t> inner_first(SplitMesh& split, const std::vector<BondedFace>& faces) {
+  const std::size_t nodes = split.original.size();
+  std::vector<int> owner(nodes, -1);
+  std::vector<char> shared(nodes, 0);
+  const auto touch = [&](int node, int tet) {
+    const int chunk = tet / tets_per_chunk;
+    if (owner[node] < 0)
+      owner[node] = chunk;
+    shared[node] |= static_cast<char>(owner[node] != chunk);
+  };
+  for (int t = 0; t < static_cast<int>(split.tets.size()); ++t)
+    for (const int node : split.tets[t])
+      touch(node, t);
+  for (const BondedFace& f : faces) // their forces are summed where the tet of side a is
+    for (const int corner : f.face.corners[1])
+      touch(split.tets[f.face.tets[1]][corner], f.face.tets[0]);
+
+  std::vector<int> order(nodes), number(nodes), original(nodes);
+  std::iota(order.begin(), order.end(), 0);
+  std::stable_sort(order.begin(), order.end(), [&](int a, int b) {
+    return owner[a] != owner[b] ? owner[a] < owner[b] : shared[a] < shared[b];
+  });
+  std::vector<std::int64_t> inner((split.tets.size() + tets_per_chunk - 1) / tets_per_chunk);
+  for (std::size_t i = 0; i < nodes; ++i) {
+    number[order[i]] = static_cast<int>(i);
+    original[i] = split.original[order[i]];
+    inner[owner[order[i]]] += shared[order[i]] ? 0 : 1;
+  }
+  split.original = std::move(original);
+  for (geom::Tet& tet : split.tets)
+    for (int& node : tet)
+      node = number[node];
+  return inner;
+}
+
 void add_faces(MeshData& data, const std::vector<BondedFace>& faces, int first_tet,
                const std::vector<geom::Tet>& tets, Places& places) {
   for (std::size_t begin = 0; begin < faces.size(); begin += lanes) {
@@ -158,10 +194,8 @@ void add_tets(MeshData& data, Range tets, const std::vector<geom::Tet>& all, Pla
     for (int lane = 0; lane < lanes; ++lane) {
       const bool used = begin + lane < tets.end;
       const geom::Tet& tet = all[used ? begin + lane : begin];
-      for (int corner = 0; corner < 4; ++corner) {
-        batch.node[corner][lane] = tet[corner];
+      for (int corner = 0; corner < 4; ++corner)
         batch.place[corner][lane] = places.of(tet[corner]);
-      }
       if (used)
         data.tet_slot.push_back(static_cast<int>(data.batches.size()) * lanes + lane);
     }
@@ -169,7 +203,7 @@ void add_tets(MeshData& data, Range tets, const std::vector<geom::Tet>& all, Pla
   }
 }
 
-// Nodes come in the order in which tets touch them: those a chunk is the first to touch follow each other.
+// Those a chunk is the first to touch follow each other.
 int nodes_end(const std::vector<geom::Tet>& tets, Range range, int begin) {
   int end = begin;
   for (std::int64_t t = range.begin; t < range.end; ++t)
@@ -229,7 +263,8 @@ void add_boundary(Model& model, const std::vector<geom::OuterFace>& outer, int b
   }
 }
 
-void add_chunks(Model& model, const std::vector<BondedFace>& faces, int block, Places& places) {
+void add_chunks(Model& model, const std::vector<BondedFace>& faces, const std::vector<std::int64_t>& inner,
+                int block, Places& places) {
   MeshData& data = model.mesh;
   const Block& b = model.blocks[block];
   std::size_t face = 0;
@@ -239,6 +274,7 @@ void add_chunks(Model& model, const std::vector<BondedFace>& faces, int block, P
     chunk.block = block;
     chunk.tets = {begin, std::min(b.tet_end, begin + tets_per_chunk)};
     chunk.nodes = {node, nodes_end(model.tets, chunk.tets, node)};
+    chunk.inner_end = chunk.nodes.begin + inner[(begin - b.tet_begin) / tets_per_chunk];
     node = static_cast<int>(chunk.nodes.end);
     places.start(chunk.nodes);
     chunk.batches.begin = static_cast<std::int64_t>(data.batches.size());
@@ -253,13 +289,11 @@ void add_chunks(Model& model, const std::vector<BondedFace>& faces, int block, P
     add_faces(data, own, b.tet_begin, model.tets, places);
     chunk.face_batches.end = static_cast<std::int64_t>(data.faces.size());
 
+    chunk.others.begin = static_cast<std::int64_t>(data.others.size());
+    data.others.insert(data.others.end(), places.others().begin(), places.others().end());
+    chunk.others.end = static_cast<std::int64_t>(data.others.size());
     chunk.partial.begin = data.chunks.empty() ? 0 : data.chunks.back().partial.end;
-    chunk.partial.end =
-        chunk.partial.begin + chunk.nodes.size() + static_cast<std::int64_t>(places.others().size());
-    data.partial_node.resize(chunk.partial.end);
-    auto* const nodes = data.partial_node.data() + chunk.partial.begin;
-    std::iota(nodes, nodes + chunk.nodes.size(), static_cast<int>(chunk.nodes.begin));
-    std::copy(places.others().begin(), places.others().end(), nodes + chunk.nodes.size());
+    chunk.partial.end = chunk.partial.begin + chunk.nodes.end - chunk.inner_end + chunk.others.size();
     data.chunks.push_back(chunk);
 
     BlockChunk step;
@@ -271,15 +305,31 @@ void add_chunks(Model& model, const std::vector<BondedFace>& faces, int block, P
 
 void add_shares(Model& model) {
   MeshData& data = model.mesh;
-  const std::size_t nodes = model.node_position.size() - static_cast<std::size_t>(data.first_node);
-  data.share_begin.assign(nodes + 1, 0);
-  for (const int node : data.partial_node)
-    ++data.share_begin[node - data.first_node + 1];
+  const int first = data.first_node;
+  std::vector<int> rank(model.node_position.size() - static_cast<std::size_t>(first),
+                        -1); // among shared nodes
+  int shared = 0;
+  for (MeshChunk& chunk : data.chunks) {
+    chunk.share_begin = shared;
+    for (std::int64_t node = chunk.inner_end; node < chunk.nodes.end; ++node)
+      rank[node - first] = shared++;
+  }
+  // Of the partial forces, in their order: visit(rank of the node, place).
+  const auto each = [&](const auto& visit) {
+    for (const MeshChunk& chunk : data.chunks) {
+      auto place = static_cast<int>(chunk.partial.begin);
+      for (std::int64_t node = chunk.inner_end; node < chunk.nodes.end; ++node)
+        visit(rank[node - first], place++);
+      for (std::int64_t i = chunk.others.begin; i < chunk.others.end; ++i)
+        visit(rank[data.others[i] - first], place++);
+    }
+  };
+  data.share_begin.assign(static_cast<std::size_t>(shared) + 1, 0);
+  each([&](int node, int) { ++data.share_begin[node + 1]; });
   std::partial_sum(data.share_begin.begin(), data.share_begin.end(), data.share_begin.begin());
   std::vector<int> next(data.share_begin.begin(), data.share_begin.end() - 1);
-  data.shares.resize(data.partial_node.size());
-  for (int i = 0; i < static_cast<int>(data.partial_node.size()); ++i)
-    data.shares[next[data.partial_node[i] - data.first_node]++] = i;
+  data.shares.resize(data.share_begin.back());
+  each([&](int node, int place) { data.shares[next[node]++] = place; });
 }
 
 } // namespace
@@ -309,7 +359,9 @@ void add_meshes(Model& model, std::vector<MeshSeed>&& seeds) {
     seed.mesh = {};
     const std::vector<geom::InnerFace> inner = geom::inner_faces(mesh);
     const Body& body = model.bodies[seed.body];
-    const SplitMesh split = split_nodes(mesh, inner, body.bonding);
+    const std::vector<BondedFace> bonded = bonded_faces(mesh, inner, body);
+    SplitMesh split = split_nodes(mesh, inner, body.bonding);
+    const std::vector<std::int64_t> inner_nodes = inner_first(split, bonded);
 
     const int index = static_cast<int>(model.blocks.size());
     Block block;
@@ -326,7 +378,7 @@ void add_meshes(Model& model, std::vector<MeshSeed>&& seeds) {
     add_nodes(model, mesh, split, index);
     add_boundary(model, geom::outer_faces(mesh), index);
     Places places(model.node_position.size());
-    add_chunks(model, bonded_faces(mesh, inner, body), index, places);
+    add_chunks(model, bonded, inner_nodes, index, places);
   }
   add_shares(model);
 }

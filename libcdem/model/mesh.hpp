@@ -5,8 +5,9 @@
 // bonded each tet has its own four nodes, where none is the nodes are those of the mesh.
 //
 // Tets stand in the order of a Hilbert curve and nodes in that of first touch. A chunk is a run of tets; it owns the
-// nodes it is the first to touch and lists the others it needs. It sums the forces of its tets and faces into its own
-// slice of an array of partial forces; the owner of a node adds the slices in a fixed order. Nothing is written twice.
+// nodes it is the first to touch, those that no other chunk touches (inner) first, and lists the others it needs. It
+// sums the forces of its tets and faces, moves its inner nodes, and leaves the rest in its own slice of an array of
+// partial forces; the owner of a node adds those in a fixed order. Nothing is written twice.
 #pragma once
 
 #include "libcdem/parallel/chunks.hpp"
@@ -20,28 +21,32 @@
 namespace cdem {
 
 // Eight tets of one chunk. Lanes past the chunk's last tet repeat its first one and are given no stiffness.
-struct MeshBatch {
-  int node[4][lanes];            // of the model
-  std::uint16_t place[4][lanes]; // of the same nodes among those of the chunk
+struct alignas(64) MeshBatch {
+  std::uint16_t place[4][lanes]; // of the nodes among those of the chunk
 };
 
 // Eight bonded faces of one chunk: corner i of side a against corner i of side b, counter-clockwise seen from b.
 // Lanes past the last face repeat the first one with kn = 0.
-struct FaceBatch {
-  int node_a[3][lanes], node_b[3][lanes];
-  std::uint16_t place_a[3][lanes], place_b[3][lanes];
-  double kn[lanes];   // N/m, of one of the face's three springs
-  double area[lanes]; // m2, of one of them: a third of the face
+struct alignas(64) FaceBatch {
+  double kn[lanes];                                   // N/m, of one of the face's three springs
+  double area[lanes];                                 // m2, of one of them: a third of the face
+  std::uint16_t place_a[3][lanes], place_b[3][lanes]; // of the nodes among those of the chunk
+  int node_a[3][lanes], node_b[3][lanes];             // the same, of the model
 };
 
 struct MeshChunk {
   int block = 0;
-  Range nodes;        // its own
-  Range tets;         // of the model
-  Range batches;      // into MeshData::batches
-  Range face_batches; // into MeshData::faces
-  int faces = 0;      // in them
-  Range partial;      // its slice of the partial forces: its own nodes first, then the others it touches
+  Range nodes;                // its own, the inner ones first
+  std::int64_t inner_end = 0; // of those: nodes that no other chunk touches
+  Range others;               // into MeshData::others: further nodes it touches
+  Range tets;                 // of the model
+  Range batches;              // into MeshData::batches
+  Range face_batches;         // into MeshData::faces
+  int faces = 0;              // in them
+  Range partial; // its slice of the partial forces: its own nodes but the inner ones, then the others
+  std::int64_t share_begin = 0; // into MeshData::share_begin: its own nodes but the inner ones
+
+  std::int64_t places() const { return nodes.size() + others.size(); } // own nodes, then others
 };
 
 struct BoundaryTriangle {
@@ -62,10 +67,10 @@ struct MeshData {
   std::vector<FaceBatch> faces;
   std::vector<FaceTets> face_tets; // (faces.size() * lanes)
   std::vector<MeshChunk> chunks;
-  std::vector<int> tet_slot;     // (n mesh tets) batch * lanes + lane
-  std::vector<int> partial_node; // of each partial force: the node of the model
-  std::vector<int> original;     // (n mesh nodes) one number for all copies of a node
-  // Which partial forces add up to that of a node, in order: (n mesh nodes + 1) into `shares`.
+  std::vector<int> tet_slot; // (n mesh tets) batch * lanes + lane
+  std::vector<int> others;   // nodes of the model
+  std::vector<int> original; // (n mesh nodes) one number for all copies of a node
+  // Which partial forces add up to that of a node that several chunks touch, in order: into `shares`.
   std::vector<int> share_begin, shares;
   std::vector<BoundaryTriangle> boundary;
 

@@ -56,7 +56,14 @@ struct Vec {
 };
 
 // x, y, z of eight nodes, one node a lane.
-CDEM_INLINE Vec gather(const Node* nodes, const int (&index)[lanes]) {
+// A hint only: `first` may lie beyond the end of its array.
+CDEM_INLINE void prefetch(const void* first, std::size_t bytes) {
+  for (std::size_t i = 0; i < bytes; i += 64)
+    __builtin_prefetch(static_cast<const char*>(first) + i);
+}
+
+template <class Index>
+CDEM_INLINE Vec gather(const Node* nodes, const Index (&index)[lanes]) {
   Quad r[lanes];
   for (int i = 0; i < lanes; ++i)
     r[i] = load(nodes[index[i]]);

@@ -65,11 +65,8 @@ std::vector<Fragment> fragments(const Model& model, const State& state,
     fragment.centroid += volume / 4 * (x[tet[0]] + x[tet[1]] + x[tet[2]] + x[tet[3]]);
     ++fragment.tets;
   }
-  for (int node = 0; node < static_cast<int>(model.node_position.size()); ++node) {
-    const Node& free = conditions.free[node];
-    if (free.x == 0 || free.y == 0 || free.z == 0)
-      of(node).held = true;
-  }
+  for (const HeldNode& h : conditions.held)
+    of(h.node).held = true;
   for (Fragment& fragment : list)
     fragment.centroid /= fragment.volume;
   std::stable_sort(list.begin(), list.end(),

@@ -61,9 +61,7 @@ struct Pressure {
 };
 
 void require_held(const ResolvedConditions& r) {
-  const bool held = std::any_of(r.free.begin(), r.free.end(),
-                                [](const Node& free) { return free.x == 0 || free.y == 0 || free.z == 0; });
-  if (!held)
+  if (r.held.empty())
     throw geom::InputError(
         "critical_flow: nothing is held, the flow would carry the model away; hold a side with fix");
 }

@@ -1,6 +1,8 @@
 #include "libcdem/step/forces.hpp"
 
 #include "libcdem/element/small_strain.hpp"
+#include "libcdem/interface/spring_forces.hpp"
+#include "libcdem/step/mesh_forces.hpp"
 
 namespace cdem {
 namespace {
@@ -22,43 +24,47 @@ void add_spring_forces(const Model& model, Workspace& work, Range nodes) {
   }
 }
 
-void add(std::vector<Node>& force, const std::vector<Node>& more, Range nodes) {
-  for (std::int64_t node = nodes.begin; node < nodes.end; ++node) {
-    force[node].x += more[node].x;
-    force[node].y += more[node].y;
-    force[node].z += more[node].z;
-  }
-}
-
-// The owner of a node adds the partial forces of all chunks that touch it, in order.
-void add_mesh_forces(const Model& model, Workspace& work, Range nodes) {
-  const MeshData& mesh = model.mesh;
-  if (mesh.empty())
-    return;
-  for (std::int64_t node = std::max<std::int64_t>(nodes.begin, mesh.first_node); node < nodes.end; ++node) {
-    Node& f = work.force[node];
-    const int* share = mesh.shares.data() + mesh.share_begin[node - mesh.first_node];
-    const int* const end = mesh.shares.data() + mesh.share_begin[node - mesh.first_node + 1];
-    for (; share != end; ++share) {
-      const Node& p = work.partial[*share];
-      f.x += p.x;
-      f.y += p.y;
-      f.z += p.z;
-    }
-  }
+void add(Node& force, const Node& more) {
+  force.x += more.x;
+  force.y += more.y;
+  force.z += more.z;
 }
 
 } // namespace
 
-void net_forces(const Model& model, const State& state, Workspace& work, const BlockChunk& chunk) {
+void block_forces(const Model& model, const State& state, Workspace& work, const BlockChunk& chunk) {
   clear_forces(work, chunk.nodes);
   add_small_strain_forces(model.batches.data() + chunk.batches.begin, chunk.batches.size(),
                           state.displacement.data(), work.force.data());
-  add_mesh_forces(model, work, chunk.nodes);
   add_spring_forces(model, work, chunk.nodes);
-  if (work.resolved.has_initial_stress)
-    add(work.force, work.resolved.internal, chunk.nodes);
-  add(work.force, work.resolved.external, chunk.nodes);
+}
+
+std::vector<Node> net_forces(const Model& model, const State& state, Workspace& work) {
+  State copy = state; // bookkeeping of springs and faces stays as it is
+  work.strain_step = 0;
+  for (std::size_t c = 0; c < model.point_chunks.size(); ++c)
+    spring_forces(model, copy, work, model.point_chunks[c], work.spring_sums[c], false);
+  std::vector<Node> force(model.node_position.size());
+  for (std::size_t c = 0; c < model.mesh.chunks.size(); ++c) {
+    const MeshChunk& chunk = model.mesh.chunks[c];
+    const Node* const at = mesh_forces(model, copy, work, static_cast<std::int64_t>(c), false);
+    std::copy(at, at + (chunk.inner_end - chunk.nodes.begin), force.begin() + chunk.nodes.begin);
+  }
+  for (const MeshChunk& chunk : model.mesh.chunks)
+    each_shared_force(model.mesh, work, chunk, [&](Range nodes, const Node* at) {
+      std::copy(at, at + nodes.size(), force.begin() + nodes.begin);
+    });
+  for (std::size_t c = 0; c < model.chunks.size() - model.mesh.chunks.size(); ++c)
+    block_forces(model, copy, work, model.chunks[c]);
+  std::copy(work.force.begin(), work.force.end(), force.begin());
+  const ResolvedConditions& r = work.resolved;
+  for (std::size_t i = 0; i < force.size(); ++i) {
+    if (!r.internal.empty())
+      add(force[i], r.internal[i]);
+    if (!r.external.empty())
+      add(force[i], r.external[i]);
+  }
+  return force;
 }
 
 } // namespace cdem

@@ -1,15 +1,39 @@
-// Forces of one chunk of a mesh: its tets and its bonded faces, into its own slice of the partial forces. Chunks may
-// run side by side.
+// Forces of one chunk of a mesh: its tets and its bonded faces. Chunks may run side by side: each reads nodes of its
+// own and of others, gives those of its inner nodes back, and leaves the rest in its own slice of the partial forces.
 #pragma once
 
 #include "libcdem/step/workspace.hpp"
 
 namespace cdem {
 
-// Advances the stress by Workspace::strain_step, the step that the stress stands behind the nodes.
-void mesh_forces(const Model&, State&, Workspace&, std::int64_t chunk, bool breaking);
+// Advances the stress by Workspace::strain_step, the step that the stress stands behind the nodes. Returns the forces
+// at the chunk's places, N, of which those of its inner nodes are complete but for loads; they stand until the thread
+// does its next chunk.
+const Node* mesh_forces(const Model&, State&, Workspace&, std::int64_t chunk, bool breaking);
 
-// Workspace::position of the nodes from their displacements; nothing in a model without meshes.
-void move_positions(const Model&, const State&, Workspace&, Range nodes);
+// visit(nodes, forces) for the other nodes of a chunk, some at a time: the sums of what all chunks left for them, in
+// order. After mesh_forces of every chunk.
+template <class Visit>
+void each_shared_force(const MeshData& mesh, const Workspace& work, const MeshChunk& chunk,
+                       const Visit& visit) {
+  constexpr std::int64_t at_once = 64;
+  Node sums[at_once];
+  const int* end = mesh.share_begin.data() + chunk.share_begin;
+  for (std::int64_t node = chunk.inner_end; node < chunk.nodes.end; node += at_once) {
+    const Range nodes{node, std::min(chunk.nodes.end, node + at_once)};
+    for (std::int64_t i = 0; i < nodes.size(); ++i, ++end) {
+      Node f;
+      for (const int *share = mesh.shares.data() + end[0], *last = mesh.shares.data() + end[1]; share != last;
+           ++share) {
+        const Node& p = work.partial[*share];
+        f.x += p.x;
+        f.y += p.y;
+        f.z += p.z;
+      }
+      sums[i] = f;
+    }
+    visit(nodes, static_cast<const Node*>(sums));
+  }
+}
 
 } // namespace cdem

@@ -1,11 +1,11 @@
 #include "libcdem/step/relax.hpp"
 
 #include "libcdem/results/energy.hpp"
-#include "libcdem/step/forces.hpp"
-#include "libcdem/step/mesh_forces.hpp"
+#include "libcdem/step/move_nodes.hpp"
 #include "libcdem/step/row_sums.hpp"
 
 #include <cmath>
+#include <utility>
 
 namespace cdem {
 namespace {
@@ -24,13 +24,13 @@ constexpr int settled_steps = 10;
 // stage or of the forces of the initial stress (squared norms).
 constexpr double reaction_floor2 = 1e-4;
 
-// Net force over one component, integrated with m (v+ - v-) = F - c m (v+ + v-) / 2 and u += v+.
+// One component of a node of which some are held: the law of relax_nodes where it is free.
 struct Component {
   double free, prescribed, applied;
 };
 
-inline void advance(double force, double previous, double mass, double damping, const Component& c,
-                    double& velocity, double& displacement, NodeSums& sums) {
+void advance(double force, double previous, double mass, double damping, const Component& c, double& velocity,
+             double& displacement, NodeSums& sums) {
   const double before = velocity;
   if (c.free != 0) {
     sums.residual2 += force * force;
@@ -51,22 +51,15 @@ inline void advance(double force, double previous, double mass, double damping, 
   displacement += velocity;
 }
 
-NodeSums integrate(const Model& model, State& state, Workspace& work, Range nodes, double damping) {
-  NodeSums sums;
-  const ResolvedConditions& r = work.resolved;
-  for (std::int64_t i = nodes.begin; i < nodes.end; ++i) {
-    const Node& f = work.force[i];
-    Node& old = work.previous_force[i];
-    Node& v = state.velocity[i];
-    Node& u = state.displacement[i];
-    const double m = work.mass[i];
-    advance(f.x, old.x, m, damping, {r.free[i].x, r.prescribed[i].x, r.external[i].x}, v.x, u.x, sums);
-    advance(f.y, old.y, m, damping, {r.free[i].y, r.prescribed[i].y, r.external[i].y}, v.y, u.y, sums);
-    advance(f.z, old.z, m, damping, {r.free[i].z, r.prescribed[i].z, r.external[i].z}, v.z, u.z, sums);
-    old = f;
-  }
-  move_positions(model, state, work, nodes);
-  return sums;
+void relax_held_node(const MovingNodes& node, const HeldNode& h, double damping, Node& previous_force,
+                     NodeSums& sums) {
+  const auto [f, load] = held_node_forces(node);
+  const Node old = std::exchange(previous_force, f);
+  const double m = *node.mass;
+  Node &v = *node.velocity, &u = *node.displacement;
+  advance(f.x, old.x, m, damping, {h.free.x, h.prescribed.x, load.x}, v.x, u.x, sums);
+  advance(f.y, old.y, m, damping, {h.free.y, h.prescribed.y, load.y}, v.y, u.y, sums);
+  advance(f.z, old.z, m, damping, {h.free.z, h.prescribed.z, load.z}, v.z, u.z, sums);
 }
 
 // Velocities per step that bring held components to their given displacement.
@@ -74,20 +67,31 @@ void aim_supports(const State& state, ResolvedConditions& r, int steps) {
   const auto aim = [&](double target, double now) {
     return std::isnan(target) ? 0.0 : (target - now) / steps;
   };
-  for (std::size_t i = 0; i < r.target.size(); ++i)
-    r.prescribed[i] = {aim(r.target[i].x, state.displacement[i].x),
-                       aim(r.target[i].y, state.displacement[i].y),
-                       aim(r.target[i].z, state.displacement[i].z), 0};
+  for (HeldNode& h : r.held) {
+    const Node& u = state.displacement[h.node];
+    h.prescribed = {aim(h.target.x, u.x), aim(h.target.y, u.y), aim(h.target.z, u.z), 0};
+  }
+}
+
+void stop_supports(ResolvedConditions& r) {
+  for (HeldNode& h : r.held)
+    h.prescribed = {};
 }
 
 // Squared norm of the initial stress's forces on free components, N2.
 double initial_stress_forces2(const ResolvedConditions& r) {
   double sum = 0;
-  for (std::size_t i = 0; i < r.internal.size(); ++i) {
-    const double x = r.free[i].x * r.internal[i].x, y = r.free[i].y * r.internal[i].y,
-                 z = r.free[i].z * r.internal[i].z;
+  const auto add = [&](const Node& f, const Node& free) {
+    const double x = free.x * f.x, y = free.y * f.y, z = free.z * f.z;
     sum += x * x + y * y + z * z;
-  }
+  };
+  each_node(
+      r, {0, static_cast<std::int64_t>(r.internal.size())},
+      [&](Range free) {
+        for (std::int64_t i = free.begin; i < free.end; ++i)
+          add(r.internal[i], {1, 1, 1, 0});
+      },
+      [&](const HeldNode& h) { add(r.internal[h.node], h.free); });
   return sum;
 }
 
@@ -116,7 +120,8 @@ std::vector<double> fictitious_masses(const Model& model) {
 RelaxResult relax(const StageContext& context, const RelaxOptions& options, const std::string& kind) {
   State& state = context.state;
   Stage stage(context, kind, context.model.length);
-  stage.work.mass = fictitious_masses(context.model);
+  const std::vector<double> mass = fictitious_masses(context.model);
+  std::vector<Node> previous_force(mass.size()); // N, of the step before
   update_external(stage.work.resolved, state.time);
   const double moving = energy(context.model, state).total();
   std::fill(state.velocity.begin(), state.velocity.end(), Node{});
@@ -134,11 +139,17 @@ RelaxResult relax(const StageContext& context, const RelaxOptions& options, cons
     const AtRest at_rest{stage, state, context.last_good, report.sums};
     while (stage.step < options.max_steps && settled < settled_steps) {
       if (stage.step == moving_steps)
-        std::fill(stage.work.resolved.prescribed.begin(), stage.work.resolved.prescribed.end(), Node{});
-      stage.shared_forces(options.breaking);
-      report.sums = stage.over_chunks([&](const BlockChunk& chunk) {
-        net_forces(context.model, state, stage.work, chunk);
-        return integrate(context.model, state, stage.work, chunk.nodes, damping);
+        stop_supports(stage.work.resolved);
+      report.sums = stage.advance(options.breaking, [&](Range range, const Node* force, NodeSums& sums) {
+        const auto nodes = [&](Range part) {
+          return moving_nodes(state, stage.work, mass, part, force + (part.begin - range.begin));
+        };
+        each_node(
+            stage.work.resolved, range,
+            [&](Range part) { relax_nodes(nodes(part), damping, previous_force.data() + part.begin, sums); },
+            [&](const HeldNode& h) {
+              relax_held_node(nodes({h.node, h.node + 1}), h, damping, previous_force[h.node], sums);
+            });
       });
       stage.work.strain_step = 1; // velocities are lengths per step
       largest_reaction2 = std::max(largest_reaction2, report.sums.reaction2);

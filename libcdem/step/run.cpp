@@ -1,7 +1,6 @@
 #include "libcdem/step/run.hpp"
 
-#include "libcdem/step/forces.hpp"
-#include "libcdem/step/mesh_forces.hpp"
+#include "libcdem/step/move_nodes.hpp"
 #include "libcdem/step/row_sums.hpp"
 #include "libgeom/core/error.hpp"
 
@@ -15,29 +14,20 @@ namespace {
 // Bodies in free flight may travel; only what leaves the scene altogether has run away.
 constexpr double run_away_lengths = 100;
 
+// One component of a node of which some are held: the law of step_nodes where it is free.
 struct Component {
   double free, prescribed, applied;
 };
 
-struct Stepping {
-  double time_step;     // s
-  double kick;          // s, from the time of the velocities to half a step ahead
-  double local_damping; // fraction of the out-of-balance force
-};
-
-// m dv/dt = F - mu V v - alpha |F| sign(v), all at the mean velocity of the step: taken at the velocity before, local
-// damping would feed a node that turns round within the step, and blow up near the stable step.
-inline void advance(double force, double mass, double viscous, const Stepping& s, const Component& c,
-                    double& velocity, double& displacement, NodeSums& sums) {
+void advance(double force, double mass, double viscous, const Stepping& s, const Component& c,
+             double& velocity, double& displacement, NodeSums& sums) {
   const double before = velocity;
   if (c.free != 0) {
     sums.residual2 += force * force;
     sums.applied2 += c.applied * c.applied;
     const double inertia = mass / s.kick;
     const double undamped = ((inertia - 0.5 * viscous) * before + force) / (inertia + 0.5 * viscous);
-    const double most =
-        s.local_damping * std::abs(force) / (inertia + 0.5 * viscous); // it can take off the velocity
-    // A node that it could hold at mean velocity 0 is held there, without loss.
+    const double most = s.local_damping * std::abs(force) / (inertia + 0.5 * viscous);
     velocity = before + undamped > most    ? undamped - most
                : before + undamped < -most ? undamped + most
                                            : 0 - before;
@@ -55,22 +45,26 @@ inline void advance(double force, double mass, double viscous, const Stepping& s
   displacement += velocity * s.time_step;
 }
 
-NodeSums integrate(const Model& model, State& state, Workspace& work, Range nodes, const Stepping& stepping) {
-  NodeSums sums;
-  const ResolvedConditions& r = work.resolved;
-  for (std::int64_t i = nodes.begin; i < nodes.end; ++i) {
-    const Node& f = work.force[i];
-    Node& v = state.velocity[i];
-    Node& u = state.displacement[i];
-    const double viscous =
-        model.bodies[model.blocks[model.node_block[i]].body].material.viscosity * model.node_volume[i];
-    const double m = work.mass[i];
-    advance(f.x, m, viscous, stepping, {r.free[i].x, r.prescribed[i].x, r.external[i].x}, v.x, u.x, sums);
-    advance(f.y, m, viscous, stepping, {r.free[i].y, r.prescribed[i].y, r.external[i].y}, v.y, u.y, sums);
-    advance(f.z, m, viscous, stepping, {r.free[i].z, r.prescribed[i].z, r.external[i].z}, v.z, u.z, sums);
-  }
-  move_positions(model, state, work, nodes);
-  return sums;
+void step_held_node(const MovingNodes& node, const HeldNode& h, const Stepping& stepping, NodeSums& sums) {
+  const auto [f, load] = held_node_forces(node);
+  const double m = *node.mass, viscous = node.viscous ? *node.viscous : 0;
+  Node &v = *node.velocity, &u = *node.displacement;
+  advance(f.x, m, viscous, stepping, {h.free.x, h.prescribed.x, load.x}, v.x, u.x, sums);
+  advance(f.y, m, viscous, stepping, {h.free.y, h.prescribed.y, load.y}, v.y, u.y, sums);
+  advance(f.z, m, viscous, stepping, {h.free.z, h.prescribed.z, load.z}, v.z, u.z, sums);
+}
+
+// mu V of every node, N s/m; empty when nothing is viscous.
+std::vector<double> viscous_forces(const Model& model) {
+  std::vector<double> viscous;
+  if (std::all_of(model.bodies.begin(), model.bodies.end(),
+                  [](const Body& body) { return body.material.viscosity == 0; }))
+    return viscous;
+  viscous.reserve(model.node_volume.size());
+  for (std::size_t i = 0; i < model.node_volume.size(); ++i)
+    viscous.push_back(model.bodies[model.blocks[model.node_block[i]].body].material.viscosity *
+                      model.node_volume[i]);
+  return viscous;
 }
 
 double choose_time_step(const Model& model, const RunOptions& options) {
@@ -96,6 +90,7 @@ RunResult run(const StageContext& context, const RunOptions& options, const std:
   State& state = context.state;
   Stepping stepping{choose_time_step(context.model, options), 0, options.local_damping};
   Stage stage(context, kind, run_away_lengths * context.model.length);
+  const std::vector<double> viscous = viscous_forces(context.model);
   Stage::StepReport report;
   const double start = state.time;
   const std::int64_t steps =
@@ -111,12 +106,20 @@ RunResult run(const StageContext& context, const RunOptions& options, const std:
   bool stopped = false;
   while (stage.step < steps && !stopped) {
     update_external(stage.work.resolved, state.time);
-    stage.shared_forces(options.breaking);
     // Velocities that stand at the time of the displacements, at the start or after a relaxation, take half a step.
     stepping.kick = state.velocity_lag + 0.5 * stepping.time_step;
-    report.sums = stage.over_chunks([&](const BlockChunk& chunk) {
-      net_forces(context.model, state, stage.work, chunk);
-      return integrate(context.model, state, stage.work, chunk.nodes, stepping);
+    report.sums = stage.advance(options.breaking, [&](Range range, const Node* force, NodeSums& sums) {
+      const auto nodes = [&](Range part) {
+        MovingNodes moving = moving_nodes(state, stage.work, context.model.node_mass, part,
+                                          force + (part.begin - range.begin));
+        moving.viscous = viscous.empty() ? nullptr : viscous.data() + part.begin;
+        return moving;
+      };
+      each_node(
+          stage.work.resolved, range, [&](Range part) { step_nodes(nodes(part), stepping, sums); },
+          [&](const HeldNode& h) {
+            step_held_node(nodes({h.node, h.node + 1}), h, stepping, sums);
+          });
     });
     stage.work.strain_step = stepping.time_step;
     report.residual = relative_residual(report.sums);

@@ -61,19 +61,6 @@ double Stage::wall_time() const {
   return seconds(std::chrono::steady_clock::now() - start_);
 }
 
-void Stage::shared_forces(bool breaking) {
-  const Model& model = context_.model;
-  const auto springs = static_cast<std::int64_t>(model.point_chunks.size());
-  const auto meshes = static_cast<std::int64_t>(model.mesh.chunks.size());
-  for_chunks(springs + meshes, context_.threads, [&](std::int64_t c) {
-    if (c < springs)
-      spring_forces(model, context_.state, work, model.point_chunks[c], work.spring_sums[c], breaking);
-    else
-      mesh_forces(model, context_.state, work, c - springs, breaking);
-  });
-  work.strain_step = 0;
-}
-
 void Stage::catch_up() {
   const auto meshes = static_cast<std::int64_t>(context_.model.mesh.chunks.size());
   if (work.strain_step > 0)
@@ -188,8 +175,9 @@ void Stage::after_step(const StepReport& report) {
   spent.damping += report.sums.damping;
   ++step;
   ++context_.state.step;
-  // A sum over all free forces and one over all velocities: a NaN anywhere shows here in the step it appears.
-  if (!std::isfinite(report.sums.residual2) || !std::isfinite(report.sums.kinetic) || step % watch_every == 0)
+  // Sums over all forces and one over all velocities: a NaN anywhere shows here in the step it appears.
+  if (!std::isfinite(report.sums.residual2) || !std::isfinite(report.sums.kinetic) ||
+      !std::isfinite(report.sums.reaction2) || step % watch_every == 0)
     keep_state();
   if (!work.resolved.flows.empty() && step % flow_every == 0) {
     refresh_flows(context_.model, context_.state, work.resolved);
@@ -247,13 +235,23 @@ void Stage::watch() const {
   for (int node = 0; node < static_cast<int>(model.node_position.size()); ++node) {
     const Node& u = state.displacement[node];
     const Node& v = state.velocity[node];
-    const Node& f = work.force[node];
-    if (!std::isfinite(u.x + u.y + u.z) || !std::isfinite(v.x + v.y + v.z) || !std::isfinite(f.x + f.y + f.z))
+    if (!std::isfinite(u.x + u.y + u.z) || !std::isfinite(v.x + v.y + v.z))
       fail("displacement, velocity or force is not a number", node, "look at loads and stiffnesses there");
     const double moved = std::sqrt(u.x * u.x + u.y * u.y + u.z * u.z);
     if (moved > run_away_)
       fail(fmt::format("run-away displacement of {:.3g} m (model {:.3g} m across)", moved, model.length),
            node, "is this part held by supports, and can it carry its load?");
+  }
+  for (int node = 0; node < static_cast<int>(work.force.size()); ++node)
+    if (!std::isfinite(work.force[node].x + work.force[node].y + work.force[node].z))
+      fail("displacement, velocity or force is not a number", node, "look at loads and stiffnesses there");
+  for (std::size_t i = 0; i < model.mesh.tet_slot.size(); ++i) {
+    double sum = 0;
+    for (const auto& component : state.stress[model.mesh.tet_slot[i] / lanes].component)
+      sum += component[model.mesh.tet_slot[i] % lanes];
+    if (!std::isfinite(sum))
+      fail("stress is not a number", model.tets[static_cast<std::size_t>(model.mesh.first_tet) + i][0],
+           "look at loads and stiffnesses there");
   }
   for (int tet = 0; tet < static_cast<int>(model.tets.size()); ++tet) {
     const geom::Mat3 f = geom::Mat3::Identity() + displacement_gradient(model, state.displacement, tet);

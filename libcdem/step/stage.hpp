@@ -1,9 +1,11 @@
 // What relaxing and running share: the parts of a step that go over all chunks, and the watch over a stage.
 #pragma once
 
+#include "libcdem/interface/spring_forces.hpp"
 #include "libcdem/results/log.hpp"
+#include "libcdem/step/forces.hpp"
+#include "libcdem/step/mesh_forces.hpp"
 #include "libcdem/step/observer.hpp"
-#include "libcdem/step/workspace.hpp"
 
 #include <chrono>
 #include <functional>
@@ -32,17 +34,13 @@ public:
   Workspace work;
   std::int64_t step = 0; // within the stage
 
-  // Springs between faces and parts of meshes: all that pulls at nodes of more than one chunk.
-  void shared_forces(bool breaking);
+  // One step: all forces where the nodes are, and move(nodes, forces, sums) for every node once all that reads where it
+  // is has done so; `forces` are those of elements and springs at `nodes`, the first first. Returns the sums over all
+  // chunks, added in order.
+  template <class Move>
+  NodeSums advance(bool breaking, const Move& move);
   // Brings the stress of meshes up to where the nodes are; before a state is kept or handed out.
   void catch_up();
-  // body(chunk index, chunk) -> NodeSums over all chunks; returns the total, summed in order.
-  template <class Body>
-  NodeSums over_chunks(const Body& body) {
-    for_chunks(static_cast<std::int64_t>(context_.model.chunks.size()), context_.threads,
-               [&](std::int64_t c) { work.node_sums[c] = body(context_.model.chunks[c]); });
-    return total();
-  }
 
   // Bookkeeping after a step: ledger, breaks, history, progress, watch, stop. Throws SolutionError, Interrupted.
   struct StepReport {
@@ -74,6 +72,43 @@ private:
   std::chrono::steady_clock::time_point start_, told_;
   std::int64_t told_step_ = 0;
 };
+
+template <class Move>
+NodeSums Stage::advance(bool breaking, const Move& move) {
+  const Model& model = context_.model;
+  State& state = context_.state;
+  const auto springs = static_cast<std::int64_t>(model.point_chunks.size());
+  const auto meshes = static_cast<std::int64_t>(model.mesh.chunks.size());
+  const auto stars = static_cast<std::int64_t>(model.chunks.size()) - meshes;
+  // Springs, and meshes with those of their nodes that only one chunk reads.
+  for_chunks(springs + meshes, context_.threads, [&](std::int64_t c) {
+    if (c < springs) {
+      spring_forces(model, state, work, model.point_chunks[c], work.spring_sums[c], breaking);
+      return;
+    }
+    const MeshChunk& chunk = model.mesh.chunks[c - springs];
+    const Node* const force = mesh_forces(model, state, work, c - springs, breaking);
+    NodeSums sums;
+    move(Range{chunk.nodes.begin, chunk.inner_end}, force, sums);
+    work.node_sums[stars + c - springs] = sums;
+  });
+  work.strain_step = 0;
+  // Star blocks, and the nodes that several chunks of a mesh read.
+  for_chunks(stars + meshes, context_.threads, [&](std::int64_t c) {
+    if (c < stars) {
+      NodeSums sums;
+      block_forces(model, state, work, model.chunks[c]);
+      move(model.chunks[c].nodes, work.force.data() + model.chunks[c].nodes.begin, sums);
+      work.node_sums[c] = sums;
+      return;
+    }
+    NodeSums sums = work.node_sums[c];
+    each_shared_force(model.mesh, work, model.mesh.chunks[c - stars],
+                      [&](Range nodes, const Node* force) { move(nodes, force, sums); });
+    work.node_sums[c] = sums;
+  });
+  return total();
+}
 
 // Of the threads allowed, as many as the model keeps busy.
 int useful_threads(const Model&, int threads);

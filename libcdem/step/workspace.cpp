@@ -1,19 +1,16 @@
 #include "libcdem/step/workspace.hpp"
 
-#include "libcdem/step/mesh_forces.hpp"
-
 namespace cdem {
 
 Workspace::Workspace(const Model& model, const State& state, const Conditions& conditions)
-    : resolved(resolve(model, state, conditions)), force(model.node_position.size()),
-      previous_force(model.node_position.size()), mass(model.node_mass),
+    : resolved(resolve(model, state, conditions)),
+      force(model.mesh.empty() ? model.node_position.size()
+                               : static_cast<std::size_t>(model.mesh.first_node)),
       spring_force(model.points.size(), geom::Vec3::Zero()), spring_sums(model.point_chunks.size()),
       node_sums(model.chunks.size()) {
   if (!model.mesh.empty()) {
-    position.resize(model.node_position.size());
-    partial.resize(model.mesh.partial_node.size());
+    partial.resize(static_cast<std::size_t>(model.mesh.chunks.back().partial.end));
     face_sums.resize(model.mesh.chunks.size());
-    move_positions(model, state, *this, {0, static_cast<std::int64_t>(position.size())});
   }
   for (const Interface& interface : model.interfaces) {
     const Joint& joint = model.joints[interface.joint];

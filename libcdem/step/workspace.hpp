@@ -37,9 +37,7 @@ struct Workspace {
   Workspace(const Model&, const State&, const Conditions&);
 
   ResolvedConditions resolved;
-  std::vector<Node> force;              // N, net nodal force (n_nodes); w unused
-  std::vector<Node> previous_force;     // N, of the step before (n_nodes); only relaxation writes it
-  std::vector<double> mass;             // kg, real or fictitious (n_nodes)
+  std::vector<Node> force; // N, at the nodes of star blocks, without loads; written by block_forces
   std::vector<geom::Vec3> spring_force; // N, on side a (n_points); written by spring_forces
   std::vector<SpringStrength> strength; // per interface
   // Both empty in a model without softening joints.
@@ -48,8 +46,7 @@ struct Workspace {
   std::vector<geom::Vec3> stretch;
   std::vector<SpringSums> spring_sums; // per chunk of springs
   // Of meshed bodies; empty without them.
-  std::vector<Node> position;      // m, present place (n_nodes); written by integrate
-  std::vector<Node> partial;       // N, per place of each mesh chunk; written by mesh_forces
+  std::vector<Node> partial; // N, at the places of mesh chunks that others touch too; written by mesh_forces
   std::vector<FaceSums> face_sums; // per mesh chunk
   double strain_step = 0;          // s, by which their stress stands behind the nodes
   std::vector<NodeSums> node_sums; // per chunk of blocks

@@ -132,13 +132,8 @@ std::vector<geom::Vec3> System::net_forces() const {
   cdem::Workspace work(model, state, conditions);
   cdem::update_external(work.resolved, state.time);
   cdem::start_spring_forces(model, state, work);
-  cdem::State advanced = state; // with a step of 0 nothing advances
-  for (std::size_t c = 0; c < model.mesh.chunks.size(); ++c)
-    cdem::mesh_forces(model, advanced, work, static_cast<std::int64_t>(c), false);
-  for (const cdem::BlockChunk& chunk : model.chunks)
-    cdem::net_forces(model, state, work, chunk);
   std::vector<geom::Vec3> forces;
-  for (const cdem::Node& f : work.force)
+  for (const cdem::Node& f : cdem::net_forces(model, state, work))
     forces.push_back(vec(f));
   return forces;
 }
@@ -157,9 +152,12 @@ double System::out_of_balance() const {
   double residual = 0, applied = 0, reaction = 0;
   const std::vector<geom::Vec3> forces = net_forces();
   for (std::size_t i = 0; i < forces.size(); ++i) {
-    const geom::Vec3 free = vec(r.free[i]);
+    const auto held =
+        std::find_if(r.held.begin(), r.held.end(), [&](const cdem::HeldNode& h) { return h.node == int(i); });
+    const geom::Vec3 free = held == r.held.end() ? geom::Vec3(1, 1, 1) : vec(held->free);
+    const geom::Vec3 load = r.external.empty() ? geom::Vec3(0, 0, 0) : vec(r.external[i]);
     residual += forces[i].cwiseProduct(free).squaredNorm();
-    applied += vec(r.external[i]).cwiseProduct(free).squaredNorm();
+    applied += load.cwiseProduct(free).squaredNorm();
     reaction += forces[i].cwiseProduct(geom::Vec3::Ones() - free).squaredNorm();
   }
   return std::sqrt(residual / (applied > 0 ? applied : reaction));
