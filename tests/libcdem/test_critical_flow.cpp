@@ -45,7 +45,7 @@ TEST_CASE("critical flow: hold is no higher than ramp, half the strength is 0.70
     cdem::Simulation s = column(strength, size);
     cdem::CriticalFlowOptions options = along_x(hold, strength / size); // times scale with the size
     options.compliance_ratio = 1e4;
-    const cdem::CriticalFlowResult r = s.critical_flow(options);
+    cdem::CriticalFlowResult r = s.critical_flow(options);
     CHECK(r.reason == Reason::fragment);
     return r;
   };

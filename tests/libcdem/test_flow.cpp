@@ -7,7 +7,6 @@
 #include <catch2/catch.hpp>
 
 using namespace testing;
-using Catch::Matchers::Contains;
 using geom::Vec3;
 
 namespace {
@@ -106,7 +105,6 @@ TEST_CASE("faces that a crack opened take the flow only when asked", "[flow]") {
   }
   cdem::Bonding bonding;
   bonding.between_regions = true;
-  cdem::ModelSpec spec;
   System s(build({meshed("unit", mesh, bonding)}));
   cdem::Flow flow = flow_along({0, 0, -1});
   flow.new_faces = new_faces;
