@@ -74,8 +74,8 @@ double faces_of(const Model& model) {
 double bytes_held(int tets, bool bonded) {
   const double before = resident_bytes();
   const Model model = build(tets, bonded);
-  const State state = initial_state(model), last_good = state;
-  const Workspace work(model, state, {});
+  const std::vector<State> states(2, initial_state(model));
+  const Workspace work(model, states[0], {});
   return resident_bytes() - before;
 }
 
