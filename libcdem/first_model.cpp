@@ -58,6 +58,10 @@ Model first_model(const ModelSpec& spec) {
     validate(pair.joint);
     const int a = body_index(frame, pair.body_a), b = body_index(frame, pair.body_b);
     const std::string both = "{\"" + pair.body_a + "\", \"" + pair.body_b + "\"}";
+    for (const int body : {a, b})
+      if (frame.bodies[body].element == Element::finite_volume)
+        throw geom::InputError("contacts", both, "bodies of blocks",
+                               "there is no contact yet between a mesh and another body");
     if (a == b)
       throw geom::InputError("contacts", both, "two different bodies",
                              "what holds a body's own blocks together is the body's joint");

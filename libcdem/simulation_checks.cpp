@@ -26,6 +26,13 @@ void validate_meshed(const BodySpec& body) {
   if (!b.none() && body.joint.softening != Softening::none)
     throw geom::InputError("softening", "on the faces of a mesh", "none there",
                            "only bonds between convex blocks soften");
+  const Joint standard;
+  if (!b.none() && (body.joint.thickness || body.joint.normal_stiffness || body.joint.shear_stiffness ||
+                    body.joint.thickness_ratio != standard.thickness_ratio))
+    throw geom::InputError(
+        "joint: its thickness and stiffnesses are for convex blocks; the bonds of a mesh take "
+        "stiffness_ratio and shear_ratio of body \"" +
+        body.name + "\"");
   if (!body.shape.blocks.empty())
     throw geom::InputError("shape", "blocks and meshes in one body", "one of them", "make two bodies");
   for (std::size_t i = 0; i < body.meshes.size(); ++i) {
@@ -34,7 +41,7 @@ void validate_meshed(const BodySpec& body) {
     const int regions = *std::max_element(mesh.region.begin(), mesh.region.end()) + 1;
     for (const int region : b.regions)
       if (region < 0 || region >= regions)
-        throw geom::InputError("bonds", std::to_string(region + 1),
+        throw geom::InputError("bonded_regions", std::to_string(region + 1),
                                "a region of the mesh (1 to " + std::to_string(regions) + ")");
   }
 }

@@ -9,6 +9,9 @@
 namespace cdem {
 namespace {
 
+// Of a meshed block's size: bodies nearer than this touch.
+constexpr double touching_tolerance = 1e-3;
+
 // Blocks may reach this part of their size into each other, and share this part of their volume: rounding of
 // builders and of coordinates read from files.
 constexpr double depth_tolerance = 1e-6, volume_tolerance = 1e-6;
@@ -70,6 +73,13 @@ void require_separate(const Model& model) {
     boxes.push_back(block.meshed ? box_of_nodes(model, block) : geom::bounding_box(block.shape));
     planes.push_back(block.meshed ? std::vector<geom::Plane>() : face_planes(block.shape));
   }
+  // Meshes next to each other differ by rounding, however they were put there.
+  for (std::size_t b = 0; b < boxes.size(); ++b)
+    if (model.blocks[b].meshed) {
+      const geom::Vec3 margin = geom::Vec3::Constant(touching_tolerance * model.blocks[b].size);
+      boxes[b].min -= margin;
+      boxes[b].max += margin;
+    }
   for (const auto& [a, b] : geom::touching_pairs(boxes)) {
     const Block &one = model.blocks[a], &other = model.blocks[b];
     if (one.meshed || other.meshed)

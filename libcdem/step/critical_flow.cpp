@@ -2,11 +2,13 @@
 
 #include "libcdem/load/flow.hpp"
 #include "libcdem/results/fragments.hpp"
+#include "libcdem/step/errors.hpp"
 #include "libcdem/step/relax.hpp"
 #include "libcdem/step/run.hpp"
 #include "libgeom/core/error.hpp"
 
 #include <cmath>
+#include <fmt/format.h>
 
 namespace cdem {
 namespace {
@@ -45,10 +47,12 @@ double first_period(const Model& model, const std::vector<std::pair<int, geom::V
 
 // The pressure over time. It rises at a rate from a base point on; a hold keeps it until `resume`.
 struct Pressure {
-  double base_time, base, rate;
+  double base_time, base, rate, limit;
   double resume = -1; // s; > base_time: held until then
 
-  double at(double time) const { return resume >= 0 ? base : base + rate * (time - base_time); }
+  double at(double time) const {
+    return resume >= 0 ? base : std::min(limit, base + rate * (time - base_time));
+  }
   void hold(double time, double until) {
     base = at(time);
     base_time = time;
@@ -64,6 +68,33 @@ void require_held(const ResolvedConditions& r) {
   if (r.held.empty())
     throw geom::InputError(
         "critical_flow: nothing is held, the flow would carry the model away; hold a side with fix");
+}
+
+bool is_intact(std::uint8_t mode) {
+  return mode == static_cast<std::uint8_t>(BondMode::intact);
+}
+
+void require_bonds(const Model& model, const State& state) {
+  bool any = std::any_of(state.bond_mode.begin(), state.bond_mode.end(), is_intact);
+  each_face_spring(model.mesh, [&](const MeshChunk&, const FaceSpringPlace& at) {
+    any = any || is_intact(state.faces[at.batch].mode[at.point][at.lane]);
+  });
+  if (!any)
+    throw geom::InputError(
+        "critical_flow: the model has no unbroken bonds, nothing can break; give its bodies a joint");
+}
+
+// The state from which everything is measured. Without it the search would compare with noise.
+void find_balance(const StageContext& context, const std::string& kind) {
+  RelaxOptions rest;
+  rest.residual = reference_residual;
+  rest.breaking = false;
+  const RelaxResult result = relax(context, rest, kind);
+  if (!result.converged)
+    throw SolutionError(
+        fmt::format("stage {} ({}): no balance after {} steps, residual {:.3g} above {:g}; is a part "
+                    "of the model loose, or broken before?",
+                    context.number, kind, result.steps, result.residual, reference_residual));
 }
 
 bool loaded(const Conditions& c) {
@@ -94,7 +125,8 @@ CriticalFlowResult critical_flow(const StageContext& context, const CriticalFlow
   State& state = context.state;
   Conditions conditions = context.conditions;
   const double density = options.flow.water_density;
-  Pressure pressure{0, flow_pressure(first_velocity, density), options.pressure_rate};
+  const double limit = flow_pressure(options.max_velocity, density);
+  Pressure pressure{0, flow_pressure(first_velocity, density), options.pressure_rate, limit};
   Flow flow = options.flow;
   bool moving = false;
   flow.velocity = [&](double time) {
@@ -106,28 +138,28 @@ CriticalFlowResult critical_flow(const StageContext& context, const CriticalFlow
       context.threads, context.number};
   const ResolvedConditions resolved = resolve(model, state, conditions);
   require_held(resolved);
+  require_bonds(model, state);
   const auto pattern = resolved.varying[resolved.flows.back().load].forces;
   if (pattern.empty())
     throw geom::InputError(
         "critical_flow: no outer face of the place looks towards the flow; turn its direction");
 
-  RelaxOptions rest;
-  rest.residual = reference_residual;
-  rest.breaking = false;
   if (loaded(context.conditions)) // what they do is none of the flow's
-    relax(context, rest, "critical_flow: other loads");
+    find_balance(context, "critical_flow: other loads");
   const std::vector<Node> start = state.displacement;
-  relax(with_flow, rest, "critical_flow: reference");
+  find_balance(with_flow, "critical_flow: reference");
 
   CriticalFlowResult result;
   const double reference = displacement_along(pattern, state, start);
+  if (!(reference > 0))
+    throw geom::InputError(
+        "critical_flow: the flow moves nothing: every face it meets is held; hold a side only");
   result.compliance = reference / pressure.base;
   result.period = first_period(model, pattern, pressure.base, state, start);
   const double hold_time = options.hold_periods * result.period, volume = volume_of(model);
   const double start_time = state.time;
   const std::size_t first_break = context.log.breaks.size();
   const auto broken = [&] { return static_cast<std::int64_t>(context.log.breaks.size() - first_break); };
-  const double limit = flow_pressure(options.max_velocity, density);
   pressure.base_time = start_time;
   moving = true;
 

@@ -1,7 +1,7 @@
 // Search for the flow at which a held solid breaks (Feng 2014 section 3).
 //
 //   ramp  the pressure rises at a constant rate: inertia sets part of the result
-//   hold  it rises at that rate only while no bond broke for a hold time: the static strength
+//   hold  it rises at that rate only while no bond broke for a hold time: near the static strength
 //
 // Both end at the first of: a piece of at least `fragment_fraction` of the volume hangs on no held node any more; the
 // compliance, displacement under the flow's own pattern over pressure, is `compliance_ratio` times that of the unbroken

@@ -127,6 +127,8 @@ RunResult run(const StageContext& context, const RunOptions& options, const std:
     state.velocity_lag = 0.5 * stepping.time_step;
     stage.after_step(report);
     if (stage.step % ask_every == 0) {
+      if (options.callback || options.stop)
+        stage.catch_up(); // what they read is of one moment
       if (options.callback && options.callback_every > 0)
         options.callback();
       stopped = options.stop && options.stop();

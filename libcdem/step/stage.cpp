@@ -152,6 +152,8 @@ void Stage::record_face_breaks() {
 }
 
 void Stage::record_history(const StepReport& report) {
+  if (!context_.log.probes.empty())
+    catch_up();
   HistoryRow row;
   row.stage = context_.number;
   row.step = context_.state.step;

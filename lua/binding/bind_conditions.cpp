@@ -199,7 +199,7 @@ void bind_conditions(Module& m) {
            .doc("buoyancy: takes from the weight, never from the inertia"),
        amplitude()},
       gravity);
-  add("clear_loads", "Takes away tractions, forces and gravity.", {}, clear_loads);
+  add("clear_loads", "Takes away tractions, forces, gravity and flows.", {}, clear_loads);
   add("initial_stress",
       "Stress present before anything moves, the same in all blocks of a place; interfaces between them "
       "start with its "
