@@ -70,20 +70,6 @@ void require_held(const ResolvedConditions& r) {
         "critical_flow: nothing is held, the flow would carry the model away; hold a side with fix");
 }
 
-bool is_intact(std::uint8_t mode) {
-  return mode == static_cast<std::uint8_t>(BondMode::intact);
-}
-
-void require_bonds(const Model& model, const State& state) {
-  bool any = std::any_of(state.bond_mode.begin(), state.bond_mode.end(), is_intact);
-  each_face_spring(model.mesh, [&](const MeshChunk&, const FaceSpringPlace& at) {
-    any = any || is_intact(state.faces[at.batch].mode[at.point][at.lane]);
-  });
-  if (!any)
-    throw geom::InputError(
-        "critical_flow: the model has no unbroken bonds, nothing can break; give its bodies a joint");
-}
-
 // The state from which everything is measured. Without it the search would compare with noise.
 void find_balance(const StageContext& context, const std::string& kind) {
   RelaxOptions rest;
@@ -138,7 +124,6 @@ CriticalFlowResult critical_flow(const StageContext& context, const CriticalFlow
       context.threads, context.number};
   const ResolvedConditions resolved = resolve(model, state, conditions);
   require_held(resolved);
-  require_bonds(model, state);
   const auto pattern = resolved.varying[resolved.flows.back().load].forces;
   if (pattern.empty())
     throw geom::InputError(

@@ -119,8 +119,10 @@ Value critical_flow(Session& session, ModelObject& model, const Arguments& a) {
   return stage(session, model, "critical_flow", a, result_of({}, {}, held), [&](Simulation& simulation) {
     const CriticalFlowResult result = simulation.critical_flow(options);
     if (result.reason == CriticalFlowResult::Reason::limit)
-      session.warn("critical_flow: nothing broke off up to max_velocity = " +
-                   number_text(options.max_velocity) + " m/s; raise it");
+      session.warn(
+          "critical_flow: nothing broke off up to max_velocity = " + number_text(options.max_velocity) +
+          (simulation.counts().bonds > 0 ? " m/s; raise it"
+                                         : " m/s: the model has no bonds; give its bodies a joint"));
     return result_of(result, simulation.box(), held);
   });
 }
