@@ -513,7 +513,7 @@ function Model:force(options) end
 ---@param options cdem.ModelGravityOptions
 function Model:gravity(options) end
 
----Takes away tractions, forces and gravity.
+---Takes away tractions, forces, gravity and flows.
 function Model:clear_loads() end
 
 ---@class (exact) cdem.ModelInitialStressOptions
