@@ -27,7 +27,7 @@ local mesh = solid:mesh{ size = solid.height / fineness }
 local quality = mesh:quality()
 
 if draw then
-  mesh:picture{ file = "setup.png", view = "iso", up = "z", colour_bar = false, legend = true,
+  mesh:picture{ file = "setup.png", camera = unit.camera(case, solid.height),
                 title = "Case " .. number .. ": held on " .. case.held, lines = unit.set_up(case, solid.height, mesh:box()) }
 end
 
@@ -49,7 +49,8 @@ for _, how in ipairs(mode == "both" and {"hold", "ramp"} or {mode}) do
   model:save{ file = how .. ".vtu" }
   if draw then
     local most = model:max("displacement.magnitude")
-    model:picture{ file = how .. ".png", view = "iso", up = "z", colour = "displacement.magnitude",
+    model:picture{ file = how .. ".png", camera = unit.camera(case, solid.height), axes = false,
+                   colour = "displacement.magnitude",
                    deformation = most > 0 and math.floor(0.1 * solid.height / most) or 0,
                    title = string.format("Case %d, %s: broken at %.1f m/s", number, how, broken.velocity) }
   end

@@ -108,7 +108,7 @@ if wanted.cases then
     curves[#curves + 1] = { name = string.format("paper's %s, %.1f m/s", edge < 22 and "lowest" or "highest", edge),
                             x = {edge, edge}, y = {0, 2e-3}, style = "dashed", colour = {0.4, 0.4, 0.4} }
   end
-  cdem.chart{ file = "velocity_displacement.png", title = "Six set-ups, held flow", x_label = "velocity of the flow (m/s)",
+  cdem.chart{ file = "velocity_displacement.png", title = "Six set-ups, hold", x_label = "velocity of the flow (m/s)",
               y_label = "mean displacement under the flow (m)", y_range = {0, 2e-3}, series = curves, legend = "top_left" }
   figure{ name = "effective_modulus_over_E", value = effective_modulus(10) / unit.youngs_modulus, reference = 1 / (1 + 1 / 10),
           kind = "formula", source = "1 / (1 + 1 / beta), beta = 10", tolerance = 0.05 }

@@ -32,6 +32,12 @@ function unit.place(result, case)
   return table.concat(words, ", ")
 end
 
+-- From where the held side can be seen, in front and above.
+function unit.camera(case, height)
+  local toward = case.held == "x-" and -1 or 1
+  return { position = { toward * 1.8 * height, -1.8 * height, 1.3 * height }, focal_point = {0, 0, 0}, up = {0, 0, 1} }
+end
+
 -- Lines that show a set-up in a picture of the mesh: the flow as an arrow on its way to the unit, and a frame round the
 -- side that is held.
 function unit.set_up(case, height, box)
