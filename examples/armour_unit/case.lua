@@ -22,13 +22,20 @@ local case = unit.cases[number]
 local concrete = cdem.elastic{ youngs_modulus = unit.youngs_modulus, poissons_ratio = unit.poissons_ratio,
                                density = unit.density }
 local joint = cdem.mohr_coulomb{ cohesion = cohesion, friction_angle = unit.friction_angle, tensile_strength = tension }
-local solid = cdem.accropode{ mass = mass, density = unit.density, shape = shape }
+-- The mesh is that of 5 t, scaled: another size has the same tetrahedra, and what differs is not the mesh.
+local solid = cdem.accropode{ mass = 5000, density = unit.density, shape = shape }
 local mesh = solid:mesh{ size = solid.height / fineness }
+local scale = (mass / 5000) ^ (1 / 3)
+local height = solid.height * scale
+if mass ~= 5000 then
+  mesh:save{ file = "unit_of_5_t.vtu" }
+  mesh = cdem.read_mesh{ file = "unit_of_5_t.vtu", scale = scale }
+end
 local quality = mesh:quality()
 
 if draw then
-  mesh:picture{ file = "setup.png", camera = unit.camera(case, solid.height),
-                title = "Case " .. number .. ": held on " .. case.held, lines = unit.set_up(case, solid.height, mesh:box()) }
+  mesh:picture{ file = "setup.png", camera = unit.camera(case, height, 3.6),
+                title = "Case " .. number .. ": held on " .. case.held, lines = unit.set_up(case, height, mesh:box()) }
 end
 
 local figures, energy_error, steps = {}, 0, 0
@@ -49,9 +56,9 @@ for _, how in ipairs(mode == "both" and {"hold", "ramp"} or {mode}) do
   model:save{ file = how .. ".vtu" }
   if draw then
     local most = model:max("displacement.magnitude")
-    model:picture{ file = how .. ".png", camera = unit.camera(case, solid.height), axes = false,
+    model:picture{ file = how .. ".png", camera = unit.camera(case, height, 2.9), axes = false,
                    colour = "displacement.magnitude",
-                   deformation = most > 0 and math.floor(0.1 * solid.height / most) or 0,
+                   deformation = most > 0 and math.floor(0.1 * height / most) or 0,
                    title = string.format("Case %d, %s: broken at %.1f m/s", number, how, broken.velocity) }
   end
 

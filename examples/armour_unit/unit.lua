@@ -32,10 +32,10 @@ function unit.place(result, case)
   return table.concat(words, ", ")
 end
 
--- From where the held side can be seen, in front and above.
-function unit.camera(case, height)
-  local toward = case.held == "x-" and -1 or 1
-  return { position = { toward * 1.8 * height, -1.8 * height, 1.3 * height }, focal_point = {0, 0, 0}, up = {0, 0, 1} }
+-- From where the held side can be seen, in front and above; distance: about, in heights.
+function unit.camera(case, height, distance)
+  local toward, part = case.held == "x-" and -1 or 1, 0.63 * distance * height
+  return { position = { toward * part, -part, 0.72 * part }, focal_point = {0, 0, 0}, up = {0, 0, 1} }
 end
 
 -- Lines that show a set-up in a picture of the mesh: the flow as an arrow on its way to the unit, and a frame round the
@@ -58,8 +58,8 @@ function unit.set_up(case, height, box)
   for i, corner in ipairs{ {-1, -1}, {1, -1}, {1, 1}, {-1, 1}, {-1, -1} } do
     local p = {}
     p[held] = box.min[held]
-    p[u] = corner[1] * 0.55 * (box.max[u] - box.min[u])
-    p[v] = corner[2] * 0.55 * (box.max[v] - box.min[v])
+    p[u] = corner[1] * 0.5 * (box.max[u] - box.min[u])
+    p[v] = corner[2] * 0.5 * (box.max[v] - box.min[v])
     frame[i] = p
   end
   local blue, red = {0, 0.35, 0.75}, {0.75, 0.15, 0.1}
