@@ -6,7 +6,7 @@ local unit = require "unit"
 
 local number = cdem.parameter{ name = "case", default = 1, range = {1, 6}, doc = "set-up of the paper's Fig 3" }
 local mode = cdem.parameter{ name = "mode", default = "both", choices = {"both", "hold", "ramp"},
-                             doc = "hold: the static strength; ramp: the pressure rises all the time" }
+                             doc = "hold: near the static strength; ramp: the pressure rises all the time" }
 local shape = cdem.parameter{ name = "shape", default = "stocky", choices = {"slender", "stocky"} }
 local mass = cdem.parameter{ name = "mass", default = 5000.0, range = {1, 1e6}, unit = "kg" }
 local fineness = cdem.parameter{ name = "fineness", default = 16.5, range = {3, 60},

@@ -5,16 +5,21 @@
 namespace cdem {
 namespace {
 
-struct TetGeometry {
-  double volume;
-  geom::Vec3 gradient[4]; // 1/m
-};
-
-TetGeometry geometry(const Model& model, int tet) {
+TetGradients geometry(const Model& model, int tet) {
   const geom::Tet& t = model.tets[tet];
   const auto& x = model.node_position;
-  const geom::Vec3 e1 = x[t[1]] - x[t[0]], e2 = x[t[2]] - x[t[0]], e3 = x[t[3]] - x[t[0]];
-  TetGeometry g;
+  return tet_gradients({x[t[0]], x[t[1]], x[t[2]], x[t[3]]});
+}
+
+geom::Vec3 vec(const Node& n) {
+  return {n.x, n.y, n.z};
+}
+
+} // namespace
+
+TetGradients tet_gradients(const std::array<geom::Vec3, 4>& x) {
+  TetGradients g;
+  const geom::Vec3 e1 = x[1] - x[0], e2 = x[2] - x[0], e3 = x[3] - x[0];
   const double six_volume = e1.dot(e2.cross(e3));
   g.volume = six_volume / 6;
   g.gradient[1] = e2.cross(e3) / six_volume;
@@ -23,12 +28,6 @@ TetGeometry geometry(const Model& model, int tet) {
   g.gradient[0] = -(g.gradient[1] + g.gradient[2] + g.gradient[3]);
   return g;
 }
-
-geom::Vec3 vec(const Node& n) {
-  return {n.x, n.y, n.z};
-}
-
-} // namespace
 
 geom::Mat3 matrix(const Stress& s) {
   geom::Mat3 m;
@@ -50,7 +49,7 @@ double tet_volume(const Model& model, int tet) {
 }
 
 geom::Mat3 displacement_gradient(const Model& model, const std::vector<Node>& displacement, int tet) {
-  const TetGeometry g = geometry(model, tet);
+  const TetGradients g = geometry(model, tet);
   const geom::Vec3 u0 = vec(displacement[model.tets[tet][0]]);
   geom::Mat3 h = geom::Mat3::Zero();
   for (int k = 1; k < 4; ++k)
@@ -97,7 +96,7 @@ void add_uniform_stress_forces(const Model& model, const Block& block, const Str
                                std::vector<Node>& force) {
   const geom::Mat3 sigma = matrix(stress);
   for (int tet = block.tet_begin; tet < block.tet_end; ++tet) {
-    const TetGeometry g = geometry(model, tet);
+    const TetGradients g = geometry(model, tet);
     for (int k = 0; k < 4; ++k) {
       const geom::Vec3 f = -g.volume * (sigma * g.gradient[k]);
       Node& node = force[model.tets[tet][k]];
@@ -119,7 +118,7 @@ std::vector<double> stiffness_row_sums(const Model& model) {
     const int n = block.node_end - block.node_begin;
     k.setZero(3 * n, 3 * n);
     for (int tet = block.tet_begin; tet < block.tet_end; ++tet) {
-      const TetGeometry g = geometry(model, tet);
+      const TetGradients g = geometry(model, tet);
       for (int a = 0; a < 4; ++a)
         for (int b = 0; b < 4; ++b) {
           const geom::Vec3 &p = g.gradient[a], &q = g.gradient[b];

@@ -10,29 +10,11 @@ geom::Vec3 vec(const Node& n) {
   return {n.x, n.y, n.z};
 }
 
-// Volume and gradients of the shape functions at given places.
-struct TetShape {
-  double volume = 0;
-  geom::Vec3 gradient[4]; // 1/m
-};
-
-TetShape shape_of(const geom::Vec3 (&x)[4]) {
-  TetShape s;
-  const geom::Vec3 e1 = x[1] - x[0], e2 = x[2] - x[0], e3 = x[3] - x[0];
-  const double six_volume = e1.dot(e2.cross(e3));
-  s.volume = six_volume / 6;
-  s.gradient[1] = e2.cross(e3) / six_volume;
-  s.gradient[2] = e3.cross(e1) / six_volume;
-  s.gradient[3] = e1.cross(e2) / six_volume;
-  s.gradient[0] = -(s.gradient[1] + s.gradient[2] + s.gradient[3]);
-  return s;
-}
-
-TetShape shape_at(const Model& model, const std::vector<Node>& position, int tet) {
-  geom::Vec3 x[4];
+TetGradients shape_at(const Model& model, const std::vector<Node>& position, int tet) {
+  std::array<geom::Vec3, 4> x;
   for (int k = 0; k < 4; ++k)
     x[k] = vec(position[model.tets[tet][k]]);
-  return shape_of(x);
+  return tet_gradients(x);
 }
 
 const Elastic& material_of(const Model& model, int tet) {
@@ -160,7 +142,7 @@ State moved_back(const Model& model, const State& state, double lag) {
     return moved;
   const std::vector<Node> position = present_places(model, state);
   for (int t = model.mesh.first_tet; t < static_cast<int>(model.tets.size()); ++t) {
-    const TetShape shape = shape_at(model, position, t);
+    const TetGradients shape = shape_at(model, position, t);
     geom::Mat3 gradient = geom::Mat3::Zero();
     for (int k = 0; k < 4; ++k)
       gradient += vec(state.velocity[model.tets[t][k]]) * shape.gradient[k].transpose();
@@ -181,10 +163,10 @@ void add_mesh_row_sums(const Model& model, std::vector<double>& sums) {
     row.clear();
     for (std::int64_t j = of.begin[i]; j < of.begin[i + 1]; ++j) {
       const auto [t, a] = of.tets[j];
-      geom::Vec3 x[4];
+      std::array<geom::Vec3, 4> x;
       for (int k = 0; k < 4; ++k)
         x[k] = model.node_position[model.tets[t][k]];
-      const TetShape shape = shape_of(x);
+      const TetGradients shape = tet_gradients(x);
       const Elastic& material = material_of(model, t);
       const double lambda = material.lame_lambda(), shear = material.shear_modulus();
       for (int b = 0; b < 4; ++b) {

@@ -13,6 +13,13 @@ void add_small_strain_forces(const TetBatch* batches, std::int64_t count, const 
 // Nodal forces of a stress that is constant over the block.
 void add_uniform_stress_forces(const Model&, const Block&, const Stress&, std::vector<Node>& force);
 
+// Volume and gradients of the shape functions of a tet at given places.
+struct TetGradients {
+  double volume = 0;
+  geom::Vec3 gradient[4]; // 1/m
+};
+TetGradients tet_gradients(const std::array<geom::Vec3, 4>&);
+
 geom::Mat3 displacement_gradient(const Model&, const std::vector<Node>& displacement, int tet); // du_i / dx_j
 Stress elastic_stress(const Elastic&, const geom::Mat3& gradient); // without initial stress
 double tet_volume(const Model&, int tet);                          // m3, undeformed

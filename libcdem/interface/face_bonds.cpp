@@ -12,26 +12,6 @@ namespace {
 using simd::Oct;
 using simd::Vec;
 
-CDEM_INLINE Vec minus(const Vec& a, const Vec& b) {
-  return {a.x - b.x, a.y - b.y, a.z - b.z};
-}
-
-CDEM_INLINE Vec plus(const Vec& a, const Vec& b) {
-  return {a.x + b.x, a.y + b.y, a.z + b.z};
-}
-
-CDEM_INLINE Vec cross(const Vec& a, const Vec& b) {
-  return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
-}
-
-CDEM_INLINE Oct dot(const Vec& a, const Vec& b) {
-  return a.x * b.x + a.y * b.y + a.z * b.z;
-}
-
-CDEM_INLINE Vec scaled(const Oct& s, const Vec& a) {
-  return {s * a.x, s * a.y, s * a.z};
-}
-
 struct Points {
   Vec gap[3];
   Vec normal; // not made a unit vector: four times the area

@@ -1,5 +1,6 @@
 #include "libcdem/model/add_meshes.hpp"
 
+#include "libgeom/core/disjoint_sets.hpp"
 #include "libgeom/mesh/boundary.hpp"
 #include "libgeom/mesh/order.hpp"
 
@@ -12,27 +13,6 @@ namespace {
 // Tets of a chunk: their nodes and forces stay in the first cache, and 10k of them make twenty pieces.
 constexpr int tets_per_chunk = 512;
 
-// Disjoint sets of (tet, corner) by path halving; the smallest member stands for its set.
-class CornerSets {
-public:
-  explicit CornerSets(std::size_t corners) : parent_(corners) {
-    std::iota(parent_.begin(), parent_.end(), 0);
-  }
-  int find(int i) {
-    while (parent_[i] != i)
-      i = parent_[i] = parent_[parent_[i]];
-    return i;
-  }
-  void unite(int a, int b) {
-    a = find(a);
-    b = find(b);
-    parent_[std::max(a, b)] = std::min(a, b);
-  }
-
-private:
-  std::vector<int> parent_;
-};
-
 // A mesh whose nodes are split along its bonded faces, in its own numbers.
 struct SplitMesh {
   std::vector<geom::Tet> tets; // over copies of nodes, numbered by first touch
@@ -41,7 +21,7 @@ struct SplitMesh {
 
 SplitMesh split_nodes(const geom::TetMesh& mesh, const std::vector<geom::InnerFace>& inner,
                       const Bonding& bonding) {
-  CornerSets sets(4 * mesh.tets.size());
+  geom::DisjointSets sets(4 * mesh.tets.size()); // of corners, 4 tet + corner
   if (bonding.none()) {
     std::vector<int> first(mesh.nodes.size(), -1);
     for (int i = 0; i < static_cast<int>(4 * mesh.tets.size()); ++i) {

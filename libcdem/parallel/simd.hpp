@@ -55,6 +55,26 @@ struct Vec {
   Oct x, y, z;
 };
 
+CDEM_INLINE Vec minus(const Vec& a, const Vec& b) {
+  return {a.x - b.x, a.y - b.y, a.z - b.z};
+}
+
+CDEM_INLINE Vec plus(const Vec& a, const Vec& b) {
+  return {a.x + b.x, a.y + b.y, a.z + b.z};
+}
+
+CDEM_INLINE Vec cross(const Vec& a, const Vec& b) {
+  return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+
+CDEM_INLINE Oct dot(const Vec& a, const Vec& b) {
+  return a.x * b.x + a.y * b.y + a.z * b.z;
+}
+
+CDEM_INLINE Vec scaled(const Oct& s, const Vec& a) {
+  return {s * a.x, s * a.y, s * a.z};
+}
+
 // x, y, z of eight nodes, one node a lane.
 // A hint only: `first` may lie beyond the end of its array.
 CDEM_INLINE void prefetch(const void* first, std::size_t bytes) {

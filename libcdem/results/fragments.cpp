@@ -1,29 +1,11 @@
 #include "libcdem/results/fragments.hpp"
 
+#include "libgeom/core/disjoint_sets.hpp"
+
 #include <algorithm>
-#include <numeric>
 
 namespace cdem {
 namespace {
-
-// Disjoint sets of nodes by path halving; the smallest member stands for its set.
-class NodeSets {
-public:
-  explicit NodeSets(std::size_t nodes) : parent_(nodes) { std::iota(parent_.begin(), parent_.end(), 0); }
-  int find(int i) {
-    while (parent_[i] != i)
-      i = parent_[i] = parent_[parent_[i]];
-    return i;
-  }
-  void unite(int a, int b) {
-    a = find(a);
-    b = find(b);
-    parent_[std::max(a, b)] = std::min(a, b);
-  }
-
-private:
-  std::vector<int> parent_;
-};
 
 bool intact(std::uint8_t mode) {
   return mode == static_cast<std::uint8_t>(BondMode::intact);
@@ -33,7 +15,7 @@ bool intact(std::uint8_t mode) {
 
 std::vector<Fragment> fragments(const Model& model, const State& state,
                                 const ResolvedConditions& conditions) {
-  NodeSets sets(model.node_position.size());
+  geom::DisjointSets sets(model.node_position.size());
   for (const geom::Tet& tet : model.tets)
     for (int k = 1; k < 4; ++k)
       sets.unite(tet[0], tet[k]);

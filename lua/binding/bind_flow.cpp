@@ -208,7 +208,8 @@ void bind_flow(Module& m) {
   for (const Field& field :
        {choice("mode", {"hold", "ramp"})
             .standard("hold")
-            .doc("hold: the pressure rises only while no bond broke for hold_periods, the static strength; "
+            .doc("hold: the pressure rises only while no bond broke for hold_periods, near the static "
+                 "strength; "
                  "ramp: "
                  "always, and inertia has its part"),
         choice("held", {"x-", "x+", "y-", "y+", "z-", "z+"})

@@ -645,7 +645,7 @@ function Model:flow(options) end
 ---@field on? cdem.Place default "all": outer faces that may take it: one place
 ---@field water_density? number kg/m3, > 0, default 1025: sea water by default
 ---@field new_faces? boolean default false: faces opened by cracks take the pressure too
----@field mode? "hold"|"ramp" default "hold": hold: the pressure rises only while no bond broke for hold_periods, the static strength; ramp: always, and inertia has its part
+---@field mode? "hold"|"ramp" default "hold": hold: the pressure rises only while no bond broke for hold_periods, near the static strength; ramp: always, and inertia has its part
 ---@field held? "x-"|"x+"|"y-"|"y+"|"z-"|"z+" the side that is fixed: then the result says at which part of the height the solid broke
 ---@field pressure_rate? number Pa/s, > 0, default 5e+06
 ---@field hold_periods? number > 0, default 3: hold time in periods of the first mode
