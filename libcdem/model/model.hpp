@@ -1,6 +1,7 @@
 // Model: everything that stays as it is while the solver steps. Only fracture/ makes a new one, between steps.
 #pragma once
 
+#include "libcdem/contact/surface.hpp"
 #include "libcdem/element/finite_volume.hpp"
 #include "libcdem/interface/face_bonds.hpp"
 #include "libcdem/model/bonding.hpp"
@@ -20,8 +21,9 @@ namespace cdem {
 
 // How a body's tets deform.
 enum class Element {
-  small_strain, // star meshes of convex blocks, Han 2010 eqs 1-7
-  finite_volume // meshes that may move far, Feng 2014 eqs 2-14
+  small_strain,  // star meshes of convex blocks, Han 2010 eqs 1-7
+  finite_volume, // meshes that may move far, Feng 2014 eqs 2-14
+  rigid          // meshes that keep their shape
 };
 
 struct Body {
@@ -39,6 +41,7 @@ struct Block {
   int generation = 0;       // cuts between the first block and this one
   int body = 0;
   bool meshed = false;       // a meshed solid
+  int rigid = -1;            // index into Model::rigid; -1: it deforms
   geom::Polyhedron shape;    // empty when meshed
   geom::MassProperties mass; // unit density
   double size = 0;           // h, cube root of the volume, m
@@ -110,6 +113,14 @@ struct BondOnNode {
   double weight = 0;
 };
 
+// A meshed block that keeps the shape it had when it was made rigid.
+struct RigidBody {
+  int block = 0;
+  double mass = 0; // kg
+  geom::Mat3 inertia =
+      geom::Mat3::Identity(); // kg m2, about the centroid, in the directions it was made rigid in
+};
+
 struct Model {
   std::vector<Body> bodies;
   std::vector<Joint> joints;
@@ -136,6 +147,8 @@ struct Model {
   std::vector<OuterFace> outer_faces;
 
   MeshData mesh;
+  ContactSurface surface;       // empty without contacts of meshed bodies
+  std::vector<RigidBody> rigid; // by block
 
   std::vector<BlockChunk> chunks; // those of star blocks, then one for each MeshChunk
   std::vector<Range> point_chunks;

@@ -47,6 +47,9 @@ std::vector<StateField> fields(State& s) {
       field("initial_stress", "Pa", FieldPlace::block, "initial_stress", s.initial_stress, true),
       field("stress", "Pa", FieldPlace::tet, "mesh_forces", s.stress, true),
       field("faces", "m", FieldPlace::bond, "mesh_forces", s.faces, false),
+      field("contacts", "N", FieldPlace::contact, "contact_forces", s.contacts, false),
+      field("rigid", "m", FieldPlace::block, "move_rigid", s.rigid, true),
+      field("rigid_offset", "m", FieldPlace::node, "set_rigid", s.rigid_offset, true),
       {"spent", "J", FieldPlace::model, "step", &s.spent, sizeof s.spent, true},
   };
 }

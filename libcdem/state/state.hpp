@@ -2,9 +2,11 @@
 // drives the hash, the carrying over at cuts, the watch for NaN and, later, checkpoints.
 #pragma once
 
+#include "libcdem/contact/contact.hpp"
 #include "libcdem/model/model.hpp"
 #include "libcdem/results/ledger.hpp"
 #include "libcdem/results/snapshot.hpp"
+#include "libcdem/state/rigid_state.hpp"
 
 namespace cdem {
 
@@ -28,13 +30,19 @@ struct State {
   std::vector<StressBatch> stress;   // Pa (n mesh batches); written by mesh_forces
   std::vector<FaceStateBatch> faces; // (n face batches); written by mesh_forces
 
+  std::vector<Contact> contacts; // those that act, by kind, source and piece; written by contact_forces
+  std::vector<RigidState> rigid; // (n rigid bodies); written by move_rigid
+  // m, of the nodes of rigid bodies from their centroids in the directions they were made rigid in (n_nodes); empty
+  // without rigid bodies.
+  std::vector<Node> rigid_offset;
+
   EnergyLedger spent; // J, the summed entries only (damping, friction, ... external); the stored ones stay 0
 };
 
 // A State at rest for the model: no displacement, contacts where the joint is not bonded.
 State initial_state(const Model&);
 
-enum class FieldPlace { model, node, bond, block, tet };
+enum class FieldPlace { model, node, bond, block, tet, contact };
 
 struct StateField {
   const char* name;

@@ -29,6 +29,7 @@ MovingNodes moving_nodes(State& state, const Workspace& work, const std::vector<
   nodes.force = force;
   nodes.internal = r.internal.empty() ? nullptr : r.internal.data() + first;
   nodes.external = r.external.empty() ? nullptr : r.external.data() + first;
+  nodes.contact = work.contact.empty() ? nullptr : work.contact.data() + first;
   nodes.mass = mass.data() + first;
   nodes.velocity = state.velocity.data() + first;
   nodes.displacement = state.displacement.data() + first;
@@ -40,7 +41,8 @@ HeldForces held_node_forces(const MovingNodes& node) {
   HeldForces forces;
   const Quad load = load_or_zero(node.external, 0);
   simd::store(forces.load, load);
-  simd::store(forces.net, simd::load(*node.force) + load_or_zero(node.internal, 0) + load);
+  simd::store(forces.net, simd::load(*node.force) + load_or_zero(node.internal, 0) +
+                              load_or_zero(node.contact, 0) + load);
   return forces;
 }
 
@@ -52,7 +54,8 @@ CDEM_KERNEL void step_nodes(const MovingNodes& nodes, const Stepping& s, NodeSum
   const bool damped = nodes.viscous || s.local_damping != 0;
   for (std::int64_t i = 0; i < nodes.count; ++i) {
     const Quad load = load_or_zero(nodes.external, i);
-    const Quad force = simd::load(nodes.force[i]) + load_or_zero(nodes.internal, i) + load;
+    const Quad force =
+        simd::load(nodes.force[i]) + load_or_zero(nodes.internal, i) + load_or_zero(nodes.contact, i) + load;
     const Quad before = simd::load(nodes.velocity[i]);
     const double mass = nodes.mass[i], inertia = mass * per_kick;
     Quad velocity;
@@ -89,7 +92,8 @@ CDEM_KERNEL void relax_nodes(const MovingNodes& nodes, double damping, Node* pre
   const double keep = (2 - damping) / (2 + damping), push = 2 / (2 + damping);
   for (std::int64_t i = 0; i < nodes.count; ++i) {
     const Quad load = load_or_zero(nodes.external, i);
-    const Quad force = simd::load(nodes.force[i]) + load_or_zero(nodes.internal, i) + load;
+    const Quad force =
+        simd::load(nodes.force[i]) + load_or_zero(nodes.internal, i) + load_or_zero(nodes.contact, i) + load;
     const Quad before = simd::load(nodes.velocity[i]);
     const double mass = nodes.mass[i];
     const Quad velocity = keep * before + (push / mass) * force;

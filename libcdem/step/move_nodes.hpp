@@ -11,6 +11,7 @@ struct MovingNodes {
   const Node* force = nullptr;     // N
   const Node* internal = nullptr;  // N, of the initial stress; null: none
   const Node* external = nullptr;  // N; null: none
+  const Node* contact = nullptr;   // N; null: none
   const double* mass = nullptr;    // kg
   const double* viscous = nullptr; // N s/m, mu V; null: none
   Node* velocity = nullptr;        // m/s

@@ -1,0 +1,25 @@
+// One contact that acts: a semi-spring pressed into a target face, or a semi-edge into a target edge, and what it
+// remembers from step to step (Feng 2014 eqs 15-17).
+#pragma once
+
+#include "libgeom/core/types.hpp"
+
+#include <cstdint>
+
+namespace cdem {
+
+struct Contact {
+  enum Kind : std::int32_t { spring, edge };
+  std::int32_t kind = spring;
+  std::int32_t source = 0; // 3 triangle + corner; an edge
+  std::int32_t piece =
+      0; // of the target, one contact for each: its block, or its fragment once it has broken
+  std::int32_t target = 0;                // triangle; an edge
+  geom::Vec3 normal = geom::Vec3::Zero(); // unit, out of the target
+  geom::Vec3 shear = geom::Vec3::Zero();  // Fs, N, on the source
+  double start = 0;                       // m, depth at which it carries nothing: it was found that deep
+  double normal_force = 0;                // Fn, N, >= 0
+  double depth = 0;                       // m, below the target's surface
+};
+
+} // namespace cdem
