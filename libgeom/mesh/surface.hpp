@@ -1,0 +1,22 @@
+// A surface of triangles on its own: the outside of a mesh, wherever its nodes stand now.
+#pragma once
+
+#include "libgeom/mesh/tet_mesh.hpp"
+
+namespace geom {
+
+struct Surface {
+  std::vector<Vec3> points; // m
+  std::vector<Triangle> triangles;
+
+  std::array<Vec3, 3> corners(std::size_t triangle) const {
+    const Triangle& t = triangles[triangle];
+    return {points[t[0]], points[t[1]], points[t[2]]};
+  }
+};
+
+// The outer faces of a mesh over the nodes they have, in the order of outer_faces.
+Surface surface_of(const TetMesh&);
+Box bounding_box(const Surface&);
+
+} // namespace geom

@@ -1,0 +1,239 @@
+#include "libgeom/placement/armour_layer.hpp"
+
+#include "libgeom/core/check.hpp"
+#include "libgeom/core/error.hpp"
+#include "libgeom/core/random.hpp"
+#include "libgeom/placement/lowering.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+
+namespace geom {
+namespace {
+
+constexpr double far = 1e30;
+
+// The slope's own axes, as rows: along the contour, up the slope, out of it.
+Mat3 slope_frame(const Vec3& normal) {
+  const Vec3 across = Vec3::UnitZ().cross(normal);
+  const Vec3 level = across.norm() > 1e-6 ? Vec3(across.normalized()) : Vec3(-Vec3::UnitY());
+  Mat3 frame;
+  frame << level.transpose(), normal.cross(level).transpose(), normal.transpose();
+  return frame;
+}
+
+struct Pattern {
+  double across = 0, rows = 0; // m, between units of a row, between rows
+  int columns = 0;
+};
+
+// Places of the pattern in the slope's axes, row by row from the toe.
+std::vector<Vec3> pattern_places(const Pattern& pattern, int count, const Vec3& first) {
+  std::vector<Vec3> places;
+  for (int i = 0; i < count; ++i) {
+    const int row = i / pattern.columns, column = i % pattern.columns;
+    const double shift = row % 2 == 0 ? -0.25 : 0.25;
+    places.emplace_back(first.x() + (column - 0.5 * (pattern.columns - 1) + shift) * pattern.across,
+                        first.y() + row * pattern.rows, first.z());
+  }
+  return places;
+}
+
+class Layer {
+public:
+  Layer(const Pile& pile, const Ground& ground, const Mat3& frame, double gap)
+      : shape_(surface_of(pile.unit)), ground_(ground), frame_(frame), gap_(gap),
+        ground_profile_(ground.surface(), frame) {}
+
+  // Puts the unit of this rotation down at a place of the slope (in its axes); returns how high along the
+  // normal its centroid then is.
+  double lower(const Mat3& rotation, const Vec3& place) const {
+    const Surface turned = moved({rotation, Vec3::Zero()});
+    const Profile profile(turned, frame_);
+    const Vec3 offset(place.x(), place.y(), 0);
+    double room = clearance(profile, offset, ground_profile_, far);
+    for (const Laid& other : laid_)
+      room = std::min(room, clearance(profile, offset, other.profile, room));
+    return gap_ - room;
+  }
+
+  // Raises a unit until it is clear of all others; lowered along a steep flank it may be nearer than the gap.
+  Pose cleared(Pose pose) const {
+    const Vec3 normal = frame_.row(2);
+    for (int i = 0; i < 10000; ++i) {
+      const Surface here = moved(pose);
+      double room = distance(here, ground_.surface(), gap_);
+      for (const Laid& other : laid_)
+        room = std::min(room, distance(here, other.surface, gap_));
+      if (room >= 0.999 * gap_)
+        break;
+      pose.translation += std::max(gap_ - room, 0.05 * gap_) * normal;
+    }
+    return pose;
+  }
+
+  void lay(const Pose& pose) {
+    Surface here = moved(pose);
+    Profile profile(here, frame_);
+    laid_.push_back({std::move(here), std::move(profile)});
+  }
+
+private:
+  struct Laid {
+    Surface surface;
+    Profile profile;
+  };
+
+  Surface moved(const Pose& pose) const {
+    Surface surface = shape_;
+    for (Vec3& x : surface.points)
+      x = pose(x);
+    return surface;
+  }
+
+  Surface shape_;
+  const Ground& ground_;
+  Mat3 frame_;
+  double gap_;
+  Profile ground_profile_;
+  std::vector<Laid> laid_;
+};
+
+// Where a unit lies, in the slope's axes.
+struct Lying {
+  Mat3 rotation = Mat3::Identity();
+  Vec3 place = Vec3::Zero(); // of the centroid
+};
+
+class Laying {
+public:
+  Laying(const Layer& layer, const Mat3& frame, const LayerOptions& options, double height)
+      : layer_(layer), options_(options), height_(height), sink_(frame * Vec3::UnitZ()) {}
+
+  Lying find(const Vec3& place, std::uint64_t unit) const {
+    Lying best = lowered(random_rotation(options_.seed, unit, 0), place);
+    for (int a = 1; a < options_.attitudes; ++a) {
+      const Lying other =
+          lowered(random_rotation(options_.seed, unit, 3 * static_cast<std::uint64_t>(a)), place);
+      if (sink_.dot(other.place) < sink_.dot(best.place))
+        best = other;
+    }
+    return nudged(best, place, unit);
+  }
+
+private:
+  Lying lowered(const Mat3& rotation, const Vec3& place) const {
+    return {rotation, {place.x(), place.y(), layer_.lower(rotation, place)}};
+  }
+
+  // Descent by trials whose size is halved after every tenth that found nothing lower.
+  Lying nudged(Lying best, const Vec3& place, std::uint64_t unit) const {
+    const double play = options_.play * height_;
+    double size = 1;
+    int vain = 0;
+    for (int k = 0; k < options_.nudges; ++k) {
+      const auto draw = [&](int i) {
+        return 2 * uniform(options_.seed, unit,
+                           static_cast<std::uint64_t>(3 * options_.attitudes + 6 * k + i)) -
+               1;
+      };
+      Vec3 to = best.place + size * play * Vec3(draw(0), draw(1), 0);
+      for (int i = 0; i < 2; ++i)
+        to[i] = std::clamp(to[i], place[i] - play, place[i] + play);
+      const Vec3 turn = 0.5 * size * Vec3(draw(3), draw(4), draw(5)); // radians
+      Mat3 rotation = best.rotation;
+      if (turn.norm() > 0)
+        rotation = Eigen::AngleAxisd(turn.norm(), turn.normalized()).toRotationMatrix() * rotation;
+      const Lying other = lowered(rotation, to);
+      if (sink_.dot(other.place) < sink_.dot(best.place)) {
+        best = other;
+        vain = 0;
+      } else if (++vain == 10) {
+        size *= 0.5;
+        vain = 0;
+      }
+    }
+    return best;
+  }
+
+  const Layer& layer_;
+  const LayerOptions& options_;
+  double height_;
+  Vec3 sink_; // up, in the slope's axes
+};
+
+void check(const LayerOptions& options, int count) {
+  if (count < 1)
+    throw InputError("count", std::to_string(count), "at least 1");
+  require_block_count("count", std::to_string(count), count, "place fewer units");
+  require_between("density", options.density, 0.05, 1.5);
+  if (options.columns && *options.columns < 1)
+    throw InputError("columns", std::to_string(*options.columns), "at least 1");
+  require_between("attitudes", options.attitudes, 1, 10000);
+  require_between("nudges", options.nudges, 0, 100000);
+  require_between("play", options.play, 0, 1);
+}
+
+Pattern choose_pattern(const Pile& pile, int count, const LayerOptions& options,
+                       const Eigen::Vector2d& room) {
+  Pattern pattern;
+  pattern.rows = nominal_diameter(pile) / std::sqrt(2 * options.density);
+  pattern.across = 2 * pattern.rows;
+  // A row and the next, shifted by half a place, take columns + 1/2 places.
+  const double most_columns = std::floor((room.x() - pile.height) / pattern.across + 0.5 + 1e-9);
+  const double most_rows = std::floor((room.y() - pile.height) / pattern.rows + 1 + 1e-9);
+  if (!(most_columns >= 1 && most_rows >= 1))
+    throw InputError("region",
+                     text(room.x()) + " m along the contour by " + text(room.y()) + " m up the slope",
+                     "at least " + text(pile.height + 0.5 * pattern.across) + " m by " + text(pile.height) +
+                         " m, room for one unit");
+  pattern.columns = options.columns.value_or(static_cast<int>(std::min(most_columns, 1e6)));
+  if (pattern.columns > most_columns)
+    throw InputError("columns", std::to_string(pattern.columns), "at most " + text(most_columns),
+                     "the region has no room for more along the contour");
+  if (count > most_rows * pattern.columns)
+    throw InputError("count", std::to_string(count),
+                     "at most " + text(most_rows * pattern.columns) + ": " + text(most_rows) + " rows of " +
+                         std::to_string(pattern.columns),
+                     "a larger region takes more");
+  return pattern;
+}
+
+} // namespace
+
+Pile place_layer(const TetMesh& unit, int count, const Ground& ground, const LayerOptions& options) {
+  check(options, count);
+  Pile pile = pile_of(unit);
+  const double gap = options.gap.value_or(1e-3 * pile.height);
+  require_positive("gap", gap);
+  const PlanBox region = region_of(ground, options.region);
+  const Mat3 frame = slope_frame(ground.normal(region));
+
+  // The region's corners on the slope, in its axes.
+  Box room;
+  for (const double x : {region.min.x(), region.max.x()})
+    for (const double y : {region.min.y(), region.max.y()}) {
+      const Eigen::Vector2d inside = Eigen::Vector2d(x, y) + 1e-6 * (region.centre() - Eigen::Vector2d(x, y));
+      const auto z = ground.height(inside.x(), inside.y());
+      if (!z)
+        throw InputError("region: its corner " + text(x) + ", " + text(y) +
+                         " is beside the ground; keep the region on the slope");
+      room.extend(frame * Vec3(inside.x(), inside.y(), *z));
+    }
+  const Pattern pattern = choose_pattern(pile, count, options, room.size().head<2>());
+
+  Layer layer(pile, ground, frame, gap);
+  const Laying laying(layer, frame, options, pile.height);
+  const Vec3 first(room.centre().x(), room.min.y() + 0.5 * pile.height, 0);
+  std::uint64_t number = 0;
+  for (const Vec3& place : pattern_places(pattern, count, first)) {
+    const Lying lying = laying.find(place, number++);
+    const Pose pose = layer.cleared({lying.rotation, frame.transpose() * lying.place});
+    layer.lay(pose);
+    pile.poses.push_back(pose);
+  }
+  return pile;
+}
+
+} // namespace geom

@@ -1,0 +1,30 @@
+// One layer of armour units in the staggered pattern of breakwaters: rows along the contour of a slope, each unit above
+// the gap between two of the row below, laid row by row from the toe.
+//
+// phi = N Dn^2 / A is the packing density: N units on an area A of the slope, Dn the side of a cube of their volume.
+// The pattern is a diamond, twice as wide along the contour as its rows are apart, so that rows are Dn / sqrt(2 phi)
+// apart. A unit is tried in several attitudes, lowered along the normal of the slope on to what lies there, and takes
+// the lowest; then it is nudged (moved along the slope by up to `play`, turned a little, lowered anew) as long as its
+// centroid sinks, until it leans on its neighbours. It keeps `gap` from all of them.
+#pragma once
+
+#include "libgeom/placement/ground.hpp"
+#include "libgeom/placement/pile.hpp"
+
+namespace geom {
+
+struct LayerOptions {
+  double density = 0.645;        // phi
+  std::optional<int> columns;    // units in a row; as many as the region allows
+  std::optional<double> gap;     // m, clear distance; a thousandth of the unit's height
+  std::optional<PlanBox> region; // over the ground; all of it
+  std::uint64_t seed = 1;        // of the attitudes
+  int attitudes = 24;            // tried for each unit
+  int nudges = 200;              // tried for each unit
+  double play = 0.1;             // of the height: how far from its place of the pattern a unit may be laid
+};
+
+// Throws InputError for a count below 1, a density or gap out of range, a ground that is too small.
+Pile place_layer(const TetMesh& unit, int count, const Ground&, const LayerOptions& = {});
+
+} // namespace geom
