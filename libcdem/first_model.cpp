@@ -41,8 +41,8 @@ Model first_model(const ModelSpec& spec) {
     if (meshed)
       validate_meshed(body);
     const int index = static_cast<int>(frame.bodies.size());
-    frame.bodies.push_back({body.name, body.material, body.joint, body.bonding,
-                            meshed ? Element::finite_volume : Element::small_strain});
+    frame.bodies.push_back(
+        {body.name, body.material, body.joint, body.bonding, meshed ? body.element : Element::small_strain});
     for (const geom::TetMesh& mesh : body.meshes)
       meshes.push_back({0, index, mesh});
     frame.pair_joint[{index, index}] = static_cast<int>(frame.joints.size());
@@ -59,7 +59,7 @@ Model first_model(const ModelSpec& spec) {
     const int a = body_index(frame, pair.body_a), b = body_index(frame, pair.body_b);
     const std::string both = "{\"" + pair.body_a + "\", \"" + pair.body_b + "\"}";
     for (const int body : {a, b})
-      if (frame.bodies[body].element == Element::finite_volume)
+      if (frame.bodies[body].element != Element::small_strain)
         throw geom::InputError("contacts", both, "bodies of blocks",
                                "there is no contact yet between a mesh and another body");
     if (a == b)

@@ -10,6 +10,8 @@
 #include "libcdem/results/energy.hpp"
 #include "libcdem/results/fragments.hpp"
 #include "libcdem/results/make_snapshot.hpp"
+#include "libcdem/rigid/convert.hpp"
+#include "libcdem/rigid/motion.hpp"
 #include "libcdem/simulation_checks.hpp"
 #include "libcdem/step/critical_flow.hpp"
 #include "libcdem/step/forces.hpp"
@@ -58,6 +60,31 @@ struct Simulation::Impl {
       throw geom::InputError(std::string(call) +
                              ": the model has meshed bodies; only a model of convex blocks alone "
                              "can be cut or lose blocks");
+  }
+
+  // Turns the selected blocks rigid or deformable.
+  template <class Set>
+  std::int64_t convert(const Selection& on, const Set& set) {
+    std::vector<int> blocks;
+    for (int b = 0; b < static_cast<int>(model.blocks.size()); ++b)
+      if (selects_block(model, on, b)) {
+        if (!model.blocks[b].meshed)
+          throw geom::InputError("on", on.text, "meshed bodies",
+                                 "block " + std::to_string(model.blocks[b].id) +
+                                     " is a convex block, which always deforms");
+        blocks.push_back(b);
+      }
+    if (blocks.empty())
+      throw geom::InputError("on", on.text, "a place that holds the centroids of meshed bodies",
+                             "nothing of the model lies there");
+    Model changed = model;
+    State moved = state;
+    const std::int64_t count = set(changed, moved, blocks);
+    resolve(changed, moved, conditions); // a rigid body cannot be held in part
+    model = std::move(changed);
+    state = std::move(moved);
+    last_good = state;
+    return count;
   }
 
   // A change of topology or of the stress state between stages: the ledger counts what it does to the stored energy.
@@ -179,14 +206,45 @@ void Simulation::initial_velocity(const Selection& on, const geom::Vec3& velocit
   const std::vector<int> nodes = selected_nodes(s.model, on);
   if (nodes.empty())
     throw geom::InputError("on", on.text, "a place that holds nodes", "nothing of the model lies there");
+  std::vector<int> selected(s.model.blocks.size(), 0);
+  for (const int node : nodes)
+    ++selected[s.model.node_block[node]];
+  const auto kinetic = [&](const RigidBody& body) {
+    return kinetic_energy(body, s.state.rigid[s.model.blocks[body.block].rigid], s.state.velocity_lag);
+  };
+  for (const RigidBody& body : s.model.rigid) {
+    const Block& block = s.model.blocks[body.block];
+    if (selected[body.block] != 0 && selected[body.block] != block.node_end - block.node_begin)
+      throw geom::InputError("on", on.text, "whole rigid bodies",
+                             "a part of block " + std::to_string(block.id) + " has no velocity of its own");
+  }
+  // Kinetic energy given from outside.
+  double given = 0;
+  for (const RigidBody& body : s.model.rigid)
+    if (selected[body.block] != 0) {
+      given -= kinetic(body);
+      RigidState& motion = s.state.rigid[s.model.blocks[body.block].rigid];
+      motion.velocity = triple(velocity);
+      motion.angular_momentum = {};
+      given += kinetic(body);
+    }
   for (const int node : nodes) {
     Node& v = s.state.velocity[node];
     const double before = v.x * v.x + v.y * v.y + v.z * v.z;
     v = {velocity.x(), velocity.y(), velocity.z(), 0};
-    // Kinetic energy given from outside.
-    s.state.spent.external += 0.5 * s.model.node_mass[node] * (velocity.squaredNorm() - before);
+    if (s.model.blocks[s.model.node_block[node]].rigid < 0)
+      given += 0.5 * s.model.node_mass[node] * (velocity.squaredNorm() - before);
   }
+  s.state.spent.external += given;
   s.state.spent.external_peak = std::max(s.state.spent.external_peak, std::abs(s.state.spent.external));
+}
+
+std::int64_t Simulation::make_rigid(const Selection& on) {
+  return impl_->convert(on, set_rigid);
+}
+
+std::int64_t Simulation::make_deformable(const Selection& on) {
+  return impl_->convert(on, set_deformable);
 }
 
 std::int64_t Simulation::remove(const Selection& on) {

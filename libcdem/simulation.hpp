@@ -6,6 +6,7 @@
 #include "libcdem/fracture/options.hpp"
 #include "libcdem/load/conditions.hpp"
 #include "libcdem/model/bonding.hpp"
+#include "libcdem/model/element.hpp"
 #include "libcdem/model/joint.hpp"
 #include "libcdem/model/material.hpp"
 #include "libcdem/results/deformation.hpp"
@@ -26,7 +27,7 @@
 
 namespace cdem {
 
-// Convex blocks (shape), or meshed solids (meshes), each of which becomes one block of finite-volume tetrahedra.
+// Convex blocks (shape), or meshed solids (meshes), each of which becomes one block of tetrahedra.
 struct BodySpec {
   std::string name; // unique; "body_1", ... when the user gives none
   geom::Assembly shape;
@@ -34,6 +35,7 @@ struct BodySpec {
   Joint joint; // between the body's own blocks; of a meshed body on the inner faces that `bonding` names
   std::vector<geom::TetMesh> meshes = {};
   Bonding bonding = {};
+  Element element = Element::finite_volume; // of meshes: this or rigid; blocks are of small strain
 };
 
 struct PairSpec {
@@ -72,7 +74,12 @@ public:
   // Stress present before anything moves, Pa, tension positive (xx yy zz xy yz xz), constant over the selected blocks;
   // interfaces between two selected blocks start with its traction.
   void initial_stress(const Selection&, const std::array<double, 6>&);
+  // A rigid body takes it as a whole, without spin.
   void initial_velocity(const Selection&, const geom::Vec3&);
+  // Selected meshed blocks keep their shape from now on, or deform again; the ledger counts the kinetic energy of
+  // deformation that is lost. Each returns how many changed.
+  std::int64_t make_rigid(const Selection&);
+  std::int64_t make_deformable(const Selection&);
   // Selected blocks (by centroid; by a face on a side) are taken out, with their bonds. Returns how many.
   std::int64_t remove(const Selection&);
   // Bonds whose point is selected are broken from now on (a notch); returns how many. whole_faces: only those of

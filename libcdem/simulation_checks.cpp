@@ -18,6 +18,9 @@ void require_finite(const char* field, const geom::Vec3& v) {
 
 void validate_meshed(const BodySpec& body) {
   const Bonding& b = body.bonding;
+  if (body.element == Element::small_strain)
+    throw geom::InputError("element", "small_strain", "finite_volume or rigid for a mesh",
+                           "small_strain is for assemblies of convex blocks");
   if (!(b.stiffness_ratio > 0 && b.stiffness_ratio <= 1e4))
     throw geom::InputError("stiffness_ratio", number(b.stiffness_ratio), "in (0, 1e4]",
                            "10 keeps about 0.91 of Young's modulus");

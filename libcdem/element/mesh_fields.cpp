@@ -2,6 +2,8 @@
 
 #include "libcdem/element/small_strain.hpp"
 #include "libcdem/model/add_meshes.hpp"
+#include "libcdem/rigid/convert.hpp"
+#include "libcdem/rigid/motion.hpp"
 
 namespace cdem {
 namespace {
@@ -97,7 +99,8 @@ Stress tet_stress(const Model& model, const State& state, int tet) {
   const int slot = model.mesh.tet_slot[tet - model.mesh.first_tet];
   for (int c = 0; c < 6; ++c)
     stress[c] = state.stress[slot / lanes].component[c][slot % lanes];
-  return stress;
+  const int rigid = model.blocks[model.tet_block[tet]].rigid;
+  return rigid < 0 ? stress : turned(rotation(state.rigid[rigid]), stress);
 }
 
 double mesh_elastic_energy(const Model& model, const State& state) {
@@ -123,9 +126,11 @@ double mesh_spring_energy(const Model& model, const State& state) {
   const std::vector<Node> position = present_places(model, state);
   double energy = 0;
   each_face_spring(model.mesh, [&](const MeshChunk& chunk, const FaceSpringPlace& at) {
-    const Body& body = model.bodies[model.blocks[chunk.block].body];
+    const Block& block = model.blocks[chunk.block];
+    const FaceStateBatch& faces = state.faces[at.batch];
     energy += face_spring(model.mesh.faces[at.batch], at.point, at.lane, position.data(),
-                          state.displacement.data(), face_law(body), state.faces[at.batch])
+                          state.displacement.data(), face_law(model.bodies[block.body]),
+                          block.rigid < 0 ? faces : turned(rotation(state.rigid[block.rigid]), faces))
                   .energy;
   });
   return energy;
@@ -142,6 +147,8 @@ State moved_back(const Model& model, const State& state, double lag) {
     return moved;
   const std::vector<Node> position = present_places(model, state);
   for (int t = model.mesh.first_tet; t < static_cast<int>(model.tets.size()); ++t) {
+    if (model.blocks[model.tet_block[t]].rigid >= 0)
+      continue; // its stress stands still
     const TetGradients shape = shape_at(model, position, t);
     geom::Mat3 gradient = geom::Mat3::Zero();
     for (int k = 0; k < 4; ++k)

@@ -48,6 +48,41 @@ void hold(const Model& model, const Fix& fix, HeldNodes& held, ResolvedCondition
   }
 }
 
+bool is_held(const HeldNode& h) {
+  return h.free.x == 0 || h.free.y == 0 || h.free.z == 0;
+}
+
+[[noreturn]] void cannot_hold(const Model& model, const Block& block, const char* how, const char* advice) {
+  throw geom::InputError("fix: block " + std::to_string(block.id) + " of body \"" +
+                         model.bodies[block.body].name + "\" is rigid and is held " + how + "; " + advice);
+}
+
+// The velocity that the held nodes of a rigid body give it; its other nodes are held with them.
+std::optional<geom::Vec3> hold_rigid(const Model& model, const Block& block, HeldNodes& held) {
+  const HeldNode* first = nullptr;
+  for (auto h = held.lower_bound(block.node_begin); h != held.end() && h->first < block.node_end; ++h) {
+    const HeldNode& node = h->second;
+    if (!is_held(node))
+      continue;
+    if (node.free.x != 0 || node.free.y != 0 || node.free.z != 0)
+      cannot_hold(model, block, "in some axes only", "hold it in xyz, or make it deformable");
+    if (!std::isnan(node.target.x) || !std::isnan(node.target.y) || !std::isnan(node.target.z))
+      cannot_hold(model, block, "at a given displacement",
+                  "move it by a velocity in real-time stepping, or make it deformable");
+    const Node& v = node.prescribed;
+    if (!first)
+      first = &node;
+    else if (v.x != first->prescribed.x || v.y != first->prescribed.y || v.z != first->prescribed.z)
+      cannot_hold(model, block, "with several velocities", "give it one");
+  }
+  if (!first)
+    return {};
+  const Node v = first->prescribed;
+  for (int node = block.node_begin; node < block.node_end; ++node)
+    held.insert_or_assign(node, HeldNode{node, {}, v, {nan, nan, nan, 0}});
+  return geom::Vec3(v.x, v.y, v.z);
+}
+
 using Pattern = std::vector<std::pair<int, geom::Vec3>>;
 
 Pattern traction_pattern(const Model& model, const Traction& traction) {
@@ -124,8 +159,10 @@ ResolvedConditions resolve(const Model& model, const State& state, const Conditi
   HeldNodes held;
   for (const Fix& fix : conditions.fixes)
     hold(model, fix, held, r);
+  for (const RigidBody& body : model.rigid)
+    r.rigid.push_back(hold_rigid(model, model.blocks[body.block], held));
   for (const auto& [node, h] : held)
-    if (h.free.x == 0 || h.free.y == 0 || h.free.z == 0)
+    if (is_held(h))
       r.held.push_back(h);
   if (!conditions.tractions.empty() || !conditions.forces.empty() || conditions.gravity ||
       !conditions.flows.empty())

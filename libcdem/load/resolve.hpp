@@ -29,7 +29,8 @@ struct HeldNode {
 };
 
 struct ResolvedConditions {
-  std::vector<HeldNode> held; // by number
+  std::vector<HeldNode> held;                   // by number; all those of rigid bodies that are held
+  std::vector<std::optional<geom::Vec3>> rigid; // m/s, of the rigid bodies that are held (n rigid bodies)
   std::vector<Node> constant; // N, loads that do not vary (n_nodes); empty where none varies
   std::vector<Node> external; // N, all loads at the present time (n_nodes); empty without loads
   std::vector<Node> internal; // N, forces of the initial stress (n_nodes); empty without
@@ -54,7 +55,8 @@ void each_node(const ResolvedConditions& r, Range nodes, const Free& free, const
     free(Range{begin, nodes.end});
 }
 
-// Throws geom::InputError when a condition selects nothing.
+// A rigid body is held as a whole where a fix holds any of its nodes. Throws geom::InputError when a condition selects
+// nothing, and when a rigid body is held in part.
 ResolvedConditions resolve(const Model&, const State&, const Conditions&);
 
 // The patterns of flows for where the faces are now.

@@ -1,5 +1,6 @@
 #include "libcdem/model/build.hpp"
 
+#include "libcdem/rigid/inertia.hpp"
 #include "libgeom/assembly/assembly.hpp"
 #include "libgeom/core/error.hpp"
 #include "libgeom/mesh/star_mesh.hpp"
@@ -286,6 +287,7 @@ Model build_model(const Model& frame, std::vector<BlockSeed> seeds, const Interf
   add_outer_faces(model, fans);
   add_chunks(model);
   add_meshes(model, std::move(meshes));
+  add_rigid_bodies(model);
   add_bonds_on_nodes(model);
 
   for (const Block& block : model.blocks)

@@ -5,6 +5,7 @@
 #include "libcdem/element/finite_volume.hpp"
 #include "libcdem/interface/face_bonds.hpp"
 #include "libcdem/model/bonding.hpp"
+#include "libcdem/model/element.hpp"
 #include "libcdem/model/joint.hpp"
 #include "libcdem/model/material.hpp"
 #include "libcdem/model/mesh.hpp"
@@ -19,19 +20,12 @@
 
 namespace cdem {
 
-// How a body's tets deform.
-enum class Element {
-  small_strain,  // star meshes of convex blocks, Han 2010 eqs 1-7
-  finite_volume, // meshes that may move far, Feng 2014 eqs 2-14
-  rigid          // meshes that keep their shape
-};
-
 struct Body {
   std::string name;
   Elastic material;
   Joint joint; // between its own blocks; its strength is that of the blocks themselves when they are cut
-  Bonding bonding = {}; // of a meshed body: which of its faces carry that joint
-  Element element = Element::small_strain;
+  Bonding bonding = {};                    // of a meshed body: which of its faces carry that joint
+  Element element = Element::small_strain; // that it starts as; single blocks may turn rigid and back
 };
 
 // A part of a body with nodes of its own: a convex block with its star mesh, or a meshed solid.
@@ -119,6 +113,9 @@ struct RigidBody {
   double mass = 0; // kg
   geom::Mat3 inertia =
       geom::Mat3::Identity(); // kg m2, about the centroid, in the directions it was made rigid in
+  geom::Mat3 inverse_inertia = geom::Mat3::Identity();
+  geom::Vec3 principal = geom::Vec3::Ones(); // kg m2, principal moments, ascending
+  geom::Mat3 axes = geom::Mat3::Identity();  // their directions, column by column
 };
 
 struct Model {

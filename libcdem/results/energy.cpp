@@ -3,6 +3,7 @@
 #include "libcdem/element/mesh_fields.hpp"
 #include "libcdem/element/small_strain.hpp"
 #include "libcdem/interface/spring_forces.hpp"
+#include "libcdem/rigid/motion.hpp"
 
 namespace cdem {
 
@@ -32,9 +33,13 @@ EnergyLedger energy(const Model& model, const State& state) {
   ledger.elastic = elastic_energy(model, moved);
   ledger.springs = spring_energy(model, moved) + mesh_spring_energy(model, moved);
   for (std::size_t i = 0; i < state.velocity.size(); ++i) {
+    if (model.blocks[model.node_block[i]].rigid >= 0)
+      continue;
     const Node& v = state.velocity[i];
     ledger.kinetic += 0.5 * model.node_mass[i] * (v.x * v.x + v.y * v.y + v.z * v.z);
   }
+  for (std::size_t i = 0; i < model.rigid.size(); ++i)
+    ledger.kinetic += kinetic_energy(model.rigid[i], state.rigid[i], state.velocity_lag);
   return ledger;
 }
 

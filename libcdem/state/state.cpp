@@ -1,5 +1,7 @@
 #include "libcdem/state/state.hpp"
 
+#include "libcdem/rigid/convert.hpp"
+
 #include <algorithm>
 
 namespace cdem {
@@ -26,6 +28,7 @@ State initial_state(const Model& model) {
       for (std::int64_t f = chunk.face_batches.begin; f < chunk.face_batches.end; ++f)
         for (auto& point : state.faces[f].mode)
           std::fill(std::begin(point), std::end(point), static_cast<std::uint8_t>(BondMode::contact));
+  add_rigid_states(model, state);
   return state;
 }
 

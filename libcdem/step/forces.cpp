@@ -47,13 +47,16 @@ std::vector<Node> net_forces(const Model& model, const State& state, Workspace& 
   std::vector<Node> force(model.node_position.size());
   for (std::size_t c = 0; c < model.mesh.chunks.size(); ++c) {
     const MeshChunk& chunk = model.mesh.chunks[c];
+    if (model.blocks[chunk.block].rigid >= 0)
+      continue;
     const Node* const at = mesh_forces(model, copy, work, static_cast<std::int64_t>(c), false);
     std::copy(at, at + (chunk.inner_end - chunk.nodes.begin), force.begin() + chunk.nodes.begin);
   }
   for (const MeshChunk& chunk : model.mesh.chunks)
-    each_shared_force(model.mesh, work, chunk, [&](Range nodes, const Node* at) {
-      std::copy(at, at + nodes.size(), force.begin() + nodes.begin);
-    });
+    if (model.blocks[chunk.block].rigid < 0)
+      each_shared_force(model.mesh, work, chunk, [&](Range nodes, const Node* at) {
+        std::copy(at, at + nodes.size(), force.begin() + nodes.begin);
+      });
   for (std::size_t c = 0; c < model.chunks.size() - model.mesh.chunks.size(); ++c)
     block_forces(model, copy, work, model.chunks[c]);
   std::copy(work.force.begin(), work.force.end(), force.begin());

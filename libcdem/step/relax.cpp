@@ -2,9 +2,12 @@
 
 #include "libcdem/results/energy.hpp"
 #include "libcdem/step/move_nodes.hpp"
+#include "libcdem/step/move_rigid.hpp"
 #include "libcdem/step/row_sums.hpp"
+#include "libgeom/core/error.hpp"
 
 #include <cmath>
+#include <fmt/format.h>
 #include <utility>
 
 namespace cdem {
@@ -95,6 +98,24 @@ double initial_stress_forces2(const ResolvedConditions& r) {
   return sum;
 }
 
+// Rigid bodies have no stiffness to find a balance with.
+void require_held(const Model& model, const ResolvedConditions& r) {
+  for (std::size_t i = 0; i < model.rigid.size(); ++i)
+    if (!r.rigid[i]) {
+      const Block& block = model.blocks[model.rigid[i].block];
+      throw geom::InputError(
+          fmt::format("relax: block {} of body \"{}\" is rigid and free; hold it, use run or settle, "
+                      "or make it deformable",
+                      block.id, model.bodies[block.body].name));
+    }
+}
+
+void stop(State& state) {
+  std::fill(state.velocity.begin(), state.velocity.end(), Node{});
+  for (RigidState& rigid : state.rigid)
+    rigid.velocity = rigid.angular_momentum = {};
+}
+
 // However a relaxation ends, it leaves the state at rest: its velocities are lengths per step of fictitious masses.
 struct AtRest {
   Stage& stage;
@@ -103,8 +124,8 @@ struct AtRest {
   ~AtRest() {
     stage.catch_up();
     state.spent.fictitious += sums.kinetic;
-    std::fill(state.velocity.begin(), state.velocity.end(), Node{});
-    std::fill(last_good.velocity.begin(), last_good.velocity.end(), Node{});
+    stop(state);
+    stop(last_good);
   }
 };
 
@@ -120,11 +141,12 @@ std::vector<double> fictitious_masses(const Model& model) {
 RelaxResult relax(const StageContext& context, const RelaxOptions& options, const std::string& kind) {
   State& state = context.state;
   Stage stage(context, kind, context.model.length);
+  require_held(context.model, stage.work.resolved);
   const std::vector<double> mass = fictitious_masses(context.model);
   std::vector<Node> previous_force(mass.size()); // N, of the step before
   update_external(stage.work.resolved, state.time);
   const double moving = energy(context.model, state).total();
-  std::fill(state.velocity.begin(), state.velocity.end(), Node{});
+  stop(state);
   state.velocity_lag = 0;
   state.spent.fictitious += moving - energy(context.model, state).total();
   aim_supports(state, stage.work.resolved, support_steps);
@@ -140,7 +162,7 @@ RelaxResult relax(const StageContext& context, const RelaxOptions& options, cons
     while (stage.step < options.max_steps && settled < settled_steps) {
       if (stage.step == moving_steps)
         stop_supports(stage.work.resolved);
-      report.sums = stage.advance(options.breaking, [&](Range range, const Node* force, NodeSums& sums) {
+      const auto move = [&](Range range, const Node* force, NodeSums& sums) {
         const auto nodes = [&](Range part) {
           return moving_nodes(state, stage.work, mass, part, force + (part.begin - range.begin));
         };
@@ -150,6 +172,9 @@ RelaxResult relax(const StageContext& context, const RelaxOptions& options, cons
             [&](const HeldNode& h) {
               relax_held_node(nodes({h.node, h.node + 1}), h, damping, previous_force[h.node], sums);
             });
+      };
+      report.sums = stage.advance(options.breaking, move, [&](int rigid, NodeSums& sums) {
+        hold_rigid(context.model, state, stage.work, rigid, sums);
       });
       stage.work.strain_step = 1; // velocities are lengths per step
       largest_reaction2 = std::max(largest_reaction2, report.sums.reaction2);

@@ -1,6 +1,7 @@
 #include "libcdem/step/run.hpp"
 
 #include "libcdem/step/move_nodes.hpp"
+#include "libcdem/step/move_rigid.hpp"
 #include "libcdem/step/row_sums.hpp"
 #include "libgeom/core/error.hpp"
 
@@ -69,6 +70,10 @@ std::vector<double> viscous_forces(const Model& model) {
 
 double choose_time_step(const Model& model, const RunOptions& options) {
   const double stable = stable_time_step(model);
+  if (options.time_step == 0 && std::isinf(stable))
+    throw geom::InputError(
+        "time_step: missing; everything that moves is rigid and touches nothing, which has no "
+        "stable step to take: give one (s)");
   if (options.time_step > stable)
     throw geom::InputError("time_step", fmt::format("{:g}", options.time_step),
                            fmt::format("at most the stable step, {:.4g} s", stable),
@@ -82,7 +87,8 @@ double stable_time_step(const Model& model) {
   const std::vector<double> sums = all_row_sums(model);
   double largest = 0;
   for (std::size_t i = 0; i < sums.size(); ++i)
-    largest = std::max(largest, sums[i] / model.node_mass[i]);
+    if (model.blocks[model.node_block[i]].rigid < 0)
+      largest = std::max(largest, sums[i] / model.node_mass[i]);
   return 2 / std::sqrt(largest);
 }
 
@@ -108,7 +114,7 @@ RunResult run(const StageContext& context, const RunOptions& options, const std:
     update_external(stage.work.resolved, state.time);
     // Velocities that stand at the time of the displacements, at the start or after a relaxation, take half a step.
     stepping.kick = state.velocity_lag + 0.5 * stepping.time_step;
-    report.sums = stage.advance(options.breaking, [&](Range range, const Node* force, NodeSums& sums) {
+    const auto move = [&](Range range, const Node* force, NodeSums& sums) {
       const auto nodes = [&](Range part) {
         MovingNodes moving = moving_nodes(state, stage.work, context.model.node_mass, part,
                                           force + (part.begin - range.begin));
@@ -120,6 +126,9 @@ RunResult run(const StageContext& context, const RunOptions& options, const std:
           [&](const HeldNode& h) {
             step_held_node(nodes({h.node, h.node + 1}), h, stepping, sums);
           });
+    };
+    report.sums = stage.advance(options.breaking, move, [&](int rigid, NodeSums& sums) {
+      move_rigid(context.model, state, stage.work, rigid, stepping, sums);
     });
     stage.work.strain_step = stepping.time_step;
     report.residual = relative_residual(report.sums);

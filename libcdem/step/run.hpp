@@ -11,6 +11,7 @@ namespace cdem {
 // kind: what progress reports call it.
 RunResult run(const StageContext&, const RunOptions&, const std::string& kind = "run");
 
-double stable_time_step(const Model&); // s
+// s; infinite when all blocks are rigid, whose nodes have no stiffness.
+double stable_time_step(const Model&);
 
 } // namespace cdem

@@ -4,6 +4,7 @@
 #include "libcdem/interface/spring_forces.hpp"
 #include "libcdem/model/add_meshes.hpp"
 #include "libcdem/results/fields.hpp"
+#include "libcdem/rigid/motion.hpp"
 #include "libcdem/step/errors.hpp"
 #include "libcdem/step/mesh_forces.hpp"
 
@@ -64,8 +65,10 @@ double Stage::wall_time() const {
 void Stage::catch_up() {
   const auto meshes = static_cast<std::int64_t>(context_.model.mesh.chunks.size());
   if (work.strain_step > 0)
-    for_chunks(meshes, context_.threads,
-               [&](std::int64_t c) { mesh_forces(context_.model, context_.state, work, c, false); });
+    for_chunks(meshes, context_.threads, [&](std::int64_t c) {
+      if (context_.model.blocks[context_.model.mesh.chunks[c].block].rigid < 0)
+        mesh_forces(context_.model, context_.state, work, c, false);
+    });
   // Broken faces slide to where the nodes are too; the next step finds nothing left to do.
   if (work.strain_step > 0)
     for (const FaceSums& sums : work.face_sums)
@@ -81,7 +84,7 @@ void Stage::keep_state() {
 
 NodeSums Stage::total() const {
   NodeSums sum;
-  for (const NodeSums& s : work.node_sums) {
+  const auto add = [&](const NodeSums& s) {
     sum.residual2 += s.residual2;
     sum.applied2 += s.applied2;
     sum.reaction2 += s.reaction2;
@@ -90,7 +93,11 @@ NodeSums Stage::total() const {
     sum.kinetic += s.kinetic;
     sum.external += s.external;
     sum.damping += s.damping;
-  }
+  };
+  for (const NodeSums& s : work.node_sums)
+    add(s);
+  for (const NodeSums& s : work.rigid_sums)
+    add(s);
   return sum;
 }
 
@@ -234,6 +241,16 @@ void Stage::watch() const {
     throw SolutionError(fmt::format("stage {} ({}), step {}: {} in {}; {}", context_.number, kind_, step,
                                     what, where(model, node), advice));
   };
+  for (std::size_t i = 0; i < model.rigid.size(); ++i) {
+    const RigidState& rigid = state.rigid[i];
+    if (!std::isfinite(vec(rigid.centroid).sum() + vec(rigid.velocity).sum() +
+                       vec(rigid.angular_momentum).sum()))
+      fail("force on a rigid body is not a number", model.blocks[model.rigid[i].block].node_begin,
+           "look at loads and contacts there");
+    if (!std::isfinite(rigid.rotation[0]))
+      fail("a rigid body turns by a radian or more in a step", model.blocks[model.rigid[i].block].node_begin,
+           "use a smaller time_step");
+  }
   for (int node = 0; node < static_cast<int>(model.node_position.size()); ++node) {
     const Node& u = state.displacement[node];
     const Node& v = state.velocity[node];
@@ -256,6 +273,8 @@ void Stage::watch() const {
            "look at loads and stiffnesses there");
   }
   for (int tet = 0; tet < static_cast<int>(model.tets.size()); ++tet) {
+    if (model.blocks[model.tet_block[tet]].rigid >= 0)
+      continue;
     const geom::Mat3 f = geom::Mat3::Identity() + displacement_gradient(model, state.displacement, tet);
     if (f.determinant() <= 0)
       fail("an element is turned inside out", model.tets[tet][0],

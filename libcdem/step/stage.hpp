@@ -35,10 +35,10 @@ public:
   std::int64_t step = 0; // within the stage
 
   // One step: all forces where the nodes are, and move(nodes, forces, sums) for every node once all that reads where it
-  // is has done so; `forces` are those of elements and springs at `nodes`, the first first. Returns the sums over all
-  // chunks, added in order.
-  template <class Move>
-  NodeSums advance(bool breaking, const Move& move);
+  // is has done so; `forces` are those of elements and springs at `nodes`, the first first. The nodes of rigid bodies
+  // move with them: move_rigid(rigid body, sums). Returns the sums over all chunks, added in order.
+  template <class Move, class MoveRigid>
+  NodeSums advance(bool breaking, const Move& move, const MoveRigid& move_rigid);
   // Brings the stress of meshes up to where the nodes are; before a state is kept or handed out.
   void catch_up();
 
@@ -73,8 +73,8 @@ private:
   std::int64_t told_step_ = 0;
 };
 
-template <class Move>
-NodeSums Stage::advance(bool breaking, const Move& move) {
+template <class Move, class MoveRigid>
+NodeSums Stage::advance(bool breaking, const Move& move, const MoveRigid& move_rigid) {
   const Model& model = context_.model;
   State& state = context_.state;
   const auto springs = static_cast<std::int64_t>(model.point_chunks.size());
@@ -87,6 +87,8 @@ NodeSums Stage::advance(bool breaking, const Move& move) {
       return;
     }
     const MeshChunk& chunk = model.mesh.chunks[c - springs];
+    if (model.blocks[chunk.block].rigid >= 0)
+      return;
     const Node* const force = mesh_forces(model, state, work, c - springs, breaking);
     NodeSums sums;
     move(Range{chunk.nodes.begin, chunk.inner_end}, force, sums);
@@ -102,11 +104,19 @@ NodeSums Stage::advance(bool breaking, const Move& move) {
       work.node_sums[c] = sums;
       return;
     }
+    if (model.blocks[model.mesh.chunks[c - stars].block].rigid >= 0)
+      return;
     NodeSums sums = work.node_sums[c];
     each_shared_force(model.mesh, work, model.mesh.chunks[c - stars],
                       [&](Range nodes, const Node* force) { move(nodes, force, sums); });
     work.node_sums[c] = sums;
   });
+  if (const auto bodies = static_cast<std::int64_t>(model.rigid.size()); bodies > 0)
+    for_chunks(bodies, context_.threads, [&](std::int64_t body) {
+      NodeSums sums;
+      move_rigid(static_cast<int>(body), sums);
+      work.rigid_sums[body] = sums;
+    });
   return total();
 }
 

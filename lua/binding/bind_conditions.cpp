@@ -146,6 +146,24 @@ Value remove(Session&, ModelObject& model, const Arguments& a) {
   return count;
 }
 
+Value make_rigid(Session&, ModelObject& model, const Arguments& a) {
+  model.require_idle("make_rigid");
+  std::int64_t count = 0;
+  for (const Selection& on : selections(model, a.value("on"), "on"))
+    count += model.simulation.make_rigid(on);
+  note(model, std::to_string(count) + (count == 1 ? " body" : " bodies") + " made rigid");
+  return count;
+}
+
+Value make_deformable(Session&, ModelObject& model, const Arguments& a) {
+  model.require_idle("make_deformable");
+  std::int64_t count = 0;
+  for (const Selection& on : selections(model, a.value("on"), "on"))
+    count += model.simulation.make_deformable(on);
+  note(model, std::to_string(count) + (count == 1 ? " body" : " bodies") + " made deformable");
+  return count;
+}
+
 Value unbond(Session&, ModelObject& model, const Arguments& a) {
   model.require_idle("unbond");
   std::int64_t count = 0;
@@ -216,6 +234,14 @@ void bind_conditions(Module& m) {
       initial_velocity);
   add("remove", "Takes blocks out of the model (an excavation): those whose centroid is selected.", {on()},
       remove, "integer", "how many");
+  add("make_rigid",
+      "Meshed bodies keep the shape and the stress of this moment from now on, and move as a whole: those "
+      "whose "
+      "undeformed centroid is selected.",
+      {on()}, make_rigid, "integer", "how many changed");
+  add("make_deformable",
+      "Rigid bodies deform again, with the motion they have: those whose undeformed centroid is selected.",
+      {on()}, make_deformable, "integer", "how many changed");
   add("unbond", "Breaks bonds before anything is loaded (a notch): those whose point is selected.",
       {on(), flag("whole_faces")
                  .standard(false)

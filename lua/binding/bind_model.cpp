@@ -17,9 +17,11 @@ using geom::InputError;
 
 // A meshed body: its joint stands on all inner faces unless `bonds` says which.
 void read_mesh(const Arguments& given, const std::string& path, const geom::TetMesh& mesh, BodySpec& body) {
-  if (given.has("element") && given.text("element") != "finite_volume")
-    throw InputError(path + ".element", "\"" + given.text("element") + "\"", "finite_volume for a mesh",
+  const std::string element = given.text_or("element", "finite_volume");
+  if (element == "small_strain")
+    throw InputError(path + ".element", "\"small_strain\"", "finite_volume or rigid for a mesh",
                      "small_strain is for assemblies of convex blocks");
+  body.element = element == "rigid" ? Element::rigid : Element::finite_volume;
   const std::string bonds = given.text_or("bonds", given.has("joint") ? "all" : "none");
   if (bonds != "none" && !given.has("joint"))
     throw InputError(path + ".joint: missing; bonds = \"" + bonds +
@@ -44,7 +46,7 @@ void require_blocks(const Arguments& given, const std::string& path) {
   if (given.has("element") && given.text("element") != "small_strain")
     throw InputError(path + ".element", "\"" + given.text("element") + "\"",
                      "small_strain for an assembly of blocks",
-                     "finite_volume is for meshes, made by solid:mesh{} or cdem.read_mesh{}");
+                     "finite_volume and rigid are for meshes, made by solid:mesh{} or cdem.read_mesh{}");
   for (const char* const only : {"bonds", "bonded_regions", "stiffness_ratio", "shear_ratio"})
     if (given.has(only))
       throw InputError(path + "." + only + ": only for a meshed body; an assembly's faces are all bonded");
@@ -214,10 +216,10 @@ void bind_model(Module& m) {
                "mesh: on "
                "inner faces, which can break then"),
       text("name").doc("for selections and contacts; body_1, body_2 ... by default"),
-      choice("element", {"small_strain", "finite_volume"})
+      choice("element", {"small_strain", "finite_volume", "rigid"})
           .doc("how tets deform: small_strain for assemblies (Han 2010), finite_volume for meshes (Feng "
-               "2014), as "
-               "they are by default"),
+               "2014), as they are by default; rigid: a mesh that keeps its shape until "
+               "model:make_deformable"),
       choice("bonds", {"none", "all", "regions", "listed"})
           .doc("of a mesh, which inner faces carry the joint: all (default with a joint), those between "
                "different "

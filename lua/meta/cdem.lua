@@ -540,6 +540,22 @@ function Model:initial_velocity(options) end
 ---@return integer # how many
 function Model:remove(options) end
 
+---@class (exact) cdem.ModelMakeRigidOptions
+---@field on cdem.Place where: a place or a list of places
+
+---Meshed bodies keep the shape and the stress of this moment from now on, and move as a whole: those whose undeformed centroid is selected.
+---@param options cdem.ModelMakeRigidOptions
+---@return integer # how many changed
+function Model:make_rigid(options) end
+
+---@class (exact) cdem.ModelMakeDeformableOptions
+---@field on cdem.Place where: a place or a list of places
+
+---Rigid bodies deform again, with the motion they have: those whose undeformed centroid is selected.
+---@param options cdem.ModelMakeDeformableOptions
+---@return integer # how many changed
+function Model:make_deformable(options) end
+
 ---@class (exact) cdem.ModelUnbondOptions
 ---@field on cdem.Place where: a place or a list of places
 ---@field whole_faces? boolean default false: only faces that are selected with all their points, so that faces that meet the notch at its tip stay bonded
@@ -1207,7 +1223,7 @@ function cdem.select.where(predicate) end
 ---@field material cdem.Material
 ---@field joint? cdem.Joint between the body's own blocks; needed when there are several, or when they are cut. Of a mesh: on inner faces, which can break then
 ---@field name? string for selections and contacts; body_1, body_2 ... by default
----@field element? "small_strain"|"finite_volume" how tets deform: small_strain for assemblies (Han 2010), finite_volume for meshes (Feng 2014), as they are by default
+---@field element? "small_strain"|"finite_volume"|"rigid" how tets deform: small_strain for assemblies (Han 2010), finite_volume for meshes (Feng 2014), as they are by default; rigid: a mesh that keeps its shape until model:make_deformable
 ---@field bonds? "none"|"all"|"regions"|"listed" of a mesh, which inner faces carry the joint: all (default with a joint), those between different regions, or all of the bonded_regions
 ---@field bonded_regions? integer[] numbers of regions, from 1, with bonds = "listed"
 ---@field stiffness_ratio? number > 0: of a mesh, beta in Kn = beta E A / (3 d); 10 by default. A body bonded everywhere keeps about E / (1 + 1/beta)

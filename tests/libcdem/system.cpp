@@ -48,9 +48,8 @@ cdem::Model build(const std::vector<cdem::BodySpec>& bodies, const std::vector<c
   std::vector<cdem::MeshSeed> meshes;
   for (const cdem::BodySpec& spec : bodies) {
     const int index = static_cast<int>(frame.bodies.size());
-    frame.bodies.push_back(
-        {spec.name, spec.material, spec.joint, spec.bonding,
-         spec.meshes.empty() ? cdem::Element::small_strain : cdem::Element::finite_volume});
+    frame.bodies.push_back({spec.name, spec.material, spec.joint, spec.bonding,
+                            spec.meshes.empty() ? cdem::Element::small_strain : spec.element});
     for (const geom::TetMesh& mesh : spec.meshes)
       meshes.push_back({0, index, mesh});
     frame.pair_joint[{index, index}] = static_cast<int>(frame.joints.size());

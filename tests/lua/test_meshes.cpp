@@ -67,10 +67,30 @@ TEST_CASE("a meshed body under its weight: reaction, stress and energy", "[lua]"
                         "assert(model:energy().balance_error < 1e-2)") == "");
 }
 
+TEST_CASE("a rigid mesh falls as a whole, and deforms when it is let", "[lua]") {
+  CHECK(error_of(head + "local model = model_of{ element = 'rigid' }\n"
+                        "assert(model.stable_time_step == math.huge)\n"
+                        "model:gravity{ vector = {0, 0, -10} }\n"
+                        "model:run{ duration = 0.1, time_step = 1e-3 }\n"
+                        "close(model:max('displacement.z'), -0.05, 1e-9)\n"
+                        "close(model:min('displacement.z'), -0.05, 1e-9)\n"
+                        "assert(model:make_deformable{ on = 'all' } == 1)\n"
+                        "assert(model:make_deformable{ on = 'all' } == 0)\n"
+                        "assert(model.stable_time_step < 1)\n"
+                        "model:run{ steps = 10 }\n"
+                        "assert(model:make_rigid{ on = 'all' } == 1)") == "");
+  CHECK_THAT(error_of(head + "model_of{ element = 'rigid' }:run{ steps = 3 }"),
+             Contains("time_step: missing"));
+  CHECK_THAT(error_of(head + "model_of{ element = 'rigid' }:relax{}"), Contains("is rigid and free"));
+  CHECK_THAT(
+      error_of(head + "model_of{}:make_rigid{ on = cdem.select.box{ min = {9, 9, 9}, max = {10, 10, 10} } }"),
+      Contains("centroids of meshed bodies"));
+}
+
 TEST_CASE("meshed bodies that do not fit are refused", "[lua]") {
   const auto refused = [](const std::string& body) { return error_of(head + "model_of{ " + body + " }"); };
   CHECK_THAT(refused("element = 'small_strain'"),
-             Contains("bodies[1].element = \"small_strain\": must be finite_volume for a mesh"));
+             Contains("bodies[1].element = \"small_strain\": must be finite_volume or rigid for a mesh"));
   CHECK_THAT(refused("bonds = 'all'"), Contains("bodies[1].joint: missing; bonds = \"all\""));
   CHECK_THAT(refused("joint = bond, bonds = 'none'"), Contains("bodies[1].bonds = \"none\""));
   CHECK_THAT(refused("joint = bond, bonds = 'some'"), Contains("bonds = \"some\": must be one of"));

@@ -1,5 +1,5 @@
 -- exit code: 2
--- says: element = "small_strain": must be finite_volume for a mesh
+-- says: element = "small_strain": must be finite_volume or rigid for a mesh
 
 local cdem = require "cdem"
 local concrete = cdem.elastic{ youngs_modulus = 30e9, poissons_ratio = 0.2, density = 2500 }
