@@ -1,13 +1,10 @@
-#include "libcdem/simulation.hpp"
+#include "libcdem/simulation_impl.hpp"
 
-#include "libcdem/element/mesh_fields.hpp"
+#include "libcdem/checkpoint/model_archive.hpp"
 #include "libcdem/element/small_strain.hpp"
 #include "libcdem/first_model.hpp"
 #include "libcdem/fracture/grow.hpp"
-#include "libcdem/fracture/rebuild.hpp"
 #include "libcdem/fracture/refine.hpp"
-#include "libcdem/interface/spring_forces.hpp"
-#include "libcdem/results/energy.hpp"
 #include "libcdem/results/fragments.hpp"
 #include "libcdem/results/make_snapshot.hpp"
 #include "libcdem/rigid/convert.hpp"
@@ -18,84 +15,12 @@
 #include "libcdem/step/mesh_forces.hpp"
 #include "libcdem/step/relax.hpp"
 #include "libcdem/step/run.hpp"
-#include "libgeom/core/error.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
 
 namespace cdem {
-
-struct Simulation::Impl {
-  Model model;
-  State state;
-  State last_good;
-  Conditions conditions;
-  RunLog log;
-  std::shared_ptr<Observer> observer;
-  int threads = 1;
-  int stage = 0;
-  double last_residual = 0;
-
-  StageContext begin_stage() {
-    return {model, state, conditions, log, last_good, *observer, threads, ++stage};
-  }
-
-  // Tries a changed set of conditions before it takes them, so that a condition that selects nothing changes nothing.
-  template <class Change>
-  void change_conditions(const Change& change) {
-    Conditions changed = conditions;
-    change(changed);
-    resolve(model, state, changed);
-    conditions = std::move(changed);
-  }
-
-  double stored_energy() const {
-    return elastic_energy(model, state) + spring_energy(model, state) + mesh_spring_energy(model, state);
-  }
-
-  // Cutting and removing know convex blocks only.
-  void require_blocks(const char* call) const {
-    if (!model.mesh.empty())
-      throw geom::InputError(std::string(call) +
-                             ": the model has meshed bodies; only a model of convex blocks alone "
-                             "can be cut or lose blocks");
-  }
-
-  // Turns the selected blocks rigid or deformable.
-  template <class Set>
-  std::int64_t convert(const Selection& on, const Set& set) {
-    std::vector<int> blocks;
-    for (int b = 0; b < static_cast<int>(model.blocks.size()); ++b)
-      if (selects_block(model, on, b)) {
-        if (!model.blocks[b].meshed)
-          throw geom::InputError("on", on.text, "meshed bodies",
-                                 "block " + std::to_string(model.blocks[b].id) +
-                                     " is a convex block, which always deforms");
-        blocks.push_back(b);
-      }
-    if (blocks.empty())
-      throw geom::InputError("on", on.text, "a place that holds the centroids of meshed bodies",
-                             "nothing of the model lies there");
-    Model changed = model;
-    State moved = state;
-    const std::int64_t count = set(changed, moved, blocks);
-    resolve(changed, moved, conditions); // a rigid body cannot be held in part
-    model = std::move(changed);
-    state = std::move(moved);
-    last_good = state;
-    return count;
-  }
-
-  // A change of topology or of the stress state between stages: the ledger counts what it does to the stored energy.
-  void adopt(Rebuilt&& rebuilt) {
-    const double before = stored_energy();
-    model = std::move(rebuilt.model);
-    state = std::move(rebuilt.state);
-    state.spent.cutting += before - stored_energy();
-    last_good = state;
-  }
-};
 
 Simulation::Simulation(const ModelSpec& spec, int threads, std::shared_ptr<Observer> observer)
     : impl_(std::make_unique<Impl>()) {
@@ -104,6 +29,7 @@ Simulation::Simulation(const ModelSpec& spec, int threads, std::shared_ptr<Obser
   impl_->threads = threads;
   impl_->observer = observer ? std::move(observer) : std::make_shared<Observer>();
   impl_->model = first_model(spec);
+  impl_->built = hash(impl_->model);
   impl_->state = initial_state(impl_->model);
   impl_->last_good = impl_->state;
 }
@@ -151,6 +77,10 @@ void Simulation::flow(const Flow& flow) {
   check(flow);
   Conditions changed = impl_->conditions;
   changed.flows.push_back(flow);
+  if (impl_->replaying) {
+    impl_->conditions = std::move(changed);
+    return;
+  }
   const ResolvedConditions resolved = resolve(impl_->model, impl_->state, changed);
   if (!flow.new_faces && resolved.varying[resolved.flows.back().load].forces.empty())
     throw geom::InputError(
@@ -310,14 +240,16 @@ std::int64_t Simulation::unbond(const Selection& on, bool whole_faces) {
 
 RelaxResult Simulation::relax(const RelaxOptions& options) {
   check(options);
-  const RelaxResult result = cdem::relax(impl_->begin_stage(), options);
+  const RelaxResult result =
+      impl_->run_stage([&](const StageContext& context) { return cdem::relax(context, options); });
   impl_->last_residual = result.residual;
   return result;
 }
 
 RunResult Simulation::run(const RunOptions& options) {
   check(options);
-  const RunResult result = cdem::run(impl_->begin_stage(), options);
+  const RunResult result =
+      impl_->run_stage([&](const StageContext& context) { return cdem::run(context, options); });
   impl_->last_residual = impl_->log.history.back().residual;
   return result;
 }
@@ -341,16 +273,16 @@ std::vector<BlockCut> Simulation::refine(const RefineOptions& options) {
 GrowResult Simulation::grow(const GrowOptions& options) {
   impl_->require_blocks("grow");
   Impl& s = *impl_;
-  const int stage = ++s.stage;
-  const auto relax = [&](const RelaxOptions& o, const std::string& kind) {
-    const RelaxResult result = cdem::relax(
-        {s.model, s.state, s.conditions, s.log, s.last_good, *s.observer, s.threads, stage}, o, kind);
-    s.last_residual = result.residual;
-    return result;
-  };
-  return cdem::grow(
-      {s.model, s.state, s.log, *s.observer, stage, relax, [&](Rebuilt&& r) { s.adopt(std::move(r)); }},
-      options);
+  return s.run_whole_stage([&](const StageContext& context) {
+    const auto relax = [&](const RelaxOptions& o, const std::string& kind) {
+      const RelaxResult result = cdem::relax(context, o, kind);
+      s.last_residual = result.residual;
+      return result;
+    };
+    return cdem::grow({s.model, s.state, s.log, *s.observer, context.number, relax,
+                       [&](Rebuilt&& r) { s.adopt(std::move(r)); }},
+                      options);
+  });
 }
 
 Deformation Simulation::deformation() const {
@@ -375,7 +307,8 @@ bool Simulation::anything_acts() const {
 
 CriticalFlowResult Simulation::critical_flow(const CriticalFlowOptions& options) {
   check(options);
-  CriticalFlowResult result = cdem::critical_flow(impl_->begin_stage(), options);
+  CriticalFlowResult result = impl_->run_whole_stage(
+      [&](const StageContext& context) { return cdem::critical_flow(context, options); });
   impl_->last_residual = impl_->log.history.back().residual;
   return result;
 }

@@ -16,6 +16,7 @@
 #include "libcdem/results/snapshot.hpp"
 #include "libcdem/step/critical_flow_options.hpp"
 #include "libcdem/step/errors.hpp"
+#include "libcdem/step/keeper.hpp"
 #include "libcdem/step/observer.hpp"
 #include "libcdem/step/options.hpp"
 #include "libgeom/assembly/assembly.hpp"
@@ -140,6 +141,20 @@ public:
   std::vector<std::string> probe_names() const;
   // A value sampled into the history: field at a place.
   void probe(const std::string& name, const std::string& field, const geom::Vec3& place);
+
+  // Everything but the conditions, as bytes for a file: of a model that is idle as it is, in a stage as it was where
+  // the stage can be left. The Model itself is among it only where it is no longer the one that was built.
+  std::string save() const;
+  // On a Simulation built from the same ModelSpec; throws geom::InputError on another. A stage that was left is
+  // begun again by the next solving call, which must be the same, and goes on where it was left.
+  void restore(const std::string& saved);
+  // Takes the state alone: neither log nor stages.
+  void restore_state(const std::string& saved);
+  // Who is asked for checkpoints during solving calls; must outlive them. Null: nobody.
+  void set_keeper(Keeper*);
+  // While a script is replayed up to its checkpoint conditions are taken without being tried: the model they were
+  // meant for is not there yet.
+  void set_replaying(bool);
 
   Snapshot snapshot(const std::string& title) const;
   // The last state that passed the checks before a SolutionError.

@@ -11,11 +11,11 @@ void RunLog::add(HistoryRow row) {
   history.push_back(std::move(row));
   if (history.size() <= most_rows)
     return;
-  every_ *= 2;
+  every *= 2;
   std::vector<HistoryRow> kept;
   for (std::size_t i = 0; i < history.size(); ++i) {
     const bool last_of_stage = i + 1 == history.size() || history[i + 1].stage != history[i].stage;
-    if (history[i].step % every_ == 0 || last_of_stage)
+    if (history[i].step % every == 0 || last_of_stage)
       kept.push_back(std::move(history[i]));
   }
   history = std::move(kept);

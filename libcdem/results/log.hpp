@@ -39,21 +39,19 @@ struct Probe {
   geom::Vec3 place; // m, undeformed
 };
 
-class RunLog {
-public:
+struct RunLog {
   std::vector<BreakRow> breaks;
   std::vector<HistoryRow> history;
   std::vector<Probe> probes;
   std::int64_t broken_tension = 0, broken_shear = 0;
   std::int64_t told_tension = 0, told_shear = 0; // of these: told of when earlier stages ended
 
+  std::int64_t every = 10; // steps between samples
+
   // A sample is due at this step (over all stages).
-  bool due(std::int64_t step) const { return step % every_ == 0; }
+  bool due(std::int64_t step) const { return step % every == 0; }
   // Thins the history by halves when it grows beyond 20000 rows, so that its length stays bounded and even.
   void add(HistoryRow row);
-
-private:
-  std::int64_t every_ = 10;
 };
 
 } // namespace cdem

@@ -35,7 +35,12 @@ State initial_state(const Model& model) {
 std::vector<StateField> fields(State& s) {
   const auto field = [](const char* name, const char* unit, FieldPlace place, const char* writer, auto& array,
                         bool floating) {
-    return StateField{name, unit, place, writer, array.data(), array.size() * sizeof(array[0]), floating};
+    const auto resize = [&array](std::size_t bytes) {
+      array.resize(bytes / sizeof(array[0]));
+      return bytes % sizeof(array[0]) == 0;
+    };
+    return StateField{name,     unit,  place, writer, array.data(), array.size() * sizeof(array[0]),
+                      floating, resize};
   };
   return {
       {"time", "s", FieldPlace::model, "step", &s.time, sizeof s.time, true},

@@ -1,5 +1,5 @@
 // State: every array that changes while stepping, with its meaning, unit, size and writer in one registry that
-// drives the hash, the carrying over at cuts, the watch for NaN and, later, checkpoints.
+// drives the hash, the carrying over at cuts, the watch for NaN and checkpoints.
 #pragma once
 
 #include "libcdem/contact/contact.hpp"
@@ -7,6 +7,8 @@
 #include "libcdem/results/ledger.hpp"
 #include "libcdem/results/snapshot.hpp"
 #include "libcdem/state/rigid_state.hpp"
+
+#include <functional>
 
 namespace cdem {
 
@@ -52,6 +54,8 @@ struct StateField {
   void* data;
   std::size_t bytes; // of the whole array
   bool floating;     // made of doubles: watched for NaN
+  // Of an array: makes it so many bytes long; false when that is no whole number of entries. Null for the others.
+  std::function<bool(std::size_t bytes)> resize = {};
 };
 
 // Every field, in a fixed order.

@@ -120,8 +120,8 @@ CriticalFlowResult critical_flow(const StageContext& context, const CriticalFlow
   };
   conditions.flows.push_back(flow);
   const StageContext with_flow{
-      model,           state,         conditions, context.log, context.last_good, context.observer,
-      context.threads, context.number};
+      model,           state,          conditions,    context.log, context.last_good, context.observer,
+      context.threads, context.number, context.keeper};
   const ResolvedConditions resolved = resolve(model, state, conditions);
   require_held(resolved);
   const auto pattern = resolved.varying[resolved.flows.back().load].forces;

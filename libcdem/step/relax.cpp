@@ -20,6 +20,7 @@ constexpr double smoothing = 0.05;
 constexpr double most_damping = 1.8;
 // Supports with a given displacement get there in this many steps.
 constexpr int support_steps = 200;
+static_assert(support_steps <= watch_every, "a relaxation that goes on does not move its supports any more");
 // The residual must stay under its goal this long: a body that swings through its balance is under it for a moment.
 constexpr int settled_steps = 10;
 // Without loads the residual is measured against the reactions. Moved supports that have torn their part off, and a free
@@ -143,13 +144,19 @@ RelaxResult relax(const StageContext& context, const RelaxOptions& options, cons
   Stage stage(context, kind, context.model.length);
   require_held(context.model, stage.work.resolved);
   const std::vector<double> mass = fictitious_masses(context.model);
+  const Moment* const from = context.from;
   std::vector<Node> previous_force(mass.size()); // N, of the step before
   update_external(stage.work.resolved, state.time);
-  const double moving = energy(context.model, state).total();
-  stop(state);
-  state.velocity_lag = 0;
-  state.spent.fictitious += moving - energy(context.model, state).total();
-  aim_supports(state, stage.work.resolved, support_steps);
+  if (from) {
+    previous_force = from->previous_force;
+    stop_supports(stage.work.resolved);
+  } else {
+    const double moving = energy(context.model, state).total();
+    stop(state);
+    state.velocity_lag = 0;
+    state.spent.fictitious += moving - energy(context.model, state).total();
+    aim_supports(state, stage.work.resolved, support_steps);
+  }
   const int moving_steps = stage.work.resolved.has_target ? support_steps : 0;
 
   Stage::StepReport report;
@@ -157,9 +164,19 @@ RelaxResult relax(const StageContext& context, const RelaxOptions& options, cons
   report.goals.max_steps = options.max_steps;
   double lambda = 0, damping = 0, largest_reaction2 = initial_stress_forces2(stage.work.resolved);
   int settled = 0;
+  if (from) {
+    lambda = from->carried.at(0);
+    damping = from->carried.at(1);
+    largest_reaction2 = from->carried.at(2);
+    settled = static_cast<int>(from->carried.at(3));
+    report.sums.kinetic = from->carried.at(4);
+  }
   {
     const AtRest at_rest{stage, state, context.last_good, report.sums};
     while (stage.step < options.max_steps && settled < settled_steps) {
+      if (stage.can_be_left())
+        stage.mark({lambda, damping, largest_reaction2, static_cast<double>(settled), report.sums.kinetic},
+                   previous_force);
       if (stage.step == moving_steps)
         stop_supports(stage.work.resolved);
       const auto move = [&](Range range, const Node* force, NodeSums& sums) {

@@ -94,11 +94,12 @@ double stable_time_step(const Model& model) {
 
 RunResult run(const StageContext& context, const RunOptions& options, const std::string& kind) {
   State& state = context.state;
+  const Moment* const from = context.from;
   Stepping stepping{choose_time_step(context.model, options), 0, options.local_damping};
   Stage stage(context, kind, run_away_lengths * context.model.length);
   const std::vector<double> viscous = viscous_forces(context.model);
   Stage::StepReport report;
-  const double start = state.time;
+  const double start = from ? from->carried.at(0) : state.time;
   const std::int64_t steps =
       options.steps > 0 ? options.steps
                         : static_cast<std::int64_t>(std::ceil(options.duration / stepping.time_step - 1e-9));
@@ -111,6 +112,8 @@ RunResult run(const StageContext& context, const RunOptions& options, const std:
 
   bool stopped = false;
   while (stage.step < steps && !stopped) {
+    if (stage.can_be_left())
+      stage.mark({start});
     update_external(stage.work.resolved, state.time);
     // Velocities that stand at the time of the displacements, at the start or after a relaxation, take half a step.
     stepping.kick = state.velocity_lag + 0.5 * stepping.time_step;

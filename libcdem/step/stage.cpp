@@ -14,11 +14,10 @@
 namespace cdem {
 namespace {
 
-// Steps between looks at every node and element, and between copies of the state.
-constexpr std::int64_t watch_every = 200;
 constexpr std::int64_t poll_every = 16;
 // Steps between looks at which faces a flow meets: they turn by next to nothing in between.
 constexpr std::int64_t flow_every = 100;
+static_assert(watch_every % flow_every == 0, "a stage that goes on looks anew where it did when it was left");
 constexpr double seconds_between_reports = 0.1;
 // Chunks a thread must have before a further one is worth its two barriers a step: about half a millisecond of work.
 constexpr std::int64_t chunks_per_thread = 32;
@@ -56,6 +55,38 @@ Stage::Stage(StageContext context, std::string kind, double run_away)
   context_.threads = useful_threads(context_.model, context_.threads);
   context_.last_good = context_.state;
   start_spring_forces(context_.model, context_.state, work);
+  Moment moment;
+  if (const Moment* from = context_.from) {
+    moment = *from;
+    step = told_step_ = from->step;
+    broken_tension_before_ = from->broken_tension_before;
+    broken_shear_before_ = from->broken_shear_before;
+    work.spring_force = from->spring_force;
+    work.stretch = from->stretch;
+    start_ -= std::chrono::duration_cast<std::chrono::steady_clock::duration>(
+        std::chrono::duration<double>(from->wall_time));
+  } else {
+    moment.breaks = context_.log.breaks.size();
+    moment.broken_tension_before = broken_tension_before_;
+    moment.broken_shear_before = broken_shear_before_;
+  }
+  if (context_.moment)
+    *context_.moment = std::move(moment);
+}
+
+void Stage::mark(std::vector<double> carried, const std::vector<Node>& previous_force) {
+  Moment& moment = **context_.moment;
+  if (moment.step == step)
+    return;
+  moment.step = step;
+  moment.breaks = context_.log.breaks.size();
+  moment.wall_time = wall_time();
+  moment.carried = std::move(carried);
+  moment.previous_force = previous_force;
+  moment.spring_force = work.spring_force;
+  moment.stretch = work.stretch;
+  if (context_.keeper)
+    context_.keeper->marked();
 }
 
 double Stage::wall_time() const {
@@ -186,7 +217,9 @@ void Stage::after_step(const StepReport& report) {
   ++context_.state.step;
   // Sums over all forces and one over all velocities: a NaN anywhere shows here in the step it appears.
   if (!std::isfinite(report.sums.residual2) || !std::isfinite(report.sums.kinetic) ||
-      !std::isfinite(report.sums.reaction2) || step % watch_every == 0)
+      !std::isfinite(report.sums.reaction2))
+    watch();
+  if (step % watch_every == 0)
     keep_state();
   if (!work.resolved.flows.empty() && step % flow_every == 0) {
     refresh_flows(context_.model, context_.state, work.resolved);
@@ -195,12 +228,18 @@ void Stage::after_step(const StepReport& report) {
   if (context_.log.due(context_.state.step))
     record_history(report);
   if (step % poll_every == 0) {
-    if (context_.observer.stop_requested())
+    Keeper* const keeper = context_.keeper;
+    if (context_.observer.stop_requested()) {
+      if (keeper)
+        keeper->write(true);
       throw Interrupted();
+    }
+    if (keeper && keeper->wanted())
+      keeper->write(false);
     if (seconds(std::chrono::steady_clock::now() - told_) > seconds_between_reports)
       tell(report, false);
   }
-  if (step == 1)
+  if (step == 1 || (context_.from && step == context_.from->step + 1))
     tell(report, false);
 }
 

@@ -4,11 +4,13 @@
 #include "libcdem/interface/spring_forces.hpp"
 #include "libcdem/results/log.hpp"
 #include "libcdem/step/forces.hpp"
+#include "libcdem/step/keeper.hpp"
 #include "libcdem/step/mesh_forces.hpp"
 #include "libcdem/step/observer.hpp"
 
 #include <chrono>
 #include <functional>
+#include <optional>
 
 namespace cdem {
 
@@ -20,8 +22,14 @@ struct StageContext {
   State& last_good; // copy of the state that last passed the watch
   Observer& observer;
   int threads = 1;
-  int number = 0; // of the stage, from 1
+  int number = 0;                          // of the stage, from 1
+  Keeper* keeper = nullptr;                // may be null
+  std::optional<Moment>* moment = nullptr; // written by the stage: where it can be left; null: nowhere
+  const Moment* from = nullptr;            // the stage goes on from here; the state is the one of that moment
 };
+
+// Steps between looks at every node and element, and between copies of the state.
+inline constexpr std::int64_t watch_every = 200;
 
 class Stage {
 public:
@@ -41,6 +49,10 @@ public:
   NodeSums advance(bool breaking, const Move& move, const MoveRigid& move_rigid);
   // Brings the stress of meshes up to where the nodes are; before a state is kept or handed out.
   void catch_up();
+
+  // True at the head of a step before which the state has been kept: mark() there, with what the loop carries.
+  bool can_be_left() const { return context_.moment && step > 0 && step % watch_every == 0; }
+  void mark(std::vector<double> carried, const std::vector<Node>& previous_force = {});
 
   // Bookkeeping after a step: ledger, breaks, history, progress, watch, stop. Throws SolutionError, Interrupted.
   struct StepReport {

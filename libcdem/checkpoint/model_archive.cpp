@@ -1,0 +1,249 @@
+#include "libcdem/checkpoint/model_archive.hpp"
+
+#include <algorithm>
+
+namespace cdem {
+
+// Every binding names every member in order. A member that is new to a struct is added to its line here.
+// NOLINTBEGIN(readability-identifier-length)
+template <>
+struct Flat<TetBatch> : std::bool_constant<sizeof(TetBatch) == (4 * 4 + 11 * 8) * lanes> {};
+template <>
+struct Flat<MeshBatch> : std::bool_constant<sizeof(MeshBatch) == 4 * 2 * lanes> {};
+
+template <class A>
+void archive(A& a, Elastic& x) {
+  auto& [youngs_modulus, poissons_ratio, density, viscosity] = x;
+  archive_all(a, youngs_modulus, poissons_ratio, density, viscosity);
+}
+
+template <class A>
+void archive(A& a, Joint& x) {
+  auto& [bonded, cohesion, friction_angle, tensile_strength, softening, g1, g2, thickness_ratio, thickness,
+         kn, ks] = x;
+  archive_all(a, bonded, cohesion, friction_angle, tensile_strength, softening, g1, g2, thickness_ratio,
+              thickness, kn, ks);
+}
+
+template <class A>
+void archive(A& a, Bonding& x) {
+  auto& [everywhere, between_regions, regions, stiffness_ratio, shear_ratio] = x;
+  archive_all(a, everywhere, between_regions, regions, stiffness_ratio, shear_ratio);
+}
+
+template <class A>
+void archive(A& a, Body& x) {
+  auto& [name, material, joint, bonding, element] = x;
+  archive_all(a, name, material, joint, bonding, element);
+}
+
+template <class A>
+void archive(A& a, geom::PolyhedronFace& x) {
+  auto& [loop] = x;
+  archive(a, loop);
+}
+
+template <class A>
+void archive(A& a, geom::Polyhedron& x) {
+  auto& [vertices, faces] = x;
+  archive_all(a, vertices, faces);
+}
+
+template <class A>
+void archive(A& a, geom::MassProperties& x) {
+  auto& [volume, centroid, inertia] = x;
+  archive_all(a, volume, centroid, inertia);
+}
+
+template <class A>
+void archive(A& a, geom::Box& x) {
+  auto& [min, max] = x;
+  archive_all(a, min, max);
+}
+
+template <class A>
+void archive(A& a, Block& x) {
+  auto& [id, parent, generation, body, meshed, rigid, shape, mass, size, first_size, node_begin, node_end,
+         tet_begin, tet_end] = x;
+  archive_all(a, id, parent, generation, body, meshed, rigid, shape, mass, size, first_size, node_begin,
+              node_end, tet_begin, tet_end);
+}
+
+template <class A>
+void archive(A& a, Interface& x) {
+  auto& [id, block_a, face_a, block_b, face_b, normal, joint, thickness, kn, ks, origin, may_break,
+         point_begin, point_end, triangle_begin, triangle_end] = x;
+  archive_all(a, id, block_a, face_a, block_b, face_b, normal, joint, thickness, kn, ks, origin, may_break,
+              point_begin, point_end, triangle_begin, triangle_end);
+}
+
+template <class A>
+void archive(A& a, BondPoint& x) {
+  auto& [node_a, node_b, weight_a, weight_b, normal, kn_area, ks_area, area, interface, one_to_one] = x;
+  archive_all(a, node_a, node_b, weight_a, weight_b, normal, kn_area, ks_area, area, interface, one_to_one);
+}
+
+template <class A>
+void archive(A& a, OuterFace& x) {
+  auto& [block, face, boundary, normal, area, node_area] = x;
+  archive_all(a, block, face, boundary, normal, area, node_area);
+}
+
+template <class A>
+void archive(A& a, BlockChunk& x) {
+  auto& [blocks, nodes, batches] = x;
+  archive_all(a, blocks, nodes, batches);
+}
+
+template <class A>
+void archive(A& a, BondOnNode& x) {
+  auto& [point, weight] = x;
+  archive_all(a, point, weight);
+}
+
+template <class A>
+void archive(A& a, RigidBody& x) {
+  auto& [block, mass, inertia, inverse_inertia, principal, axes] = x;
+  archive_all(a, block, mass, inertia, inverse_inertia, principal, axes);
+}
+
+template <class A>
+void archive(A& a, FaceBatch& x) {
+  auto& [kn, area, place_a, place_b, node_a, node_b] = x;
+  archive_all(a, kn, area, place_a, place_b, node_a, node_b);
+}
+
+template <class A>
+void archive(A& a, MeshChunk& x) {
+  auto& [block, nodes, inner_end, others, tets, batches, face_batches, faces, partial, share_begin] = x;
+  archive_all(a, block, nodes, inner_end, others, tets, batches, face_batches, faces, partial, share_begin);
+}
+
+template <class A>
+void archive(A& a, BoundaryTriangle& x) {
+  auto& [nodes, tet, block] = x;
+  archive_all(a, nodes, tet, block);
+}
+
+template <class A>
+void archive(A& a, FaceTets& x) {
+  auto& [tet_a, tet_b] = x;
+  archive_all(a, tet_a, tet_b);
+}
+
+template <class A>
+void archive(A& a, MeshData& x) {
+  auto& [first_node, first_tet, batches, faces, face_tets, chunks, tet_slot, others, original, share_begin,
+         shares, boundary] = x;
+  archive_all(a, first_node, first_tet, batches, faces, face_tets, chunks, tet_slot, others, original,
+              share_begin, shares, boundary);
+}
+
+template <class A>
+void archive(A& a, ContactTriangle& x) {
+  auto& [nodes, block, tet, face, area, height, compliance, edge_begin, edge_end] = x;
+  archive_all(a, nodes, block, tet, face, area, height, compliance, edge_begin, edge_end);
+}
+
+template <class A>
+void archive(A& a, ContactEdge& x) {
+  auto& [nodes, triangles] = x;
+  archive_all(a, nodes, triangles);
+}
+
+template <class A>
+void archive(A& a, ContactSurface& x) {
+  auto& [triangles, edges, block_begin, original, joint] = x;
+  archive_all(a, triangles, edges, block_begin, original, joint);
+}
+
+template <class A>
+void archive(A& a, Model& x) {
+  auto& [bodies, joints, blocks, pair_joint, node_position, node_block, node_mass, node_volume, tets,
+         tet_block, batches, interfaces, points, point_position, bond_triangles, bond_begin, bonds_on_nodes,
+         outer_faces, mesh, surface, rigid, chunks, point_chunks, box, length, tolerance, next_id] = x;
+  archive_all(a, bodies, joints, blocks, pair_joint, node_position, node_block, node_mass, node_volume, tets,
+              tet_block, batches, interfaces, points, point_position, bond_triangles, bond_begin,
+              bonds_on_nodes, outer_faces, mesh, surface, rigid, chunks, point_chunks, box, length, tolerance,
+              next_id);
+}
+
+template <class A>
+void archive(A& a, BreakRow& x) {
+  auto& [stage, step, time, mode, place, normal, area, normal_traction, shear_traction, block_a, block_b] = x;
+  archive_all(a, stage, step, time, mode, place, normal, area, normal_traction, shear_traction, block_a,
+              block_b);
+}
+
+template <class A>
+void archive(A& a, HistoryRow& x) {
+  auto& [stage, step, time, residual, kinetic, external, broken_tension, broken_shear, probes] = x;
+  archive_all(a, stage, step, time, residual, kinetic, external, broken_tension, broken_shear, probes);
+}
+
+template <class A>
+void archive(A& a, Probe& x) {
+  auto& [name, field, place] = x;
+  archive_all(a, name, field, place);
+}
+
+template <class A>
+void archive(A& a, RunLog& x) {
+  auto& [breaks, history, probes, broken_tension, broken_shear, told_tension, told_shear, every] = x;
+  archive_all(a, breaks, history, probes, broken_tension, broken_shear, told_tension, told_shear, every);
+}
+// NOLINTEND(readability-identifier-length)
+
+void write(Writer& a, const Model& model) {
+  archive_const(a, model);
+}
+
+void read(Reader& a, Model& model) {
+  archive(a, model);
+}
+
+std::uint64_t hash(const Model& model) {
+  Hasher a;
+  archive_const(a, model);
+  return a.value();
+}
+
+void write(Writer& a, const State& state) {
+  for (const StateField& field : fields(const_cast<State&>(state))) {
+    archive_const(a, std::string(field.name));
+    archive_const(a, static_cast<std::uint64_t>(field.bytes));
+    a.raw(field.data, field.bytes);
+  }
+}
+
+void read(Reader& a, State& state) {
+  const std::size_t count = fields(state).size();
+  for (std::size_t i = 0; i < count; ++i) {
+    const StateField field = fields(state)[i];
+    std::string name;
+    std::uint64_t bytes = 0;
+    archive_all(a, name, bytes);
+    if (name != field.name || bytes > a.left() || (bytes != field.bytes && !field.resize))
+      Reader::refuse();
+    if (field.resize && !field.resize(static_cast<std::size_t>(bytes)))
+      Reader::refuse();
+    a.raw(fields(state)[i].data, static_cast<std::size_t>(bytes));
+  }
+}
+
+void write(Writer& a, const RunLog& log, std::int64_t last_step, std::size_t breaks) {
+  RunLog then = log;
+  then.breaks.resize(std::min(breaks, then.breaks.size()));
+  then.broken_tension = then.broken_shear = 0;
+  for (const BreakRow& row : then.breaks)
+    ++(row.mode == BondMode::broken_tension ? then.broken_tension : then.broken_shear);
+  const auto later = [&](const HistoryRow& row) { return row.step > last_step; };
+  then.history.erase(std::remove_if(then.history.begin(), then.history.end(), later), then.history.end());
+  archive(a, then);
+}
+
+void read(Reader& a, RunLog& log) {
+  archive(a, log);
+}
+
+} // namespace cdem

@@ -1,0 +1,119 @@
+// What a Simulation is made of; only simulation*.cpp see it.
+#pragma once
+
+#include "libcdem/element/mesh_fields.hpp"
+#include "libcdem/fracture/rebuild.hpp"
+#include "libcdem/interface/spring_forces.hpp"
+#include "libcdem/results/energy.hpp"
+#include "libcdem/simulation.hpp"
+#include "libcdem/step/stage.hpp"
+#include "libgeom/core/error.hpp"
+
+#include <string_view>
+
+namespace cdem {
+
+struct Simulation::Impl {
+  Model model;
+  State state;
+  State last_good;
+  Conditions conditions;
+  RunLog log;
+  std::shared_ptr<Observer> observer;
+  int threads = 1;
+  int stage = 0;
+  double last_residual = 0;
+
+  std::uint64_t built = 0; // hash of the model as it was built
+  bool replaying = false;
+  Keeper* keeper = nullptr;
+  std::optional<Moment> moment; // of the stage that runs
+  std::optional<Moment> from;   // of a restored stage, until it is taken up
+  std::string at_start;         // saved before a stage that can be begun again only; empty: none runs
+
+  // Runs one stage of a single loop of steps, from where it was left if it was.
+  template <class Solve>
+  auto run_stage(const Solve& solve) {
+    std::optional<Moment> entry;
+    entry.swap(from);
+    const struct Leave {
+      Impl& s;
+      ~Leave() { s.moment.reset(); }
+    } leave{*this};
+    return solve(StageContext{model, state, conditions, log, last_good, *observer, threads, ++stage, keeper,
+                              &moment, entry ? &*entry : nullptr});
+  }
+
+  // Runs one that is begun again when it was left, as it has several loops or changes the model.
+  template <class Solve>
+  auto run_whole_stage(const Solve& solve) {
+    if (keeper)
+      at_start = saved();
+    const struct Leave {
+      Impl& s;
+      ~Leave() { s.at_start.clear(); }
+    } leave{*this};
+    return solve(StageContext{model, state, conditions, log, last_good, *observer, threads, ++stage, keeper});
+  }
+
+  std::string saved() const;
+  void take(std::string_view saved, bool state_only);
+
+  // Tries a changed set of conditions before it takes them, so that a condition that selects nothing changes nothing.
+  template <class Change>
+  void change_conditions(const Change& change) {
+    Conditions changed = conditions;
+    change(changed);
+    if (!replaying)
+      resolve(model, state, changed);
+    conditions = std::move(changed);
+  }
+
+  double stored_energy() const {
+    return elastic_energy(model, state) + spring_energy(model, state) + mesh_spring_energy(model, state);
+  }
+
+  // Cutting and removing know convex blocks only.
+  void require_blocks(const char* call) const {
+    if (!model.mesh.empty())
+      throw geom::InputError(std::string(call) +
+                             ": the model has meshed bodies; only a model of convex blocks alone "
+                             "can be cut or lose blocks");
+  }
+
+  // Turns the selected blocks rigid or deformable.
+  template <class Set>
+  std::int64_t convert(const Selection& on, const Set& set) {
+    std::vector<int> blocks;
+    for (int b = 0; b < static_cast<int>(model.blocks.size()); ++b)
+      if (selects_block(model, on, b)) {
+        if (!model.blocks[b].meshed)
+          throw geom::InputError("on", on.text, "meshed bodies",
+                                 "block " + std::to_string(model.blocks[b].id) +
+                                     " is a convex block, which always deforms");
+        blocks.push_back(b);
+      }
+    if (blocks.empty())
+      throw geom::InputError("on", on.text, "a place that holds the centroids of meshed bodies",
+                             "nothing of the model lies there");
+    Model changed = model;
+    State moved = state;
+    const std::int64_t count = set(changed, moved, blocks);
+    resolve(changed, moved, conditions); // a rigid body cannot be held in part
+    model = std::move(changed);
+    state = std::move(moved);
+    last_good = state;
+    return count;
+  }
+
+  // A change of topology or of the stress state between stages: the ledger counts what it does to the stored energy.
+  void adopt(Rebuilt&& rebuilt) {
+    const double before = stored_energy();
+    model = std::move(rebuilt.model);
+    state = std::move(rebuilt.state);
+    state.spent.cutting += before - stored_energy();
+    last_good = state;
+  }
+};
+
+} // namespace cdem

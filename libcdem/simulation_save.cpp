@@ -1,0 +1,92 @@
+// A Simulation as bytes, and back.
+#include "libcdem/checkpoint/model_archive.hpp"
+#include "libcdem/simulation_impl.hpp"
+
+#include <fmt/format.h>
+
+namespace cdem {
+
+template <class A>
+void archive(A& a, Moment& moment) {
+  auto& [step, breaks, wall_time, tension_before, shear_before, carried, previous_force, spring_force,
+         stretch] = moment;
+  archive_all(a, step, breaks, wall_time, tension_before, shear_before, carried, previous_force, spring_force,
+              stretch);
+}
+
+std::string Simulation::Impl::saved() const {
+  if (!at_start.empty())
+    return at_start;
+  const State& then = moment ? last_good : state;
+  Writer a;
+  archive_const(a, built);
+  archive_const(a, model.blocks.size());
+  archive_const(a, model.node_position.size());
+  const bool as_built = hash(model) == built;
+  archive_const(a, as_built);
+  if (!as_built)
+    write(a, model);
+  write(a, then);
+  archive_const(a, last_residual);
+  archive_const(a, moment ? stage - 1 : stage);
+  write(a, log, then.step, moment ? moment->breaks : log.breaks.size());
+  const bool midway = moment && moment->step > 0;
+  archive_const(a, midway);
+  if (midway)
+    archive_const(a, *moment);
+  return a.take();
+}
+
+void Simulation::Impl::take(std::string_view saved, bool state_only) {
+  Reader a(saved);
+  std::uint64_t built_then = 0;
+  std::size_t blocks = 0, nodes = 0;
+  archive_all(a, built_then, blocks, nodes);
+  if (built_then != built)
+    throw geom::InputError(
+        fmt::format("the model is not the one that was saved: that had {} blocks and {} nodes when it was "
+                    "saved, this has {} "
+                    "and {}; build it as it was then, with the same shapes, materials, joints and contacts",
+                    blocks, nodes, model.blocks.size(), model.node_position.size()));
+  bool as_built = true;
+  archive(a, as_built);
+  if (as_built && hash(model) != built)
+    throw geom::InputError("the model has been cut or changed since it was built; load a state before that");
+  Model model_then;
+  State state_then;
+  if (!as_built)
+    read(a, model_then);
+  read(a, state_then);
+  archive(a, last_residual);
+  if (!as_built)
+    model = std::move(model_then);
+  state = std::move(state_then);
+  last_good = state;
+  from.reset();
+  if (state_only)
+    return;
+  archive(a, stage);
+  read(a, log);
+  bool midway = false;
+  archive(a, midway);
+  if (midway)
+    archive(a, from.emplace());
+}
+
+std::string Simulation::save() const {
+  return impl_->saved();
+}
+void Simulation::restore(const std::string& saved) {
+  impl_->take(saved, false);
+}
+void Simulation::restore_state(const std::string& saved) {
+  impl_->take(saved, true);
+}
+void Simulation::set_keeper(Keeper* keeper) {
+  impl_->keeper = keeper;
+}
+void Simulation::set_replaying(bool replaying) {
+  impl_->replaying = replaying;
+}
+
+} // namespace cdem

@@ -1,0 +1,331 @@
+// Saving a model and going on from it: the same bits as without, whenever it was left; and files that are refused
+// when they are not whole.
+#include "tests/libcdem/system.hpp"
+#include "tests/vtk/temporary_folder.hpp"
+
+#include "libcdem/checkpoint/file.hpp"
+#include "libcdem/checkpoint/model_archive.hpp"
+#include "libcdem/vtk/file_error.hpp"
+#include "libgeom/assembly/builders.hpp"
+#include "libgeom/core/random.hpp"
+#include "libgeom/mesh/box_mesh.hpp"
+
+#include <catch2/catch.hpp>
+#include <fstream>
+
+using namespace testing;
+using Catch::Matchers::Contains;
+using cdem::SavedKind;
+
+namespace {
+
+// Saves at the given look and, when told to, stops there.
+struct Saver final : cdem::Keeper {
+  cdem::Simulation* simulation = nullptr;
+  int look = 0, save_at = 0;
+  std::string saved;
+  bool wanted() override { return ++look == save_at; }
+  void write(bool) override { saved = simulation->save(); }
+};
+
+struct Stopper final : cdem::Observer {
+  int polls = 0, stop_at = 1 << 30;
+  bool stop_requested() override { return ++polls >= stop_at; }
+};
+
+cdem::BodySpec block_body(const std::string& name, double strength) {
+  cdem::Joint joint = rock_joint();
+  joint.tensile_strength = strength;
+  joint.cohesion = 3 * strength;
+  return {name, geom::grid({1, 1, 0.25}, {4, 4, 1}), rock(), joint};
+}
+
+// A plate of blocks that is pulled until some of its bonds break.
+cdem::Simulation plate(int threads, std::shared_ptr<cdem::Observer> observer = nullptr) {
+  cdem::ModelSpec spec;
+  spec.bodies = {block_body("plate", 2e5)};
+  cdem::Simulation s(spec, threads, std::move(observer));
+  cdem::Fix fix;
+  fix.on = cdem::Selection::side("y-");
+  s.fix(fix);
+  cdem::Traction pull;
+  pull.on = cdem::Selection::side("y+");
+  pull.stress = {2e5, 2.5e5, 0};
+  s.traction(pull);
+  return s;
+}
+
+// A meshed column, bonded everywhere, that a flow bends and breaks at its foot.
+cdem::Simulation column(int threads, std::shared_ptr<cdem::Observer> observer = nullptr) {
+  cdem::Bonding bonding;
+  bonding.everywhere = true;
+  cdem::Joint joint = rock_joint();
+  joint.tensile_strength = 3e5;
+  joint.cohesion = 6e5;
+  cdem::ModelSpec spec;
+  spec.bodies = {meshed("column", geom::box_mesh({0.3, 0.3, 0.8}, {3, 3, 8}, 0.15), bonding, rock(), joint)};
+  cdem::Simulation s(spec, threads, std::move(observer));
+  cdem::Fix foot;
+  foot.on = cdem::Selection::side("z-");
+  s.fix(foot);
+  cdem::Flow flow;
+  flow.direction = {1, 0.2, 0};
+  flow.velocity = [](double time) { return 40 * std::min(1.0, 200 * time); };
+  flow.new_faces = true;
+  s.flow(flow);
+  return s;
+}
+
+void run(cdem::Simulation& s) {
+  cdem::RunOptions options;
+  options.steps = 1111;
+  options.local_damping = 0.1;
+  s.run(options);
+}
+
+void relax(cdem::Simulation& s) {
+  cdem::RelaxOptions options;
+  options.max_steps = 1111;
+  s.relax(options);
+}
+
+void check_same(const cdem::Simulation& a, const cdem::Simulation& b) {
+  CHECK(a.state_hash() == b.state_hash());
+  CHECK(a.stage() == b.stage());
+  CHECK(a.steps() == b.steps());
+  CHECK(a.residual() == b.residual());
+  CHECK(a.energy().total() == b.energy().total());
+  REQUIRE(a.breaks().size() == b.breaks().size());
+  for (std::size_t i = 0; i < a.breaks().size(); ++i)
+    CHECK((a.breaks()[i].step == b.breaks()[i].step && a.breaks()[i].place == b.breaks()[i].place &&
+           a.breaks()[i].stage == b.breaks()[i].stage));
+  REQUIRE(a.history().size() == b.history().size());
+  for (std::size_t i = 0; i < a.history().size(); ++i)
+    CHECK((a.history()[i].step == b.history()[i].step && a.history()[i].kinetic == b.history()[i].kinetic &&
+           a.history()[i].broken_tension == b.history()[i].broken_tension));
+}
+
+// build(threads, observer) makes a model, solve(s) runs its stages from `first` on.
+template <class Build, class Solve>
+void check_going_on(const Build& build, const Solve& solve) {
+  cdem::Simulation whole = build(1, nullptr);
+  solve(whole, 0);
+  for (const int look : {1, 15, 40, 100}) {
+    INFO("left at look " << look);
+    for (const bool stop : {false, true}) {
+      INFO((stop ? "stopped" : "went on"));
+      auto observer = std::make_shared<Stopper>();
+      cdem::Simulation left = build(1, observer);
+      Saver saver;
+      saver.simulation = &left;
+      (stop ? observer->stop_at : saver.save_at) = look;
+      left.set_keeper(&saver);
+      if (stop)
+        REQUIRE_THROWS_AS(solve(left, 0), cdem::Interrupted);
+      else
+        solve(left, 0);
+      REQUIRE_FALSE(saver.saved.empty());
+      if (!stop)
+        check_same(left, whole); // taking one changes nothing
+      for (const int threads : {1, 2}) {
+        cdem::Simulation next = build(threads, nullptr);
+        next.restore(saver.saved);
+        solve(next, next.stage());
+        check_same(next, whole);
+      }
+    }
+  }
+}
+
+std::string file_text(const std::string& path) {
+  std::ifstream in(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+} // namespace
+
+TEST_CASE("checkpoint: a run and a relaxation that were left go on to the same bits", "[checkpoint]") {
+  const auto relax_then_run = [](cdem::Simulation& s, int done) {
+    if (done < 1)
+      relax(s);
+    if (done < 2)
+      run(s);
+    if (done < 3)
+      relax(s);
+  };
+  SECTION("blocks") {
+    cdem::Simulation probe = plate(1);
+    relax_then_run(probe, 0);
+    REQUIRE(probe.breaks().size() > 10);
+    check_going_on(plate, relax_then_run);
+  }
+  SECTION("a mesh in a flow") {
+    const auto solve = [&](cdem::Simulation& s, int done) {
+      if (done < 1)
+        run(s);
+      if (done < 2)
+        relax(s);
+    };
+    cdem::Simulation probe = column(1);
+    solve(probe, 0);
+    REQUIRE(probe.breaks().size() > 10);
+    check_going_on(column, solve);
+  }
+}
+
+TEST_CASE("checkpoint: after cutting, the cut model goes on to the same bits", "[checkpoint]") {
+  const auto solve = [](cdem::Simulation& s, int done) {
+    if (done < 1)
+      relax(s);
+    if (done < 2) {
+      cdem::RefineOptions refine;
+      refine.tension_threshold = 1e6;
+      refine.planes = 1;
+      REQUIRE_FALSE(s.refine(refine).empty());
+    }
+    if (done < 3)
+      run(s);
+  };
+  cdem::Simulation whole = plate(1);
+  solve(whole, 0);
+  auto observer = std::make_shared<Stopper>();
+  observer->stop_at = 100;
+  cdem::Simulation left = plate(1, observer);
+  Saver saver;
+  saver.simulation = &left;
+  left.set_keeper(&saver);
+  REQUIRE_THROWS_AS(solve(left, 0), cdem::Interrupted);
+  REQUIRE(left.stage() == 3);
+  cdem::Simulation next = plate(2);
+  next.restore(saver.saved);
+  CHECK(next.stage() == 2);
+  CHECK(next.counts().blocks == left.counts().blocks);
+  solve(next, 2);
+  check_same(next, whole);
+}
+
+TEST_CASE("checkpoint: a search for the critical flow that was left begins again and ends the same",
+          "[checkpoint]") {
+  cdem::CriticalFlowOptions search;
+  search.flow.direction = {1, 0, 0};
+  search.pressure_rate = 1e8;
+  const auto held = [](int threads, std::shared_ptr<cdem::Observer> observer) {
+    cdem::Simulation s = column(threads, std::move(observer));
+    s.clear_loads();
+    return s;
+  };
+  cdem::Simulation whole = held(1, nullptr);
+  const cdem::CriticalFlowResult found = whole.critical_flow(search);
+  auto observer = std::make_shared<Stopper>();
+  observer->stop_at = 30;
+  cdem::Simulation left = held(1, observer);
+  Saver saver;
+  saver.simulation = &left;
+  left.set_keeper(&saver);
+  REQUIRE_THROWS_AS(left.critical_flow(search), cdem::Interrupted);
+  cdem::Simulation next = held(1, nullptr);
+  next.restore(saver.saved);
+  CHECK(next.stage() == 0);
+  CHECK(next.critical_flow(search).pressure == found.pressure);
+  CHECK(next.state_hash() == whole.state_hash());
+}
+
+TEST_CASE("checkpoint: a model that is built the same has the same hash, another has another",
+          "[checkpoint]") {
+  const auto model = [](double cohesion, int divisions) {
+    cdem::Joint joint = rock_joint();
+    joint.cohesion = cohesion;
+    return cdem::hash(build({body("rock", geom::grid({1, 1, 1}, {2, divisions, 1}), rock(), joint)}));
+  };
+  CHECK(model(1e6, 2) == model(1e6, 2));
+  CHECK(model(1e6, 2) != model(std::nextafter(1e6, 2e6), 2));
+  CHECK(model(1e6, 2) != model(1e6, 3));
+}
+
+TEST_CASE("checkpoint: another model refuses a saved one", "[checkpoint]") {
+  const cdem::Simulation saved = plate(1);
+  cdem::ModelSpec spec;
+  spec.bodies = {block_body("plate", 3e5)};
+  cdem::Simulation other(spec, 1, nullptr);
+  CHECK_THROWS_WITH(other.restore(saved.save()), Contains("not the one that was saved"));
+  CHECK_THROWS_WITH(other.restore_state(saved.save()), Contains("not the one that was saved"));
+}
+
+TEST_CASE("checkpoint: a saved state is loaded without the log, and once for many runs", "[checkpoint]") {
+  cdem::Simulation first = plate(1);
+  relax(first);
+  const std::string saved = first.save();
+  run(first);
+  for (int i = 0; i < 2; ++i) {
+    cdem::Simulation next = plate(1);
+    next.restore_state(saved);
+    CHECK(next.stage() == 0);
+    CHECK(next.history().empty());
+    run(next);
+    CHECK(next.state_hash() == first.state_hash());
+  }
+}
+
+TEST_CASE("checkpoint: the checksum is XXH64", "[checkpoint]") {
+  // Test vectors of the specification.
+  CHECK(cdem::xxh64("", 0) == 0xEF46DB3751D8E999ull);
+  CHECK(cdem::xxh64("abc", 3) == 0x44BC2CF5AD770999ull);
+  const std::string line = "Nobody inspects the spammish repetition";
+  CHECK(cdem::xxh64(line.data(), line.size()) == 0xFBCEA83C8A378BF1ull);
+  // In pieces as at once.
+  cdem::Xxh64 sum;
+  for (const char c : line)
+    sum.add(&c, 1);
+  CHECK(sum.value() == cdem::xxh64(line.data(), line.size()));
+}
+
+TEST_CASE("checkpoint: a file comes back as it was written, and the old one stays until the new one is whole",
+          "[checkpoint]") {
+  const TemporaryFolder folder;
+  const std::string path = folder / "a.cdem", first = plate(1).save();
+  cdem::write_saved(path, SavedKind::checkpoint, first);
+  CHECK(cdem::read_saved(path, SavedKind::checkpoint) == first);
+  std::ofstream(path + ".part") << "half"; // left by a run that was killed while it wrote
+  CHECK(cdem::read_saved(path, SavedKind::checkpoint) == first);
+  cdem::write_saved(path, SavedKind::checkpoint, "second");
+  CHECK(cdem::read_saved(path, SavedKind::checkpoint) == "second");
+  CHECK(folder.names() == std::vector<std::string>{"a.cdem"});
+}
+
+TEST_CASE("checkpoint: a file cut short at 64 places or with one of 1000 bits flipped is refused in one line",
+          "[checkpoint]") {
+  const TemporaryFolder folder;
+  const std::string path = folder / "a.cdem";
+  cdem::write_saved(path, SavedKind::checkpoint, plate(1).save().substr(0, 50000));
+  const std::string whole = file_text(path);
+  const auto refused = [&](const std::string& text) {
+    std::ofstream(path, std::ios::binary | std::ios::trunc) << text;
+    try {
+      cdem::read_saved(path, SavedKind::checkpoint);
+    } catch (const cdem::FileError& error) {
+      return std::string(error.what()).find('\n') == std::string::npos;
+    }
+    return false;
+  };
+  for (std::size_t i = 0; i < 64; ++i) {
+    INFO("cut at part " << i);
+    CHECK(refused(whole.substr(0, i * (whole.size() - 1) / 63)));
+  }
+  for (std::uint64_t i = 0; i < 1000; ++i) {
+    std::string flipped = whole;
+    // The head, where the magic, format and length stand, more often than its share.
+    const std::size_t range = i % 4 == 0 ? 28 : whole.size();
+    const auto at = static_cast<std::size_t>(geom::uniform(7, 0, i) * static_cast<double>(range));
+    flipped[at] = static_cast<char>(flipped[at] ^ (1 << (i % 8)));
+    INFO("bit " << i % 8 << " of byte " << at);
+    CHECK(refused(flipped));
+  }
+  std::ofstream(path, std::ios::binary | std::ios::trunc) << whole;
+  CHECK_THROWS_WITH(cdem::read_saved(path, SavedKind::state), Contains("not a saved state"));
+  CHECK_THROWS_WITH(cdem::read_saved(folder / "none.cdem", SavedKind::state), Contains("cannot be read"));
+}
+
+TEST_CASE("checkpoint: a file that cannot be written is told of", "[checkpoint]") {
+  CHECK_THROWS_WITH(cdem::write_saved("/nowhere/a.cdem", SavedKind::checkpoint, "x"),
+                    Contains("cannot be written"));
+}
