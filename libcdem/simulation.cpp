@@ -7,6 +7,7 @@
 #include "libcdem/fracture/refine.hpp"
 #include "libcdem/results/fragments.hpp"
 #include "libcdem/results/make_snapshot.hpp"
+#include "libcdem/results/units.hpp"
 #include "libcdem/rigid/convert.hpp"
 #include "libcdem/rigid/motion.hpp"
 #include "libcdem/simulation_checks.hpp"
@@ -409,12 +410,21 @@ std::vector<Simulation::BlockRow> Simulation::blocks() const {
   std::vector<BlockRow> rows;
   for (int b = 0; b < static_cast<int>(s.model.blocks.size()); ++b) {
     const Block& block = s.model.blocks[b];
-    const Node& u = s.state.displacement[block.centroid_node()];
     rows.push_back({block.id, block.parent, block.generation, s.model.bodies[block.body].name,
-                    block.mass.centroid, geom::Vec3(u.x, u.y, u.z), block.mass.volume,
+                    block.mass.centroid, centroid_displacement(s.model, s.state, b), block.mass.volume,
                     block_stress(s.model, s.state, b)});
   }
   return rows;
+}
+
+std::vector<Unit> Simulation::units(const std::string& body) const {
+  return units_of(impl_->model, impl_->state, body);
+}
+std::vector<geom::Surface> Simulation::surfaces(const std::string& body) const {
+  return surfaces_of(impl_->model, impl_->state, body);
+}
+std::vector<int> Simulation::touching(const std::string& body) const {
+  return cdem::touching(impl_->model, impl_->state, body);
 }
 
 const std::vector<BreakRow>& Simulation::breaks() const {

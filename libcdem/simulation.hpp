@@ -14,13 +14,14 @@
 #include "libcdem/results/ledger.hpp"
 #include "libcdem/results/log.hpp"
 #include "libcdem/results/snapshot.hpp"
+#include "libcdem/results/unit.hpp"
 #include "libcdem/step/critical_flow_options.hpp"
 #include "libcdem/step/errors.hpp"
 #include "libcdem/step/keeper.hpp"
 #include "libcdem/step/observer.hpp"
 #include "libcdem/step/options.hpp"
 #include "libgeom/assembly/assembly.hpp"
-#include "libgeom/mesh/tet_mesh.hpp"
+#include "libgeom/mesh/surface.hpp"
 
 #include <memory>
 #include <string>
@@ -132,6 +133,11 @@ public:
     std::array<double, 6> stress;
   };
   std::vector<BlockRow> blocks() const;
+
+  // The units of a body, in order. Each throws geom::InputError for a body that there is not.
+  std::vector<Unit> units(const std::string& body) const;
+  std::vector<geom::Surface> surfaces(const std::string& body) const; // where they are now
+  std::vector<int> touching(const std::string& body) const; // how many other meshed blocks press on each
 
   // Broken bonds, oldest first.
   const std::vector<BreakRow>& breaks() const;

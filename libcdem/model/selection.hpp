@@ -5,19 +5,21 @@
 
 #include <functional>
 #include <string>
+#include <vector>
 
 namespace cdem {
 
 struct Selection {
-  enum class Kind { all, side, plane, box, body, predicate };
+  enum class Kind { all, side, plane, box, body, units, predicate };
   Kind kind = Kind::all;
   std::string text = "all"; // as the user wrote it, for messages
 
-  int axis = 0;       // side: 0 x, 1 y, 2 z
-  bool upper = false; // side: x+ rather than x-
-  geom::Plane plane;  // plane
-  geom::Box box;      // box
-  std::string body;   // body, by name
+  int axis = 0;           // side: 0 x, 1 y, 2 z
+  bool upper = false;     // side: x+ rather than x-
+  geom::Plane plane;      // plane
+  geom::Box box;          // box
+  std::string body;       // body, units: by name
+  std::vector<int> units; // units: which blocks of the body, by their order in it, from 1; ascending
   std::function<bool(const geom::Vec3&)> predicate;
 
   static Selection everything() { return {}; }
@@ -25,10 +27,14 @@ struct Selection {
   static Selection on_plane(const geom::Plane&);
   static Selection in_box(const geom::Box&);
   static Selection of_body(const std::string& name);
+  // Throws geom::InputError unless there are numbers, all from 1.
+  static Selection of_units(const std::string& body, std::vector<int> numbers);
   static Selection where(std::function<bool(const geom::Vec3&)> predicate, std::string text);
 };
 
 struct Model;
+
+// All of the following throw geom::InputError for units that the model does not have.
 
 // Nodes whose undeformed place is selected; block boundary nodes and centroids alike. Ascending.
 std::vector<int> selected_nodes(const Model&, const Selection&);

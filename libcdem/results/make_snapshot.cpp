@@ -78,6 +78,17 @@ std::vector<double> mesh_damage(const Model& model, const State& state) {
   return lost;
 }
 
+// Number of each block among those of its body, from 1; 0 where it is the only one.
+std::vector<int> unit_numbers(const Model& model) {
+  std::vector<int> blocks_in(model.bodies.size(), 0), number;
+  for (const Block& block : model.blocks)
+    number.push_back(++blocks_in[block.body]);
+  for (std::size_t b = 0; b < number.size(); ++b)
+    if (blocks_in[model.blocks[b].body] == 1)
+      number[b] = 0;
+  return number;
+}
+
 void add_cells(const Model& model, const State& state, Snapshot& snapshot) {
   const std::size_t n = model.tets.size();
   SnapshotField stress = scalar("stress", "Pa", 6 * n);
@@ -85,6 +96,8 @@ void add_cells(const Model& model, const State& state, Snapshot& snapshot) {
   SnapshotField mises = scalar("von_mises", "Pa", n);
   SnapshotField id = scalar("block_id", "", n, true), parent = scalar("parent_id", "", n, true);
   SnapshotField generation = scalar("generation", "", n, true), body = scalar("body", "", n, true);
+  SnapshotField unit = scalar("unit", "", n, true);
+  const std::vector<int> units = unit_numbers(model);
   SnapshotField damage = scalar("damage", "1", n);
   stress.components = 6;
   principal_stress.components = 3;
@@ -101,11 +114,12 @@ void add_cells(const Model& model, const State& state, Snapshot& snapshot) {
     parent.values.push_back(static_cast<double>(block.parent));
     generation.values.push_back(block.generation);
     body.values.push_back(block.body);
+    unit.values.push_back(units[b]);
     damage.values.push_back(block.meshed ? mesh_damages[t - model.mesh.first_tet] : damages[b]);
   }
-  snapshot.cell_fields = {
-      std::move(stress), std::move(principal_stress), std::move(mises), std::move(id),
-      std::move(parent), std::move(generation),       std::move(body),  std::move(damage)};
+  snapshot.cell_fields = {std::move(stress), std::move(principal_stress), std::move(mises), std::move(id),
+                          std::move(parent), std::move(generation),       std::move(body),  std::move(unit),
+                          std::move(damage)};
 }
 
 // Edges at which the surface of a mesh turns by more than this are drawn: cos of 30 degrees.

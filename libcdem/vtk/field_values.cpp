@@ -135,7 +135,7 @@ FieldValues field_values(const Snapshot& snapshot, const std::string& name) {
   result.symbol = mises ? symbol_of("von_mises", {}) : symbol_of(base, component);
   result.unit = field->unit;
   result.integer = field->integer;
-  result.id = field->integer && (ends_with(base, "_id") || base == "body");
+  result.id = field->integer && (ends_with(base, "_id") || base == "body" || base == "unit");
 
   const auto n = static_cast<std::size_t>(field->components);
   const std::size_t chosen = components.empty() ? 0 : static_cast<std::size_t>(place - components.begin());
@@ -143,6 +143,8 @@ FieldValues field_values(const Snapshot& snapshot, const std::string& name) {
     const double* v = field->values.data() + row * n;
     if (mises)
       return von_mises(v);
+    if (base == "unit" && v[0] == 0) // the only block of its body, such as the ground: no colour
+      return std::nan("");
     return component == "magnitude" ? std::hypot(v[0], v[1], v[2]) : v[chosen];
   };
   if (result.on_points)

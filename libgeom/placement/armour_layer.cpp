@@ -3,6 +3,7 @@
 #include "libgeom/core/check.hpp"
 #include "libgeom/core/error.hpp"
 #include "libgeom/core/random.hpp"
+#include "libgeom/placement/lattice.hpp"
 #include "libgeom/placement/lowering.hpp"
 
 #include <algorithm>
@@ -14,6 +15,8 @@ namespace {
 
 constexpr double far = 1e30;
 
+constexpr std::uint64_t fitting_tries = 1000, fitting_id = std::uint64_t{1} << 42;
+
 // The slope's own axes, as rows: along the contour, up the slope, out of it.
 Mat3 slope_frame(const Vec3& normal) {
   const Vec3 across = Vec3::UnitZ().cross(normal);
@@ -24,7 +27,7 @@ Mat3 slope_frame(const Vec3& normal) {
 }
 
 struct Pattern {
-  double across = 0, rows = 0; // m, between units of a row, between rows
+  Spacing spacing;
   int columns = 0;
 };
 
@@ -34,8 +37,8 @@ std::vector<Vec3> pattern_places(const Pattern& pattern, int count, const Vec3& 
   for (int i = 0; i < count; ++i) {
     const int row = i / pattern.columns, column = i % pattern.columns;
     const double shift = row % 2 == 0 ? -0.25 : 0.25;
-    places.emplace_back(first.x() + (column - 0.5 * (pattern.columns - 1) + shift) * pattern.across,
-                        first.y() + row * pattern.rows, first.z());
+    places.emplace_back(first.x() + (column - 0.5 * (pattern.columns - 1) + shift) * pattern.spacing.across,
+                        first.y() + row * pattern.spacing.rows, first.z());
   }
   return places;
 }
@@ -56,6 +59,21 @@ public:
     for (const Laid& other : laid_)
       room = std::min(room, clearance(profile, offset, other.profile, room));
     return gap_ - room;
+  }
+
+  // m along the normal, of the slope at a place.
+  double level(const Vec3& place) const {
+    const Vec3 x = frame_.transpose() * Vec3(place.x(), place.y(), 0);
+    const auto z = ground_.height(x.x(), x.y());
+    return z ? frame_.row(2).dot(Vec3(x.x(), x.y(), *z)) : 0;
+  }
+  // m, of the centroid over the slope, were the slope a bare plane.
+  double bare_height(const Mat3& rotation) const {
+    const Eigen::RowVector3d up = frame_.row(2) * rotation;
+    double lowest = 0;
+    for (const Vec3& x : shape_.points)
+      lowest = std::min(lowest, up.dot(x));
+    return gap_ - lowest;
   }
 
   // Raises a unit until it is clear of all others; lowered along a steep flank it may be nearer than the gap.
@@ -108,21 +126,47 @@ struct Lying {
 
 class Laying {
 public:
-  Laying(const Layer& layer, const Mat3& frame, const LayerOptions& options, double height)
-      : layer_(layer), options_(options), height_(height), sink_(frame * Vec3::UnitZ()) {}
+  // family: attitudes relative to the slope's axes.
+  Laying(const Layer& layer, const Mat3& frame, const LayerOptions& options, double height,
+         const std::vector<Mat3>& family)
+      : layer_(layer), options_(options), height_(height), sink_(frame * Vec3::UnitZ()) {
+    for (const Mat3& rotation : family)
+      family_.emplace_back(frame.transpose() * rotation);
+  }
 
   Lying find(const Vec3& place, std::uint64_t unit) const {
-    Lying best = lowered(random_rotation(options_.seed, unit, 0), place);
-    for (int a = 1; a < options_.attitudes; ++a) {
-      const Lying other =
-          lowered(random_rotation(options_.seed, unit, 3 * static_cast<std::uint64_t>(a)), place);
-      if (sink_.dot(other.place) < sink_.dot(best.place))
-        best = other;
-    }
-    return nudged(best, place, unit);
+    return nudged(first_try(place, unit), place, unit);
   }
 
 private:
+  // The unit's turn in the family; where that lies higher than on the bare slope, the lowest of many tries.
+  Lying first_try(const Vec3& place, std::uint64_t unit) const {
+    Lying best = lowered(varied(family_[unit % family_.size()], unit), place);
+    const double allowed = layer_.level(place) + layer_.bare_height(best.rotation) + 0.05 * height_;
+    for (std::uint64_t k = 0; k < fitting_tries && best.place.z() > allowed; ++k) {
+      const auto draw = [&](std::uint64_t i) {
+        return 2 * uniform(options_.seed, fitting_id + unit, 5 * k + i) - 1;
+      };
+      const double play = k < family_.size() ? 0 : options_.play * height_,
+                   size = k < family_.size() ? 0 : 0.15;
+      const Lying other = lowered(turned(family_[k % family_.size()], size * Vec3(draw(2), draw(3), draw(4))),
+                                  place + play * Vec3(draw(0), draw(1), 0));
+      if (other.place.z() < best.place.z())
+        best = other;
+    }
+    return best;
+  }
+  // Turned by up to 5 degrees about any axis.
+  Mat3 varied(const Mat3& rotation, std::uint64_t unit) const {
+    Vec3 turn;
+    for (std::uint64_t i = 0; i < 3; ++i)
+      turn[static_cast<Eigen::Index>(i)] = 2 * uniform(options_.seed, unit, i) - 1;
+    return turned(rotation, 5 * M_PI / 180 * turn / std::sqrt(3.));
+  }
+  static Mat3 turned(const Mat3& rotation, const Vec3& by) { // radians
+    return by.norm() > 0 ? Mat3(Eigen::AngleAxisd(by.norm(), by.normalized()).toRotationMatrix() * rotation)
+                         : rotation;
+  }
   Lying lowered(const Mat3& rotation, const Vec3& place) const {
     return {rotation, {place.x(), place.y(), layer_.lower(rotation, place)}};
   }
@@ -133,18 +177,13 @@ private:
     double size = 1;
     int vain = 0;
     for (int k = 0; k < options_.nudges; ++k) {
-      const auto draw = [&](int i) {
-        return 2 * uniform(options_.seed, unit,
-                           static_cast<std::uint64_t>(3 * options_.attitudes + 6 * k + i)) -
-               1;
+      const auto draw = [&](std::uint64_t i) {
+        return 2 * uniform(options_.seed, unit, 3 + 5 * static_cast<std::uint64_t>(k) + i) - 1;
       };
       Vec3 to = best.place + size * play * Vec3(draw(0), draw(1), 0);
       for (int i = 0; i < 2; ++i)
         to[i] = std::clamp(to[i], place[i] - play, place[i] + play);
-      const Vec3 turn = 0.5 * size * Vec3(draw(3), draw(4), draw(5)); // radians
-      Mat3 rotation = best.rotation;
-      if (turn.norm() > 0)
-        rotation = Eigen::AngleAxisd(turn.norm(), turn.normalized()).toRotationMatrix() * rotation;
+      const Mat3 rotation = turned(best.rotation, 0.5 * size * Vec3(draw(2), draw(3), draw(4)));
       const Lying other = lowered(rotation, to);
       if (sink_.dot(other.place) < sink_.dot(best.place)) {
         best = other;
@@ -161,6 +200,7 @@ private:
   const LayerOptions& options_;
   double height_;
   Vec3 sink_; // up, in the slope's axes
+  std::vector<Mat3> family_;
 };
 
 void check(const LayerOptions& options, int count) {
@@ -170,7 +210,7 @@ void check(const LayerOptions& options, int count) {
   require_between("density", options.density, 0.05, 1.5);
   if (options.columns && *options.columns < 1)
     throw InputError("columns", std::to_string(*options.columns), "at least 1");
-  require_between("attitudes", options.attitudes, 1, 10000);
+  require_between("attitudes", options.attitudes, 1, 1000000);
   require_between("nudges", options.nudges, 0, 100000);
   require_between("play", options.play, 0, 1);
 }
@@ -178,16 +218,16 @@ void check(const LayerOptions& options, int count) {
 Pattern choose_pattern(const Pile& pile, int count, const LayerOptions& options,
                        const Eigen::Vector2d& room) {
   Pattern pattern;
-  pattern.rows = nominal_diameter(pile) / std::sqrt(2 * options.density);
-  pattern.across = 2 * pattern.rows;
+  pattern.spacing.rows = nominal_diameter(pile) / std::sqrt(2 * options.density);
+  pattern.spacing.across = 2 * pattern.spacing.rows;
   // A row and the next, shifted by half a place, take columns + 1/2 places.
-  const double most_columns = std::floor((room.x() - pile.height) / pattern.across + 0.5 + 1e-9);
-  const double most_rows = std::floor((room.y() - pile.height) / pattern.rows + 1 + 1e-9);
+  const double most_columns = std::floor((room.x() - pile.height) / pattern.spacing.across + 0.5 + 1e-9);
+  const double most_rows = std::floor((room.y() - pile.height) / pattern.spacing.rows + 1 + 1e-9);
   if (!(most_columns >= 1 && most_rows >= 1))
     throw InputError("region",
                      text(room.x()) + " m along the contour by " + text(room.y()) + " m up the slope",
-                     "at least " + text(pile.height + 0.5 * pattern.across) + " m by " + text(pile.height) +
-                         " m, room for one unit");
+                     "at least " + text(pile.height + 0.5 * pattern.spacing.across) + " m by " +
+                         text(pile.height) + " m, room for one unit");
   pattern.columns = options.columns.value_or(static_cast<int>(std::min(most_columns, 1e6)));
   if (pattern.columns > most_columns)
     throw InputError("columns", std::to_string(pattern.columns), "at most " + text(most_columns),
@@ -224,7 +264,8 @@ Pile place_layer(const TetMesh& unit, int count, const Ground& ground, const Lay
   const Pattern pattern = choose_pattern(pile, count, options, room.size().head<2>());
 
   Layer layer(pile, ground, frame, gap);
-  const Laying laying(layer, frame, options, pile.height);
+  const Laying laying(layer, frame, options, pile.height,
+                      attitudes_for(surface_of(pile.unit), pattern.spacing, options.attitudes, options.seed));
   const Vec3 first(room.centre().x(), room.min.y() + 0.5 * pile.height, 0);
   std::uint64_t number = 0;
   for (const Vec3& place : pattern_places(pattern, count, first)) {

@@ -3,9 +3,10 @@
 //
 // phi = N Dn^2 / A is the packing density: N units on an area A of the slope, Dn the side of a cube of their volume.
 // The pattern is a diamond, twice as wide along the contour as its rows are apart, so that rows are Dn / sqrt(2 phi)
-// apart. A unit is tried in several attitudes, lowered along the normal of the slope on to what lies there, and takes
-// the lowest; then it is nudged (moved along the slope by up to `play`, turned a little, lowered anew) as long as its
-// centroid sinks, until it leans on its neighbours. It keeps `gap` from all of them.
+// apart. Units take by turns the attitudes of a family that fits into it (placement/lattice.hpp), each turned a little
+// more by chance, and are lowered along the normal of the slope on to what lies there. Then a unit is nudged (moved
+// along the slope by up to `play`, turned a little, lowered anew) as long as its centroid sinks, until it leans on its
+// neighbours. It keeps `gap` from all of them.
 #pragma once
 
 #include "libgeom/placement/ground.hpp"
@@ -19,7 +20,7 @@ struct LayerOptions {
   std::optional<double> gap;     // m, clear distance; a thousandth of the unit's height
   std::optional<PlanBox> region; // over the ground; all of it
   std::uint64_t seed = 1;        // of the attitudes
-  int attitudes = 24;            // tried for each unit
+  int attitudes = 1500;          // tried for the family
   int nudges = 200;              // tried for each unit
   double play = 0.1;             // of the height: how far from its place of the pattern a unit may be laid
 };

@@ -2,10 +2,12 @@
 #include "lua/binding/model_object.hpp"
 #include "lua/binding/module.hpp"
 #include "lua/binding/nearest.hpp"
+#include "lua/binding/pile_object.hpp"
 #include "lua/binding/selections.hpp"
 #include "lua/binding/solid_objects.hpp"
 
 #include "libgeom/core/error.hpp"
+#include "libgeom/placement/overlap.hpp"
 
 #include <algorithm>
 
@@ -16,7 +18,8 @@ namespace {
 using geom::InputError;
 
 // A meshed body: its joint stands on all inner faces unless `bonds` says which.
-void read_mesh(const Arguments& given, const std::string& path, const geom::TetMesh& mesh, BodySpec& body) {
+void read_mesh(const Arguments& given, const std::string& path, std::vector<geom::TetMesh> meshes,
+               BodySpec& body) {
   const std::string element = given.text_or("element", "finite_volume");
   if (element == "small_strain")
     throw InputError(path + ".element", "\"small_strain\"", "finite_volume or rigid for a mesh",
@@ -32,7 +35,7 @@ void read_mesh(const Arguments& given, const std::string& path, const geom::TetM
   if ((bonds == "listed") != given.has("bonded_regions"))
     throw InputError(path +
                      ".bonded_regions: goes with bonds = \"listed\", the regions whose faces are bonded");
-  body.meshes = {mesh};
+  body.meshes = std::move(meshes);
   body.bonding.everywhere = bonds == "all";
   body.bonding.between_regions = bonds == "regions";
   for (const double region : given.numbers("bonded_regions"))
@@ -40,6 +43,33 @@ void read_mesh(const Arguments& given, const std::string& path, const geom::TetM
   body.bonding.stiffness_ratio =
       given.optional_number("stiffness_ratio").value_or(body.bonding.stiffness_ratio);
   body.bonding.shear_ratio = given.optional_number("shear_ratio").value_or(body.bonding.shear_ratio);
+}
+
+// Units may reach into each other by this part of their height, as they do where they press on each other.
+constexpr double overlap_tolerance = 0.02;
+
+void require_clear(const geom::Pile& pile, const std::vector<geom::TetMesh>& units, const std::string& path) {
+  std::vector<geom::Surface> surfaces;
+  surfaces.reserve(units.size());
+  for (const geom::TetMesh& unit : units)
+    surfaces.push_back(geom::surface_of(unit));
+  if (const auto overlap = geom::deepest_overlap(surfaces, overlap_tolerance * pile.height))
+    throw InputError(path + ".shape: units " + std::to_string(overlap->a + 1) + " and " +
+                     std::to_string(overlap->b + 1) + " of the pile stand " + number_text(overlap->depth) +
+                     " m deep in each other near " + describe(Value(overlap->place)) + "; at most " +
+                     number_text(overlap_tolerance) + " of their height is allowed, move them apart");
+}
+
+// The shape of a meshed body as a pile, of one unit when it is a mesh; none for an assembly.
+std::optional<geom::Pile> pile_shape(const Arguments& given) {
+  if (const auto pile = given.object<PileObject>("shape"))
+    return pile->pile;
+  const auto mesh = given.object<TetMeshObject>("shape");
+  if (!mesh)
+    return std::nullopt;
+  geom::Pile pile = geom::pile_of(mesh->mesh);
+  pile.poses = {{geom::Mat3::Identity(), geom::mass_properties(mesh->mesh).centroid}};
+  return pile;
 }
 
 void require_blocks(const Arguments& given, const std::string& path) {
@@ -52,7 +82,9 @@ void require_blocks(const Arguments& given, const std::string& path) {
       throw InputError(path + "." + only + ": only for a meshed body; an assembly's faces are all bonded");
 }
 
-std::vector<std::string> read_bodies(const Arguments& a, ModelSpec& spec) {
+// Adds the piles of meshed bodies to `piles`; returns the bodies without a joint.
+std::vector<std::string> read_bodies(const Arguments& a, ModelSpec& spec,
+                                     std::map<std::string, geom::Pile>& piles) {
   std::vector<std::string> unjointed;
   for (const Arguments& given : a.records("bodies")) {
     const std::string path = "bodies[" + std::to_string(spec.bodies.size() + 1) + "]";
@@ -67,8 +99,15 @@ std::vector<std::string> read_bodies(const Arguments& a, ModelSpec& spec) {
     body.material = given.object<MaterialObject>("material")->elastic;
     if (const auto joint = given.object<JointObject>("joint"))
       body.joint = joint->joint;
-    if (const auto mesh = given.object<TetMeshObject>("shape")) {
-      read_mesh(given, path, mesh->mesh, body);
+    if (const auto pile = pile_shape(given)) {
+      std::vector<geom::TetMesh> units;
+      if (const auto mesh = given.object<TetMeshObject>("shape"))
+        units = {mesh->mesh};
+      else
+        units = geom::meshes(*pile);
+      require_clear(*pile, units, path);
+      read_mesh(given, path, std::move(units), body);
+      piles.emplace(body.name, *pile);
       spec.bodies.push_back(std::move(body));
       continue;
     }
@@ -117,7 +156,8 @@ std::string shown_build(const ModelObject& model) {
 
 Value make_model(Session& session, Object*, const Arguments& a) {
   ModelSpec spec;
-  const auto unjointed = read_bodies(a, spec);
+  std::map<std::string, geom::Pile> piles;
+  const auto unjointed = read_bodies(a, spec, piles);
   read_pairs(a, spec);
   // Lua sees only the few bytes it holds of a model, and would keep finished ones for long.
   session.collect_garbage();
@@ -125,6 +165,7 @@ Value make_model(Session& session, Object*, const Arguments& a) {
       std::make_shared<ModelObject>(Simulation(spec, session.settings.threads, session.settings.observer));
   for (const BodySpec& body : spec.bodies)
     model->body_names.push_back(body.name);
+  model->piles = std::move(piles);
   model->unjointed = unjointed;
   model->number = static_cast<int>(session.models.size()) + 1;
   model->memory = session.new_memory(Table());
@@ -209,7 +250,9 @@ void bind_model(Module& m) {
   Type whole_number;
   whole_number.kind = Kind::integer;
   const std::vector<Field> body{
-      object("shape", "Assembly|TetMesh").required().doc("blocks, or a mesh of tetrahedra"),
+      object("shape", "Assembly|TetMesh|Pile")
+          .required()
+          .doc("blocks, a mesh of tetrahedra, or a pile of them"),
       object("material", "Material").required(),
       object("joint", "Joint")
           .doc("between the body's own blocks; needed when there are several, or when they are cut. Of a "

@@ -33,6 +33,15 @@ Value box(Session&, Object*, const Arguments& a) {
   return object;
 }
 
+Value units(Session&, Object*, const Arguments& a) {
+  std::vector<int> numbers;
+  for (const Value& number : a.list("numbers"))
+    numbers.push_back(static_cast<int>(*number.get<std::int64_t>()));
+  auto object = std::make_shared<SelectionObject>();
+  object->selection = Selection::of_units(a.text("body"), std::move(numbers));
+  return object;
+}
+
 Value where(Session&, Object*, const Arguments& a) {
   auto object = std::make_shared<SelectionObject>();
   object->selection = predicate_selection(a.function("predicate"));
@@ -70,6 +79,16 @@ void bind_selections(Module& m) {
                          "cdem.Selection",
                          "",
                          box});
+  Type whole_number;
+  whole_number.kind = Kind::integer;
+  whole_number.range = {1, 1e7};
+  m.functions.push_back({"select.units",
+                         "Some of a body's units: the blocks of a pile, counted from 1 in its order.",
+                         {text("body").required().doc("by name"), list("numbers", whole_number).required()},
+                         false,
+                         "cdem.Selection",
+                         "",
+                         units});
   m.functions.push_back({"select.where",
                          "Everything for whose undeformed place a function returns true.",
                          {function("predicate", "(x: number, y: number, z: number): boolean").required()},

@@ -5,6 +5,7 @@
 #include "lua/binding/session.hpp"
 
 #include "libcdem/vtk/files.hpp"
+#include "libgeom/placement/pile.hpp"
 
 namespace cdem::script {
 
@@ -14,7 +15,8 @@ struct ModelObject final : Object {
   Simulation simulation;
   int number = 1; // in the order the script made them
   std::vector<std::string> body_names;
-  std::vector<std::string> unjointed;                   // bodies without a joint of their own
+  std::map<std::string, geom::Pile> piles; // of meshed bodies, as they were when the model was made
+  std::vector<std::string> unjointed;      // bodies without a joint of their own
   std::map<std::string, std::vector<Selection>> places; // by model:select
   std::shared_ptr<ModelNotes> notes = std::make_shared<ModelNotes>();
   std::map<std::string, std::vector<SeriesEntry>> series; // by .pvd, in the order saved

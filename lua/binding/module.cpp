@@ -21,6 +21,7 @@ const Module& module() {
     bind_solids(m);
     bind_armour_units(m);
     bind_tet_meshes(m);
+    bind_piles(m);
     bind_selections(m);
     bind_model(m);
     bind_conditions(m);
@@ -28,6 +29,7 @@ const Module& module() {
     bind_fracture(m);
     bind_flow(m);
     bind_measures(m);
+    bind_units(m);
     bind_output(m);
     bind_charts(m);
     bind_report(m);

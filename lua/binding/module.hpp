@@ -75,6 +75,7 @@ void bind_solids(Module&);
 void bind_solid_class(Module&); // by bind_solids
 void bind_armour_units(Module&);
 void bind_tet_meshes(Module&);
+void bind_piles(Module&);
 void bind_selections(Module&);
 void bind_model(Module&);
 void bind_conditions(Module&);
@@ -82,6 +83,7 @@ void bind_solving(Module&);
 void bind_fracture(Module&);
 void bind_flow(Module&);
 void bind_measures(Module&);
+void bind_units(Module&);
 void bind_output(Module&);
 void bind_charts(Module&);
 void bind_report(Module&);

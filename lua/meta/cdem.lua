@@ -54,6 +54,11 @@ local cdem = {}
 ---@field centroid number[] m
 ---@field area_vector number[] m2: sum of outward normals times area
 
+---Place and attitude of a unit.
+---@class (exact) cdem.Pose
+---@field centroid number[] m
+---@field rotation number[][] rows of the matrix that turns the unit
+
 ---Each bond (spring point) stands in exactly one of intact, broken_tension, broken_shear and contacts.
 ---@class (exact) cdem.Counts
 ---@field bodies integer
@@ -213,6 +218,17 @@ local cdem = {}
 ---@field shear_traction number Pa: when it broke
 ---@field block_a integer id
 ---@field block_b integer id
+
+---How densely units lie on a slope, away from the edge of the pile by about one unit.
+---@class (exact) cdem.PileMeasures
+---@field porosity number between the slope and the mean top of the pile
+---@field porosity_error number change when every second column is left out
+---@field units_per_area number 1/m2: volume of solid over area and unit volume
+---@field units_per_area_times_dn2 number packing density phi = N Dn^2 / A
+---@field thickness number m: mean height of the top above the slope
+---@field area number m2: of slope that was measured
+---@field contacts_per_unit number mean number of other meshed blocks that press on a unit
+---@field fewest_contacts integer of any unit
 
 ---What one case of a sweep came to.
 ---@class (exact) cdem.SweepResult
@@ -437,6 +453,34 @@ function TetMesh:save(options) end
 ---Draws the mesh, without a display.
 ---@param options cdem.TetMeshPictureOptions
 function TetMesh:picture(options) end
+
+---Units of one shape, each with its place and attitude: made by cdem.drop, cdem.place, cdem.read_pile and model:pile. The shape of a meshed body with one block for each.
+---@class cdem.Pile
+---@field count integer how many units
+---@field height number m: of a unit: that of its mesh along z
+---@field unit_volume number m3: of the unit's mesh
+---@field nominal_diameter number m: Dn, side of a cube of that volume
+---@operator len: integer
+local Pile = {}
+
+---@class (exact) cdem.PileScaledOptions
+---@field factor number > 0
+
+---The same pile in another size: all lengths about the origin times the factor.
+---@param options cdem.PileScaledOptions
+---@return cdem.Pile
+function Pile:scaled(options) end
+
+---Place and attitude of each unit.
+---@return cdem.Pose[]
+function Pile:poses() end
+
+---@class (exact) cdem.PileSaveOptions
+---@field file string ends in .json; in the output folder
+
+---Writes the pile, for cdem.read_pile in another script.
+---@param options cdem.PileSaveOptions
+function Pile:save(options) end
 
 ---A place, made by cdem.select.*; judged on undeformed places, so it survives cutting.
 ---@class cdem.Selection
@@ -749,6 +793,43 @@ function Model:history() end
 ---Samples a field at a place into the history.
 ---@param options cdem.ModelProbeOptions
 function Model:probe(options) end
+
+---@class (exact) cdem.ModelPileOptions
+---@field body string name of a meshed body
+
+---The units of a body as they lie now, without their deformation: a pile that can be scaled, saved and be the shape of a body of another model.
+---@param options cdem.ModelPileOptions
+---@return cdem.Pile
+function Model:pile(options) end
+
+---@class (exact) cdem.ModelPileMeasuresOptions
+---@field body string name of a meshed body
+---@field ground string name of the body they lie on
+
+---Porosity, density and thickness of a layer of units, and how many neighbours press on them.
+---@param options cdem.ModelPileMeasuresOptions
+---@return cdem.PileMeasures
+function Model:pile_measures(options) end
+
+---@class (exact) cdem.ModelLowestUnitsOptions
+---@field body string
+---@field count integer >= 1
+---@field up? number[] default {0, 0, 1}
+
+---Numbers of the units whose centroids are lowest now, for cdem.select.units.
+---@param options cdem.ModelLowestUnitsOptions
+---@return integer[] # the lowest first
+function Model:lowest_units(options) end
+
+---@class (exact) cdem.ModelHighestUnitsOptions
+---@field body string
+---@field count integer >= 1
+---@field up? number[] default {0, 0, 1}
+
+---Numbers of the units whose centroids are highest now, for cdem.select.units.
+---@param options cdem.ModelHighestUnitsOptions
+---@return integer[] # the highest first
+function Model:highest_units(options) end
 
 ---@class (exact) cdem.ModelSaveOptions
 ---@field file string ends in .vtu; in the output folder
@@ -1193,6 +1274,54 @@ function cdem.read_mesh(options) end
 ---@return cdem.TetMesh
 function cdem.box_mesh(options) end
 
+---@class (exact) cdem.DropOptionsRegion
+---@field min number[]
+---@field max number[]
+
+---@class (exact) cdem.DropOptions
+---@field unit cdem.TetMesh a unit's mesh
+---@field count integer in [1, 1e+06]: how many units
+---@field onto cdem.TetMesh the ground, z up; a slope's mesh
+---@field region? cdem.DropOptionsRegion part of the ground's plan, corners {x, y}; all of it when left out
+---@field seed? integer >= 0, default 1: of the attitudes
+---@field gap? number m, > 0: between the spheres around units, and under the lowest layer; a tenth of the unit's height
+---@field layers? integer in [1, 20]: on top of each other; as few as the region allows when left out
+
+---Units hung over the ground in random attitudes, to be dropped: on a grid in the middle of the region, so far apart that they are clear of each other however they are turned. Rows run across the rise of the ground, the lowest first.
+---@param options cdem.DropOptions
+---@return cdem.Pile
+function cdem.drop(options) end
+
+---@class (exact) cdem.PlaceOptionsRegion
+---@field min number[]
+---@field max number[]
+
+---@class (exact) cdem.PlaceOptions
+---@field unit cdem.TetMesh a unit's mesh
+---@field count integer in [1, 1e+06]: how many units
+---@field onto cdem.TetMesh the ground, z up; a slope's mesh
+---@field region? cdem.PlaceOptionsRegion part of the ground's plan, corners {x, y}; all of it when left out
+---@field seed? integer >= 0, default 1: of the attitudes
+---@field density? number in [0.05, 1.5], default 0.645: phi = N Dn^2 / A, units on an area of slope times that of their equal cube's side
+---@field columns? integer >= 1: units in a row; as many as the region allows when left out
+---@field gap? number m, > 0: clear distance; a thousandth of the unit's height
+---@field attitudes? integer in [1, 1e+06], default 1500: tried, of which those are taken that fit into the pattern
+---@field nudges? integer in [0, 1e+05], default 200: small moves tried for each unit, kept when its centroid sinks
+---@field play? number in [0, 1], default 0.1: how far a unit may be from its place of the pattern along the slope, over its height
+
+---One layer of armour units on a slope, in the staggered pattern of a packing density: row by row from the toe, each unit above the gap between two of the row below, lowered on to the slope and its neighbours in one of the attitudes that fit into the pattern.
+---@param options cdem.PlaceOptions
+---@return cdem.Pile
+function cdem.place(options) end
+
+---@class (exact) cdem.ReadPileOptions
+---@field file string
+
+---A pile that pile:save{} wrote.
+---@param options cdem.ReadPileOptions
+---@return cdem.Pile
+function cdem.read_pile(options) end
+
 cdem.select = {}
 
 ---@class (exact) cdem.SelectPlaneOptions
@@ -1213,13 +1342,22 @@ function cdem.select.plane(options) end
 ---@return cdem.Selection
 function cdem.select.box(options) end
 
+---@class (exact) cdem.SelectUnitsOptions
+---@field body string by name
+---@field numbers integer[]
+
+---Some of a body's units: the blocks of a pile, counted from 1 in its order.
+---@param options cdem.SelectUnitsOptions
+---@return cdem.Selection
+function cdem.select.units(options) end
+
 ---Everything for whose undeformed place a function returns true.
 ---@param predicate fun(x: number, y: number, z: number): boolean
 ---@return cdem.Selection
 function cdem.select.where(predicate) end
 
 ---@class (exact) cdem.ModelOptionsBodies
----@field shape cdem.Assembly|cdem.TetMesh blocks, or a mesh of tetrahedra
+---@field shape cdem.Assembly|cdem.TetMesh|cdem.Pile blocks, a mesh of tetrahedra, or a pile of them
 ---@field material cdem.Material
 ---@field joint? cdem.Joint between the body's own blocks; needed when there are several, or when they are cut. Of a mesh: on inner faces, which can break then
 ---@field name? string for selections and contacts; body_1, body_2 ... by default

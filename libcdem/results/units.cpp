@@ -1,0 +1,120 @@
+#include "libcdem/results/units.hpp"
+
+#include "libgeom/core/error.hpp"
+
+#include <algorithm>
+#include <set>
+
+namespace cdem {
+namespace {
+
+std::vector<int> blocks_of(const Model& model, const std::string& body) {
+  std::vector<int> blocks;
+  for (std::size_t b = 0; b < model.blocks.size(); ++b)
+    if (model.bodies[model.blocks[b].body].name == body)
+      blocks.push_back(static_cast<int>(b));
+  if (blocks.empty())
+    throw geom::InputError("body", "\"" + body + "\"", "the name of a body of the model");
+  return blocks;
+}
+
+geom::Vec3 present(const Model& model, const State& state, int node) {
+  const Node& u = state.displacement[node];
+  return model.node_position[node] + geom::Vec3(u.x, u.y, u.z);
+}
+
+// m, of the nodes of a meshed block, weighted by their mass: that of its centroid.
+geom::Vec3 mean_displacement(const Model& model, const State& state, const Block& block) {
+  geom::Vec3 sum = geom::Vec3::Zero();
+  double mass = 0;
+  for (int node = block.node_begin; node < block.node_end; ++node) {
+    const Node& u = state.displacement[node];
+    sum += model.node_mass[node] * geom::Vec3(u.x, u.y, u.z);
+    mass += model.node_mass[node];
+  }
+  return sum / mass;
+}
+
+int block_of_source(const ContactSurface& surface, const Contact& contact) {
+  const int triangle =
+      contact.kind == Contact::spring ? contact.source / 3 : surface.edges[contact.source].triangles[0];
+  return surface.triangles[triangle].block;
+}
+
+int block_of_target(const ContactSurface& surface, const Contact& contact) {
+  const int triangle =
+      contact.kind == Contact::spring ? contact.target : surface.edges[contact.target].triangles[0];
+  return surface.triangles[triangle].block;
+}
+
+} // namespace
+
+std::vector<Unit> units_of(const Model& model, const State& state, const std::string& body) {
+  std::vector<Unit> units;
+  for (const int b : blocks_of(model, body)) {
+    const Block& block = model.blocks[b];
+    std::vector<geom::Vec3> places;
+    for (int node = block.node_begin; node < block.node_end; ++node)
+      places.push_back(present(model, state, node));
+    const auto part = [&](const auto& of_nodes) {
+      return std::vector(of_nodes.begin() + block.node_begin, of_nodes.begin() + block.node_end);
+    };
+    units.push_back({b, block.mass.centroid + centroid_displacement(model, state, b),
+                     geom::best_fit(part(model.node_position), places, part(model.node_mass))});
+  }
+  return units;
+}
+
+std::vector<geom::Surface> surfaces_of(const Model& model, const State& state, const std::string& body) {
+  const std::vector<int> blocks = blocks_of(model, body);
+  std::vector<int> unit_of(model.blocks.size(), -1);
+  std::vector<geom::Surface> surfaces(blocks.size());
+  for (std::size_t u = 0; u < blocks.size(); ++u) {
+    const Block& block = model.blocks[blocks[u]];
+    unit_of[blocks[u]] = static_cast<int>(u);
+    for (int node = block.node_begin; node < block.node_end; ++node)
+      surfaces[u].points.push_back(present(model, state, node));
+    if (!block.meshed) // of a star block, the face of each tet that is opposite to the centroid
+      for (int t = block.tet_begin; t < block.tet_end; ++t)
+        surfaces[u].triangles.push_back({model.tets[t][1] - block.node_begin,
+                                         model.tets[t][2] - block.node_begin,
+                                         model.tets[t][3] - block.node_begin});
+  }
+  for (const BoundaryTriangle& triangle : model.mesh.boundary)
+    if (const int u = unit_of[triangle.block]; u >= 0) {
+      geom::Triangle own = triangle.nodes;
+      for (int& node : own)
+        node -= model.blocks[triangle.block].node_begin;
+      surfaces[u].triangles.push_back(own);
+    }
+  return surfaces;
+}
+
+std::vector<int> touching(const Model& model, const State& state, const std::string& body) {
+  std::set<std::pair<int, int>> pairs;
+  for (const Contact& contact : state.contacts) {
+    if (!(contact.normal_force > 0))
+      continue;
+    const int a = block_of_source(model.surface, contact), b = block_of_target(model.surface, contact);
+    if (a != b) {
+      pairs.emplace(a, b);
+      pairs.emplace(b, a);
+    }
+  }
+  std::vector<int> count;
+  for (const int block : blocks_of(model, body))
+    count.push_back(static_cast<int>(
+        std::count_if(pairs.begin(), pairs.end(), [&](const auto& pair) { return pair.first == block; })));
+  return count;
+}
+
+geom::Vec3 centroid_displacement(const Model& model, const State& state, int b) {
+  const Block& block = model.blocks[b];
+  if (!block.meshed) {
+    const Node& u = state.displacement[block.centroid_node()];
+    return {u.x, u.y, u.z};
+  }
+  return mean_displacement(model, state, block);
+}
+
+} // namespace cdem

@@ -1,0 +1,18 @@
+// The units of a body, its blocks in their order, as they are now: where, how they have moved, whom they touch.
+#pragma once
+
+#include "libcdem/results/unit.hpp"
+#include "libcdem/state/state.hpp"
+#include "libgeom/mesh/surface.hpp"
+
+namespace cdem {
+
+// Each throws geom::InputError for a body that there is not.
+std::vector<Unit> units_of(const Model&, const State&, const std::string& body);
+std::vector<geom::Surface> surfaces_of(const Model&, const State&, const std::string& body); // where they are
+// How many other blocks of meshed bodies press on each unit.
+std::vector<int> touching(const Model&, const State&, const std::string& body);
+
+geom::Vec3 centroid_displacement(const Model&, const State&, int block); // m
+
+} // namespace cdem

@@ -1,0 +1,190 @@
+// Piles: units of one shape hung over a ground, or laid on it, before there is a model of them.
+#include "lua/binding/module.hpp"
+#include "lua/binding/picture_fields.hpp"
+#include "lua/binding/pile_object.hpp"
+#include "lua/binding/session.hpp"
+#include "lua/binding/solid_objects.hpp"
+
+#include "libgeom/core/error.hpp"
+#include "libgeom/placement/armour_layer.hpp"
+#include "libgeom/placement/drop_grid.hpp"
+
+namespace cdem::script {
+
+namespace {
+
+using geom::InputError;
+
+geom::Ground ground_of(const Arguments& a) {
+  return geom::Ground(geom::surface_of(a.object<TetMeshObject>("onto")->mesh));
+}
+
+std::optional<geom::PlanBox> plan_region(const Arguments& a) {
+  const auto region = a.record("region");
+  if (!region)
+    return std::nullopt;
+  const auto corner = [&](const char* name) {
+    const std::vector<double> x = region->numbers(name);
+    if (x.size() != 2)
+      throw InputError(std::string("region.") + name, describe(region->value(name)), "two numbers, {x, y}");
+    return Eigen::Vector2d(x[0], x[1]);
+  };
+  return geom::PlanBox{corner("min"), corner("max")};
+}
+
+Value drop(Session&, Object*, const Arguments& a) {
+  geom::DropOptions options;
+  options.gap = a.optional_number("gap");
+  options.region = plan_region(a);
+  options.layers = a.has("layers") ? static_cast<int>(a.integer("layers")) : 0;
+  options.seed = static_cast<std::uint64_t>(a.integer("seed"));
+  return std::make_shared<PileObject>(geom::drop_grid(
+      a.object<TetMeshObject>("unit")->mesh, static_cast<int>(a.integer("count")), ground_of(a), options));
+}
+
+Value lay(Session&, Object*, const Arguments& a) {
+  geom::LayerOptions options;
+  options.density = a.number("density");
+  if (a.has("columns"))
+    options.columns = static_cast<int>(a.integer("columns"));
+  options.gap = a.optional_number("gap");
+  options.region = plan_region(a);
+  options.seed = static_cast<std::uint64_t>(a.integer("seed"));
+  options.attitudes = static_cast<int>(a.integer("attitudes"));
+  options.nudges = static_cast<int>(a.integer("nudges"));
+  options.play = a.number("play");
+  return std::make_shared<PileObject>(geom::place_layer(
+      a.object<TetMeshObject>("unit")->mesh, static_cast<int>(a.integer("count")), ground_of(a), options));
+}
+
+Value read_pile(Session& session, Object*, const Arguments& a) {
+  const std::filesystem::path path = session.files.to_read(a.text("file"));
+  return std::make_shared<PileObject>(pile_from(read_file(path), a.text("file")));
+}
+
+Value save(Session& session, PileObject& self, const Arguments& a) {
+  require_ending(a.text("file"), ".json");
+  if (!session.settings.check_only)
+    write_file(session.files.to_write(a.text("file")), pile_text(self.pile));
+  return {};
+}
+
+Value scaled(Session&, PileObject& self, const Arguments& a) {
+  return std::make_shared<PileObject>(geom::scaled(self.pile, a.number("factor")));
+}
+
+Value poses(Session&, PileObject& self, const Arguments&) {
+  Values rows;
+  for (const geom::Pose& pose : self.pile.poses) {
+    Values rotation;
+    for (int i = 0; i < 3; ++i)
+      rotation.emplace_back(geom::Vec3(pose.rotation.row(i)));
+    rows.emplace_back(Table{{"centroid", pose.translation}, {"rotation", Table::list(std::move(rotation))}});
+  }
+  return Table::list(std::move(rows));
+}
+
+template <class Get>
+Property pile_property(std::string name, std::string type, std::string unit, std::string doc, Get get) {
+  return {std::move(name), std::move(type), std::move(unit), std::move(doc),
+          [get](Session&, Object& self) -> Value { return get(static_cast<PileObject&>(self).pile); }};
+}
+
+void bind_class(Module& m) {
+  m.records.push_back(
+      {"Pose",
+       "Place and attitude of a unit.",
+       {vec3("centroid").unit("m").required(),
+        list("rotation", vec3_type(), 3).required().doc("rows of the matrix that turns the unit")}});
+  Class pile{"Pile", "Units of one shape, each with its place and attitude: made by cdem.drop, cdem.place, "
+                     "cdem.read_pile and model:pile. The shape of a meshed body with one block for each."};
+  pile.length = [](const Object& self) {
+    return static_cast<std::int64_t>(static_cast<const PileObject&>(self).pile.poses.size());
+  };
+  pile.text = [](const Object& self) {
+    const geom::Pile& p = static_cast<const PileObject&>(self).pile;
+    return "cdem.Pile (" + std::to_string(p.poses.size()) +
+           (p.poses.size() == 1 ? " unit of " : " units of ") + std::to_string(p.unit.tets.size()) + " tets)";
+  };
+  pile.properties = {
+      pile_property("count", "integer", "", "how many units",
+                    [](const geom::Pile& p) { return static_cast<std::int64_t>(p.poses.size()); }),
+      pile_property("height", "number", "m", "of a unit: that of its mesh along z",
+                    [](const geom::Pile& p) { return p.height; }),
+      pile_property("unit_volume", "number", "m3", "of the unit's mesh",
+                    [](const geom::Pile& p) { return geom::volume(p.unit); }),
+      pile_property("nominal_diameter", "number", "m", "Dn, side of a cube of that volume",
+                    [](const geom::Pile& p) { return geom::nominal_diameter(p); })};
+  pile.methods = {
+      {"scaled",
+       "The same pile in another size: all lengths about the origin times the factor.",
+       {number("factor").above(0).required()},
+       false,
+       "cdem.Pile",
+       "",
+       method<PileObject>(scaled)},
+      {"poses", "Place and attitude of each unit.", {}, true, "cdem.Pose[]", "", method<PileObject>(poses)},
+      {"save",
+       "Writes the pile, for cdem.read_pile in another script.",
+       {text("file").required().doc("ends in .json; in the output folder")},
+       false,
+       "",
+       "",
+       method<PileObject>(save)}};
+  m.classes.push_back(pile);
+}
+
+} // namespace
+
+void bind_piles(Module& m) {
+  const std::vector<Field> unit{
+      object("unit", "TetMesh").required().doc("a unit's mesh"),
+      integer("count").within(1, 1e6).required().doc("how many units"),
+      object("onto", "TetMesh").required().doc("the ground, z up; a slope's mesh"),
+      record("region", {list("min", number_type(), 2).required(), list("max", number_type(), 2).required()})
+          .doc("part of the ground's plan, corners {x, y}; all of it when left out"),
+      integer("seed").at_least(0).standard(1).doc("of the attitudes")};
+  const auto with = [&](std::vector<Field> more) {
+    std::vector<Field> fields = unit;
+    fields.insert(fields.end(), more.begin(), more.end());
+    return fields;
+  };
+  m.functions.push_back(
+      {"drop",
+       "Units hung over the ground in random attitudes, to be dropped: on a grid in the middle of the "
+       "region, "
+       "so far apart that they are clear of each other however they are turned. Rows run across the rise of "
+       "the ground, the lowest first.",
+       with(
+           {number("gap").above(0).unit("m").doc(
+                "between the spheres around units, and under the lowest layer; a tenth of the unit's height"),
+            integer("layers")
+                .within(1, geom::max_drop_layers)
+                .doc("on top of each other; as few as the region allows when left out")}),
+       false, "cdem.Pile", "", drop});
+  m.functions.push_back(
+      {"place",
+       "One layer of armour units on a slope, in the staggered pattern of a packing density: row by row from "
+       "the toe, each unit above the gap between two of the row below, lowered on to the slope and its "
+       "neighbours in one of the attitudes that fit into the pattern.",
+       with({number("density").within(0.05, 1.5).standard(0.645).doc(
+                 "phi = N Dn^2 / A, units on an area of slope times that of their equal cube's side"),
+             integer("columns").at_least(1).doc("units in a row; as many as the region allows when left out"),
+             number("gap").above(0).unit("m").doc("clear distance; a thousandth of the unit's height"),
+             integer("attitudes").within(1, 1e6).standard(1500).doc("tried, of which those are taken that fit into the pattern"),
+             integer("nudges").within(0, 100000).standard(200).doc(
+                 "small moves tried for each unit, kept when its centroid sinks"),
+             number("play").within(0, 1).standard(0.1).doc(
+                 "how far a unit may be from its place of the pattern along the slope, over its height")}),
+       false, "cdem.Pile", "", lay});
+  m.functions.push_back({"read_pile",
+                         "A pile that pile:save{} wrote.",
+                         {text("file").required()},
+                         false,
+                         "cdem.Pile",
+                         "",
+                         read_pile});
+  bind_class(m);
+}
+
+} // namespace cdem::script

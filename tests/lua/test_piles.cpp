@@ -1,0 +1,159 @@
+// Piles in scripts: dropped, laid, saved, made a model of, measured.
+#include "tests/lua/script.hpp"
+
+#include <catch2/catch.hpp>
+
+using namespace cdem::script;
+using namespace cdem::script::test;
+using Catch::Matchers::Contains;
+
+namespace {
+
+// A cube as the unit, a slab 20 m by 20 m whose upper side is z = 2, and a drop of 12 in one layer.
+const std::string head =
+    "local cdem = require 'cdem'\n"
+    "local function close(a, b, tolerance)\n"
+    "  assert(math.abs(a - b) <= (tolerance or 1e-9) * math.max(1, math.abs(b)), a .. ' is not ' .. b)\nend\n"
+    "local concrete = cdem.elastic{ youngs_modulus = 30e9, poissons_ratio = 0.2, density = 2500 }\n"
+    "local cube = cdem.box_mesh{ size = {1, 1, 1}, divisions = {1, 1, 1} }\n"
+    "local slab = cdem.box_mesh{ size = {20, 20, 2}, divisions = {2, 2, 1} }\n";
+const std::string dropped =
+    head + "local pile = cdem.drop{ unit = cube, count = 12, onto = slab, seed = 3, gap = 0.2 }\n"
+           "local model = cdem.model{ bodies = { { shape = pile, material = concrete, name = 'units' } } }\n";
+
+} // namespace
+
+TEST_CASE("a pile tells its units, and a scaled one has all lengths scaled", "[lua]") {
+  CHECK(
+      error_of(dropped +
+               "assert(#pile == 12 and pile.count == 12)\nclose(pile.height, 1)\nclose(pile.unit_volume, 1)\n"
+               "close(pile.nominal_diameter, 1)\n"
+               "local large = pile:scaled{ factor = 2 }\n"
+               "close(large.unit_volume, 8)\nclose(large.height, 2)\n"
+               "for i, pose in ipairs(pile:poses()) do\n"
+               "  for k = 1, 3 do close(large:poses()[i].centroid[k], 2 * pose.centroid[k]) end\n"
+               "  assert(pose.centroid[3] > 2.5 + 0.2)\nend") == "");
+}
+
+TEST_CASE("each unit of a pile becomes a block of its body", "[lua]") {
+  CHECK(error_of(dropped +
+                 "local c = model:counts()\nassert(c.blocks == 12 and c.tets == 72)\n"
+                 "for i, block in ipairs(model:blocks()) do\n"
+                 "  for k = 1, 3 do close(block.centroid[k], pile:poses()[i].centroid[k]) end\nend") == "");
+}
+
+TEST_CASE("conditions work on chosen units alone", "[lua]") {
+  CHECK(error_of(
+            dropped +
+            "model:fix{ on = cdem.select.units{ body = 'units', numbers = {7, 2} }, velocity = {0, 0, 1} }\n"
+            "model:run{ steps = 1, time_step = 1e-6 }\n"
+            "for i, block in ipairs(model:blocks()) do\n"
+            "  assert((block.displacement[3] > 0) == (i == 2 or i == 7), i)\nend") == "");
+}
+
+TEST_CASE("the lowest and highest units are those whose centroids are so now", "[lua]") {
+  CHECK(
+      error_of(dropped +
+               "local five = cdem.select.units{ body = 'units', numbers = {5} }\n"
+               "model:fix{ on = five, velocity = {0, 0, -1e6} }\n"
+               "model:run{ steps = 2, time_step = 1e-6 }\n"
+               "assert(model:lowest_units{ body = 'units', count = 1 }[1] == 5)\n"
+               "assert(model:highest_units{ body = 'units', count = 12 }[12] == 5)\n"
+               "local low = model:lowest_units{ body = 'units', count = 3, up = {1, 0, 0} }\n"
+               "local x = {}\n"
+               "for i, pose in ipairs(model:pile{ body = 'units' }:poses()) do x[i] = pose.centroid[1] end\n"
+               "local sorted = { table.unpack(x) }\ntable.sort(sorted)\n"
+               "for i = 1, 3 do close(x[low[i]], sorted[i]) end") == "");
+}
+
+TEST_CASE("the pile of a model follows its units", "[lua]") {
+  CHECK(error_of(dropped + "local before = pile:poses()[4]\n"
+                           "model:fix{ on = cdem.select.units{ body = 'units', numbers = {4} }, velocity = "
+                           "{0.5, 0, 2} }\n"
+                           "model:run{ steps = 1000, time_step = 1e-5 }\n"
+                           "local after = model:pile{ body = 'units' }:poses()[4]\n"
+                           "close(after.centroid[1] - before.centroid[1], 0.005, 1e-6)\n"
+                           "close(after.centroid[3] - before.centroid[3], 0.02, 1e-6)\n"
+                           "for i = 1, 3 do for k = 1, 3 do\n"
+                           "  close(after.rotation[i][k], before.rotation[i][k], 1e-9)\nend end") == "");
+}
+
+TEST_CASE("a pile comes back from its file to the last digit", "[lua]") {
+  CHECK(error_of(dropped +
+                 "pile:save{ file = 'pile.json' }\n"
+                 "local again = cdem.read_pile{ file = 'pile.json' }\n"
+                 "assert(#again == 12 and again.height == pile.height)\n"
+                 "for i, pose in ipairs(again:poses()) do\n"
+                 "  for k = 1, 3 do\n"
+                 "    assert(pose.centroid[k] == pile:poses()[i].centroid[k])\n"
+                 "    for j = 1, 3 do assert(pose.rotation[k][j] == pile:poses()[i].rotation[k][j]) end\n"
+                 "  end\nend\n"
+                 "assert(again.unit_volume == pile.unit_volume)") == "");
+}
+
+TEST_CASE("a layer of cubes has the density it was laid with", "[lua]") {
+  CHECK(error_of(head +
+                 "local layer = cdem.place{ unit = cube, count = 25, onto = slab, columns = 5, density = "
+                 "0.3, nudges = 20, attitudes = 50 }\n"
+                 "assert(#layer == 25)\n"
+                 "for _, pose in ipairs(layer:poses()) do assert(pose.centroid[3] < 3) end") == "");
+}
+
+TEST_CASE("piles that cannot be made are refused", "[lua]") {
+  const auto refused = [](const std::string& call) { return error_of(head + call); };
+  CHECK_THAT(refused("cdem.drop{ unit = cube, count = 0, onto = slab }"), Contains("count = 0: must be"));
+  CHECK_THAT(refused("cdem.drop{ unit = cube, count = 2, onto = slab, gap = -1 }"),
+             Contains("gap = -1: must be > 0"));
+  CHECK_THAT(
+      refused(
+          "cdem.drop{ unit = cube, count = 2, onto = slab, region = { min = {50, 50}, max = {60, 60} } }"),
+      Contains("must be over the ground"));
+  CHECK_THAT(
+      refused("cdem.drop{ unit = cube, count = 2, onto = slab, region = { min = {5}, max = {6, 6} } }"),
+      Contains("region.min"));
+  CHECK_THAT(refused("cdem.place{ unit = cube, count = 2, onto = slab, density = 9 }"),
+             Contains("density = 9: must be"));
+  CHECK_THAT(refused("cdem.drop{ unit = cube, count = 2, onto = slab }:save{ file = 'pile.csv' }"),
+             Contains("ends in .json"));
+  CHECK_THAT(refused("cdem.drop{ unit = cube, count = 2, onto = slab }:scaled{ factor = 0 }"),
+             Contains("factor = 0: must be > 0"));
+  CHECK_THAT(refused("cdem.select.units{ body = 'units', numbers = {0} }"), Contains("must be"));
+}
+
+TEST_CASE("units that a model does not have are refused", "[lua]") {
+  const auto refused = [](const std::string& call) { return error_of(dropped + call); };
+  CHECK_THAT(refused("model:fix{ on = cdem.select.units{ body = 'units', numbers = {3, 13} } }"),
+             Contains("numbers = 13: must be a unit of \"units\", which has 12"));
+  CHECK_THAT(refused("model:fix{ on = cdem.select.units{ body = 'unit', numbers = {3} } }"),
+             Contains("body = \"unit\": must be the name of a body"));
+  CHECK_THAT(refused("model:pile{ body = 'stones' }"), Contains("body = \"stones\": no such body"));
+  CHECK_THAT(refused("model:pile_measures{ body = 'units', ground = 'slope' }"),
+             Contains("ground = \"slope\": no such body"));
+  CHECK_THAT(refused("model:lowest_units{ body = 'units', count = 13 }"), Contains("at most 12"));
+}
+
+TEST_CASE("a pile's file that is none is refused, and units inside each other", "[lua]") {
+  const std::string poses = "{\"centroid\": [0, 0, 0], \"rotation\": [[1, 0, 0], [0, 1, 0], [0, 0, 1]]}";
+  const auto file = [](const std::string& given, const std::string& version = "cdem pile 1") {
+    return "{\"format\": \"" + version + "\", \"height\": 1, \"poses\": [" + given +
+           "], \"nodes\": [[-0.25, -0.25, -0.25], [0.75, -0.25, -0.25], [-0.25, 0.75, -0.25], "
+           "[-0.25, -0.25, 0.75]], \"tets\": [[0, 1, 2, 3]], \"regions\": [0]}";
+  };
+  const auto refused = [](const std::string& text, const std::string& more = "") {
+    Script script(head + "local pile = cdem.read_pile{ file = 'pile.json' }\n" + more);
+    script.write("pile.json", text);
+    return script.error();
+  };
+  CHECK(refused(file(poses)) == "");
+  CHECK_THAT(refused("{\"format\""), Contains("pile.json: no pile; a file that pile:save{} wrote"));
+  CHECK_THAT(refused(file(poses, "other")), Contains("pile.json: format = \"other\""));
+  CHECK_THAT(refused(file("")), Contains("the pile has no units"));
+  CHECK_THAT(refused(file("{\"centroid\": [0, 0, 0], \"rotation\": [[1, 0, 0], [0, 2, 0], [0, 0, 1]]}")),
+             Contains("pose 1: its matrix is no rotation"));
+  const std::string model = "cdem.model{ bodies = { { shape = pile, material = concrete } } }";
+  CHECK_THAT(refused(file(poses + ", " +
+                          "{\"centroid\": [0.1, 0.1, 0.1], \"rotation\": [[1, 0, 0], [0, 1, 0], "
+                          "[0, 0, 1]]}"),
+                     model),
+             Contains("units 1 and 2 of the pile stand"));
+}
