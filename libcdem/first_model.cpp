@@ -20,6 +20,14 @@ int body_index(const Model& model, const std::string& name) {
   throw geom::InputError("contacts", "\"" + name + "\"", "the name of a body (" + names + ")");
 }
 
+// Between meshes nothing is glued.
+void require_contact(const Joint& joint, const std::string& both) {
+  if (joint.bonded)
+    throw geom::InputError(
+        "contacts", both, "cdem.coulomb{ friction_angle = ... } between meshes",
+        "meshed bodies are not bonded to each other; unite them to one solid before meshing");
+}
+
 } // namespace
 
 Model first_model(const ModelSpec& spec) {
@@ -58,10 +66,17 @@ Model first_model(const ModelSpec& spec) {
     validate(pair.joint);
     const int a = body_index(frame, pair.body_a), b = body_index(frame, pair.body_b);
     const std::string both = "{\"" + pair.body_a + "\", \"" + pair.body_b + "\"}";
-    for (const int body : {a, b})
-      if (frame.bodies[body].element != Element::small_strain)
-        throw geom::InputError("contacts", both, "bodies of blocks",
-                               "there is no contact yet between a mesh and another body");
+    const auto is_meshed = [&](int body) { return frame.bodies[body].element != Element::small_strain; };
+    if (is_meshed(a) != is_meshed(b))
+      throw geom::InputError("contacts", both, "two meshed bodies, or two of blocks",
+                             "there is no contact between a mesh and an assembly of blocks; mesh both");
+    if (is_meshed(a)) {
+      require_contact(pair.joint, both);
+      if (!frame.surface.joint.emplace(std::minmax(a, b), static_cast<int>(frame.joints.size())).second)
+        throw geom::InputError("contacts", both, "given once", "two bodies have one law between them");
+      frame.joints.push_back(pair.joint);
+      continue;
+    }
     if (a == b)
       throw geom::InputError("contacts", both, "two different bodies",
                              "what holds a body's own blocks together is the body's joint");

@@ -141,8 +141,8 @@ void archive(A& a, MeshData& x) {
 
 template <class A>
 void archive(A& a, ContactTriangle& x) {
-  auto& [nodes, block, tet, face, area, height, compliance, edge_begin, edge_end] = x;
-  archive_all(a, nodes, block, tet, face, area, height, compliance, edge_begin, edge_end);
+  auto& [nodes, block, tet, face, mate, area, height, compliance, edge_begin, edge_end] = x;
+  archive_all(a, nodes, block, tet, face, mate, area, height, compliance, edge_begin, edge_end);
 }
 
 template <class A>

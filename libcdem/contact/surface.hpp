@@ -20,6 +20,7 @@ struct ContactTriangle {
   int block = 0;
   int tet = 0;           // that it bounds
   int face = -1;         // of a bonded inner face: batch * lanes + lane in MeshData::faces; -1: an outer one
+  int mate = -1;         // the triangle on that face's other side
   double area = 0;       // m2, undeformed
   double height = 0;     // h, m, of its tet above it, undeformed
   double compliance = 0; // h / E, m/Pa: what a pressure on it presses the tet together by
@@ -40,7 +41,7 @@ struct ContactSurface {
   // Bodies (smaller first) -> index into Model::joints, the law of their contact.
   std::map<std::pair<int, int>, int> joint;
 
-  bool empty() const { return joint.empty(); }
+  bool empty() const { return triangles.empty(); }
 };
 
 } // namespace cdem

@@ -1,5 +1,6 @@
 #include "libcdem/model/build.hpp"
 
+#include "libcdem/contact/build_surface.hpp"
 #include "libcdem/rigid/inertia.hpp"
 #include "libgeom/assembly/assembly.hpp"
 #include "libgeom/core/error.hpp"
@@ -268,6 +269,7 @@ Model build_model(const Model& frame, std::vector<BlockSeed> seeds, const Interf
   model.joints = frame.joints;
   model.pair_joint = frame.pair_joint;
   model.next_id = frame.next_id;
+  model.surface.joint = frame.surface.joint;
 
   std::vector<geom::Polyhedron> shapes;
   std::vector<std::vector<std::vector<geom::Triangle>>> fans;
@@ -289,6 +291,7 @@ Model build_model(const Model& frame, std::vector<BlockSeed> seeds, const Interf
   add_meshes(model, std::move(meshes));
   add_rigid_bodies(model);
   add_bonds_on_nodes(model);
+  build_surface(model);
 
   for (const Block& block : model.blocks)
     smallest = std::min(smallest, block.size);

@@ -1,5 +1,6 @@
 #include "libcdem/model/separate.hpp"
 
+#include "libcdem/contact/overlap.hpp"
 #include "libgeom/core/error.hpp"
 #include "libgeom/polyhedron/cut.hpp"
 #include "libgeom/query/box_pairs.hpp"
@@ -58,15 +59,16 @@ geom::Box box_of_nodes(const Model& model, const Block& block) {
 }
 
 [[noreturn]] void refuse_contact(const Model& model, const Block& one, const Block& other) {
-  throw geom::InputError(
-      "bodies: \"" + model.bodies[one.body].name + "\" and \"" + model.bodies[other.body].name +
-      "\" may touch, and there is no contact yet between a mesh and another body; move them "
-      "apart, or unite them to one solid before meshing");
+  throw geom::InputError("bodies: \"" + model.bodies[one.body].name + "\" and \"" +
+                         model.bodies[other.body].name +
+                         "\" may touch, and there is no contact between a mesh and an assembly of blocks; "
+                         "move them apart, or mesh both");
 }
 
 } // namespace
 
 void require_separate(const Model& model) {
+  require_separate_meshes(model);
   std::vector<geom::Box> boxes;
   std::vector<std::vector<geom::Plane>> planes;
   for (const Block& block : model.blocks) {
@@ -82,6 +84,8 @@ void require_separate(const Model& model) {
     }
   for (const auto& [a, b] : geom::touching_pairs(boxes)) {
     const Block &one = model.blocks[a], &other = model.blocks[b];
+    if (one.meshed && other.meshed)
+      continue; // judged by their surfaces
     if (one.meshed || other.meshed)
       refuse_contact(model, one, other);
     const double depth = depth_tolerance * std::min(one.size, other.size);

@@ -1,5 +1,6 @@
 #include "libcdem/results/energy.hpp"
 
+#include "libcdem/contact/contact_forces.hpp"
 #include "libcdem/element/mesh_fields.hpp"
 #include "libcdem/element/small_strain.hpp"
 #include "libcdem/interface/spring_forces.hpp"
@@ -31,7 +32,8 @@ EnergyLedger energy(const Model& model, const State& state) {
   const State moved = moved_back(model, state, state.velocity_lag);
   EnergyLedger ledger = state.spent;
   ledger.elastic = elastic_energy(model, moved);
-  ledger.springs = spring_energy(model, moved) + mesh_spring_energy(model, moved);
+  ledger.springs = spring_energy(model, moved) + mesh_spring_energy(model, moved) +
+                   contact_energy(model, state, state.velocity_lag);
   for (std::size_t i = 0; i < state.velocity.size(); ++i) {
     if (model.blocks[model.node_block[i]].rigid >= 0)
       continue;

@@ -13,8 +13,7 @@ bool intact(std::uint8_t mode) {
 
 } // namespace
 
-std::vector<Fragment> fragments(const Model& model, const State& state,
-                                const ResolvedConditions& conditions) {
+std::vector<int> pieces_of_nodes(const Model& model, const State& state) {
   geom::DisjointSets sets(model.node_position.size());
   for (const geom::Tet& tet : model.tets)
     for (int k = 1; k < 4; ++k)
@@ -27,11 +26,19 @@ std::vector<Fragment> fragments(const Model& model, const State& state,
     if (intact(state.faces[at.batch].mode[at.point][at.lane]))
       sets.unite(batch.node_a[0][at.lane], batch.node_b[0][at.lane]);
   });
+  std::vector<int> pieces(model.node_position.size());
+  for (int node = 0; node < static_cast<int>(pieces.size()); ++node)
+    pieces[node] = sets.find(node);
+  return pieces;
+}
 
+std::vector<Fragment> fragments(const Model& model, const State& state,
+                                const ResolvedConditions& conditions) {
+  const std::vector<int> pieces = pieces_of_nodes(model, state);
   std::vector<int> place(model.node_position.size(), -1);
   std::vector<Fragment> list;
   const auto of = [&](int node) -> Fragment& {
-    int& i = place[sets.find(node)];
+    int& i = place[pieces[node]];
     if (i < 0) {
       i = static_cast<int>(list.size());
       list.emplace_back();

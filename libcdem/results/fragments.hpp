@@ -10,4 +10,7 @@ namespace cdem {
 // the order of their first node.
 std::vector<Fragment> fragments(const Model&, const State&, const ResolvedConditions&);
 
+// Of each node, the smallest node of its piece (n_nodes).
+std::vector<int> pieces_of_nodes(const Model&, const State&);
+
 } // namespace cdem

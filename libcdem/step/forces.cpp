@@ -1,5 +1,6 @@
 #include "libcdem/step/forces.hpp"
 
+#include "libcdem/contact/contact_forces.hpp"
 #include "libcdem/element/small_strain.hpp"
 #include "libcdem/interface/spring_forces.hpp"
 #include "libcdem/step/mesh_forces.hpp"
@@ -42,6 +43,8 @@ void block_forces(const Model& model, const State& state, Workspace& work, const
 std::vector<Node> net_forces(const Model& model, const State& state, Workspace& work) {
   State copy = state; // bookkeeping of springs and faces stays as it is
   work.strain_step = 0;
+  work.meeting.due = true;
+  contact_forces(model, copy, work, 1);
   for (std::size_t c = 0; c < model.point_chunks.size(); ++c)
     spring_forces(model, copy, work, model.point_chunks[c], work.spring_sums[c], false);
   std::vector<Node> force(model.node_position.size());
@@ -62,6 +65,8 @@ std::vector<Node> net_forces(const Model& model, const State& state, Workspace& 
   std::copy(work.force.begin(), work.force.end(), force.begin());
   const ResolvedConditions& r = work.resolved;
   for (std::size_t i = 0; i < force.size(); ++i) {
+    if (!work.contact.empty())
+      add(force[i], work.contact[i]);
     if (!r.internal.empty())
       add(force[i], r.internal[i]);
     if (!r.external.empty())

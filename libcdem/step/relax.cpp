@@ -1,5 +1,6 @@
 #include "libcdem/step/relax.hpp"
 
+#include "libcdem/contact/contact_forces.hpp"
 #include "libcdem/results/energy.hpp"
 #include "libcdem/step/move_nodes.hpp"
 #include "libcdem/step/move_rigid.hpp"
@@ -134,6 +135,7 @@ struct AtRest {
 
 std::vector<double> fictitious_masses(const Model& model) {
   std::vector<double> masses = all_row_sums(model);
+  add_contact_row_sums(model, masses);
   for (double& mass : masses)
     mass /= 4 * step_safety * step_safety;
   return masses;
@@ -179,6 +181,7 @@ RelaxResult relax(const StageContext& context, const RelaxOptions& options, cons
                    previous_force);
       if (stage.step == moving_steps)
         stop_supports(stage.work.resolved);
+      stage.meet();
       const auto move = [&](Range range, const Node* force, NodeSums& sums) {
         const auto nodes = [&](Range part) {
           return moving_nodes(state, stage.work, mass, part, force + (part.begin - range.begin));
@@ -193,7 +196,7 @@ RelaxResult relax(const StageContext& context, const RelaxOptions& options, cons
       report.sums = stage.advance(options.breaking, move, [&](int rigid, NodeSums& sums) {
         hold_rigid(context.model, state, stage.work, rigid, sums);
       });
-      stage.work.strain_step = 1; // velocities are lengths per step
+      stage.moved(1); // velocities are lengths per step
       largest_reaction2 = std::max(largest_reaction2, report.sums.reaction2);
       report.sums.reaction2 = std::max(report.sums.reaction2, reaction_floor2 * largest_reaction2);
       report.residual = relative_residual(report.sums);

@@ -1,5 +1,6 @@
 #include "libcdem/step/run.hpp"
 
+#include "libcdem/contact/contact_forces.hpp"
 #include "libcdem/step/move_nodes.hpp"
 #include "libcdem/step/move_rigid.hpp"
 #include "libcdem/step/row_sums.hpp"
@@ -70,7 +71,9 @@ std::vector<double> viscous_forces(const Model& model) {
 
 double choose_time_step(const Model& model, const RunOptions& options) {
   const double stable = stable_time_step(model);
-  if (options.time_step == 0 && std::isinf(stable))
+  const double usual =
+      model.surface.empty() ? stable : std::min(stable, 2 / std::sqrt(rigid_frequency2(model)));
+  if (options.time_step == 0 && std::isinf(usual))
     throw geom::InputError(
         "time_step: missing; everything that moves is rigid and touches nothing, which has no "
         "stable step to take: give one (s)");
@@ -78,8 +81,46 @@ double choose_time_step(const Model& model, const RunOptions& options) {
     throw geom::InputError("time_step", fmt::format("{:g}", options.time_step),
                            fmt::format("at most the stable step, {:.4g} s", stable),
                            "leave it out to use safety x stable");
-  return options.time_step > 0 ? options.time_step : options.safety * stable;
+  return options.time_step > 0 ? options.time_step : options.safety * usual;
 }
+
+// The time of each step of a run whose step may get shorter on the way, as contacts close.
+class Clock {
+public:
+  Clock(double start, double time_step, const RunOptions& options)
+      : start_(start), end_(start + options.duration), time_step_(time_step), given_(options.steps) {
+    set_steps();
+  }
+  // As it was when carried() was called.
+  explicit Clock(const std::vector<double>& c)
+      : start_(c.at(0)), end_(c.at(1)), time_step_(c.at(2)),
+        given_(c.at(3) < 0 ? without_end : static_cast<std::int64_t>(c.at(3))),
+        first_(static_cast<std::int64_t>(c.at(4))) {
+    set_steps();
+  }
+  std::vector<double> carried() const {
+    return {start_, end_, time_step_, given_ == without_end ? -1 : static_cast<double>(given_),
+            static_cast<double>(first_)};
+  }
+  double time_step() const { return time_step_; }
+  std::int64_t steps() const { return steps_; }
+  double time_at(std::int64_t step) const { return start_ + static_cast<double>(step - first_) * time_step_; }
+  void shorten(std::int64_t step, double time_step) {
+    start_ = time_at(step);
+    first_ = step;
+    time_step_ = time_step;
+    set_steps();
+  }
+
+private:
+  void set_steps() {
+    steps_ = given_ > 0 ? given_
+                        : first_ + static_cast<std::int64_t>(std::ceil((end_ - start_) / time_step_ - 1e-9));
+  }
+  static constexpr std::int64_t without_end = std::numeric_limits<std::int64_t>::max();
+  double start_, end_, time_step_;
+  std::int64_t given_, first_ = 0, steps_ = 0;
+};
 
 } // namespace
 
@@ -99,21 +140,30 @@ RunResult run(const StageContext& context, const RunOptions& options, const std:
   Stage stage(context, kind, run_away_lengths * context.model.length);
   const std::vector<double> viscous = viscous_forces(context.model);
   Stage::StepReport report;
-  const double start = from ? from->carried.at(0) : state.time;
-  const std::int64_t steps =
-      options.steps > 0 ? options.steps
-                        : static_cast<std::int64_t>(std::ceil(options.duration / stepping.time_step - 1e-9));
-  // What only `stop` ends has no goal to tell of.
-  if (steps < std::numeric_limits<std::int64_t>::max()) {
-    report.goals.max_steps = steps;
-    report.goals.time_goal = start + static_cast<double>(steps) * stepping.time_step;
+  Clock clock(state.time, stepping.time_step, options);
+  if (from) {
+    clock = Clock(from->carried);
+    stepping.time_step = clock.time_step();
   }
+  const auto set_goals = [&] {
+    // What only `stop` ends has no goal to tell of.
+    if (clock.steps() < std::numeric_limits<std::int64_t>::max()) {
+      report.goals.max_steps = clock.steps();
+      report.goals.time_goal = clock.time_at(clock.steps());
+    }
+  };
+  set_goals();
   const std::int64_t ask_every = options.callback_every > 0 ? options.callback_every : 100;
 
   bool stopped = false;
-  while (stage.step < steps && !stopped) {
+  while (stage.step < clock.steps() && !stopped) {
     if (stage.can_be_left())
-      stage.mark({start});
+      stage.mark(clock.carried());
+    if (const double longest = options.safety * stage.meet(); longest < stepping.time_step) {
+      stepping.time_step = longest;
+      clock.shorten(stage.step, longest);
+      set_goals();
+    }
     update_external(stage.work.resolved, state.time);
     // Velocities that stand at the time of the displacements, at the start or after a relaxation, take half a step.
     stepping.kick = state.velocity_lag + 0.5 * stepping.time_step;
@@ -133,9 +183,9 @@ RunResult run(const StageContext& context, const RunOptions& options, const std:
     report.sums = stage.advance(options.breaking, move, [&](int rigid, NodeSums& sums) {
       move_rigid(context.model, state, stage.work, rigid, stepping, sums);
     });
-    stage.work.strain_step = stepping.time_step;
+    stage.moved(stepping.time_step);
     report.residual = relative_residual(report.sums);
-    state.time = start + static_cast<double>(stage.step + 1) * stepping.time_step;
+    state.time = clock.time_at(stage.step + 1);
     state.velocity_lag = 0.5 * stepping.time_step;
     stage.after_step(report);
     if (stage.step % ask_every == 0) {

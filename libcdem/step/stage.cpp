@@ -1,12 +1,16 @@
 #include "libcdem/step/stage.hpp"
 
+#include "libcdem/contact/contact_forces.hpp"
+#include "libcdem/contact/places.hpp"
 #include "libcdem/element/small_strain.hpp"
 #include "libcdem/interface/spring_forces.hpp"
 #include "libcdem/model/add_meshes.hpp"
+#include "libcdem/model/names.hpp"
 #include "libcdem/results/fields.hpp"
 #include "libcdem/rigid/motion.hpp"
 #include "libcdem/step/errors.hpp"
 #include "libcdem/step/mesh_forces.hpp"
+#include "libcdem/step/row_sums.hpp"
 
 #include <cmath>
 #include <fmt/format.h>
@@ -70,6 +74,8 @@ Stage::Stage(StageContext context, std::string kind, double run_away)
     moment.broken_tension_before = broken_tension_before_;
     moment.broken_shear_before = broken_shear_before_;
   }
+  if (!context_.model.surface.empty())
+    row_sums_ = all_row_sums(context_.model);
   if (context_.moment)
     *context_.moment = std::move(moment);
 }
@@ -89,11 +95,51 @@ void Stage::mark(std::vector<double> carried, const std::vector<Node>& previous_
     context_.keeper->marked();
 }
 
+Stage::~Stage() {
+  catch_up();
+}
+
+void Stage::moved(double time_step) {
+  work.strain_step = time_step;
+  work.meeting.step += time_step;
+  work.meeting.due = true;
+}
+
+double Stage::meet() {
+  const Model& model = context_.model;
+  const ContactSums sums = contact_forces(model, context_.state, work, context_.threads);
+  context_.state.spent.friction += sums.friction;
+  if (sums.deepest > 1)
+    refuse_depth(sums.deepest_source, sums.deepest_target);
+  const double frequency2 = contact_frequency2(model, context_.state, work, row_sums_);
+  return frequency2 > 0 ? 2 / std::sqrt(frequency2) : std::numeric_limits<double>::infinity();
+}
+
+void Stage::refuse_depth(int source_triangle, int target_triangle) const {
+  const Model& model = context_.model;
+  const State& state = context_.state;
+  const ContactTriangle &source = model.surface.triangles[source_triangle],
+                        &target = model.surface.triangles[target_triangle];
+  const geom::Vec3 x = place_of(model, state, source.nodes[0]);
+  throw SolutionError(fmt::format("stage {} ({}), step {}: {} has gone too deep into {} near ({:.6g}, "
+                                  "{:.6g}, {:.6g}) m, more than a quarter of "
+                                  "a tet's height; it is too fast for this contact: give the contact a "
+                                  "larger normal_stiffness, the model a "
+                                  "finer mesh, or let it fall less far",
+                                  context_.number, kind_, step, block_name(model, source.block),
+                                  block_name(model, target.block), x.x(), x.y(), x.z()));
+}
+
 double Stage::wall_time() const {
   return seconds(std::chrono::steady_clock::now() - start_);
 }
 
 void Stage::catch_up() {
+  try {
+    context_.state.spent.friction +=
+        contact_forces(context_.model, context_.state, work, context_.threads).friction;
+  } catch (const SolutionError&) { // the next step meets it again, and says so
+  }
   const auto meshes = static_cast<std::int64_t>(context_.model.mesh.chunks.size());
   if (work.strain_step > 0)
     for_chunks(meshes, context_.threads, [&](std::int64_t c) {

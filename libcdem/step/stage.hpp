@@ -35,7 +35,7 @@ class Stage {
 public:
   // run_away: displacement that ends the stage with a SolutionError, m.
   Stage(StageContext context, std::string kind, double run_away);
-  ~Stage() { catch_up(); }
+  ~Stage();
   Stage(const Stage&) = delete;
   Stage& operator=(const Stage&) = delete;
 
@@ -47,6 +47,11 @@ public:
   // move with them: move_rigid(rigid body, sums). Returns the sums over all chunks, added in order.
   template <class Move, class MoveRigid>
   NodeSums advance(bool breaking, const Move& move, const MoveRigid& move_rigid);
+  // Contacts for where the nodes are; before advance. Returns a bound of the stable step that they leave, s; infinite
+  // without contacts. Throws SolutionError when something has gone too deep.
+  double meet();
+  // Everything moved on by this long (s; steps of unit length in a relaxation).
+  void moved(double time_step);
   // Brings the stress of meshes up to where the nodes are; before a state is kept or handed out.
   void catch_up();
 
@@ -76,7 +81,10 @@ private:
   void watch() const;
   void tell(const StepReport&, bool last);
 
+  [[noreturn]] void refuse_depth(int source_triangle, int target_triangle) const;
+
   StageContext context_;
+  std::vector<double> row_sums_; // N/m, of elements and bonds (n_nodes); empty without contacts
   std::string kind_;
   double run_away_;
   std::int64_t broken_in_step_ = 0;

@@ -1,5 +1,7 @@
 #include "libcdem/step/workspace.hpp"
 
+#include "libcdem/contact/search.hpp"
+
 namespace cdem {
 
 Workspace::Workspace(const Model& model, const State& state, const Conditions& conditions)
@@ -12,6 +14,9 @@ Workspace::Workspace(const Model& model, const State& state, const Conditions& c
     partial.resize(static_cast<std::size_t>(model.mesh.chunks.back().partial.end));
     face_sums.resize(model.mesh.chunks.size());
   }
+  if (!model.surface.empty())
+    contact.resize(model.node_position.size());
+  start_contact(model, meeting);
   for (const Interface& interface : model.interfaces) {
     const Joint& joint = model.joints[interface.joint];
     strength.push_back({joint.cohesion, std::tan(joint.friction_angle), joint.tensile_strength});

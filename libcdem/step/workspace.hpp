@@ -2,6 +2,7 @@
 // sums. Allocated once per stage; the step itself allocates nothing.
 #pragma once
 
+#include "libcdem/contact/contact_work.hpp"
 #include "libcdem/interface/softening.hpp"
 #include "libcdem/load/resolve.hpp"
 #include "libcdem/state/state.hpp"
@@ -47,9 +48,10 @@ struct Workspace {
   std::vector<SpringSums> spring_sums; // per chunk of springs
   // Of meshed bodies; empty without them.
   std::vector<Node> partial; // N, at the places of mesh chunks that others touch too; written by mesh_forces
-  std::vector<FaceSums> face_sums;  // per mesh chunk
-  double strain_step = 0;           // s, by which their stress stands behind the nodes
-  std::vector<Node> contact;        // N, of contacts (n_nodes); empty without; written by contact_forces
+  std::vector<FaceSums> face_sums; // per mesh chunk
+  double strain_step = 0;          // s, by which their stress stands behind the nodes
+  std::vector<Node> contact;       // N, of contacts (n_nodes); empty without; written by contact_forces
+  ContactWork meeting;
   std::vector<NodeSums> node_sums;  // per chunk of blocks
   std::vector<NodeSums> rigid_sums; // per rigid body
 };

@@ -1,5 +1,7 @@
 #include "tests/libcdem/system.hpp"
 
+#include "libcdem/first_model.hpp"
+
 #include "libcdem/element/mesh_fields.hpp"
 #include "libcdem/element/small_strain.hpp"
 #include "libcdem/interface/spring_forces.hpp"
@@ -43,36 +45,7 @@ cdem::Simulation simulation(geom::Assembly shape, const cdem::Elastic& material,
 }
 
 cdem::Model build(const std::vector<cdem::BodySpec>& bodies, const std::vector<cdem::PairSpec>& pairs) {
-  cdem::Model frame;
-  std::vector<cdem::BlockSeed> seeds;
-  std::vector<cdem::MeshSeed> meshes;
-  for (const cdem::BodySpec& spec : bodies) {
-    const int index = static_cast<int>(frame.bodies.size());
-    frame.bodies.push_back({spec.name, spec.material, spec.joint, spec.bonding,
-                            spec.meshes.empty() ? cdem::Element::small_strain : spec.element});
-    for (const geom::TetMesh& mesh : spec.meshes)
-      meshes.push_back({0, index, mesh});
-    frame.pair_joint[{index, index}] = static_cast<int>(frame.joints.size());
-    frame.joints.push_back(spec.joint);
-    for (const geom::Polyhedron& block : spec.shape.blocks) {
-      cdem::BlockSeed seed;
-      seed.body = index;
-      seed.shape = block;
-      seeds.push_back(std::move(seed));
-    }
-  }
-  const auto index_of = [&](const std::string& name) {
-    int b = 0;
-    while (frame.bodies[b].name != name)
-      ++b;
-    return b;
-  };
-  for (const cdem::PairSpec& pair : pairs) {
-    frame.pair_joint[std::minmax(index_of(pair.body_a), index_of(pair.body_b))] =
-        static_cast<int>(frame.joints.size());
-    frame.joints.push_back(pair.joint);
-  }
-  return cdem::build_model(frame, std::move(seeds), cdem::default_traits, std::move(meshes));
+  return cdem::first_model({bodies, pairs});
 }
 
 cdem::Selection at_place(const geom::Vec3& x) {

@@ -1,0 +1,136 @@
+#include "libcdem/contact/build_surface.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+namespace cdem {
+namespace {
+
+// Edges of less than this turn are flat: what touches there touches the triangles.
+constexpr double least_turn = 0.05; // radians
+
+geom::Vec3 area_vector(const Model& model, const geom::Triangle& n) {
+  const auto& x = model.node_position;
+  return 0.5 * (x[n[1]] - x[n[0]]).cross(x[n[2]] - x[n[0]]);
+}
+
+ContactTriangle make_triangle(const Model& model, const geom::Triangle& nodes, int tet) {
+  const geom::Tet& t = model.tets[tet];
+  const auto& x = model.node_position;
+  const double volume = (x[t[1]] - x[t[0]]).dot((x[t[2]] - x[t[0]]).cross(x[t[3]] - x[t[0]])) / 6;
+  ContactTriangle triangle;
+  triangle.nodes = nodes;
+  triangle.tet = tet;
+  triangle.block = model.tet_block[tet];
+  triangle.area = area_vector(model, nodes).norm();
+  triangle.height = 3 * volume / triangle.area;
+  triangle.compliance =
+      triangle.height / model.bodies[model.blocks[triangle.block].body].material.youngs_modulus;
+  return triangle;
+}
+
+// The two sides of the bonded faces of a block, each the other's mate.
+void add_inner_faces(Model& model, int block) {
+  auto& triangles = model.surface.triangles;
+  for (const MeshChunk& chunk : model.mesh.chunks) {
+    if (chunk.block != block)
+      continue;
+    for (int i = 0; i < chunk.faces; ++i) {
+      const std::int64_t face = chunk.face_batches.begin * lanes + i;
+      const FaceBatch& f = model.mesh.faces[face / lanes];
+      const FaceTets& tets = model.mesh.face_tets[face];
+      const int lane = static_cast<int>(face % lanes), first = static_cast<int>(triangles.size());
+      triangles.push_back(
+          make_triangle(model, {f.node_a[0][lane], f.node_a[1][lane], f.node_a[2][lane]}, tets.tet_a));
+      triangles.push_back(
+          make_triangle(model, {f.node_b[0][lane], f.node_b[2][lane], f.node_b[1][lane]}, tets.tet_b));
+      for (int side = 0; side < 2; ++side) {
+        triangles[first + side].face = static_cast<int>(face);
+        triangles[first + side].mate = first + 1 - side;
+      }
+    }
+  }
+}
+
+// Convex edges between two outer triangles of a block, by the first of them.
+void add_edges(Model& model, int begin, int end) {
+  ContactSurface& s = model.surface;
+  struct Side {
+    int triangle, corner; // the edge runs from this corner to the next
+  };
+  std::map<std::pair<int, int>, std::vector<Side>> sides;
+  for (int t = begin; t < end; ++t)
+    for (int corner = 0; corner < 3; ++corner) {
+      const int a = s.original[s.triangles[t].nodes[corner]],
+                b = s.original[s.triangles[t].nodes[(corner + 1) % 3]];
+      sides[std::minmax(a, b)].push_back({t, corner});
+    }
+  std::vector<std::pair<ContactEdge, int>> found; // with its corner
+  for (const auto& [nodes, both] : sides) {
+    if (both.size() != 2)
+      continue; // where parts of the outside touch along an edge
+    const Side &one = both[0], &other = both[1];
+    const geom::Triangle &n = s.triangles[one.triangle].nodes, &m = s.triangles[other.triangle].nodes;
+    const geom::Vec3 u = area_vector(model, n).normalized(), v = area_vector(model, m).normalized();
+    const geom::Vec3 away =
+        model.node_position[m[(other.corner + 2) % 3]] - model.node_position[n[one.corner]];
+    if (away.dot(u) >= 0 || std::acos(std::clamp(u.dot(v), -1.0, 1.0)) < least_turn)
+      continue;
+    found.push_back({{{n[one.corner], n[(one.corner + 1) % 3]}, {one.triangle, other.triangle}}, one.corner});
+  }
+  std::sort(found.begin(), found.end(), [](const auto& a, const auto& b) {
+    return std::pair(a.first.triangles[0], a.second) < std::pair(b.first.triangles[0], b.second);
+  });
+  for (const auto& [edge, corner] : found)
+    s.edges.push_back(edge);
+}
+
+} // namespace
+
+void build_surface(Model& model) {
+  ContactSurface& s = model.surface;
+  s.triangles.clear();
+  s.edges.clear();
+  s.block_begin.clear();
+  const auto touches_itself = [&](int body) { return s.joint.count({body, body}) > 0; };
+  const auto meshed = std::count_if(model.blocks.begin(), model.blocks.end(),
+                                    [](const Block& block) { return block.meshed; });
+  if (meshed < 2 && s.joint.empty())
+    return;
+  s.original.assign(model.node_position.size(), -1);
+  for (std::size_t i = 0; i < model.mesh.original.size(); ++i)
+    s.original[static_cast<std::size_t>(model.mesh.first_node) + i] = model.mesh.original[i];
+  std::size_t next = 0;
+  s.block_begin.push_back(0);
+  for (int b = 0; b < static_cast<int>(model.blocks.size()); ++b) {
+    const int begin = static_cast<int>(s.triangles.size());
+    for (; next < model.mesh.boundary.size() && model.mesh.boundary[next].block == b; ++next)
+      s.triangles.push_back(
+          make_triangle(model, model.mesh.boundary[next].nodes, model.mesh.boundary[next].tet));
+    add_edges(model, begin, static_cast<int>(s.triangles.size()));
+    if (model.blocks[b].meshed && touches_itself(model.blocks[b].body))
+      add_inner_faces(model, b);
+    s.block_begin.push_back(static_cast<int>(s.triangles.size()));
+  }
+  int edge = 0;
+  for (int t = 0; t < static_cast<int>(s.triangles.size()); ++t) {
+    s.triangles[t].edge_begin = edge;
+    while (edge < static_cast<int>(s.edges.size()) && s.edges[edge].triangles[0] == t)
+      ++edge;
+    s.triangles[t].edge_end = edge;
+  }
+}
+
+ContactStiffness contact_stiffness(const Joint& joint, const ContactTriangle& a, const ContactTriangle& b) {
+  const double normal = joint.normal_stiffness.value_or(1 / (a.compliance + b.compliance));
+  return {normal, joint.shear_stiffness.value_or(normal)};
+}
+
+const Joint* contact_joint(const Model& model, int block_a, int block_b) {
+  const auto found =
+      model.surface.joint.find(std::minmax(model.blocks[block_a].body, model.blocks[block_b].body));
+  return found == model.surface.joint.end() ? nullptr : &model.joints[found->second];
+}
+
+} // namespace cdem

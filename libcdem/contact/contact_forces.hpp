@@ -1,0 +1,51 @@
+// Forces of semi-springs and semi-edges (Feng 2014 section 2.2), found by the nearest place of the target's surface.
+//
+// A semi-spring lies inside a piece when the triangle that holds the nearest place of its surface, of several the one
+// that faces it most, has it behind. Its depth d is the distance to that place and its normal points there: the force
+// is the gradient of kn d^2 / 2, and as it acts along the line of its two places it keeps the angular momentum. The
+// paper's face-by-face test finds the same wherever the nearest place lies within a face, and leaves gaps where two
+// faces meet in a re-entrant edge.
+//
+// A semi-edge acts on an edge of another piece where their common normal lies in the fans of outward normals of both
+// (Gauss map), and their nearest places within both. Near-parallel edges (sin < 0.05) are left to the semi-springs.
+// Both act side by side: switching the edges off where a spring of the same faces acts, as the paper does, throws
+// away what they store, and gives it back when the spring lets go.
+#pragma once
+
+#include "libcdem/contact/contact_law.hpp"
+#include "libcdem/step/workspace.hpp"
+
+namespace cdem {
+
+struct ContactSums {
+  double friction = 0; // J, this step
+  // The deepest, in parts of the depth at which a contact is not to be trusted (depth_limit).
+  double deepest = 0;
+  int deepest_source = -1, deepest_target = -1; // triangles
+};
+
+// Advances State::contacts and writes Workspace::contact for where the nodes are; searches when something has moved.
+// Nothing happens when nothing moved since the last call.
+ContactSums contact_forces(const Model&, State&, Workspace&, int threads);
+
+// The law of a contact.
+ContactLaw law_of(const Model&, const Contact&);
+
+// J, that contacts store `lag` seconds before now, at the velocities of now.
+double contact_energy(const Model&, const State&, double lag);
+
+// 1/s2: bound of the largest eigenvalue of all stiffness over mass that contacts take part in, as they are now;
+// row_sums: those of elements and bonds, N/m (n_nodes). 0 without contacts. Stable steps are below 2 / sqrt of it.
+double contact_frequency2(const Model&, const State&, const Workspace&, const std::vector<double>& row_sums);
+
+// The same before anything touches, for rigid bodies, if a fiftieth of their surface does: a step that lets no more than
+// a few contacts close at once. contact_frequency2 shortens it when more do.
+double rigid_frequency2(const Model&);
+
+// Adds to the row sums what contacts may at most add at the surface, when all of it is pressed by its like, N/m.
+void add_contact_row_sums(const Model&, std::vector<double>& row_sums);
+
+// The two blocks of a contact, its source's first.
+std::pair<int, int> blocks_of(const Model&, const Contact&);
+
+} // namespace cdem

@@ -1,0 +1,68 @@
+// Law of one contact (Feng 2014 eqs 15-18 with T = C = 0): pure functions.
+//
+//   Fn = kn (d - d0)+            d depth below the target's surface; d0 = 0, or the depth at which it was found
+//   Fs = R Fs - ks du_s          R turns it with the normal, and about it with the two faces; du_s slip of this step
+//   |Fs| <= Fn tan(phi)
+//
+// An overlap that is there before anything moved (d0 > 0) carries nothing: at the stiffness of concrete a tenth of a
+// millimetre would throw a unit into the air.
+#pragma once
+
+#include "libcdem/contact/contact.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace cdem {
+
+struct ContactLaw {
+  double kn = 0, ks = 0; // N/m
+  double tan_friction = 0;
+};
+
+// What has happened to a contact since it was last looked at.
+struct ContactMotion {
+  geom::Vec3 normal = geom::Vec3::Zero(); // unit, out of the target, now
+  double depth = 0;                       // m, now
+  geom::Vec3 slid = geom::Vec3::Zero();   // m, of the source past the target
+  double turned = 0;                      // rad, of the two faces about the normal
+};
+
+// A vector at right angles to the unit vector `from`, turned the shortest way to `to`.
+inline geom::Vec3 turned_with(const geom::Vec3& v, const geom::Vec3& from, const geom::Vec3& to) {
+  const double c = from.dot(to);
+  if (c < -0.5) // not a motion but another face
+    return v - v.dot(to) * to;
+  return v - v.dot(to) / (1 + c) * (from + to);
+}
+
+// Where a contact that is new starts to carry: at the surface when it got this deep within the step.
+inline double start_depth(const ContactMotion& m) {
+  return m.depth <= -1.5 * m.slid.dot(m.normal) ? 0 : m.depth;
+}
+
+// Advances the contact. Returns the energy that friction took, J >= 0: the trapezoidal rule over the step, less what
+// the spring stores more.
+inline double advance(Contact& c, const ContactLaw& law, const ContactMotion& m) {
+  geom::Vec3 shear = turned_with(c.shear, c.normal, m.normal);
+  shear += m.turned * m.normal.cross(shear);
+  shear -= law.ks * (m.slid - m.slid.dot(m.normal) * m.normal);
+  c.start = std::min(c.start, std::max(0.0, m.depth)); // it does not pull when it comes back from further out
+  c.normal = m.normal;
+  c.depth = m.depth;
+  c.normal_force = law.kn * std::max(0.0, m.depth - c.start);
+  const double before = c.shear.norm(), trial = shear.norm(), limit = c.normal_force * law.tan_friction;
+  c.shear = shear;
+  if (trial <= limit)
+    return 0;
+  c.shear *= limit / trial;
+  return law.ks > 0 ? 0.5 * (before + limit) * (trial - limit) / law.ks : 0;
+}
+
+// J, stored.
+inline double energy(double normal_force, double shear_force, const ContactLaw& law) {
+  return 0.5 * normal_force * normal_force / law.kn +
+         (law.ks > 0 ? 0.5 * shear_force * shear_force / law.ks : 0);
+}
+
+} // namespace cdem

@@ -1,0 +1,304 @@
+// Contact between meshed bodies: an incline, a drop, momentum, energy, bits.
+#include "libcdem/contact/contact_forces.hpp"
+#include "libcdem/results/energy.hpp"
+#include "libcdem/step/errors.hpp"
+#include "libgeom/core/error.hpp"
+#include "libgeom/mesh/box_mesh.hpp"
+#include "tests/libcdem/system.hpp"
+
+#include <catch2/catch.hpp>
+
+using namespace testing;
+using geom::Mat3;
+using geom::Vec3;
+
+namespace {
+
+geom::TetMesh placed(geom::TetMesh mesh, const Mat3& turn, const Vec3& shift) {
+  for (Vec3& x : mesh.nodes)
+    x = turn * x + shift;
+  return mesh;
+}
+
+// A box about the origin, then turned and moved.
+geom::TetMesh box_at(const Vec3& size, const std::array<int, 3>& divisions, const Mat3& turn,
+                     const Vec3& shift) {
+  return placed(placed(geom::box_mesh(size, divisions), Mat3::Identity(), -0.5 * size), turn, shift);
+}
+
+cdem::Joint friction(double angle) {
+  cdem::Joint joint;
+  joint.bonded = false;
+  joint.friction_angle = angle * degree;
+  return joint;
+}
+
+cdem::Selection body_of(const char* name) {
+  return cdem::Selection::of_body(name);
+}
+
+Vec3 centroid(const System& s, int block) {
+  Vec3 sum = Vec3::Zero();
+  double mass = 0;
+  for (int n = s.model.blocks[block].node_begin; n < s.model.blocks[block].node_end; ++n) {
+    sum += s.model.node_mass[n] * (s.model.node_position[n] + vec(s.state.displacement[n]));
+    mass += s.model.node_mass[n];
+  }
+  return sum / mass;
+}
+
+struct Momentum {
+  Vec3 linear = Vec3::Zero(), angular = Vec3::Zero();
+};
+
+// Where velocities stand.
+Momentum momentum(const System& s) {
+  Momentum m;
+  for (std::size_t i = 0; i < s.model.node_position.size(); ++i) {
+    const Vec3 v = vec(s.state.velocity[i]), p = s.model.node_mass[i] * v;
+    m.linear += p;
+    m.angular += (s.model.node_position[i] + vec(s.state.displacement[i])).cross(p);
+  }
+  return m;
+}
+
+// A flat block on a plate, both level; gravity is turned instead. The law is that of a rigid block: the contact's
+// period is 20 times the block's own.
+System block_on_plate(double size, double friction_angle, double slope) {
+  cdem::Joint law = friction(friction_angle);
+  const double own_period = 2 * size / std::sqrt(rock().youngs_modulus / rock().density);
+  // Both sides bring their springs.
+  law.normal_stiffness = rock().density * 0.3 * size * std::pow(2 * pi / (20 * own_period), 2);
+  System s(build(
+      {meshed("plate", box_at({3 * size, 2 * size, 0.4 * size}, {6, 4, 1}, Mat3::Identity(),
+                              {0.7 * size, 0, -0.2 * size})),
+       meshed("block", box_at({size, size, 0.3 * size}, {3, 3, 1}, Mat3::Identity(), {0, 0, 0.15 * size}))},
+      {{"plate", "block", law}}));
+  s.hold(body_of("plate"), "xyz");
+  cdem::Gravity gravity;
+  gravity.acceleration = 9.81 * Vec3(std::sin(slope * degree), 0, -std::cos(slope * degree));
+  s.conditions.gravity = gravity;
+  return s;
+}
+
+} // namespace
+
+TEST_CASE("contact: a block on an incline slides at g (sin a - tan(phi) cos a)", "[contact]") {
+  const double size = GENERATE(1.0, 0.1, 0.01);
+  System s = block_on_plate(size, 20, 35);
+  s.hold(body_of("block"), "x");
+  REQUIRE(s.relax(1e-8).converged); // pressed against the plate by its weight, then let go
+  s.conditions.fixes.pop_back();
+  const double a = 9.81 * (std::sin(35 * degree) - std::tan(20 * degree) * std::cos(35 * degree));
+  // As if it had come from rest over 2 % of its length.
+  const double before = std::sqrt(2 * a * 0.02 * size), x0 = centroid(s, 1).x();
+  for (std::size_t i = 0; i < s.state.velocity.size(); ++i)
+    if (s.model.node_block[i] == 1)
+      s.state.velocity[i] = node({before, 0, 0});
+  cdem::RunOptions options;
+  const double time = 3 * before / a;
+  options.duration = time;
+  s.run(options);
+  // Over edges of triangles on both sides.
+  CHECK(centroid(s, 1).x() - x0 == Approx(before * time + 0.5 * a * time * time).epsilon(0.005));
+}
+
+TEST_CASE("contact: a block on an incline sticks below the friction angle", "[contact]") {
+  const double size = GENERATE(1.0, 0.1, 0.01);
+  System s = block_on_plate(size, 20, 15);
+  REQUIRE(s.relax(1e-8).converged);
+  const double x1 = centroid(s, 1).x();
+  cdem::RunOptions options;
+  options.steps = 20000;
+  s.run(options);
+  CHECK(std::abs(centroid(s, 1).x() - x1) < 1e-6 * size);
+  CHECK(std::abs(centroid(s, 1).x()) < 1e-4 * size);
+}
+
+TEST_CASE("contact: dropped without damping, a body comes back to its height", "[contact]") {
+  // The contact's period is many times the body's own: nothing is left in vibration.
+  cdem::Joint joint = friction(30);
+  joint.normal_stiffness = 2e7;
+  const double height = 0.05;
+  System s(build({meshed("plate", box_at({3, 3, 0.4}, {2, 2, 1}, Mat3::Identity(), {0, 0, -0.2})),
+                  meshed("block", box_at({1, 1, 1}, {2, 2, 2}, Mat3::Identity(), {0, 0, 0.5 + height}))},
+                 {{"plate", "block", joint}}));
+  s.hold(body_of("plate"), "xyz");
+  cdem::Gravity gravity;
+  gravity.acceleration = {0, 0, -9.81};
+  s.conditions.gravity = gravity;
+  const double start = centroid(s, 1).z();
+  double highest = 0;
+  bool landed = false;
+  cdem::RunOptions options;
+  options.duration = 4.4 * std::sqrt(2 * height / 9.81);
+  options.callback_every = 20;
+  options.callback = [&] {
+    landed = landed || centroid(s, 1).z() < 0.5;
+    if (landed)
+      highest = std::max(highest, centroid(s, 1).z());
+  };
+  s.run(options);
+  REQUIRE(landed);
+  CHECK(highest - 0.5 == Approx(height).epsilon(0.005));
+  CHECK(start - 0.5 == Approx(height));
+  const cdem::EnergyLedger ledger = cdem::energy(s.model, s.state);
+  CHECK(std::abs(ledger.total() - ledger.external) < 1e-3 * ledger.external_peak);
+}
+
+TEST_CASE("contact: bodies that collide keep their momentum and angular momentum", "[contact]") {
+  const double phi = GENERATE(0.0, 40.0);
+  System s(
+      build({meshed("one", box_at({1, 0.8, 0.6}, {2, 2, 1}, rotation({1, 2, 3}, 0.4), {0, 0, 0})),
+             meshed("other", box_at({0.7, 0.7, 0.7}, {1, 2, 2}, rotation({3, -1, 1}, 1.1), {1.4, 0.3, 0.1}))},
+            {{"one", "other", friction(phi)}}));
+  cdem::RunOptions options;
+  options.steps = 1;
+  for (std::size_t i = 0; i < s.state.velocity.size(); ++i) {
+    const bool other = s.model.node_block[i] == 1;
+    s.state.velocity[i] =
+        node(other ? Vec3(-6, 0.5, -1) + Vec3(0, 3, 5).cross(s.model.node_position[i]) : Vec3(2, 1, 0));
+  }
+  const Momentum before = momentum(s);
+  std::size_t contacts = 0;
+  options.steps = 40000;
+  options.callback_every = 50;
+  options.callback = [&] { contacts = std::max(contacts, s.state.contacts.size()); };
+  s.run(options);
+  REQUIRE(contacts > 0);
+  REQUIRE(s.state.contacts.empty());
+  const Momentum after = momentum(s);
+  CHECK((after.linear - before.linear).norm() < 1e-12 * before.linear.norm());
+  CHECK((after.angular - before.angular).norm() < 1e-10 * before.angular.norm());
+  const cdem::EnergyLedger ledger = cdem::energy(s.model, s.state);
+  const double kinetic = [&] {
+    double sum = 0;
+    for (std::size_t i = 0; i < s.state.velocity.size(); ++i)
+      sum += 0.5 * s.model.node_mass[i] * vec(s.state.velocity[i]).squaredNorm();
+    return sum;
+  }();
+  CHECK(kinetic > 0);
+  INFO("elastic " << ledger.elastic << " kinetic " << ledger.kinetic << " friction " << ledger.friction);
+  CHECK(ledger.friction >= 0);
+  if (phi == 0)
+    CHECK(ledger.friction < 1e-3 * ledger.kinetic);
+}
+
+TEST_CASE("contact: crossed edges stop each other", "[contact][edges]") {
+  // Two bars, each on one of its edges, crossed: no corner of one comes near a face of the other.
+  const Mat3 on_edge = rotation({1, 0, 0}, 45 * degree);
+  const double half = std::sqrt(0.5) * 0.4;
+  System s(build({meshed("lower", box_at({3, 0.4, 0.4}, {4, 1, 1}, on_edge, {0, 0, 0})),
+                  meshed("upper", box_at({3, 0.4, 0.4}, {4, 1, 1}, rotation({0, 0, 1}, 75 * degree) * on_edge,
+                                         {0.21, 0.17, 2 * half + 0.01}))},
+                 {{"lower", "upper", friction(0)}}));
+  s.hold(body_of("lower"), "xyz");
+  for (std::size_t i = 0; i < s.state.velocity.size(); ++i)
+    if (s.model.node_block[i] == 1)
+      s.state.velocity[i] = node({0, 0, -1});
+  double lowest = 10;
+  bool edges = false;
+  cdem::RunOptions options;
+  options.duration = 0.03;
+  options.callback_every = 10;
+  options.callback = [&] {
+    lowest = std::min(lowest, centroid(s, 1).z());
+    for (const cdem::Contact& c : s.state.contacts)
+      edges = edges || c.kind == cdem::Contact::edge;
+  };
+  s.run(options);
+  CHECK(edges);
+  CHECK(lowest > 2 * half - 0.01);
+  CHECK(centroid(s, 1).z() > lowest + 1e-4);
+}
+
+TEST_CASE("contact: the same bits for every number of threads", "[contact]") {
+  const auto hash_with = [](int threads) {
+    std::vector<geom::TetMesh> units;
+    for (int i = 0; i < 4; ++i)
+      units.push_back(box_at({0.5, 0.4, 0.3}, {2, 2, 2}, rotation({1, 1.0 + i, 0.5}, 0.7 * i),
+                             {0.2 * i, 0.1 * i, 0.5 + 0.7 * i}));
+    cdem::Elastic soft = rock();
+    soft.youngs_modulus = 3e8;
+    cdem::BodySpec bodies = meshed("units", units[0], {}, soft);
+    bodies.meshes = units;
+    System s(build(
+        {meshed("floor", box_at({6, 6, 0.4}, {6, 6, 1}, Mat3::Identity(), {0, 0, -0.2}), {}, soft), bodies},
+        {{"floor", "units", friction(35)}, {"units", "units", friction(35)}}));
+    s.threads = threads;
+    s.hold(body_of("floor"), "xyz");
+    cdem::Gravity gravity;
+    gravity.acceleration = {0, 0, -9.81};
+    s.conditions.gravity = gravity;
+    for (cdem::Node& v : s.state.velocity)
+      v.z = -2;
+    cdem::RunOptions options;
+    options.steps = 4000;
+    options.callback_every = 100;
+    bool touched = false;
+    options.callback = [&] { touched = touched || !s.state.contacts.empty(); };
+    s.run(options);
+    CHECK(touched);
+    return cdem::hash(s.state);
+  };
+  const auto once = hash_with(1);
+  CHECK(hash_with(2) == once);
+  CHECK(hash_with(4) == once);
+}
+
+TEST_CASE("contact: bodies without a law that meet end the run", "[contact][errors]") {
+  System s(build({meshed("floor", box_at({2, 2, 0.4}, {2, 2, 1}, Mat3::Identity(), {0, 0, -0.2})),
+                  meshed("unit", box_at({0.5, 0.5, 0.5}, {1, 1, 1}, Mat3::Identity(), {0, 0, 0.5}))}));
+  s.hold(body_of("floor"), "xyz");
+  for (cdem::Node& v : s.state.velocity)
+    v.z = -3;
+  cdem::RunOptions options;
+  options.duration = 0.5;
+  CHECK_THROWS_WITH(s.run(options), Catch::Contains("\"floor\" and \"unit\" meet") &&
+                                        Catch::Contains("{\"floor\", \"unit\", cdem.coulomb{"));
+}
+
+TEST_CASE("contact: bodies that stand in each other are refused", "[contact][errors]") {
+  const auto model_with = [](const Vec3& place, double size) {
+    return build({meshed("floor", box_at({2, 2, 0.4}, {2, 2, 1}, Mat3::Identity(), {0, 0, -0.2})),
+                  meshed("unit", box_at({size, size, size}, {1, 1, 1}, Mat3::Identity(), place))},
+                 {{"floor", "unit", friction(30)}});
+  };
+  CHECK_NOTHROW(model_with({0, 0, 0.25}, 0.5)); // it stands on it
+  CHECK_THROWS_WITH(model_with({0, 0, 0.2}, 0.5),
+                    Catch::Contains("\"floor\" and \"unit\" stand in each other"));
+  CHECK_THROWS_WITH(model_with({0.1, 0.1, -0.2}, 0.1),
+                    Catch::Contains("\"floor\" and \"unit\" stand in each other")); // swallowed
+}
+
+TEST_CASE("contact: a contact that gets too deep ends the run", "[contact][errors]") {
+  cdem::Joint soft = friction(30);
+  soft.normal_stiffness = 1e6;
+  System s(build({meshed("floor", box_at({2, 2, 0.4}, {2, 2, 1}, Mat3::Identity(), {0, 0, -0.2})),
+                  meshed("unit", box_at({0.5, 0.5, 0.5}, {1, 1, 1}, Mat3::Identity(), {0, 0, 0.3}))},
+                 {{"floor", "unit", soft}}));
+  s.hold(body_of("floor"), "xyz");
+  for (std::size_t i = 0; i < s.state.velocity.size(); ++i)
+    if (s.model.node_block[i] == 1)
+      s.state.velocity[i] = node({0, 0, -20});
+  cdem::RunOptions options;
+  options.duration = 0.1;
+  CHECK_THROWS_WITH(s.run(options), Catch::Contains("too deep into"));
+}
+
+TEST_CASE("contact: a place that is not a number ends the run with its name", "[contact][errors]") {
+  System s(build({meshed("floor", box_at({2, 2, 0.4}, {2, 2, 1}, Mat3::Identity(), {0, 0, -0.2})),
+                  meshed("unit", box_at({0.5, 0.5, 0.5}, {1, 1, 1}, Mat3::Identity(), {0, 0, 0.26}))},
+                 {{"floor", "unit", friction(30)}}));
+  s.hold(body_of("floor"), "xyz");
+  cdem::RunOptions options;
+  options.steps = 6000;
+  options.callback_every = 3000;
+  bool injected = false;
+  options.callback = [&] {
+    if (!injected)
+      s.state.displacement.back().y = std::numeric_limits<double>::quiet_NaN();
+    injected = true;
+  };
+  CHECK_THROWS_WITH(s.run(options), Catch::Contains("not a number in block") && Catch::Contains("\"unit\""));
+}
