@@ -12,8 +12,8 @@
 namespace cdem {
 namespace {
 
-// Semi-springs stand in from their corners by this part of the way to the middle of the opposite side.
-constexpr double drawn_in = 0.03;
+// Semi-springs stand in from their corners by this part of the way to each of the two others.
+constexpr double drawn_in = 0.01;
 // Two edges whose directions enclose an angle with a smaller sine are parallel.
 constexpr double parallel = 0.05;
 // Edges deeper than this many times the shallow depth have slid past each other's ends.

@@ -25,6 +25,8 @@ static_assert(watch_every % flow_every == 0, "a stage that goes on looks anew wh
 constexpr double seconds_between_reports = 0.1;
 // Chunks a thread must have before a further one is worth its two barriers a step: about half a millisecond of work.
 constexpr std::int64_t chunks_per_thread = 32;
+// The same where contacts are looked for, which is most of the work of a pile.
+constexpr std::int64_t touching_chunks_per_thread = 6;
 
 double seconds(std::chrono::steady_clock::duration d) {
   return std::chrono::duration<double>(d).count();
@@ -41,7 +43,8 @@ std::string where(const Model& model, int node) {
 
 int useful_threads(const Model& model, int threads) {
   const auto chunks = static_cast<std::int64_t>(model.chunks.size());
-  return static_cast<int>(std::clamp<std::int64_t>(chunks / chunks_per_thread, 1, threads));
+  const std::int64_t each = model.surface.empty() ? chunks_per_thread : touching_chunks_per_thread;
+  return static_cast<int>(std::clamp<std::int64_t>(chunks / each, 1, threads));
 }
 
 double relative_residual(const NodeSums& sums) {
