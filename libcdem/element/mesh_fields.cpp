@@ -126,12 +126,11 @@ double mesh_spring_energy(const Model& model, const State& state) {
   const std::vector<Node> position = present_places(model, state);
   double energy = 0;
   each_face_spring(model.mesh, [&](const MeshChunk& chunk, const FaceSpringPlace& at) {
-    const Block& block = model.blocks[chunk.block];
-    const FaceStateBatch& faces = state.faces[at.batch];
-    energy += face_spring(model.mesh.faces[at.batch], at.point, at.lane, position.data(),
-                          state.displacement.data(), face_law(model.bodies[block.body]),
-                          block.rigid < 0 ? faces : turned(rotation(state.rigid[block.rigid]), faces))
-                  .energy;
+    const Body& body = model.bodies[model.blocks[chunk.block].body];
+    energy +=
+        face_spring(model.mesh.faces[at.batch], at.point, at.lane, position.data(), state.displacement.data(),
+                    face_law(body), state.faces[at.batch], slip_of(state, at.batch, at.lane))
+            .energy;
   });
   return energy;
 }

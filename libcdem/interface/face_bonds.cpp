@@ -1,9 +1,6 @@
-#include "libcdem/interface/face_bonds.hpp"
-
-#include "libcdem/parallel/simd.hpp"
+#include "libcdem/interface/broken_faces.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <cstddef>
 
 namespace cdem {
@@ -76,94 +73,6 @@ CDEM_INLINE bool near_strength(const FaceBatch& batch, const Points& p, const Fa
   return any(near);
 }
 
-struct Response {
-  geom::Vec3 force = geom::Vec3::Zero(); // N, on side a
-  double energy = 0;                     // J
-};
-
-Response stretched(double kn, double ks, const geom::Vec3& normal, double open, const geom::Vec3& shear) {
-  return {kn * open * normal + ks * shear, 0.5 * (kn * open * open + ks * shear.squaredNorm())};
-}
-
-// The contact a broken spring is. slip: turned into the face's plane, and moved on where it slides; the energy that
-// sliding takes is added to `friction`.
-Response contact(double kn, double ks, double tan_friction, const geom::Vec3& normal, const geom::Vec3& gap,
-                 geom::Vec3& slip, double& friction) {
-  const double open = gap.dot(normal);
-  const geom::Vec3 tangential = gap - open * normal;
-  if (open > 0) {
-    slip = tangential;
-    return {};
-  }
-  slip -= slip.dot(normal) * normal;
-  geom::Vec3 shear = tangential - slip;
-  const double trial = ks * shear.norm(), limit = -kn * open * tan_friction;
-  if (trial > limit) {
-    const double scale = limit / trial;
-    slip += (1 - scale) * shear;
-    friction += limit * (1 - scale) * shear.norm();
-    shear *= scale;
-  }
-  return stretched(kn, ks, normal, open, shear);
-}
-
-geom::Vec3 lane_of(const Vec& v, int lane) {
-  return {v.x[lane], v.y[lane], v.z[lane]};
-}
-
-void set_lane(Vec& v, int lane, const geom::Vec3& value) {
-  v.x[lane] = value.x();
-  v.y[lane] = value.y();
-  v.z[lane] = value.z();
-}
-
-BondMode due(const FaceLaw& law, double area, double normal_force, double shear_force) {
-  if (normal_force > law.tensile_strength * area)
-    return BondMode::broken_tension;
-  if (shear_force > std::max(0.0, law.cohesion * area - normal_force * law.tan_friction))
-    return BondMode::broken_shear;
-  return BondMode::intact;
-}
-
-// The springs of a batch some of which are broken or may break now, one by one: replaces their force on side a.
-__attribute__((noinline)) void one_by_one(const FaceBatch& batch, int faces, const Points& p,
-                                          const FaceLaw& law, bool breaking, std::int64_t first_spring,
-                                          FaceStateBatch& state, Vec (&force)[3], FaceSums& sums) {
-  for (int point = 0; point < 3; ++point)
-    for (int lane = 0; lane < faces; ++lane) {
-      const geom::Vec3 gap = lane_of(p.gap[point], lane), normal = lane_of(p.normal, lane).normalized();
-      const double kn = batch.kn[lane], ks = law.shear_ratio * kn, area = batch.area[lane];
-      std::uint8_t& mode = state.mode[point][lane];
-      const bool was_intact = mode == static_cast<std::uint8_t>(BondMode::intact);
-      double before = 0;
-      if (was_intact) {
-        if (!breaking)
-          continue;
-        const double open = gap.dot(normal);
-        const geom::Vec3 shear = gap - open * normal;
-        const BondMode now = due(law, area, kn * open, ks * shear.norm());
-        if (now == BondMode::intact)
-          continue;
-        mode = static_cast<std::uint8_t>(now);
-        for (double(&axis)[lanes] : state.slip[point])
-          axis[lane] = 0;
-        before = stretched(kn, ks, normal, open, shear).energy;
-        sums.broken.push_back(
-            {first_spring + point * lanes + lane, now, normal, kn * open / area, ks * shear.norm() / area});
-      }
-      geom::Vec3 slip(state.slip[point][0][lane], state.slip[point][1][lane], state.slip[point][2][lane]);
-      double slid = 0;
-      const Response r = contact(kn, ks, law.tan_friction, normal, gap, slip, slid);
-      if (was_intact)
-        sums.breaking += before - r.energy;
-      else
-        sums.friction += slid;
-      for (int axis = 0; axis < 3; ++axis)
-        state.slip[point][axis][lane] = slip[axis];
-      set_lane(force[point], lane, r.force);
-    }
-}
-
 } // namespace
 
 // Batches by which reading runs ahead.
@@ -171,12 +80,13 @@ constexpr int ahead = 3;
 
 // The kernel is compiled for several instruction sets; everything it calls on the way of intact bonds is inlined.
 CDEM_KERNEL void face_bond_forces(const FaceBatch* batches, std::int64_t count, int faces,
-                                  const Node* position, const Node* displacement, const FaceLaw& law,
-                                  bool breaking, FaceStateBatch* state, Node* total, FaceSums& sums) {
+                                  const FaceMotion& motion, const FaceLaw& law, bool breaking,
+                                  FaceStateBatch* state, FaceSlip* slips, Node* total, FaceSums& sums) {
+  const Node *const position = motion.position, *const displacement = motion.displacement;
   for (std::int64_t i = 0; i < count; ++i) {
     const FaceBatch& batch = batches[i];
     simd::prefetch(batches + i + ahead, offsetof(FaceBatch, node_a));
-    simd::prefetch(state[i + ahead].mode, sizeof state->mode);
+    simd::prefetch(state + i + ahead, sizeof *state);
     const Points p = points_of(batch.place_a, batch.place_b, position, displacement);
     const Oct kn = simd::load(batch.kn), ks = law.shear_ratio * kn;
     const Oct difference = (kn - ks) / dot(p.normal, p.normal);
@@ -185,10 +95,10 @@ CDEM_KERNEL void face_bond_forces(const FaceBatch* batches, std::int64_t count, 
       force[point] =
           plus(scaled(ks, p.gap[point]), scaled(difference * dot(p.gap[point], p.normal), p.normal));
     if (!all_intact(state[i]) || (breaking && near_strength(batch, p, law))) {
-      const Points copy = p; // what is handed on by reference does not stay in registers
+      // What is handed on by reference does not stay in registers.
       Vec changed[3] = {force[0], force[1], force[2]};
-      one_by_one(batch, static_cast<int>(std::min<std::int64_t>(lanes, faces - i * lanes)), copy, law,
-                 breaking, i * 3 * lanes, state[i], changed, sums);
+      one_by_one(batch, static_cast<int>(std::min<std::int64_t>(lanes, faces - i * lanes)), motion, law,
+                 breaking, i * 3 * lanes, state[i], slips, changed, sums);
       for (int point = 0; point < 3; ++point)
         force[point] = changed[point];
     }
@@ -200,27 +110,6 @@ CDEM_KERNEL void face_bond_forces(const FaceBatch* batches, std::int64_t count, 
       simd::scatter_add(total, batch.place_b[corner], Vec{-f.x, -f.y, -f.z});
     }
   }
-}
-
-FaceSpring face_spring(const FaceBatch& batch, int point, int lane, const Node* position,
-                       const Node* displacement, const FaceLaw& law, const FaceStateBatch& state) {
-  const Points p = points_of(batch.node_a, batch.node_b, position, displacement);
-  FaceSpring spring;
-  spring.gap = lane_of(p.gap[point], lane);
-  spring.normal = lane_of(p.normal, lane).normalized();
-  const double kn = batch.kn[lane], ks = law.shear_ratio * kn;
-  Response r;
-  if (state.mode[point][lane] == static_cast<std::uint8_t>(BondMode::intact)) {
-    const double open = spring.gap.dot(spring.normal);
-    r = stretched(kn, ks, spring.normal, open, spring.gap - open * spring.normal);
-  } else {
-    geom::Vec3 slip(state.slip[point][0][lane], state.slip[point][1][lane], state.slip[point][2][lane]);
-    double slid = 0;
-    r = contact(kn, ks, law.tan_friction, spring.normal, spring.gap, slip, slid);
-  }
-  spring.force = r.force;
-  spring.energy = r.energy;
-  return spring;
 }
 
 } // namespace cdem

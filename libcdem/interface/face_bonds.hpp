@@ -5,7 +5,10 @@
 //   bonded:  F = Ks g + (Kn - Ks) (g . n) n,  breaks when  Fn > T A/3  (tension) or  Fs > C A/3 - Fn tan(phi)
 //   broken:  the contact it would always have been: no tension, Fs <= -Fn tan(phi), slip turns with the face
 // n: mean of the two sides' area vectors, made a unit vector. With Ks = Kn the force lies along the gap and keeps the
-// angular momentum.
+// angular momentum. Slip is kept along the face's own axes: its first edge, the mean of both sides, and across.
+//
+// The contact is one of two planes without end, which holds while the sides stay before each other. A face that has
+// broken and then parted or slid away is handed over to the contact of the surface where there is one for its body.
 #pragma once
 
 #include "libcdem/model/mesh.hpp"
@@ -20,39 +23,57 @@ struct FaceLaw {
   double tensile_strength = 0; // T, Pa
   double cohesion = 0;         // C, Pa
   double tan_friction = 0;
+  bool hands_over = false; // broken faces that part or slide away go to the contact of the surface
 };
 
 // Of the three springs of eight faces; a spring's place in the whole is (batch * 3 + point) * lanes + lane.
-struct FaceStateBatch {
-  double slip[3][3][lanes];    // m, tangential gap at which a broken spring carries no shear: point, axis
-  std::uint8_t mode[3][lanes]; // BondMode
+struct alignas(64) FaceStateBatch {
+  std::uint8_t mode[3][lanes];     // BondMode
+  std::uint8_t handed_over[lanes]; // 1: the springs carry nothing any more
+  std::int32_t slip[lanes];        // index into State::face_slip; -1: no spring of the face is broken
 };
 
 // Its sides have parted since it broke: what meets there is found by search (contact/).
-inline bool handed_over(const FaceStateBatch&, int) {
-  return false;
+inline bool handed_over(const FaceStateBatch& state, int lane) {
+  return state.handed_over[lane] != 0;
 }
+
+// m, tangential gap at which the broken springs of a face carry no shear: point; along its first edge, across.
+struct FaceSlip {
+  double value[3][2] = {};
+};
 
 struct FaceBreak {
   std::int64_t spring = 0; // place as above, of the range's first batch on
   BondMode mode = BondMode::intact;
   geom::Vec3 normal = geom::Vec3::Zero();
   double normal_traction = 0, shear_traction = 0; // Pa, at breaking
+  double slip[2] = {};                            // m, as in FaceSlip, right after
 };
 
 struct FaceSums {
   double friction = 0; // J, this step
   double breaking = 0; // J, this step
   std::vector<FaceBreak> broken;
+  // A face, batch * lanes + lane from the range's first batch on, that is closed and has slid further than it is long;
+  // -1: none. Only where nothing takes it over.
+  std::int64_t astray = -1;
 };
 
-// Adds the forces of `faces` faces in `count` batches to `force`; breaking: springs may break. position, displacement
-// (m), force: one entry for each place of the chunk.
-void face_bond_forces(const FaceBatch*, std::int64_t count, int faces, const Node* position,
-                      const Node* displacement, const FaceLaw&, bool breaking, FaceStateBatch*, Node* force,
-                      FaceSums&);
+// What the nodes of a chunk do, one entry for each of its places.
+struct FaceMotion {
+  const Node* position;     // m
+  const Node* displacement; // m
+  const Node* velocity;     // m/s, over the last `step` seconds
+  double step;
+};
 
-// Of one spring; position, displacement: m (n_nodes).
+// Adds the forces of `faces` faces in `count` batches to `force` (N, per place); breaking: springs may break. The slip
+// of a face whose first spring breaks is only in FaceSums::broken: its owner makes room for it after the step.
+void face_bond_forces(const FaceBatch*, std::int64_t count, int faces, const FaceMotion&, const FaceLaw&,
+                      bool breaking, FaceStateBatch*, FaceSlip*, Node* force, FaceSums&);
+
+// Of one spring; position, displacement: m (n_nodes). slip: of the state's face, may be null.
 struct FaceSpring {
   geom::Vec3 gap = geom::Vec3::Zero();    // m, from a to b
   geom::Vec3 normal = geom::Vec3::Zero(); // unit, from a to b
@@ -60,6 +81,10 @@ struct FaceSpring {
   double energy = 0;                      // J
 };
 FaceSpring face_spring(const FaceBatch&, int point, int lane, const Node* position, const Node* displacement,
-                       const FaceLaw&, const FaceStateBatch&);
+                       const FaceLaw&, const FaceStateBatch&, const FaceSlip*);
+
+// Lets a spring that has just become a contact slide to where friction holds it.
+void settle(const FaceBatch&, int point, int lane, const Node* position, const Node* displacement,
+            const FaceLaw&, FaceSlip&);
 
 } // namespace cdem

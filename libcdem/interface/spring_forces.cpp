@@ -157,6 +157,15 @@ geom::Vec3 traction(const Model& model, const State& state, int p) {
   return interface.kn * open * point.normal + interface.ks * (stretch - open * point.normal);
 }
 
+void settle(const Model& model, State& state, int p) {
+  const BondPoint& point = model.points[p];
+  const Interface& interface = model.interfaces[point.interface];
+  state.bond_offset[p] =
+      contact_response(interface.kn, interface.ks, std::tan(model.joints[interface.joint].friction_angle),
+                       point.normal, jump(point, state.displacement), state.bond_offset[p])
+          .offset;
+}
+
 double spring_energy(const Model& model, const State& state) {
   double energy = 0;
   for (int p = 0; p < static_cast<int>(model.points.size()); ++p) {

@@ -20,6 +20,9 @@ geom::Vec3 jump(const BondPoint&, const std::vector<Node>& displacement);
 // Traction that a spring carries at the present state, Pa: positive normal part is tension.
 geom::Vec3 traction(const Model&, const State&, int point);
 
+// Lets a spring that has just become a contact slide to where friction holds it.
+void settle(const Model&, State&, int point);
+
 // Stored energy of all springs, J.
 double spring_energy(const Model&, const State&);
 

@@ -223,8 +223,9 @@ void add_face_springs(const Model& model, const State& state, BondFields& fields
   each_face_spring(model.mesh, [&](const MeshChunk& chunk, const FaceSpringPlace& at) {
     const FaceBatch& batch = model.mesh.faces[at.batch];
     const FaceLaw law = face_law(model.bodies[model.blocks[chunk.block].body]);
-    const FaceSpring spring = face_spring(batch, at.point, at.lane, position.data(),
-                                          state.displacement.data(), law, state.faces[at.batch]);
+    const FaceSpring spring =
+        face_spring(batch, at.point, at.lane, position.data(), state.displacement.data(), law,
+                    state.faces[at.batch], slip_of(state, at.batch, at.lane));
     geom::Vec3 moved = geom::Vec3::Zero();
     for (int k = 0; k < 3; ++k) {
       const Node &a = state.displacement[batch.node_a[k][at.lane]],

@@ -40,7 +40,7 @@ RigidState motion_of(const Model& model, const State& state, const RigidShape& s
   return motion;
 }
 
-// What stood in the old directions is turned to the present ones.
+// What stood in the old directions is turned to the present ones; the slip of broken faces turns with them by itself.
 void turn_stress(const Model& model, State& state, int block, const geom::Mat3& rotation) {
   for (const MeshChunk& chunk : model.mesh.chunks) {
     if (chunk.block != block)
@@ -55,8 +55,6 @@ void turn_stress(const Model& model, State& state, int block, const geom::Mat3& 
       for (int c = 0; c < 6; ++c)
         batch.component[c][slot % lanes] = stress[c];
     }
-    for (std::int64_t f = chunk.face_batches.begin; f < chunk.face_batches.end; ++f)
-      state.faces[f] = turned(rotation, state.faces[f]);
   }
 }
 
@@ -89,17 +87,6 @@ void replace(Model& model, State& state, std::vector<Rigid>&& all) {
 Stress turned(const geom::Mat3& rotation, const Stress& stress) {
   const geom::Mat3 s = rotation * matrix(stress) * rotation.transpose();
   return {s(0, 0), s(1, 1), s(2, 2), s(0, 1), s(1, 2), s(0, 2)};
-}
-
-FaceStateBatch turned(const geom::Mat3& rotation, const FaceStateBatch& faces) {
-  FaceStateBatch now = faces;
-  for (auto& slip : now.slip)
-    for (int lane = 0; lane < lanes; ++lane) {
-      const geom::Vec3 s = rotation * geom::Vec3(slip[0][lane], slip[1][lane], slip[2][lane]);
-      for (int axis = 0; axis < 3; ++axis)
-        slip[axis][lane] = s[axis];
-    }
-  return now;
 }
 
 void place_nodes(const Model& model, State& state, int rigid) {

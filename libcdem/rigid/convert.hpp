@@ -23,6 +23,5 @@ void place_nodes(const Model&, State&, int rigid);
 
 // Of a rigid body: what stands in the directions it was made rigid in, as it stands now.
 Stress turned(const geom::Mat3& rotation, const Stress&);
-FaceStateBatch turned(const geom::Mat3& rotation, const FaceStateBatch&);
 
 } // namespace cdem

@@ -6,6 +6,20 @@
 
 namespace cdem {
 
+FaceSlip& slip_of(State& state, std::int64_t batch, int lane) {
+  std::int32_t& index = state.faces[batch].slip[lane];
+  if (index < 0) {
+    index = static_cast<std::int32_t>(state.face_slip.size());
+    state.face_slip.emplace_back();
+  }
+  return state.face_slip[index];
+}
+
+const FaceSlip* slip_of(const State& state, std::int64_t batch, int lane) {
+  const std::int32_t index = state.faces[batch].slip[lane];
+  return index < 0 ? nullptr : &state.face_slip[index];
+}
+
 State initial_state(const Model& model) {
   State state;
   state.displacement.resize(model.node_position.size());
@@ -22,12 +36,15 @@ State initial_state(const Model& model) {
   state.bond_slip.assign(softens ? model.points.size() : 0, geom::Vec3::Zero());
   state.initial_stress.assign(model.blocks.size(), Stress{});
   state.stress.assign(model.mesh.batches.size(), StressBatch{});
-  state.faces.assign(model.mesh.faces.size(), FaceStateBatch{});
-  for (const MeshChunk& chunk : model.mesh.chunks)
-    if (!model.bodies[model.blocks[chunk.block].body].joint.bonded)
-      for (std::int64_t f = chunk.face_batches.begin; f < chunk.face_batches.end; ++f)
-        for (auto& point : state.faces[f].mode)
-          std::fill(std::begin(point), std::end(point), static_cast<std::uint8_t>(BondMode::contact));
+  FaceStateBatch whole{};
+  std::fill(std::begin(whole.slip), std::end(whole.slip), -1);
+  state.faces.assign(model.mesh.faces.size(), whole);
+  each_face_spring(model.mesh, [&](const MeshChunk& chunk, const FaceSpringPlace& at) {
+    if (model.bodies[model.blocks[chunk.block].body].joint.bonded)
+      return;
+    state.faces[at.batch].mode[at.point][at.lane] = static_cast<std::uint8_t>(BondMode::contact);
+    slip_of(state, at.batch, at.lane);
+  });
   add_rigid_states(model, state);
   return state;
 }
@@ -54,7 +71,8 @@ std::vector<StateField> fields(State& s) {
       field("bond_slip", "m", FieldPlace::bond, "spring_forces", s.bond_slip, true),
       field("initial_stress", "Pa", FieldPlace::block, "initial_stress", s.initial_stress, true),
       field("stress", "Pa", FieldPlace::tet, "mesh_forces", s.stress, true),
-      field("faces", "m", FieldPlace::bond, "mesh_forces", s.faces, false),
+      field("faces", "1", FieldPlace::bond, "mesh_forces", s.faces, false),
+      field("face_slip", "m", FieldPlace::bond, "mesh_forces", s.face_slip, true),
       field("contacts", "N", FieldPlace::contact, "contact_forces", s.contacts, false),
       field("rigid", "m", FieldPlace::block, "move_rigid", s.rigid, true),
       field("rigid_offset", "m", FieldPlace::node, "set_rigid", s.rigid_offset, true),

@@ -31,6 +31,7 @@ struct State {
   // Of meshed bodies.
   std::vector<StressBatch> stress;   // Pa (n mesh batches); written by mesh_forces
   std::vector<FaceStateBatch> faces; // (n face batches); written by mesh_forces
+  std::vector<FaceSlip> face_slip; // m, of the faces with a broken spring, in the order they broke; likewise
 
   std::vector<Contact> contacts; // those that act, by kind, source and piece; written by contact_forces
   std::vector<RigidState> rigid; // (n rigid bodies); written by move_rigid
@@ -40,6 +41,10 @@ struct State {
 
   EnergyLedger spent; // J, the summed entries only (damping, friction, ... external); the stored ones stay 0
 };
+
+// The slip of a face's broken springs; zero slip is made room for when there is none yet.
+FaceSlip& slip_of(State&, std::int64_t batch, int lane);
+const FaceSlip* slip_of(const State&, std::int64_t batch, int lane); // null when there is none
 
 // A State at rest for the model: no displacement, contacts where the joint is not bonded.
 State initial_state(const Model&);

@@ -174,6 +174,7 @@ CriticalFlowResult critical_flow(const StageContext& context, const CriticalFlow
   stepping.steps = std::numeric_limits<std::int64_t>::max();
   stepping.safety = options.safety;
   stepping.local_damping = options.local_damping;
+  stepping.follows_pieces = false; // crumbs may go where they like until it ends
   stepping.callback_every = steps_per_look;
   stepping.callback = look;
   stepping.stop = [&] { return ended; };

@@ -49,10 +49,17 @@ const Node* mesh_forces(const Model& model, State& state, Workspace& work, std::
   FaceSums& sums = work.face_sums[index];
   sums.friction = sums.breaking = 0;
   sums.broken.clear();
-  if (chunk.faces > 0)
+  sums.astray = -1;
+  if (chunk.faces > 0) {
+    const FaceMotion motion{near.position.data(), near.displacement.data(), near.velocity.data(),
+                            work.strain_step};
+    const int number = model.blocks[chunk.block].body;
+    FaceLaw law = face_law(body);
+    law.hands_over = model.surface.joint.count({number, number}) > 0;
     face_bond_forces(model.mesh.faces.data() + chunk.face_batches.begin, chunk.face_batches.size(),
-                     chunk.faces, near.position.data(), near.displacement.data(), face_law(body), breaking,
-                     state.faces.data() + chunk.face_batches.begin, near.force.data(), sums);
+                     chunk.faces, motion, law, breaking, state.faces.data() + chunk.face_batches.begin,
+                     state.face_slip.data(), near.force.data(), sums);
+  }
   std::copy(near.force.begin() + (chunk.inner_end - chunk.nodes.begin), near.force.begin() + chunk.places(),
             work.partial.begin() + chunk.partial.begin);
   return near.force.data();

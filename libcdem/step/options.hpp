@@ -31,6 +31,8 @@ struct RunOptions {
   double safety = 0.9;  // time step over the stable one, in (0, 1]
   double time_step = 0; // s; 0 = safety x stable; refused above the stable one
   bool breaking = true;
+  bool follows_pieces =
+      true; // ends with a SolutionError where broken faces no longer stand for the pieces' contact
   // Cundall's: force against the motion, as a fraction of the out-of-balance force, [0, 1)
   double local_damping = 0;
   std::int64_t callback_every = 0;

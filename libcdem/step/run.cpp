@@ -138,6 +138,7 @@ RunResult run(const StageContext& context, const RunOptions& options, const std:
   const Moment* const from = context.from;
   Stepping stepping{choose_time_step(context.model, options), 0, options.local_damping};
   Stage stage(context, kind, run_away_lengths * context.model.length);
+  stage.follows_pieces = options.follows_pieces;
   const std::vector<double> viscous = viscous_forces(context.model);
   Stage::StepReport report;
   Clock clock(state.time, stepping.time_step, options);

@@ -151,8 +151,10 @@ void Stage::catch_up() {
     });
   // Broken faces slide to where the nodes are too; the next step finds nothing left to do.
   if (work.strain_step > 0)
-    for (const FaceSums& sums : work.face_sums)
+    for (const FaceSums& sums : work.face_sums) {
       context_.state.spent.friction += sums.friction;
+      context_.state.spent.breaking += sums.breaking;
+    }
   work.strain_step = 0;
 }
 
@@ -231,10 +233,30 @@ void Stage::record_face_breaks() {
       row.normal_traction = broken.normal_traction;
       row.shear_traction = broken.shear_traction;
       row.block_a = row.block_b = model.blocks[chunk.block].id;
+      std::copy(std::begin(broken.slip), std::end(broken.slip),
+                slip_of(context_.state, at.batch, at.lane).value[at.point]);
       context_.log.breaks.push_back(row);
       ++(broken.mode == BondMode::broken_tension ? context_.log.broken_tension : context_.log.broken_shear);
       ++broken_in_step_;
     }
+  }
+}
+
+void Stage::watch_astray() const {
+  const Model& model = context_.model;
+  for (std::size_t c = 0; c < work.face_sums.size(); ++c) {
+    if (work.face_sums[c].astray < 0)
+      continue;
+    const MeshChunk& chunk = model.mesh.chunks[c];
+    const int lane = static_cast<int>(work.face_sums[c].astray % lanes);
+    const std::int64_t batch = chunk.face_batches.begin + work.face_sums[c].astray / lanes;
+    const std::string& body = model.bodies[model.blocks[chunk.block].body].name;
+    throw SolutionError(fmt::format(
+        "stage {} ({}), step {}: the sides of a broken face have slid past each other by more than its size, "
+        "{:.3g} m, and still press, in {}; pieces that come loose need contacts = {{ {{\"{}\", \"{}\", "
+        "cdem.coulomb{{...}}}} }} in cdem.model",
+        context_.number, kind_, step, std::sqrt(3 * model.mesh.faces[batch].area[lane]),
+        where(model, model.mesh.faces[batch].node_a[0][lane]), body, body));
   }
 }
 
@@ -276,6 +298,8 @@ void Stage::after_step(const StepReport& report) {
   }
   if (context_.log.due(context_.state.step))
     record_history(report);
+  if (follows_pieces)
+    watch_astray();
   if (step % poll_every == 0) {
     Keeper* const keeper = context_.keeper;
     if (context_.observer.stop_requested()) {

@@ -41,6 +41,8 @@ public:
 
   Workspace work;
   std::int64_t step = 0; // within the stage
+  bool follows_pieces =
+      false; // ends with a SolutionError where broken faces no longer stand for the pieces' contact
 
   // One step: all forces where the nodes are, and move(nodes, forces, sums) for every node once all that reads where it
   // is has done so; `forces` are those of elements and springs at `nodes`, the first first. The nodes of rigid bodies
@@ -79,6 +81,7 @@ private:
   void record_history(const StepReport&);
   void keep_state();
   void watch() const;
+  void watch_astray() const;
   void tell(const StepReport&, bool last);
 
   [[noreturn]] void refuse_depth(int source_triangle, int target_triangle) const;

@@ -114,7 +114,13 @@ std::vector<geom::Vec3> System::advance_springs(std::vector<cdem::FaceBreak>& br
   cdem::Workspace work(model, state, conditions);
   for (std::size_t c = 0; c < model.mesh.chunks.size(); ++c) {
     cdem::mesh_forces(model, state, work, static_cast<std::int64_t>(c), true);
-    broken.insert(broken.end(), work.face_sums[c].broken.begin(), work.face_sums[c].broken.end());
+    const std::int64_t first = model.mesh.chunks[c].face_batches.begin;
+    for (const cdem::FaceBreak& row : work.face_sums[c].broken) {
+      const std::int64_t lane = row.spring % cdem::lanes, batch = row.spring / cdem::lanes;
+      cdem::FaceSlip& slip = slip_of(state, first + batch / 3, static_cast<int>(lane));
+      std::copy(std::begin(row.slip), std::end(row.slip), slip.value[batch % 3]);
+      broken.push_back(row);
+    }
   }
   return net_forces();
 }

@@ -1,6 +1,5 @@
 // Bonds on the faces of a mesh, their strengths and the contact they leave: two halves of a box led apart.
-#include "libgeom/mesh/box_mesh.hpp"
-#include "tests/libcdem/system.hpp"
+#include "tests/libcdem/two_halves.hpp"
 
 #include "libcdem/results/energy.hpp"
 #include "libcdem/results/fragments.hpp"
@@ -11,91 +10,6 @@ using namespace testing;
 using geom::Vec3;
 
 namespace {
-
-constexpr double side = 0.6, half = 0.3; // m
-constexpr double beta = 10, shear_ratio = 0.4;
-constexpr double area = side * side;
-
-// A box whose upper half is region 1: n cells along each axis in each half.
-geom::TetMesh two_halves(int n) {
-  geom::TetMesh mesh = geom::box_mesh({side, side, 2 * half}, {n, n, 2 * n});
-  for (std::size_t t = 0; t < mesh.tets.size(); ++t) {
-    double z = 0;
-    for (const int node : mesh.tets[t])
-      z += mesh.nodes[node].z() / 4;
-    mesh.region[t] = z > half;
-  }
-  return mesh;
-}
-
-cdem::Bonding between_halves() {
-  cdem::Bonding bonding;
-  bonding.between_regions = true;
-  bonding.stiffness_ratio = beta;
-  bonding.shear_ratio = shear_ratio;
-  return bonding;
-}
-
-cdem::Joint joint(bool bonded = true) {
-  cdem::Joint j;
-  j.bonded = bonded;
-  j.cohesion = 2e6;
-  j.friction_angle = 35 * degree;
-  j.tensile_strength = 1.5e6;
-  return j;
-}
-
-// Leads the upper half by a given gap, everything turned by `turn`, and asks for the force.
-class Halves {
-public:
-  explicit Halves(const cdem::Joint& j, geom::Mat3 turn = geom::Mat3::Identity())
-      : s_(build({meshed("unit", two_halves(1), between_halves(), rock(), j)})), turn_(std::move(turn)),
-        upper_(s_.model.node_position.size(), 0) {
-    // d = 3 (V1 + V2) / 4A with V = h^2 half / 6 and A = h^2 / 2.
-    kn_ = beta * rock().youngs_modulus / (half / 2);
-    for (const geom::Tet& tet : s_.model.tets) {
-      double z = 0;
-      for (const int node : tet)
-        z += s_.model.node_position[node].z() / 4;
-      for (const int node : tet)
-        upper_[node] = z > half;
-    }
-  }
-
-  // To where an elastic bond would carry this traction, Pa; what the upper half feels of the lower one, Pa.
-  Vec3 go(const Vec3& traction) {
-    const double ks = shear_ratio * kn_;
-    const Vec3 gap(traction.x() / ks, traction.y() / ks, traction.z() / kn_);
-    for (std::size_t i = 0; i < upper_.size(); ++i) {
-      const Vec3& x = s_.model.node_position[i];
-      s_.state.displacement[i] = node(turn_ * x - x + (upper_[i] ? Vec3(turn_ * gap) : Vec3::Zero()));
-    }
-    const std::vector<Vec3> forces = s_.advance_springs(breaks_);
-    Vec3 force = Vec3::Zero();
-    for (std::size_t i = 0; i < upper_.size(); ++i)
-      if (upper_[i])
-        force += forces[i];
-    return turn_.transpose() * force / area;
-  }
-
-  int with_mode(cdem::BondMode mode) const {
-    int count = 0;
-    each_face_spring(s_.model.mesh, [&](const cdem::MeshChunk&, const cdem::FaceSpringPlace& at) {
-      count += s_.state.faces[at.batch].mode[at.point][at.lane] == static_cast<std::uint8_t>(mode);
-    });
-    return count;
-  }
-  const std::vector<cdem::FaceBreak>& breaks() const { return breaks_; }
-
-private:
-  System s_;
-  geom::Mat3 turn_;
-  std::vector<char> upper_;
-  double kn_ = 0;
-  std::vector<cdem::FaceBreak> breaks_;
-};
-
-constexpr int springs = 6; // two triangles
 
 geom::Mat3 some_turn() {
   return rotation({1, -2, 0.5}, 70 * degree);
@@ -113,8 +27,8 @@ cdem::Simulation simulation_of(const cdem::Joint& j, int cells) {
 
 TEST_CASE("face bonds: tension up to T A, nothing above", "[bonds][mesh]") {
   const geom::Mat3 turn = GENERATE(geom::Mat3(geom::Mat3::Identity()), some_turn());
-  const double strength = joint().tensile_strength;
-  Halves halves(joint(), turn);
+  const double strength = halves_joint().tensile_strength;
+  Halves halves(halves_joint(), turn);
   CHECK((halves.go({0, 0, 0.999 * strength}) + Vec3(0, 0, 0.999 * strength)).norm() < 1e-7 * strength);
   CHECK(halves.with_mode(cdem::BondMode::intact) == springs);
   CHECK(halves.go({0, 0, 1.001 * strength}).norm() == 0);
@@ -126,10 +40,10 @@ TEST_CASE("face bonds: tension up to T A, nothing above", "[bonds][mesh]") {
 TEST_CASE("face bonds: shear up to (c - t_n tan phi) A, then friction alone", "[bonds][mesh]") {
   const geom::Mat3 turn = GENERATE(geom::Mat3(geom::Mat3::Identity()), some_turn());
   const double tn = GENERATE(-8e6, -2e6, -1e5, 0.0, 1e6);
-  const double tangent = std::tan(joint().friction_angle);
-  const double strength = joint().cohesion - tn * tangent;
+  const double tangent = std::tan(halves_joint().friction_angle);
+  const double strength = halves_joint().cohesion - tn * tangent;
   const Vec3 along(0.6, -0.8, 0);
-  Halves halves(joint(), turn);
+  Halves halves(halves_joint(), turn);
   const Vec3 before = halves.go(0.999 * strength * along + Vec3(0, 0, tn));
   CHECK((before + 0.999 * strength * along + Vec3(0, 0, tn)).norm() < 1e-7 * strength);
   CHECK(halves.with_mode(cdem::BondMode::intact) == springs);
@@ -142,7 +56,7 @@ TEST_CASE("face bonds: shear up to (c - t_n tan phi) A, then friction alone", "[
 
 TEST_CASE("face bonds: a broken one and a contact that never was bonded give the same forces",
           "[bonds][mesh]") {
-  Halves broken(joint(), some_turn()), never(joint(false), some_turn());
+  Halves broken(halves_joint(), some_turn()), never(halves_joint(false), some_turn());
   CHECK(never.with_mode(cdem::BondMode::contact) == springs);
   const Vec3 path[] = {{0, 0, 2e6},        {0, 0, 1e5},        {1e6, 0, -1e6},       {3e6, 1e6, -2e6},
                        {-2e6, 4e6, -1e6},  {-2e6, 4e6, -5e6},  {0, 0, -5e6},         {1e6, 1e6, 1e6},
@@ -162,7 +76,7 @@ TEST_CASE("face bonds: a broken one and a contact that never was bonded give the
 TEST_CASE("face bonds: nodes are shared wherever no joint is asked for", "[bonds][mesh]") {
   // Two cells along each axis in each half: (3 x 3 x 5) nodes, 8 cells of 6 tets in each half.
   const auto built = [](const cdem::Bonding& bonding) {
-    return build({meshed("unit", two_halves(2), bonding, rock(), joint())});
+    return build({meshed("unit", two_halves(2), bonding, rock(), halves_joint())});
   };
   const auto faces = [](const cdem::Model& model) {
     int count = 0;
@@ -197,7 +111,7 @@ TEST_CASE("face bonds: nodes are shared wherever no joint is asked for", "[bonds
 }
 
 TEST_CASE("face bonds: a body pulled apart breaks between its regions and falls into them", "[bonds][mesh]") {
-  cdem::Simulation s = simulation_of(joint(), 2);
+  cdem::Simulation s = simulation_of(halves_joint(), 2);
   cdem::Fix foot;
   foot.on = cdem::Selection::side("z-");
   s.fix(foot);
@@ -226,7 +140,7 @@ TEST_CASE("face bonds: a body pulled apart breaks between its regions and falls 
 
 TEST_CASE("face bonds: unbond makes them contacts, which still carry pressure", "[bonds][mesh]") {
   const bool whole_faces = GENERATE(false, true);
-  cdem::Simulation s = simulation_of(joint(), 2);
+  cdem::Simulation s = simulation_of(halves_joint(), 2);
   cdem::Fix foot;
   foot.on = cdem::Selection::side("z-");
   s.fix(foot);
@@ -248,7 +162,7 @@ TEST_CASE("face bonds: unbond makes them contacts, which still carry pressure", 
 }
 
 TEST_CASE("face bonds: the energy balance closes where one half slides over the other", "[energy][mesh]") {
-  cdem::Joint rough = joint(false);
+  cdem::Joint rough = halves_joint(false);
   System s(build({meshed("unit", two_halves(2), between_halves(), rock(), rough)}));
   s.hold(cdem::Selection::side("z-"), "xyz");
   cdem::Traction push;
@@ -262,5 +176,5 @@ TEST_CASE("face bonds: the energy balance closes where one half slides over the 
   const cdem::EnergyLedger ledger = cdem::energy(s.model, s.state);
   INFO("friction " << ledger.friction << " of " << ledger.external << " J, error " << ledger.balance_error());
   CHECK(ledger.friction > 0.1 * ledger.external);
-  CHECK(ledger.balance_error() < 0.01);
+  CHECK(ledger.balance_error() < 1e-3);
 }
