@@ -15,7 +15,9 @@ namespace {
 
 constexpr double far = 1e30;
 
-constexpr std::uint64_t fitting_tries = 1000, fitting_id = std::uint64_t{1} << 42;
+constexpr std::uint64_t fitting_tries = 1000;
+constexpr std::uint64_t fitting_id = std::uint64_t{1} << 42,
+                        any_id = std::uint64_t{1} << 43; // of random numbers
 
 // The slope's own axes, as rows: along the contour, up the slope, out of it.
 Mat3 slope_frame(const Vec3& normal) {
@@ -147,10 +149,13 @@ private:
       const auto draw = [&](std::uint64_t i) {
         return 2 * uniform(options_.seed, fitting_id + unit, 5 * k + i) - 1;
       };
-      const double play = k < family_.size() ? 0 : options_.play * height_,
-                   size = k < family_.size() ? 0 : 0.15;
-      const Lying other = lowered(turned(family_[k % family_.size()], size * Vec3(draw(2), draw(3), draw(4))),
-                                  place + play * Vec3(draw(0), draw(1), 0));
+      // The family as it is, then moved and turned a little, at last any attitude.
+      const Mat3& own = family_[k % family_.size()];
+      const double play = k < family_.size() ? 0 : options_.play * height_;
+      const Mat3 rotation = k < family_.size()      ? own
+                            : k < fitting_tries / 2 ? turned(own, 0.15 * Vec3(draw(2), draw(3), draw(4)))
+                                                    : random_rotation(options_.seed, any_id + unit, 3 * k);
+      const Lying other = lowered(rotation, place + play * Vec3(draw(0), draw(1), 0));
       if (other.place.z() < best.place.z())
         best = other;
     }

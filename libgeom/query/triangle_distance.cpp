@@ -1,6 +1,8 @@
 // The least distance of two triangles that do not cut each other is between a corner of one and the other, or
-// between two edges (Ericson, "Real-Time Collision Detection", 2005, 5.1.5 and 5.1.9).
+// between two edges.
 #include "libgeom/query/triangle_distance.hpp"
+
+#include "libgeom/query/closest.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -8,43 +10,9 @@
 namespace geom {
 namespace {
 
-Vec3 nearest_point(const Vec3& p, const TrianglePoints& t) {
-  const auto& [a, b, c] = t;
-  const Vec3 ab = b - a, ac = c - a, ap = p - a;
-  const double d1 = ab.dot(ap), d2 = ac.dot(ap);
-  if (d1 <= 0 && d2 <= 0)
-    return a;
-  const Vec3 bp = p - b;
-  const double d3 = ab.dot(bp), d4 = ac.dot(bp);
-  if (d3 >= 0 && d4 <= d3)
-    return b;
-  const double vc = d1 * d4 - d3 * d2;
-  if (vc <= 0 && d1 >= 0 && d3 <= 0)
-    return a + d1 / (d1 - d3) * ab;
-  const Vec3 cp = p - c;
-  const double d5 = ab.dot(cp), d6 = ac.dot(cp);
-  if (d6 >= 0 && d5 <= d6)
-    return c;
-  const double vb = d5 * d2 - d1 * d6;
-  if (vb <= 0 && d2 >= 0 && d6 <= 0)
-    return a + d2 / (d2 - d6) * ac;
-  const double va = d3 * d6 - d5 * d4;
-  if (va <= 0 && d4 - d3 >= 0 && d5 - d6 >= 0)
-    return b + (d4 - d3) / (d4 - d3 + d5 - d6) * (c - b);
-  return a + (vb * ab + vc * ac) / (va + vb + vc);
-}
-
-double segment_distance(const Vec3& p, const Vec3& p_end, const Vec3& q, const Vec3& q_end) {
-  const Vec3 u = p_end - p, v = q_end - q, w = p - q;
-  const double a = u.squaredNorm(), e = v.squaredNorm(), f = v.dot(w), c = u.dot(w), b = u.dot(v);
-  const double across = a * e - b * b;
-  double s = across > 1e-14 * a * e ? std::clamp((b * f - c * e) / across, 0., 1.) : 0;
-  double t = e > 0 ? (b * s + f) / e : 0;
-  if (t < 0 || t > 1) {
-    t = std::clamp(t, 0., 1.);
-    s = a > 0 ? std::clamp((b * t - c) / a, 0., 1.) : 0;
-  }
-  return (w + s * u - t * v).norm();
+double segment_distance(const Vec3& a, const Vec3& a_end, const Vec3& b, const Vec3& b_end) {
+  const PlacesOnSegments at = nearest_on_segments(a, a_end, b, b_end);
+  return (a + at.s * (a_end - a) - b - at.t * (b_end - b)).norm();
 }
 
 bool pierces(const Vec3& from, const Vec3& to, const TrianglePoints& t) {
@@ -92,7 +60,8 @@ std::vector<Boxed> near(const Surface& surface, const Box& box, double margin) {
 } // namespace
 
 double distance(const Vec3& point, const TrianglePoints& t) {
-  return (point - nearest_point(point, t)).norm();
+  const Vec3 w = nearest_on_triangle(point, t[0], t[1], t[2]).weights;
+  return (point - w.x() * t[0] - w.y() * t[1] - w.z() * t[2]).norm();
 }
 
 double distance(const TrianglePoints& a, const TrianglePoints& b) {

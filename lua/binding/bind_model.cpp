@@ -7,7 +7,6 @@
 #include "lua/binding/solid_objects.hpp"
 
 #include "libgeom/core/error.hpp"
-#include "libgeom/placement/overlap.hpp"
 
 #include <algorithm>
 
@@ -43,21 +42,6 @@ void read_mesh(const Arguments& given, const std::string& path, std::vector<geom
   body.bonding.stiffness_ratio =
       given.optional_number("stiffness_ratio").value_or(body.bonding.stiffness_ratio);
   body.bonding.shear_ratio = given.optional_number("shear_ratio").value_or(body.bonding.shear_ratio);
-}
-
-// Units may reach into each other by this part of their height, as they do where they press on each other.
-constexpr double overlap_tolerance = 0.02;
-
-void require_clear(const geom::Pile& pile, const std::vector<geom::TetMesh>& units, const std::string& path) {
-  std::vector<geom::Surface> surfaces;
-  surfaces.reserve(units.size());
-  for (const geom::TetMesh& unit : units)
-    surfaces.push_back(geom::surface_of(unit));
-  if (const auto overlap = geom::deepest_overlap(surfaces, overlap_tolerance * pile.height))
-    throw InputError(path + ".shape: units " + std::to_string(overlap->a + 1) + " and " +
-                     std::to_string(overlap->b + 1) + " of the pile stand " + number_text(overlap->depth) +
-                     " m deep in each other near " + describe(Value(overlap->place)) + "; at most " +
-                     number_text(overlap_tolerance) + " of their height is allowed, move them apart");
 }
 
 // The shape of a meshed body as a pile, of one unit when it is a mesh; none for an assembly.
@@ -105,7 +89,6 @@ std::vector<std::string> read_bodies(const Arguments& a, ModelSpec& spec,
         units = {mesh->mesh};
       else
         units = geom::meshes(*pile);
-      require_clear(*pile, units, path);
       read_mesh(given, path, std::move(units), body);
       piles.emplace(body.name, *pile);
       spec.bodies.push_back(std::move(body));

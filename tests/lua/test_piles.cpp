@@ -155,5 +155,5 @@ TEST_CASE("a pile's file that is none is refused, and units inside each other", 
                           "{\"centroid\": [0.1, 0.1, 0.1], \"rotation\": [[1, 0, 0], [0, 1, 0], "
                           "[0, 0, 1]]}"),
                      model),
-             Contains("units 1 and 2 of the pile stand"));
+             Contains("body_1"));
 }
