@@ -15,6 +15,10 @@ namespace {
 
 constexpr double far = 1e30;
 
+constexpr double lean_way =
+    0.35; // of the height: how far down the slope a unit may go to lean on the row below
+constexpr int spacings_tried = 4;
+constexpr double density_tolerance = 0.01;
 constexpr std::uint64_t fitting_tries = 1000;
 constexpr std::uint64_t fitting_id = std::uint64_t{1} << 42,
                         any_id = std::uint64_t{1} << 43; // of random numbers
@@ -32,18 +36,6 @@ struct Pattern {
   Spacing spacing;
   int columns = 0;
 };
-
-// Places of the pattern in the slope's axes, row by row from the toe.
-std::vector<Vec3> pattern_places(const Pattern& pattern, int count, const Vec3& first) {
-  std::vector<Vec3> places;
-  for (int i = 0; i < count; ++i) {
-    const int row = i / pattern.columns, column = i % pattern.columns;
-    const double shift = row % 2 == 0 ? -0.25 : 0.25;
-    places.emplace_back(first.x() + (column - 0.5 * (pattern.columns - 1) + shift) * pattern.spacing.across,
-                        first.y() + row * pattern.spacing.rows, first.z());
-  }
-  return places;
-}
 
 class Layer {
 public:
@@ -186,14 +178,14 @@ private:
         return 2 * uniform(options_.seed, unit, 3 + 5 * static_cast<std::uint64_t>(k) + i) - 1;
       };
       Vec3 to = best.place + size * play * Vec3(draw(0), draw(1), 0);
-      for (int i = 0; i < 2; ++i)
-        to[i] = std::clamp(to[i], place[i] - play, place[i] + play);
+      to.x() = std::clamp(to.x(), place.x() - play, place.x() + play);
+      to.y() = std::clamp(to.y(), place.y() - lean_way * height_, place.y() + play);
       const Mat3 rotation = turned(best.rotation, 0.5 * size * Vec3(draw(2), draw(3), draw(4)));
       const Lying other = lowered(rotation, to);
       if (sink_.dot(other.place) < sink_.dot(best.place)) {
         best = other;
         vain = 0;
-      } else if (++vain == 10) {
+      } else if (++vain == 20) {
         size *= 0.5;
         vain = 0;
       }
@@ -220,11 +212,12 @@ void check(const LayerOptions& options, int count) {
   require_between("play", options.play, 0, 1);
 }
 
-Pattern choose_pattern(const Pile& pile, int count, const LayerOptions& options,
-                       const Eigen::Vector2d& room) {
+// widening: of the spacing along the contour.
+Pattern choose_pattern(const Pile& pile, int count, const LayerOptions& options, const Eigen::Vector2d& room,
+                       double widening) {
   Pattern pattern;
   pattern.spacing.rows = nominal_diameter(pile) / std::sqrt(2 * options.density);
-  pattern.spacing.across = 2 * pattern.spacing.rows;
+  pattern.spacing.across = 2 * widening * pattern.spacing.rows;
   // A row and the next, shifted by half a place, take columns + 1/2 places.
   const double most_columns = std::floor((room.x() - pile.height) / pattern.spacing.across + 0.5 + 1e-9);
   const double most_rows = std::floor((room.y() - pile.height) / pattern.spacing.rows + 1 + 1e-9);
@@ -243,6 +236,35 @@ Pattern choose_pattern(const Pile& pile, int count, const LayerOptions& options,
                          std::to_string(pattern.columns),
                      "a larger region takes more");
   return pattern;
+}
+
+// Lays rows from the toe, each one spacing above where the one below has come to lie. Returns the density.
+double lay_rows(Pile& pile, int count, const Pattern& pattern, const Vec3& first, const Mat3& frame,
+                Layer& layer, const Laying& laying) {
+  double row_place = first.y(), toe = 0, top = 0, row_sum = 0;
+  int full_rows = 0;
+  pile.poses.clear();
+  for (int i = 0; i < count; ++i) {
+    const int row = i / pattern.columns, column = i % pattern.columns;
+    const double shift = row % 2 == 0 ? -0.25 : 0.25;
+    const Vec3 place(first.x() + (column - 0.5 * (pattern.columns - 1) + shift) * pattern.spacing.across,
+                     row_place, 0);
+    const Lying lying = laying.find(place, static_cast<std::uint64_t>(i));
+    const Pose pose = layer.cleared({lying.rotation, frame.transpose() * lying.place});
+    layer.lay(pose);
+    pile.poses.push_back(pose);
+    row_sum += lying.place.y();
+    if (column + 1 < pattern.columns)
+      continue;
+    top = row_sum / pattern.columns;
+    if (full_rows++ == 0)
+      toe = top;
+    row_sum = 0;
+    row_place = top + pattern.spacing.rows;
+  }
+  const double rows = full_rows > 1 ? (top - toe) / (full_rows - 1) : pattern.spacing.rows;
+  const double dn = nominal_diameter(pile);
+  return dn * dn / (pattern.spacing.across * rows);
 }
 
 } // namespace
@@ -266,20 +288,26 @@ Pile place_layer(const TetMesh& unit, int count, const Ground& ground, const Lay
                          " is beside the ground; keep the region on the slope");
       room.extend(frame * Vec3(inside.x(), inside.y(), *z));
     }
-  const Pattern pattern = choose_pattern(pile, count, options, room.size().head<2>());
-
-  Layer layer(pile, ground, frame, gap);
-  const Laying laying(layer, frame, options, pile.height,
-                      attitudes_for(surface_of(pile.unit), pattern.spacing, options.attitudes, options.seed));
+  // Units that lean on the row below stand closer than the pattern: its places along the contour are widened until
+  // the density is the one asked for.
+  const Surface shape = surface_of(pile.unit);
   const Vec3 first(room.centre().x(), room.min.y() + 0.5 * pile.height, 0);
-  std::uint64_t number = 0;
-  for (const Vec3& place : pattern_places(pattern, count, first)) {
-    const Lying lying = laying.find(place, number++);
-    const Pose pose = layer.cleared({lying.rotation, frame.transpose() * lying.place});
-    layer.lay(pose);
-    pile.poses.push_back(pose);
+  Pile best;
+  double widening = 1, least_error = far;
+  for (int i = 0; i < spacings_tried && least_error > density_tolerance; ++i) {
+    const Pattern pattern = choose_pattern(pile, count, options, room.size().head<2>(), widening);
+    Layer layer(pile, ground, frame, gap);
+    const Laying laying(layer, frame, options, pile.height,
+                        attitudes_for(shape, pattern.spacing, options.attitudes, options.seed));
+    const double density = lay_rows(pile, count, pattern, first, frame, layer, laying);
+    const double error = std::abs(density / options.density - 1);
+    if (error < least_error) {
+      least_error = error;
+      best = pile;
+    }
+    widening = std::clamp(widening * density / options.density, 0.8, 1.4);
   }
-  return pile;
+  return best;
 }
 
 } // namespace geom

@@ -4,9 +4,10 @@
 // phi = N Dn^2 / A is the packing density: N units on an area A of the slope, Dn the side of a cube of their volume.
 // The pattern is a diamond, twice as wide along the contour as its rows are apart, so that rows are Dn / sqrt(2 phi)
 // apart. Units take by turns the attitudes of a family that fits into it (placement/lattice.hpp), each turned a little
-// more by chance, and are lowered along the normal of the slope on to what lies there. Then a unit is nudged (moved
-// along the slope by up to `play`, turned a little, lowered anew) as long as its centroid sinks, until it leans on its
-// neighbours. It keeps `gap` from all of them.
+// more by chance, and are lowered along the normal of the slope on to what lies there. Then a unit is nudged (moved by
+// up to `play` from its place along the contour, further down the slope, turned a little, lowered anew) as long as its
+// centroid sinks, until it leans on its neighbours. It keeps `gap` from all of them. Leaning brings rows closer: the
+// pattern is widened along the contour until the density of rows and columns is phi within 1 %, in a few trials.
 #pragma once
 
 #include "libgeom/placement/ground.hpp"
@@ -22,7 +23,7 @@ struct LayerOptions {
   std::uint64_t seed = 1;        // of the attitudes
   int attitudes = 1500;          // tried for the family
   int nudges = 200;              // tried for each unit
-  double play = 0.1;             // of the height: how far from its place of the pattern a unit may be laid
+  double play = 0.1;             // of the height: how far along the contour from its place a unit may be laid
 };
 
 // Throws InputError for a count below 1, a density or gap out of range, a ground that is too small.

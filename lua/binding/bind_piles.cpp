@@ -171,11 +171,14 @@ void bind_piles(Module& m) {
                  "phi = N Dn^2 / A, units on an area of slope times that of their equal cube's side"),
              integer("columns").at_least(1).doc("units in a row; as many as the region allows when left out"),
              number("gap").above(0).unit("m").doc("clear distance; a thousandth of the unit's height"),
-             integer("attitudes").within(1, 1e6).standard(1500).doc("tried, of which those are taken that fit into the pattern"),
+             integer("attitudes")
+                 .within(1, 1e6)
+                 .standard(1500)
+                 .doc("tried, of which those are taken that fit into the pattern"),
              integer("nudges").within(0, 100000).standard(200).doc(
                  "small moves tried for each unit, kept when its centroid sinks"),
              number("play").within(0, 1).standard(0.1).doc(
-                 "how far a unit may be from its place of the pattern along the slope, over its height")}),
+                 "how far along the contour a unit may be from its place, over its height")}),
        false, "cdem.Pile", "", lay});
   m.functions.push_back({"read_pile",
                          "A pile that pile:save{} wrote.",

@@ -1307,7 +1307,7 @@ function cdem.drop(options) end
 ---@field gap? number m, > 0: clear distance; a thousandth of the unit's height
 ---@field attitudes? integer in [1, 1e+06], default 1500: tried, of which those are taken that fit into the pattern
 ---@field nudges? integer in [0, 1e+05], default 200: small moves tried for each unit, kept when its centroid sinks
----@field play? number in [0, 1], default 0.1: how far a unit may be from its place of the pattern along the slope, over its height
+---@field play? number in [0, 1], default 0.1: how far along the contour a unit may be from its place, over its height
 
 ---One layer of armour units on a slope, in the staggered pattern of a packing density: row by row from the toe, each unit above the gap between two of the row below, lowered on to the slope and its neighbours in one of the attitudes that fit into the pattern.
 ---@param options cdem.PlaceOptions

@@ -4,6 +4,7 @@
 #include "libgeom/mesh/solid_mesh.hpp"
 #include "libgeom/placement/armour_layer.hpp"
 #include "libgeom/placement/drop_grid.hpp"
+#include "libgeom/placement/pile_measures.hpp"
 #include "libgeom/query/triangle_distance.hpp"
 #include "libgeom/solid/armour_units.hpp"
 
@@ -216,16 +217,20 @@ TEST_CASE("an armour layer has the density it was asked for, and no unit cuts an
     for (const Surface& unit : surfaces(pile))
       REQUIRE(distance(unit, ground.surface(), 0.01) >= 0.99e-3);
 
-    // Places of a pattern with density N / A = phi / Dn^2, each kept to a tenth of the height; the first three rows
-    // but one as measured on the slope.
-    const double dn = nominal_diameter(pile), rows = dn / std::sqrt(2 * density);
+    const PileMeasures measured =
+        measure_pile(surfaces(pile), ground.surface(), pile.height, volume(pile.unit));
+    CHECK(measured.packing_density == Approx(density).epsilon(0.05));
+
+    // Each unit is above the gap between two of the row below, all within a tenth of the height of their places.
     const Vec3 up = Vec3(1, 0, gradient).normalized();
-    const Vec3 first = pile.poses.front().translation;
-    for (int i = 0; i < 30; ++i) {
-      const Vec3 from = pile.poses[i].translation - first;
-      CHECK(std::abs(from.dot(up) - (i / 5) * rows) <= 0.2 * pile.height + 1e-9);
-      const double shift = (i / 5) % 2 == 0 ? 0 : 0.5;
-      CHECK(std::abs(std::abs(from.y()) - std::abs((i % 5 + shift) * 2 * rows)) <= 0.2 * pile.height + 1e-9);
+    for (int i = 5; i < 30; ++i) {
+      const int row = i / 5, column = i % 5, first = 5 * (row - 1), other = column + (row % 2 == 0 ? -1 : 1);
+      if (other < 0 || other > 4)
+        continue;
+      const Vec3 here = pile.poses[i].translation, left = pile.poses[first + column].translation,
+                 right = pile.poses[first + other].translation;
+      CHECK(std::abs(here.y() - 0.5 * (left.y() + right.y())) <= 0.2 * pile.height + 1e-9);
+      CHECK(up.dot(here) > std::max(up.dot(left), up.dot(right)));
     }
   }
 }
