@@ -1,3 +1,5 @@
+#include "libcdem/vtk/colour_map.hpp"
+#include "libcdem/vtk/field_values.hpp"
 #include "libcdem/vtk/file_error.hpp"
 #include "libcdem/vtk/layout.hpp"
 #include "libcdem/vtk/picture.hpp"
@@ -104,6 +106,26 @@ TEST_CASE("cell values take the colours of the given range") {
   image = read_png(folder / "p.png");
   CHECK(std::abs(grey_at(image, 1.5 / 3) - 245) <= 1);
   CHECK(std::abs(grey_at(image, 2.5 / 3) - 245) <= 1);
+}
+
+TEST_CASE("units have colours of their own, and the only block of a body is grey") {
+  Snapshot s = three_blocks();
+  SnapshotField unit{"unit", "", 1, {}, true};
+  for (const double id : s.cell_fields[0].values)
+    unit.values.push_back(id - 1); // 0: the ground
+  s.cell_fields.push_back(unit);
+  const FieldValues values = field_values(s, "unit");
+  CHECK(values.id);
+  const ColourScale scale = colour_scale(values.values, values.id, "auto", {});
+  CHECK(scale.map == "categorical");
+  for (std::size_t t = 0; t < s.surface.size(); ++t) {
+    const Colour colour = scale(values.values[t]);
+    const double number = unit.values[static_cast<std::size_t>(s.surface_tet[t])];
+    const bool grey = colour[0] == colour[1] && colour[1] == colour[2];
+    CHECK(grey == (number == 0));
+    if (number > 0)
+      CHECK(colour == id_colour(std::llround(number)));
+  }
 }
 
 TEST_CASE("point values are interpolated along a face") {
