@@ -16,6 +16,7 @@
 #include "libcdem/step/mesh_forces.hpp"
 #include "libcdem/step/relax.hpp"
 #include "libcdem/step/run.hpp"
+#include "libcdem/step/settle.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -178,6 +179,18 @@ std::int64_t Simulation::make_deformable(const Selection& on) {
   return impl_->convert(on, set_deformable);
 }
 
+std::size_t Simulation::watch(const std::string& body, double leaves) {
+  Impl& s = *impl_;
+  Watch watch = start_watch(s.model, s.state, body, leaves);
+  if (s.watches == s.log.watches.size()) // else it has been restored
+    s.log.watches.push_back(std::move(watch));
+  return s.watches++;
+}
+
+const std::vector<Departure>& Simulation::departures(std::size_t watch) const {
+  return impl_->log.watches.at(watch).left;
+}
+
 std::int64_t Simulation::remove(const Selection& on) {
   Impl& s = *impl_;
   s.require_blocks("remove");
@@ -308,6 +321,14 @@ bool Simulation::anything_acts() const {
          std::any_of(s.displacement.begin(), s.displacement.end(), is_nonzero) ||
          std::any_of(s.velocity.begin(), s.velocity.end(), is_nonzero) ||
          std::any_of(s.initial_stress.begin(), s.initial_stress.end(), is_stressed);
+}
+
+SettleResult Simulation::settle(const SettleOptions& options) {
+  check(options);
+  SettleResult result = impl_->run_whole_stage(
+      [&](const StageContext& context) { return cdem::settle(impl_->model, context, options); });
+  impl_->last_residual = impl_->log.history.back().residual;
+  return result;
 }
 
 CriticalFlowResult Simulation::critical_flow(const CriticalFlowOptions& options) {

@@ -20,6 +20,7 @@
 #include "libcdem/step/keeper.hpp"
 #include "libcdem/step/observer.hpp"
 #include "libcdem/step/options.hpp"
+#include "libcdem/step/settle_options.hpp"
 #include "libgeom/assembly/assembly.hpp"
 #include "libgeom/mesh/surface.hpp"
 
@@ -88,11 +89,17 @@ public:
   // interfaces that are selected with all their points, so that faces which meet the notch at its tip stay bonded.
   std::int64_t unbond(const Selection&, bool whole_faces = false);
 
+  // Watches the units (blocks) of a meshed body from now on, in every stage (results/watch.hpp). Returns the watch's
+  // number, from 0; a resumed script that makes it again gets the one that was saved.
+  std::size_t watch(const std::string& body, double leaves);
+  const std::vector<Departure>& departures(std::size_t watch) const;
+
   // Solving calls. Each is a numbered stage. SolutionError, Interrupted as in step/errors.hpp.
   RelaxResult relax(const RelaxOptions&);
   RunResult run(const RunOptions&);
   std::vector<BlockCut> refine(const RefineOptions&);
   GrowResult grow(const GrowOptions&);                          // one stage; see fracture/grow.hpp
+  SettleResult settle(const SettleOptions&);                    // one stage; see step/settle.hpp
   CriticalFlowResult critical_flow(const CriticalFlowOptions&); // one stage; see step/critical_flow.hpp
 
   // Results.

@@ -70,6 +70,20 @@ void check(const RunOptions& o) {
     throw geom::InputError("local_damping", number(o.local_damping), "in [0, 1)");
 }
 
+void check(const SettleOptions& o) {
+  if (!(o.kinetic_energy_ratio > 0 && o.kinetic_energy_ratio < 1))
+    throw geom::InputError("kinetic_energy_ratio", number(o.kinetic_energy_ratio), "in (0, 1)",
+                           "1e-6 is usual");
+  if (!(o.local_damping >= 0 && o.local_damping < 1))
+    throw geom::InputError("local_damping", number(o.local_damping), "in [0, 1)");
+  if (!(o.max_time > 0) || !std::isfinite(o.max_time))
+    throw geom::InputError("max_time", number(o.max_time), "a finite number > 0 s");
+  if (!(o.safety > 0 && o.safety <= 1))
+    throw geom::InputError("safety", number(o.safety), "in (0, 1]");
+  if (!(o.time_step >= 0) || !std::isfinite(o.time_step))
+    throw geom::InputError("time_step", number(o.time_step), "a finite number > 0 s");
+}
+
 void check(const Flow& flow) {
   require_finite("direction", flow.direction);
   if (!(flow.direction.norm() > 0))

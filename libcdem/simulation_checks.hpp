@@ -10,6 +10,7 @@ void require_finite(const char* field, const geom::Vec3&);
 void validate_meshed(const BodySpec&); // a body of meshes
 void check(const RelaxOptions&);
 void check(const RunOptions&);
+void check(const SettleOptions&);
 void check(const Flow&);
 void check(const CriticalFlowOptions&);
 

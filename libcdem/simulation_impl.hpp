@@ -23,6 +23,7 @@ struct Simulation::Impl {
   int threads = 1;
   int stage = 0;
   double last_residual = 0;
+  std::size_t watches = 0; // made by the script so far
 
   std::uint64_t built = 0; // hash of the model as it was built
   bool replaying = false;
@@ -99,7 +100,8 @@ struct Simulation::Impl {
     Model changed = model;
     State moved = state;
     const std::int64_t count = set(changed, moved, blocks);
-    resolve(changed, moved, conditions); // a rigid body cannot be held in part
+    if (!replaying)
+      resolve(changed, moved, conditions); // a rigid body cannot be held in part
     model = std::move(changed);
     state = std::move(moved);
     last_good = state;

@@ -188,9 +188,22 @@ void archive(A& a, Probe& x) {
 }
 
 template <class A>
+void archive(A& a, Departure& x) {
+  auto& [unit, step, time, velocity, displacement, place] = x;
+  archive_all(a, unit, step, time, velocity, displacement, place);
+}
+
+template <class A>
+void archive(A& a, Watch& x) {
+  auto& [leaves, blocks, touched, start, gone, left] = x;
+  archive_all(a, leaves, blocks, touched, start, gone, left);
+}
+
+template <class A>
 void archive(A& a, RunLog& x) {
-  auto& [breaks, history, probes, broken_tension, broken_shear, told_tension, told_shear, every] = x;
-  archive_all(a, breaks, history, probes, broken_tension, broken_shear, told_tension, told_shear, every);
+  auto& [breaks, history, probes, watches, broken_tension, broken_shear, told_tension, told_shear, every] = x;
+  archive_all(a, breaks, history, probes, watches, broken_tension, broken_shear, told_tension, told_shear,
+              every);
 }
 // NOLINTEND(readability-identifier-length)
 
@@ -239,6 +252,8 @@ void write(Writer& a, const RunLog& log, std::int64_t last_step, std::size_t bre
     ++(row.mode == BondMode::broken_tension ? then.broken_tension : then.broken_shear);
   const auto later = [&](const HistoryRow& row) { return row.step > last_step; };
   then.history.erase(std::remove_if(then.history.begin(), then.history.end(), later), then.history.end());
+  for (Watch& watch : then.watches)
+    watch = watch_at(watch, last_step);
   archive(a, then);
 }
 

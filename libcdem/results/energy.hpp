@@ -8,6 +8,8 @@ namespace cdem {
 // kinetic: J, of real masses (a relaxation ends at rest).
 EnergyLedger energy(const Model&, const State&);
 
+double kinetic_energy(const Model&, const State&); // J, of nodes and rigid bodies
+
 double elastic_energy(const Model&, const State&); // J, sum V (sigma0 : eps + eps : C : eps / 2)
 
 } // namespace cdem

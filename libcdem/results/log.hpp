@@ -1,7 +1,9 @@
-// What a run leaves behind besides its state: breaks, histories, probes. Rows as the script reads them.
+// What a run leaves behind besides its state: breaks, histories, probes, units that left. Rows as the script reads
+// them.
 #pragma once
 
 #include "libcdem/results/snapshot.hpp"
+#include "libcdem/results/watch.hpp"
 
 #include <array>
 #include <cstdint>
@@ -43,6 +45,7 @@ struct RunLog {
   std::vector<BreakRow> breaks;
   std::vector<HistoryRow> history;
   std::vector<Probe> probes;
+  std::vector<Watch> watches;
   std::int64_t broken_tension = 0, broken_shear = 0;
   std::int64_t told_tension = 0, told_shear = 0; // of these: told of when earlier stages ended
 

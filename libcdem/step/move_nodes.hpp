@@ -33,6 +33,7 @@ struct Stepping {
   double time_step = 0;     // s
   double kick = 0;          // s, from the time of the velocities to half a step ahead
   double local_damping = 0; // fraction of the out-of-balance force
+  bool damp_flight = true;  // of rigid bodies without contact forces too
 };
 
 // m dv/dt = F - mu V v - alpha |F| sign(v), all at the mean velocity of the step: taken at the velocity before, local

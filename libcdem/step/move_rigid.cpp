@@ -92,7 +92,10 @@ void move_rigid(const Model& model, State& state, const Workspace& work, int rig
     sums.kinetic += after;
   } else {
     const geom::Vec3 turning_before = spin(body, motion, ahead - s.kick);
-    kick(model, body, motion, force, torque, s, sums);
+    Stepping here = s;
+    if (!s.damp_flight && f.contact.isZero(0) && f.contact_torque.isZero(0))
+      here.local_damping = 0;
+    kick(model, body, motion, force, torque, here, sums);
     turning = spin(body, motion, ahead);
     const geom::Vec3 velocity = cdem::vec(motion.velocity);
     const double arm2 = body.principal[2] / body.mass;

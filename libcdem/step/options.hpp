@@ -35,6 +35,7 @@ struct RunOptions {
       true; // ends with a SolutionError where broken faces no longer stand for the pieces' contact
   // Cundall's: force against the motion, as a fraction of the out-of-balance force, [0, 1)
   double local_damping = 0;
+  bool damp_flight = true; // of rigid bodies that touch nothing too
   std::int64_t callback_every = 0;
   std::function<void()> callback;
   std::function<bool()> stop; // asked every callback_every (default 100) steps

@@ -136,7 +136,7 @@ double stable_time_step(const Model& model) {
 RunResult run(const StageContext& context, const RunOptions& options, const std::string& kind) {
   State& state = context.state;
   const Moment* const from = context.from;
-  Stepping stepping{choose_time_step(context.model, options), 0, options.local_damping};
+  Stepping stepping{choose_time_step(context.model, options), 0, options.local_damping, options.damp_flight};
   Stage stage(context, kind, run_away_lengths * context.model.length);
   stage.follows_pieces = options.follows_pieces;
   const std::vector<double> viscous = viscous_forces(context.model);

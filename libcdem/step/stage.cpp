@@ -22,6 +22,9 @@ constexpr std::int64_t poll_every = 16;
 // Steps between looks at which faces a flow meets: they turn by next to nothing in between.
 constexpr std::int64_t flow_every = 100;
 static_assert(watch_every % flow_every == 0, "a stage that goes on looks anew where it did when it was left");
+// Steps between looks at which units have left their place.
+constexpr std::int64_t look_every = 50;
+static_assert(watch_every % look_every == 0, "as above");
 constexpr double seconds_between_reports = 0.1;
 // Chunks a thread must have before a further one is worth its two barriers a step: about half a millisecond of work.
 constexpr std::int64_t chunks_per_thread = 32;
@@ -277,6 +280,16 @@ void Stage::record_history(const StepReport& report) {
   context_.log.add(std::move(row));
 }
 
+void Stage::look_at_units() {
+  if (context_.log.watches.empty())
+    return;
+  double velocity = std::numeric_limits<double>::quiet_NaN();
+  for (const Flow& flow : context_.conditions.flows)
+    velocity = std::fmax(velocity, flow.velocity(context_.state.time));
+  for (Watch& watch : context_.log.watches)
+    look(context_.model, context_.state, velocity, watch);
+}
+
 void Stage::after_step(const StepReport& report) {
   EnergyLedger& spent = context_.state.spent;
   record_breaks();
@@ -300,6 +313,8 @@ void Stage::after_step(const StepReport& report) {
     record_history(report);
   if (follows_pieces)
     watch_astray();
+  if (step % look_every == 0)
+    look_at_units();
   if (step % poll_every == 0) {
     Keeper* const keeper = context_.keeper;
     if (context_.observer.stop_requested()) {
@@ -318,6 +333,7 @@ void Stage::after_step(const StepReport& report) {
 
 void Stage::finish(const StepReport& report) {
   keep_state();
+  look_at_units();
   record_history(report);
   tell(report, true);
 }

@@ -79,6 +79,7 @@ private:
   void record_breaks();
   void record_face_breaks();
   void record_history(const StepReport&);
+  void look_at_units();
   void keep_state();
   void watch() const;
   void watch_astray() const;

@@ -116,6 +116,8 @@ std::string annotations() {
       const std::string text = p.unit + (p.unit.empty() || p.doc.empty() ? "" : ": ") + p.doc;
       out += (text.empty() ? "" : " " + text) + "\n";
     }
+    if (c.item)
+      out += "---@field [integer] " + c.item_type + "\n";
     if (c.length)
       out += "---@operator len: integer\n";
     out += "local " + c.name + " = {}\n\n";

@@ -103,9 +103,14 @@ int index_object(lua_State* L) {
     return 1;
   const Class& c = class_of_upvalue(L);
   LuaState& state = LuaState::of(L);
-  const std::string key = key_at_2(L);
   std::string message;
   try {
+    if (c.item && lua_isinteger(L, 2)) {
+      const std::int64_t i = lua_tointeger(L, 2);
+      push(L, i >= 1 && i <= c.length(object_at_1(L)) ? c.item(object_at_1(L), i) : Value());
+      return 1;
+    }
+    const std::string key = key_at_2(L);
     for (const Property& p : c.properties) {
       if (p.name != key)
         continue;

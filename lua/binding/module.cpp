@@ -26,6 +26,7 @@ const Module& module() {
     bind_model(m);
     bind_conditions(m);
     bind_solving(m);
+    bind_settling(m);
     bind_fracture(m);
     bind_flow(m);
     bind_measures(m);

@@ -34,6 +34,9 @@ struct Class {
   std::vector<Function> methods{};
   std::function<std::int64_t(const Object&)> length{}; // the # operator, when there is one
   std::function<std::string(const Object&)> text{};    // what print shows
+  // What [1] .. [length] hold; ipairs goes over them.
+  std::function<Value(const Object&, std::int64_t)> item{};
+  std::string item_type{}; // LuaCATS
 };
 
 // A table that a call returns.
@@ -80,6 +83,7 @@ void bind_selections(Module&);
 void bind_model(Module&);
 void bind_conditions(Module&);
 void bind_solving(Module&);
+void bind_settling(Module&);
 void bind_fracture(Module&);
 void bind_flow(Module&);
 void bind_measures(Module&);

@@ -1,0 +1,44 @@
+// Which units of a pile have left their place, in order.
+//
+// A unit has left when its centroid has moved by `leaves` relative to the mean motion of the blocks it touched when the
+// watch was made, so that a pile that sinks or slides as a whole loses none. Of these, units that have left count no
+// more: those they rested on would seem to move. One that touched nothing, or nothing that stays, is measured against
+// the ground.
+#pragma once
+
+#include "libcdem/state/state.hpp"
+
+#include <string>
+
+namespace cdem {
+
+// A unit that has left, at the look that found it so.
+struct Departure {
+  int unit = 0;                                 // of its body, from 1
+  std::int64_t step = 0;                        // over all stages
+  double time = 0;                              // s
+  double velocity = 0;                          // m/s, of the flow then; NaN without one
+  geom::Vec3 displacement = geom::Vec3::Zero(); // m, since the watch was made, relative to what it touched
+  geom::Vec3 place = geom::Vec3::Zero();        // m, of the centroid
+};
+
+struct Watch {
+  double leaves = 0;                     // m
+  std::vector<int> blocks;               // the body's units, in order
+  std::vector<std::vector<int>> touched; // by each of them when the watch was made, ascending (n units)
+  std::vector<geom::Vec3> start;         // m, centroids of all blocks then (n_blocks)
+  std::vector<std::uint8_t> gone;        // (n_blocks) has left
+  std::vector<Departure> left;           // in order; of one look by unit
+};
+
+// Of a body of meshes; throws geom::InputError.
+Watch start_watch(const Model&, const State&, const std::string& body, double leaves);
+
+void look(const Model&, const State&, double flow_velocity, Watch&);
+
+// As it stood at a step (over all stages) that has passed.
+Watch watch_at(const Watch&, std::int64_t step);
+
+geom::Vec3 present_centroid(const Model&, const State&, int block); // m
+
+} // namespace cdem

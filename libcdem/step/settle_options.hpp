@@ -1,0 +1,41 @@
+// What settling takes and gives back.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace cdem {
+
+struct SettleOptions {
+  double kinetic_energy_ratio =
+      1e-6;                        // goal: kinetic energy over the largest there was in the stage, in (0, 1)
+  bool rigid = true;               // free units fall as rigid bodies and deform when they rest
+  double local_damping = 0.5;      // of what touches, in [0, 1)
+  double max_time = 60;            // s of the model, over all phases
+  double safety = 0.9;             // time step over the stable one, in (0, 1]
+  double time_step = 0;            // s, of the rigid phase; 0 = safety x stable
+  std::int64_t callback_every = 0; // steps between calls of `callback`, in whole twenties; 0 never
+  std::function<void()> callback;
+};
+
+struct SettlePhase {
+  std::string name; // "rigid fall", "deformable"
+  std::int64_t steps = 0;
+  double time = 0;          // s, it took of the model's
+  double kinetic_ratio = 0; // at its end
+};
+
+struct SettleResult {
+  bool converged = false;
+  double kinetic_ratio = 0;
+  double peak_kinetic = 0; // J
+  std::int64_t steps = 0;
+  double time = 0;             // s, it took of the model's
+  std::int64_t made_rigid = 0; // units, for the first phase
+  std::vector<SettlePhase> phases;
+  double wall_time = 0; // s
+};
+
+} // namespace cdem

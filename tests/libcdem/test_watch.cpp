@@ -1,0 +1,132 @@
+// Which units have left their place, and in which order.
+#include "libcdem/results/watch.hpp"
+#include "libcdem/rigid/convert.hpp"
+#include "libcdem/rigid/motion.hpp"
+#include "libgeom/mesh/box_mesh.hpp"
+#include "tests/libcdem/system.hpp"
+
+#include <catch2/catch.hpp>
+#include <cmath>
+
+using namespace testing;
+using geom::Vec3;
+
+namespace {
+
+// `count` cubes of 1 m, 1 m apart along x, as units of one body, on a slab.
+System cubes(int count) {
+  cdem::BodySpec slab = meshed("slab", geom::box_mesh({2.0 * count, 1, 1}, {1, 1, 1}));
+  cdem::BodySpec units = meshed("units", geom::box_mesh({1, 1, 1}, {1, 1, 1}));
+  const geom::TetMesh mesh = units.meshes[0];
+  units.meshes.clear();
+  for (int i = 0; i < count; ++i) {
+    units.meshes.push_back(mesh);
+    for (Vec3& x : units.meshes.back().nodes)
+      x += Vec3(2.0 * i, 0, 2);
+  }
+  slab.element = units.element = cdem::Element::rigid;
+  System s(build({slab, units}));
+  // One triangle each, for contacts to name.
+  for (int b = 0; b <= count; ++b) {
+    cdem::ContactTriangle triangle;
+    triangle.block = b;
+    s.model.surface.triangles.push_back(triangle);
+    cdem::ContactEdge edge;
+    edge.triangles = {b, b};
+    s.model.surface.edges.push_back(edge);
+  }
+  return s;
+}
+
+void touch(System& s, int block_a, int block_b, cdem::Contact::Kind kind = cdem::Contact::spring) {
+  cdem::Contact contact;
+  contact.kind = kind;
+  contact.source = kind == cdem::Contact::spring ? 3 * block_a + 1 : block_a;
+  contact.target = block_b;
+  s.state.contacts.push_back(contact);
+}
+
+void move(System& s, int block, const Vec3& way) {
+  for (int i = s.model.blocks[block].node_begin; i < s.model.blocks[block].node_end; ++i)
+    s.state.displacement[i] = node(vec(s.state.displacement[i]) + way);
+}
+
+std::vector<int> units_left(const cdem::Watch& watch) {
+  std::vector<int> units;
+  for (const cdem::Departure& d : watch.left)
+    units.push_back(d.unit);
+  return units;
+}
+
+} // namespace
+
+TEST_CASE("units leave in the order and at the time their motion takes them from the ground", "[watch]") {
+  System s = cubes(4);
+  s.hold(cdem::Selection::of_body("slab"), "xyz");
+  const double speed[] = {1, 4, 0, 2}; // m/s
+  for (int unit = 0; unit < 4; ++unit)
+    s.state.rigid[unit + 1].velocity = {0, -speed[unit], 0};
+  s.log.watches.push_back(cdem::start_watch(s.model, s.state, "units", 0.5));
+  cdem::Flow flow;
+  flow.direction = {1, 0, 0};
+  flow.water_density = 1e-9; // no push to speak of
+  flow.velocity = [](double time) { return 10 * time; };
+  const bool flows = GENERATE(false, true);
+  if (flows)
+    s.conditions.flows.push_back(flow);
+  cdem::RunOptions options;
+  options.time_step = 1e-3;
+  options.steps = 600;
+  s.run(options);
+  const cdem::Watch& watch = s.log.watches[0];
+  CHECK(units_left(watch) == std::vector<int>{2, 4, 1});
+  for (const cdem::Departure& d : watch.left) {
+    INFO("unit " << d.unit);
+    const double v = speed[d.unit - 1];
+    CHECK(d.time >= 0.5 / v - 1e-9);
+    CHECK(d.time <= 0.5 / v + 0.05 + 1e-9); // 50 steps between looks
+    CHECK((d.displacement - Vec3(0, -v * d.time, 0)).norm() < 1e-9);
+    CHECK((d.place - Vec3(2.0 * (d.unit - 1) + 0.5, 0.5 - v * d.time, 2.5)).norm() < 1e-9);
+    if (flows)
+      CHECK(d.velocity == Approx(10 * d.time).epsilon(1e-12));
+    else
+      CHECK(std::isnan(d.velocity));
+  }
+}
+
+TEST_CASE("what moves with all it touches has not left", "[watch]") {
+  System s = cubes(3); // block 0 is the slab, units 1..3 are blocks 1..3
+  touch(s, 1, 0);
+  touch(s, 2, 0, cdem::Contact::edge);
+  touch(s, 2, 1);
+  touch(s, 2, 1); // touching twice counts once
+  cdem::Watch watch = cdem::start_watch(s.model, s.state, "units", 0.5);
+  for (int block = 0; block < 3; ++block)
+    move(s, block, {0, 0, -3});
+  cdem::look(s.model, s.state, 1, watch);
+  CHECK(watch.left.empty());
+  // Unit 1 is measured against the mean of slab and unit 2, unit 2 against that of slab and unit 1.
+  move(s, 2, {0.49, 0, 0});
+  cdem::look(s.model, s.state, 2, watch);
+  CHECK(watch.left.empty());
+  move(s, 2, {0.02, 0, 0});
+  cdem::look(s.model, s.state, 3, watch);
+  CHECK(units_left(watch) == std::vector<int>{2});
+  CHECK((watch.left[0].displacement - Vec3(0.51, 0, 0)).norm() < 1e-12);
+  CHECK(watch.left[0].velocity == 3);
+  // What has left counts no more: unit 1 stays where the slab is, however far unit 2 goes.
+  move(s, 2, {20, 0, 0});
+  cdem::look(s.model, s.state, 4, watch);
+  CHECK(watch.left.size() == 1);
+  // Unit 3 touched nothing: the ground.
+  move(s, 3, {0, 0.6, 0});
+  cdem::look(s.model, s.state, 5, watch);
+  CHECK(units_left(watch) == std::vector<int>{2, 3});
+}
+
+TEST_CASE("a watch that has nothing to look at is refused", "[watch][input]") {
+  System s = cubes(1);
+  CHECK_THROWS_WITH(cdem::start_watch(s.model, s.state, "stones", 0.5),
+                    Catch::Contains("bodies = \"stones\"") && Catch::Contains("\"slab\", \"units\""));
+  CHECK_THROWS_WITH(cdem::start_watch(s.model, s.state, "units", 0), Catch::Contains("leaves = 0"));
+}
