@@ -231,7 +231,7 @@ std::int64_t Simulation::unbond(const Selection& on, bool whole_faces) {
         s.state.bond_offset[p] += s.state.bond_slip[p];
         s.state.bond_slip[p].setZero();
       }
-      settle(s.model, s.state, p);
+      cdem::settle(s.model, s.state, p);
       ++count;
     }
   const std::vector<Node> position = present_places(s.model, s.state);
@@ -244,7 +244,7 @@ std::int64_t Simulation::unbond(const Selection& on, bool whole_faces) {
     if (whole_faces ? !(holds(0) && holds(1) && holds(2)) : !holds(point))
       return;
     s.state.faces[at.batch].mode[point][at.lane] = static_cast<std::uint8_t>(BondMode::contact);
-    settle(s.model.mesh.faces[at.batch], point, at.lane, position.data(), s.state.displacement.data(),
+    cdem::settle(s.model.mesh.faces[at.batch], point, at.lane, position.data(), s.state.displacement.data(),
            face_law(s.model.bodies[s.model.blocks[chunk.block].body]), slip_of(s.state, at.batch, at.lane));
     ++count;
   });

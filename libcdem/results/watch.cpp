@@ -1,5 +1,6 @@
 #include "libcdem/results/watch.hpp"
 
+#include "libcdem/contact/contact_forces.hpp"
 #include "libgeom/core/error.hpp"
 
 #include <algorithm>
@@ -17,20 +18,11 @@ std::vector<geom::Vec3> centroids(const Model& model, const State& state) {
   return places;
 }
 
-// The blocks on the two sides of a contact.
-std::pair<int, int> blocks_of(const ContactSurface& surface, const Contact& contact) {
-  const auto of_triangle = [&](int triangle) { return surface.triangles[triangle].block; };
-  const auto of_edge = [&](int edge) { return of_triangle(surface.edges[edge].triangles[0]); };
-  if (contact.kind == Contact::edge)
-    return {of_edge(contact.source), of_edge(contact.target)};
-  return {of_triangle(contact.source / 3), of_triangle(contact.target)};
-}
-
 // By each block, ascending.
 std::vector<std::vector<int>> touching(const Model& model, const State& state) {
   std::vector<std::vector<int>> touched(model.blocks.size());
   for (const Contact& contact : state.contacts) {
-    const auto [a, b] = blocks_of(model.surface, contact);
+    const auto [a, b] = blocks_of(model, contact);
     if (a == b)
       continue;
     touched[a].push_back(b);

@@ -69,7 +69,9 @@ SettleResult settle(Model& model, const StageContext& context, const SettleOptio
   SettleResult result;
   Calm calm(options.kinetic_energy_ratio);
 
-  const auto phase = [&](const std::string& name, double time_step) {
+  // Ends at rest, or where something touches first.
+  enum class Until { rest, touch };
+  const auto phase = [&](const std::string& name, double time_step, Until until) {
     const double begin = state.time;
     calm.begin();
     RunOptions stepping;
@@ -78,7 +80,7 @@ SettleResult settle(Model& model, const StageContext& context, const SettleOptio
       return;
     stepping.safety = options.safety;
     stepping.time_step = time_step;
-    stepping.local_damping = options.local_damping;
+    stepping.local_damping = until == Until::touch ? 0 : options.local_damping;
     stepping.damp_flight = false;
     const std::int64_t looks_per_call =
         options.callback ? (options.callback_every + steps_per_look - 1) / steps_per_look : 0;
@@ -89,7 +91,7 @@ SettleResult settle(Model& model, const StageContext& context, const SettleOptio
       if (looks_per_call > 0 && ++looks % looks_per_call == 0)
         options.callback();
     };
-    stepping.stop = [&] { return calm.reached(); };
+    stepping.stop = [&] { return until == Until::touch ? !state.contacts.empty() : calm.reached(); };
     const RunResult ran = run(context, stepping, "settle: " + name);
     result.steps += ran.steps;
     result.wall_time += ran.wall_time;
@@ -111,14 +113,16 @@ SettleResult settle(Model& model, const StageContext& context, const SettleOptio
   if (!turned.empty()) {
     set_rigid(model, state, turned);
     context.last_good = state;
-    phase("rigid fall", options.time_step);
+    phase("rigid fall", options.time_step, Until::rest);
     set_deformable(model, state, turned);
     take_velocities_as_present(model, state);
     context.last_good = state;
   }
-  const bool rest = std::any_of(model.blocks.begin(), model.blocks.end(),
-                                [](const Block& block) { return block.rigid < 0; });
-  phase(rest ? "deformable" : "rigid fall", rest ? 0 : options.time_step);
+  const bool deforms = std::any_of(model.blocks.begin(), model.blocks.end(),
+                                   [](const Block& block) { return block.rigid < 0; });
+  if (deforms && turned.empty() && state.contacts.empty())
+    phase("free fall", 0, Until::touch);
+  phase(deforms ? "deformable" : "rigid fall", deforms ? 0 : options.time_step, Until::rest);
 
   result.time = state.time - start;
   result.converged = calm.reached();

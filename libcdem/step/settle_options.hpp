@@ -21,7 +21,7 @@ struct SettleOptions {
 };
 
 struct SettlePhase {
-  std::string name; // "rigid fall", "deformable"
+  std::string name; // "rigid fall", "free fall", "deformable"
   std::int64_t steps = 0;
   double time = 0;          // s, it took of the model's
   double kinetic_ratio = 0; // at its end

@@ -1,0 +1,135 @@
+// Cubes dropped on a floor come to rest, as rigid bodies first.
+#include "libcdem/results/energy.hpp"
+#include "libcdem/step/settle.hpp"
+#include "libgeom/mesh/box_mesh.hpp"
+#include "tests/libcdem/system.hpp"
+
+#include <catch2/catch.hpp>
+#include <cmath>
+
+using namespace testing;
+using geom::Mat3;
+using geom::Vec3;
+
+namespace {
+
+constexpr double side = 0.5; // m, of the cubes
+const Vec3 g(0, 0, -9.81);
+
+geom::TetMesh cube_at(const Vec3& centre, const Mat3& turn) {
+  geom::TetMesh mesh = geom::box_mesh({side, side, side}, {2, 2, 2});
+  for (Vec3& x : mesh.nodes)
+    x = turn * (x - Vec3::Constant(0.5 * side)) + centre;
+  return mesh;
+}
+
+// One on its face, one on an edge, and one that falls on the first.
+cdem::Simulation cubes(std::shared_ptr<cdem::Observer> observer = nullptr) {
+  cdem::Elastic soft = rock(); // large steps
+  soft.youngs_modulus = 2e8;
+  cdem::BodySpec floor = meshed("floor", geom::box_mesh({3, 1.5, 0.5}, {6, 3, 1}), {}, soft);
+  floor.element = cdem::Element::rigid;
+  const Mat3 straight = Mat3::Identity();
+  cdem::BodySpec units = meshed("units", cube_at({0.6, 0.75, 0.5 + 0.25 + 0.05}, straight), {}, soft);
+  units.meshes.push_back(cube_at({2.0, 0.75, 0.5 + 0.45}, rotation({0, 1, 0}, 30 * degree)));
+  units.meshes.push_back(cube_at({0.62, 0.73, 0.5 + 0.85 + 0.05}, straight));
+  cdem::Joint friction;
+  friction.bonded = false;
+  friction.friction_angle = 35 * degree;
+  cdem::ModelSpec spec;
+  spec.bodies = {floor, units};
+  spec.pairs = {{"floor", "units", friction}, {"units", "units", friction}};
+  cdem::Simulation s(spec, 1, std::move(observer));
+  cdem::Fix hold;
+  hold.on = cdem::Selection::of_body("floor");
+  s.fix(hold);
+  cdem::Gravity gravity;
+  gravity.acceleration = g;
+  s.gravity(gravity);
+  return s;
+}
+
+struct Lines final : cdem::Observer {
+  std::vector<std::string> lines;
+  void message(const std::string& line) override { lines.push_back(line); }
+};
+
+} // namespace
+
+TEST_CASE("settle: dropped cubes come to rest on their faces, one on another, and carry their weight",
+          "[settle]") {
+  auto lines = std::make_shared<Lines>();
+  cdem::Simulation s = cubes(lines);
+  cdem::SettleOptions options;
+  options.max_time = 10;
+  options.safety = 0.2; // impacts in steps that keep the energy
+  int calls = 0;
+  options.callback_every = 100;
+  options.callback = [&] { ++calls; };
+  const cdem::SettleResult result = s.settle(options);
+  REQUIRE(result.converged);
+  CHECK(result.kinetic_ratio <= 1e-6);
+  CHECK(result.made_rigid == 3);
+  REQUIRE(result.phases.size() == 2);
+  CHECK(result.phases[0].name == "rigid fall");
+  CHECK(result.phases[1].name == "deformable");
+  CHECK(result.phases[0].kinetic_ratio <= 1e-6);
+  CHECK(result.steps == result.phases[0].steps + result.phases[1].steps);
+  CHECK(s.stage() == 1);
+  CHECK(calls > 10);
+  REQUIRE_FALSE(lines->lines.empty());
+  CHECK_THAT(lines->lines[0], Catch::Contains("3 units are rigid") && Catch::Contains("off afterwards"));
+
+  const double heights[] = {0.25, 0.25, 0.75}; // over the floor
+  const auto blocks = s.blocks();
+  for (int unit = 0; unit < 3; ++unit) {
+    INFO("unit " << unit + 1);
+    const auto& block = blocks[unit + 1];
+    // Pressed in and together by parts of a millimetre.
+    CHECK((block.centroid + block.displacement).z() - 0.5 == Approx(heights[unit]).margin(1e-3));
+  }
+  const double weight = rock().density * 3 * side * side * side * -g.z();
+  CHECK(s.reaction(cdem::Selection::of_body("floor")).z() ==
+        Approx(weight + rock().density * 3 * 1.5 * 0.5 * -g.z()).epsilon(1e-3));
+  CHECK(s.energy().balance_error() < 0.01);
+}
+
+TEST_CASE("settle: deformable units fall freely until the first touch, and time that is up is told",
+          "[settle]") {
+  cdem::Simulation s = cubes();
+  cdem::SettleOptions options;
+  options.rigid = false;
+  options.max_time = 0.12; // the first touches after 0.1 s
+  const cdem::SettleResult result = s.settle(options);
+  CHECK_FALSE(result.converged);
+  CHECK(result.made_rigid == 0);
+  REQUIRE(result.phases.size() == 2);
+  CHECK(result.phases[0].name == "free fall");
+  const double falls = std::sqrt(2 * 0.05 / 9.81), step = result.phases[0].time / result.phases[0].steps;
+  CHECK(result.phases[0].time > falls);
+  CHECK(result.phases[0].time < falls + 21 * step); // 20 between looks
+  CHECK(result.phases[1].name == "deformable");
+  CHECK(result.time == Approx(0.12).epsilon(0.01));
+}
+
+TEST_CASE("settle: a fall of rigid units is ballistic until they touch", "[settle]") {
+  cdem::Simulation s = cubes();
+  cdem::SettleOptions options;
+  options.max_time = 0.05;
+  s.settle(options);
+  const double t = s.time();
+  CHECK(s.blocks()[1].displacement.z() == Approx(0.5 * g.z() * t * t).epsilon(1e-6));
+}
+
+TEST_CASE("settle: wrong goals are refused", "[settle][input]") {
+  cdem::Simulation s = cubes();
+  const auto refused = [&](auto change) {
+    cdem::SettleOptions options;
+    change(options);
+    return [&s, options] { s.settle(options); };
+  };
+  CHECK_THROWS_WITH(refused([](auto& o) { o.kinetic_energy_ratio = 1; })(),
+                    Catch::Contains("kinetic_energy_ratio = 1"));
+  CHECK_THROWS_WITH(refused([](auto& o) { o.local_damping = 1; })(), Catch::Contains("local_damping = 1"));
+  CHECK_THROWS_WITH(refused([](auto& o) { o.max_time = 0; })(), Catch::Contains("max_time = 0"));
+}
