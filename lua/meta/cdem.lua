@@ -98,6 +98,32 @@ local cdem = {}
 ---@field hash string of its arguments
 ---@field result any
 
+---A unit that has left its place.
+---@class (exact) cdem.Departure
+---@field unit integer number of the unit in its body, from 1
+---@field time number s
+---@field velocity? number m/s: of the flow then; nil without one
+---@field displacement number[] m: relative to what it touched
+---@field place number[] m: of its centroid
+
+---A part of settling.
+---@class (exact) cdem.SettlePhase
+---@field name string
+---@field steps integer
+---@field time number s: it took
+---@field kinetic_ratio number kinetic energy over its peak, at its end
+
+---What settling came to.
+---@class (exact) cdem.SettleResult
+---@field converged boolean
+---@field kinetic_ratio number kinetic energy over its peak
+---@field peak_kinetic number J
+---@field steps integer
+---@field time number s: it took of the model's
+---@field made_rigid integer units, while they fell
+---@field phases any a list of cdem.SettlePhase
+---@field wall_time number s
+
 ---A block that was cut.
 ---@class (exact) cdem.Cut
 ---@field block integer id
@@ -645,6 +671,30 @@ function Model:after_stage(callback) end
 ---@return cdem.Stage[]
 function Model:stages() end
 
+---@class (exact) cdem.ModelWatchOptions
+---@field bodies string name of a body of meshes
+---@field leaves number m, > 0: half a unit's height is usual
+
+---Watches the units of a body from now on. A unit has left when its centroid has moved by `leaves` relative to the mean motion of the units it touches now, of those that stay; where it touches none, to the ground.
+---@param options cdem.ModelWatchOptions
+---@return cdem.Watch # #watch, watch[i]: the units that have left so far, in order
+function Model:watch(options) end
+
+---@class (exact) cdem.ModelSettleOptions
+---@field kinetic_energy_ratio? number in (0, 1), default 1e-06: goal: kinetic energy over the largest there was
+---@field rigid? boolean default true: free units fall as rigid bodies
+---@field local_damping? number in [0, 1), default 0.5: of what touches: force against the motion as a fraction of the out-of-balance force (Cundall)
+---@field max_time? number s, > 0, default 60: of the model, then a warning
+---@field safety? number in [0, 1], default 0.9: time step over the stable one
+---@field time_step? number s, > 0: of the rigid fall, at most the stable one, which it is by default
+---@field every? integer >= 1: steps between calls, 100 by default; in whole twenties
+---@field callback? fun() called every so many steps; may read the model and write files
+
+---Lets units fall and come to rest: free ones as rigid bodies first, then deformable. Rigid units and damping are off afterwards.
+---@param options? cdem.ModelSettleOptions
+---@return cdem.SettleResult
+function Model:settle(options) end
+
 ---@class (exact) cdem.ModelRefineOptions
 ---@field tension_threshold? number Pa, >= 0, default 0: a block is cut when its stress is this close to the tensile strength
 ---@field shear_threshold? number Pa, >= 0, default 0: the same for the Mohr-Coulomb line
@@ -903,6 +953,12 @@ function Model:picture(options) end
 ---Line chart of histories.
 ---@param options cdem.ModelChartOptions
 function Model:chart(options) end
+
+---Units that have left their place, in order: grows while the model runs.
+---@class cdem.Watch
+---@field [integer] cdem.Departure
+---@operator len: integer
+local Watch = {}
 
 ---@class (exact) cdem.ParameterOptions
 ---@field name string a word, as in --set pressure=24e6

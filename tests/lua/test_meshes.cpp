@@ -130,15 +130,16 @@ TEST_CASE("meshed bodies that do not fit are refused", "[lua]") {
              Contains("bodies[1].element = \"finite_volume\": must be small_strain"));
 }
 
-TEST_CASE("a mesh that may touch another body is refused: there is no contact yet", "[lua]") {
+TEST_CASE("a mesh that may touch a body of blocks is refused: there is no contact between them", "[lua]") {
   const auto beside = [](const std::string& x) {
     return error_of(head +
                     "cdem.model{ bodies = { { shape = cube, material = concrete, name = 'unit' },\n"
                     "  { shape = cdem.box{ size = {1, 1, 1}, origin = {" +
                     x + ", 0, 0} }, material = concrete, name = 'slope' } } }");
   };
-  CHECK_THAT(beside("1"), Contains("\"unit\"") && Contains("\"slope\"") && Contains("no contact yet"));
-  CHECK_THAT(beside("0.5"), Contains("no contact yet"));
+  CHECK_THAT(beside("1"), Contains("\"unit\"") && Contains("\"slope\"") &&
+                              Contains("no contact between a mesh and an assembly"));
+  CHECK_THAT(beside("0.5"), Contains("no contact between a mesh and an assembly"));
   CHECK(beside("1.1") == "");
 }
 
