@@ -4,16 +4,21 @@
 #include "lua/binding/pile_object.hpp"
 #include "lua/binding/session.hpp"
 #include "lua/binding/solid_objects.hpp"
+#include "lua/binding/solving_stage.hpp"
 
 #include "libgeom/core/error.hpp"
 #include "libgeom/placement/armour_layer.hpp"
 #include "libgeom/placement/drop_grid.hpp"
+
+#include <cmath>
 
 namespace cdem::script {
 
 namespace {
 
 using geom::InputError;
+
+constexpr double unit_tolerance = 0.01; // of volume and height, between meshes of one unit
 
 geom::Ground ground_of(const Arguments& a) {
   return geom::Ground(geom::surface_of(a.object<TetMeshObject>("onto")->mesh));
@@ -73,6 +78,20 @@ Value scaled(Session&, PileObject& self, const Arguments& a) {
   return std::make_shared<PileObject>(geom::scaled(self.pile, a.number("factor")));
 }
 
+Value with_unit(Session&, PileObject& self, const Arguments& a) {
+  geom::Pile pile = geom::pile_of(a.object<TetMeshObject>("unit")->mesh);
+  const double volume = geom::volume(pile.unit), before = geom::volume(self.pile.unit);
+  const geom::Vec3 apart = geom::bounding_box(pile.unit).size() - geom::bounding_box(self.pile.unit).size();
+  if (std::abs(volume / before - 1) > unit_tolerance || apart.norm() > unit_tolerance * self.pile.height)
+    throw InputError("unit", three_digits(volume) + " m3",
+                     "another mesh of the same unit, of " + number_text(before) +
+                         " m3 and as long, wide and high",
+                     "scale the pile first where the size differs");
+  pile.height = self.pile.height;
+  pile.poses = self.pile.poses;
+  return std::make_shared<PileObject>(std::move(pile));
+}
+
 Value poses(Session&, PileObject& self, const Arguments&) {
   Values rows;
   for (const geom::Pose& pose : self.pile.poses) {
@@ -123,6 +142,15 @@ void bind_class(Module& m) {
        "cdem.Pile",
        "",
        method<PileObject>(scaled)},
+      {"with_unit",
+       "The same places and attitudes with another mesh of the unit, such as a finer one; it must stand "
+       "along the "
+       "same axes.",
+       {object("unit", "TetMesh").required()},
+       false,
+       "cdem.Pile",
+       "",
+       method<PileObject>(with_unit)},
       {"poses", "Place and attitude of each unit.", {}, true, "cdem.Pose[]", "", method<PileObject>(poses)},
       {"save",
        "Writes the pile, for cdem.read_pile in another script.",

@@ -497,6 +497,14 @@ local Pile = {}
 ---@return cdem.Pile
 function Pile:scaled(options) end
 
+---@class (exact) cdem.PileWithUnitOptions
+---@field unit cdem.TetMesh
+
+---The same places and attitudes with another mesh of the unit, such as a finer one; it must stand along the same axes.
+---@param options cdem.PileWithUnitOptions
+---@return cdem.Pile
+function Pile:with_unit(options) end
+
 ---Place and attitude of each unit.
 ---@return cdem.Pose[]
 function Pile:poses() end

@@ -35,6 +35,18 @@ TEST_CASE("a pile tells its units, and a scaled one has all lengths scaled", "[l
                "  assert(pose.centroid[3] > 2.5 + 0.2)\nend") == "");
 }
 
+TEST_CASE("a pile takes a finer mesh of its unit, and no other unit", "[lua]") {
+  CHECK(error_of(dropped +
+                 "local finer = cdem.box_mesh{ size = {1, 1, 1}, divisions = {3, 3, 3} }\n"
+                 "local same = pile:with_unit{ unit = finer }\n"
+                 "assert(#same == 12 and same.height == pile.height)\nclose(same.unit_volume, 1)\n"
+                 "for i, pose in ipairs(same:poses()) do\n"
+                 "  for k = 1, 3 do assert(pose.centroid[k] == pile:poses()[i].centroid[k]) end\nend") == "");
+  CHECK_THAT(
+      error_of(dropped + "pile:with_unit{ unit = cdem.box_mesh{ size = {1, 1, 2}, divisions = {1, 1, 1} } }"),
+      Contains("unit = 2 m3: must be another mesh of the same unit"));
+}
+
 TEST_CASE("each unit of a pile becomes a block of its body", "[lua]") {
   CHECK(error_of(dropped +
                  "local c = model:counts()\nassert(c.blocks == 12 and c.tets == 72)\n"
