@@ -136,3 +136,52 @@ TEST_CASE("a watch that has nothing to look at is refused", "[watch][input]") {
                     Catch::Contains("bodies = \"stones\"") && Catch::Contains("\"slab\", \"units\""));
   CHECK_THROWS_WITH(cdem::start_watch(s.model, s.state, "units", 0), Catch::Contains("leaves = 0"));
 }
+
+TEST_CASE("a watch goes on from a saved model, and can be taken back to a step that has passed",
+          "[watch][checkpoint]") {
+  const auto build_units = [] {
+    cdem::BodySpec units = meshed("units", geom::box_mesh({1, 1, 1}, {1, 1, 1}));
+    units.element = cdem::Element::rigid;
+    units.meshes.push_back(units.meshes[0]);
+    for (Vec3& x : units.meshes[1].nodes)
+      x += Vec3(3, 0, 0);
+    cdem::ModelSpec spec;
+    spec.bodies = {units};
+    return cdem::Simulation(spec, 1, nullptr);
+  };
+  cdem::RunOptions options;
+  options.time_step = 1e-3;
+  options.steps = 300;
+  cdem::Simulation whole = build_units();
+  const auto right = cdem::Selection::where([](const Vec3& x) { return x.x() > 2; }, "the right one");
+  whole.initial_velocity(cdem::Selection::everything(), {0, 2, 0});
+  whole.initial_velocity(right, {0, 1, 0});
+  REQUIRE(whole.watch("units", 0.5) == 0);
+  whole.run(options);
+  REQUIRE(whole.departures(0).size() == 1);
+  const std::string saved = whole.save();
+  whole.run(options);
+  REQUIRE(whole.departures(0).size() == 2);
+  const bool watched_first = GENERATE(true, false);
+  cdem::Simulation next = build_units();
+  if (watched_first)
+    next.watch("units", 0.5);
+  next.restore(saved);
+  if (!watched_first)
+    CHECK(next.watch("units", 0.5) == 0);
+  CHECK(next.departures(0).size() == 1);
+  next.run(options);
+  REQUIRE(next.departures(0).size() == 2);
+  for (std::size_t i = 0; i < 2; ++i) {
+    CHECK(next.departures(0)[i].unit == static_cast<int>(i) + 1);
+    CHECK(next.departures(0)[i].step == whole.departures(0)[i].step);
+    CHECK(next.departures(0)[i].displacement == whole.departures(0)[i].displacement);
+  }
+  cdem::Watch watch;
+  watch.blocks = {4, 7};
+  watch.gone.assign(8, 1);
+  watch.left = whole.departures(0);
+  const cdem::Watch then = cdem::watch_at(watch, whole.departures(0)[0].step);
+  CHECK(units_left(then) == std::vector<int>{1});
+  CHECK((then.gone[4] == 1 && then.gone[7] == 0));
+}
