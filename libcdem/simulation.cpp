@@ -75,13 +75,28 @@ void Simulation::gravity(const Gravity& gravity) {
   impl_->conditions.gravity = gravity;
 }
 
-void Simulation::flow(const Flow& flow) {
+namespace {
+
+// The last flow pushes on a face that another pushes on too, as the faces stand undeformed.
+bool flows_meet(const Model& model, const ResolvedConditions& r) {
+  const ResolvedFlow& last = r.flows.back();
+  std::vector<char> met(model.outer_faces.size(), 0);
+  for (std::size_t i = 0; i + 1 < r.flows.size(); ++i)
+    for (const int f : r.flows[i].faces)
+      met[f] = met[f] || model.outer_faces[f].normal.dot(r.flows[i].direction) < 0;
+  return std::any_of(last.faces.begin(), last.faces.end(),
+                     [&](int f) { return met[f] && model.outer_faces[f].normal.dot(last.direction) < 0; });
+}
+
+} // namespace
+
+bool Simulation::flow(const Flow& flow) {
   check(flow);
   Conditions changed = impl_->conditions;
   changed.flows.push_back(flow);
   if (impl_->replaying) {
     impl_->conditions = std::move(changed);
-    return;
+    return false;
   }
   const ResolvedConditions resolved = resolve(impl_->model, impl_->state, changed);
   if (!flow.new_faces && resolved.varying[resolved.flows.back().load].forces.empty())
@@ -91,6 +106,7 @@ void Simulation::flow(const Flow& flow) {
         "a direction that meets an outer face of the place (" + flow.on.text + ")",
         "a flow along x+ pushes on the side x-");
   impl_->conditions = std::move(changed);
+  return flows_meet(impl_->model, resolved);
 }
 
 void Simulation::clear_loads() {

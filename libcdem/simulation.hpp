@@ -72,8 +72,8 @@ public:
   void traction(const Traction&);
   void force(const PointForce&);
   void gravity(const Gravity&);
-  void flow(const Flow&);
-  void clear_loads(); // tractions, forces, gravity and flows
+  bool flow(const Flow&); // true when it meets faces that an earlier one meets: their pressures add up
+  void clear_loads();     // tractions, forces, gravity and flows
   // Stress present before anything moves, Pa, tension positive (xx yy zz xy yz xz), constant over the selected blocks;
   // interfaces between two selected blocks start with its traction.
   void initial_stress(const Selection&, const std::array<double, 6>&);

@@ -17,9 +17,9 @@ constexpr int most_threads = 1024;
 
 // Everything that can be typed, as typed.
 struct Typed {
-  std::string file, output, threads, jobs, colour = "displacement.magnitude", deformation = "0",
-                                           view = "front", up = "y", size = "1600x1200", range,
-                                           colour_map = "auto", title, topic;
+  std::string file, output, threads, jobs, colour, deformation = "0", view = "front", up = "y",
+                                                   size = "1600x1200", range, colour_map = "auto", title,
+                                                   topic;
   std::vector<std::string> set;
   bool unsafe = false, quiet = false, machine = false, version = false, manual = false;
   bool no_edges = false, no_broken_bonds = false, no_colour_bar = false, no_legend = false, no_axes = false;
@@ -219,10 +219,10 @@ private:
   void add_render() {
     auto* command = app_.add_subcommand("render", "draw a picture of a .vtu file");
     command->add_option("FILE", typed_.file, "the .vtu file")->option_text(" ");
-    command
-        ->add_option("--colour,--color,-c", typed_.colour,
-                     "field to colour by (displacement.magnitude); \"\": plain blocks")
-        ->option_text("FIELD");
+    colour_given_ = command
+                        ->add_option("--colour,--color,-c", typed_.colour,
+                                     "field to colour by (displacement.magnitude); \"\": plain blocks")
+                        ->option_text("FIELD");
     command->add_option("--deformation,-d", typed_.deformation, "scale of the displacement (0: undeformed)")
         ->option_text("S");
     command->add_option("--view,-v", typed_.view, "front, back, left, right, top, bottom or iso (front)")
@@ -392,7 +392,8 @@ private:
     RenderCommand c;
     c.file = typed_.file;
     c.output = typed_.output;
-    c.colour = typed_.colour;
+    if (colour_given_->count() > 0)
+      c.colour = typed_.colour;
     c.deformation = real_number("--deformation", typed_.deformation);
     c.view = typed_.view;
     c.up = typed_.up;
@@ -411,6 +412,7 @@ private:
 
   CLI::App app_;
   Typed typed_;
+  CLI::Option* colour_given_ = nullptr;
   std::string line_; // the command line, for the log
 };
 

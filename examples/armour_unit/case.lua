@@ -67,6 +67,9 @@ for _, how in ipairs(mode == "both" and {"hold", "ramp"} or {mode}) do
   figures[#figures + 1] = { name = prefix .. how .. "_m_per_s", value = broken.velocity, unit = "m/s", reference = paper,
                             kind = "paper",
                             source = "Feng 2014 table 2, without ramp rate or criterion; ended by " .. broken.reason }
+  figures[#figures + 1] = { name = prefix .. "first_break_" .. how .. "_m_per_s", value = broken.first_break_velocity,
+                            unit = "m/s", reference = number == 1 and shape == "stocky" and unit.beam_velocity(tension) or nil,
+                            kind = "formula", source = "beam theory at the root of set-up 1" }
   figures[#figures + 1] = { name = prefix .. (how == "hold" and "place" or "place_ramp"), value = unit.place(broken, case),
                             reference = case.place, kind = "paper", source = "Feng 2014 section 3.3, in words" }
   figures[#figures + 1] = { name = prefix .. how .. "_height_fraction", value = broken.height_fraction }

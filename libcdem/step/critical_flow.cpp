@@ -94,14 +94,33 @@ double volume_of(const Model& model) {
   return volume;
 }
 
-void add_place_of_break(const RunLog& log, std::size_t first, CriticalFlowResult& result) {
-  geom::Vec3 moment = geom::Vec3::Zero();
+struct BrokenArea {
+  double area = 0;                          // m2
+  geom::Vec3 centroid = geom::Vec3::Zero(); // m, undeformed
+};
+
+// Of the bonds that broke from `first` on, those of one step only where `step` says so.
+BrokenArea broken_area(const RunLog& log, std::size_t first, bool of_one_step) {
+  BrokenArea sum;
   for (std::size_t i = first; i < log.breaks.size(); ++i) {
-    result.broken_area += log.breaks[i].area;
-    moment += log.breaks[i].area * log.breaks[i].place;
+    if (of_one_step && log.breaks[i].step != log.breaks[first].step)
+      break;
+    sum.area += log.breaks[i].area;
+    sum.centroid += log.breaks[i].area * log.breaks[i].place;
   }
-  if (result.broken_area > 0)
-    result.place = moment / result.broken_area;
+  if (sum.area > 0)
+    sum.centroid /= sum.area;
+  return sum;
+}
+
+void require_held_there(const Model& model, const ResolvedConditions& r, const Selection& on) {
+  const std::vector<int> there = selected_nodes(model, on);
+  const auto is_there = [&](const HeldNode& h) {
+    return std::binary_search(there.begin(), there.end(), h.node);
+  };
+  // A neighbouring side that is held has its edge here.
+  if (2 * std::count_if(r.held.begin(), r.held.end(), is_there) < static_cast<std::ptrdiff_t>(there.size()))
+    throw geom::InputError("held", on.text, "a side that fix holds", "it is free");
 }
 
 } // namespace
@@ -124,6 +143,8 @@ CriticalFlowResult critical_flow(const StageContext& context, const CriticalFlow
       context.threads, context.number, context.keeper};
   const ResolvedConditions resolved = resolve(model, state, conditions);
   require_held(resolved);
+  if (options.held)
+    require_held_there(model, resolved, *options.held);
   const auto pattern = resolved.varying[resolved.flows.back().load].forces;
   if (pattern.empty())
     throw geom::InputError(
@@ -151,6 +172,11 @@ CriticalFlowResult critical_flow(const StageContext& context, const CriticalFlow
   std::int64_t seen = 0, looks = 0;
   bool ended = false;
   const auto look = [&] {
+    if (seen == 0 && broken() > 0) {
+      result.first_break_pressure = pressure.at(context.log.breaks[first_break].time);
+      result.first_break_velocity = flow_velocity(result.first_break_pressure, density);
+      result.first_break_place = broken_area(context.log, first_break, true).centroid;
+    }
     if (options.hold && broken() > seen)
       pressure.hold(state.time, state.time + hold_time);
     else if (pressure.resume >= 0 && state.time >= pressure.resume)
@@ -178,6 +204,9 @@ CriticalFlowResult critical_flow(const StageContext& context, const CriticalFlow
   stepping.callback_every = steps_per_look;
   stepping.callback = look;
   stepping.stop = [&] { return ended; };
+  stepping.note = [&] {
+    return fmt::format("flow {:.3g} m/s", flow_velocity(pressure.at(state.time), density));
+  };
   const RunResult run_result =
       run(with_flow, stepping, options.hold ? "critical_flow: hold" : "critical_flow: ramp");
 
@@ -187,7 +216,9 @@ CriticalFlowResult critical_flow(const StageContext& context, const CriticalFlow
   result.broken_tension = run_result.broken_tension;
   result.broken_shear = run_result.broken_shear;
   result.steps = run_result.steps;
-  add_place_of_break(context.log, first_break, result);
+  const BrokenArea all = broken_area(context.log, first_break, false);
+  result.broken_area = all.area;
+  result.place = all.centroid;
   return result;
 }
 

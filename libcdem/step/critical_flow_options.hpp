@@ -4,6 +4,7 @@
 #include "libcdem/load/conditions.hpp"
 #include "libcdem/results/fragment.hpp"
 
+#include <optional>
 #include <vector>
 
 namespace cdem {
@@ -11,6 +12,7 @@ namespace cdem {
 struct CriticalFlowOptions {
   bool hold = true;
   Flow flow;                      // its velocity is the search's own
+  std::optional<Selection> held;  // the side the solid is said to be held on: some node there must be
   double pressure_rate = 5e6;     // Pa/s, > 0
   double hold_periods = 3;        // of the first mode, > 0
   double fragment_fraction = 0.1; // of the volume, in (0, 1)
@@ -37,6 +39,9 @@ struct CriticalFlowResult {
   double broken_area = 0;            // m2
   geom::Vec3 place =
       geom::Vec3::Zero(); // m, centroid of the broken area, undeformed; zero when nothing broke
+  // Of the first bonds that broke, those of one step; zero when none did.
+  double first_break_pressure = 0, first_break_velocity = 0; // Pa, m/s
+  geom::Vec3 first_break_place = geom::Vec3::Zero();         // m, undeformed
   std::int64_t broken_tension = 0, broken_shear = 0;
   std::int64_t steps = 0;
   std::vector<CriticalFlowSample> curve; // every 100 steps

@@ -9,6 +9,7 @@ namespace cdem {
 struct Progress {
   int stage = 0;                   // number of the solving call, from 1
   std::string kind;                // "relax", "run", ...
+  std::string note;                // of the stage's own, "flow 12.3 m/s"
   std::int64_t step = 0;           // within the stage
   std::int64_t max_steps = 0;      // limit, 0 when there is none
   double residual = 0;             // out-of-balance force norm over applied force norm

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <string>
 
 namespace cdem {
 
@@ -38,7 +39,8 @@ struct RunOptions {
   bool damp_flight = true; // of rigid bodies that touch nothing too
   std::int64_t callback_every = 0;
   std::function<void()> callback;
-  std::function<bool()> stop; // asked every callback_every (default 100) steps
+  std::function<std::string()> note; // what else the progress line shows
+  std::function<bool()> stop;        // asked every callback_every (default 100) steps
 };
 
 struct RunResult {

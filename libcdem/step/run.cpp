@@ -139,6 +139,7 @@ RunResult run(const StageContext& context, const RunOptions& options, const std:
   Stepping stepping{choose_time_step(context.model, options), 0, options.local_damping, options.damp_flight};
   Stage stage(context, kind, run_away_lengths * context.model.length);
   stage.follows_pieces = options.follows_pieces;
+  stage.note = options.note;
   const std::vector<double> viscous = viscous_forces(context.model);
   Stage::StepReport report;
   Clock clock(state.time, stepping.time_step, options);

@@ -6,6 +6,7 @@
 #include "libcdem/interface/spring_forces.hpp"
 #include "libcdem/model/add_meshes.hpp"
 #include "libcdem/model/names.hpp"
+#include "libcdem/parallel/huge_pages.hpp"
 #include "libcdem/results/fields.hpp"
 #include "libcdem/rigid/motion.hpp"
 #include "libcdem/step/errors.hpp"
@@ -44,6 +45,24 @@ std::string where(const Model& model, int node) {
 
 } // namespace
 
+namespace {
+
+// What a step goes through from end to end.
+void ask_for_huge_pages_of(const Model& model, const State& state, const Workspace& work) {
+  ask_for_huge_pages(state.displacement);
+  ask_for_huge_pages(state.velocity);
+  ask_for_huge_pages(state.stress);
+  ask_for_huge_pages(state.faces);
+  ask_for_huge_pages(model.mesh.batches);
+  ask_for_huge_pages(model.mesh.faces);
+  ask_for_huge_pages(model.mesh.shares);
+  ask_for_huge_pages(model.node_position);
+  ask_for_huge_pages(model.node_mass);
+  ask_for_huge_pages(work.partial);
+}
+
+} // namespace
+
 int useful_threads(const Model& model, int threads) {
   const auto chunks = static_cast<std::int64_t>(model.chunks.size());
   const std::int64_t each = model.surface.empty() ? chunks_per_thread : touching_chunks_per_thread;
@@ -64,6 +83,7 @@ Stage::Stage(StageContext context, std::string kind, double run_away)
       told_(start_) {
   context_.threads = useful_threads(context_.model, context_.threads);
   context_.last_good = context_.state;
+  ask_for_huge_pages_of(context_.model, context_.state, work);
   start_spring_forces(context_.model, context_.state, work);
   Moment moment;
   if (const Moment* from = context_.from) {
@@ -343,6 +363,8 @@ void Stage::tell(const StepReport& report, bool last) {
   Progress progress = report.goals;
   progress.stage = context_.number;
   progress.kind = kind_;
+  if (note)
+    progress.note = note();
   progress.step = step;
   progress.residual = report.residual;
   progress.time = context_.state.time;

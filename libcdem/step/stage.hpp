@@ -40,9 +40,10 @@ public:
   Stage& operator=(const Stage&) = delete;
 
   Workspace work;
-  std::int64_t step = 0; // within the stage
-  bool follows_pieces =
-      false; // ends with a SolutionError where broken faces no longer stand for the pieces' contact
+  std::int64_t step = 0;             // within the stage
+  std::function<std::string()> note; // for the progress line; may be empty
+  // Ends with a SolutionError where broken faces no longer stand for the pieces' contact.
+  bool follows_pieces = false;
 
   // One step: all forces where the nodes are, and move(nodes, forces, sums) for every node once all that reads where it
   // is has done so; `forces` are those of elements and springs at `nodes`, the first first. The nodes of rigid bodies

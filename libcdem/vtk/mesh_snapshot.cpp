@@ -5,6 +5,7 @@
 #include "libcdem/vtk/outline.hpp"
 #include "libgeom/mesh/tet_quality.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace cdem {
@@ -14,6 +15,8 @@ Snapshot mesh_snapshot(const geom::TetMesh& mesh, const NamedFaces& named, doubl
   snapshot.points = mesh.nodes;
   snapshot.tets = mesh.tets;
   SnapshotField region{"region", "", 1, {mesh.region.begin(), mesh.region.end()}, true};
+  for (double& number : region.values)
+    number += 1; // users count from 1
   SnapshotField ratio{"radius_ratio", "1", 1, {}, false}, dihedral{"min_dihedral", "deg", 1, {}, false},
       volume{"volume", "m3", 1, {}, false};
   for (const geom::Tet& t : mesh.tets) {
@@ -69,9 +72,12 @@ geom::TetMesh read_vtu_mesh(const std::string& path) {
   mesh.nodes = snapshot.points;
   mesh.tets = snapshot.tets;
   mesh.region.assign(mesh.tets.size(), 0);
-  if (const SnapshotField* region = find_field(snapshot.cell_fields, "region"))
+  if (const SnapshotField* region = find_field(snapshot.cell_fields, "region")) {
+    // Ours count from 1; another program's may from 0.
+    const double first = std::min(1.0, *std::min_element(region->values.begin(), region->values.end()));
     for (std::size_t t = 0; t < mesh.tets.size(); ++t)
-      mesh.region[t] = static_cast<int>(region->values[t]);
+      mesh.region[t] = static_cast<int>(region->values[t] - first);
+  }
   geom::validate(mesh, path);
   return mesh;
 }

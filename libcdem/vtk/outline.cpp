@@ -137,6 +137,20 @@ std::vector<Vec3> deformed(const std::vector<Vec3>& points, const SnapshotField*
   return moved;
 }
 
+namespace {
+
+// The springs of a mesh's face stand half way from its corners to its centroid; drawn from corner to corner its edges
+// show where the crack comes to the surface.
+void reach_corners(const geom::Triangle& springs, std::vector<geom::Vec3>& points) {
+  geom::Vec3 centroid = geom::Vec3::Zero();
+  for (const int p : springs)
+    centroid += points[p] / 3;
+  for (const int p : springs)
+    points[p] = 2 * points[p] - centroid;
+}
+
+} // namespace
+
 BrokenInterfaces broken_interfaces(const BondSnapshot& bonds, double deformation) {
   BrokenInterfaces broken;
   const SnapshotField* mode = find_field(bonds.triangle_fields, "mode");
@@ -159,6 +173,8 @@ BrokenInterfaces broken_interfaces(const BondSnapshot& bonds, double deformation
       continue;
     const geom::Triangle& triangle = bonds.triangles[t];
     (shear ? broken.shear : broken.tension).triangles.push_back(triangle);
+    if (interface_id && interface_id->values[t] < 0)
+      reach_corners(triangle, broken.points);
     for (std::size_t c = 0; c < 3; ++c) {
       const int a = triangle[c], b = triangle[(c + 1) % 3];
       edges.push_back({interface_id ? static_cast<std::int64_t>(interface_id->values[t]) : 0,

@@ -38,11 +38,12 @@ Flow flow_of(const ModelObject& model, const Arguments& a) {
   return flow;
 }
 
-Value flow(Session&, ModelObject& model, const Arguments& a) {
+Value flow(Session& session, ModelObject& model, const Arguments& a) {
   model.require_idle("flow");
   Flow flow = flow_of(model, a);
   flow.velocity = velocity_of(a);
-  model.simulation.flow(flow);
+  if (model.simulation.flow(flow))
+    session.warn("model:flow: it meets faces that another flow already meets; their pressures add up");
   model.notes->conditions.push_back("flow along " + describe(a.value("direction")) + " on " + flow.on.text);
   return {};
 }
@@ -99,8 +100,12 @@ Value result_of(const CriticalFlowResult& r, const geom::Box& box, const std::st
             {"broken_shear", r.broken_shear},
             {"steps", r.steps},
             {"curve", Table::list(std::move(curve))}};
-  if (r.broken_area > 0)
+  if (r.broken_area > 0) {
     add_place(box, held, r, row);
+    row.named["first_break_velocity"] = r.first_break_velocity;
+    row.named["first_break_pressure"] = r.first_break_pressure;
+    row.named["first_break_place"] = r.first_break_place;
+  }
   return row;
 }
 
@@ -116,6 +121,8 @@ Value critical_flow(Session& session, ModelObject& model, const Arguments& a) {
   options.safety = a.number("safety");
   options.local_damping = a.number("local_damping");
   const std::string held = a.text_or("held", "");
+  if (!held.empty())
+    options.held = Selection::side(held);
   return stage(session, model, "critical_flow", a, result_of({}, {}, held), [&](Simulation& simulation) {
     const CriticalFlowResult result = simulation.critical_flow(options);
     if (result.reason == CriticalFlowResult::Reason::limit)
@@ -172,6 +179,8 @@ void bind_records(Module& m) {
         vec3("place_fraction").doc("the same in parts of the model's box, 0 to 1"),
         number("height_fraction").doc("along the held side's normal, from that side on"),
         choice("part", {"root", "waist", "top"}).doc("third of that height"),
+        number("first_break_velocity").unit("m/s").doc("when the first bond broke; nil when none did"),
+        number("first_break_pressure").unit("Pa"), vec3("first_break_place").unit("m").doc("undeformed"),
         integer("broken_tension").required(), integer("broken_shear").required(), integer("steps").required(),
         list("curve", object_type("CriticalFlowSample"), 0).required().doc("every 100 steps")}});
 }

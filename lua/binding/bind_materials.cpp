@@ -13,6 +13,17 @@ namespace {
 // Softer than gelatine or stiffer than diamond: a unit is wrong.
 constexpr double softest = 1e5, stiffest = 1e13; // Pa
 
+constexpr double lightest = 10; // kg/m3
+// Below the cohesion of loose soil.
+constexpr double weakest = 1e3; // Pa
+
+// Zero is meant: no strength.
+void warn_of_unit(Session& session, const Arguments& a, const char* strength) {
+  if (const double given = a.number(strength); given > 0 && given < weakest)
+    session.warn(std::string("cdem.mohr_coulomb: ") + strength + " = " + describe(a.value(strength)) +
+                 ": no rock is as weak; it is in Pa, rock has 1e5 to 1e8");
+}
+
 Value elastic(Session& session, Object*, const Arguments& a) {
   auto object = std::make_shared<MaterialObject>();
   object->elastic.youngs_modulus = a.number("youngs_modulus");
@@ -23,6 +34,9 @@ Value elastic(Session& session, Object*, const Arguments& a) {
   if (object->elastic.youngs_modulus < softest || object->elastic.youngs_modulus > stiffest)
     session.warn("cdem.elastic: youngs_modulus = " + describe(a.value("youngs_modulus")) +
                  ": no rock is like that; it is in Pa, rock has 1e9 to 1e11");
+  if (object->elastic.density < lightest)
+    session.warn("cdem.elastic: density = " + describe(a.value("density")) +
+                 ": lighter than any solid; it is in kg/m3, rock has 2000 to 3000");
   return object;
 }
 
@@ -82,12 +96,14 @@ std::string softening_name(const Joint& joint) {
   return "none";
 }
 
-Value mohr_coulomb(Session&, Object*, const Arguments& a) {
+Value mohr_coulomb(Session& session, Object*, const Arguments& a) {
   auto object = std::make_shared<JointObject>();
   object->joint.bonded = true;
   object->joint.cohesion = a.number("cohesion");
   object->joint.friction_angle = radians(a.number("friction_angle"));
   object->joint.tensile_strength = a.number("tensile_strength");
+  warn_of_unit(session, a, "cohesion");
+  warn_of_unit(session, a, "tensile_strength");
   read_softening(a, object->joint);
   read_stiffness(a, object->joint);
   validate(object->joint);

@@ -9,6 +9,7 @@
 #include "libgeom/core/error.hpp"
 
 #include <algorithm>
+#include <cstdio>
 
 namespace cdem::script {
 
@@ -126,6 +127,13 @@ void read_pairs(const Arguments& a, ModelSpec& spec) {
   }
 }
 
+// Six digits: places to be found again, not to be computed with.
+std::string shown_vec(const geom::Vec3& x) {
+  char text[64];
+  std::snprintf(text, sizeof text, "{%.6g, %.6g, %.6g}", x.x(), x.y(), x.z());
+  return text;
+}
+
 std::string shown_build(const ModelObject& model) {
   const ModelCounts c = model.simulation.counts();
   const geom::Box box = model.simulation.box();
@@ -133,8 +141,8 @@ std::string shown_build(const ModelObject& model) {
          "), " + std::to_string(c.blocks) + (c.blocks == 1 ? " block, " : " blocks, ") +
          std::to_string(c.tets) + " tets, " + std::to_string(c.interfaces) +
          (c.interfaces == 1 ? " interface, " : " interfaces, ") + std::to_string(c.bonds) +
-         " bonds; box from " + describe(Value(box.min)) + " to " + describe(Value(box.max)) + " m, size " +
-         describe(Value(geom::Vec3(box.size()))) + " m";
+         " bonds; box from " + shown_vec(box.min) + " to " + shown_vec(box.max) + " m, size " +
+         shown_vec(box.size()) + " m";
 }
 
 Value make_model(Session& session, Object*, const Arguments& a) {

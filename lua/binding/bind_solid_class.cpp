@@ -42,7 +42,7 @@ geom::Box box_of(const Arguments& given, const std::string& path) {
   return box;
 }
 
-Value mesh(Session&, SolidObject& self, const Arguments& a) {
+Value mesh(Session& session, SolidObject& self, const Arguments& a) {
   geom::MeshSize sizes;
   const auto size = a.has("size") ? a.optional_number("size") : self.mesh_size;
   if (!size)
@@ -67,6 +67,12 @@ Value mesh(Session&, SolidObject& self, const Arguments& a) {
   }
   auto object = std::make_shared<TetMeshObject>(geom::mesh_solid(self.solid, sizes));
   object->title = self.kind;
+  geom::Box box;
+  for (const geom::Vec3& x : object->mesh.nodes)
+    box.extend(x);
+  if (const double least = box.size().minCoeff(); sizes.size > least)
+    session.warn("mesh: size = " + number_text(sizes.size) + " m is more than the solid's smallest extent, " +
+                 number_text(least) + " m; the mesh is as coarse as the shape allows");
   return object;
 }
 

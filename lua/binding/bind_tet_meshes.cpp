@@ -13,6 +13,7 @@
 #include "libgeom/mesh/tet_quality.hpp"
 
 #include <algorithm>
+#include <set>
 
 namespace cdem::script {
 
@@ -22,6 +23,10 @@ using geom::InputError;
 
 Value read_mesh(Session& session, Object*, const Arguments& a) {
   const std::filesystem::path path = session.files.to_read(a.text("file"));
+  static const std::set<std::string> endings = {".msh", ".mesh", ".bdf", ".unv", ".vtk", ".vtu"};
+  if (endings.count(path.extension().string()) == 0)
+    throw InputError("file", describe(a.value("file")),
+                     "a name that ends in .msh, .mesh, .bdf, .unv, .vtk or .vtu");
   geom::TetMesh mesh =
       path.extension() == ".vtu" ? read_vtu_mesh(path.string()) : geom::read_mesh(path.string());
   for (geom::Vec3& x : mesh.nodes)

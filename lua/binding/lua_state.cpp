@@ -127,6 +127,16 @@ std::string LuaState::where(lua_State* L) const {
   return {};
 }
 
+namespace {
+
+// "model:flow" before "flow: ...": the library names its calls too, for those that use it without scripts.
+std::string after_name(const std::string& shown, const std::string& what) {
+  const std::string name = shown.substr(shown.find_last_of(".:") + 1) + ": ";
+  return what.compare(0, name.size(), name) == 0 ? what.substr(name.size()) : what;
+}
+
+} // namespace
+
 std::string LuaState::message_of_current_exception(lua_State* L, const std::string& shown) {
   const std::string place = where(L);
   const std::string front = (place.empty() ? "" : place + ": ") + shown + ": ";
@@ -141,14 +151,14 @@ std::string LuaState::message_of_current_exception(lua_State* L, const std::stri
     return error.what(); // from a callback: has its own place
   } catch (const SolutionError& error) {
     kind = ErrorKind::solution;
-    message = front + error.what();
+    message = front + after_name(shown, error.what());
   } catch (const FileError& error) {
     kind = ErrorKind::file;
     message = front + error.what();
   } catch (const std::bad_alloc&) {
     message = front + "not enough memory; use fewer blocks or fewer rows";
   } catch (const std::exception& error) {
-    message = front + error.what();
+    message = front + after_name(shown, error.what());
   }
   if (kind != ErrorKind::script)
     kinds_[message] = kind;

@@ -194,6 +194,9 @@ local cdem = {}
 ---@field place_fraction? number[] the same in parts of the model's box, 0 to 1
 ---@field height_fraction? number along the held side's normal, from that side on
 ---@field part? "root"|"waist"|"top" third of that height
+---@field first_break_velocity? number m/s: when the first bond broke; nil when none did
+---@field first_break_pressure? number Pa
+---@field first_break_place? number[] m: undeformed
 ---@field broken_tension integer
 ---@field broken_shear integer
 ---@field steps integer

@@ -111,6 +111,31 @@ TEST_CASE("critical flow: the unbroken column's compliance and period are those 
   CHECK(period_ratio * period_ratio == Approx(compliance_ratio).epsilon(0.02));
 }
 
+TEST_CASE("critical flow: a slender column's first bond breaks where and when beam theory says", "[flow]") {
+  const double b = 0.3, length = 1.2, strength = 2e6;
+  cdem::Bonding bonding;
+  bonding.everywhere = true;
+  cdem::Joint joint = rock_joint();
+  joint.tensile_strength = strength;
+  joint.cohesion = 1e9;
+  cdem::ModelSpec spec;
+  spec.bodies = {meshed("column", geom::box_mesh({b, b, length}, {4, 4, 16}), bonding, rock(), joint)};
+  cdem::Simulation s(spec, 1, nullptr);
+  cdem::Fix foot;
+  foot.on = cdem::Selection::side("z-");
+  s.fix(foot);
+  const cdem::CriticalFlowResult r = s.critical_flow(along_x(true, 0.05)); // 1 MPa/s: 40 ms, five periods
+  // At the root's outermost fibre the uniform load q b on the length L pulls by q b L^2 / 2 over b^3 / 6.
+  const double exact = strength * b * b / (3 * length * length);
+  INFO("first break at " << r.first_break_pressure << " Pa, " << r.first_break_pressure / exact
+                         << " of beam theory, near " << r.first_break_place.transpose());
+  CHECK(r.first_break_pressure == Approx(exact).epsilon(0.1)); // tets are stiff in bending by some per cent
+  CHECK(r.first_break_velocity == Approx(cdem::flow_velocity(r.first_break_pressure, 1025)));
+  CHECK(r.first_break_velocity <= r.velocity);
+  CHECK(r.first_break_place.x() < 0.25 * b); // the side that the flow meets is pulled
+  CHECK(r.first_break_place.z() < 0.5 * b);
+}
+
 TEST_CASE("critical flow: gravity's deflection is none of the flow's", "[flow]") {
   const auto compliance = [](const Vec3& gravity) {
     cdem::Simulation s = column(100);
@@ -142,6 +167,10 @@ TEST_CASE("critical flow: bad input is refused", "[flow][input]") {
   };
   const auto as_it_is = [](cdem::CriticalFlowOptions&) {};
   CHECK_THAT(refusal(as_it_is, false), Contains("nothing is held") && Contains("fix"));
+  CHECK_THAT(refusal([](auto& o) { o.held = cdem::Selection::side("z+"); }),
+             Contains("held = z+") && Contains("it is free"));
+  CHECK_THAT(refusal([](auto& o) { o.held = cdem::Selection::side("x+"); }), Contains("held = x+"));
+  CHECK(refusal([](auto& o) { o.held = cdem::Selection::side("z-"); }).empty());
   CHECK_THAT(refusal([](auto& o) { o.flow.direction.setZero(); }),
              Contains("direction") && Contains("longer than"));
   CHECK_THAT(refusal([](auto& o) { o.flow.on = cdem::Selection::side("x+"); }),

@@ -1,7 +1,9 @@
 // Bare meshes as snapshots: their fields, named faces and shading.
 #include "libcdem/vtk/colour_map.hpp"
+#include "libcdem/vtk/field_values.hpp"
 #include "libcdem/vtk/files.hpp"
 #include "libcdem/vtk/mesh_snapshot.hpp"
+#include "libcdem/vtk/outline.hpp"
 #include "libcdem/vtk/picture.hpp"
 #include "libgeom/mesh/box_mesh.hpp"
 #include "tests/vtk/image.hpp"
@@ -67,19 +69,37 @@ TEST_CASE("a mesh and its regions survive a .vtu") {
   CHECK(again.nodes == mesh.nodes);
   CHECK(again.tets == mesh.tets);
   CHECK(again.region == mesh.region);
+  // In the file they count from 1, as in scripts.
+  CHECK(find_field(read_vtu(folder / "mesh.vtu").cell_fields, "region")->values[1] == 2);
+}
+
+TEST_CASE("the outline of a broken face of a mesh goes from corner to corner") {
+  const geom::Vec3 corners[3] = {{0, 0, 0}, {3, 0, 0}, {0, 6, 1}};
+  const geom::Vec3 moved(0.1, 0, 0); // m, of the whole face
+  BondSnapshot bonds;
+  for (int k = 0; k < 3; ++k)
+    bonds.points.push_back(2. / 3 * corners[k] + (corners[(k + 1) % 3] + corners[(k + 2) % 3]) / 6);
+  bonds.triangles = {{0, 1, 2}};
+  const auto broken = static_cast<double>(BondMode::broken_shear);
+  bonds.triangle_fields = {{"interface_id", "", 1, {-1}, true}, {"mode", "", 1, {broken}, true}};
+  bonds.point_fields = {{"displacement", "m", 3, {.1, 0, 0, .1, 0, 0, .1, 0, 0}, false}};
+  const BrokenInterfaces drawn = broken_interfaces(bonds, 10);
+  CHECK(drawn.shear.outline.size() == 3);
+  for (int k = 0; k < 3; ++k)
+    CHECK((drawn.points[k] - corners[k] - 10 * moved).norm() < 1e-12);
 }
 
 TEST_CASE("shading changes the colours of ids by less than a sixth") {
   const TemporaryFolder folder;
   PictureOptions options;
-  options.field = "region"; // 0 everywhere
+  options.field = "region"; // 1 everywhere
   options.view = "iso";
   options.colour_map = "categorical";
   options.colour_bar = options.edges = options.axes = options.legend = false;
   options.size = {300, 300};
   render(mesh_snapshot(box, {}, 0.1), options, folder / "p.png");
   const Image image = read_png(folder / "p.png");
-  const double bar = 255 * colour_scale({0}, true, "categorical", {})(0)[0];
+  const double bar = 255 * colour_scale({1}, true, "categorical", {})(1)[0];
   std::set<int> seen;
   for (int y = 0; y < image.height; ++y)
     for (int x = 0; x < image.width; ++x) {

@@ -35,9 +35,9 @@ struct CheckCommand {
 ExitCode check(const CheckCommand&);
 
 struct RenderCommand {
-  std::filesystem::path file;   // .vtu
-  std::filesystem::path output; // empty: beside the file, named after it and the colour
-  std::string colour = "displacement.magnitude";
+  std::filesystem::path file;        // .vtu
+  std::filesystem::path output;      // empty: beside the file, named after it and the colour
+  std::optional<std::string> colour; // none: displacement.magnitude, or what else the file has
   double deformation = 0;
   std::string view = "front", up = "y", colour_map = "auto", title;
   std::array<int, 2> size = {1600, 1200}; // pixels; height 0: as high as the picture needs

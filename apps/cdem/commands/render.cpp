@@ -1,5 +1,6 @@
 // cdem render: a picture of a .vtu file.
 #include "apps/cdem/commands/commands.hpp"
+#include "libcdem/vtk/field_values.hpp"
 #include "libcdem/vtk/files.hpp"
 #include "libcdem/vtk/picture.hpp"
 #include "lua/binding/engine.hpp"
@@ -13,15 +14,33 @@ namespace cdem::app {
 
 namespace fs = std::filesystem;
 
+namespace {
+
+// What to colour by when the user does not say: a file of a mesh has no displacement.
+std::string usual_field(const Snapshot& snapshot) {
+  if (displacement_of(snapshot.point_fields))
+    return "displacement.magnitude";
+  if (find_field(snapshot.cell_fields, "region"))
+    return "region";
+  for (const SnapshotField& field : snapshot.cell_fields)
+    if (field.components == 1)
+      return field.name;
+  return "";
+}
+
+} // namespace
+
 ExitCode render_picture(const RenderCommand& command) {
   std::error_code none;
   if (!fs::exists(command.file, none))
     throw script::FileError(command.file.string() + ": no such file");
+  const Snapshot snapshot = read_vtu(command.file.string());
+  const std::string colour = command.colour ? *command.colour : usual_field(snapshot);
   fs::path output = command.output;
   if (output.empty()) {
     output = command.file;
     output.replace_extension();
-    output += (command.colour.empty() ? std::string() : "-" + command.colour) + ".png";
+    output += (colour.empty() ? std::string() : "-" + colour) + ".png";
   }
   const fs::path folder = output.has_parent_path() ? output.parent_path() : fs::path(".");
   if (!fs::is_directory(folder, none))
@@ -29,7 +48,7 @@ ExitCode render_picture(const RenderCommand& command) {
   if (access(folder.c_str(), W_OK) != 0)
     throw script::FileError(output.string() + " cannot be written: " + std::strerror(errno));
   PictureOptions options;
-  options.field = command.colour;
+  options.field = colour;
   options.deformation = command.deformation;
   options.view = command.view;
   options.up = command.up;
@@ -42,7 +61,7 @@ ExitCode render_picture(const RenderCommand& command) {
   options.colour_bar = command.colour_bar;
   options.legend = command.legend;
   options.axes = command.axes;
-  render(read_vtu(command.file.string()), options, output.string());
+  render(snapshot, options, output.string());
   std::printf("%s\n", output.c_str());
   return ExitCode::success;
 }

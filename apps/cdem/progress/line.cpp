@@ -26,6 +26,8 @@ std::string goal_text(const Progress& p) {
     text = "time " + number_text(p.time) + " of " + number_text(p.time_goal) + " s";
   else if (p.time > 0)
     text = "time " + number_text(p.time) + " s";
+  if (!p.note.empty())
+    text += (text.empty() ? "" : ", ") + p.note;
   return text;
 }
 
