@@ -19,7 +19,7 @@ constexpr int most_threads = 1024;
 struct Typed {
   std::string file, output, threads, jobs, colour, deformation = "0", view = "front", up = "y",
                                                    size = "1600x1200", range, colour_map = "auto", title,
-                                                   topic;
+                                                   topic, checkpoint_every = "10";
   std::vector<std::string> set;
   bool unsafe = false, quiet = false, machine = false, version = false, manual = false;
   bool no_edges = false, no_broken_bonds = false, no_colour_bar = false, no_legend = false, no_axes = false;
@@ -68,6 +68,7 @@ public:
     app_.add_flag("--version", typed_.version, "print the version and exit");
     app_.add_flag("--manual", typed_.manual, "print the help of every command as Markdown")->group("");
     add_run();
+    add_resume();
     add_check();
     add_sweep();
     add_render();
@@ -80,6 +81,7 @@ public:
     app_.footer("examples:\n"
                 "  cdem run examples/uniaxial_compression/case.lua\n"
                 "  cdem run case.lua --set pressure=24e6 --threads 2 --output results/gentle\n"
+                "  cdem resume results/gentle\n"
                 "  cdem check case.lua\n"
                 "  cdem sweep case.lua --set pressure=20e6,25e6,30e6 --jobs 2\n"
                 "  cdem render results/plate/result.vtu --colour displacement.x --deformation 20\n"
@@ -178,6 +180,7 @@ private:
     add_output(command, "DIR", "folder for results and log (results/<case>)");
     add_threads(command, "threads (every core); results are the same bits for any number");
     add_set(command, "NAME=VALUE", "value of a parameter of the script; may be repeated");
+    add_checkpoint_every(command);
     command->add_flag("--quiet,-q", typed_.quiet, "print nothing but warnings and errors");
     command->add_flag("--machine-progress", typed_.machine, "progress for a program that watches this run")
         ->group("");
@@ -192,7 +195,27 @@ private:
         "\n"
         "A run takes away what the last run in the same folder wrote, once it produces results itself; a\n"
         "file that was edited since is kept as FILE.edited. A folder with other files than results is\n"
-        "refused. Ctrl-C ends a run at the next step and saves the state; a second one ends it at once.\n");
+        "refused. Ctrl-C ends a run at the next step, saves the state and writes a checkpoint, from which\n"
+        "cdem resume goes on; a second one ends it at once.\n");
+  }
+  void add_checkpoint_every(CLI::App* command) {
+    command
+        ->add_option("--checkpoint-every", typed_.checkpoint_every,
+                     "minutes between checkpoints in a long stage (10); 0: none")
+        ->option_text("MINUTES");
+  }
+  void add_resume() {
+    auto* command = app_.add_subcommand("resume", "go on with a run that was stopped or killed");
+    command->add_option("FOLDER", typed_.file, "its output folder")->option_text(" ");
+    add_threads(command, "threads (every core); results are the same bits for any number");
+    add_checkpoint_every(command);
+    command->add_flag("--quiet,-q", typed_.quiet, "print nothing but warnings and errors");
+    finish(
+        command, "  cdem resume results/uniaxial_compression\n  cdem resume results/plate --threads 8\n",
+        "Goes on from the newest whole checkpoint in the folder, with the script and the settings of the\n"
+        "run, to the same bits as one that was never stopped. The script is run from its beginning: what it\n"
+        "has solved, read and written so far it is told again without being done. So it must be as it was.\n"
+        "A run that has ended well takes its checkpoints away.\n");
   }
   void add_check() {
     auto* command =
@@ -329,6 +352,8 @@ private:
       return help_action();
     if (command == "run")
       return run_action();
+    if (command == "resume")
+      return resume_action();
     if (command == "check") {
       require_file("FILE.lua", command);
       return [c = CheckCommand{typed_.file, threads(), settings_of(typed_.set), typed_.unsafe}] {
@@ -364,11 +389,35 @@ private:
     c.threads = threads();
     c.set = settings_of(typed_.set);
     c.unsafe = typed_.unsafe;
-    c.progress = typed_.machine ? ProgressStyle::machine
-                 : typed_.quiet ? ProgressStyle::none
-                                : ProgressStyle::automatic;
+    c.progress = progress_style();
+    c.checkpoint_minutes = checkpoint_minutes();
     c.line = line_;
     return [c] { return run(c); };
+  }
+
+  double checkpoint_minutes() const {
+    const double minutes = real_number("--checkpoint-every", typed_.checkpoint_every);
+    if (minutes < 0)
+      throw UsageError("--checkpoint-every " + typed_.checkpoint_every +
+                       ": must be a number of minutes >= 0; 0 writes none");
+    return minutes;
+  }
+
+  ProgressStyle progress_style() const {
+    return typed_.machine ? ProgressStyle::machine
+           : typed_.quiet ? ProgressStyle::none
+                          : ProgressStyle::automatic;
+  }
+
+  Action resume_action() {
+    require_file("FOLDER", "resume");
+    ResumeCommand c;
+    c.folder = typed_.file;
+    c.threads = threads();
+    c.progress = progress_style();
+    c.checkpoint_minutes = checkpoint_minutes();
+    c.line = line_;
+    return [c] { return resume(c); };
   }
 
   Action sweep_action() {

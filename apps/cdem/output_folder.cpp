@@ -101,7 +101,7 @@ std::string case_name(const fs::path& script, const std::map<std::string, std::s
   return clean == name ? clean : clean + "-" + hash_text(name);
 }
 
-OutputFolder::OutputFolder(fs::path folder, const fs::path& script, const std::string& command)
+OutputFolder::OutputFolder(fs::path folder, const fs::path& script, const std::string& command, Start start)
     : folder_(std::move(folder)), script_(script) {
   const std::string shown = folder_.string();
   std::error_code error;
@@ -125,7 +125,10 @@ OutputFolder::OutputFolder(fs::path folder, const fs::path& script, const std::s
     close(lock_);
     throw FileError("output folder " + shown + " is in use by another run; choose another with --output");
   }
-  open_log(folder_ / (old_results_ ? failed_log_name : run_log_name), command);
+  if (start == Start::goes_on && old_results_)
+    go_on(command);
+  else
+    open_log(folder_ / (old_results_ ? failed_log_name : run_log_name), command);
   if (!old_results_)
     begin_results();
 }
@@ -144,6 +147,18 @@ void OutputFolder::open_log(const fs::path& file, const std::string& command) {
   log_path_ = file;
   std::fprintf(log_, "%s%s\nstarted %s\n", run_log_head, command.c_str(), date_now().c_str());
   std::fflush(log_);
+}
+
+void OutputFolder::go_on(const std::string& command) {
+  log_path_ = folder_ / run_log_name;
+  for (const auto& listed : files_of_run_log(log_path_))
+    written_.insert(listed.name);
+  log_ = std::fopen(log_path_.c_str(), "ae");
+  if (log_ == nullptr)
+    throw FileError(log_path_.string() + " cannot be written: " + system_reason());
+  std::fprintf(log_, "%s%s, %s\n", run_log_resumed, command.c_str(), date_now().c_str());
+  std::fflush(log_);
+  begun_ = has_said_ = true;
 }
 
 void OutputFolder::log(const std::string& text) {

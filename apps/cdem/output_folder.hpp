@@ -25,8 +25,10 @@ std::string case_name(const std::filesystem::path& script,
 
 class OutputFolder {
 public:
+  enum class Start { anew, goes_on }; // goes_on: with the results and the log that are there
   // Makes the folder, locks it and opens the log. command: for the log's head. Throws script::FileError.
-  OutputFolder(std::filesystem::path folder, const std::filesystem::path& script, const std::string& command);
+  OutputFolder(std::filesystem::path folder, const std::filesystem::path& script, const std::string& command,
+               Start = Start::anew);
   ~OutputFolder();
   OutputFolder(const OutputFolder&) = delete;
   OutputFolder& operator=(const OutputFolder&) = delete;
@@ -50,6 +52,7 @@ public:
 
 private:
   void open_log(const std::filesystem::path&, const std::string& command);
+  void go_on(const std::string& command);
   void write_to_log(const std::string& text);
   void take_away();
   void remove_old_results();

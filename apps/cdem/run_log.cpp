@@ -10,7 +10,8 @@ namespace fs = std::filesystem;
 
 namespace {
 
-const std::string head = run_log_head, writes = run_log_writes, ended = run_log_end;
+const std::string head = run_log_head, writes = run_log_writes, ended = run_log_end,
+                  resumed = run_log_resumed;
 
 bool starts_with(const std::string& line, const std::string& start) {
   return line.compare(0, start.size(), start) == 0;
@@ -44,6 +45,12 @@ std::vector<LoggedFile> files_of_run_log(const fs::path& log) {
     if (const std::string message = message_of(line); starts_with(message, writes))
       announced.insert(message.substr(writes.size()));
     has_ended = has_ended || starts_with(line, ended);
+    if (starts_with(line, resumed)) { // what the run before says of its files no longer holds
+      has_ended = false;
+      for (const LoggedFile& file : listed)
+        announced.insert(file.name);
+      listed.clear();
+    }
     std::istringstream words(line);
     std::string keyword;
     LoggedFile file;
@@ -88,7 +95,10 @@ RunLogSummary summary_of_run_log(const fs::path& log) {
       summary.command = line.substr(head.size());
     else if (starts_with(line, started))
       summary.started = line.substr(started.size());
-    else if (starts_with(line, ended))
+    else if (starts_with(line, resumed)) {
+      summary.exit_code.reset();
+      summary.error.clear();
+    } else if (starts_with(line, ended))
       summary.exit_code = std::atoi(line.c_str() + ended.size());
     else if (const std::string message = message_of(line);
              starts_with(message, error) && summary.error.empty())

@@ -6,7 +6,9 @@
 //     file 1234 1769857200000000000 case.lua         size in bytes, stamp of its last change, name
 //     ended with exit code 0, 2025-01-31 12:00:40 +0100
 //
-// A run that was killed has no "file" and "ended" lines: then the "writes" lines count.
+// A run that was killed has no "file" and "ended" lines: then the "writes" lines count. One that goes on from a
+// checkpoint adds to the log of the first, after a line
+//     resumed cdem 0.1.0 (Release, GNU 12.2.0), cdem resume results/plate, 2025-01-31 12:01:00 +0100
 #pragma once
 
 #include <cstdint>
@@ -19,6 +21,7 @@ namespace cdem::app {
 
 constexpr const char* run_log_name = "cdem.log";
 constexpr const char* run_log_head = "cdem log 1: ";
+constexpr const char* run_log_resumed = "resumed ";
 constexpr const char* run_log_writes = "writes ";
 constexpr const char* run_log_end = "ended with exit code ";
 

@@ -129,7 +129,8 @@ void bind_charts(Module& m) {
                                   colour_field()};
   std::vector<Field> lists = chart_fields();
   lists.insert(lists.begin() + 1, list("series", record_type(series)).required());
-  m.functions.push_back({"chart", "Line chart of lists of numbers.", lists, false, "", "", chart_of_lists});
+  m.functions.push_back({"chart", "Line chart of lists of numbers.", lists, false, "", "", chart_of_lists,
+                         false, Replay::recorded});
 
   std::vector<Field> histories = chart_fields();
   histories.insert(

@@ -196,18 +196,23 @@ void bind_conditions(Module& m) {
     model.methods.push_back({std::move(name), std::move(doc), std::move(fields), false, std::move(returns),
                              std::move(returns_doc), method<ModelObject>(body)});
   };
+  const auto again = [&] { model.methods.back().replay = Replay::again; };
   add("fix", "Holds nodes, or moves them as told. A later call wins over an earlier one where they meet.",
       {on(), axes(),
        vec3("displacement").unit("m").doc("total value to be held; a relaxation moves there first"),
        vec3("velocity").unit("m/s").doc("in real-time stepping; zero when left out")},
       fix);
+  again();
   add("release", "Undoes fixes.", {on(), axes().doc("components set free")}, release);
+  again();
   add("traction", "Force per undeformed area on outer faces.",
       {on(), vec3("stress").unit("Pa").required().doc("force over area, not following the surface"),
        amplitude()},
       traction);
+  again();
   add("force", "A total force, shared among the nodes of a place.",
       {one_place(), vec3("force").unit("N").required().doc("total"), amplitude()}, force);
+  again();
   add("gravity", "Weight of all blocks; one at a time, the last call counts.",
       {vec3("vector").unit("m/s2").required().doc("acceleration, e.g. {0, 0, -9.81}"),
        number("water_density")
@@ -217,7 +222,9 @@ void bind_conditions(Module& m) {
            .doc("buoyancy: takes from the weight, never from the inertia"),
        amplitude()},
       gravity);
+  again();
   add("clear_loads", "Takes away tractions, forces, gravity and flows.", {}, clear_loads);
+  again();
   add("initial_stress",
       "Stress present before anything moves, the same in all blocks of a place; interfaces between them "
       "start with its "

@@ -213,6 +213,7 @@ void bind_flow(Module& m) {
       "along the "
       "flow, alpha the cosine to the inward normal (Feng 2014 eqs 19-20). Shielding is not modelled.",
       steady, "", "", flow);
+  model.methods.back().replay = Replay::again;
   std::vector<Field> search = flow_fields();
   for (const Field& field :
        {choice("mode", {"hold", "ramp"})

@@ -118,14 +118,18 @@ Value grow(Session& session, ModelObject& model, const Arguments& a) {
   options.max_rounds = static_cast<int>(a.integer("max_rounds"));
   options.refine = refine_options(model, a);
   if (const auto callback = a.function("callback"))
-    options.callback = [callback](const GrowPass& pass) { callback->call({pass_row(pass)}); };
-  return stage(session, model, "grow", a, grow_result({}), [&](Simulation& simulation) {
-    const GrowResult result = simulation.grow(options);
-    if (result.state == GrowState::stuck)
-      session.warn("grow: stuck in pass " + std::to_string(result.passes.size()) +
-                   "; a relaxation did not reach its residual or max_rounds was used up");
-    return grow_result(result);
-  });
+    options.callback = [&session, callback](const GrowPass& pass) {
+      session.checkpoints.call_back("callback", *callback, {pass_row(pass)});
+    };
+  return stage(session, model, "grow", a, grow_result({}),
+               [&](Simulation& simulation) {
+                 const GrowResult result = simulation.grow(options);
+                 if (result.state == GrowState::stuck)
+                   session.warn("grow: stuck in pass " + std::to_string(result.passes.size()) +
+                                "; a relaxation did not reach its residual or max_rounds was used up");
+                 return grow_result(result);
+               },
+               {{"callback", a.function("callback")}});
 }
 
 std::vector<Field> refine_fields() {

@@ -159,6 +159,9 @@ Value make_model(Session& session, Object*, const Arguments& a) {
   model->piles = std::move(piles);
   model->unjointed = unjointed;
   model->number = static_cast<int>(session.models.size()) + 1;
+  if (session.checkpoints.keeps())
+    model->simulation.set_keeper(&session.checkpoints);
+  model->simulation.set_replaying(session.checkpoints.replaying());
   model->memory = session.new_memory(Table());
   model->notes->built = shown_build(*model);
   session.models.push_back(model);
@@ -299,7 +302,9 @@ void bind_model(Module& m) {
                     false,
                     "",
                     "",
-                    method<ModelObject>(select)},
+                    method<ModelObject>(select),
+                    false,
+                    Replay::again},
                    {"counts",
                     "How many there are of everything.",
                     {},

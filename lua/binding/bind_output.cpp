@@ -111,7 +111,9 @@ void bind_output(Module& m) {
                          false,
                          "",
                          "",
-                         film});
+                         film,
+                         false,
+                         Replay::recorded});
 }
 
 } // namespace cdem::script

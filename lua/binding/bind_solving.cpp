@@ -10,11 +10,11 @@ namespace {
 
 using geom::InputError;
 
-std::function<void()> callback_of(const Arguments& a) {
+std::function<void()> callback_of(Session& session, const Arguments& a) {
   const auto function = a.function("callback");
   if (!function)
     return {};
-  return [function] { function->call({}); };
+  return [&session, function] { session.checkpoints.call_back("callback", *function, {}); };
 }
 
 std::int64_t callback_interval(const Arguments& a) {
@@ -38,18 +38,21 @@ Value relax(Session& session, ModelObject& model, const Arguments& a) {
   options.breaking = a.flag("breaking");
   options.max_steps = a.integer("max_steps");
   options.callback_every = callback_interval(a);
-  options.callback = callback_of(a);
+  options.callback = callback_of(session, a);
   if (!model.simulation.anything_acts())
     session.warn("relax: nothing acts on the model: no load, no support that moves it, no initial stress; "
                  "it stays as it is");
-  return stage(session, model, "relax", a, relax_result({}), [&](Simulation& simulation) {
-    const RelaxResult result = simulation.relax(options);
-    if (!result.converged)
-      session.warn("relax: not converged after " + std::to_string(result.steps) + " steps, residual " +
-                   three_digits(result.residual) + " above " + number_text(options.residual) +
-                   "; raise max_steps, or look whether something moves freely");
-    return relax_result(result);
-  });
+  return stage(session, model, "relax", a, relax_result({}),
+               [&](Simulation& simulation) {
+                 const RelaxResult result = simulation.relax(options);
+                 if (!result.converged)
+                   session.warn("relax: not converged after " + std::to_string(result.steps) +
+                                " steps, residual " + three_digits(result.residual) + " above " +
+                                number_text(options.residual) +
+                                "; raise max_steps, or look whether something moves freely");
+                 return relax_result(result);
+               },
+               {{"callback", a.function("callback")}});
 }
 
 Value run_result(const RunResult& r) {
@@ -74,10 +77,10 @@ Value run(Session& session, ModelObject& model, const Arguments& a) {
   options.breaking = a.flag("breaking");
   options.local_damping = a.number("local_damping");
   options.callback_every = callback_interval(a);
-  options.callback = callback_of(a);
+  options.callback = callback_of(session, a);
   if (const auto stop = a.function("stop"))
-    options.stop = [stop] {
-      const Values answer = stop->call({});
+    options.stop = [&session, stop] {
+      const Values answer = session.checkpoints.call_back("stop", *stop, {});
       const bool* yes = answer.empty() ? nullptr : answer[0].get<bool>();
       if (!yes && !(answer.empty() || answer[0].is_nil()))
         throw InputError("stop() of " + stop->place(), describe(answer[0]), "true or false");
@@ -86,7 +89,8 @@ Value run(Session& session, ModelObject& model, const Arguments& a) {
   if (!a.has("duration") && !a.has("steps"))
     options.steps = std::numeric_limits<std::int64_t>::max(); // until stop says so
   return stage(session, model, "run", a, run_result({}),
-               [&](Simulation& simulation) { return run_result(simulation.run(options)); });
+               [&](Simulation& simulation) { return run_result(simulation.run(options)); },
+               {{"callback", a.function("callback")}, {"stop", a.function("stop")}});
 }
 
 Value stages(Session& session, ModelObject& model, const Arguments&) {
@@ -169,6 +173,7 @@ void bind_solving(Module& m) {
       {function("callback", "(stage: cdem.Stage)").required().doc("may read the model and write files")}, "",
       "", after_stage);
   model.methods.back().in_order = true;
+  model.methods.back().replay = Replay::again;
   add("stages", "The model's solving calls so far.", {}, "cdem.Stage[]", "", stages);
   model.methods.back().in_order = true;
 }

@@ -200,7 +200,9 @@ void bind_sweep(Module& m) {
                          false,
                          "cdem.SweepResult[]",
                          "in the order given",
-                         sweep});
+                         sweep,
+                         false,
+                         Replay::recorded});
 }
 
 } // namespace cdem::script

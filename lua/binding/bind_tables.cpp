@@ -100,7 +100,9 @@ void bind_tables(Module& m) {
        true,
        "table<string, number[]>",
        "lists by name",
-       read_csv});
+       read_csv,
+       false,
+       Replay::recorded});
   m.functions.push_back(
       {"write_csv",
        "Writes columns of numbers.",
@@ -113,7 +115,9 @@ void bind_tables(Module& m) {
        false,
        "",
        "",
-       write_csv});
+       write_csv,
+       false,
+       Replay::recorded});
   m.functions.push_back(
       {"log", "Writes a line to the log and the terminal.", {text("text").required()}, true, "", "", log});
   m.functions.push_back(
@@ -142,16 +146,16 @@ void bind_tables(Module& m) {
                          "string",
                          "",
                          {}});
-  m.functions.push_back({"elapsed",
-                         "Wall-clock time since the script began, s.",
-                         {},
-                         true,
-                         "number",
-                         "",
-                         [](Session& session, Object*, const Arguments&) -> Value {
-                           const auto since = std::chrono::steady_clock::now() - session.start;
-                           return std::chrono::duration<double>(since).count();
-                         }});
+  m.functions.push_back(
+      {"elapsed",
+       "Wall-clock time since the script began, s.",
+       {},
+       true,
+       "number",
+       "",
+       [](Session& session, Object*, const Arguments&) -> Value { return session.elapsed(); },
+       false,
+       Replay::recorded});
   m.constants.push_back({"version", "Version of the toolkit.", CDEM_VERSION});
 }
 

@@ -45,12 +45,22 @@ void Engine::run_file() {
       text[0] == '#') // first line of an executable script; its newline stays for the line numbers
     text.erase(0, std::min(text.find('\n'), text.size()));
   impl_->lua.interrupted = false;
+  const auto in_script = [&](const auto& step) {
+    try {
+      step();
+    } catch (const geom::InputError& wrong) {
+      throw ScriptError(shown_name(script) + ": " + wrong.what());
+    }
+  };
+  in_script([&] {
+    if (session.settings.resume.empty())
+      session.checkpoints.begin(text);
+    else
+      session.checkpoints.load(session.settings.resume, text);
+  });
   impl_->lua.run(text, "@" + shown_name(script));
-  try {
-    session.check_set_names();
-  } catch (const geom::InputError& wrong) {
-    throw ScriptError(shown_name(script) + ": " + wrong.what());
-  }
+  in_script([&] { session.check_set_names(); });
+  in_script([&] { session.checkpoints.end(); });
   if (!session.report.figures.empty() && session.report.warnings.size() < session.warnings.size())
     session.write_report(); // with the warnings that came after the last figure
 }

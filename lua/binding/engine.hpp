@@ -5,6 +5,7 @@
 #include "libcdem/step/observer.hpp"
 #include "libcdem/vtk/file_error.hpp"
 
+#include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <map>
@@ -34,8 +35,22 @@ struct EngineSettings {
   std::shared_ptr<Observer> observer;
   // Told of each file just before it is written; may be empty.
   std::function<void(const std::filesystem::path&)> will_write;
-  std::string program; // path of the cdem program, for sweeps
+  std::string program;          // path of the cdem program, for sweeps
+  std::filesystem::path resume; // checkpoint to go on from; empty: from the start
+  double checkpoint_minutes =
+      0; // between checkpoints in solving calls; 0: only asked ones and those of a stop
 };
+
+// What a run needs to know of a checkpoint before it goes on from it.
+struct CheckpointInfo {
+  std::filesystem::path file;
+  std::filesystem::path script; // absolute
+  std::map<std::string, std::string> set;
+  bool unsafe = false;
+  std::uint64_t serial = 0; // counts the checkpoints of a run
+};
+// The later of the two of an output folder that are whole. Throws FileError when there is none.
+CheckpointInfo newest_checkpoint(const std::filesystem::path& folder);
 
 // One declared parameter of a script (cdem.parameter).
 struct ParameterInfo {

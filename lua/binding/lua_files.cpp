@@ -10,9 +10,11 @@ namespace cdem::script {
 
 // Upvalue 1: the library's io.open.
 int open_file(lua_State* L) {
-  const std::string name = luaL_checkstring(L, 1), mode = luaL_optstring(L, 2, "r");
+  const std::string name = luaL_checkstring(L, 1);
+  std::string mode = luaL_optstring(L, 2, "r");
   return guarded(L, "io.open", [&] {
-    const Files& files = LuaState::of(L).session.files;
+    Session& session = LuaState::of(L).session;
+    const Files& files = session.files;
     if (mode.empty() || std::strchr("rwa", mode[0]) == nullptr)
       throw geom::InputError("mode", "\"" + mode + "\"", "r, w, a, r+, w+ or a+, with b after it or not");
     const bool writes = mode.find_first_of("wa+") != std::string::npos;
@@ -24,6 +26,9 @@ int open_file(lua_State* L) {
       lua_pushstring(L, error.what());
       return 2;
     }
+    // A resumed script adds its lines anew to a file that was empty when it first began.
+    if (mode[0] == 'a' && session.checkpoints.resumed() && session.appended.insert(path).second)
+      mode[0] = 'w';
     lua_settop(L, 0);
     lua_pushvalue(L, lua_upvalueindex(1));
     lua_pushlstring(L, path.data(), path.size());
@@ -75,13 +80,14 @@ int require_beside(lua_State* L) {
     for (const char c : name)
       if (!(std::isalnum(static_cast<unsigned char>(c)) || c == '_' || c == '-' || c == '.'))
         throw geom::InputError("name", "\"" + name + "\"", "letters, digits, _ and -, with dots for folders");
-    const Session& session = LuaState::of(L).session;
+    Session& session = LuaState::of(L).session;
     file = name;
     for (char& c : file)
       c = c == '.' ? '/' : c;
     file += ".lua";
     const auto path = session.files.to_read(file);
     text = read_file(path);
+    session.checkpoints.source(name, text);
     file = shown_name(path);
     return 0;
   });

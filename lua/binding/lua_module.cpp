@@ -1,6 +1,7 @@
 // The `cdem` table and the metatables of its classes, made from the module's declarations.
 #include "lua/binding/embedded.hpp"
 #include "lua/binding/lua_state.hpp"
+#include "lua/binding/model_object.hpp"
 #include "lua/binding/nearest.hpp"
 
 #include "libgeom/core/error.hpp"
@@ -48,6 +49,19 @@ std::shared_ptr<Object> read_self(lua_State* L, const Bound& bound) {
   return object;
 }
 
+// Through the journal, by which a resumed script is told the same again.
+Value answer(Session& session, const Bound& bound, Object* self, const Arguments& arguments) {
+  const auto* model = dynamic_cast<const ModelObject*>(self);
+  Replay replay = bound.function->replay;
+  if (replay == Replay::standard)
+    replay = model ? Replay::recorded : Replay::never;
+  const int number = model ? model->number : 0;
+  return session.checkpoints.call(
+      bound.shown, replay, number,
+      [&] { return fnv1a(std::to_string(number) + " " + arguments.canonical()); },
+      [&] { return bound.function->body(session, self, arguments); });
+}
+
 // Every function and method of the module comes through here.
 int call_bound(lua_State* L) {
   const auto& bound = *static_cast<const Bound*>(lua_touserdata(L, lua_upvalueindex(1)));
@@ -64,7 +78,7 @@ int call_bound(lua_State* L) {
     if (bound.owner)
       self = read_self(L, bound);
     const Arguments arguments = read_arguments(L, bound, bound.owner ? 2 : 1);
-    const Value result = bound.function->body(state.session, self.get(), arguments);
+    const Value result = answer(state.session, bound, self.get(), arguments);
     lua_settop(L, 0);
     push(L, result);
     return 1;
@@ -114,7 +128,12 @@ int index_object(lua_State* L) {
     for (const Property& p : c.properties) {
       if (p.name != key)
         continue;
-      push(L, p.get(state.session, object_at_1(L)));
+      Object& self = object_at_1(L);
+      const auto* model = dynamic_cast<const ModelObject*>(&self);
+      const int number = model ? model->number : 0;
+      push(L, state.session.checkpoints.call(
+                  "model." + key, model && p.name != "memory" ? Replay::recorded : Replay::never, number,
+                  [&] { return fnv1a(std::to_string(number)); }, [&] { return p.get(state.session, self); }));
       return 1;
     }
     throw geom::InputError(

@@ -31,8 +31,11 @@ void* allocate(void* user, void* block, std::size_t old_size, std::size_t new_si
 
 bool stop_wanted(LuaState& state) {
   const auto& observer = state.session.settings.observer;
-  if (observer && observer->stop_requested())
+  if (observer && observer->stop_requested()) {
+    if (!state.interrupted)
+      state.session.checkpoints.stop();
     state.interrupted = true;
+  }
   return state.interrupted;
 }
 

@@ -32,6 +32,7 @@ const Module& module() {
     bind_measures(m);
     bind_units(m);
     bind_output(m);
+    bind_checkpoints(m);
     bind_charts(m);
     bind_report(m);
     bind_tables(m);

@@ -2,6 +2,7 @@
 // return.
 #pragma once
 
+#include "lua/binding/journal.hpp"
 #include "lua/binding/schema.hpp"
 
 #include <functional>
@@ -20,6 +21,9 @@ struct Function {
   // self is null for a function; an empty body: defined in lua/cdem, declared here for the annotations
   std::function<Value(Session&, Object* self, const Arguments&)> body;
   bool named_too = false; // an in_order function that takes one table with its fields as well
+  // In a resumed script. A method of Model that keeps a place, a condition or a function of the script is `again`; a
+  // function that reads or writes files or the clock is `recorded`.
+  Replay replay = Replay::standard;
 };
 
 struct Property {
@@ -89,6 +93,7 @@ void bind_flow(Module&);
 void bind_measures(Module&);
 void bind_units(Module&);
 void bind_output(Module&);
+void bind_checkpoints(Module&);
 void bind_charts(Module&);
 void bind_report(Module&);
 void bind_tables(Module&);

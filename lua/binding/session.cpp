@@ -33,9 +33,14 @@ Session::Session(EngineSettings given)
   report.case_name = case_name(settings.script, files.output());
 }
 
+double Session::elapsed() const {
+  const std::chrono::duration<double> since = std::chrono::steady_clock::now() - start;
+  return checkpoints.elapsed_before() + since.count();
+}
+
 void Session::message(const std::string& line) const {
-  if (settings.check_only && !stages.empty())
-    return; // figures made of the empty results of solving calls
+  if (checkpoints.silent() || (settings.check_only && !stages.empty()))
+    return; // shown before; figures made of the empty results of solving calls
   if (settings.observer)
     settings.observer->message(line);
   else
@@ -43,6 +48,8 @@ void Session::message(const std::string& line) const {
 }
 
 void Session::warn(const std::string& text) {
+  if (checkpoints.silent())
+    return; // it stands among the warnings of the checkpoint
   const std::string place = where ? where() : std::string();
   const std::string line = (place.empty() ? "" : place + ": ") + "warning: " + text;
   if (std::find(warnings.begin(), warnings.end(), line) != warnings.end())

@@ -3,6 +3,7 @@
 
 #include "lua/binding/engine.hpp"
 #include "lua/binding/files.hpp"
+#include "lua/binding/replay.hpp"
 #include "lua/binding/report.hpp"
 #include "lua/binding/value.hpp"
 
@@ -46,12 +47,16 @@ struct Session {
   std::vector<std::shared_ptr<ModelNotes>> notes;   // of the same models
   std::vector<std::shared_ptr<ModelObject>> failed; // models whose stage failed or was stopped
   std::vector<std::string> warnings;
+  std::set<std::string> appended; // files that a resumed script has opened to add to
+  Checkpoints checkpoints{*this};
   Report report; // its warnings are those above
 
   // Services of the Lua side.
   std::function<std::shared_ptr<Reference>(const Value& plain_table)> new_memory; // for model.memory
   std::function<std::string()> where;    // "case.lua:12" of the running call
   std::function<void()> collect_garbage; // lets go of models that the script no longer holds
+
+  double elapsed() const; // s, since the script began, in the runs that this one goes on from too
 
   // To the observer; to standard output without one. In a check, nothing once a solving call was passed.
   void message(const std::string& line) const;

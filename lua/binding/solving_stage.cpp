@@ -52,7 +52,8 @@ Value stage_row(const Stage& stage) {
 }
 
 Value stage(Session& session, ModelObject& model, const char* kind, const Arguments& arguments,
-            const Value& empty, const std::function<Value(Simulation&)>& solve) {
+            const Value& empty, const std::function<Value(Simulation&)>& solve,
+            const Checkpoints::Callbacks& callbacks) {
   model.require_idle(kind);
   model.check_memory();
   session.check_set_names();
@@ -73,7 +74,8 @@ Value stage(Session& session, ModelObject& model, const char* kind, const Argume
   try {
     Solving solving(model);
     if (!session.settings.check_only)
-      result = solve(model.simulation);
+      result =
+          session.checkpoints.stage(kind, stage.hash, callbacks, [&] { return solve(model.simulation); });
   } catch (const SolutionError&) {
     keep_unfinished(session, model);
     throw;
@@ -82,14 +84,16 @@ Value stage(Session& session, ModelObject& model, const char* kind, const Argume
     throw;
   }
   session.stages[index].result = result;
-  if (!session.settings.check_only)
+  if (!session.settings.check_only && !session.checkpoints.replaying()) {
     warn_of_large_deformation(session, model, stage);
-  if (!session.settings.check_only)
     model.write_history(session);
+  }
   {
     Solving solving(model);
-    for (const auto& callback : model.after_stage)
-      callback->call({stage_row(session.stages[index])});
+    session.checkpoints.listen([&] {
+      for (const auto& callback : model.after_stage)
+        callback->call({stage_row(session.stages[index])});
+    });
   }
   model.check_memory();
   return result;

@@ -943,6 +943,23 @@ function Model:save(options) end
 ---@param options cdem.ModelPictureOptions
 function Model:picture(options) end
 
+---Writes a checkpoint of the whole run, from which `cdem resume` goes on. One is written every few minutes of a solving call too, and when a run is stopped. To go on, the script is run again from its beginning: what it has solved and read so far it is told again.
+function Model:checkpoint() end
+
+---@class (exact) cdem.ModelSaveStateOptions
+---@field file string ends in .cdem; in the output folder
+
+---Writes the state of the model to a file that other scripts start from: motion, stress, broken bonds, contacts, time, and how it was cut. Conditions and histories stay behind.
+---@param options cdem.ModelSaveStateOptions
+function Model:save_state(options) end
+
+---@class (exact) cdem.ModelLoadStateOptions
+---@field file string beside the script, in the output folder or below the results
+
+---Takes the state from a file of save_state. The model must have been built from the same shapes, materials, joints and contacts.
+---@param options cdem.ModelLoadStateOptions
+function Model:load_state(options) end
+
 ---@class (exact) cdem.ModelChartOptions
 ---@field file string ends in .png; in the output folder
 ---@field y string[] histories, e.g. {"residual"}; model:history() has all

@@ -44,7 +44,8 @@ TEST_CASE("the version is that of the project") {
 
 TEST_CASE("help shows every command, examples and the exit codes") {
   const std::string help = cdem({"--help"}).out;
-  for (const std::string command : {"run", "check", "sweep", "render", "info", "repl", "annotations"}) {
+  for (const std::string command :
+       {"run", "resume", "check", "sweep", "render", "info", "repl", "annotations"}) {
     CHECK_THAT(help, Contains("\n  " + command + " "));
     CHECK_THAT(cdem({"help", command}).out, Contains("usage: cdem " + command));
   }

@@ -163,8 +163,9 @@ TEST_CASE("a run on a terminal shows one live line that goes when it ends") {
   CHECK(outcome.after_signal < 2);
   CHECK_THAT(outcome.out, Contains("\r\033[Kstage 1 run  "));
   // The line is taken back before the next thing is printed.
-  CHECK_THAT(outcome.out,
-             Contains("\r\033[Kthe last good state") && Contains("cdem: error: stopped by Ctrl-C\r\n"));
+  CHECK_THAT(outcome.out, Contains("\r\033[Kcheckpoint; to go on: cdem resume results/bar-endless") &&
+                              Contains("the last good state") &&
+                              Contains("cdem: error: stopped by Ctrl-C\r\n"));
   for (auto at = outcome.out.find("\r\033[K"); at != std::string::npos;
        at = outcome.out.find("\r\033[K", at + 1)) {
     const auto from = at + 4;

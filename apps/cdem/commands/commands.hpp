@@ -22,9 +22,21 @@ struct RunCommand {
   Settings set;
   bool unsafe = false;
   ProgressStyle progress = ProgressStyle::automatic;
-  std::string line; // the command line, for the log
+  double checkpoint_minutes = 10; // between checkpoints of a long stage; 0: none
+  std::filesystem::path resume;   // checkpoint to go on from; empty: from the start
+  std::string line;               // the command line, for the log
 };
 ExitCode run(const RunCommand&);
+
+struct ResumeCommand {
+  std::filesystem::path folder; // the output folder of the run
+  int threads = 0;
+  ProgressStyle progress = ProgressStyle::automatic;
+  double checkpoint_minutes = 10;
+  std::string line;
+};
+// Goes on from the folder's newest checkpoint, with the script and settings it tells of.
+ExitCode resume(const ResumeCommand&);
 
 struct CheckCommand {
   std::filesystem::path script;

@@ -54,6 +54,8 @@ void run_script(const RunCommand& command, int threads, OutputFolder& folder,
   settings.observer = observer;
   settings.will_write = [&folder](const fs::path& file) { folder.will_write(file); };
   settings.program = program_path().string();
+  settings.resume = command.resume;
+  settings.checkpoint_minutes = command.checkpoint_minutes;
 
   script::Engine engine(settings);
   try {
@@ -77,7 +79,8 @@ ExitCode run(const RunCommand& command) {
 
   OutputFolder folder(output, command.script,
                       "cdem " + version() + " (" + build_text() + "), " + std::to_string(threads) +
-                          (threads == 1 ? " thread, " : " threads, ") + command.line);
+                          (threads == 1 ? " thread, " : " threads, ") + command.line,
+                      command.resume.empty() ? OutputFolder::Start::anew : OutputFolder::Start::goes_on);
   const auto observer = std::make_shared<RunObserver>(command.progress, &folder);
   try {
     run_script(command, threads, folder, observer);

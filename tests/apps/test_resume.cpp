@@ -1,0 +1,137 @@
+// cdem resume as a user meets it: after Ctrl-C, after kill -9 at any moment, with another number of threads, and where
+// it cannot go on.
+#include "tests/apps/support/child.hpp"
+
+#include <catch2/catch.hpp>
+#include <csignal>
+
+using namespace testing;
+using Catch::Matchers::Contains;
+using Catch::Matchers::StartsWith;
+namespace fs = std::filesystem;
+
+namespace {
+
+// A plate large enough for two threads that is shaken and breaks, for a second or so.
+const char* const plate = R"(local cdem = require "cdem"
+local rock = cdem.elastic{ youngs_modulus = 1e9, poissons_ratio = 0.2, density = 2500 }
+local joint = cdem.mohr_coulomb{ cohesion = 6e5, friction_angle = 30, tensile_strength = 2e5 }
+local steps = cdem.parameter{ name = "steps", default = 500 }
+local model = cdem.model{ bodies = { { shape = cdem.grid{ size = {2.7, 1, 0.05}, divisions = {54, 20, 1} },
+  material = rock, joint = joint, name = "plate" } } }
+model:fix{ on = "y-" }
+model:traction{ on = "y+", stress = {2e5, 2.5e5, 0} }
+print "begins"
+model:relax{ max_steps = 250 }
+local most = 0
+model:run{ steps = steps, every = 200, callback = function() most = math.max(most, model:max("velocity.y")) end }
+cdem.report{ { name = "hash", value = model.state_hash }, { name = "most", value = most },
+  { name = "breaks", value = #model:breaks() } }
+)";
+
+struct Place {
+  TempFolder folder;
+  Start start;
+  fs::path results = folder / "results/plate";
+  Place() {
+    start.folder = folder.path();
+    write_file(folder / "plate/case.lua", plate);
+  }
+  Outcome cdem(const std::vector<std::string>& arguments, int signal = 0, const std::string& after = "") {
+    start.signal = signal;
+    start.signal_after = after;
+    return run_cdem(arguments, start);
+  }
+};
+
+std::string whole_report() {
+  static const std::string report = [] {
+    Place place;
+    REQUIRE(place.cdem({"run", "plate/case.lua", "--threads", "1"}).exit_code == 0);
+    return read_file(place.results / "report.json");
+  }();
+  return report;
+}
+
+} // namespace
+
+TEST_CASE("resume: after Ctrl-C and SIGTERM a run goes on with any number of threads to the same report") {
+  for (const int signal : {SIGINT, SIGTERM}) {
+    Place place;
+    const Outcome stopped =
+        place.cdem({"run", "plate/case.lua", "--output", "results/plate"}, signal, "begins");
+    CHECK(stopped.exit_code == 128 + signal);
+    CHECK_THAT(stopped.out, Contains("checkpoint; to go on: cdem resume results/plate\n"));
+    CHECK_FALSE(fs::exists(place.results / "report.json"));
+    const Outcome ended = place.cdem({"resume", "results/plate", "--threads", signal == SIGINT ? "1" : "2"});
+    CHECK_THAT(ended.err, !Contains("error"));
+    CHECK(ended.exit_code == 0);
+    CHECK_THAT(ended.out, Contains("goes on from "));
+    CHECK_THAT(ended.out, !Contains("begins"));
+    CHECK(read_file(place.results / "report.json") == whole_report());
+    const std::string log = read_file(place.results / "cdem.log");
+    CHECK_THAT(log, Contains("begins") && Contains("\nresumed cdem ") && Contains("ended with exit code 0"));
+    // It ended well: its checkpoints are gone, and the next run clears the folder of all it wrote.
+    CHECK_THAT(place.cdem({"resume", "results/plate"}).err, Contains("no checkpoint"));
+    CHECK(place.cdem({"run", "plate/case.lua", "--set", "steps=10", "--output", "results/plate"}).exit_code ==
+          0);
+    for (const auto& entry : fs::directory_iterator(place.results))
+      CHECK_THAT(entry.path().filename().string(), !Contains("edited"));
+  }
+}
+
+TEST_CASE("resume: kill -9 at any moment leaves a whole checkpoint to go on from") {
+  Place place;
+  // A checkpoint whenever the run looks: most of the time one is being written.
+  std::vector<std::string> command{"run", "plate/case.lua", "--checkpoint-every", "1e-9"};
+  int killed = 0;
+  for (; killed < 4; ++killed) {
+    const std::string first = killed == 0 ? "checkpoint" : "goes on";
+    const Outcome outcome = place.cdem(command, SIGKILL, first);
+    if (outcome.exit_code == 0)
+      break;
+    REQUIRE(outcome.exit_code == 128 + SIGKILL);
+    command = {"resume", "results/plate", "--checkpoint-every", "1e-9"};
+  }
+  CHECK(killed == 4);
+  const Outcome ended = place.cdem({"resume", "results/plate"});
+  CHECK_THAT(ended.err, !Contains("error"));
+  CHECK(ended.exit_code == 0);
+  CHECK(read_file(place.results / "report.json") == whole_report());
+}
+
+TEST_CASE("resume: what cannot be gone on from is refused in one line") {
+  Place place;
+  const auto refused = [&](const std::vector<std::string>& arguments, int code, const std::string& says) {
+    const Outcome outcome = place.cdem(arguments);
+    CHECK(outcome.exit_code == code);
+    CHECK_THAT(outcome.err, StartsWith("cdem: error: ") && Contains(says));
+    CHECK(lines_of(outcome.err).size() == 1);
+  };
+  refused({"resume"}, 2, "FOLDER");
+  refused({"resume", "nowhere"}, 4, "no such folder");
+  refused({"resume", "plate"}, 2, "not the output folder of a run");
+  refused({"resume", "plate/case.lua"}, 2, "not a folder");
+  refused({"run", "plate/case.lua", "--checkpoint-every", "-1"}, 2, "--checkpoint-every -1");
+  refused({"run", "plate/case.lua", "--checkpoint-every", "often"}, 2, "--checkpoint-every");
+  REQUIRE(place.cdem({"run", "plate/case.lua"}, SIGINT, "begins").exit_code == 130);
+  const fs::path file = place.results / "checkpoint_1.cdem";
+  const std::string whole = read_file(file);
+  write_file(file, whole.substr(0, whole.size() / 2));
+  refused({"resume", "results/plate"}, 4, "damaged");
+  write_file(file, "something else");
+  refused({"resume", "results/plate"}, 4, "not a checkpoint");
+  std::string other_format = whole;
+  other_format[16] = 77; // the checksum tells before anybody trusts the number
+  write_file(file, other_format);
+  refused({"resume", "results/plate"}, 4, "checksum");
+  write_file(file, whole);
+  write_file(place.folder / "plate/case.lua", std::string(plate) + "-- one more line\n");
+  refused({"resume", "results/plate"}, 2, "has changed since its checkpoint was written");
+  fs::remove(place.folder / "plate/case.lua");
+  refused({"resume", "results/plate"}, 4, "no such file");
+  // None of this has cost the checkpoint.
+  write_file(place.folder / "plate/case.lua", plate);
+  CHECK(place.cdem({"resume", "results/plate"}).exit_code == 0);
+  CHECK(read_file(place.results / "report.json") == whole_report());
+}

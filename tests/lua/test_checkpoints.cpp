@@ -1,0 +1,238 @@
+// A script that was stopped goes on as if it had not been: its own variables, what it writes and what it solves.
+#include "libcdem/step/errors.hpp"
+#include "tests/lua/script.hpp"
+
+#include <catch2/catch.hpp>
+
+using namespace cdem::script;
+using namespace cdem::script::test;
+using Catch::Matchers::Contains;
+
+namespace {
+
+// A plate that breaks: callbacks with variables of the script, refused calls, cutting, files that are added to, and a
+// file of its own that it requires.
+const char* const plate = R"(
+local cdem = require "cdem"
+local helper = require "helper"
+local rock = cdem.elastic{ youngs_modulus = 1e9, poissons_ratio = 0.2, density = 2500 }
+local joint = cdem.mohr_coulomb{ cohesion = 6e5, friction_angle = 30, tensile_strength = 2e5 }
+local model = cdem.model{ bodies = { { shape = cdem.grid{ size = {1, 1, 0.25}, divisions = {4, 4, 1} },
+  material = rock, joint = joint, name = "plate" } } }
+print "begins"
+local seen = {}
+local function note(text) seen[#seen + 1] = text end
+local function add(text)
+  local file = io.open("lines.txt", "a")
+  file:write(text, "\n")
+  file:close()
+end
+model:select{ name = "top", on = "y+" }
+model:fix{ on = "y-" }
+model:traction{ on = "top", stress = {2e5, 2.5e5, 0}, amplitude = function(t) return helper.factor + 0 * model.time end }
+note(tostring(select(2, pcall(model.fix, model, { on = function() return false end }))))
+note(tostring(select(2, pcall(model.max, model, "no_such_field"))))
+model:after_stage(function(stage)
+  note(stage.kind .. " " .. model:max("displacement.magnitude"))
+  add("after " .. stage.kind)
+  model:save{ file = "stage_" .. stage.number .. ".vtu", series = "all.pvd" }
+end)
+model.memory.calls = 0
+model:relax{ max_steps = 700, every = 50, callback = function()
+  model.memory.calls = model.memory.calls + 1
+  note(model:max("displacement.y"))
+  add(model:counts().intact)
+end }
+note(#model:refine{ tension_threshold = 1e6, planes = 1 })
+model:initial_velocity{ velocity = {0, 0, 0.01} }
+local final = model:run{ every = 30, stop = function()
+  model.memory.calls = model.memory.calls + 1
+  return model.steps >= 1500
+end }
+model:relax{ max_steps = 300 }
+cdem.report{ { name = "hash", value = model.state_hash }, { name = "calls", value = model.memory.calls },
+  { name = "seen", value = table.concat(seen, "\n") }, { name = "steps", value = final.steps },
+  { name = "rows", value = #model:history().step }, { name = "breaks", value = #model:breaks() },
+  { name = "blocks", value = model:counts().blocks }, { name = "random", value = math.random() } }
+print "ends"
+)";
+
+struct Case : Script {
+  explicit Case(const std::string& text) : Script(text) { write("helper.lua", "return { factor = 1 }"); }
+
+  // Stops at the given look; true when the script had ended before.
+  bool ends_before(int look) {
+    int looks = 0;
+    listener->stop = [&] { return ++looks >= look; };
+    try {
+      run();
+    } catch (const cdem::Interrupted&) {
+      listener->stop = nullptr;
+      return false;
+    }
+    listener->stop = nullptr;
+    return true;
+  }
+  // What it wrote, without the folder's own name.
+  std::string text(const std::string& name) const {
+    std::string all = read(name);
+    const std::string own = folder.filename().string();
+    for (auto at = all.find(own); at != std::string::npos; at = all.find(own))
+      all.erase(at, own.size());
+    return all;
+  }
+  void go_on_from_newest() { settings.resume = newest_checkpoint(settings.output).file; }
+};
+
+} // namespace
+
+TEST_CASE("resume: a script that was stopped anywhere ends with the same report, files and state",
+          "[checkpoint]") {
+  Case whole(plate);
+  whole.run();
+  const std::string report = whole.text("report.json");
+  REQUIRE(report.find("resume") == std::string::npos);
+  for (const int look : {3, 20, 46, 52, 80, 100}) {
+    INFO("stopped at look " << look);
+    Case broken(plate);
+    REQUIRE_FALSE(broken.ends_before(look));
+    broken.go_on_from_newest();
+    broken.settings.threads = look % 2 == 0 ? 2 : 1;
+    broken.listener->lines.clear();
+    broken.run();
+    CHECK(broken.text("report.json") == report);
+    CHECK(broken.read("lines.txt") == whole.read("lines.txt"));
+    CHECK(broken.read("history.csv") == whole.read("history.csv"));
+    CHECK(broken.read("all.pvd") == whole.read("all.pvd"));
+    for (const std::string& line : broken.listener->lines)
+      CHECK(line != "begins"); // said before
+    CHECK(broken.listener->lines.back() == "ends");
+    CHECK_FALSE(broken.wrote("checkpoint_1.cdem")); // it has ended
+    CHECK_FALSE(broken.wrote("checkpoint_2.cdem"));
+  }
+}
+
+TEST_CASE("resume: a script may be stopped again and again", "[checkpoint]") {
+  Case whole(plate), broken(plate);
+  whole.run();
+  int rounds = 0;
+  for (; !broken.ends_before(30); ++rounds) {
+    REQUIRE(rounds < 20);
+    broken.go_on_from_newest();
+  }
+  CHECK(rounds > 2);
+  CHECK(broken.text("report.json") == whole.text("report.json"));
+}
+
+TEST_CASE("resume: checkpoints that are written all the time change nothing, and the newest is gone on from",
+          "[checkpoint]") {
+  Case whole(plate), broken(plate);
+  whole.run();
+  broken.settings.checkpoint_minutes = 1e-9;
+  REQUIRE_FALSE(broken.ends_before(70));
+  CHECK(broken.wrote("checkpoint_1.cdem"));
+  CHECK(broken.wrote("checkpoint_2.cdem"));
+  const CheckpointInfo newest = newest_checkpoint(broken.settings.output);
+  CHECK(newest.serial > 10);
+  // A damaged newest one leaves the other.
+  fs::resize_file(newest.file, fs::file_size(newest.file) / 2);
+  CHECK(newest_checkpoint(broken.settings.output).serial == newest.serial - 1);
+  broken.go_on_from_newest();
+  broken.run();
+  CHECK(broken.text("report.json") == whole.text("report.json"));
+}
+
+TEST_CASE("resume: a growing crack that was stopped begins its stage again", "[checkpoint]") {
+  const std::string text = R"(
+local cdem = require "cdem"
+local rock = cdem.elastic{ youngs_modulus = 1e9, poissons_ratio = 0.2, density = 2500 }
+local joint = cdem.mohr_coulomb{ cohesion = 3e5, friction_angle = 30, tensile_strength = 1e5 }
+local model = cdem.model{ bodies = { { shape = cdem.grid{ size = {1, 1, 0.25}, divisions = {4, 4, 1} },
+  material = rock, joint = joint, name = "plate" } } }
+model:fix{ on = "y-" }
+model:traction{ on = "y+", stress = {0, 1.1e5, 0} }
+local passes = 0
+model:relax{ breaking = false, residual = 1e-4 }
+local grown = model:grow{ passes = 2, residual = 1e-3, max_steps = 2000, max_rounds = 3,
+  callback = function(pass) passes = passes + pass.rounds end }
+cdem.report{ { name = "hash", value = model.state_hash }, { name = "state", value = grown.state },
+  { name = "passes", value = passes }, { name = "blocks", value = model:counts().blocks } }
+)";
+  Case whole(text), broken(text);
+  int looks = 0;
+  whole.listener->stop = [&] { return ++looks < 0; };
+  whole.run();
+  REQUIRE_FALSE(broken.ends_before(looks * 3 / 4));
+  broken.go_on_from_newest();
+  broken.run();
+  CHECK(broken.text("report.json") == whole.text("report.json"));
+}
+
+TEST_CASE("resume: an asked checkpoint holds all up to its line", "[checkpoint]") {
+  Case script(column() + "print 'first'\nmodel:traction{ on = 'x+', stress = {1e6, 0, 0} }\n"
+                         "model:relax{}\nlocal t = cdem.elapsed()\nmodel:checkpoint()\nprint 'second'\n"
+                         "print(cdem.elapsed() >= t)\nif not io.open('go') then error 'fails' end\n"
+                         "print(model:max('displacement.x') > 0, 'third')");
+  CHECK_THAT(script.error(), Contains("fails"));
+  script.write("go", "");
+  script.go_on_from_newest();
+  script.listener->lines.clear();
+  script.run();
+  REQUIRE(script.listener->lines.size() == 4);
+  CHECK_THAT(script.listener->lines[0], Contains("goes on from"));
+  CHECK(script.listener->lines[1] == "second");
+  CHECK(script.listener->lines[2] == "true");
+  CHECK(script.listener->lines[3] == "true\tthird");
+}
+
+TEST_CASE("resume: a script, a file it requires or a model that has changed is refused in one line",
+          "[checkpoint]") {
+  const auto refused = [](const std::function<void(Case&)>& change) {
+    Case script(plate);
+    REQUIRE_FALSE(script.ends_before(60));
+    script.go_on_from_newest();
+    change(script);
+    const std::string error = script.error();
+    CHECK(error.find('\n') == std::string::npos);
+    CHECK(script.wrote("checkpoint_1.cdem")); // still there
+    return error;
+  };
+  CHECK_THAT(refused([](Case& s) { s.write("case.lua", std::string(plate) + "\n"); }),
+             Contains("has changed since its checkpoint"));
+  CHECK_THAT(refused([](Case& s) { s.write("helper.lua", "return { factor = 1.0 }"); }),
+             Contains("require helper with other values"));
+  CHECK_THAT(refused([](Case& s) { s.set("a", "1"); }), Contains("other --set values"));
+}
+
+TEST_CASE("resume: without a checkpoint, or with two that are damaged, it says so", "[checkpoint]") {
+  Case script(plate);
+  CHECK_THROWS_WITH(newest_checkpoint(script.settings.output), Contains("no checkpoint"));
+  REQUIRE_FALSE(script.ends_before(60));
+  fs::resize_file(script.settings.output / "checkpoint_1.cdem", 100);
+  CHECK_THROWS_WITH(newest_checkpoint(script.settings.output), Contains("damaged"));
+}
+
+TEST_CASE("a saved state is where another script begins", "[checkpoint]") {
+  const std::string pull = "model:traction{ on = 'x+', stress = {1e6, 0, 0} }\n";
+  Script first(column() + pull +
+               "model:relax{}\nmodel:save_state{ file = 'pulled.cdem' }\n"
+               "model:run{ steps = 50 }\nprint(model.state_hash)");
+  const std::string hash = first.printed();
+  const std::string state = first.read("pulled.cdem");
+  const std::string load = "model:load_state{ file = 'pulled.cdem' }\n";
+  {
+    Script second(column() + pull + load + "model:run{ steps = 50 }\nprint(model.state_hash)");
+    second.write("pulled.cdem", state);
+    CHECK(second.printed() == hash);
+  }
+  Script other(column("{4, 1, 1}") + load);
+  other.write("pulled.cdem", state);
+  CHECK_THAT(other.error(), Contains("case.lua:") && Contains("not the one that was saved"));
+  Script damaged(column() + load);
+  damaged.write("pulled.cdem", state.substr(0, state.size() - 1));
+  CHECK_THROWS_WITH(damaged.run(), Contains("damaged"));
+  CHECK_THAT(error_of(column() + "model:save_state{ file = 'pulled.vtu' }"), Contains(".cdem"));
+  CHECK_THAT(error_of(column() + "model:run{ steps = 20, every = 1, callback = function() "
+                                 "model:save_state{ file = 'a.cdem' } end }"),
+             Contains("not from a callback"));
+}
