@@ -118,8 +118,6 @@ struct RigidBody {
   geom::Mat3 axes = geom::Mat3::Identity();  // their directions, column by column
 };
 
-// A member that is new here or in what it holds is added to libcdem/checkpoint/model_archive.cpp, which does not compile
-// without it.
 struct Model {
   std::vector<Body> bodies;
   std::vector<Joint> joints;

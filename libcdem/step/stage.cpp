@@ -2,6 +2,7 @@
 
 #include "libcdem/contact/contact_forces.hpp"
 #include "libcdem/contact/places.hpp"
+#include "libcdem/contact/search.hpp"
 #include "libcdem/element/small_strain.hpp"
 #include "libcdem/interface/spring_forces.hpp"
 #include "libcdem/model/add_meshes.hpp"
@@ -117,6 +118,12 @@ void Stage::mark(std::vector<double> carried, const std::vector<Node>& previous_
   moment.previous_force = previous_force;
   moment.spring_force = work.spring_force;
   moment.stretch = work.stretch;
+  // Contacts are looked for anew here, as by a stage that goes on: which pairs sleep is not saved.
+  if (!context_.model.surface.empty()) {
+    work.meeting = {};
+    start_contact(context_.model, work.meeting);
+    std::fill(work.contact.begin(), work.contact.end(), Node{});
+  }
   if (context_.keeper)
     context_.keeper->marked();
 }

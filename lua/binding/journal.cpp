@@ -1,12 +1,13 @@
 #include "lua/binding/journal.hpp"
 
 #include "libcdem/checkpoint/archive.hpp"
+#include "lua/binding/pile_object.hpp"
 
 namespace cdem::script {
 
 namespace {
 
-enum class Tag : std::uint8_t { nil, no, yes, integer, number, text, table };
+enum class Tag : std::uint8_t { nil, no, yes, integer, number, text, table, pile };
 
 void write(Writer& a, const Value& value) {
   const auto tag = [&](Tag t) { archive_const(a, t); };
@@ -31,6 +32,9 @@ void write(Writer& a, const Value& value) {
       archive_const(a, name);
       write(a, entry);
     }
+  } else if (const auto pile = std::dynamic_pointer_cast<PileObject>(value.object())) {
+    tag(Tag::pile);
+    archive_const(a, pile_text(pile->pile));
   } else {
     tag(Tag::nil);
   }
@@ -58,6 +62,9 @@ Value read(Reader& a) {
   case Tag::text:
     archive(a, text);
     return text;
+  case Tag::pile:
+    archive(a, text);
+    return std::make_shared<PileObject>(pile_from(text, "checkpoint"));
   case Tag::table:
     break;
   }
@@ -72,7 +79,7 @@ Value read(Reader& a) {
 }
 
 bool is_plain(const Value& value) {
-  if (value.object() || value.reference())
+  if (value.reference() || (value.object() && !std::dynamic_pointer_cast<PileObject>(value.object())))
     return false;
   if (const Table* table = value.table()) {
     for (const Value& item : table->items)

@@ -76,6 +76,37 @@ cdem::Simulation column(int threads, std::shared_ptr<cdem::Observer> observer = 
   return s;
 }
 
+// Two blocks, one of them rigid, that fall onto a slope, hit each other and slide.
+cdem::Simulation falling_blocks(int threads, std::shared_ptr<cdem::Observer> observer = nullptr) {
+  const auto box = [](const geom::Vec3& size, const std::array<int, 3>& divisions, const geom::Mat3& turn,
+                      const geom::Vec3& place) {
+    geom::TetMesh mesh = geom::box_mesh(size, divisions);
+    for (geom::Vec3& x : mesh.nodes)
+      x = turn * (x - 0.5 * size) + place;
+    return mesh;
+  };
+  cdem::Joint law;
+  law.bonded = false;
+  law.friction_angle = 20 * degree;
+  law.normal_stiffness = 2e9;
+  cdem::ModelSpec spec;
+  spec.bodies = {meshed("slope", box({3, 2, 0.4}, {6, 4, 1}, geom::Mat3::Identity(), {0.5, 0, -0.2})),
+                 meshed("soft", box({0.8, 0.8, 0.3}, {3, 3, 1}, rotation({1, 2, 3}, 0.2), {0, 0, 0.35})),
+                 meshed("hard", box({0.5, 0.5, 0.3}, {2, 2, 1}, rotation({1, 0, 3}, 0.3), {0.1, 0.1, 0.8}))};
+  spec.bodies[2].element = cdem::Element::rigid;
+  spec.pairs = {{"slope", "soft", law}, {"slope", "hard", law}, {"soft", "hard", law}};
+  cdem::Simulation s(spec, threads, std::move(observer));
+  cdem::Fix fix;
+  fix.on = cdem::Selection::of_body("slope");
+  s.fix(fix);
+  cdem::Gravity gravity;
+  gravity.acceleration = {4, 0, -9};
+  s.gravity(gravity);
+  s.initial_velocity(cdem::Selection::of_body("soft"), {0, 0, -3});
+  s.initial_velocity(cdem::Selection::of_body("hard"), {0, 0, -8});
+  return s;
+}
+
 void run(cdem::Simulation& s) {
   cdem::RunOptions options;
   options.steps = 1111;
@@ -171,6 +202,20 @@ TEST_CASE("checkpoint: a run and a relaxation that were left go on to the same b
     REQUIRE(probe.breaks().size() > 10);
     check_going_on(column, solve);
   }
+}
+
+TEST_CASE("checkpoint: bodies in contact go on to the same bits", "[checkpoint]") {
+  const auto solve = [](cdem::Simulation& s, int) {
+    cdem::RunOptions options;
+    options.duration = 0.08;
+    s.run(options);
+  };
+  cdem::Simulation probe = falling_blocks(1);
+  solve(probe, 0);
+  REQUIRE(probe.steps() > 1700); // left before the last look
+  REQUIRE(probe.energy().friction > 0);
+  REQUIRE(probe.touching("hard").at(0) > 0);
+  check_going_on(falling_blocks, solve);
 }
 
 TEST_CASE("checkpoint: after cutting, the cut model goes on to the same bits", "[checkpoint]") {
