@@ -73,20 +73,22 @@ Value settle(Session& session, ModelObject& model, const Arguments& a) {
   options.time_step = a.optional_number("time_step").value_or(0);
   if (const auto function = a.function("callback")) {
     options.callback_every = a.has("every") ? a.integer("every") : 100;
-    options.callback = [function] { function->call({}); };
+    options.callback = [&session, function] { session.checkpoints.call_back("callback", *function, {}); };
   } else if (a.has("every")) {
     throw InputError("every = " + describe(a.value("every")) +
                      ": says how often callback is called; give one");
   }
-  return stage(session, model, "settle", a, settle_result({}), [&](Simulation& simulation) {
-    const SettleResult result = simulation.settle(options);
-    if (!result.converged)
-      session.warn("settle: after " + number_text(options.max_time) + " s the kinetic energy is " +
-                   three_digits(result.kinetic_ratio) + " of its peak, above " +
-                   number_text(options.kinetic_energy_ratio) +
-                   "; raise max_time, or look whether something falls off");
-    return settle_result(result);
-  });
+  return stage(session, model, "settle", a, settle_result({}),
+               [&](Simulation& simulation) {
+                 const SettleResult result = simulation.settle(options);
+                 if (!result.converged)
+                   session.warn("settle: after " + number_text(options.max_time) +
+                                " s the kinetic energy is " + three_digits(result.kinetic_ratio) +
+                                " of its peak, above " + number_text(options.kinetic_energy_ratio) +
+                                "; raise max_time, or look whether something falls off");
+                 return settle_result(result);
+               },
+               {{"callback", a.function("callback")}});
 }
 
 } // namespace

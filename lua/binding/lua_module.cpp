@@ -121,7 +121,10 @@ int index_object(lua_State* L) {
   try {
     if (c.item && lua_isinteger(L, 2)) {
       const std::int64_t i = lua_tointeger(L, 2);
-      push(L, i >= 1 && i <= c.length(object_at_1(L)) ? c.item(object_at_1(L), i) : Value());
+      const Object& self = object_at_1(L);
+      push(L, state.session.checkpoints.call(
+                  c.name + "[i]", Replay::recorded, 0, [&] { return static_cast<std::uint64_t>(i); },
+                  [&] { return i >= 1 && i <= c.length(self) ? c.item(self, i) : Value(); }));
       return 1;
     }
     const std::string key = key_at_2(L);
@@ -172,8 +175,21 @@ int set_in_object(lua_State* L) {
 }
 
 int length_of_object(lua_State* L) {
-  lua_pushinteger(L, class_of_upvalue(L).length(object_at_1(L)));
-  return 1;
+  const Class& c = class_of_upvalue(L);
+  LuaState& state = LuaState::of(L);
+  std::string message;
+  try {
+    const Object& self = object_at_1(L);
+    // What has items grows while a model runs.
+    push(L, state.session.checkpoints.call(
+                "#" + c.name, c.item ? Replay::recorded : Replay::never, 0, [] { return std::uint64_t{0}; },
+                [&] { return Value(c.length(self)); }));
+    return 1;
+  } catch (const std::exception&) {
+    message = state.message_of_current_exception(L, "cdem." + c.name);
+  }
+  lua_pushlstring(L, message.data(), message.size());
+  return lua_error(L);
 }
 
 int text_of_object(lua_State* L) {
