@@ -13,7 +13,7 @@ using Plane2 = std::array<double, 2>;
 
 // A face as a broken one sees itself.
 struct Frame {
-  geom::Vec3 gap[3];
+  std::array<geom::Vec3, 3> gap;
   geom::Vec3 normal, along, across; // unit, the first edge in the plane
 };
 
@@ -84,7 +84,7 @@ Response sticking(double kn, double ks, const Frame& f, int point, const Plane2&
 
 // The contact a broken spring is; slip moves on where it slides.
 Response contact(double kn, double ks, double tan_friction, const Frame& f, int point, Plane2& slip) {
-  const Response trial = stretched(kn, ks, f, point, slip);
+  Response trial = stretched(kn, ks, f, point, slip);
   if (trial.opening > 0) {
     slip = tangential(f, point);
     return {trial.opening};
