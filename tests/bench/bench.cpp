@@ -49,12 +49,14 @@ std::vector<int> numbers(const char* option, const std::string& text) {
 }
 
 constexpr const char* help =
-    R"(Usage: cdem bench [--sizes 100,10000,100000] [--tets 10000,105000] [--threads 1,2] [--seconds 1]
+    R"(Usage: cdem bench [--sizes 100,10000,100000] [--tets 10000,105000] [--bodies 1000,10000] [--threads 1,2]
+                  [--seconds 1]
 
-Steps plates of bonded blocks and meshed cubes, continuous and with every face bonded, and prints rates beside the
-bare element kernels and a copy of memory.
+Steps plates of bonded blocks, meshed cubes, continuous and with every face bonded, and lattices of cubes that touch,
+and prints rates beside the bare element kernels and a copy of memory.
   --sizes    blocks in the plates; 0: none
   --tets     tetrahedra in the cubes, e.g. 10000,105000,1000000; 0: none
+  --bodies   cubes that touch, e.g. 1000,10000,100000; 0: none
   --threads  thread counts to compare
   --seconds  stepping time per figure, at least
 )";
@@ -69,11 +71,12 @@ int main(int argc, char** argv) {
       std::fputs(help, stdout);
       return 0;
     }
-    if (i + 1 == argc ||
-        (option != "--sizes" && option != "--tets" && option != "--threads" && option != "--seconds")) {
-      std::fprintf(stderr,
-                   "cdem bench: error: %s: must be --sizes, --tets, --threads or --seconds with a value\n%s",
-                   option.c_str(), help);
+    if (i + 1 == argc || (option != "--sizes" && option != "--tets" && option != "--bodies" &&
+                          option != "--threads" && option != "--seconds")) {
+      std::fprintf(
+          stderr,
+          "cdem bench: error: %s: must be --sizes, --tets, --bodies, --threads or --seconds with a value\n%s",
+          option.c_str(), help);
       return 2;
     }
     const std::string value = argv[++i];
@@ -81,6 +84,8 @@ int main(int argc, char** argv) {
       settings.sizes = numbers("--sizes", value);
     else if (option == "--tets")
       settings.tets = numbers("--tets", value);
+    else if (option == "--bodies")
+      settings.bodies = numbers("--bodies", value);
     else if (option == "--threads")
       settings.threads = numbers("--threads", value);
     else
@@ -96,5 +101,7 @@ int main(int argc, char** argv) {
     bench::blocks(settings);
   if (!settings.tets.empty())
     bench::meshes(settings);
+  if (!settings.bodies.empty())
+    bench::contacts(settings);
   return 0;
 }

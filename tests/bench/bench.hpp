@@ -8,6 +8,7 @@ namespace bench {
 struct Settings {
   std::vector<int> sizes{100, 10000, 100000}; // blocks
   std::vector<int> tets{10000, 105000};       // of meshed cubes
+  std::vector<int> bodies{1000, 10000};       // that touch
   std::vector<int> threads{1, 2};
   double seconds = 1; // of stepping per figure, at least
 };
@@ -16,5 +17,7 @@ double copy_rate(int threads); // bytes moved per second, read and written, by a
 
 void blocks(const Settings&); // star blocks with bonds: full step beside the bare element kernel
 void meshes(const Settings&); // meshed cubes, continuous and bonded: full step beside the bare kernels
+
+void contacts(const Settings&); // cubes that touch: search and full step
 
 } // namespace bench
