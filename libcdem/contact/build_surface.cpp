@@ -30,6 +30,24 @@ ContactTriangle make_triangle(const Model& model, const geom::Triangle& nodes, i
   return triangle;
 }
 
+// A flat tet at the surface neither makes the contact there stiffer nor lets less into it: its height counts as a third
+// of what is usual at the block's outside, at least.
+void raise_flat_ones(Model& model, int begin, int outer_end) {
+  auto& triangles = model.surface.triangles;
+  std::vector<double> heights;
+  for (int t = begin; t < outer_end; ++t)
+    heights.push_back(triangles[t].height);
+  if (heights.empty())
+    return;
+  const auto middle = heights.begin() + static_cast<std::ptrdiff_t>(heights.size() / 2);
+  std::nth_element(heights.begin(), middle, heights.end());
+  for (int t = begin; t < static_cast<int>(triangles.size()); ++t) {
+    const double height = std::max(triangles[t].height, *middle / 3);
+    triangles[t].compliance *= height / triangles[t].height;
+    triangles[t].height = height;
+  }
+}
+
 // The two sides of the bonded faces of a block, each the other's mate.
 void add_inner_faces(Model& model, int block) {
   auto& triangles = model.surface.triangles;
@@ -108,9 +126,11 @@ void build_surface(Model& model) {
     for (; next < model.mesh.boundary.size() && model.mesh.boundary[next].block == b; ++next)
       s.triangles.push_back(
           make_triangle(model, model.mesh.boundary[next].nodes, model.mesh.boundary[next].tet));
-    add_edges(model, begin, static_cast<int>(s.triangles.size()));
+    const int outer_end = static_cast<int>(s.triangles.size());
+    add_edges(model, begin, outer_end);
     if (model.blocks[b].meshed && touches_itself(model.blocks[b].body))
       add_inner_faces(model, b);
+    raise_flat_ones(model, begin, outer_end);
     s.block_begin.push_back(static_cast<int>(s.triangles.size()));
   }
   int edge = 0;

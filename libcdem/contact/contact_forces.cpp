@@ -418,6 +418,12 @@ ContactSums contact_forces(const Model& model, State& state, Workspace& work, in
   add_ways(model, state, own, threads);
   if ((own.search_due || moved_far(own)) && !search_contacts(model, state, own, threads))
     return sums; // something is not a number: the stage's watch will say where
+  // Where a piece has fallen apart, contacts go with the part they touch.
+  for (Contact& c : state.contacts)
+    if (c.kind == Contact::spring)
+      c.piece = own.piece[c.target];
+  std::sort(state.contacts.begin(), state.contacts.end(),
+            [](const Contact& a, const Contact& b) { return key(a) < key(b); });
   const Evaluation evaluation(model, state, own);
   const auto springs = static_cast<std::int64_t>(own.rows[Contact::spring].size()),
              edges = static_cast<std::int64_t>(own.rows[Contact::edge].size());

@@ -55,6 +55,7 @@ struct ContactWork {
   std::vector<ContactRow> rows[2]; // of springs, of edges
   std::vector<ContactCandidate> candidates[2];
   std::vector<int> piece;               // per triangle: what holds together, by its smallest node
+  std::vector<char> active;             // per triangle: it is outside, or its face has broken
   std::vector<double> travelled;        // m, per block, at most, since the search
   double skin = 0;                      // m
   double shallow = 0;                   // m, contacts up to this deep let other pairs sleep

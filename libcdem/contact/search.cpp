@@ -16,7 +16,7 @@ namespace {
 
 // Of the usual height of a tet at the surface: how far things may move before the next search, and how deep a contact
 // may be before the pairs around it are all looked at in every step.
-constexpr double skin_ratio = 0.1, shallow_ratio = 0.01;
+constexpr double skin_ratio = 0.2, shallow_ratio = 0.01;
 // Of the height of a tet: how deep a contact may get.
 constexpr double depth_ratio = 0.25;
 // Of the smaller block's size: bodies without a law that come nearer than this meet.
@@ -67,7 +67,7 @@ Active active_triangles(const Model& model, const State& state, const ContactWor
     geom::Box box;
     for (int t = s.block_begin[b]; t < s.block_begin[b + 1]; ++t) {
       const ContactTriangle& triangle = s.triangles[t];
-      if (triangle.face >= 0 && !open(state, triangle.face))
+      if (!work.active[t])
         continue;
       active.triangles.push_back(t);
       active.boxes.push_back(box_of(corners_of(model, state, triangle.nodes), margin(work, triangle)));
@@ -139,8 +139,11 @@ void find_pieces(const Model& model, const State& state, ContactWork& work) {
   const ContactSurface& s = model.surface;
   const std::vector<int> pieces = pieces_of_nodes(model, state);
   work.piece.resize(s.triangles.size());
-  for (std::size_t t = 0; t < s.triangles.size(); ++t)
+  work.active.resize(s.triangles.size());
+  for (std::size_t t = 0; t < s.triangles.size(); ++t) {
     work.piece[t] = pieces[s.triangles[t].nodes[0]];
+    work.active[t] = static_cast<char>(s.triangles[t].face < 0 || open(state, s.triangles[t].face));
+  }
 }
 
 // Rows by source with their targets by piece and number, from unordered pairs both ways (springs) or one way (edges).

@@ -201,6 +201,7 @@ private:
       if (!is_gone(now_, size))
         return;
       state.handed_over[lane_] = 1;
+      sums.hands_over = true;
       for (int point = 0; point < 3; ++point) {
         const Response& r = response_[point];
         sums.breaking += r.energy - 0.5 * r.force.dot(moved(point));

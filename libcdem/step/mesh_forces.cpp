@@ -50,6 +50,7 @@ const Node* mesh_forces(const Model& model, State& state, Workspace& work, std::
   sums.friction = sums.breaking = 0;
   sums.broken.clear();
   sums.astray = -1;
+  sums.hands_over = false;
   if (chunk.faces > 0) {
     const FaceMotion motion{near.position.data(), near.displacement.data(), near.velocity.data(),
                             work.strain_step};

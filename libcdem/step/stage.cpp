@@ -78,11 +78,11 @@ double relative_residual(const NodeSums& sums) {
 }
 
 Stage::Stage(StageContext context, std::string kind, double run_away)
-    : work(context.model, context.state, context.conditions), context_(context), kind_(std::move(kind)),
-      run_away_(run_away), broken_tension_before_(context.log.broken_tension),
-      broken_shear_before_(context.log.broken_shear), start_(std::chrono::steady_clock::now()),
-      told_(start_) {
-  context_.threads = useful_threads(context_.model, context_.threads);
+    : work(context.model, context.state, context.conditions), context_(context),
+      threads_(useful_threads(context.model, context.threads)), kind_(std::move(kind)), run_away_(run_away),
+      broken_tension_before_(context.log.broken_tension), broken_shear_before_(context.log.broken_shear),
+      start_(std::chrono::steady_clock::now()), told_(start_) {
+  context_.threads = threads_.threads();
   context_.last_good = context_.state;
   ask_for_huge_pages_of(context_.model, context_.state, work);
   start_spring_forces(context_.model, context_.state, work);
@@ -184,12 +184,17 @@ void Stage::catch_up() {
     for (const FaceSums& sums : work.face_sums) {
       context_.state.spent.friction += sums.friction;
       context_.state.spent.breaking += sums.breaking;
+      if (sums.hands_over) // what is handed over now is looked for where things stand now
+        work.meeting.search_due = work.meeting.due = true;
     }
   work.strain_step = 0;
 }
 
 void Stage::keep_state() {
   watch();
+  // Pieces are told apart anew when a face is handed over, and here: a run that goes on from a checkpoint does so too.
+  if (!context_.state.face_slip.empty())
+    work.meeting.search_due = true;
   catch_up();
   context_.last_good = context_.state;
 }
@@ -248,6 +253,7 @@ void Stage::record_face_breaks() {
     const MeshChunk& chunk = model.mesh.chunks[c];
     context_.state.spent.friction += sums.friction;
     context_.state.spent.breaking += sums.breaking;
+    work.meeting.search_due = work.meeting.search_due || sums.hands_over;
     for (const FaceBreak& broken : sums.broken) {
       const FaceSpringPlace at{chunk.face_batches.begin + broken.spring / (3 * lanes),
                                static_cast<int>(broken.spring / lanes % 3),
@@ -326,6 +332,8 @@ void Stage::after_step(const StepReport& report) {
   spent.damping += report.sums.damping;
   ++step;
   ++context_.state.step;
+  threads_.stepped();
+  context_.threads = threads_.threads();
   // Sums over all forces and one over all velocities: a NaN anywhere shows here in the step it appears.
   if (!std::isfinite(report.sums.residual2) || !std::isfinite(report.sums.kinetic) ||
       !std::isfinite(report.sums.reaction2))

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "libcdem/interface/spring_forces.hpp"
+#include "libcdem/parallel/thread_choice.hpp"
 #include "libcdem/results/log.hpp"
 #include "libcdem/step/forces.hpp"
 #include "libcdem/step/keeper.hpp"
@@ -89,6 +90,7 @@ private:
   [[noreturn]] void refuse_depth(int source_triangle, int target_triangle) const;
 
   StageContext context_;
+  ThreadChoice threads_;
   std::vector<double> row_sums_; // N/m, of elements and bonds (n_nodes); empty without contacts
   std::string kind_;
   double run_away_;

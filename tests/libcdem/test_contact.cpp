@@ -302,3 +302,52 @@ TEST_CASE("contact: a place that is not a number ends the run with its name", "[
   };
   CHECK_THROWS_WITH(s.run(options), Catch::Contains("not a number in block") && Catch::Contains("\"unit\""));
 }
+
+TEST_CASE("contact: the pieces of a broken body meet, and nothing blows up", "[contact][fracture]") {
+  // Two halves glued weakly hit the floor on the lower one's edge; the glue breaks and they fall over each other.
+  geom::TetMesh mesh = geom::box_mesh({0.4, 0.4, 0.8}, {2, 2, 4});
+  mesh.region.clear();
+  for (const geom::Tet& tet : mesh.tets) {
+    double z = 0;
+    for (const int node : tet)
+      z += mesh.nodes[node].z() / 4;
+    mesh.region.push_back(z > 0.4 ? 1 : 0);
+  }
+  cdem::Bonding between;
+  between.between_regions = true;
+  cdem::Joint glue = rock_joint();
+  glue.cohesion = glue.tensile_strength = 1e5;
+  cdem::Elastic soft = rock();
+  soft.youngs_modulus = 5e8;
+  System s(build({meshed("floor", box_at({4, 4, 0.4}, {4, 4, 1}, Mat3::Identity(), {0, 0, -0.2}), {}, soft),
+                  meshed("unit", placed(mesh, rotation({1, 1, 0}, 0.5), {0, 0, 0.35}), between, soft, glue)},
+                 {{"floor", "unit", friction(30)}, {"unit", "unit", friction(30)}}));
+  s.hold(body_of("floor"), "xyz");
+  cdem::Gravity gravity;
+  gravity.acceleration = {0, 0, -9.81};
+  s.conditions.gravity = gravity;
+  for (std::size_t i = 0; i < s.state.velocity.size(); ++i)
+    if (s.model.node_block[i] == 1)
+      s.state.velocity[i] = node({0, 0, -3});
+  const double kinetic = 0.5 * 0.4 * 0.4 * 0.8 * rock().density * 9;
+  bool pieces_met = false;
+  cdem::RunOptions options;
+  options.duration = 0.5;
+  options.callback_every = 50;
+  options.callback = [&] {
+    for (const cdem::Contact& c : s.state.contacts) {
+      const auto [a, b] = cdem::blocks_of(s.model, c);
+      pieces_met = pieces_met || (a == 1 && b == 1 && c.normal_force > 0);
+    }
+  };
+  s.run(options);
+  CHECK(pieces_met);
+  int handed = 0;
+  for (const cdem::FaceStateBatch& faces : s.state.faces)
+    for (const std::uint8_t flag : faces.handed_over)
+      handed += flag;
+  CHECK(handed == 8); // all triangles of the glue
+  const cdem::EnergyLedger ledger = cdem::energy(s.model, s.state);
+  INFO("friction " << ledger.friction << " breaking " << ledger.breaking << " kinetic " << ledger.kinetic);
+  CHECK(std::abs(ledger.total() - kinetic - ledger.external) < 0.02 * kinetic);
+}

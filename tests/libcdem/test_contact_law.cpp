@@ -1,0 +1,94 @@
+// The law of one contact: numbers in, numbers out.
+#include "libcdem/contact/contact_law.hpp"
+
+#include "tests/libcdem/system.hpp"
+
+#include <catch2/catch.hpp>
+
+using cdem::Contact;
+using cdem::ContactLaw;
+using cdem::ContactMotion;
+using geom::Vec3;
+
+namespace {
+
+const ContactLaw law{1e8, 5e7, 0.5};
+
+ContactMotion motion(double depth, const Vec3& slid = Vec3::Zero(), const Vec3& normal = Vec3::UnitZ()) {
+  ContactMotion m;
+  m.normal = normal;
+  m.depth = depth;
+  m.slid = slid;
+  return m;
+}
+
+Contact pressed(double depth) {
+  Contact c;
+  c.normal = Vec3::UnitZ();
+  advance(c, law, motion(depth));
+  return c;
+}
+
+} // namespace
+
+TEST_CASE("contact law: kn d presses, nothing pulls", "[contact][law]") {
+  CHECK(pressed(1e-4).normal_force == Approx(1e4));
+  Contact c = pressed(1e-4);
+  advance(c, law, motion(-1e-5));
+  CHECK(c.normal_force == 0);
+}
+
+TEST_CASE("contact law: it sticks by ks and slips at tan(phi), and friction takes what the slip costs",
+          "[contact][law]") {
+  Contact c = pressed(1e-4); // may carry 5 kN
+  CHECK(advance(c, law, motion(1e-4, {4e-5, 0, 0})) == 0);
+  CHECK(c.shear.x() == Approx(-2e3));
+  // 2 kN to 5 kN over 60 micrometres, then 40 more at 5 kN.
+  double taken = 0;
+  for (int i = 0; i < 1000; ++i)
+    taken += advance(c, law, motion(1e-4, {1e-7, 0, 0}));
+  CHECK(c.shear.x() == Approx(-5e3));
+  CHECK(taken == Approx(5e3 * 4e-5).epsilon(1e-3));
+}
+
+TEST_CASE("contact law: unloading a slipping contact gives back what its shear stored, as friction",
+          "[contact][law]") {
+  Contact c = pressed(1e-4);
+  advance(c, law, motion(1e-4, {1e-4, 0, 0})); // at its limit, 5 kN
+  CHECK(c.shear.norm() == Approx(5e3));
+  const double stored = 0.5 * 5e3 * 5e3 / law.ks;
+  CHECK(advance(c, law, motion(-1e-6)) == Approx(stored));
+  CHECK(c.shear.norm() == 0);
+}
+
+TEST_CASE("contact law: shear turns with the normal and keeps its size", "[contact][law]") {
+  Contact c = pressed(1e-4);
+  advance(c, law, motion(1e-4, {2e-5, 3e-5, 0}));
+  const double size = c.shear.norm();
+  Vec3 normal = Vec3::UnitZ();
+  for (int i = 1; i <= 90; ++i) {
+    normal = testing::rotation(Vec3::UnitY(), i * testing::degree) * Vec3::UnitZ();
+    advance(c, law, motion(1e-4, Vec3::Zero(), normal));
+    CHECK(std::abs(c.shear.dot(normal)) < 1e-10 * size);
+    CHECK(c.shear.norm() == Approx(size).epsilon(1e-12));
+  }
+  CHECK(normal.x() == Approx(1));
+  CHECK(c.shear.y() == Approx(-1.5e3)); // across the axis' plane nothing turned it
+}
+
+TEST_CASE("contact law: an overlap that was found starts without force, one that was entered does not",
+          "[contact][law]") {
+  CHECK(start_depth(motion(1e-4)) == 1e-4);
+  CHECK(start_depth(motion(1e-4, {0, 0, -1e-4})) == 0); // it came that far in this step
+  Contact c;
+  c.normal = Vec3::UnitZ();
+  c.start = 1e-4;
+  advance(c, law, motion(1e-4));
+  CHECK(c.normal_force == 0);
+  advance(c, law, motion(1.5e-4));
+  CHECK(c.normal_force == Approx(5e3));
+  advance(c, law, motion(2e-5)); // it backs out and comes again: now from there
+  CHECK(c.normal_force == 0);
+  advance(c, law, motion(1e-4));
+  CHECK(c.normal_force == Approx(8e3));
+}
