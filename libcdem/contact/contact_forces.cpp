@@ -57,15 +57,18 @@ struct Nearest {
   geom::Vec3 place = geom::Vec3::Zero();
 };
 
-void take_nearer(Nearest& nearest, int target, const geom::Vec3& spring, const Corners& x,
-                 const geom::Vec3& normal) {
-  Nearest other;
-  other.target = target;
-  other.at = geom::nearest_on_triangle(spring, x[0], x[1], x[2]);
-  other.place = weighted(x, other.at.weights);
-  const geom::Vec3 from = spring - other.place;
-  other.distance2 = from.squaredNorm();
-  other.height = from.dot(normal);
+Nearest nearest_of(int target, const geom::Vec3& spring, const Corners& x, const geom::Vec3& normal) {
+  Nearest found;
+  found.target = target;
+  found.at = geom::nearest_on_triangle(spring, x[0], x[1], x[2]);
+  found.place = weighted(x, found.at.weights);
+  const geom::Vec3 from = spring - found.place;
+  found.distance2 = from.squaredNorm();
+  found.height = from.dot(normal);
+  return found;
+}
+
+void take_nearer(Nearest& nearest, const Nearest& other) {
   if (nearest.target >= 0) {
     const double limit2 = same_place * same_place * std::max(nearest.distance2, other.distance2);
     const bool one_place = (other.place - nearest.place).squaredNorm() <= limit2;
@@ -231,19 +234,27 @@ private:
         const geom::Vec3 normal = unit_normal(y);
         double least2 = std::numeric_limits<double>::infinity();
         for (int corner = 0; corner < 3; ++corner) {
-          Nearest before;
-          take_nearer(before, candidate.target, spring[corner], y, normal);
-          least2 = std::min(least2, before.distance2);
-          if (nearest[corner].target < 0 || before.distance2 <= 1.01 * nearest[corner].distance2)
-            take_nearer(nearest[corner], candidate.target, spring[corner], y, normal);
+          const Nearest found = nearest_of(candidate.target, spring[corner], y, normal);
+          least2 = std::min(least2, found.distance2);
+          take_nearer(nearest[corner], found);
         }
         candidate.wake = moved + std::max(0.0, std::sqrt(least2) - work_.shallow);
       }
-      for (int corner = 0; corner < 3; ++corner)
-        if (nearest[corner].target >= 0 && nearest[corner].height < 0) {
-          row.deep = row.deep || nearest[corner].distance2 > work_.shallow * work_.shallow;
-          press(row.source, corner, spring[corner], piece, nearest[corner], out);
-        }
+      for (int corner = 0; corner < 3; ++corner) {
+        const Nearest& found = nearest[corner];
+        if (found.target < 0 || found.height >= 0)
+          continue;
+        // With some asleep, what is further in than a step can have brought it is not inside: nearer ones sleep.
+        const double reach = work_.shallow + work_.last_way[source.block] +
+                             work_.last_way[surface_.triangles[found.target].block];
+        if (!all && found.distance2 > reach * reach)
+          continue;
+        const double covered = 2 * depth_limit(work_, source, surface_.triangles[found.target]);
+        if (found.distance2 > covered * covered)
+          continue; // beyond what the search covers: nearer ones may not be in the row
+        row.deep = row.deep || found.distance2 > work_.shallow * work_.shallow;
+        press(row.source, corner, spring[corner], piece, found, out);
+      }
     }
   }
 
@@ -251,8 +262,6 @@ private:
              ContactChunk& out) const {
     const ContactTriangle &from = surface_.triangles[source], &to = surface_.triangles[nearest.target];
     const double depth = std::sqrt(nearest.distance2);
-    if (depth > 2 * depth_limit(work_, from, to))
-      return; // beyond what the search covers
     // The two sides of a face that has broken and not yet parted are held by its own springs.
     if (from.mate == nearest.target && !handed_over(state_.faces[from.face / lanes], from.face % lanes))
       return;
@@ -331,7 +340,8 @@ void add_ways(const Model& model, const State& state, ContactWork& work, int thr
     double speed2 = 0;
     for (int node = block.node_begin; node < block.node_end; ++node)
       speed2 = std::max(speed2, velocity_of(state, node).squaredNorm());
-    work.travelled[b] += std::sqrt(speed2) * work.step;
+    work.last_way[b] = std::sqrt(speed2) * work.step;
+    work.travelled[b] += work.last_way[b];
   });
 }
 

@@ -24,7 +24,7 @@ struct ContactCandidate {
 // The targets near one source (triangle or edge), by piece and number.
 struct ContactRow {
   int source = 0;
-  bool deep = false; // one of its contacts is so deep that nothing may sleep
+  bool deep = true; // new, or one of its contacts is so deep that nothing may sleep
   std::int64_t begin = 0, end = 0;
 };
 
@@ -57,6 +57,7 @@ struct ContactWork {
   std::vector<int> piece;               // per triangle: what holds together, by its smallest node
   std::vector<char> active;             // per triangle: it is outside, or its face has broken
   std::vector<double> travelled;        // m, per block, at most, since the search
+  std::vector<double> last_way;         // m, per block, at most, in the last step
   double skin = 0;                      // m
   double shallow = 0;                   // m, contacts up to this deep let other pairs sleep
   double usual_height = 0;              // m, of a tet at the surface

@@ -174,7 +174,7 @@ void make_rows(const Pairs& pairs, std::size_t sources, bool both_ways, const st
                   return a.target < b.target;
                 return piece[a.target] < piece[b.target];
               });
-    rows.push_back({static_cast<int>(i), false, begin[i], begin[i + 1]});
+    rows.push_back({static_cast<int>(i), true, begin[i], begin[i + 1]});
   }
 }
 
@@ -239,6 +239,7 @@ void start_contact(const Model& model, ContactWork& work) {
   work.skin = skin_ratio * work.usual_height;
   work.shallow = shallow_ratio * work.usual_height;
   work.travelled.assign(model.blocks.size(), 0.0);
+  work.last_way.assign(model.blocks.size(), 0.0);
   work.stiffness.assign(model.node_position.size(), 0.0);
 }
 
