@@ -1,0 +1,110 @@
+-- Feng 2014, section 4: a flow up the slope throws the units of a settled pile out one by one. The pressure rises in
+-- steps and is held while anything moves.
+--
+--   ./cdem run examples/armour_pile/settle.lua
+--   ./cdem run examples/armour_pile/flow.lua [--set mass=9000] [--set pile=results/armour_pile-settle/pile.json]
+local cdem = require "cdem"
+
+local mass = cdem.parameter{ name = "mass", default = 5000.0, range = {1, 1e6}, unit = "kg", doc = "the pile is scaled" }
+local file = cdem.parameter{ name = "pile", default = "results/armour_pile-settle/pile.json", doc = "of settle.lua" }
+local first = cdem.parameter{ name = "first_velocity", default = 2.0, range = {0.1, 100}, unit = "m/s", doc = "for 5 t" }
+local step = cdem.parameter{ name = "velocity_step", default = 0.25, range = {1e-3, 10}, unit = "m/s", doc = "for 5 t" }
+local most = cdem.parameter{ name = "max_velocity", default = 15.0, range = {1, 100}, unit = "m/s", doc = "for 5 t" }
+local wanted = cdem.parameter{ name = "units", default = 4, range = {1, 100}, doc = "ends when so many have left" }
+local hold = cdem.parameter{ name = "hold", default = 0.1, range = {1e-3, 10}, unit = "s", doc = "at least, for 5 t" }
+local held = cdem.parameter{ name = "held", default = 5, range = {0, 100}, doc = "highest and lowest units that are held" }
+local friction = cdem.parameter{ name = "friction_angle", default = 35.0, range = {0, 80}, unit = "deg" }
+local draw = cdem.parameter{ name = "pictures", default = true, doc = "draw them" }
+
+local density, water, gradient, g = 2500, 1025, 1 / 1.5, 9.81
+local pile = cdem.read_pile{ file = file }
+pile = pile:scaled{ factor = (mass / density / pile.unit_volume) ^ (1 / 3) }
+local height = pile.height
+-- Froude's law: lengths go with H, times and velocities with its root. 5 t stand for themselves.
+local scale = (mass / 5000) ^ (1 / 6)
+local low, high = {1e9, 1e9}, {-1e9, -1e9}
+for _, pose in ipairs(pile:poses()) do
+  for k = 1, 2 do
+    low[k], high[k] = math.min(low[k], pose.centroid[k]), math.max(high[k], pose.centroid[k])
+  end
+end
+local length, width = high[1] + 3 * height, 2 * math.max(-low[2], high[2]) + 4 * height
+local slope = cdem.slope{ gradient = gradient, length = length, width = width }:mesh{ size = 3 * height }
+
+local concrete = cdem.elastic{ youngs_modulus = 30e9, poissons_ratio = 0.2, density = density }
+local rough = cdem.coulomb{ friction_angle = friction }
+local model = cdem.model{
+  bodies = { { shape = slope, material = concrete, element = "rigid", name = "slope" },
+             { shape = pile, material = concrete, name = "units" } },
+  contacts = { { "units", "units", rough }, { "units", "slope", rough } },
+}
+model:fix{ on = "slope" }
+if held > 0 then
+  for _, numbers in ipairs{ model:lowest_units{ body = "units", count = held },
+                            model:highest_units{ body = "units", count = held } } do
+    model:fix{ on = cdem.select.units{ body = "units", numbers = numbers } }
+  end
+end
+model:gravity{ vector = {0, 0, -g}, water_density = water }
+-- The pile carries itself again, elastic as it is now; what damping there is ends here.
+model:run{ duration = 0.15 * scale, local_damping = 0.5 }
+
+local camera = { position = {-1.2 * length, -1.5 * length, 1.8 * length}, up = {0, 0, 1}, view_angle = 30,
+                 focal_point = {0.42 * length, 0, 0.4 * gradient * length} }
+local function picture(name, title)
+  if not draw then return end
+  model:picture{ file = name, colour = "displacement.magnitude", deformation = 1, camera = camera, axes = false,
+                 range = {0, height}, title = title }
+end
+
+local left = model:watch{ bodies = "units", leaves = 0.5 * height }
+local memory = model.memory
+memory.velocity, memory.since, memory.gone = first * scale, model.time, 0
+model:flow{ on = "units", direction = {1.5, 0, 1}, water_density = water,
+            velocity = function() return memory.velocity end }
+
+-- The flow rises when it has been held long enough and the units, one with another, move by less than a thousandth of
+-- their height in the time of the hold.
+local quiet = 1e-3 * height / (hold * scale)
+local function raise()
+  local speed = math.sqrt(2 * model:energy().kinetic / (pile.count * mass))
+  if #left > memory.gone then
+    memory.gone = #left
+    picture(string.format("left_%d.png", #left),
+            string.format("unit %d has left at %.2f m/s", left[#left].unit, left[#left].velocity))
+  end
+  if model.time - memory.since >= hold * scale and speed < quiet then
+    memory.velocity, memory.since = memory.velocity + step * scale, model.time
+  end
+end
+model:run{ duration = 60 * scale, every = 200, callback = raise, stop = function()
+  return #left >= wanted or memory.velocity > most * scale
+end }
+picture("end.png", string.format("at %.2f m/s", memory.velocity))
+model:save{ file = "end.vtu" }
+
+local paper = {}
+local table_3 = cdem.read_csv("feng2014-table3.csv")
+for i, t in ipairs(table_3.mass_t) do
+  if math.abs(t * 1000 - mass) < 1 then
+    for k = 1, 4 do
+      local velocity = table_3["unit_" .. k][i]
+      if velocity > 0 then paper[k] = velocity end
+    end
+  end
+end
+local figures = {}
+for k = 1, wanted do
+  figures[k] = { name = string.format("unit_%d_leaves_at_m_per_s_%g_t", k, mass / 1000), unit = "m/s",
+                 value = left[k] and left[k].velocity, reference = paper[k], kind = "trial",
+                 source = "Feng 2014 table 3, another pile" }
+  if left[k] then
+    cdem.log(string.format("unit %d left at %.2f m/s, %.2f s", left[k].unit, left[k].velocity, left[k].time))
+  end
+end
+for _, figure in ipairs{ { name = "energy_balance_error", value = model:energy().balance_error },
+                         { name = "steps", value = model.steps },
+                         { name = "wall_time_s", value = cdem.elapsed(), unit = "s" } } do
+  figures[#figures + 1] = figure
+end
+cdem.report(figures)
