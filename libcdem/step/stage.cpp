@@ -350,7 +350,8 @@ void Stage::after_step(const StepReport& report) {
     watch_astray();
   if (step % look_every == 0)
     look_at_units();
-  if (step % poll_every == 0) {
+  // Not between the keeping of a state and its mark: the two would be of different moments.
+  if (step % poll_every == 0 && !can_be_left()) {
     Keeper* const keeper = context_.keeper;
     if (context_.observer.stop_requested()) {
       if (keeper)
