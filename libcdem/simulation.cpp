@@ -261,7 +261,8 @@ std::int64_t Simulation::unbond(const Selection& on, bool whole_faces) {
       return;
     s.state.faces[at.batch].mode[point][at.lane] = static_cast<std::uint8_t>(BondMode::contact);
     cdem::settle(s.model.mesh.faces[at.batch], point, at.lane, position.data(), s.state.displacement.data(),
-           face_law(s.model.bodies[s.model.blocks[chunk.block].body]), slip_of(s.state, at.batch, at.lane));
+                 face_law(s.model.bodies[s.model.blocks[chunk.block].body]),
+                 slip_of(s.state, at.batch, at.lane));
     ++count;
   });
   if (count == 0)
@@ -357,6 +358,11 @@ CriticalFlowResult Simulation::critical_flow(const CriticalFlowOptions& options)
 
 std::vector<Fragment> Simulation::fragments() const {
   return cdem::fragments(impl_->model, impl_->state, resolve(impl_->model, impl_->state, impl_->conditions));
+}
+
+ContactSummary Simulation::contacts() const {
+  return {static_cast<std::int64_t>(impl_->state.contacts.size()), impl_->log.deepest_contact,
+          impl_->log.deepest_over_height};
 }
 
 ModelCounts Simulation::counts() const {

@@ -58,6 +58,12 @@ struct ModelCounts {
   std::int64_t damaged = 0; // of the intact ones: have begun to soften
 };
 
+struct ContactSummary {           // of meshed bodies
+  std::int64_t acting = 0;        // now
+  double deepest = 0;             // m, of all stages
+  double deepest_over_height = 0; // over the height of the lower tet
+};
+
 class Simulation {
 public:
   // Validates and builds; throws geom::InputError.
@@ -104,6 +110,7 @@ public:
 
   // Results.
   ModelCounts counts() const;
+  ContactSummary contacts() const;
   double time() const;             // s
   double residual() const;         // out-of-balance force norm over applied force norm
   double stable_time_step() const; // s

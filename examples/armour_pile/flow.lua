@@ -102,7 +102,11 @@ for k = 1, wanted do
     cdem.log(string.format("unit %d left at %.2f m/s, %.2f s", left[k].unit, left[k].velocity, left[k].time))
   end
 end
-for _, figure in ipairs{ { name = "energy_balance_error", value = model:energy().balance_error },
+local contacts = model:contacts()
+for _, figure in ipairs{ { name = "max_penetration_over_tet_height", value = contacts.deepest_over_tet_height },
+                         { name = "max_penetration_over_height", value = contacts.deepest / height, reference = 0,
+                           kind = "formula", source = "nothing passes through", tolerance_absolute = 0.01 },
+                         { name = "energy_balance_error", value = model:energy().balance_error },
                          { name = "steps", value = model.steps },
                          { name = "wall_time_s", value = cdem.elapsed(), unit = "s" } } do
   figures[#figures + 1] = figure

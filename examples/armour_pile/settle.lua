@@ -13,7 +13,8 @@ local fineness = cdem.parameter{ name = "fineness", default = 2.3, range = {1.5,
                                  doc = "height over the edge length of the tetrahedra" }
 local seed = cdem.parameter{ name = "seed", default = 1, range = {0, 1e6}, doc = "of the attitudes" }
 local held = cdem.parameter{ name = "held", default = 5, range = {1, 100}, doc = "how many of the lowest units are held" }
-local ratio = cdem.parameter{ name = "kinetic_energy_ratio", default = 1e-6, range = {1e-12, 0.1} }
+local ratio = cdem.parameter{ name = "kinetic_energy_ratio", default = 0.01, range = {1e-12, 0.1},
+                               doc = "of the largest there was: at rest" }
 local friction = cdem.parameter{ name = "friction_angle", default = 35.0, range = {0, 80}, unit = "deg" }
 local draw = cdem.parameter{ name = "pictures", default = true, doc = "draw them" }
 
@@ -85,6 +86,9 @@ cdem.report{
   { name = "fewest_contacts", value = measures.fewest_contacts },
   { name = "largest_way_over_height", value = moved / height },
   { name = "settle_kinetic_ratio", value = settled.kinetic_ratio },
+  { name = "max_penetration_over_tet_height", value = model:contacts().deepest_over_tet_height },
+  { name = "max_penetration_over_height", value = model:contacts().deepest / height, reference = 0, kind = "formula",
+    source = "nothing passes through", tolerance_absolute = 0.01 },
   { name = "energy_balance_error", value = model:energy().balance_error },
   { name = "tets_per_unit", value = unit.tets },
   { name = "steps", value = settled.steps },

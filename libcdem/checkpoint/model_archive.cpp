@@ -201,9 +201,10 @@ void archive(A& a, Watch& x) {
 
 template <class A>
 void archive(A& a, RunLog& x) {
-  auto& [breaks, history, probes, watches, broken_tension, broken_shear, told_tension, told_shear, every] = x;
+  auto& [breaks, history, probes, watches, broken_tension, broken_shear, told_tension, told_shear,
+         deepest_contact, deepest_over_height, every] = x;
   archive_all(a, breaks, history, probes, watches, broken_tension, broken_shear, told_tension, told_shear,
-              every);
+              deepest_contact, deepest_over_height, every);
 }
 // NOLINTEND(readability-identifier-length)
 

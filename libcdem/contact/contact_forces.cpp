@@ -465,8 +465,10 @@ ContactSums contact_forces(const Model& model, State& state, Workspace& work, in
   state.contacts = std::move(now);
   for (const Contact& c : state.contacts) {
     const auto [source, target] = triangles_of(model, c);
-    const double part =
-        c.depth / depth_limit(own, model.surface.triangles[source], model.surface.triangles[target]);
+    const ContactTriangle &from = model.surface.triangles[source], &to = model.surface.triangles[target];
+    const double part = c.depth / depth_limit(own, from, to);
+    sums.depth = std::max(sums.depth, c.depth);
+    sums.depth_over_height = std::max(sums.depth_over_height, c.depth / std::min(from.height, to.height));
     if (part > sums.deepest) {
       sums.deepest = part;
       sums.deepest_source = source;

@@ -21,6 +21,7 @@ struct ContactSums {
   double friction = 0; // J, this step
   // The deepest, in parts of the depth at which a contact is not to be trusted (depth_limit).
   double deepest = 0;
+  double depth = 0, depth_over_height = 0;      // largest, m and in parts of the lower tet's height
   int deepest_source = -1, deepest_target = -1; // triangles
 };
 

@@ -8,14 +8,13 @@
 
 #include <cmath>
 #include <fmt/format.h>
-#include <optional>
 
 namespace cdem {
 namespace {
 
-// Of the smaller block's size: how far meshes may stand in each other (rounding of builders and files), and how near
-// they must be to touch.
-constexpr double tolerance_ratio = 1e-3;
+// Of the smaller block's size: how far meshes may stand in each other, as those of a pile at rest do, and how near they
+// must be to touch.
+constexpr double overlap_ratio = 0.01, touching_ratio = 1e-3;
 
 using Corners = std::array<geom::Vec3, 3>;
 
@@ -33,30 +32,29 @@ geom::Box box_of(const Corners& x, double around) {
   return box;
 }
 
-// Where a segment goes through a triangle, with both ends further than `depth` from its plane and its sides.
-std::optional<geom::Vec3> pierced(const geom::Vec3& a, const geom::Vec3& b, const Corners& x, double depth) {
-  const geom::Vec3 normal = (x[1] - x[0]).cross(x[2] - x[0]);
-  const double length = normal.norm(), ha = (a - x[0]).dot(normal) / length,
-               hb = (b - x[0]).dot(normal) / length;
-  if (ha * hb >= 0 || std::min(std::abs(ha), std::abs(hb)) <= depth)
-    return {};
-  const geom::Vec3 at = a + ha / (ha - hb) * (b - a);
-  for (int i = 0; i < 3; ++i) {
-    const geom::Vec3 side = x[(i + 1) % 3] - x[i];
-    if (side.cross(at - x[i]).dot(normal) <= depth * side.norm() * length)
-      return {};
-  }
-  return at;
-}
-
-std::optional<geom::Vec3> pierced(const Corners& x, const Corners& y, double depth) {
-  for (int i = 0; i < 3; ++i) {
-    if (auto at = pierced(x[i], x[(i + 1) % 3], y, depth))
-      return at;
-    if (auto at = pierced(y[i], y[(i + 1) % 3], x, depth))
-      return at;
-  }
-  return {};
+// The shortest way that draws two triangles apart, m; 0 when they do not meet. Over the axes that can separate them:
+// their normals and the common normals of their edges.
+double depth_of(const Corners& x, const Corners& y) {
+  double least = std::numeric_limits<double>::infinity();
+  const auto along = [&](const geom::Vec3& axis) {
+    const double length = axis.norm();
+    if (length < 1e-12 * (x[1] - x[0]).norm() * (y[1] - y[0]).norm())
+      return;
+    double x_min = x[0].dot(axis), x_max = x_min, y_min = y[0].dot(axis), y_max = y_min;
+    for (int i = 1; i < 3; ++i) {
+      x_min = std::min(x_min, x[i].dot(axis));
+      x_max = std::max(x_max, x[i].dot(axis));
+      y_min = std::min(y_min, y[i].dot(axis));
+      y_max = std::max(y_max, y[i].dot(axis));
+    }
+    least = std::min(least, std::max(0.0, std::min(x_max - y_min, y_max - x_min)) / length);
+  };
+  along((x[1] - x[0]).cross(x[2] - x[0]));
+  along((y[1] - y[0]).cross(y[2] - y[0]));
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < 3; ++j)
+      along((x[(i + 1) % 3] - x[i]).cross(y[(j + 1) % 3] - y[j]));
+  return least;
 }
 
 double distance(const Corners& x, const Corners& y) {
@@ -94,6 +92,17 @@ bool holds(const Model& model, int block, const geom::Vec3& place) {
   return angle > 6; // 4 pi inside, 0 outside
 }
 
+double distance_to_surface(const Model& model, int block, const geom::Vec3& place) {
+  double nearest = std::numeric_limits<double>::infinity();
+  for (int t = model.surface.block_begin[block]; t < model.surface.block_begin[block + 1]; ++t)
+    if (model.surface.triangles[t].face < 0) {
+      const Corners x = corners(model, t);
+      const geom::Vec3 w = geom::nearest_on_triangle(place, x[0], x[1], x[2]).weights;
+      nearest = std::min(nearest, (place - w[0] * x[0] - w[1] * x[1] - w[2] * x[2]).norm());
+    }
+  return nearest;
+}
+
 std::string both(const Model& model, int a, int b) {
   return block_name(model, a) + " and " + block_name(model, b);
 }
@@ -123,7 +132,7 @@ void require_separate_meshes(const Model& model) {
   std::vector<char> outer, meshed;
   for (const ContactTriangle& t : s.triangles) {
     boxes.push_back(
-        box_of(corners(model, static_cast<int>(boxes.size())), tolerance_ratio * model.blocks[t.block].size));
+        box_of(corners(model, static_cast<int>(boxes.size())), touching_ratio * model.blocks[t.block].size));
     outer.push_back(static_cast<char>(t.face < 0));
   }
   for (std::size_t b = 0; b < model.blocks.size(); ++b) {
@@ -138,7 +147,8 @@ void require_separate_meshes(const Model& model) {
   for (const auto& [a, b] : geom::touching_pairs(block_boxes, meshed)) {
     if (!meshed[a] || !meshed[b])
       continue;
-    const double depth = tolerance_ratio * std::min(model.blocks[a].size, model.blocks[b].size);
+    const double smaller = std::min(model.blocks[a].size, model.blocks[b].size);
+    const double depth = overlap_ratio * smaller;
     std::vector<geom::Box> near;
     std::vector<int> triangles;
     int first_of_b = 0;
@@ -158,9 +168,9 @@ void require_separate_meshes(const Model& model) {
       if (i >= first_of_b || j < first_of_b)
         continue;
       const Corners x = corners(model, triangles[i]), y = corners(model, triangles[j]);
-      if (const auto at = pierced(x, y, depth))
-        refuse_overlap(model, a, b, *at);
-      if (lawless && distance(x, y) < depth)
+      if (depth_of(x, y) > depth)
+        refuse_overlap(model, a, b, (x[0] + x[1] + x[2] + y[0] + y[1] + y[2]) / 6);
+      if (lawless && distance(x, y) < touching_ratio * smaller)
         refuse_touching(model, a, b);
     }
     for (const auto& [inner, around] : {std::pair(a, b), std::pair(b, a)}) {
@@ -168,7 +178,8 @@ void require_separate_meshes(const Model& model) {
       const geom::Box& box = block_boxes[around];
       const bool deep_in =
           (x.array() > box.min.array() + 3 * depth).all() && (x.array() < box.max.array() - 3 * depth).all();
-      if (deep_in && block_boxes[inner].size().maxCoeff() < box.size().maxCoeff() && holds(model, around, x))
+      if (deep_in && block_boxes[inner].size().maxCoeff() < box.size().maxCoeff() &&
+          holds(model, around, x) && distance_to_surface(model, around, x) > depth)
         refuse_overlap(model, a, b, x);
     }
   }

@@ -5,8 +5,8 @@
 
 namespace cdem {
 
-// Throws geom::InputError for two meshed blocks that pierce each other, or hold each other, by more than 1e-3 of the
-// smaller one's size, and for two that are nearer than that without a law between them.
+// Throws geom::InputError for two meshed blocks that pierce each other, or hold each other, by more than 0.01 of the
+// smaller one's size, and for two that are nearer than 1e-3 of it without a law between them.
 void require_separate_meshes(const Model&);
 
 } // namespace cdem

@@ -49,6 +49,9 @@ struct RunLog {
   std::int64_t broken_tension = 0, broken_shear = 0;
   std::int64_t told_tension = 0, told_shear = 0; // of these: told of when earlier stages ended
 
+  // Of all contacts so far: depth, m, and depth over the height of the lower of the two tets.
+  double deepest_contact = 0, deepest_over_height = 0;
+
   std::int64_t every = 10; // steps between samples
 
   // A sample is due at this step (over all stages).

@@ -142,6 +142,8 @@ double Stage::meet() {
   const Model& model = context_.model;
   const ContactSums sums = contact_forces(model, context_.state, work, context_.threads);
   context_.state.spent.friction += sums.friction;
+  context_.log.deepest_contact = std::max(context_.log.deepest_contact, sums.depth);
+  context_.log.deepest_over_height = std::max(context_.log.deepest_over_height, sums.depth_over_height);
   if (sums.deepest > 1)
     refuse_depth(sums.deepest_source, sums.deepest_target);
   const double frequency2 = contact_frequency2(model, context_.state, work, row_sums_);

@@ -107,6 +107,12 @@ void bind_units(Module& m) {
         number("area").unit("m2").required().doc("of slope that was measured"),
         number("contacts_per_unit").required().doc("mean number of other meshed blocks that press on a unit"),
         integer("fewest_contacts").required().doc("of any unit")}});
+  m.records.push_back(
+      {"Contacts",
+       "Contacts of meshed bodies.",
+       {integer("acting").required().doc("semi-springs and semi-edges now"),
+        number("deepest").unit("m").required().doc("largest depth so far"),
+        number("deepest_over_tet_height").required().doc("the same over the height of the lower tet")}});
   Class& model = m.the_class("Model");
   const auto add = [&](std::string name, std::string doc, std::vector<Field> fields, std::string returns,
                        std::string returns_doc, auto body) {
@@ -124,6 +130,13 @@ void bind_units(Module& m) {
       measures);
   const std::vector<Field> fields{text("body").required(), integer("count").at_least(1).required(),
                                   vec3("up").standard(Value(geom::Vec3(0, 0, 1)))};
+  add("contacts", "How many contacts of meshed bodies act, and how deep they have been.", {}, "cdem.Contacts",
+      "", [](Session&, ModelObject& self, const Arguments&) -> Value {
+        const ContactSummary c = self.simulation.contacts();
+        return Table{
+            {"acting", c.acting}, {"deepest", c.deepest}, {"deepest_over_tet_height", c.deepest_over_height}};
+      });
+  model.methods.back().in_order = true;
   add("lowest_units", "Numbers of the units whose centroids are lowest now, for cdem.select.units.", fields,
       "integer[]", "the lowest first",
       [](Session&, ModelObject& self, const Arguments& a) { return furthest(self, a, -1); });

@@ -259,6 +259,12 @@ local cdem = {}
 ---@field contacts_per_unit number mean number of other meshed blocks that press on a unit
 ---@field fewest_contacts integer of any unit
 
+---Contacts of meshed bodies.
+---@class (exact) cdem.Contacts
+---@field acting integer semi-springs and semi-edges now
+---@field deepest number m: largest depth so far
+---@field deepest_over_tet_height number the same over the height of the lower tet
+
 ---What one case of a sweep came to.
 ---@class (exact) cdem.SweepResult
 ---@field set any as given
@@ -871,6 +877,10 @@ function Model:pile(options) end
 ---@param options cdem.ModelPileMeasuresOptions
 ---@return cdem.PileMeasures
 function Model:pile_measures(options) end
+
+---How many contacts of meshed bodies act, and how deep they have been.
+---@return cdem.Contacts
+function Model:contacts() end
 
 ---@class (exact) cdem.ModelLowestUnitsOptions
 ---@field body string
