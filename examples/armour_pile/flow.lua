@@ -13,7 +13,7 @@ local most = cdem.parameter{ name = "max_velocity", default = 15.0, range = {1, 
 local wanted = cdem.parameter{ name = "units", default = 4, range = {1, 100}, doc = "ends when so many have left" }
 local hold = cdem.parameter{ name = "hold", default = 0.1, range = {1e-3, 10}, unit = "s", doc = "at least, for 5 t" }
 local held = cdem.parameter{ name = "held", default = 5, range = {0, 100}, doc = "highest and lowest units that are held" }
-local friction = cdem.parameter{ name = "friction_angle", default = 35.0, range = {0, 80}, unit = "deg" }
+local friction = cdem.parameter{ name = "friction_angle", default = 40.0, range = {0, 80}, unit = "deg" }
 local draw = cdem.parameter{ name = "pictures", default = true, doc = "draw them" }
 
 local density, water, gradient, g = 2500, 1025, 1 / 1.5, 9.81
@@ -63,9 +63,9 @@ memory.velocity, memory.since, memory.gone = first * scale, model.time, 0
 model:flow{ on = "units", direction = {1.5, 0, 1}, water_density = water,
             velocity = function() return memory.velocity end }
 
--- The flow rises when it has been held long enough and the units, one with another, move by less than a thousandth of
--- their height in the time of the hold.
-local quiet = 1e-3 * height / (hold * scale)
+-- The flow rises when it has been held long enough and the units, one with another, are slower than a hundredth of
+-- sqrt(g H): one unit among fifty at 0.3 m/s.
+local quiet = 0.01 * math.sqrt(g * height)
 local function raise()
   local speed = math.sqrt(2 * model:energy().kinetic / (pile.count * mass))
   if #left > memory.gone then

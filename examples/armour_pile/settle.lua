@@ -15,7 +15,7 @@ local seed = cdem.parameter{ name = "seed", default = 1, range = {0, 1e6}, doc =
 local held = cdem.parameter{ name = "held", default = 5, range = {1, 100}, doc = "how many of the lowest units are held" }
 local ratio = cdem.parameter{ name = "kinetic_energy_ratio", default = 0.01, range = {1e-12, 0.1},
                                doc = "of the largest there was: at rest" }
-local friction = cdem.parameter{ name = "friction_angle", default = 35.0, range = {0, 80}, unit = "deg" }
+local friction = cdem.parameter{ name = "friction_angle", default = 40.0, range = {0, 80}, unit = "deg" }
 local draw = cdem.parameter{ name = "pictures", default = true, doc = "draw them" }
 
 local density, water, gradient = 2500, 1025, 1 / 1.5

@@ -52,8 +52,8 @@ struct ContactChunk {
 };
 
 struct ContactWork {
-  std::vector<ContactRow> rows[2]; // of springs, of edges
-  std::vector<ContactCandidate> candidates[2];
+  std::array<std::vector<ContactRow>, 2> rows; // of springs, of edges
+  std::array<std::vector<ContactCandidate>, 2> candidates;
   std::vector<int> piece;               // per triangle: what holds together, by its smallest node
   std::vector<char> active;             // per triangle: it is outside, or its face has broken
   std::vector<double> travelled;        // m, per block, at most, since the search
