@@ -18,8 +18,7 @@ public:
     if (most_ == 1 || ++steps_ < window(phase_))
       return;
     const auto now = Clock::now();
-    const double per_step =
-        std::chrono::duration<double>(now - start_).count() / static_cast<double>(steps_);
+    const double per_step = std::chrono::duration<double>(now - start_).count() / static_cast<double>(steps_);
     start_ = now;
     steps_ = 0;
     if (phase_ == Phase::all)
