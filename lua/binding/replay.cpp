@@ -107,7 +107,7 @@ Value Checkpoints::call(const std::string& name, Replay replay, int model,
   }
   event.hash = hash();
   const int stages = stages_;
-  const Value result = noted(event, body, [&](const Event& done) {
+  Value result = noted(event, body, [&](const Event& done) {
     if (stages_ == stages)
       journal_.record(done);
   });
