@@ -40,8 +40,8 @@ TEST_CASE("the nearest place on a triangle is as near as CGAL's", "[closest]") {
     CHECK((x - place).squaredNorm() == Approx(exact).margin(1e-14).epsilon(1e-9));
     inside += at.inside ? 1 : 0;
   }
-  CHECK(inside > 100);
-  CHECK(inside < 1900);
+  CHECK(inside > 50);
+  CHECK(inside < 1950);
 }
 
 TEST_CASE("the nearest places of two segments are as near as CGAL's", "[closest]") {
@@ -58,7 +58,7 @@ TEST_CASE("the nearest places of two segments are as near as CGAL's", "[closest]
 TEST_CASE("the grid finds the pairs of boxes that CGAL finds", "[closest][grid]") {
   const std::size_t n = GENERATE(2, 50, 1000);
   std::vector<geom::Box> boxes;
-  using Box = CGAL::Box_intersection_d::Box_d<double, 3>;
+  using Box = CGAL::Box_intersection_d::Box_d<double, 3, CGAL::Box_intersection_d::ID_EXPLICIT>;
   std::vector<Box> theirs;
   for (std::uint64_t i = 0; i < n; ++i) {
     geom::Box box;
@@ -69,10 +69,10 @@ TEST_CASE("the grid finds the pairs of boxes that CGAL finds", "[closest][grid]"
     theirs.emplace_back(
         CGAL::Bbox_3(box.min.x(), box.min.y(), box.min.z(), box.max.x(), box.max.y(), box.max.z()));
   }
+  const std::size_t first = theirs.front().id(); // they are put in another order on the way
   std::vector<std::pair<int, int>> expected;
   CGAL::box_self_intersection_d(theirs.begin(), theirs.end(), [&](const Box& a, const Box& b) {
-    const int i = static_cast<int>(a.id() - theirs.front().id()),
-              j = static_cast<int>(b.id() - theirs.front().id());
+    const int i = static_cast<int>(a.id() - first), j = static_cast<int>(b.id() - first);
     expected.emplace_back(std::min(i, j), std::max(i, j));
   });
   std::sort(expected.begin(), expected.end());
