@@ -75,6 +75,7 @@ local function raise()
   end
   if model.time - memory.since >= hold * scale and speed < quiet then
     memory.velocity, memory.since = memory.velocity + step * scale, model.time
+    cdem.log(string.format("%.2f s: the flow rises to %.2f m/s", model.time, memory.velocity))
   end
 end
 model:run{ duration = 60 * scale, every = 200, callback = raise, stop = function()
