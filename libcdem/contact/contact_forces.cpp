@@ -3,7 +3,6 @@
 #include "libcdem/contact/build_surface.hpp"
 #include "libcdem/contact/places.hpp"
 #include "libcdem/contact/search.hpp"
-#include "libcdem/rigid/inertia.hpp"
 #include "libgeom/query/closest.hpp"
 
 #include <cmath>
@@ -18,8 +17,6 @@ constexpr double drawn_in = 0.01;
 constexpr double parallel = 0.05;
 // Edges deeper than this many times the shallow depth have slid past each other's ends.
 constexpr double deepest_edge = 5;
-// Of a rigid body's surface: what touches at most, by the step that it starts with.
-constexpr double touching_part = 0.02;
 // Of a distance: places nearer than that to each other are one, as on the edge that two triangles share.
 constexpr double same_place = 1e-6;
 
@@ -493,50 +490,6 @@ double contact_energy(const Model& model, const State& state, double lag) {
                   std::min(shear_force, normal_force * law.tan_friction), law);
   }
   return sum;
-}
-
-double contact_frequency2(const Model& model, const State& state, const Workspace& work,
-                          const std::vector<double>& row_sums) {
-  double largest = 0;
-  std::vector<double> rigid(model.rigid.size(), 0.0);
-  const ContactWork& own = work.meeting;
-  for (const int node : own.touched) {
-    const int body = model.blocks[model.node_block[node]].rigid;
-    if (body < 0) {
-      largest = std::max(largest, (row_sums[node] + own.stiffness[node]) / model.node_mass[node]);
-      continue;
-    }
-    const std::array<double, 3>& c = state.rigid[body].centroid;
-    const double arm = (place_of(model, state, node) - geom::Vec3(c[0], c[1], c[2])).norm();
-    rigid[body] += own.stiffness[node] * rigid_inverse_mass(model.rigid[body], arm);
-  }
-  for (const double sum : rigid)
-    largest = std::max(largest, sum);
-  return largest;
-}
-
-double rigid_frequency2(const Model& model) {
-  double largest = 0;
-  for (const RigidBody& body : model.rigid) {
-    double stiffness = 0, arm = 0;
-    const Block& block = model.blocks[body.block];
-    for (int t = model.surface.block_begin[body.block]; t < model.surface.block_begin[body.block + 1]; ++t) {
-      const ContactTriangle& triangle = model.surface.triangles[t];
-      if (triangle.face < 0)
-        stiffness += triangle.area / triangle.compliance;
-    }
-    for (int node = block.node_begin; node < block.node_end; ++node)
-      arm = std::max(arm, (model.node_position[node] - block.mass.centroid).norm());
-    largest = std::max(largest, 2 * touching_part * stiffness * rigid_inverse_mass(body, arm));
-  }
-  return largest;
-}
-
-void add_contact_row_sums(const Model& model, std::vector<double>& row_sums) {
-  for (const ContactTriangle& t : model.surface.triangles)
-    if (t.face < 0)
-      for (const int node : t.nodes)
-        row_sums[node] += 4 * t.area / (3 * t.compliance); // own springs, those of others, and edges
 }
 
 } // namespace cdem

@@ -35,17 +35,6 @@ ContactLaw law_of(const Model&, const Contact&);
 // J, that contacts store `lag` seconds before now, at the velocities of now.
 double contact_energy(const Model&, const State&, double lag);
 
-// 1/s2: bound of the largest eigenvalue of all stiffness over mass that contacts take part in, as they are now;
-// row_sums: those of elements and bonds, N/m (n_nodes). 0 without contacts. Stable steps are below 2 / sqrt of it.
-double contact_frequency2(const Model&, const State&, const Workspace&, const std::vector<double>& row_sums);
-
-// The same before anything touches, for rigid bodies, if a fiftieth of their surface does: a step that lets no more than
-// a few contacts close at once. contact_frequency2 shortens it when more do.
-double rigid_frequency2(const Model&);
-
-// Adds to the row sums what contacts may at most add at the surface, when all of it is pressed by its like, N/m.
-void add_contact_row_sums(const Model&, std::vector<double>& row_sums);
-
 // The two blocks of a contact, its source's first.
 std::pair<int, int> blocks_of(const Model&, const Contact&);
 

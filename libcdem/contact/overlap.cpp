@@ -1,6 +1,7 @@
 #include "libcdem/contact/overlap.hpp"
 
 #include "libcdem/contact/build_surface.hpp"
+#include "libcdem/contact/places.hpp"
 #include "libcdem/model/names.hpp"
 #include "libgeom/core/error.hpp"
 #include "libgeom/query/box_pairs.hpp"
@@ -16,20 +17,9 @@ namespace {
 // must be to touch.
 constexpr double overlap_ratio = 0.01, touching_ratio = 1e-3;
 
-using Corners = std::array<geom::Vec3, 3>;
-
 Corners corners(const Model& model, int triangle) {
   const geom::Triangle& n = model.surface.triangles[triangle].nodes;
   return {model.node_position[n[0]], model.node_position[n[1]], model.node_position[n[2]]};
-}
-
-geom::Box box_of(const Corners& x, double around) {
-  geom::Box box;
-  for (const geom::Vec3& corner : x)
-    box.extend(corner);
-  box.min.array() -= around;
-  box.max.array() += around;
-  return box;
 }
 
 // The shortest way that draws two triangles apart, m; 0 when they do not meet. Over the axes that can separate them:

@@ -27,4 +27,13 @@ inline geom::Vec3 weighted(const Corners& x, const geom::Vec3& w) {
   return w[0] * x[0] + w[1] * x[1] + w[2] * x[2];
 }
 
+inline geom::Box box_of(const Corners& x, double around) {
+  geom::Box box;
+  for (const geom::Vec3& corner : x)
+    box.extend(corner);
+  box.min.array() -= around;
+  box.max.array() += around;
+  return box;
+}
+
 } // namespace cdem

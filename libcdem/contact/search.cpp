@@ -36,15 +36,6 @@ bool apart(const geom::Box& a, const geom::Box& b) {
   return (a.min.array() > b.max.array()).any() || (b.min.array() > a.max.array()).any();
 }
 
-geom::Box box_of(const Corners& x, double around) {
-  geom::Box box;
-  for (const geom::Vec3& corner : x)
-    box.extend(corner);
-  box.min.array() -= around;
-  box.max.array() += around;
-  return box;
-}
-
 bool open(const State& state, int face) {
   for (const auto& point : state.faces[face / lanes].mode)
     if (point[face % lanes] == static_cast<std::uint8_t>(BondMode::intact))

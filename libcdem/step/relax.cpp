@@ -1,6 +1,6 @@
 #include "libcdem/step/relax.hpp"
 
-#include "libcdem/contact/contact_forces.hpp"
+#include "libcdem/contact/contact_bounds.hpp"
 #include "libcdem/results/energy.hpp"
 #include "libcdem/step/move_nodes.hpp"
 #include "libcdem/step/move_rigid.hpp"

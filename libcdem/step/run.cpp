@@ -1,6 +1,6 @@
 #include "libcdem/step/run.hpp"
 
-#include "libcdem/contact/contact_forces.hpp"
+#include "libcdem/contact/contact_bounds.hpp"
 #include "libcdem/step/move_nodes.hpp"
 #include "libcdem/step/move_rigid.hpp"
 #include "libcdem/step/row_sums.hpp"

@@ -1,5 +1,6 @@
 #include "libcdem/step/stage.hpp"
 
+#include "libcdem/contact/contact_bounds.hpp"
 #include "libcdem/contact/contact_forces.hpp"
 #include "libcdem/contact/places.hpp"
 #include "libcdem/contact/search.hpp"

@@ -1,0 +1,19 @@
+// What contacts add to the bounds of the largest eigenvalue of stiffness over mass (Gershgorin), for the stable step.
+#pragma once
+
+#include "libcdem/step/workspace.hpp"
+
+namespace cdem {
+
+// 1/s2: bound of the largest eigenvalue of all stiffness over mass that contacts take part in, as they are now;
+// row_sums: those of elements and bonds, N/m (n_nodes). 0 without contacts. Stable steps are below 2 / sqrt of it.
+double contact_frequency2(const Model&, const State&, const Workspace&, const std::vector<double>& row_sums);
+
+// The same before anything touches, for rigid bodies, if a fiftieth of their surface does: a step that lets no more than
+// a few contacts close at once. contact_frequency2 shortens it when more do.
+double rigid_frequency2(const Model&);
+
+// Adds to the row sums what contacts may at most add at the surface, when all of it is pressed by its like, N/m.
+void add_contact_row_sums(const Model&, std::vector<double>& row_sums);
+
+} // namespace cdem
