@@ -9,7 +9,7 @@ local start = cdem.parameter{ name = "start", default = "place", choices = {"dro
 local mass = cdem.parameter{ name = "mass", default = 5000.0, range = {1, 1e6}, unit = "kg" }
 local count = cdem.parameter{ name = "count", default = 50, range = {6, 1000} }
 local columns = cdem.parameter{ name = "columns", default = 5, range = {2, 30}, doc = "units in a row, of place" }
-local fineness = cdem.parameter{ name = "fineness", default = 2.3, range = {1.5, 30},
+local fineness = cdem.parameter{ name = "fineness", default = 3, range = {1.5, 30},
                                  doc = "height over the edge length of the tetrahedra" }
 local seed = cdem.parameter{ name = "seed", default = 1, range = {0, 1e6}, doc = "of the attitudes" }
 local held = cdem.parameter{ name = "held", default = 5, range = {1, 100}, doc = "how many of the lowest units are held" }
@@ -19,7 +19,8 @@ local friction = cdem.parameter{ name = "friction_angle", default = 40.0, range 
 local draw = cdem.parameter{ name = "pictures", default = true, doc = "draw them" }
 
 local density, water, gradient = 2500, 1025, 1 / 1.5
-local solid = cdem.accropode{ mass = mass, density = density }
+-- Square bars: cut corners would make tetrahedra, and steps, a third of the size.
+local solid = cdem.accropode{ mass = mass, density = density, width = 0.40, corner = 0 }
 local height = solid.height
 local unit = solid:mesh{ size = height / fineness }
 local width, rows = (2 * columns + 3) * height * 0.62, math.ceil(count / columns)

@@ -3,16 +3,17 @@
 #include "libgeom/core/check.hpp"
 #include "libgeom/core/error.hpp"
 
+#include <array>
 #include <cmath>
 
 namespace geom {
 namespace {
 
-// One section of a bar: a rectangle with its four corners cut, square to the bar.
+// One section of a bar: a rectangle with its four corners cut (unless the cut is 0), square to the bar.
 struct Section {
   double place = 0; // along the bar
   double half_width = 0, half_depth = 0;
-  double corner = 0; // legs of the triangles cut off
+  double corner = 0; // legs of the triangles cut off; 0 in all sections or in none
 };
 
 Section shrunk(const Section& s, double place, double ratio) {
@@ -26,21 +27,24 @@ Solid bar(const std::vector<Section>& sections, const Vec3& centre, const Vec3& 
   Polyhedron out;
   for (const Section& s : sections) {
     const double w = s.half_width, d = s.half_depth, c = s.corner;
-    const double ring[8][2] = {{w, c - d},  {w, d - c},  {w - c, d},  {c - w, d},
-                               {-w, d - c}, {-w, c - d}, {c - w, -d}, {w - c, -d}};
+    std::vector<std::array<double, 2>> ring{{w, d - c}, {-w, d - c}, {-w, c - d}, {w, c - d}};
+    if (c > 0)
+      ring = {{w, c - d},  {w, d - c},  {w - c, d},  {c - w, d},
+              {-w, d - c}, {-w, c - d}, {c - w, -d}, {w - c, -d}};
     for (const auto& [x, y] : ring)
       out.vertices.push_back(centre + s.place * along + x * width + y * depth);
   }
-  const int last = static_cast<int>(out.vertices.size()) - 8;
-  out.faces.push_back({{7, 6, 5, 4, 3, 2, 1, 0}});
-  for (int ring = 0; ring < last; ring += 8)
-    for (int i = 0; i < 8; ++i) {
-      const int j = (i + 1) % 8;
-      out.faces.push_back({{ring + i, ring + j, ring + 8 + j, ring + 8 + i}});
+  const int all = static_cast<int>(out.vertices.size()), sides = all / static_cast<int>(sections.size());
+  out.faces.resize(2); // the ends
+  for (int i = 0; i < sides; ++i) {
+    out.faces[0].loop.push_back(sides - 1 - i);
+    out.faces[1].loop.push_back(all - sides + i);
+  }
+  for (int ring = 0; ring < all - sides; ring += sides)
+    for (int i = 0; i < sides; ++i) {
+      const int j = (i + 1) % sides;
+      out.faces.push_back({{ring + i, ring + j, ring + sides + j, ring + sides + i}});
     }
-  out.faces.push_back({{}});
-  for (int i = 0; i < 8; ++i)
-    out.faces.back().loop.push_back(last + i);
   return make_solid(out);
 }
 
@@ -63,7 +67,8 @@ Solid accropode(double height, const AccropodeShape& shape) {
   require_fraction("core", shape.core, 0.1, 0.9);
   require_between("length", shape.length, shape.width + 0.02, 2);
   require_fraction("taper", shape.taper, 0.2, 1);
-  require_fraction("corner", shape.corner, 0.02, 0.45);
+  if (shape.corner != 0)
+    require_between("corner", shape.corner, 0.02, 0.45, "or 0: square bars");
 
   const double H = 1, x = 0.5 * shape.width * H, b = 0.5 * shape.bar * H, z = 0.5 * shape.core * H;
   const double web = 0.5 * H - 2 * b; // half of the gap between the end bars

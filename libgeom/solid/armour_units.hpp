@@ -22,7 +22,7 @@ struct AccropodeShape {
   double core = 0.42;   // of the core and the middle bar along z
   double length = 1;    // of the middle bar along x
   double taper = 0.70;  // size of a bar's end over that at the core
-  double corner = 0.20; // cut off a bar's edges, over the shorter side of its section
+  double corner = 0.20; // cut off a bar's edges, over the shorter side of its section; 0: square bars
 
   static AccropodeShape slender() { return {}; }
   static AccropodeShape stocky() { return {0.386, 0.30, 0.42, 0.80, 0.95, 0.20}; }

@@ -105,7 +105,9 @@ void bind_armour_units(Module& m) {
                    share("core", "of the core and the middle bar along z: 0.42"),
                    share("length", "of the middle bar along x: 1 or 0.80"),
                    share("taper", "size of a bar's end over that at the core: 0.70 or 0.95"),
-                   share("corner", "cut off a bar's edges, over the shorter side of its section: 0.20")}),
+                   number("corner").at_least(0).doc(
+                       "cut off a bar's edges, over the shorter side of its section: 0.20; 0: square "
+                       "bars, which make larger tetrahedra")}),
       accropode);
   add("dolos",
       "A dolos without fillets, V = 0.163 C^3: octagonal flukes along z and y at the ends of a shank along "

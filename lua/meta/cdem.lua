@@ -1278,7 +1278,7 @@ function cdem.solid.fragments(options) end
 ---@field core? number > 0: of the core and the middle bar along z: 0.42
 ---@field length? number > 0: of the middle bar along x: 1 or 0.80
 ---@field taper? number > 0: size of a bar's end over that at the core: 0.70 or 0.95
----@field corner? number > 0: cut off a bar's edges, over the shorter side of its section: 0.20
+---@field corner? number >= 0: cut off a bar's edges, over the shorter side of its section: 0.20; 0: square bars, which make larger tetrahedra
 
 ---An accropode-like unit, V = 0.34 H^3: two end bars along z, a middle bar along x, a core. Centred on the origin. Proportions are fractions of the height; those left out are the shape's.
 ---@param options? cdem.AccropodeOptions
