@@ -11,7 +11,10 @@ local first = cdem.parameter{ name = "first_velocity", default = 2.0, range = {0
 local step = cdem.parameter{ name = "velocity_step", default = 0.5, range = {1e-3, 10}, unit = "m/s", doc = "for 5 t" }
 local most = cdem.parameter{ name = "max_velocity", default = 15.0, range = {1, 100}, unit = "m/s", doc = "for 5 t" }
 local wanted = cdem.parameter{ name = "units", default = 4, range = {1, 100}, doc = "ends when so many have left" }
-local hold = cdem.parameter{ name = "hold", default = 0.1, range = {1e-3, 10}, unit = "s", doc = "at least, for 5 t" }
+local hold = cdem.parameter{ name = "hold", default = 0.2, range = {1e-3, 10}, unit = "s", doc = "at least, for 5 t" }
+local longest = cdem.parameter{ name = "longest_hold", default = 1.5, range = {1e-3, 100}, unit = "s", doc = "for 5 t" }
+local damping = cdem.parameter{ name = "stiffness_damping", default = 1e-5, range = {0, 1e-3}, unit = "s",
+                                doc = "for 5 t: 1 % of critical damping at a unit's lowest frequency" }
 local held = cdem.parameter{ name = "held", default = 5, range = {0, 100}, doc = "highest and lowest units that are held" }
 local friction = cdem.parameter{ name = "friction_angle", default = 40.0, range = {0, 80}, unit = "deg" }
 local draw = cdem.parameter{ name = "pictures", default = true, doc = "draw them" }
@@ -31,7 +34,8 @@ end
 local length, width = high[1] + 3 * height, 2 * math.max(-low[2], high[2]) + 4 * height
 local slope = cdem.slope{ gradient = gradient, length = length, width = width }:mesh{ size = 3 * height }
 
-local concrete = cdem.elastic{ youngs_modulus = 30e9, poissons_ratio = 0.2, density = density }
+local concrete = cdem.elastic{ youngs_modulus = 30e9, poissons_ratio = 0.2, density = density,
+                               stiffness_damping = damping * (mass / 5000) ^ (1 / 3) }
 local rough = cdem.coulomb{ friction_angle = friction }
 local model = cdem.model{
   bodies = { { shape = slope, material = concrete, element = "rigid", name = "slope" },
@@ -63,19 +67,32 @@ memory.velocity, memory.since, memory.gone = first * scale, model.time, 0
 model:flow{ on = "units", direction = {1.5, 0, 1}, water_density = water,
             velocity = function() return memory.velocity end }
 
--- The flow rises when it has been held long enough and the units, one with another, are slower than a hundredth of
--- sqrt(g H): one unit among fifty at 0.3 m/s.
-local quiet = 0.01 * math.sqrt(g * height)
+-- The flow rises when no unit has gone further than a hundredth of its height since it last rose or was looked at, or
+-- at the latest after the longest hold: a unit that rocks between its neighbours may do so for long.
+local function places() return model:pile{ body = "units" }:poses() end
+memory.places, memory.looked = places(), model.time
+local function furthest_way()
+  local now, most_moved = places(), 0
+  for i, pose in ipairs(now) do
+    local way = 0
+    for k = 1, 3 do way = way + (pose.centroid[k] - memory.places[i].centroid[k]) ^ 2 end
+    most_moved = math.max(most_moved, math.sqrt(way))
+  end
+  memory.places, memory.looked = now, model.time
+  return most_moved
+end
 local function raise()
-  local speed = math.sqrt(2 * model:energy().kinetic / (pile.count * mass))
   if #left > memory.gone then
     memory.gone = #left
     picture(string.format("left_%d.png", #left),
             string.format("unit %d has left at %.2f m/s", left[#left].unit, left[#left].velocity))
   end
-  if model.time - memory.since >= hold * scale and speed < quiet then
+  if model.time - memory.looked < hold * scale then return end
+  local way = furthest_way()
+  if way < 0.01 * height or model.time - memory.since >= longest * scale then
     memory.velocity, memory.since = memory.velocity + step * scale, model.time
-    cdem.log(string.format("%.2f s: the flow rises to %.2f m/s", model.time, memory.velocity))
+    cdem.log(string.format("%.2f s: the flow rises to %.2f m/s (furthest way in the last %.2g s: %.2g H)", model.time,
+                           memory.velocity, hold * scale, way / height))
   end
 end
 model:run{ duration = 60 * scale, every = 200, callback = raise, stop = function()

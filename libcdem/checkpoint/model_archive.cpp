@@ -13,8 +13,8 @@ struct Flat<MeshBatch> : std::bool_constant<sizeof(MeshBatch) == 4 * 2 * lanes> 
 
 template <class A>
 void archive(A& a, Elastic& x) {
-  auto& [youngs_modulus, poissons_ratio, density, viscosity] = x;
-  archive_all(a, youngs_modulus, poissons_ratio, density, viscosity);
+  auto& [youngs_modulus, poissons_ratio, density, viscosity, stiffness_damping] = x;
+  archive_all(a, youngs_modulus, poissons_ratio, density, viscosity, stiffness_damping);
 }
 
 template <class A>

@@ -2,6 +2,7 @@
 
 #include "libcdem/contact/places.hpp"
 #include "libcdem/rigid/inertia.hpp"
+#include "libcdem/step/row_sums.hpp"
 
 namespace cdem {
 namespace {
@@ -11,15 +12,18 @@ constexpr double touching_part = 0.02;
 
 } // namespace
 
-double contact_frequency2(const Model& model, const State& state, const Workspace& work,
-                          const std::vector<double>& row_sums) {
-  double largest = 0;
+double contact_time_step(const Model& model, const State& state, const Workspace& work,
+                         const std::vector<double>& row_sums) {
+  double least = std::numeric_limits<double>::infinity();
   std::vector<double> rigid(model.rigid.size(), 0.0);
   const ContactWork& own = work.meeting;
   for (const int node : own.touched) {
     const int body = model.blocks[model.node_block[node]].rigid;
     if (body < 0) {
-      largest = std::max(largest, (row_sums[node] + own.stiffness[node]) / model.node_mass[node]);
+      const double mass = model.node_mass[node];
+      const double beta = work.damped ? damping_of(model, node) : 0;
+      least = std::min(least, stable_time_step((row_sums[node] + own.stiffness[node]) / mass,
+                                               beta * row_sums[node] / mass));
       continue;
     }
     const std::array<double, 3>& c = state.rigid[body].centroid;
@@ -27,8 +31,8 @@ double contact_frequency2(const Model& model, const State& state, const Workspac
     rigid[body] += own.stiffness[node] * rigid_inverse_mass(model.rigid[body], arm);
   }
   for (const double sum : rigid)
-    largest = std::max(largest, sum);
-  return largest;
+    least = std::min(least, stable_time_step(sum, 0));
+  return least;
 }
 
 double rigid_frequency2(const Model& model) {

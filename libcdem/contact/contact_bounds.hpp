@@ -5,12 +5,12 @@
 
 namespace cdem {
 
-// 1/s2: bound of the largest eigenvalue of all stiffness over mass that contacts take part in, as they are now;
-// row_sums: those of elements and bonds, N/m (n_nodes). 0 without contacts. Stable steps are below 2 / sqrt of it.
-double contact_frequency2(const Model&, const State&, const Workspace&, const std::vector<double>& row_sums);
+// s: bound of the stable step of all nodes and rigid bodies that contacts act on, as they are now; row_sums: those of
+// elements and bonds, N/m (n_nodes). Infinite without contacts.
+double contact_time_step(const Model&, const State&, const Workspace&, const std::vector<double>& row_sums);
 
 // The same before anything touches, for rigid bodies, if a fiftieth of their surface does: a step that lets no more than
-// a few contacts close at once. contact_frequency2 shortens it when more do.
+// a few contacts close at once. contact_time_step shortens it when more do.
 double rigid_frequency2(const Model&);
 
 // Adds to the row sums what contacts may at most add at the surface, when all of it is pressed by its like, N/m.

@@ -153,6 +153,8 @@ public:
       : model_(model), surface_(model.surface), state_(state), work_(work) {}
 
   void springs(ContactRow& row, ContactCandidate* candidates, ContactChunk& out) const {
+    if (!row.deep && sleeps(row, surface_.triangles[row.source].block))
+      return;
     const std::size_t contacts = out.contacts.size(), forces = out.forces.size();
     const double friction = out.friction;
     const bool was_deep = row.deep;
@@ -169,13 +171,18 @@ public:
   void edges(ContactRow& row, ContactCandidate* candidates, ContactChunk& out) const {
     const ContactEdge& e = surface_.edges[row.source];
     const int block = surface_.triangles[e.triangles[0]].block;
+    if (sleeps(row, block))
+      return;
     const geom::Vec3 a0 = place_of(model_, state_, e.nodes[0]), a1 = place_of(model_, state_, e.nodes[1]);
+    row.wake = std::numeric_limits<double>::infinity();
     for (std::int64_t i = row.begin; i < row.end; ++i) {
       ContactCandidate& candidate = candidates[i];
       const ContactEdge& f = surface_.edges[candidate.target];
       const double moved = way(work_, block, surface_.triangles[f.triangles[0]].block);
-      if (moved < candidate.wake)
+      if (moved < candidate.wake) {
+        row.wake = std::min(row.wake, candidate.wake);
         continue;
+      }
       const geom::Vec3 b0 = place_of(model_, state_, f.nodes[0]), b1 = place_of(model_, state_, f.nodes[1]);
       const auto at = geom::nearest_on_segments(a0, a1, b0, b1);
       const geom::Vec3 a = a0 + at.s * (a1 - a0), b = b0 + at.t * (b1 - b0);
@@ -184,6 +191,7 @@ public:
                             &other = surface_.triangles[f.triangles[0]];
       const double limit = std::min(deepest_edge * work_.shallow, depth_limit(work_, one, other));
       candidate.wake = moved + std::max(0.0, distance - limit);
+      row.wake = std::min(row.wake, candidate.wake);
       if (at.s <= 0 || at.s >= 1 || at.t <= 0 || at.t >= 1 || distance > limit)
         continue;
       const geom::Vec3 along = (a1 - a0).cross(b1 - b0);
@@ -212,12 +220,17 @@ public:
   }
 
 private:
+  bool sleeps(const ContactRow& row, int block) const {
+    return work_.travelled[block] + work_.furthest < row.wake;
+  }
+
   void look_at(ContactRow& row, ContactCandidate* candidates, bool all, ContactChunk& out) const {
     const ContactTriangle& source = surface_.triangles[row.source];
     const Corners x = corners_of(model_, state_, source.nodes);
     std::array<geom::Vec3, 3> spring;
     for (int corner = 0; corner < 3; ++corner)
       spring[corner] = weighted(x, spring_weights(corner));
+    row.wake = std::numeric_limits<double>::infinity();
     for (std::int64_t i = row.begin; i < row.end;) {
       const int piece = work_.piece[candidates[i].target];
       std::array<Nearest, 3> nearest;
@@ -225,8 +238,10 @@ private:
         ContactCandidate& candidate = candidates[i];
         const ContactTriangle& target = surface_.triangles[candidate.target];
         const double moved = way(work_, source.block, target.block);
-        if (!all && moved < candidate.wake)
+        if (!all && moved < candidate.wake) {
+          row.wake = std::min(row.wake, candidate.wake);
           continue;
+        }
         const Corners y = corners_of(model_, state_, target.nodes);
         const geom::Vec3 normal = unit_normal(y);
         double least2 = std::numeric_limits<double>::infinity();
@@ -236,6 +251,7 @@ private:
           take_nearer(nearest[corner], found);
         }
         candidate.wake = moved + std::max(0.0, std::sqrt(least2) - work_.shallow);
+        row.wake = std::min(row.wake, candidate.wake);
       }
       for (int corner = 0; corner < 3; ++corner) {
         const Nearest& found = nearest[corner];
@@ -340,11 +356,7 @@ void add_ways(const Model& model, const State& state, ContactWork& work, int thr
     work.last_way[b] = std::sqrt(speed2) * work.step;
     work.travelled[b] += work.last_way[b];
   });
-}
-
-bool moved_far(const ContactWork& work) {
-  return std::any_of(work.travelled.begin(), work.travelled.end(),
-                     [&](double way) { return way > 0.5 * work.skin; });
+  work.furthest = *std::max_element(work.travelled.begin(), work.travelled.end());
 }
 
 std::pair<int, int> triangles_of(const Model& model, const Contact& c) {
@@ -423,7 +435,7 @@ ContactSums contact_forces(const Model& model, State& state, Workspace& work, in
   if (model.surface.empty() || !own.due)
     return sums;
   add_ways(model, state, own, threads);
-  if ((own.search_due || moved_far(own)) && !search_contacts(model, state, own, threads))
+  if ((own.search_due || own.furthest > 0.5 * own.skin) && !search_contacts(model, state, own, threads))
     return sums; // something is not a number: the stage's watch will say where
   // Where a piece has fallen apart, contacts go with the part they touch.
   for (Contact& c : state.contacts)

@@ -2,7 +2,7 @@
 // to look at, and the forces of the step.
 //
 // A pair found near sleeps until its two blocks have moved as far as it was apart: `wake` is compared with the sum of
-// the ways the two have gone since the search.
+// the ways the two have gone since the search. A row sleeps as long as all its pairs must.
 #pragma once
 
 #include "libcdem/contact/contact.hpp"
@@ -25,6 +25,7 @@ struct ContactCandidate {
 struct ContactRow {
   int source = 0;
   bool deep = true; // new, or one of its contacts is so deep that nothing may sleep
+  double wake = 0;  // m, of its targets the least
   std::int64_t begin = 0, end = 0;
 };
 
@@ -57,6 +58,7 @@ struct ContactWork {
   std::vector<int> piece;               // per triangle: what holds together, by its smallest node
   std::vector<char> active;             // per triangle: it is outside, or its face has broken
   std::vector<double> travelled;        // m, per block, at most, since the search
+  double furthest = 0;                  // m, of any block
   std::vector<double> last_way;         // m, per block, at most, in the last step
   double skin = 0;                      // m
   double shallow = 0;                   // m, contacts up to this deep let other pairs sleep

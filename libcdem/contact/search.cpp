@@ -73,8 +73,35 @@ Active active_triangles(const Model& model, const State& state, const ContactWor
 
 using Pairs = std::vector<std::pair<int, int>>; // of triangles
 
+// Whether the plane of one of two triangles, whose boxes meet, parts them by more than both margins. A box says little
+// of a large triangle that lies askew, as those of a slope do.
+class Parted {
+public:
+  Parted(const Model& model, const State& state, const ContactWork& work)
+      : model_(model), state_(state), work_(work) {}
+
+  bool operator()(int a, int b) const {
+    const ContactTriangle &one = model_.surface.triangles[a], &other = model_.surface.triangles[b];
+    const Corners x = corners_of(model_, state_, one.nodes), y = corners_of(model_, state_, other.nodes);
+    const double reach = margin(work_, one) + margin(work_, other);
+    return beside(x, y, reach) || beside(y, x, reach);
+  }
+
+private:
+  static bool beside(const Corners& x, const Corners& plane, double reach) {
+    const geom::Vec3 normal = unit_normal(plane);
+    const geom::Vec3 height((x[0] - plane[0]).dot(normal), (x[1] - plane[0]).dot(normal),
+                            (x[2] - plane[0]).dot(normal));
+    return height.minCoeff() > reach || height.maxCoeff() < -reach;
+  }
+
+  const Model& model_;
+  const State& state_;
+  const ContactWork& work_;
+};
+
 // Those of two blocks whose boxes meet, the first block's first.
-Pairs pairs_of_blocks(const Active& active, int a, int b) {
+Pairs pairs_of_blocks(const Active& active, const Parted& parted, int a, int b) {
   const geom::Box region{active.block_boxes[a].min.cwiseMax(active.block_boxes[b].min),
                          active.block_boxes[a].max.cwiseMin(active.block_boxes[b].max)};
   const auto inside = [&](int block) {
@@ -86,11 +113,15 @@ Pairs pairs_of_blocks(const Active& active, int a, int b) {
   };
   const std::vector<int> one = inside(a), other = inside(b);
   Pairs pairs;
+  const auto take = [&](int i, int j) {
+    if (!parted(active.triangles[i], active.triangles[j]))
+      pairs.emplace_back(active.triangles[i], active.triangles[j]);
+  };
   if (one.size() * other.size() <= most_pairs_by_hand) {
     for (const int i : one)
       for (const int j : other)
         if (!apart(active.boxes[i], active.boxes[j]))
-          pairs.emplace_back(active.triangles[i], active.triangles[j]);
+          take(i, j);
     return pairs;
   }
   std::vector<geom::Box> boxes;
@@ -102,12 +133,13 @@ Pairs pairs_of_blocks(const Active& active, int a, int b) {
   const auto n = static_cast<int>(one.size());
   for (const auto& [i, j] : geom::touching_pairs(boxes))
     if (i < n && j >= n)
-      pairs.emplace_back(active.triangles[one[i]], active.triangles[other[j - n]]);
+      take(one[i], other[j - n]);
   return pairs;
 }
 
 // Of one block: triangles of different pieces, and those of one that were far from each other at first.
-Pairs pairs_within(const Model& model, const ContactWork& work, const Active& active, int block) {
+Pairs pairs_within(const Model& model, const ContactWork& work, const Active& active, const Parted& parted,
+                   int block) {
   const ContactSurface& s = model.surface;
   const int begin = active.block_begin[block];
   const std::vector<geom::Box> boxes(active.boxes.begin() + begin,
@@ -120,7 +152,7 @@ Pairs pairs_within(const Model& model, const ContactWork& work, const Active& ac
   Pairs pairs;
   for (const auto& [i, j] : geom::touching_pairs(boxes)) {
     const int a = active.triangles[begin + i], b = active.triangles[begin + j];
-    if (work.piece[a] != work.piece[b] || apart(box_at_first(a), box_at_first(b)))
+    if ((work.piece[a] != work.piece[b] || apart(box_at_first(a), box_at_first(b))) && !parted(a, b))
       pairs.emplace_back(a, b);
   }
   return pairs;
@@ -165,7 +197,7 @@ void make_rows(const Pairs& pairs, std::size_t sources, bool both_ways, const st
                   return a.target < b.target;
                 return piece[a.target] < piece[b.target];
               });
-    rows.push_back({static_cast<int>(i), true, begin[i], begin[i + 1]});
+    rows.push_back({static_cast<int>(i), true, 0, begin[i], begin[i + 1]});
   }
 }
 
@@ -250,17 +282,18 @@ bool search_contacts(const Model& model, const State& state, ContactWork& work, 
   for (int b = 0; b + 1 < static_cast<int>(s.block_begin.size()); ++b)
     if (model.blocks[b].meshed && contact_joint(model, b, b))
       alone.push_back(b);
+  const Parted parted(model, state, work);
   const auto n_pairs = static_cast<std::int64_t>(blocks.size());
   std::vector<Pairs> springs(blocks.size() + alone.size()), edges(springs.size());
   std::vector<std::string> wrong(springs.size()); // nothing may be thrown out of a parallel loop
   for_chunks(static_cast<std::int64_t>(springs.size()), threads, [&](std::int64_t i) {
     if (i >= n_pairs) {
-      springs[i] = pairs_within(model, work, active, alone[i - n_pairs]);
+      springs[i] = pairs_within(model, work, active, parted, alone[i - n_pairs]);
     } else {
       const auto [a, b] = blocks[i];
       if (!model.blocks[a].meshed || !model.blocks[b].meshed)
         return;
-      springs[i] = pairs_of_blocks(active, a, b);
+      springs[i] = pairs_of_blocks(active, parted, a, b);
       if (!contact_joint(model, a, b)) {
         try {
           require_apart(model, state, springs[i]);
@@ -289,6 +322,7 @@ bool search_contacts(const Model& model, const State& state, ContactWork& work, 
   work.chunks.resize(split(static_cast<std::int64_t>(work.rows[0].size()), contact_rows_per_chunk).size() +
                      split(static_cast<std::int64_t>(work.rows[1].size()), contact_rows_per_chunk).size());
   std::fill(work.travelled.begin(), work.travelled.end(), 0.0);
+  work.furthest = 0;
   work.search_due = false;
   ++work.searches;
   work.pairs = static_cast<std::int64_t>(all_springs.size());

@@ -30,9 +30,12 @@ CDEM_INLINE Vec corner_force(const Symmetric& s, const Vec& c) {
 } // namespace
 
 // The kernel is compiled for several instruction sets; everything it calls is inlined into each of them.
-CDEM_KERNEL void finite_volume_forces(const MeshBatch* batches, std::int64_t count, int last_lanes,
-                                      const Node* position, const Node* velocity, double dt,
-                                      const TetStiffness& stiffness, StressBatch* stress, Node* force) {
+CDEM_KERNEL double finite_volume_forces(const MeshBatch* batches, std::int64_t count, int last_lanes,
+                                        const Node* position, const Node* velocity, double dt,
+                                        const TetStiffness& stiffness, const TetDamping& damping,
+                                        StressBatch* stress, Node* force) {
+  const double rate = dt > 0 ? damping.beta / dt : 0;
+  Oct damped{};
   const Oct half_dt = Oct{} + 0.5 * dt;
   for (std::int64_t i = 0; i < count; ++i) {
     const MeshBatch& batch = batches[i];
@@ -96,8 +99,31 @@ CDEM_KERNEL void finite_volume_forces(const MeshBatch* batches, std::int64_t cou
     simd::store(t.component[4], ryz);
     simd::store(t.component[5], rxz);
 
+    Symmetric r{rxx, ryy, rzz, rxy, ryz, rxz};
+    if (damping.viscous) {
+      StressBatch& kept = damping.viscous[i];
+      const Symmetric before{simd::load(kept.component[0]), simd::load(kept.component[1]),
+                             simd::load(kept.component[2]), simd::load(kept.component[3]),
+                             simd::load(kept.component[4]), simd::load(kept.component[5])};
+      Symmetric now = before;
+      if (dt > 0) {
+        now = {rate * (pressure + two_g * xx), rate * (pressure + two_g * yy), rate * (pressure + two_g * zz),
+               rate * g * (xy + yx),           rate * g * (yz + zy),           rate * g * (xz + zx)};
+        const Oct half_volume = dot(m1, middle.c1) / 12;
+        damped += half_volume * ((before.xx + now.xx) * xx + (before.yy + now.yy) * yy +
+                                 (before.zz + now.zz) * zz + (before.xy + now.xy) * (xy + yx) +
+                                 (before.yz + now.yz) * (yz + zy) + (before.xz + now.xz) * (xz + zx));
+        simd::store(kept.component[0], now.xx);
+        simd::store(kept.component[1], now.yy);
+        simd::store(kept.component[2], now.zz);
+        simd::store(kept.component[3], now.xy);
+        simd::store(kept.component[4], now.yz);
+        simd::store(kept.component[5], now.xz);
+      }
+      r = {rxx + now.xx, ryy + now.yy, rzz + now.zz, rxy + now.xy, ryz + now.yz, rxz + now.xz};
+    }
+
     const AreaVectors end = area_vectors(e1, e2, e3);
-    const Symmetric r{rxx, ryy, rzz, rxy, ryz, rxz};
     const Vec f1 = corner_force(r, end.c1), f2 = corner_force(r, end.c2), f3 = corner_force(r, end.c3);
     const Vec f0{-(f1.x + f2.x + f3.x), -(f1.y + f2.y + f3.y), -(f1.z + f2.z + f3.z)};
     simd::scatter_add(force, batch.place[0], f0);
@@ -105,6 +131,10 @@ CDEM_KERNEL void finite_volume_forces(const MeshBatch* batches, std::int64_t cou
     simd::scatter_add(force, batch.place[2], f2);
     simd::scatter_add(force, batch.place[3], f3);
   }
+  double sum = 0;
+  for (int lane = 0; lane < lanes; ++lane)
+    sum += damped[lane];
+  return sum;
 }
 
 } // namespace cdem

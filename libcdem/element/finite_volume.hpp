@@ -5,6 +5,7 @@
 //   Q = I + (W + W^2 / 2) / (1 + |w|^2 / 4),  w the axial vector of dt W (Hughes and Winget 1980)
 // and with the geometry of its end the force on a corner over its three faces, normals outward
 //   f_k = -sigma c_k / 6,  f_0 = -sum f_k                                                                 (eq 12)
+// With stiffness damping the stress of the force, not the one that is kept, has beta (lambda tr(D) I + 2 G D) more.
 // The paper prints no rotation of the stress and the geometry of the start: one slow turn then leaves 9 MPa of stress
 // in concrete. c_k / 6V is the gradient of the shape function, the same as the sum over face areas with one division.
 #pragma once
@@ -18,10 +19,17 @@ struct TetStiffness {
   double lambda = 0, two_g = 0; // Pa
 };
 
+// Stiffness damping of a run of batches.
+struct TetDamping {
+  double beta = 0;                // s
+  StressBatch* viscous = nullptr; // Pa, of the last step; none: no damping
+};
+
 // Of a run of batches, the last with `last_lanes` tets. Advances `stress` by the last step of dt (s; with 0 nothing
-// changes) and adds to `force`. position (m), velocity, force: one entry for each place of the chunk.
-void finite_volume_forces(const MeshBatch* batches, std::int64_t count, int last_lanes, const Node* position,
-                          const Node* velocity, double dt, const TetStiffness&, StressBatch* stress,
-                          Node* force);
+// changes) and adds to `force`. position (m), velocity, force: one entry for each place of the chunk. Returns the energy
+// that damping took in that step, J: the mean of the viscous stress before and after it times the strain.
+double finite_volume_forces(const MeshBatch* batches, std::int64_t count, int last_lanes,
+                            const Node* position, const Node* velocity, double dt, const TetStiffness&,
+                            const TetDamping&, StressBatch* stress, Node* force);
 
 } // namespace cdem

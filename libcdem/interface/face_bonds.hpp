@@ -54,6 +54,7 @@ struct FaceBreak {
 struct FaceSums {
   double friction = 0; // J, this step
   double breaking = 0; // J, this step
+  double damping = 0;  // J, this step, of the tetrahedra of the same chunk
   std::vector<FaceBreak> broken;
   // A face, batch * lanes + lane from the range's first batch on, that is closed and has slid further than it is long;
   // -1: none. Only where nothing takes it over.

@@ -10,6 +10,9 @@ struct Elastic {
   double poissons_ratio = 0; // nu, in (-1, 0.5)
   double density = 0;        // rho, kg/m3, > 0
   double viscosity = 0;      // mu of Han 2010 eq 1, force per volume and velocity, N s/m4, >= 0
+  // beta of Rayleigh damping, s, >= 0: meshes carry beta C : D beside their stress, D the strain rate. A vibration of
+  // angular frequency w has beta w / 2 of critical damping; motion as a rigid body has none.
+  double stiffness_damping = 0;
 
   double shear_modulus() const { return youngs_modulus / (2 * (1 + poissons_ratio)); } // G, Pa
   double lame_lambda() const {

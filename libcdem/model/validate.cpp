@@ -77,6 +77,8 @@ void validate(const Elastic& m) {
           "an incompressible material (0.5) locks; use at most 0.49");
   require(positive(m.density), "density", m.density, "a finite number > 0 kg/m3");
   require(not_negative(m.viscosity), "viscosity", m.viscosity, "a finite number >= 0 N s/m4");
+  require(not_negative(m.stiffness_damping), "stiffness_damping", m.stiffness_damping,
+          "a finite number >= 0 s");
 }
 
 void validate(const Joint& j) {

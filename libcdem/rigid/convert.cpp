@@ -133,6 +133,11 @@ std::int64_t set_rigid(Model& model, State& state, const std::vector<int>& block
     all.push_back({shape.body, motion_of(model, state, shape)});
   }
   replace(model, state, std::move(all));
+  if (!state.viscous_stress.empty())
+    for (const MeshChunk& chunk : model.mesh.chunks)
+      if (std::find(fresh.begin(), fresh.end(), chunk.block) != fresh.end())
+        std::fill(state.viscous_stress.begin() + chunk.batches.begin,
+                  state.viscous_stress.begin() + chunk.batches.end, StressBatch{});
   for (const int b : fresh)
     place_nodes(model, state, model.blocks[b].rigid);
   state.spent.fictitious += before - energy(model, state).total();

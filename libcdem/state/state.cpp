@@ -36,6 +36,9 @@ State initial_state(const Model& model) {
   state.bond_slip.assign(softens ? model.points.size() : 0, geom::Vec3::Zero());
   state.initial_stress.assign(model.blocks.size(), Stress{});
   state.stress.assign(model.mesh.batches.size(), StressBatch{});
+  if (std::any_of(model.bodies.begin(), model.bodies.end(),
+                  [](const Body& body) { return body.material.stiffness_damping > 0; }))
+    state.viscous_stress = state.stress;
   FaceStateBatch whole{};
   std::fill(std::begin(whole.slip), std::end(whole.slip), -1);
   state.faces.assign(model.mesh.faces.size(), whole);
@@ -71,6 +74,7 @@ std::vector<StateField> fields(State& s) {
       field("bond_slip", "m", FieldPlace::bond, "spring_forces", s.bond_slip, true),
       field("initial_stress", "Pa", FieldPlace::block, "initial_stress", s.initial_stress, true),
       field("stress", "Pa", FieldPlace::tet, "mesh_forces", s.stress, true),
+      field("viscous_stress", "Pa", FieldPlace::tet, "mesh_forces", s.viscous_stress, true),
       field("faces", "1", FieldPlace::bond, "mesh_forces", s.faces, false),
       field("face_slip", "m", FieldPlace::bond, "mesh_forces", s.face_slip, true),
       field("contacts", "N", FieldPlace::contact, "contact_forces", s.contacts, false),

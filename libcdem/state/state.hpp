@@ -29,7 +29,9 @@ struct State {
       bond_slip; // m, slip of the damaged part, added to bond_offset at separation (n_points)
   std::vector<Stress> initial_stress; // Pa (n_blocks); written by initial_stress
   // Of meshed bodies.
-  std::vector<StressBatch> stress;   // Pa (n mesh batches); written by mesh_forces
+  std::vector<StressBatch> stress; // Pa (n mesh batches); written by mesh_forces
+  // Pa, of the strain rate, beside it; as long, or empty where no material has stiffness damping.
+  std::vector<StressBatch> viscous_stress;
   std::vector<FaceStateBatch> faces; // (n face batches); written by mesh_forces
   std::vector<FaceSlip> face_slip; // m, of the faces with a broken spring, in the order they broke; likewise
 

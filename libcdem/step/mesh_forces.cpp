@@ -42,11 +42,14 @@ const Node* mesh_forces(const Model& model, State& state, Workspace& work, std::
   const Body& body = model.bodies[model.blocks[chunk.block].body];
   fetch(model, state, chunk, near);
   const int last_lanes = static_cast<int>(chunk.tets.size() - (chunk.batches.size() - 1) * lanes);
-  finite_volume_forces(model.mesh.batches.data() + chunk.batches.begin, chunk.batches.size(), last_lanes,
-                       near.position.data(), near.velocity.data(), work.strain_step,
-                       tet_stiffness(body.material), state.stress.data() + chunk.batches.begin,
-                       near.force.data());
+  TetDamping damping;
+  if (work.damped && body.material.stiffness_damping > 0)
+    damping = {body.material.stiffness_damping, state.viscous_stress.data() + chunk.batches.begin};
   FaceSums& sums = work.face_sums[index];
+  sums.damping = finite_volume_forces(model.mesh.batches.data() + chunk.batches.begin, chunk.batches.size(),
+                                      last_lanes, near.position.data(), near.velocity.data(),
+                                      work.strain_step, tet_stiffness(body.material), damping,
+                                      state.stress.data() + chunk.batches.begin, near.force.data());
   sums.friction = sums.breaking = 0;
   sums.broken.clear();
   sums.astray = -1;

@@ -155,6 +155,7 @@ RelaxResult relax(const StageContext& context, const RelaxOptions& options, cons
   } else {
     const double moving = energy(context.model, state).total();
     stop(state);
+    std::fill(state.viscous_stress.begin(), state.viscous_stress.end(), StressBatch{});
     state.velocity_lag = 0;
     state.spent.fictitious += moving - energy(context.model, state).total();
     aim_supports(state, stage.work.resolved, support_steps);

@@ -4,6 +4,8 @@
 #include "libcdem/element/small_strain.hpp"
 #include "libcdem/interface/spring_forces.hpp"
 
+#include <cmath>
+
 namespace cdem {
 
 std::vector<double> all_row_sums(const Model& model) {
@@ -11,6 +13,14 @@ std::vector<double> all_row_sums(const Model& model) {
   add_mesh_row_sums(model, sums);
   add_spring_row_sums(model, sums);
   return sums;
+}
+
+double stable_time_step(double frequency2, double rate) {
+  return 4 / (rate + std::sqrt(rate * rate + 4 * frequency2));
+}
+
+double damping_of(const Model& model, int node) {
+  return model.bodies[model.blocks[model.node_block[node]].body].material.stiffness_damping;
 }
 
 } // namespace cdem

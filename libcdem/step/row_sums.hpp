@@ -1,4 +1,6 @@
-// Gershgorin bound of the stiffness: row sums of |K| of blocks, meshes and springs.
+// Gershgorin bound of the stiffness: row sums of |K| of blocks, meshes and springs, and the stable step of a node by it.
+//
+// Velocities stand half a step behind: v <- v - dt (c v + k x), x <- x + dt v is stable while k dt^2 + 2 c dt <= 4.
 #pragma once
 
 #include "libcdem/model/model.hpp"
@@ -6,5 +8,10 @@
 namespace cdem {
 
 std::vector<double> all_row_sums(const Model&); // N/m (n_nodes), of each node the largest of its three rows
+
+// s; frequency2: 1/s2, row sum of |K| over mass; rate: 1/s, the same of what is damped, times beta.
+double stable_time_step(double frequency2, double rate);
+
+double damping_of(const Model&, int node); // s, beta of its material
 
 } // namespace cdem

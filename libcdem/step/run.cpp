@@ -126,11 +126,14 @@ private:
 
 double stable_time_step(const Model& model) {
   const std::vector<double> sums = all_row_sums(model);
-  double largest = 0;
-  for (std::size_t i = 0; i < sums.size(); ++i)
-    if (model.blocks[model.node_block[i]].rigid < 0)
-      largest = std::max(largest, sums[i] / model.node_mass[i]);
-  return 2 / std::sqrt(largest);
+  double least = std::numeric_limits<double>::infinity();
+  for (int i = 0; i < static_cast<int>(sums.size()); ++i)
+    if (const Block& block = model.blocks[model.node_block[i]]; block.rigid < 0) {
+      const double frequency2 = sums[i] / model.node_mass[i];
+      least =
+          std::min(least, stable_time_step(frequency2, block.meshed ? damping_of(model, i) * frequency2 : 0));
+    }
+  return least;
 }
 
 RunResult run(const StageContext& context, const RunOptions& options, const std::string& kind) {
@@ -140,6 +143,7 @@ RunResult run(const StageContext& context, const RunOptions& options, const std:
   Stage stage(context, kind, run_away_lengths * context.model.length);
   stage.follows_pieces = options.follows_pieces;
   stage.note = options.note;
+  stage.work.damped = !state.viscous_stress.empty();
   const std::vector<double> viscous = viscous_forces(context.model);
   Stage::StepReport report;
   Clock clock(state.time, stepping.time_step, options);

@@ -147,8 +147,7 @@ double Stage::meet() {
   context_.log.deepest_over_height = std::max(context_.log.deepest_over_height, sums.depth_over_height);
   if (sums.deepest > 1)
     refuse_depth(sums.deepest_source, sums.deepest_target);
-  const double frequency2 = contact_frequency2(model, context_.state, work, row_sums_);
-  return frequency2 > 0 ? 2 / std::sqrt(frequency2) : std::numeric_limits<double>::infinity();
+  return contact_time_step(model, context_.state, work, row_sums_);
 }
 
 void Stage::refuse_depth(int source_triangle, int target_triangle) const {
@@ -187,6 +186,7 @@ void Stage::catch_up() {
     for (const FaceSums& sums : work.face_sums) {
       context_.state.spent.friction += sums.friction;
       context_.state.spent.breaking += sums.breaking;
+      context_.state.spent.damping += sums.damping;
       if (sums.hands_over) // what is handed over now is looked for where things stand now
         work.meeting.search_due = work.meeting.due = true;
     }
@@ -256,6 +256,7 @@ void Stage::record_face_breaks() {
     const MeshChunk& chunk = model.mesh.chunks[c];
     context_.state.spent.friction += sums.friction;
     context_.state.spent.breaking += sums.breaking;
+    context_.state.spent.damping += sums.damping;
     work.meeting.search_due = work.meeting.search_due || sums.hands_over;
     for (const FaceBreak& broken : sums.broken) {
       const FaceSpringPlace at{chunk.face_batches.begin + broken.spring / (3 * lanes),

@@ -50,6 +50,7 @@ struct Workspace {
   std::vector<Node> partial; // N, at the places of mesh chunks that others touch too; written by mesh_forces
   std::vector<FaceSums> face_sums; // per mesh chunk
   double strain_step = 0;          // s, by which their stress stands behind the nodes
+  bool damped = false;             // stiffness damping acts
   std::vector<Node> contact;       // N, of contacts (n_nodes); empty without; written by contact_forces
   ContactWork meeting;
   std::vector<NodeSums> node_sums;  // per chunk of blocks

@@ -30,6 +30,7 @@ Value elastic(Session& session, Object*, const Arguments& a) {
   object->elastic.poissons_ratio = a.number("poissons_ratio");
   object->elastic.density = a.number("density");
   object->elastic.viscosity = a.number("viscosity");
+  object->elastic.stiffness_damping = a.number("stiffness_damping");
   validate(object->elastic);
   if (object->elastic.youngs_modulus < softest || object->elastic.youngs_modulus > stiffest)
     session.warn("cdem.elastic: youngs_modulus = " + describe(a.value("youngs_modulus")) +
@@ -148,7 +149,14 @@ void bind_materials(Module& m) {
             .at_least(0)
             .standard(0.0)
             .unit("N s/m4")
-            .doc("damping force per volume and velocity, mu of Han 2010 eq 1; used by real-time stepping")},
+            .doc("damping force per volume and velocity, mu of Han 2010 eq 1; used by real-time stepping"),
+        number("stiffness_damping")
+            .at_least(0)
+            .standard(0.0)
+            .unit("s")
+            .doc("beta of Rayleigh damping, of meshes in real-time stepping: a vibration of angular "
+                 "frequency w has "
+                 "beta w / 2 of critical damping, motion as a rigid body none")},
        false,
        "cdem.Material",
        "",
@@ -181,6 +189,8 @@ void bind_materials(Module& m) {
       material_property("poissons_ratio", "", "", [](const Elastic& e) { return e.poissons_ratio; }),
       material_property("density", "kg/m3", "", [](const Elastic& e) { return e.density; }),
       material_property("viscosity", "N s/m4", "", [](const Elastic& e) { return e.viscosity; }),
+      material_property("stiffness_damping", "s", "beta of Rayleigh damping",
+                        [](const Elastic& e) { return e.stiffness_damping; }),
       material_property("shear_modulus", "Pa", "G = E / 2(1 + nu)",
                         [](const Elastic& e) { return e.shear_modulus(); }),
       material_property("p_wave_modulus", "Pa", "lambda + 2 G",

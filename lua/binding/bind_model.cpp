@@ -65,6 +65,10 @@ void require_blocks(const Arguments& given, const std::string& path) {
   for (const char* const only : {"bonds", "bonded_regions", "stiffness_ratio", "shear_ratio"})
     if (given.has(only))
       throw InputError(path + "." + only + ": only for a meshed body; an assembly's faces are all bonded");
+  if (const auto material = given.object<MaterialObject>("material");
+      material && material->elastic.stiffness_damping > 0)
+    throw InputError(path +
+                     ".material: stiffness_damping is for meshes; an assembly of blocks takes viscosity");
 }
 
 // Adds the piles of meshed bodies to `piles`; returns the bodies without a joint.

@@ -279,6 +279,7 @@ local cdem = {}
 ---@field poissons_ratio number
 ---@field density number kg/m3
 ---@field viscosity number N s/m4
+---@field stiffness_damping number s: beta of Rayleigh damping
 ---@field shear_modulus number Pa: G = E / 2(1 + nu)
 ---@field p_wave_modulus number Pa: lambda + 2 G
 local Material = {}
@@ -1017,6 +1018,7 @@ function cdem.parameter(options) end
 ---@field poissons_ratio number in (-1, 0.5): Poisson's ratio nu
 ---@field density number kg/m3, > 0
 ---@field viscosity? number N s/m4, >= 0, default 0: damping force per volume and velocity, mu of Han 2010 eq 1; used by real-time stepping
+---@field stiffness_damping? number s, >= 0, default 0: beta of Rayleigh damping, of meshes in real-time stepping: a vibration of angular frequency w has beta w / 2 of critical damping, motion as a rigid body none
 
 ---Isotropic linear elasticity (Han 2010 eq 3).
 ---@param options cdem.ElasticOptions

@@ -94,6 +94,7 @@ cdem::Simulation falling_blocks(int threads, std::shared_ptr<cdem::Observer> obs
                  meshed("soft", box({0.8, 0.8, 0.3}, {3, 3, 1}, rotation({1, 2, 3}, 0.2), {0, 0, 0.35})),
                  meshed("hard", box({0.5, 0.5, 0.3}, {2, 2, 1}, rotation({1, 0, 3}, 0.3), {0.1, 0.1, 0.8}))};
   spec.bodies[2].element = cdem::Element::rigid;
+  spec.bodies[1].material.stiffness_damping = 1e-5;
   spec.pairs = {{"slope", "soft", law}, {"slope", "hard", law}, {"soft", "hard", law}};
   cdem::Simulation s(spec, threads, std::move(observer));
   cdem::Fix fix;

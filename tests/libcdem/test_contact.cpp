@@ -220,6 +220,7 @@ TEST_CASE("contact: the same bits for every number of threads", "[contact]") {
                              {0.2 * i, 0.1 * i, 0.5 + 0.7 * i}));
     cdem::Elastic soft = rock();
     soft.youngs_modulus = 3e8;
+    soft.stiffness_damping = 2e-6;
     cdem::BodySpec bodies = meshed("units", units[0], {}, soft);
     bodies.meshes = units;
     System s(build(
