@@ -33,12 +33,13 @@ CDEM_INLINE Vec corner_force(const Symmetric& s, const Vec& c) {
 CDEM_KERNEL double finite_volume_forces(const MeshBatch* batches, std::int64_t count, int last_lanes,
                                         const Node* position, const Node* velocity, double dt,
                                         const TetStiffness& stiffness, const TetDamping& damping,
-                                        StressBatch* stress, Node* force) {
+                                        StressBatch* stress, Node* force, ReadAhead& ahead) {
   const double rate = dt > 0 ? damping.beta / dt : 0;
   Oct damped{};
   const Oct half_dt = Oct{} + 0.5 * dt;
   for (std::int64_t i = 0; i < count; ++i) {
     const MeshBatch& batch = batches[i];
+    ahead.some();
     Oct lambda = Oct{} + stiffness.lambda, two_g = Oct{} + stiffness.two_g;
     if (i + 1 == count)
       for (int lane = last_lanes; lane < lanes; ++lane)

@@ -11,6 +11,7 @@
 #pragma once
 
 #include "libcdem/model/mesh.hpp"
+#include "libcdem/parallel/read_ahead.hpp"
 #include "libcdem/state/stress_batch.hpp"
 
 namespace cdem {
@@ -27,9 +28,10 @@ struct TetDamping {
 
 // Of a run of batches, the last with `last_lanes` tets. Advances `stress` by the last step of dt (s; with 0 nothing
 // changes) and adds to `force`. position (m), velocity, force: one entry for each place of the chunk. Returns the energy
-// that damping took in that step, J: the mean of the viscous stress before and after it times the strain.
+// that damping took in that step, J: the mean of the viscous stress before and after it times the strain. Asks for some
+// of what is to be read ahead with each batch.
 double finite_volume_forces(const MeshBatch* batches, std::int64_t count, int last_lanes,
                             const Node* position, const Node* velocity, double dt, const TetStiffness&,
-                            const TetDamping&, StressBatch* stress, Node* force);
+                            const TetDamping&, StressBatch* stress, Node* force, ReadAhead&);
 
 } // namespace cdem

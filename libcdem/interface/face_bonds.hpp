@@ -12,6 +12,7 @@
 #pragma once
 
 #include "libcdem/model/mesh.hpp"
+#include "libcdem/parallel/read_ahead.hpp"
 #include "libcdem/results/snapshot.hpp"
 
 #include <vector>
@@ -73,7 +74,7 @@ struct FaceMotion {
 // Adds the forces of `faces` faces in `count` batches to `force` (N, per place); breaking: springs may break. The slip
 // of a face whose first spring breaks is only in FaceSums::broken: its owner makes room for it after the step.
 void face_bond_forces(const FaceBatch*, std::int64_t count, int faces, const FaceMotion&, const FaceLaw&,
-                      bool breaking, FaceStateBatch*, FaceSlip*, Node* force, FaceSums&);
+                      bool breaking, FaceStateBatch*, FaceSlip*, Node* force, FaceSums&, ReadAhead&);
 
 // Of one spring; position, displacement: m (n_nodes). slip: of the state's face, may be null.
 struct FaceSpring {

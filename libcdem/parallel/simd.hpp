@@ -40,17 +40,6 @@ CDEM_INLINE void store(double (&p)[lanes], const Oct& v) {
   std::memcpy(p, &v, sizeof v);
 }
 
-CDEM_INLINE void transpose(Quad& a, Quad& b, Quad& c, Quad& d) {
-  const Quad ab_lo = __builtin_shufflevector(a, b, 0, 4, 2, 6); // a0 b0 a2 b2
-  const Quad ab_hi = __builtin_shufflevector(a, b, 1, 5, 3, 7); // a1 b1 a3 b3
-  const Quad cd_lo = __builtin_shufflevector(c, d, 0, 4, 2, 6);
-  const Quad cd_hi = __builtin_shufflevector(c, d, 1, 5, 3, 7);
-  a = __builtin_shufflevector(ab_lo, cd_lo, 0, 1, 4, 5);
-  b = __builtin_shufflevector(ab_hi, cd_hi, 0, 1, 4, 5);
-  c = __builtin_shufflevector(ab_lo, cd_lo, 2, 3, 6, 7);
-  d = __builtin_shufflevector(ab_hi, cd_hi, 2, 3, 6, 7);
-}
-
 struct Vec {
   Oct x, y, z;
 };
@@ -75,39 +64,47 @@ CDEM_INLINE Vec scaled(const Oct& s, const Vec& a) {
   return {s * a.x, s * a.y, s * a.z};
 }
 
-// x, y, z of eight nodes, one node a lane.
 // A hint only: `first` may lie beyond the end of its array.
 CDEM_INLINE void prefetch(const void* first, std::size_t bytes) {
   for (std::size_t i = 0; i < bytes; i += 64)
     __builtin_prefetch(static_cast<const char*>(first) + i);
 }
 
+CDEM_INLINE Oct pair(const Quad& low, const Quad& high) {
+  return __builtin_shufflevector(low, high, 0, 1, 2, 3, 4, 5, 6, 7);
+}
+
+// x, y, z of eight nodes, one node a lane. Nodes i and i + 4 stand in one vector from the start: half the shuffles.
 template <class Index>
 CDEM_INLINE Vec gather(const Node* nodes, const Index (&index)[lanes]) {
-  Quad r[lanes];
-  for (int i = 0; i < lanes; ++i)
-    r[i] = load(nodes[index[i]]);
-  transpose(r[0], r[1], r[2], r[3]);
-  transpose(r[4], r[5], r[6], r[7]);
-  return {__builtin_shufflevector(r[0], r[4], 0, 1, 2, 3, 4, 5, 6, 7),
-          __builtin_shufflevector(r[1], r[5], 0, 1, 2, 3, 4, 5, 6, 7),
-          __builtin_shufflevector(r[2], r[6], 0, 1, 2, 3, 4, 5, 6, 7)};
+  const auto two = [&](int i) { return pair(load(nodes[index[i]]), load(nodes[index[i + 4]])); };
+  const Oct a = two(0), b = two(1), c = two(2), d = two(3);
+  const Oct ab = __builtin_shufflevector(a, b, 0, 8, 2, 10, 4, 12, 6, 14); // a0 b0 a2 b2 ...
+  const Oct cd = __builtin_shufflevector(c, d, 0, 8, 2, 10, 4, 12, 6, 14);
+  const Oct ab_y = __builtin_shufflevector(a, b, 1, 9, 3, 11, 5, 13, 7, 15);
+  const Oct cd_y = __builtin_shufflevector(c, d, 1, 9, 3, 11, 5, 13, 7, 15);
+  return {__builtin_shufflevector(ab, cd, 0, 1, 8, 9, 4, 5, 12, 13),
+          __builtin_shufflevector(ab_y, cd_y, 0, 1, 8, 9, 4, 5, 12, 13),
+          __builtin_shufflevector(ab, cd, 2, 3, 10, 11, 6, 7, 14, 15)};
 }
 
 // Adds one lane to each of eight nodes, in lane order (a node may occur twice).
 template <class Index>
 CDEM_INLINE void scatter_add(Node* nodes, const Index (&index)[lanes], const Vec& v) {
-  const Quad zero{};
-  Quad lo[4] = {__builtin_shufflevector(v.x, v.x, 0, 1, 2, 3), __builtin_shufflevector(v.y, v.y, 0, 1, 2, 3),
-                __builtin_shufflevector(v.z, v.z, 0, 1, 2, 3), zero};
-  Quad hi[4] = {__builtin_shufflevector(v.x, v.x, 4, 5, 6, 7), __builtin_shufflevector(v.y, v.y, 4, 5, 6, 7),
-                __builtin_shufflevector(v.z, v.z, 4, 5, 6, 7), zero};
-  transpose(lo[0], lo[1], lo[2], lo[3]);
-  transpose(hi[0], hi[1], hi[2], hi[3]);
+  const Oct zero{};
+  const Oct even = __builtin_shufflevector(v.x, v.y, 0, 8, 2, 10, 4, 12, 6, 14); // x0 y0 x2 y2 ...
+  const Oct odd = __builtin_shufflevector(v.x, v.y, 1, 9, 3, 11, 5, 13, 7, 15);
+  const Oct even_z = __builtin_shufflevector(v.z, zero, 0, 8, 2, 10, 4, 12, 6, 14);
+  const Oct odd_z = __builtin_shufflevector(v.z, zero, 1, 9, 3, 11, 5, 13, 7, 15);
+  const Oct two[4] = {__builtin_shufflevector(even, even_z, 0, 1, 8, 9, 4, 5, 12, 13),
+                      __builtin_shufflevector(odd, odd_z, 0, 1, 8, 9, 4, 5, 12, 13),
+                      __builtin_shufflevector(even, even_z, 2, 3, 10, 11, 6, 7, 14, 15),
+                      __builtin_shufflevector(odd, odd_z, 2, 3, 10, 11, 6, 7, 14, 15)};
   for (int i = 0; i < 4; ++i)
-    store(nodes[index[i]], load(nodes[index[i]]) + lo[i]);
+    store(nodes[index[i]], load(nodes[index[i]]) + __builtin_shufflevector(two[i], two[i], 0, 1, 2, 3));
   for (int i = 0; i < 4; ++i)
-    store(nodes[index[4 + i]], load(nodes[index[4 + i]]) + hi[i]);
+    store(nodes[index[4 + i]],
+          load(nodes[index[4 + i]]) + __builtin_shufflevector(two[i], two[i], 4, 5, 6, 7));
 }
 
 } // namespace simd

@@ -57,7 +57,7 @@ std::vector<Node> net_forces(const Model& model, const State& state, Workspace& 
   }
   for (const MeshChunk& chunk : model.mesh.chunks)
     if (model.blocks[chunk.block].rigid < 0)
-      each_shared_force(model.mesh, work, chunk, [&](Range nodes, const Node* at) {
+      each_shared_force(model.mesh, work, chunk, {}, [&](Range nodes, const Node* at) {
         std::copy(at, at + nodes.size(), force.begin() + nodes.begin);
       });
   for (std::size_t c = 0; c < model.chunks.size() - model.mesh.chunks.size(); ++c)

@@ -11,62 +11,113 @@ struct Near {
   std::vector<Node> position, displacement, velocity, force; // per place
 };
 
-void fetch(const Model& model, const State& state, std::int64_t node, std::int64_t place, Near& near) {
-  const geom::Vec3& x = model.node_position[node];
-  const simd::Quad undeformed = {x.x(), x.y(), x.z(), 0};
-  const simd::Quad u = simd::load(state.displacement[node]);
+struct NearArrays {
+  Node *position, *displacement, *velocity, *force;
+};
+
+// Of one node. An undeformed place is three numbers: it is read one by one.
+CDEM_INLINE void fetch(const geom::Vec3& undeformed, const Node& displacement, const Node& velocity,
+                       std::int64_t place, const NearArrays& near) {
+  const simd::Quad x = {undeformed[0], undeformed[1], undeformed[2], 0};
+  const simd::Quad u = simd::load(displacement);
   simd::store(near.displacement[place], u);
-  simd::store(near.position[place], undeformed + u);
-  simd::store(near.velocity[place], simd::load(state.velocity[node]));
+  simd::store(near.position[place], x + u);
+  simd::store(near.velocity[place], simd::load(velocity));
+  simd::store(near.force[place], simd::Quad{});
 }
 
-void fetch(const Model& model, const State& state, const MeshChunk& chunk, Near& near) {
+CDEM_KERNEL void fetch(const geom::Vec3* undeformed, const Node* displacement, const Node* velocity,
+                       Range own, const int* others, std::int64_t count, const NearArrays& to) {
+  const NearArrays near = to;
+  for (std::int64_t i = 0; i < own.size(); ++i)
+    fetch(undeformed[own.begin + i], displacement[own.begin + i], velocity[own.begin + i], i, near);
+  for (std::int64_t i = 0; i < count; ++i)
+    fetch(undeformed[others[i]], displacement[others[i]], velocity[others[i]], own.size() + i, near);
+}
+
+NearArrays fetch(const Model& model, const State& state, const MeshChunk& chunk, Near& near) {
   const auto places = static_cast<std::size_t>(chunk.places());
   if (near.force.size() < places)
     for (std::vector<Node>* array : {&near.position, &near.displacement, &near.velocity, &near.force})
       array->resize(places);
-  for (std::int64_t i = 0; i < chunk.nodes.size(); ++i)
-    fetch(model, state, chunk.nodes.begin + i, i, near);
+  const NearArrays at{near.position.data(), near.displacement.data(), near.velocity.data(),
+                      near.force.data()};
+  fetch(model.node_position.data(), state.displacement.data(), state.velocity.data(), chunk.nodes,
+        model.mesh.others.data() + chunk.others.begin, chunk.others.size(), at);
+  return at;
+}
+
+// What the chunk that most likely comes next will read from afar.
+ReadAhead reads_of(const Model& model, const State& state, std::int64_t index) {
+  ReadAhead ahead;
+  if (index >= static_cast<std::int64_t>(model.mesh.chunks.size()))
+    return ahead;
+  const MeshChunk& chunk = model.mesh.chunks[index];
+  const std::int64_t node = chunk.nodes.begin, nodes = chunk.nodes.size();
+  ahead.add(model.node_position.data() + node, nodes);
+  ahead.add(state.displacement.data() + node, nodes);
+  ahead.add(state.velocity.data() + node, nodes);
+  ahead.add(model.mesh.batches.data() + chunk.batches.begin, chunk.batches.size());
+  ahead.add(state.stress.data() + chunk.batches.begin, chunk.batches.size());
+  ahead.add(model.mesh.faces.data() + chunk.face_batches.begin, chunk.face_batches.size());
+  ahead.add(state.faces.data() + chunk.face_batches.begin, chunk.face_batches.size());
+  ahead.add(model.node_mass.data() + node, nodes);
   const int* const others = model.mesh.others.data() + chunk.others.begin;
-  for (std::int64_t i = 0; i < chunk.others.size(); ++i)
-    fetch(model, state, others[i], chunk.nodes.size() + i, near);
-  std::fill(near.force.begin(), near.force.begin() + chunk.places(), Node{});
+  ahead.add_at(model.node_position.data(), others, chunk.others.size());
+  ahead.add_at(state.displacement.data(), others, chunk.others.size());
+  ahead.add_at(state.velocity.data(), others, chunk.others.size());
+  return ahead;
 }
 
 } // namespace
+
+ReadAhead shared_reads_of(const Model& model, const State& state, const Workspace& work, std::int64_t index) {
+  ReadAhead ahead;
+  if (index >= static_cast<std::int64_t>(model.mesh.chunks.size()))
+    return ahead;
+  const MeshChunk& chunk = model.mesh.chunks[index];
+  const std::int64_t node = chunk.inner_end, nodes = chunk.nodes.end - node;
+  const int* const begin = model.mesh.share_begin.data() + chunk.share_begin;
+  ahead.add_at(work.partial.data(), model.mesh.shares.data() + begin[0], begin[nodes] - begin[0]);
+  ahead.add(state.displacement.data() + node, nodes);
+  ahead.add(state.velocity.data() + node, nodes);
+  ahead.add(model.node_mass.data() + node, nodes);
+  return ahead;
+}
 
 const Node* mesh_forces(const Model& model, State& state, Workspace& work, std::int64_t index,
                         bool breaking) {
   thread_local Near near;
   const MeshChunk& chunk = model.mesh.chunks[index];
   const Body& body = model.bodies[model.blocks[chunk.block].body];
-  fetch(model, state, chunk, near);
+  const NearArrays at = fetch(model, state, chunk, near);
+  ReadAhead ahead = reads_of(model, state, index + 1);
+  ahead.spread(chunk.batches.size() + chunk.face_batches.size());
   const int last_lanes = static_cast<int>(chunk.tets.size() - (chunk.batches.size() - 1) * lanes);
   TetDamping damping;
   if (work.damped && body.material.stiffness_damping > 0)
     damping = {body.material.stiffness_damping, state.viscous_stress.data() + chunk.batches.begin};
   FaceSums& sums = work.face_sums[index];
-  sums.damping = finite_volume_forces(model.mesh.batches.data() + chunk.batches.begin, chunk.batches.size(),
-                                      last_lanes, near.position.data(), near.velocity.data(),
-                                      work.strain_step, tet_stiffness(body.material), damping,
-                                      state.stress.data() + chunk.batches.begin, near.force.data());
+  sums.damping =
+      finite_volume_forces(model.mesh.batches.data() + chunk.batches.begin, chunk.batches.size(), last_lanes,
+                           at.position, at.velocity, work.strain_step, tet_stiffness(body.material), damping,
+                           state.stress.data() + chunk.batches.begin, at.force, ahead);
   sums.friction = sums.breaking = 0;
   sums.broken.clear();
   sums.astray = -1;
   sums.hands_over = false;
   if (chunk.faces > 0) {
-    const FaceMotion motion{near.position.data(), near.displacement.data(), near.velocity.data(),
-                            work.strain_step};
+    const FaceMotion motion{at.position, at.displacement, at.velocity, work.strain_step};
     const int number = model.blocks[chunk.block].body;
     FaceLaw law = face_law(body);
     law.hands_over = model.surface.joint.count({number, number}) > 0;
     face_bond_forces(model.mesh.faces.data() + chunk.face_batches.begin, chunk.face_batches.size(),
                      chunk.faces, motion, law, breaking, state.faces.data() + chunk.face_batches.begin,
-                     state.face_slip.data(), near.force.data(), sums);
+                     state.face_slip.data(), at.force, sums, ahead);
   }
-  std::copy(near.force.begin() + (chunk.inner_end - chunk.nodes.begin), near.force.begin() + chunk.places(),
+  std::copy(at.force + (chunk.inner_end - chunk.nodes.begin), at.force + chunk.places(),
             work.partial.begin() + chunk.partial.begin);
-  return near.force.data();
+  return at.force;
 }
 
 } // namespace cdem

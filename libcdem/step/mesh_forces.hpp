@@ -11,10 +11,13 @@ namespace cdem {
 // does its next chunk.
 const Node* mesh_forces(const Model&, State&, Workspace&, std::int64_t chunk, bool breaking);
 
+// What each_shared_force and a move of the chunk's other nodes will read, for the chunk before it to ask for.
+ReadAhead shared_reads_of(const Model&, const State&, const Workspace&, std::int64_t chunk);
+
 // visit(nodes, forces) for the other nodes of a chunk, some at a time: the sums of what all chunks left for them, in
 // order. After mesh_forces of every chunk.
 template <class Visit>
-void each_shared_force(const MeshData& mesh, const Workspace& work, const MeshChunk& chunk,
+void each_shared_force(const MeshData& mesh, const Workspace& work, const MeshChunk& chunk, ReadAhead ahead,
                        const Visit& visit) {
   constexpr std::int64_t at_once = 64;
   Node sums[at_once];
@@ -31,6 +34,7 @@ void each_shared_force(const MeshData& mesh, const Workspace& work, const MeshCh
         f.z += p.z;
       }
       sums[i] = f;
+      ahead.some();
     }
     visit(nodes, static_cast<const Node*>(sums));
   }

@@ -47,7 +47,9 @@ HeldForces held_node_forces(const MovingNodes& node) {
 }
 
 // The kernels are compiled for several instruction sets; everything they call is inlined into each of them.
-CDEM_KERNEL void step_nodes(const MovingNodes& nodes, const Stepping& s, NodeSums& sums) {
+CDEM_KERNEL void step_nodes(const MovingNodes& moving, const Stepping& stepping, NodeSums& sums) {
+  const MovingNodes nodes = moving; // copies: what is written cannot change them
+  const Stepping s = stepping;
   Quad residual2{}, applied2{}, external{}, lost{}, kinetic{};
   const Quad zero{};
   const double per_kick = 1 / s.kick;
@@ -87,7 +89,9 @@ CDEM_KERNEL void step_nodes(const MovingNodes& nodes, const Stepping& s, NodeSum
   sums.kinetic += sum(kinetic);
 }
 
-CDEM_KERNEL void relax_nodes(const MovingNodes& nodes, double damping, Node* previous_force, NodeSums& sums) {
+CDEM_KERNEL void relax_nodes(const MovingNodes& moving, double damping, Node* previous_force,
+                             NodeSums& sums) {
+  const MovingNodes nodes = moving;
   Quad residual2{}, applied2{}, stiffness{}, inertia{}, external{}, lost{}, kinetic{};
   const double keep = (2 - damping) / (2 + damping), push = 2 / (2 + damping);
   for (std::int64_t i = 0; i < nodes.count; ++i) {

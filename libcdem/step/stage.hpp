@@ -134,7 +134,10 @@ NodeSums Stage::advance(bool breaking, const Move& move, const MoveRigid& move_r
     if (model.blocks[model.mesh.chunks[c - stars].block].rigid >= 0)
       return;
     NodeSums sums = work.node_sums[c];
-    each_shared_force(model.mesh, work, model.mesh.chunks[c - stars],
+    const MeshChunk& chunk = model.mesh.chunks[c - stars];
+    ReadAhead ahead = shared_reads_of(model, state, work, c - stars + 1);
+    ahead.spread(chunk.nodes.end - chunk.inner_end);
+    each_shared_force(model.mesh, work, chunk, ahead,
                       [&](Range nodes, const Node* force) { move(nodes, force, sums); });
     work.node_sums[c] = sums;
   });

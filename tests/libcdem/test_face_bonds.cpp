@@ -54,6 +54,31 @@ TEST_CASE("face bonds: shear up to (c - t_n tan phi) A, then friction alone", "[
   CHECK((after + friction + Vec3(0, 0, std::min(tn, 0.0))).norm() < 1e-7 * strength);
 }
 
+TEST_CASE(
+    "face bonds: whichever way they are loaded they break at the nearer of their strengths and not before",
+    "[bonds][mesh]") {
+  const double ratio = GENERATE(0.4, 1.0, 2.5);
+  const double tensile = GENERATE(0.2e6, 1.5e6, 9e6);
+  cdem::Joint joint = halves_joint();
+  joint.tensile_strength = tensile;
+  const double tangent = std::tan(joint.friction_angle);
+  for (double angle = 0; angle <= 180; angle += 7.5) { // from the normal
+    const double c = std::cos(angle * degree), s = std::sin(angle * degree);
+    const Vec3 direction(0.8 * s, 0.6 * s, c);
+    const double slope = s + c * tangent; // the shear strength is reached at C / slope
+    const double strength = std::min(c > 1e-12 ? joint.tensile_strength / c : 1e12,
+                                     slope > 1e-12 ? joint.cohesion / slope : 1e12);
+    if (strength > 1e9)
+      continue; // pressed, it never breaks
+    INFO("at " << angle << " degrees, shear ratio " << ratio << ", T " << tensile);
+    Halves halves(joint, some_turn(), ratio);
+    halves.go(0.999 * strength * direction);
+    CHECK(halves.with_mode(cdem::BondMode::intact) == springs);
+    halves.go(1.001 * strength * direction);
+    CHECK(halves.with_mode(cdem::BondMode::intact) == 0);
+  }
+}
+
 TEST_CASE("face bonds: a broken one and a contact that never was bonded give the same forces",
           "[bonds][mesh]") {
   Halves broken(halves_joint(), some_turn()), never(halves_joint(false), some_turn());

@@ -17,11 +17,11 @@ geom::TetMesh two_halves(int n) {
   return mesh;
 }
 
-cdem::Bonding between_halves() {
+cdem::Bonding between_halves(double ratio) {
   cdem::Bonding bonding;
   bonding.between_regions = true;
   bonding.stiffness_ratio = beta;
-  bonding.shear_ratio = shear_ratio;
+  bonding.shear_ratio = ratio;
   return bonding;
 }
 
@@ -46,15 +46,15 @@ std::vector<char> upper_nodes(const cdem::Model& model) {
   return upper;
 }
 
-Halves::Halves(const cdem::Joint& j, geom::Mat3 turn)
-    : system(build({meshed("unit", two_halves(1), between_halves(), rock(), j)})), turn_(std::move(turn)),
-      upper_(upper_nodes(system.model)) {
+Halves::Halves(const cdem::Joint& j, geom::Mat3 turn, double ratio)
+    : system(build({meshed("unit", two_halves(1), between_halves(ratio), rock(), j)})),
+      turn_(std::move(turn)), upper_(upper_nodes(system.model)), ratio_(ratio) {
   // d = 3 (V1 + V2) / 4A with V = h^2 half / 6 and A = h^2 / 2.
   kn_ = beta * rock().youngs_modulus / (half / 2);
 }
 
 Vec3 Halves::go(const Vec3& traction) {
-  const double ks = shear_ratio * kn_;
+  const double ks = ratio_ * kn_;
   return lead({traction.x() / ks, traction.y() / ks, traction.z() / kn_});
 }
 

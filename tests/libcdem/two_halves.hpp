@@ -12,13 +12,13 @@ constexpr int springs = 6; // two triangles
 
 // A box whose upper half is region 1: n cells along each axis in each half.
 geom::TetMesh two_halves(int n);
-cdem::Bonding between_halves();
+cdem::Bonding between_halves(double ratio = shear_ratio);
 cdem::Joint halves_joint(bool bonded = true);
 
 // Leads the upper half by a given gap, everything turned by `turn`, and asks for the force.
 class Halves {
 public:
-  explicit Halves(const cdem::Joint&, geom::Mat3 turn = geom::Mat3::Identity());
+  explicit Halves(const cdem::Joint&, geom::Mat3 turn = geom::Mat3::Identity(), double ratio = shear_ratio);
 
   void turn(const geom::Mat3& to) { turn_ = to; }
   // To where an elastic bond would carry this traction, Pa; what the upper half feels of the lower one, Pa.
@@ -33,6 +33,7 @@ public:
 private:
   geom::Mat3 turn_;
   std::vector<char> upper_; // node is of the upper half
+  double ratio_;            // Ks / Kn
   double kn_ = 0;           // Pa/m
   std::vector<cdem::FaceBreak> breaks_;
 };
