@@ -17,8 +17,9 @@ constexpr double drawn_in = 0.01;
 constexpr double parallel = 0.05;
 // Edges deeper than this many times the shallow depth have slid past each other's ends.
 constexpr double deepest_edge = 5;
-// Of a distance: places nearer than that to each other are one, as on the edge that two triangles share.
-constexpr double same_place = 1e-6;
+// Of a distance, and of a tet's height: places nearer than that to each other are one, as on the edge that two
+// triangles share.
+constexpr double same_place = 1e-6, same_place_at_least = 1e-9;
 
 geom::Vec3 spring_weights(int corner) {
   geom::Vec3 w = geom::Vec3::Constant(drawn_in);
@@ -45,34 +46,57 @@ double way(const ContactWork& work, int block_a, int block_b) {
   return work.travelled[block_a] + work.travelled[block_b];
 }
 
-// The nearest place of a piece to a spring, so far.
+// The nearest place of a piece to a spring, so far. Of the triangles that share it the one that the spring stands
+// highest over or lowest under is the target; whether the spring is inside their normals tell together, each weighted
+// by the angle that its triangle fills there (Baerentzen and Aanaes 2005): one alone may be wrong at a sharp corner or
+// the mouth of a crack.
 struct Nearest {
   int target = -1;
   double distance2 = 0;
   double height = 0; // of the spring over the target's plane, m: below 0 behind it
   geom::PlaceOnTriangle at;
   geom::Vec3 place = geom::Vec3::Zero();
+  geom::Vec3 outward = geom::Vec3::Zero(); // sum of the normals, weighted
+  geom::Vec3 from = geom::Vec3::Zero();    // m, the spring from the place
+
+  bool inside() const { return target >= 0 && outward.dot(from) < 0; }
 };
+
+// rad, that the triangle fills around a place of it.
+double angle_at(const geom::PlaceOnTriangle& at, const Corners& x) {
+  for (int i = 0; i < 3; ++i)
+    if (at.weights[(i + 1) % 3] == 0 && at.weights[(i + 2) % 3] == 0) {
+      const geom::Vec3 a = x[(i + 1) % 3] - x[i], b = x[(i + 2) % 3] - x[i];
+      return std::atan2(a.cross(b).norm(), a.dot(b));
+    }
+  return at.inside ? 2 * M_PI : M_PI;
+}
 
 Nearest nearest_of(int target, const geom::Vec3& spring, const Corners& x, const geom::Vec3& normal) {
   Nearest found;
   found.target = target;
   found.at = geom::nearest_on_triangle(spring, x[0], x[1], x[2]);
   found.place = weighted(x, found.at.weights);
-  const geom::Vec3 from = spring - found.place;
-  found.distance2 = from.squaredNorm();
-  found.height = from.dot(normal);
+  found.from = spring - found.place;
+  found.distance2 = found.from.squaredNorm();
+  found.height = found.from.dot(normal);
   return found;
 }
 
-void take_nearer(Nearest& nearest, const Nearest& other) {
-  if (nearest.target >= 0) {
-    const double limit2 = same_place * same_place * std::max(nearest.distance2, other.distance2);
-    const bool one_place = (other.place - nearest.place).squaredNorm() <= limit2;
-    if (one_place ? std::abs(other.height) <= std::abs(nearest.height) : other.distance2 >= nearest.distance2)
-      return;
-  }
-  nearest = other;
+// size: m, of the tets there.
+void take_nearer(Nearest& nearest, Nearest other, const Corners& x, const geom::Vec3& normal, double size) {
+  const double reach =
+      same_place * std::sqrt(std::max(nearest.distance2, other.distance2)) + same_place_at_least * size;
+  const bool one_place = nearest.target >= 0 && (other.place - nearest.place).squaredNorm() <= reach * reach;
+  if (!one_place && nearest.target >= 0 && other.distance2 >= nearest.distance2)
+    return;
+  other.outward = angle_at(other.at, x) * normal;
+  if (one_place)
+    other.outward += nearest.outward;
+  if (one_place && std::abs(other.height) <= std::abs(nearest.height))
+    nearest.outward = other.outward;
+  else
+    nearest = other;
 }
 
 // Weights of a tet's corners that make up a place, which may lie a little outside.
@@ -248,14 +272,14 @@ private:
         for (int corner = 0; corner < 3; ++corner) {
           const Nearest found = nearest_of(candidate.target, spring[corner], y, normal);
           least2 = std::min(least2, found.distance2);
-          take_nearer(nearest[corner], found);
+          take_nearer(nearest[corner], found, y, normal, target.height);
         }
         candidate.wake = moved + std::max(0.0, std::sqrt(least2) - work_.shallow);
         row.wake = std::min(row.wake, candidate.wake);
       }
       for (int corner = 0; corner < 3; ++corner) {
         const Nearest& found = nearest[corner];
-        if (found.target < 0 || found.height >= 0)
+        if (!found.inside())
           continue;
         // With some asleep, what is further in than a step can have brought it is not inside: nearer ones sleep.
         const double reach = work_.shallow + work_.last_way[source.block] +

@@ -92,8 +92,8 @@ void look(const Model& model, const State& state, double flow_velocity, Watch& w
       }
     if (count > 0)
       mean /= count;
-    const geom::Vec3 moved = now[block] - watch.start[block] - mean;
-    if (moved.norm() < watch.leaves)
+    const geom::Vec3 own = now[block] - watch.start[block], moved = own - mean;
+    if (own.norm() < watch.leaves || moved.norm() < watch.leaves) // one that stands still has been left
       continue;
     watch.left.push_back(
         {static_cast<int>(unit) + 1, state.step, state.time, flow_velocity, moved, now[block]});

@@ -1,7 +1,8 @@
 // Which units of a pile have left their place, in order.
 //
 // A unit has left when its centroid has moved by `leaves` relative to the mean motion of the blocks it touched when the
-// watch was made, so that a pile that sinks or slides as a whole loses none. Of these, units that have left count no
+// watch was made, so that a pile that sinks or slides as a whole loses none, and as far itself, so that one that its
+// neighbours leave behind has not left. Of these, units that have left count no
 // more: those they rested on would seem to move. One that touched nothing, or nothing that stays, is measured against
 // the ground.
 #pragma once

@@ -185,3 +185,19 @@ TEST_CASE("a watch goes on from a saved model, and can be taken back to a step t
   CHECK(units_left(then) == std::vector<int>{1});
   CHECK((then.gone[4] == 1 && then.gone[7] == 0));
 }
+
+TEST_CASE("a unit that stands still while its neighbours go has not left", "[watch]") {
+  System s = cubes(3);
+  add_surface(s);
+  touch(s, 1, 2);
+  touch(s, 2, 3);
+  cdem::Watch watch = cdem::start_watch(s.model, s.state, "units", 0.5);
+  move(s, 1, {0, 0.45, 0}); // 0.9 apart from the middle one's point of view
+  move(s, 3, {0, 0.45, 0});
+  move(s, 2, {0, -0.45, 0});
+  cdem::look(s.model, s.state, 0, watch);
+  CHECK(watch.left.empty());
+  move(s, 2, {0, -0.1, 0}); // now it has moved itself
+  cdem::look(s.model, s.state, 0, watch);
+  CHECK(units_left(watch) == std::vector<int>{2});
+}
