@@ -3,11 +3,9 @@
 //
 // phi = N Dn^2 / A is the packing density: N units on an area A of the slope, Dn the side of a cube of their volume.
 // The pattern is a diamond, twice as wide along the contour as its rows are apart, so that rows are Dn / sqrt(2 phi)
-// apart. Units take by turns the attitudes of a family that fits into it (placement/lattice.hpp), each turned a little
-// more by chance, and are lowered along the normal of the slope on to what lies there. Then a unit is nudged (moved by
-// up to `play` from its place along the contour, further down the slope, turned a little, lowered anew) as long as its
-// centroid sinks, until it leans on its neighbours. It keeps `gap` from all of them. Leaning brings rows closer: the
-// pattern is widened along the contour until the density of rows and columns is phi within 1 %, in a few trials.
+// apart. Units lie at rest under gravity with friction, slid down against the two below, and keep `gap` from all others
+// (placement/laying.hpp). How far apart rows then are depends on how units fit: the pattern is widened along the contour
+// until the density of rows and columns is phi within 1 %, in a few trials.
 #pragma once
 
 #include "libgeom/placement/ground.hpp"
@@ -22,7 +20,7 @@ struct LayerOptions {
   std::optional<PlanBox> region; // over the ground; all of it
   std::uint64_t seed = 1;        // of the attitudes
   int attitudes = 1500;          // tried for the family
-  int nudges = 200;              // tried for each unit
+  int nudges = 200;              // steps of a unit on its way to rest; 0: only lowered on to what is there
   double play = 0.1;             // of the height: how far along the contour from its place a unit may be laid
 };
 

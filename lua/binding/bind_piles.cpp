@@ -193,8 +193,8 @@ void bind_piles(Module& m) {
   m.functions.push_back(
       {"place",
        "One layer of armour units on a slope, in the staggered pattern of a packing density: row by row from "
-       "the toe, each unit above the gap between two of the row below, lowered on to the slope and its "
-       "neighbours in one of the attitudes that fit into the pattern.",
+       "the toe, each unit above the gap between two of the row below and slid down against them, at rest "
+       "under its weight with friction, on the slope and its neighbours.",
        with({number("density").within(0.05, 1.5).standard(0.645).doc(
                  "phi = N Dn^2 / A, units on an area of slope times that of their equal cube's side"),
              integer("columns").at_least(1).doc("units in a row; as many as the region allows when left out"),
@@ -202,9 +202,9 @@ void bind_piles(Module& m) {
              integer("attitudes")
                  .within(1, 1e6)
                  .standard(1500)
-                 .doc("tried, of which those are taken that fit into the pattern"),
+                 .doc("of which those are taken that fit into the pattern, beside others"),
              integer("nudges").within(0, 100000).standard(200).doc(
-                 "small moves tried for each unit, kept when its centroid sinks"),
+                 "steps of a unit on its way to rest, at most; 0: only lowered on to what is there"),
              number("play").within(0, 1).standard(0.1).doc(
                  "how far along the contour a unit may be from its place, over its height")}),
        false, "cdem.Pile", "", lay});

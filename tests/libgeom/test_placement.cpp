@@ -5,6 +5,7 @@
 #include "libgeom/placement/armour_layer.hpp"
 #include "libgeom/placement/drop_grid.hpp"
 #include "libgeom/placement/pile_measures.hpp"
+#include "libgeom/placement/rest.hpp"
 #include "libgeom/query/triangle_distance.hpp"
 #include "libgeom/solid/armour_units.hpp"
 
@@ -208,7 +209,6 @@ TEST_CASE("an armour layer has the density it was asked for, and no unit cuts an
     LayerOptions options;
     options.density = density;
     options.columns = 5;
-    options.nudges = 60;
     const double gradient = 1 / 1.5;
     const Ground ground = slope_ground(gradient);
     const Pile pile = place_layer(accropode_mesh(), 30, ground, options);
@@ -233,6 +233,51 @@ TEST_CASE("an armour layer has the density it was asked for, and no unit cuts an
       CHECK(up.dot(here) > std::max(up.dot(left), up.dot(right)));
     }
   }
+}
+
+TEST_CASE("every unit of an armour layer lies on the slope, against others, at rest") {
+  const double gradient = 1 / 1.5, gap = 1e-3;
+  const Ground ground = slope_ground(gradient);
+  LayerOptions options;
+  options.columns = 5;
+  options.gap = gap;
+  const Pile pile = place_layer(accropode_mesh(), 30, ground, options);
+  const std::vector<Surface> units = surfaces(pile);
+  const Features shape = features_of(surface_of(pile.unit)), slope = features_of(ground.surface());
+  std::vector<Features> laid;
+  for (const Pose& pose : pile.poses)
+    laid.push_back(moved(shape, pose));
+
+  int alike = 0;
+  for (int i = 0; i < 30; ++i) {
+    INFO("unit " << i + 1);
+    CHECK(distance(units[i], ground.surface(), 1) <= 1.5 * gap);
+    std::vector<const Features*> others{&slope};
+    int touched = 0;
+    for (int j = 0; j < 30; ++j) {
+      if (i == j)
+        continue;
+      others.push_back(&laid[j]);
+      const double apart = distance(units[i], units[j], 0.1);
+      touched += apart <= 1.5 * gap ? 1 : 0;
+      const Mat3 turn = pile.poses[i].rotation.transpose() * pile.poses[j].rotation;
+      alike += apart < 0.1 && Eigen::AngleAxisd(turn).angle() < 10 * M_PI / 180 ? 1 : 0;
+    }
+    // Inner ones, between two below and two above.
+    const int row = i / 5, column = i % 5;
+    if (row > 0 && row < 5 && column > 0 && column < 4)
+      CHECK(touched >= 2);
+
+    RestOptions gravity; // with friction of 40 degrees nothing goes on from here
+    gravity.friction = std::tan(40 * M_PI / 180);
+    gravity.clear = gap;
+    gravity.step = 0.01;
+    gravity.last_step = 0.001;
+    gravity.gyration = 0.3;
+    const Pose rest = come_to_rest(shape, pile.poses[i], others, gravity).pose;
+    CHECK((rest.translation - pile.poses[i].translation).norm() <= 0.01);
+  }
+  CHECK(alike <= 4); // of about seventy pairs, each counted twice
 }
 
 TEST_CASE("a layer that cannot be laid is refused") {

@@ -111,6 +111,27 @@ TEST_CASE("a layer of cubes has the density it was laid with", "[lua]") {
                  "for _, pose in ipairs(layer:poses()) do assert(pose.centroid[3] < 3) end") == "");
 }
 
+TEST_CASE("a layer of armour units stays as it was laid when it settles", "[lua]") {
+  // The first row is held, as at a toe. No unit moves by a tenth of its height.
+  CHECK(error_of(head +
+                 "local unit = cdem.accropode{ height = 1, corner = 0 }:mesh{ size = 0.5 }\n"
+                 "local slope = cdem.slope{ gradient = 2 / 3, length = 6, width = 7 }:mesh{ size = 3 }\n"
+                 "local pile = cdem.place{ unit = unit, count = 12, onto = slope, columns = 4 }\n"
+                 "local rough = cdem.coulomb{ friction_angle = 40 }\n"
+                 "local model = cdem.model{\n"
+                 "  bodies = { { shape = slope, material = concrete, element = 'rigid', name = 'slope' },\n"
+                 "             { shape = pile, material = concrete, name = 'units' } },\n"
+                 "  contacts = { { 'units', 'units', rough }, { 'units', 'slope', rough } } }\n"
+                 "model:fix{ on = 'slope' }\n"
+                 "model:fix{ on = cdem.select.units{ body = 'units', numbers = {1, 2, 3, 4} } }\n"
+                 "model:gravity{ vector = {0, 0, -9.81} }\n"
+                 "model:settle{ kinetic_energy_ratio = 1e-4 }\n"
+                 "for i, pose in ipairs(model:pile{ body = 'units' }:poses()) do\n"
+                 "  local from, way = pile:poses()[i].centroid, 0\n"
+                 "  for k = 1, 3 do way = way + (pose.centroid[k] - from[k]) ^ 2 end\n"
+                 "  assert(math.sqrt(way) <= 0.1, i .. ' has moved by ' .. math.sqrt(way))\nend") == "");
+}
+
 TEST_CASE("piles that cannot be made are refused", "[lua]") {
   const auto refused = [](const std::string& call) { return error_of(head + call); };
   CHECK_THAT(refused("cdem.drop{ unit = cube, count = 0, onto = slab }"), Contains("count = 0: must be"));

@@ -1,0 +1,54 @@
+// Where two solids touch, or will soon: corner on face, face on corner, edge across edge.
+//
+// Only corners and edges that stand out (the surface is convex across the edge) can touch first. Where a corner is over
+// a face, or two edges cross, the gap is signed: negative as far as one solid is inside the other.
+#pragma once
+
+#include "libgeom/placement/pile.hpp"
+#include "libgeom/query/triangle_distance.hpp"
+
+#include <utility>
+
+namespace geom {
+
+struct Features {
+  struct Face {
+    TrianglePoints points;
+    Vec3 normal; // outward unit vector
+    Box box;
+  };
+  struct Edge {
+    Vec3 from, to;
+    std::array<Vec3, 2> normals; // of the faces that meet there
+    Box box;
+  };
+  std::vector<Vec3> corners; // of such edges
+  std::vector<Edge> edges;
+  std::vector<Face> faces;
+  Box box;
+};
+
+Features features_of(const Surface&); // closed
+Features moved(const Features&, const Pose&);
+
+struct Touch {
+  Vec3 point;     // m, on the first
+  Vec3 normal;    // out of the second
+  double gap = 0; // m; negative inside
+};
+
+// The pairs of features nearer than `reach` to each other.
+class NearFeatures {
+public:
+  NearFeatures() = default;
+  NearFeatures(const Features& first, const Features& second, double reach);
+
+  // Adds the touches with a gap below `reach`, of the same two where they are now.
+  void touches(const Features& first, const Features& second, double reach, std::vector<Touch>&) const;
+  bool empty() const { return corner_face_.empty() && face_corner_.empty() && edge_edge_.empty(); }
+
+private:
+  std::vector<std::pair<int, int>> corner_face_, face_corner_, edge_edge_;
+};
+
+} // namespace geom

@@ -1,0 +1,265 @@
+#include "libgeom/placement/laying.hpp"
+
+#include "libgeom/core/error.hpp"
+#include "libgeom/core/random.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace geom {
+namespace {
+
+constexpr double far = 1e30;
+
+constexpr std::uint64_t stands_tried = 300;
+constexpr std::size_t stands_wanted = 16;
+constexpr std::size_t attitudes_tried = 24; // half of the family, half any
+constexpr double own_turn = 0.05;           // of an attitude of the family when it first comes up, radians
+constexpr double more_turn = 0.3;           // and when it comes up again
+constexpr std::size_t rested_tries = 10;    // at least; more while none of them is at rest
+
+// Over the height: from where on, and how finely, places up the slope are tried.
+constexpr double lowest_place = -0.3, highest_place = 1.5, place_step = 0.05;
+constexpr double seated = 0.03; // over the height: how far from the bare slope a lowered unit still is on it
+
+constexpr double sliding = 0.2;      // coefficient of friction, on the way
+constexpr double holding = 0.75;     // at rest, on slopes less steep than that
+constexpr double lowest_rest = -0.4; // over the height: how far below its place a unit slides
+
+constexpr double roll = 0.5; // over the height: how far a unit may move once it is not held in its place
+
+constexpr double alike = 15 * M_PI / 180;
+constexpr double neighbours = 1.3; // over the height: how far apart
+
+// Every use has random numbers of its own.
+constexpr std::uint64_t turn_id = std::uint64_t{1} << 42, any_id = std::uint64_t{1} << 43,
+                        stand_id = std::uint64_t{1} << 44;
+
+Mat3 turned(const Mat3& rotation, const Vec3& by) { // radians
+  return by.norm() > 0 ? Mat3(Eigen::AngleAxisd(by.norm(), by.normalized()).toRotationMatrix() * rotation)
+                       : rotation;
+}
+
+// Better too far down the slope, where units are keyed, than too far up.
+double astray(double up) {
+  return std::max(up, -0.5 * up);
+}
+
+// Of a solid whose inertia is the same about all axes.
+double gyration_of(const Pile& pile) {
+  const MassProperties solid = mass_properties(pile.unit);
+  return std::sqrt(solid.inertia.trace() / (3 * solid.volume));
+}
+
+} // namespace
+
+Laying::Laying(const Pile& pile, const Ground& ground, const Mat3& frame, double gap,
+               const LayerOptions& options, const Spacing& spacing)
+    : shape_(surface_of(pile.unit)), features_(features_of(shape_)),
+      ground_features_(features_of(ground.surface())), ground_(ground), frame_(frame), gap_(gap),
+      height_(pile.height), radius_(bounding_radius(pile.unit)), gyration_(gyration_of(pile)),
+      options_(options), ground_profile_(ground.surface(), frame) {
+  for (const Mat3& rotation : attitudes_for(shape_, spacing, options.attitudes, options.seed))
+    family_.emplace_back(frame.transpose() * rotation);
+  stands_ = stands();
+}
+
+Surface Laying::surface_at(const Pose& pose) const {
+  Surface surface = shape_;
+  for (Vec3& x : surface.points)
+    x = pose(x);
+  return surface;
+}
+
+// m along the normal, of the slope at a place.
+double Laying::ground_level(const Vec3& place) const {
+  const Vec3 x = frame_.transpose() * Vec3(place.x(), place.y(), 0);
+  const auto z = ground_.height(x.x(), x.y());
+  return z ? frame_.row(2).dot(Vec3(x.x(), x.y(), *z)) : 0;
+}
+
+Laying::Near Laying::near(const Vec3& centroid, double reach) const {
+  Near found;
+  for (const Laid& other : laid_)
+    if ((other.pose.translation - centroid).norm() < reach)
+      found.push_back(&other);
+  return found;
+}
+
+RestOptions Laying::resting() const {
+  const double steep = std::tan(std::acos(std::min(1., std::abs(frame_(2, 2)))));
+  RestOptions options;
+  options.friction = std::max(holding, steep + 0.1);
+  options.clear = gap_;
+  options.step = 0.03 * height_;
+  options.last_step = std::min(gap_, 1e-3 * height_);
+  options.gyration = gyration_;
+  options.steps = options_.nudges;
+  options.way = 1.5 * height_;
+  return options;
+}
+
+// Units put down in random attitudes on a plane as steep as the slope.
+std::vector<Mat3> Laying::stands() const {
+  const double wide = 20 * radius_;
+  const Vec3 along = wide * frame_.row(0), up = wide * frame_.row(1);
+  Surface plane;
+  plane.points = {along, up, -along, -up};
+  plane.triangles = {{0, 1, 2}, {0, 2, 3}};
+  const Features bare = features_of(plane);
+  std::vector<Mat3> found;
+  for (std::uint64_t k = 0; k < stands_tried && found.size() < stands_wanted; ++k) {
+    Pose start{random_rotation(options_.seed, stand_id + k), Vec3::Zero()};
+    double low = 0;
+    for (const Vec3& x : shape_.points)
+      low = std::min(low, frame_.row(2).dot(start.rotation * x));
+    start.translation = (gap_ - low) * frame_.row(2);
+    const Rest rest = come_to_rest(features_, start, {&bare}, resting());
+    if (rest.still)
+      found.push_back(rest.pose.rotation);
+  }
+  return found;
+}
+
+std::vector<Mat3> Laying::attitudes(const Site& site) const {
+  const auto id = static_cast<std::uint64_t>(site.unit);
+  std::vector<Mat3> all;
+  for (std::size_t k = 0; k < stands_.size(); ++k)
+    all.push_back(stands_[(id + k) % stands_.size()]);
+  if (site.below.empty() && !all.empty())
+    return all;
+  for (std::size_t k = 0; k < attitudes_tried; ++k) {
+    const auto draw = [&](std::uint64_t i) {
+      return 2 * uniform(options_.seed, turn_id + id, 3 * k + i) - 1;
+    };
+    const Mat3& own = family_[(id + k) % family_.size()];
+    all.push_back(k < attitudes_tried / 2 ? turned(own, (k < family_.size() ? own_turn : more_turn) *
+                                                            Vec3(draw(0), draw(1), draw(2)))
+                                          : random_rotation(options_.seed, any_id + id, 3 * k));
+  }
+  return all;
+}
+
+// As far down the slope as the unit comes down to the ground, from a little below its place on.
+Laying::Try Laying::lowered(const Mat3& rotation, const Site& site) const {
+  const Profile profile(surface_at({rotation, Vec3::Zero()}), frame_);
+  double bare = 0; // m, of the centroid over a bare plane
+  for (const Vec3& x : shape_.points)
+    bare = std::max(bare, -frame_.row(2).dot(rotation * x));
+  Try best{{rotation, Vec3::Zero()}, far};
+  for (double up = site.below.empty() ? 0 : lowest_place; up < highest_place; up += place_step) {
+    Vec3 place = site.place + Vec3(0, up * height_, 0);
+    const Vec3 offset(place.x(), place.y(), 0);
+    double room = clearance(profile, offset, ground_profile_, far);
+    if (room == far) // beside the ground
+      continue;
+    for (const Laid& other : laid_)
+      room = std::min(room, clearance(profile, offset, other.profile, room));
+    place.z() = gap_ - room;
+    const double over = (place.z() - ground_level(place) - bare) / height_;
+    const double cost = astray(place.y() - site.wanted) / height_ + 3 * std::max(0., over - seated);
+    if (cost < best.cost)
+      best = {{rotation, frame_.transpose() * place}, cost};
+    if (over <= seated)
+      break;
+  }
+  return best;
+}
+
+Laying::Try Laying::rested(const Try& first, const Site& site, const Near& near) const {
+  std::vector<const Features*> others{&ground_features_};
+  for (const Laid* other : near)
+    others.push_back(&other->features);
+  RestOptions options = resting();
+  RestOptions held = options;
+  held.way = roll * height_;
+  Pose pose = first.pose;
+  if (!site.below.empty()) {
+    const Vec3 across = frame_.row(0), up = frame_.row(1);
+    const double play = options_.play * height_;
+    options.friction = sliding;
+    options.bounds = {{across, site.place.x() - play},
+                      {-across, -site.place.x() - play},
+                      {up, site.place.y() + lowest_rest * height_}};
+    pose = come_to_rest(features_, pose, others, options).pose;
+  }
+  Rest rest = come_to_rest(features_, pose, others, held);
+  rest.pose = pushed_clear(features_, rest.pose, others, held);
+  return {rest.pose, cost(rest, site, near)};
+}
+
+double Laying::cost(const Rest& rest, const Site& site, const Near& near) const {
+  const Features body = moved(features_, rest.pose);
+  std::vector<Touch> touches;
+  const auto touched = [&](const Features& other) {
+    touches.clear();
+    NearFeatures(body, other, 2 * gap_).touches(body, other, 2 * gap_, touches);
+    return !touches.empty();
+  };
+  const auto below = [&](const Laid* other) {
+    return std::any_of(site.below.begin(), site.below.end(), [&](int i) { return &laid_[i] == other; });
+  };
+  const bool on_ground = touched(ground_features_);
+  int things = on_ground ? 1 : 0, unkeyed = static_cast<int>(site.below.size()), like = 0;
+  for (const Laid* other : near) {
+    const Pose& there = other->pose;
+    if ((there.translation - rest.pose.translation).norm() < neighbours * height_ &&
+        Eigen::AngleAxisd(there.rotation.transpose() * rest.pose.rotation).angle() < alike)
+      ++like;
+    if (touched(other->features)) {
+      ++things;
+      unkeyed -= below(other) ? 1 : 0;
+    }
+  }
+  const Vec3 at = frame_ * rest.pose.translation;
+  const double beside = std::max(0., std::abs(at.x() - site.place.x()) - options_.play * height_);
+  const double high = std::max(0., at.z() - ground_level(at) - 0.5 * height_);
+  return (rest.still ? 0 : 1) + (on_ground ? 0 : 0.5) + 0.3 * unkeyed +
+         0.2 * std::max(0, (site.below.empty() ? 1 : 3) - things) + 0.1 * like +
+         (astray(at.y() - site.wanted) + 3 * beside + 2 * high) / height_;
+}
+
+bool Laying::clear(const Pose& pose, const Near& near) const {
+  const Surface here = surface_at(pose);
+  const double asked = 0.995 * gap_;
+  return distance(here, ground_.surface(), gap_) >= asked &&
+         std::all_of(near.begin(), near.end(),
+                     [&](const Laid* other) { return distance(here, other->surface, gap_) >= asked; });
+}
+
+// What was lowered along a steep flank may be nearer to it than the gap.
+Pose Laying::raised(Pose pose, const Near& near) const {
+  while (!clear(pose, near))
+    pose.translation += 0.5 * gap_ * frame_.row(2).transpose();
+  return pose;
+}
+
+Pose Laying::lay(const Site& site) {
+  std::vector<Try> tries;
+  for (const Mat3& rotation : attitudes(site))
+    tries.push_back(lowered(rotation, site));
+  std::stable_sort(tries.begin(), tries.end(), [](const Try& a, const Try& b) { return a.cost < b.cost; });
+  if (tries.front().cost == far)
+    throw InputError(
+        "unit " + std::to_string(site.unit + 1) +
+        " of the layer: there is no ground where it is to lie; give a larger ground, or a region "
+        "within it");
+  Try best{tries.front().pose, far};
+  for (std::size_t i = 0; options_.nudges > 0 && i < tries.size(); ++i) {
+    // A cost of less than one: at rest.
+    if ((i >= rested_tries && best.cost < 1) || tries[i].cost == far)
+      break;
+    const Near around = near(tries[i].pose.translation, 2 * radius_ + resting().way + roll * height_);
+    const Try one = rested(tries[i], site, around);
+    if (one.cost < best.cost && clear(one.pose, around))
+      best = one;
+  }
+  const Near around = near(best.pose.translation, 2 * radius_ + height_);
+  const Pose pose = best.cost < far ? best.pose : raised(best.pose, around);
+  Surface surface = surface_at(pose);
+  Profile profile(surface, frame_);
+  laid_.push_back({pose, moved(features_, pose), std::move(surface), std::move(profile)});
+  return pose;
+}
+
+} // namespace geom

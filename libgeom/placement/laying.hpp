@@ -1,0 +1,72 @@
+// Laying one unit of an armour layer after the other, each at rest.
+//
+// A unit is tried in many attitudes: some in which it stands on the bare slope by itself, some that fit into the
+// pattern, any others. In each it is lowered along the normal of the slope as near to its place as it comes down to the
+// ground between the units there. The nearest go down to their rest (placement/rest.hpp): almost without friction and
+// held within `play` of their place along the contour, so that they slide against the units below; then with friction
+// alone. Taken is the one that lies best: at rest, on the ground, against the two units below, on three things or more,
+// near its place, turned otherwise than its neighbours.
+#pragma once
+
+#include "libgeom/placement/armour_layer.hpp"
+#include "libgeom/placement/lattice.hpp"
+#include "libgeom/placement/lowering.hpp"
+#include "libgeom/placement/rest.hpp"
+
+namespace geom {
+
+class Laying {
+public:
+  // Rows of the frame: along the contour, up the slope, out of it.
+  Laying(const Pile&, const Ground&, const Mat3& frame, double gap, const LayerOptions&, const Spacing&);
+
+  struct Site {
+    int unit = 0;
+    Vec3 place = Vec3::Zero(); // in the slope's axes, one row over the units below; z means nothing
+    double wanted = 0;         // m up the slope, for the density
+    std::vector<int> below;    // the units it is to lean on
+  };
+  // Throws InputError where there is no ground.
+  Pose lay(const Site&);
+
+  // In the slope's axes, of the centroid.
+  Vec3 place(int unit) const { return frame_ * laid_[unit].pose.translation; }
+
+private:
+  struct Laid {
+    Pose pose;
+    Features features;
+    Surface surface;
+    Profile profile;
+  };
+  struct Try {
+    Pose pose;
+    double cost = 0; // in heights
+  };
+  using Near = std::vector<const Laid*>;
+
+  std::vector<Mat3> stands() const;
+  std::vector<Mat3> attitudes(const Site&) const;
+  Try lowered(const Mat3& rotation, const Site&) const;
+  Try rested(const Try&, const Site&, const Near&) const;
+  double cost(const Rest&, const Site&, const Near&) const;
+  bool clear(const Pose&, const Near&) const;
+  Pose raised(Pose, const Near&) const;
+  Near near(const Vec3& centroid, double reach) const;
+  double ground_level(const Vec3& place) const;
+  RestOptions resting() const;
+  Surface surface_at(const Pose&) const;
+
+  Surface shape_;
+  Features features_, ground_features_;
+  const Ground& ground_;
+  Mat3 frame_;
+  double gap_, height_, radius_, gyration_;
+  LayerOptions options_;
+  Profile ground_profile_;
+  std::vector<Mat3> family_; // attitudes that fit into the pattern
+  std::vector<Mat3> stands_; // in which a unit stands on the bare slope by itself
+  std::vector<Laid> laid_;
+};
+
+} // namespace geom

@@ -1,0 +1,40 @@
+// Where a rigid body comes to rest among bodies that do not move: it goes down in small steps, each from rest, without
+// inertia, until friction holds it.
+//
+// A step is that of contact dynamics (Moreau 1988) begun at rest: the motion v of centroid and body, pulled by s along
+// gravity, with impulses at all touches within reach so that normal . v + gap >= the clear distance, no impulse pulls,
+// and friction keeps a touch from sliding within mu times its normal impulse. v = 0 there is equilibrium with friction.
+// The impulses are found one by one in turn (projected Gauss-Seidel).
+#pragma once
+
+#include "libgeom/placement/features.hpp"
+
+namespace geom {
+
+struct RestOptions {
+  Vec3 down = -Vec3::UnitZ();
+  double friction = 0;  // tangent of its angle
+  double clear = 0;     // m, distance kept from the others
+  double step = 0;      // m, s at first
+  double last_step = 0; // m; s is made smaller, down to this, whenever the body has come to rest
+  double gyration = 0;  // m, radius of gyration of the body
+  int steps = 200;      // at most
+  double way = std::numeric_limits<double>::infinity(); // m; a body that has gone further is not followed
+  // The centroid stays where normal . x >= offset.
+  std::vector<Plane> bounds;
+};
+
+struct Rest {
+  Pose pose;
+  bool still = false; // at rest, not stopped after so many steps or so long a way
+};
+
+// shape: about the body's centroid. Others: closed.
+Rest come_to_rest(const Features& shape, const Pose& start, const std::vector<const Features*>& others,
+                  const RestOptions&);
+
+// Moved as little as takes it to the clear distance from all others; no gravity, no friction, no bounds.
+Pose pushed_clear(const Features& shape, const Pose& start, const std::vector<const Features*>& others,
+                  const RestOptions&);
+
+} // namespace geom
