@@ -4,6 +4,7 @@
 #include "libgeom/core/error.hpp"
 #include "libgeom/core/random.hpp"
 #include "libgeom/placement/laying.hpp"
+#include "libgeom/placement/pile_measures.hpp"
 
 #include <algorithm>
 #include <cassert>
@@ -104,6 +105,18 @@ double lay_rows(Pile& pile, int count, const Pattern& pattern, const Vec3& first
   return dn * dn / (pattern.spacing.across * apart);
 }
 
+// In the middle of the pile, away from its edges; none where it is too small to have one.
+std::optional<double> measured_density(const Pile& pile, const Ground& ground) {
+  std::vector<Surface> units;
+  for (const TetMesh& mesh : meshes(pile))
+    units.push_back(surface_of(mesh));
+  try {
+    return measure_pile(units, ground.surface(), pile.height, volume(pile.unit)).packing_density;
+  } catch (const InputError&) {
+    return std::nullopt;
+  }
+}
+
 } // namespace
 
 Pile place_layer(const TetMesh& unit, int count, const Ground& ground, const LayerOptions& options) {
@@ -137,7 +150,8 @@ Pile place_layer(const TetMesh& unit, int count, const Ground& ground, const Lay
     Pattern pattern = as_asked;
     pattern.spacing.across *= widening;
     Laying laying(pile, ground, frame, gap, options, pattern.spacing);
-    const double density = lay_rows(pile, count, pattern, first, laying);
+    const double by_rows = lay_rows(pile, count, pattern, first, laying);
+    const double density = measured_density(pile, ground).value_or(by_rows);
     const double error = std::abs(density / options.density - 1);
     if (error < least_error) {
       least_error = error;

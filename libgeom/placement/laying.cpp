@@ -255,7 +255,7 @@ Pose Laying::lay(const Site& site) {
       best = one;
   }
   const Near around = near(best.pose.translation, 2 * radius_ + height_);
-  const Pose pose = best.cost < far ? best.pose : raised(best.pose, around);
+  Pose pose = best.cost < far ? best.pose : raised(best.pose, around);
   Surface surface = surface_at(pose);
   Profile profile(surface, frame_);
   laid_.push_back({pose, moved(features_, pose), std::move(surface), std::move(profile)});
