@@ -45,7 +45,7 @@ model:fix{ on = "slope" }
 model:fix{ on = cdem.select.units{ body = "units", numbers = model:lowest_units{ body = "units", count = held } } }
 model:gravity{ vector = {0, 0, -9.81}, water_density = water }
 
-local camera = { position = {-1.5 * length, -1.75 * length, 2.2 * length}, up = {0, 0, 1}, view_angle = 30,
+local camera = { position = {-1.5 * length, -1.75 * length, 2.2 * length}, up = {0, 0, 1}, view_angle = 24,
                  focal_point = {0.5 * length, 0, 0.45 * gradient * length} }
 local function picture(name, title)
   if draw then

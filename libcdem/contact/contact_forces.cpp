@@ -17,9 +17,9 @@ constexpr double drawn_in = 0.01;
 constexpr double parallel = 0.05;
 // Edges deeper than this many times the shallow depth have slid past each other's ends.
 constexpr double deepest_edge = 5;
-// Of a distance, and of a tet's height: places nearer than that to each other are one, as on the edge that two
-// triangles share.
-constexpr double same_place = 1e-6, same_place_at_least = 1e-9;
+// Of a distance, and of a tet's height: places on the edges of two triangles that are nearer than that to each other are
+// one. Tets that a bond holds together have edges of their own, which part by as much as the bond gives.
+constexpr double same_place = 1e-6, bond_gives = 3e-4;
 
 geom::Vec3 spring_weights(int corner) {
   geom::Vec3 w = geom::Vec3::Constant(drawn_in);
@@ -86,8 +86,9 @@ Nearest nearest_of(int target, const geom::Vec3& spring, const Corners& x, const
 // size: m, of the tets there.
 void take_nearer(Nearest& nearest, Nearest other, const Corners& x, const geom::Vec3& normal, double size) {
   const double reach =
-      same_place * std::sqrt(std::max(nearest.distance2, other.distance2)) + same_place_at_least * size;
-  const bool one_place = nearest.target >= 0 && (other.place - nearest.place).squaredNorm() <= reach * reach;
+      same_place * std::sqrt(std::max(nearest.distance2, other.distance2)) + bond_gives * size;
+  const bool one_place = nearest.target >= 0 && !nearest.at.inside && !other.at.inside &&
+                         (other.place - nearest.place).squaredNorm() <= reach * reach;
   if (!one_place && nearest.target >= 0 && other.distance2 >= nearest.distance2)
     return;
   other.outward = angle_at(other.at, x) * normal;
@@ -499,9 +500,10 @@ ContactSums contact_forces(const Model& model, State& state, Workspace& work, in
   for (const Contact& c : state.contacts) {
     const auto [source, target] = triangles_of(model, c);
     const ContactTriangle &from = model.surface.triangles[source], &to = model.surface.triangles[target];
-    const double part = c.depth / depth_limit(own, from, to);
-    sums.depth = std::max(sums.depth, c.depth);
-    sums.depth_over_height = std::max(sums.depth_over_height, c.depth / std::min(from.height, to.height));
+    // Not what was found so deep: between the pieces of a broken body that still hang together by a corner.
+    const double pressed = c.depth - c.start, part = pressed / depth_limit(own, from, to);
+    sums.depth = std::max(sums.depth, pressed);
+    sums.depth_over_height = std::max(sums.depth_over_height, pressed / std::min(from.height, to.height));
     if (part > sums.deepest) {
       sums.deepest = part;
       sums.deepest_source = source;

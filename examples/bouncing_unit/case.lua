@@ -1,0 +1,105 @@
+-- An armour unit is dropped on a rigid floor from rising heights until it breaks. Each time it is whole again and starts
+-- just above the floor with the velocity of its fall, sqrt(2 g h).
+--
+--   ./cdem run examples/bouncing_unit/case.lua [--set fineness=8] [--set mass=9000] [--set tensile_strength=1.5e6]
+local cdem = require "cdem"
+
+local mass = cdem.parameter{ name = "mass", default = 5000.0, range = {1, 1e6}, unit = "kg" }
+local fineness = cdem.parameter{ name = "fineness", default = 6.0, range = {3, 30}, doc = "height over edge of the tets" }
+local tension = cdem.parameter{ name = "tensile_strength", default = 3e6, range = {1e4, 1e9}, unit = "Pa" }
+local tilt = cdem.parameter{ name = "tilt", default = 30.0, range = {0, 90}, unit = "deg", doc = "about (1, 1, 0)" }
+local growth = cdem.parameter{ name = "growth", default = 1.5, range = {1.01, 4}, doc = "of the height, from fall to fall" }
+
+local g = 9.81
+local concrete = cdem.elastic{ youngs_modulus = 30e9, poissons_ratio = 0.2, density = 2500, stiffness_damping = 1e-6 }
+local wave_speed = math.sqrt(concrete.youngs_modulus / concrete.density)
+local solid = cdem.accropode{ mass = mass, density = concrete.density, shape = "stocky" }
+local H = solid.height
+local unit = solid:rotate{ axis = {1, 1, 0}, angle = tilt }
+local gap = 1e-3 * H
+unit = unit:translate{ shift = {0, 0, gap - unit:box().min[3]} }
+local mesh = unit:mesh{ size = H / fineness }
+local floor = cdem.solid.box{ size = {3 * H, 3 * H, 0.3 * H}, origin = {-1.5 * H, -1.5 * H, -0.3 * H} }:mesh{ size = 0.3 * H }
+local rough = cdem.coulomb{ friction_angle = 35 }
+
+-- Lets it fall; returns what came of it and the model.
+local function fall(height, strength)
+  local joint = cdem.mohr_coulomb{ cohesion = 2 * strength, friction_angle = 35, tensile_strength = strength }
+  local model = cdem.model{
+    bodies = { { shape = floor, material = concrete, element = "rigid", name = "floor" },
+               { shape = mesh, material = concrete, joint = joint, name = "unit" } },
+    contacts = { { "floor", "unit", rough }, { "unit", "unit", rough } },
+  }
+  model:fix{ on = "floor" }
+  model:gravity{ vector = {0, 0, -g} }
+  local velocity = math.sqrt(2 * g * height)
+  model:initial_velocity{ on = "unit", velocity = {0, 0, -velocity} }
+  -- Until it has touched and waves have gone up and down it fifteen times.
+  model:run{ duration = gap / velocity + 30 * H / wave_speed }
+  local volumes, counts = {}, model:counts()
+  for _, piece in ipairs(model:fragments()) do
+    if not piece.held then volumes[#volumes + 1] = piece.volume / mesh:volume() end
+  end
+  table.sort(volumes, function(p, q) return p > q end)
+  local drop = { height = height, velocity = velocity, bonds = counts.broken_tension + counts.broken_shear,
+                 largest = volumes[1], second = volumes[2] or 0, rebound = model:mean("velocity.z", "unit") / velocity,
+                 energy_error = model:energy().balance_error }
+  drop.broken = drop.second >= 0.1
+  cdem.log(string.format("fall of %.3g m, %.3g m/s: %d bonds broken, pieces %.3g and %.3g of the unit", height, velocity,
+                         drop.bonds, drop.largest, drop.second))
+  return drop, model
+end
+
+-- The first fall: a third of the velocity at which a bar that hits flat is stressed to T, rho c v = T.
+local first = 0.1 * (tension / (concrete.density * wave_speed)) ^ 2 / (2 * g)
+local drops, last = {}
+repeat
+  local drop, model = fall(first * growth ^ #drops, tension)
+  drops[#drops + 1] = drop
+  last = model
+until drop.broken or #drops == 40
+
+local function column(field)
+  local values = {}
+  for i, drop in ipairs(drops) do values[i] = drop[field] end
+  return values
+end
+cdem.write_csv{ file = "drops.csv", columns = { { name = "height_m", values = column("height") },
+                                                { name = "impact_velocity_m_per_s", values = column("velocity") },
+                                                { name = "bonds_broken", values = column("bonds") },
+                                                { name = "largest_piece", values = column("largest") },
+                                                { name = "second_piece", values = column("second") },
+                                                { name = "rebound_over_impact_velocity", values = column("rebound") } } }
+cdem.chart{ file = "drops.png", title = "An armour unit dropped on a floor", x_label = "height of fall (m)",
+            y_label = "part of the unit", y_range = {0, 1},
+            series = { { name = "largest piece", x = column("height"), y = column("largest"), style = "both" },
+                       { name = "second piece", x = column("height"), y = column("second"), style = "both" } } }
+
+local breaks_at = drops[#drops].broken and drops[#drops].height or nil
+local quarter
+if breaks_at then
+  last:run{ duration = 0.1 }
+  last:save{ file = "broken.vtu" }
+  last:picture{ file = "broken.png", view = "iso", up = "z", colour = "velocity.magnitude", deformation = 1,
+                title = string.format("Broken by a fall of %.2g m", breaks_at) }
+  -- At half the strength: stresses go with rho c v, so that it must break at half the velocity.
+  for k = math.max(0, #drops - 3), #drops + 2 do
+    local drop = fall(first / 4 * growth ^ k, tension / 2)
+    if drop.broken then
+      quarter = drop.height / breaks_at
+      break
+    end
+  end
+end
+local energy_error = 0
+for _, drop in ipairs(drops) do energy_error = math.max(energy_error, drop.energy_error) end
+cdem.report{
+  { name = "breaks_at_height_m", value = breaks_at, unit = "m" },
+  { name = "breaks_at_velocity_m_per_s", value = breaks_at and math.sqrt(2 * g * breaks_at), unit = "m/s",
+    reference = tension / (concrete.density * wave_speed), kind = "estimate", source = "bar that hits flat: T / rho c" },
+  { name = "height_ratio_at_half_strength", value = quarter, reference = 0.25, kind = "formula",
+    source = "stress ~ rho c v", tolerance = 0.01 },
+  { name = "energy_balance_error", value = energy_error },
+  { name = "tets", value = mesh.tets },
+  { name = "wall_time_s", value = cdem.elapsed(), unit = "s" },
+}
