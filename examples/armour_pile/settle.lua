@@ -42,7 +42,8 @@ local model = cdem.model{
   contacts = { { "units", "units", rough }, { "units", "slope", rough } },
 }
 model:fix{ on = "slope" }
-model:fix{ on = cdem.select.units{ body = "units", numbers = model:lowest_units{ body = "units", count = held } } }
+local held_units = cdem.select.units{ body = "units", numbers = model:lowest_units{ body = "units", count = held } }
+model:fix{ on = held_units }
 model:gravity{ vector = {0, 0, -9.81}, water_density = water }
 
 local camera = { position = {-1.5 * length, -1.75 * length, 2.2 * length}, up = {0, 0, 1}, view_angle = 24,
@@ -75,6 +76,10 @@ local now = model:pile{ body = "units" }
 now:save{ file = "pile.json" }
 model:save{ file = "settled.vtu" }
 
+local weight = count * mass * (1 - water / density) * 9.81
+local slope_weight = slope:volume() * (density - water) * 9.81 -- held up too
+local carried = model:reaction("slope")[3] + model:reaction(held_units)[3] - slope_weight
+
 local measures = model:pile_measures{ body = "units", ground = "slope" }
 local table_of_the_maker = "maker's design table"
 cdem.report{
@@ -90,6 +95,8 @@ cdem.report{
   { name = "max_penetration_over_tet_height", value = model:contacts().deepest_over_tet_height },
   { name = "max_penetration_over_height", value = model:contacts().deepest / height, reference = 0, kind = "formula",
     source = "nothing passes through", tolerance_absolute = 0.01 },
+  { name = "supports_carry_over_weight", value = carried / weight, reference = 1, kind = "formula",
+    source = "balance of forces", tolerance = 0.01 },
   { name = "energy_balance_error", value = model:energy().balance_error },
   { name = "tets_per_unit", value = unit.tets },
   { name = "steps", value = settled.steps },
