@@ -1,7 +1,7 @@
 // Forces of semi-springs and semi-edges (Feng 2014 section 2.2), found by the nearest place of the target's surface.
 //
-// A semi-spring lies inside a piece when the triangle that holds the nearest place of its surface, of several the one
-// that faces it most, has it behind. Its depth d is the distance to that place and its normal points there: the force
+// A semi-spring lies inside a piece when the triangles that hold the nearest place of its surface have it behind
+// (contact/nearest.hpp). Its depth d is the distance to that place and its normal points there: the force
 // is the gradient of kn d^2 / 2, and as it acts along the line of its two places it keeps the angular momentum. The
 // paper's face-by-face test finds the same wherever the nearest place lies within a face, and leaves gaps where two
 // faces meet in a re-entrant edge.
@@ -12,7 +12,6 @@
 // away what they store, and gives it back when the spring lets go.
 #pragma once
 
-#include "libcdem/contact/contact_law.hpp"
 #include "libcdem/step/workspace.hpp"
 
 namespace cdem {
@@ -29,13 +28,7 @@ struct ContactSums {
 // Nothing happens when nothing moved since the last call.
 ContactSums contact_forces(const Model&, State&, Workspace&, int threads);
 
-// The law of a contact.
-ContactLaw law_of(const Model&, const Contact&);
-
 // J, that contacts store `lag` seconds before now, at the velocities of now.
 double contact_energy(const Model&, const State&, double lag);
-
-// The two blocks of a contact, its source's first.
-std::pair<int, int> blocks_of(const Model&, const Contact&);
 
 } // namespace cdem

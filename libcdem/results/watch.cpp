@@ -1,6 +1,6 @@
 #include "libcdem/results/watch.hpp"
 
-#include "libcdem/contact/contact_forces.hpp"
+#include "libcdem/contact/acting.hpp"
 #include "libgeom/core/error.hpp"
 
 #include <algorithm>

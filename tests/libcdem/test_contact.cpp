@@ -1,5 +1,5 @@
 // Contact between meshed bodies: an incline, a drop, momentum, energy, bits.
-#include "libcdem/contact/contact_forces.hpp"
+#include "libcdem/contact/acting.hpp"
 #include "libcdem/results/energy.hpp"
 #include "libcdem/step/errors.hpp"
 #include "libgeom/core/error.hpp"

@@ -1,0 +1,117 @@
+#include "libcdem/contact/acting.hpp"
+
+#include "libcdem/contact/build_surface.hpp"
+#include "libcdem/contact/places.hpp"
+
+namespace cdem {
+namespace {
+
+// Semi-springs stand in from their corners by this part of the way to each of the two others.
+constexpr double drawn_in = 0.01;
+
+// Weights of a tet's corners that make up a place, which may lie a little outside.
+std::array<double, 4> in_tet(const Model& model, const State& state, const geom::Tet& nodes,
+                             const geom::Vec3& place) {
+  std::array<geom::Vec3, 4> x;
+  for (int i = 0; i < 4; ++i)
+    x[i] = place_of(model, state, nodes[i]);
+  const geom::Vec3 a = x[1] - x[0], b = x[2] - x[0], c = x[3] - x[0], p = place - x[0];
+  const double volume = a.dot(b.cross(c));
+  const double wa = p.dot(b.cross(c)) / volume, wb = a.dot(p.cross(c)) / volume,
+               wc = a.dot(b.cross(p)) / volume;
+  return {1 - wa - wb - wc, wa, wb, wc};
+}
+
+void set_normal_weight(ContactArms& arms, int node, double weight) {
+  for (int i = 0; i < 4; ++i)
+    if (arms.target[i] == node)
+      arms.normal[i] = weight;
+}
+
+} // namespace
+
+std::pair<int, int> triangles_of(const Model& model, const Contact& c) {
+  const ContactSurface& s = model.surface;
+  return c.kind == Contact::spring
+             ? std::pair(c.source / 3, c.target)
+             : std::pair(s.edges[c.source].triangles[0], s.edges[c.target].triangles[0]);
+}
+
+ContactLaw law_of(const Model& model, const Contact& c) {
+  const ContactSurface& s = model.surface;
+  const auto [source, target] = triangles_of(model, c);
+  const ContactTriangle &from = s.triangles[source], &to = s.triangles[target];
+  const Joint& joint = *contact_joint(model, from.block, to.block);
+  const ContactStiffness stiffness = contact_stiffness(joint, from, to);
+  // A third of the face for each of its springs; a third of each of its two faces for an edge. Both bodies bring
+  // theirs, so each counts half.
+  const double area = c.kind == Contact::spring
+                          ? from.area / 6
+                          : (from.area + s.triangles[s.edges[c.source].triangles[1]].area) / 6;
+  return {stiffness.normal * area, stiffness.shear * area, std::tan(joint.friction_angle)};
+}
+
+std::pair<int, int> blocks_of(const Model& model, const Contact& c) {
+  const auto [source, target] = triangles_of(model, c);
+  return {model.surface.triangles[source].block, model.surface.triangles[target].block};
+}
+
+geom::Vec3 spring_weights(int corner) {
+  geom::Vec3 w = geom::Vec3::Constant(drawn_in);
+  w[corner] = 1 - 2 * drawn_in;
+  return w;
+}
+
+ContactArms spring_arms(const Model& model, const State& state, const ContactTriangle& from, int corner,
+                        const ContactTriangle& to, const geom::Vec3& nearest) {
+  ContactArms arms;
+  const geom::Vec3 w = spring_weights(corner);
+  arms.source = from.nodes;
+  arms.target = model.tets[to.tet];
+  arms.on_source = {w[0], w[1], w[2]};
+  for (int i = 0; i < 3; ++i)
+    set_normal_weight(arms, to.nodes[i], nearest[i]);
+  arms.shear = in_tet(model, state, arms.target, weighted(corners_of(model, state, from.nodes), w));
+  return arms;
+}
+
+ContactArms edge_arms(const Model& model, const State& state, const ContactEdge& e, const ContactEdge& f,
+                      const geom::PlacesOnSegments& at) {
+  ContactArms arms;
+  arms.source = {e.nodes[0], e.nodes[1], e.nodes[0]};
+  arms.on_source = {1 - at.s, at.s, 0};
+  arms.target = model.tets[model.surface.triangles[f.triangles[0]].tet];
+  set_normal_weight(arms, f.nodes[0], 1 - at.t);
+  set_normal_weight(arms, f.nodes[1], at.t);
+  const geom::Vec3 place =
+      (1 - at.s) * place_of(model, state, e.nodes[0]) + at.s * place_of(model, state, e.nodes[1]);
+  arms.shear = in_tet(model, state, arms.target, place);
+  return arms;
+}
+
+ContactArms arms_of(const Model& model, const State& state, const Contact& c) {
+  const ContactSurface& s = model.surface;
+  if (c.kind == Contact::edge) {
+    const ContactEdge &e = s.edges[c.source], &f = s.edges[c.target];
+    return edge_arms(
+        model, state, e, f,
+        geom::nearest_on_segments(place_of(model, state, e.nodes[0]), place_of(model, state, e.nodes[1]),
+                                  place_of(model, state, f.nodes[0]), place_of(model, state, f.nodes[1])));
+  }
+  const ContactTriangle &from = s.triangles[c.source / 3], &to = s.triangles[c.target];
+  const geom::Vec3 spring = weighted(corners_of(model, state, from.nodes), spring_weights(c.source % 3));
+  const Corners y = corners_of(model, state, to.nodes);
+  return spring_arms(model, state, from, c.source % 3, to,
+                     geom::nearest_on_triangle(spring, y[0], y[1], y[2]).weights);
+}
+
+geom::Vec3 velocity_past(const State& state, const ContactArms& arms) {
+  geom::Vec3 v = geom::Vec3::Zero();
+  for (int i = 0; i < 3; ++i)
+    v += arms.on_source[i] * velocity_of(state, arms.source[i]);
+  for (int i = 0; i < 4; ++i)
+    v -= arms.shear[i] * velocity_of(state, arms.target[i]);
+  return v;
+}
+
+} // namespace cdem

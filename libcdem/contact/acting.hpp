@@ -1,0 +1,36 @@
+// Of a contact that acts: its law, its two blocks, and the nodes on which its forces act.
+#pragma once
+
+#include "libcdem/contact/contact_law.hpp"
+#include "libcdem/contact/contact_work.hpp"
+#include "libcdem/state/state.hpp"
+#include "libgeom/query/closest.hpp"
+
+#include <tuple>
+
+namespace cdem {
+
+// Contacts are sorted by it.
+inline auto key(const Contact& c) {
+  return std::tuple(c.kind, c.source, c.piece);
+}
+
+ContactLaw law_of(const Model&, const Contact&);
+
+// The two blocks of a contact, its source's first; its two triangles, of edges the first of each.
+std::pair<int, int> blocks_of(const Model&, const Contact&);
+std::pair<int, int> triangles_of(const Model&, const Contact&);
+
+// Of a triangle's corners, where the semi-spring of one of them stands.
+geom::Vec3 spring_weights(int corner);
+
+// nearest: weights of the target's corners.
+ContactArms spring_arms(const Model&, const State&, const ContactTriangle& from, int corner,
+                        const ContactTriangle& to, const geom::Vec3& nearest);
+ContactArms edge_arms(const Model&, const State&, const ContactEdge& source, const ContactEdge& target,
+                      const geom::PlacesOnSegments&);
+ContactArms arms_of(const Model&, const State&, const Contact&); // as the two stand now
+
+geom::Vec3 velocity_past(const State&, const ContactArms&); // m/s, of the source past the target
+
+} // namespace cdem

@@ -1,0 +1,70 @@
+// The nearest place of a piece's surface to a semi-spring, triangle by triangle, and whether the spring is inside.
+#pragma once
+
+#include "libcdem/contact/places.hpp"
+#include "libgeom/query/closest.hpp"
+
+#include <cmath>
+
+namespace cdem {
+
+// Of a distance, and of a tet's height: places on the edges of two triangles that are nearer than that to each other are
+// one. Tets that a bond holds together have edges of their own, which part by as much as the bond gives.
+inline constexpr double same_place = 1e-6, bond_gives = 3e-4;
+
+// The nearest place of a piece to a spring, so far. Of the triangles that share it the one that the spring stands
+// highest over or lowest under is the target; whether the spring is inside their normals tell together, each weighted
+// by the angle that its triangle fills there (Baerentzen and Aanaes 2005): one alone may be wrong at a sharp corner or
+// the mouth of a crack.
+struct Nearest {
+  int target = -1;
+  double distance2 = 0;
+  double height = 0; // of the spring over the target's plane, m: below 0 behind it
+  geom::PlaceOnTriangle at;
+  geom::Vec3 place = geom::Vec3::Zero();
+  geom::Vec3 outward = geom::Vec3::Zero(); // sum of the normals, weighted
+  geom::Vec3 from = geom::Vec3::Zero();    // m, the spring from the place
+
+  bool inside() const { return target >= 0 && outward.dot(from) < 0; }
+};
+
+// rad, that the triangle fills around a place of it.
+inline double angle_at(const geom::PlaceOnTriangle& at, const Corners& x) {
+  for (int i = 0; i < 3; ++i)
+    if (at.weights[(i + 1) % 3] == 0 && at.weights[(i + 2) % 3] == 0) {
+      const geom::Vec3 a = x[(i + 1) % 3] - x[i], b = x[(i + 2) % 3] - x[i];
+      return std::atan2(a.cross(b).norm(), a.dot(b));
+    }
+  return at.inside ? 2 * M_PI : M_PI;
+}
+
+inline Nearest nearest_of(int target, const geom::Vec3& spring, const Corners& x, const geom::Vec3& normal) {
+  Nearest found;
+  found.target = target;
+  found.at = geom::nearest_on_triangle(spring, x[0], x[1], x[2]);
+  found.place = weighted(x, found.at.weights);
+  found.from = spring - found.place;
+  found.distance2 = found.from.squaredNorm();
+  found.height = found.from.dot(normal);
+  return found;
+}
+
+// size: m, of the tets there.
+inline void take_nearer(Nearest& nearest, Nearest other, const Corners& x, const geom::Vec3& normal,
+                        double size) {
+  const double reach =
+      same_place * std::sqrt(std::max(nearest.distance2, other.distance2)) + bond_gives * size;
+  const bool one_place = nearest.target >= 0 && !nearest.at.inside && !other.at.inside &&
+                         (other.place - nearest.place).squaredNorm() <= reach * reach;
+  if (!one_place && nearest.target >= 0 && other.distance2 >= nearest.distance2)
+    return;
+  other.outward = angle_at(other.at, x) * normal;
+  if (one_place)
+    other.outward += nearest.outward;
+  if (one_place && std::abs(other.height) <= std::abs(nearest.height))
+    nearest.outward = other.outward;
+  else
+    nearest = other;
+}
+
+} // namespace cdem
