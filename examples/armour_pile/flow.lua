@@ -54,14 +54,24 @@ model:gravity{ vector = {0, 0, -g}, water_density = water }
 model:run{ duration = 0.15 * scale, local_damping = 0.5 }
 
 local camera = { position = {-1.2 * length, -1.5 * length, 1.8 * length}, up = {0, 0, 1}, view_angle = 30,
-                 focal_point = {0.42 * length, 0, 0.4 * gradient * length} }
+                 focal_point = {0.42 * length, 0, 0.32 * gradient * length} }
+local left
+-- A number on each unit that has left.
+local function marks()
+  local list = {}
+  for k = 1, left and #left or 0 do
+    list[k] = { at = model:pile{ body = "units" }:poses()[left[k].unit].centroid, label = tostring(k), size = 40,
+                colour = {0.85, 0.1, 0.1} }
+  end
+  return list
+end
 local function picture(name, title)
   if not draw then return end
   model:picture{ file = name, colour = "displacement.magnitude", deformation = 1, camera = camera, axes = false,
-                 range = {0, height}, title = title }
+                 range = {0, height}, plain = {"slope"}, markers = marks(), title = title }
 end
 
-local left = model:watch{ bodies = "units", leaves = 0.5 * height }
+left = model:watch{ bodies = "units", leaves = 0.5 * height }
 local memory = model.memory
 memory.velocity, memory.since, memory.gone = first * scale, model.time, 0
 model:flow{ on = "units", direction = {1.5, 0, 1}, water_density = water,

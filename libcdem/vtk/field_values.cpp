@@ -107,6 +107,22 @@ std::vector<std::string> picture_fields(const Snapshot& snapshot) {
   return names;
 }
 
+void leave_plain(const Snapshot& snapshot, const std::vector<int>& bodies, FieldValues& field) {
+  const SnapshotField* const body = find_field(snapshot.cell_fields, "body");
+  if (bodies.empty() || !body)
+    return;
+  for (std::size_t t = 0; t < snapshot.surface.size(); ++t) {
+    const auto of = static_cast<int>(body->values[static_cast<std::size_t>(snapshot.surface_tet[t])]);
+    if (std::find(bodies.begin(), bodies.end(), of) == bodies.end())
+      continue;
+    if (!field.on_points)
+      field.values[t] = std::nan("");
+    else
+      for (const int point : snapshot.surface[t])
+        field.values[static_cast<std::size_t>(point)] = std::nan("");
+  }
+}
+
 FieldValues field_values(const Snapshot& snapshot, const std::string& name) {
   const auto dot = name.find('.');
   const std::string base = name.substr(0, dot);

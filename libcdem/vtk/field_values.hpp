@@ -20,6 +20,9 @@ struct FieldValues {
 // Throws geom::InputError naming the nearest right names.
 FieldValues field_values(const Snapshot&, const std::string& field);
 
+// Takes the values of these bodies away (NaN): they are drawn without colour.
+void leave_plain(const Snapshot&, const std::vector<int>& bodies, FieldValues&);
+
 // The field of that name, or nullptr.
 const SnapshotField* find_field(const std::vector<SnapshotField>&, const std::string& name);
 

@@ -60,6 +60,7 @@ void render(const Snapshot& snapshot, const PictureOptions& options, const std::
   ColourScale scale = colour_scale({}, false, options.colour_map, options.range);
   if (!options.field.empty()) {
     field = field_values(snapshot, options.field);
+    leave_plain(snapshot, options.plain, *field);
     scale = colour_scale(field->values, field->id, options.colour_map, options.range);
   }
 

@@ -41,6 +41,7 @@ struct PictureOptions {
   // "principal_stress.1|2|3", "von_mises" (from "stress" when the snapshot has no such field), "block_id",
   // ... A vector without component means its magnitude. "" draws plain blocks.
   std::string field;
+  std::vector<int> plain; // bodies, by their number in cell field "body", that are drawn without colour
   double deformation = 0; // scale of the displacement, 0: undeformed
   // front back left right top bottom iso; front looks along -z at the x-y plane, y up
   std::string view = "front";

@@ -50,7 +50,9 @@ PictureOptions picture_options(const Arguments& a) {
 
 Value picture(Session& session, ModelObject& model, const Arguments& a) {
   require_ending(a.text("file"), ".png");
-  const PictureOptions options = picture_options(a);
+  PictureOptions options = picture_options(a);
+  for (const Value& body : a.list("plain"))
+    options.plain.push_back(model.simulation.body_number(*body.get<std::string>()));
   if (session.settings.check_only) {
     const auto names = picture_fields(model.simulation.snapshot(""));
     if (!options.field.empty() && std::find(names.begin(), names.end(), options.field) == names.end())
@@ -83,6 +85,8 @@ std::vector<Field> picture_declaration() {
                 number("deformation")
                     .standard(0.0)
                     .doc("displacements are drawn this many times larger; 0: undeformed"));
+  fields.push_back(
+      list("plain", text_type(), 0).doc("names of bodies that are drawn without colour, such as a floor"));
   fields.push_back(flag("edges").standard(true).doc("outlines of the blocks"));
   fields.push_back(flag("broken_bonds").standard(true).doc("broken interfaces, coloured by how they broke"));
   return fields;

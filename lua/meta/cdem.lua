@@ -947,6 +947,7 @@ function Model:save(options) end
 ---@field axes? boolean default true: small arrows that name the directions
 ---@field markers? cdem.ModelPictureOptionsMarkers[]
 ---@field lines? cdem.ModelPictureOptionsLines[]
+---@field plain? string[] names of bodies that are drawn without colour, such as a floor
 ---@field edges? boolean default true: outlines of the blocks
 ---@field broken_bonds? boolean default true: broken interfaces, coloured by how they broke
 

@@ -1,0 +1,174 @@
+// What a Simulation tells of itself.
+#include "libcdem/simulation_impl.hpp"
+
+#include "libcdem/element/small_strain.hpp"
+#include "libcdem/results/fragments.hpp"
+#include "libcdem/results/make_snapshot.hpp"
+#include "libcdem/results/units.hpp"
+#include "libcdem/step/forces.hpp"
+#include "libcdem/step/run.hpp"
+
+#include <algorithm>
+
+namespace cdem {
+
+std::vector<Fragment> Simulation::fragments() const {
+  return cdem::fragments(impl_->model, impl_->state, resolve(impl_->model, impl_->state, impl_->conditions));
+}
+
+ContactSummary Simulation::contacts() const {
+  return {static_cast<std::int64_t>(impl_->state.contacts.size()), impl_->log.deepest_contact,
+          impl_->log.deepest_over_height};
+}
+
+ModelCounts Simulation::counts() const {
+  const Model& m = impl_->model;
+  ModelCounts c;
+  c.bodies = static_cast<std::int64_t>(m.bodies.size());
+  c.blocks = static_cast<std::int64_t>(m.blocks.size());
+  c.nodes = static_cast<std::int64_t>(m.node_position.size());
+  c.tets = static_cast<std::int64_t>(m.tets.size());
+  c.interfaces = static_cast<std::int64_t>(m.interfaces.size());
+  c.bonds = static_cast<std::int64_t>(m.points.size());
+  std::int64_t* const by_mode[] = {&c.intact, &c.broken_tension, &c.broken_shear, &c.contacts};
+  for (const std::uint8_t mode : impl_->state.bond_mode)
+    ++*by_mode[mode];
+  each_face_spring(m.mesh, [&](const MeshChunk&, const FaceSpringPlace& at) {
+    ++c.bonds;
+    ++*by_mode[impl_->state.faces[at.batch].mode[at.point][at.lane]];
+  });
+  for (std::size_t p = 0; p < impl_->state.bond_damage.size(); ++p)
+    c.damaged += impl_->state.bond_damage[p] > 0 && impl_->state.bond_mode[p] == 0;
+  return c;
+}
+
+double Simulation::time() const {
+  return impl_->state.time;
+}
+double Simulation::residual() const {
+  return impl_->last_residual;
+}
+double Simulation::stable_time_step() const {
+  return cdem::stable_time_step(impl_->model);
+}
+int Simulation::stage() const {
+  return impl_->stage;
+}
+std::int64_t Simulation::steps() const {
+  return impl_->state.step;
+}
+EnergyLedger Simulation::energy() const {
+  return cdem::energy(impl_->model, impl_->state);
+}
+std::uint64_t Simulation::state_hash() const {
+  return hash(impl_->state);
+}
+geom::Box Simulation::box() const {
+  return impl_->model.box;
+}
+std::vector<std::string> Simulation::field_names() {
+  return cdem::field_names();
+}
+
+FieldValue Simulation::max(const std::string& field, const Selection& on) const {
+  const auto list = values(impl_->model, impl_->state, field, on);
+  return *std::max_element(list.begin(), list.end(),
+                           [](const auto& a, const auto& b) { return a.value < b.value; });
+}
+
+FieldValue Simulation::min(const std::string& field, const Selection& on) const {
+  const auto list = values(impl_->model, impl_->state, field, on);
+  return *std::min_element(list.begin(), list.end(),
+                           [](const auto& a, const auto& b) { return a.value < b.value; });
+}
+
+double Simulation::mean(const std::string& field, const Selection& on) const {
+  return mean_value(impl_->model, impl_->state, field, on);
+}
+
+double Simulation::at(const std::string& field, const geom::Vec3& place) const {
+  return value_at(impl_->model, impl_->state, field, place);
+}
+
+geom::Vec3 Simulation::reaction(const Selection& on) const {
+  const Impl& s = *impl_;
+  const std::vector<int> nodes = selected_nodes(s.model, on);
+  if (nodes.empty())
+    throw geom::InputError("on", on.text, "a place that holds nodes", "nothing of the model lies there");
+  Workspace work(s.model, s.state, s.conditions);
+  update_external(work.resolved, s.state.time);
+  const std::vector<Node> force = net_forces(s.model, s.state, work);
+  geom::Vec3 sum = geom::Vec3::Zero();
+  for (const HeldNode& h : work.resolved.held) {
+    if (!std::binary_search(nodes.begin(), nodes.end(), h.node))
+      continue;
+    const Node& f = force[h.node];
+    sum -= geom::Vec3((1 - h.free.x) * f.x, (1 - h.free.y) * f.y, (1 - h.free.z) * f.z);
+  }
+  return sum;
+}
+
+std::vector<Simulation::BlockRow> Simulation::blocks() const {
+  const Impl& s = *impl_;
+  std::vector<BlockRow> rows;
+  for (int b = 0; b < static_cast<int>(s.model.blocks.size()); ++b) {
+    const Block& block = s.model.blocks[b];
+    rows.push_back({block.id, block.parent, block.generation, s.model.bodies[block.body].name,
+                    block.mass.centroid, centroid_displacement(s.model, s.state, b), block.mass.volume,
+                    block_stress(s.model, s.state, b)});
+  }
+  return rows;
+}
+
+std::vector<Unit> Simulation::units(const std::string& body) const {
+  return units_of(impl_->model, impl_->state, body);
+}
+std::vector<geom::Surface> Simulation::surfaces(const std::string& body) const {
+  return surfaces_of(impl_->model, impl_->state, body);
+}
+std::vector<int> Simulation::touching(const std::string& body) const {
+  return cdem::touching(impl_->model, impl_->state, body);
+}
+
+int Simulation::body_number(const std::string& body) const {
+  const std::vector<Body>& bodies = impl_->model.bodies;
+  std::string names;
+  for (std::size_t i = 0; i < bodies.size(); ++i) {
+    if (bodies[i].name == body)
+      return static_cast<int>(i);
+    names += (i == 0 ? "\"" : ", \"") + bodies[i].name + "\"";
+  }
+  throw geom::InputError("body", "\"" + body + "\"", "the name of a body (" + names + ")");
+}
+
+const std::vector<BreakRow>& Simulation::breaks() const {
+  return impl_->log.breaks;
+}
+const std::vector<HistoryRow>& Simulation::history() const {
+  return impl_->log.history;
+}
+
+std::vector<std::string> Simulation::probe_names() const {
+  std::vector<std::string> names;
+  for (const Probe& probe : impl_->log.probes)
+    names.push_back(probe.name);
+  return names;
+}
+
+void Simulation::probe(const std::string& name, const std::string& field, const geom::Vec3& place) {
+  value_at(impl_->model, impl_->state, field, place); // throws for a wrong field or place
+  for (const Probe& probe : impl_->log.probes)
+    if (probe.name == name)
+      throw geom::InputError("name", "\"" + name + "\"", "unique among the probes");
+  impl_->log.probes.push_back({name, field, place});
+}
+
+Snapshot Simulation::snapshot(const std::string& title) const {
+  return make_snapshot(impl_->model, impl_->state, title);
+}
+
+Snapshot Simulation::last_good_snapshot(const std::string& title) const {
+  return make_snapshot(impl_->model, impl_->last_good, title);
+}
+
+} // namespace cdem
