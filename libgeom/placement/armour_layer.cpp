@@ -108,6 +108,7 @@ double lay_rows(Pile& pile, int count, const Pattern& pattern, const Vec3& first
 // In the middle of the pile, away from its edges; none where it is too small to have one.
 std::optional<double> measured_density(const Pile& pile, const Ground& ground) {
   std::vector<Surface> units;
+  units.reserve(pile.poses.size());
   for (const TetMesh& mesh : meshes(pile))
     units.push_back(surface_of(mesh));
   try {

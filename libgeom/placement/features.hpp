@@ -28,7 +28,7 @@ struct Features {
   Box box;
 };
 
-Features features_of(const Surface&); // closed
+Features features_of(const Surface&); // closed, or a part of one: its rim stands out
 Features moved(const Features&, const Pose&);
 
 struct Touch {

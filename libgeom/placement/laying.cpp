@@ -45,6 +45,17 @@ double astray(double up) {
   return std::max(up, -0.5 * up);
 }
 
+// Without its underside, which in a thin ground is as near as the upper one.
+Surface upper_side(const Surface& ground) {
+  Surface side{ground.points, {}};
+  for (std::size_t i = 0; i < ground.triangles.size(); ++i) {
+    const TrianglePoints t = ground.corners(i);
+    if ((t[1] - t[0]).cross(t[2] - t[0]).z() > 0)
+      side.triangles.push_back(ground.triangles[i]);
+  }
+  return side;
+}
+
 // Of a solid whose inertia is the same about all axes.
 double gyration_of(const Pile& pile) {
   const MassProperties solid = mass_properties(pile.unit);
@@ -56,7 +67,7 @@ double gyration_of(const Pile& pile) {
 Laying::Laying(const Pile& pile, const Ground& ground, const Mat3& frame, double gap,
                const LayerOptions& options, const Spacing& spacing)
     : shape_(surface_of(pile.unit)), features_(features_of(shape_)),
-      ground_features_(features_of(ground.surface())), ground_(ground), frame_(frame), gap_(gap),
+      ground_features_(features_of(upper_side(ground.surface()))), ground_(ground), frame_(frame), gap_(gap),
       height_(pile.height), radius_(bounding_radius(pile.unit)), gyration_(gyration_of(pile)),
       options_(options), ground_profile_(ground.surface(), frame) {
   for (const Mat3& rotation : attitudes_for(shape_, spacing, options.attitudes, options.seed))
@@ -235,8 +246,10 @@ Pose Laying::raised(Pose pose, const Near& near) const {
 }
 
 Pose Laying::lay(const Site& site) {
+  const std::vector<Mat3> rotations = attitudes(site);
   std::vector<Try> tries;
-  for (const Mat3& rotation : attitudes(site))
+  tries.reserve(rotations.size());
+  for (const Mat3& rotation : rotations)
     tries.push_back(lowered(rotation, site));
   std::stable_sort(tries.begin(), tries.end(), [](const Try& a, const Try& b) { return a.cost < b.cost; });
   if (tries.front().cost == far)

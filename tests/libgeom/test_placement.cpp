@@ -245,6 +245,7 @@ TEST_CASE("every unit of an armour layer lies on the slope, against others, at r
   const std::vector<Surface> units = surfaces(pile);
   const Features shape = features_of(surface_of(pile.unit)), slope = features_of(ground.surface());
   std::vector<Features> laid;
+  laid.reserve(pile.poses.size());
   for (const Pose& pose : pile.poses)
     laid.push_back(moved(shape, pose));
 
@@ -278,6 +279,15 @@ TEST_CASE("every unit of an armour layer lies on the slope, against others, at r
     CHECK((rest.translation - pile.poses[i].translation).norm() <= 0.01);
   }
   CHECK(alike <= 4); // of about seventy pairs, each counted twice
+}
+
+TEST_CASE("a layer on thin ground stays on it") {
+  // Two hundredths of the units' height thick, level, its upper side at z = 0.
+  LayerOptions options;
+  options.columns = 3;
+  const Ground ground(surface_of(moved(box_mesh({8, 6, 0.02}, {2, 2, 1}), {0, 0, -0.02})));
+  for (const Pose& pose : place_layer(accropode_mesh(), 6, ground, options).poses)
+    CHECK(pose.translation.z() > 0.3);
 }
 
 TEST_CASE("a layer that cannot be laid is refused") {
