@@ -5,10 +5,10 @@ local expect = require "expect"
 
 local example = "../../examples/armour_pile/"
 local result = cdem.sweep{ script = example .. "settle.lua",
-                           set = { { count = 12, columns = 3, held = 3, kinetic_energy_ratio = 0.02, pictures = false } } }[1]
+                           set = { { count = 12, columns = 3, held = 3, kinetic_energy_ratio = 1e-3, pictures = false } } }[1]
 if result.exit_code ~= 0 then error("the example ended with exit code " .. result.exit_code) end
 local figures = result.figures
-expect.between(figures, "settle_kinetic_ratio", 0, 0.02)
+expect.between(figures, "settle_kinetic_ratio", 0, 1e-3)
 expect.between(figures, "energy_balance_error", 0, 0.01)
 expect.between(figures, "max_penetration_over_height", 0, 0.01)
 expect.near(figures, "supports_carry_over_weight", 1, 0.01)
