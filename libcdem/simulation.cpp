@@ -154,7 +154,7 @@ void Simulation::initial_velocity(const Selection& on, const geom::Vec3& velocit
     throw geom::InputError("on", on.text, "a place that holds nodes", "nothing of the model lies there");
   std::vector<int> selected(s.model.blocks.size(), 0);
   for (const int node : nodes)
-    ++selected[s.model.node_block[node]];
+    ++selected[block_of(s.model, node)];
   const auto kinetic = [&](const RigidBody& body) {
     return kinetic_energy(body, s.state.rigid[s.model.blocks[body.block].rigid], s.state.velocity_lag);
   };
@@ -178,7 +178,7 @@ void Simulation::initial_velocity(const Selection& on, const geom::Vec3& velocit
     Node& v = s.state.velocity[node];
     const double before = v.x * v.x + v.y * v.y + v.z * v.z;
     v = {velocity.x(), velocity.y(), velocity.z(), 0};
-    if (s.model.blocks[s.model.node_block[node]].rigid < 0)
+    if (s.model.blocks[block_of(s.model, node)].rigid < 0)
       given += 0.5 * s.model.node_mass[node] * (velocity.squaredNorm() - before);
   }
   s.state.spent.external += given;
@@ -252,13 +252,14 @@ std::int64_t Simulation::unbond(const Selection& on, bool whole_faces) {
   each_face_spring(s.model.mesh, [&](const MeshChunk& chunk, FaceSpringPlace at) {
     const auto holds = [&](int point) {
       at.point = point;
-      return selects_place(s.model, on, face_point(s.model, at), chunk.block);
+      return selects_place(s.model, on, face_point(s.model, chunk, at), chunk.block);
     };
     const int point = at.point;
     if (whole_faces ? !(holds(0) && holds(1) && holds(2)) : !holds(point))
       return;
     s.state.faces[at.batch].mode[point][at.lane] = static_cast<std::uint8_t>(BondMode::contact);
-    cdem::settle(s.model.mesh.faces[at.batch], point, at.lane, position.data(), s.state.displacement.data(),
+    cdem::settle(s.model.mesh.faces[at.batch], face_nodes(s.model.mesh, chunk, at.batch, at.lane), point,
+                 at.lane, position.data(), s.state.displacement.data(),
                  face_law(s.model.bodies[s.model.blocks[chunk.block].body]),
                  slip_of(s.state, at.batch, at.lane));
     ++count;

@@ -109,8 +109,8 @@ void archive(A& a, RigidBody& x) {
 
 template <class A>
 void archive(A& a, FaceBatch& x) {
-  auto& [kn, area, place_a, place_b, node_a, node_b] = x;
-  archive_all(a, kn, area, place_a, place_b, node_a, node_b);
+  auto& [kn, area, place_a, place_b] = x;
+  archive_all(a, kn, area, place_a, place_b);
 }
 
 template <class A>
@@ -159,13 +159,12 @@ void archive(A& a, ContactSurface& x) {
 
 template <class A>
 void archive(A& a, Model& x) {
-  auto& [bodies, joints, blocks, pair_joint, node_position, node_block, node_mass, node_volume, tets,
-         tet_block, batches, interfaces, points, point_position, bond_triangles, bond_begin, bonds_on_nodes,
-         outer_faces, mesh, surface, rigid, chunks, point_chunks, box, length, tolerance, next_id] = x;
-  archive_all(a, bodies, joints, blocks, pair_joint, node_position, node_block, node_mass, node_volume, tets,
-              tet_block, batches, interfaces, points, point_position, bond_triangles, bond_begin,
-              bonds_on_nodes, outer_faces, mesh, surface, rigid, chunks, point_chunks, box, length, tolerance,
-              next_id);
+  auto& [bodies, joints, blocks, pair_joint, node_position, node_mass, tets, tet_block, batches, interfaces,
+         points, point_position, bond_triangles, bond_begin, bonds_on_nodes, outer_faces, mesh, surface,
+         rigid, chunks, point_chunks, box, length, tolerance, next_id] = x;
+  archive_all(a, bodies, joints, blocks, pair_joint, node_position, node_mass, tets, tet_block, batches,
+              interfaces, points, point_position, bond_triangles, bond_begin, bonds_on_nodes, outer_faces,
+              mesh, surface, rigid, chunks, point_chunks, box, length, tolerance, next_id);
 }
 
 template <class A>

@@ -56,13 +56,11 @@ void add_inner_faces(Model& model, int block) {
       continue;
     for (int i = 0; i < chunk.faces; ++i) {
       const std::int64_t face = chunk.face_batches.begin * lanes + i;
-      const FaceBatch& f = model.mesh.faces[face / lanes];
       const FaceTets& tets = model.mesh.face_tets[face];
-      const int lane = static_cast<int>(face % lanes), first = static_cast<int>(triangles.size());
-      triangles.push_back(
-          make_triangle(model, {f.node_a[0][lane], f.node_a[1][lane], f.node_a[2][lane]}, tets.tet_a));
-      triangles.push_back(
-          make_triangle(model, {f.node_b[0][lane], f.node_b[2][lane], f.node_b[1][lane]}, tets.tet_b));
+      const FaceNodes nodes = face_nodes(model.mesh, chunk, face / lanes, static_cast<int>(face % lanes));
+      const auto first = static_cast<int>(triangles.size());
+      triangles.push_back(make_triangle(model, nodes.a, tets.tet_a));
+      triangles.push_back(make_triangle(model, nodes.outward_b(), tets.tet_b));
       for (int side = 0; side < 2; ++side) {
         triangles[first + side].face = static_cast<int>(face);
         triangles[first + side].mate = first + 1 - side;

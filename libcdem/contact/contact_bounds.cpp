@@ -18,7 +18,7 @@ double contact_time_step(const Model& model, const State& state, const Workspace
   std::vector<double> rigid(model.rigid.size(), 0.0);
   const ContactWork& own = work.meeting;
   for (const int node : own.touched) {
-    const int body = model.blocks[model.node_block[node]].rigid;
+    const int body = model.blocks[block_of(model, node)].rigid;
     if (body < 0) {
       const double mass = model.node_mass[node];
       const double beta = work.damped ? damping_of(model, node) : 0;

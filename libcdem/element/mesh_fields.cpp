@@ -127,10 +127,10 @@ double mesh_spring_energy(const Model& model, const State& state) {
   double energy = 0;
   each_face_spring(model.mesh, [&](const MeshChunk& chunk, const FaceSpringPlace& at) {
     const Body& body = model.bodies[model.blocks[chunk.block].body];
-    energy +=
-        face_spring(model.mesh.faces[at.batch], at.point, at.lane, position.data(), state.displacement.data(),
-                    face_law(body), state.faces[at.batch], slip_of(state, at.batch, at.lane))
-            .energy;
+    energy += face_spring(model.mesh.faces[at.batch], face_nodes(model.mesh, chunk, at.batch, at.lane),
+                          at.point, at.lane, position.data(), state.displacement.data(), face_law(body),
+                          state.faces[at.batch], slip_of(state, at.batch, at.lane))
+                  .energy;
   });
   return energy;
 }
@@ -188,16 +188,16 @@ void add_mesh_row_sums(const Model& model, std::vector<double>& sums) {
     const FaceBatch& batch = model.mesh.faces[at.batch];
     const int lane = at.lane;
     const double ratio = model.bodies[model.blocks[chunk.block].body].bonding.shear_ratio;
-    const geom::Vec3 &x0 = model.node_position[batch.node_a[0][lane]],
-                     &x1 = model.node_position[batch.node_a[1][lane]],
-                     &x2 = model.node_position[batch.node_a[2][lane]];
+    const FaceNodes nodes = face_nodes(model.mesh, chunk, at.batch, lane);
+    const geom::Vec3 &x0 = model.node_position[nodes.a[0]], &x1 = model.node_position[nodes.a[1]],
+                     &x2 = model.node_position[nodes.a[2]];
     const geom::Vec3 n = (x1 - x0).cross(x2 - x0).normalized();
     const geom::Mat3 k = batch.kn[lane] * (ratio * geom::Mat3::Identity() + (1 - ratio) * n * n.transpose());
     const double sum = 2 * k.cwiseAbs().rowwise().sum().maxCoeff(); // weights of both sides sum to 2
     for (int i = 0; i < 3; ++i) {
       const double weight = i == at.point ? 2.0 / 3 : 1.0 / 6;
-      sums[batch.node_a[i][lane]] += weight * sum;
-      sums[batch.node_b[i][lane]] += weight * sum;
+      sums[nodes.a[i]] += weight * sum;
+      sums[nodes.b[i]] += weight * sum;
     }
   });
 }

@@ -22,14 +22,13 @@ geom::Vec3 vec(const Node& n) {
 }
 
 // place(node), moved(node): m.
-template <class Index, class Place, class Moved>
-Frame frame_of(const Index (&a)[3][lanes], const Index (&b)[3][lanes], int lane, const Place& place,
-               const Moved& moved) {
+template <class Place, class Moved>
+Frame frame_of(const FaceNodes& at, const Place& place, const Moved& moved) {
   geom::Vec3 d[3];
   for (int k = 0; k < 3; ++k)
-    d[k] = moved(b[k][lane]) - moved(a[k][lane]);
-  const geom::Vec3 x0 = place(a[0][lane]);
-  const geom::Vec3 e1 = place(a[1][lane]) - x0, e2 = place(a[2][lane]) - x0;
+    d[k] = moved(at.b[k]) - moved(at.a[k]);
+  const geom::Vec3 x0 = place(at.a[0]);
+  const geom::Vec3 e1 = place(at.a[1]) - x0, e2 = place(at.a[2]) - x0;
   Frame f;
   f.normal = (e1.cross(e2) + (e1 + d[1] - d[0]).cross(e2 + d[2] - d[0])).normalized();
   const geom::Vec3 edge = e1 + 0.5 * (d[1] - d[0]);
@@ -42,16 +41,19 @@ Frame frame_of(const Index (&a)[3][lanes], const Index (&b)[3][lanes], int lane,
 
 // Where the face is now (behind: 0 s) or was that long ago, by what its nodes have done since.
 Frame frame_of(const FaceBatch& batch, int lane, const FaceMotion& m, double behind) {
+  FaceNodes places; // of the chunk
+  for (int k = 0; k < 3; ++k) {
+    places.a[k] = batch.place_a[k][lane];
+    places.b[k] = batch.place_b[k][lane];
+  }
   return frame_of(
-      batch.place_a, batch.place_b, lane,
-      [&](int i) { return geom::Vec3(vec(m.position[i]) - behind * vec(m.velocity[i])); },
+      places, [&](int i) { return geom::Vec3(vec(m.position[i]) - behind * vec(m.velocity[i])); },
       [&](int i) { return geom::Vec3(vec(m.displacement[i]) - behind * vec(m.velocity[i])); });
 }
 
-Frame frame_of(const FaceBatch& batch, int lane, const Node* position, const Node* displacement) {
+Frame frame_of(const FaceNodes& nodes, const Node* position, const Node* displacement) {
   return frame_of(
-      batch.node_a, batch.node_b, lane, [&](int i) { return vec(position[i]); },
-      [&](int i) { return vec(displacement[i]); });
+      nodes, [&](int i) { return vec(position[i]); }, [&](int i) { return vec(displacement[i]); });
 }
 
 struct Response {
@@ -137,7 +139,7 @@ public:
   // spring: the place of the face's first one. slips: of the model.
   void advance(bool breaking, std::int64_t spring, FaceStateBatch& state, FaceSlip* slips, Vec (&force)[3],
                FaceSums& sums) {
-    const std::int32_t kept = state.slip[lane_];
+    const std::int64_t kept = state.slip < 0 ? -1 : state.slip + lane_;
     FaceSlip slip = kept < 0 ? FaceSlip{} : slips[kept];
     bool whole_face = true;
     for (int point = 0; point < 3; ++point) {
@@ -241,10 +243,10 @@ void one_by_one(const FaceBatch& batch, int faces, const FaceMotion& motion, con
   }
 }
 
-FaceSpring face_spring(const FaceBatch& batch, int point, int lane, const Node* position,
-                       const Node* displacement, const FaceLaw& law, const FaceStateBatch& state,
-                       const FaceSlip* slip) {
-  const Frame f = frame_of(batch, lane, position, displacement);
+FaceSpring face_spring(const FaceBatch& batch, const FaceNodes& nodes, int point, int lane,
+                       const Node* position, const Node* displacement, const FaceLaw& law,
+                       const FaceStateBatch& state, const FaceSlip* slip) {
+  const Frame f = frame_of(nodes, position, displacement);
   FaceSpring spring;
   spring.gap = f.gap[point];
   spring.normal = f.normal;
@@ -259,12 +261,11 @@ FaceSpring face_spring(const FaceBatch& batch, int point, int lane, const Node* 
   return spring;
 }
 
-void settle(const FaceBatch& batch, int point, int lane, const Node* position, const Node* displacement,
-            const FaceLaw& law, FaceSlip& slip) {
+void settle(const FaceBatch& batch, const FaceNodes& nodes, int point, int lane, const Node* position,
+            const Node* displacement, const FaceLaw& law, FaceSlip& slip) {
   Plane2 s = {slip.value[point][0], slip.value[point][1]};
   const double kn = batch.kn[lane];
-  contact(kn, law.shear_ratio * kn, law.tan_friction, frame_of(batch, lane, position, displacement), point,
-          s);
+  contact(kn, law.shear_ratio * kn, law.tan_friction, frame_of(nodes, position, displacement), point, s);
   slip.value[point][0] = s[0];
   slip.value[point][1] = s[1];
 }

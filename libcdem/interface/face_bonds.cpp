@@ -1,7 +1,6 @@
 #include "libcdem/interface/broken_faces.hpp"
 
 #include <algorithm>
-#include <cstddef>
 
 namespace cdem {
 namespace {
@@ -103,7 +102,7 @@ CDEM_KERNEL void face_bond_forces(const FaceBatch* batches, std::int64_t count, 
   for (std::int64_t i = 0; i < count; ++i) {
     const FaceBatch& batch = batches[i];
     ahead.some();
-    simd::prefetch(batches + i + batches_ahead, offsetof(FaceBatch, node_a));
+    simd::prefetch(batches + i + batches_ahead, sizeof batch);
     simd::prefetch(state + i + batches_ahead, sizeof *state);
     const Gaps gaps = gaps_of(batch.place_a, batch.place_b, motion.displacement);
     const Oct kn = simd::load(batch.kn), ks = law.shear_ratio * kn;

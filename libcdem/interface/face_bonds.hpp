@@ -28,10 +28,10 @@ struct FaceLaw {
 };
 
 // Of the three springs of eight faces; a spring's place in the whole is (batch * 3 + point) * lanes + lane.
-struct alignas(64) FaceStateBatch {
+struct FaceStateBatch {
   std::uint8_t mode[3][lanes];     // BondMode
   std::uint8_t handed_over[lanes]; // 1: the springs carry nothing any more
-  std::int32_t slip[lanes];        // index into State::face_slip; -1: no spring of the face is broken
+  std::int32_t slip; // of the first lane in State::face_slip; -1: no spring of the batch is broken
 };
 
 // Its sides have parted since it broke: what meets there is found by search (contact/).
@@ -83,11 +83,11 @@ struct FaceSpring {
   geom::Vec3 force = geom::Vec3::Zero();  // N, on side a
   double energy = 0;                      // J
 };
-FaceSpring face_spring(const FaceBatch&, int point, int lane, const Node* position, const Node* displacement,
-                       const FaceLaw&, const FaceStateBatch&, const FaceSlip*);
+FaceSpring face_spring(const FaceBatch&, const FaceNodes&, int point, int lane, const Node* position,
+                       const Node* displacement, const FaceLaw&, const FaceStateBatch&, const FaceSlip*);
 
 // Lets a spring that has just become a contact slide to where friction holds it.
-void settle(const FaceBatch&, int point, int lane, const Node* position, const Node* displacement,
-            const FaceLaw&, FaceSlip&);
+void settle(const FaceBatch&, const FaceNodes&, int point, int lane, const Node* position,
+            const Node* displacement, const FaceLaw&, FaceSlip&);
 
 } // namespace cdem

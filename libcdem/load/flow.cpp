@@ -40,14 +40,13 @@ bool open(const FaceStateBatch& state, int lane) {
 }
 
 void add_new_faces(const Model& model, const State& state, const geom::Vec3& direction, Pattern& pattern) {
-  for (std::size_t i = 0; i < model.mesh.face_tets.size(); ++i) {
-    const int lane = static_cast<int>(i % lanes);
-    if (model.mesh.face_tets[i].tet_a < 0 || !open(state.faces[i / lanes], lane))
-      continue;
-    const FaceBatch& f = model.mesh.faces[i / lanes];
-    add_triangle(model, state, {f.node_a[0][lane], f.node_a[1][lane], f.node_a[2][lane]}, direction, pattern);
-    add_triangle(model, state, {f.node_b[0][lane], f.node_b[2][lane], f.node_b[1][lane]}, direction, pattern);
-  }
+  each_face(model.mesh, [&](const MeshChunk& chunk, std::int64_t batch, int lane) {
+    if (!open(state.faces[batch], lane))
+      return;
+    const FaceNodes nodes = face_nodes(model.mesh, chunk, batch, lane);
+    add_triangle(model, state, nodes.a, direction, pattern);
+    add_triangle(model, state, nodes.outward_b(), direction, pattern);
+  });
 }
 
 } // namespace

@@ -104,17 +104,17 @@ Pattern force_pattern(const Model& model, const PointForce& force) {
     selects_nothing("nodes", force.on);
   double volume = 0;
   for (const int node : nodes)
-    volume += model.node_volume[node];
+    volume += node_volume(model, node);
   Pattern pattern;
   for (const int node : nodes)
-    pattern.emplace_back(node, model.node_volume[node] / volume * force.force);
+    pattern.emplace_back(node, node_volume(model, node) / volume * force.force);
   return pattern;
 }
 
 Pattern gravity_pattern(const Model& model, const Gravity& gravity) {
   Pattern pattern;
   for (int node = 0; node < static_cast<int>(model.node_position.size()); ++node)
-    pattern.emplace_back(node, (model.node_mass[node] - gravity.water_density * model.node_volume[node]) *
+    pattern.emplace_back(node, (model.node_mass[node] - gravity.water_density * node_volume(model, node)) *
                                    gravity.acceleration);
   return pattern;
 }

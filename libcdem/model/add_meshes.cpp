@@ -154,8 +154,6 @@ void add_faces(MeshData& data, const std::vector<BondedFace>& faces, int first_t
       for (int i = 0; i < 3; ++i) {
         const int a = tets[first_tet + f.face.tets[0]][f.face.corners[0][i]];
         const int b = tets[first_tet + f.face.tets[1]][f.face.corners[1][i]];
-        batch.node_a[i][lane] = a;
-        batch.node_b[i][lane] = b;
         batch.place_a[i][lane] = places.of(a);
         batch.place_b[i][lane] = places.of(b);
       }
@@ -203,15 +201,12 @@ void add_nodes(Model& model, const geom::TetMesh& mesh, const SplitMesh& split, 
     model.node_position.push_back(mesh.nodes[original]);
     model.mesh.original.push_back(first_original + original);
   }
-  model.node_block.resize(model.node_position.size(), block);
   model.node_mass.resize(model.node_position.size(), 0.0);
-  model.node_volume.resize(model.node_position.size(), 0.0);
   for (int t = 0; t < static_cast<int>(split.tets.size()); ++t) {
     geom::Tet tet = split.tets[t];
     const double volume = tet_volume(mesh, t);
     for (int& node : tet) {
       node += first;
-      model.node_volume[node] += volume / 4;
       model.node_mass[node] += density * volume / 4;
     }
     model.tets.push_back(tet);
@@ -314,11 +309,11 @@ void add_shares(Model& model) {
 
 } // namespace
 
-geom::Vec3 face_point(const Model& model, const FaceSpringPlace& at) {
+geom::Vec3 face_point(const Model& model, const MeshChunk& chunk, const FaceSpringPlace& at) {
+  const FaceNodes nodes = face_nodes(model.mesh, chunk, at.batch, at.lane);
   geom::Vec3 x = geom::Vec3::Zero();
   for (int i = 0; i < 3; ++i)
-    x += (i == at.point ? 2.0 / 3 : 1.0 / 6) *
-         model.node_position[model.mesh.faces[at.batch].node_a[i][at.lane]];
+    x += (i == at.point ? 2.0 / 3 : 1.0 / 6) * model.node_position[nodes.a[i]];
   return x;
 }
 

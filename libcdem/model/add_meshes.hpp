@@ -16,7 +16,7 @@ struct MeshSeed {
 // After the star blocks are in. Bodies' materials, joints and bonding say what the tets and faces are.
 void add_meshes(Model&, std::vector<MeshSeed>&&);
 
-geom::Vec3 face_point(const Model&, const FaceSpringPlace&); // m, undeformed
+geom::Vec3 face_point(const Model&, const MeshChunk&, const FaceSpringPlace&); // m, undeformed
 
 FaceLaw face_law(const Body&);
 TetStiffness tet_stiffness(const Elastic&);

@@ -37,9 +37,7 @@ std::vector<std::vector<geom::Triangle>> add_block(Model& model, BlockSeed&& see
   block.tet_begin = static_cast<int>(model.tets.size());
   block.tet_end = block.tet_begin + static_cast<int>(mesh.tets.size());
   model.node_position.insert(model.node_position.end(), mesh.nodes.begin(), mesh.nodes.end());
-  model.node_block.resize(block.node_end, index);
   model.node_mass.resize(block.node_end, 0.0);
-  model.node_volume.resize(block.node_end, 0.0);
   const double density = model.bodies[block.body].material.density;
   for (geom::Tet tet : mesh.tets) {
     for (int& node : tet)
@@ -48,7 +46,6 @@ std::vector<std::vector<geom::Triangle>> add_block(Model& model, BlockSeed&& see
     const double volume =
         (x[tet[1]] - x[tet[0]]).dot((x[tet[2]] - x[tet[0]]).cross(x[tet[3]] - x[tet[0]])) / 6;
     for (const int node : tet) {
-      model.node_volume[node] += volume / 4;
       model.node_mass[node] += density * volume / 4;
     }
     model.tets.push_back(tet);

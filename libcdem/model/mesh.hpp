@@ -27,11 +27,10 @@ struct alignas(64) MeshBatch {
 
 // Eight bonded faces of one chunk: corner i of side a against corner i of side b, counter-clockwise seen from b.
 // Lanes past the last face repeat the first one with kn = 0.
-struct alignas(64) FaceBatch {
+struct alignas(32) FaceBatch {
   double kn[lanes];                                   // N/m, of one of the face's three springs
   double area[lanes];                                 // m2, of one of them: a third of the face
   std::uint16_t place_a[3][lanes], place_b[3][lanes]; // of the nodes among those of the chunk
-  int node_a[3][lanes], node_b[3][lanes];             // the same, of the model
 };
 
 struct MeshChunk {
@@ -75,7 +74,28 @@ struct MeshData {
   std::vector<BoundaryTriangle> boundary;
 
   bool empty() const { return batches.empty(); }
+  int node_at(const MeshChunk& chunk, int place) const { // of the model
+    return static_cast<int>(place < chunk.nodes.size()
+                                ? chunk.nodes.begin + place
+                                : others[chunk.others.begin + place - chunk.nodes.size()]);
+  }
 };
+
+// The nodes of the model at the corners of a bonded face, those of a and b against each other: counter-clockwise seen
+// from b.
+struct FaceNodes {
+  geom::Triangle a{}, b{};
+  geom::Triangle outward_b() const { return {b[0], b[2], b[1]}; } // counter-clockwise seen from a
+};
+
+inline FaceNodes face_nodes(const MeshData& mesh, const MeshChunk& chunk, std::int64_t batch, int lane) {
+  FaceNodes nodes;
+  for (int i = 0; i < 3; ++i) {
+    nodes.a[i] = mesh.node_at(chunk, mesh.faces[batch].place_a[i][lane]);
+    nodes.b[i] = mesh.node_at(chunk, mesh.faces[batch].place_b[i][lane]);
+  }
+  return nodes;
+}
 
 // One spring of a bonded face.
 struct FaceSpringPlace {
@@ -83,13 +103,21 @@ struct FaceSpringPlace {
   int point = 0, lane = 0;
 };
 
+// visit(chunk, batch, lane) for every bonded face, in order.
+template <class Visit>
+void each_face(const MeshData& mesh, const Visit& visit) {
+  for (const MeshChunk& chunk : mesh.chunks)
+    for (int face = 0; face < chunk.faces; ++face)
+      visit(chunk, chunk.face_batches.begin + face / lanes, face % lanes);
+}
+
 // visit(chunk, place) for every spring, in order.
 template <class Visit>
 void each_face_spring(const MeshData& mesh, const Visit& visit) {
-  for (const MeshChunk& chunk : mesh.chunks)
-    for (int face = 0; face < chunk.faces; ++face)
-      for (int point = 0; point < 3; ++point)
-        visit(chunk, FaceSpringPlace{chunk.face_batches.begin + face / lanes, point, face % lanes});
+  each_face(mesh, [&](const MeshChunk& chunk, std::int64_t batch, int lane) {
+    for (int point = 0; point < 3; ++point)
+      visit(chunk, FaceSpringPlace{batch, point, lane});
+  });
 }
 
 } // namespace cdem

@@ -121,13 +121,11 @@ struct RigidBody {
 struct Model {
   std::vector<Body> bodies;
   std::vector<Joint> joints;
-  std::vector<Block> blocks;
+  std::vector<Block> blocks;                     // in the order of their nodes
   std::map<std::pair<int, int>, int> pair_joint; // bodies (smaller first) -> joint between them
 
   std::vector<geom::Vec3> node_position; // undeformed, m (n_nodes)
-  std::vector<int> node_block;           // (n_nodes)
   std::vector<double> node_mass;         // kg (n_nodes), a quarter of each tet around it
-  std::vector<double> node_volume;       // m3 (n_nodes)
 
   std::vector<geom::Tet> tets; // global nodes (n_tets)
   std::vector<int> tet_block;  // (n_tets)
@@ -155,5 +153,8 @@ struct Model {
   double tolerance = 0; // places nearer than this are one, m
   std::int64_t next_id = 1;
 };
+
+int block_of(const Model&, int node);       // index into Model::blocks
+double node_volume(const Model&, int node); // m3
 
 } // namespace cdem

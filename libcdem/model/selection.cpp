@@ -165,7 +165,7 @@ std::vector<int> selected_nodes(const Model& model, const Selection& selection) 
   const Selector selects(model, selection);
   std::vector<int> nodes;
   for (int node = 0; node < static_cast<int>(model.node_position.size()); ++node)
-    if (selects(model.node_position[node], model.node_block[node]))
+    if (selects(model.node_position[node], block_of(model, node)))
       nodes.push_back(node);
   return nodes;
 }

@@ -154,7 +154,7 @@ std::vector<FieldValue> values(const Model& model, const State& state, const std
   if (find_field(field).nodal) {
     for (const int node : selected_nodes(model, on))
       list.push_back({node_value(state, field, node), model.node_position[node],
-                      model.blocks[model.node_block[node]].id});
+                      model.blocks[block_of(model, node)].id});
     if (list.empty())
       nothing_there(on, "nodes");
   } else {
@@ -187,7 +187,7 @@ double mean_value(const Model& model, const State& state, const std::string& fie
   if (weight > 0)
     return sum / weight;
   for (const int node : selected_nodes(model, on))
-    add(node_value(state, field, node), model.node_volume[node]);
+    add(node_value(state, field, node), node_volume(model, node));
   if (weight == 0)
     nothing_there(on, "nodes");
   return sum / weight;

@@ -21,10 +21,11 @@ std::vector<int> pieces_of_nodes(const Model& model, const State& state) {
   for (std::size_t p = 0; p < model.points.size(); ++p)
     if (intact(state.bond_mode[p]))
       sets.unite(model.points[p].node_a[0], model.points[p].node_b[0]);
-  each_face_spring(model.mesh, [&](const MeshChunk&, const FaceSpringPlace& at) {
-    const FaceBatch& batch = model.mesh.faces[at.batch];
-    if (intact(state.faces[at.batch].mode[at.point][at.lane]))
-      sets.unite(batch.node_a[0][at.lane], batch.node_b[0][at.lane]);
+  each_face_spring(model.mesh, [&](const MeshChunk& chunk, const FaceSpringPlace& at) {
+    if (!intact(state.faces[at.batch].mode[at.point][at.lane]))
+      return;
+    const FaceNodes nodes = face_nodes(model.mesh, chunk, at.batch, at.lane);
+    sets.unite(nodes.a[0], nodes.b[0]);
   });
   std::vector<int> pieces(model.node_position.size());
   for (int node = 0; node < static_cast<int>(pieces.size()); ++node)

@@ -125,12 +125,9 @@ void add_cells(const Model& model, const State& state, Snapshot& snapshot) {
 // Edges at which the surface of a mesh turns by more than this are drawn: cos of 30 degrees.
 constexpr double flat = 0.866;
 
-bool opened(const Model& model, const State& state, std::size_t face) {
-  const FaceTets& tets = model.mesh.face_tets[face];
-  if (tets.tet_a < 0)
-    return false;
-  for (const auto& point : state.faces[face / lanes].mode)
-    if (point[face % lanes] == static_cast<std::uint8_t>(BondMode::intact))
+bool opened(const FaceStateBatch& state, int lane) {
+  for (const auto& point : state.mode)
+    if (point[lane] == static_cast<std::uint8_t>(BondMode::intact))
       return false;
   return true;
 }
@@ -155,15 +152,16 @@ void add_mesh_surface(const Model& model, const State& state, Snapshot& snapshot
         snapshot.block_edges.push_back(ends);
     }
   }
-  for (std::size_t face = 0; face < model.mesh.face_tets.size(); ++face)
-    if (opened(model, state, face)) {
-      const FaceBatch& batch = model.mesh.faces[face / lanes];
-      const std::size_t lane = face % lanes;
-      snapshot.surface.push_back({batch.node_a[0][lane], batch.node_a[1][lane], batch.node_a[2][lane]});
-      snapshot.surface_tet.push_back(model.mesh.face_tets[face].tet_a);
-      snapshot.surface.push_back({batch.node_b[0][lane], batch.node_b[2][lane], batch.node_b[1][lane]});
-      snapshot.surface_tet.push_back(model.mesh.face_tets[face].tet_b);
-    }
+  each_face(model.mesh, [&](const MeshChunk& chunk, std::int64_t batch, int lane) {
+    if (!opened(state.faces[batch], lane))
+      return;
+    const FaceNodes nodes = face_nodes(model.mesh, chunk, batch, lane);
+    const FaceTets& tets = model.mesh.face_tets[batch * lanes + lane];
+    snapshot.surface.push_back(nodes.a);
+    snapshot.surface_tet.push_back(tets.tet_a);
+    snapshot.surface.push_back(nodes.outward_b());
+    snapshot.surface_tet.push_back(tets.tet_b);
+  });
 }
 
 void add_surface(const Model& model, Snapshot& snapshot) {
@@ -223,19 +221,19 @@ void add_face_springs(const Model& model, const State& state, BondFields& fields
   each_face_spring(model.mesh, [&](const MeshChunk& chunk, const FaceSpringPlace& at) {
     const FaceBatch& batch = model.mesh.faces[at.batch];
     const FaceLaw law = face_law(model.bodies[model.blocks[chunk.block].body]);
+    const FaceNodes nodes = face_nodes(model.mesh, chunk, at.batch, at.lane);
     const FaceSpring spring =
-        face_spring(batch, at.point, at.lane, position.data(), state.displacement.data(), law,
+        face_spring(batch, nodes, at.point, at.lane, position.data(), state.displacement.data(), law,
                     state.faces[at.batch], slip_of(state, at.batch, at.lane));
     geom::Vec3 moved = geom::Vec3::Zero();
     for (int k = 0; k < 3; ++k) {
-      const Node &a = state.displacement[batch.node_a[k][at.lane]],
-                 &b = state.displacement[batch.node_b[k][at.lane]];
+      const Node &a = state.displacement[nodes.a[k]], &b = state.displacement[nodes.b[k]];
       moved += 0.5 * (k == at.point ? 2.0 / 3 : 1.0 / 6) * geom::Vec3(a.x + b.x, a.y + b.y, a.z + b.z);
     }
     const std::uint8_t mode = state.faces[at.batch].mode[at.point][at.lane];
     fields.add(mode, broken(mode) ? 1 : 0, spring.gap, spring.normal, spring.force / batch.area[at.lane],
                moved);
-    bonds.points.push_back(face_point(model, at));
+    bonds.points.push_back(face_point(model, chunk, at));
     if (at.point == 2) {
       const int last = static_cast<int>(bonds.points.size()) - 1;
       bonds.triangles.push_back({last - 2, last - 1, last});

@@ -7,17 +7,17 @@
 namespace cdem {
 
 FaceSlip& slip_of(State& state, std::int64_t batch, int lane) {
-  std::int32_t& index = state.faces[batch].slip[lane];
-  if (index < 0) {
-    index = static_cast<std::int32_t>(state.face_slip.size());
-    state.face_slip.emplace_back();
+  std::int32_t& first = state.faces[batch].slip;
+  if (first < 0) {
+    first = static_cast<std::int32_t>(state.face_slip.size());
+    state.face_slip.resize(state.face_slip.size() + lanes);
   }
-  return state.face_slip[index];
+  return state.face_slip[first + lane];
 }
 
 const FaceSlip* slip_of(const State& state, std::int64_t batch, int lane) {
-  const std::int32_t index = state.faces[batch].slip[lane];
-  return index < 0 ? nullptr : &state.face_slip[index];
+  const std::int32_t first = state.faces[batch].slip;
+  return first < 0 ? nullptr : &state.face_slip[first + lane];
 }
 
 State initial_state(const Model& model) {
@@ -40,7 +40,7 @@ State initial_state(const Model& model) {
                   [](const Body& body) { return body.material.stiffness_damping > 0; }))
     state.viscous_stress = state.stress;
   FaceStateBatch whole{};
-  std::fill(std::begin(whole.slip), std::end(whole.slip), -1);
+  whole.slip = -1;
   state.faces.assign(model.mesh.faces.size(), whole);
   each_face_spring(model.mesh, [&](const MeshChunk& chunk, const FaceSpringPlace& at) {
     if (model.bodies[model.blocks[chunk.block].body].joint.bonded)

@@ -33,7 +33,8 @@ struct State {
   // Pa, of the strain rate, beside it; as long, or empty where no material has stiffness damping.
   std::vector<StressBatch> viscous_stress;
   std::vector<FaceStateBatch> faces; // (n face batches); written by mesh_forces
-  std::vector<FaceSlip> face_slip; // m, of the faces with a broken spring, in the order they broke; likewise
+  // m, of the batches of faces with a broken spring, eight faces each, in the order they broke; likewise.
+  std::vector<FaceSlip> face_slip;
 
   std::vector<Contact> contacts; // those that act, by kind, source and piece; written by contact_forces
   std::vector<RigidState> rigid; // (n rigid bodies); written by move_rigid

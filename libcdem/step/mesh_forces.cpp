@@ -115,8 +115,10 @@ const Node* mesh_forces(const Model& model, State& state, Workspace& work, std::
                      chunk.faces, motion, law, breaking, state.faces.data() + chunk.face_batches.begin,
                      state.face_slip.data(), at.force, sums, ahead);
   }
-  std::copy(at.force + (chunk.inner_end - chunk.nodes.begin), at.force + chunk.places(),
-            work.partial.begin() + chunk.partial.begin);
+  const Node* const shared = at.force + (chunk.inner_end - chunk.nodes.begin);
+  geom::Vec3* const partial = work.partial.data() + chunk.partial.begin;
+  for (std::int64_t i = 0; i < chunk.partial.size(); ++i)
+    partial[i] = {shared[i].x, shared[i].y, shared[i].z};
   return at.force;
 }
 

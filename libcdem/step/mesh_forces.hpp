@@ -28,10 +28,10 @@ void each_shared_force(const MeshData& mesh, const Workspace& work, const MeshCh
       Node f;
       for (const int *share = mesh.shares.data() + end[0], *last = mesh.shares.data() + end[1]; share != last;
            ++share) {
-        const Node& p = work.partial[*share];
-        f.x += p.x;
-        f.y += p.y;
-        f.z += p.z;
+        const geom::Vec3& p = work.partial[*share];
+        f.x += p[0];
+        f.y += p[1];
+        f.z += p[2];
       }
       sums[i] = f;
       ahead.some();

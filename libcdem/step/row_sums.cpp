@@ -20,7 +20,7 @@ double stable_time_step(double frequency2, double rate) {
 }
 
 double damping_of(const Model& model, int node) {
-  return model.bodies[model.blocks[model.node_block[node]].body].material.stiffness_damping;
+  return model.bodies[model.blocks[block_of(model, node)].body].material.stiffness_damping;
 }
 
 } // namespace cdem

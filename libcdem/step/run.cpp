@@ -62,10 +62,10 @@ std::vector<double> viscous_forces(const Model& model) {
   if (std::all_of(model.bodies.begin(), model.bodies.end(),
                   [](const Body& body) { return body.material.viscosity == 0; }))
     return viscous;
-  viscous.reserve(model.node_volume.size());
-  for (std::size_t i = 0; i < model.node_volume.size(); ++i)
-    viscous.push_back(model.bodies[model.blocks[model.node_block[i]].body].material.viscosity *
-                      model.node_volume[i]);
+  viscous.reserve(model.node_position.size());
+  for (int i = 0; i < static_cast<int>(model.node_position.size()); ++i)
+    viscous.push_back(model.bodies[model.blocks[block_of(model, i)].body].material.viscosity *
+                      node_volume(model, i));
   return viscous;
 }
 
@@ -128,7 +128,7 @@ double stable_time_step(const Model& model) {
   const std::vector<double> sums = all_row_sums(model);
   double least = std::numeric_limits<double>::infinity();
   for (int i = 0; i < static_cast<int>(sums.size()); ++i)
-    if (const Block& block = model.blocks[model.node_block[i]]; block.rigid < 0) {
+    if (const Block& block = model.blocks[block_of(model, i)]; block.rigid < 0) {
       const double frequency2 = sums[i] / model.node_mass[i];
       least =
           std::min(least, stable_time_step(frequency2, block.meshed ? damping_of(model, i) * frequency2 : 0));

@@ -38,7 +38,7 @@ private:
 std::vector<int> can_be_rigid(const Model& model, const ResolvedConditions& r) {
   std::vector<int> held(model.blocks.size(), 0), whole(model.blocks.size(), 0);
   for (const HeldNode& h : r.held) {
-    const int block = model.node_block[h.node];
+    const int block = block_of(model, h.node);
     ++held[block];
     const bool all = h.free.x == 0 && h.free.y == 0 && h.free.z == 0 && h.prescribed.x == 0 &&
                      h.prescribed.y == 0 && h.prescribed.z == 0 && std::isnan(h.target.x) &&

@@ -40,7 +40,7 @@ double seconds(std::chrono::steady_clock::duration d) {
 
 std::string where(const Model& model, int node) {
   const geom::Vec3& x = model.node_position[node];
-  const Block& block = model.blocks[model.node_block[node]];
+  const Block& block = model.blocks[block_of(model, node)];
   return fmt::format("block {} of body \"{}\" at ({:.6g}, {:.6g}, {:.6g}) m", block.id,
                      model.bodies[block.body].name, x.x(), x.y(), x.z());
 }
@@ -267,7 +267,7 @@ void Stage::record_face_breaks() {
       row.step = step;
       row.time = context_.state.time;
       row.mode = broken.mode;
-      row.place = face_point(model, at);
+      row.place = face_point(model, chunk, at);
       row.normal = broken.normal;
       row.area = model.mesh.faces[at.batch].area[at.lane];
       row.normal_traction = broken.normal_traction;
@@ -296,7 +296,7 @@ void Stage::watch_astray() const {
         "{:.3g} m, and still press, in {}; pieces that come loose need contacts = {{ {{\"{}\", \"{}\", "
         "cdem.coulomb{{...}}}} }} in cdem.model",
         context_.number, kind_, step, std::sqrt(3 * model.mesh.faces[batch].area[lane]),
-        where(model, model.mesh.faces[batch].node_a[0][lane]), body, body));
+        where(model, face_nodes(model.mesh, chunk, batch, lane).a[0]), body, body));
   }
 }
 

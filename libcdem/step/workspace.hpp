@@ -47,7 +47,8 @@ struct Workspace {
   std::vector<geom::Vec3> stretch;
   std::vector<SpringSums> spring_sums; // per chunk of springs
   // Of meshed bodies; empty without them.
-  std::vector<Node> partial; // N, at the places of mesh chunks that others touch too; written by mesh_forces
+  std::vector<geom::Vec3>
+      partial; // N, at the places of mesh chunks that others touch too; written by mesh_forces
   std::vector<FaceSums> face_sums; // per mesh chunk
   double strain_step = 0;          // s, by which their stress stands behind the nodes
   bool damped = false;             // stiffness damping acts

@@ -92,8 +92,8 @@ TEST_CASE("contact: a block on an incline slides at g (sin a - tan(phi) cos a)",
   const double a = 9.81 * (std::sin(35 * degree) - std::tan(20 * degree) * std::cos(35 * degree));
   // As if it had come from rest over 2 % of its length.
   const double before = std::sqrt(2 * a * 0.02 * size), x0 = centroid(s, 1).x();
-  for (std::size_t i = 0; i < s.state.velocity.size(); ++i)
-    if (s.model.node_block[i] == 1)
+  for (int i = 0; i < static_cast<int>(s.state.velocity.size()); ++i)
+    if (block_of(s.model, i) == 1)
       s.state.velocity[i] = node({before, 0, 0});
   cdem::RunOptions options;
   const double time = 3 * before / a;
@@ -154,8 +154,8 @@ TEST_CASE("contact: bodies that collide keep their momentum and angular momentum
             {{"one", "other", friction(phi)}}));
   cdem::RunOptions options;
   options.steps = 1;
-  for (std::size_t i = 0; i < s.state.velocity.size(); ++i) {
-    const bool other = s.model.node_block[i] == 1;
+  for (int i = 0; i < static_cast<int>(s.state.velocity.size()); ++i) {
+    const bool other = block_of(s.model, i) == 1;
     s.state.velocity[i] =
         node(other ? Vec3(-6, 0.5, -1) + Vec3(0, 3, 5).cross(s.model.node_position[i]) : Vec3(2, 1, 0));
   }
@@ -193,8 +193,8 @@ TEST_CASE("contact: crossed edges stop each other", "[contact][edges]") {
                                          {0.21, 0.17, 2 * half + 0.01}))},
                  {{"lower", "upper", friction(0)}}));
   s.hold(body_of("lower"), "xyz");
-  for (std::size_t i = 0; i < s.state.velocity.size(); ++i)
-    if (s.model.node_block[i] == 1)
+  for (int i = 0; i < static_cast<int>(s.state.velocity.size()); ++i)
+    if (block_of(s.model, i) == 1)
       s.state.velocity[i] = node({0, 0, -1});
   double lowest = 10;
   bool edges = false;
@@ -279,8 +279,8 @@ TEST_CASE("contact: a contact that gets too deep ends the run", "[contact][error
                   meshed("unit", box_at({0.5, 0.5, 0.5}, {1, 1, 1}, Mat3::Identity(), {0, 0, 0.3}))},
                  {{"floor", "unit", soft}}));
   s.hold(body_of("floor"), "xyz");
-  for (std::size_t i = 0; i < s.state.velocity.size(); ++i)
-    if (s.model.node_block[i] == 1)
+  for (int i = 0; i < static_cast<int>(s.state.velocity.size()); ++i)
+    if (block_of(s.model, i) == 1)
       s.state.velocity[i] = node({0, 0, -20});
   cdem::RunOptions options;
   options.duration = 0.1;
@@ -327,8 +327,8 @@ TEST_CASE("contact: the pieces of a broken body meet, and nothing blows up", "[c
   cdem::Gravity gravity;
   gravity.acceleration = {0, 0, -9.81};
   s.conditions.gravity = gravity;
-  for (std::size_t i = 0; i < s.state.velocity.size(); ++i)
-    if (s.model.node_block[i] == 1)
+  for (int i = 0; i < static_cast<int>(s.state.velocity.size()); ++i)
+    if (block_of(s.model, i) == 1)
       s.state.velocity[i] = node({0, 0, -3});
   const double kinetic = 0.5 * 0.4 * 0.4 * 0.8 * rock().density * 9;
   bool pieces_met = false;

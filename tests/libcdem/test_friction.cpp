@@ -45,8 +45,8 @@ struct Slope {
 
 double slider_velocity(const System& s) {
   double momentum = 0, mass = 0;
-  for (std::size_t i = 0; i < s.model.node_position.size(); ++i)
-    if (s.model.blocks[s.model.node_block[i]].body == 1) {
+  for (int i = 0; i < static_cast<int>(s.model.node_position.size()); ++i)
+    if (s.model.blocks[block_of(s.model, i)].body == 1) {
       momentum += s.model.node_mass[i] * s.state.velocity[i].x;
       mass += s.model.node_mass[i];
     }
@@ -66,8 +66,8 @@ TEST_CASE("a block slides down an incline with g (sin a - tan phi cos a)", "[fri
   // From 0.2 % of its length to 1.2 %, as if it had come from rest.
   const double start = std::sqrt(2 * exact * 0.002 * slope.size),
                end = std::sqrt(2 * exact * 0.012 * slope.size);
-  for (std::size_t i = 0; i < s.state.displacement.size(); ++i)
-    if (s.model.blocks[s.model.node_block[i]].body == 1)
+  for (int i = 0; i < static_cast<int>(s.state.displacement.size()); ++i)
+    if (s.model.blocks[block_of(s.model, i)].body == 1)
       s.state.velocity[i] = {start, 0, 0, 0};
   cdem::RunOptions options;
   options.duration = 0.1 * (end - start) / exact; // until the shear springs are stretched to their limit

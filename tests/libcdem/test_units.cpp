@@ -78,7 +78,7 @@ TEST_CASE("units chosen by number are their nodes and outer faces alone", "[unit
   const auto chosen = cdem::Selection::of_units("units", {3, 1, 3});
   CHECK(chosen.text == "units 1, 3 of body \"units\"");
   for (const int n : cdem::selected_nodes(s.model, chosen))
-    CHECK((s.model.node_block[n] == 1 || s.model.node_block[n] == 3));
+    CHECK((block_of(s.model, n) == 1 || block_of(s.model, n) == 3));
   CHECK(cdem::selected_nodes(s.model, chosen).size() == 16);
   CHECK(cdem::selected_outer_faces(s.model, chosen).size() == 24);
   CHECK_FALSE(cdem::selects_block(s.model, chosen, 2));
