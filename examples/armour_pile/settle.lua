@@ -13,7 +13,7 @@ local fineness = cdem.parameter{ name = "fineness", default = 3, range = {1.5, 3
                                  doc = "height over the edge length of the tetrahedra" }
 local seed = cdem.parameter{ name = "seed", default = 1, range = {0, 1e6}, doc = "of the attitudes" }
 local held = cdem.parameter{ name = "held", default = 5, range = {1, 100}, doc = "how many of the lowest units are held" }
-local ratio = cdem.parameter{ name = "kinetic_energy_ratio", default = 1e-5, range = {1e-12, 0.1},
+local ratio = cdem.parameter{ name = "kinetic_energy_ratio", default = 1e-6, range = {1e-12, 0.1},
                                doc = "of the largest there was: at rest" }
 local friction = cdem.parameter{ name = "friction_angle", default = 40.0, range = {0, 80}, unit = "deg" }
 local draw = cdem.parameter{ name = "pictures", default = true, doc = "draw them" }

@@ -24,8 +24,9 @@ struct ContactCandidate {
 // The targets near one source (triangle or edge), by piece and number.
 struct ContactRow {
   int source = 0;
-  bool deep = true; // new, or one of its contacts is so deep that nothing may sleep
-  double wake = 0;  // m, of its targets the least
+  double reach =
+      0; // m, its contacts are at most that deep, and what is further off may sleep; 0: not looked at yet
+  double wake = 0; // m, of its targets the least
   std::int64_t begin = 0, end = 0;
 };
 
@@ -61,7 +62,7 @@ struct ContactWork {
   double furthest = 0;                  // m, of any block
   std::vector<double> last_way;         // m, per block, at most, in the last step
   double skin = 0;                      // m
-  double shallow = 0;                   // m, contacts up to this deep let other pairs sleep
+  double shallow = 0;                   // m, the least reach of a row
   double usual_height = 0;              // m, of a tet at the surface
   bool search_due = true;               // faces have broken, or nothing was searched yet
   bool due = true;                      // something moved since the contacts were looked at

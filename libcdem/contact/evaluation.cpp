@@ -12,6 +12,8 @@ namespace {
 
 // Two edges whose directions enclose an angle with a smaller sine are parallel.
 constexpr double parallel = 0.05;
+// What is nearer than this many times the deepest contact of a row is looked at in every step.
+constexpr double reach_over_depth = 1.5;
 // Edges deeper than this many times the shallow depth have slid past each other's ends.
 constexpr double deepest_edge = 5;
 
@@ -36,19 +38,21 @@ public:
       : model_(model), surface_(model.surface), state_(state), work_(work) {}
 
   void springs(ContactRow& row, ContactCandidate* candidates, ContactChunk& out) const {
-    if (!row.deep && sleeps(row, surface_.triangles[row.source].block))
+    if (row.reach > 0 && sleeps(row, surface_.triangles[row.source].block))
       return;
     const std::size_t contacts = out.contacts.size(), forces = out.forces.size();
     const double friction = out.friction;
-    const bool was_deep = row.deep;
-    row.deep = false;
-    look_at(row, candidates, was_deep, out);
-    if (!row.deep || was_deep)
-      return;
-    out.contacts.resize(contacts);
-    out.forces.resize(forces);
-    out.friction = friction;
-    look_at(row, candidates, true, out);
+    const bool all = row.reach == 0;
+    row.reach = std::max(row.reach, work_.shallow);
+    double deepest = look_at(row, candidates, all, out);
+    while (deepest > row.reach) {
+      out.contacts.resize(contacts);
+      out.forces.resize(forces);
+      out.friction = friction;
+      row.reach = reach_over_depth * deepest;
+      deepest = look_at(row, candidates, true, out);
+    }
+    row.reach = std::max(work_.shallow, std::min(row.reach, reach_over_depth * deepest));
   }
 
   void edges(ContactRow& row, ContactCandidate* candidates, ContactChunk& out) const {
@@ -107,7 +111,9 @@ private:
     return work_.travelled[block] + work_.furthest < row.wake;
   }
 
-  void look_at(ContactRow& row, ContactCandidate* candidates, bool all, ContactChunk& out) const {
+  // Returns how deep the deepest is, m.
+  double look_at(ContactRow& row, ContactCandidate* candidates, bool all, ContactChunk& out) const {
+    double deepest2 = 0;
     const ContactTriangle& source = surface_.triangles[row.source];
     const Corners x = corners_of(model_, state_, source.nodes);
     std::array<geom::Vec3, 3> spring;
@@ -133,7 +139,7 @@ private:
           least2 = std::min(least2, found.distance2);
           take_nearer(nearest[corner], found, y, normal, target.height);
         }
-        candidate.wake = moved + std::max(0.0, std::sqrt(least2) - work_.shallow);
+        candidate.wake = moved + std::max(0.0, std::sqrt(least2) - row.reach);
         row.wake = std::min(row.wake, candidate.wake);
       }
       for (int corner = 0; corner < 3; ++corner) {
@@ -141,17 +147,18 @@ private:
         if (!found.inside())
           continue;
         // With some asleep, what is further in than a step can have brought it is not inside: nearer ones sleep.
-        const double reach = work_.shallow + work_.last_way[source.block] +
-                             work_.last_way[surface_.triangles[found.target].block];
+        const double reach =
+            row.reach + work_.last_way[source.block] + work_.last_way[surface_.triangles[found.target].block];
         if (!all && found.distance2 > reach * reach)
           continue;
         const double covered = 2 * depth_limit(work_, source, surface_.triangles[found.target]);
         if (found.distance2 > covered * covered)
           continue; // beyond what the search covers: nearer ones may not be in the row
-        row.deep = row.deep || found.distance2 > work_.shallow * work_.shallow;
+        deepest2 = std::max(deepest2, found.distance2);
         press(row.source, corner, spring[corner], piece, found, out);
       }
     }
+    return std::sqrt(deepest2);
   }
 
   void press(int source, int corner, const geom::Vec3& spring, int piece, const Nearest& nearest,

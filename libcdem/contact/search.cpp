@@ -197,7 +197,7 @@ void make_rows(const Pairs& pairs, std::size_t sources, bool both_ways, const st
                   return a.target < b.target;
                 return piece[a.target] < piece[b.target];
               });
-    rows.push_back({static_cast<int>(i), true, 0, begin[i], begin[i + 1]});
+    rows.push_back({static_cast<int>(i), 0, 0, begin[i], begin[i + 1]});
   }
 }
 
