@@ -46,8 +46,8 @@ local held_units = cdem.select.units{ body = "units", numbers = model:lowest_uni
 model:fix{ on = held_units }
 model:gravity{ vector = {0, 0, -9.81}, water_density = water }
 
-local camera = { position = {-1.5 * length, -1.75 * length, 2.2 * length}, up = {0, 0, 1}, view_angle = 24,
-                 focal_point = {0.5 * length, 0, 0.45 * gradient * length} }
+local camera = { position = {-1.5 * length, -1.75 * length, 2.2 * length}, up = {0, 0, 1}, view_angle = 26,
+                 focal_point = {0.48 * length, 0, 0.4 * gradient * length} }
 local function picture(name, title)
   if draw then
     model:picture{ file = name, colour = "unit", deformation = 1, camera = camera, colour_bar = false, axes = false,

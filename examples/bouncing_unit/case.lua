@@ -78,7 +78,7 @@ cdem.chart{ file = "drops.png", title = "An armour unit dropped on a floor", x_l
 local breaks_at = drops[#drops].broken and drops[#drops].height or nil
 local quarter
 if breaks_at then
-  last:run{ duration = 0.1 }
+  last:run{ duration = 0.03 }
   last:save{ file = "broken.vtu" }
   last:picture{ file = "broken.png", view = "iso", up = "z", colour = "velocity.magnitude", deformation = 1,
                 title = string.format("Broken by a fall of %.2g m", breaks_at) }

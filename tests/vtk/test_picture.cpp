@@ -9,6 +9,7 @@
 #include "tests/vtk/sample.hpp"
 #include "tests/vtk/temporary_folder.hpp"
 
+#include <algorithm>
 #include <catch2/catch.hpp>
 
 #include <cmath>
@@ -125,6 +126,31 @@ TEST_CASE("units have colours of their own, and the only block of a body is grey
     CHECK(grey == (number == 0));
     if (number > 0)
       CHECK(colour == id_colour(std::llround(number)));
+  }
+}
+
+TEST_CASE("plain bodies lose their values, others keep them") {
+  Snapshot s = sample::blocks(sample::grid(2, 1, 2, 1), 1);
+  const auto block = std::find_if(s.cell_fields.begin(), s.cell_fields.end(),
+                                  [](const SnapshotField& f) { return f.name == "block_id"; });
+  SnapshotField body = *block;
+  body.name = "body"; // the two blocks are bodies 1 and 2
+  SnapshotField heat{"heat", "K", 1, std::vector<double>(s.points.size(), 7.0)};
+  s.cell_fields.push_back(body);
+  s.point_fields.push_back(heat);
+  for (const std::string name : {"heat", "block_id"}) {
+    FieldValues values = field_values(s, name);
+    const std::vector<double> before = values.values;
+    leave_plain(s, {2}, values);
+    int kept = 0, lost = 0;
+    for (std::size_t t = 0; t < s.surface.size(); ++t) {
+      const bool plain = body.values[static_cast<std::size_t>(s.surface_tet[t])] == 2;
+      const std::size_t at = values.on_points ? static_cast<std::size_t>(s.surface[t][0]) : t;
+      CHECK(std::isnan(values.values[at]) == plain);
+      CHECK((plain || values.values[at] == before[at]));
+      ++(plain ? lost : kept);
+    }
+    CHECK((kept > 0 && lost > 0));
   }
 }
 
