@@ -7,8 +7,8 @@ local cdem = require "cdem"
 
 local mass = cdem.parameter{ name = "mass", default = 5000.0, range = {1, 1e6}, unit = "kg", doc = "the pile is scaled" }
 local file = cdem.parameter{ name = "pile", default = "results/armour_pile-settle/pile.json", doc = "of settle.lua" }
-local first = cdem.parameter{ name = "first_velocity", default = 2.0, range = {0.1, 100}, unit = "m/s", doc = "for 5 t" }
-local step = cdem.parameter{ name = "velocity_step", default = 0.5, range = {1e-3, 10}, unit = "m/s", doc = "for 5 t" }
+local first = cdem.parameter{ name = "first_velocity", default = 3.0, range = {0.1, 100}, unit = "m/s", doc = "for 5 t" }
+local step = cdem.parameter{ name = "velocity_step", default = 0.25, range = {1e-3, 10}, unit = "m/s", doc = "for 5 t" }
 local most = cdem.parameter{ name = "max_velocity", default = 15.0, range = {1, 100}, unit = "m/s", doc = "for 5 t" }
 local wanted = cdem.parameter{ name = "units", default = 4, range = {1, 100}, doc = "ends when so many have left" }
 local hold = cdem.parameter{ name = "hold", default = 0.2, range = {1e-3, 10}, unit = "s", doc = "at least, for 5 t" }
@@ -54,7 +54,7 @@ model:gravity{ vector = {0, 0, -g}, water_density = water }
 model:run{ duration = 0.15 * scale, local_damping = 0.5 }
 
 local camera = { position = {-1.2 * length, -1.5 * length, 1.8 * length}, up = {0, 0, 1}, view_angle = 30,
-                 focal_point = {0.42 * length, 0, 0.32 * gradient * length} }
+                 focal_point = {0.42 * length, 0, 0.37 * gradient * length} }
 local left
 -- A number on each unit that has left.
 local function marks()

@@ -19,7 +19,7 @@ local unit = solid:rotate{ axis = {1, 1, 0}, angle = tilt }
 local gap = 1e-3 * H
 unit = unit:translate{ shift = {0, 0, gap - unit:box().min[3]} }
 local mesh = unit:mesh{ size = H / fineness }
-local floor = cdem.solid.box{ size = {3 * H, 3 * H, 0.3 * H}, origin = {-1.5 * H, -1.5 * H, -0.3 * H} }:mesh{ size = 0.3 * H }
+local floor = cdem.solid.box{ size = {2 * H, 2 * H, 0.2 * H}, origin = {-H, -H, -0.2 * H} }:mesh{ size = 0.2 * H }
 local rough = cdem.coulomb{ friction_angle = 35 }
 
 -- Lets it fall; returns what came of it and the model.
@@ -70,17 +70,17 @@ cdem.write_csv{ file = "drops.csv", columns = { { name = "height_m", values = co
                                                 { name = "largest_piece", values = column("largest") },
                                                 { name = "second_piece", values = column("second") },
                                                 { name = "rebound_over_impact_velocity", values = column("rebound") } } }
-cdem.chart{ file = "drops.png", title = "An armour unit dropped on a floor", x_label = "height of fall (m)",
+cdem.chart{ file = "drops.png", title = "An armour unit dropped on a floor", x_label = "impact velocity (m/s)",
             y_label = "part of the unit", y_range = {0, 1},
-            series = { { name = "largest piece", x = column("height"), y = column("largest"), style = "both" },
-                       { name = "second piece", x = column("height"), y = column("second"), style = "both" } } }
+            series = { { name = "largest piece", x = column("velocity"), y = column("largest"), style = "both" },
+                       { name = "second piece", x = column("velocity"), y = column("second"), style = "both" } } }
 
 local breaks_at = drops[#drops].broken and drops[#drops].height or nil
 local quarter
 if breaks_at then
   last:run{ duration = 0.03 }
   last:save{ file = "broken.vtu" }
-  last:picture{ file = "broken.png", view = "iso", up = "z", colour = "velocity.magnitude", deformation = 1,
+  last:picture{ file = "broken.png", view = "iso", up = "z", colour = "velocity.magnitude", deformation = 1, plain = {"floor"},
                 title = string.format("Broken by a fall of %.2g m", breaks_at) }
   -- At half the strength: stresses go with rho c v, so that it must break at half the velocity.
   for k = math.max(0, #drops - 3), #drops + 2 do
@@ -96,9 +96,9 @@ for _, drop in ipairs(drops) do energy_error = math.max(energy_error, drop.energ
 cdem.report{
   { name = "breaks_at_height_m", value = breaks_at, unit = "m" },
   { name = "breaks_at_velocity_m_per_s", value = breaks_at and math.sqrt(2 * g * breaks_at), unit = "m/s",
-    reference = tension / (concrete.density * wave_speed), kind = "estimate", source = "bar that hits flat: T / rho c" },
+    reference = tension / (concrete.density * wave_speed), kind = "formula", source = "a bar that hits flat: T / rho c" },
   { name = "height_ratio_at_half_strength", value = quarter, reference = 0.25, kind = "formula",
-    source = "stress ~ rho c v", tolerance = 0.01 },
+    source = "stress ~ rho c v; heights go in steps", tolerance = 1.01 * (growth - 1) },
   { name = "energy_balance_error", value = energy_error },
   { name = "tets", value = mesh.tets },
   { name = "wall_time_s", value = cdem.elapsed(), unit = "s" },
