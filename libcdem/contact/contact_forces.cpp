@@ -27,7 +27,13 @@ void add_ways(const Model& model, const State& state, ContactWork& work, int thr
   work.furthest = *std::max_element(work.travelled.begin(), work.travelled.end());
 }
 
-// What contacts stored that act no more, J: their other side has gone round an edge or off the end of another.
+void sort_by_key(std::vector<Contact>& contacts) {
+  std::sort(contacts.begin(), contacts.end(),
+            [](const Contact& a, const Contact& b) { return key(a) < key(b); });
+}
+
+// What contacts stored that act no more, J: their other side has gone round an edge or off the end of another. Both lists
+// are sorted.
 double lost(const Model& model, const std::vector<Contact>& before, const std::vector<Contact>& now) {
   double energy_lost = 0;
   auto next = now.begin();
@@ -83,8 +89,7 @@ ContactSums contact_forces(const Model& model, State& state, Workspace& work, in
   for (Contact& c : state.contacts)
     if (c.kind == Contact::spring)
       c.piece = own.piece[c.target];
-  std::sort(state.contacts.begin(), state.contacts.end(),
-            [](const Contact& a, const Contact& b) { return key(a) < key(b); });
+  sort_by_key(state.contacts);
   const auto springs = static_cast<std::int64_t>(own.rows[Contact::spring].size()),
              edges = static_cast<std::int64_t>(own.rows[Contact::edge].size());
   const std::vector<Range> spring_chunks = split(springs, contact_rows_per_chunk),
@@ -110,6 +115,7 @@ ContactSums contact_forces(const Model& model, State& state, Workspace& work, in
     now.insert(now.end(), chunk.contacts.begin(), chunk.contacts.end());
     sums.friction += chunk.friction;
   }
+  sort_by_key(now); // a row goes by piece, then corner
   if (own.step > 0)
     sums.friction += lost(model, state.contacts, now);
   state.contacts = std::move(now);

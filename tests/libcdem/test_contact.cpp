@@ -146,6 +146,31 @@ TEST_CASE("contact: dropped without damping, a body comes back to its height", "
   CHECK(std::abs(ledger.total() - ledger.external) < 1e-3 * ledger.external_peak);
 }
 
+// Contacts of one triangle with two bodies are found body by body, in either order; none of them is lost.
+TEST_CASE("contact: a plank on two blocks swings, and the ledger closes", "[contact]") {
+  const double side = GENERATE(-1.0, 1.0);
+  cdem::Joint joint = friction(0);
+  joint.normal_stiffness = 2e7;
+  System s(build({meshed("one", box_at({0.6, 1.2, 0.4}, {1, 1, 1}, Mat3::Identity(), {side, 0, -0.2})),
+                  meshed("other", box_at({0.6, 1.2, 0.4}, {1, 1, 1}, Mat3::Identity(), {-side, 0, -0.2})),
+                  meshed("plank", box_at({2.4, 1, 0.5}, {1, 1, 1}, Mat3::Identity(), {0, 0, 0.25 + 1e-4}))},
+                 {{"one", "plank", joint}, {"other", "plank", joint}}));
+  s.hold(body_of("one"), "xyz");
+  s.hold(body_of("other"), "xyz");
+  cdem::Gravity gravity;
+  gravity.acceleration = {0, 0, -9.81};
+  s.conditions.gravity = gravity;
+  cdem::RunOptions options;
+  options.duration = 0.1;
+  options.callback_every = 20;
+  std::size_t most = 0;
+  options.callback = [&] { most = std::max(most, s.state.contacts.size()); };
+  s.run(options);
+  REQUIRE(most >= 4);
+  const cdem::EnergyLedger ledger = cdem::energy(s.model, s.state);
+  CHECK(std::abs(ledger.total() - ledger.external) < 1e-3 * ledger.external_peak);
+}
+
 TEST_CASE("contact: bodies that collide keep their momentum and angular momentum", "[contact]") {
   const double phi = GENERATE(0.0, 40.0);
   System s(
