@@ -124,7 +124,7 @@ end
 local figures = {}
 for k = 1, wanted do
   figures[k] = { name = string.format("unit_%d_leaves_at_m_per_s_%g_t", k, mass / 1000), unit = "m/s",
-                 value = left[k] and left[k].velocity, reference = paper[k], kind = "trial",
+                 value = left[k] and left[k].velocity, reference = paper[k], kind = "paper",
                  source = "Feng 2014 table 3, another pile" }
   if left[k] then
     cdem.log(string.format("unit %d left at %.2f m/s, %.2f s", left[k].unit, left[k].velocity, left[k].time))
