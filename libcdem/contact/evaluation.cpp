@@ -107,6 +107,11 @@ public:
   }
 
 private:
+  bool bonded(int block) const {
+    const Bonding& bonding = model_.bodies[model_.blocks[block].body].bonding;
+    return bonding.everywhere || bonding.between_regions || !bonding.regions.empty();
+  }
+
   bool sleeps(const ContactRow& row, int block) const {
     return work_.travelled[block] + work_.furthest < row.wake;
   }
@@ -137,7 +142,7 @@ private:
         for (int corner = 0; corner < 3; ++corner) {
           const Nearest found = nearest_of(candidate.target, spring[corner], y, normal);
           least2 = std::min(least2, found.distance2);
-          take_nearer(nearest[corner], found, y, normal, target.height);
+          take_nearer(nearest[corner], found, y, normal, target.height, bonded(target.block));
         }
         candidate.wake = moved + std::max(0.0, std::sqrt(least2) - row.reach);
         row.wake = std::min(row.wake, candidate.wake);

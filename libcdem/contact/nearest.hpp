@@ -8,9 +8,9 @@
 
 namespace cdem {
 
-// Of a distance, and of a tet's height: places on the edges of two triangles that are nearer than that to each other are
-// one. Tets that a bond holds together have edges of their own, which part by as much as the bond gives.
-inline constexpr double same_place = 1e-6, bond_gives = 3e-4;
+// Of a distance, and of a tet's height: places nearer than that to each other are one, as on the edge that two triangles
+// share. Tets that a bond holds together have edges of their own, which part by as much as the bond gives.
+inline constexpr double same_place = 1e-6, same_place_at_least = 1e-9, bond_gives = 3e-4;
 
 // The nearest place of a piece to a spring, so far. Of the triangles that share it the one that the spring stands
 // highest over or lowest under is the target; whether the spring is inside their normals tell together, each weighted
@@ -49,12 +49,13 @@ inline Nearest nearest_of(int target, const geom::Vec3& spring, const Corners& x
   return found;
 }
 
-// size: m, of the tets there.
+// size: m, of the tets there; bonded: bonds may part their edges.
 inline void take_nearer(Nearest& nearest, Nearest other, const Corners& x, const geom::Vec3& normal,
-                        double size) {
-  const double reach =
-      same_place * std::sqrt(std::max(nearest.distance2, other.distance2)) + bond_gives * size;
-  const bool one_place = nearest.target >= 0 && !nearest.at.inside && !other.at.inside &&
+                        double size, bool bonded) {
+  const double reach = same_place * std::sqrt(std::max(nearest.distance2, other.distance2)) +
+                       (bonded ? bond_gives : same_place_at_least) * size;
+  const bool on_edges = !nearest.at.inside && !other.at.inside;
+  const bool one_place = nearest.target >= 0 && (on_edges || !bonded) &&
                          (other.place - nearest.place).squaredNorm() <= reach * reach;
   if (!one_place && nearest.target >= 0 && other.distance2 >= nearest.distance2)
     return;
