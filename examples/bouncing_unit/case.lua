@@ -1,5 +1,5 @@
 -- An armour unit is dropped on a rigid floor from rising heights until it breaks. Each time it is whole again and starts
--- just above the floor with the velocity of its fall, sqrt(2 g h).
+-- just above the floor with the velocity of its fall so far; the gap left counts as part of the height.
 --
 --   ./cdem run examples/bouncing_unit/case.lua [--set fineness=8] [--set mass=9000] [--set tensile_strength=1.5e6]
 local cdem = require "cdem"
@@ -23,8 +23,8 @@ local floor = cdem.solid.box{ size = {2 * H, 2 * H, 0.2 * H}, origin = {-H, -H, 
 local rough = cdem.coulomb{ friction_angle = 35 }
 
 -- Lets it fall; returns what came of it and the model.
-local function fall(height, strength)
-  local joint = cdem.mohr_coulomb{ cohesion = 2 * strength, friction_angle = 35, tensile_strength = strength }
+local function fall(height)
+  local joint = cdem.mohr_coulomb{ cohesion = 2 * tension, friction_angle = 35, tensile_strength = tension }
   local model = cdem.model{
     bodies = { { shape = floor, material = concrete, element = "rigid", name = "floor" },
                { shape = mesh, material = concrete, joint = joint, name = "unit" } },
@@ -32,10 +32,10 @@ local function fall(height, strength)
   }
   model:fix{ on = "floor" }
   model:gravity{ vector = {0, 0, -g} }
-  local velocity = math.sqrt(2 * g * height)
-  model:initial_velocity{ on = "unit", velocity = {0, 0, -velocity} }
+  local velocity, start = math.sqrt(2 * g * height), math.sqrt(2 * g * (height - gap))
+  model:initial_velocity{ on = "unit", velocity = {0, 0, -start} }
   -- Until it has touched and waves have gone up and down it fifteen times.
-  model:run{ duration = gap / velocity + 30 * H / wave_speed }
+  model:run{ duration = 2 * gap / (start + velocity) + 30 * H / wave_speed }
   local volumes, counts = {}, model:counts()
   for _, piece in ipairs(model:fragments()) do
     if not piece.held then volumes[#volumes + 1] = piece.volume / mesh:volume() end
@@ -50,11 +50,11 @@ local function fall(height, strength)
   return drop, model
 end
 
--- The first fall: a third of the velocity at which a bar that hits flat is stressed to T, rho c v = T.
-local first = 0.1 * (tension / (concrete.density * wave_speed)) ^ 2 / (2 * g)
+-- The first fall but for the gap: a third of the velocity at which a bar that hits flat is stressed to T, rho c v = T.
+local first = gap + 0.1 * (tension / (concrete.density * wave_speed)) ^ 2 / (2 * g)
 local drops, last = {}
 repeat
-  local drop, model = fall(first * growth ^ #drops, tension)
+  local drop, model = fall(gap + (first - gap) * growth ^ #drops)
   drops[#drops + 1] = drop
   last = model
 until drop.broken or #drops == 40
