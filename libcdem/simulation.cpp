@@ -341,7 +341,7 @@ bool Simulation::anything_acts() const {
 
 SettleResult Simulation::settle(const SettleOptions& options) {
   check(options);
-  SettleResult result = impl_->run_whole_stage(
+  SettleResult result = impl_->run_stage(
       [&](const StageContext& context) { return cdem::settle(impl_->model, context, options); });
   impl_->last_residual = impl_->log.history.back().residual;
   return result;
@@ -349,8 +349,8 @@ SettleResult Simulation::settle(const SettleOptions& options) {
 
 CriticalFlowResult Simulation::critical_flow(const CriticalFlowOptions& options) {
   check(options);
-  CriticalFlowResult result = impl_->run_whole_stage(
-      [&](const StageContext& context) { return cdem::critical_flow(context, options); });
+  CriticalFlowResult result =
+      impl_->run_stage([&](const StageContext& context) { return cdem::critical_flow(context, options); });
   impl_->last_residual = impl_->log.history.back().residual;
   return result;
 }

@@ -32,7 +32,7 @@ struct Simulation::Impl {
   std::optional<Moment> from;   // of a restored stage, until it is taken up
   std::string at_start;         // saved before a stage that can be begun again only; empty: none runs
 
-  // Runs one stage of a single loop of steps, from where it was left if it was.
+  // Runs one stage, from where it was left if it was.
   template <class Solve>
   auto run_stage(const Solve& solve) {
     std::optional<Moment> entry;
@@ -41,11 +41,27 @@ struct Simulation::Impl {
       Impl& s;
       ~Leave() { s.moment.reset(); }
     } leave{*this};
-    return solve(StageContext{model, state, conditions, log, last_good, *observer, threads, ++stage, keeper,
-                              &moment, entry ? &*entry : nullptr});
+    const StageContext context{model,
+                               state,
+                               conditions,
+                               log,
+                               last_good,
+                               *observer,
+                               threads,
+                               ++stage,
+                               keeper,
+                               &moment,
+                               entry ? &*entry : nullptr};
+    if (entry) {
+      last_good = state;
+      moment = entry;
+    } else {
+      leave_from_here(context);
+    }
+    return solve(context);
   }
 
-  // Runs one that is begun again when it was left, as it has several loops or changes the model.
+  // Runs one that is begun again when it was left, as it changes the model from step to step.
   template <class Solve>
   auto run_whole_stage(const Solve& solve) {
     if (keeper)

@@ -9,9 +9,9 @@ namespace cdem {
 template <class A>
 void archive(A& a, Moment& moment) {
   auto& [step, breaks, wall_time, tension_before, shear_before, carried, previous_force, spring_force,
-         stretch] = moment;
+         stretch, beside] = moment;
   archive_all(a, step, breaks, wall_time, tension_before, shear_before, carried, previous_force, spring_force,
-              stretch);
+              stretch, beside);
 }
 
 std::string Simulation::Impl::saved() const {
@@ -30,7 +30,7 @@ std::string Simulation::Impl::saved() const {
   archive_const(a, last_residual);
   archive_const(a, moment ? stage - 1 : stage);
   write(a, log, then.step, moment ? moment->breaks : log.breaks.size());
-  const bool midway = moment && moment->step > 0;
+  const bool midway = moment && (moment->step > 0 || !moment->beside.empty());
   archive_const(a, midway);
   if (midway)
     archive_const(a, *moment);
@@ -58,8 +58,10 @@ void Simulation::Impl::take(std::string_view saved, bool state_only) {
     read(a, model_then);
   read(a, state_then);
   archive(a, last_residual);
-  if (!as_built)
+  if (!as_built) {
+    model_then.mesh.named = std::move(model.mesh.named); // of the same meshes
     model = std::move(model_then);
+  }
   state = std::move(state_then);
   last_good = state;
   from.reset();

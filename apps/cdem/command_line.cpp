@@ -161,6 +161,9 @@ private:
 
   void add_script_options(CLI::App* command) {
     command->add_option("FILE", typed_.file, "the case script, a .lua file")->option_text(" ");
+    add_unsafe(command);
+  }
+  void add_unsafe(CLI::App* command) {
     command->add_flag("--unsafe", typed_.unsafe,
                       "let the script use all of Lua and any file (trusted scripts only)");
   }
@@ -207,6 +210,7 @@ private:
   void add_resume() {
     auto* command = app_.add_subcommand("resume", "go on with a run that was stopped or killed");
     command->add_option("FOLDER", typed_.file, "its output folder")->option_text(" ");
+    add_unsafe(command);
     add_threads(command, "threads (every core); results are the same bits for any number");
     add_checkpoint_every(command);
     command->add_flag("--quiet,-q", typed_.quiet, "print nothing but warnings and errors");
@@ -215,7 +219,8 @@ private:
         "Goes on from the newest whole checkpoint in the folder, with the script and the settings of the\n"
         "run, to the same bits as one that was never stopped. The script is run from its beginning: what it\n"
         "has solved, read and written so far it is told again without being done. So it must be as it was.\n"
-        "A run that has ended well takes its checkpoints away.\n");
+        "A run that was started with --unsafe needs it again. A run that has ended well takes its\n"
+        "checkpoints away.\n");
   }
   void add_check() {
     auto* command =
@@ -414,6 +419,7 @@ private:
     ResumeCommand c;
     c.folder = typed_.file;
     c.threads = threads();
+    c.unsafe = typed_.unsafe;
     c.progress = progress_style();
     c.checkpoint_minutes = checkpoint_minutes();
     c.line = line_;

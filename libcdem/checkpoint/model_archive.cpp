@@ -134,7 +134,8 @@ void archive(A& a, FaceTets& x) {
 template <class A>
 void archive(A& a, MeshData& x) {
   auto& [first_node, first_tet, batches, faces, face_tets, chunks, tet_slot, others, original, share_begin,
-         shares, boundary] = x;
+         shares, boundary, named] = x;
+  static_cast<void>(named); // places for conditions, which come from the script
   archive_all(a, first_node, first_tet, batches, faces, face_tets, chunks, tet_slot, others, original,
               share_begin, shares, boundary);
 }

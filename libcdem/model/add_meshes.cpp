@@ -351,6 +351,9 @@ void add_meshes(Model& model, std::vector<MeshSeed>&& seeds) {
     block.tet_end = block.tet_begin + static_cast<int>(mesh.tets.size());
     model.blocks.push_back(std::move(block));
     add_nodes(model, mesh, split, index);
+    for (const auto& [name, faces] : mesh.named)
+      for (const int face : faces)
+        model.mesh.named[{seed.body, name}].push_back(static_cast<int>(model.mesh.boundary.size()) + face);
     add_boundary(model, geom::outer_faces(mesh), index);
     Places places(model.node_position.size());
     add_chunks(model, bonded, inner_nodes, index, places);

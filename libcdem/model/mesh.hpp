@@ -16,6 +16,9 @@
 
 #include <array>
 #include <cstdint>
+#include <map>
+#include <string>
+#include <utility>
 #include <vector>
 
 namespace cdem {
@@ -72,6 +75,9 @@ struct MeshData {
   // Which partial forces add up to that of a node that several chunks touch, in order: into `shares`.
   std::vector<int> share_begin, shares;
   std::vector<BoundaryTriangle> boundary;
+  // Those that were given a name, by body and name: into `boundary`, ascending. They say where conditions are, not what
+  // the model is: neither hashed nor saved.
+  std::map<std::pair<int, std::string>, std::vector<int>> named;
 
   bool empty() const { return batches.empty(); }
   int node_at(const MeshChunk& chunk, int place) const { // of the model

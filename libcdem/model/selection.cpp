@@ -2,6 +2,7 @@
 
 #include "libcdem/model/model.hpp"
 #include "libgeom/core/error.hpp"
+#include "libgeom/core/nearest.hpp"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -24,12 +25,63 @@ std::vector<char> chosen_units(const Model& model, const Selection& s) {
   return chosen;
 }
 
+[[noreturn]] void no_such_faces(const Model& model, const Selection& s) {
+  const auto is_body = [&](const Body& body) { return body.name == s.body; };
+  if (!s.body.empty() && std::none_of(model.bodies.begin(), model.bodies.end(), is_body))
+    throw geom::InputError("body", "\"" + s.body + "\"", "the name of a body of the model");
+  std::vector<std::string> names;
+  for (const auto& [key, faces] : model.mesh.named)
+    if (s.body.empty() || model.bodies[key.first].name == s.body)
+      names.push_back(key.second);
+  std::sort(names.begin(), names.end());
+  names.erase(std::unique(names.begin(), names.end()), names.end());
+  const std::string whose = s.body.empty() ? "the model's bodies" : "body \"" + s.body + "\"";
+  if (names.empty())
+    throw geom::InputError("name = \"" + s.faces + "\": no faces of " + whose +
+                           " have a name; mesh:faces{ ..., name = \"" + s.faces +
+                           "\" } gives them one, before the model is made");
+  const std::string near = geom::did_you_mean(s.faces, names);
+  throw geom::InputError("name = \"" + s.faces + "\": no faces of " + whose + " have that name" +
+                         (near.empty() ? "." : near) + fmt::format(" There are: {}", fmt::join(names, ", ")));
+}
+
+// The triangles that a selection of named faces means: into MeshData::boundary, ascending.
+std::vector<int> chosen_boundary(const Model& model, const Selection& s) {
+  std::vector<int> chosen;
+  for (const auto& [key, faces] : model.mesh.named)
+    if (key.second == s.faces && (s.body.empty() || model.bodies[key.first].name == s.body))
+      chosen.insert(chosen.end(), faces.begin(), faces.end());
+  if (chosen.empty())
+    no_such_faces(model, s);
+  std::sort(chosen.begin(), chosen.end());
+  return chosen;
+}
+
+// All copies of the nodes of those triangles, ascending: where bonds split a mesh, neighbours meet there too.
+std::vector<int> nodes_on(const Model& model, const std::vector<int>& boundary) {
+  const MeshData& mesh = model.mesh;
+  std::vector<int> originals, nodes;
+  for (const int b : boundary)
+    for (const int node : mesh.boundary[b].nodes)
+      originals.push_back(mesh.original[node - mesh.first_node]);
+  std::sort(originals.begin(), originals.end());
+  for (int i = 0; i < static_cast<int>(mesh.original.size()); ++i)
+    if (std::binary_search(originals.begin(), originals.end(), mesh.original[i]))
+      nodes.push_back(mesh.first_node + i);
+  return nodes;
+}
+
 // A selection applied to one model.
 class Selector {
 public:
   Selector(const Model& model, const Selection& selection) : model_(model), selection_(selection) {
     if (selection.kind == Selection::Kind::units)
       chosen_ = chosen_units(model, selection);
+    if (selection.kind == Selection::Kind::faces) {
+      chosen_.resize(model.blocks.size(), 0);
+      for (const int b : chosen_boundary(model, selection))
+        chosen_[model.mesh.boundary[b].block] = 1;
+    }
   }
   bool operator()(const geom::Vec3& place, int block) const;
   bool block(int block) const;
@@ -37,7 +89,7 @@ public:
 private:
   const Model& model_;
   const Selection& selection_;
-  std::vector<char> chosen_; // units: by block
+  std::vector<char> chosen_; // units, faces: by block
 };
 
 bool Selector::operator()(const geom::Vec3& x, int block) const {
@@ -60,6 +112,8 @@ bool Selector::operator()(const geom::Vec3& x, int block) const {
     return chosen_[block] != 0;
   case Selection::Kind::predicate:
     return s.predicate(x);
+  case Selection::Kind::faces: // a place alone is on no face
+    return false;
   }
   return false;
 }
@@ -122,6 +176,15 @@ Selection Selection::of_units(const std::string& body, std::vector<int> numbers)
   return s;
 }
 
+Selection Selection::of_faces(const std::string& name, const std::string& body) {
+  Selection s;
+  s.kind = Kind::faces;
+  s.faces = name;
+  s.body = body;
+  s.text = "faces \"" + name + "\"" + (body.empty() ? "" : " of body \"" + body + "\"");
+  return s;
+}
+
 Selection Selection::where(std::function<bool(const geom::Vec3&)> predicate, std::string text) {
   Selection s;
   s.kind = Kind::predicate;
@@ -132,6 +195,8 @@ Selection Selection::where(std::function<bool(const geom::Vec3&)> predicate, std
 
 bool Selector::block(int block) const {
   const Block& b = model_.blocks[block];
+  if (selection_.kind == Selection::Kind::faces)
+    return chosen_[block] != 0;
   if (selection_.kind != Selection::Kind::side)
     return (*this)(b.mass.centroid, block);
   if (b.meshed) {
@@ -162,6 +227,8 @@ bool selects_point(const Model& model, const Selection& selection, int point) {
 }
 
 std::vector<int> selected_nodes(const Model& model, const Selection& selection) {
+  if (selection.kind == Selection::Kind::faces)
+    return nodes_on(model, chosen_boundary(model, selection));
   const Selector selects(model, selection);
   std::vector<int> nodes;
   for (int node = 0; node < static_cast<int>(model.node_position.size()); ++node)
@@ -171,8 +238,15 @@ std::vector<int> selected_nodes(const Model& model, const Selection& selection) 
 }
 
 std::vector<int> selected_outer_faces(const Model& model, const Selection& selection) {
-  const Selector selects(model, selection);
   std::vector<int> faces;
+  if (selection.kind == Selection::Kind::faces) {
+    const std::vector<int> boundary = chosen_boundary(model, selection);
+    for (int f = 0; f < static_cast<int>(model.outer_faces.size()); ++f)
+      if (std::binary_search(boundary.begin(), boundary.end(), model.outer_faces[f].boundary))
+        faces.push_back(f);
+    return faces;
+  }
+  const Selector selects(model, selection);
   for (int f = 0; f < static_cast<int>(model.outer_faces.size()); ++f) {
     const OuterFace& face = model.outer_faces[f];
     const Block& block = model.blocks[face.block];

@@ -10,7 +10,7 @@
 namespace cdem {
 
 struct Selection {
-  enum class Kind { all, side, plane, box, body, units, predicate };
+  enum class Kind { all, side, plane, box, body, units, faces, predicate };
   Kind kind = Kind::all;
   std::string text = "all"; // as the user wrote it, for messages
 
@@ -18,7 +18,8 @@ struct Selection {
   bool upper = false;     // side: x+ rather than x-
   geom::Plane plane;      // plane
   geom::Box box;          // box
-  std::string body;       // body, units: by name
+  std::string body;       // body, units: by name; faces: the same, or empty for all that have such faces
+  std::string faces;      // faces: the name they were given on the mesh
   std::vector<int> units; // units: which blocks of the body, by their order in it, from 1; ascending
   std::function<bool(const geom::Vec3&)> predicate;
 
@@ -29,12 +30,14 @@ struct Selection {
   static Selection of_body(const std::string& name);
   // Throws geom::InputError unless there are numbers, all from 1.
   static Selection of_units(const std::string& body, std::vector<int> numbers);
+  // Outer faces of meshed bodies that were named on the mesh, of each unit of a pile; as nodes all that lie on them.
+  static Selection of_faces(const std::string& name, const std::string& body = "");
   static Selection where(std::function<bool(const geom::Vec3&)> predicate, std::string text);
 };
 
 struct Model;
 
-// All of the following throw geom::InputError for units that the model does not have.
+// All of the following throw geom::InputError for units or named faces that the model does not have.
 
 // Nodes whose undeformed place is selected; block boundary nodes and centroids alike. Ascending.
 std::vector<int> selected_nodes(const Model&, const Selection&);
@@ -43,7 +46,7 @@ std::vector<int> selected_nodes(const Model&, const Selection&);
 std::vector<int> selected_outer_faces(const Model&, const Selection&);
 
 bool selects_place(const Model&, const Selection&, const geom::Vec3& place, int block);
-// By its centroid; a side selects the blocks that have a face on it.
+// By its centroid; a side, or a name of faces, selects the blocks that have a face there.
 bool selects_block(const Model&, const Selection&, int block);
 // By its place; a body selects the points of its faces.
 bool selects_point(const Model&, const Selection&, int point);

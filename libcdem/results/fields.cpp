@@ -97,10 +97,11 @@ double cell_volume(const Model& model, const Cell& cell) {
   return cell.tet < 0 ? model.blocks[cell.block].mass.volume : tet_volume(model, cell.tet);
 }
 
-// Blocks and tets by their centroid; a side selects those that have a face on it.
+// Blocks and tets by their centroid; a side, or a name of faces, selects those that have a face there.
 std::vector<Cell> selected_cells(const Model& model, const Selection& on) {
   std::vector<Cell> cells;
-  std::vector<char> on_side(on.kind == Selection::Kind::side ? model.tets.size() : 0, 0);
+  const bool by_faces = on.kind == Selection::Kind::side || on.kind == Selection::Kind::faces;
+  std::vector<char> on_side(by_faces ? model.tets.size() : 0, 0);
   if (!on_side.empty())
     for (const int f : selected_outer_faces(model, on))
       if (model.outer_faces[f].boundary >= 0)
@@ -180,7 +181,8 @@ double mean_value(const Model& model, const State& state, const std::string& fie
       nothing_there(on, "block centroids, or a side");
     return sum / weight;
   }
-  if (on.kind == Selection::Kind::side || on.kind == Selection::Kind::plane)
+  if (on.kind == Selection::Kind::side || on.kind == Selection::Kind::plane ||
+      on.kind == Selection::Kind::faces)
     for (const int f : selected_outer_faces(model, on))
       for (const auto& [node, area] : model.outer_faces[f].node_area)
         add(node_value(state, field, node), area);

@@ -1,5 +1,6 @@
 #include "libcdem/step/critical_flow.hpp"
 
+#include "libcdem/checkpoint/archive.hpp"
 #include "libcdem/load/flow.hpp"
 #include "libcdem/results/fragments.hpp"
 #include "libcdem/step/errors.hpp"
@@ -17,6 +18,9 @@ constexpr double first_velocity = 1;        // m/s, of the unbroken reference: f
 constexpr double reference_residual = 1e-5; // of its relaxation
 constexpr std::int64_t steps_per_look = 20; // at new breaks
 constexpr std::int64_t looks_per_judgement = 5;
+
+// The loops of the stage, one after the other.
+enum class Part : std::uint8_t { other_loads, reference, search };
 
 geom::Vec3 vec(const Node& n) {
   return {n.x, n.y, n.z};
@@ -47,7 +51,7 @@ double first_period(const Model& model, const std::vector<std::pair<int, geom::V
 
 // The pressure over time. It rises at a rate from a base point on; a hold keeps it until `resume`.
 struct Pressure {
-  double base_time, base, rate, limit;
+  double base_time = 0, base = 0, rate = 0, limit = 0;
   double resume = -1; // s; > base_time: held until then
 
   double at(double time) const {
@@ -123,103 +127,197 @@ void require_held_there(const Model& model, const ResolvedConditions& r, const S
     throw geom::InputError("held", on.text, "a side that fix holds", "it is free");
 }
 
-} // namespace
+// What the search carries beside the loops of its parts.
+struct Carried {
+  Part part = Part::other_loads;
+  std::vector<std::pair<int, geom::Vec3>>
+      pattern;                      // node, N at 1 Pa, where the faces were when the stage began
+  std::vector<Node> start;          // m, displacement before the flow (n_nodes)
+  double start_time = 0;            // s, when the pressure begins to rise
+  std::size_t first_break = 0;      // in the log
+  std::int64_t seen = 0, looks = 0; // breaks, and looks at them
+  Pressure pressure;
+  CriticalFlowResult result;
+};
 
-CriticalFlowResult critical_flow(const StageContext& context, const CriticalFlowOptions& options) {
-  const Model& model = context.model;
-  State& state = context.state;
-  Conditions conditions = context.conditions;
-  const double density = options.flow.water_density;
-  const double limit = flow_pressure(options.max_velocity, density);
-  Pressure pressure{0, flow_pressure(first_velocity, density), options.pressure_rate, limit};
-  Flow flow = options.flow;
-  bool moving = false;
-  flow.velocity = [&](double time) {
-    return moving ? flow_velocity(pressure.at(time), density) : first_velocity;
-  };
-  conditions.flows.push_back(flow);
-  const StageContext with_flow{
-      model,           state,          conditions,    context.log, context.last_good, context.observer,
-      context.threads, context.number, context.keeper};
-  const ResolvedConditions resolved = resolve(model, state, conditions);
-  require_held(resolved);
-  if (options.held)
-    require_held_there(model, resolved, *options.held);
-  const auto pattern = resolved.varying[resolved.flows.back().load].forces;
-  if (pattern.empty())
+template <class A>
+void archive(A& a, Carried& x) {
+  auto& [part, pattern, start, start_time, first_break, seen, looks, pressure, result] = x;
+  auto& [base_time, base, rate, limit, resume] = pressure;
+  archive_all(a, part, pattern, start, start_time, first_break, seen, looks, base_time, base, rate, limit,
+              resume, result.compliance, result.period, result.first_break_pressure,
+              result.first_break_velocity, result.first_break_place);
+  result.curve.resize(archive_size(a, result.curve.size()));
+  for (auto& [time, at, velocity, displacement, broken] : result.curve)
+    archive_all(a, time, at, velocity, displacement, broken);
+}
+
+class Search {
+public:
+  Search(const StageContext& context, const CriticalFlowOptions& options)
+      : model_(context.model), state_(context.state), options_(options), without_flow_(context),
+        conditions_(context.conditions), volume_(volume_of(context.model)) {
+    const double density = options.flow.water_density;
+    now_.pressure = {0, flow_pressure(first_velocity, density), options.pressure_rate,
+                     flow_pressure(options.max_velocity, density)};
+    Flow flow = options.flow;
+    flow.velocity = [this, density](double time) {
+      return now_.part == Part::search ? flow_velocity(now_.pressure.at(time), density) : first_velocity;
+    };
+    conditions_.flows.push_back(flow);
+    resolved_ = resolve(model_, state_, conditions_);
+    without_flow_.beside = [this] {
+      Writer a;
+      archive(a, now_);
+      return a.take();
+    };
+  }
+  Search(const Search&) = delete;
+  Search& operator=(const Search&) = delete;
+  CriticalFlowResult operator()();
+
+private:
+  std::int64_t broken() const {
+    return static_cast<std::int64_t>(without_flow_.log.breaks.size() - now_.first_break);
+  }
+  void start();
+  void begin(Part);
+  StageContext with_flow() const {
+    const StageContext& c = without_flow_;
+    return {c.model,   c.state,  conditions_, c.log,    c.last_good, c.observer,
+            c.threads, c.number, c.keeper,    c.moment, c.from,      c.beside};
+  }
+  void measure();
+  void look();
+  CriticalFlowResult raise();
+
+  const Model& model_;
+  State& state_;
+  const CriticalFlowOptions& options_;
+  StageContext without_flow_;
+  Conditions conditions_; // with the flow
+  ResolvedConditions resolved_;
+  double volume_; // m3
+  bool ended_ = false;
+  Carried now_;
+};
+
+void Search::start() {
+  require_held(resolved_);
+  if (options_.held)
+    require_held_there(model_, resolved_, *options_.held);
+  now_.pattern = resolved_.varying[resolved_.flows.back().load].forces;
+  if (now_.pattern.empty())
     throw geom::InputError(
         "critical_flow: no outer face of the place looks towards the flow; turn its direction");
+  begin(Part::other_loads);
+}
 
-  if (loaded(context.conditions)) // what they do is none of the flow's
-    find_balance(context, "critical_flow: other loads");
-  const std::vector<Node> start = state.displacement;
-  find_balance(with_flow, "critical_flow: reference");
+void Search::begin(Part part) {
+  now_.part = part;
+  without_flow_.from = nullptr;
+  leave_from_here(without_flow_);
+}
 
-  CriticalFlowResult result;
-  const double reference = displacement_along(pattern, state, start);
+// The unbroken solid at rest under the small pressure.
+void Search::measure() {
+  CriticalFlowResult& result = now_.result;
+  const double reference = displacement_along(now_.pattern, state_, now_.start);
   if (!(reference > 0))
     throw geom::InputError(
         "critical_flow: the flow moves nothing: every face it meets is held; hold a side only");
-  result.compliance = reference / pressure.base;
-  result.period = first_period(model, pattern, pressure.base, state, start);
-  const double hold_time = options.hold_periods * result.period, volume = volume_of(model);
-  const double start_time = state.time;
-  const std::size_t first_break = context.log.breaks.size();
-  const auto broken = [&] { return static_cast<std::int64_t>(context.log.breaks.size() - first_break); };
-  pressure.base_time = start_time;
-  moving = true;
+  result.compliance = reference / now_.pressure.base;
+  result.period = first_period(model_, now_.pattern, now_.pressure.base, state_, now_.start);
+  now_.start_time = now_.pressure.base_time = state_.time;
+  now_.first_break = without_flow_.log.breaks.size();
+}
 
-  std::int64_t seen = 0, looks = 0;
-  bool ended = false;
-  const auto look = [&] {
-    if (seen == 0 && broken() > 0) {
-      result.first_break_pressure = pressure.at(context.log.breaks[first_break].time);
-      result.first_break_velocity = flow_velocity(result.first_break_pressure, density);
-      result.first_break_place = broken_area(context.log, first_break, true).centroid;
-    }
-    if (options.hold && broken() > seen)
-      pressure.hold(state.time, state.time + hold_time);
-    else if (pressure.resume >= 0 && state.time >= pressure.resume)
-      pressure.go_on(state.time);
-    seen = broken();
-    if (++looks % looks_per_judgement != 0)
-      return;
-    const double now = pressure.at(state.time), moved = displacement_along(pattern, state, start);
-    result.curve.push_back({state.time - start_time, now, flow_velocity(now, density), moved, seen});
-    result.fragments = fragments(model, state, resolved);
-    const bool loose = std::any_of(result.fragments.begin(), result.fragments.end(), [&](const Fragment& f) {
-      return !f.held && f.volume >= options.fragment_fraction * volume;
-    });
-    if (loose)
-      result.reason = CriticalFlowResult::Reason::fragment;
-    else if (moved >= options.compliance_ratio * result.compliance * now)
-      result.reason = CriticalFlowResult::Reason::compliance;
-    ended = loose || result.reason == CriticalFlowResult::Reason::compliance || now >= limit;
-  };
+void Search::look() {
+  CriticalFlowResult& result = now_.result;
+  const RunLog& log = without_flow_.log;
+  const double density = options_.flow.water_density;
+  if (now_.seen == 0 && broken() > 0) {
+    result.first_break_pressure = now_.pressure.at(log.breaks[now_.first_break].time);
+    result.first_break_velocity = flow_velocity(result.first_break_pressure, density);
+    result.first_break_place = broken_area(log, now_.first_break, true).centroid;
+  }
+  if (options_.hold && broken() > now_.seen)
+    now_.pressure.hold(state_.time, state_.time + options_.hold_periods * result.period);
+  else if (now_.pressure.resume >= 0 && state_.time >= now_.pressure.resume)
+    now_.pressure.go_on(state_.time);
+  now_.seen = broken();
+  if (++now_.looks % looks_per_judgement != 0)
+    return;
+  const double now = now_.pressure.at(state_.time),
+               moved = displacement_along(now_.pattern, state_, now_.start);
+  result.curve.push_back({state_.time - now_.start_time, now, flow_velocity(now, density), moved, now_.seen});
+  result.fragments = fragments(model_, state_, resolved_);
+  const bool loose = std::any_of(result.fragments.begin(), result.fragments.end(), [&](const Fragment& f) {
+    return !f.held && f.volume >= options_.fragment_fraction * volume_;
+  });
+  if (loose)
+    result.reason = CriticalFlowResult::Reason::fragment;
+  else if (moved >= options_.compliance_ratio * result.compliance * now)
+    result.reason = CriticalFlowResult::Reason::compliance;
+  ended_ = loose || result.reason == CriticalFlowResult::Reason::compliance || now >= now_.pressure.limit;
+}
+
+CriticalFlowResult Search::raise() {
+  const double density = options_.flow.water_density;
   RunOptions stepping;
   stepping.steps = std::numeric_limits<std::int64_t>::max();
-  stepping.safety = options.safety;
-  stepping.local_damping = options.local_damping;
+  stepping.safety = options_.safety;
+  stepping.local_damping = options_.local_damping;
   stepping.follows_pieces = false; // crumbs may go where they like until it ends
   stepping.callback_every = steps_per_look;
-  stepping.callback = look;
-  stepping.stop = [&] { return ended; };
+  stepping.callback = [&] { look(); };
+  stepping.stop = [&] { return ended_; };
   stepping.note = [&] {
-    return fmt::format("flow {:.3g} m/s", flow_velocity(pressure.at(state.time), density));
+    return fmt::format("flow {:.3g} m/s", flow_velocity(now_.pressure.at(state_.time), density));
   };
-  const RunResult run_result =
-      run(with_flow, stepping, options.hold ? "critical_flow: hold" : "critical_flow: ramp");
+  const RunResult ran =
+      run(with_flow(), stepping, options_.hold ? "critical_flow: hold" : "critical_flow: ramp");
 
-  result.pressure = pressure.at(state.time);
+  CriticalFlowResult& result = now_.result;
+  result.pressure = now_.pressure.at(state_.time);
   result.velocity = flow_velocity(result.pressure, density);
-  result.time = state.time - start_time;
-  result.broken_tension = run_result.broken_tension;
-  result.broken_shear = run_result.broken_shear;
-  result.steps = run_result.steps;
-  const BrokenArea all = broken_area(context.log, first_break, false);
+  result.time = state_.time - now_.start_time;
+  result.broken_tension = ran.broken_tension;
+  result.broken_shear = ran.broken_shear;
+  result.steps = ran.steps;
+  const BrokenArea all = broken_area(without_flow_.log, now_.first_break, false);
   result.broken_area = all.area;
   result.place = all.centroid;
-  return result;
+  return std::move(result);
+}
+
+CriticalFlowResult Search::operator()() {
+  if (const Moment* const from = without_flow_.from) {
+    Reader a(from->beside);
+    archive(a, now_);
+    if (from->step == 0) // where a part begins
+      without_flow_.from = nullptr;
+  } else {
+    start();
+  }
+  if (now_.part == Part::other_loads) {
+    if (loaded(without_flow_.conditions)) // what they do is none of the flow's
+      find_balance(without_flow_, "critical_flow: other loads");
+    now_.start = state_.displacement;
+    begin(Part::reference);
+  }
+  if (now_.part == Part::reference) {
+    find_balance(with_flow(), "critical_flow: reference");
+    measure();
+    begin(Part::search);
+  }
+  return raise();
+}
+
+} // namespace
+
+CriticalFlowResult critical_flow(const StageContext& context, const CriticalFlowOptions& options) {
+  return Search(context, options)();
 }
 
 } // namespace cdem

@@ -1,13 +1,15 @@
 // How a stage that runs is left and taken up again, to the same bits as one that was never left.
 //
 // Every watch_every steps a stage has brought everything up to one moment and copied its state (Stage::mark). From
-// there it can go on: the state is in last_good, what the loop carries besides in the Moment.
+// there it can go on: the state is in last_good, what the loop carries besides in the Moment. A stage of several loops
+// (settle, critical_flow) can be left in each of them and where one begins.
 #pragma once
 
 #include "libcdem/parallel/node.hpp"
 #include "libgeom/core/types.hpp"
 
 #include <cstdint>
+#include <string>
 #include <vector>
 
 namespace cdem {
@@ -21,6 +23,8 @@ struct Moment {
   std::vector<Node> previous_force;                                // N, of a relaxation (n_nodes)
   // Those of the Workspace: what broken and softening springs lose is counted from the step before.
   std::vector<geom::Vec3> spring_force, stretch; // N, m (n_points)
+  // Of a stage of several loops: what it carries beside them, and which of them runs, as it has written it itself.
+  std::string beside;
 };
 
 // Who writes checkpoints while a stage runs. Nothing it does may change the state.

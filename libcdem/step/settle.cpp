@@ -1,5 +1,6 @@
 #include "libcdem/step/settle.hpp"
 
+#include "libcdem/checkpoint/archive.hpp"
 #include "libcdem/results/energy.hpp"
 #include "libcdem/rigid/convert.hpp"
 #include "libcdem/step/run.hpp"
@@ -15,23 +16,18 @@ namespace {
 constexpr std::int64_t steps_per_look = 20;
 constexpr int quiet_looks = 25;
 
-// Looks at the kinetic energy of a stage.
-class Calm {
-public:
-  explicit Calm(double ratio) : goal_(ratio) {}
-  void begin() { quiet_ = 0; }
-  void look(double kinetic) {
-    peak_ = std::max(peak_, kinetic);
-    ratio_ = peak_ > 0 ? kinetic / peak_ : 0;
-    quiet_ = ratio_ <= goal_ ? quiet_ + 1 : 0;
-  }
-  bool reached() const { return quiet_ >= quiet_looks; }
-  double ratio() const { return ratio_; }
-  double peak() const { return peak_; }
+// The loops of the stage, of which it goes through one or two.
+enum class Part : std::uint8_t { rigid, free, last };
 
-private:
-  double goal_, peak_ = 0, ratio_ = 0;
-  int quiet_ = 0;
+// Looks at the kinetic energy of a stage.
+struct Calm {
+  double peak = 0, ratio = 0; // J; kinetic energy over its peak
+  int quiet = 0;              // looks in a row that found it low
+  void look(double kinetic, double goal) {
+    peak = std::max(peak, kinetic);
+    ratio = peak > 0 ? kinetic / peak : 0;
+    quiet = ratio <= goal ? quiet + 1 : 0;
+  }
 };
 
 // Deformable meshed blocks of which nothing is held, or all of it at a velocity: they can fall as rigid bodies.
@@ -61,74 +57,152 @@ void take_velocities_as_present(const Model& model, State& state) {
   state.spent.fictitious += before - energy(model, state).total();
 }
 
+// What settling carries beside the loops of its phases.
+struct Carried {
+  Part part = Part::rigid;
+  double start = 0, part_start = 0; // s
+  std::int64_t looks = 0;           // in this part
+  std::vector<int> turned;          // blocks that are rigid while they fall
+  Calm calm;
+  SettleResult result;
+};
+
+template <class A>
+void archive(A& a, Carried& x) {
+  auto& [part, start, part_start, looks, turned, calm, result] = x;
+  archive_all(a, part, start, part_start, looks, turned, calm.peak, calm.ratio, calm.quiet, result.steps,
+              result.made_rigid, result.wall_time);
+  std::size_t phases = archive_size(a, result.phases.size());
+  result.phases.resize(phases);
+  for (auto& [name, steps, time, kinetic_ratio] : result.phases)
+    archive_all(a, name, steps, time, kinetic_ratio);
+}
+
+class Settling {
+public:
+  Settling(Model& model, const StageContext& context, const SettleOptions& options)
+      : model_(model), state_(context.state), options_(options), context_(context) {
+    context_.beside = [this] {
+      Writer a;
+      archive(a, now_);
+      return a.take();
+    };
+  }
+  SettleResult operator()();
+
+private:
+  // Ends at rest, or where something touches first.
+  enum class Until { rest, touch };
+
+  bool deforms() const {
+    return std::any_of(model_.blocks.begin(), model_.blocks.end(),
+                       [](const Block& block) { return block.rigid < 0; });
+  }
+  void start();
+  void begin(Part);
+  void phase(const std::string& name, double time_step, Until);
+
+  Model& model_;
+  State& state_;
+  const SettleOptions& options_;
+  StageContext context_;
+  Carried now_;
+};
+
+void Settling::start() {
+  now_.start = state_.time;
+  if (options_.rigid)
+    now_.turned = can_be_rigid(model_, resolve(model_, state_, context_.conditions));
+  context_.observer.message(
+      fmt::format("stage {} settle: for the deposition alone {}local damping {:g} of what touches; off "
+                  "afterwards",
+                  context_.number,
+                  now_.turned.empty() ? "" : fmt::format("{} units are rigid, with ", now_.turned.size()),
+                  options_.local_damping));
+  now_.result.made_rigid = static_cast<std::int64_t>(now_.turned.size());
+  if (!now_.turned.empty()) {
+    set_rigid(model_, state_, now_.turned);
+    begin(Part::rigid);
+  } else {
+    begin(deforms() && state_.contacts.empty() ? Part::free : Part::last);
+  }
+}
+
+void Settling::begin(Part part) {
+  now_.part = part;
+  now_.part_start = state_.time;
+  now_.looks = 0;
+  now_.calm.quiet = 0;
+  context_.from = nullptr;
+  leave_from_here(context_);
+}
+
+void Settling::phase(const std::string& name, double time_step, Until until) {
+  RunOptions stepping;
+  stepping.duration = now_.start + options_.max_time - state_.time;
+  if (!(stepping.duration > 0))
+    return;
+  stepping.safety = options_.safety;
+  stepping.time_step = time_step;
+  stepping.local_damping = until == Until::touch ? 0 : options_.local_damping;
+  stepping.damp_flight = false;
+  const std::int64_t looks_per_call =
+      options_.callback ? (options_.callback_every + steps_per_look - 1) / steps_per_look : 0;
+  stepping.callback_every = steps_per_look;
+  stepping.callback = [&] {
+    now_.calm.look(kinetic_energy(model_, state_), options_.kinetic_energy_ratio);
+    ++now_.looks;
+    if (looks_per_call > 0 && now_.looks % looks_per_call == 0)
+      options_.callback();
+  };
+  stepping.stop = [&] {
+    return until == Until::touch ? !state_.contacts.empty() : now_.calm.quiet >= quiet_looks;
+  };
+  const RunResult ran = run(context_, stepping, "settle: " + name);
+  SettleResult& result = now_.result;
+  const double took = state_.time - now_.part_start;
+  result.steps += ran.steps;
+  result.wall_time += ran.wall_time;
+  result.phases.push_back({name, ran.steps, took, now_.calm.ratio});
+  context_.observer.message(
+      fmt::format("stage {} settle, {}: {:.4g} s in {} steps of {:.3g} s, kinetic energy {:.3g} of its peak",
+                  context_.number, name, took, ran.steps, ran.time_step, now_.calm.ratio));
+}
+
+SettleResult Settling::operator()() {
+  if (const Moment* const from = context_.from) {
+    Reader a(from->beside);
+    archive(a, now_);
+    if (from->step == 0) // where a phase begins
+      context_.from = nullptr;
+  } else {
+    start();
+  }
+  if (now_.part == Part::rigid) {
+    phase("rigid fall", options_.time_step, Until::rest);
+    set_deformable(model_, state_, now_.turned);
+    take_velocities_as_present(model_, state_);
+    begin(Part::last);
+  }
+  if (now_.part == Part::free) {
+    phase("free fall", 0, Until::touch);
+    begin(Part::last);
+  }
+  const bool soft = deforms();
+  phase(soft ? "deformable" : "rigid fall", soft ? 0 : options_.time_step, Until::rest);
+
+  SettleResult& result = now_.result;
+  result.time = state_.time - now_.start;
+  result.converged = now_.calm.quiet >= quiet_looks;
+  result.kinetic_ratio = now_.calm.ratio;
+  result.peak_kinetic = now_.calm.peak;
+  return std::move(result);
+}
+
 } // namespace
 
 SettleResult settle(Model& model, const StageContext& context, const SettleOptions& options) {
-  State& state = context.state;
-  const double start = state.time;
-  SettleResult result;
-  Calm calm(options.kinetic_energy_ratio);
-
-  // Ends at rest, or where something touches first.
-  enum class Until { rest, touch };
-  const auto phase = [&](const std::string& name, double time_step, Until until) {
-    const double begin = state.time;
-    calm.begin();
-    RunOptions stepping;
-    stepping.duration = start + options.max_time - state.time;
-    if (!(stepping.duration > 0))
-      return;
-    stepping.safety = options.safety;
-    stepping.time_step = time_step;
-    stepping.local_damping = until == Until::touch ? 0 : options.local_damping;
-    stepping.damp_flight = false;
-    const std::int64_t looks_per_call =
-        options.callback ? (options.callback_every + steps_per_look - 1) / steps_per_look : 0;
-    std::int64_t looks = 0;
-    stepping.callback_every = steps_per_look;
-    stepping.callback = [&] {
-      calm.look(kinetic_energy(model, state));
-      if (looks_per_call > 0 && ++looks % looks_per_call == 0)
-        options.callback();
-    };
-    stepping.stop = [&] { return until == Until::touch ? !state.contacts.empty() : calm.reached(); };
-    const RunResult ran = run(context, stepping, "settle: " + name);
-    result.steps += ran.steps;
-    result.wall_time += ran.wall_time;
-    result.phases.push_back({name, ran.steps, state.time - begin, calm.ratio()});
-    context.observer.message(fmt::format(
-        "stage {} settle, {}: {:.4g} s in {} steps of {:.3g} s, kinetic energy {:.3g} of its peak",
-        context.number, name, state.time - begin, ran.steps, ran.time_step, calm.ratio()));
-  };
-
-  std::vector<int> turned;
-  if (options.rigid)
-    turned = can_be_rigid(model, resolve(model, state, context.conditions));
-  context.observer.message(fmt::format(
-      "stage {} settle: for the deposition alone {}local damping {:g} of what touches; off "
-      "afterwards",
-      context.number, turned.empty() ? "" : fmt::format("{} units are rigid, with ", turned.size()),
-      options.local_damping));
-  result.made_rigid = static_cast<std::int64_t>(turned.size());
-  if (!turned.empty()) {
-    set_rigid(model, state, turned);
-    context.last_good = state;
-    phase("rigid fall", options.time_step, Until::rest);
-    set_deformable(model, state, turned);
-    take_velocities_as_present(model, state);
-    context.last_good = state;
-  }
-  const bool deforms = std::any_of(model.blocks.begin(), model.blocks.end(),
-                                   [](const Block& block) { return block.rigid < 0; });
-  if (deforms && turned.empty() && state.contacts.empty())
-    phase("free fall", 0, Until::touch);
-  phase(deforms ? "deformable" : "rigid fall", deforms ? 0 : options.time_step, Until::rest);
-
-  result.time = state.time - start;
-  result.converged = calm.reached();
-  result.kinetic_ratio = calm.ratio();
-  result.peak_kinetic = calm.peak();
-  return result;
+  return Settling(model, context, options)();
 }
 
 } // namespace cdem

@@ -78,18 +78,33 @@ double relative_residual(const NodeSums& sums) {
   return sums.residual2 > 0 ? 1.0 : std::isnan(sums.residual2) ? sums.residual2 : 0.0;
 }
 
+void leave_from_here(const StageContext& context) {
+  context.last_good = context.state;
+  if (!context.moment)
+    return;
+  Moment moment;
+  moment.breaks = context.log.breaks.size();
+  moment.broken_tension_before = context.log.broken_tension;
+  moment.broken_shear_before = context.log.broken_shear;
+  if (context.beside)
+    moment.beside = context.beside();
+  *context.moment = std::move(moment);
+  if (context.keeper)
+    context.keeper->marked();
+}
+
 Stage::Stage(StageContext context, std::string kind, double run_away)
     : work(context.model, context.state, context.conditions), context_(context),
       threads_(useful_threads(context.model, context.threads)), kind_(std::move(kind)), run_away_(run_away),
       broken_tension_before_(context.log.broken_tension), broken_shear_before_(context.log.broken_shear),
       start_(std::chrono::steady_clock::now()), told_(start_) {
   context_.threads = threads_.threads();
-  context_.last_good = context_.state;
   ask_for_huge_pages_of(context_.model, context_.state, work);
   start_spring_forces(context_.model, context_.state, work);
-  Moment moment;
   if (const Moment* from = context_.from) {
-    moment = *from;
+    context_.last_good = context_.state;
+    if (context_.moment)
+      *context_.moment = *from;
     step = told_step_ = from->step;
     broken_tension_before_ = from->broken_tension_before;
     broken_shear_before_ = from->broken_shear_before;
@@ -98,14 +113,10 @@ Stage::Stage(StageContext context, std::string kind, double run_away)
     start_ -= std::chrono::duration_cast<std::chrono::steady_clock::duration>(
         std::chrono::duration<double>(from->wall_time));
   } else {
-    moment.breaks = context_.log.breaks.size();
-    moment.broken_tension_before = broken_tension_before_;
-    moment.broken_shear_before = broken_shear_before_;
+    leave_from_here(context_);
   }
   if (!context_.model.surface.empty())
     row_sums_ = all_row_sums(context_.model);
-  if (context_.moment)
-    *context_.moment = std::move(moment);
 }
 
 void Stage::mark(std::vector<double> carried, const std::vector<Node>& previous_force) {
@@ -119,6 +130,8 @@ void Stage::mark(std::vector<double> carried, const std::vector<Node>& previous_
   moment.previous_force = previous_force;
   moment.spring_force = work.spring_force;
   moment.stretch = work.stretch;
+  if (context_.beside)
+    moment.beside = context_.beside();
   // Contacts are looked for anew here, as by a stage that goes on: which pairs sleep is not saved.
   if (!context_.model.surface.empty()) {
     work.meeting = {};

@@ -27,7 +27,11 @@ struct StageContext {
   Keeper* keeper = nullptr;                // may be null
   std::optional<Moment>* moment = nullptr; // written by the stage: where it can be left; null: nowhere
   const Moment* from = nullptr;            // the stage goes on from here; the state is the one of that moment
+  std::function<std::string()> beside{};   // Moment::beside as it is now; empty: a stage of one loop
 };
+
+// The stage can be left here, where none of its loops has begun a step: the state is kept, the Moment written anew.
+void leave_from_here(const StageContext&);
 
 // Steps between looks at every node and element, and between copies of the state.
 inline constexpr std::int64_t watch_every = 200;

@@ -5,12 +5,9 @@
 #include "libcdem/results/snapshot.hpp"
 #include "libgeom/mesh/boundary.hpp"
 
-#include <map>
-
 namespace cdem {
 
-// Outer faces that were given a name: indices into geom::outer_faces.
-using NamedFaces = std::map<std::string, std::vector<int>>;
+using geom::NamedFaces;
 
 // Cell fields: "region", "radius_ratio" (1 regular, 0 flat), "min_dihedral" degrees, "volume" m3; point
 // fields: "on_<name>", 1 on the nodes of the named faces. Edges of the surface are outlined where it has a

@@ -1,11 +1,31 @@
 #include "libgeom/mesh/order.hpp"
 
+#include "libgeom/mesh/boundary.hpp"
+
 #include <algorithm>
 
 namespace geom {
 namespace {
 
 constexpr int bits = 21; // of each axis; three fit into 64
+
+// The outer faces of `to`, which has the tets of `from` in another order, that are the named ones of `from`.
+NamedFaces carried_over(const TetMesh& from, const TetMesh& to, const std::vector<int>& new_tet) {
+  NamedFaces named;
+  if (from.named.empty())
+    return named;
+  const std::vector<OuterFace> before = outer_faces(from), now = outer_faces(to);
+  std::vector<int> index(4 * to.tets.size(), -1);
+  for (int i = 0; i < static_cast<int>(now.size()); ++i)
+    index[4 * now[i].tet + now[i].face] = i;
+  for (const auto& [name, faces] : from.named) {
+    std::vector<int>& there = named[name];
+    for (const int face : faces)
+      there.push_back(index[4 * new_tet[before[face].tet] + before[face].face]);
+    std::sort(there.begin(), there.end());
+  }
+  return named;
+}
 
 } // namespace
 
@@ -97,6 +117,7 @@ TetMesh reordered(const TetMesh& mesh, const MeshOrder& order) {
     if (!mesh.region.empty())
       out.region.push_back(mesh.region[old]);
   }
+  out.named = carried_over(mesh, out, inverse(order.tets));
   return out;
 }
 

@@ -42,6 +42,12 @@ Value units(Session&, Object*, const Arguments& a) {
   return object;
 }
 
+Value faces(Session&, Object*, const Arguments& a) {
+  auto object = std::make_shared<SelectionObject>();
+  object->selection = Selection::of_faces(a.text("name"), a.text_or("body", ""));
+  return object;
+}
+
 Value where(Session&, Object*, const Arguments& a) {
   auto object = std::make_shared<SelectionObject>();
   object->selection = predicate_selection(a.function("predicate"));
@@ -89,6 +95,15 @@ void bind_selections(Module& m) {
                          "cdem.Selection",
                          "",
                          units});
+  m.functions.push_back(
+      {"select.faces",
+       "Outer faces that mesh:faces{ name = ... } named before the model was made; of a pile, "
+       "those of each unit. To hold them is to hold all nodes that lie on them.",
+       {text("name").required(), text("body").doc("by name; all bodies that have such faces when left out")},
+       false,
+       "cdem.Selection",
+       "",
+       faces});
   m.functions.push_back({"select.where",
                          "Everything for whose undeformed place a function returns true.",
                          {function("predicate", "(x: number, y: number, z: number): boolean").required()},

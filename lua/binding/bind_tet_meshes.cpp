@@ -89,7 +89,7 @@ Value faces(Session&, TetMeshObject& self, const Arguments& a) {
                                      : "; its box is from " + describe(geom::bounding_box(self.mesh).min) +
                                            " to " + describe(geom::bounding_box(self.mesh).max)));
   if (a.has("name"))
-    self.named[a.text("name")] = chosen;
+    self.mesh.named[a.text("name")] = chosen;
   const geom::FaceGroup group = geom::measure(self.mesh, self.faces, chosen);
   return Table{{"count", static_cast<std::int64_t>(chosen.size())},
                {"area", group.area},
@@ -101,7 +101,7 @@ Value save(Session& session, TetMeshObject& self, const Arguments& a) {
   require_ending(a.text("file"), ".vtu");
   if (session.settings.check_only)
     return {};
-  Snapshot snapshot = mesh_snapshot(self.mesh, self.named, -1);
+  Snapshot snapshot = mesh_snapshot(self.mesh, self.mesh.named, -1);
   snapshot.title = self.title;
   write_vtu(snapshot, session.files.to_write(a.text("file")).string());
   return {};
@@ -112,8 +112,8 @@ Value picture(Session& session, TetMeshObject& self, const Arguments& a) {
   PictureOptions options = view_options(a);
   options.edges = a.text("edges") != "none";
   Snapshot snapshot =
-      mesh_snapshot(self.mesh, self.named, a.text("edges") == "mesh" ? -1 : radians(a.number("crease")));
-  set_apart(snapshot, self.faces, self.named);
+      mesh_snapshot(self.mesh, self.mesh.named, a.text("edges") == "mesh" ? -1 : radians(a.number("crease")));
+  set_apart(snapshot, self.faces, self.mesh.named);
   if (!session.settings.check_only) {
     render(snapshot, options, session.files.to_write(a.text("file")).string());
     return {};
@@ -239,7 +239,9 @@ void bind_tet_meshes(Module& m) {
        "",
        method<TetMeshObject>(quality)},
       {"faces",
-       "Picks outer faces; with a name they show as point field on_<name> in files and pictures.",
+       "Picks outer faces; with a name they show as point field on_<name> in files and pictures, and are a "
+       "place "
+       "in a model that is made of the mesh afterwards: cdem.select.faces.",
        {choice("side", {"x-", "x+", "y-", "y+", "z-", "z+"}).doc("faces in that face of the mesh's box"),
         record("plane", {vec3("point").unit("m").required(), vec3("normal").required()})
             .doc("faces in a plane"),

@@ -1,6 +1,7 @@
 #include "lua/binding/pile_object.hpp"
 
 #include "libgeom/core/error.hpp"
+#include "libgeom/mesh/boundary.hpp"
 
 #include <nlohmann/json.hpp>
 
@@ -21,6 +22,15 @@ geom::Vec3 vector_from(const Json& json) {
   return {x[0], x[1], x[2]};
 }
 
+void require_outer_faces(const geom::TetMesh& mesh, const std::string& source) {
+  const int count = static_cast<int>(geom::outer_faces(mesh).size());
+  for (const auto& [name, faces] : mesh.named)
+    for (const int face : faces)
+      if (face < 0 || face >= count)
+        throw geom::InputError(source + ": faces \"" + name + "\"", std::to_string(face),
+                               "the number of an outer face, below " + std::to_string(count));
+}
+
 } // namespace
 
 std::string pile_text(const geom::Pile& pile) {
@@ -37,6 +47,8 @@ std::string pile_text(const geom::Pile& pile) {
   for (const geom::Tet& tet : pile.unit.tets)
     json["tets"].push_back(tet);
   json["regions"] = pile.unit.region;
+  if (!pile.unit.named.empty())
+    json["faces"] = pile.unit.named;
   return json.dump() + "\n";
 }
 
@@ -60,6 +72,8 @@ geom::Pile pile_from(const std::string& text, const std::string& source) {
       pile.unit.nodes.push_back(vector_from(node));
     pile.unit.tets = json.at("tets").get<std::vector<geom::Tet>>();
     pile.unit.region = json.at("regions").get<std::vector<int>>();
+    if (json.contains("faces"))
+      pile.unit.named = json.at("faces").get<geom::NamedFaces>();
   } catch (const Json::exception&) {
     throw geom::InputError(source + ": no pile; a file that pile:save{} wrote is needed");
   }
@@ -69,6 +83,8 @@ geom::Pile pile_from(const std::string& text, const std::string& source) {
   if (pile.poses.empty())
     throw geom::InputError(source + ": the pile has no units");
   geom::validate(pile, source);
+  if (!pile.unit.named.empty())
+    require_outer_faces(pile.unit, source);
   return pile;
 }
 

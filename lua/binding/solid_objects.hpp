@@ -27,7 +27,6 @@ struct TetMeshObject final : Object {
 
   geom::TetMesh mesh;
   std::vector<geom::OuterFace> faces;
-  NamedFaces named;
   std::string title;
 
   const char* class_name() const override { return "TetMesh"; }

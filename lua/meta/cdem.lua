@@ -436,7 +436,7 @@ function TetMesh:quality() end
 ---@field angle? number deg, in [0, 90], default 10: of direction: how far off a normal may be
 ---@field name? string
 
----Picks outer faces; with a name they show as point field on_<name> in files and pictures.
+---Picks outer faces; with a name they show as point field on_<name> in files and pictures, and are a place in a model that is made of the mesh afterwards: cdem.select.faces.
 ---@param options? cdem.TetMeshFacesOptions
 ---@return cdem.FaceGroup
 function TetMesh:faces(options) end
@@ -1447,6 +1447,15 @@ function cdem.select.box(options) end
 ---@param options cdem.SelectUnitsOptions
 ---@return cdem.Selection
 function cdem.select.units(options) end
+
+---@class (exact) cdem.SelectFacesOptions
+---@field name string
+---@field body? string by name; all bodies that have such faces when left out
+
+---Outer faces that mesh:faces{ name = ... } named before the model was made; of a pile, those of each unit. To hold them is to hold all nodes that lie on them.
+---@param options cdem.SelectFacesOptions
+---@return cdem.Selection
+function cdem.select.faces(options) end
 
 ---Everything for whose undeformed place a function returns true.
 ---@param predicate fun(x: number, y: number, z: number): boolean

@@ -135,3 +135,17 @@ TEST_CASE("resume: what cannot be gone on from is refused in one line") {
   CHECK(place.cdem({"resume", "results/plate"}).exit_code == 0);
   CHECK(read_file(place.results / "report.json") == whole_report());
 }
+
+TEST_CASE("resume: a run that was started with --unsafe goes on only when that is said again") {
+  Place place;
+  write_file(place.folder / "plate/case.lua", std::string(plate) + "print(os.execute ~= nil)\n");
+  REQUIRE(place.cdem({"run", "plate/case.lua", "--unsafe"}, SIGINT, "begins").exit_code == 130);
+  const Outcome refused = place.cdem({"resume", "results/plate"});
+  CHECK(refused.exit_code == 2);
+  CHECK_THAT(refused.err, StartsWith("cdem: error: ") && Contains("cdem resume results/plate --unsafe"));
+  CHECK(lines_of(refused.err).size() == 1);
+  const Outcome ended = place.cdem({"resume", "results/plate", "--unsafe"});
+  CHECK(ended.exit_code == 0);
+  CHECK_THAT(ended.out, Contains("\ntrue"));
+  CHECK(read_file(place.results / "report.json") == whole_report());
+}

@@ -45,6 +45,14 @@ TetMesh shuffled(const TetMesh& mesh) {
 
 } // namespace
 
+TEST_CASE("named faces keep their names where a mesh is put into another order") {
+  TetMesh mesh = box_mesh({1, 1, 1}, {4, 3, 2}, 0.1);
+  mesh.named["top"] = faces_on_side(mesh, outer_faces(mesh), "z+");
+  REQUIRE(mesh.named["top"].size() == 24);
+  for (const TetMesh& other : {shuffled(mesh), ordered(mesh)})
+    CHECK(other.named.at("top") == faces_on_side(other, outer_faces(other), "z+"));
+}
+
 TEST_CASE("the Hilbert curve visits each cell of a cube once, each step to a neighbour") {
   // The first 8^3 places of the curve fill the cube of 8 cells at its start, whose corner is the origin.
   std::map<std::uint64_t, Vec3> place;

@@ -168,6 +168,75 @@ cdem.report{ { name = "hash", value = model.state_hash }, { name = "state", valu
   CHECK(broken.text("report.json") == whole.text("report.json"));
 }
 
+TEST_CASE("resume: a settling whose callback counts goes on in each of its phases, and the search after it",
+          "[checkpoint]") {
+  const std::string text = R"(
+local cdem = require "cdem"
+local soft = cdem.elastic{ youngs_modulus = 2e8, poissons_ratio = 0.2, density = 2500 }
+local cube = cdem.box_mesh{ size = {0.5, 0.5, 0.5}, divisions = {2, 2, 2} }
+local slab = cdem.box_mesh{ size = {2, 2, 0.5}, divisions = {4, 4, 1} }
+local model = cdem.model{ bodies = {
+  { shape = slab, material = soft, element = "rigid", name = "floor" },
+  { shape = cdem.drop{ unit = cube, count = 2, onto = slab, seed = 2, gap = 0.01 }, material = soft, name = "units",
+    joint = cdem.mohr_coulomb{ cohesion = 1e5, friction_angle = 30, tensile_strength = 3e4 } } },
+  contacts = { { "floor", "units", cdem.coulomb{ friction_angle = 35 } },
+               { "units", "units", cdem.coulomb{ friction_angle = 35 } } } }
+model:fix{ on = "floor" }
+model:gravity{ vector = {0, 0, -9.81} }
+local calls, lowest = 0, math.huge
+local settled = model:settle{ kinetic_energy_ratio = 1e-3, max_time = 20, every = 60, callback = function()
+  calls = calls + 1
+  lowest = math.min(lowest, model:min("displacement.z", "units"))
+  model:save{ file = "step.vtu", series = "steps.pvd" }
+end }
+model:fix{ on = "units" }
+model:release{ on = cdem.select.units{ body = "units", numbers = {1} } }
+model:fix{ on = cdem.select.where(function(_, _, z) return z < 0.85 end) }
+local found = model:critical_flow{ direction = {1, 0, 0}, pressure_rate = 1e8, hold_periods = 0.5 }
+cdem.report{ { name = "hash", value = model.state_hash }, { name = "calls", value = calls },
+  { name = "lowest", value = lowest }, { name = "steps", value = settled.steps }, { name = "broken", value = found.steps },
+  { name = "phases", value = #settled.phases }, { name = "velocity", value = found.velocity } }
+)";
+  Case whole(text);
+  int looks = 0;
+  whole.listener->stop = [&] { return ++looks < 0; };
+  whole.run();
+  CHECK_THAT(whole.text("report.json"), Contains("\"phases\""));
+  for (const double part : {0.3, 0.6, 0.85, 0.97}) {
+    INFO("stopped after " << part << " of the looks");
+    Case broken(text);
+    REQUIRE_FALSE(broken.ends_before(static_cast<int>(part * looks)));
+    broken.go_on_from_newest();
+    broken.settings.threads = part < 0.5 ? 2 : 1;
+    broken.run();
+    CHECK(broken.text("report.json") == whole.text("report.json"));
+    CHECK(broken.read("history.csv") == whole.read("history.csv"));
+    CHECK(broken.read("steps.pvd") == whole.read("steps.pvd"));
+  }
+}
+
+TEST_CASE("resume: conditions on named faces hold on after it", "[checkpoint]") {
+  const std::string text = R"(
+local cdem = require "cdem"
+local mesh = cdem.box_mesh{ size = {0.3, 0.3, 0.8}, divisions = {3, 3, 8}, jitter = 0.1 }
+mesh:faces{ side = "z-", name = "root" }
+mesh:faces{ side = "x-", name = "wet" }
+local rock = cdem.elastic{ youngs_modulus = 1e9, poissons_ratio = 0.2, density = 2500 }
+local model = cdem.model{ bodies = { { shape = mesh, material = rock, name = "unit" } } }
+model:fix{ on = cdem.select.faces{ body = "unit", name = "root" } }
+model:flow{ on = cdem.select.faces{ name = "wet" }, direction = {1, 0, 0}, velocity = 10 }
+model:run{ steps = 1500 }
+cdem.report{ { name = "hash", value = model.state_hash },
+  { name = "held", value = model:max("displacement.magnitude", cdem.select.faces{ name = "root" }) } }
+)";
+  Case whole(text), broken(text);
+  whole.run();
+  REQUIRE_FALSE(broken.ends_before(50));
+  broken.go_on_from_newest();
+  broken.run();
+  CHECK(broken.text("report.json") == whole.text("report.json"));
+}
+
 TEST_CASE("resume: an asked checkpoint holds all up to its line", "[checkpoint]") {
   Case script(column() + "print 'first'\nmodel:traction{ on = 'x+', stress = {1e6, 0, 0} }\n"
                          "model:relax{}\nlocal t = cdem.elapsed()\nmodel:checkpoint()\nprint 'second'\n"

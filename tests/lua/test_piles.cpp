@@ -63,6 +63,33 @@ TEST_CASE("conditions work on chosen units alone", "[lua]") {
             "  assert((block.displacement[3] > 0) == (i == 2 or i == 7), i)\nend") == "");
 }
 
+TEST_CASE("faces named on the unit's mesh are a place on every unit, from a file too", "[lua]") {
+  const std::string named =
+      head + "cube:faces{ side = 'z-', name = 'foot' }\n"
+             "local pile = cdem.drop{ unit = cube, count = 12, onto = slab, seed = 3, gap = 0.2 }\n"
+             "pile:save{ file = 'pile.json' }\n"
+             "pile = cdem.read_pile{ file = 'pile.json' }:scaled{ factor = 2 }\n"
+             "local model = cdem.model{ bodies = { { shape = pile, material = concrete, "
+             "name = 'units' } } }\n";
+  CHECK(error_of(named +
+                 "local foot = cdem.select.faces{ body = 'units', name = 'foot' }\n"
+                 "model:fix{ on = foot }\nmodel:gravity{ vector = {0, 0, -9.81} }\n"
+                 "model:select{ name = 'feet', on = cdem.select.faces{ name = 'foot' } }\nmodel:relax{}\n"
+                 "assert(model:max('displacement.magnitude', 'feet') == 0)\n"
+                 "assert(model:max('displacement.magnitude', 'units') > 0)\n"
+                 "close(model:reaction(foot)[3], 12 * 8 * 2500 * 9.81, 1e-4)") == "");
+  CHECK_THAT(
+      error_of(named + "model:fix{ on = cdem.select.faces{ body = 'units', name = 'foto' } }"),
+      Contains(
+          "name = \"foto\": no faces of body \"units\" have that name; did you mean foot? There are: foot"));
+  CHECK_THAT(error_of(named + "model:traction{ on = cdem.select.faces{ body = 'unit', name = 'foot' }, "
+                              "stress = {0, 0, 1} }"),
+             Contains("body = \"unit\": must be the name of a body"));
+  CHECK_THAT(
+      error_of(dropped + "model:fix{ on = cdem.select.faces{ name = 'foot' } }"),
+      Contains("have a name; mesh:faces{ ..., name = \"foot\" } gives them one, before the model is made"));
+}
+
 TEST_CASE("the lowest and highest units are those whose centroids are so now", "[lua]") {
   CHECK(
       error_of(dropped +
@@ -167,10 +194,12 @@ TEST_CASE("units that a model does not have are refused", "[lua]") {
 
 TEST_CASE("a pile's file that is none is refused, and units inside each other", "[lua]") {
   const std::string poses = "{\"centroid\": [0, 0, 0], \"rotation\": [[1, 0, 0], [0, 1, 0], [0, 0, 1]]}";
-  const auto file = [](const std::string& given, const std::string& version = "cdem pile 1") {
+  const auto file = [](const std::string& given, const std::string& version = "cdem pile 1",
+                       const std::string& faces = "") {
     return "{\"format\": \"" + version + "\", \"height\": 1, \"poses\": [" + given +
            "], \"nodes\": [[-0.25, -0.25, -0.25], [0.75, -0.25, -0.25], [-0.25, 0.75, -0.25], "
-           "[-0.25, -0.25, 0.75]], \"tets\": [[0, 1, 2, 3]], \"regions\": [0]}";
+           "[-0.25, -0.25, 0.75]], \"tets\": [[0, 1, 2, 3]], \"regions\": [0]" +
+           faces + "}";
   };
   const auto refused = [](const std::string& text, const std::string& more = "") {
     Script script(head + "local pile = cdem.read_pile{ file = 'pile.json' }\n" + more);
@@ -181,6 +210,8 @@ TEST_CASE("a pile's file that is none is refused, and units inside each other", 
   CHECK_THAT(refused("{\"format\""), Contains("pile.json: no pile; a file that pile:save{} wrote"));
   CHECK_THAT(refused(file(poses, "other")), Contains("pile.json: format = \"other\""));
   CHECK_THAT(refused(file("")), Contains("the pile has no units"));
+  CHECK_THAT(refused(file(poses, "cdem pile 1", ", \"faces\": {\"foot\": [4]}")),
+             Contains("faces \"foot\" = 4: must be the number of an outer face, below 4"));
   CHECK_THAT(refused(file("{\"centroid\": [0, 0, 0], \"rotation\": [[1, 0, 0], [0, 2, 0], [0, 0, 1]]}")),
              Contains("pose 1: its matrix is no rotation"));
   const std::string model = "cdem.model{ bodies = { { shape = pile, material = concrete } } }";

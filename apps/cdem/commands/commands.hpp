@@ -33,9 +33,11 @@ struct ResumeCommand {
   int threads = 0;
   ProgressStyle progress = ProgressStyle::automatic;
   double checkpoint_minutes = 10;
+  bool unsafe = false; // the user's word, never the file's
   std::string line;
 };
-// Goes on from the folder's newest checkpoint, with the script and settings it tells of.
+// Goes on from the folder's newest checkpoint, with the script and settings it tells of. A run that was --unsafe is
+// refused without it: a file does not open the machine to a script.
 ExitCode resume(const ResumeCommand&);
 
 struct CheckCommand {

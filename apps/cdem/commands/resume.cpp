@@ -17,6 +17,11 @@ ExitCode resume(const ResumeCommand& command) {
     throw UsageError(command.folder.string() + " is not the output folder of a run: it has no " +
                      run_log_name);
   const script::CheckpointInfo checkpoint = script::newest_checkpoint(command.folder);
+  if (checkpoint.unsafe && !command.unsafe)
+    throw UsageError(
+        command.folder.string() +
+        ": the run was started with --unsafe; if its script can be trusted say so again: cdem resume " +
+        command.folder.string() + " --unsafe");
   RunCommand run_on;
   run_on.script = fs::relative(checkpoint.script, fs::current_path(), none);
   if (none || *run_on.script.begin() == "..")
@@ -24,7 +29,7 @@ ExitCode resume(const ResumeCommand& command) {
   run_on.output = command.folder;
   run_on.threads = command.threads;
   run_on.set = checkpoint.set;
-  run_on.unsafe = checkpoint.unsafe;
+  run_on.unsafe = command.unsafe;
   run_on.progress = command.progress;
   run_on.checkpoint_minutes = command.checkpoint_minutes;
   run_on.resume = checkpoint.file;
