@@ -1,14 +1,17 @@
--- Feng 2014, section 4: a flow up the slope throws the units of a settled pile out one by one. The pressure rises in
--- steps and is held while anything moves.
+-- Feng 2014, section 4: a flow up the slope throws the units of a settled pile out one by one. Its velocity rises in
+-- steps and is held while anything moves (hold), or rises all the time (ramp).
 --
 --   ./cdem run examples/armour_pile/settle.lua
---   ./cdem run examples/armour_pile/flow.lua [--set mass=9000] [--set pile=results/armour_pile-settle/pile.json]
+--   ./cdem run examples/armour_pile/flow.lua [--set mass=9000] [--set mode=ramp] [--set pile=FOLDER/pile.json]
 local cdem = require "cdem"
+local set_up = require "pile"
 
 local mass = cdem.parameter{ name = "mass", default = 5000.0, range = {1, 1e6}, unit = "kg", doc = "the pile is scaled" }
 local file = cdem.parameter{ name = "pile", default = "results/armour_pile-settle/pile.json", doc = "of settle.lua" }
+local mode = cdem.parameter{ name = "mode", default = "hold", choices = {"hold", "ramp"} }
 local first = cdem.parameter{ name = "first_velocity", default = 3.0, range = {0.1, 100}, unit = "m/s", doc = "for 5 t" }
 local step = cdem.parameter{ name = "velocity_step", default = 0.25, range = {1e-3, 10}, unit = "m/s", doc = "for 5 t" }
+local rate = cdem.parameter{ name = "ramp_rate", default = 1.0, range = {1e-3, 100}, unit = "m/s2", doc = "of ramp" }
 local most = cdem.parameter{ name = "max_velocity", default = 15.0, range = {1, 100}, unit = "m/s", doc = "for 5 t" }
 local wanted = cdem.parameter{ name = "units", default = 4, range = {1, 100}, doc = "ends when so many have left" }
 local hold = cdem.parameter{ name = "hold", default = 0.2, range = {1e-3, 10}, unit = "s", doc = "at least, for 5 t" }
@@ -16,78 +19,60 @@ local longest = cdem.parameter{ name = "longest_hold", default = 1.5, range = {1
 local damping = cdem.parameter{ name = "stiffness_damping", default = 1e-5, range = {0, 1e-3}, unit = "s",
                                 doc = "for 5 t: 1 % of critical damping at a unit's lowest frequency" }
 local held = cdem.parameter{ name = "held", default = 5, range = {0, 100}, doc = "highest and lowest units that are held" }
-local friction = cdem.parameter{ name = "friction_angle", default = 40.0, range = {0, 80}, unit = "deg" }
+local friction = cdem.parameter{ name = "friction_angle", default = 35.0, range = {0, 80}, unit = "deg" }
 local draw = cdem.parameter{ name = "pictures", default = true, doc = "draw them" }
 
-local density, water, gradient, g = 2500, 1025, 1 / 1.5, 9.81
 local pile = cdem.read_pile{ file = file }
-pile = pile:scaled{ factor = (mass / density / pile.unit_volume) ^ (1 / 3) }
+pile = pile:scaled{ factor = (mass / set_up.density / pile.unit_volume) ^ (1 / 3) }
 local height = pile.height
 -- Froude's law: lengths go with H, times and velocities with its root. 5 t stand for themselves.
 local scale = (mass / 5000) ^ (1 / 6)
-local low, high = {1e9, 1e9}, {-1e9, -1e9}
-for _, pose in ipairs(pile:poses()) do
-  for k = 1, 2 do
-    low[k], high[k] = math.min(low[k], pose.centroid[k]), math.max(high[k], pose.centroid[k])
-  end
-end
-local length, width = high[1] + 3 * height, 2 * math.max(-low[2], high[2]) + 4 * height
-local slope = cdem.slope{ gradient = gradient, length = length, width = width }:mesh{ size = 3 * height }
-
-local concrete = cdem.elastic{ youngs_modulus = 30e9, poissons_ratio = 0.2, density = density,
-                               stiffness_damping = damping * (mass / 5000) ^ (1 / 3) }
-local rough = cdem.coulomb{ friction_angle = friction }
-local model = cdem.model{
-  bodies = { { shape = slope, material = concrete, element = "rigid", name = "slope" },
-             { shape = pile, material = concrete, name = "units" } },
-  contacts = { { "units", "units", rough }, { "units", "slope", rough } },
-}
-model:fix{ on = "slope" }
+local length = pile:box().max[1] + 2 * height
+local model = set_up.model(pile, length, friction, damping * (mass / 5000) ^ (1 / 3))
 if held > 0 then
   for _, numbers in ipairs{ model:lowest_units{ body = "units", count = held },
                             model:highest_units{ body = "units", count = held } } do
     model:fix{ on = cdem.select.units{ body = "units", numbers = numbers } }
   end
 end
-model:gravity{ vector = {0, 0, -g}, water_density = water }
--- The pile carries itself again, elastic as it is now; what damping there is ends here.
+-- The pile carries itself again, elastic as it is now; what damping of motion there is ends here.
 model:run{ duration = 0.15 * scale, local_damping = 0.5 }
 
-local camera = { position = {-1.2 * length, -1.5 * length, 1.8 * length}, up = {0, 0, 1}, view_angle = 30,
-                 focal_point = {0.42 * length, 0, 0.37 * gradient * length} }
+local function places() return model:pile{ body = "units" }:poses() end
 local left
 -- A number on each unit that has left.
 local function marks()
   local list = {}
   for k = 1, left and #left or 0 do
-    list[k] = { at = model:pile{ body = "units" }:poses()[left[k].unit].centroid, label = tostring(k), size = 40,
-                colour = {0.85, 0.1, 0.1} }
+    list[k] = { at = places()[left[k].unit].centroid, label = tostring(k), size = 40, colour = {0.85, 0.1, 0.1} }
   end
   return list
 end
 local function picture(name, title)
   if not draw then return end
-  model:picture{ file = name, colour = "displacement.magnitude", deformation = 1, camera = camera, axes = false,
-                 range = {0, height}, plain = {"slope"}, markers = marks(), title = title }
+  model:picture{ file = name, colour = "displacement.magnitude", deformation = 1, camera = set_up.camera(length),
+                 axes = false, range = {0, height}, plain = set_up.shown.plain, hidden = set_up.shown.hidden,
+                 markers = marks(), title = title }
 end
 
 left = model:watch{ bodies = "units", leaves = 0.5 * height }
 local memory = model.memory
 memory.velocity, memory.since, memory.gone = first * scale, model.time, 0
-model:flow{ on = "units", direction = {1.5, 0, 1}, water_density = water,
-            velocity = function() return memory.velocity end }
+if mode == "ramp" then
+  local start = model.time
+  model:flow{ on = "units", direction = {1.5, 0, 1}, water_density = set_up.water,
+              velocity = function(time) return first * scale + rate * math.max(0, time - start) end }
+else
+  model:flow{ on = "units", direction = {1.5, 0, 1}, water_density = set_up.water,
+              velocity = function() return memory.velocity end }
+end
 
--- The flow rises when no unit has gone further than a hundredth of its height since it last rose or was looked at, or
--- at the latest after the longest hold: a unit that rocks between its neighbours may do so for long.
-local function places() return model:pile{ body = "units" }:poses() end
+-- hold: the flow rises when no unit has gone further than a hundredth of its height since it last rose or was looked at,
+-- or at the latest after the longest hold: a unit that rocks between its neighbours may do so for long.
 memory.places, memory.looked = places(), model.time
 local function furthest_way()
-  local now, most_moved = places(), 0
-  for i, pose in ipairs(now) do
-    local way = 0
-    for k = 1, 3 do way = way + (pose.centroid[k] - memory.places[i].centroid[k]) ^ 2 end
-    most_moved = math.max(most_moved, math.sqrt(way))
-  end
+  local now = places()
+  local most_moved = math.max(table.unpack(set_up.ways(memory.places, now)))
   memory.places, memory.looked = now, model.time
   return most_moved
 end
@@ -96,6 +81,10 @@ local function raise()
     memory.gone = #left
     picture(string.format("left_%d.png", #left),
             string.format("unit %d has left at %.2f m/s", left[#left].unit, left[#left].velocity))
+  end
+  if mode == "ramp" then
+    memory.velocity = first * scale + rate * (model.time - memory.since)
+    return
   end
   if model.time - memory.looked < hold * scale then return end
   local way = furthest_way()
@@ -123,7 +112,8 @@ for i, t in ipairs(table_3.mass_t) do
 end
 local figures = {}
 for k = 1, wanted do
-  figures[k] = { name = string.format("unit_%d_leaves_at_m_per_s_%g_t", k, mass / 1000), unit = "m/s",
+  local name = string.format("unit_%d_leaves_at_m_per_s_%g_t", k, mass / 1000)
+  figures[k] = { name = mode == "ramp" and name .. "_ramp" or name, unit = "m/s",
                  value = left[k] and left[k].velocity, reference = paper[k], kind = "paper",
                  source = "Feng 2014 table 3, another pile" }
   if left[k] then

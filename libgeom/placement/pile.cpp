@@ -47,6 +47,14 @@ Pile scaled(const Pile& pile, double factor) {
   return result;
 }
 
+Box bounding_box(const Pile& pile) {
+  Box box;
+  for (const Pose& pose : pile.poses)
+    for (const Vec3& x : pile.unit.nodes)
+      box.extend(pose(x));
+  return box;
+}
+
 double nominal_diameter(const Pile& pile) {
   return std::cbrt(volume(pile.unit));
 }

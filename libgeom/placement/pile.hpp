@@ -27,6 +27,7 @@ TetMesh posed(const TetMesh&, const Pose&);
 std::vector<TetMesh> meshes(const Pile&);       // of all units, where they are
 Pile scaled(const Pile&, double factor);        // all lengths times the factor, about the origin
 double nominal_diameter(const Pile&);           // Dn, m: side of the cube with the unit's volume
+Box bounding_box(const Pile&);                  // m, of all units where they are
 double bounding_radius(const TetMesh& centred); // m, of the sphere about the origin
 
 // Uniform over all rotations (Shoemake 1992), from three random numbers keyed by (seed, id, draw).

@@ -5,6 +5,7 @@
 #include "lua/binding/picture_fields.hpp"
 
 #include "libcdem/vtk/film.hpp"
+#include "libcdem/vtk/without_bodies.hpp"
 #include "libgeom/core/error.hpp"
 
 #include <algorithm>
@@ -53,6 +54,9 @@ Value picture(Session& session, ModelObject& model, const Arguments& a) {
   PictureOptions options = picture_options(a);
   for (const Value& body : a.list("plain"))
     options.plain.push_back(model.simulation.body_number(*body.get<std::string>()));
+  std::vector<int> hidden;
+  for (const Value& body : a.list("hidden"))
+    hidden.push_back(model.simulation.body_number(*body.get<std::string>()));
   if (session.settings.check_only) {
     const auto names = picture_fields(model.simulation.snapshot(""));
     if (!options.field.empty() && std::find(names.begin(), names.end(), options.field) == names.end())
@@ -60,7 +64,7 @@ Value picture(Session& session, ModelObject& model, const Arguments& a) {
                        which_there_are(options.field, names));
     return {};
   }
-  render(model.simulation.snapshot(model.title(session)), options,
+  render(without_bodies(model.simulation.snapshot(model.title(session)), hidden), options,
          session.files.to_write(a.text("file")).string());
   return {};
 }
@@ -87,6 +91,7 @@ std::vector<Field> picture_declaration() {
                     .doc("displacements are drawn this many times larger; 0: undeformed"));
   fields.push_back(
       list("plain", text_type(), 0).doc("names of bodies that are drawn without colour, such as a floor"));
+  fields.push_back(list("hidden", text_type(), 0).doc("names of bodies that are left out, such as a wall"));
   fields.push_back(flag("edges").standard(true).doc("outlines of the blocks"));
   fields.push_back(flag("broken_bonds").standard(true).doc("broken interfaces, coloured by how they broke"));
   return fields;

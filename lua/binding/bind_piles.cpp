@@ -103,6 +103,11 @@ Value poses(Session&, PileObject& self, const Arguments&) {
   return Table::list(std::move(rows));
 }
 
+Value box(Session&, PileObject& self, const Arguments&) {
+  const geom::Box box = geom::bounding_box(self.pile);
+  return Table{{"min", box.min}, {"max", box.max}};
+}
+
 template <class Get>
 Property pile_property(std::string name, std::string type, std::string unit, std::string doc, Get get) {
   return {std::move(name), std::move(type), std::move(unit), std::move(doc),
@@ -152,6 +157,13 @@ void bind_class(Module& m) {
        "",
        method<PileObject>(with_unit)},
       {"poses", "Place and attitude of each unit.", {}, true, "cdem.Pose[]", "", method<PileObject>(poses)},
+      {"box",
+       "Smallest axis-aligned box that holds all units where they are.",
+       {},
+       true,
+       "cdem.Box",
+       "",
+       method<PileObject>(box)},
       {"save",
        "Writes the pile, for cdem.read_pile in another script.",
        {text("file").required().doc("ends in .json; in the output folder")},

@@ -46,7 +46,8 @@ Value measures_table(const geom::PileMeasures& m, const std::vector<int>& touchi
                {"thickness", m.thickness},
                {"area", m.area},
                {"contacts_per_unit", sum / static_cast<double>(touching.size())},
-               {"fewest_contacts", *std::min_element(touching.begin(), touching.end())}};
+               {"fewest_contacts", *std::min_element(touching.begin(), touching.end())},
+               {"contacts", Table::list(Values(touching.begin(), touching.end()))}};
 }
 
 Value measures(Session& session, ModelObject& model, const Arguments& a) {
@@ -106,7 +107,8 @@ void bind_units(Module& m) {
         number("thickness").unit("m").required().doc("mean height of the top above the slope"),
         number("area").unit("m2").required().doc("of slope that was measured"),
         number("contacts_per_unit").required().doc("mean number of other meshed blocks that press on a unit"),
-        integer("fewest_contacts").required().doc("of any unit")}});
+        integer("fewest_contacts").required().doc("of any unit"),
+        list("contacts", number_type()).required().doc("of each unit")}});
   m.records.push_back(
       {"Contacts",
        "Contacts of meshed bodies.",

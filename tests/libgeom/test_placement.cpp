@@ -119,6 +119,12 @@ TEST_CASE("a scaled pile has all its lengths scaled") {
   for (std::size_t i = 0; i < units.size(); ++i)
     for (std::size_t n = 0; n < units[i].nodes.size(); ++n)
       REQUIRE((units[i].nodes[n] - 1.5 * small_units[i].nodes[n]).norm() < 1e-12);
+  Box all;
+  for (const TetMesh& unit : units)
+    for (const Vec3& x : unit.nodes)
+      all.extend(x);
+  CHECK((bounding_box(large).min - all.min).norm() < 1e-12);
+  CHECK((bounding_box(large).max - all.max).norm() < 1e-12);
   CHECK(nominal_diameter(large) == Approx(1.5 * nominal_diameter(pile)));
   CHECK(large.height == Approx(1.5 * pile.height));
 }

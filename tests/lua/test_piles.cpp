@@ -32,6 +32,8 @@ TEST_CASE("a pile tells its units, and a scaled one has all lengths scaled", "[l
                "close(large.unit_volume, 8)\nclose(large.height, 2)\n"
                "for i, pose in ipairs(pile:poses()) do\n"
                "  for k = 1, 3 do close(large:poses()[i].centroid[k], 2 * pose.centroid[k]) end\n"
+               "  for k = 1, 3 do assert(pose.centroid[k] - pile:box().min[k] > 0.5 - 1e-9) end\n"
+               "  for k = 1, 3 do assert(pile:box().max[k] - pose.centroid[k] > 0.5 - 1e-9) end\n"
                "  assert(pose.centroid[3] > 2.5 + 0.2)\nend") == "");
 }
 

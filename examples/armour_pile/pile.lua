@@ -1,0 +1,71 @@
+-- The slope, the side walls and the units of Feng 2014 section 4, for the scripts of this example.
+local cdem = require "cdem"
+local M = {}
+
+M.density, M.water, M.gradient, M.g = 2500, 1025, 1 / 1.5, 9.81
+
+-- Units are coloured, the ground is not, walls would hide them.
+M.shown = { plain = {"slope"}, hidden = {"wall_1", "wall_2", "wall_3"} }
+
+-- The ground's mesh, its toe at the origin.
+function M.slope(length, width, height)
+  return cdem.slope{ gradient = M.gradient, length = length, width = width }:mesh{ size = 3 * height }
+end
+
+-- A model of the pile on a slope of this length, m, between three walls that stand where its outermost units end: at the
+-- sides, as in a flume, and at the toe. Bodies "slope", "units", "wall_1" to "wall_3"; nothing but the ground and the walls
+-- is held yet. Friction angle in degrees, of everything on everything. Returns the model and { names of ground and walls,
+-- weight = of these in water, N }.
+function M.model(pile, length, friction, stiffness_damping)
+  local height, box = pile.height, pile:box()
+  local concrete = cdem.elastic{ youngs_modulus = 30e9, poissons_ratio = 0.25, density = M.density,
+                                 stiffness_damping = stiffness_damping }
+  local rough = cdem.coulomb{ friction_angle = friction }
+  -- The slope ends a little short of the walls, so that they do not touch.
+  local thickness, clear = height, 0.05 * height
+  local width = 2 * (math.min(-box.min[2], box.max[2]) - clear)
+  local bodies = { { shape = M.slope(length, width, height), material = concrete, element = "rigid", name = "slope" },
+                   { shape = pile, material = concrete, name = "units" } }
+  local contacts = { { "units", "units", rough }, { "units", "slope", rough } }
+  local toe, top = box.min[1] - clear, M.gradient * length + 3 * height
+  local foot = M.gradient * math.max(0, box.min[1]) + clear
+  local long, high = length + height - toe, top + height
+  for k, wall in ipairs{
+    cdem.solid.box{ origin = {toe, box.min[2] - thickness, -height}, size = {long, thickness, high} },
+    cdem.solid.box{ origin = {toe, box.max[2], -height}, size = {long, thickness, high} },
+    cdem.solid.box{ origin = {box.min[1] - thickness, -width / 2, foot}, size = {thickness, width, 2 * height} } } do
+    local name = "wall_" .. k
+    bodies[#bodies + 1] = { shape = wall:mesh{ size = 0.9 * thickness }, material = concrete, element = "rigid", name = name }
+    contacts[#contacts + 1] = { "units", name, rough }
+  end
+  local model = cdem.model{ bodies = bodies, contacts = contacts }
+  local ground = { weight = 0 }
+  for _, body in ipairs(bodies) do
+    if body.name ~= "units" then
+      ground[#ground + 1] = body.name
+      ground.weight = ground.weight + body.shape:volume() * (M.density - M.water) * M.g
+      model:fix{ on = body.name }
+    end
+  end
+  model:gravity{ vector = {0, 0, -M.g}, water_density = M.water }
+  return model, ground
+end
+
+-- How far each unit has gone between two lists of poses, m.
+function M.ways(from, to)
+  local ways = {}
+  for i, pose in ipairs(to) do
+    local way = 0
+    for k = 1, 3 do way = way + (pose.centroid[k] - from[i].centroid[k]) ^ 2 end
+    ways[i] = math.sqrt(way)
+  end
+  return ways
+end
+
+-- From the side of the toe and above.
+function M.camera(length)
+  return { position = {-1.2 * length, -1.5 * length, 1.8 * length}, up = {0, 0, 1}, view_angle = 30,
+           focal_point = {0.42 * length, 0, 0.37 * M.gradient * length} }
+end
+
+return M
