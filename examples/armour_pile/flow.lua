@@ -20,6 +20,7 @@ local damping = cdem.parameter{ name = "stiffness_damping", default = 1e-5, rang
                                 doc = "for 5 t: 1 % of critical damping at a unit's lowest frequency" }
 local held = cdem.parameter{ name = "held", default = 5, range = {0, 100}, doc = "highest and lowest units that are held" }
 local friction = cdem.parameter{ name = "friction_angle", default = 35.0, range = {0, 80}, unit = "deg" }
+local walls = cdem.parameter{ name = "walls", default = true, doc = "at the sides and the toe" }
 local draw = cdem.parameter{ name = "pictures", default = true, doc = "draw them" }
 
 local pile = cdem.read_pile{ file = file }
@@ -28,7 +29,8 @@ local height = pile.height
 -- Froude's law: lengths go with H, times and velocities with its root. 5 t stand for themselves.
 local scale = (mass / 5000) ^ (1 / 6)
 local length = pile:box().max[1] + 2 * height
-local model = set_up.model(pile, length, friction, damping * (mass / 5000) ^ (1 / 3))
+local model = set_up.model(pile, { length = length, friction_angle = friction, walls = walls,
+                                   stiffness_damping = damping * (mass / 5000) ^ (1 / 3) })
 if held > 0 then
   for _, numbers in ipairs{ model:lowest_units{ body = "units", count = held },
                             model:highest_units{ body = "units", count = held } } do
@@ -48,10 +50,11 @@ local function marks()
   end
   return list
 end
+local shown = set_up.shown(walls)
 local function picture(name, title)
   if not draw then return end
   model:picture{ file = name, colour = "displacement.magnitude", deformation = 1, camera = set_up.camera(length),
-                 axes = false, range = {0, height}, plain = set_up.shown.plain, hidden = set_up.shown.hidden,
+                 axes = false, range = {0, height}, plain = shown.plain, hidden = shown.hidden,
                  markers = marks(), title = title }
 end
 

@@ -5,35 +5,39 @@ local M = {}
 M.density, M.water, M.gradient, M.g = 2500, 1025, 1 / 1.5, 9.81
 
 -- Units are coloured, the ground is not, walls would hide them.
-M.shown = { plain = {"slope"}, hidden = {"wall_1", "wall_2", "wall_3"} }
+function M.shown(walls)
+  return { plain = {"slope"}, hidden = walls and {"wall_1", "wall_2", "wall_3"} or {} }
+end
 
 -- The ground's mesh, its toe at the origin.
 function M.slope(length, width, height)
   return cdem.slope{ gradient = M.gradient, length = length, width = width }:mesh{ size = 3 * height }
 end
 
--- A model of the pile on a slope of this length, m, between three walls that stand where its outermost units end: at the
--- sides, as in a flume, and at the toe. Bodies "slope", "units", "wall_1" to "wall_3"; nothing but the ground and the walls
--- is held yet. Friction angle in degrees, of everything on everything. Returns the model and { names of ground and walls,
--- weight = of these in water, N }.
-function M.model(pile, length, friction, stiffness_damping)
-  local height, box = pile.height, pile:box()
+-- A model of the pile on a slope, between three walls if wanted that stand where its outermost units end: at the sides, as
+-- in a flume, and at the toe. Options: length of the slope, m; friction_angle, degrees, of everything on everything; walls,
+-- true or false; stiffness_damping of the units, s. Bodies "slope", "units", "wall_1" to "wall_3"; nothing but the ground
+-- and the walls is held yet. Returns the model and { names of ground and walls, weight = of these in water, N }.
+function M.model(pile, options)
+  local height, box, length = pile.height, pile:box(), options.length
   local concrete = cdem.elastic{ youngs_modulus = 30e9, poissons_ratio = 0.25, density = M.density,
-                                 stiffness_damping = stiffness_damping }
-  local rough = cdem.coulomb{ friction_angle = friction }
-  -- The slope ends a little short of the walls, so that they do not touch.
+                                 stiffness_damping = options.stiffness_damping }
+  local rough = cdem.coulomb{ friction_angle = options.friction_angle }
+  -- Between walls the slope ends a little short of them, so that they do not touch.
   local thickness, clear = height, 0.05 * height
-  local width = 2 * (math.min(-box.min[2], box.max[2]) - clear)
+  local width = options.walls and 2 * (math.min(-box.min[2], box.max[2]) - clear)
+                or 2 * math.max(-box.min[2], box.max[2]) + 4 * height
   local bodies = { { shape = M.slope(length, width, height), material = concrete, element = "rigid", name = "slope" },
                    { shape = pile, material = concrete, name = "units" } }
   local contacts = { { "units", "units", rough }, { "units", "slope", rough } }
   local toe, top = box.min[1] - clear, M.gradient * length + 3 * height
   local foot = M.gradient * math.max(0, box.min[1]) + clear
   local long, high = length + height - toe, top + height
-  for k, wall in ipairs{
+  local walls = options.walls and {
     cdem.solid.box{ origin = {toe, box.min[2] - thickness, -height}, size = {long, thickness, high} },
     cdem.solid.box{ origin = {toe, box.max[2], -height}, size = {long, thickness, high} },
-    cdem.solid.box{ origin = {box.min[1] - thickness, -width / 2, foot}, size = {thickness, width, 2 * height} } } do
+    cdem.solid.box{ origin = {box.min[1] - thickness, -width / 2, foot}, size = {thickness, width, 2 * height} } } or {}
+  for k, wall in ipairs(walls) do
     local name = "wall_" .. k
     bodies[#bodies + 1] = { shape = wall:mesh{ size = 0.9 * thickness }, material = concrete, element = "rigid", name = name }
     contacts[#contacts + 1] = { "units", name, rough }

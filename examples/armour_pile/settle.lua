@@ -17,6 +17,7 @@ local held = cdem.parameter{ name = "held", default = 5, range = {1, 100}, doc =
 local ratio = cdem.parameter{ name = "kinetic_energy_ratio", default = 1e-6, range = {1e-12, 0.1},
                                doc = "of the largest there was: at rest" }
 local friction = cdem.parameter{ name = "friction_angle", default = 35.0, range = {0, 80}, unit = "deg" }
+local walls = cdem.parameter{ name = "walls", default = true, doc = "at the sides and the toe" }
 local draw = cdem.parameter{ name = "pictures", default = true, doc = "draw them" }
 
 -- Square bars: cut corners would make tetrahedra, and steps, a third of the size.
@@ -34,14 +35,15 @@ else
   pile = cdem.place{ unit = unit, count = count, onto = bare, seed = seed, columns = columns }
 end
 
-local model, ground = set_up.model(pile, length, friction)
+local model, ground = set_up.model(pile, { length = length, friction_angle = friction, walls = walls })
 local held_units = cdem.select.units{ body = "units", numbers = model:lowest_units{ body = "units", count = held } }
 model:fix{ on = held_units }
 
+local shown = set_up.shown(walls)
 local function picture(name, title)
   if draw then
     model:picture{ file = name, colour = "unit", deformation = 1, camera = set_up.camera(length), colour_bar = false,
-                   axes = false, plain = set_up.shown.plain, hidden = set_up.shown.hidden, title = title }
+                   axes = false, plain = shown.plain, hidden = shown.hidden, title = title }
   end
 end
 picture("start.png", start == "drop" and "dropped" or "placed")

@@ -56,10 +56,13 @@ for _, how in ipairs(mode == "both" and {"hold", "ramp"} or {mode}) do
   model:save{ file = how .. ".vtu" }
   if draw then
     local most = model:max("displacement.magnitude")
-    model:picture{ file = how .. ".png", camera = unit.camera(case, height, 2.9), axes = false,
-                   colour = "displacement.magnitude",
+    local view = { camera = unit.camera(case, height, 2.9), axes = false,
                    deformation = most > 0 and math.floor(0.1 * height / most) or 0,
                    title = string.format("Case %d, %s: broken at %.1f m/s", number, how, broken.velocity) }
+    view.file, view.colour = how .. ".png", "displacement.magnitude"
+    model:picture(view)
+    view.file, view.colour, view.opacity = how .. "_cracks.png", nil, 0.3 -- cracks inside show through
+    model:picture(view)
   end
 
   local prefix = "case_" .. number .. "_"

@@ -158,6 +158,10 @@ void Settling::phase(const std::string& name, double time_step, Until until) {
   stepping.stop = [&] {
     return until == Until::touch ? !state_.contacts.empty() : now_.calm.quiet >= quiet_looks;
   };
+  stepping.note = [&] {
+    return fmt::format("kinetic energy {:.1e} of its peak -> {:g}", now_.calm.ratio,
+                       options_.kinetic_energy_ratio);
+  };
   const RunResult ran = run(context_, stepping, "settle: " + name);
   SettleResult& result = now_.result;
   const double took = state_.time - now_.part_start;

@@ -17,6 +17,8 @@ namespace {
 void check_options(const PictureOptions& options) {
   if (!std::isfinite(options.deformation))
     throw geom::InputError("deformation", geom::text(options.deformation), "a finite number");
+  if (!(options.opacity > 0 && options.opacity <= 1))
+    throw geom::InputError("opacity", geom::text(options.opacity), "in (0, 1]");
   for (const Marker& marker : options.markers)
     geom::require_finite("markers.position", marker.position);
   for (const Polyline& line : options.polylines)
@@ -123,7 +125,7 @@ void render(const Snapshot& snapshot, const PictureOptions& options, const std::
 
   const bool any_broken = !broken.tension.triangles.empty() || !broken.shear.triangles.empty();
   Scene scene({snapshot, points, field ? &*field : nullptr, scale, any_broken ? &broken : nullptr,
-               options.edges, pixel},
+               options.edges, options.opacity, pixel},
               view, layout.size);
   std::vector<vtkRenderer*> layers = canvas.renderers(layout.size);
   layers.insert(layers.begin(), scene.renderer());

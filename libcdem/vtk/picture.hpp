@@ -42,6 +42,7 @@ struct PictureOptions {
   // ... A vector without component means its magnitude. "" draws plain blocks.
   std::string field;
   std::vector<int> plain; // bodies, by their number in cell field "body", that are drawn without colour
+  double opacity = 1;     // of the blocks, (0, 1]: below 1 broken interfaces inside show through
   double deformation = 0; // scale of the displacement, 0: undeformed
   // front back left right top bottom iso; front looks along -z at the x-y plane, y up
   std::string view = "front";

@@ -200,6 +200,7 @@ void Scene::Impl::add_body(const SceneInput& in, const View& view) {
   vtkActor* actor = add(mesh);
   vtkProperty* property = actor->GetProperty();
   property->BackfaceCullingOn(); // blocks are closed: nobody sees the inside of a face
+  property->SetOpacity(in.opacity);
   property->SetColor(plain_block_colour[0], plain_block_colour[1], plain_block_colour[2]);
   // Colours that stand for numbers are those of the colour bar; plain blocks are shaded, ids a little.
   if ((in.field && in.scale.map != "categorical") || flat_to_viewer(in.snapshot, in.points, view)) {

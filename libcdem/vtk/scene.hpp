@@ -26,7 +26,8 @@ struct SceneInput {
   ColourScale scale;
   const BrokenInterfaces* broken = nullptr;
   bool edges = true;
-  double pixel = 1; // line widths are given for a 1600 x 1200 picture and multiplied by this
+  double opacity = 1; // of the blocks, (0, 1]: below 1 broken interfaces inside show through
+  double pixel = 1;   // line widths are given for a 1600 x 1200 picture and multiplied by this
 };
 
 class Scene {

@@ -44,6 +44,7 @@ Value save(Session& session, ModelObject& model, const Arguments& a) {
 PictureOptions picture_options(const Arguments& a) {
   PictureOptions options = view_options(a);
   options.deformation = a.number("deformation");
+  options.opacity = a.number("opacity");
   options.edges = a.flag("edges");
   options.broken_bonds = a.flag("broken_bonds");
   return options;
@@ -92,6 +93,8 @@ std::vector<Field> picture_declaration() {
   fields.push_back(
       list("plain", text_type(), 0).doc("names of bodies that are drawn without colour, such as a floor"));
   fields.push_back(list("hidden", text_type(), 0).doc("names of bodies that are left out, such as a wall"));
+  fields.push_back(number("opacity").within(0.05, 1).standard(1.0).doc(
+      "of the blocks; below 1 broken interfaces inside show through"));
   fields.push_back(flag("edges").standard(true).doc("outlines of the blocks"));
   fields.push_back(flag("broken_bonds").standard(true).doc("broken interfaces, coloured by how they broke"));
   return fields;

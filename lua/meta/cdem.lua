@@ -258,6 +258,7 @@ local cdem = {}
 ---@field area number m2: of slope that was measured
 ---@field contacts_per_unit number mean number of other meshed blocks that press on a unit
 ---@field fewest_contacts integer of any unit
+---@field contacts number[] of each unit
 
 ---Contacts of meshed bodies.
 ---@class (exact) cdem.Contacts
@@ -518,6 +519,10 @@ function Pile:with_unit(options) end
 ---Place and attitude of each unit.
 ---@return cdem.Pose[]
 function Pile:poses() end
+
+---Smallest axis-aligned box that holds all units where they are.
+---@return cdem.Box
+function Pile:box() end
 
 ---@class (exact) cdem.PileSaveOptions
 ---@field file string ends in .json; in the output folder
@@ -948,6 +953,8 @@ function Model:save(options) end
 ---@field markers? cdem.ModelPictureOptionsMarkers[]
 ---@field lines? cdem.ModelPictureOptionsLines[]
 ---@field plain? string[] names of bodies that are drawn without colour, such as a floor
+---@field hidden? string[] names of bodies that are left out, such as a wall
+---@field opacity? number in [0.05, 1], default 1: of the blocks; below 1 broken interfaces inside show through
 ---@field edges? boolean default true: outlines of the blocks
 ---@field broken_bonds? boolean default true: broken interfaces, coloured by how they broke
 

@@ -240,6 +240,36 @@ TEST_CASE("broken interfaces are seen from the front of a plate one block thick"
   CHECK(pixels(whole, shear_colour) == 0);
 }
 
+TEST_CASE("a crack inside a block is hidden by it, and shows through when the block is thin as glass") {
+  const TemporaryFolder folder;
+  Snapshot s = sample::blocks(sample::grid(1, 1, 1, 1), 1);
+  // Half way along x, from x = 0.3 to 0.7 in the plane y = 0.5, not up to the faces of the cube.
+  BondSnapshot& bonds = s.bonds;
+  bonds.points = {{0.3, 0.5, 0.3}, {0.7, 0.5, 0.3}, {0.7, 0.5, 0.7}, {0.3, 0.5, 0.7}};
+  bonds.triangles = {{0, 1, 2}, {0, 2, 3}};
+  const auto mode = static_cast<double>(static_cast<int>(BondMode::broken_tension));
+  bonds.triangle_fields = {{"interface_id", "", 1, {1, 1}, true}, {"mode", "", 1, {mode, mode}, true}};
+  bonds.point_fields = {{"mode", "", 1, {mode, mode, mode, mode}, true},
+                        {"displacement", "m", 3, std::vector<double>(12, 0.0), false}};
+  PictureOptions o = bare("");
+  o.view = "top";
+  o.up = "y";
+  const auto reddish = [&](double opacity) { // pixels whose red is well above their green
+    o.opacity = opacity;
+    render(s, o, folder / "p.png");
+    const Image image = read_png(folder / "p.png");
+    int count = 0;
+    for (int y = 0; y < image.height; ++y)
+      for (int x = 0; x < image.width; ++x)
+        count += image.at(x, y)[0] - image.at(x, y)[1] > 40;
+    return count;
+  };
+  CHECK(reddish(1) == 0);
+  CHECK(reddish(0.4) > 500);
+  o.opacity = 0;
+  CHECK_THROWS_WITH(render(s, o, folder / "p.png"), Contains("opacity = 0: must be in (0, 1]"));
+}
+
 TEST_CASE("deformation moves the picture by the scaled displacement") {
   const TemporaryFolder folder;
   Snapshot s = sample::blocks(sample::grid(1, 1, 1, 1), 0.1);
