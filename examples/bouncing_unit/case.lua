@@ -9,6 +9,9 @@ local fineness = cdem.parameter{ name = "fineness", default = 6.0, range = {3, 3
 local tension = cdem.parameter{ name = "tensile_strength", default = 3e6, range = {1e4, 1e9}, unit = "Pa" }
 local tilt = cdem.parameter{ name = "tilt", default = 30.0, range = {0, 90}, unit = "deg", doc = "about (1, 1, 0)" }
 local growth = cdem.parameter{ name = "growth", default = 1.5, range = {1.01, 4}, doc = "of the height, from fall to fall" }
+local from = cdem.parameter{ name = "height", default = 0.0, range = {0, 1000}, unit = "m",
+                             doc = "of the first fall; 0: one that a flat bar would survive" }
+local falls = cdem.parameter{ name = "falls", default = 40, range = {1, 1000}, doc = "at most, if it does not break" }
 
 local g = 9.81
 local concrete = cdem.elastic{ youngs_modulus = 30e9, poissons_ratio = 0.2, density = 2500, stiffness_damping = 1e-6 }
@@ -21,6 +24,16 @@ unit = unit:translate{ shift = {0, 0, gap - unit:box().min[3]} }
 local mesh = unit:mesh{ size = H / fineness }
 local floor = cdem.solid.box{ size = {2 * H, 2 * H, 0.2 * H}, origin = {-H, -H, -0.2 * H} }:mesh{ size = 0.2 * H }
 local rough = cdem.coulomb{ friction_angle = 35 }
+
+-- The velocity at a time, from the kinetic energy of a fall that does not turn the unit.
+local function velocity_at(model, time)
+  local history = model:history()
+  local function velocity(row) return math.sqrt(2 * history.kinetic_energy[row] / (concrete.density * mesh:volume())) end
+  local row = 2
+  while history.time[row] < time do row = row + 1 end
+  local part = (time - history.time[row - 1]) / (history.time[row] - history.time[row - 1])
+  return (1 - part) * velocity(row - 1) + part * velocity(row)
+end
 
 -- Lets it fall; returns what came of it and the model.
 local function fall(height)
@@ -35,7 +48,8 @@ local function fall(height)
   local velocity, start = math.sqrt(2 * g * height), math.sqrt(2 * g * (height - gap))
   model:initial_velocity{ on = "unit", velocity = {0, 0, -start} }
   -- Until it has touched and waves have gone up and down it fifteen times.
-  model:run{ duration = 2 * gap / (start + velocity) + 30 * H / wave_speed }
+  local touches = 2 * gap / (start + velocity)
+  model:run{ duration = touches + 30 * H / wave_speed }
   local volumes, counts = {}, model:counts()
   for _, piece in ipairs(model:fragments()) do
     if not piece.held then volumes[#volumes + 1] = piece.volume / mesh:volume() end
@@ -43,7 +57,8 @@ local function fall(height)
   table.sort(volumes, function(p, q) return p > q end)
   local drop = { height = height, velocity = velocity, bonds = counts.broken_tension + counts.broken_shear,
                  largest = volumes[1], second = volumes[2] or 0, rebound = model:mean("velocity.z", "unit") / velocity,
-                 energy_error = model:energy().balance_error }
+                 energy_error = model:energy().balance_error, touch_velocity = velocity_at(model, touches),
+                 penetration = model:contacts().deepest / H }
   drop.broken = drop.second >= 0.1
   cdem.log(string.format("fall of %.3g m, %.3g m/s: %d bonds broken, pieces %.3g and %.3g of the unit", height, velocity,
                          drop.bonds, drop.largest, drop.second))
@@ -51,13 +66,14 @@ local function fall(height)
 end
 
 -- The first fall but for the gap: a third of the velocity at which a bar that hits flat is stressed to T, rho c v = T.
-local first = gap + 0.1 * (tension / (concrete.density * wave_speed)) ^ 2 / (2 * g)
+local first = from > 0 and from or gap + 0.1 * (tension / (concrete.density * wave_speed)) ^ 2 / (2 * g)
+if first < gap then error(string.format("height = %g: must be at least the gap left to fall, %.3g m", from, gap)) end
 local drops, last = {}
 repeat
   local drop, model = fall(gap + (first - gap) * growth ^ #drops)
   drops[#drops + 1] = drop
   last = model
-until drop.broken or #drops == 40
+until drop.broken or #drops >= falls
 
 local function column(field)
   local values = {}
@@ -89,14 +105,26 @@ for _, drop in ipairs(drops) do
     break
   end
 end
-local energy_error = 0
-for _, drop in ipairs(drops) do energy_error = math.max(energy_error, drop.energy_error) end
+local energy_error, penetration, off = 0, 0, 0
+for _, drop in ipairs(drops) do
+  energy_error = math.max(energy_error, drop.energy_error)
+  penetration = math.max(penetration, drop.penetration)
+  off = math.max(off, math.abs(drop.touch_velocity / drop.velocity - 1))
+end
 cdem.report{
   { name = "breaks_at_height_m", value = breaks_at, unit = "m" },
   { name = "breaks_at_velocity_m_per_s", value = breaks_at and math.sqrt(2 * g * breaks_at), unit = "m/s" },
   { name = "first_piece_of_a_hundredth_at_m_per_s", value = first_piece, unit = "m/s",
     reference = tension / (concrete.density * wave_speed), kind = "formula", source = "a bar that hits flat: T / rho c" },
-  { name = "energy_balance_error", value = energy_error },
+  { name = "first_fall_bonds_broken", value = drops[1].bonds },
+  { name = "first_fall_largest_piece", value = drops[1].largest },
+  { name = "first_fall_rebound", value = drops[1].rebound },
+  { name = "touch_velocity_error", value = off, reference = 0, kind = "formula", source = "sqrt(2 g h)",
+    tolerance_absolute = 1e-3 },
+  { name = "max_penetration_over_height", value = penetration, reference = 0, kind = "formula",
+    source = "nothing goes into the floor", tolerance_absolute = 0.01 },
+  { name = "energy_balance_error", value = energy_error, reference = 0, kind = "formula", source = "energy is conserved",
+    tolerance_absolute = 0.01 },
   { name = "tets", value = mesh.tets },
   { name = "wall_time_s", value = cdem.elapsed(), unit = "s" },
 }

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <limits>
 #include <string>
 
 namespace cdem {
@@ -41,12 +42,15 @@ struct RunOptions {
   std::function<void()> callback;
   std::function<std::string()> note; // what else the progress line shows
   std::function<bool()> stop;        // asked every callback_every (default 100) steps
+  // Where the out-of-balance force over the applied force is above this, `stop` is asked in vain.
+  double stop_residual = std::numeric_limits<double>::infinity();
 };
 
 struct RunResult {
   std::int64_t steps = 0;
   double time = 0;      // s, model time reached
   double time_step = 0; // s
+  double residual = 0;  // out-of-balance force norm over applied force norm, at the end
   std::int64_t broken_tension = 0;
   std::int64_t broken_shear = 0;
   double wall_time = 0; // s

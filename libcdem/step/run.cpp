@@ -199,7 +199,7 @@ RunResult run(const StageContext& context, const RunOptions& options, const std:
         stage.catch_up(); // what they read is of one moment
       if (options.callback && options.callback_every > 0)
         options.callback();
-      stopped = options.stop && options.stop();
+      stopped = options.stop && options.stop() && report.residual <= options.stop_residual;
     }
   }
   stage.finish(report);
@@ -208,6 +208,7 @@ RunResult run(const StageContext& context, const RunOptions& options, const std:
   result.steps = stage.step;
   result.time = state.time;
   result.time_step = stepping.time_step;
+  result.residual = report.residual;
   result.broken_tension = stage.broken_tension();
   result.broken_shear = stage.broken_shear();
   result.wall_time = stage.wall_time();

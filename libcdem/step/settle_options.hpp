@@ -25,6 +25,7 @@ struct SettlePhase {
   std::int64_t steps = 0;
   double time = 0;          // s, it took of the model's
   double kinetic_ratio = 0; // at its end
+  double residual = 0;      // out-of-balance force norm over applied force norm, at its end
 };
 
 struct SettleResult {

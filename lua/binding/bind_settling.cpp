@@ -52,7 +52,8 @@ Value settle_result(const SettleResult& r) {
     phases.emplace_back(Table{{"name", phase.name},
                               {"steps", phase.steps},
                               {"time", phase.time},
-                              {"kinetic_ratio", phase.kinetic_ratio}});
+                              {"kinetic_ratio", phase.kinetic_ratio},
+                              {"residual", phase.residual}});
   return Table{{"converged", r.converged},
                {"kinetic_ratio", r.kinetic_ratio},
                {"peak_kinetic", r.peak_kinetic},
@@ -61,6 +62,10 @@ Value settle_result(const SettleResult& r) {
                {"made_rigid", r.made_rigid},
                {"phases", Table::list(std::move(phases))},
                {"wall_time", r.wall_time}};
+}
+
+double out_of_balance(const SettleResult& r) {
+  return r.phases.empty() ? 0 : r.phases.back().residual;
 }
 
 Value settle(Session& session, ModelObject& model, const Arguments& a) {
@@ -84,8 +89,10 @@ Value settle(Session& session, ModelObject& model, const Arguments& a) {
                  if (!result.converged)
                    session.warn("settle: after " + number_text(options.max_time) +
                                 " s the kinetic energy is " + three_digits(result.kinetic_ratio) +
-                                " of its peak, above " + number_text(options.kinetic_energy_ratio) +
-                                "; raise max_time, or look whether something falls off");
+                                " of its peak, for a goal of " + number_text(options.kinetic_energy_ratio) +
+                                ", and " + three_digits(out_of_balance(result)) +
+                                " of the loads are out of balance; raise max_time, or look whether something "
+                                "falls off");
                  return settle_result(result);
                },
                {{"callback", a.function("callback")}});
@@ -112,11 +119,13 @@ void bind_settling(Module& m) {
   };
   m.classes.push_back(watched);
 
-  m.records.push_back({"SettlePhase",
-                       "A part of settling.",
-                       {text("name").required(), integer("steps").required(),
-                        number("time").unit("s").required().doc("it took"),
-                        number("kinetic_ratio").required().doc("kinetic energy over its peak, at its end")}});
+  m.records.push_back(
+      {"SettlePhase",
+       "A part of settling.",
+       {text("name").required(), integer("steps").required(),
+        number("time").unit("s").required().doc("it took"),
+        number("kinetic_ratio").required().doc("kinetic energy over its peak, at its end"),
+        number("residual").required().doc("forces out of balance over the loads, at its end")}});
   m.records.push_back(
       {"SettleResult",
        "What settling came to.",
@@ -142,9 +151,9 @@ void bind_settling(Module& m) {
        method<ModelObject>(watch)});
   model.methods.push_back(
       {"settle",
-       "Lets units fall and come to rest: free ones as rigid bodies first, then deformable. Rigid units and "
-       "damping "
-       "are off afterwards.",
+       "Lets units fall and come to rest: free ones as rigid bodies first, then deformable, until they are "
+       "slow "
+       "and carry their weight. Rigid units and damping are off afterwards.",
        {number("kinetic_energy_ratio")
             .between(0, 1)
             .standard(1e-6)

@@ -94,6 +94,44 @@ TEST_CASE("settle: dropped cubes come to rest on their faces, one on another, an
   CHECK(s.energy().balance_error() < 0.01);
 }
 
+TEST_CASE("settle: a stiff cube has taken up its weight when it has settled, however small the steps",
+          "[settle]") {
+  const double h = 0.5;
+  const int n = GENERATE(4, 8);
+  cdem::Elastic concrete = rock();
+  concrete.youngs_modulus = 30e9;
+  geom::TetMesh cube = geom::box_mesh({h, h, h}, {n, n, n});
+  for (Vec3& x : cube.nodes)
+    x += Vec3(0.5, 0.5, 0.5 + 0.05);
+  cdem::BodySpec floor = meshed("floor", geom::box_mesh({1.5, 1.5, 0.5}, {3, 3, 1}), {}, concrete);
+  floor.element = cdem::Element::rigid;
+  cdem::Joint friction;
+  friction.bonded = false;
+  friction.friction_angle = 35 * degree;
+  cdem::ModelSpec spec;
+  spec.bodies = {floor, meshed("cube", cube, {}, concrete)};
+  spec.pairs = {{"floor", "cube", friction}};
+  cdem::Simulation s(spec, 1, nullptr);
+  cdem::Fix hold;
+  hold.on = cdem::Selection::of_body("floor");
+  s.fix(hold);
+  cdem::Gravity gravity;
+  gravity.acceleration = g;
+  s.gravity(gravity);
+  cdem::SettleOptions options;
+  options.kinetic_energy_ratio = 1e-4;
+  options.local_damping = 0.1; // five times as long as usual
+  const cdem::SettleResult result = s.settle(options);
+  REQUIRE(result.converged);
+  CHECK(result.phases.back().name == "deformable");
+  INFO(n << " tets a side, steps of " << result.phases.back().time / double(result.phases.back().steps)
+         << " s");
+  CHECK(result.phases.back().residual <= 0.01);
+  // In balance the volume's mean of stress zz is that of the weight's moments, - rho g h / 2, for any field.
+  CHECK(s.mean("stress.zz", cdem::Selection::of_body("cube")) ==
+        Approx(0.5 * concrete.density * g.z() * h).epsilon(0.01));
+}
+
 TEST_CASE("settle: deformable units fall freely until the first touch, and time that is up is told",
           "[settle]") {
   cdem::Simulation s = cubes();
