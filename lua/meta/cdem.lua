@@ -112,6 +112,7 @@ local cdem = {}
 ---@field steps integer
 ---@field time number s: it took
 ---@field kinetic_ratio number kinetic energy over its peak, at its end
+---@field residual number forces out of balance over the loads, at its end
 
 ---What settling came to.
 ---@class (exact) cdem.SettleResult
@@ -713,7 +714,7 @@ function Model:watch(options) end
 ---@field every? integer >= 1: steps between calls, 100 by default; in whole twenties
 ---@field callback? fun() called every so many steps; may read the model and write files
 
----Lets units fall and come to rest: free ones as rigid bodies first, then deformable. Rigid units and damping are off afterwards.
+---Lets units fall and come to rest: free ones as rigid bodies first, then deformable, until they are slow and carry their weight. Rigid units and damping are off afterwards.
 ---@param options? cdem.ModelSettleOptions
 ---@return cdem.SettleResult
 function Model:settle(options) end
