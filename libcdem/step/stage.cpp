@@ -93,7 +93,7 @@ void leave_from_here(const StageContext& context) {
     context.keeper->marked();
 }
 
-Stage::Stage(StageContext context, std::string kind, double run_away)
+Stage::Stage(const StageContext& context, std::string kind, double run_away)
     : work(context.model, context.state, context.conditions), context_(context),
       threads_(useful_threads(context.model, context.threads)), kind_(std::move(kind)), run_away_(run_away),
       broken_tension_before_(context.log.broken_tension), broken_shear_before_(context.log.broken_shear),

@@ -39,7 +39,7 @@ inline constexpr std::int64_t watch_every = 200;
 class Stage {
 public:
   // run_away: displacement that ends the stage with a SolutionError, m.
-  Stage(StageContext context, std::string kind, double run_away);
+  Stage(const StageContext& context, std::string kind, double run_away);
   ~Stage();
   Stage(const Stage&) = delete;
   Stage& operator=(const Stage&) = delete;
