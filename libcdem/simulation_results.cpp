@@ -2,6 +2,7 @@
 #include "libcdem/simulation_impl.hpp"
 
 #include "libcdem/element/small_strain.hpp"
+#include "libcdem/model/names.hpp"
 #include "libcdem/results/fragments.hpp"
 #include "libcdem/results/make_snapshot.hpp"
 #include "libcdem/results/units.hpp"
@@ -132,13 +133,10 @@ std::vector<int> Simulation::touching(const std::string& body) const {
 
 int Simulation::body_number(const std::string& body) const {
   const std::vector<Body>& bodies = impl_->model.bodies;
-  std::string names;
-  for (std::size_t i = 0; i < bodies.size(); ++i) {
+  for (std::size_t i = 0; i < bodies.size(); ++i)
     if (bodies[i].name == body)
       return static_cast<int>(i);
-    names += (i == 0 ? "\"" : ", \"") + bodies[i].name + "\"";
-  }
-  throw geom::InputError("body", "\"" + body + "\"", "the name of a body (" + names + ")");
+  refuse_body("body", body, impl_->model);
 }
 
 const std::vector<BreakRow>& Simulation::breaks() const {

@@ -142,14 +142,14 @@ void archive(A& a, MeshData& x) {
 
 template <class A>
 void archive(A& a, ContactTriangle& x) {
-  auto& [nodes, block, tet, face, mate, area, height, compliance, edge_begin, edge_end] = x;
-  archive_all(a, nodes, block, tet, face, mate, area, height, compliance, edge_begin, edge_end);
+  auto& [nodes, block, tet, face, mate, area, height, compliance] = x;
+  archive_all(a, nodes, block, tet, face, mate, area, height, compliance);
 }
 
 template <class A>
 void archive(A& a, ContactEdge& x) {
-  auto& [nodes, triangles] = x;
-  archive_all(a, nodes, triangles);
+  auto& [nodes, triangles, corner] = x;
+  archive_all(a, nodes, triangles, corner);
 }
 
 template <class A>

@@ -30,29 +30,32 @@ void set_normal_weight(ContactArms& arms, int node, double weight) {
 
 } // namespace
 
-std::pair<int, int> triangles_of(const Model& model, const Contact& c) {
-  const ContactSurface& s = model.surface;
-  return c.kind == Contact::spring
-             ? std::pair(c.source / 3, c.target)
-             : std::pair(s.edges[c.source].triangles[0], s.edges[c.target].triangles[0]);
+std::pair<int, int> triangles_of(const Contact& c) {
+  return {c.source / 3, c.kind == Contact::spring ? c.target : c.target / 3};
 }
 
 ContactLaw law_of(const Model& model, const Contact& c) {
   const ContactSurface& s = model.surface;
-  const auto [source, target] = triangles_of(model, c);
+  const auto [source, target] = triangles_of(c);
   const ContactTriangle &from = s.triangles[source], &to = s.triangles[target];
   const Joint& joint = *contact_joint(model, from.block, to.block);
+  const double area = c.kind == Contact::spring ? from.area / 3 : area_of_edge(s, source, c.piece);
+  return contact_law(joint, std::tan(joint.friction_angle), area, from, to);
+}
+
+ContactLaw contact_law(const Joint& joint, double tan_friction, double area, const ContactTriangle& from,
+                       const ContactTriangle& to) {
   const ContactStiffness stiffness = contact_stiffness(joint, from, to);
-  // A third of the face for each of its springs; a third of each of its two faces for an edge. Both bodies bring
-  // theirs, so each counts half.
-  const double area = c.kind == Contact::spring
-                          ? from.area / 6
-                          : (from.area + s.triangles[s.edges[c.source].triangles[1]].area) / 6;
-  return {stiffness.normal * area, stiffness.shear * area, std::tan(joint.friction_angle)};
+  const double half = 0.5 * area; // both bodies bring theirs
+  return {stiffness.normal * half, stiffness.shear * half, tan_friction};
+}
+
+double area_of_edge(const ContactSurface& s, int triangle_a, int triangle_b) {
+  return (s.triangles[triangle_a].area + s.triangles[triangle_b].area) / 3;
 }
 
 std::pair<int, int> blocks_of(const Model& model, const Contact& c) {
-  const auto [source, target] = triangles_of(model, c);
+  const auto [source, target] = triangles_of(c);
   return {model.surface.triangles[source].block, model.surface.triangles[target].block};
 }
 
@@ -92,7 +95,8 @@ ContactArms edge_arms(const Model& model, const State& state, const ContactEdge&
 ContactArms arms_of(const Model& model, const State& state, const Contact& c) {
   const ContactSurface& s = model.surface;
   if (c.kind == Contact::edge) {
-    const ContactEdge &e = s.edges[c.source], &f = s.edges[c.target];
+    const ContactEdge e = edge_between(s, c.source / 3, c.source % 3, c.piece, 0),
+                      f = edge_between(s, c.target / 3, c.target % 3, std::numeric_limits<int>::max(), 0);
     return edge_arms(
         model, state, e, f,
         geom::nearest_on_segments(place_of(model, state, e.nodes[0]), place_of(model, state, e.nodes[1]),

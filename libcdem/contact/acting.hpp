@@ -10,16 +10,22 @@
 
 namespace cdem {
 
-// Contacts are sorted by it.
+// Contacts are sorted by it: of a spring one for each piece, of an edge one for each other edge.
 inline auto key(const Contact& c) {
-  return std::tuple(c.kind, c.source, c.piece);
+  return std::tuple(c.kind, c.source, c.piece, c.kind == Contact::edge ? c.target : 0);
 }
 
 ContactLaw law_of(const Model&, const Contact&);
 
+// Of the contacts of two triangles with this joint between their bodies; area: m2, a third of the spring's face, or of
+// both the edge's.
+ContactLaw contact_law(const Joint&, double tan_friction, double area, const ContactTriangle& from,
+                       const ContactTriangle& to);
+double area_of_edge(const ContactSurface&, int triangle_a, int triangle_b); // as above
+
 // The two blocks of a contact, its source's first; its two triangles, of edges the first of each.
 std::pair<int, int> blocks_of(const Model&, const Contact&);
-std::pair<int, int> triangles_of(const Model&, const Contact&);
+std::pair<int, int> triangles_of(const Contact&);
 
 // Of a triangle's corners, where the semi-spring of one of them stands.
 geom::Vec3 spring_weights(int corner);

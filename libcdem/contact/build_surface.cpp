@@ -7,9 +7,6 @@
 namespace cdem {
 namespace {
 
-// Edges of less than this turn are flat: what touches there touches the triangles.
-constexpr double least_turn = 0.05; // radians
-
 geom::Vec3 area_vector(const Model& model, const geom::Triangle& n) {
   const auto& x = model.node_position;
   return 0.5 * (x[n[1]] - x[n[0]]).cross(x[n[2]] - x[n[0]]);
@@ -82,24 +79,15 @@ void add_edges(Model& model, int begin, int end) {
                 b = s.original[s.triangles[t].nodes[(corner + 1) % 3]];
       sides[std::minmax(a, b)].push_back({t, corner});
     }
-  std::vector<std::pair<ContactEdge, int>> found; // with its corner
-  for (const auto& [nodes, both] : sides) {
-    if (both.size() != 2)
-      continue; // where parts of the outside touch along an edge
-    const Side &one = both[0], &other = both[1];
-    const geom::Triangle &n = s.triangles[one.triangle].nodes, &m = s.triangles[other.triangle].nodes;
-    const geom::Vec3 u = area_vector(model, n).normalized(), v = area_vector(model, m).normalized();
-    const geom::Vec3 away =
-        model.node_position[m[(other.corner + 2) % 3]] - model.node_position[n[one.corner]];
-    if (away.dot(u) >= 0 || std::acos(std::clamp(u.dot(v), -1.0, 1.0)) < least_turn)
-      continue;
-    found.push_back({{{n[one.corner], n[(one.corner + 1) % 3]}, {one.triangle, other.triangle}}, one.corner});
-  }
-  std::sort(found.begin(), found.end(), [](const auto& a, const auto& b) {
-    return std::pair(a.first.triangles[0], a.second) < std::pair(b.first.triangles[0], b.second);
-  });
-  for (const auto& [edge, corner] : found)
-    s.edges.push_back(edge);
+  std::vector<ContactEdge> found;
+  for (const auto& [nodes, both] : sides)
+    if (both.size() == 2) // not where parts of the outside touch along an edge
+      if (const auto edge =
+              convex_edge(model, both[0].triangle, both[0].corner, both[1].triangle, both[1].corner))
+        found.push_back(*edge);
+  std::sort(found.begin(), found.end(),
+            [](const ContactEdge& a, const ContactEdge& b) { return a.id() < b.id(); });
+  s.edges.insert(s.edges.end(), found.begin(), found.end());
 }
 
 } // namespace
@@ -131,13 +119,25 @@ void build_surface(Model& model) {
     raise_flat_ones(model, begin, outer_end);
     s.block_begin.push_back(static_cast<int>(s.triangles.size()));
   }
-  int edge = 0;
-  for (int t = 0; t < static_cast<int>(s.triangles.size()); ++t) {
-    s.triangles[t].edge_begin = edge;
-    while (edge < static_cast<int>(s.edges.size()) && s.edges[edge].triangles[0] == t)
-      ++edge;
-    s.triangles[t].edge_end = edge;
-  }
+}
+
+ContactEdge edge_between(const ContactSurface& s, int triangle_a, int corner_a, int triangle_b,
+                         int corner_b) {
+  const bool a_first = triangle_a < triangle_b;
+  const int triangle = a_first ? triangle_a : triangle_b, corner = a_first ? corner_a : corner_b;
+  const geom::Triangle& n = s.triangles[triangle].nodes;
+  return {{n[corner], n[(corner + 1) % 3]}, {triangle, a_first ? triangle_b : triangle_a}, corner};
+}
+
+std::optional<ContactEdge> convex_edge(const Model& model, int triangle_a, int corner_a, int triangle_b,
+                                       int corner_b) {
+  const ContactSurface& s = model.surface;
+  const geom::Triangle &n = s.triangles[triangle_a].nodes, &m = s.triangles[triangle_b].nodes;
+  const geom::Vec3 u = area_vector(model, n).normalized(), v = area_vector(model, m).normalized();
+  const geom::Vec3 away = model.node_position[m[(corner_b + 2) % 3]] - model.node_position[n[corner_a]];
+  if (away.dot(u) >= 0 || std::acos(std::clamp(u.dot(v), -1.0, 1.0)) < least_edge_turn)
+    return std::nullopt;
+  return edge_between(s, triangle_a, corner_a, triangle_b, corner_b);
 }
 
 ContactStiffness contact_stiffness(const Joint& joint, const ContactTriangle& a, const ContactTriangle& b) {

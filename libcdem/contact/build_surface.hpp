@@ -3,11 +3,22 @@
 
 #include "libcdem/model/model.hpp"
 
+#include <optional>
+
 namespace cdem {
 
 // Fills model.surface for the laws in model.surface.joint. It stays empty when no two meshed blocks are there and no
 // body may touch itself.
 void build_surface(Model&);
+
+// Edges of less than this turn are flat: what touches there touches the triangles.
+inline constexpr double least_edge_turn = 0.05; // radians
+
+// The edge that two triangles share, of each from its corner to the next.
+ContactEdge edge_between(const ContactSurface&, int triangle_a, int corner_a, int triangle_b, int corner_b);
+// The same where the surface turns outwards there, undeformed.
+std::optional<ContactEdge> convex_edge(const Model&, int triangle_a, int corner_a, int triangle_b,
+                                       int corner_b);
 
 // Stiffness per area of a contact of two triangles, Pa/m: what the joint gives, or that of the two tets behind them in
 // series; the shear stiffness is the normal one unless given (Feng 2014).

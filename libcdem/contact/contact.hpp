@@ -11,10 +11,11 @@ namespace cdem {
 struct Contact {
   enum Kind : std::int32_t { spring, edge };
   std::int32_t kind = spring;
-  std::int32_t source = 0; // 3 triangle + corner; an edge
-  std::int32_t piece =
-      0; // of the target, one contact for each: its block, or its fragment once it has broken
-  std::int32_t target = 0;                // triangle; an edge
+  std::int32_t source = 0; // 3 triangle + corner; of an edge where it starts on the first of its triangles
+  // Of a spring's target, one contact for each: its block, or its fragment once it has broken. Of an edge its own second
+  // triangle.
+  std::int32_t piece = 0;
+  std::int32_t target = 0;                // triangle; of an edge as source
   geom::Vec3 normal = geom::Vec3::Zero(); // unit, out of the target
   geom::Vec3 shear = geom::Vec3::Zero();  // Fs, N, on the source
   double start = 0;                       // m, depth at which it carries nothing: it was found that deep

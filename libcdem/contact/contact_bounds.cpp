@@ -16,12 +16,12 @@ double contact_time_step(const Model& model, const State& state, const Workspace
                          const std::vector<double>& row_sums) {
   double least = std::numeric_limits<double>::infinity();
   std::vector<double> rigid(model.rigid.size(), 0.0);
-  const ContactWork& own = work.meeting;
-  for (const int node : own.touched) {
-    const int body = model.blocks[block_of(model, node)].rigid;
+  const ContactWork& own = work.contact;
+  for (const auto& [node, block] : own.touched) {
+    const int body = model.blocks[block].rigid;
     if (body < 0) {
       const double mass = model.node_mass[node];
-      const double beta = work.damped ? damping_of(model, node) : 0;
+      const double beta = work.damped ? model.bodies[model.blocks[block].body].material.stiffness_damping : 0;
       least = std::min(least, stable_time_step((row_sums[node] + own.stiffness[node]) / mass,
                                                beta * row_sums[node] / mass));
       continue;

@@ -11,8 +11,11 @@
 namespace cdem {
 namespace {
 
-// The furthest that a node of each block goes in a step of this length.
-void add_ways(const Model& model, const State& state, ContactWork& work, int threads) {
+// Chunks of rows a thread computes before what they found is added up: more than a few leave the cache.
+constexpr std::int64_t chunks_at_a_time = 16;
+
+// The furthest that a node of each block goes in a step of this length. True when one has left its skin.
+bool add_ways(const Model& model, const State& state, ContactWork& work, int threads) {
   const auto blocks = static_cast<std::int64_t>(model.blocks.size());
   for_chunks(blocks, threads, [&](std::int64_t b) {
     const Block& block = model.blocks[b];
@@ -24,12 +27,13 @@ void add_ways(const Model& model, const State& state, ContactWork& work, int thr
     work.last_way[b] = std::sqrt(speed2) * work.step;
     work.travelled[b] += work.last_way[b];
   });
-  work.furthest = *std::max_element(work.travelled.begin(), work.travelled.end());
-}
-
-void sort_by_key(std::vector<Contact>& contacts) {
-  std::sort(contacts.begin(), contacts.end(),
-            [](const Contact& a, const Contact& b) { return key(a) < key(b); });
+  if (work.step > 0)
+    work.pace = work.last_way;
+  ++work.looks;
+  bool out = false;
+  for (std::size_t b = 0; b < model.blocks.size(); ++b)
+    out = out || work.travelled[b] > std::min(work.skin[b], work.lawless);
+  return out;
 }
 
 // What contacts stored that act no more, J: their other side has gone round an edge or off the end of another. Both lists
@@ -46,93 +50,114 @@ double lost(const Model& model, const std::vector<Contact>& before, const std::v
   return energy_lost;
 }
 
-// Adds the forces in the order of the contacts: serial, as it is little beside finding them.
-void add_forces(const ContactWork& found, Workspace& work) {
-  ContactWork& own = work.meeting;
-  for (const int node : own.touched) {
-    work.contact[node] = {};
-    own.stiffness[node] = 0;
+// Serial, as it is little beside finding them.
+void clear_forces(Workspace& work) {
+  for (const TouchedNode& at : work.contact.touched) {
+    work.contact_force[at.node] = {};
+    work.contact.stiffness[at.node] = 0;
   }
-  own.touched.clear();
-  const auto add = [&](int node, const geom::Vec3& force, double stiffness) {
-    Node& sum = work.contact[node];
+  work.contact.touched.clear();
+}
+
+void add_forces(const std::vector<ContactForce>& forces, Workspace& work) {
+  ContactWork& own = work.contact;
+  const auto add = [&](int node, int block, const geom::Vec3& force, double stiffness) {
+    Node& sum = work.contact_force[node];
     sum.x += force.x();
     sum.y += force.y();
     sum.z += force.z();
     if (own.stiffness[node] == 0 && stiffness != 0)
-      own.touched.push_back(node);
+      own.touched.push_back({node, block});
     own.stiffness[node] += 2 * stiffness; // the weights of both sides sum to 2
   };
-  for (const ContactChunk& chunk : found.chunks)
-    for (const ContactForce& f : chunk.forces) {
-      const ContactArms& arms = f.arms;
-      for (int i = 0; i < 3; ++i)
-        if (arms.on_source[i] != 0)
-          add(arms.source[i], arms.on_source[i] * (f.normal + f.shear), arms.on_source[i] * f.stiffness);
-      for (int i = 0; i < 4; ++i)
-        add(arms.target[i], -arms.normal[i] * f.normal - arms.shear[i] * f.shear,
-            std::max(arms.normal[i], std::abs(arms.shear[i])) * f.stiffness);
-    }
+  for (const ContactForce& f : forces) {
+    const ContactArms& arms = f.arms;
+    for (int i = 0; i < 3; ++i)
+      if (arms.on_source[i] != 0)
+        add(arms.source[i], f.source_block, arms.on_source[i] * (f.normal + f.shear),
+            arms.on_source[i] * f.stiffness);
+    for (int i = 0; i < 4; ++i)
+      add(arms.target[i], f.target_block, -arms.normal[i] * f.normal - arms.shear[i] * f.shear,
+          std::max(arms.normal[i], std::abs(arms.shear[i])) * f.stiffness);
+  }
+}
+
+// Those of one source stand by piece, then corner: next to their places.
+void add_sorted(const std::vector<Contact>& found, std::vector<Contact>& contacts) {
+  for (const Contact& c : found) {
+    contacts.push_back(c);
+    for (std::size_t i = contacts.size() - 1; i > 0 && key(contacts[i]) < key(contacts[i - 1]); --i)
+      std::swap(contacts[i], contacts[i - 1]);
+  }
+}
+
+void add(const ContactSums& more, ContactSums& sums) {
+  sums.friction += more.friction;
+  sums.depth = std::max(sums.depth, more.depth);
+  sums.depth_over_height = std::max(sums.depth_over_height, more.depth_over_height);
+  if (more.deepest > sums.deepest) {
+    sums.deepest = more.deepest;
+    sums.deepest_source = more.deepest_source;
+    sums.deepest_target = more.deepest_target;
+  }
 }
 
 } // namespace
 
 ContactSums contact_forces(const Model& model, State& state, Workspace& work, int threads) {
   ContactSums sums;
-  ContactWork& own = work.meeting;
+  ContactWork& own = work.contact;
   if (model.surface.empty() || !own.due)
     return sums;
-  add_ways(model, state, own, threads);
-  if ((own.search_due || own.furthest > 0.5 * own.skin) && !search_contacts(model, state, own, threads))
+  const bool out_of_skin = add_ways(model, state, own, threads), pieces_due = own.pieces_due;
+  if ((pieces_due || out_of_skin) && !search_contacts(model, state, own, threads))
     return sums; // something is not a number: the stage's watch will say where
   // Where a piece has fallen apart, contacts go with the part they touch.
-  for (Contact& c : state.contacts)
-    if (c.kind == Contact::spring)
-      c.piece = own.piece[c.target];
-  sort_by_key(state.contacts);
+  if (pieces_due) {
+    for (Contact& c : state.contacts)
+      if (c.kind == Contact::spring)
+        c.piece = own.piece[c.target];
+    std::sort(state.contacts.begin(), state.contacts.end(),
+              [](const Contact& a, const Contact& b) { return key(a) < key(b); });
+  }
   const auto springs = static_cast<std::int64_t>(own.rows[Contact::spring].size()),
              edges = static_cast<std::int64_t>(own.rows[Contact::edge].size());
-  const std::vector<Range> spring_chunks = split(springs, contact_rows_per_chunk),
-                           edge_chunks = split(edges, contact_rows_per_chunk);
-  const auto n_springs = static_cast<std::int64_t>(spring_chunks.size());
-  for_chunks(static_cast<std::int64_t>(own.chunks.size()), threads, [&](std::int64_t i) {
-    ContactChunk& out = own.chunks[i];
-    out.contacts.clear();
-    out.forces.clear();
-    out.friction = 0;
-    const Contact::Kind kind = i < n_springs ? Contact::spring : Contact::edge;
-    const Range range = i < n_springs ? spring_chunks[i] : edge_chunks[i - n_springs];
-    ContactCandidate* const candidates = own.candidates[kind].data();
-    for (std::int64_t r = range.begin; r < range.end; ++r)
-      if (kind == Contact::spring)
-        evaluate_springs(model, state, own, own.rows[kind][r], candidates, out);
-      else
-        evaluate_edges(model, state, own, own.rows[kind][r], candidates, out);
-  });
-  std::vector<Contact> now;
-  now.reserve(state.contacts.size());
-  for (const ContactChunk& chunk : own.chunks) {
-    now.insert(now.end(), chunk.contacts.begin(), chunk.contacts.end());
-    sums.friction += chunk.friction;
-  }
-  sort_by_key(now); // a row goes by piece, then corner
-  if (own.step > 0)
-    sums.friction += lost(model, state.contacts, now);
-  state.contacts = std::move(now);
-  for (const Contact& c : state.contacts) {
-    const auto [source, target] = triangles_of(model, c);
-    const ContactTriangle &from = model.surface.triangles[source], &to = model.surface.triangles[target];
-    // Not what was found so deep: between the pieces of a broken body that still hang together by a corner.
-    const double pressed = c.depth - c.start, part = pressed / depth_limit(own, from, to);
-    sums.depth = std::max(sums.depth, pressed);
-    sums.depth_over_height = std::max(sums.depth_over_height, pressed / std::min(from.height, to.height));
-    if (part > sums.deepest) {
-      sums.deepest = part;
-      sums.deepest_source = source;
-      sums.deepest_target = target;
+  const auto chunks = [](std::int64_t rows) {
+    return (rows + contact_rows_per_chunk - 1) / contact_rows_per_chunk;
+  };
+  const std::int64_t n_springs = chunks(springs), n = n_springs + chunks(edges);
+  own.chunks.resize(static_cast<std::size_t>(chunks_at_a_time * threads));
+  clear_forces(work);
+  own.now.clear();
+  own.now.reserve(state.contacts.size() + state.contacts.size() / 8 + 64);
+  for (std::int64_t first = 0; first < n; first += chunks_at_a_time * threads) {
+    const std::int64_t count = std::min(n - first, chunks_at_a_time * threads);
+    for_chunks(count, threads, [&](std::int64_t i) {
+      ContactChunk& out = own.chunks[i];
+      out.contacts.clear();
+      out.forces.clear();
+      out.sums = {};
+      const bool edge = first + i >= n_springs;
+      const Contact::Kind kind = edge ? Contact::edge : Contact::spring;
+      const std::int64_t begin = (edge ? first + i - n_springs : first + i) * contact_rows_per_chunk;
+      const std::int64_t end = std::min(edge ? edges : springs, begin + contact_rows_per_chunk);
+      ContactCandidate* const candidates = own.candidates[kind].data();
+      Evaluation evaluation(model, state, own, kind, out);
+      for (std::int64_t r = begin; r < end; ++r)
+        edge ? evaluation.edges(own.rows[kind][r], candidates)
+             : evaluation.springs(own.rows[kind][r], candidates);
+    });
+    for (std::int64_t i = 0; i < count; ++i) {
+      add_sorted(own.chunks[i].contacts, own.now);
+      add_forces(own.chunks[i].forces, work);
+      add(own.chunks[i].sums, sums);
     }
   }
-  add_forces(own, work);
+  if (own.step > 0)
+    sums.friction += lost(model, state.contacts, own.now);
+  if (own.now.capacity() > 2 * own.now.size() + 64)
+    own.now.shrink_to_fit();
+  std::swap(state.contacts, own.now);
   own.due = false;
   own.step = 0;
   return sums;

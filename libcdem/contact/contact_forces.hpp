@@ -16,14 +16,6 @@
 
 namespace cdem {
 
-struct ContactSums {
-  double friction = 0; // J, this step
-  // The deepest, in parts of the depth at which a contact is not to be trusted (depth_limit).
-  double deepest = 0;
-  double depth = 0, depth_over_height = 0;      // largest, m and in parts of the lower tet's height
-  int deepest_source = -1, deepest_target = -1; // triangles
-};
-
 // Advances State::contacts and writes Workspace::contact for where the nodes are; searches when something has moved.
 // Nothing happens when nothing moved since the last call.
 ContactSums contact_forces(const Model&, State&, Workspace&, int threads);

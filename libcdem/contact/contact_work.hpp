@@ -1,11 +1,14 @@
 // What contact needs beside Model and State and throws away with its stage: which triangles and edges are near enough
 // to look at, and the forces of the step.
 //
-// A pair found near sleeps until its two blocks have moved as far as it was apart: `wake` is compared with the sum of
-// the ways the two have gone since the search. A row sleeps as long as all its pairs must.
+// A search finds what can touch before a block has gone further than its skin; none of it changes a force. A pair found
+// near sleeps until its two blocks have moved as far as it was apart: `wake` is compared with the sum of the ways the
+// two have gone since the search. A row sleeps as long as all its pairs must. Lengths kept as floats are rounded to the
+// side on which more is looked at.
 #pragma once
 
 #include "libcdem/contact/contact.hpp"
+#include "libcdem/contact/surface.hpp"
 #include "libcdem/parallel/chunks.hpp"
 #include "libcdem/parallel/node.hpp"
 
@@ -17,17 +20,24 @@ namespace cdem {
 inline constexpr std::int64_t contact_rows_per_chunk = 64;
 
 struct ContactCandidate {
-  int target = 0;  // triangle or edge
-  double wake = 0; // m
+  std::uint32_t target : 29; // triangle or edge
+  std::uint32_t springs : 3; // of a triangle's row: which of its three semi-springs may come near the target
+  float wake;                // m
 };
+inline constexpr std::uint32_t last_contact_triangle = (1u << 29) - 1;
 
-// The targets near one source (triangle or edge), by piece and number.
+inline float rounded_down(double length) { // >= 0
+  return static_cast<float>(length * (1 - 2e-7));
+}
+
+// The targets near one source (triangle or edge) of one piece (springs) or block (edges), by number.
 struct ContactRow {
   int source = 0;
-  double reach =
-      0; // m, its contacts are at most that deep, and what is further off may sleep; 0: not looked at yet
-  double wake = 0; // m, of its targets the least
-  std::int64_t begin = 0, end = 0;
+  int block = 0;                      // of its targets
+  std::uint32_t begin = 0, count = 0; // into candidates
+  // m, its contacts are at most that deep, and what is further off may sleep; 0: not looked at yet.
+  float reach = 0;
+  float wake = 0; // m, of its targets the least
 };
 
 // Where a contact acts: at a place of the source's triangle, and on the corners of the tet behind the target's. The
@@ -42,36 +52,56 @@ struct ContactArms {
 
 struct ContactForce {
   ContactArms arms;
+  int source_block = 0, target_block = 0;
   geom::Vec3 normal = geom::Vec3::Zero(), shear = geom::Vec3::Zero(); // N, on the source
   double stiffness = 0;                                               // N/m
+};
+
+struct ContactSums {
+  double friction = 0; // J, this step
+  // The deepest, in parts of the depth at which a contact is not to be trusted (depth_limit).
+  double deepest = 0;
+  double depth = 0, depth_over_height = 0;      // largest, m and in parts of the lower tet's height
+  int deepest_source = -1, deepest_target = -1; // triangles
 };
 
 // What one chunk of rows found in a step.
 struct ContactChunk {
   std::vector<Contact> contacts;
   std::vector<ContactForce> forces;
-  double friction = 0; // J
+  ContactSums sums;
+};
+
+struct TouchedNode {
+  int node = 0, block = 0;
 };
 
 struct ContactWork {
   std::array<std::vector<ContactRow>, 2> rows; // of springs, of edges
   std::array<std::vector<ContactCandidate>, 2> candidates;
-  std::vector<int> piece;               // per triangle: what holds together, by its smallest node
-  std::vector<char> active;             // per triangle: it is outside, or its face has broken
-  std::vector<double> travelled;        // m, per block, at most, since the search
-  double furthest = 0;                  // m, of any block
-  std::vector<double> last_way;         // m, per block, at most, in the last step
-  double skin = 0;                      // m
-  double shallow = 0;                   // m, the least reach of a row
-  double usual_height = 0;              // m, of a tet at the surface
-  bool search_due = true;               // faces have broken, or nothing was searched yet
-  bool due = true;                      // something moved since the contacts were looked at
-  double step = 0;                      // s, since then
-  std::int64_t searches = 0, pairs = 0; // candidates of springs at the last search
+  std::vector<int> piece;         // per triangle: what holds together, by its smallest node
+  std::vector<char> active;       // per triangle: it is outside, or its face has broken
+  std::vector<char> broken;       // per block: some of its faces have
+  std::vector<ContactEdge> edges; // of surfaces as they are now, by id
+  std::vector<int> edge_begin;    // (n_triangles + 1) into edges, by their first triangle
+  std::vector<double> travelled;  // m, per block, at most, since the search
+  std::vector<double> last_way;   // m, per block, at most, in the last step
+  std::vector<double> pace;       // the same, of the last step in which anything moved
+  std::vector<double> skin;       // m, per block: how far it may go before the next search
+  double lawless = 0;      // m, that two blocks for which no contact is given may go before a search is due
+  double shallow = 0;      // m, the least reach of a row
+  double usual_height = 0; // m, of a tet at the surface
+  bool pieces_due = true;  // faces have broken, or pieces were never told apart: a search is due with them
+  bool due = true;         // something moved since the contacts were looked at
+  double step = 0;         // s, since then
+  int hurry = 0;           // how often skins have been doubled, as searches followed each other closely
+  std::int64_t looks = 0;  // steps since the search
+  std::int64_t searches = 0;
 
-  std::vector<ContactChunk> chunks;
-  std::vector<double> stiffness; // N/m, of contacts at nodes, row sums (n_nodes)
-  std::vector<int> touched;      // nodes with a force, in the order of the contacts
+  std::vector<ContactChunk> chunks; // of as many chunks of rows as are computed at a time
+  std::vector<Contact> now;         // those of the step, before they replace State::contacts
+  std::vector<double> stiffness;    // N/m, of contacts at nodes, row sums (n_nodes)
+  std::vector<TouchedNode> touched; // nodes with a force, in the order of the contacts
 };
 
 } // namespace cdem

@@ -1,16 +1,46 @@
-// What one source, a triangle with its three semi-springs or a semi-edge, does to what is near it.
+// What sources, triangles with their three semi-springs or semi-edges, do to what is near them.
 #pragma once
 
+#include "libcdem/contact/contact_law.hpp"
 #include "libcdem/contact/contact_work.hpp"
+#include "libcdem/contact/nearest.hpp"
 #include "libcdem/state/state.hpp"
 
 namespace cdem {
 
-// Adds the contacts of the rows, as they are after the step, with their forces and friction to `out`. Rows and
-// candidates go to sleep. ContactWork: where things stand.
-void evaluate_springs(const Model&, const State&, const ContactWork&, ContactRow&, ContactCandidate*,
-                      ContactChunk& out);
-void evaluate_edges(const Model&, const State&, const ContactWork&, ContactRow&, ContactCandidate*,
-                    ContactChunk& out);
+// Goes through rows of one kind, by ascending source. Adds their contacts, as they are after the step, with their forces
+// and sums to `out`. Rows and candidates go to sleep.
+class Evaluation {
+public:
+  Evaluation(const Model&, const State&, const ContactWork&, Contact::Kind, ContactChunk& out);
+
+  void springs(ContactRow&, ContactCandidate*); // candidates: of all rows
+  void edges(ContactRow&, ContactCandidate*);
+
+private:
+  // Of two blocks.
+  struct Law {
+    std::pair<int, int> bodies{-1, -1};
+    const Joint* joint = nullptr;
+    double tan_friction = 0;
+  };
+  const Law& law_between(int block_a, int block_b);
+  bool sleeps(const ContactRow&, int block) const;
+  void go_to(int source); // what stood at it before
+  const Contact* before(const Contact&) const;
+  double look_at(ContactRow&, ContactCandidate*, bool all); // returns how deep the deepest is, m
+  void press(int source, int corner, const geom::Vec3& spring, int piece, const Nearest&);
+  void finish(Contact&, ContactMotion&, const ContactArms&, const ContactLaw&, const ContactTriangle& from,
+              const ContactTriangle& to);
+
+  const Model& model_;
+  const ContactSurface& surface_;
+  const State& state_;
+  const ContactWork& work_;
+  Contact::Kind kind_;
+  ContactChunk& out_;
+  std::vector<Contact>::const_iterator old_; // the first contact of the row's source or a later one
+  Law law_;
+};
 
 } // namespace cdem

@@ -12,6 +12,11 @@ namespace cdem {
 // share. Tets that a bond holds together have edges of their own, which part by as much as the bond gives.
 inline constexpr double same_place = 1e-6, same_place_at_least = 1e-9, bond_gives = 3e-4;
 
+inline bool has_bonds(const Model& model, int block) {
+  const Bonding& bonding = model.bodies[model.blocks[block].body].bonding;
+  return bonding.everywhere || bonding.between_regions || !bonding.regions.empty();
+}
+
 // The nearest place of a piece to a spring, so far. Of the triangles that share it the one that the spring stands
 // highest over or lowest under is the target; whether the spring is inside their normals tell together, each weighted
 // by the angle that its triangle fills there (Baerentzen and Aanaes 2005): one alone may be wrong at a sharp corner or
@@ -52,9 +57,13 @@ inline Nearest nearest_of(int target, const geom::Vec3& spring, const Corners& x
 // size: m, of the tets there; bonded: bonds may part their edges.
 inline void take_nearer(Nearest& nearest, Nearest other, const Corners& x, const geom::Vec3& normal,
                         double size, bool bonded) {
-  const double reach = same_place * std::sqrt(std::max(nearest.distance2, other.distance2)) +
-                       (bonded ? bond_gives : same_place_at_least) * size;
-  const bool on_edges = !nearest.at.inside && !other.at.inside;
+  const double further = std::sqrt(std::max(nearest.distance2, other.distance2));
+  double reach = same_place * further + (bonded ? bond_gives : same_place_at_least) * size;
+  // A small change of distance moves the nearest place far along an edge that runs across.
+  if (bonded && further - std::sqrt(std::min(nearest.distance2, other.distance2)) <= reach)
+    reach += std::sqrt(2 * further * reach);
+  // One of the two may have its place just off the edge. Within both they are the two sides of a crack.
+  const bool on_edges = !nearest.at.inside || !other.at.inside;
   const bool one_place = nearest.target >= 0 && (on_edges || !bonded) &&
                          (other.place - nearest.place).squaredNorm() <= reach * reach;
   if (!one_place && nearest.target >= 0 && other.distance2 >= nearest.distance2)

@@ -24,18 +24,20 @@ struct ContactTriangle {
   double area = 0;       // m2, undeformed
   double height = 0;     // h, m, of its tet above it, undeformed
   double compliance = 0; // h / E, m/Pa: what a pressure on it presses the tet together by
-  int edge_begin = 0, edge_end = 0; // its own ones of ContactSurface::edges
 };
 
-// A convex edge between two outer triangles; it belongs to the first.
+// A convex edge between two triangles; it belongs to the first.
 struct ContactEdge {
   std::array<int, 2> nodes{};     // along the first triangle's boundary
   std::array<int, 2> triangles{}; // ascending
+  int corner = 0;                 // of the first triangle, where it starts
+
+  int id() const { return 3 * triangles[0] + corner; }
 };
 
 struct ContactSurface {
   std::vector<ContactTriangle> triangles; // by block, outer ones first
-  std::vector<ContactEdge> edges;         // by first triangle
+  std::vector<ContactEdge> edges;         // between outer ones, by id
   std::vector<int> block_begin;           // (n_blocks + 1) into triangles
   std::vector<int> original;              // (n_nodes) one number for all copies of a node
   // Bodies (smaller first) -> index into Model::joints, the law of their contact.

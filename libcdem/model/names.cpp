@@ -1,5 +1,7 @@
 #include "libcdem/model/names.hpp"
 
+#include "libgeom/core/error.hpp"
+
 #include <fmt/format.h>
 
 namespace cdem {
@@ -14,6 +16,13 @@ std::string block_name(const Model& model, int block) {
     }
   return units > 1 ? fmt::format("unit {} of \"{}\"", unit, model.bodies[body].name)
                    : fmt::format("\"{}\"", model.bodies[body].name);
+}
+
+void refuse_body(const std::string& field, const std::string& name, const Model& model) {
+  std::string names;
+  for (const Body& body : model.bodies)
+    names += (names.empty() ? "\"" : ", \"") + body.name + "\"";
+  throw geom::InputError(field, "\"" + name + "\"", "the name of a body (" + names + ")");
 }
 
 } // namespace cdem

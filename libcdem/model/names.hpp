@@ -5,7 +5,10 @@
 
 namespace cdem {
 
-std::string block_name(const Model&,
-                       int block); // unit 3 of "units", or "slope" when it is the body's only one
+// unit 3 of "units", or "slope" when it is the body's only one.
+std::string block_name(const Model&, int block);
+
+// Throws geom::InputError: no body has this name; the names there are.
+[[noreturn]] void refuse_body(const std::string& field, const std::string& name, const Model&);
 
 } // namespace cdem

@@ -1,6 +1,6 @@
 #include "libcdem/model/selection.hpp"
 
-#include "libcdem/model/model.hpp"
+#include "libcdem/model/names.hpp"
 #include "libgeom/core/error.hpp"
 #include "libgeom/core/nearest.hpp"
 
@@ -18,7 +18,7 @@ std::vector<char> chosen_units(const Model& model, const Selection& s) {
     if (model.bodies[model.blocks[b].body].name == s.body)
       chosen[b] = std::binary_search(s.units.begin(), s.units.end(), ++number);
   if (number == 0)
-    throw geom::InputError("body", "\"" + s.body + "\"", "the name of a body of the model");
+    refuse_body("body", s.body, model);
   if (s.units.back() > number)
     throw geom::InputError("numbers", std::to_string(s.units.back()),
                            fmt::format("a unit of \"{}\", which has {}", s.body, number));

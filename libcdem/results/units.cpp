@@ -1,6 +1,7 @@
 #include "libcdem/results/units.hpp"
 
-#include "libgeom/core/error.hpp"
+#include "libcdem/contact/acting.hpp"
+#include "libcdem/model/names.hpp"
 
 #include <algorithm>
 #include <set>
@@ -8,13 +9,13 @@
 namespace cdem {
 namespace {
 
-std::vector<int> blocks_of(const Model& model, const std::string& body) {
+std::vector<int> units_named(const Model& model, const std::string& body) {
   std::vector<int> blocks;
   for (std::size_t b = 0; b < model.blocks.size(); ++b)
     if (model.bodies[model.blocks[b].body].name == body)
       blocks.push_back(static_cast<int>(b));
   if (blocks.empty())
-    throw geom::InputError("body", "\"" + body + "\"", "the name of a body of the model");
+    refuse_body("body", body, model);
   return blocks;
 }
 
@@ -35,23 +36,11 @@ geom::Vec3 mean_displacement(const Model& model, const State& state, const Block
   return sum / mass;
 }
 
-int block_of_source(const ContactSurface& surface, const Contact& contact) {
-  const int triangle =
-      contact.kind == Contact::spring ? contact.source / 3 : surface.edges[contact.source].triangles[0];
-  return surface.triangles[triangle].block;
-}
-
-int block_of_target(const ContactSurface& surface, const Contact& contact) {
-  const int triangle =
-      contact.kind == Contact::spring ? contact.target : surface.edges[contact.target].triangles[0];
-  return surface.triangles[triangle].block;
-}
-
 } // namespace
 
 std::vector<Unit> units_of(const Model& model, const State& state, const std::string& body) {
   std::vector<Unit> units;
-  for (const int b : blocks_of(model, body)) {
+  for (const int b : units_named(model, body)) {
     const Block& block = model.blocks[b];
     std::vector<geom::Vec3> places;
     for (int node = block.node_begin; node < block.node_end; ++node)
@@ -66,7 +55,7 @@ std::vector<Unit> units_of(const Model& model, const State& state, const std::st
 }
 
 std::vector<geom::Surface> surfaces_of(const Model& model, const State& state, const std::string& body) {
-  const std::vector<int> blocks = blocks_of(model, body);
+  const std::vector<int> blocks = units_named(model, body);
   std::vector<int> unit_of(model.blocks.size(), -1);
   std::vector<geom::Surface> surfaces(blocks.size());
   for (std::size_t u = 0; u < blocks.size(); ++u) {
@@ -95,14 +84,14 @@ std::vector<int> touching(const Model& model, const State& state, const std::str
   for (const Contact& contact : state.contacts) {
     if (!(contact.normal_force > 0))
       continue;
-    const int a = block_of_source(model.surface, contact), b = block_of_target(model.surface, contact);
+    const auto [a, b] = cdem::blocks_of(model, contact);
     if (a != b) {
       pairs.emplace(a, b);
       pairs.emplace(b, a);
     }
   }
   std::vector<int> count;
-  for (const int block : blocks_of(model, body))
+  for (const int block : units_named(model, body))
     count.push_back(static_cast<int>(
         std::count_if(pairs.begin(), pairs.end(), [&](const auto& pair) { return pair.first == block; })));
   return count;

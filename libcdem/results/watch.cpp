@@ -1,6 +1,7 @@
 #include "libcdem/results/watch.hpp"
 
 #include "libcdem/contact/acting.hpp"
+#include "libcdem/model/names.hpp"
 #include "libgeom/core/error.hpp"
 
 #include <algorithm>
@@ -62,12 +63,8 @@ Watch start_watch(const Model& model, const State& state, const std::string& bod
                                "blocks that can be cut are not watched");
       watch.blocks.push_back(b);
     }
-  if (watch.blocks.empty()) {
-    std::string names;
-    for (const Body& one : model.bodies)
-      names += (names.empty() ? "\"" : ", \"") + one.name + "\"";
-    throw geom::InputError("bodies", "\"" + body + "\"", "the name of a body (" + names + ")");
-  }
+  if (watch.blocks.empty())
+    refuse_body("bodies", body, model);
   const std::vector<std::vector<int>> touched = touching(model, state);
   for (const int b : watch.blocks)
     watch.touched.push_back(touched[b]);

@@ -43,7 +43,7 @@ void block_forces(const Model& model, const State& state, Workspace& work, const
 std::vector<Node> net_forces(const Model& model, const State& state, Workspace& work) {
   State copy = state; // bookkeeping of springs and faces stays as it is
   work.strain_step = 0;
-  work.meeting.due = true;
+  work.contact.due = true;
   contact_forces(model, copy, work, 1);
   for (std::size_t c = 0; c < model.point_chunks.size(); ++c)
     spring_forces(model, copy, work, model.point_chunks[c], work.spring_sums[c], false);
@@ -65,8 +65,8 @@ std::vector<Node> net_forces(const Model& model, const State& state, Workspace& 
   std::copy(work.force.begin(), work.force.end(), force.begin());
   const ResolvedConditions& r = work.resolved;
   for (std::size_t i = 0; i < force.size(); ++i) {
-    if (!work.contact.empty())
-      add(force[i], work.contact[i]);
+    if (!work.contact_force.empty())
+      add(force[i], work.contact_force[i]);
     if (!r.internal.empty())
       add(force[i], r.internal[i]);
     if (!r.external.empty())

@@ -29,7 +29,7 @@ MovingNodes moving_nodes(State& state, const Workspace& work, const std::vector<
   nodes.force = force;
   nodes.internal = r.internal.empty() ? nullptr : r.internal.data() + first;
   nodes.external = r.external.empty() ? nullptr : r.external.data() + first;
-  nodes.contact = work.contact.empty() ? nullptr : work.contact.data() + first;
+  nodes.contact = work.contact_force.empty() ? nullptr : work.contact_force.data() + first;
   nodes.mass = mass.data() + first;
   nodes.velocity = state.velocity.data() + first;
   nodes.displacement = state.displacement.data() + first;

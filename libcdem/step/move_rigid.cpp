@@ -66,7 +66,7 @@ RigidForces rigid_forces(const Model& model, const State& state, const Workspace
     }
   };
   sum(work.resolved.external, forces.load, forces.load_torque);
-  sum(work.contact, forces.contact, forces.contact_torque);
+  sum(work.contact_force, forces.contact, forces.contact_torque);
   return forces;
 }
 

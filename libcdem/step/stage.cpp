@@ -134,9 +134,11 @@ void Stage::mark(std::vector<double> carried, const std::vector<Node>& previous_
     moment.beside = context_.beside();
   // Contacts are looked for anew here, as by a stage that goes on: which pairs sleep is not saved.
   if (!context_.model.surface.empty()) {
-    work.meeting = {};
-    start_contact(context_.model, work.meeting);
-    std::fill(work.contact.begin(), work.contact.end(), Node{});
+    const std::vector<double> pace = std::move(work.contact.pace); // how thick skins are changes no force
+    work.contact = {};
+    start_contact(context_.model, work.contact);
+    work.contact.pace = pace;
+    std::fill(work.contact_force.begin(), work.contact_force.end(), Node{});
   }
   if (context_.keeper)
     context_.keeper->marked();
@@ -148,8 +150,8 @@ Stage::~Stage() {
 
 void Stage::moved(double time_step) {
   work.strain_step = time_step;
-  work.meeting.step += time_step;
-  work.meeting.due = true;
+  work.contact.step += time_step;
+  work.contact.due = true;
 }
 
 double Stage::meet() {
@@ -201,7 +203,7 @@ void Stage::catch_up() {
       context_.state.spent.breaking += sums.breaking;
       context_.state.spent.damping += sums.damping;
       if (sums.hands_over) // what is handed over now is looked for where things stand now
-        work.meeting.search_due = work.meeting.due = true;
+        work.contact.pieces_due = work.contact.due = true;
     }
   work.strain_step = 0;
 }
@@ -210,7 +212,7 @@ void Stage::keep_state() {
   watch();
   // Pieces are told apart anew when a face is handed over, and here: a run that goes on from a checkpoint does so too.
   if (!context_.state.face_slip.empty())
-    work.meeting.search_due = true;
+    work.contact.pieces_due = true;
   catch_up();
   context_.last_good = context_.state;
 }
@@ -270,7 +272,7 @@ void Stage::record_face_breaks() {
     context_.state.spent.friction += sums.friction;
     context_.state.spent.breaking += sums.breaking;
     context_.state.spent.damping += sums.damping;
-    work.meeting.search_due = work.meeting.search_due || sums.hands_over;
+    work.contact.pieces_due = work.contact.pieces_due || sums.hands_over;
     for (const FaceBreak& broken : sums.broken) {
       const FaceSpringPlace at{chunk.face_batches.begin + broken.spring / (3 * lanes),
                                static_cast<int>(broken.spring / lanes % 3),

@@ -15,8 +15,8 @@ Workspace::Workspace(const Model& model, const State& state, const Conditions& c
     face_sums.resize(model.mesh.chunks.size());
   }
   if (!model.surface.empty())
-    contact.resize(model.node_position.size());
-  start_contact(model, meeting);
+    contact_force.resize(model.node_position.size());
+  start_contact(model, contact);
   for (const Interface& interface : model.interfaces) {
     const Joint& joint = model.joints[interface.joint];
     strength.push_back({joint.cohesion, std::tan(joint.friction_angle), joint.tensile_strength});

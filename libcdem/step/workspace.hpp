@@ -52,8 +52,8 @@ struct Workspace {
   std::vector<FaceSums> face_sums; // per mesh chunk
   double strain_step = 0;          // s, by which their stress stands behind the nodes
   bool damped = false;             // stiffness damping acts
-  std::vector<Node> contact;       // N, of contacts (n_nodes); empty without; written by contact_forces
-  ContactWork meeting;
+  std::vector<Node> contact_force; // N, of contacts (n_nodes); empty without; written by contact_forces
+  ContactWork contact;
   std::vector<NodeSums> node_sums;  // per chunk of blocks
   std::vector<NodeSums> rigid_sums; // per rigid body
 };

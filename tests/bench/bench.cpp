@@ -32,7 +32,8 @@ namespace {
 
 std::vector<int> numbers(const char* option, const std::string& text) {
   std::vector<int> list;
-  if (text == "0" && std::strcmp(option, "--threads") != 0 && std::strcmp(option, "--seconds") != 0)
+  if (text == "0" && std::strcmp(option, "--threads") != 0 && std::strcmp(option, "--seconds") != 0 &&
+      std::strcmp(option, "--body-divisions") != 0)
     return list;
   for (std::size_t begin = 0; begin <= text.size();) {
     const std::size_t end = std::min(text.find(',', begin), text.size());
@@ -49,14 +50,17 @@ std::vector<int> numbers(const char* option, const std::string& text) {
 }
 
 constexpr const char* help =
-    R"(Usage: cdem bench [--sizes 100,10000,100000] [--tets 10000,105000] [--bodies 1000,10000] [--threads 1,2]
-                  [--seconds 1]
+    R"(Usage: cdem bench [--sizes 100,10000,100000] [--tets 10000,105000] [--bodies 1000,10000]
+                  [--body-divisions 1] [--settle 1000] [--threads 1,2] [--seconds 1]
 
 Steps plates of bonded blocks, meshed cubes, continuous and with every face bonded, and lattices of cubes that touch,
 and prints rates beside the bare element kernels and a copy of memory.
   --sizes    blocks in the plates; 0: none
   --tets     tetrahedra in the cubes, e.g. 10000,105000,1000000; 0: none
   --bodies   cubes that touch, e.g. 1000,10000,100000; 0: none
+  --body-divisions  cells along an edge of each of them, of six tetrahedra
+  --settle   armour units laid on a slope that come to rest, e.g. 1000, with the most threads given; none by
+             default
   --threads  thread counts to compare
   --seconds  stepping time per figure, at least
 )";
@@ -71,12 +75,13 @@ int main(int argc, char** argv) {
       std::fputs(help, stdout);
       return 0;
     }
-    if (i + 1 == argc || (option != "--sizes" && option != "--tets" && option != "--bodies" &&
-                          option != "--threads" && option != "--seconds")) {
-      std::fprintf(
-          stderr,
-          "cdem bench: error: %s: must be --sizes, --tets, --bodies, --threads or --seconds with a value\n%s",
-          option.c_str(), help);
+    if (i + 1 == argc ||
+        (option != "--sizes" && option != "--tets" && option != "--bodies" && option != "--body-divisions" &&
+         option != "--settle" && option != "--threads" && option != "--seconds")) {
+      std::fprintf(stderr,
+                   "cdem bench: error: %s: must be --sizes, --tets, --bodies, --body-divisions, --settle, "
+                   "--threads or --seconds with a value\n%s",
+                   option.c_str(), help);
       return 2;
     }
     const std::string value = argv[++i];
@@ -86,6 +91,10 @@ int main(int argc, char** argv) {
       settings.tets = numbers("--tets", value);
     else if (option == "--bodies")
       settings.bodies = numbers("--bodies", value);
+    else if (option == "--body-divisions")
+      settings.body_divisions = numbers("--body-divisions", value)[0];
+    else if (option == "--settle")
+      settings.units = numbers("--settle", value);
     else if (option == "--threads")
       settings.threads = numbers("--threads", value);
     else
@@ -103,5 +112,7 @@ int main(int argc, char** argv) {
     bench::meshes(settings);
   if (!settings.bodies.empty())
     bench::contacts(settings);
+  if (!settings.units.empty())
+    bench::piles(settings);
   return 0;
 }

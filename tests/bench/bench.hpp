@@ -9,6 +9,8 @@ struct Settings {
   std::vector<int> sizes{100, 10000, 100000}; // blocks
   std::vector<int> tets{10000, 105000};       // of meshed cubes
   std::vector<int> bodies{1000, 10000};       // that touch
+  int body_divisions = 1;                     // cells along an edge of one of them
+  std::vector<int> units{};                   // that fall and settle
   std::vector<int> threads{1, 2};
   double seconds = 1; // of stepping per figure, at least
 };
@@ -19,5 +21,6 @@ void blocks(const Settings&); // star blocks with bonds: full step beside the ba
 void meshes(const Settings&); // meshed cubes, continuous and bonded: full step beside the bare kernels
 
 void contacts(const Settings&); // cubes that touch: search and full step
+void piles(const Settings&);    // armour units that settle on a slope
 
 } // namespace bench

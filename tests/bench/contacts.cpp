@@ -1,4 +1,4 @@
-// Cubes of six tets in a lattice, each pressed a little into its neighbours and turned a little: what a search and a
+// Cubes of six tets a cell in a lattice, each pressed a little into its neighbours and turned a little: what a search and a
 // step of contact cost, beside the step of the tets. Every cube has its own nodes; nothing holds it.
 #include "libcdem/contact/contact_forces.hpp"
 #include "libcdem/contact/search.hpp"
@@ -15,7 +15,7 @@ namespace {
 
 using namespace cdem;
 
-Model lattice(int bodies, bool touching) {
+Model lattice(int bodies, int divisions, bool touching) {
   const int n = std::max(1, static_cast<int>(std::lround(std::cbrt(bodies))));
   Model frame;
   Body body;
@@ -32,7 +32,7 @@ Model lattice(int bodies, bool touching) {
     frame.surface.joint[{0, 0}] = 1;
     frame.joints.push_back(law);
   }
-  const geom::TetMesh cube = geom::box_mesh({1, 1, 1}, {1, 1, 1});
+  const geom::TetMesh cube = geom::box_mesh({1, 1, 1}, {divisions, divisions, divisions});
   std::vector<MeshSeed> seeds;
   for (int i = 0; i < n * n * n; ++i) {
     const geom::Vec3 cell(i % n, i / n % n, i / n / n);
@@ -40,7 +40,7 @@ Model lattice(int bodies, bool touching) {
     geom::TetMesh mesh = cube;
     for (std::size_t k = 0; k < mesh.nodes.size(); ++k) {
       const auto draw = [&](std::uint64_t axis) {
-        return 1e-3 * (geom::uniform(1, 8 * static_cast<std::uint64_t>(i) + k, axis) - 0.5);
+        return 1e-3 * (geom::uniform(1, mesh.nodes.size() * static_cast<std::uint64_t>(i) + k, axis) - 0.5);
       };
       mesh.nodes[k] += spacing * cell + geom::Vec3(draw(0), draw(1), draw(2));
     }
@@ -52,7 +52,7 @@ Model lattice(int bodies, bool touching) {
 } // namespace
 
 void contacts(const Settings& settings) {
-  std::printf("\ncubes of six tets that touch, full step; millions a second"
+  std::printf("\ncubes that touch, full step; millions a second"
               "\n%8s %9s %9s %9s %7s | %9s %10s %7s %9s | %10s\n",
               "bodies", "tets", "pairs", "contacts", "threads", "search, s", "contacts/s", "tets/s",
               "no contact", "bytes per");
@@ -60,22 +60,24 @@ void contacts(const Settings& settings) {
               "tet");
   for (const int size : settings.bodies) {
     const double before = resident_bytes();
-    const Model model = lattice(size, true);
+    const Model model = lattice(size, settings.body_divisions, true);
     const auto n = static_cast<double>(model.tets.size());
     for (const int threads : settings.threads) {
       State state = initial_state(model);
       Workspace work(model, state, {});
       const Stopwatch watch(threads);
-      search_contacts(model, state, work.meeting, threads);
+      search_contacts(model, state, work.contact, threads);
       const double search = watch.seconds();
       contact_forces(model, state, work, threads);
       const double held = resident_bytes() - before;
       const double steps = step_rate(model, threads, settings.seconds);
-      const double alone = step_rate(lattice(size, false), threads, settings.seconds);
+      const double alone =
+          step_rate(lattice(size, settings.body_divisions, false), threads, settings.seconds);
       const auto active = static_cast<double>(state.contacts.size());
-      std::printf("%8zu %9.0f %9lld %9.0f %7d | %9.3f %10.2f %7.2f %9.2f | %10.0f\n", model.blocks.size(), n,
-                  static_cast<long long>(work.meeting.pairs), active, threads, search, steps * active / 1e6,
-                  steps * n / 1e6, alone * n / 1e6, held / n);
+      std::printf("%8zu %9.0f %9zu %9.0f %7d | %9.3f %10.2f %7.2f %9.2f | %10.0f\n", model.blocks.size(), n,
+                  work.contact.candidates[Contact::spring].size() +
+                      work.contact.candidates[Contact::edge].size(),
+                  active, threads, search, steps * active / 1e6, steps * n / 1e6, alone * n / 1e6, held / n);
       std::fflush(stdout);
     }
   }

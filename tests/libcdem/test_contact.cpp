@@ -237,8 +237,9 @@ TEST_CASE("contact: crossed edges stop each other", "[contact][edges]") {
   CHECK(centroid(s, 1).z() > lowest + 1e-4);
 }
 
-TEST_CASE("contact: the same bits for every number of threads", "[contact]") {
-  const auto hash_with = [](int threads) {
+TEST_CASE("contact: the same bits for every number of threads, and however often contacts are looked for",
+          "[contact]") {
+  const auto hash_with = [](int threads, bool anew_every_200_steps) {
     std::vector<geom::TetMesh> units;
     for (int i = 0; i < 4; ++i)
       units.push_back(box_at({0.5, 0.4, 0.3}, {2, 2, 2}, rotation({1, 1.0 + i, 0.5}, 0.7 * i),
@@ -263,13 +264,18 @@ TEST_CASE("contact: the same bits for every number of threads", "[contact]") {
     options.callback_every = 100;
     bool touched = false;
     options.callback = [&] { touched = touched || !s.state.contacts.empty(); };
-    s.run(options);
+    std::optional<cdem::Moment> moment; // where a stage can be left
+    cdem::run({s.model, s.state, s.conditions, s.log, s.last_good, s.observer, s.threads, 1, nullptr,
+               anew_every_200_steps ? &moment : nullptr},
+              options);
     CHECK(touched);
+    CHECK(moment.has_value() == anew_every_200_steps);
     return cdem::hash(s.state);
   };
-  const auto once = hash_with(1);
-  CHECK(hash_with(2) == once);
-  CHECK(hash_with(4) == once);
+  const auto once = hash_with(1, false);
+  CHECK(hash_with(2, false) == once);
+  CHECK(hash_with(4, true) == once);
+  CHECK(hash_with(1, true) == once);
 }
 
 TEST_CASE("contact: bodies without a law that meet end the run", "[contact][errors]") {

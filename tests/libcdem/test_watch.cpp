@@ -29,25 +29,21 @@ System cubes(int count) {
   return s;
 }
 
-// Gives contacts something to name: one triangle and one edge a block.
+// Gives contacts something to name: one triangle a block.
 void add_surface(System& s) {
   s.model.surface.triangles.clear();
-  s.model.surface.edges.clear();
   for (int b = 0; b < static_cast<int>(s.model.blocks.size()); ++b) {
     cdem::ContactTriangle triangle;
     triangle.block = b;
     s.model.surface.triangles.push_back(triangle);
-    cdem::ContactEdge edge;
-    edge.triangles = {b, b};
-    s.model.surface.edges.push_back(edge);
   }
 }
 
 void touch(System& s, int block_a, int block_b, cdem::Contact::Kind kind = cdem::Contact::spring) {
   cdem::Contact contact;
   contact.kind = kind;
-  contact.source = kind == cdem::Contact::spring ? 3 * block_a + 1 : block_a;
-  contact.target = block_b;
+  contact.source = 3 * block_a + 1;
+  contact.target = kind == cdem::Contact::spring ? block_b : 3 * block_b + 2;
   s.state.contacts.push_back(contact);
 }
 

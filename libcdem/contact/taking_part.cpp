@@ -1,0 +1,150 @@
+#include "libcdem/contact/taking_part.hpp"
+
+#include "libcdem/contact/acting.hpp"
+#include "libcdem/contact/near.hpp"
+#include "libcdem/contact/places.hpp"
+#include "libcdem/results/fragments.hpp"
+
+#include <algorithm>
+
+namespace cdem {
+namespace {
+
+// Of the usual height of a tet at the surface: the thinnest and the thickest skin of a block.
+constexpr double thinnest = 0.0025, thickest = 0.1;
+// Steps that a block can go on at its pace before it leaves its skin, and what of the fastest block's pace the others
+// are trusted to get to.
+constexpr double steps_ahead = 250, pace_of_others = 0.25;
+// Searches that follow each other within fewer steps than this make skins twice as thick, those after more halve them.
+constexpr std::int64_t few_looks = 50, many_looks = 150;
+constexpr int most_hurry = 6;
+// Pairs of boxes that may be compared to find how far off the others are.
+constexpr std::size_t most_boxes_compared = 4000000;
+// Of the height of a tet: how deep a contact may get.
+constexpr double depth_ratio = 0.25;
+
+bool open(const State& state, int face) {
+  for (const auto& point : state.faces[face / lanes].mode)
+    if (point[face % lanes] == static_cast<std::uint8_t>(BondMode::intact))
+      return false;
+  return true;
+}
+
+double gap(const geom::Box& a, const geom::Box& b) {
+  return (a.min - b.max).cwiseMax(b.min - a.max).maxCoeff();
+}
+
+// m, of blocks whose pace is greater, a quarter of what parts their boxes from all others: their boxes with three skins
+// around them then meet none. 0 for the others, and for further ones when there are very many.
+std::vector<double> room_of_fast_ones(const Model& model, const State& state, const ContactWork& work,
+                                      double pace) {
+  const ContactSurface& s = model.surface;
+  std::vector<double> room(model.blocks.size(), 0.0);
+  std::vector<int> fast;
+  for (int b = 0; b < static_cast<int>(room.size()); ++b)
+    if (work.pace[b] > pace)
+      fast.push_back(b);
+  fast.resize(std::min(fast.size(), most_boxes_compared / room.size()));
+  if (fast.empty())
+    return room;
+  std::vector<geom::Box> boxes(room.size());
+  for (const ContactTriangle& t : s.triangles)
+    for (const int node : t.nodes)
+      boxes[t.block].extend(place_of(model, state, node));
+  for (const int b : fast) {
+    double nearest = std::numeric_limits<double>::infinity();
+    for (int other = 0; other < static_cast<int>(boxes.size()); ++other)
+      if (other != b)
+        nearest = std::min(nearest, gap(boxes[b], boxes[other]));
+    room[b] = std::max(0.0, 0.25 * nearest);
+  }
+  return room;
+}
+
+} // namespace
+
+void find_pieces(const Model& model, const State& state, ContactWork& work) {
+  const ContactSurface& s = model.surface;
+  const std::vector<int> pieces = pieces_of_nodes(model, state);
+  work.piece.resize(s.triangles.size());
+  work.active.resize(s.triangles.size());
+  work.broken.assign(model.blocks.size(), 0);
+  for (std::size_t t = 0; t < s.triangles.size(); ++t) {
+    work.piece[t] = pieces[s.triangles[t].nodes[0]];
+    const int face = s.triangles[t].face;
+    work.active[t] = static_cast<char>(face < 0 || open(state, face));
+    if (face >= 0 && work.active[t])
+      work.broken[s.triangles[t].block] = 1;
+  }
+}
+
+void choose_skins(const Model& model, const State& state, ContactWork& work) {
+  const double most = thickest * work.usual_height;
+  bool too_thin = false;
+  for (std::size_t b = 0; b < work.skin.size(); ++b)
+    too_thin = too_thin || (work.travelled[b] > work.skin[b] && work.skin[b] < most);
+  if (work.searches > 0 && work.looks < few_looks && too_thin)
+    work.hurry = std::min(work.hurry + 1, most_hurry);
+  else if (work.looks > many_looks)
+    work.hurry = std::max(work.hurry - 1, 0);
+  const std::vector<double> alone = room_of_fast_ones(model, state, work, most / steps_ahead);
+  double fastest = 0;
+  for (std::size_t b = 0; b < work.skin.size(); ++b)
+    if (alone[b] <= most)
+      fastest = std::max(fastest, work.pace[b]);
+  const double least = std::max(thinnest * work.usual_height, pace_of_others * steps_ahead * fastest) *
+                       static_cast<double>(1 << work.hurry);
+  for (std::size_t b = 0; b < work.skin.size(); ++b)
+    work.skin[b] = std::min(std::max(least, steps_ahead * work.pace[b]), std::max(most, alone[b]));
+}
+
+double depth_of(const ContactWork& work, const ContactTriangle& t) {
+  return depth_ratio * std::min(t.height, work.usual_height);
+}
+
+double far_at_first(const ContactWork& work, const ContactTriangle& t) {
+  return depth_of(work, t) + thickest * work.usual_height;
+}
+
+Cover::Cover(const Model& model, const State& state, const ContactWork& work)
+    : work_(work), whole_(work.broken), at_least_(model.blocks.size(), 0.0) {
+  // Before the first step, and where faces break, anything may stand in anything.
+  if (state.step == 0)
+    std::fill(whole_.begin(), whole_.end(), 1);
+  for (const Contact& c : state.contacts) {
+    const auto [a, b] = blocks_of(model, c);
+    at_least_[a] = std::max(at_least_[a], c.depth);
+    at_least_[b] = std::max(at_least_[b], c.depth);
+  }
+  for (std::size_t b = 0; b < at_least_.size(); ++b)
+    at_least_[b] =
+        std::max({at_least_[b], 0.5 * edge_depth(work), 0.5 * meeting_ratio * model.blocks[b].size});
+}
+
+bool TakingPart::finite() const {
+  return std::all_of(boxes.begin(), boxes.end(),
+                     [](const geom::Box& box) { return box.min.allFinite() && box.max.allFinite(); });
+}
+
+TakingPart taking_part(const Model& model, const State& state, const ContactWork& work, const Cover& cover) {
+  const ContactSurface& s = model.surface;
+  TakingPart part;
+  part.block_begin.push_back(0);
+  for (std::size_t b = 0; b + 1 < s.block_begin.size(); ++b) {
+    geom::Box box;
+    for (int t = s.block_begin[b]; t < s.block_begin[b + 1]; ++t) {
+      if (!work.active[t])
+        continue;
+      part.triangles.push_back(t);
+      part.boxes.push_back(
+          box_of(corners_of(model, state, s.triangles[t].nodes), cover.margin(s.triangles[t])));
+      box.extend(part.boxes.back().min);
+      box.extend(part.boxes.back().max);
+    }
+    part.block_boxes.push_back(box);
+    part.block_begin.push_back(static_cast<int>(part.triangles.size()));
+  }
+  return part;
+}
+
+} // namespace cdem

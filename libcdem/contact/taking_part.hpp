@@ -1,0 +1,49 @@
+// What of the contact surfaces a search looks at: the triangles that are outside or on broken faces, by block, in boxes
+// that hold all that may touch them before the next search.
+#pragma once
+
+#include "libcdem/contact/contact_work.hpp"
+#include "libcdem/state/state.hpp"
+
+namespace cdem {
+
+// Writes ContactWork::piece, active and broken.
+void find_pieces(const Model&, const State&, ContactWork&);
+
+// Writes ContactWork::skin: thin for what hardly moves, so that little is near; thick for what flies by itself.
+void choose_skins(const Model&, const State&, ContactWork&);
+
+// m: a quarter of the tet's height, of those much higher than usual a quarter of the usual.
+double depth_of(const ContactWork&, const ContactTriangle&);
+
+// m, around triangles that belong together: those that were further from each other than both at first may meet.
+double far_at_first(const ContactWork&, const ContactTriangle&);
+
+// Of two blocks together: how deep a contact may stand that the search knows of, m.
+class Cover {
+public:
+  Cover(const Model&, const State&, const ContactWork&);
+
+  double operator()(const ContactTriangle& t) const {
+    return std::max(whole_[t.block] ? depth_of(work_, t) : 0, at_least_[t.block]);
+  }
+  // What a triangle's box has to hold around it for it to meet another before the next search.
+  double margin(const ContactTriangle& t) const { return work_.skin[t.block] + (*this)(t); }
+
+private:
+  const ContactWork& work_;
+  std::vector<char> whole_;      // per block: nothing is known of its contacts
+  std::vector<double> at_least_; // m, per block
+};
+
+struct TakingPart {
+  std::vector<int> triangles;         // by block
+  std::vector<int> block_begin;       // (n_blocks + 1) into triangles
+  std::vector<geom::Box> boxes;       // per triangle, with its margin
+  std::vector<geom::Box> block_boxes; // per block
+
+  bool finite() const;
+};
+TakingPart taking_part(const Model&, const State&, const ContactWork&, const Cover&);
+
+} // namespace cdem
