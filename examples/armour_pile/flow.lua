@@ -60,7 +60,7 @@ end
 
 left = model:watch{ bodies = "units", leaves = 0.5 * height }
 local memory = model.memory
-memory.velocity, memory.since, memory.gone = first * scale, model.time, 0
+memory.velocity, memory.since, memory.gone, memory.whole = first * scale, model.time, 0, math.floor(first)
 if mode == "ramp" then
   local start = model.time
   model:flow{ on = "units", direction = {1.5, 0, 1}, water_density = set_up.water,
@@ -79,6 +79,15 @@ local function furthest_way()
   memory.places, memory.looked = now, model.time
   return most_moved
 end
+-- A picture of what has moved whenever the flow passes another whole m/s (of 5 t).
+local function rise_to(velocity)
+  local whole = math.floor(velocity / scale + 1e-9)
+  if whole > memory.whole then
+    memory.whole = whole
+    picture(string.format("up_to_%02d.png", whole), string.format("up to %.2f m/s", memory.velocity))
+  end
+  memory.velocity = velocity
+end
 local function raise()
   if #left > memory.gone then
     memory.gone = #left
@@ -86,13 +95,14 @@ local function raise()
             string.format("unit %d has left at %.2f m/s", left[#left].unit, left[#left].velocity))
   end
   if mode == "ramp" then
-    memory.velocity = first * scale + rate * (model.time - memory.since)
+    rise_to(first * scale + rate * (model.time - memory.since))
     return
   end
   if model.time - memory.looked < hold * scale then return end
   local way = furthest_way()
   if way < 0.01 * height or model.time - memory.since >= longest * scale then
-    memory.velocity, memory.since = memory.velocity + step * scale, model.time
+    rise_to(memory.velocity + step * scale)
+    memory.since = model.time
     cdem.log(string.format("%.2f s: the flow rises to %.2f m/s (furthest way in the last %.2g s: %.2g H)", model.time,
                            memory.velocity, hold * scale, way / height))
   end
