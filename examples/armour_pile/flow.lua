@@ -20,7 +20,7 @@ local damping = cdem.parameter{ name = "stiffness_damping", default = 1e-5, rang
                                 doc = "for 5 t: 1 % of critical damping at a unit's lowest frequency" }
 local held = cdem.parameter{ name = "held", default = 5, range = {0, 100}, doc = "highest and lowest units that are held" }
 local friction = cdem.parameter{ name = "friction_angle", default = 35.0, range = {0, 80}, unit = "deg" }
-local walls = cdem.parameter{ name = "walls", default = true, doc = "at the sides and the toe" }
+local walls = cdem.parameter{ name = "walls", default = false, doc = "those of settle.lua stay" }
 local draw = cdem.parameter{ name = "pictures", default = true, doc = "draw them" }
 
 local pile = cdem.read_pile{ file = file }

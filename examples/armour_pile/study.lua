@@ -11,6 +11,7 @@ local units = cdem.parameter{ name = "units", default = 4, range = {1, 100}, doc
 local first = cdem.parameter{ name = "first_velocity", default = 3.0, range = {0.1, 100}, unit = "m/s", doc = "for 5 t" }
 local step = cdem.parameter{ name = "velocity_step", default = 0.25, range = {1e-3, 10}, unit = "m/s", doc = "for 5 t" }
 local rate = cdem.parameter{ name = "ramp_rate", default = 1.0, range = {1e-3, 100}, unit = "m/s2", doc = "of ramp" }
+local walls = cdem.parameter{ name = "walls", default = false, doc = "those of settle.lua stay" }
 local jobs = cdem.parameter{ name = "jobs", default = 2, range = {1, 64}, doc = "runs side by side" }
 
 local masses = { 5000.0, 9000.0, 16000.0 }
@@ -18,7 +19,7 @@ local set, run_of = {}, {} -- run_of["ramp 9000"]: number of that run
 for _, mode in ipairs(modes == "both" and {"hold", "ramp"} or {modes}) do
   for _, mass in ipairs(masses) do
     set[#set + 1] = { mass = mass, pile = file, units = units, mode = mode, first_velocity = first, velocity_step = step,
-                      ramp_rate = rate }
+                      ramp_rate = rate, walls = walls }
     run_of[mode .. " " .. mass] = #set
   end
 end

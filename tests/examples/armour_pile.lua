@@ -19,7 +19,7 @@ expect.between(figures, "largest_way_over_height", 0, 0.1)
 -- little less, as limbs do not shield each other); on a third of it, with friction of 35 degrees, at 7.7 m/s, and nothing
 -- but neighbours can hold one back beyond.
 local run = cdem.sweep{ script = example .. "flow.lua",
-                        set = { { pile = "../" .. result.output .. "/pile.json", held = 3, units = 1, walls = false,
+                        set = { { pile = "../" .. result.output .. "/pile.json", held = 3, units = 1,
                                   first_velocity = 2, velocity_step = 1, longest_hold = 0.4, pictures = false } } }[1]
 if run.exit_code ~= 0 then error("the flow ended with exit code " .. run.exit_code) end
 expect.between(run.figures, "unit_1_leaves_at_m_per_s_5_t", 2.5, 15)
