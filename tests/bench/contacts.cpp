@@ -35,7 +35,8 @@ Model lattice(int bodies, int divisions, bool touching) {
   const geom::TetMesh cube = geom::box_mesh({1, 1, 1}, {divisions, divisions, divisions});
   std::vector<MeshSeed> seeds;
   for (int i = 0; i < n * n * n; ++i) {
-    const geom::Vec3 cell(i % n, i / n % n, i / n / n);
+    const int row = i / n % n, layer = i / (n * n);
+    const geom::Vec3 cell(i % n, row, layer);
     const double spacing = touching ? 0.999 : 2;
     geom::TetMesh mesh = cube;
     for (std::size_t k = 0; k < mesh.nodes.size(); ++k) {

@@ -87,8 +87,8 @@ std::vector<char> is_upper(const System& s) {
 // all nodes, with `speed` along their common normal.
 Vec3 cross_edges(System& s, double gap, double speed) {
   const std::vector<char> upper = is_upper(s);
-  const Vec3 normal = Vec3(0, 1, 1).normalized(), lower_edge(0.27 * width, width, width),
-             upper_edge(0.29 * width, 0, width);
+  Vec3 normal = Vec3(0, 1, 1).normalized();
+  const Vec3 lower_edge(0.27 * width, width, width), upper_edge(0.29 * width, 0, width);
   const Mat3 turn = rotation(normal, 75 * degree);
   for (std::size_t i = 0; i < upper.size(); ++i)
     if (upper[i]) {
