@@ -26,7 +26,7 @@ function M.model(pile, options)
   -- Between walls the slope ends a little short of them, so that they do not touch.
   local thickness, clear = height, 0.05 * height
   local width = options.walls and 2 * (math.min(-box.min[2], box.max[2]) - clear)
-                or 2 * math.max(-box.min[2], box.max[2]) + 4 * height
+                or 2 * math.max(-box.min[2], box.max[2]) + 2 * height
   local bodies = { { shape = M.slope(length, width, height), material = concrete, element = "rigid", name = "slope" },
                    { shape = pile, material = concrete, name = "units" } }
   local contacts = { { "units", "units", rough }, { "units", "slope", rough } }
@@ -68,7 +68,7 @@ end
 
 -- From the side of the toe and above.
 function M.camera(length)
-  return { position = {-1.2 * length, -1.5 * length, 1.8 * length}, up = {0, 0, 1}, view_angle = 30,
+  return { position = {-1.2 * length, -1.5 * length, 1.8 * length}, up = {0, 0, 1}, view_angle = 31,
            focal_point = {0.42 * length, 0, 0.37 * M.gradient * length} }
 end
 
