@@ -30,6 +30,7 @@ local function velocity_at(model, time)
   local history = model:history()
   local function velocity(row) return math.sqrt(2 * history.kinetic_energy[row] / (concrete.density * mesh:volume())) end
   local row = 2
+  if #history.time < row then return 0 end -- a run that is only checked has none
   while history.time[row] < time do row = row + 1 end
   local part = (time - history.time[row - 1]) / (history.time[row] - history.time[row - 1])
   return (1 - part) * velocity(row - 1) + part * velocity(row)
