@@ -58,7 +58,8 @@ local whole = cdem.mohr_coulomb{ cohesion = 10e6, friction_angle = 30, tensile_s
 local brittle = beam.model({ { shape = beam.shape("41x10"), material = beam.rock, joint = whole, name = "beam" } }, support)
 local near_the_top = 0.85 * beam.height -- under the last row of blocks the crack turns aside
 local by_opening = { opening = {0}, load = {0} }
-local starts, path
+local starts
+local path = { {beam.notch_x, 0, 0}, {beam.notch_x, beam.notch_height, 0} } -- until something grows; in a check nothing does
 local saw = lead(brittle, function(note)
   brittle:relax{ breaking = false, residual = 1e-5 }
   local load, opening = note()
@@ -70,6 +71,7 @@ local saw = lead(brittle, function(note)
     end
     load, opening = note()
   end }
+  if #growth.passes == 0 then return end
   path = growth.passes[#growth.passes].path
   starts = starts or load / growth.passes[1].first_ratio
 end)

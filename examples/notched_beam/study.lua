@@ -54,9 +54,13 @@ for i, case in ipairs(cases) do sets[i] = case.set end
 local lines, results = {}, cdem.sweep{ script = "case.lua", set = sets }
 for i, result in ipairs(results) do
   if result.exit_code ~= 0 then error(cases[i].label .. " ended with exit code " .. result.exit_code) end
-  local columns = cdem.read_csv(result.output .. "/path.csv")
-  lines[i] = {}
-  for k, x in ipairs(columns.x_m) do lines[i][k] = {x, columns.y_m[k]} end
+  if result.figures.steps then
+    local columns = cdem.read_csv(result.output .. "/path.csv")
+    lines[i] = {}
+    for k, x in ipairs(columns.x_m) do lines[i][k] = {x, columns.y_m[k]} end
+  else -- a case that was only checked has written nothing
+    lines[i] = beam.hoop_stress_path[cases[i].set.support or "pinned"]
+  end
 end
 
 -- Every two of them, and each against the path of the largest hoop stress.
@@ -81,7 +85,7 @@ for i, line in ipairs(lines) do
   local tip = line[#line]
   columns.case[i], columns.tip_x[i], columns.tip_y[i] = i, tip[1], tip[2]
   columns.rms[i], columns.most[i] = crack.distance(line, beam.hoop_stress_path[cases[i].set.support or "pinned"])
-  columns.start[i] = results[i].figures.load_that_starts_the_crack_N
+  columns.start[i] = results[i].figures.load_that_starts_the_crack_N or 0 / 0
   columns.turns[i], columns.length[i] = crack.wandering(line)
   for k = 1, 2 do low[k], high[k] = math.min(low[k], tip[k]), math.max(high[k], tip[k]) end
   cdem.log(string.format("%d, %s: tip (%.4f, %.4f) m; from the hoop stress path rms %.4f m, at most %.4f m; turns %.0f deg", i,
