@@ -19,7 +19,7 @@ constexpr int most_threads = 1024;
 struct Typed {
   std::string file, output, threads, jobs, colour, deformation = "0", view = "front", up = "y",
                                                    size = "1600x1200", range, colour_map = "auto", title,
-                                                   topic, checkpoint_every = "10";
+                                                   topic, checkpoint_every = "10", sources;
   std::vector<std::string> set;
   bool unsafe = false, quiet = false, machine = false, version = false, manual = false;
   bool no_edges = false, no_broken_bonds = false, no_colour_bar = false, no_legend = false, no_axes = false;
@@ -187,6 +187,8 @@ private:
     command->add_flag("--quiet,-q", typed_.quiet, "print nothing but warnings and errors");
     command->add_flag("--machine-progress", typed_.machine, "progress for a program that watches this run")
         ->group("");
+    command->add_option("--sources", typed_.sources, "folder with the text of the script that a sweep kept")
+        ->group("");
     finish(
         command,
         "  cdem run examples/uniaxial_compression/case.lua\n"
@@ -242,7 +244,9 @@ private:
     add_threads(command, "threads of each run (the cores shared among the jobs)");
     add_output(command, "DIR", "folder for the runs and sweep.csv (results/<case>-sweep)");
     command->add_flag("--quiet,-q", typed_.quiet, "print nothing but warnings and errors");
-    finish(command, "  cdem sweep case.lua --set pressure=20e6,25e6,30e6 --set cohesion=5e6,8e6 --jobs 2\n");
+    finish(command, "  cdem sweep case.lua --set pressure=20e6,25e6,30e6 --set cohesion=5e6,8e6 --jobs 2\n",
+           "Every run runs the script, and the files that it requires by a name in quotes, as they are when\n"
+           "the sweep begins; swept/ in its folder keeps them. Data files are read as they are then.\n");
   }
   void add_render() {
     auto* command = app_.add_subcommand("render", "draw a picture of a .vtu file");
@@ -394,6 +398,7 @@ private:
     c.threads = threads();
     c.set = settings_of(typed_.set);
     c.unsafe = typed_.unsafe;
+    c.sources = typed_.sources;
     c.progress = progress_style();
     c.checkpoint_minutes = checkpoint_minutes();
     c.line = line_;

@@ -101,7 +101,8 @@ std::string case_name(const fs::path& script, const std::map<std::string, std::s
   return clean == name ? clean : clean + "-" + hash_text(name);
 }
 
-OutputFolder::OutputFolder(fs::path folder, const fs::path& script, const std::string& command, Start start)
+OutputFolder::OutputFolder(fs::path folder, const fs::path& script, const std::string& command, Start start,
+                           const fs::path& source)
     : folder_(std::move(folder)), script_(script) {
   const std::string shown = folder_.string();
   std::error_code error;
@@ -109,7 +110,7 @@ OutputFolder::OutputFolder(fs::path folder, const fs::path& script, const std::s
     throw FileError("output folder " + shown + " is a file; choose another with --output");
   if (!place_below(script_, folder_).empty())
     throw FileError("output folder " + shown + " holds the script itself; choose another with --output");
-  script_text_ = read_file(script_);
+  script_text_ = read_file(source.empty() ? script_ : source);
   for (fs::path made = fs::absolute(folder_).lexically_normal();
        !made.empty() && !fs::exists(made, error) && made != made.parent_path(); made = made.parent_path())
     first_made_ = made;
@@ -159,6 +160,15 @@ void OutputFolder::go_on(const std::string& command) {
   std::fprintf(log_, "%s%s, %s\n", run_log_resumed, command.c_str(), date_now().c_str());
   std::fflush(log_);
   begun_ = has_said_ = true;
+  write_script(); // mended, perhaps, after the error that ended the run
+}
+
+void OutputFolder::write_script() {
+  const fs::path copy = folder_ / script_.filename();
+  will_write(copy);
+  std::ofstream out(copy, std::ios::binary);
+  if (!out.write(script_text_.data(), static_cast<std::streamsize>(script_text_.size())).flush())
+    throw FileError(copy.string() + " cannot be written: " + system_reason());
 }
 
 void OutputFolder::log(const std::string& text) {
@@ -188,11 +198,7 @@ void OutputFolder::begin_results() {
       throw FileError((folder_ / run_log_name).string() + " cannot be written: " + error.message());
     log_path_ = folder_ / run_log_name;
   }
-  const fs::path copy = folder_ / script_.filename();
-  will_write(copy);
-  std::ofstream out(copy, std::ios::binary);
-  if (!out.write(script_text_.data(), static_cast<std::streamsize>(script_text_.size())).flush())
-    throw FileError(copy.string() + " cannot be written: " + system_reason());
+  write_script();
 }
 
 void OutputFolder::will_write(const fs::path& file) {

@@ -26,9 +26,10 @@ std::string case_name(const std::filesystem::path& script,
 class OutputFolder {
 public:
   enum class Start { anew, goes_on }; // goes_on: with the results and the log that are there
-  // Makes the folder, locks it and opens the log. command: for the log's head. Throws script::FileError.
+  // Makes the folder, locks it and opens the log. command: for the log's head. source: holds the script's text; empty:
+  // the script itself. Throws script::FileError.
   OutputFolder(std::filesystem::path folder, const std::filesystem::path& script, const std::string& command,
-               Start = Start::anew);
+               Start = Start::anew, const std::filesystem::path& source = {});
   ~OutputFolder();
   OutputFolder(const OutputFolder&) = delete;
   OutputFolder& operator=(const OutputFolder&) = delete;
@@ -54,6 +55,7 @@ private:
   void open_log(const std::filesystem::path&, const std::string& command);
   void go_on(const std::string& command);
   void write_to_log(const std::string& text);
+  void write_script(); // a copy of it
   void take_away();
   void remove_old_results();
 

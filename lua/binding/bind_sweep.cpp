@@ -2,6 +2,7 @@
 #include "lua/binding/module.hpp"
 #include "lua/binding/process_pool.hpp"
 #include "lua/binding/session.hpp"
+#include "lua/binding/sources.hpp"
 
 #include "libcdem/step/errors.hpp"
 #include "libgeom/core/error.hpp"
@@ -117,7 +118,8 @@ std::vector<Job> make_jobs(const Session& session, const Arguments& a, const std
       job.console = session.files.to_write(one.name + ".console.txt");
       job.command.insert(job.command.end(),
                          {"--quiet", "--output", (session.files.output() / one.name).string(), "--threads",
-                          std::to_string(a.integer("threads"))});
+                          std::to_string(a.integer("threads")), "--sources",
+                          (session.files.output() / sources_folder).string()});
     }
     if (session.settings.unsafe)
       job.command.emplace_back("--unsafe");
@@ -143,6 +145,10 @@ Value sweep(Session& session, Object*, const Arguments& a) {
   session.check_set_names();
   const std::vector<Case> cases = read_cases(a);
   std::vector<Job> jobs = make_jobs(session, a, cases, script);
+  if (!session.settings.check_only)
+    each_source(script, [&](const fs::path& name, const std::string& text) {
+      write_file(session.files.to_write((sources_folder / name).string()), text);
+    });
 
   const auto& observer = session.settings.observer;
   const auto count = static_cast<std::int64_t>(jobs.size());
@@ -186,23 +192,25 @@ void bind_sweep(Module& m) {
         text("output").required().doc("its folder, in the output folder"),
         integer("exit_code").required().doc("0 when it succeeded"), number("seconds").unit("s").required(),
         plain("figures").required().doc("values of its report by name; empty when it failed")}});
-  m.functions.push_back({"sweep",
-                         "Runs a script with many settings, as processes side by side, each with a folder of "
-                         "its own in the output "
-                         "folder.",
-                         {text("script").required().doc("another .lua file beside this one"),
-                          list("set", plain("").type)
-                              .required()
-                              .doc("one table of parameters per case, e.g. { { case = 1 }, { case = 2 } }"),
-                          integer("jobs").within(1, 1024).doc(
-                              "cases at a time; as many as there are processors for when left out"),
-                          integer("threads").within(1, 1024).standard(1).doc("of each case")},
-                         false,
-                         "cdem.SweepResult[]",
-                         "in the order given",
-                         sweep,
-                         false,
-                         Replay::recorded});
+  m.functions.push_back(
+      {"sweep",
+       "Runs a script with many settings, as processes side by side, each with a folder of "
+       "its own in the output "
+       "folder. All run the script, and the files that it requires by a name in quotes, as they "
+       "are when the sweep begins; its folder swept/ keeps them.",
+       {text("script").required().doc("another .lua file beside this one"),
+        list("set", plain("").type)
+            .required()
+            .doc("one table of parameters per case, e.g. { { case = 1 }, { case = 2 } }"),
+        integer("jobs").within(1, 1024).doc(
+            "cases at a time; as many as there are processors for when left out"),
+        integer("threads").within(1, 1024).standard(1).doc("of each case")},
+       false,
+       "cdem.SweepResult[]",
+       "in the order given",
+       sweep,
+       false,
+       Replay::recorded});
 }
 
 } // namespace cdem::script

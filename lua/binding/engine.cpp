@@ -2,6 +2,7 @@
 
 #include "lua/binding/lua_state.hpp"
 #include "lua/binding/model_object.hpp"
+#include "lua/binding/sources.hpp"
 
 #include "libcdem/step/errors.hpp"
 #include "libgeom/core/error.hpp"
@@ -33,12 +34,13 @@ Engine::~Engine() = default;
 void Engine::run_file() {
   Session& session = impl_->session;
   const std::filesystem::path& script = session.settings.script;
+  const std::filesystem::path source = kept_source(session.settings.sources, script.filename(), script);
   std::error_code error;
-  if (!std::filesystem::exists(script, error))
+  if (!std::filesystem::exists(source, error))
     throw FileError(script.string() + ": no such file");
-  if (!std::filesystem::is_regular_file(script, error))
+  if (!std::filesystem::is_regular_file(source, error))
     throw FileError(script.string() + ": not a file");
-  std::string text = read_file(script);
+  std::string text = read_file(source);
   if (text.rfind("\xef\xbb\xbf", 0) == 0)
     text.erase(0, 3);
   if (!text.empty() &&

@@ -28,6 +28,7 @@ struct EngineSettings {
   std::filesystem::path script;  // the .lua file; empty for the repl
   std::filesystem::path output;  // folder the script may write into; made when first needed
   std::filesystem::path results; // root of all results; the script may read everything below it
+  std::filesystem::path sources; // folder with the text that a sweep kept (sources.hpp); empty: none was
   int threads = 1;
   std::map<std::string, std::string> set; // --set name=value, as typed
   bool unsafe = false;                    // the whole Lua library, files anywhere

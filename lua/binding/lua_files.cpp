@@ -2,6 +2,7 @@
 #include "lua/binding/lua_library.hpp"
 
 #include "libgeom/core/error.hpp"
+#include "lua/binding/sources.hpp"
 
 #include <cctype>
 #include <cstring>
@@ -73,6 +74,43 @@ int require_beside(lua_State* L) {
   const std::string name = luaL_checkstring(L, 1);
   lua_settop(L, 1);
   if (lua_getfield(L, lua_upvalueindex(1), name.c_str()) != LUA_TNIL)
+namespace {
+
+struct Source {
+  std::string text, shown; // shown: the user's own file, in messages
+};
+
+Source source_of(const Session& session, const std::string& name) {
+  const std::filesystem::path file = file_of_module(name), beside = session.files.script_folder() / file;
+  const std::filesystem::path kept = kept_source(session.settings.sources, file, {});
+  if (!kept.empty())
+    return {read_file(kept), shown_name(beside)};
+  const std::filesystem::path path = session.files.to_read(file.string());
+  return {read_file(path), shown_name(path)};
+}
+
+} // namespace
+
+// A searcher of `package` for what a sweep kept, in scripts that have all of Lua.
+int search_sources(lua_State* L) {
+  const std::string name = luaL_checkstring(L, 1);
+  const Session& session = LuaState::of(L).session;
+  const std::filesystem::path file = file_of_module(name);
+  std::string chunk, text;
+  guarded(L, "require", [&] {
+    if (const auto kept = kept_source(session.settings.sources, file, {}); !kept.empty()) {
+      text = read_file(kept);
+      chunk = "@" + shown_name(session.files.script_folder() / file);
+    }
+    return 0;
+  });
+  if (chunk.empty())
+    return 0;
+  if (luaL_loadbufferx(L, text.data(), text.size(), chunk.c_str(), "t") != LUA_OK)
+    return lua_error(L);
+  return 1;
+}
+
     return 1;
   lua_pop(L, 1);
   std::string text, file;
@@ -81,14 +119,10 @@ int require_beside(lua_State* L) {
       if (!(std::isalnum(static_cast<unsigned char>(c)) || c == '_' || c == '-' || c == '.'))
         throw geom::InputError("name", "\"" + name + "\"", "letters, digits, _ and -, with dots for folders");
     Session& session = LuaState::of(L).session;
-    file = name;
-    for (char& c : file)
-      c = c == '.' ? '/' : c;
-    file += ".lua";
-    const auto path = session.files.to_read(file);
-    text = read_file(path);
+    const Source source = source_of(session, name);
+    text = source.text;
     session.checkpoints.source(name, text);
-    file = shown_name(path);
+    file = source.shown;
     return 0;
   });
   const std::string chunk = "@" + file;

@@ -38,5 +38,6 @@ int open_file(lua_State* L);
 int lines_of_file(lua_State* L);
 int write_text(lua_State* L);
 int require_beside(lua_State* L);
+int search_sources(lua_State* L);
 
 } // namespace cdem::script

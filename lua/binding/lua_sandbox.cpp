@@ -128,6 +128,18 @@ void restrict_libraries(lua_State* L) {
   lua_setglobal(L, "package");
 }
 
+// Before all others but that of what is preloaded; `package` is on top.
+void add_searcher(lua_State* L, lua_CFunction searcher) {
+  lua_getfield(L, -1, "searchers");
+  for (lua_Integer i = luaL_len(L, -1); i >= 2; --i) {
+    lua_rawgeti(L, -1, i);
+    lua_rawseti(L, -2, i + 1);
+  }
+  lua_pushcfunction(L, searcher);
+  lua_rawseti(L, -2, 2);
+  lua_pop(L, 1);
+}
+
 } // namespace
 
 void open_libraries(lua_State* L, bool unsafe) {
@@ -144,6 +156,7 @@ void open_libraries(lua_State* L, bool unsafe) {
     lua_pop(L, 1);
     lua_pushlstring(L, path.data(), path.size());
     lua_setfield(L, -2, "path");
+    add_searcher(L, search_sources);
     lua_pop(L, 1);
   } else {
     open_library(L, LUA_GNAME, luaopen_base);

@@ -2,6 +2,7 @@
 
 #include <catch2/catch.hpp>
 #include <csignal>
+#include <thread>
 
 using namespace testing;
 using Catch::Matchers::Contains;
@@ -92,4 +93,59 @@ for _, run in ipairs(runs) do print("a gives " .. run.figures.sum_m) end
     CHECK(outcome.exit_code == 0);
     CHECK_THAT(outcome.out, Contains("a gives 2") && Contains("a gives 6"));
   }
+}
+
+// The first of the runs waits until everything has been edited.
+TEST_CASE("a sweep runs what stood there when it began, and names the user's own files in errors") {
+  const auto helper = [](int b) {
+    return "local helper = { b = " + std::to_string(b) +
+           " }\nfunction helper.fail() error('no luck') end\nreturn helper\n";
+  };
+  const std::string text = R"(
+local cdem = require "cdem"
+local helper, deep = require "helper", require("folder.deep")
+local a = cdem.parameter{ name = "a", default = 1 }
+while not io.open("sum/go") and not io.open("go") do end
+if a == 3 then helper.fail() end
+cdem.report{ { name = "sum_m", value = a + helper.b + deep + cdem.read_csv("x.csv").x[1], unit = "m" } }
+)";
+  const std::string all = R"(
+local cdem = require "cdem"
+local runs = cdem.sweep{ script = "case.lua", set = { { a = 1 }, { a = 2 }, { a = 3 } }, jobs = 1 }
+for _, run in ipairs(runs) do print(run.set.a .. " gives " .. (run.figures.sum_m or "nothing")) end
+)";
+  for (const bool by_script : {false, true})
+    for (const bool unsafe : {false, true}) {
+      INFO((by_script ? "cdem.sweep" : "cdem sweep") << (unsafe ? ", unsafe" : ""));
+      const Place cdem;
+      write_file(cdem.folder / "sum/case.lua", text);
+      write_file(cdem.folder / "sum/all.lua", all);
+      write_file(cdem.folder / "sum/helper.lua", helper(10));
+      write_file(cdem.folder / "sum/folder/deep.lua", "return 100");
+      write_file(cdem.folder / "sum/x.csv", "x\n1000\n");
+      std::vector<std::string> command =
+          by_script ? std::vector<std::string>{"run", "sum/all.lua"}
+                    : std::vector<std::string>{"sweep", "sum/case.lua", "--set", "a=1,2,3", "--jobs", "1"};
+      if (unsafe)
+        command.push_back("--unsafe");
+      const fs::path results = cdem.folder / (by_script ? "results/sum-all" : "results/sum-sweep");
+      std::thread editor([&] {
+        for (int i = 0; i < 1000 && !fs::exists(results / "a=1/cdem.log"); ++i)
+          std::this_thread::sleep_for(std::chrono::milliseconds(10));
+        write_file(cdem.folder / "sum/case.lua", "error('the new script')");
+        write_file(cdem.folder / "sum/helper.lua", helper(5));
+        fs::remove(cdem.folder / "sum/folder/deep.lua");
+        write_file(cdem.folder / "sum/go", "");
+      });
+      const Outcome outcome = cdem(command);
+      editor.join();
+      INFO(outcome.out << outcome.err);
+      CHECK_THAT(outcome.out, Contains("sum/helper.lua:2: no luck"));
+      for (const std::string a : {"1", "2"})
+        CHECK_THAT(read_file(results / ("a=" + a) / "report.json"),
+                   Contains(std::to_string(std::stoi(a) + 1110)));
+      CHECK(read_file(results / "a=2/case.lua") == text);
+      CHECK(read_file(results / "swept/case.lua") == text);
+      CHECK(fs::exists(results / "swept/folder/deep.lua"));
+    }
 }

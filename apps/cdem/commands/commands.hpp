@@ -17,8 +17,9 @@ using Settings = std::map<std::string, std::string>; // --set name=value, as typ
 
 struct RunCommand {
   std::filesystem::path script;
-  std::filesystem::path output; // empty: results/<case>
-  int threads = 0;              // 0: every core this process may use
+  std::filesystem::path sources; // folder with the text that a sweep kept of it; empty: none did
+  std::filesystem::path output;  // empty: results/<case>
+  int threads = 0;               // 0: every core this process may use
   Settings set;
   bool unsafe = false;
   ProgressStyle progress = ProgressStyle::automatic;

@@ -4,6 +4,7 @@
 #include "apps/cdem/commands/script_run.hpp"
 #include "apps/cdem/failure.hpp"
 #include "apps/cdem/records.hpp"
+#include "lua/binding/sources.hpp"
 
 #include <csignal>
 
@@ -46,6 +47,7 @@ void run_script(const RunCommand& command, int threads, OutputFolder& folder,
                 const std::shared_ptr<RunObserver>& observer) {
   script::EngineSettings settings;
   settings.script = command.script;
+  settings.sources = command.sources;
   settings.output = folder.path();
   settings.results = "results";
   settings.threads = threads;
@@ -71,7 +73,8 @@ void run_script(const RunCommand& command, int threads, OutputFolder& folder,
 } // namespace
 
 ExitCode run(const RunCommand& command) {
-  require_script(command.script);
+  const fs::path source = script::kept_source(command.sources, command.script.filename(), command.script);
+  require_script(source);
   std::signal(SIGPIPE, SIG_IGN); // `cdem run ... | head` must not end a long run
   const int threads = command.threads > 0 ? command.threads : available_cores();
   const fs::path output =
@@ -80,7 +83,8 @@ ExitCode run(const RunCommand& command) {
   OutputFolder folder(output, command.script,
                       "cdem " + version() + " (" + build_text() + "), " + std::to_string(threads) +
                           (threads == 1 ? " thread, " : " threads, ") + command.line,
-                      command.resume.empty() ? OutputFolder::Start::anew : OutputFolder::Start::goes_on);
+                      command.resume.empty() ? OutputFolder::Start::anew : OutputFolder::Start::goes_on,
+                      source);
   const auto observer = std::make_shared<RunObserver>(command.progress, &folder);
   try {
     run_script(command, threads, folder, observer);

@@ -9,8 +9,10 @@
 #include "apps/cdem/run_log.hpp"
 #include "apps/cdem/text.hpp"
 #include "libcdem/step/errors.hpp"
+#include "lua/binding/files.hpp"
 #include "lua/binding/nearest.hpp"
 #include "lua/binding/process_pool.hpp"
+#include "lua/binding/sources.hpp"
 
 #include <algorithm>
 #include <cstdio>
@@ -46,10 +48,11 @@ std::string shown(const Settings& set) {
   return script::joined(words, " ");
 }
 
-std::vector<std::string> run_arguments(const SweepCommand& command, const SweptRun& run, int threads) {
+std::vector<std::string> run_arguments(const SweepCommand& command, const SweptRun& run, int threads,
+                                       const fs::path& sources) {
   std::vector<std::string> words = {
       program_path().string(), "run",      command.script.string(), "--machine-progress", "--threads",
-      std::to_string(threads), "--output", run.folder.string()};
+      std::to_string(threads), "--output", run.folder.string(),     "--sources",          sources.string()};
   if (command.unsafe)
     words.push_back("--unsafe");
   for (const auto& [name, value] : run.set) {
@@ -162,9 +165,15 @@ ExitCode sweep(const SweepCommand& command) {
   auto runs = planned_runs(command, root);
   OutputFolder folder(root, command.script, "cdem " + version() + " (" + build_text() + "), " + command.line);
   folder.begin_results();
+  script::each_source(command.script, [&](const fs::path& name, const std::string& text) {
+    const fs::path copy = root / script::sources_folder / name;
+    folder.will_write(copy);
+    fs::create_directories(copy.parent_path());
+    script::write_file(copy, text);
+  });
   std::vector<script::Job> processes(runs.size());
   for (std::size_t i = 0; i < runs.size(); ++i) {
-    processes[i].command = run_arguments(command, runs[i], threads);
+    processes[i].command = run_arguments(command, runs[i], threads, root / script::sources_folder);
     processes[i].console = runs[i].console;
     std::error_code none;
     fs::remove(runs[i].console, none); // of a sweep that was killed; once it is there the run has started
