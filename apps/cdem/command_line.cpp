@@ -221,6 +221,9 @@ private:
         "Goes on from the newest whole checkpoint in the folder, with the script and the settings of the\n"
         "run, to the same bits as one that was never stopped. The script is run from its beginning: what it\n"
         "has solved, read and written so far it is told again without being done. So it must be as it was.\n"
+        "A run that an error of its script ended (exit code 2 or 4) is the exception: mend the script, "
+        "which\n"
+        "may differ behind the last stage that was solved, or in the callback that failed.\n"
         "A run that was started with --unsafe needs it again. A run that has ended well takes its\n"
         "checkpoints away.\n");
   }
@@ -233,7 +236,8 @@ private:
     finish(
         command, "  cdem check case.lua --set pressure=24e6\n",
         "Parameters, what each model is made of, its box from corner to corner, conditions and stages are\n"
-        "printed. Solving calls return empty results; what a script prints after the first is left out.\n");
+        "printed. Solving calls call their callbacks once and return empty results; what a script prints\n"
+        "after the first is left out. No file is written.\n");
   }
   void add_sweep() {
     auto* command =
@@ -394,11 +398,11 @@ private:
     require_file("FILE.lua", "run");
     RunCommand c;
     c.script = typed_.file;
+    c.sources = typed_.sources;
     c.output = typed_.output;
     c.threads = threads();
     c.set = settings_of(typed_.set);
     c.unsafe = typed_.unsafe;
-    c.sources = typed_.sources;
     c.progress = progress_style();
     c.checkpoint_minutes = checkpoint_minutes();
     c.line = line_;

@@ -129,7 +129,7 @@ Value grow(Session& session, ModelObject& model, const Arguments& a) {
                                 "; a relaxation did not reach its residual or max_rounds was used up");
                  return grow_result(result);
                },
-               {{"callback", a.function("callback")}});
+               {{"callback", a.function("callback")}}, {pass_row({})});
 }
 
 std::vector<Field> refine_fields() {

@@ -176,6 +176,7 @@ Value sweep(Session& session, Object*, const Arguments& a) {
   if (!run_jobs(jobs, jobs_at_a_time(a), stop, tell))
     throw Interrupted();
 
+  session.checkpoints.keep_call();
   Values results;
   for (std::size_t i = 0; i < jobs.size(); ++i)
     results.push_back(result_of(session, cases[i], jobs[i], session.files.output() / cases[i].name));

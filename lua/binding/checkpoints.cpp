@@ -15,7 +15,7 @@ namespace {
 struct Head {
   std::uint64_t serial = 0;
   std::string script, version;
-  std::uint64_t script_hash = 0;
+  std::uint64_t script_hash = 0; // 0: of a script that failed and may be mended
   std::map<std::string, std::string> set;
   bool unsafe = false;
 };
@@ -88,7 +88,8 @@ void Checkpoints::load(const fs::path& file, const std::string& script_text) {
   Head head;
   std::string journal;
   archive_all(a, head, elapsed_before_, session_.warnings, journal, models_);
-  if (head.script_hash != script_hash_)
+  mended_ = head.script_hash == 0;
+  if (!mended_ && head.script_hash != script_hash_)
     throw geom::InputError(
         "has changed since its checkpoint was written; put it back as it was, or start over "
         "with cdem run");
@@ -124,6 +125,7 @@ void Checkpoints::go_live() {
     if (const auto object = known.lock())
       object->simulation.set_replaying(false);
   replaying_ = false;
+  kept_ = journal_.size();
   last_ = std::chrono::steady_clock::now();
   session_.message("goes on from " + from_.string() +
                    (session_.stages.empty() ? "" : ", stage " + std::to_string(session_.stages.size())));
@@ -135,15 +137,12 @@ bool Checkpoints::wanted() {
          std::chrono::duration<double>(std::chrono::steady_clock::now() - last_).count() >= 60 * minutes;
 }
 
-void Checkpoints::write(bool stopping) {
-  if (!keeps_ || replaying_ || journal_.full() || flags_.in_call || stages_ == 0 || stopped_)
-    return;
-  stopped_ = stopping;
+std::string Checkpoints::content(std::size_t journal_size, std::uint64_t script_hash) const {
   Head head;
   head.serial = serial_ + 1;
   head.script = fs::absolute(session_.settings.script).lexically_normal().string();
   head.version = CDEM_VERSION;
-  head.script_hash = script_hash_;
+  head.script_hash = script_hash;
   head.set = session_.settings.set;
   head.unsafe = session_.settings.unsafe;
   std::vector<SavedModel> models;
@@ -159,27 +158,66 @@ void Checkpoints::write(bool stopping) {
       }
       models.push_back(std::move(saved));
     }
-  const std::string journal = journal_.text(flags_.in_stage ? mark_ : journal_.size());
+  const std::string journal = journal_.text(journal_size);
   Writer a;
   archive_const(a, head);
   archive_const(a, session_.elapsed());
   archive_const(a, session_.warnings);
   archive_const(a, journal);
   archive_const(a, models);
-  const std::string name = name_of(head.serial);
+  return a.take();
+}
+
+bool Checkpoints::put(const std::string& content) {
+  const std::uint64_t serial = serial_ + 1;
+  const std::string name = name_of(serial);
+  last_ = std::chrono::steady_clock::now();
   try {
-    write_saved(session_.files.to_write(name), SavedKind::checkpoint, a.text());
+    write_saved(session_.files.to_write(name), SavedKind::checkpoint, content);
   } catch (const FileError& error) {
     session_.warn(std::string("no checkpoint: ") + error.what());
-    last_ = std::chrono::steady_clock::now();
-    return;
+    return false;
   }
   written_.insert(name);
-  serial_ = head.serial;
+  serial_ = serial;
   last_ = std::chrono::steady_clock::now();
+  return true;
+}
+
+std::string Checkpoints::command() const {
+  return "cdem resume " + session_.settings.output.string() + (session_.settings.unsafe ? " --unsafe" : "");
+}
+
+void Checkpoints::write(bool stopping) {
+  if (!may_write() || flags_.in_call || stages_ == 0)
+    return;
+  stopped_ = stopping;
+  if (!put(content(flags_.in_stage ? mark_ : journal_.size(), script_hash_)))
+    return;
   if (stopping || !told_)
-    session_.message("checkpoint; to go on: cdem resume " + session_.settings.output.string());
+    session_.message("checkpoint; to go on: " + command());
   told_ = true;
+}
+
+void Checkpoints::keep_unfinished() {
+  if (may_write() && flags_.in_stage && (solved_ > 0 || resumed_ || mark_steps_ > begin_steps_))
+    unfinished_ = content(mark_, 0);
+}
+
+void Checkpoints::fail() {
+  if (!may_write() || !refused_.empty())
+    return;
+  try {
+    if (unfinished_.empty()) {
+      if (failed_stage_ || (solved_ == 0 && !resumed_))
+        return;
+      unfinished_ = content(kept_, 0);
+    }
+    if (put(unfinished_))
+      session_.message("what was solved is kept: mend the script, then go on with " + command());
+  } catch (const std::exception& error) { // that of the script matters more
+    session_.warn(std::string("no checkpoint: ") + error.what());
+  }
 }
 
 void Checkpoints::stop() {

@@ -60,7 +60,15 @@ void Engine::run_file() {
     else
       session.checkpoints.load(session.settings.resume, text);
   });
-  impl_->lua.run(text, "@" + shown_name(script));
+  try {
+    impl_->lua.run(text, "@" + shown_name(script));
+  } catch (const ScriptError&) {
+    session.checkpoints.fail();
+    throw;
+  } catch (const FileError&) {
+    session.checkpoints.fail();
+    throw;
+  }
   in_script([&] { session.check_set_names(); });
   in_script([&] { session.checkpoints.end(); });
   if (!session.report.figures.empty() && session.report.warnings.size() < session.warnings.size())

@@ -45,13 +45,18 @@ Files::Files(const fs::path& script, const fs::path& output, const fs::path& res
       output_(resolved(output.empty() ? fs::current_path() : output)),
       results_(results.empty() ? fs::path() : resolved(results)), unsafe_(unsafe) {}
 
-fs::path Files::to_write(const std::string& name) const {
+fs::path Files::would_write(const std::string& name) const {
   if (name.empty() || name.find('\0') != std::string::npos)
     throw geom::InputError("file", "\"" + name.substr(0, name.find('\0')) + "\"", "a file name");
   fs::path path = resolved(output_ / name);
   if (!unsafe_ && !below(path, output_))
     throw geom::InputError("file", "\"" + name + "\"", "inside the output folder " + output_.string(),
                            "give a name without .. and without a leading /, or run with --unsafe");
+  return path;
+}
+
+fs::path Files::to_write(const std::string& name) const {
+  fs::path path = would_write(name);
   std::error_code error;
   fs::create_directories(path.parent_path(), error);
   if (error)

@@ -18,6 +18,8 @@ public:
   // Full path of a file to be written; makes its folder. A relative name is taken from the output folder.
   // Throws geom::InputError when the place is not allowed, FileError when the folder cannot be made.
   std::filesystem::path to_write(const std::string& name) const;
+  // The same, for a check: nothing is made and nobody is told.
+  std::filesystem::path would_write(const std::string& name) const;
   // Full path of an existing file to be read: looked for beside the script, in the output folder, from the
   // folder that holds the results, and in the results. Throws geom::InputError when the place is not allowed,
   // FileError when there is no such file.

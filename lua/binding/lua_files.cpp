@@ -21,7 +21,12 @@ int open_file(lua_State* L) {
     const bool writes = mode.find_first_of("wa+") != std::string::npos;
     std::string path;
     try {
-      path = (writes ? files.to_write(name) : files.to_read(name)).string();
+      if (writes && session.settings.check_only) {
+        files.would_write(name);
+        path = "/dev/null";
+      } else {
+        path = (writes ? files.to_write(name) : files.to_read(name)).string();
+      }
     } catch (const FileError& error) { // as io.open does: nil and a text
       lua_pushnil(L);
       lua_pushstring(L, error.what());
@@ -69,11 +74,6 @@ int write_text(lua_State* L) {
   return 0;
 }
 
-// require "name": a .lua file beside the script, dots for folders. Upvalue 1: what has been loaded.
-int require_beside(lua_State* L) {
-  const std::string name = luaL_checkstring(L, 1);
-  lua_settop(L, 1);
-  if (lua_getfield(L, lua_upvalueindex(1), name.c_str()) != LUA_TNIL)
 namespace {
 
 struct Source {
@@ -111,6 +111,11 @@ int search_sources(lua_State* L) {
   return 1;
 }
 
+// require "name": a .lua file beside the script, dots for folders. Upvalue 1: what has been loaded.
+int require_beside(lua_State* L) {
+  const std::string name = luaL_checkstring(L, 1);
+  lua_settop(L, 1);
+  if (lua_getfield(L, lua_upvalueindex(1), name.c_str()) != LUA_TNIL)
     return 1;
   lua_pop(L, 1);
   std::string text, file;

@@ -59,7 +59,14 @@ Value answer(Session& session, const Bound& bound, Object* self, const Arguments
   return session.checkpoints.call(
       bound.shown, replay, number,
       [&] { return fnv1a(std::to_string(number) + " " + arguments.canonical()); },
-      [&] { return bound.function->body(session, self, arguments); });
+      [&] {
+        if (model)
+          model->touched = false;
+        Value result = bound.function->body(session, self, arguments);
+        if (model && model->touched)
+          session.checkpoints.keep_call();
+        return result;
+      });
 }
 
 // Every function and method of the module comes through here.

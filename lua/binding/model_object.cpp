@@ -24,6 +24,7 @@ void ModelObject::require_idle(const char* call) const {
     throw geom::InputError(std::string(call) +
                            ": not from a callback of a running stage; a callback may read the "
                            "model and write files. End the stage first");
+  touched = true;
 }
 
 void ModelObject::check_memory() const {

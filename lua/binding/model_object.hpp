@@ -23,11 +23,12 @@ struct ModelObject final : Object {
   std::vector<std::shared_ptr<Reference>> after_stage;    // called with each stage that has ended
   std::shared_ptr<Reference> memory;                      // table model.memory
   bool solving = false;                                   // a callback of a stage may look and not touch
+  mutable bool touched = false;                           // by the running call, which has asked require_idle
 
   const char* class_name() const override { return "Model"; }
 
   std::string title(const Session&) const; // "uniaxial_compression, stage 3 (relax)"
-  // Throws geom::InputError when called from a callback of a running stage.
+  // For what may change the model. Throws geom::InputError when called from a callback of a running stage.
   void require_idle(const char* call) const;
   // Throws geom::InputError when model.memory holds something a checkpoint could not.
   void check_memory() const;

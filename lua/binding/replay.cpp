@@ -3,6 +3,7 @@
 
 #include "libcdem/step/errors.hpp"
 #include "libgeom/core/error.hpp"
+#include "lua/binding/model_object.hpp"
 #include "lua/binding/session.hpp"
 
 namespace cdem::script {
@@ -50,6 +51,8 @@ Value noted(Event event, const std::function<Value()>& body, const Record& recor
   return event.value;
 }
 
+const std::string require_name = "require ";
+
 void throw_if_failed(const Event& event) {
   if (event.outcome == Outcome::value || event.outcome == Outcome::object)
     return;
@@ -73,7 +76,8 @@ void Checkpoints::refuse(const std::string& text) {
 void Checkpoints::went_another_way(const std::string& now, const Event& then) {
   refuse("resume: the script goes another way than when its checkpoint was written: it comes to " + now +
          (now == then.name ? " with other values" : " where it came to " + then.name + " then") +
-         "; has a file that it reads changed? Start over with cdem run");
+         (mended_ ? "; what it did before it failed must stay as it was, or start over with cdem run"
+                  : "; has a file that it reads changed? Start over with cdem run"));
 }
 
 Event Checkpoints::take() {
@@ -81,6 +85,34 @@ Event Checkpoints::take() {
   if (!journal_.replaying() && !in_replayed_callback_)
     go_live();
   return event;
+}
+
+void Checkpoints::record(const Event& event) {
+  journal_.record(event);
+  unfinished_.clear();
+  failed_stage_ = false;
+}
+
+// A stage that failed after some steps has left its model somewhere between: a mended script cannot begin it again.
+void Checkpoints::record_end(const Event& end) {
+  const bool well = end.outcome == Outcome::value, moved = steps() != begin_steps_;
+  if (well) {
+    record(end);
+    ++solved_;
+  } else {
+    journal_.record(end);
+    failed_stage_ = moved;
+  }
+  if (well || moved)
+    kept_ = journal_.size();
+}
+
+std::int64_t Checkpoints::steps() const {
+  std::int64_t sum = 0;
+  for (const auto& known : session_.models)
+    if (const auto object = known.lock())
+      sum += object->simulation.steps();
+  return sum;
 }
 
 Value Checkpoints::call(const std::string& name, Replay replay, int model,
@@ -99,7 +131,8 @@ Value Checkpoints::call(const std::string& name, Replay replay, int model,
       return body(); // comes to stage()
     }
     event.hash = hash();
-    if (then.kind != Event::Kind::call || then.name != name || then.hash != event.hash)
+    const bool mended_source = mended_ && name.rfind(require_name, 0) == 0;
+    if (then.kind != Event::Kind::call || then.name != name || (then.hash != event.hash && !mended_source))
       went_another_way(name, then);
     take();
     throw_if_failed(then);
@@ -107,9 +140,14 @@ Value Checkpoints::call(const std::string& name, Replay replay, int model,
   }
   event.hash = hash();
   const int stages = stages_;
+  keep_call_ = replay == Replay::again;
   Value result = noted(event, body, [&](const Event& done) {
-    if (stages_ == stages)
-      journal_.record(done);
+    if (stages_ != stages)
+      return;
+    record(done);
+    const bool well = done.outcome == Outcome::value || done.outcome == Outcome::object;
+    if (well && keep_call_)
+      kept_ = journal_.size();
   });
   if (journal_.full() && !told_full_) {
     told_full_ = true;
@@ -126,7 +164,7 @@ Value Checkpoints::call(const std::string& name, Replay replay, int model,
 
 void Checkpoints::source(const std::string& name, const std::string& text) {
   call(
-      "require " + name, Replay::recorded, 0, [&] { return fnv1a(text); }, [] { return Value(); });
+      require_name + name, Replay::recorded, 0, [&] { return fnv1a(text); }, [] { return Value(); });
 }
 
 Values Checkpoints::call_back(const std::string& name, const Reference& function, const Values& arguments) {
@@ -136,9 +174,17 @@ Values Checkpoints::call_back(const std::string& name, const Reference& function
   event.kind = Event::Kind::callback;
   event.name = name;
   event.value = Table::list(arguments);
-  journal_.record(event);
-  const With listening(*this, {false, false, flags_.in_stage});
-  return function.call(arguments);
+  record(event);
+  try {
+    const With listening(*this, {false, false, flags_.in_stage});
+    return function.call(arguments);
+  } catch (const ScriptError&) {
+    keep_unfinished();
+    throw;
+  } catch (const FileError&) {
+    keep_unfinished();
+    throw;
+  }
 }
 
 void Checkpoints::listen(const std::function<void()>& body) {
@@ -149,12 +195,13 @@ void Checkpoints::listen(const std::function<void()>& body) {
 Value Checkpoints::solve_recorded(const std::string& kind, const std::function<Value()>& solve) {
   const With inside(*this, {false, true, true});
   mark_ = journal_.size();
+  begin_steps_ = mark_steps_ = steps();
   if (wanted())
     write(false);
   Event end;
   end.kind = Event::Kind::stage_end;
   end.name = kind;
-  return noted(end, solve, [&](const Event& done) { journal_.record(done); });
+  return noted(end, solve, [&](const Event& done) { record_end(done); });
 }
 
 Value Checkpoints::stage(const std::string& kind, std::uint64_t hash, const Callbacks& callbacks,
@@ -167,7 +214,7 @@ Value Checkpoints::stage(const std::string& kind, std::uint64_t hash, const Call
     begin.kind = Event::Kind::stage;
     begin.name = kind;
     begin.hash = hash;
-    journal_.record(begin);
+    record(begin);
     return solve_recorded(kind, solve);
   }
   const Event then = take();
@@ -191,7 +238,8 @@ Value Checkpoints::stage(const std::string& kind, std::uint64_t hash, const Call
       callback->second->call(called.value.table()->items);
     } catch (const ScriptError&) { // it ended the stage, which comes next
       in_replayed_callback_ = false;
-      if (!refused_.empty())
+      const bool then_too = journal_.replaying() && journal_.peek().kind == Event::Kind::stage_end;
+      if (!refused_.empty() || (mended_ && !then_too))
         throw;
     }
     in_replayed_callback_ = false;

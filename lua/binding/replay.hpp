@@ -44,11 +44,19 @@ public:
   void listen(const std::function<void()>& body);
 
   void ask() { asked_ = true; } // model:checkpoint: after the running call
+  // The running call may have changed a model, or has solved something: a mended script does not do it again.
+  void keep_call() { keep_call_ = true; }
 
-  void marked() override { mark_ = journal_.size(); }
+  void marked() override {
+    mark_ = journal_.size();
+    mark_steps_ = steps();
+  }
   bool wanted() override;
   void write(bool stopping) override;
   void stop(); // the user wants to stop and Lua is running: writes one where that is possible
+  // The script has ended with an error: writes one from which it goes on when it has been mended, if something was
+  // solved. It is of the end of the last stage, or where the stage can be left in which a callback has failed.
+  void fail();
   // The script has ended: all that was to be replayed must have been. A finished run needs no checkpoint any more.
   void end();
 
@@ -62,18 +70,33 @@ private:
 
   Event take();
   void go_live();
+  void record(const Event&);
+  void record_end(const Event&); // of a stage
+  std::int64_t steps() const;    // of all models so far
+  bool may_write() const { return keeps_ && !replaying_ && !journal_.full() && !stopped_; }
+  // A checkpoint of now; script_hash 0: the script may have changed when it goes on.
+  std::string content(std::size_t journal_size, std::uint64_t script_hash) const;
+  bool put(const std::string& content); // false: it could not be written, as the user was told
+  void keep_unfinished();               // of the running stage, in which a callback has failed
   [[noreturn]] void went_another_way(const std::string& now, const Event& then);
   [[noreturn]] void refuse(const std::string& text);
   Value solve_recorded(const std::string& kind, const std::function<Value()>& solve);
   std::filesystem::path path_of(std::uint64_t serial) const;
+  std::string command() const; // by which the user goes on
 
   Session& session_;
   Journal journal_;
   Flags flags_;
   bool keeps_ = false, replaying_ = false, resumed_ = false, in_replayed_callback_ = false, asked_ = false;
-  bool stopped_ = false, told_ = false, told_full_ = false;
+  bool stopped_ = false, told_ = false, told_full_ = false, keep_call_ = false, mended_ = false;
   std::size_t mark_ = 0; // of the journal, where the running stage can be left
-  int stages_ = 0;       // begun so far
+  // Of all models: when the running stage began, and where it can be left.
+  std::int64_t begin_steps_ = 0, mark_steps_ = 0;
+  std::size_t kept_ = 0;   // of the journal, behind the last call that is not done again by a mended script
+  std::string unfinished_; // checkpoint of a stage that a callback has ended, until the script goes on
+  bool failed_stage_ = false; // the last event: a stage that moved its model and failed
+  int stages_ = 0;            // begun so far
+  int solved_ = 0;            // ended well
   std::uint64_t serial_ = 0, script_hash_ = 0;
   double elapsed_before_ = 0;
   std::string refused_; // once a replay has failed, every further call fails with it

@@ -36,6 +36,13 @@ void warn_of_large_deformation(Session& session, const ModelObject& model, const
                  "): beyond small strain: " + found);
 }
 
+// A mistake in one would end a run after hours.
+void try_callbacks(const Checkpoints::Callbacks& callbacks, const Values& arguments) {
+  for (const auto& [name, callback] : callbacks)
+    if (callback)
+      callback->call(arguments);
+}
+
 } // namespace
 
 std::string three_digits(double x) {
@@ -53,7 +60,7 @@ Value stage_row(const Stage& stage) {
 
 Value stage(Session& session, ModelObject& model, const char* kind, const Arguments& arguments,
             const Value& empty, const std::function<Value(Simulation&)>& solve,
-            const Checkpoints::Callbacks& callbacks) {
+            const Checkpoints::Callbacks& callbacks, const Values& tried) {
   model.require_idle(kind);
   model.check_memory();
   session.check_set_names();
@@ -73,7 +80,9 @@ Value stage(Session& session, ModelObject& model, const char* kind, const Argume
   Value result = empty;
   try {
     Solving solving(model);
-    if (!session.settings.check_only)
+    if (session.settings.check_only)
+      try_callbacks(callbacks, tried);
+    else
       result =
           session.checkpoints.stage(kind, stage.hash, callbacks, [&] { return solve(model.simulation); });
   } catch (const SolutionError&) {

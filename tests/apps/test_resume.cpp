@@ -149,3 +149,30 @@ TEST_CASE("resume: a run that was started with --unsafe goes on only when that i
   CHECK_THAT(ended.out, Contains("\ntrue"));
   CHECK(read_file(place.results / "report.json") == whole_report());
 }
+
+TEST_CASE("resume: a script that failed after it had solved is mended and goes on, with --unsafe too") {
+  const std::string wrong = "model:picture{ file = 'end.png', color = 'velocity.y' }\n";
+  for (const bool unsafe : {false, true}) {
+    Place place;
+    const std::vector<std::string> flag =
+        unsafe ? std::vector<std::string>{"--unsafe"} : std::vector<std::string>{};
+    const auto with_flag = [&](std::vector<std::string> words) {
+      words.insert(words.end(), flag.begin(), flag.end());
+      return words;
+    };
+    write_file(place.folder / "plate/case.lua", plate + wrong);
+    const Outcome failed = place.cdem(with_flag({"run", "plate/case.lua"}));
+    CHECK(failed.exit_code == 2);
+    CHECK_THAT(failed.err, Contains("color: no such key; did you mean colour?"));
+    const std::string command = std::string("cdem resume results/plate") + (unsafe ? " --unsafe" : "") + "\n";
+    CHECK_THAT(failed.out, Contains("what was solved is kept: mend the script, then go on with " + command));
+    write_file(place.folder / "plate/case.lua", std::string(plate) + "print 'mended'\n");
+    const Outcome ended = place.cdem(with_flag({"resume", "results/plate"}));
+    INFO(ended.err);
+    CHECK(ended.exit_code == 0);
+    CHECK_THAT(ended.out, Contains("mended") && !Contains("stage 1 relax") && !Contains("stage 2 run"));
+    CHECK(read_file(place.results / "report.json") == whole_report());
+    CHECK_THAT(read_file(place.results / "case.lua"), Contains("mended"));
+    CHECK_FALSE(fs::exists(place.results / "checkpoint_1.cdem"));
+  }
+}

@@ -90,3 +90,44 @@ TEST_CASE("a function is called after every stage", "[lua]") {
       error_of(column() + "model:after_stage(function() model:run{ steps = 1 } end)\nmodel:run{ steps = 1 }"),
       Contains("not from a callback of a running stage"));
 }
+
+TEST_CASE("a check calls every callback once, and finds wrong keys in it", "[lua]") {
+  const auto checked = [](const std::string& text) {
+    Script script(text);
+    script.settings.check_only = true;
+    return script.error();
+  };
+  const std::string jointed = column();
+  for (const std::string wrong :
+       {"model:picture{ file = 'a.png', color = 'stress.xx' }", "model:save{ fil = 'a.vtu' }",
+        "cdem.film{ file = 'a.ogv', frame = {} }", "cdem.report{ { name = 'a', valu = 1 } }",
+        "cdem.write_csv{ file = 'a.csv', column = {} }"})
+    for (const std::string call :
+         {"model:relax{ callback = ", "model:run{ steps = 9, callback = ", "model:run{ stop = ",
+          "model:grow{ callback = ", "model:settle{ callback = "}) {
+      INFO(call << wrong);
+      CHECK_THAT(checked(jointed + call + "function() if model.time == 0 then\n" + wrong + " end end }"),
+                 Contains("case.lua:8: ") && Contains("no such key; did you mean"));
+    }
+  CHECK_THAT(
+      checked(jointed + "model:after_stage(function() model:save{ fil = 'a.vtu' } end)\nmodel:relax{}"),
+      Contains("case.lua:7: ") && Contains("no such key"));
+  CHECK_THAT(checked(jointed + "model:run{ steps = 1, callback = function() model:relax{} end }"),
+             Contains("not from a callback of a running stage"));
+  CHECK(checked(jointed +
+                "local calls = 0\n"
+                "model:grow{ callback = function(pass) calls = calls + 1 + #pass.faces + #pass.path end }\n"
+                "assert(calls == 1)") == "");
+}
+
+TEST_CASE("a check writes no file, and judges where a script would", "[lua]") {
+  Script script("local file = io.open('lines.txt', 'w')\nfile:write('one')\nfile:close()\n"
+                "io.open('more/lines.txt', 'a'):write('two')");
+  script.settings.check_only = true;
+  CHECK(script.error() == "");
+  CHECK_FALSE(script.wrote("lines.txt"));
+  CHECK_FALSE(script.wrote("more"));
+  Script outside("io.open('../lines.txt', 'w')");
+  outside.settings.check_only = true;
+  CHECK_THAT(outside.error(), Contains("inside the output folder"));
+}
