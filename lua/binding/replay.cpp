@@ -101,7 +101,7 @@ void Checkpoints::record_end(const Event& end) {
     ++solved_;
   } else {
     journal_.record(end);
-    failed_stage_ = moved;
+    failed_stage_ = moved && end.outcome != Outcome::solution_error; // that one the script has caught
   }
   if (well || moved)
     kept_ = journal_.size();

@@ -94,7 +94,7 @@ private:
   std::int64_t begin_steps_ = 0, mark_steps_ = 0;
   std::size_t kept_ = 0;   // of the journal, behind the last call that is not done again by a mended script
   std::string unfinished_; // checkpoint of a stage that a callback has ended, until the script goes on
-  bool failed_stage_ = false; // the last event: a stage that moved its model and failed
+  bool failed_stage_ = false; // the last event: a stage that moved its model and that its script ended
   int stages_ = 0;            // begun so far
   int solved_ = 0;            // ended well
   std::uint64_t serial_ = 0, script_hash_ = 0;

@@ -140,6 +140,44 @@ TEST_CASE("a refused stage begins anew when its arguments are mended", "[checkpo
   CHECK(script.report() == whole.report());
 }
 
+TEST_CASE("a file that is missing behind the stages can be brought, and the script goes on as it is",
+          "[checkpoint]") {
+  const std::string reads = "print(cdem.read_csv('late.csv').x[1])\n";
+  Mended script(solved + reads + told);
+  CHECK_THROWS_AS(script.run(), FileError);
+  CHECK_THAT(script.last_line(), Contains("mend the script"));
+  script.write("late.csv", "x\n12\n");
+  script.settings.resume = newest_checkpoint(script.settings.output).file;
+  CHECK(script.looks() < 5);
+  CHECK(script.last_line() == "12.0");
+}
+
+TEST_CASE("a solution that failed as the script expected is behind it when it goes on", "[checkpoint]") {
+  const std::string fails = "model:force{ on = 'x+', force = {1e12, 0, 0} }\n"
+                            "print((pcall(model.run, model, { steps = 5000 })))\n";
+  Mended whole(solved + fails + right + told);
+  whole.run();
+  REQUIRE_THAT(whole.listener->lines.front(), Contains("false"));
+  Mended script(solved + fails + wrong + told);
+  script.error();
+  script.mend(solved + fails + right + told);
+  CHECK(script.looks() < 5);
+  CHECK(script.report() == whole.report());
+}
+
+TEST_CASE("a sweep behind the last stage is not run again by a mended script", "[checkpoint]") {
+  const std::string sweep = "print(cdem.sweep{ script = 'one.lua', set = { { a = 1 } } }[1].exit_code)\n";
+  Mended script(solved + sweep + wrong);
+  script.write("one.lua", "");
+  script.write("program", "#!/bin/sh\necho run >> " + (script.folder / "count").string() + "\n");
+  fs::permissions(script.folder / "program", fs::perms::owner_all);
+  script.settings.program = (script.folder / "program").string();
+  CHECK_THAT(script.error(), Contains("color"));
+  script.mend(solved + sweep + right);
+  script.run();
+  CHECK(read_file(script.folder / "count") == "run\n");
+}
+
 TEST_CASE("a script that fails with nothing solved, or in a check, leaves no checkpoint", "[checkpoint]") {
   Mended early(column() + wrong);
   CHECK_THAT(early.error(), Contains("color"));
