@@ -50,12 +50,11 @@ local function marks()
   end
   return list
 end
-local shown = set_up.shown(walls)
 local function picture(name, title)
-  if not draw then return end
-  model:picture{ file = name, colour = "displacement.magnitude", deformation = 1, camera = set_up.camera(length),
-                 axes = false, range = {0, height}, plain = shown.plain, hidden = shown.hidden,
-                 markers = marks(), title = title }
+  if draw then
+    set_up.picture(model, length, walls, { file = name, title = title, colour = "displacement.magnitude",
+                                           range = {0, height}, markers = marks() })
+  end
 end
 
 left = model:watch{ bodies = "units", leaves = 0.5 * height }

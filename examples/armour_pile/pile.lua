@@ -4,11 +4,6 @@ local M = {}
 
 M.density, M.water, M.gradient, M.g = 2500, 1025, 1 / 1.5, 9.81
 
--- Units are coloured, the ground is not, walls would hide them.
-function M.shown(walls)
-  return { plain = {"slope"}, hidden = walls and {"wall_1", "wall_2", "wall_3"} or {} }
-end
-
 -- The ground's mesh, its toe at the origin.
 function M.slope(length, width, height)
   return cdem.slope{ gradient = M.gradient, length = length, width = width }:mesh{ size = 3 * height }
@@ -66,10 +61,14 @@ function M.ways(from, to)
   return ways
 end
 
--- From the side of the toe and above.
-function M.camera(length)
-  return { position = {-1.2 * length, -1.5 * length, 1.8 * length}, up = {0, 0, 1}, view_angle = 31,
-           focal_point = {0.42 * length, 0, 0.37 * M.gradient * length} }
+-- A picture of the model from the side of the toe and above. Units are coloured, the ground is not, walls would hide them.
+-- length and walls are those of M.model; `options` those of model:picture that differ from picture to picture.
+function M.picture(model, length, walls, options)
+  options.deformation, options.axes = 1, false
+  options.plain, options.hidden = {"slope"}, walls and {"wall_1", "wall_2", "wall_3"} or {}
+  options.camera = { position = {-1.2 * length, -1.5 * length, 1.8 * length}, up = {0, 0, 1}, view_angle = 31,
+                     focal_point = {0.42 * length, 0, 0.37 * M.gradient * length} }
+  model:picture(options)
 end
 
 return M

@@ -39,11 +39,9 @@ local model, ground = set_up.model(pile, { length = length, friction_angle = fri
 local held_units = cdem.select.units{ body = "units", numbers = model:lowest_units{ body = "units", count = held } }
 model:fix{ on = held_units }
 
-local shown = set_up.shown(walls)
 local function picture(name, title)
   if draw then
-    model:picture{ file = name, colour = "unit", deformation = 1, camera = set_up.camera(length), colour_bar = false,
-                   axes = false, plain = shown.plain, hidden = shown.hidden, title = title }
+    set_up.picture(model, length, walls, { file = name, title = title, colour = "unit", colour_bar = false })
   end
 end
 picture("start.png", start == "drop" and "dropped" or "placed")

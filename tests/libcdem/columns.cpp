@@ -2,6 +2,9 @@
 
 #include "libgeom/assembly/builders.hpp"
 
+#include <catch2/catch.hpp>
+#include <cmath>
+
 namespace testing {
 
 cdem::Elastic Bar::material() const {
@@ -34,6 +37,31 @@ std::vector<int> nodes_at(const cdem::Model& model, double x, double tolerance) 
     if (std::abs(model.node_position[i].x() - x) < tolerance)
       nodes.push_back(i);
   return nodes;
+}
+
+double axial_frequency(System& s, double length, const cdem::Elastic& material) {
+  const auto mode = [&](std::size_t i) { return std::sin(0.5 * pi * s.model.node_position[i].x() / length); };
+  for (std::size_t i = 0; i < s.model.node_position.size(); ++i)
+    s.state.velocity[i].x = 1e-3 * mode(i);
+  std::vector<double> crossings; // s
+  double before = 0;
+  cdem::RunOptions options;
+  options.breaking = false;
+  options.duration = 2.2 * 4 * length / std::sqrt(material.youngs_modulus / material.density);
+  options.safety = 0.5;
+  options.callback_every = 1;
+  options.callback = [&] {
+    double q = 0;
+    for (std::size_t i = 0; i < s.model.node_position.size(); ++i)
+      q += s.model.node_mass[i] * mode(i) * s.state.displacement[i].x;
+    const double step = s.state.time / static_cast<double>(s.state.step);
+    if (before * q < 0)
+      crossings.push_back(s.state.time - step * q / (q - before));
+    before = q;
+  };
+  s.run(options);
+  REQUIRE(crossings.size() >= 4);
+  return 1 / (crossings[3] - crossings[1]);
 }
 
 double mean_velocity_x(const System& s, const std::vector<int>& nodes) {

@@ -25,6 +25,8 @@ struct Bar {
 
 // All nodes with |x - place| < tolerance of a quarter block.
 std::vector<int> nodes_at(const cdem::Model&, double x, double tolerance);
+// Hz, of the first mode along a bar that is held at x = 0, from the zero crossings of its modal displacement.
+double axial_frequency(System&, double length, const cdem::Elastic&);
 double mean_velocity_x(const System&, const std::vector<int>& nodes); // m/s
 
 } // namespace testing

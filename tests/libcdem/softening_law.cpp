@@ -3,27 +3,18 @@
 #include "libcdem/interface/softening.hpp"
 #include "libgeom/core/error.hpp"
 #include "libgeom/core/random.hpp"
+#include "tests/libcdem/softening_joint.hpp"
 
 #include <catch2/catch.hpp>
 
 using namespace cdem;
 using geom::Vec3;
+using testing::pi;
+using testing::softening_joint;
 
 namespace {
 
-constexpr double pi = 3.14159265358979323846;
 const Vec3 n = Vec3(1, 2, -2) / 3.0, s = Vec3(2, 1, 2) / 3.0;
-
-Joint softening_joint(Softening curve) {
-  Joint j;
-  j.cohesion = 2e6;
-  j.friction_angle = 30 * pi / 180;
-  j.tensile_strength = 1e6;
-  j.softening = curve;
-  j.fracture_energy_1 = 50;
-  j.fracture_energy_2 = 200;
-  return j;
-}
 
 // One spring led along a path, with the work done on it and what it lost.
 struct Walker {

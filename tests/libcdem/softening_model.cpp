@@ -4,6 +4,7 @@
 #include "libcdem/simulation.hpp"
 #include "libgeom/assembly/builders.hpp"
 #include "libgeom/polyhedron/cut.hpp"
+#include "tests/libcdem/softening_joint.hpp"
 
 #include <catch2/catch.hpp>
 
@@ -11,22 +12,11 @@
 
 using namespace cdem;
 using geom::Vec3;
+using testing::softening_joint;
 
 namespace {
 
-constexpr double pi = 3.14159265358979323846;
 constexpr double side = 0.1, height = 0.02; // m, of the face between the two bodies; of each body
-
-Joint softening_joint(Softening curve) {
-  Joint j;
-  j.cohesion = 2e6;
-  j.friction_angle = 30 * pi / 180;
-  j.tensile_strength = 1e6;
-  j.softening = curve;
-  j.fracture_energy_1 = 50;
-  j.fracture_energy_2 = 200;
-  return j;
-}
 
 Elastic rock(double youngs_modulus = 30e9) {
   Elastic m;

@@ -8,6 +8,7 @@
 #include "libcdem/model/build.hpp"
 #include "libcdem/step/forces.hpp"
 #include "libcdem/step/mesh_forces.hpp"
+#include "libgeom/mesh/box_mesh.hpp"
 
 namespace testing {
 
@@ -44,6 +45,37 @@ cdem::Simulation simulation(geom::Assembly shape, const cdem::Elastic& material,
   return cdem::Simulation(spec, 1, std::move(observer));
 }
 
+cdem::Simulation bonded_column(const std::array<int, 3>& divisions, int threads,
+                               std::shared_ptr<cdem::Observer> observer) {
+  cdem::Bonding bonding;
+  bonding.everywhere = true;
+  cdem::Joint joint = rock_joint();
+  joint.tensile_strength = 3e5;
+  joint.cohesion = 6e5;
+  cdem::ModelSpec spec;
+  spec.bodies = {meshed("column", geom::box_mesh({0.3, 0.3, 0.8}, divisions, 0.15), bonding, rock(), joint)};
+  cdem::Simulation s(spec, threads, std::move(observer));
+  s.fix(fixed(cdem::Selection::side("z-")));
+  return s;
+}
+
+cdem::Simulation units_over_floor(geom::TetMesh floor, std::vector<geom::TetMesh> units,
+                                  const cdem::Elastic& material, int threads,
+                                  std::shared_ptr<cdem::Observer> observer) {
+  cdem::ModelSpec spec;
+  spec.bodies = {meshed("floor", std::move(floor), {}, material), meshed("units", {}, {}, material)};
+  spec.bodies[0].element = cdem::Element::rigid;
+  spec.bodies[1].meshes = std::move(units);
+  cdem::Joint friction;
+  friction.bonded = false;
+  friction.friction_angle = 35 * degree;
+  spec.pairs = {{"floor", "units", friction}, {"units", "units", friction}};
+  cdem::Simulation s(spec, threads, std::move(observer));
+  s.fix(fixed(cdem::Selection::of_body("floor")));
+  s.gravity(gravity());
+  return s;
+}
+
 cdem::Model build(const std::vector<cdem::BodySpec>& bodies, const std::vector<cdem::PairSpec>& pairs) {
   return cdem::first_model({bodies, pairs});
 }
@@ -56,6 +88,34 @@ cdem::Selection at_place(const geom::Vec3& x) {
 std::array<bool, 3> axes(const std::string& names) {
   return {names.find('x') != std::string::npos, names.find('y') != std::string::npos,
           names.find('z') != std::string::npos};
+}
+
+cdem::Fix fixed(const cdem::Selection& on, const std::string& names) {
+  cdem::Fix fix;
+  fix.on = on;
+  fix.axes = axes(names);
+  return fix;
+}
+
+cdem::Traction traction(const cdem::Selection& on, const geom::Vec3& stress) {
+  cdem::Traction traction;
+  traction.on = on;
+  traction.stress = stress;
+  return traction;
+}
+
+std::vector<cdem::Traction> on_six_sides(const geom::Mat3& stress) {
+  std::vector<cdem::Traction> tractions;
+  for (const char* side : {"x-", "x+", "y-", "y+", "z-", "z+"})
+    tractions.push_back(
+        traction(cdem::Selection::side(side), (side[1] == '+' ? 1 : -1) * stress.col(side[0] - 'x')));
+  return tractions;
+}
+
+cdem::Gravity gravity(const geom::Vec3& acceleration) {
+  cdem::Gravity gravity;
+  gravity.acceleration = acceleration;
+  return gravity;
 }
 
 System::System(cdem::Model m) : model(std::move(m)), state(cdem::initial_state(model)), last_good(state) {}
@@ -73,10 +133,7 @@ cdem::RunResult System::run(const cdem::RunOptions& options) {
 }
 
 void System::hold(const cdem::Selection& on, const std::string& names) {
-  cdem::Fix fix;
-  fix.on = on;
-  fix.axes = axes(names);
-  conditions.fixes.push_back(fix);
+  conditions.fixes.push_back(fixed(on, names));
 }
 
 geom::Vec3 centre(const cdem::Model& model, const cdem::OuterFace& face) {
@@ -87,12 +144,8 @@ geom::Vec3 centre(const cdem::Model& model, const cdem::OuterFace& face) {
 }
 
 void System::load_all_faces(const geom::Mat3& stress) {
-  for (const cdem::OuterFace& face : model.outer_faces) {
-    cdem::Traction traction;
-    traction.on = at_place(centre(model, face));
-    traction.stress = stress * face.normal;
-    conditions.tractions.push_back(traction);
-  }
+  for (const cdem::OuterFace& face : model.outer_faces)
+    conditions.tractions.push_back(traction(at_place(centre(model, face)), stress * face.normal));
 }
 
 void System::adopt(cdem::Model&& m, cdem::State&& s) {
@@ -139,6 +192,19 @@ double System::out_of_balance() const {
     reaction += forces[i].cwiseProduct(geom::Vec3::Ones() - free).squaredNorm();
   }
   return std::sqrt(residual / (applied > 0 ? applied : reaction));
+}
+
+Momentum momentum(const System& s, Places places) {
+  Momentum m;
+  for (std::size_t i = 0; i < s.model.node_position.size(); ++i) {
+    const geom::Vec3 p = s.model.node_mass[i] * vec(s.state.velocity[i]);
+    geom::Vec3 x = s.model.node_position[i];
+    if (places == Places::present)
+      x += vec(s.state.displacement[i]);
+    m.linear += p;
+    m.angular += x.cross(p);
+  }
+  return m;
 }
 
 geom::Vec3 vec(const cdem::Node& n) {

@@ -20,6 +20,12 @@ cdem::BodySpec meshed(std::string name, geom::TetMesh, const cdem::Bonding& = {}
                       const cdem::Elastic& = rock(), const cdem::Joint& = rock_joint());
 cdem::Simulation simulation(geom::Assembly, const cdem::Elastic& = rock(), const cdem::Joint& = rock_joint(),
                             std::shared_ptr<cdem::Observer> = nullptr);
+// A meshed column of 0.3 x 0.3 x 0.8 m on its foot, bonded everywhere, weak.
+cdem::Simulation bonded_column(const std::array<int, 3>& divisions, int threads,
+                               std::shared_ptr<cdem::Observer>);
+// Units that gravity draws to a rigid floor, with friction of 35 degrees on it and on each other.
+cdem::Simulation units_over_floor(geom::TetMesh floor, std::vector<geom::TetMesh> units, const cdem::Elastic&,
+                                  int threads, std::shared_ptr<cdem::Observer>);
 cdem::Model build(const std::vector<cdem::BodySpec>&, const std::vector<cdem::PairSpec>& = {});
 
 geom::Vec3 centre(const cdem::Model&, const cdem::OuterFace&); // undeformed, m
@@ -27,6 +33,12 @@ geom::Vec3 centre(const cdem::Model&, const cdem::OuterFace&); // undeformed, m
 // The place x to rounding, for conditions on single nodes and faces.
 cdem::Selection at_place(const geom::Vec3& x);
 std::array<bool, 3> axes(const std::string& names); // "xz" -> {true, false, true}
+
+// Conditions.
+cdem::Fix fixed(const cdem::Selection& on, const std::string& names = "xyz"); // where it is now
+cdem::Traction traction(const cdem::Selection& on, const geom::Vec3& stress); // Pa
+std::vector<cdem::Traction> on_six_sides(const geom::Mat3& stress);           // of a box
+cdem::Gravity gravity(const geom::Vec3& acceleration = {0, 0, -9.81});        // m/s2
 
 struct System {
   explicit System(cdem::Model);
@@ -52,6 +64,13 @@ struct System {
   cdem::Observer observer;
   int threads = 1, stage = 0;
 };
+
+// Of all nodes, about the origin.
+struct Momentum {
+  geom::Vec3 linear = geom::Vec3::Zero(), angular = geom::Vec3::Zero(); // N s, N m s
+};
+enum class Places { undeformed, present }; // small strain refers to the first, finite volumes to the second
+Momentum momentum(const System&, Places);
 
 geom::Vec3 vec(const cdem::Node&);
 cdem::Node node(const geom::Vec3&);

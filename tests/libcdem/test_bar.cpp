@@ -27,31 +27,7 @@ double measured_frequency(const Bar& bar) {
   joint.thickness = bar.thickness_ratio * h;
   System s(build({body("bar", shape, bar.material(), joint)}));
   s.hold(cdem::Selection::side("x-"), "xyz");
-  const auto mode = [&](int i) { return std::sin(0.5 * pi * s.model.node_position[i].x() / bar.length); };
-  for (int i = 0; i < static_cast<int>(s.model.node_position.size()); ++i)
-    s.state.velocity[i].x = 1e-3 * mode(i);
-
-  const double estimate =
-      std::sqrt(bar.material().youngs_modulus / bar.material().density) / (4 * bar.length);
-  std::vector<double> crossings; // s
-  double before = 0;
-  cdem::RunOptions options;
-  options.breaking = false;
-  options.duration = 2.2 / estimate;
-  options.safety = 0.5;
-  options.callback_every = 1;
-  options.callback = [&] {
-    double q = 0;
-    for (int i = 0; i < static_cast<int>(s.model.node_position.size()); ++i)
-      q += s.model.node_mass[i] * mode(i) * s.state.displacement[i].x;
-    const double step = s.state.time / static_cast<double>(s.state.step);
-    if (before * q < 0)
-      crossings.push_back(s.state.time - step * q / (q - before));
-    before = q;
-  };
-  s.run(options);
-  REQUIRE(crossings.size() >= 4);
-  return 1 / (crossings[3] - crossings[1]);
+  return axial_frequency(s, bar.length, bar.material());
 }
 
 } // namespace
@@ -65,10 +41,7 @@ TEST_CASE("a body bonded everywhere is as soft as its blocks and joints in serie
   s.hold(cdem::Selection::side("x-"), "x");
   s.hold(at_place({0, 0, 0}), "xyz");
   s.hold(at_place({0, bar.h(), 0}), "xz");
-  cdem::Traction pull;
-  pull.on = cdem::Selection::side("x+");
-  pull.stress = {1e6, 0, 0};
-  s.conditions.tractions = {pull};
+  s.conditions.tractions = {traction(cdem::Selection::side("x+"), {1e6, 0, 0})};
   REQUIRE(s.relax(1e-10).converged);
   const std::vector<int> end = nodes_at(s.model, bar.length, 1e-9);
   double stretch = 0;

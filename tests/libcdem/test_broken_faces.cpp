@@ -26,10 +26,7 @@ System thrown(double speed) {
   for (std::size_t i = 0; i < upper.size(); ++i)
     s.state.velocity[i].x = upper[i] ? speed : 0;
   s.hold(cdem::Selection::side("z-"), "xyz");
-  cdem::Traction press;
-  press.on = cdem::Selection::side("z+");
-  press.stress = {0, 0, -1e6};
-  s.conditions.tractions = {press};
+  s.conditions.tractions = {traction(cdem::Selection::side("z+"), {0, 0, -1e6})};
   return s;
 }
 
@@ -143,10 +140,7 @@ TEST_CASE("broken faces: friction, breaking and unbonding are booked to where th
   SECTION("torn apart") {
     System s(build({meshed("unit", two_halves(2), between_halves(), rock(), halves_joint())}));
     s.hold(cdem::Selection::side("z-"), "xyz");
-    cdem::Traction pull;
-    pull.on = cdem::Selection::side("z+");
-    pull.stress = {0.3e6, 0, 1.2e6};
-    s.conditions.tractions = {pull};
+    s.conditions.tractions = {traction(cdem::Selection::side("z+"), {0.3e6, 0, 1.2e6})};
     s.run(steps(600));
     REQUIRE(s.log.broken_tension + s.log.broken_shear == 24);
     const cdem::EnergyLedger ledger = cdem::energy(s.model, s.state);
@@ -161,13 +155,8 @@ TEST_CASE("broken faces: friction, breaking and unbonding are booked to where th
     strong.cohesion = strong.tensile_strength = 1e9;
     spec.bodies = {meshed("unit", two_halves(2), between_halves(), rock(), strong)};
     cdem::Simulation s(spec, 1, nullptr);
-    cdem::Fix foot;
-    foot.on = cdem::Selection::side("z-");
-    s.fix(foot);
-    cdem::Traction push;
-    push.on = cdem::Selection::side("z+");
-    push.stress = {2e6, 0, -1e6};
-    s.traction(push);
+    s.fix(fixed(cdem::Selection::side("z-")));
+    s.traction(traction(cdem::Selection::side("z+"), {2e6, 0, -1e6}));
     REQUIRE(s.relax({}).converged);
     s.unbond(cdem::Selection::on_plane(geom::Plane::through({0, 0, half}, {0, 0, 1})), true);
     const double cut = s.energy().cutting;

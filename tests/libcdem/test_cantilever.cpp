@@ -21,13 +21,8 @@ Deflection deflection(int blocks_high) {
   joint.thickness_ratio = ratio;
   cdem::Simulation s =
       simulation(geom::grid({length, height, h}, {4 * blocks_high, blocks_high, 1}), rock(), joint);
-  cdem::Fix clamp;
-  clamp.on = cdem::Selection::side("x-");
-  s.fix(clamp);
-  cdem::Traction end;
-  end.on = cdem::Selection::side("x+");
-  end.stress = {0, shear_stress, 0};
-  s.traction(end);
+  s.fix(fixed(cdem::Selection::side("x-")));
+  s.traction(traction(cdem::Selection::side("x+"), {0, shear_stress, 0}));
   cdem::RelaxOptions options;
   options.breaking = false;
   options.residual = 1e-5;

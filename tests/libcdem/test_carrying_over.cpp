@@ -24,10 +24,7 @@ System battered_wall() {
   joint.cohesion = joint.tensile_strength = 1e5;
   System s(build({body("wall", geom::voronoi(cells), rock(), joint)}));
   s.hold(cdem::Selection::side("y-"), "xyz");
-  cdem::Traction push;
-  push.on = cdem::Selection::side("y+");
-  push.stress = {1e6, -2e6, 0};
-  s.conditions.tractions = {push};
+  s.conditions.tractions = {traction(cdem::Selection::side("y+"), {1e6, -2e6, 0})};
   for (std::size_t b = 0; b < s.state.initial_stress.size(); ++b)
     s.state.initial_stress[b][0] = 100.0 * static_cast<double>(b + 1);
   cdem::RunOptions options;

@@ -32,29 +32,14 @@ cdem::Simulation plate(int threads, std::shared_ptr<cdem::Observer> observer = n
   cdem::ModelSpec spec;
   spec.bodies = {block_body("plate", 2e5)};
   cdem::Simulation s(spec, threads, std::move(observer));
-  cdem::Fix fix;
-  fix.on = cdem::Selection::side("y-");
-  s.fix(fix);
-  cdem::Traction pull;
-  pull.on = cdem::Selection::side("y+");
-  pull.stress = {2e5, 2.5e5, 0};
-  s.traction(pull);
+  s.fix(fixed(cdem::Selection::side("y-")));
+  s.traction(traction(cdem::Selection::side("y+"), {2e5, 2.5e5, 0}));
   return s;
 }
 
 // A meshed column, bonded everywhere, that a flow bends and breaks at its foot.
 cdem::Simulation column(int threads, std::shared_ptr<cdem::Observer> observer = nullptr) {
-  cdem::Bonding bonding;
-  bonding.everywhere = true;
-  cdem::Joint joint = rock_joint();
-  joint.tensile_strength = 3e5;
-  joint.cohesion = 6e5;
-  cdem::ModelSpec spec;
-  spec.bodies = {meshed("column", geom::box_mesh({0.3, 0.3, 0.8}, {3, 3, 8}, 0.15), bonding, rock(), joint)};
-  cdem::Simulation s(spec, threads, std::move(observer));
-  cdem::Fix foot;
-  foot.on = cdem::Selection::side("z-");
-  s.fix(foot);
+  cdem::Simulation s = bonded_column({3, 3, 8}, threads, std::move(observer));
   cdem::Flow flow;
   flow.direction = {1, 0.2, 0};
   flow.velocity = [](double time) { return 40 * std::min(1.0, 200 * time); };
@@ -84,12 +69,8 @@ cdem::Simulation falling_blocks(int threads, std::shared_ptr<cdem::Observer> obs
   spec.bodies[1].material.stiffness_damping = 1e-5;
   spec.pairs = {{"slope", "soft", law}, {"slope", "hard", law}, {"soft", "hard", law}};
   cdem::Simulation s(spec, threads, std::move(observer));
-  cdem::Fix fix;
-  fix.on = cdem::Selection::of_body("slope");
-  s.fix(fix);
-  cdem::Gravity gravity;
-  gravity.acceleration = {4, 0, -9};
-  s.gravity(gravity);
+  s.fix(fixed(cdem::Selection::of_body("slope")));
+  s.gravity(gravity({4, 0, -9}));
   s.initial_velocity(cdem::Selection::of_body("soft"), {0, 0, -3});
   s.initial_velocity(cdem::Selection::of_body("hard"), {0, 0, -8});
   return s;

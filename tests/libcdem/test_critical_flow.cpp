@@ -3,6 +3,7 @@
 #include "tests/libcdem/system.hpp"
 
 #include "libgeom/core/error.hpp"
+#include "tests/support/refusal.hpp"
 
 #include <catch2/catch.hpp>
 
@@ -23,9 +24,7 @@ cdem::Simulation column(double strength, double size = 1) {
   spec.bodies = {
       meshed("column", geom::box_mesh(size * Vec3(0.3, 0.3, 0.75), {3, 3, 6}, 0.15), bonding, rock(), joint)};
   cdem::Simulation s(spec, 1, nullptr);
-  cdem::Fix foot;
-  foot.on = cdem::Selection::side("z-");
-  s.fix(foot);
+  s.fix(fixed(cdem::Selection::side("z-")));
   return s;
 }
 
@@ -80,9 +79,7 @@ TEST_CASE("critical flow: the unbroken column's compliance and period are those 
   cdem::ModelSpec spec;
   spec.bodies = {meshed("column", geom::box_mesh({b, b, length}, {6, 6, 24}))};
   cdem::Simulation s(spec, 1, nullptr);
-  cdem::Fix foot;
-  foot.on = cdem::Selection::side("z-");
-  s.fix(foot);
+  s.fix(fixed(cdem::Selection::side("z-")));
   cdem::CriticalFlowOptions options = along_x(false, 0.01);
   options.max_velocity = 1.5;
   const cdem::CriticalFlowResult r = s.critical_flow(options);
@@ -121,9 +118,7 @@ TEST_CASE("critical flow: a slender column's first bond breaks where and when be
   cdem::ModelSpec spec;
   spec.bodies = {meshed("column", geom::box_mesh({b, b, length}, {4, 4, 16}), bonding, rock(), joint)};
   cdem::Simulation s(spec, 1, nullptr);
-  cdem::Fix foot;
-  foot.on = cdem::Selection::side("z-");
-  s.fix(foot);
+  s.fix(fixed(cdem::Selection::side("z-")));
   const cdem::CriticalFlowResult r = s.critical_flow(along_x(true, 0.05)); // 1 MPa/s: 40 ms, five periods
   // At the root's outermost fibre the uniform load q b on the length L pulls by q b L^2 / 2 over b^3 / 6.
   const double exact = strength * b * b / (3 * length * length);
@@ -140,9 +135,7 @@ TEST_CASE("critical flow: gravity's deflection is none of the flow's", "[flow]")
   const auto compliance = [](const Vec3& gravity) {
     cdem::Simulation s = column(100);
     if (gravity.norm() > 0) {
-      cdem::Gravity g;
-      g.acceleration = gravity;
-      s.gravity(g);
+      s.gravity(testing::gravity(gravity));
     }
     cdem::CriticalFlowOptions options = along_x(false, 1);
     options.max_velocity = 2;
@@ -152,33 +145,28 @@ TEST_CASE("critical flow: gravity's deflection is none of the flow's", "[flow]")
 }
 
 TEST_CASE("critical flow: bad input is refused", "[flow][input]") {
-  const auto refusal = [](const auto& set, bool held = true) {
+  const auto refused = [](const auto& set, bool held = true) {
     cdem::Simulation s = column(1);
     if (!held)
       s.release(cdem::Selection::everything(), {true, true, true});
     cdem::CriticalFlowOptions options = along_x(true, 1);
     set(options);
-    try {
-      s.critical_flow(options);
-    } catch (const geom::InputError& e) {
-      return std::string(e.what());
-    }
-    return std::string();
+    return refusal([&] { s.critical_flow(options); });
   };
   const auto as_it_is = [](cdem::CriticalFlowOptions&) {};
-  CHECK_THAT(refusal(as_it_is, false), Contains("nothing is held") && Contains("fix"));
-  CHECK_THAT(refusal([](auto& o) { o.held = cdem::Selection::side("z+"); }),
+  CHECK_THAT(refused(as_it_is, false), Contains("nothing is held") && Contains("fix"));
+  CHECK_THAT(refused([](auto& o) { o.held = cdem::Selection::side("z+"); }),
              Contains("held = z+") && Contains("it is free"));
-  CHECK_THAT(refusal([](auto& o) { o.held = cdem::Selection::side("x+"); }), Contains("held = x+"));
-  CHECK(refusal([](auto& o) { o.held = cdem::Selection::side("z-"); }).empty());
-  CHECK_THAT(refusal([](auto& o) { o.flow.direction.setZero(); }),
+  CHECK_THAT(refused([](auto& o) { o.held = cdem::Selection::side("x+"); }), Contains("held = x+"));
+  CHECK(refused([](auto& o) { o.held = cdem::Selection::side("z-"); }).empty());
+  CHECK_THAT(refused([](auto& o) { o.flow.direction.setZero(); }),
              Contains("direction") && Contains("longer than"));
-  CHECK_THAT(refusal([](auto& o) { o.flow.on = cdem::Selection::side("x+"); }),
+  CHECK_THAT(refused([](auto& o) { o.flow.on = cdem::Selection::side("x+"); }),
              Contains("looks towards the flow"));
-  CHECK_THAT(refusal([](auto& o) { o.flow.water_density = 0; }), Contains("water_density = 0"));
-  CHECK_THAT(refusal([](auto& o) { o.pressure_rate = 0; }), Contains("pressure_rate = 0"));
-  CHECK_THAT(refusal([](auto& o) { o.hold_periods = -1; }), Contains("hold_periods = -1"));
-  CHECK_THAT(refusal([](auto& o) { o.fragment_fraction = 1; }), Contains("fragment_fraction = 1"));
-  CHECK_THAT(refusal([](auto& o) { o.compliance_ratio = 1; }), Contains("compliance_ratio = 1"));
-  CHECK_THAT(refusal([](auto& o) { o.max_velocity = std::nan(""); }), Contains("max_velocity = nan"));
+  CHECK_THAT(refused([](auto& o) { o.flow.water_density = 0; }), Contains("water_density = 0"));
+  CHECK_THAT(refused([](auto& o) { o.pressure_rate = 0; }), Contains("pressure_rate = 0"));
+  CHECK_THAT(refused([](auto& o) { o.hold_periods = -1; }), Contains("hold_periods = -1"));
+  CHECK_THAT(refused([](auto& o) { o.fragment_fraction = 1; }), Contains("fragment_fraction = 1"));
+  CHECK_THAT(refused([](auto& o) { o.compliance_ratio = 1; }), Contains("compliance_ratio = 1"));
+  CHECK_THAT(refused([](auto& o) { o.max_velocity = std::nan(""); }), Contains("max_velocity = nan"));
 }

@@ -44,10 +44,7 @@ TEST_CASE("local damping takes a suddenly loaded bar to its static stretch", "[d
   bar.blocks = 5;
   System s = bar.system();
   s.hold(cdem::Selection::side("x-"), "xyz");
-  cdem::Traction pull;
-  pull.on = cdem::Selection::side("x+");
-  pull.stress = {1e6, 0, 0};
-  s.conditions.tractions = {pull};
+  s.conditions.tractions = {traction(cdem::Selection::side("x+"), {1e6, 0, 0})};
   cdem::RunOptions options;
   options.local_damping = 0.7;
   options.duration = 20 * 4 * bar.length / std::sqrt(bar.material().youngs_modulus / bar.material().density);

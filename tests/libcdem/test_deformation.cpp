@@ -47,11 +47,9 @@ TEST_CASE("loads, moved supports, initial stress and velocity act, a support tha
   const auto fresh = [] { return simulation(geom::grid({0.2, 0.1, 0.1}, {2, 1, 1})); };
   cdem::Simulation s = fresh();
   CHECK_FALSE(s.anything_acts());
-  cdem::Fix hold;
-  hold.on = cdem::Selection::side("x-");
-  s.fix(hold);
+  s.fix(fixed(cdem::Selection::side("x-")));
   CHECK_FALSE(s.anything_acts());
-  cdem::Fix pull = hold;
+  cdem::Fix pull = fixed(cdem::Selection::side("x-"));
   pull.displacement = Vec3(1e-5, 0, 0);
   s.fix(pull);
   CHECK(s.anything_acts());
@@ -66,9 +64,6 @@ TEST_CASE("loads, moved supports, initial stress and velocity act, a support tha
   s.initial_stress(cdem::Selection::everything(), {1e6, 0, 0, 0, 0, 0});
   CHECK(s.anything_acts());
   s = fresh();
-  cdem::Traction load;
-  load.on = cdem::Selection::side("x+");
-  load.stress = {1e6, 0, 0};
-  s.traction(load);
+  s.traction(traction(cdem::Selection::side("x+"), {1e6, 0, 0}));
   CHECK(s.anything_acts());
 }

@@ -43,10 +43,7 @@ TEST_CASE("the ledger of an elastic bar under a sudden load balances to 1e-3 at 
   Bar bar;
   System s = bar.system();
   s.hold(cdem::Selection::side("x-"), "xyz");
-  cdem::Traction pull;
-  pull.on = cdem::Selection::side("x+");
-  pull.stress = {1e6, 0, 0};
-  s.conditions.tractions = {pull};
+  s.conditions.tractions = {traction(cdem::Selection::side("x+"), {1e6, 0, 0})};
   double worst = 0; // J
   cdem::RunOptions options;
   options.breaking = false;
@@ -97,9 +94,7 @@ TEST_CASE("a relaxation's ledger balances, its fictitious kinetic energy counted
 
 TEST_CASE("a relaxation that follows a run counts the velocities it takes away", "[energy]") {
   cdem::Simulation s = simulation(geom::grid({0.2, 0.1, 0.1}, {2, 1, 1}));
-  cdem::Fix fix;
-  fix.on = cdem::Selection::side("x-");
-  s.fix(fix);
+  s.fix(fixed(cdem::Selection::side("x-")));
   s.initial_velocity(cdem::Selection::side("x+"), {1, 0, 0});
   cdem::RunOptions options;
   options.breaking = false;
@@ -120,10 +115,7 @@ TEST_CASE("loaded statically a bar stores sigma^2 / 2 E in its blocks and sigma^
   bar.blocks = 6;
   System s = bar.system();
   s.hold(cdem::Selection::side("x-"), "xyz");
-  cdem::Traction pull;
-  pull.on = cdem::Selection::side("x+");
-  pull.stress = {1e6, 0, 0};
-  s.conditions.tractions = {pull};
+  s.conditions.tractions = {traction(cdem::Selection::side("x+"), {1e6, 0, 0})};
   REQUIRE(s.relax(1e-9).converged);
   const cdem::EnergyLedger e = cdem::energy(s.model, s.state);
   const double density = 0.5 * 1e12 / bar.material().youngs_modulus; // J/m3

@@ -10,13 +10,6 @@ using geom::Vec3;
 
 namespace {
 
-cdem::Fix fixed(const cdem::Selection& on, const char* names = "xyz") {
-  cdem::Fix f;
-  f.on = on;
-  f.axes = axes(names);
-  return f;
-}
-
 geom::Box box(double x0, double x1, double z0 = -10, double z1 = 10) {
   return {{x0, -10, z0}, {x1, 10, z1}};
 }
@@ -26,9 +19,7 @@ geom::Box box(double x0, double x1, double z0 = -10, double z1 = 10) {
 TEST_CASE("a column whose upper part is taken away carries what is left", "[excavation]") {
   cdem::Simulation s = simulation(geom::grid({0.1, 0.1, 0.5}, {1, 1, 5}));
   s.fix(fixed(cdem::Selection::side("z-")));
-  cdem::Gravity gravity;
-  gravity.acceleration = {0, 0, -9.81};
-  s.gravity(gravity);
+  s.gravity(gravity());
   REQUIRE(s.relax({}).converged);
   const double weight = rock().density * 9.81 * 1e-3; // N, of one block
   CHECK(s.reaction(cdem::Selection::side("z-")).z() == Approx(5 * weight).epsilon(1e-4));
@@ -73,10 +64,7 @@ TEST_CASE("a chamber cut out of stressed rock closes in on itself and stays in b
 TEST_CASE("blocks that stay keep their state when others are taken out", "[excavation]") {
   cdem::Simulation s = simulation(geom::grid({0.4, 0.1, 0.1}, {4, 1, 1}));
   s.fix(fixed(cdem::Selection::side("x-")));
-  cdem::Traction pull;
-  pull.on = cdem::Selection::side("x+");
-  pull.stress = {1e6, 0, 0};
-  s.traction(pull);
+  s.traction(traction(cdem::Selection::side("x+"), {1e6, 0, 0}));
   cdem::RunOptions options;
   options.steps = 100;
   s.run(options);

@@ -137,9 +137,7 @@ TEST_CASE("face bonds: nodes are shared wherever no joint is asked for", "[bonds
 
 TEST_CASE("face bonds: a body pulled apart breaks between its regions and falls into them", "[bonds][mesh]") {
   cdem::Simulation s = simulation_of(halves_joint(), 2);
-  cdem::Fix foot;
-  foot.on = cdem::Selection::side("z-");
-  s.fix(foot);
+  s.fix(fixed(cdem::Selection::side("z-")));
   REQUIRE(s.fragments().size() == 1);
   CHECK(s.fragments()[0].volume == Approx(area * 2 * half).epsilon(1e-12));
   cdem::Traction pull;
@@ -166,9 +164,7 @@ TEST_CASE("face bonds: a body pulled apart breaks between its regions and falls 
 TEST_CASE("face bonds: unbond makes them contacts, which still carry pressure", "[bonds][mesh]") {
   const bool whole_faces = GENERATE(false, true);
   cdem::Simulation s = simulation_of(halves_joint(), 2);
-  cdem::Fix foot;
-  foot.on = cdem::Selection::side("z-");
-  s.fix(foot);
+  s.fix(fixed(cdem::Selection::side("z-")));
   const auto left =
       cdem::Selection::where([](const Vec3& x) { return x.x() < 0.49 * side; }, "the left half");
   const auto plane = cdem::Selection::on_plane(geom::Plane::through({0, 0, half}, {0, 0, 1}));
@@ -178,10 +174,7 @@ TEST_CASE("face bonds: unbond makes them contacts, which still carry pressure", 
   CHECK(s.counts().contacts == 24);
   CHECK(s.counts().intact == 0);
   CHECK(s.fragments().size() == 2);
-  cdem::Traction press;
-  press.on = cdem::Selection::side("z+");
-  press.stress = {0, 0, -1e6};
-  s.traction(press);
+  s.traction(traction(cdem::Selection::side("z+"), {0, 0, -1e6}));
   REQUIRE(s.relax({}).converged);
   CHECK(s.reaction(cdem::Selection::side("z-")).z() == Approx(1e6 * area).epsilon(1e-5));
 }

@@ -13,13 +13,6 @@ using geom::Vec3;
 
 namespace {
 
-cdem::Fix fixed(const cdem::Selection& on, const char* names = "xyz") {
-  cdem::Fix f;
-  f.on = on;
-  f.axes = axes(names);
-  return f;
-}
-
 bool finite(const cdem::Snapshot& snapshot) {
   for (const auto* fields : {&snapshot.point_fields, &snapshot.cell_fields, &snapshot.bonds.point_fields})
     for (const cdem::SnapshotField& field : *fields)
@@ -40,6 +33,19 @@ std::string failure(const Solve& solve) {
   return "";
 }
 
+// A force there is no number after 249.5 steps of a run.
+std::string failure_of_a_force_at(cdem::Simulation& s, const Vec3& place) {
+  cdem::PointForce force;
+  force.on = at_place(place);
+  force.force = {1, 0, 0};
+  const double dt = 0.9 * s.stable_time_step();
+  force.amplitude = [=](double t) { return t > 249.5 * dt ? std::nan("") : 1.0; };
+  s.force(force);
+  cdem::RunOptions options;
+  options.steps = 1000;
+  return failure([&] { s.run(options); });
+}
+
 struct StopAfter : cdem::Observer {
   explicit StopAfter(int polls) : left(polls) {}
   bool stop_requested() override { return --left < 0; }
@@ -51,16 +57,7 @@ struct StopAfter : cdem::Observer {
 TEST_CASE("a force that is not a number stops the run in its step and names block and place", "[failures]") {
   cdem::Simulation s = simulation(geom::grid({0.3, 0.1, 0.1}, {3, 1, 1}));
   s.fix(fixed(cdem::Selection::side("x-")));
-  cdem::PointForce force;
-  const Vec3 place(0.25, 0.05, 0.05); // centroid of the third block
-  force.on = at_place(place);
-  force.force = {1, 0, 0};
-  const double dt = 0.9 * s.stable_time_step();
-  force.amplitude = [=](double t) { return t > 249.5 * dt ? std::nan("") : 1.0; };
-  s.force(force);
-  cdem::RunOptions options;
-  options.steps = 1000;
-  const std::string message = failure([&] { s.run(options); });
+  const std::string message = failure_of_a_force_at(s, {0.25, 0.05, 0.05}); // centroid of the third block
   CHECK_THAT(message, Contains("not a number") && Contains("stage 1 (run)") && Contains("step 251") &&
                           Contains("block 3 of body \"body\"") && Contains("(0.25, 0.05, 0.05) m"));
   CHECK(finite(s.last_good_snapshot("before")));
@@ -77,15 +74,7 @@ TEST_CASE("a force that is not a number on a node of a mesh stops the run and na
   spec.bodies = {meshed("unit", geom::box_mesh({0.3, 0.2, 0.2}, {3, 2, 2}), bonding)};
   cdem::Simulation s(spec, 1, nullptr);
   s.fix(fixed(cdem::Selection::side("x-")));
-  cdem::PointForce force;
-  force.on = at_place({0.2, 0.1, 0.1});
-  force.force = {1, 0, 0};
-  const double dt = 0.9 * s.stable_time_step();
-  force.amplitude = [=](double t) { return t > 249.5 * dt ? std::nan("") : 1.0; };
-  s.force(force);
-  cdem::RunOptions options;
-  options.steps = 1000;
-  const std::string message = failure([&] { s.run(options); });
+  const std::string message = failure_of_a_force_at(s, {0.2, 0.1, 0.1});
   CHECK_THAT(message, Contains("not a number") && Contains("stage 1 (run)") && Contains("step 251") &&
                           Contains("of body \"unit\"") && Contains("(0.2, 0.1, 0.1) m"));
   CHECK(finite(s.last_good_snapshot("before")));
@@ -95,10 +84,7 @@ TEST_CASE("a force that is not a number on a node of a mesh stops the run and na
 TEST_CASE("a state that is not a number stops a relaxation too", "[failures]") {
   System s(build({body("rock", geom::grid({0.3, 0.1, 0.1}, {3, 1, 1}))}));
   s.hold(cdem::Selection::side("x-"), "xyz");
-  cdem::Traction pull;
-  pull.on = cdem::Selection::side("x+");
-  pull.stress = {1e6, 0, 0};
-  s.conditions.tractions = {pull};
+  s.conditions.tractions = {traction(cdem::Selection::side("x+"), {1e6, 0, 0})};
   s.relax(1e-3);
   s.state.displacement[s.model.blocks[1].centroid_node()].y = std::nan("");
   const std::string message = failure([&] { s.relax(1e-6); });
@@ -108,10 +94,7 @@ TEST_CASE("a state that is not a number stops a relaxation too", "[failures]") {
 
 TEST_CASE("a loaded block without supports runs away: step and block and place and advice", "[failures]") {
   cdem::Simulation s = simulation(geom::grid({0.2, 0.1, 0.1}, {2, 1, 1}));
-  cdem::Traction pull;
-  pull.on = cdem::Selection::side("x+");
-  pull.stress = {1e6, 0, 0};
-  s.traction(pull);
+  s.traction(traction(cdem::Selection::side("x+"), {1e6, 0, 0}));
   cdem::RelaxOptions options;
   options.breaking = false;
   const std::string message = failure([&] { s.relax(options); });
@@ -138,10 +121,7 @@ TEST_CASE("stopped by the user the state is the one of the last whole step and c
   const auto build_bar = [](std::shared_ptr<cdem::Observer> observer) {
     cdem::Simulation s = simulation(geom::grid({0.5, 0.1, 0.1}, {5, 1, 1}), rock(), rock_joint(), observer);
     s.fix(fixed(cdem::Selection::side("x-")));
-    cdem::Traction pull;
-    pull.on = cdem::Selection::side("x+");
-    pull.stress = {1e5, 0, 0};
-    s.traction(pull);
+    s.traction(traction(cdem::Selection::side("x+"), {1e5, 0, 0}));
     return s;
   };
   SECTION("a run stops where an uninterrupted one of as many steps ends") {
@@ -171,10 +151,7 @@ TEST_CASE("stopped by the user the state is the one of the last whole step and c
 TEST_CASE("a relaxation that does not get there says so", "[failures]") {
   cdem::Simulation s = simulation(geom::grid({0.5, 0.1, 0.1}, {5, 1, 1}));
   s.fix(fixed(cdem::Selection::side("x-")));
-  cdem::Traction pull;
-  pull.on = cdem::Selection::side("x+");
-  pull.stress = {1e5, 0, 0};
-  s.traction(pull);
+  s.traction(traction(cdem::Selection::side("x+"), {1e5, 0, 0}));
   cdem::RelaxOptions options;
   options.max_steps = 20;
   const cdem::RelaxResult r = s.relax(options);

@@ -123,10 +123,7 @@ TEST_CASE("finite volume: a body bonded everywhere has E / (1 + 1/beta) left", "
   s.hold(cdem::Selection::side("z-"), "z");
   s.hold(at_place({0, 0, 0}), "xyz");
   s.hold(at_place({1, 0, 0}), "y");
-  cdem::Traction pull;
-  pull.on = cdem::Selection::side("z+");
-  pull.stress = {0, 0, 1e5};
-  s.conditions.tractions.push_back(pull);
+  s.conditions.tractions.push_back(traction(cdem::Selection::side("z+"), {0, 0, 1e5}));
   CHECK(s.relax(1e-6).converged);
   const double uz = cdem::mean_value(s.model, s.state, "displacement.z", cdem::Selection::side("z+"));
   const double modulus = 1e5 * 2 / uz;
@@ -150,10 +147,7 @@ TEST_CASE("finite volume: the same bits for 1, 2 and 4 threads", "[hash][mesh]")
     REQUIRE(cdem::useful_threads(s.model, threads) == threads);
     s.threads = threads;
     s.hold(cdem::Selection::side("z-"), "xyz");
-    cdem::Traction pull;
-    pull.on = cdem::Selection::side("z+");
-    pull.stress = {3e6, 0, 8e6};
-    s.conditions.tractions.push_back(pull);
+    s.conditions.tractions.push_back(traction(cdem::Selection::side("z+"), {3e6, 0, 8e6}));
     cdem::RunOptions options;
     options.steps = 40;
     s.run(options);
@@ -169,10 +163,7 @@ TEST_CASE("finite volume: the energy balance closes, elastic and with breaking b
   const bool breaking = GENERATE(false, true);
   System s(build({meshed("unit", geom::box_mesh({1, 1, 2}, {3, 3, 6}, 0.15), everywhere(10))}));
   s.hold(cdem::Selection::side("z-"), "xyz");
-  cdem::Traction pull;
-  pull.on = cdem::Selection::side("z+");
-  pull.stress = {1e6, 0, 6e6};
-  s.conditions.tractions.push_back(pull);
+  s.conditions.tractions.push_back(traction(cdem::Selection::side("z+"), {1e6, 0, 6e6}));
   cdem::RunOptions options;
   options.steps = 600;
   options.safety = 0.5;

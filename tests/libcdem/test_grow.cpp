@@ -5,6 +5,7 @@
 #include "libgeom/assembly/edit.hpp"
 #include "libgeom/core/error.hpp"
 #include "tests/libcdem/system.hpp"
+#include "tests/support/refusal.hpp"
 
 #include <catch2/catch.hpp>
 #include <limits>
@@ -53,19 +54,14 @@ Simulation notched_beam(double load, const Joint& joint = brittle()) {
   return s;
 }
 
-std::string refusal(const GrowOptions& options, const Joint& joint = brittle()) {
-  try {
-    notched_beam(1e3, joint).grow(options);
-  } catch (const geom::InputError& e) {
-    return e.what();
-  }
-  return "";
+std::string refused(const GrowOptions& options, const Joint& joint = brittle()) {
+  return testing::refusal([&] { notched_beam(1e3, joint).grow(options); });
 }
 
 std::string refused(const std::function<void(GrowOptions&)>& change) {
   GrowOptions options;
   change(options);
-  return refusal(options);
+  return refused(options);
 }
 
 FaceLoad carrying(double ratio) {
@@ -218,7 +214,7 @@ TEST_CASE("grow refuses joints that soften") {
   joint.softening = Softening::linear;
   joint.fracture_energy_1 = 100;
   joint.fracture_energy_2 = 400;
-  CHECK(refusal({}, joint) ==
+  CHECK(refused({}, joint) ==
         "the joint inside \"body\" softens (softening = \"linear\"), and grow breaks whole faces at "
         "their "
         "strength; leave softening out, or load in small increments with relax, which follows the curve");

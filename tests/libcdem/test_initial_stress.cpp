@@ -21,12 +21,8 @@ geom::Assembly cells() {
 }
 
 void load_sides(cdem::Simulation& s, const geom::Mat3& stress) {
-  for (const char* side : {"x-", "x+", "y-", "y+", "z-", "z+"}) {
-    cdem::Traction traction;
-    traction.on = cdem::Selection::side(side);
-    traction.stress = (side[1] == '+' ? 1 : -1) * stress.col(side[0] - 'x');
+  for (const cdem::Traction& traction : on_six_sides(stress))
     s.traction(traction);
-  }
 }
 
 } // namespace
@@ -49,16 +45,9 @@ TEST_CASE("initial stress in equilibrium with the tractions moves nothing", "[in
 TEST_CASE("a body let go of its initial stress moves back by the strain of that stress", "[initial_stress]") {
   cdem::Simulation s = simulation(geom::grid({0.4, 0.1, 0.1}, {1, 1, 1}));
   s.initial_stress(cdem::Selection::everything(), {-6e6, 0, 0, 0, 0, 0});
-  cdem::Fix fix;
-  fix.on = cdem::Selection::side("x-");
-  fix.axes = axes("x");
-  s.fix(fix);
-  fix.on = at_place({0, 0, 0});
-  fix.axes = axes("yz");
-  s.fix(fix);
-  fix.on = at_place({0, 0.1, 0});
-  fix.axes = axes("z");
-  s.fix(fix);
+  s.fix(fixed(cdem::Selection::side("x-"), "x"));
+  s.fix(fixed(at_place({0, 0, 0}), "yz"));
+  s.fix(fixed(at_place({0, 0.1, 0}), "z"));
   const cdem::RelaxResult r = s.relax({});
   CAPTURE(r.steps, r.residual);
   CHECK(r.converged);

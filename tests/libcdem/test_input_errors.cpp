@@ -3,6 +3,7 @@
 
 #include "libgeom/assembly/builders.hpp"
 #include "libgeom/core/error.hpp"
+#include "tests/support/refusal.hpp"
 
 #include <catch2/catch.hpp>
 #include <limits>
@@ -25,17 +26,6 @@ cdem::Selection nowhere() {
 }
 cdem::Selection all() {
   return cdem::Selection::everything();
-}
-
-// Message of the InputError that `act` throws; empty when it throws none.
-template <class Act>
-std::string refusal(const Act& act) {
-  try {
-    act();
-  } catch (const InputError& e) {
-    return e.what();
-  }
-  return "";
 }
 
 std::string refused_material(double cdem::Elastic::*field, double value) {

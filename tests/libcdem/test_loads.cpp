@@ -25,13 +25,6 @@ Resultant resultant(const System& s, double time = 0) {
   return sum;
 }
 
-cdem::Fix fixed(const cdem::Selection& on, const char* names = "xyz") {
-  cdem::Fix f;
-  f.on = on;
-  f.axes = axes(names);
-  return f;
-}
-
 } // namespace
 
 TEST_CASE("a traction on partly covered faces is stress times uncovered area, at its centroid", "[loads]") {
@@ -40,16 +33,15 @@ TEST_CASE("a traction on partly covered faces is stress times uncovered area, at
   System s(build({body("large", geom::grid({1, 1, 0.5}, {1, 1, 1})),
                   body("small", geom::grid({0.4, 0.3, 0.2}, {1, 1, 1}, {0, 0, 0.5}))},
                  {{"large", "small", joint}}));
-  cdem::Traction load;
-  load.on = cdem::Selection::on_plane(geom::Plane::through({0, 0, 0.5}, {0, 0, 1}));
-  load.stress = {3e5, -2e5, -1e6};
-  s.conditions.tractions = {load};
+  const Vec3 stress(3e5, -2e5, -1e6);
+  s.conditions.tractions = {
+      traction(cdem::Selection::on_plane(geom::Plane::through({0, 0, 0.5}, {0, 0, 1})), stress)};
   // Both faces in the plane: of the large block all but 0.4 x 0.3, of the small one nothing.
   const double area = 1 - 0.12;
   const Vec3 centroid = (Vec3(0.5, 0.5, 0.5) - 0.12 * Vec3(0.2, 0.15, 0.5)) / area;
   const Resultant sum = resultant(s);
-  CHECK((sum.force - area * load.stress).norm() < 1e-10 * load.stress.norm());
-  CHECK((sum.moment - area * centroid.cross(load.stress)).norm() < 1e-10 * load.stress.norm());
+  CHECK((sum.force - area * stress).norm() < 1e-10 * stress.norm());
+  CHECK((sum.moment - area * centroid.cross(stress)).norm() < 1e-10 * stress.norm());
 }
 
 TEST_CASE("a point force is shared among the nodes and sums to itself, at any time of its amplitude",
@@ -136,9 +128,7 @@ TEST_CASE("a support with a given velocity moves with it and a later release win
   move.velocity = Vec3(0.1, 0, -0.2);
   s.fix(move);
   s.release(cdem::Selection::everything(), axes("z"));
-  cdem::Gravity gravity;
-  gravity.acceleration = {5, 0, -9};
-  s.gravity(gravity);
+  s.gravity(gravity({5, 0, -9}));
   cdem::RunOptions options;
   options.steps = 100;
   const cdem::RunResult run = s.run(options);

@@ -1,6 +1,6 @@
 // Elasticity and waves in meshed bodies against formulas: a bar's first mode, a cantilever, a plane P wave.
 #include "libgeom/mesh/box_mesh.hpp"
-#include "tests/libcdem/system.hpp"
+#include "tests/libcdem/columns.hpp"
 
 #include <catch2/catch.hpp>
 
@@ -20,27 +20,7 @@ double measured_frequency(int elements, double length, const cdem::Elastic& mate
   const double h = length / elements;
   System s(build({meshed("bar", geom::box_mesh({length, 2 * h, 2 * h}, {elements, 2, 2}), {}, material)}));
   s.hold(cdem::Selection::side("x-"), "xyz");
-  const auto mode = [&](std::size_t i) { return std::sin(0.5 * pi * s.model.node_position[i].x() / length); };
-  for (std::size_t i = 0; i < s.model.node_position.size(); ++i)
-    s.state.velocity[i].x = 1e-3 * mode(i);
-  std::vector<double> crossings; // s
-  double before = 0;
-  cdem::RunOptions options;
-  options.duration = 2.2 * 4 * length / std::sqrt(material.youngs_modulus / material.density);
-  options.safety = 0.5;
-  options.callback_every = 1;
-  options.callback = [&] {
-    double q = 0;
-    for (std::size_t i = 0; i < s.model.node_position.size(); ++i)
-      q += s.model.node_mass[i] * mode(i) * s.state.displacement[i].x;
-    const double step = s.state.time / static_cast<double>(s.state.step);
-    if (before * q < 0)
-      crossings.push_back(s.state.time - step * q / (q - before));
-    before = q;
-  };
-  s.run(options);
-  REQUIRE(crossings.size() >= 4);
-  return 1 / (crossings[3] - crossings[1]);
+  return axial_frequency(s, length, material);
 }
 
 // A box of five tetrahedra a cell, one in the middle and four at corners, mirrored from cell to cell.
@@ -79,10 +59,7 @@ double relative_deflection(int cells_high, const Mesh& mesh) {
   const cdem::Elastic m = rock();
   System s(build({meshed("beam", mesh({length, height, width}, {3 * cells_high, cells_high, 1}), {}, m)}));
   s.hold(cdem::Selection::side("x-"), "xyz");
-  cdem::Traction end;
-  end.on = cdem::Selection::side("x+");
-  end.stress = {0, shear_stress, 0};
-  s.conditions.tractions = {end};
+  s.conditions.tractions = {traction(cdem::Selection::side("x+"), {0, shear_stress, 0})};
   REQUIRE(s.relax(1e-4).converged);
   const double p = shear_stress * height * width, inertia = width * std::pow(height, 3) / 12;
   const double k = 10 * (1 + m.poissons_ratio) / (12 + 11 * m.poissons_ratio);
@@ -148,10 +125,7 @@ TEST_CASE("finite volume: a pressure step runs at sqrt((lambda + 2 mu) / rho) wi
   const double h = 0.01, length = cells * h, sigma0 = 1e6, v = sigma0 / (m.density * c);
   System s(build({meshed("column", geom::box_mesh({length, h, h}, {cells, 1, 1}), {}, m)}));
   s.hold(cdem::Selection::everything(), "yz");
-  cdem::Traction step;
-  step.on = cdem::Selection::side("x-");
-  step.stress = {sigma0, 0, 0};
-  s.conditions.tractions = {step};
+  s.conditions.tractions = {traction(cdem::Selection::side("x-"), {sigma0, 0, 0})};
   const double near = 0.2 * length, far = 0.8 * length;
   double before[2] = {0, 0}, arrival[2] = {-1, -1}, sum = 0;
   int count = 0;

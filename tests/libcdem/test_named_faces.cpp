@@ -3,6 +3,7 @@
 #include "libgeom/mesh/boundary.hpp"
 #include "libgeom/mesh/box_mesh.hpp"
 #include "tests/libcdem/system.hpp"
+#include "tests/support/refusal.hpp"
 
 #include <catch2/catch.hpp>
 
@@ -46,17 +47,12 @@ Vec3 resultant(const System& s) {
   return sum;
 }
 
-std::string refusal(const cdem::Selection& on) {
+std::string refused(const cdem::Selection& on) {
   geom::TetMesh cube = geom::box_mesh({1, 1, 1}, {1, 1, 1});
   for (Vec3& x : cube.nodes)
     x += Vec3(-9, 0, 0);
   const cdem::Model model = build({two_units(false), meshed("stone", cube)});
-  try {
-    cdem::selected_nodes(model, on);
-  } catch (const geom::InputError& error) {
-    return error.what();
-  }
-  return {};
+  return refusal([&] { cdem::selected_nodes(model, on); });
 }
 
 } // namespace
@@ -97,9 +93,7 @@ TEST_CASE("named faces: what is held there stays, carries the weight, and surviv
     cdem::ModelSpec spec;
     spec.bodies = {two_units(true), meshed("stone", unit_at({6, 0, 0}))};
     cdem::Simulation s(spec, 1, nullptr);
-    cdem::Gravity gravity;
-    gravity.acceleration = {1, 0, -9.81};
-    s.gravity(gravity);
+    s.gravity(gravity({1, 0, -9.81}));
     return s;
   };
   const cdem::Selection root = cdem::Selection::of_faces("root");
@@ -124,13 +118,13 @@ TEST_CASE("named faces: what is held there stays, carries the weight, and surviv
 }
 
 TEST_CASE("named faces: a name that there is not is refused with those there are", "[faces][input]") {
-  CHECK_THAT(refusal(cdem::Selection::of_faces("rot")), Contains("name = \"rot\"") &&
+  CHECK_THAT(refused(cdem::Selection::of_faces("rot")), Contains("name = \"rot\"") &&
                                                             Contains("did you mean root?") &&
                                                             Contains("There are: nose, root"));
-  CHECK_THAT(refusal(cdem::Selection::of_faces("top", "units")),
+  CHECK_THAT(refused(cdem::Selection::of_faces("top", "units")),
              Contains("body \"units\"") && Contains("There are: nose, root"));
-  CHECK_THAT(refusal(cdem::Selection::of_faces("root", "stone")),
+  CHECK_THAT(refused(cdem::Selection::of_faces("root", "stone")),
              Contains("no faces of body \"stone\" have a name") && Contains("before the model is made"));
-  CHECK_THAT(refusal(cdem::Selection::of_faces("root", "unit")),
+  CHECK_THAT(refused(cdem::Selection::of_faces("root", "unit")),
              Contains("body = \"unit\"") && Contains("the name of a body"));
 }

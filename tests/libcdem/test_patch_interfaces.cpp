@@ -32,6 +32,14 @@ double jump_error(const System& s, const geom::Mat3& stress) {
   return error / scale;
 }
 
+// From above, free to widen.
+void press(System& s, double pressure) {
+  s.conditions.tractions = {traction(cdem::Selection::side("z+"), {0, 0, -pressure})};
+  s.hold(cdem::Selection::side("z-"), "z");
+  s.hold(at_place({0, 0, 0}), "xyz");
+  s.hold(at_place({1, 0, 0}), "yz");
+}
+
 } // namespace
 
 TEST_CASE("two blocks that overlap on part of an oblique face carry any stress uniformly", "[patch]") {
@@ -66,13 +74,7 @@ TEST_CASE(
   System s(build({body("grid", geom::grid({1, 1, 0.4}, {3, 4, 1})), body("cells", geom::voronoi(cells))},
                  {{"grid", "cells", joint}}));
   const geom::Mat3 stress = symmetric(0, 0, -2e6, 0, 0, 0);
-  cdem::Traction top;
-  top.on = cdem::Selection::side("z+");
-  top.stress = {0, 0, -2e6};
-  s.conditions.tractions = {top};
-  s.hold(cdem::Selection::side("z-"), "z");
-  s.hold(at_place({0, 0, 0}), "xyz");
-  s.hold(at_place({1, 0, 0}), "yz");
+  press(s, 2e6);
   REQUIRE(s.relax(1e-11).converged);
   CHECK(stress_error(s, stress) < 1e-6);
   CHECK(traction_error(s, stress) < 1e-5);
@@ -83,12 +85,7 @@ TEST_CASE("one block under any stress and cut into 50 at random stays as it was"
   geom::Assembly shape;
   shape.blocks = {geom::make_box({0, 0, 0}, {1, 0.8, 0.6})};
   System s(build({body("rock", shape)}));
-  for (const char* side : {"x-", "x+", "y-", "y+", "z-", "z+"}) {
-    cdem::Traction traction;
-    traction.on = cdem::Selection::side(side);
-    traction.stress = (side[1] == '+' ? 1 : -1) * oblique_stress.col(side[0] - 'x');
-    s.conditions.tractions.push_back(traction);
-  }
+  s.conditions.tractions = on_six_sides(oblique_stress);
   REQUIRE(s.relax(1e-12).converged);
   while (s.model.blocks.size() < 50)
     cut_at_random(s, {largest_block(s.model)}, 11);
@@ -105,13 +102,7 @@ TEST_CASE("one block under any stress and cut into 50 at random stays as it was"
 TEST_CASE("fifty blocks with loaded springs and each cut at random twice keep uniform stress", "[patch]") {
   System s(build({body("rock", geom::grid({1, 1, 0.4}, {5, 5, 2}))}));
   const geom::Mat3 stress = symmetric(0, 0, -4e6, 0, 0, 0);
-  cdem::Traction top;
-  top.on = cdem::Selection::side("z+");
-  top.stress = {0, 0, -4e6};
-  s.conditions.tractions = {top};
-  s.hold(cdem::Selection::side("z-"), "z");
-  s.hold(at_place({0, 0, 0}), "xyz");
-  s.hold(at_place({1, 0, 0}), "yz");
+  press(s, 4e6);
   REQUIRE(s.relax(1e-12).converged);
   REQUIRE(stress_error(s, stress) < 1e-8);
 

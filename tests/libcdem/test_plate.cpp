@@ -24,20 +24,11 @@ cdem::Simulation plate(int divisions, double thickness_ratio, double pressure) {
   cdem::Joint joint = rock_joint();
   joint.thickness_ratio = thickness_ratio;
   cdem::Simulation s = simulation(blocks(divisions), rock(), joint);
-  const auto fix = [&](const char* on, const char* names) {
-    cdem::Fix f;
-    f.on = cdem::Selection::side(on);
-    f.axes = axes(names);
-    s.fix(f);
-  };
-  fix("z-", "z");
-  fix("z+", "z");
-  fix("y-", "xyz");
-  fix("y+", "xz");
-  cdem::Traction head;
-  head.on = cdem::Selection::side("y+");
-  head.stress = {0, -pressure, 0};
-  s.traction(head);
+  s.fix(fixed(cdem::Selection::side("z-"), "z"));
+  s.fix(fixed(cdem::Selection::side("z+"), "z"));
+  s.fix(fixed(cdem::Selection::side("y-"), "xyz"));
+  s.fix(fixed(cdem::Selection::side("y+"), "xz"));
+  s.traction(traction(cdem::Selection::side("y+"), {0, -pressure, 0}));
   return s;
 }
 

@@ -21,13 +21,8 @@ cdem::Simulation stretched(const geom::Mat3& gradient) {
         corner.displacement = gradient * Vec3(x, y, z);
         s.fix(corner);
       }
-  const geom::Mat3 stress = hooke(rock(), gradient);
-  for (const char* side : {"x-", "x+", "y-", "y+", "z-", "z+"}) {
-    cdem::Traction traction;
-    traction.on = cdem::Selection::side(side);
-    traction.stress = (side[1] == '+' ? 1 : -1) * stress.col(side[0] - 'x');
+  for (const cdem::Traction& traction : on_six_sides(hooke(rock(), gradient)))
     s.traction(traction);
-  }
   cdem::RelaxOptions options;
   options.residual = 1e-12;
   REQUIRE(s.relax(options).converged);
@@ -81,9 +76,7 @@ TEST_CASE("histories hold every tenth step, probes and the breaks so far", "[res
   cdem::Joint weak = rock_joint();
   weak.tensile_strength = 1e5;
   cdem::Simulation s = simulation(geom::grid({0.2, 0.1, 0.1}, {2, 1, 1}), rock(), weak);
-  cdem::Fix fix;
-  fix.on = cdem::Selection::side("x-");
-  s.fix(fix);
+  s.fix(fixed(cdem::Selection::side("x-")));
   s.probe("end", "velocity.x", {0.19, 0.05, 0.05});
   s.initial_velocity(cdem::Selection::in_box({{0.11, -1, -1}, {1, 1, 1}}), {1, 0, 0});
   cdem::RunOptions options;
@@ -158,12 +151,8 @@ TEST_CASE("a snapshot holds as many values as points and tets and bonds, and the
 
 TEST_CASE("a side selects, for block fields, the blocks that have a face on it", "[results]") {
   cdem::Simulation s = simulation(geom::grid({0.1, 0.1, 0.3}, {1, 1, 3}));
-  cdem::Fix floor;
-  floor.on = cdem::Selection::side("z-");
-  s.fix(floor);
-  cdem::Gravity gravity;
-  gravity.acceleration = {0, 0, -9.81};
-  s.gravity(gravity);
+  s.fix(fixed(cdem::Selection::side("z-")));
+  s.gravity(gravity());
   cdem::RelaxOptions options;
   options.residual = 1e-9;
   REQUIRE(s.relax(options).converged);

@@ -19,24 +19,9 @@ cdem::Simulation dropped(int threads, std::shared_ptr<cdem::Observer> observer) 
   };
   cdem::Elastic soft = rock(); // large steps
   soft.youngs_modulus = 2e8;
-  cdem::BodySpec floor = meshed("floor", geom::box_mesh({2, 1, 0.5}, {4, 2, 1}), {}, soft);
-  floor.element = cdem::Element::rigid;
-  cdem::BodySpec units = meshed("units", cube({0.6, 0.5, 0.5 + 0.25 + 0.05}, 0), {}, soft);
-  units.meshes.push_back(cube({1.4, 0.5, 0.5 + 0.4}, 20 * degree));
-  cdem::Joint friction;
-  friction.bonded = false;
-  friction.friction_angle = 35 * degree;
-  cdem::ModelSpec spec;
-  spec.bodies = {floor, units};
-  spec.pairs = {{"floor", "units", friction}, {"units", "units", friction}};
-  cdem::Simulation s(spec, threads, std::move(observer));
-  cdem::Fix hold;
-  hold.on = cdem::Selection::of_body("floor");
-  s.fix(hold);
-  cdem::Gravity gravity;
-  gravity.acceleration = {0, 0, -9.81};
-  s.gravity(gravity);
-  return s;
+  return units_over_floor(geom::box_mesh({2, 1, 0.5}, {4, 2, 1}),
+                          {cube({0.6, 0.5, 0.5 + 0.25 + 0.05}, 0), cube({1.4, 0.5, 0.5 + 0.4}, 20 * degree)},
+                          soft, threads, std::move(observer));
 }
 
 Figures settle(cdem::Simulation& s, bool rigid, double max_time) {
@@ -53,24 +38,11 @@ Figures settle(cdem::Simulation& s, bool rigid, double max_time) {
   return figures;
 }
 
-// A meshed column on its foot; with gravity the search has three parts.
+// With gravity the search has three parts.
 cdem::Simulation column(int threads, std::shared_ptr<cdem::Observer> observer, bool heavy) {
-  cdem::Bonding bonding;
-  bonding.everywhere = true;
-  cdem::Joint joint = rock_joint();
-  joint.tensile_strength = 3e5;
-  joint.cohesion = 6e5;
-  cdem::ModelSpec spec;
-  spec.bodies = {meshed("column", geom::box_mesh({0.3, 0.3, 0.8}, {2, 2, 6}, 0.15), bonding, rock(), joint)};
-  cdem::Simulation s(spec, threads, std::move(observer));
-  cdem::Fix foot;
-  foot.on = cdem::Selection::side("z-");
-  s.fix(foot);
-  if (heavy) {
-    cdem::Gravity gravity;
-    gravity.acceleration = {3, 0, -9.81};
-    s.gravity(gravity);
-  }
+  cdem::Simulation s = bonded_column({2, 2, 6}, threads, std::move(observer));
+  if (heavy)
+    s.gravity(gravity({3, 0, -9.81}));
   return s;
 }
 

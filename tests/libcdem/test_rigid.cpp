@@ -56,18 +56,8 @@ void set_spin(System& s, const Vec3& principal) {
   cdem::place_nodes(s.model, s.state, 0);
 }
 
-struct Momentum {
-  Vec3 linear = Vec3::Zero(), angular = Vec3::Zero();
-};
-
 Momentum of_nodes(const System& s) {
-  Momentum m;
-  for (std::size_t i = 0; i < s.model.node_position.size(); ++i) {
-    const Vec3 p = s.model.node_mass[i] * vec(s.state.velocity[i]);
-    m.linear += p;
-    m.angular += (s.model.node_position[i] + vec(s.state.displacement[i])).cross(p);
-  }
-  return m;
+  return momentum(s, Places::present);
 }
 
 Momentum of_body(const System& s) {
@@ -174,13 +164,8 @@ TEST_CASE("a box spinning about its middle axis tumbles with Euler's period", "[
 TEST_CASE("a couple gives a rigid body the angular acceleration I^-1 tau and no push", "[rigid]") {
   System s = one_box({-4, 2, 1});
   const double shear = 1e3; // Pa
-  cdem::Traction couple;
-  couple.on = cdem::Selection::side("x+");
-  couple.stress = {0, shear, 0};
-  s.conditions.tractions.push_back(couple);
-  couple.on = cdem::Selection::side("x-");
-  couple.stress = {0, -shear, 0};
-  s.conditions.tractions.push_back(couple);
+  s.conditions.tractions.push_back(traction(cdem::Selection::side("x+"), {0, shear, 0}));
+  s.conditions.tractions.push_back(traction(cdem::Selection::side("x-"), {0, -shear, 0}));
   Mat3 inertia = Mat3::Zero();
   for (std::size_t i = 0; i < s.model.node_position.size(); ++i) {
     const Vec3 r = s.model.node_position[i] - Vec3(-4, 2, 1) - 0.5 * sides;

@@ -5,6 +5,7 @@
 #include "libgeom/assembly/builders.hpp"
 #include "libgeom/assembly/edit.hpp"
 #include "libgeom/core/error.hpp"
+#include "tests/support/refusal.hpp"
 
 #include <catch2/catch.hpp>
 
@@ -14,12 +15,7 @@ using Catch::Matchers::Contains;
 namespace {
 
 std::string refused(const cdem::ModelSpec& spec) {
-  try {
-    cdem::Simulation(spec, 1, nullptr);
-  } catch (const geom::InputError& e) {
-    return e.what();
-  }
-  return "";
+  return refusal([&] { cdem::Simulation(spec, 1, nullptr); });
 }
 
 geom::Assembly bar() {

@@ -27,26 +27,12 @@ geom::TetMesh cube_at(const Vec3& centre, const Mat3& turn) {
 cdem::Simulation cubes(std::shared_ptr<cdem::Observer> observer = nullptr) {
   cdem::Elastic soft = rock(); // large steps
   soft.youngs_modulus = 2e8;
-  cdem::BodySpec floor = meshed("floor", geom::box_mesh({3, 1.5, 0.5}, {6, 3, 1}), {}, soft);
-  floor.element = cdem::Element::rigid;
   const Mat3 straight = Mat3::Identity();
-  cdem::BodySpec units = meshed("units", cube_at({0.6, 0.75, 0.5 + 0.25 + 0.05}, straight), {}, soft);
-  units.meshes.push_back(cube_at({2.0, 0.75, 0.5 + 0.45}, rotation({0, 1, 0}, 30 * degree)));
-  units.meshes.push_back(cube_at({0.62, 0.73, 0.5 + 0.85 + 0.05}, straight));
-  cdem::Joint friction;
-  friction.bonded = false;
-  friction.friction_angle = 35 * degree;
-  cdem::ModelSpec spec;
-  spec.bodies = {floor, units};
-  spec.pairs = {{"floor", "units", friction}, {"units", "units", friction}};
-  cdem::Simulation s(spec, 1, std::move(observer));
-  cdem::Fix hold;
-  hold.on = cdem::Selection::of_body("floor");
-  s.fix(hold);
-  cdem::Gravity gravity;
-  gravity.acceleration = g;
-  s.gravity(gravity);
-  return s;
+  return units_over_floor(geom::box_mesh({3, 1.5, 0.5}, {6, 3, 1}),
+                          {cube_at({0.6, 0.75, 0.5 + 0.25 + 0.05}, straight),
+                           cube_at({2.0, 0.75, 0.5 + 0.45}, rotation({0, 1, 0}, 30 * degree)),
+                           cube_at({0.62, 0.73, 0.5 + 0.85 + 0.05}, straight)},
+                          soft, 1, std::move(observer));
 }
 
 struct Lines final : cdem::Observer {
@@ -103,21 +89,8 @@ TEST_CASE("settle: a stiff cube has taken up its weight when it has settled, how
   geom::TetMesh cube = geom::box_mesh({h, h, h}, {n, n, n});
   for (Vec3& x : cube.nodes)
     x += Vec3(0.5, 0.5, 0.5 + 0.05);
-  cdem::BodySpec floor = meshed("floor", geom::box_mesh({1.5, 1.5, 0.5}, {3, 3, 1}), {}, concrete);
-  floor.element = cdem::Element::rigid;
-  cdem::Joint friction;
-  friction.bonded = false;
-  friction.friction_angle = 35 * degree;
-  cdem::ModelSpec spec;
-  spec.bodies = {floor, meshed("cube", cube, {}, concrete)};
-  spec.pairs = {{"floor", "cube", friction}};
-  cdem::Simulation s(spec, 1, nullptr);
-  cdem::Fix hold;
-  hold.on = cdem::Selection::of_body("floor");
-  s.fix(hold);
-  cdem::Gravity gravity;
-  gravity.acceleration = g;
-  s.gravity(gravity);
+  cdem::Simulation s =
+      units_over_floor(geom::box_mesh({1.5, 1.5, 0.5}, {3, 3, 1}), {cube}, concrete, 1, nullptr);
   cdem::SettleOptions options;
   options.kinetic_energy_ratio = 1e-4;
   options.local_damping = 0.1; // five times as long as usual
@@ -128,7 +101,7 @@ TEST_CASE("settle: a stiff cube has taken up its weight when it has settled, how
          << " s");
   CHECK(result.phases.back().residual <= 0.01);
   // In balance the volume's mean of stress zz is that of the weight's moments, - rho g h / 2, for any field.
-  CHECK(s.mean("stress.zz", cdem::Selection::of_body("cube")) ==
+  CHECK(s.mean("stress.zz", cdem::Selection::of_body("units")) ==
         Approx(0.5 * concrete.density * g.z() * h).epsilon(0.01));
 }
 

@@ -19,10 +19,7 @@ System sheared_wall(int threads) {
   System s(build({body("wall", geom::grid({4.6, 4.6, 0.1}, {46, 46, 1}), rock(), joint)}));
   s.threads = threads;
   s.hold(cdem::Selection::side("y-"), "xyz");
-  cdem::Traction push;
-  push.on = cdem::Selection::side("y+");
-  push.stress = {1e6, -3e5, 0};
-  s.conditions.tractions = {push};
+  s.conditions.tractions = {traction(cdem::Selection::side("y+"), {1e6, -3e5, 0})};
   cdem::RelaxOptions relax;
   relax.max_steps = 30;
   cdem::relax({s.model, s.state, s.conditions, s.log, s.last_good, s.observer, threads, 1}, relax);

@@ -15,19 +15,10 @@ std::vector<cdem::BlockCut> cuts_under(double pressure, double friction_angle) {
   cdem::Joint joint = rock_joint();
   joint.friction_angle = friction_angle;
   cdem::Simulation s = simulation(geom::grid({0.2, 0.2, 0.4}, {2, 2, 4}), rock(), joint);
-  const auto fix = [&](const cdem::Selection& on, const char* names) {
-    cdem::Fix f;
-    f.on = on;
-    f.axes = axes(names);
-    s.fix(f);
-  };
-  fix(cdem::Selection::side("z-"), "z");
-  fix(at_place({0, 0, 0}), "xy");
-  fix(at_place({0.2, 0, 0}), "y");
-  cdem::Traction head;
-  head.on = cdem::Selection::side("z+");
-  head.stress = {0, 0, -pressure};
-  s.traction(head);
+  s.fix(fixed(cdem::Selection::side("z-"), "z"));
+  s.fix(fixed(at_place({0, 0, 0}), "xy"));
+  s.fix(fixed(at_place({0.2, 0, 0}), "y"));
+  s.traction(traction(cdem::Selection::side("z+"), {0, 0, -pressure}));
   cdem::RelaxOptions options;
   options.residual = 1e-9;
   options.breaking = false;

@@ -2,6 +2,7 @@
 #include "libgeom/assembly/builders.hpp"
 #include "libgeom/assembly/edit.hpp"
 #include "libgeom/core/error.hpp"
+#include "tests/support/refusal.hpp"
 
 #include <catch2/catch.hpp>
 
@@ -9,64 +10,56 @@
 #include <functional>
 
 using namespace geom;
+using testing::refusal;
 
 namespace {
 
 const double not_a_number = std::nan(""), infinite = std::numeric_limits<double>::infinity();
-
-std::string message(const std::function<void()>& call) {
-  try {
-    call();
-  } catch (const InputError& e) {
-    return e.what();
-  }
-  return "no error";
-}
 
 const Assembly cube = grid({1, 1, 1}, {1, 1, 1});
 
 std::string joint_message(const std::function<void(JointSet&)>& spoil) {
   JointSet set;
   spoil(set);
-  return message([&] { cut_by_joints(cube, {set}); });
+  return refusal([&] { cut_by_joints(cube, {set}); });
 }
 
 std::string brick_message(const std::function<void(BrickOptions&)>& spoil) {
   BrickOptions o;
   spoil(o);
-  return message([&] { bricks(o); });
+  return refusal([&] { bricks(o); });
 }
 
 std::string voronoi_message(const std::function<void(VoronoiOptions&)>& spoil) {
   VoronoiOptions o;
   spoil(o);
-  return message([&] { voronoi(o); });
+  return refusal([&] { voronoi(o); });
 }
 
 } // namespace
 
 TEST_CASE("grid refuses what is no grid") {
-  CHECK(message([] {
+  CHECK(refusal([] {
           grid({0.3, -1, 0.03}, {1, 1, 1});
         }) == "size = {0.3, -1, 0.03}: must be three finite lengths > 0 m");
-  CHECK(message([] {
+  CHECK(refusal([] {
           grid({0, 1, 1}, {1, 1, 1});
         }) == "size = {0, 1, 1}: must be three finite lengths > 0 m");
-  CHECK(message([] {
+  CHECK(refusal([] {
           grid({1, not_a_number, 1}, {1, 1, 1});
         }) == "size = {1, nan, 1}: must be three finite lengths > 0 m");
-  CHECK(message([] {
+  CHECK(refusal([] {
           grid({1, 1, infinite}, {1, 1, 1});
         }) == "size = {1, 1, inf}: must be three finite lengths > 0 m");
-  CHECK(message([] {
+  CHECK(refusal([] {
           grid({1, 1, 1}, {10, 0, 1});
         }) == "divisions = {10, 0, 1}: must be three whole numbers >= 1");
-  CHECK(message([] {
+  CHECK(refusal([] {
           grid({1, 1, 1}, {1000, 1000, 1000});
         }) == "divisions = {1000, 1000, 1000}: must be such that there are at most 10 million blocks (this "
               "asks for about "
               "1e+09); use fewer divisions");
-  CHECK(message([] {
+  CHECK(refusal([] {
           grid({1, 1, 1}, {1, 1, 1}, {0, 0, not_a_number});
         }) == "origin = {0, 0, nan}: must be three finite numbers");
 }
@@ -121,29 +114,29 @@ TEST_CASE("cut_by_joints refuses what is no joint set") {
   JointSet set;
   set.spacing = 1e-3;
   const Assembly far_apart{{make_box({0, 0, 0}, {1, 1, 1}), make_box({1e6, 0, 1e6}, {1e6 + 1, 1, 1e6 + 1})}};
-  CHECK(message([&] { cut_by_joints(far_apart, {set}); }) ==
+  CHECK(refusal([&] { cut_by_joints(far_apart, {set}); }) ==
         "spacing = 0.001: must be such that there are at most a million planes in a set (this asks for about "
         "1000001000); use a wider spacing");
 }
 
 TEST_CASE("editing an assembly refuses what has no meaning") {
-  CHECK(message([] {
+  CHECK(refusal([] {
           cut_by_plane(cube, {Vec3::Zero(), 0});
         }) == "normal = {0, 0, 0}: must be three finite numbers, not all zero");
-  CHECK(message([] {
+  CHECK(refusal([] {
           cut_by_plane(cube, {Vec3::UnitX(), not_a_number});
         }) == "offset = nan: must be a finite number (m)");
-  CHECK(message([] {
+  CHECK(refusal([] {
           cut_by_plane(cube, {Vec3::UnitX(), 0}, {{}, -1});
         }) == "clearance = -1: must be finite and >= 0 m");
-  CHECK(message([] {
+  CHECK(refusal([] {
           translated(cube, {not_a_number, 0, 0});
         }) == "shift = {nan, 0, 0}: must be three finite numbers");
-  CHECK(message([] {
+  CHECK(refusal([] {
           rotated(cube, {0, 0, 0}, 1);
         }) == "axis = {0, 0, 0}: must be three finite numbers, not all zero");
-  CHECK(message([] { rotated(cube, {0, 0, 1}, infinite); }) == "angle = inf: must be a finite number");
-  CHECK(message([] {
+  CHECK(refusal([] { rotated(cube, {0, 0, 1}, infinite); }) == "angle = inf: must be a finite number");
+  CHECK(refusal([] {
           rotated(cube, {0, 0, 1}, 1, {not_a_number, 0, 0});
         }) == "centre = {nan, 0, 0}: must be three finite numbers");
 }

@@ -8,6 +8,7 @@
 #include "libgeom/placement/rest.hpp"
 #include "libgeom/query/triangle_distance.hpp"
 #include "libgeom/solid/armour_units.hpp"
+#include "tests/support/refusal.hpp"
 
 #include <catch2/catch.hpp>
 
@@ -15,6 +16,7 @@
 
 using namespace geom;
 using Catch::Matchers::Contains;
+using testing::refusal;
 
 namespace {
 
@@ -37,15 +39,6 @@ Ground slope_ground(double gradient) {
 const TetMesh& accropode_mesh() {
   static const TetMesh mesh = mesh_solid(accropode(1), {0.4});
   return mesh;
-}
-
-std::string refusal(const std::function<void()>& call) {
-  try {
-    call();
-  } catch (const InputError& e) {
-    return e.what();
-  }
-  return "";
 }
 
 std::vector<Surface> surfaces(const Pile& pile) {

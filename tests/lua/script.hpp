@@ -104,6 +104,12 @@ inline std::string printed_by(const std::string& text) {
   return Script(text).printed();
 }
 
+// What a script begins with: the module, and close(a, b, tolerance).
+inline const std::string opening = "local cdem = require 'cdem'\n"
+                                   "local function close(a, b, tolerance)\n"
+                                   "  assert(math.abs(a - b) <= (tolerance or 1e-9) * math.max(1, "
+                                   "math.abs(b)), a .. ' is not ' .. b)\nend\n";
+
 // A model of nx x ny x nz boxes of 1 m, nu = 0, one side held, ready to be loaded.
 inline std::string column(const std::string& divisions = "{2, 1, 1}", const std::string& size = "{2, 1, 1}") {
   return "local cdem = require 'cdem'\n"

@@ -10,9 +10,7 @@ using Catch::Matchers::Contains;
 namespace {
 
 const std::string head =
-    "local cdem = require 'cdem'\n"
-    "local function close(a, b, tolerance)\n"
-    "  assert(math.abs(a - b) <= (tolerance or 1e-9) * math.max(1, math.abs(b)), a .. ' is not ' .. b)\nend\n"
+    opening +
     "local concrete = cdem.elastic{ youngs_modulus = 30e9, poissons_ratio = 0.2, density = 2500 }\n"
     "local bond = cdem.mohr_coulomb{ cohesion = 5e6, friction_angle = 35, tensile_strength = 2e6 }\n"
     "local cube = cdem.box_mesh{ size = {1, 1, 1}, divisions = {2, 2, 2} }\n"

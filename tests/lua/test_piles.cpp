@@ -11,12 +11,9 @@ namespace {
 
 // A cube as the unit, a slab 20 m by 20 m whose upper side is z = 2, and a drop of 12 in one layer.
 const std::string head =
-    "local cdem = require 'cdem'\n"
-    "local function close(a, b, tolerance)\n"
-    "  assert(math.abs(a - b) <= (tolerance or 1e-9) * math.max(1, math.abs(b)), a .. ' is not ' .. b)\nend\n"
-    "local concrete = cdem.elastic{ youngs_modulus = 30e9, poissons_ratio = 0.2, density = 2500 }\n"
-    "local cube = cdem.box_mesh{ size = {1, 1, 1}, divisions = {1, 1, 1} }\n"
-    "local slab = cdem.box_mesh{ size = {20, 20, 2}, divisions = {2, 2, 1} }\n";
+    opening + "local concrete = cdem.elastic{ youngs_modulus = 30e9, poissons_ratio = 0.2, density = 2500 }\n"
+              "local cube = cdem.box_mesh{ size = {1, 1, 1}, divisions = {1, 1, 1} }\n"
+              "local slab = cdem.box_mesh{ size = {20, 20, 2}, divisions = {2, 2, 1} }\n";
 const std::string dropped =
     head + "local pile = cdem.drop{ unit = cube, count = 12, onto = slab, seed = 3, gap = 0.2 }\n"
            "local model = cdem.model{ bodies = { { shape = pile, material = concrete, name = 'units' } } }\n";

@@ -9,11 +9,7 @@ using Catch::Matchers::Contains;
 
 namespace {
 
-const std::string head = "local cdem = require 'cdem'\n"
-                         "local function close(a, b, tolerance)\n"
-                         "  assert(math.abs(a - b) <= (tolerance or 1e-9) * math.max(1, math.abs(b)), a .. "
-                         "' is not ' .. b)\nend\n"
-                         "local cube = cdem.box_mesh{ size = {1, 1, 1}, divisions = {2, 2, 2} }\n";
+const std::string head = opening + "local cube = cdem.box_mesh{ size = {1, 1, 1}, divisions = {2, 2, 2} }\n";
 
 } // namespace
 
