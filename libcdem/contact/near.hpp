@@ -28,9 +28,14 @@ struct Near {
 };
 
 // pairs: (source, target), of one or two blocks; they are sorted by source, piece of the target and target.
-std::vector<Near> near_springs(const Model&, const State&, const ContactWork&, const Cover&, Pairs& pairs);
+std::vector<Near> near_springs(const Model&, const ContactWork&, const Cover&, const TakingPart&,
+                               Pairs& pairs);
 
-// pairs: of triangles, each once. The edge with the lower number is the source.
-std::vector<Near> near_edges(const Model&, const State&, const ContactWork&, const Pairs& pairs);
+// Of two blocks. The edge with the lower number is the source.
+std::vector<Near> near_edges(const Model&, const State&, const ContactWork&, const TakingPart&,
+                             const SharedPart&);
+// Of one block: edges of triangles that meet, by pairs that stand each once.
+std::vector<Near> near_edges_within(const Model&, const State&, const ContactWork&, const TakingPart&,
+                                    const Pairs& meeting);
 
 } // namespace cdem

@@ -1,60 +1,25 @@
 #include "libcdem/contact/near_triangles.hpp"
 
-#include "libcdem/contact/places.hpp"
-#include "libgeom/query/box_pairs.hpp"
+#include "libcdem/contact/acting.hpp"
+#include "libcdem/contact/box_lists.hpp"
 
 #include <algorithm>
 
 namespace cdem {
 namespace {
 
-// Lists of triangles with more pairs than this go through a grid.
-constexpr std::size_t most_pairs_by_hand = 40000;
-
-geom::Box grown(geom::Box box, double by) {
-  box.min.array() -= by;
-  box.max.array() += by;
-  return box;
-}
-
-bool beside(const Corners& x, const Corners& plane, double reach) {
-  const geom::Vec3 normal = unit_normal(plane);
-  const geom::Vec3 height((x[0] - plane[0]).dot(normal), (x[1] - plane[0]).dot(normal),
-                          (x[2] - plane[0]).dot(normal));
+bool beside(const Corners& x, const Facet& plane, double reach) {
+  const geom::Vec3 &foot = plane.x[0], &normal = plane.normal;
+  const geom::Vec3 height((x[0] - foot).dot(normal), (x[1] - foot).dot(normal), (x[2] - foot).dot(normal));
   return height.minCoeff() > reach || height.maxCoeff() < -reach;
 }
 
 // Whether the plane of one of two triangles parts them by more than both margins.
-bool parted(const Model& model, const State& state, const Cover& cover, int a, int b) {
-  const ContactTriangle &one = model.surface.triangles[a], &other = model.surface.triangles[b];
-  const Corners x = corners_of(model, state, one.nodes), y = corners_of(model, state, other.nodes);
-  const double reach = cover.margin(one) + cover.margin(other);
-  return beside(x, y, reach) || beside(y, x, reach);
-}
-
-// take(i, j) for those of two lists of triangles that take part whose boxes meet, those of the first grown.
-template <class Take>
-void each_overlap(const TakingPart& active, const std::vector<int>& one, double by,
-                  const std::vector<int>& other, const Take& take) {
-  if (one.size() * other.size() <= most_pairs_by_hand) {
-    for (const int i : one) {
-      const geom::Box box = grown(active.boxes[i], by);
-      for (const int j : other)
-        if (!apart(box, active.boxes[j]))
-          take(i, j);
-    }
-    return;
-  }
-  std::vector<geom::Box> boxes;
-  boxes.reserve(one.size() + other.size());
-  for (const int i : one)
-    boxes.push_back(grown(active.boxes[i], by));
-  for (const int j : other)
-    boxes.push_back(active.boxes[j]);
-  const auto n = static_cast<int>(one.size());
-  for (const auto& [i, j] : geom::touching_pairs(boxes))
-    if (i < n && j >= n)
-      take(one[i], other[j - n]);
+bool parted(const Model& model, const Cover& cover, const TakingPart& active, int i, int j) {
+  const auto margin = [&](int k) { return cover.margin(model.surface.triangles[active.triangles[k]]); };
+  const Facet &one = active.facets[i], &other = active.facets[j];
+  const double reach = margin(i) + margin(j);
+  return beside(one.x, other, reach) || beside(other.x, one, reach);
 }
 
 // Of a block's triangles those whose boxes meet the region; it shrinks to what of it they hold.
@@ -71,53 +36,82 @@ std::vector<int> inside(const TakingPart& active, int block, geom::Box& region) 
   return list;
 }
 
-void sort_unique(std::vector<int>& list) {
-  std::sort(list.begin(), list.end());
-  list.erase(std::unique(list.begin(), list.end()), list.end());
+std::vector<geom::Box> boxes_of(const TakingPart& active, const std::vector<int>& places) {
+  std::vector<geom::Box> boxes;
+  boxes.reserve(places.size());
+  for (const int i : places)
+    boxes.push_back(active.boxes[i]);
+  return boxes;
+}
+
+// Those of one block's triangles that may get into another block, with what of it is near them.
+void look(const Model& model, const ContactWork& work, const TakingPart& active,
+          const std::vector<int>& of_one, int one, int other, Pairs& pairs) {
+  std::vector<int> sources;
+  geom::Box around;
+  for (const int i : of_one) {
+    const ContactTriangle& source = model.surface.triangles[active.triangles[i]];
+    bool gets_in = false;
+    for (int corner = 0; corner < 3 && !gets_in; ++corner)
+      gets_in =
+          may_get_into(work, active, source, weighted(active.facets[i].x, spring_weights(corner)), other);
+    if (!gets_in)
+      continue;
+    sources.push_back(i);
+    around.extend(active.boxes[i].min);
+    around.extend(active.boxes[i].max);
+  }
+  if (sources.empty())
+    return;
+  const double further = 2 * (work.skin[one] + work.skin[other]);
+  around = grown(around, further);
+  const std::vector<int> targets = inside(active, other, around);
+  each_meeting(boxes_of(active, sources), further, boxes_of(active, targets),
+               [&](std::size_t i, std::size_t j) { pairs.emplace_back(sources[i], targets[j]); });
 }
 
 } // namespace
 
-NearTriangles near_triangles(const Model& model, const State& state, const ContactWork& work,
-                             const Cover& cover, const TakingPart& active, int a, int b) {
-  NearTriangles near;
+SharedPart shared_part(const TakingPart& active, int a, int b) {
+  SharedPart part;
+  part.block_a = a;
+  part.block_b = b;
   geom::Box region{active.block_boxes[a].min.cwiseMax(active.block_boxes[b].min),
                    active.block_boxes[a].max.cwiseMin(active.block_boxes[b].max)};
-  std::vector<int> one, other;
   for (int round = 0; round < 3; ++round) { // what is left of one leaves less of the other
-    one = inside(active, a, region);
-    other = inside(active, b, region);
+    part.of_a = inside(active, a, region);
+    part.of_b = inside(active, b, region);
   }
-  std::vector<int> of_a, of_b; // that meet
-  each_overlap(active, one, 0, other, [&](int i, int j) {
-    if (parted(model, state, cover, active.triangles[i], active.triangles[j]))
-      return;
-    near.meeting.emplace_back(active.triangles[i], active.triangles[j]);
-    of_a.push_back(i);
-    of_b.push_back(j);
-  });
-  if (near.meeting.empty())
-    return near;
-  const double further = 2 * (work.skin[a] + work.skin[b]);
-  const auto look = [&](std::vector<int>& sources, int block) {
-    sort_unique(sources);
-    geom::Box around;
-    for (const int i : sources) {
-      around.extend(active.boxes[i].min);
-      around.extend(active.boxes[i].max);
-    }
-    around = grown(around, further);
-    each_overlap(active, sources, further, inside(active, block, around), [&](int i, int j) {
-      near.looked_at.emplace_back(active.triangles[i], active.triangles[j]);
-    });
-  };
-  look(of_a, b);
-  look(of_b, a);
-  return near;
+  return part;
 }
 
-NearTriangles near_triangles_within(const Model& model, const State& state, const ContactWork& work,
-                                    const Cover& cover, const TakingPart& active, int block) {
+Pairs meeting(const Model& model, const Cover& cover, const TakingPart& active, const SharedPart& part) {
+  Pairs pairs;
+  each_meeting(boxes_of(active, part.of_a), 0, boxes_of(active, part.of_b),
+               [&](std::size_t i, std::size_t j) {
+                 if (!parted(model, cover, active, part.of_a[i], part.of_b[j]))
+                   pairs.emplace_back(part.of_a[i], part.of_b[j]);
+               });
+  return pairs;
+}
+
+Pairs looked_at(const Model& model, const ContactWork& work, const TakingPart& active,
+                const SharedPart& part) {
+  Pairs pairs;
+  look(model, work, active, part.of_a, part.block_a, part.block_b, pairs);
+  look(model, work, active, part.of_b, part.block_b, part.block_a, pairs);
+  return pairs;
+}
+
+bool may_get_into(const ContactWork& work, const TakingPart& active, const ContactTriangle& source,
+                  const geom::Vec3& x, int block) {
+  const double skins = work.skin[source.block] + work.skin[block];
+  return active.outlines[block].contains(
+      x, work.broken[block] ? skins + work.shallow + 2 * depth_of(work, source) : skins);
+}
+
+NearWithin near_within(const Model& model, const ContactWork& work, const Cover& cover,
+                       const TakingPart& active, int block) {
   const ContactSurface& s = model.surface;
   const int begin = active.block_begin[block];
   std::vector<geom::Box> boxes(active.boxes.begin() + begin,
@@ -127,14 +121,15 @@ NearTriangles near_triangles_within(const Model& model, const State& state, cons
     return box_of({model.node_position[n[0]], model.node_position[n[1]], model.node_position[n[2]]},
                   far_at_first(work, s.triangles[t]));
   };
-  const auto strangers = [&](int a, int b) {
+  const auto strangers = [&](int i, int j) {
+    const int a = active.triangles[i], b = active.triangles[j];
     return work.piece[a] != work.piece[b] || apart(box_at_first(a), box_at_first(b));
   };
-  NearTriangles near;
+  NearWithin near;
   std::vector<char> meets(boxes.size(), 0);
   for (const auto& [i, j] : geom::touching_pairs(boxes)) {
-    const int a = active.triangles[begin + i], b = active.triangles[begin + j];
-    if (!strangers(a, b) || parted(model, state, cover, a, b))
+    const int a = begin + i, b = begin + j;
+    if (!strangers(a, b) || parted(model, cover, active, a, b))
       continue;
     near.meeting.emplace_back(a, b);
     meets[i] = meets[j] = 1;
@@ -144,7 +139,7 @@ NearTriangles near_triangles_within(const Model& model, const State& state, cons
   for (geom::Box& box : boxes)
     box = grown(box, 2 * work.skin[block]);
   for (const auto& [i, j] : geom::touching_pairs(boxes, meets)) {
-    const int a = active.triangles[begin + i], b = active.triangles[begin + j];
+    const int a = begin + i, b = begin + j;
     if (!strangers(a, b))
       continue;
     if (meets[i])

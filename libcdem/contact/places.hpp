@@ -47,13 +47,16 @@ inline bool in_fan(const std::array<geom::Vec3, 2>& into, const geom::Vec3& norm
 inline bool apart(const geom::Box& a, const geom::Box& b) {
   return (a.min.array() > b.max.array()).any() || (b.min.array() > a.max.array()).any();
 }
+inline geom::Box grown(geom::Box box, double by) {
+  box.min.array() -= by;
+  box.max.array() += by;
+  return box;
+}
 inline geom::Box box_of(const Corners& x, double around) {
   geom::Box box;
   for (const geom::Vec3& corner : x)
     box.extend(corner);
-  box.min.array() -= around;
-  box.max.array() += around;
-  return box;
+  return grown(box, around);
 }
 
 } // namespace cdem

@@ -74,16 +74,17 @@ void make_rows(const Model& model, const ContactWork& work, const std::vector<st
 }
 
 // Two blocks without a law: nothing may come of it unless they meet. Returns how far each may go before they can, m.
-double require_apart(const Model& model, const State& state, const Pairs& pairs) {
+double require_apart(const Model& model, const TakingPart& active, const Pairs& pairs) {
   const ContactSurface& s = model.surface;
   double may_go = std::numeric_limits<double>::infinity();
   for (const auto& [a, b] : pairs)
     for (const auto& [source, target] : {std::pair(b, a), std::pair(a, b)}) {
-      const ContactTriangle &from = s.triangles[source], &to = s.triangles[target];
+      const ContactTriangle &from = s.triangles[active.triangles[source]],
+                            &to = s.triangles[active.triangles[target]];
       const double near =
           meeting_ratio * std::min(model.blocks[from.block].size, model.blocks[to.block].size);
-      const Corners x = corners_of(model, state, to.nodes);
-      for (const geom::Vec3& corner : corners_of(model, state, from.nodes)) {
+      const Corners& x = active.facets[target].x;
+      for (const geom::Vec3& corner : active.facets[source].x) {
         const double distance =
             (corner - weighted(x, geom::nearest_on_triangle(corner, x[0], x[1], x[2]).weights)).norm();
         if (distance < near)
@@ -125,7 +126,7 @@ bool search_contacts(const Model& model, const State& state, ContactWork& work, 
   }
   choose_skins(model, state, work);
   const Cover cover(model, state, work);
-  const TakingPart active = taking_part(model, state, work, cover);
+  const TakingPart active = taking_part(model, state, work, cover, threads);
   if (!active.finite())
     return false;
   std::vector<char> has_surface;
@@ -141,25 +142,27 @@ bool search_contacts(const Model& model, const State& state, ContactWork& work, 
   std::vector<double> may_go(springs.size(), std::numeric_limits<double>::infinity());
   std::vector<std::string> wrong(springs.size()); // nothing may be thrown out of a parallel loop
   for_chunks(static_cast<std::int64_t>(springs.size()), threads, [&](std::int64_t i) {
-    NearTriangles near;
     if (i >= n_pairs) {
-      near = near_triangles_within(model, state, work, cover, active, alone[i - n_pairs]);
-    } else {
-      const auto [a, b] = blocks[i];
-      if (!model.blocks[a].meshed || !model.blocks[b].meshed)
-        return;
-      near = near_triangles(model, state, work, cover, active, a, b);
-      if (!contact_joint(model, a, b)) {
-        try {
-          may_go[i] = require_apart(model, state, near.meeting);
-        } catch (const SolutionError& error) {
-          wrong[i] = error.what();
-        }
-        return;
-      }
+      NearWithin near = near_within(model, work, cover, active, alone[i - n_pairs]);
+      edges[i] = near_edges_within(model, state, work, active, near.meeting);
+      springs[i] = near_springs(model, work, cover, active, near.looked_at);
+      return;
     }
-    edges[i] = near_edges(model, state, work, near.meeting);
-    springs[i] = near_springs(model, state, work, cover, near.looked_at);
+    const auto [a, b] = blocks[i];
+    if (!model.blocks[a].meshed || !model.blocks[b].meshed)
+      return;
+    const SharedPart part = shared_part(active, a, b);
+    if (!contact_joint(model, a, b)) {
+      try {
+        may_go[i] = require_apart(model, active, meeting(model, cover, active, part));
+      } catch (const SolutionError& error) {
+        wrong[i] = error.what();
+      }
+      return;
+    }
+    edges[i] = near_edges(model, state, work, active, part);
+    Pairs pairs = looked_at(model, work, active, part);
+    springs[i] = near_springs(model, work, cover, active, pairs);
   });
   for (const std::string& message : wrong)
     if (!message.empty())

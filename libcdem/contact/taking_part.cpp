@@ -126,24 +126,34 @@ bool TakingPart::finite() const {
                      [](const geom::Box& box) { return box.min.allFinite() && box.max.allFinite(); });
 }
 
-TakingPart taking_part(const Model& model, const State& state, const ContactWork& work, const Cover& cover) {
+TakingPart taking_part(const Model& model, const State& state, const ContactWork& work, const Cover& cover,
+                       int threads) {
   const ContactSurface& s = model.surface;
   TakingPart part;
   part.block_begin.push_back(0);
   for (std::size_t b = 0; b + 1 < s.block_begin.size(); ++b) {
-    geom::Box box;
-    for (int t = s.block_begin[b]; t < s.block_begin[b + 1]; ++t) {
-      if (!work.active[t])
-        continue;
-      part.triangles.push_back(t);
-      part.boxes.push_back(
-          box_of(corners_of(model, state, s.triangles[t].nodes), cover.margin(s.triangles[t])));
-      box.extend(part.boxes.back().min);
-      box.extend(part.boxes.back().max);
-    }
-    part.block_boxes.push_back(box);
+    for (int t = s.block_begin[b]; t < s.block_begin[b + 1]; ++t)
+      if (work.active[t])
+        part.triangles.push_back(t);
     part.block_begin.push_back(static_cast<int>(part.triangles.size()));
   }
+  part.facets.resize(part.triangles.size());
+  part.boxes.resize(part.triangles.size());
+  part.block_boxes.resize(part.block_begin.size() - 1);
+  part.outlines.resize(part.block_boxes.size());
+  for_chunks(static_cast<std::int64_t>(part.block_boxes.size()), threads, [&](std::int64_t b) {
+    for (int i = part.block_begin[b]; i < part.block_begin[b + 1]; ++i) {
+      const ContactTriangle& triangle = s.triangles[part.triangles[i]];
+      Facet& facet = part.facets[i];
+      facet.x = corners_of(model, state, triangle.nodes);
+      facet.normal = unit_normal(facet.x);
+      part.boxes[i] = box_of(facet.x, cover.margin(triangle));
+      part.block_boxes[b].extend(part.boxes[i].min);
+      part.block_boxes[b].extend(part.boxes[i].max);
+      for (const geom::Vec3& corner : facet.x)
+        part.outlines[b].extend(corner);
+    }
+  });
   return part;
 }
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "libcdem/contact/contact_work.hpp"
+#include "libcdem/contact/places.hpp"
 #include "libcdem/state/state.hpp"
 
 namespace cdem {
@@ -36,14 +37,22 @@ private:
   std::vector<double> at_least_; // m, per block
 };
 
+// A triangle where it is now.
+struct Facet {
+  Corners x;         // m
+  geom::Vec3 normal; // unit
+};
+
 struct TakingPart {
   std::vector<int> triangles;         // by block
   std::vector<int> block_begin;       // (n_blocks + 1) into triangles
+  std::vector<Facet> facets;          // per triangle
   std::vector<geom::Box> boxes;       // per triangle, with its margin
-  std::vector<geom::Box> block_boxes; // per block
+  std::vector<geom::Box> block_boxes; // per block, with margins
+  std::vector<geom::Box> outlines;    // per block, without
 
   bool finite() const;
 };
-TakingPart taking_part(const Model&, const State&, const ContactWork&, const Cover&);
+TakingPart taking_part(const Model&, const State&, const ContactWork&, const Cover&, int threads);
 
 } // namespace cdem
