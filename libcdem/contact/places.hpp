@@ -1,18 +1,9 @@
 // Where corners and edges of the contact surface are.
 #pragma once
 
-#include "libcdem/state/state.hpp"
+#include "libcdem/state/places.hpp"
 
 namespace cdem {
-
-inline geom::Vec3 place_of(const Model& model, const State& state, int node) {
-  const Node& u = state.displacement[node];
-  return model.node_position[node] + geom::Vec3(u.x, u.y, u.z);
-}
-inline geom::Vec3 velocity_of(const State& state, int node) {
-  const Node& v = state.velocity[node];
-  return {v.x, v.y, v.z};
-}
 
 using Corners = std::array<geom::Vec3, 3>;
 

@@ -1,6 +1,7 @@
 // Strain and stress of tets and blocks, outside the step: for results, criteria and the stiffness bound.
 #include "libcdem/element/mesh_fields.hpp"
 #include "libcdem/element/small_strain.hpp"
+#include "libcdem/state/places.hpp"
 
 namespace cdem {
 namespace {
@@ -9,10 +10,6 @@ TetGradients geometry(const Model& model, int tet) {
   const geom::Tet& t = model.tets[tet];
   const auto& x = model.node_position;
   return tet_gradients({x[t[0]], x[t[1]], x[t[2]], x[t[3]]});
-}
-
-geom::Vec3 vec(const Node& n) {
-  return {n.x, n.y, n.z};
 }
 
 } // namespace

@@ -4,13 +4,10 @@
 #include "libcdem/model/add_meshes.hpp"
 #include "libcdem/rigid/convert.hpp"
 #include "libcdem/rigid/motion.hpp"
+#include "libcdem/state/places.hpp"
 
 namespace cdem {
 namespace {
-
-geom::Vec3 vec(const Node& n) {
-  return {n.x, n.y, n.z};
-}
 
 TetGradients shape_at(const Model& model, const std::vector<Node>& position, int tet) {
   std::array<geom::Vec3, 4> x;

@@ -1,5 +1,7 @@
 #include "libcdem/interface/broken_faces.hpp"
 
+#include "libcdem/state/places.hpp"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -16,10 +18,6 @@ struct Frame {
   std::array<geom::Vec3, 3> gap;
   geom::Vec3 normal, along, across; // unit, the first edge in the plane
 };
-
-geom::Vec3 vec(const Node& n) {
-  return {n.x, n.y, n.z};
-}
 
 // place(node), moved(node): m.
 template <class Place, class Moved>

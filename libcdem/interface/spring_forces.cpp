@@ -1,11 +1,9 @@
 #include "libcdem/interface/spring_forces.hpp"
 
+#include "libcdem/state/places.hpp"
+
 namespace cdem {
 namespace {
-
-CDEM_INLINE geom::Vec3 vec(const Node& n) {
-  return {n.x, n.y, n.z};
-}
 
 CDEM_INLINE geom::Vec3 jump_at(const BondPoint& p, const Node* u) {
   if (p.one_to_one)

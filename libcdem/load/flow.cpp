@@ -1,21 +1,18 @@
 #include "libcdem/load/flow.hpp"
 
+#include "libcdem/state/places.hpp"
+
 namespace cdem {
 namespace {
 
 using Pattern = std::vector<std::pair<int, geom::Vec3>>;
 
-geom::Vec3 place(const Model& model, const State& state, int node) {
-  const Node& u = state.displacement[node];
-  return model.node_position[node] + geom::Vec3(u.x, u.y, u.z);
-}
-
 // nodes: counter-clockwise seen from outside.
 void add_triangle(const Model& model, const State& state, const geom::Triangle& nodes,
                   const geom::Vec3& direction, Pattern& pattern) {
-  const geom::Vec3 x0 = place(model, state, nodes[0]);
+  const geom::Vec3 x0 = place_of(model, state, nodes[0]);
   const geom::Vec3 outward =
-      0.5 * (place(model, state, nodes[1]) - x0).cross(place(model, state, nodes[2]) - x0);
+      0.5 * (place_of(model, state, nodes[1]) - x0).cross(place_of(model, state, nodes[2]) - x0);
   const double facing = -outward.dot(direction); // A alpha
   if (facing <= 0)
     return;

@@ -2,6 +2,7 @@
 
 #include "libcdem/contact/acting.hpp"
 #include "libcdem/model/names.hpp"
+#include "libcdem/state/places.hpp"
 
 #include <algorithm>
 #include <set>
@@ -19,23 +20,6 @@ std::vector<int> units_named(const Model& model, const std::string& body) {
   return blocks;
 }
 
-geom::Vec3 present(const Model& model, const State& state, int node) {
-  const Node& u = state.displacement[node];
-  return model.node_position[node] + geom::Vec3(u.x, u.y, u.z);
-}
-
-// m, of the nodes of a meshed block, weighted by their mass: that of its centroid.
-geom::Vec3 mean_displacement(const Model& model, const State& state, const Block& block) {
-  geom::Vec3 sum = geom::Vec3::Zero();
-  double mass = 0;
-  for (int node = block.node_begin; node < block.node_end; ++node) {
-    const Node& u = state.displacement[node];
-    sum += model.node_mass[node] * geom::Vec3(u.x, u.y, u.z);
-    mass += model.node_mass[node];
-  }
-  return sum / mass;
-}
-
 } // namespace
 
 std::vector<Unit> units_of(const Model& model, const State& state, const std::string& body) {
@@ -44,7 +28,7 @@ std::vector<Unit> units_of(const Model& model, const State& state, const std::st
     const Block& block = model.blocks[b];
     std::vector<geom::Vec3> places;
     for (int node = block.node_begin; node < block.node_end; ++node)
-      places.push_back(present(model, state, node));
+      places.push_back(place_of(model, state, node));
     const auto part = [&](const auto& of_nodes) {
       return std::vector(of_nodes.begin() + block.node_begin, of_nodes.begin() + block.node_end);
     };
@@ -62,7 +46,7 @@ std::vector<geom::Surface> surfaces_of(const Model& model, const State& state, c
     const Block& block = model.blocks[blocks[u]];
     unit_of[blocks[u]] = static_cast<int>(u);
     for (int node = block.node_begin; node < block.node_end; ++node)
-      surfaces[u].points.push_back(present(model, state, node));
+      surfaces[u].points.push_back(place_of(model, state, node));
     if (!block.meshed) // of a star block, the face of each tet that is opposite to the centroid
       for (int t = block.tet_begin; t < block.tet_end; ++t)
         surfaces[u].triangles.push_back({model.tets[t][1] - block.node_begin,
@@ -97,13 +81,22 @@ std::vector<int> touching(const Model& model, const State& state, const std::str
   return count;
 }
 
+geom::Vec3 mean_displacement(const Model& model, const State& state, int b) {
+  const Block& block = model.blocks[b];
+  geom::Vec3 moment = geom::Vec3::Zero();
+  double mass = 0;
+  for (int node = block.node_begin; node < block.node_end; ++node) {
+    moment += model.node_mass[node] * vec(state.displacement[node]);
+    mass += model.node_mass[node];
+  }
+  return moment / mass;
+}
+
 geom::Vec3 centroid_displacement(const Model& model, const State& state, int b) {
   const Block& block = model.blocks[b];
-  if (!block.meshed) {
-    const Node& u = state.displacement[block.centroid_node()];
-    return {u.x, u.y, u.z};
-  }
-  return mean_displacement(model, state, block);
+  if (!block.meshed)
+    return vec(state.displacement[block.centroid_node()]);
+  return mean_displacement(model, state, b);
 }
 
 } // namespace cdem

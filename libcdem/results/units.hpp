@@ -14,5 +14,6 @@ std::vector<geom::Surface> surfaces_of(const Model&, const State&, const std::st
 std::vector<int> touching(const Model&, const State&, const std::string& body);
 
 geom::Vec3 centroid_displacement(const Model&, const State&, int block); // m
+geom::Vec3 mean_displacement(const Model&, const State&, int block); // m, of all its nodes, weighted by mass
 
 } // namespace cdem

@@ -2,6 +2,7 @@
 
 #include "libcdem/contact/acting.hpp"
 #include "libcdem/model/names.hpp"
+#include "libcdem/results/units.hpp"
 #include "libgeom/core/error.hpp"
 
 #include <algorithm>
@@ -15,7 +16,7 @@ std::vector<geom::Vec3> centroids(const Model& model, const State& state) {
   std::vector<geom::Vec3> places;
   places.reserve(model.blocks.size());
   for (int b = 0; b < static_cast<int>(model.blocks.size()); ++b)
-    places.push_back(present_centroid(model, state, b));
+    places.push_back(model.blocks[b].mass.centroid + mean_displacement(model, state, b));
   return places;
 }
 
@@ -37,18 +38,6 @@ std::vector<std::vector<int>> touching(const Model& model, const State& state) {
 }
 
 } // namespace
-
-geom::Vec3 present_centroid(const Model& model, const State& state, int block) {
-  const Block& b = model.blocks[block];
-  geom::Vec3 moment = geom::Vec3::Zero();
-  double mass = 0;
-  for (int node = b.node_begin; node < b.node_end; ++node) {
-    const Node& u = state.displacement[node];
-    moment += model.node_mass[node] * geom::Vec3(u.x, u.y, u.z);
-    mass += model.node_mass[node];
-  }
-  return b.mass.centroid + moment / mass;
-}
 
 Watch start_watch(const Model& model, const State& state, const std::string& body, double leaves) {
   if (!(leaves > 0) || !std::isfinite(leaves))

@@ -40,6 +40,4 @@ void look(const Model&, const State&, double flow_velocity, Watch&);
 // As it stood at a step (over all stages) that has passed.
 Watch watch_at(const Watch&, std::int64_t step);
 
-geom::Vec3 present_centroid(const Model&, const State&, int block); // m
-
 } // namespace cdem

@@ -4,20 +4,13 @@
 #include "libcdem/results/energy.hpp"
 #include "libcdem/rigid/inertia.hpp"
 #include "libcdem/rigid/motion.hpp"
+#include "libcdem/state/places.hpp"
 
 #include <algorithm>
 #include <iterator>
 
 namespace cdem {
 namespace {
-
-geom::Vec3 vec(const Node& n) {
-  return {n.x, n.y, n.z};
-}
-
-Node node(const geom::Vec3& v) {
-  return {v.x(), v.y(), v.z(), 0};
-}
 
 void set_offsets(const Model& model, State& state, const Block& block, const geom::Vec3& centroid) {
   for (int i = block.node_begin; i < block.node_end; ++i)

@@ -1,5 +1,7 @@
 #include "libcdem/rigid/inertia.hpp"
 
+#include "libcdem/state/places.hpp"
+
 #include <Eigen/Eigenvalues>
 
 namespace cdem {
@@ -9,8 +11,7 @@ RigidShape rigid_shape(const Model& model, int block, const Node* displacement) 
   const auto place = [&](int node) -> geom::Vec3 {
     if (!displacement)
       return model.node_position[node];
-    const Node& u = displacement[node];
-    return model.node_position[node] + geom::Vec3(u.x, u.y, u.z);
+    return model.node_position[node] + vec(displacement[node]);
   };
   RigidShape shape;
   shape.body.block = block;

@@ -1,19 +1,12 @@
 #include "libcdem/step/move_rigid.hpp"
 
 #include "libcdem/rigid/motion.hpp"
+#include "libcdem/state/places.hpp"
 
 #include <cmath>
 
 namespace cdem {
 namespace {
-
-geom::Vec3 vec(const Node& n) {
-  return {n.x, n.y, n.z};
-}
-
-Node node(const geom::Vec3& v) {
-  return {v.x(), v.y(), v.z(), 0};
-}
 
 // One component of m dv/dt = F - c m v - alpha |F| sign(v): the law of step_nodes. Returns the velocity after.
 double damped(double before, double force, double mass, double viscous_rate, const Stepping& s,

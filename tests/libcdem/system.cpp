@@ -207,13 +207,6 @@ Momentum momentum(const System& s, Places places) {
   return m;
 }
 
-geom::Vec3 vec(const cdem::Node& n) {
-  return {n.x, n.y, n.z};
-}
-cdem::Node node(const geom::Vec3& v) {
-  return {v.x(), v.y(), v.z(), 0};
-}
-
 geom::Mat3 hooke(const cdem::Elastic& m, const geom::Mat3& h) {
   const double E = m.youngs_modulus, nu = m.poissons_ratio;
   const geom::Mat3 strain = 0.5 * (h + h.transpose());

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "libcdem/simulation.hpp"
+#include "libcdem/state/places.hpp"
 #include "libcdem/step/relax.hpp"
 #include "libcdem/step/run.hpp"
 
@@ -72,8 +73,8 @@ struct Momentum {
 enum class Places { undeformed, present }; // small strain refers to the first, finite volumes to the second
 Momentum momentum(const System&, Places);
 
-geom::Vec3 vec(const cdem::Node&);
-cdem::Node node(const geom::Vec3&);
+using cdem::node;
+using cdem::vec;
 
 // sigma = lambda tr(eps) I + 2 G eps, Pa.
 geom::Mat3 hooke(const cdem::Elastic&, const geom::Mat3& gradient);
