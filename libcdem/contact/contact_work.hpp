@@ -93,9 +93,12 @@ struct ContactWork {
   double usual_height = 0; // m, of a tet at the surface
   bool pieces_due = true;  // faces have broken, or pieces were never told apart: a search is due with them
   bool due = true;         // something moved since the contacts were looked at
-  double step = 0;         // s, since then
-  int hurry = 0;           // how often skins have been doubled, as searches followed each other closely
-  std::int64_t looks = 0;  // steps since the search
+  // State::contacts holds all there are, but for pieces. Not so where a stage begins: what stands in what then is
+  // anybody's doing.
+  bool all_known = false;
+  double step = 0;        // s, since then
+  int hurry = 0;          // how often skins have been doubled, as searches followed each other closely
+  std::int64_t looks = 0; // steps since the search
   std::int64_t searches = 0;
 
   std::vector<ContactChunk> chunks; // of as many chunks of rows as are computed at a time

@@ -174,6 +174,7 @@ bool search_contacts(const Model& model, const State& state, ContactWork& work, 
                                 : *std::min_element(may_go.begin(), may_go.end());
   std::fill(work.travelled.begin(), work.travelled.end(), 0.0);
   work.pieces_due = false;
+  work.all_known = true;
   work.looks = 0;
   ++work.searches;
   return true;

@@ -108,8 +108,7 @@ double far_at_first(const ContactWork& work, const ContactTriangle& t) {
 
 Cover::Cover(const Model& model, const State& state, const ContactWork& work)
     : work_(work), whole_(work.broken), at_least_(model.blocks.size(), 0.0) {
-  // Before the first step, and where faces break, anything may stand in anything.
-  if (state.step == 0)
+  if (!work.all_known)
     std::fill(whole_.begin(), whole_.end(), 1);
   for (const Contact& c : state.contacts) {
     const auto [a, b] = blocks_of(model, c);

@@ -33,7 +33,7 @@ public:
 
 private:
   const ContactWork& work_;
-  std::vector<char> whole_;      // per block: nothing is known of its contacts
+  std::vector<char> whole_; // per block: anything may stand in it, as where a stage begins or faces break
   std::vector<double> at_least_; // m, per block
 };
 

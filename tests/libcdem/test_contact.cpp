@@ -255,6 +255,28 @@ TEST_CASE("contact: the same bits for every number of threads, and however often
   CHECK(hash_with(1, true) == once);
 }
 
+TEST_CASE("contact: a body that was put elsewhere between two stages meets what stands there", "[contact]") {
+  System s(build({meshed("plate", box_at({3, 3, 0.4}, {6, 6, 1}, Mat3::Identity(), {0, 0, -0.2})),
+                  meshed("block", box_at({1, 1, 1}, {2, 2, 2}, Mat3::Identity(), {0, 0, 1}))},
+                 {{"plate", "block", friction(30)}}));
+  cdem::RunOptions options;
+  options.steps = 1;
+  s.run(options);
+  REQUIRE(s.state.contacts.empty());
+  const double depth =
+      0.04; // a fifth of a tet's height or less, far more than a search allows for between steps
+  for (int i = s.model.blocks[1].node_begin; i < s.model.blocks[1].node_end; ++i)
+    s.state.displacement[i].z -= 0.5 + depth;
+  s.run(options);
+  REQUIRE_FALSE(s.state.contacts.empty());
+  double deepest = 0;
+  for (const cdem::Contact& c : s.state.contacts) {
+    deepest = std::max(deepest, c.depth);
+    CHECK(c.normal_force == 0); // it was found that deep
+  }
+  CHECK(deepest == Approx(depth));
+}
+
 TEST_CASE("contact: bodies without a law that meet end the run", "[contact][errors]") {
   System s(build({meshed("floor", box_at({2, 2, 0.4}, {2, 2, 1}, Mat3::Identity(), {0, 0, -0.2})),
                   meshed("unit", box_at({0.5, 0.5, 0.5}, {1, 1, 1}, Mat3::Identity(), {0, 0, 0.5}))}));
