@@ -63,6 +63,8 @@ struct Conditions {
   std::vector<PointForce> forces;
   std::optional<Gravity> gravity;
   std::vector<Flow> flows;
+
+  bool load() const { return !tractions.empty() || !forces.empty() || gravity || !flows.empty(); }
 };
 
 } // namespace cdem

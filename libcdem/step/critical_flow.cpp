@@ -4,6 +4,8 @@
 #include "libcdem/load/flow.hpp"
 #include "libcdem/results/fragments.hpp"
 #include "libcdem/step/errors.hpp"
+#include "libcdem/step/flow_measures.hpp"
+#include "libcdem/step/held_pressure.hpp"
 #include "libcdem/step/relax.hpp"
 #include "libcdem/step/run.hpp"
 #include "libgeom/core/error.hpp"
@@ -21,52 +23,6 @@ constexpr std::int64_t looks_per_judgement = 5;
 
 // The loops of the stage, one after the other.
 enum class Part : std::uint8_t { other_loads, reference, search };
-
-geom::Vec3 vec(const Node& n) {
-  return {n.x, n.y, n.z};
-}
-
-// Displacement that the flow does its work on, over the sum of its weights, m.
-double displacement_along(const std::vector<std::pair<int, geom::Vec3>>& pattern, const State& state,
-                          const std::vector<Node>& start) {
-  double work = 0, weight = 0;
-  for (const auto& [node, force] : pattern) {
-    work += force.dot(vec(state.displacement[node]) - vec(start[node]));
-    weight += force.norm();
-  }
-  return work / weight;
-}
-
-// Rayleigh's quotient of the static shape under the pattern times `pressure`.
-double first_period(const Model& model, const std::vector<std::pair<int, geom::Vec3>>& pattern,
-                    double pressure, const State& state, const std::vector<Node>& start) {
-  double work = 0, inertia = 0;
-  for (const auto& [node, force] : pattern)
-    work += pressure * force.dot(vec(state.displacement[node]) - vec(start[node]));
-  for (std::size_t i = 0; i < start.size(); ++i)
-    inertia += model.node_mass[i] * (vec(state.displacement[i]) - vec(start[i])).squaredNorm();
-  constexpr double two_pi = 6.283185307179586;
-  return two_pi * std::sqrt(inertia / work);
-}
-
-// The pressure over time. It rises at a rate from a base point on; a hold keeps it until `resume`.
-struct Pressure {
-  double base_time = 0, base = 0, rate = 0, limit = 0;
-  double resume = -1; // s; > base_time: held until then
-
-  double at(double time) const {
-    return resume >= 0 ? base : std::min(limit, base + rate * (time - base_time));
-  }
-  void hold(double time, double until) {
-    base = at(time);
-    base_time = time;
-    resume = until;
-  }
-  void go_on(double time) {
-    base_time = time;
-    resume = -1;
-  }
-};
 
 void require_held(const ResolvedConditions& r) {
   if (r.held.empty())
@@ -87,34 +43,11 @@ void find_balance(const StageContext& context, const std::string& kind) {
                     context.number, kind, result.steps, result.residual, reference_residual));
 }
 
-bool loaded(const Conditions& c) {
-  return !c.tractions.empty() || !c.forces.empty() || c.gravity || !c.flows.empty();
-}
-
 double volume_of(const Model& model) {
   double volume = 0;
   for (const Block& block : model.blocks)
     volume += block.mass.volume;
   return volume;
-}
-
-struct BrokenArea {
-  double area = 0;                          // m2
-  geom::Vec3 centroid = geom::Vec3::Zero(); // m, undeformed
-};
-
-// Of the bonds that broke from `first` on, those of one step only where `step` says so.
-BrokenArea broken_area(const RunLog& log, std::size_t first, bool of_one_step) {
-  BrokenArea sum;
-  for (std::size_t i = first; i < log.breaks.size(); ++i) {
-    if (of_one_step && log.breaks[i].step != log.breaks[first].step)
-      break;
-    sum.area += log.breaks[i].area;
-    sum.centroid += log.breaks[i].area * log.breaks[i].place;
-  }
-  if (sum.area > 0)
-    sum.centroid /= sum.area;
-  return sum;
 }
 
 void require_held_there(const Model& model, const ResolvedConditions& r, const Selection& on) {
@@ -130,13 +63,12 @@ void require_held_there(const Model& model, const ResolvedConditions& r, const S
 // What the search carries beside the loops of its parts.
 struct Carried {
   Part part = Part::other_loads;
-  std::vector<std::pair<int, geom::Vec3>>
-      pattern;                      // node, N at 1 Pa, where the faces were when the stage began
+  NodeForces pattern;               // N at 1 Pa, where the faces were when the stage began
   std::vector<Node> start;          // m, displacement before the flow (n_nodes)
   double start_time = 0;            // s, when the pressure begins to rise
   std::size_t first_break = 0;      // in the log
   std::int64_t seen = 0, looks = 0; // breaks, and looks at them
-  Pressure pressure;
+  HeldPressure pressure;
   CriticalFlowResult result;
 };
 
@@ -272,8 +204,8 @@ CriticalFlowResult Search::raise() {
   stepping.callback_every = steps_per_look;
   stepping.callback = [&] { look(); };
   stepping.stop = [&] { return ended_; };
-  stepping.note = [&] {
-    return fmt::format("flow {:.3g} m/s", flow_velocity(now_.pressure.at(state_.time), density));
+  stepping.details = [&](Progress& progress) {
+    progress.note = fmt::format("flow {:.3g} m/s", flow_velocity(now_.pressure.at(state_.time), density));
   };
   const RunResult ran =
       run(with_flow(), stepping, options_.hold ? "critical_flow: hold" : "critical_flow: ramp");
@@ -301,7 +233,7 @@ CriticalFlowResult Search::operator()() {
     start();
   }
   if (now_.part == Part::other_loads) {
-    if (loaded(without_flow_.conditions)) // what they do is none of the flow's
+    if (without_flow_.conditions.load()) // what they do is none of the flow's
       find_balance(without_flow_, "critical_flow: other loads");
     now_.start = state_.displacement;
     begin(Part::reference);

@@ -14,13 +14,15 @@ struct Progress {
   std::int64_t max_steps = 0;      // limit, 0 when there is none
   double residual = 0;             // out-of-balance force norm over applied force norm
   double residual_goal = 0;        // 0 when the stage has none
+  double kinetic_ratio = 0;        // kinetic energy over its peak, of a stage that waits for rest
+  double kinetic_ratio_goal = 0;   // 0 when the stage does not
   double time = 0;                 // s, real-time stages
+  double time_start = 0;           // s, when the stage began
   double time_goal = 0;            // s, 0 when the stage has none
   std::int64_t broken_tension = 0; // spring points broken so far in this stage
   std::int64_t broken_shear = 0;
   double steps_per_second = 0;
-  double seconds_left = -1; // estimate; negative when unknown
-  bool last = false;        // the stage ends here
+  bool last = false; // the stage ends here
 };
 
 class Observer {

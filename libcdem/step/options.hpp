@@ -4,9 +4,19 @@
 #include <cstdint>
 #include <functional>
 #include <limits>
-#include <string>
 
 namespace cdem {
+
+struct Progress;
+
+// What every stage gives back.
+struct StageResult {
+  std::int64_t steps = 0;
+  double residual = 0;             // out-of-balance force norm over applied force norm, at the end
+  std::int64_t broken_tension = 0; // in this stage
+  std::int64_t broken_shear = 0;
+  double wall_time = 0; // s
+};
 
 // Dynamic relaxation to static balance (Han 2010 eq 12) with fictitious masses and adaptive damping.
 struct RelaxOptions {
@@ -17,13 +27,8 @@ struct RelaxOptions {
   std::function<void()> callback;
 };
 
-struct RelaxResult {
+struct RelaxResult : StageResult {
   bool converged = false;
-  std::int64_t steps = 0;
-  double residual = 0;
-  std::int64_t broken_tension = 0; // in this stage
-  std::int64_t broken_shear = 0;
-  double wall_time = 0; // s
 };
 
 // Explicit stepping with the real masses.
@@ -40,20 +45,15 @@ struct RunOptions {
   bool damp_flight = true; // of rigid bodies that touch nothing too
   std::int64_t callback_every = 0;
   std::function<void()> callback;
-  std::function<std::string()> note; // what else the progress line shows
-  std::function<bool()> stop;        // asked every callback_every (default 100) steps
+  std::function<void(Progress&)> details; // adds to what the progress line shows
+  std::function<bool()> stop;             // asked every callback_every (default 100) steps
   // Where the out-of-balance force over the applied force is above this, `stop` is asked in vain.
   double stop_residual = std::numeric_limits<double>::infinity();
 };
 
-struct RunResult {
-  std::int64_t steps = 0;
+struct RunResult : StageResult {
   double time = 0;      // s, model time reached
   double time_step = 0; // s
-  double residual = 0;  // out-of-balance force norm over applied force norm, at the end
-  std::int64_t broken_tension = 0;
-  std::int64_t broken_shear = 0;
-  double wall_time = 0; // s
 };
 
 } // namespace cdem

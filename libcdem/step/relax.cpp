@@ -217,16 +217,7 @@ RelaxResult relax(const StageContext& context, const RelaxOptions& options, cons
       }
     }
   }
-  stage.finish(report);
-
-  RelaxResult result;
-  result.converged = settled >= settled_steps;
-  result.steps = stage.step;
-  result.residual = report.residual;
-  result.broken_tension = stage.broken_tension();
-  result.broken_shear = stage.broken_shear();
-  result.wall_time = stage.wall_time();
-  return result;
+  return {stage.finish(report), settled >= settled_steps};
 }
 
 } // namespace cdem

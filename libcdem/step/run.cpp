@@ -142,7 +142,7 @@ RunResult run(const StageContext& context, const RunOptions& options, const std:
   Stepping stepping{choose_time_step(context.model, options), 0, options.local_damping, options.damp_flight};
   Stage stage(context, kind, run_away_lengths * context.model.length);
   stage.follows_pieces = options.follows_pieces;
-  stage.note = options.note;
+  stage.details = options.details;
   stage.work.damped = !state.viscous_stress.empty();
   const std::vector<double> viscous = viscous_forces(context.model);
   Stage::StepReport report;
@@ -156,6 +156,9 @@ RunResult run(const StageContext& context, const RunOptions& options, const std:
     if (clock.steps() < std::numeric_limits<std::int64_t>::max()) {
       report.goals.max_steps = clock.steps();
       report.goals.time_goal = clock.time_at(clock.steps());
+      report.goals.time_start =
+          report.goals.time_goal -
+          (options.duration > 0 ? options.duration : static_cast<double>(clock.steps()) * clock.time_step());
     }
   };
   set_goals();
@@ -202,17 +205,7 @@ RunResult run(const StageContext& context, const RunOptions& options, const std:
       stopped = options.stop && options.stop() && report.residual <= options.stop_residual;
     }
   }
-  stage.finish(report);
-
-  RunResult result;
-  result.steps = stage.step;
-  result.time = state.time;
-  result.time_step = stepping.time_step;
-  result.residual = report.residual;
-  result.broken_tension = stage.broken_tension();
-  result.broken_shear = stage.broken_shear();
-  result.wall_time = stage.wall_time();
-  return result;
+  return {stage.finish(report), state.time, stepping.time_step};
 }
 
 } // namespace cdem

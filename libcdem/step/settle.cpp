@@ -70,10 +70,6 @@ struct Carried {
   SettleResult result;
 };
 
-bool loaded(const Conditions& c) {
-  return !c.tractions.empty() || !c.forces.empty() || c.gravity || !c.flows.empty();
-}
-
 template <class A>
 void archive(A& a, Carried& x) {
   auto& [part, start, part_start, looks, turned, calm, result] = x;
@@ -165,12 +161,17 @@ void Settling::phase(const std::string& name, double time_step, Until until) {
   stepping.stop = [&] {
     return until == Until::touch ? !state_.contacts.empty() : now_.calm.quiet >= quiet_looks;
   };
-  stepping.note = [&] {
-    return fmt::format("kinetic energy {:.1e} of its peak -> {:g}", now_.calm.ratio,
-                       options_.kinetic_energy_ratio);
-  };
-  if (now_.part == Part::last && deforms() && loaded(context_.conditions))
+  const bool takes_up_loads = now_.part == Part::last && deforms() && context_.conditions.load();
+  if (takes_up_loads)
     stepping.stop_residual = balanced;
+  stepping.details = [&](Progress& progress) {
+    if (until == Until::touch)
+      return;
+    progress.kinetic_ratio = now_.calm.ratio;
+    progress.kinetic_ratio_goal = options_.kinetic_energy_ratio;
+    if (takes_up_loads)
+      progress.residual_goal = balanced;
+  };
   const RunResult ran = run(context_, stepping, "settle: " + name);
   SettleResult& result = now_.result;
   const double took = state_.time - now_.part_start;

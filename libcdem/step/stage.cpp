@@ -2,21 +2,15 @@
 
 #include "libcdem/contact/contact_bounds.hpp"
 #include "libcdem/contact/contact_forces.hpp"
-#include "libcdem/contact/places.hpp"
 #include "libcdem/contact/search.hpp"
-#include "libcdem/element/small_strain.hpp"
-#include "libcdem/interface/spring_forces.hpp"
-#include "libcdem/model/add_meshes.hpp"
-#include "libcdem/model/names.hpp"
 #include "libcdem/parallel/huge_pages.hpp"
-#include "libcdem/results/fields.hpp"
-#include "libcdem/rigid/motion.hpp"
 #include "libcdem/step/errors.hpp"
 #include "libcdem/step/mesh_forces.hpp"
+#include "libcdem/step/record.hpp"
 #include "libcdem/step/row_sums.hpp"
+#include "libcdem/step/soundness.hpp"
 
 #include <cmath>
-#include <fmt/format.h>
 
 namespace cdem {
 namespace {
@@ -28,26 +22,10 @@ static_assert(watch_every % flow_every == 0, "a stage that goes on looks anew wh
 // Steps between looks at which units have left their place.
 constexpr std::int64_t look_every = 50;
 static_assert(watch_every % look_every == 0, "as above");
-constexpr double seconds_between_reports = 0.1;
 // Chunks a thread must have before a further one is worth its two barriers a step: about half a millisecond of work.
 constexpr std::int64_t chunks_per_thread = 32;
 // The same where contacts are looked for, which is most of the work of a pile.
 constexpr std::int64_t touching_chunks_per_thread = 6;
-
-double seconds(std::chrono::steady_clock::duration d) {
-  return std::chrono::duration<double>(d).count();
-}
-
-std::string where(const Model& model, int node) {
-  const geom::Vec3& x = model.node_position[node];
-  const Block& block = model.blocks[block_of(model, node)];
-  return fmt::format("block {} of body \"{}\" at ({:.6g}, {:.6g}, {:.6g}) m", block.id,
-                     model.bodies[block.body].name, x.x(), x.y(), x.z());
-}
-
-} // namespace
-
-namespace {
 
 // What a step goes through from end to end.
 void ask_for_huge_pages_of(const Model& model, const State& state, const Workspace& work) {
@@ -97,7 +75,8 @@ Stage::Stage(const StageContext& context, std::string kind, double run_away)
     : work(context.model, context.state, context.conditions), context_(context),
       threads_(useful_threads(context.model, context.threads)), kind_(std::move(kind)), run_away_(run_away),
       broken_tension_before_(context.log.broken_tension), broken_shear_before_(context.log.broken_shear),
-      start_(std::chrono::steady_clock::now()), told_(start_) {
+      start_(std::chrono::steady_clock::now()),
+      telling_(context.observer, context.log, context.from ? context.from->step : 0) {
   context_.threads = threads_.threads();
   ask_for_huge_pages_of(context_.model, context_.state, work);
   start_spring_forces(context_.model, context_.state, work);
@@ -105,7 +84,7 @@ Stage::Stage(const StageContext& context, std::string kind, double run_away)
     context_.last_good = context_.state;
     if (context_.moment)
       *context_.moment = *from;
-    step = told_step_ = from->step;
+    step = from->step;
     broken_tension_before_ = from->broken_tension_before;
     broken_shear_before_ = from->broken_shear_before;
     work.spring_force = from->spring_force;
@@ -138,6 +117,7 @@ void Stage::mark(std::vector<double> carried, const std::vector<Node>& previous_
     work.contact = {};
     start_contact(context_.model, work.contact);
     work.contact.pace = pace;
+    work.contact.all_known = true; // those of the step before
     std::fill(work.contact_force.begin(), work.contact_force.end(), Node{});
   }
   if (context_.keeper)
@@ -161,27 +141,12 @@ double Stage::meet() {
   context_.log.deepest_contact = std::max(context_.log.deepest_contact, sums.depth);
   context_.log.deepest_over_height = std::max(context_.log.deepest_over_height, sums.depth_over_height);
   if (sums.deepest > 1)
-    refuse_depth(sums.deepest_source, sums.deepest_target);
+    refuse_depth(model, context_.state, sums.deepest_source, sums.deepest_target, here());
   return contact_time_step(model, context_.state, work, row_sums_);
 }
 
-void Stage::refuse_depth(int source_triangle, int target_triangle) const {
-  const Model& model = context_.model;
-  const State& state = context_.state;
-  const ContactTriangle &source = model.surface.triangles[source_triangle],
-                        &target = model.surface.triangles[target_triangle];
-  const geom::Vec3 x = place_of(model, state, source.nodes[0]);
-  throw SolutionError(fmt::format("stage {} ({}), step {}: {} has gone too deep into {} near ({:.6g}, "
-                                  "{:.6g}, {:.6g}) m, more than a quarter of "
-                                  "a tet's height; it is too fast for this contact: give the contact a "
-                                  "larger normal_stiffness, the model a "
-                                  "finer mesh, or let it fall less far",
-                                  context_.number, kind_, step, block_name(model, source.block),
-                                  block_name(model, target.block), x.x(), x.y(), x.z()));
-}
-
 double Stage::wall_time() const {
-  return seconds(std::chrono::steady_clock::now() - start_);
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
 }
 
 void Stage::catch_up() {
@@ -209,7 +174,7 @@ void Stage::catch_up() {
 }
 
 void Stage::keep_state() {
-  watch();
+  require_sound(context_.model, context_.state, work, run_away_, here());
   // Pieces are told apart anew when a face is handed over, and here: a run that goes on from a checkpoint does so too.
   if (!context_.state.face_slip.empty())
     work.contact.pieces_due = true;
@@ -236,116 +201,12 @@ NodeSums Stage::total() const {
   return sum;
 }
 
-void Stage::record_breaks() {
-  EnergyLedger& spent = context_.state.spent;
-  broken_in_step_ = 0;
-  for (const SpringSums& sums : work.spring_sums) {
-    spent.friction += sums.friction;
-    spent.breaking += sums.breaking;
-    for (const BreakEvent& event : sums.broken) {
-      const BondPoint& point = context_.model.points[event.point];
-      const Interface& interface = context_.model.interfaces[point.interface];
-      BreakRow row;
-      row.stage = context_.number;
-      row.step = step;
-      row.time = context_.state.time;
-      row.mode = event.mode;
-      row.place = context_.model.point_position[event.point];
-      row.normal = point.normal;
-      row.area = point.area;
-      row.normal_traction = event.normal_traction;
-      row.shear_traction = event.shear_traction;
-      row.block_a = context_.model.blocks[interface.block_a].id;
-      row.block_b = context_.model.blocks[interface.block_b].id;
-      context_.log.breaks.push_back(row);
-      ++(event.mode == BondMode::broken_tension ? context_.log.broken_tension : context_.log.broken_shear);
-      ++broken_in_step_;
-    }
-  }
-}
-
-void Stage::record_face_breaks() {
-  const Model& model = context_.model;
-  for (std::size_t c = 0; c < work.face_sums.size(); ++c) {
-    const FaceSums& sums = work.face_sums[c];
-    const MeshChunk& chunk = model.mesh.chunks[c];
-    context_.state.spent.friction += sums.friction;
-    context_.state.spent.breaking += sums.breaking;
-    context_.state.spent.damping += sums.damping;
-    work.contact.pieces_due = work.contact.pieces_due || sums.hands_over;
-    for (const FaceBreak& broken : sums.broken) {
-      const FaceSpringPlace at{chunk.face_batches.begin + broken.spring / (3 * lanes),
-                               static_cast<int>(broken.spring / lanes % 3),
-                               static_cast<int>(broken.spring % lanes)};
-      BreakRow row;
-      row.stage = context_.number;
-      row.step = step;
-      row.time = context_.state.time;
-      row.mode = broken.mode;
-      row.place = face_point(model, chunk, at);
-      row.normal = broken.normal;
-      row.area = model.mesh.faces[at.batch].area[at.lane];
-      row.normal_traction = broken.normal_traction;
-      row.shear_traction = broken.shear_traction;
-      row.block_a = row.block_b = model.blocks[chunk.block].id;
-      std::copy(std::begin(broken.slip), std::end(broken.slip),
-                slip_of(context_.state, at.batch, at.lane).value[at.point]);
-      context_.log.breaks.push_back(row);
-      ++(broken.mode == BondMode::broken_tension ? context_.log.broken_tension : context_.log.broken_shear);
-      ++broken_in_step_;
-    }
-  }
-}
-
-void Stage::watch_astray() const {
-  const Model& model = context_.model;
-  for (std::size_t c = 0; c < work.face_sums.size(); ++c) {
-    if (work.face_sums[c].astray < 0)
-      continue;
-    const MeshChunk& chunk = model.mesh.chunks[c];
-    const int lane = static_cast<int>(work.face_sums[c].astray % lanes);
-    const std::int64_t batch = chunk.face_batches.begin + work.face_sums[c].astray / lanes;
-    const std::string& body = model.bodies[model.blocks[chunk.block].body].name;
-    throw SolutionError(fmt::format(
-        "stage {} ({}), step {}: the sides of a broken face have slid past each other by more than its size, "
-        "{:.3g} m, and still press, in {}; pieces that come loose need contacts = {{ {{\"{}\", \"{}\", "
-        "cdem.coulomb{{...}}}} }} in cdem.model",
-        context_.number, kind_, step, std::sqrt(3 * model.mesh.faces[batch].area[lane]),
-        where(model, face_nodes(model.mesh, chunk, batch, lane).a[0]), body, body));
-  }
-}
-
-void Stage::record_history(const StepReport& report) {
-  if (!context_.log.probes.empty())
-    catch_up();
-  HistoryRow row;
-  row.stage = context_.number;
-  row.step = context_.state.step;
-  row.time = context_.state.time;
-  row.residual = report.residual;
-  row.kinetic = report.sums.kinetic;
-  row.external = context_.state.spent.external;
-  row.broken_tension = context_.log.broken_tension;
-  row.broken_shear = context_.log.broken_shear;
-  for (const Probe& probe : context_.log.probes)
-    row.probes.push_back(value_at(context_.model, context_.state, probe.field, probe.place));
-  context_.log.add(std::move(row));
-}
-
-void Stage::look_at_units() {
-  if (context_.log.watches.empty())
-    return;
-  double velocity = std::numeric_limits<double>::quiet_NaN();
-  for (const Flow& flow : context_.conditions.flows)
-    velocity = std::fmax(velocity, flow.velocity(context_.state.time));
-  for (Watch& watch : context_.log.watches)
-    look(context_.model, context_.state, velocity, watch);
-}
-
 void Stage::after_step(const StepReport& report) {
   EnergyLedger& spent = context_.state.spent;
-  record_breaks();
-  record_face_breaks();
+  broken_in_step_ =
+      record_bond_breaks(context_.model, context_.state, work, context_.log, context_.number, step);
+  broken_in_step_ +=
+      record_face_breaks(context_.model, context_.state, work, context_.log, context_.number, step);
   spent.external += report.sums.external;
   spent.external_peak = std::max(spent.external_peak, std::abs(spent.external));
   spent.damping += report.sums.damping;
@@ -356,7 +217,7 @@ void Stage::after_step(const StepReport& report) {
   // Sums over all forces and one over all velocities: a NaN anywhere shows here in the step it appears.
   if (!std::isfinite(report.sums.residual2) || !std::isfinite(report.sums.kinetic) ||
       !std::isfinite(report.sums.reaction2))
-    watch();
+    require_sound(context_.model, context_.state, work, run_away_, here());
   if (step % watch_every == 0)
     keep_state();
   if (!work.resolved.flows.empty() && step % flow_every == 0) {
@@ -364,11 +225,11 @@ void Stage::after_step(const StepReport& report) {
     update_external(work.resolved, context_.state.time);
   }
   if (context_.log.due(context_.state.step))
-    record_history(report);
+    sample(report);
   if (follows_pieces)
-    watch_astray();
+    require_followed(context_.model, work, here());
   if (step % look_every == 0)
-    look_at_units();
+    look_at_units(context_.model, context_.state, context_.conditions, context_.log);
   // Not between the keeping of a state and its mark: the two would be of different moments.
   if (step % poll_every == 0 && !can_be_left()) {
     Keeper* const keeper = context_.keeper;
@@ -379,94 +240,39 @@ void Stage::after_step(const StepReport& report) {
     }
     if (keeper && keeper->wanted())
       keeper->write(false);
-    if (seconds(std::chrono::steady_clock::now() - told_) > seconds_between_reports)
+    if (telling_.due())
       tell(report, false);
   }
   if (step == 1 || (context_.from && step == context_.from->step + 1))
     tell(report, false);
 }
 
-void Stage::finish(const StepReport& report) {
+StageResult Stage::finish(const StepReport& report) {
   keep_state();
-  look_at_units();
-  record_history(report);
+  look_at_units(context_.model, context_.state, context_.conditions, context_.log);
+  sample(report);
   tell(report, true);
+  return {step, report.residual, context_.log.broken_tension - broken_tension_before_,
+          context_.log.broken_shear - broken_shear_before_, wall_time()};
+}
+
+void Stage::sample(const StepReport& report) {
+  if (!context_.log.probes.empty())
+    catch_up();
+  record_history(context_.model, context_.state, context_.log, context_.number, report.residual,
+                 report.sums.kinetic);
 }
 
 void Stage::tell(const StepReport& report, bool last) {
-  const auto now = std::chrono::steady_clock::now();
   Progress progress = report.goals;
   progress.stage = context_.number;
   progress.kind = kind_;
-  if (note)
-    progress.note = note();
   progress.step = step;
   progress.residual = report.residual;
   progress.time = context_.state.time;
-  progress.broken_tension = context_.log.broken_tension - context_.log.told_tension;
-  progress.broken_shear = context_.log.broken_shear - context_.log.told_shear;
-  const double since = seconds(now - told_);
-  progress.steps_per_second = since > 0 ? static_cast<double>(step - told_step_) / since : 0;
-  if (progress.time_goal > 0 && progress.time > 0)
-    progress.seconds_left = seconds(now - start_) * (progress.time_goal / progress.time - 1);
-  progress.last = last;
-  if (last) {
-    context_.log.told_tension = context_.log.broken_tension;
-    context_.log.told_shear = context_.log.broken_shear;
-  }
-  context_.observer.progress(progress);
-  told_ = now;
-  told_step_ = step;
-}
-
-void Stage::watch() const {
-  const Model& model = context_.model;
-  const State& state = context_.state;
-  const auto fail = [&](const std::string& what, int node, const std::string& advice) {
-    throw SolutionError(fmt::format("stage {} ({}), step {}: {} in {}; {}", context_.number, kind_, step,
-                                    what, where(model, node), advice));
-  };
-  for (std::size_t i = 0; i < model.rigid.size(); ++i) {
-    const RigidState& rigid = state.rigid[i];
-    if (!std::isfinite(vec(rigid.centroid).sum() + vec(rigid.velocity).sum() +
-                       vec(rigid.angular_momentum).sum()))
-      fail("force on a rigid body is not a number", model.blocks[model.rigid[i].block].node_begin,
-           "look at loads and contacts there");
-    if (!std::isfinite(rigid.rotation[0]))
-      fail("a rigid body turns by a radian or more in a step", model.blocks[model.rigid[i].block].node_begin,
-           "use a smaller time_step");
-  }
-  for (int node = 0; node < static_cast<int>(model.node_position.size()); ++node) {
-    const Node& u = state.displacement[node];
-    const Node& v = state.velocity[node];
-    if (!std::isfinite(u.x + u.y + u.z) || !std::isfinite(v.x + v.y + v.z))
-      fail("displacement, velocity or force is not a number", node, "look at loads and stiffnesses there");
-    const double moved = std::sqrt(u.x * u.x + u.y * u.y + u.z * u.z);
-    if (moved > run_away_)
-      fail(fmt::format("run-away displacement of {:.3g} m (model {:.3g} m across)", moved, model.length),
-           node, "is this part held by supports, and can it carry its load?");
-  }
-  for (int node = 0; node < static_cast<int>(work.force.size()); ++node)
-    if (!std::isfinite(work.force[node].x + work.force[node].y + work.force[node].z))
-      fail("displacement, velocity or force is not a number", node, "look at loads and stiffnesses there");
-  for (std::size_t i = 0; i < model.mesh.tet_slot.size(); ++i) {
-    double sum = 0;
-    for (const auto& component : state.stress[model.mesh.tet_slot[i] / lanes].component)
-      sum += component[model.mesh.tet_slot[i] % lanes];
-    if (!std::isfinite(sum))
-      fail("stress is not a number", model.tets[static_cast<std::size_t>(model.mesh.first_tet) + i][0],
-           "look at loads and stiffnesses there");
-  }
-  for (int tet = 0; tet < static_cast<int>(model.tets.size()); ++tet) {
-    if (model.blocks[model.tet_block[tet]].rigid >= 0)
-      continue;
-    const geom::Mat3 f = geom::Mat3::Identity() + displacement_gradient(model, state.displacement, tet);
-    if (f.determinant() <= 0)
-      fail("an element is turned inside out", model.tets[tet][0],
-           model.blocks[model.tet_block[tet]].meshed
-               ? "the load there crushes the mesh"
-               : "the load there is beyond what small strain can carry");
-  }
+  if (details)
+    details(progress);
+  telling_(std::move(progress), last);
 }
 
 } // namespace cdem

@@ -7,7 +7,9 @@
 #include "libcdem/step/forces.hpp"
 #include "libcdem/step/keeper.hpp"
 #include "libcdem/step/mesh_forces.hpp"
-#include "libcdem/step/observer.hpp"
+#include "libcdem/step/options.hpp"
+#include "libcdem/step/soundness.hpp"
+#include "libcdem/step/telling.hpp"
 
 #include <chrono>
 #include <functional>
@@ -45,8 +47,8 @@ public:
   Stage& operator=(const Stage&) = delete;
 
   Workspace work;
-  std::int64_t step = 0;             // within the stage
-  std::function<std::string()> note; // for the progress line; may be empty
+  std::int64_t step = 0;                  // within the stage
+  std::function<void(Progress&)> details; // adds to what the progress line shows; may be empty
   // Ends with a SolutionError where broken faces no longer stand for the pieces' contact.
   bool follows_pieces = false;
 
@@ -67,31 +69,23 @@ public:
   bool can_be_left() const { return context_.moment && step > 0 && step % watch_every == 0; }
   void mark(std::vector<double> carried, const std::vector<Node>& previous_force = {});
 
-  // Bookkeeping after a step: ledger, breaks, history, progress, watch, stop. Throws SolutionError, Interrupted.
+  // Bookkeeping after a step: ledger, breaks, history, progress, soundness, stop. Throws SolutionError, Interrupted.
   struct StepReport {
     NodeSums sums;
     double residual = 0;
-    Progress goals; // residual_goal, time_goal, max_steps
+    Progress goals; // residual_goal, time_start, time_goal, max_steps
   };
   void after_step(const StepReport&);
-  void finish(const StepReport&); // last history row and progress
+  StageResult finish(const StepReport&); // last history row and progress
   std::int64_t broken_in_step() const { return broken_in_step_; }
-  std::int64_t broken_tension() const { return context_.log.broken_tension - broken_tension_before_; }
-  std::int64_t broken_shear() const { return context_.log.broken_shear - broken_shear_before_; }
-  double wall_time() const; // s
 
 private:
   NodeSums total() const;
-  void record_breaks();
-  void record_face_breaks();
-  void record_history(const StepReport&);
-  void look_at_units();
+  double wall_time() const; // s
+  StageStep here() const { return {context_.number, kind_, step}; }
   void keep_state();
-  void watch() const;
-  void watch_astray() const;
+  void sample(const StepReport&); // a row of the history
   void tell(const StepReport&, bool last);
-
-  [[noreturn]] void refuse_depth(int source_triangle, int target_triangle) const;
 
   StageContext context_;
   ThreadChoice threads_;
@@ -100,8 +94,8 @@ private:
   double run_away_;
   std::int64_t broken_in_step_ = 0;
   std::int64_t broken_tension_before_ = 0, broken_shear_before_ = 0;
-  std::chrono::steady_clock::time_point start_, told_;
-  std::int64_t told_step_ = 0;
+  std::chrono::steady_clock::time_point start_;
+  Telling telling_;
 };
 
 template <class Move, class MoveRigid>

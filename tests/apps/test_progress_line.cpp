@@ -21,18 +21,19 @@ Progress half_way() {
   p.residual_goal = 1e-6;
   p.broken_tension = 4;
   p.broken_shear = 1200;
-  p.steps_per_second = 860;
-  p.seconds_left = 75;
+  p.steps_per_second = 12345 / 75.;
   return p;
 }
 
+// From a residual of 1 it has fallen evenly.
 TimeLeft seen(const Progress& p) {
   TimeLeft left;
-  Progress first = p;
-  first.step = 0;
-  first.residual = 1;
-  left.add(first, 0);
-  left.add(p, 1);
+  for (int i = 0; i <= 10; ++i) {
+    Progress then = p;
+    then.step = p.step * i / 10;
+    then.residual = std::pow(p.residual, 0.1 * i);
+    left.add(then, 0.1 * i);
+  }
   return left;
 }
 
@@ -42,7 +43,7 @@ TEST_CASE("a wide line says everything") {
   const Progress p = half_way();
   CHECK(live_line(p, seen(p), 200) ==
         "stage 3 relax  [========>       ]  50 %  step 12,345  residual 0.001 -> 1e-06  "
-        "1,204 broken  860 steps/s  1 min 15 s left");
+        "1,204 broken  165 steps/s  1 min 15 s left");
 }
 
 TEST_CASE("a line is never wider than the terminal, and says first what matters most") {
@@ -64,7 +65,20 @@ TEST_CASE("the bar follows the decades of the residual, not its value") {
 TEST_CASE("a plain line names both kinds of breaking") {
   const Progress p = half_way();
   CHECK(plain_line(p, seen(p)) == "stage 3 relax: step 12,345, residual 0.001 -> 1e-06, 50 %, 1,204 broken "
-                                  "(4 tension, 1,200 shear), 860 steps/s, 1 min 15 s left");
+                                  "(4 tension, 1,200 shear), 165 steps/s, 1 min 15 s left");
+}
+
+TEST_CASE("a line of units that settle says how calm they are") {
+  Progress p;
+  p.stage = 1;
+  p.kind = "settle: rigid fall";
+  p.step = 100;
+  p.time = 0.5;
+  p.time_goal = 60;
+  p.kinetic_ratio = 1e-3;
+  p.kinetic_ratio_goal = 1e-6;
+  CHECK_THAT(live_line(p, TimeLeft(), 200),
+             Contains("time 0.5 of 60 s, kinetic energy 0.001 -> 1e-06 of its peak") && !Contains("left"));
 }
 
 TEST_CASE("the last line of a stage says what it came to") {

@@ -20,6 +20,18 @@ Progress relaxation(double wall) {
   return p;
 }
 
+// Of units that settle, within a minute of the model's time and 1e-4 s a step.
+Progress settling(double wall) {
+  Progress p = relaxation(wall);
+  p.kind = "settle";
+  p.residual_goal = 0;
+  p.kinetic_ratio_goal = 1e-6;
+  p.time = 1e-4 * static_cast<double>(p.step);
+  p.time_goal = 60;
+  p.max_steps = 600000;
+  return p;
+}
+
 } // namespace
 
 TEST_CASE("a residual that falls exponentially gives the time left") {
@@ -97,6 +109,61 @@ TEST_CASE("a stage with an end time goes by the time it has reached") {
   }
   CHECK(left.seconds() == Approx(15)); // 5 s for a quarter
   CHECK(left.fraction() == Approx(0.25));
+}
+
+TEST_CASE("a stage that begins later counts its own time only") {
+  TimeLeft left;
+  for (int i = 0; i <= 10; ++i) {
+    Progress p;
+    p.stage = 2;
+    p.step = 100 * i;
+    p.time_start = 100;
+    p.time = 100 + 0.01 * i;
+    p.time_goal = 100.4;
+    left.add(p, 0.5 * i);
+  }
+  CHECK(left.seconds() == Approx(15));
+  CHECK(left.fraction() == Approx(0.25));
+}
+
+TEST_CASE("units that settle are at rest when their kinetic energy has fallen, not at the limit of time") {
+  // ratio = 10^(-step / 2000) with the ripples of impacts: 1e-6 after 12 s; the limit is 600 s away.
+  TimeLeft left;
+  double wall = 0;
+  int call = 0;
+  for (; wall < 6; wall += interval, ++call) {
+    Progress p = settling(wall);
+    p.kinetic_ratio = std::pow(10, -static_cast<double>(p.step) / 2000 + 0.3 * std::sin(0.7 * call));
+    left.add(p, wall);
+  }
+  CHECK(left.seconds() == Approx(6).epsilon(0.2));
+  CHECK(left.fraction() == Approx(0.5).margin(0.1)); // ripples of 0.3 of six decades, at the top and now
+}
+
+TEST_CASE("units that still fall, at their peak of kinetic energy, give no time left") {
+  TimeLeft left;
+  for (double wall = 0; wall < 5; wall += interval) {
+    Progress p = settling(wall);
+    p.kinetic_ratio = 1;
+    left.add(p, wall);
+  }
+  CHECK(left.seconds() < 0);
+  CHECK(left.fraction() == Approx(0).margin(1e-12));
+}
+
+TEST_CASE("of two goals the one that is reached later counts") {
+  // The kinetic energy is low from the start; residual = 10^(-step / 4000): 0.01 after 8 s.
+  TimeLeft left;
+  double wall = 0;
+  for (; wall < 4; wall += interval) {
+    Progress p = settling(wall);
+    p.kinetic_ratio = 1e-7;
+    p.residual_goal = 0.01;
+    p.residual = std::pow(10, -static_cast<double>(p.step) / 4000);
+    left.add(p, wall);
+  }
+  CHECK(left.seconds() == Approx(8 - (wall - interval)).epsilon(1e-6));
+  CHECK(left.fraction() == Approx((wall - interval) / 8).epsilon(1e-6));
 }
 
 TEST_CASE("the next stage starts without memory of the one before") {

@@ -1,5 +1,6 @@
 // Armour units of a few hundred tetrahedra laid on a slope as one armour layer and settled by the solver's own `settle`,
 // rigid at first: what a pile costs until it is at rest, and what it holds there.
+#include "apps/cdem/progress/run_observer.hpp"
 #include "libcdem/contact/contact_forces.hpp"
 #include "libcdem/first_model.hpp"
 #include "libcdem/step/settle.hpp"
@@ -101,13 +102,9 @@ void piles(const Settings& settings) {
     const auto n = static_cast<double>(count) * static_cast<double>(tets_per_unit);
     State state = initial_state(model), last_good;
     RunLog log;
-    struct Told : Observer {
-      void message(const std::string& text) override {
-        std::printf("  %s\n", text.c_str());
-        std::fflush(stdout);
-      }
-    } told;
+    app::RunObserver told(app::ProgressStyle::automatic, nullptr);
     std::printf("\n%d units of %zu tets laid on a slope\n", count, tets_per_unit);
+    std::fflush(stdout);
     const int threads = *std::max_element(settings.threads.begin(), settings.threads.end());
     const SettleResult result =
         settle(model, {model, state, conditions, log, last_good, told, threads, 1}, {});

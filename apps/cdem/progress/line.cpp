@@ -26,8 +26,12 @@ std::string goal_text(const Progress& p) {
     text = "time " + number_text(p.time) + " of " + number_text(p.time_goal) + " s";
   else if (p.time > 0)
     text = "time " + number_text(p.time) + " s";
+  const auto add = [&](const std::string& more) { text += (text.empty() ? "" : ", ") + more; };
+  if (p.kinetic_ratio_goal > 0)
+    add("kinetic energy " + number_text(p.kinetic_ratio) + " -> " + number_text(p.kinetic_ratio_goal) +
+        " of its peak");
   if (!p.note.empty())
-    text += (text.empty() ? "" : ", ") + p.note;
+    add(p.note);
   return text;
 }
 

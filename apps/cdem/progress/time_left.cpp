@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace cdem::app {
 
@@ -15,21 +16,29 @@ double median(std::vector<double>& values) {
   return *middle;
 }
 
-bool usable(double residual) {
-  return std::isfinite(residual) && residual > 0;
+double decades(double value, double goal) {
+  return std::isfinite(value) && value > 0 ? std::log10(value / goal) : std::nan("");
 }
 
 } // namespace
+
+// 0 for what the stage does not wait for.
+TimeLeft::Heights TimeLeft::goals(const Progress& progress) {
+  return {progress.residual_goal, progress.kinetic_ratio_goal};
+}
 
 void TimeLeft::add(const Progress& progress, double wall) {
   if (progress.stage != stage_ || progress.step < last_.step)
     *this = TimeLeft();
   stage_ = progress.stage;
   last_ = progress;
-  newest_ = {wall, static_cast<double>(progress.step),
-             usable(progress.residual) ? std::log10(progress.residual) : std::nan("")};
-  if (usable(progress.residual))
-    highest_residual_ = std::max(highest_residual_, progress.residual);
+  newest_ = {wall,
+             static_cast<double>(progress.step),
+             progress.time,
+             {decades(progress.residual, progress.residual_goal),
+              decades(progress.kinetic_ratio, progress.kinetic_ratio_goal)}};
+  for (std::size_t i = 0; i < highest_.size(); ++i)
+    highest_[i] = std::fmax(highest_[i], newest_.height[i]);
   if (calls_++ % stride_ != 0)
     return;
   samples_.push_back(newest_);
@@ -51,61 +60,71 @@ double TimeLeft::steps_per_second() const {
   return wall > 0 ? std::max(0.0, (newest_.step - from.step) / wall) : 0;
 }
 
-double TimeLeft::steps_to_residual() const {
+// 0 where it is reached; negative while it does not fall.
+double TimeLeft::steps_to_goal(std::size_t which) const {
   std::vector<double> slopes;
-  std::vector<double> heights; // log10(residual) above the goal, now: the median over the last few samples
+  std::vector<double> heights; // now: the median over the last few samples
   const std::size_t first = samples_.size() / 2;
   for (std::size_t j = first; j < samples_.size(); ++j)
     for (std::size_t i = first; i < j; ++i) {
       const double run = samples_[j].step - samples_[i].step;
-      const double slope = (samples_[j].log_residual - samples_[i].log_residual) / run;
+      const double slope = (samples_[j].height[which] - samples_[i].height[which]) / run;
       if (run > 0 && std::isfinite(slope))
         slopes.push_back(slope);
     }
   if (slopes.size() < 6)
     return -1;
-  const double slope = median(slopes);
-  if (slope >= 0)
-    return -1;
-  const double goal = std::log10(last_.residual_goal);
+  const double slope = std::min(0.0, median(slopes));
   for (std::size_t i = std::max(first, samples_.size() - std::min<std::size_t>(samples_.size(), 5));
        i < samples_.size(); ++i)
-    if (std::isfinite(samples_[i].log_residual))
-      heights.push_back(samples_[i].log_residual + slope * (newest_.step - samples_[i].step) - goal);
-  return heights.empty() ? -1 : std::max(0.0, median(heights) / -slope);
+    if (std::isfinite(samples_[i].height[which]))
+      heights.push_back(samples_[i].height[which] + slope * (newest_.step - samples_[i].step));
+  if (heights.empty())
+    return -1;
+  const double height = median(heights);
+  return height <= 0 ? 0 : slope < 0 ? height / -slope : -1;
 }
 
 double TimeLeft::seconds() const {
   if (last_.last)
     return 0;
-  if (last_.seconds_left >= 0)
-    return last_.seconds_left;
   const double rate = steps_per_second();
   if (rate <= 0)
     return -1;
   const double steps_to_limit = last_.max_steps > 0 ? static_cast<double>(last_.max_steps - last_.step) : -1;
-  if (last_.residual_goal > 0) {
-    const double steps = steps_to_residual();
-    // A residual that does not fall says nothing, however far the limit is.
-    return steps < 0 ? -1 : (steps_to_limit >= 0 ? std::min(steps, steps_to_limit) : steps) / rate;
-  }
-  if (last_.time_goal > 0 && last_.time > 0 && !samples_.empty()) {
-    const double done = last_.time / last_.time_goal;
-    return done >= 1 ? 0 : (newest_.wall - samples_.front().wall) * (1 - done) / done;
-  }
+  double steps = -1;
+  for (std::size_t i = 0; i < highest_.size(); ++i)
+    if (goals(last_)[i] > 0) {
+      const double own = steps_to_goal(i);
+      if (own < 0) // what does not fall says nothing, however far the limit is
+        return -1;
+      steps = std::max(steps, own);
+    }
+  if (steps >= 0)
+    return (steps_to_limit >= 0 ? std::min(steps, steps_to_limit) : steps) / rate;
+  if (last_.time_goal > 0 && !samples_.empty() && newest_.time > samples_.front().time)
+    return std::max(0.0, last_.time_goal - newest_.time) * (newest_.wall - samples_.front().wall) /
+           (newest_.time - samples_.front().time);
   return steps_to_limit >= 0 ? steps_to_limit / rate : -1;
 }
 
 double TimeLeft::fraction() const {
-  double done = -1;
-  if (last_.residual_goal > 0 && usable(last_.residual) && highest_residual_ > last_.residual_goal)
-    done =
-        std::log10(highest_residual_ / last_.residual) / std::log10(highest_residual_ / last_.residual_goal);
-  else if (last_.time_goal > 0)
-    done = last_.time / last_.time_goal;
-  else if (last_.residual_goal <= 0 && last_.max_steps > 0)
-    done = static_cast<double>(last_.step) / static_cast<double>(last_.max_steps);
-  return done < 0 ? done : std::min(1.0, done);
+  double done = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < highest_.size(); ++i) {
+    if (!(goals(last_)[i] > 0))
+      continue;
+    const double height = newest_.height[i];
+    if (std::isnan(height))
+      return -1;
+    done = std::min(done, height <= 0 ? 1 : 1 - height / highest_[i]); // the one furthest from its goal
+  }
+  if (std::isfinite(done))
+    return done;
+  if (last_.time_goal > last_.time_start)
+    return std::min(1.0, (last_.time - last_.time_start) / (last_.time_goal - last_.time_start));
+  return last_.max_steps > 0
+             ? std::min(1.0, static_cast<double>(last_.step) / static_cast<double>(last_.max_steps))
+             : -1;
 }
 
 } // namespace cdem::app

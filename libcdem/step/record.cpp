@@ -1,0 +1,102 @@
+#include "libcdem/step/record.hpp"
+
+#include "libcdem/interface/spring_forces.hpp"
+#include "libcdem/model/add_meshes.hpp"
+#include "libcdem/results/fields.hpp"
+
+#include <cmath>
+
+namespace cdem {
+
+std::int64_t record_bond_breaks(const Model& model, State& state, const Workspace& work, RunLog& log,
+                                int stage, std::int64_t step) {
+  EnergyLedger& spent = state.spent;
+  std::int64_t count = 0;
+  for (const SpringSums& sums : work.spring_sums) {
+    spent.friction += sums.friction;
+    spent.breaking += sums.breaking;
+    for (const BreakEvent& event : sums.broken) {
+      const BondPoint& point = model.points[event.point];
+      const Interface& interface = model.interfaces[point.interface];
+      BreakRow row;
+      row.stage = stage;
+      row.step = step;
+      row.time = state.time;
+      row.mode = event.mode;
+      row.place = model.point_position[event.point];
+      row.normal = point.normal;
+      row.area = point.area;
+      row.normal_traction = event.normal_traction;
+      row.shear_traction = event.shear_traction;
+      row.block_a = model.blocks[interface.block_a].id;
+      row.block_b = model.blocks[interface.block_b].id;
+      log.breaks.push_back(row);
+      ++(event.mode == BondMode::broken_tension ? log.broken_tension : log.broken_shear);
+      ++count;
+    }
+  }
+  return count;
+}
+
+std::int64_t record_face_breaks(const Model& model, State& state, Workspace& work, RunLog& log, int stage,
+                                std::int64_t step) {
+  std::int64_t count = 0;
+  for (std::size_t c = 0; c < work.face_sums.size(); ++c) {
+    const FaceSums& sums = work.face_sums[c];
+    const MeshChunk& chunk = model.mesh.chunks[c];
+    state.spent.friction += sums.friction;
+    state.spent.breaking += sums.breaking;
+    state.spent.damping += sums.damping;
+    work.contact.pieces_due = work.contact.pieces_due || sums.hands_over;
+    for (const FaceBreak& broken : sums.broken) {
+      const FaceSpringPlace at{chunk.face_batches.begin + broken.spring / (3 * lanes),
+                               static_cast<int>(broken.spring / lanes % 3),
+                               static_cast<int>(broken.spring % lanes)};
+      BreakRow row;
+      row.stage = stage;
+      row.step = step;
+      row.time = state.time;
+      row.mode = broken.mode;
+      row.place = face_point(model, chunk, at);
+      row.normal = broken.normal;
+      row.area = model.mesh.faces[at.batch].area[at.lane];
+      row.normal_traction = broken.normal_traction;
+      row.shear_traction = broken.shear_traction;
+      row.block_a = row.block_b = model.blocks[chunk.block].id;
+      std::copy(std::begin(broken.slip), std::end(broken.slip),
+                slip_of(state, at.batch, at.lane).value[at.point]);
+      log.breaks.push_back(row);
+      ++(broken.mode == BondMode::broken_tension ? log.broken_tension : log.broken_shear);
+      ++count;
+    }
+  }
+  return count;
+}
+
+void record_history(const Model& model, const State& state, RunLog& log, int stage, double residual,
+                    double kinetic) {
+  HistoryRow row;
+  row.stage = stage;
+  row.step = state.step;
+  row.time = state.time;
+  row.residual = residual;
+  row.kinetic = kinetic;
+  row.external = state.spent.external;
+  row.broken_tension = log.broken_tension;
+  row.broken_shear = log.broken_shear;
+  for (const Probe& probe : log.probes)
+    row.probes.push_back(value_at(model, state, probe.field, probe.place));
+  log.add(std::move(row));
+}
+
+void look_at_units(const Model& model, const State& state, const Conditions& conditions, RunLog& log) {
+  if (log.watches.empty())
+    return;
+  double velocity = std::numeric_limits<double>::quiet_NaN();
+  for (const Flow& flow : conditions.flows)
+    velocity = std::fmax(velocity, flow.velocity(state.time));
+  for (Watch& watch : log.watches)
+    look(model, state, velocity, watch);
+}
+
+} // namespace cdem

@@ -1,0 +1,21 @@
+// What a step leaves in the log and the ledger.
+#pragma once
+
+#include "libcdem/results/log.hpp"
+#include "libcdem/step/workspace.hpp"
+
+namespace cdem {
+
+// Bonds that broke in this step, and what friction and breaking took there. Returns how many.
+std::int64_t record_bond_breaks(const Model&, State&, const Workspace&, RunLog&, int stage,
+                                std::int64_t step);
+// The same of the bonded faces of meshes; contacts are told of those that are handed over to them.
+std::int64_t record_face_breaks(const Model&, State&, Workspace&, RunLog&, int stage, std::int64_t step);
+
+// kinetic: J. Probes read stresses: they have to be caught up.
+void record_history(const Model&, const State&, RunLog&, int stage, double residual, double kinetic);
+
+// Which watched units have left.
+void look_at_units(const Model&, const State&, const Conditions&, RunLog&);
+
+} // namespace cdem

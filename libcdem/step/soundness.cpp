@@ -1,0 +1,108 @@
+#include "libcdem/step/soundness.hpp"
+
+#include "libcdem/contact/places.hpp"
+#include "libcdem/element/small_strain.hpp"
+#include "libcdem/interface/spring_forces.hpp"
+#include "libcdem/model/names.hpp"
+#include "libcdem/rigid/motion.hpp"
+#include "libcdem/step/errors.hpp"
+
+#include <cmath>
+#include <fmt/format.h>
+
+namespace cdem {
+namespace {
+
+std::string in_words(const StageStep& at) {
+  return fmt::format("stage {} ({}), step {}", at.stage, at.kind, at.step);
+}
+
+std::string where(const Model& model, int node) {
+  const geom::Vec3& x = model.node_position[node];
+  const Block& block = model.blocks[block_of(model, node)];
+  return fmt::format("block {} of body \"{}\" at ({:.6g}, {:.6g}, {:.6g}) m", block.id,
+                     model.bodies[block.body].name, x.x(), x.y(), x.z());
+}
+
+} // namespace
+
+void require_sound(const Model& model, const State& state, const Workspace& work, double run_away,
+                   const StageStep& at) {
+  const auto fail = [&](const std::string& what, int node, const std::string& advice) {
+    throw SolutionError(fmt::format("{}: {} in {}; {}", in_words(at), what, where(model, node), advice));
+  };
+  for (std::size_t i = 0; i < model.rigid.size(); ++i) {
+    const RigidState& rigid = state.rigid[i];
+    if (!std::isfinite(vec(rigid.centroid).sum() + vec(rigid.velocity).sum() +
+                       vec(rigid.angular_momentum).sum()))
+      fail("force on a rigid body is not a number", model.blocks[model.rigid[i].block].node_begin,
+           "look at loads and contacts there");
+    if (!std::isfinite(rigid.rotation[0]))
+      fail("a rigid body turns by a radian or more in a step", model.blocks[model.rigid[i].block].node_begin,
+           "use a smaller time_step");
+  }
+  for (int node = 0; node < static_cast<int>(model.node_position.size()); ++node) {
+    const Node& u = state.displacement[node];
+    const Node& v = state.velocity[node];
+    if (!std::isfinite(u.x + u.y + u.z) || !std::isfinite(v.x + v.y + v.z))
+      fail("displacement, velocity or force is not a number", node, "look at loads and stiffnesses there");
+    const double moved = std::sqrt(u.x * u.x + u.y * u.y + u.z * u.z);
+    if (moved > run_away)
+      fail(fmt::format("run-away displacement of {:.3g} m (model {:.3g} m across)", moved, model.length),
+           node, "is this part held by supports, and can it carry its load?");
+  }
+  for (int node = 0; node < static_cast<int>(work.force.size()); ++node)
+    if (!std::isfinite(work.force[node].x + work.force[node].y + work.force[node].z))
+      fail("displacement, velocity or force is not a number", node, "look at loads and stiffnesses there");
+  for (std::size_t i = 0; i < model.mesh.tet_slot.size(); ++i) {
+    double sum = 0;
+    for (const auto& component : state.stress[model.mesh.tet_slot[i] / lanes].component)
+      sum += component[model.mesh.tet_slot[i] % lanes];
+    if (!std::isfinite(sum))
+      fail("stress is not a number", model.tets[static_cast<std::size_t>(model.mesh.first_tet) + i][0],
+           "look at loads and stiffnesses there");
+  }
+  for (int tet = 0; tet < static_cast<int>(model.tets.size()); ++tet) {
+    if (model.blocks[model.tet_block[tet]].rigid >= 0)
+      continue;
+    const geom::Mat3 f = geom::Mat3::Identity() + displacement_gradient(model, state.displacement, tet);
+    if (f.determinant() <= 0)
+      fail("an element is turned inside out", model.tets[tet][0],
+           model.blocks[model.tet_block[tet]].meshed
+               ? "the load there crushes the mesh"
+               : "the load there is beyond what small strain can carry");
+  }
+}
+
+void require_followed(const Model& model, const Workspace& work, const StageStep& at) {
+  for (std::size_t c = 0; c < work.face_sums.size(); ++c) {
+    if (work.face_sums[c].astray < 0)
+      continue;
+    const MeshChunk& chunk = model.mesh.chunks[c];
+    const int lane = static_cast<int>(work.face_sums[c].astray % lanes);
+    const std::int64_t batch = chunk.face_batches.begin + work.face_sums[c].astray / lanes;
+    const std::string& body = model.bodies[model.blocks[chunk.block].body].name;
+    throw SolutionError(fmt::format(
+        "{}: the sides of a broken face have slid past each other by more than its size, "
+        "{:.3g} m, and still press, in {}; pieces that come loose need contacts = {{ {{\"{}\", \"{}\", "
+        "cdem.coulomb{{...}}}} }} in cdem.model",
+        in_words(at), std::sqrt(3 * model.mesh.faces[batch].area[lane]),
+        where(model, face_nodes(model.mesh, chunk, batch, lane).a[0]), body, body));
+  }
+}
+
+void refuse_depth(const Model& model, const State& state, int source_triangle, int target_triangle,
+                  const StageStep& at) {
+  const ContactTriangle &source = model.surface.triangles[source_triangle],
+                        &target = model.surface.triangles[target_triangle];
+  const geom::Vec3 x = place_of(model, state, source.nodes[0]);
+  throw SolutionError(fmt::format("{}: {} has gone too deep into {} near ({:.6g}, "
+                                  "{:.6g}, {:.6g}) m, more than a quarter of "
+                                  "a tet's height; it is too fast for this contact: give the contact a "
+                                  "larger normal_stiffness, the model a "
+                                  "finer mesh, or let it fall less far",
+                                  in_words(at), block_name(model, source.block),
+                                  block_name(model, target.block), x.x(), x.y(), x.z()));
+}
+
+} // namespace cdem

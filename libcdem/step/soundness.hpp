@@ -1,0 +1,26 @@
+// What a stage does not go on with: each ends it with a SolutionError that names stage, step, block and place.
+#pragma once
+
+#include "libcdem/step/workspace.hpp"
+
+#include <string>
+
+namespace cdem {
+
+struct StageStep {
+  int stage = 0; // from 1
+  const std::string& kind;
+  std::int64_t step = 0; // within the stage
+};
+
+// Every number is one, no node has gone further than run_away (m), no element is inside out.
+void require_sound(const Model&, const State&, const Workspace&, double run_away, const StageStep&);
+
+// The sides of broken faces are where their own springs can stand for the contact of the pieces.
+void require_followed(const Model&, const Workspace&, const StageStep&);
+
+// Of a contact that is deeper than it is to be trusted.
+[[noreturn]] void refuse_depth(const Model&, const State&, int source_triangle, int target_triangle,
+                               const StageStep&);
+
+} // namespace cdem
