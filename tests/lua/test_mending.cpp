@@ -95,7 +95,7 @@ TEST_CASE("a stage whose callback failed goes on where it can be left, with the 
   CHECK(script.report() == whole.report());
 }
 
-TEST_CASE("what a mended script did before it failed must stay as it was; a file it requires may change",
+TEST_CASE("what a mended script did before it failed must stay as it was, a file it requires may change",
           "[checkpoint]") {
   Mended script(solved + wrong + told);
   script.error();
