@@ -71,6 +71,8 @@ void check(const RunOptions& o) {
 }
 
 void check(const SettleOptions& o) {
+  if (o.friction_angle && !(*o.friction_angle >= 0 && *o.friction_angle < M_PI / 2))
+    throw geom::InputError("friction_angle", number(*o.friction_angle), "in [0, pi/2) rad");
   if (!(o.kinetic_energy_ratio > 0 && o.kinetic_energy_ratio < 1))
     throw geom::InputError("kinetic_energy_ratio", number(o.kinetic_energy_ratio), "in (0, 1)",
                            "1e-6 is usual");

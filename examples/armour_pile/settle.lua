@@ -17,6 +17,8 @@ local held = cdem.parameter{ name = "held", default = 5, range = {1, 100}, doc =
 local ratio = cdem.parameter{ name = "kinetic_energy_ratio", default = 1e-6, range = {1e-12, 0.1},
                                doc = "of the largest there was: at rest" }
 local friction = cdem.parameter{ name = "friction_angle", default = 35.0, range = {0, 80}, unit = "deg" }
+local sliding = cdem.parameter{ name = "sliding_angle", default = 20.0, range = {0, 80}, unit = "deg",
+                                doc = "friction of what is laid while it settles, at most" }
 local walls = cdem.parameter{ name = "walls", default = true, doc = "at the sides and the toe" }
 local draw = cdem.parameter{ name = "pictures", default = true, doc = "draw them" }
 
@@ -32,7 +34,7 @@ local pile
 if start == "drop" then
   pile = cdem.drop{ unit = unit, count = count, onto = bare, seed = seed, layers = 3, gap = 0.05 * height }
 else
-  pile = cdem.place{ unit = unit, count = count, onto = bare, seed = seed, columns = columns }
+  pile = cdem.place{ unit = unit, count = count, onto = bare, seed = seed, columns = columns, walls = walls }
 end
 
 local model, ground = set_up.model(pile, { length = length, friction_angle = friction, walls = walls })
@@ -46,7 +48,8 @@ local function picture(name, title)
 end
 picture("start.png", start == "drop" and "dropped" or "placed")
 local frames = {}
-local settled = model:settle{ kinetic_energy_ratio = ratio, every = 500, callback = function()
+local less_friction = start == "place" and sliding or nil
+local settled = model:settle{ kinetic_energy_ratio = ratio, friction_angle = less_friction, every = 500, callback = function()
   if draw and start == "drop" then
     frames[#frames + 1] = string.format("frames/fall_%03d.png", #frames + 1)
     picture(frames[#frames], string.format("%.1f s", model.time))

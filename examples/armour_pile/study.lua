@@ -1,58 +1,97 @@
--- The flow that throws units out of one settled pile, at 5, 9 and 16 t, held and as a ramp, beside Feng 2014 Table 3 and
--- the similarity law V ~ mass^(1/6).
+-- The flow that throws units out of a settled pile, at 5, 9 and 16 t, held and as a ramp, beside Feng 2014 Table 3 and
+-- the similarity law V ~ mass^(1/6). Which unit sticks and which slips changes with the last digits, so that one pile
+-- tells little: with several, means and their standard errors over piles.
 --
 --   ./cdem run examples/armour_pile/settle.lua
 --   ./cdem run examples/armour_pile/study.lua [--set modes=hold] [--set first_velocity=5]
+--   ./cdem sweep examples/armour_pile/settle.lua --set seed=1,2,3,4,5,6 --set pictures=false
+--   ./cdem run examples/armour_pile/study.lua --set pile=results/armour_pile-settle-sweep/seed=%d/pile.json --set piles=6
 local cdem = require "cdem"
 
-local file = cdem.parameter{ name = "pile", default = "results/armour_pile-settle/pile.json", doc = "of settle.lua" }
+local file = cdem.parameter{ name = "pile", default = "results/armour_pile-settle/pile.json",
+                             doc = "of settle.lua; %d stands for the number of the pile" }
+local piles = cdem.parameter{ name = "piles", default = 1, range = {1, 100}, doc = "how many" }
 local modes = cdem.parameter{ name = "modes", default = "both", choices = {"both", "hold", "ramp"} }
 local units = cdem.parameter{ name = "units", default = 4, range = {1, 100}, doc = "how many are to leave" }
 local first = cdem.parameter{ name = "first_velocity", default = 3.0, range = {0.1, 100}, unit = "m/s", doc = "for 5 t" }
 local step = cdem.parameter{ name = "velocity_step", default = 0.25, range = {1e-3, 10}, unit = "m/s", doc = "for 5 t" }
 local rate = cdem.parameter{ name = "ramp_rate", default = 1.0, range = {1e-3, 100}, unit = "m/s2", doc = "of ramp" }
 local walls = cdem.parameter{ name = "walls", default = false, doc = "those of settle.lua stay" }
+local draw = cdem.parameter{ name = "pictures", default = false, doc = "of each run" }
 local jobs = cdem.parameter{ name = "jobs", default = 2, range = {1, 64}, doc = "runs side by side" }
 
 local masses = { 5000.0, 9000.0, 16000.0 }
-local set, run_of = {}, {} -- run_of["ramp 9000"]: number of that run
-for _, mode in ipairs(modes == "both" and {"hold", "ramp"} or {modes}) do
-  for _, mass in ipairs(masses) do
-    set[#set + 1] = { mass = mass, pile = file, units = units, mode = mode, first_velocity = first, velocity_step = step,
-                      ramp_rate = rate, walls = walls }
-    run_of[mode .. " " .. mass] = #set
+local set, run_of = {}, {} -- run_of["ramp 9000 1"]: number of that run of pile 1
+for pile = 1, piles do
+  for _, mode in ipairs(modes == "both" and {"hold", "ramp"} or {modes}) do
+    for _, mass in ipairs(masses) do
+      set[#set + 1] = { pile = piles > 1 and file:gsub("%%d", tostring(pile)) or file, mass = mass, mode = mode, units = units,
+                        first_velocity = first, velocity_step = step, ramp_rate = rate, walls = walls, pictures = draw }
+      run_of[string.format("%s %g %d", mode, mass, pile)] = #set
+    end
   end
 end
 local runs = cdem.sweep{ script = "flow.lua", set = set, jobs = jobs }
 
-local columns, figures = { { name = "mass_t", values = {} } }, {}
-for i, mass in ipairs(masses) do columns[1].values[i] = mass / 1000 end
-for _, mode in ipairs{ "hold", "ramp" } do
-  local ending = mode == "ramp" and "_ramp" or ""
-  local left = {} -- left[i][k]: velocity at which unit k left, of mass i
-  for i, mass in ipairs(masses) do
-    local run = runs[run_of[mode .. " " .. mass]]
-    left[i] = {}
-    for k = 1, run and units or 0 do
-      local name = string.format("unit_%d_leaves_at_m_per_s_%g_t%s", k, mass / 1000, ending)
-      left[i][k] = run.figures[name]
-      figures[#figures + 1] = { name = name, value = left[i][k], unit = "m/s" }
-    end
-    -- Mean over the units that left at both masses.
-    local sum, count = 0, 0
-    for k = 1, units do
-      if left[1][k] and left[i][k] then sum, count = sum + left[i][k] / left[1][k], count + 1 end
-    end
-    if run and i > 1 then
-      figures[#figures + 1] = { name = string.format("similarity_ratio_%g_over_5%s", mass / 1000, ending),
-                                value = count > 0 and sum / count or nil, reference = (mass / masses[1]) ^ (1 / 6),
-                                kind = "formula", source = "Froude: V ~ mass^(1/6)", tolerance = 0.05 }
-    end
+-- Velocities at which units left, of one run; as many as did.
+local function velocities(mode, mass, pile)
+  local run, list = runs[run_of[string.format("%s %g %d", mode, mass, pile)] or 0], {}
+  for k = 1, run and units or 0 do
+    list[k] = run.figures[string.format("unit_%d_leaves_at_m_per_s_%g_t%s", k, mass / 1000, mode == "ramp" and "_ramp" or "")]
   end
-  for k = 1, run_of[mode .. " " .. masses[1]] and units or 0 do
+  return list
+end
+
+-- Mean of a list and its standard error, none of less than two values.
+local function mean(list)
+  local sum, square = 0, 0
+  for _, x in ipairs(list) do sum = sum + x end
+  if #list == 0 then return nil, nil end
+  for _, x in ipairs(list) do square = square + (x - sum / #list) ^ 2 end
+  return sum / #list, #list > 1 and (square / (#list - 1) / #list) ^ 0.5 or nil
+end
+
+local columns, figures = { { name = "pile", values = {} }, { name = "mass_t", values = {} } }, {}
+for pile = 1, piles do
+  for _, mass in ipairs(masses) do
+    table.insert(columns[1].values, pile)
+    table.insert(columns[2].values, mass / 1000)
+  end
+end
+for _, mode in ipairs(modes == "both" and {"hold", "ramp"} or {modes}) do
+  local ending = mode == "ramp" and "_ramp" or ""
+  for k = 1, units do
     local column = { name = "unit_" .. k .. "_" .. mode, values = {} }
-    for i in ipairs(masses) do column.values[i] = left[i][k] or 0 end
+    for pile = 1, piles do
+      for _, mass in ipairs(masses) do column.values[#column.values + 1] = velocities(mode, mass, pile)[k] or 0 end
+    end
     columns[#columns + 1] = column
+  end
+  for _, mass in ipairs(masses) do
+    for k = 1, units do
+      local list = {}
+      for pile = 1, piles do list[#list + 1] = velocities(mode, mass, pile)[k] end
+      local value, standard_error = mean(list)
+      local name = string.format("unit_%d_leaves_at_m_per_s_%g_t%s", k, mass / 1000, ending)
+      figures[#figures + 1] = { name = name, value = value, unit = "m/s" }
+      if piles > 1 then figures[#figures + 1] = { name = name .. "_standard_error", value = standard_error, unit = "m/s" } end
+    end
+    -- Of each pile the mean over the units that left at both masses.
+    local ratios = {}
+    for pile = 1, piles do
+      local least, here, both = velocities(mode, masses[1], pile), velocities(mode, mass, pile), {}
+      for k = 1, units do
+        if least[k] and here[k] then both[#both + 1] = here[k] / least[k] end
+      end
+      ratios[#ratios + 1] = mean(both)
+    end
+    if mass > masses[1] then
+      local value, standard_error = mean(ratios)
+      local name = string.format("similarity_ratio_%g_over_5%s", mass / 1000, ending)
+      figures[#figures + 1] = { name = name, value = value, reference = (mass / masses[1]) ^ (1 / 6), kind = "formula",
+                                source = "Froude: V ~ mass^(1/6)", tolerance = 0.05 }
+      if piles > 1 then figures[#figures + 1] = { name = name .. "_standard_error", value = standard_error } end
+    end
   end
 end
 figures[#figures + 1] = { name = "wall_time_s", value = cdem.elapsed(), unit = "s" }

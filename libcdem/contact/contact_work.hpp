@@ -13,6 +13,7 @@
 #include "libcdem/parallel/node.hpp"
 
 #include <array>
+#include <limits>
 #include <vector>
 
 namespace cdem {
@@ -96,7 +97,9 @@ struct ContactWork {
   // State::contacts holds all there are, but for pieces. Not so where a stage begins: what stands in what then is
   // anybody's doing.
   bool all_known = false;
-  double step = 0;        // s, since then
+  double step = 0; // s, since then
+  // Tangent of the largest friction angle of any contact, for a stage that wants less than joints give.
+  double most_friction = std::numeric_limits<double>::infinity();
   int hurry = 0;          // how often skins have been doubled, as searches followed each other closely
   std::int64_t looks = 0; // steps since the search
   std::int64_t searches = 0;

@@ -43,6 +43,8 @@ struct RunOptions {
   // Cundall's: force against the motion, as a fraction of the out-of-balance force, [0, 1)
   double local_damping = 0;
   bool damp_flight = true; // of rigid bodies that touch nothing too
+  // Tangent: contacts with more friction have no more than this.
+  double most_friction = std::numeric_limits<double>::infinity();
   std::int64_t callback_every = 0;
   std::function<void()> callback;
   std::function<void(Progress&)> details; // adds to what the progress line shows

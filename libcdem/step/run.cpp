@@ -143,6 +143,7 @@ RunResult run(const StageContext& context, const RunOptions& options, const std:
   Stage stage(context, kind, run_away_lengths * context.model.length);
   stage.follows_pieces = options.follows_pieces;
   stage.details = options.details;
+  stage.work.contact.most_friction = options.most_friction;
   stage.work.damped = !state.viscous_stress.empty();
   const std::vector<double> viscous = viscous_forces(context.model);
   Stage::StepReport report;

@@ -116,12 +116,15 @@ void Settling::start() {
   now_.start = state_.time;
   if (options_.rigid)
     now_.turned = can_be_rigid(model_, resolve(model_, state_, context_.conditions));
-  context_.observer.message(
-      fmt::format("stage {} settle: for the deposition alone {}local damping {:g} of what touches; off "
-                  "afterwards",
-                  context_.number,
-                  now_.turned.empty() ? "" : fmt::format("{} units are rigid, with ", now_.turned.size()),
-                  options_.local_damping));
+  context_.observer.message(fmt::format(
+      "stage {} settle: for the deposition alone {}local damping {:g} of what touches{}; off "
+      "afterwards",
+      context_.number,
+      now_.turned.empty() ? "" : fmt::format("{} units are rigid, with ", now_.turned.size()),
+      options_.local_damping,
+      options_.friction_angle
+          ? fmt::format(" and friction of at most {:g} degrees", *options_.friction_angle * 180 / M_PI)
+          : ""));
   now_.result.made_rigid = static_cast<std::int64_t>(now_.turned.size());
   if (!now_.turned.empty()) {
     set_rigid(model_, state_, now_.turned);
@@ -149,6 +152,8 @@ void Settling::phase(const std::string& name, double time_step, Until until) {
   stepping.time_step = time_step;
   stepping.local_damping = until == Until::touch ? 0 : options_.local_damping;
   stepping.damp_flight = false;
+  if (options_.friction_angle)
+    stepping.most_friction = std::tan(*options_.friction_angle);
   const std::int64_t looks_per_call =
       options_.callback ? (options_.callback_every + steps_per_look - 1) / steps_per_look : 0;
   stepping.callback_every = steps_per_look;

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -10,13 +11,14 @@ namespace cdem {
 
 struct SettleOptions {
   double kinetic_energy_ratio =
-      1e-6;                        // goal: kinetic energy over the largest there was in the stage, in (0, 1)
-  bool rigid = true;               // free units fall as rigid bodies and deform when they rest
-  double local_damping = 0.5;      // of what touches, in [0, 1)
-  double max_time = 60;            // s of the model, over all phases
-  double safety = 0.9;             // time step over the stable one, in (0, 1]
-  double time_step = 0;            // s, of the rigid phase; 0 = safety x stable
-  std::int64_t callback_every = 0; // steps between calls of `callback`, in whole twenties; 0 never
+      1e-6;                   // goal: kinetic energy over the largest there was in the stage, in (0, 1)
+  bool rigid = true;          // free units fall as rigid bodies and deform when they rest
+  double local_damping = 0.5; // of what touches, in [0, 1)
+  std::optional<double> friction_angle; // rad, in [0, pi/2): contacts have no more of it in this stage
+  double max_time = 60;                 // s of the model, over all phases
+  double safety = 0.9;                  // time step over the stable one, in (0, 1]
+  double time_step = 0;                 // s, of the rigid phase; 0 = safety x stable
+  std::int64_t callback_every = 0;      // steps between calls of `callback`, in whole twenties; 0 never
   std::function<void()> callback;
 };
 

@@ -113,10 +113,11 @@ void Stage::mark(std::vector<double> carried, const std::vector<Node>& previous_
     moment.beside = context_.beside();
   // Contacts are looked for anew here, as by a stage that goes on: which pairs sleep is not saved.
   if (!context_.model.surface.empty()) {
-    const std::vector<double> pace = std::move(work.contact.pace); // how thick skins are changes no force
+    ContactWork before = std::move(work.contact);
     work.contact = {};
     start_contact(context_.model, work.contact);
-    work.contact.pace = pace;
+    work.contact.pace = std::move(before.pace); // how thick skins are changes no force
+    work.contact.most_friction = before.most_friction;
     work.contact.all_known = true; // those of the step before
     std::fill(work.contact_force.begin(), work.contact_force.end(), Node{});
   }

@@ -28,6 +28,21 @@ Mat3 slope_frame(const Vec3& normal) {
   return frame;
 }
 
+constexpr std::uint64_t widths = 1000;
+
+// m, over all directions, of a unit about its centroid.
+double mean_half_width(const TetMesh& unit) {
+  double sum = 0;
+  for (std::uint64_t k = 0; k < widths; ++k) {
+    const Vec3 direction = random_rotation(0, k).row(0);
+    double most = 0;
+    for (const Vec3& x : unit.nodes)
+      most = std::max(most, direction.dot(x));
+    sum += most;
+  }
+  return sum / widths;
+}
+
 struct Pattern {
   Spacing spacing;
   int columns = 0;
@@ -81,11 +96,14 @@ double lay_rows(Pile& pile, int count, const Pattern& pattern, const Vec3& first
     Laying::Site site;
     site.unit = i;
     double level = 0;
-    for (const int beside : {0, row % 2 == 0 ? -1 : 1})
-      if (row > 0 && column + beside >= 0 && column + beside < pattern.columns) {
+    for (const int beside : {0, row % 2 == 0 ? -1 : 1}) {
+      if (column + beside < 0 || column + beside >= pattern.columns) {
+        site.end = beside;
+      } else if (row > 0) {
         site.below.push_back(i - pattern.columns + beside);
         level += laying.place(site.below.back()).y();
       }
+    }
     const double up =
         row == 0 ? first.y() : level / static_cast<double>(site.below.size()) + pattern.spacing.rows;
     site.place =
@@ -150,7 +168,13 @@ Pile place_layer(const TetMesh& unit, int count, const Ground& ground, const Lay
   for (int i = 0; i < spacings_tried && least_error > density_tolerance; ++i) {
     Pattern pattern = as_asked;
     pattern.spacing.across *= widening;
-    Laying laying(pile, ground, frame, gap, options, pattern.spacing);
+    std::optional<Laying::Between> walls;
+    if (options.walls) {
+      const double half =
+          (0.5 * (pattern.columns - 1) + 0.25) * pattern.spacing.across + mean_half_width(pile.unit);
+      walls = Laying::Between{first.x() - half, first.x() + half};
+    }
+    Laying laying(pile, ground, frame, gap, options, pattern.spacing, walls);
     const double by_rows = lay_rows(pile, count, pattern, first, laying);
     const double density = measured_density(pile, ground).value_or(by_rows);
     const double error = std::abs(density / options.density - 1);

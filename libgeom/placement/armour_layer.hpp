@@ -23,6 +23,8 @@ struct LayerOptions {
   int attitudes = 1500;          // tried for the family
   int nudges = 200;              // steps of a unit on its way to rest; 0: only lowered on to what is there
   double play = 0.1;             // of the height: how far along the contour from its place a unit may be laid
+  double friction = 0.268;       // coefficient, tan 15 degrees: with so much laid units are at rest
+  bool walls = false;            // upright along the slope, where rows end
 };
 
 // Throws InputError for a count below 1, a density or gap out of range, a ground that is too small.

@@ -23,10 +23,17 @@ constexpr double lowest_place = -0.3, highest_place = 1.5, place_step = 0.05;
 constexpr double seated = 0.03; // over the height: how far from the bare slope a lowered unit still is on it
 
 constexpr double sliding = 0.2;      // coefficient of friction, on the way
-constexpr double holding = 0.75;     // at rest, on slopes less steep than that
+constexpr double steeper = 0.1;      // friction over the slope's gradient, of what stands on it by itself
 constexpr double lowest_rest = -0.4; // over the height: how far below its place a unit slides
 
+constexpr double to_wall = 0.3; // over the height: how far beyond the play a unit at the end of a row may be
+
+constexpr double way = 1.5;  // over the height: how far a unit may go
 constexpr double roll = 0.5; // over the height: how far a unit may move once it is not held in its place
+
+int carriers(const Rest& rest) {
+  return static_cast<int>(std::count(rest.carried_by.begin(), rest.carried_by.end(), 1));
+}
 
 constexpr double alike = 15 * M_PI / 180;
 constexpr double neighbours = 1.3; // over the height: how far apart
@@ -65,11 +72,13 @@ double gyration_of(const Pile& pile) {
 } // namespace
 
 Laying::Laying(const Pile& pile, const Ground& ground, const Mat3& frame, double gap,
-               const LayerOptions& options, const Spacing& spacing)
+               const LayerOptions& options, const Spacing& spacing, std::optional<Between> walls)
     : shape_(surface_of(pile.unit)), features_(features_of(shape_)),
       ground_features_(features_of(upper_side(ground.surface()))), ground_(ground), frame_(frame), gap_(gap),
       height_(pile.height), radius_(bounding_radius(pile.unit)), gyration_(gyration_of(pile)),
-      options_(options), ground_profile_(ground.surface(), frame) {
+      options_(options), ground_profile_(ground.surface(), frame), walls_(walls) {
+  if (walls)
+    wall_features_ = {wall(walls->low, 1), wall(walls->high, -1)};
   for (const Mat3& rotation : attitudes_for(shape_, spacing, options.attitudes, options.seed))
     family_.emplace_back(frame.transpose() * rotation);
   stands_ = stands();
@@ -97,16 +106,43 @@ Laying::Near Laying::near(const Vec3& centroid, double reach) const {
   return found;
 }
 
-RestOptions Laying::resting() const {
+// A plane along the normal and up the slope, larger than any pile.
+Features Laying::wall(double at, double facing) const {
+  const double wide = 1e4 * radius_;
+  Surface plane;
+  const Vec3 centre = at * frame_.row(0), up = wide * frame_.row(1), out = facing * wide * frame_.row(2);
+  plane.points = {centre + up, centre + out, centre - up, centre - out};
+  plane.triangles = {{0, 1, 2}, {0, 2, 3}};
+  return features_of(plane);
+}
+
+bool Laying::within_walls(const Surface& surface) const {
+  return !walls_ || std::all_of(surface.points.begin(), surface.points.end(), [&](const Vec3& x) {
+    const double along = frame_.row(0).dot(x);
+    return along >= walls_->low + 0.995 * gap_ && along <= walls_->high - 0.995 * gap_;
+  });
+}
+
+Laying::Between Laying::room(const Site& site) const {
+  const double play = options_.play * height_, more = walls_ ? to_wall * height_ : 0;
+  return {-play - (site.end < 0 ? more : 0), play + (site.end > 0 ? more : 0)};
+}
+
+// Coefficient of friction of what rests on the slope by itself.
+double Laying::standing() const {
   const double steep = std::tan(std::acos(std::min(1., std::abs(frame_(2, 2)))));
+  return std::max(options_.friction, steep + steeper);
+}
+
+RestOptions Laying::resting(double friction) const {
   RestOptions options;
-  options.friction = std::max(holding, steep + 0.1);
+  options.friction = friction;
   options.clear = gap_;
   options.step = 0.03 * height_;
   options.last_step = std::min(gap_, 1e-3 * height_);
   options.gyration = gyration_;
   options.steps = options_.nudges;
-  options.way = 1.5 * height_;
+  options.way = way * height_;
   return options;
 }
 
@@ -118,6 +154,7 @@ std::vector<Mat3> Laying::stands() const {
   plane.points = {along, up, -along, -up};
   plane.triangles = {{0, 1, 2}, {0, 2, 3}};
   const Features bare = features_of(plane);
+  const RestOptions resting = this->resting(standing());
   std::vector<Mat3> found;
   for (std::uint64_t k = 0; k < stands_tried && found.size() < stands_wanted; ++k) {
     Pose start{random_rotation(options_.seed, stand_id + k), Vec3::Zero()};
@@ -125,7 +162,7 @@ std::vector<Mat3> Laying::stands() const {
     for (const Vec3& x : shape_.points)
       low = std::min(low, frame_.row(2).dot(start.rotation * x));
     start.translation = (gap_ - low) * frame_.row(2);
-    const Rest rest = come_to_rest(features_, start, {&bare}, resting());
+    const Rest rest = come_to_rest(features_, start, {&bare}, resting);
     if (rest.still)
       found.push_back(rest.pose.rotation);
   }
@@ -154,12 +191,19 @@ std::vector<Mat3> Laying::attitudes(const Site& site) const {
 // As far down the slope as the unit comes down to the ground, from a little below its place on.
 Laying::Try Laying::lowered(const Mat3& rotation, const Site& site) const {
   const Profile profile(surface_at({rotation, Vec3::Zero()}), frame_);
-  double bare = 0; // m, of the centroid over a bare plane
-  for (const Vec3& x : shape_.points)
-    bare = std::max(bare, -frame_.row(2).dot(rotation * x));
+  double bare = 0, left = 0, right = 0; // m, of the centroid over a bare plane, between walls
+  for (const Vec3& x : shape_.points) {
+    const Vec3 at = frame_ * (rotation * x);
+    bare = std::max(bare, -at.z());
+    left = std::max(left, -at.x());
+    right = std::max(right, at.x());
+  }
+  double along = site.place.x();
+  if (walls_)
+    along = std::max(std::min(along, walls_->high - gap_ - right), walls_->low + gap_ + left);
   Try best{{rotation, Vec3::Zero()}, far};
   for (double up = site.below.empty() ? 0 : lowest_place; up < highest_place; up += place_step) {
-    Vec3 place = site.place + Vec3(0, up * height_, 0);
+    Vec3 place(along, site.place.y() + up * height_, 0);
     const Vec3 offset(place.x(), place.y(), 0);
     double room = clearance(profile, offset, ground_profile_, far);
     if (room == far) // beside the ground
@@ -181,22 +225,26 @@ Laying::Try Laying::rested(const Try& first, const Site& site, const Near& near)
   std::vector<const Features*> others{&ground_features_};
   for (const Laid* other : near)
     others.push_back(&other->features);
-  RestOptions options = resting();
-  RestOptions held = options;
+  for (const Features& wall : wall_features_)
+    others.push_back(&wall);
+  RestOptions options = resting(sliding), held = resting(site.below.empty() ? standing() : options_.friction);
   held.way = roll * height_;
   Pose pose = first.pose;
   if (!site.below.empty()) {
     const Vec3 across = frame_.row(0), up = frame_.row(1);
-    const double play = options_.play * height_;
-    options.friction = sliding;
-    options.bounds = {{across, site.place.x() - play},
-                      {-across, -site.place.x() - play},
+    const Between room = this->room(site);
+    options.bounds = {{across, site.place.x() + room.low},
+                      {-across, -site.place.x() - room.high},
                       {up, site.place.y() + lowest_rest * height_}};
     pose = come_to_rest(features_, pose, others, options).pose;
   }
   Rest rest = come_to_rest(features_, pose, others, held);
   rest.pose = pushed_clear(features_, rest.pose, others, held);
-  return {rest.pose, cost(rest, site, near)};
+  return {rest.pose, cost(rest, site, near), rest.still && carriers(rest) >= carriers_wanted(site)};
+}
+
+int Laying::carriers_wanted(const Site& site) {
+  return site.below.empty() ? 1 : 3;
 }
 
 double Laying::cost(const Rest& rest, const Site& site, const Near& near) const {
@@ -211,29 +259,28 @@ double Laying::cost(const Rest& rest, const Site& site, const Near& near) const 
     return std::any_of(site.below.begin(), site.below.end(), [&](int i) { return &laid_[i] == other; });
   };
   const bool on_ground = touched(ground_features_);
-  int things = on_ground ? 1 : 0, unkeyed = static_cast<int>(site.below.size()), like = 0;
+  int unkeyed = static_cast<int>(site.below.size()), like = 0;
   for (const Laid* other : near) {
     const Pose& there = other->pose;
     if ((there.translation - rest.pose.translation).norm() < neighbours * height_ &&
         Eigen::AngleAxisd(there.rotation.transpose() * rest.pose.rotation).angle() < alike)
       ++like;
-    if (touched(other->features)) {
-      ++things;
-      unkeyed -= below(other) ? 1 : 0;
-    }
+    if (below(other) && touched(other->features))
+      --unkeyed;
   }
   const Vec3 at = frame_ * rest.pose.translation;
-  const double beside = std::max(0., std::abs(at.x() - site.place.x()) - options_.play * height_);
+  const Between room = this->room(site);
+  const double off = at.x() - site.place.x(), beside = std::max({0., off - room.high, room.low - off});
   const double high = std::max(0., at.z() - ground_level(at) - 0.5 * height_);
   return (rest.still ? 0 : 1) + (on_ground ? 0 : 0.5) + 0.3 * unkeyed +
-         0.2 * std::max(0, (site.below.empty() ? 1 : 3) - things) + 0.1 * like +
+         0.2 * std::max(0, carriers_wanted(site) - carriers(rest)) + 0.1 * like +
          (astray(at.y() - site.wanted) + 3 * beside + 2 * high) / height_;
 }
 
 bool Laying::clear(const Pose& pose, const Near& near) const {
   const Surface here = surface_at(pose);
   const double asked = 0.995 * gap_;
-  return distance(here, ground_.surface(), gap_) >= asked &&
+  return within_walls(here) && distance(here, ground_.surface(), gap_) >= asked &&
          std::all_of(near.begin(), near.end(),
                      [&](const Laid* other) { return distance(here, other->surface, gap_) >= asked; });
 }
@@ -259,10 +306,9 @@ Pose Laying::lay(const Site& site) {
         "within it");
   Try best{tries.front().pose, far};
   for (std::size_t i = 0; options_.nudges > 0 && i < tries.size(); ++i) {
-    // A cost of less than one: at rest.
-    if ((i >= rested_tries && best.cost < 1) || tries[i].cost == far)
+    if ((i >= rested_tries && best.good) || tries[i].cost == far)
       break;
-    const Near around = near(tries[i].pose.translation, 2 * radius_ + resting().way + roll * height_);
+    const Near around = near(tries[i].pose.translation, 2 * radius_ + (way + roll) * height_);
     const Try one = rested(tries[i], site, around);
     if (one.cost < best.cost && clear(one.pose, around))
       best = one;

@@ -17,14 +17,20 @@ namespace geom {
 
 class Laying {
 public:
+  // Walls along the slope, facing each other.
+  struct Between {
+    double low = 0, high = 0; // m along the contour
+  };
   // Rows of the frame: along the contour, up the slope, out of it.
-  Laying(const Pile&, const Ground&, const Mat3& frame, double gap, const LayerOptions&, const Spacing&);
+  Laying(const Pile&, const Ground&, const Mat3& frame, double gap, const LayerOptions&, const Spacing&,
+         std::optional<Between> walls);
 
   struct Site {
     int unit = 0;
     Vec3 place = Vec3::Zero(); // in the slope's axes, one row over the units below; z means nothing
     double wanted = 0;         // m up the slope, for the density
     std::vector<int> below;    // the units it is to lean on
+    int end = 0;               // -1, 1: nothing is below it on that side, it may go there as far as the wall
   };
   // Throws InputError where there is no ground.
   Pose lay(const Site&);
@@ -41,7 +47,8 @@ private:
   };
   struct Try {
     Pose pose;
-    double cost = 0; // in heights
+    double cost = 0;   // in heights
+    bool good = false; // at rest on three things or more
   };
   using Near = std::vector<const Laid*>;
 
@@ -49,13 +56,19 @@ private:
   std::vector<Mat3> attitudes(const Site&) const;
   Try lowered(const Mat3& rotation, const Site&) const;
   Try rested(const Try&, const Site&, const Near&) const;
+  static int carriers_wanted(const Site&);
   double cost(const Rest&, const Site&, const Near&) const;
   bool clear(const Pose&, const Near&) const;
   Pose raised(Pose, const Near&) const;
   Near near(const Vec3& centroid, double reach) const;
   double ground_level(const Vec3& place) const;
-  RestOptions resting() const;
+  double standing() const;
+  RestOptions resting(double friction) const;
   Surface surface_at(const Pose&) const;
+  Features wall(double at, double facing) const;
+  bool within_walls(const Surface&) const;
+  // m along the contour from the place of a site, where its centroid may be.
+  Between room(const Site&) const;
 
   Surface shape_;
   Features features_, ground_features_;
@@ -64,6 +77,8 @@ private:
   double gap_, height_, radius_, gyration_;
   LayerOptions options_;
   Profile ground_profile_;
+  std::optional<Between> walls_;
+  std::vector<Features> wall_features_;
   std::vector<Mat3> family_; // attitudes that fit into the pattern
   std::vector<Mat3> stands_; // in which a unit stands on the bare slope by itself
   std::vector<Laid> laid_;

@@ -13,6 +13,7 @@ constexpr double smaller = 0.3;     // s after rest, over s before
 constexpr double tilt = 0.07;       // of gravity, 4 degrees: what rests does so with a margin
 constexpr int tilts = 4;            // ways it is tilted, by turns
 constexpr double skin_steps = 3;    // of s: how far the lists of near features reach beyond a step
+constexpr double presses = 0.02;    // of the weight
 constexpr int pushes = 10;          // at most, to the clear distance
 
 struct Motion {
@@ -93,6 +94,22 @@ double move(Pose& pose, const Motion& v, double gyration, double radius) {
   return v.shift.norm() + turn.norm() * radius;
 }
 
+// Which of the others carry a body at rest, from the impulses of one more step. of: the other of each contact.
+std::vector<char> carriers(std::vector<Contact>& contacts, const std::vector<std::size_t>& of,
+                           std::size_t others, const RestOptions& options, double s) {
+  std::vector<std::pair<Row, double>> no_bounds;
+  for (Contact& c : contacts) // what pushes it out of another does not carry it
+    c.room = std::max(0., c.room);
+  step(contacts, no_bounds, options, s * options.down, s);
+  std::vector<double> impulse(others, 0);
+  for (std::size_t i = 0; i < contacts.size(); ++i)
+    impulse[of[i]] += contacts[i].normal.impulse;
+  std::vector<char> carry(others);
+  for (std::size_t i = 0; i < others; ++i)
+    carry[i] = impulse[i] > presses * s ? 1 : 0;
+  return carry;
+}
+
 std::vector<Contact> contacts_of(const std::vector<Touch>& touches, const Vec3& centroid,
                                  const RestOptions& options) {
   std::vector<Contact> contacts;
@@ -106,7 +123,7 @@ std::vector<Contact> contacts_of(const std::vector<Touch>& touches, const Vec3& 
 
 Rest come_to_rest(const Features& shape, const Pose& start, const std::vector<const Features*>& others,
                   const RestOptions& options) {
-  Rest rest{start, false};
+  Rest rest{start, false, {}};
   const Vec3 aside = options.down.unitOrthogonal(), other = options.down.cross(aside);
   int held = 0; // steps in a row
   double s = options.step, gone = std::numeric_limits<double>::infinity(), skin = 0, radius = 0;
@@ -114,6 +131,7 @@ Rest come_to_rest(const Features& shape, const Pose& start, const std::vector<co
     radius = std::max(radius, x.norm());
   std::vector<NearFeatures> near(others.size());
   std::vector<Touch> touches;
+  std::vector<std::size_t> of; // the other of each touch
   for (int k = 0; k < options.steps; ++k) {
     const Features body = moved(shape, rest.pose);
     const double reach = 2 * s + options.clear;
@@ -124,8 +142,11 @@ Rest come_to_rest(const Features& shape, const Pose& start, const std::vector<co
         near[i] = NearFeatures(body, *others[i], reach + skin);
     }
     touches.clear();
-    for (std::size_t i = 0; i < others.size(); ++i)
+    of.clear();
+    for (std::size_t i = 0; i < others.size(); ++i) {
       near[i].touches(body, *others[i], reach, touches);
+      of.resize(touches.size(), i);
+    }
     std::vector<Contact> contacts = contacts_of(touches, rest.pose.translation, options);
     std::vector<std::pair<Row, double>> bounds;
     for (const Plane& plane : options.bounds)
@@ -144,6 +165,8 @@ Rest come_to_rest(const Features& shape, const Pose& start, const std::vector<co
     held = 0;
     if (s <= options.last_step) {
       rest.still = true;
+      contacts = contacts_of(touches, rest.pose.translation, options);
+      rest.carried_by = carriers(contacts, of, others.size(), options, s);
       break;
     }
     s = std::max(smaller * s, options.last_step);

@@ -27,6 +27,8 @@ struct RestOptions {
 struct Rest {
   Pose pose;
   bool still = false; // at rest, not stopped after so many steps or so long a way
+  std::vector<char>
+      carried_by; // at rest: which of the others press on it, with a fiftieth of its weight or more
 };
 
 // shape: about the body's centroid. Others: closed.

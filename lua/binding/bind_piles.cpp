@@ -1,4 +1,5 @@
 // Piles: units of one shape hung over a ground, or laid on it, before there is a model of them.
+#include "lua/binding/angles.hpp"
 #include "lua/binding/module.hpp"
 #include "lua/binding/picture_fields.hpp"
 #include "lua/binding/pile_object.hpp"
@@ -58,6 +59,8 @@ Value lay(Session&, Object*, const Arguments& a) {
   options.attitudes = static_cast<int>(a.integer("attitudes"));
   options.nudges = static_cast<int>(a.integer("nudges"));
   options.play = a.number("play");
+  options.friction = std::tan(radians(a.number("friction_angle")));
+  options.walls = a.flag("walls");
   return std::make_shared<PileObject>(geom::place_layer(
       a.object<TetMeshObject>("unit")->mesh, static_cast<int>(a.integer("count")), ground_of(a), options));
 }
@@ -218,7 +221,14 @@ void bind_piles(Module& m) {
              integer("nudges").within(0, 100000).standard(200).doc(
                  "steps of a unit on its way to rest, at most; 0: only lowered on to what is there"),
              number("play").within(0, 1).standard(0.1).doc(
-                 "how far along the contour a unit may be from its place, over its height")}),
+                 "how far along the contour a unit may be from its place, over its height"),
+             number("friction_angle")
+                 .from(0, 90)
+                 .unit("deg")
+                 .standard(15.0)
+                 .doc("with so much, or the slope's angle for the lowest row, each unit is at rest"),
+             flag("walls").standard(false).doc("at both ends of the rows walls stand along the slope, on "
+                                               "which units lean; the pile's box ends there")}),
        false, "cdem.Pile", "", lay});
   m.functions.push_back({"read_pile",
                          "A pile that pile:save{} wrote.",

@@ -1,4 +1,5 @@
 // Settling of piles, and the watch over units that leave their place.
+#include "lua/binding/angles.hpp"
 #include "lua/binding/module.hpp"
 #include "lua/binding/solving_stage.hpp"
 
@@ -73,6 +74,8 @@ Value settle(Session& session, ModelObject& model, const Arguments& a) {
   options.kinetic_energy_ratio = a.number("kinetic_energy_ratio");
   options.rigid = a.flag("rigid");
   options.local_damping = a.number("local_damping");
+  if (const auto angle = a.optional_number("friction_angle"))
+    options.friction_angle = radians(*angle);
   options.max_time = a.number("max_time");
   options.safety = a.number("safety");
   options.time_step = a.optional_number("time_step").value_or(0);
@@ -153,7 +156,7 @@ void bind_settling(Module& m) {
       {"settle",
        "Lets units fall and come to rest: free ones as rigid bodies first, then deformable, until they are "
        "slow "
-       "and carry their weight. Rigid units and damping are off afterwards.",
+       "and carry their weight. Rigid units, damping and a lower friction are off afterwards.",
        {number("kinetic_energy_ratio")
             .between(0, 1)
             .standard(1e-6)
@@ -164,6 +167,12 @@ void bind_settling(Module& m) {
             .standard(0.5)
             .doc("of what touches: force against the motion as a fraction of the out-of-balance force "
                  "(Cundall)"),
+        number("friction_angle")
+            .from(0, 90)
+            .unit("deg")
+            .doc("contacts have no more of it while units settle, so that they slide until they lean on "
+                 "more; each "
+                 "its own when left out, and afterwards"),
         number("max_time").above(0).standard(60.0).unit("s").doc("of the model, then a warning"),
         number("safety").within(0, 1).standard(0.9).doc("time step over the stable one"),
         number("time_step")

@@ -132,6 +132,44 @@ TEST_CASE("settle: a fall of rigid units is ballistic until they touch", "[settl
   CHECK(s.blocks()[1].displacement.z() == Approx(0.5 * g.z() * t * t).epsilon(1e-6));
 }
 
+TEST_CASE("settle: with less friction a cube slides while it settles, and no longer", "[settle]") {
+  // A plate of 20 degrees (gravity is turned), friction of 30, of 10 while the cube settles.
+  const double slope = 20 * degree, time = 0.2;
+  cdem::Joint friction;
+  friction.bonded = false;
+  friction.friction_angle = 30 * degree;
+  cdem::BodySpec plate = meshed("plate", geom::box_mesh({3, 1.5, 0.5}, {6, 3, 1}));
+  plate.element = cdem::Element::rigid;
+  const Vec3 start(0.7, 0.75, 0.5 + 0.5 * side);
+  cdem::ModelSpec spec;
+  spec.bodies = {plate, meshed("cube", cube_at(start, Mat3::Identity()))};
+  spec.pairs = {{"plate", "cube", friction}};
+  cdem::Simulation s(spec, 1, nullptr);
+  cdem::Fix hold;
+  hold.on = cdem::Selection::of_body("plate");
+  s.fix(hold);
+  cdem::Gravity gravity;
+  gravity.acceleration = 9.81 * Vec3(std::sin(slope), 0, -std::cos(slope));
+  s.gravity(gravity);
+  const auto slid = [&] { return s.units("cube")[0].motion(start).x() - start.x(); };
+
+  cdem::SettleOptions options;
+  options.local_damping = 0;
+  options.max_time = time;
+  options.friction_angle = 10 * degree;
+  CHECK_FALSE(s.settle(options).converged);
+  const auto acceleration = [&](double phi) {
+    return 9.81 * (std::sin(slope) - std::tan(phi) * std::cos(slope));
+  };
+  const double way = 0.5 * acceleration(10 * degree) * time * time;
+  CHECK(slid() == Approx(way).epsilon(0.02));
+
+  cdem::RunOptions on;
+  on.duration = 0.25;
+  s.run(on);
+  CHECK(slid() == Approx(way * (1 - acceleration(10 * degree) / acceleration(30 * degree))).epsilon(0.02));
+}
+
 TEST_CASE("settle: wrong goals are refused", "[settle][input]") {
   cdem::Simulation s = cubes();
   const auto refused = [&](auto change) {
@@ -142,5 +180,7 @@ TEST_CASE("settle: wrong goals are refused", "[settle][input]") {
   CHECK_THROWS_WITH(refused([](auto& o) { o.kinetic_energy_ratio = 1; })(),
                     Catch::Contains("kinetic_energy_ratio = 1"));
   CHECK_THROWS_WITH(refused([](auto& o) { o.local_damping = 1; })(), Catch::Contains("local_damping = 1"));
+  CHECK_THROWS_WITH(refused([](auto& o) { o.friction_angle = -0.1; })(),
+                    Catch::Contains("friction_angle = -0.1"));
   CHECK_THROWS_WITH(refused([](auto& o) { o.max_time = 0; })(), Catch::Contains("max_time = 0"));
 }

@@ -27,6 +27,16 @@ TetMesh moved(TetMesh mesh, const Vec3& by) {
 }
 
 // 40 m by 20 m, its upper side z = gradient x (0 at x = 0).
+RestOptions resting(double friction, double gap) {
+  RestOptions options;
+  options.friction = friction;
+  options.clear = gap;
+  options.step = 0.01;
+  options.last_step = 0.001;
+  options.gyration = 0.3;
+  return options;
+}
+
 Ground slope_ground(double gradient) {
   TetMesh mesh = box_mesh({40, 20, 1}, {2, 2, 1});
   for (Vec3& x : mesh.nodes) {
@@ -268,16 +278,50 @@ TEST_CASE("every unit of an armour layer lies on the slope, against others, at r
     if (row > 0 && row < 5 && column > 0 && column < 4)
       CHECK(touched >= 2);
 
-    RestOptions gravity; // with friction of 40 degrees nothing goes on from here
-    gravity.friction = std::tan(40 * M_PI / 180);
-    gravity.clear = gap;
-    gravity.step = 0.01;
-    gravity.last_step = 0.001;
-    gravity.gyration = 0.3;
-    const Pose rest = come_to_rest(shape, pile.poses[i], others, gravity).pose;
+    // With friction of 40 degrees nothing goes on from here.
+    const Pose rest =
+        come_to_rest(shape, pile.poses[i], others, resting(std::tan(40 * M_PI / 180), gap)).pose;
     CHECK((rest.translation - pile.poses[i].translation).norm() <= 0.01);
   }
   CHECK(alike <= 4); // of about seventy pairs, each counted twice
+}
+
+TEST_CASE("units of a layer between walls lean on three things or more, row ends on a wall") {
+  const double gradient = 1 / 1.5, gap = 1e-3, friction = std::tan(15 * M_PI / 180);
+  const Ground ground = slope_ground(gradient);
+  LayerOptions options;
+  options.columns = 4;
+  options.gap = gap;
+  options.walls = true;
+  options.friction = friction;
+  const Pile pile = place_layer(accropode_mesh(), 16, ground, options);
+  const Features shape = features_of(surface_of(pile.unit)), slope = features_of(ground.surface());
+  const Box box = bounding_box(pile);
+  const Features walls[] = {
+      features_of(surface_of(moved(box_mesh({60, 1, 60}, {1, 1, 1}), {-10, box.min.y() - gap - 1, -10}))),
+      features_of(surface_of(moved(box_mesh({60, 1, 60}, {1, 1, 1}), {-10, box.max.y() + gap, -10})))};
+  std::vector<Features> laid;
+  for (const Pose& pose : pile.poses)
+    laid.push_back(moved(shape, pose));
+
+  int leaning = 0, ends = 0, three = 0;
+  for (int i = 4; i < 16; ++i) { // those before it were there when it was laid
+    std::vector<const Features*> others{&slope, &walls[0], &walls[1]};
+    for (int j = 0; j < i; ++j)
+      others.push_back(&laid[j]);
+    const Rest rest = come_to_rest(shape, pile.poses[i], others, resting(friction, gap));
+    INFO("unit " << i + 1);
+    CHECK(rest.still);
+    CHECK((rest.pose.translation - pile.poses[i].translation).norm() <= 0.01);
+    three += std::count(rest.carried_by.begin(), rest.carried_by.end(), 1) >= 3 ? 1 : 0;
+    const int row = i / 4, column = i % 4;
+    if (column == (row % 2 == 0 ? 0 : 3)) { // one below only
+      ++ends;
+      leaning += rest.carried_by[1] + rest.carried_by[2];
+    }
+  }
+  CHECK(three >= 11); // of twelve
+  CHECK(leaning == ends);
 }
 
 TEST_CASE("a layer on thin ground stays on it") {

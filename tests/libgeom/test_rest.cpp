@@ -122,6 +122,13 @@ TEST_CASE("a cube slides until two posts hold it") {
   // The face of the cube one gap from the posts' faces at x = -1.4.
   CHECK(rest.pose.translation.x() == Approx(-1.4 + clear_distance + 0.5).margin(2e-4));
   CHECK(rest.pose.translation.z() == Approx(0.5 + clear_distance).margin(2e-4));
+  CHECK(rest.carried_by == std::vector<char>{1, 1, 1});
+  options.friction = 0.8; // enough to stay where it is, away from the posts
+  const Rest above =
+      come_to_rest(features_of(box({1, 1, 1})), {Mat3::Identity(), {0, 0, 0.5 + clear_distance}},
+                   {&floor, &left, &right}, options);
+  CHECK(above.still);
+  CHECK(above.carried_by == std::vector<char>{1, 0, 0});
 }
 
 TEST_CASE("a body inside others' clear distance is pushed out by as much as it lacks") {
