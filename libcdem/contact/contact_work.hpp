@@ -85,10 +85,13 @@ struct ContactWork {
   std::vector<char> broken;       // per block: some of its faces have
   std::vector<ContactEdge> edges; // of surfaces as they are now, by id
   std::vector<int> edge_begin;    // (n_triangles + 1) into edges, by their first triangle
-  std::vector<double> travelled;  // m, per block, at most, since the search
-  std::vector<double> last_way;   // m, per block, at most, in the last step
-  std::vector<double> pace;       // the same, of the last step in which anything moved
-  std::vector<double> skin;       // m, per block: how far it may go before the next search
+  // Per edge: where the edges of its piece that meet at its two ends begin in edges_at.
+  std::vector<std::array<int, 2>> edge_ends;
+  std::vector<int> edges_at;     // by end, each list closed by -1
+  std::vector<double> travelled; // m, per block, at most, since the search
+  std::vector<double> last_way;  // m, per block, at most, in the last step
+  std::vector<double> pace;      // the same, of the last step in which anything moved
+  std::vector<double> skin;      // m, per block: how far it may go before the next search
   double lawless = 0;      // m, that two blocks for which no contact is given may go before a search is due
   double shallow = 0;      // m, the least reach of a row
   double usual_height = 0; // m, of a tet at the surface

@@ -52,7 +52,6 @@ void Evaluation::edges(ContactRow& row, ContactCandidate* candidates) {
   if (sleeps(row, from.block))
     return;
   go_to(e.id());
-  const geom::Vec3 a0 = place_of(model_, state_, e.nodes[0]), a1 = place_of(model_, state_, e.nodes[1]);
   const double moved = work_.travelled[from.block] + work_.travelled[row.block];
   float wake = std::numeric_limits<float>::infinity();
   for (std::uint32_t i = row.begin; i < row.begin + row.count; ++i) {
@@ -63,44 +62,46 @@ void Evaluation::edges(ContactRow& row, ContactCandidate* candidates) {
     }
     const ContactEdge& f = work_.edges[candidate.target];
     const ContactTriangle& to = surface_.triangles[f.triangles[0]];
-    const geom::Vec3 b0 = place_of(model_, state_, f.nodes[0]), b1 = place_of(model_, state_, f.nodes[1]);
-    const auto at = geom::nearest_on_segments(a0, a1, b0, b1);
-    const geom::Vec3 a = a0 + at.s * (a1 - a0), b = b0 + at.t * (b1 - b0);
-    const double distance = (b - a).norm(), limit = edge_depth(work_, from, to);
+    const NearestOfEdges nearest = nearest_of_edges(model_, state_, e, f);
+    const double distance = nearest.way.norm(), limit = edge_depth(work_, from, to);
     candidate.wake = rounded_down(moved + std::max(0.0, distance - limit));
     wake = std::min(wake, candidate.wake);
-    if (at.s <= 0 || at.s >= 1 || at.t <= 0 || at.t >= 1 || distance > limit)
+    if (!nearest.within_both() || distance > limit)
       continue;
-    const geom::Vec3 along = (a1 - a0).cross(b1 - b0);
-    if (along.norm() < parallel_edges * (a1 - a0).norm() * (b1 - b0).norm())
-      continue;
-    geom::Vec3 normal = along.normalized(); // out of the target f
-    const auto into_f = into_faces(model_, state_, f, b0, b1);
-    if (!in_fan(into_f, normal))
-      normal = -normal;
-    if (!in_fan(into_f, normal) || !in_fan(into_faces(model_, state_, e, a0, a1), -normal))
-      continue;
-    const double depth = (b - a).dot(normal);
-    if (depth <= 0)
-      continue;
-    Contact c;
-    c.kind = Contact::edge;
-    c.source = e.id();
-    c.piece = e.triangles[1];
-    c.target = f.id();
-    const geom::Vec3 turn_a = velocity_of(state_, e.nodes[1]) - velocity_of(state_, e.nodes[0]),
-                     turn_b = velocity_of(state_, f.nodes[1]) - velocity_of(state_, f.nodes[0]);
-    ContactMotion motion;
-    motion.normal = normal;
-    motion.depth = depth;
-    motion.turned = 0.5 * work_.step * (spin(a1 - a0, turn_a, normal) + spin(b1 - b0, turn_b, normal));
-    const Law& law = law_between(from.block, to.block);
-    finish(c, motion, edge_arms(model_, state_, e, f, at),
-           contact_law(*law.joint, law.tan_friction, area_of_edge(surface_, e.triangles[0], e.triangles[1]),
-                       from, to),
-           from, to);
+    if (const auto touch = touch_of(model_, state_, e, f, nearest))
+      press(row.source, static_cast<int>(candidate.target), nearest, *touch);
   }
   row.wake = wake;
+}
+
+void Evaluation::press(int source, int target, const NearestOfEdges& nearest, const EdgeTouch& touch) {
+  const ContactEdge &e = work_.edges[source], &f = work_.edges[target];
+  const ContactTriangle &from = surface_.triangles[e.triangles[0]], &to = surface_.triangles[f.triangles[0]];
+  Contact c;
+  c.kind = Contact::edge;
+  c.source = e.id();
+  c.piece = e.triangles[1];
+  c.target = f.id();
+  const auto spin_of = [&](const ContactEdge& edge) {
+    const auto [begin, end] = edge.nodes;
+    return spin(place_of(model_, state_, end) - place_of(model_, state_, begin),
+                velocity_of(state_, end) - velocity_of(state_, begin), touch.normal);
+  };
+  ContactMotion motion;
+  motion.normal = touch.normal;
+  motion.depth = touch.depth;
+  motion.turned = 0.5 * work_.step * (spin_of(e) + spin_of(f));
+  const Law& law = law_between(from.block, to.block);
+  const Contact* old = before(c);
+  std::optional<Contact> beyond;
+  if (!old) {
+    beyond = before_an_end(source, target);
+    old = beyond ? &*beyond : nullptr;
+  }
+  finish(c, old, motion, edge_arms(model_, state_, e, f, nearest.at),
+         contact_law(*law.joint, law.tan_friction, area_of_edge(surface_, e.triangles[0], e.triangles[1]),
+                     from, to),
+         from, to);
 }
 
 const Evaluation::Law& Evaluation::law_between(int block_a, int block_b) {
@@ -138,7 +139,7 @@ double Evaluation::look_at(ContactRow& row, ContactCandidate* candidates, bool a
   const Corners x = corners_of(model_, state_, source.nodes);
   std::array<geom::Vec3, 3> spring;
   for (int corner = 0; corner < 3; ++corner)
-    spring[corner] = weighted(x, spring_weights(corner));
+    spring[corner] = weighted(x, spring_weights(model_, source, corner));
   const double moved = work_.travelled[source.block] + work_.travelled[row.block];
   const bool bonded = has_bonds(model_, row.block);
   std::array<Nearest, 3> nearest;
@@ -205,14 +206,55 @@ void Evaluation::press(int source, int corner, const geom::Vec3& spring, int pie
   motion.turned = 0.5 * work_.step *
                   (spin(x[1] - x[0], turn_from, motion.normal) + spin(y[1] - y[0], turn_to, motion.normal));
   const Law& law = law_between(from.block, to.block);
-  finish(c, motion, spring_arms(model_, state_, from, corner, to, nearest.at.weights),
+  finish(c, before(c), motion, spring_arms(model_, state_, from, corner, to, nearest.at.weights),
          contact_law(*law.joint, law.tan_friction, from.area / 3, from, to), from, to);
 }
 
-void Evaluation::finish(Contact& c, ContactMotion& motion, const ContactArms& arms, const ContactLaw& law,
-                        const ContactTriangle& from, const ContactTriangle& to) {
+std::optional<Contact> Evaluation::before_an_end(int e, int f) const {
+  const auto with_those_at_ends = [&](int edge) {
+    std::vector<int> edges{edge};
+    for (const int begin : work_.edge_ends[edge])
+      for (const int* other = &work_.edges_at[begin]; *other >= 0; ++other)
+        if (*other != edge)
+          edges.push_back(*other);
+    return edges;
+  };
+  const std::vector<int> targets = with_those_at_ends(f);
+  std::optional<Contact> most;
+  for (const int from : with_those_at_ends(e))
+    for (const int to : targets) {
+      const ContactEdge &source = work_.edges[std::min(from, to)], &target = work_.edges[std::max(from, to)];
+      Contact like;
+      like.kind = Contact::edge;
+      like.source = source.id();
+      like.piece = source.triangles[1];
+      like.target = target.id();
+      const auto old = std::lower_bound(state_.contacts.begin(), state_.contacts.end(), like,
+                                        [](const Contact& a, const Contact& b) { return key(a) < key(b); });
+      if (old == state_.contacts.end() || key(*old) != key(like) ||
+          nearest_of_edges(model_, state_, source, target).within_both() ||
+          (most && old->normal_force <= most->normal_force))
+        continue;
+      most = *old;
+      if (from > to) {
+        most->normal = -most->normal;
+        most->shear = -most->shear;
+      }
+    }
+  return most;
+}
+
+void Evaluation::take_over(Contact& c, const Contact& old, const ContactLaw& law,
+                           const ContactMotion& motion) {
+  const double depth = std::max(0.0, motion.depth + motion.slid.dot(motion.normal)), // before the step
+      pressed = std::clamp(old.depth - old.start, 0.0, depth);
+  c.start = depth - pressed;
+  out_.sums.friction -= energy(law.kn * pressed, old.shear.norm(), law);
+}
+
+void Evaluation::finish(Contact& c, const Contact* old, ContactMotion& motion, const ContactArms& arms,
+                        const ContactLaw& law, const ContactTriangle& from, const ContactTriangle& to) {
   motion.slid = work_.step * velocity_past(state_, arms);
-  const Contact* const old = before(c);
   if (old && work_.step == 0 && old->target == c.target) {
     c = *old; // nothing moved
   } else {
@@ -220,6 +262,8 @@ void Evaluation::finish(Contact& c, ContactMotion& motion, const ContactArms& ar
       c.normal = old->normal;
       c.shear = old->shear;
       c.start = old->start;
+      if (key(*old) != key(c)) // what it stored is booked as lost, and is not
+        out_.sums.friction -= energy(law.kn * std::max(0.0, old->depth - old->start), old->shear.norm(), law);
     } else {
       c.normal = motion.normal;
       c.start = start_depth(motion);

@@ -3,8 +3,11 @@
 
 #include "libcdem/contact/contact_law.hpp"
 #include "libcdem/contact/contact_work.hpp"
+#include "libcdem/contact/edge_touch.hpp"
 #include "libcdem/contact/nearest.hpp"
 #include "libcdem/state/state.hpp"
+
+#include <optional>
 
 namespace cdem {
 
@@ -28,10 +31,17 @@ private:
   bool sleeps(const ContactRow&, int block) const;
   void go_to(int source); // what stood at it before
   const Contact* before(const Contact&) const;
+  // The contact that the two edges, or others which meet their ends, have just left behind an end; the one that presses
+  // the most, as if it were that of e and f.
+  std::optional<Contact> before_an_end(int e, int f) const;
   double look_at(ContactRow&, ContactCandidate*, bool all); // returns how deep the deepest is, m
   void press(int source, int corner, const geom::Vec3& spring, int piece, const Nearest&);
-  void finish(Contact&, ContactMotion&, const ContactArms&, const ContactLaw&, const ContactTriangle& from,
-              const ContactTriangle& to);
+  void press(int source, int target, const NearestOfEdges&, const EdgeTouch&);
+  // Presses as much as the old one did before the step, which is booked as lost and is not.
+  void take_over(Contact&, const Contact& old, const ContactLaw&, const ContactMotion&);
+  // old: the contact before the step, null where there was none.
+  void finish(Contact&, const Contact* old, ContactMotion&, const ContactArms&, const ContactLaw&,
+              const ContactTriangle& from, const ContactTriangle& to);
 
   const Model& model_;
   const ContactSurface& surface_;

@@ -12,8 +12,6 @@ namespace cdem {
 
 // Of the smaller block's size: bodies without a law that come nearer than this meet.
 inline constexpr double meeting_ratio = 1e-3;
-// Two edges whose directions enclose an angle with a smaller sine are parallel.
-inline constexpr double parallel_edges = 0.05;
 
 // Edges deeper than this have slid past each other's ends, m.
 inline double edge_depth(const ContactWork& work) {

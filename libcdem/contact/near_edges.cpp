@@ -1,4 +1,5 @@
 #include "libcdem/contact/box_lists.hpp"
+#include "libcdem/contact/edge_touch.hpp"
 #include "libcdem/contact/near.hpp"
 #include "libcdem/contact/search.hpp"
 #include "libgeom/query/closest.hpp"
@@ -36,7 +37,7 @@ Bar bar_of(const Model& model, const State& state, const ContactWork& work, cons
 
 bool may_hold(const Bar& bar, const geom::Vec3& normal, double turns) {
   for (int i = 0; i < 2; ++i)
-    if (normal.dot(bar.into[i]) > (turns + bar.into_turns[i]) * bar.into[i].norm())
+    if (normal.dot(bar.into[i]) > (fan_slack + turns + bar.into_turns[i]) * bar.into[i].norm())
       return false;
   return true;
 }

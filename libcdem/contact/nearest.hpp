@@ -12,11 +12,6 @@ namespace cdem {
 // share. Tets that a bond holds together have edges of their own, which part by as much as the bond gives.
 inline constexpr double same_place = 1e-6, same_place_at_least = 1e-9, bond_gives = 3e-4;
 
-inline bool has_bonds(const Model& model, int block) {
-  const Bonding& bonding = model.bodies[model.blocks[block].body].bonding;
-  return bonding.everywhere || bonding.between_regions || !bonding.regions.empty();
-}
-
 // The nearest place of a piece to a spring, so far. Of the triangles that share it the one that the spring stands
 // highest over or lowest under is the target; whether the spring is inside their normals tell together, each weighted
 // by the angle that its triangle fills there (Baerentzen and Aanaes 2005): one alone may be wrong at a sharp corner or

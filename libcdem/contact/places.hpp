@@ -1,4 +1,4 @@
-// Where corners and edges of the contact surface are.
+// Where corners of the contact surface are.
 #pragma once
 
 #include "libcdem/state/places.hpp"
@@ -18,21 +18,9 @@ inline geom::Vec3 weighted(const Corners& x, const geom::Vec3& w) {
   return w[0] * x[0] + w[1] * x[1] + w[2] * x[2];
 }
 
-// From an edge with its ends at x0 and x1 into its two faces, at right angles to it (m, a third of their height there).
-inline std::array<geom::Vec3, 2> into_faces(const Model& model, const State& state, const ContactEdge& e,
-                                            const geom::Vec3& x0, const geom::Vec3& x1) {
-  const geom::Vec3 along = (x1 - x0).normalized();
-  std::array<geom::Vec3, 2> into;
-  for (int i = 0; i < 2; ++i) {
-    const Corners x = corners_of(model, state, model.surface.triangles[e.triangles[i]].nodes);
-    into[i] = (x[0] + x[1] + x[2]) / 3 - x0;
-    into[i] -= into[i].dot(along) * along;
-  }
-  return into;
-}
-// The fan of an edge's outward normals: those that have both its faces behind.
-inline bool in_fan(const std::array<geom::Vec3, 2>& into, const geom::Vec3& normal) {
-  return !(normal.dot(into[0]) > 0) && !(normal.dot(into[1]) > 0);
+inline bool has_bonds(const Model& model, int block) {
+  const Bonding& bonding = model.bodies[model.blocks[block].body].bonding;
+  return bonding.everywhere || bonding.between_regions || !bonding.regions.empty();
 }
 
 inline bool apart(const geom::Box& a, const geom::Box& b) {

@@ -92,6 +92,36 @@ void add_edges_of_broken(const Model& model, const State& state, int block, std:
   }
 }
 
+// One end of an edge of a piece.
+struct End {
+  int piece = 0, node = 0; // original
+  int edge = 0, end = 0;
+};
+
+void find_ends(const Model& model, ContactWork& work) {
+  std::vector<End> ends;
+  ends.reserve(2 * work.edges.size());
+  for (int e = 0; e < static_cast<int>(work.edges.size()); ++e)
+    for (int end = 0; end < 2; ++end)
+      ends.push_back(
+          {work.piece[work.edges[e].triangles[0]], model.surface.original[work.edges[e].nodes[end]], e, end});
+  std::sort(ends.begin(), ends.end(), [](const End& x, const End& y) {
+    return std::tie(x.piece, x.node, x.edge) < std::tie(y.piece, y.node, y.edge);
+  });
+  work.edge_ends.resize(work.edges.size());
+  work.edges_at.clear();
+  work.edges_at.reserve(3 * work.edges.size());
+  int begin = 0;
+  for (std::size_t i = 0; i < ends.size(); ++i) {
+    work.edge_ends[ends[i].edge][ends[i].end] = begin;
+    work.edges_at.push_back(ends[i].edge);
+    if (i + 1 == ends.size() || ends[i + 1].piece != ends[i].piece || ends[i + 1].node != ends[i].node) {
+      work.edges_at.push_back(-1);
+      begin = static_cast<int>(work.edges_at.size());
+    }
+  }
+}
+
 } // namespace
 
 void find_semi_edges(const Model& model, const State& state, ContactWork& work) {
@@ -117,6 +147,7 @@ void find_semi_edges(const Model& model, const State& state, ContactWork& work) 
     ++work.edge_begin[e.triangles[0] + 1];
   for (std::size_t t = 0; t < s.triangles.size(); ++t)
     work.edge_begin[t + 1] += work.edge_begin[t];
+  find_ends(model, work);
 }
 
 } // namespace cdem

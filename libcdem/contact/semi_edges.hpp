@@ -11,7 +11,7 @@
 
 namespace cdem {
 
-// Writes ContactWork::edges and edge_begin.
+// Writes ContactWork::edges, edge_begin, edge_ends and edges_at; pieces are known.
 void find_semi_edges(const Model&, const State&, ContactWork&);
 
 } // namespace cdem

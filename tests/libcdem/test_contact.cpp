@@ -216,6 +216,111 @@ TEST_CASE("contact: crossed edges stop each other", "[contact][edges]") {
   CHECK(centroid(s, 1).z() > lowest + 1e-4);
 }
 
+TEST_CASE("contact: an edge pressed on another carries on over the nodes of both", "[contact][edges]") {
+  // Two bars on edge, crossed, moved as they are: pressed together by d, then along the bisector over four nodes of each.
+  const double d = 2e-4, gap = 1e-4, across = 0.3 / std::sqrt(2.0), pace = 0.5;
+  const double phi = GENERATE(0.0, 20.0);
+  cdem::Joint law = friction(phi);
+  law.shear_stiffness = 1e9;
+  System s(build({meshed("lower", box_at({0.9, 0.3, 0.3}, {9, 2, 2}, rotation({1, 0, 0}, 45 * degree),
+                                         {0.43, 0.43, -across})),
+                  meshed("upper", box_at({0.3, 0.9, 0.3}, {2, 9, 2}, rotation({0, 1, 0}, 45 * degree),
+                                         {0.24, 0.26, across + gap}))},
+                 {{"lower", "upper", law}}));
+  s.hold(body_of("lower"), "xyz");
+  const auto move = [&](const Vec3& way) {
+    cdem::Fix fix = fixed(body_of("upper"));
+    fix.velocity = pace * way.normalized();
+    s.conditions.fixes.push_back(fix);
+    cdem::RunOptions options;
+    options.time_step = 2e-6;
+    options.duration = way.norm() / pace;
+    options.callback_every = 10;
+    std::vector<double> forces;
+    options.callback = [&] {
+      Vec3 force = Vec3::Zero();
+      for (const cdem::Contact& c : s.state.contacts)
+        force += (cdem::blocks_of(s.model, c).first == 1 ? 1 : -1) * (c.normal_force * c.normal + c.shear);
+      forces.push_back(force.norm());
+    };
+    s.run(options);
+    s.conditions.fixes.pop_back();
+    return forces;
+  };
+  const double pressed = move({0, 0, -gap - d}).back();
+  REQUIRE(pressed > 0);
+  const std::vector<double> forces = move({0.41, 0.37, 0});
+  // Until it slides friction grows. Beside a node, as far as the edges are pressed, the semi-springs there act too.
+  const double slides = pressed * std::sqrt(1 + std::pow(std::tan(phi * degree), 2));
+  int odd = 0;
+  for (const double force : forces) {
+    CHECK(force > 0.99 * pressed);
+    CHECK(force < 3 * slides);
+    odd += force > 1.01 * slides;
+  }
+  CHECK(odd < 0.02 * static_cast<double>(forces.size()));
+}
+
+TEST_CASE("contact: a bar that lies flat across another rests on the crossings of their outlines",
+          "[contact][edges]") {
+  // No corner of a triangle is where they overlap; the normals are those of the faces, at the border of all fans.
+  System s(build({meshed("lower", box_at({2.8, 0.4, 0.4}, {5, 1, 1}, Mat3::Identity(), {0, 0, -0.2})),
+                  meshed("upper", box_at({2.8, 0.3, 0.4}, {5, 1, 1}, rotation({0, 0, 1}, 80 * degree),
+                                         {0, 0, 0.2 + 1e-4}))},
+                 {{"lower", "upper", friction(30)}}));
+  s.hold(body_of("lower"), "xyz");
+  s.conditions.gravity = gravity();
+  cdem::RunOptions options;
+  options.duration = 0.05;
+  options.local_damping = 0.5;
+  s.run(options);
+  const double start = centroid(s, 1).z(), weight = rock().density * 2.8 * 0.3 * 0.4 * 9.81;
+  double least = 1e30, most = 0, late = 0;
+  options.callback_every = 10;
+  options.callback = [&] {
+    double sum = 0;
+    for (const cdem::Contact& c : s.state.contacts) {
+      CHECK(c.kind == cdem::Contact::edge);
+      sum += c.normal_force * std::abs(c.normal.z());
+      late = std::max(late, c.start);
+    }
+    least = std::min(least, sum);
+    most = std::max(most, sum);
+  };
+  s.run(options);
+  CHECK(late == 0);
+  CHECK(least == Approx(weight).epsilon(0.01));
+  CHECK(most == Approx(weight).epsilon(0.01));
+  CHECK(std::abs(centroid(s, 1).z() - start) < 1e-8);
+}
+
+TEST_CASE("contact: a lone corner is felt as soon as it is in", "[contact]") {
+  const double size = 0.5, edge = size / 2;
+  const Mat3 on_corner = Eigen::Quaterniond::FromTwoVectors(Vec3(1, 1, 1), Vec3(0, 0, 1)).toRotationMatrix();
+  System s(build({meshed("floor", box_at({2, 2, 0.5}, {3, 3, 1}, Mat3::Identity(), {0.1, 0.1, -0.25})),
+                  meshed("cube", box_at({size, size, size}, {2, 2, 2}, on_corner,
+                                        {0, 0, std::sqrt(0.75) * size + 1e-6}))},
+                 {{"floor", "cube", friction(0)}}));
+  s.hold(body_of("floor"), "xyz");
+  cdem::Fix down = fixed(body_of("cube"));
+  down.velocity = Vec3(0, 0, -0.1);
+  s.conditions.fixes.push_back(down);
+  const auto force_at = [&](double depth) {
+    cdem::RunOptions options;
+    options.time_step = 1e-6;
+    options.duration = (depth - s.state.time * 0.1 + 1e-6) / 0.1;
+    s.run(options);
+    double sum = 0;
+    for (const cdem::Contact& c : s.state.contacts)
+      sum += c.normal_force;
+    return sum;
+  };
+  // Its springs stand in by 1e-4 of the way to the others.
+  CHECK(force_at(3e-4 * edge) > 0);
+  const double first = force_at(1e-3 * edge), second = force_at(2e-3 * edge);
+  CHECK(second / first == Approx(2).epsilon(0.12));
+}
+
 TEST_CASE("contact: the same bits for every number of threads, and however often contacts are looked for",
           "[contact]") {
   const auto hash_with = [](int threads, bool anew_every_200_steps) {
