@@ -26,7 +26,6 @@ TetMesh moved(TetMesh mesh, const Vec3& by) {
   return mesh;
 }
 
-// 40 m by 20 m, its upper side z = gradient x (0 at x = 0).
 RestOptions resting(double friction, double gap) {
   RestOptions options;
   options.friction = friction;
@@ -37,6 +36,7 @@ RestOptions resting(double friction, double gap) {
   return options;
 }
 
+// 40 m by 20 m, its upper side z = gradient x (0 at x = 0).
 Ground slope_ground(double gradient) {
   TetMesh mesh = box_mesh({40, 20, 1}, {2, 2, 1});
   for (Vec3& x : mesh.nodes) {
@@ -357,4 +357,33 @@ TEST_CASE("a layer that cannot be laid is refused") {
                    o.region = PlanBox{{30, 0}, {30.5, 9}};
                  }),
              Contains("room for one unit"));
+}
+
+TEST_CASE("a layer and a drop grid of units four times the size are the same, four times the size") {
+  const double factor = 4;
+  const auto laid = [&](double size) {
+    TetMesh unit = accropode_mesh(), slope = box_mesh({40, 20, 1}, {2, 2, 1});
+    for (Vec3& x : slope.nodes) {
+      x.y() -= 10;
+      x.z() += 0.6 * x.x() - 1;
+      x *= size;
+    }
+    for (Vec3& x : unit.nodes)
+      x *= size;
+    LayerOptions options;
+    options.columns = 3;
+    options.walls = true;
+    const Ground ground{surface_of(slope)};
+    std::vector<Pose> poses = place_layer(unit, 9, ground, options).poses;
+    for (const Pose& pose : drop_grid(unit, 9, ground).poses)
+      poses.push_back(pose);
+    return poses;
+  };
+  const std::vector<Pose> small = laid(1), large = laid(factor);
+  REQUIRE(large.size() == small.size());
+  for (std::size_t i = 0; i < small.size(); ++i) {
+    INFO("unit " << i + 1);
+    CHECK((large[i].rotation - small[i].rotation).norm() < 1e-8);
+    CHECK((large[i].translation / factor - small[i].translation).norm() < 1e-8);
+  }
 }
