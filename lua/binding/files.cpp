@@ -40,10 +40,17 @@ bool below(const fs::path& path, const fs::path& folder) {
 
 } // namespace
 
-Files::Files(const fs::path& script, const fs::path& output, const fs::path& results, bool unsafe)
+Files::Files(const fs::path& script, const fs::path& output, const fs::path& results, bool unsafe,
+             const fs::path& sweep)
     : script_folder_(script.empty() ? fs::path() : resolved(script).parent_path()),
       output_(resolved(output.empty() ? fs::current_path() : output)),
-      results_(results.empty() ? fs::path() : resolved(results)), unsafe_(unsafe) {}
+      results_(results.empty() ? fs::path() : resolved(results)),
+      sweep_(sweep.empty() ? fs::path() : resolved(sweep)), unsafe_(unsafe) {}
+
+bool Files::may_read(const fs::path& path) const {
+  return unsafe_ || below(path, script_folder_) || below(path, output_) || below(path, results_) ||
+         below(path, sweep_);
+}
 
 fs::path Files::would_write(const std::string& name) const {
   if (name.empty() || name.find('\0') != std::string::npos)
@@ -85,7 +92,7 @@ fs::path Files::to_read(const std::string& name) const {
   for (const fs::path& candidate : places) {
     std::error_code error;
     fs::path path = resolved(candidate);
-    if (!unsafe_ && !below(path, script_folder_) && !below(path, output_) && !below(path, results_)) {
+    if (!may_read(path)) {
       refused = true;
       continue;
     }

@@ -1,5 +1,6 @@
 // Which files a script may touch: it writes below the output folder only, and reads beside itself, below the
-// output folder and below the results. `..` and symbolic links are followed before the place is judged.
+// output folder, below the results and, when it is a run of a sweep, below the sweep's folder. `..` and symbolic
+// links are followed before the place is judged.
 #pragma once
 
 #include <filesystem>
@@ -11,9 +12,9 @@ namespace cdem::script {
 
 class Files {
 public:
-  // Relative folders are taken from the current one. results may be empty.
+  // Relative folders are taken from the current one. results and sweep may be empty.
   Files(const std::filesystem::path& script, const std::filesystem::path& output,
-        const std::filesystem::path& results, bool unsafe);
+        const std::filesystem::path& results, bool unsafe, const std::filesystem::path& sweep = {});
 
   // Full path of a file to be written; makes its folder. A relative name is taken from the output folder.
   // Throws geom::InputError when the place is not allowed, FileError when the folder cannot be made.
@@ -32,7 +33,9 @@ public:
   const std::filesystem::path& script_folder() const { return script_folder_; }
 
 private:
-  std::filesystem::path script_folder_, output_, results_;
+  bool may_read(const std::filesystem::path&) const;
+
+  std::filesystem::path script_folder_, output_, results_, sweep_;
   bool unsafe_;
 };
 

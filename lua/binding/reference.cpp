@@ -110,7 +110,8 @@ std::string reference() {
       "these.\n\n"
       "Scripts run in a safe environment: they write below the output folder only and read beside "
       "themselves, in the "
-      "output folder and below the results; there is no `os.execute`, `io.popen`, `package.loadlib`, `debug` "
+      "output folder, below the results and, as a run of a sweep, below the sweep's folder; there is no "
+      "`os.execute`, `io.popen`, `package.loadlib`, `debug` "
       "or "
       "bytecode; `require` finds `cdem` and `.lua` files beside the script. `--unsafe` lifts all of it.\n\n"
       "## Functions\n\n";

@@ -27,8 +27,8 @@ std::string case_name(const std::filesystem::path& script, const std::filesystem
 } // namespace
 
 Session::Session(EngineSettings given)
-    : settings(std::move(given)),
-      files(settings.script, output_folder(settings), settings.results, settings.unsafe) {
+    : settings(std::move(given)), files(settings.script, output_folder(settings), settings.results,
+                                        settings.unsafe, settings.sources.parent_path()) {
   files.will_write = settings.will_write;
   report.case_name = case_name(settings.script, files.output());
 }

@@ -708,13 +708,14 @@ function Model:watch(options) end
 ---@field kinetic_energy_ratio? number in (0, 1), default 1e-06: goal: kinetic energy over the largest there was
 ---@field rigid? boolean default true: free units fall as rigid bodies
 ---@field local_damping? number in [0, 1), default 0.5: of what touches: force against the motion as a fraction of the out-of-balance force (Cundall)
+---@field friction_angle? number deg, in [0, 90): contacts have no more of it while units settle, so that they slide until they lean on more; each its own when left out, and afterwards
 ---@field max_time? number s, > 0, default 60: of the model, then a warning
 ---@field safety? number in [0, 1], default 0.9: time step over the stable one
 ---@field time_step? number s, > 0: of the rigid fall, at most the stable one, which it is by default
 ---@field every? integer >= 1: steps between calls, 100 by default; in whole twenties
 ---@field callback? fun() called every so many steps; may read the model and write files
 
----Lets units fall and come to rest: free ones as rigid bodies first, then deformable, until they are slow and carry their weight. Rigid units and damping are off afterwards.
+---Lets units fall and come to rest: free ones as rigid bodies first, then deformable, until they are slow and carry their weight. Rigid units, damping and a lower friction are off afterwards.
 ---@param options? cdem.ModelSettleOptions
 ---@return cdem.SettleResult
 function Model:settle(options) end
@@ -1413,6 +1414,8 @@ function cdem.drop(options) end
 ---@field attitudes? integer in [1, 1e+06], default 1500: of which those are taken that fit into the pattern, beside others
 ---@field nudges? integer in [0, 1e+05], default 200: steps of a unit on its way to rest, at most; 0: only lowered on to what is there
 ---@field play? number in [0, 1], default 0.1: how far along the contour a unit may be from its place, over its height
+---@field friction_angle? number deg, in [0, 90), default 15: with so much, or the slope's angle for the lowest row, each unit is at rest
+---@field walls? boolean default false: at both ends of the rows walls stand along the slope, on which units lean; the pile's box ends there
 
 ---One layer of armour units on a slope, in the staggered pattern of a packing density: row by row from the toe, each unit above the gap between two of the row below and slid down against them, at rest under its weight with friction, on the slope and its neighbours.
 ---@param options cdem.PlaceOptions

@@ -54,6 +54,30 @@ TEST_CASE("a sweep runs every combination and gathers the figures") {
   CHECK_THAT(read_file(cdem.folder / "results/sum-sweep/cdem.log"), Contains("ended with exit code 0"));
 }
 
+TEST_CASE("a run of a sweep may read what an earlier run beside it wrote, wherever the folder is") {
+  const Place cdem;
+  write_file(cdem.folder / "study/maker.lua",
+             "local cdem = require 'cdem'\n"
+             "local x = cdem.parameter{ name = 'x', default = 1 }\n"
+             "cdem.write_csv{ file = 'x.csv', columns = {{ name = 'x', values = {x} }} }\n"
+             "cdem.report{ { name = 'x', value = x } }\n");
+  write_file(cdem.folder / "study/reader.lua",
+             "local cdem = require 'cdem'\n"
+             "local file = cdem.parameter{ name = 'file', default = 'x.csv' }\n"
+             "cdem.report{ { name = 'x', value = cdem.read_csv(file).x[1] } }\n");
+  write_file(cdem.folder / "study/case.lua",
+             "local cdem = require 'cdem'\n"
+             "local made = cdem.sweep{ script = 'maker.lua', set = {{ x = 7 }} }[1]\n"
+             "local read = cdem.sweep{ script = 'reader.lua', set = {{ file = '../' .. made.output .. "
+             "'/x.csv' }} }[1]\n"
+             "cdem.report{ { name = 'x', value = read.figures.x } }\n");
+  const TempFolder elsewhere;
+  const Outcome outcome = cdem({"run", "study/case.lua", "--output", (elsewhere / "out").string()});
+  INFO(outcome.out << outcome.err);
+  REQUIRE(outcome.exit_code == 0);
+  CHECK_THAT(read_file(elsewhere / "out/report.json"), Contains("\"value\": 7"));
+}
+
 TEST_CASE("a run of a sweep that fails is named, and the others go on") {
   const Place cdem;
   const Outcome outcome = cdem({"sweep", "sum/case.lua", "--set", "a=1,13,2"});
