@@ -16,7 +16,7 @@ const Vec3 g(0.3, -0.5, -9.81); // m/s2
 
 System falling_grid(const Vec3& v0) {
   System s(build({body("block", geom::grid({0.2, 0.1, 0.1}, {2, 1, 1}))}));
-  s.conditions.gravity = cdem::Gravity{g};
+  s.conditions.gravity = gravity(g);
   for (cdem::Node& v : s.state.velocity)
     v = node(v0);
   return s;

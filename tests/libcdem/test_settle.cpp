@@ -116,7 +116,8 @@ TEST_CASE("settle: deformable units fall freely until the first touch, and time 
   CHECK(result.made_rigid == 0);
   REQUIRE(result.phases.size() == 2);
   CHECK(result.phases[0].name == "free fall");
-  const double falls = std::sqrt(2 * 0.05 / 9.81), step = result.phases[0].time / result.phases[0].steps;
+  const double falls = std::sqrt(2 * 0.05 / 9.81),
+               step = result.phases[0].time / static_cast<double>(result.phases[0].steps);
   CHECK(result.phases[0].time > falls);
   CHECK(result.phases[0].time < falls + 21 * step); // 20 between looks
   CHECK(result.phases[1].name == "deformable");
