@@ -101,6 +101,14 @@ Value result_of(Session& session, const Case& one, const Job& job, const fs::pat
   return row;
 }
 
+const char* const log_name = "cdem.log";
+
+// The run has ended well before its sweep was stopped: it is not done again.
+bool has_ended(const Session& session, const fs::path& folder) {
+  const fs::path log = folder / log_name;
+  return session.checkpoints.is_of_stopped_run(log) && last_line(log).rfind("ended with exit code 0", 0) == 0;
+}
+
 std::vector<Job> make_jobs(const Session& session, const Arguments& a, const std::vector<Case>& cases,
                            const fs::path& script) {
   std::vector<Job> jobs;
@@ -128,6 +136,24 @@ std::vector<Job> make_jobs(const Session& session, const Arguments& a, const std
   return jobs;
 }
 
+// Before a sweep begins: a checkpoint to go on from, and the text that it runs, unless it goes on itself.
+void keep(Session& session, const std::vector<Case>& cases, const std::vector<Job>& jobs,
+          const fs::path& script) {
+  const fs::path sources = session.files.output() / sources_folder;
+  const bool goes_on = session.checkpoints.is_of_stopped_run(sources / script.filename());
+  session.checkpoints.keep_before_call();
+  const auto now = fs::file_time_type::clock::now();
+  if (goes_on)
+    fs::last_write_time(sources / script.filename(), now);
+  else
+    each_source(script, [&](const fs::path& name, const std::string& text) {
+      write_file(session.files.to_write((sources_folder / name).string()), text);
+    });
+  for (std::size_t i = 0; i < jobs.size(); ++i)
+    if (jobs[i].exit_code == 0)
+      fs::last_write_time(session.files.output() / cases[i].name / log_name, now);
+}
+
 int jobs_at_a_time(const Arguments& a) {
   if (a.has("jobs"))
     return static_cast<int>(a.integer("jobs"));
@@ -144,20 +170,31 @@ Value sweep(Session& session, Object*, const Arguments& a) {
     throw InputError("sweep: only from the cdem program, which it starts for each case");
   session.check_set_names();
   const std::vector<Case> cases = read_cases(a);
-  std::vector<Job> jobs = make_jobs(session, a, cases, script);
+  std::vector<Job> jobs = make_jobs(session, a, cases, script), rest;
+  std::vector<std::size_t> number; // of each of the rest
+  for (std::size_t i = 0; i < jobs.size(); ++i)
+    if (has_ended(session, session.files.output() / cases[i].name)) {
+      jobs[i].exit_code = 0;
+    } else {
+      rest.push_back(jobs[i]);
+      number.push_back(i);
+    }
   if (!session.settings.check_only)
-    each_source(script, [&](const fs::path& name, const std::string& text) {
-      write_file(session.files.to_write((sources_folder / name).string()), text);
-    });
+    keep(session, cases, jobs, script);
 
   const auto& observer = session.settings.observer;
   const auto count = static_cast<std::int64_t>(jobs.size());
-  std::int64_t done = 0;
+  auto done = static_cast<std::int64_t>(jobs.size() - rest.size());
+  if (done > 0)
+    session.message("sweep: " + std::to_string(done) + " of " + std::to_string(count) +
+                    " runs had ended and stand");
   Progress progress;
   progress.kind = "sweep";
   progress.max_steps = count;
   const auto tell = [&](const Job& job) {
-    const Case& one = cases[static_cast<std::size_t>(&job - jobs.data())];
+    const std::size_t index = number[static_cast<std::size_t>(&job - rest.data())];
+    const Case& one = cases[index];
+    jobs[index] = job;
     progress.step = ++done;
     progress.last = done == count;
     if (observer)
@@ -173,8 +210,10 @@ Value sweep(Session& session, Object*, const Arguments& a) {
     session.message(line.str());
   };
   const auto stop = [&] { return observer && observer->stop_requested(); };
-  if (!run_jobs(jobs, jobs_at_a_time(a), stop, tell))
+  if (!run_jobs(rest, jobs_at_a_time(a), stop, tell)) {
+    session.message("runs that have ended stand; to go on: " + session.checkpoints.command());
     throw Interrupted();
+  }
 
   session.checkpoints.keep_call();
   Values results;
@@ -191,14 +230,17 @@ void bind_sweep(Module& m) {
        "What one case of a sweep came to.",
        {plain("set").required().doc("as given"),
         text("output").required().doc("its folder, in the output folder"),
-        integer("exit_code").required().doc("0 when it succeeded"), number("seconds").unit("s").required(),
+        integer("exit_code").required().doc("0 when it succeeded"),
+        number("seconds").unit("s").required().doc(
+            "wall clock; 0 for a run that had ended before its sweep was stopped"),
         plain("figures").required().doc("values of its report by name; empty when it failed")}});
   m.functions.push_back(
       {"sweep",
        "Runs a script with many settings, as processes side by side, each with a folder of "
        "its own in the output "
        "folder. All run the script, and the files that it requires by a name in quotes, as they "
-       "are when the sweep begins; its folder swept/ keeps them.",
+       "are when the sweep begins; its folder swept/ keeps them. Where the script is stopped meanwhile `cdem "
+       "resume` goes on: runs that have ended well stand, the others begin again.",
        {text("script").required().doc("another .lua file beside this one"),
         list("set", plain("").type)
             .required()

@@ -97,6 +97,7 @@ void Checkpoints::load(const fs::path& file, const std::string& script_text) {
     throw geom::InputError("resume: other --set values than when the checkpoint was written");
   serial_ = head.serial;
   from_ = file;
+  from_time_ = fs::last_write_time(file);
   resumed_ = replaying_ = true;
   journal_.load(std::move(journal));
   if (!journal_.replaying())
@@ -199,6 +200,19 @@ void Checkpoints::write(bool stopping) {
   told_ = true;
 }
 
+void Checkpoints::keep_before_call() {
+  if (!may_write())
+    return;
+  put(content(journal_.size(), script_hash_));
+  swept_ = true;
+}
+
+bool Checkpoints::is_of_stopped_run(const fs::path& file) const {
+  std::error_code error;
+  const auto time = fs::last_write_time(file, error);
+  return resumed_ && !error && time >= from_time_;
+}
+
 void Checkpoints::keep_unfinished() {
   if (may_write() && flags_.in_stage && (solved_ > 0 || resumed_ || mark_steps_ > begin_steps_))
     unfinished_ = content(mark_, 0);
@@ -209,7 +223,7 @@ void Checkpoints::fail() {
     return;
   try {
     if (unfinished_.empty()) {
-      if (failed_stage_ || (solved_ == 0 && !resumed_))
+      if (failed_stage_ || (solved_ == 0 && !swept_ && !resumed_))
         return;
       unfinished_ = content(kept_, 0);
     }

@@ -47,6 +47,12 @@ public:
   // The running call may have changed a model, or has solved something: a mended script does not do it again.
   void keep_call() { keep_call_ = true; }
 
+  // Writes a checkpoint of before the running call, which keeps by itself what of it has been done.
+  void keep_before_call();
+  // A file of the run that was stopped, not of an earlier one: it was written since the checkpoint.
+  bool is_of_stopped_run(const std::filesystem::path& file) const;
+  std::string command() const; // by which the user goes on
+
   void marked() override {
     mark_ = journal_.size();
     mark_steps_ = steps();
@@ -82,7 +88,6 @@ private:
   [[noreturn]] void refuse(const std::string& text);
   Value solve_recorded(const std::string& kind, const std::function<Value()>& solve);
   std::filesystem::path path_of(std::uint64_t serial) const;
-  std::string command() const; // by which the user goes on
 
   Session& session_;
   Journal journal_;
@@ -97,6 +102,7 @@ private:
   bool failed_stage_ = false; // the last event: a stage that moved its model and that its script ended
   int stages_ = 0;            // begun so far
   int solved_ = 0;            // ended well
+  bool swept_ = false;        // or a call that keeps by itself what it has done
   std::uint64_t serial_ = 0, script_hash_ = 0;
   double elapsed_before_ = 0;
   std::string refused_; // once a replay has failed, every further call fails with it
@@ -109,6 +115,7 @@ private:
   friend void archive(A&, SavedModel&);
   std::vector<SavedModel> models_; // until the replay ends
   std::filesystem::path from_;
+  std::filesystem::file_time_type from_time_{};
   std::set<std::string> written_; // names of checkpoints so far
   std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
 };

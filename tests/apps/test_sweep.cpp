@@ -119,6 +119,76 @@ for _, run in ipairs(runs) do print("a gives " .. run.figures.sum_m) end
   }
 }
 
+TEST_CASE("a script that was stopped in a sweep goes on with the runs that had not ended") {
+  Place cdem;
+  const std::string swept = R"(
+local cdem = require "cdem"
+local a = cdem.parameter{ name = "a", default = 1 }
+while a == 2 and not io.open("sum/go") and not io.open("go") do end
+cdem.report{ { name = "ten_times", value = 10 * a } }
+)";
+  write_file(cdem.folder / "sum/swept.lua", swept);
+  write_file(cdem.folder / "sum/all.lua", R"(
+local cdem = require "cdem"
+local first = cdem.sweep{ script = "case.lua", set = { { a = 1 } } }[1]
+local sum = first.figures.sum_m
+for _, run in ipairs(cdem.sweep{ script = "swept.lua", set = { { a = 1 }, { a = 2 }, { a = 3 } }, jobs = 1 }) do
+  sum = sum + run.figures.ten_times
+end
+cdem.report{ { name = "sum", value = sum } }
+)");
+  cdem.start.signal = SIGINT;
+  cdem.start.signal_after = "sweep 1/3: a=1 done";
+  const Outcome stopped = cdem({"run", "sum/all.lua", "--unsafe"});
+  CHECK(stopped.exit_code == 130);
+  CHECK_THAT(stopped.out + stopped.err, Contains("to go on: cdem resume results/sum-all --unsafe"));
+  const auto log_of = [&](const std::string& run) {
+    return read_file(cdem.folder / "results/sum-all" / run / "cdem.log");
+  };
+  const std::string first = log_of("a=1");
+
+  write_file(cdem.folder / "sum/swept.lua", "error('of another sweep')");
+  write_file(cdem.folder / "sum/go", "");
+  cdem.start.signal = 0;
+  cdem.start.signal_after.clear();
+  const Outcome on = cdem({"resume", "results/sum-all", "--unsafe"});
+  INFO(on.out << on.err);
+  REQUIRE(on.exit_code == 0);
+  CHECK_THAT(on.out + on.err, Contains("1 of 3 runs had ended"));
+  CHECK(log_of("a=1") == first);
+  CHECK_THAT(log_of("a=3"), Contains("ended with exit code 0"));
+  CHECK_THAT(read_file(cdem.folder / "results/sum-all/report.json"), Contains("\"value\": 62"));
+  CHECK_FALSE(fs::exists(cdem.folder / "results/sum-all/checkpoint_1.cdem"));
+
+  // What stands there from an earlier run is not taken for its own.
+  write_file(cdem.folder / "sum/swept.lua", swept);
+  CHECK(cdem({"run", "sum/all.lua", "--unsafe"}).exit_code == 0);
+  CHECK(log_of("a=1") != first);
+}
+
+TEST_CASE("a script that fails behind a sweep is mended and goes on") {
+  const Place cdem;
+  const std::string all = R"(
+local cdem = require "cdem"
+local run = cdem.sweep{ script = "case.lua", set = { { a = 1 } } }[1]
+cdem.report{ { name = "sum", value = run.figures.sum_m, WRONG } }
+)";
+  const auto write = [&](const std::string& word) {
+    std::string text = all;
+    write_file(cdem.folder / "sum/all.lua", text.replace(text.find("WRONG"), 5, word));
+  };
+  write("unti = 'm'");
+  const Outcome failed = cdem({"run", "sum/all.lua"});
+  CHECK(failed.exit_code == 2);
+  CHECK_THAT(failed.out + failed.err, Contains("go on with cdem resume results/sum-all"));
+  const fs::path log = cdem.folder / "results/sum-all/a=1/cdem.log";
+  const std::string first = read_file(log);
+  write("unit = 'm'");
+  CHECK(cdem({"resume", "results/sum-all"}).exit_code == 0);
+  CHECK(read_file(log) == first);
+  CHECK_THAT(read_file(cdem.folder / "results/sum-all/report.json"), Contains("\"value\": 2"));
+}
+
 // The first of the runs waits until everything has been edited.
 TEST_CASE("a sweep runs what stood there when it began, and names the user's own files in errors") {
   const auto helper = [](int b) {
