@@ -95,7 +95,7 @@ void Evaluation::press(int source, int target, const NearestOfEdges& nearest, co
   const Contact* old = before(c);
   std::optional<Contact> beyond;
   if (!old) {
-    beyond = before_an_end(source, target);
+    beyond = before_an_end(source, target, touch.normal);
     old = beyond ? &*beyond : nullptr;
   }
   finish(c, old, motion, edge_arms(model_, state_, e, f, nearest.at),
@@ -210,46 +210,73 @@ void Evaluation::press(int source, int corner, const geom::Vec3& spring, int pie
          contact_law(*law.joint, law.tan_friction, from.area / 3, from, to), from, to);
 }
 
-std::optional<Contact> Evaluation::before_an_end(int e, int f) const {
-  const auto with_those_at_ends = [&](int edge) {
-    std::vector<int> edges{edge};
-    for (const int begin : work_.edge_ends[edge])
-      for (const int* other = &work_.edges_at[begin]; *other >= 0; ++other)
-        if (*other != edge)
-          edges.push_back(*other);
-    return edges;
-  };
+std::vector<int> Evaluation::with_those_at_ends(int edge) const {
+  std::vector<int> edges{edge};
+  for (const int begin : work_.edge_ends[edge])
+    for (const int* other = &work_.edges_at[begin]; *other >= 0; ++other)
+      if (*other != edge)
+        edges.push_back(*other);
+  return edges;
+}
+
+const Contact* Evaluation::contact_of(int e, int f) const {
+  const ContactEdge &source = work_.edges[std::min(e, f)], &target = work_.edges[std::max(e, f)];
+  Contact like;
+  like.kind = Contact::edge;
+  like.source = source.id();
+  like.piece = source.triangles[1];
+  like.target = target.id();
+  const auto found = std::lower_bound(state_.contacts.begin(), state_.contacts.end(), like,
+                                      [](const Contact& a, const Contact& b) { return key(a) < key(b); });
+  return found != state_.contacts.end() && key(*found) == key(like) ? &*found : nullptr;
+}
+
+std::optional<Contact> Evaluation::before_an_end(int e, int f, const geom::Vec3& normal) const {
   const std::vector<int> targets = with_those_at_ends(f);
   std::optional<Contact> most;
   for (const int from : with_those_at_ends(e))
     for (const int to : targets) {
-      const ContactEdge &source = work_.edges[std::min(from, to)], &target = work_.edges[std::max(from, to)];
-      Contact like;
-      like.kind = Contact::edge;
-      like.source = source.id();
-      like.piece = source.triangles[1];
-      like.target = target.id();
-      const auto old = std::lower_bound(state_.contacts.begin(), state_.contacts.end(), like,
-                                        [](const Contact& a, const Contact& b) { return key(a) < key(b); });
-      if (old == state_.contacts.end() || key(*old) != key(like) ||
-          nearest_of_edges(model_, state_, source, target).within_both() ||
-          (most && old->normal_force <= most->normal_force))
+      const Contact* const old = contact_of(from, to);
+      if (!old || (most && old->normal_force <= most->normal_force) ||
+          nearest_of_edges(model_, state_, work_.edges[from], work_.edges[to]).within_both())
+        continue;
+      const double side = from < to ? 1 : -1;
+      if (!takes_over(e, f, normal, from, to, side * old->normal))
         continue;
       most = *old;
-      if (from > to) {
-        most->normal = -most->normal;
-        most->shear = -most->shear;
-      }
+      most->normal *= side;
+      most->shear *= side;
     }
   return most;
 }
 
+bool Evaluation::takes_over(int e, int f, const geom::Vec3& normal, int from, int to,
+                            const geom::Vec3& before) const {
+  const std::vector<int> targets = with_those_at_ends(to);
+  for (const int a : with_those_at_ends(from))
+    for (const int b : targets) {
+      if (a == b || (a == e && b == f) || (a < b) != (from < to) || contact_of(a, b))
+        continue;
+      const NearestOfEdges nearest = nearest_of_edges(model_, state_, work_.edges[a], work_.edges[b]);
+      if (!nearest.within_both())
+        continue;
+      const auto touch = touch_of(model_, state_, work_.edges[a], work_.edges[b], nearest);
+      if (touch && std::pair(-touch->normal.dot(before), std::pair(a, b)) <
+                       std::pair(-normal.dot(before), std::pair(e, f)))
+        return false;
+    }
+  return true;
+}
+
 void Evaluation::take_over(Contact& c, const Contact& old, const ContactLaw& law,
                            const ContactMotion& motion) {
+  const ContactLaw before = law_of(model_, old);
   const double depth = std::max(0.0, motion.depth + motion.slid.dot(motion.normal)), // before the step
-      pressed = std::clamp(old.depth - old.start, 0.0, depth);
+      pressed = std::min(depth, old.normal_force / std::sqrt(before.kn * law.kn));
   c.start = depth - pressed;
-  out_.sums.friction -= energy(law.kn * pressed, old.shear.norm(), law);
+  if (before.ks > 0)
+    c.shear *= std::sqrt(law.ks / before.ks);
+  out_.sums.friction -= energy(law.kn * pressed, c.shear.norm(), law);
 }
 
 void Evaluation::finish(Contact& c, const Contact* old, ContactMotion& motion, const ContactArms& arms,

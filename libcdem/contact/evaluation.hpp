@@ -31,13 +31,17 @@ private:
   bool sleeps(const ContactRow&, int block) const;
   void go_to(int source); // what stood at it before
   const Contact* before(const Contact&) const;
-  // The contact that the two edges, or others which meet their ends, have just left behind an end; the one that presses
-  // the most, as if it were that of e and f.
-  std::optional<Contact> before_an_end(int e, int f) const;
+  const Contact* contact_of(int e, int f) const; // of two edges, before the step
+  std::vector<int> with_those_at_ends(int edge) const;
+  // The contact that the two edges, or others which meet their ends, have just left behind an end, as if it were that of
+  // e and f: the one that presses the most of those that these two take over.
+  std::optional<Contact> before_an_end(int e, int f, const geom::Vec3& normal) const;
+  // Of all new contacts around that of `from` and `to` the one of e and f has the normal most like the one before.
+  bool takes_over(int e, int f, const geom::Vec3& normal, int from, int to, const geom::Vec3& before) const;
   double look_at(ContactRow&, ContactCandidate*, bool all); // returns how deep the deepest is, m
   void press(int source, int corner, const geom::Vec3& spring, int piece, const Nearest&);
   void press(int source, int target, const NearestOfEdges&, const EdgeTouch&);
-  // Presses as much as the old one did before the step, which is booked as lost and is not.
+  // Stores what the old one did before the step, which is booked as lost and is not.
   void take_over(Contact&, const Contact& old, const ContactLaw&, const ContactMotion&);
   // old: the contact before the step, null where there was none.
   void finish(Contact&, const Contact* old, ContactMotion&, const ContactArms&, const ContactLaw&,

@@ -16,9 +16,9 @@ struct SettleOptions {
   double local_damping = 0.5; // of what touches, in [0, 1)
   std::optional<double> friction_angle; // rad, in [0, pi/2): contacts have no more of it in this stage
   double max_time = 60;                 // s of the model, over all phases
-  double safety = 0.9;                  // time step over the stable one, in (0, 1]
-  double time_step = 0;                 // s, of the rigid phase; 0 = safety x stable
-  std::int64_t callback_every = 0;      // steps between calls of `callback`, in whole twenties; 0 never
+  double safety = 0.5;  // time step over the stable one, in (0, 1]: near 1 contacts that chatter gain energy
+  double time_step = 0; // s, of the rigid phase; 0 = safety x stable
+  std::int64_t callback_every = 0; // steps between calls of `callback`, in whole twenties; 0 never
   std::function<void()> callback;
 };
 

@@ -174,7 +174,8 @@ void bind_settling(Module& m) {
                  "more; each "
                  "its own when left out, and afterwards"),
         number("max_time").above(0).standard(60.0).unit("s").doc("of the model, then a warning"),
-        number("safety").within(0, 1).standard(0.9).doc("time step over the stable one"),
+        number("safety").within(0, 1).standard(0.5).doc(
+            "time step over the stable one; with more, contacts that open and close keep shaking"),
         number("time_step")
             .above(0)
             .unit("s")

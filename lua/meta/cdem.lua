@@ -710,7 +710,7 @@ function Model:watch(options) end
 ---@field local_damping? number in [0, 1), default 0.5: of what touches: force against the motion as a fraction of the out-of-balance force (Cundall)
 ---@field friction_angle? number deg, in [0, 90): contacts have no more of it while units settle, so that they slide until they lean on more; each its own when left out, and afterwards
 ---@field max_time? number s, > 0, default 60: of the model, then a warning
----@field safety? number in [0, 1], default 0.9: time step over the stable one
+---@field safety? number in [0, 1], default 0.5: time step over the stable one; with more, contacts that open and close keep shaking
 ---@field time_step? number s, > 0: of the rigid fall, at most the stable one, which it is by default
 ---@field every? integer >= 1: steps between calls, 100 by default; in whole twenties
 ---@field callback? fun() called every so many steps; may read the model and write files
