@@ -20,8 +20,6 @@ local damping = cdem.parameter{ name = "stiffness_damping", default = 1e-5, rang
                                 doc = "for 5 t: 1 % of critical damping at a unit's lowest frequency" }
 local held = cdem.parameter{ name = "held", default = 5, range = {0, 100}, doc = "highest and lowest units that are held" }
 local friction = cdem.parameter{ name = "friction_angle", default = 35.0, range = {0, 80}, unit = "deg" }
-local sliding = cdem.parameter{ name = "sliding_angle", default = 20.0, range = {0, 80}, unit = "deg",
-                                doc = "friction of the pile until it carries itself, at most" }
 local walls = cdem.parameter{ name = "walls", default = false, doc = "those of settle.lua stay" }
 local draw = cdem.parameter{ name = "pictures", default = true, doc = "draw them" }
 
@@ -39,8 +37,8 @@ if held > 0 then
     model:fix{ on = cdem.select.units{ body = "units", numbers = numbers } }
   end
 end
--- The pile carries itself again, elastic as it is now; what damping of motion there is ends here, and friction is whole.
-model:settle{ rigid = false, friction_angle = sliding, max_time = 2 * scale }
+-- The pile carries itself again, without its walls if they are gone; what damping of motion there is ends here.
+model:settle{ max_time = 20 * scale }
 
 local function places() return model:pile{ body = "units" }:poses() end
 local left

@@ -4,13 +4,12 @@
 --
 --   ./cdem run examples/armour_pile/settle.lua
 --   ./cdem run examples/armour_pile/study.lua [--set modes=hold] [--set first_velocity=5]
---   ./cdem sweep examples/armour_pile/settle.lua --set seed=1,2,3,4,5,6 --set pictures=false
---   ./cdem run examples/armour_pile/study.lua --set pile=results/armour_pile-settle-sweep/seed=%d/pile.json --set piles=6
+--   ./cdem run examples/armour_pile/study.lua --set piles=6      # settles them first, with six seeds
 local cdem = require "cdem"
 
 local file = cdem.parameter{ name = "pile", default = "results/armour_pile-settle/pile.json",
-                             doc = "of settle.lua; %d stands for the number of the pile" }
-local piles = cdem.parameter{ name = "piles", default = 1, range = {1, 100}, doc = "how many" }
+                             doc = "of settle.lua" }
+local piles = cdem.parameter{ name = "piles", default = 1, range = {1, 100}, doc = "with more, others than that are settled" }
 local modes = cdem.parameter{ name = "modes", default = "both", choices = {"both", "hold", "ramp"} }
 local units = cdem.parameter{ name = "units", default = 4, range = {1, 100}, doc = "how many are to leave" }
 local first = cdem.parameter{ name = "first_velocity", default = 3.0, range = {0.1, 100}, unit = "m/s", doc = "for 5 t" }
@@ -21,11 +20,19 @@ local draw = cdem.parameter{ name = "pictures", default = false, doc = "of each 
 local jobs = cdem.parameter{ name = "jobs", default = 2, range = {1, 64}, doc = "runs side by side" }
 
 local masses = { 5000.0, 9000.0, 16000.0 }
+local files = { file }
+if piles > 1 then
+  local seeds = {}
+  for pile = 1, piles do seeds[pile] = { seed = pile, pictures = false } end
+  for pile, run in ipairs(cdem.sweep{ script = "settle.lua", set = seeds, jobs = jobs }) do
+    files[pile] = "../" .. run.output .. "/pile.json"
+  end
+end
 local set, run_of = {}, {} -- run_of["ramp 9000 1"]: number of that run of pile 1
 for pile = 1, piles do
   for _, mode in ipairs(modes == "both" and {"hold", "ramp"} or {modes}) do
     for _, mass in ipairs(masses) do
-      set[#set + 1] = { pile = piles > 1 and file:gsub("%%d", tostring(pile)) or file, mass = mass, mode = mode, units = units,
+      set[#set + 1] = { pile = files[pile], mass = mass, mode = mode, units = units,
                         first_velocity = first, velocity_step = step, ramp_rate = rate, walls = walls, pictures = draw }
       run_of[string.format("%s %g %d", mode, mass, pile)] = #set
     end
