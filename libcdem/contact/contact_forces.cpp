@@ -112,6 +112,7 @@ ContactSums contact_forces(const Model& model, State& state, Workspace& work, in
   const bool out_of_skin = add_ways(model, state, own, threads), pieces_due = own.pieces_due;
   if ((pieces_due || out_of_skin) && !search_contacts(model, state, own, threads))
     return sums; // something is not a number: the stage's watch will say where
+  own.all_begin = pieces_due;
   // Where a piece has fallen apart, contacts go with the part they touch.
   if (pieces_due) {
     for (Contact& c : state.contacts)

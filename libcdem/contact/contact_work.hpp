@@ -100,6 +100,8 @@ struct ContactWork {
   // State::contacts holds all there are, but for pieces. Not so where a stage begins: what stands in what then is
   // anybody's doing.
   bool all_known = false;
+  bool all_begin =
+      false;       // of this look: contacts begin however deep they are, as pieces were told apart anew
   double step = 0; // s, since then
   // Tangent of the largest friction angle of any contact, for a stage that wants less than joints give.
   double most_friction = std::numeric_limits<double>::infinity();

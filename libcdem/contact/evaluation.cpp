@@ -171,30 +171,38 @@ double Evaluation::look_at(ContactRow& row, ContactCandidate* candidates, bool a
     if (!found.inside())
       continue;
     // With some asleep, what is further in than a step can have brought it is not inside: nearer ones sleep.
-    const double reach = row.reach + work_.last_way[source.block] + work_.last_way[row.block];
+    const double ways = work_.last_way[source.block] + work_.last_way[row.block], reach = row.reach + ways;
     if (!all && found.distance2 > reach * reach)
       continue;
     const double covered = 2 * depth_limit(work_, source, surface_.triangles[found.target]);
     if (found.distance2 > covered * covered)
       continue; // beyond what the search covers: nearer ones may not be in the row
-    deepest2 = std::max(deepest2, found.distance2);
-    press(row.source, corner, spring[corner], work_.piece[found.target], found);
+    // What is deep and was no contact before has come there by no motion, as at the mouth of a crack. Steps with some
+    // asleep do not see it: it would begin where a search happens to be.
+    const double begins = work_.shallow + ways;
+    const bool may_begin = work_.all_begin || found.distance2 <= begins * begins;
+    if (press(row.source, corner, spring[corner], work_.piece[found.target], found, may_begin))
+      deepest2 = std::max(deepest2, found.distance2);
   }
   return std::sqrt(deepest2);
 }
 
-void Evaluation::press(int source, int corner, const geom::Vec3& spring, int piece, const Nearest& nearest) {
+bool Evaluation::press(int source, int corner, const geom::Vec3& spring, int piece, const Nearest& nearest,
+                       bool may_begin) {
   const ContactTriangle &from = surface_.triangles[source], &to = surface_.triangles[nearest.target];
   const double depth = std::sqrt(nearest.distance2);
   // The two sides of a face that has broken and not yet parted are held by its own springs.
   if (from.mate == nearest.target && !handed_over(state_.faces[from.face / lanes], from.face % lanes))
-    return;
-  const Corners y = corners_of(model_, state_, to.nodes);
+    return false;
   Contact c;
   c.kind = Contact::spring;
   c.source = 3 * source + corner;
   c.piece = piece;
   c.target = nearest.target;
+  const Contact* const old = before(c);
+  if (!old && !may_begin)
+    return false;
+  const Corners y = corners_of(model_, state_, to.nodes);
   ContactMotion motion;
   motion.depth = depth;
   motion.normal =
@@ -206,8 +214,9 @@ void Evaluation::press(int source, int corner, const geom::Vec3& spring, int pie
   motion.turned = 0.5 * work_.step *
                   (spin(x[1] - x[0], turn_from, motion.normal) + spin(y[1] - y[0], turn_to, motion.normal));
   const Law& law = law_between(from.block, to.block);
-  finish(c, before(c), motion, spring_arms(model_, state_, from, corner, to, nearest.at.weights),
+  finish(c, old, motion, spring_arms(model_, state_, from, corner, to, nearest.at.weights),
          contact_law(*law.joint, law.tan_friction, from.area / 3, from, to), from, to);
+  return true;
 }
 
 std::vector<int> Evaluation::with_those_at_ends(int edge) const {

@@ -39,7 +39,8 @@ private:
   // Of all new contacts around that of `from` and `to` the one of e and f has the normal most like the one before.
   bool takes_over(int e, int f, const geom::Vec3& normal, int from, int to, const geom::Vec3& before) const;
   double look_at(ContactRow&, ContactCandidate*, bool all); // returns how deep the deepest is, m
-  void press(int source, int corner, const geom::Vec3& spring, int piece, const Nearest&);
+  // may_begin: even if it was no contact before. False where it is none.
+  bool press(int source, int corner, const geom::Vec3& spring, int piece, const Nearest&, bool may_begin);
   void press(int source, int target, const NearestOfEdges&, const EdgeTouch&);
   // Stores what the old one did before the step, which is booked as lost and is not.
   void take_over(Contact&, const Contact& old, const ContactLaw&, const ContactMotion&);
