@@ -6,10 +6,6 @@
 namespace cdem {
 namespace {
 
-// Semi-springs stand in from their corners by this part of the way to each of the two others. Where bonds hold
-// tetrahedra together the corners of cracks are one place with others (nearest.hpp): those of such bodies keep clear.
-constexpr double drawn_in = 1e-4, drawn_in_of_bonded = 0.01;
-
 // Weights of a tet's corners that make up a place, which may lie a little outside.
 std::array<double, 4> in_tet(const Model& model, const State& state, const geom::Tet& nodes,
                              const geom::Vec3& place) {
@@ -60,17 +56,16 @@ std::pair<int, int> blocks_of(const Model& model, const Contact& c) {
   return {model.surface.triangles[source].block, model.surface.triangles[target].block};
 }
 
-geom::Vec3 spring_weights(const Model& model, const ContactTriangle& triangle, int corner) {
-  const double in = has_bonds(model, triangle.block) ? drawn_in_of_bonded : drawn_in;
-  geom::Vec3 w = geom::Vec3::Constant(in);
-  w[corner] = 1 - 2 * in;
+geom::Vec3 spring_weights(int corner) {
+  geom::Vec3 w = geom::Vec3::Constant(drawn_in);
+  w[corner] = 1 - 2 * drawn_in;
   return w;
 }
 
 ContactArms spring_arms(const Model& model, const State& state, const ContactTriangle& from, int corner,
                         const ContactTriangle& to, const geom::Vec3& nearest) {
   ContactArms arms;
-  const geom::Vec3 w = spring_weights(model, from, corner);
+  const geom::Vec3 w = spring_weights(corner);
   arms.source = from.nodes;
   arms.target = model.tets[to.tet];
   arms.on_source = {w[0], w[1], w[2]};
@@ -105,8 +100,7 @@ ContactArms arms_of(const Model& model, const State& state, const Contact& c) {
                                   place_of(model, state, f.nodes[0]), place_of(model, state, f.nodes[1])));
   }
   const ContactTriangle &from = s.triangles[c.source / 3], &to = s.triangles[c.target];
-  const geom::Vec3 spring =
-      weighted(corners_of(model, state, from.nodes), spring_weights(model, from, c.source % 3));
+  const geom::Vec3 spring = weighted(corners_of(model, state, from.nodes), spring_weights(c.source % 3));
   const Corners y = corners_of(model, state, to.nodes);
   return spring_arms(model, state, from, c.source % 3, to,
                      geom::nearest_on_triangle(spring, y[0], y[1], y[2]).weights);

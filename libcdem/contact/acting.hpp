@@ -28,7 +28,7 @@ std::pair<int, int> blocks_of(const Model&, const Contact&);
 std::pair<int, int> triangles_of(const Contact&);
 
 // Of a triangle's corners, where the semi-spring of one of them stands.
-geom::Vec3 spring_weights(const Model&, const ContactTriangle&, int corner);
+geom::Vec3 spring_weights(int corner);
 
 // nearest: weights of the target's corners.
 ContactArms spring_arms(const Model&, const State&, const ContactTriangle& from, int corner,

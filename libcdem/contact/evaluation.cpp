@@ -13,6 +13,8 @@ namespace {
 
 // What is nearer than this many times the deepest contact of a row is looked at in every step.
 constexpr double reach_over_depth = 1.5;
+// An edge goes on in another one that encloses an angle with it of which this is the cosine, or more.
+constexpr double goes_on = 0.7;
 
 // The angular velocity about `normal` of a line that moves with its ends, rad/s.
 double spin(const geom::Vec3& along, const geom::Vec3& relative_velocity, const geom::Vec3& normal) {
@@ -97,6 +99,8 @@ void Evaluation::press(int source, int target, const NearestOfEdges& nearest, co
   if (!old) {
     beyond = before_an_end(source, target, touch.normal);
     old = beyond ? &*beyond : nullptr;
+    if (!old && (at_last_end(source, nearest.at.s) || at_last_end(target, nearest.at.t)))
+      return;
   }
   finish(c, old, motion, edge_arms(model_, state_, e, f, nearest.at),
          contact_law(*law.joint, law.tan_friction, area_of_edge(surface_, e.triangles[0], e.triangles[1]),
@@ -139,7 +143,7 @@ double Evaluation::look_at(ContactRow& row, ContactCandidate* candidates, bool a
   const Corners x = corners_of(model_, state_, source.nodes);
   std::array<geom::Vec3, 3> spring;
   for (int corner = 0; corner < 3; ++corner)
-    spring[corner] = weighted(x, spring_weights(model_, source, corner));
+    spring[corner] = weighted(x, spring_weights(corner));
   const double moved = work_.travelled[source.block] + work_.travelled[row.block];
   const bool bonded = has_bonds(model_, row.block);
   std::array<Nearest, 3> nearest;
@@ -226,6 +230,25 @@ std::vector<int> Evaluation::with_those_at_ends(int edge) const {
       if (*other != edge)
         edges.push_back(*other);
   return edges;
+}
+
+bool Evaluation::at_last_end(int edge, double place) const {
+  if (place > drawn_in && place < 1 - drawn_in)
+    return false;
+  const int end = place < 0.5 ? 0 : 1;
+  const ContactEdge& e = work_.edges[edge];
+  const int node = surface_.original[e.nodes[end]];
+  const auto direction = [&](int from, int to) {
+    return geom::Vec3((place_of(model_, state_, to) - place_of(model_, state_, from)).normalized());
+  };
+  const geom::Vec3 along = direction(e.nodes[1 - end], e.nodes[end]);
+  for (const int* other = &work_.edges_at[work_.edge_ends[edge][end]]; *other >= 0; ++other) {
+    const auto& [a, b] = work_.edges[*other].nodes;
+    if (*other != edge &&
+        along.dot(surface_.original[a] == node ? direction(a, b) : direction(b, a)) > goes_on)
+      return false;
+  }
+  return true;
 }
 
 const Contact* Evaluation::contact_of(int e, int f) const {

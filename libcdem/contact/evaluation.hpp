@@ -38,6 +38,8 @@ private:
   std::optional<Contact> before_an_end(int e, int f, const geom::Vec3& normal) const;
   // Of all new contacts around that of `from` and `to` the one of e and f has the normal most like the one before.
   bool takes_over(int e, int f, const geom::Vec3& normal, int from, int to, const geom::Vec3& before) const;
+  // Whether the place, in parts of the edge, is at an end of it where no other edge goes on.
+  bool at_last_end(int edge, double place) const;
   double look_at(ContactRow&, ContactCandidate*, bool all); // returns how deep the deepest is, m
   // may_begin: even if it was no contact before. False where it is none.
   bool press(int source, int corner, const geom::Vec3& spring, int piece, const Nearest&, bool may_begin);

@@ -82,7 +82,7 @@ private:
     std::array<geom::Vec3, 3> spring;
     std::array<bool, 3> gets_in{};
     for (int corner = 0; corner < 3; ++corner) {
-      spring[corner] = weighted(x, spring_weights(model_, triangle(pairs[begin].first), corner));
+      spring[corner] = weighted(x, spring_weights(corner));
       gets_in[corner] = may_get_into(work_, active_, triangle(pairs[begin].first), spring[corner],
                                      triangle(pairs[begin].second).block);
     }

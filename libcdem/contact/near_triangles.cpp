@@ -53,8 +53,8 @@ void look(const Model& model, const ContactWork& work, const TakingPart& active,
     const ContactTriangle& source = model.surface.triangles[active.triangles[i]];
     bool gets_in = false;
     for (int corner = 0; corner < 3 && !gets_in; ++corner)
-      gets_in = may_get_into(work, active, source,
-                             weighted(active.facets[i].x, spring_weights(model, source, corner)), other);
+      gets_in =
+          may_get_into(work, active, source, weighted(active.facets[i].x, spring_weights(corner)), other);
     if (!gets_in)
       continue;
     sources.push_back(i);

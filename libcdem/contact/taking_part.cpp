@@ -11,7 +11,7 @@ namespace cdem {
 namespace {
 
 // Of the usual height of a tet at the surface: the thinnest and the thickest skin of a block.
-constexpr double thinnest = 0.0025, thickest = 0.1;
+constexpr double thinnest = 0.001, thickest = 0.1;
 // Steps that a block can go on at its pace before it leaves its skin, and what of the fastest block's pace the others
 // are trusted to get to.
 constexpr double steps_ahead = 250, pace_of_others = 0.25;
