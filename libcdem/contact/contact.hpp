@@ -4,6 +4,7 @@
 
 #include "libgeom/core/types.hpp"
 
+#include <algorithm>
 #include <cstdint>
 
 namespace cdem {
@@ -19,8 +20,9 @@ struct Contact {
   geom::Vec3 normal = geom::Vec3::Zero(); // unit, out of the target
   geom::Vec3 shear = geom::Vec3::Zero();  // Fs, N, on the source
   double start = 0;                       // m, depth at which it carries nothing: it was found that deep
-  double normal_force = 0;                // Fn, N, >= 0
   double depth = 0;                       // m, below the target's surface
+
+  double pressed() const { return std::max(0.0, depth - start); } // m
 };
 
 } // namespace cdem

@@ -45,7 +45,7 @@ double lost(const Model& model, const std::vector<Contact>& before, const std::v
     while (next != now.end() && key(*next) < key(c))
       ++next;
     if (next == now.end() || key(*next) != key(c))
-      energy_lost += energy(c.normal_force, c.shear.norm(), law_of(model, c));
+      energy_lost += energy(c.pressed(), c.shear.norm(), law_of(model, c));
   }
   return energy_lost;
 }
@@ -170,10 +170,9 @@ double contact_energy(const Model& model, const State& state, double lag) {
     const ContactLaw law = law_of(model, c);
     const geom::Vec3 ago = lag * velocity_past(state, arms_of(model, state, c));
     const double along = ago.dot(c.normal);
-    const double normal_force = std::max(0.0, c.normal_force + law.kn * along);
+    const double pressed = c.pressed() > 0 ? std::max(0.0, c.pressed() + along) : 0;
     const double shear_force = (c.shear + law.ks * (ago - along * c.normal)).norm();
-    sum += energy(c.normal_force > 0 ? normal_force : 0,
-                  std::min(shear_force, normal_force * law.tan_friction), law);
+    sum += energy(pressed, std::min(shear_force, law.kn * pressed * law.tan_friction), law);
   }
   return sum;
 }

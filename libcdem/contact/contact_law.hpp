@@ -50,8 +50,7 @@ inline double advance(Contact& c, const ContactLaw& law, const ContactMotion& m)
   c.start = std::min(c.start, std::max(0.0, m.depth)); // it does not pull when it comes back from further out
   c.normal = m.normal;
   c.depth = m.depth;
-  c.normal_force = law.kn * std::max(0.0, m.depth - c.start);
-  const double before = c.shear.norm(), trial = shear.norm(), limit = c.normal_force * law.tan_friction;
+  const double before = c.shear.norm(), trial = shear.norm(), limit = law.kn * c.pressed() * law.tan_friction;
   c.shear = shear;
   if (trial <= limit)
     return 0;
@@ -60,9 +59,8 @@ inline double advance(Contact& c, const ContactLaw& law, const ContactMotion& m)
 }
 
 // J, stored.
-inline double energy(double normal_force, double shear_force, const ContactLaw& law) {
-  return 0.5 * normal_force * normal_force / law.kn +
-         (law.ks > 0 ? 0.5 * shear_force * shear_force / law.ks : 0);
+inline double energy(double pressed, double shear_force, const ContactLaw& law) {
+  return 0.5 * law.kn * pressed * pressed + (law.ks > 0 ? 0.5 * shear_force * shear_force / law.ks : 0);
 }
 
 } // namespace cdem

@@ -266,15 +266,19 @@ const Contact* Evaluation::contact_of(int e, int f) const {
 std::optional<Contact> Evaluation::before_an_end(int e, int f, const geom::Vec3& normal) const {
   const std::vector<int> targets = with_those_at_ends(f);
   std::optional<Contact> most;
+  double most_force = -1; // N
   for (const int from : with_those_at_ends(e))
     for (const int to : targets) {
       const Contact* const old = contact_of(from, to);
-      if (!old || (most && old->normal_force <= most->normal_force) ||
-          nearest_of_edges(model_, state_, work_.edges[from], work_.edges[to]).within_both())
+      if (!old || nearest_of_edges(model_, state_, work_.edges[from], work_.edges[to]).within_both())
         continue;
       const double side = from < to ? 1 : -1;
       if (!takes_over(e, f, normal, from, to, side * old->normal))
         continue;
+      const double force = law_of(model_, *old).kn * old->pressed();
+      if (force <= most_force)
+        continue;
+      most_force = force;
       most = *old;
       most->normal *= side;
       most->shear *= side;
@@ -304,11 +308,11 @@ void Evaluation::take_over(Contact& c, const Contact& old, const ContactLaw& law
                            const ContactMotion& motion) {
   const ContactLaw before = law_of(model_, old);
   const double depth = std::max(0.0, motion.depth + motion.slid.dot(motion.normal)), // before the step
-      pressed = std::min(depth, old.normal_force / std::sqrt(before.kn * law.kn));
+      pressed = std::min(depth, old.pressed() * std::sqrt(before.kn / law.kn));
   c.start = depth - pressed;
   if (before.ks > 0)
     c.shear *= std::sqrt(law.ks / before.ks);
-  out_.sums.friction -= energy(law.kn * pressed, c.shear.norm(), law);
+  out_.sums.friction -= energy(pressed, c.shear.norm(), law);
 }
 
 void Evaluation::finish(Contact& c, const Contact* old, ContactMotion& motion, const ContactArms& arms,
@@ -322,7 +326,7 @@ void Evaluation::finish(Contact& c, const Contact* old, ContactMotion& motion, c
       c.shear = old->shear;
       c.start = old->start;
       if (key(*old) != key(c)) // what it stored is booked as lost, and is not
-        out_.sums.friction -= energy(law.kn * std::max(0.0, old->depth - old->start), old->shear.norm(), law);
+        out_.sums.friction -= energy(old->pressed(), old->shear.norm(), law);
     } else {
       c.normal = motion.normal;
       c.start = start_depth(motion);
@@ -333,14 +337,14 @@ void Evaluation::finish(Contact& c, const Contact* old, ContactMotion& motion, c
   force.arms = arms;
   force.source_block = from.block;
   force.target_block = to.block;
-  force.normal = c.normal_force * c.normal;
+  force.normal = law.kn * c.pressed() * c.normal;
   force.shear = c.shear;
   force.stiffness = law.kn + law.ks;
   out_.contacts.push_back(c);
   out_.forces.push_back(force);
   // Not what was found so deep: between the pieces of a broken body that still hang together by a corner.
   ContactSums& sums = out_.sums;
-  const double pressed = c.depth - c.start, part = pressed / depth_limit(work_, from, to);
+  const double pressed = c.pressed(), part = pressed / depth_limit(work_, from, to);
   sums.depth = std::max(sums.depth, pressed);
   sums.depth_over_height = std::max(sums.depth_over_height, pressed / std::min(from.height, to.height));
   if (part > sums.deepest) {

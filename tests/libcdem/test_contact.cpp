@@ -8,6 +8,8 @@
 
 #include <catch2/catch.hpp>
 
+#include <set>
+
 using namespace testing;
 using geom::Mat3;
 using geom::Vec3;
@@ -45,6 +47,10 @@ Vec3 centroid(const System& s, int block) {
     mass += s.model.node_mass[n];
   }
   return sum / mass;
+}
+
+double normal_force(const System& s, const cdem::Contact& c) { // N
+  return cdem::law_of(s.model, c).kn * c.pressed();
 }
 
 // A flat block on a plate, both level; gravity is turned instead. The law is that of a rigid block: the contact's
@@ -240,7 +246,8 @@ TEST_CASE("contact: an edge pressed on another carries on over the nodes of both
     options.callback = [&] {
       Vec3 force = Vec3::Zero();
       for (const cdem::Contact& c : s.state.contacts)
-        force += (cdem::blocks_of(s.model, c).first == 1 ? 1 : -1) * (c.normal_force * c.normal + c.shear);
+        force +=
+            (cdem::blocks_of(s.model, c).first == 1 ? 1 : -1) * (normal_force(s, c) * c.normal + c.shear);
       forces.push_back(force.norm());
     };
     s.run(options);
@@ -281,7 +288,7 @@ TEST_CASE("contact: a bar that lies flat across another rests on the crossings o
     double sum = 0;
     for (const cdem::Contact& c : s.state.contacts) {
       CHECK(c.kind == cdem::Contact::edge);
-      sum += c.normal_force * std::abs(c.normal.z());
+      sum += normal_force(s, c) * std::abs(c.normal.z());
       late = std::max(late, c.start);
     }
     least = std::min(least, sum);
@@ -294,7 +301,40 @@ TEST_CASE("contact: a bar that lies flat across another rests on the crossings o
   CHECK(std::abs(centroid(s, 1).z() - start) < 1e-8);
 }
 
-TEST_CASE("contact: a lone corner is felt as soon as it is in", "[contact]") {
+TEST_CASE("contact: blocks in rows touch the ones beside them, not those across an edge or a corner",
+          "[contact][edges]") {
+  // Pressed together by a thousandth of an element, as rock and concrete are before they break, and not quite in line.
+  const int divisions = GENERATE(1, 2, 3);
+  const double size = 0.5, strain = 1e-3 / divisions;
+  std::vector<geom::TetMesh> cubes;
+  for (int i = 0; i < 8; ++i) {
+    const Vec3 cell(i & 1, i >> 1 & 1, i >> 2);
+    const Vec3 off(std::sin(2.0 * i), std::sin(3.0 * i), std::sin(5.0 * i));
+    cubes.push_back(box_at(Vec3::Constant(size), {divisions, divisions, divisions},
+                           rotation({1, 1, 0.3 * i}, 2e-4 * strain * i),
+                           size * ((1 - strain) * cell + 0.3 * strain * off)));
+  }
+  cdem::BodySpec bodies = meshed("cubes", cubes[0]);
+  bodies.meshes = cubes;
+  System s(build({bodies}, {{"cubes", "cubes", friction(30)}}));
+  s.hold(body_of("cubes"), "xyz");
+  cdem::RunOptions options;
+  options.steps = 1;
+  s.run(options);
+  std::set<std::pair<int, int>> met;
+  for (const cdem::Contact& c : s.state.contacts) {
+    const auto [a, b] = cdem::blocks_of(s.model, c);
+    met.insert(std::minmax(a, b));
+  }
+  std::set<std::pair<int, int>> beside;
+  for (int i = 0; i < 8; ++i)
+    for (const int bit : {1, 2, 4})
+      if (!(i & bit))
+        beside.emplace(i, i | bit);
+  CHECK(met == beside);
+}
+
+TEST_CASE("contact: a lone corner is felt as soon as its springs are in", "[contact]") {
   const double size = 0.5, edge = size / 2;
   const Mat3 on_corner = Eigen::Quaterniond::FromTwoVectors(Vec3(1, 1, 1), Vec3(0, 0, 1)).toRotationMatrix();
   System s(build({meshed("floor", box_at({2, 2, 0.5}, {3, 3, 1}, Mat3::Identity(), {0.1, 0.1, -0.25})),
@@ -312,13 +352,16 @@ TEST_CASE("contact: a lone corner is felt as soon as it is in", "[contact]") {
     s.run(options);
     double sum = 0;
     for (const cdem::Contact& c : s.state.contacts)
-      sum += c.normal_force;
+      sum += normal_force(s, c);
     return sum;
   };
-  // Its springs stand in by 1e-4 of the way to the others.
-  CHECK(force_at(3e-4 * edge) > 0);
-  const double first = force_at(1e-3 * edge), second = force_at(2e-3 * edge);
-  CHECK(second / first == Approx(2).epsilon(0.12));
+  // Its triangles have an edge of the cube there, which rises by 1 / sqrt(3) of its length, and a face's diagonal, which
+  // rises by two of them; the springs stand in by 0.005 of both.
+  const double in = 3 * 0.005 * edge / std::sqrt(3.0);
+  CHECK(force_at(0.98 * in) == 0);
+  const double first = force_at(1.2 * in), second = force_at(1.4 * in);
+  CHECK(first > 0);
+  CHECK(second / first == Approx(2).epsilon(0.02));
 }
 
 TEST_CASE("contact: the same bits for every number of threads, and however often contacts are looked for",
@@ -377,7 +420,7 @@ TEST_CASE("contact: a body that was put elsewhere between two stages meets what 
   double deepest = 0;
   for (const cdem::Contact& c : s.state.contacts) {
     deepest = std::max(deepest, c.depth);
-    CHECK(c.normal_force == 0); // it was found that deep
+    CHECK(c.pressed() == 0); // it was found that deep
   }
   CHECK(deepest == Approx(depth));
 }
@@ -471,7 +514,7 @@ TEST_CASE("contact: the pieces of a broken body meet, and nothing blows up", "[c
   options.callback = [&] {
     for (const cdem::Contact& c : s.state.contacts) {
       const auto [a, b] = cdem::blocks_of(s.model, c);
-      pieces_met = pieces_met || (a == 1 && b == 1 && c.normal_force > 0);
+      pieces_met = pieces_met || (a == 1 && b == 1 && c.pressed() > 0);
     }
   };
   s.run(options);
