@@ -3,6 +3,10 @@
 --
 --   ./cdem run examples/armour_pile/settle.lua
 --   ./cdem run examples/armour_pile/flow.lua [--set mass=9000] [--set mode=ramp] [--set pile=FOLDER/pile.json]
+--
+-- A smaller pile has its own folder, and fewer units that may be held:
+--
+--   ./cdem run examples/armour_pile/flow.lua --set held=3 --set pile="results/armour_pile-settle-columns=3,count=12,held=3/pile.json"
 local cdem = require "cdem"
 local set_up = require "pile"
 
@@ -24,13 +28,18 @@ local walls = cdem.parameter{ name = "walls", default = false, doc = "those of s
 local draw = cdem.parameter{ name = "pictures", default = true, doc = "draw them" }
 
 local pile = cdem.read_pile{ file = file }
+local free = #pile:poses() - 2 * held
+if free < wanted then
+  error(string.format("units = %d: only %d of the pile's %d are free; hold fewer (--set held=...) or ask for fewer to leave",
+                      wanted, math.max(0, free), #pile:poses()), 0)
+end
 pile = pile:scaled{ factor = (mass / set_up.density / pile.unit_volume) ^ (1 / 3) }
 local height = pile.height
 -- Froude's law: lengths go with H, times and velocities with its root. 5 t stand for themselves.
 local scale = (mass / 5000) ^ (1 / 6)
 local length = pile:box().max[1] + 2 * height
-local model = set_up.model(pile, { length = length, friction_angle = friction, walls = walls,
-                                   stiffness_damping = damping * (mass / 5000) ^ (1 / 3) })
+local model, ground = set_up.model(pile, { length = length, friction_angle = friction, walls = walls,
+                                           stiffness_damping = damping * (mass / 5000) ^ (1 / 3) })
 if held > 0 then
   for _, numbers in ipairs{ model:lowest_units{ body = "units", count = held },
                             model:highest_units{ body = "units", count = held } } do
@@ -52,8 +61,8 @@ local function marks()
 end
 local function picture(name, title)
   if draw then
-    set_up.picture(model, length, walls, { file = name, title = title, colour = "displacement.magnitude",
-                                           range = {0, height}, markers = marks() })
+    set_up.picture(model, ground, { file = name, title = title, colour = "displacement.magnitude", range = {0, height},
+                                    markers = marks() })
   end
 end
 
@@ -91,7 +100,7 @@ local function raise()
   if #left > memory.gone then
     memory.gone = #left
     picture(string.format("left_%d.png", #left),
-            string.format("unit %d has left at %.2f m/s", left[#left].unit, left[#left].velocity))
+            string.format("%d left: unit %d, at %.2f m/s", #left, left[#left].unit, left[#left].velocity))
   end
   if mode == "ramp" then
     rise_to(first * scale + rate * (model.time - memory.since))
@@ -110,6 +119,9 @@ model:run{ duration = 60 * scale, every = 200, callback = raise, stop = function
   return #left >= wanted or memory.velocity > most * scale
 end }
 picture("end.png", string.format("at %.2f m/s", memory.velocity))
+if #left < wanted then
+  cdem.log(string.format("%d of %d units left up to %.2f m/s", #left, wanted, memory.velocity))
+end
 model:save{ file = "end.vtu" }
 
 local paper = {}

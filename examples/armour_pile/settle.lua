@@ -43,10 +43,10 @@ model:fix{ on = held_units }
 
 local function picture(name, title)
   if draw then
-    set_up.picture(model, length, walls, { file = name, title = title, colour = "unit", colour_bar = false })
+    set_up.picture(model, ground, { file = name, title = title, colour = "unit", colour_bar = false })
   end
 end
-picture("start.png", start == "drop" and "dropped" or "placed")
+picture("start.png", start == "drop" and "before they fall" or "laid")
 local frames = {}
 local less_friction = start == "place" and sliding or nil
 local settled = model:settle{ kinetic_energy_ratio = ratio, friction_angle = less_friction, every = 500, callback = function()
