@@ -154,8 +154,8 @@ void archive(A& a, ContactEdge& x) {
 
 template <class A>
 void archive(A& a, ContactSurface& x) {
-  auto& [triangles, edges, block_begin, original, joint] = x;
-  archive_all(a, triangles, edges, block_begin, original, joint);
+  auto& [triangles, edges, block_begin, usual_height, original, joint] = x;
+  archive_all(a, triangles, edges, block_begin, usual_height, original, joint);
 }
 
 template <class A>

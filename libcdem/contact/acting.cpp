@@ -19,6 +19,13 @@ std::array<double, 4> in_tet(const Model& model, const State& state, const geom:
   return {1 - wa - wb - wc, wa, wb, wc};
 }
 
+// area: m2; compliance: m/Pa, of both bodies.
+ContactLaw law_over(const Joint& joint, double tan_friction, double area, double compliance) {
+  const ContactStiffness stiffness = contact_stiffness(joint, compliance);
+  const double half = 0.5 * area; // both bodies bring theirs
+  return {stiffness.normal * half, stiffness.shear * half, tan_friction};
+}
+
 void set_normal_weight(ContactArms& arms, int node, double weight) {
   for (int i = 0; i < 4; ++i)
     if (arms.target[i] == node)
@@ -36,19 +43,25 @@ ContactLaw law_of(const Model& model, const Contact& c) {
   const auto [source, target] = triangles_of(c);
   const ContactTriangle &from = s.triangles[source], &to = s.triangles[target];
   const Joint& joint = *contact_joint(model, from.block, to.block);
-  const double area = c.kind == Contact::spring ? from.area / 3 : area_of_edge(s, source, c.piece);
-  return contact_law(joint, std::tan(joint.friction_angle), area, from, to);
+  const double tan_friction = std::tan(joint.friction_angle);
+  return c.kind == Contact::spring ? spring_law(joint, tan_friction, from, to)
+                                   : edge_law(joint, tan_friction, s, {source, c.piece}, {target, c.beside});
 }
 
-ContactLaw contact_law(const Joint& joint, double tan_friction, double area, const ContactTriangle& from,
-                       const ContactTriangle& to) {
-  const ContactStiffness stiffness = contact_stiffness(joint, from, to);
-  const double half = 0.5 * area; // both bodies bring theirs
-  return {stiffness.normal * half, stiffness.shear * half, tan_friction};
+ContactLaw spring_law(const Joint& joint, double tan_friction, const ContactTriangle& from,
+                      const ContactTriangle& to) {
+  return law_over(joint, tan_friction, from.area / 3, from.compliance + to.compliance);
 }
 
-double area_of_edge(const ContactSurface& s, int triangle_a, int triangle_b) {
-  return (s.triangles[triangle_a].area + s.triangles[triangle_b].area) / 3;
+ContactLaw edge_law(const Joint& joint, double tan_friction, const ContactSurface& s,
+                    const std::array<int, 2>& from, const std::array<int, 2>& to) {
+  double area = 0, compliance = 0;
+  for (const std::array<int, 2>& edge : {from, to}) {
+    const ContactTriangle &one = s.triangles[edge[0]], &other = s.triangles[edge[1]];
+    area += 0.5 * (one.area + other.area) / 3;
+    compliance += 0.5 * (one.compliance + other.compliance);
+  }
+  return law_over(joint, tan_friction, area, compliance);
 }
 
 std::pair<int, int> blocks_of(const Model& model, const Contact& c) {

@@ -12,16 +12,18 @@ namespace cdem {
 
 // Contacts are sorted by it: of a spring one for each piece, of an edge one for each other edge.
 inline auto key(const Contact& c) {
-  return std::tuple(c.kind, c.source, c.piece, c.kind == Contact::edge ? c.target : 0);
+  return std::tuple(c.kind == Contact::edge, static_cast<int>(c.source), c.piece,
+                    c.kind == Contact::edge ? c.target : 0);
 }
 
 ContactLaw law_of(const Model&, const Contact&);
 
-// Of the contacts of two triangles with this joint between their bodies; area: m2, a third of the spring's face, or of
-// both the edge's.
-ContactLaw contact_law(const Joint&, double tan_friction, double area, const ContactTriangle& from,
-                       const ContactTriangle& to);
-double area_of_edge(const ContactSurface&, int triangle_a, int triangle_b); // as above
+// Of a spring, by its triangle and the one it is pressed into; of two edges, each by its two triangles, with the means of
+// both. The joint is that between their bodies.
+ContactLaw spring_law(const Joint&, double tan_friction, const ContactTriangle& from,
+                      const ContactTriangle& to);
+ContactLaw edge_law(const Joint&, double tan_friction, const ContactSurface&, const std::array<int, 2>& from,
+                    const std::array<int, 2>& to);
 
 // The two blocks of a contact, its source's first; its two triangles, of edges the first of each.
 std::pair<int, int> blocks_of(const Model&, const Contact&);

@@ -31,6 +31,7 @@ ContactTriangle make_triangle(const Model& model, const geom::Triangle& nodes, i
 // of what is usual at the block's outside, at least.
 void raise_flat_ones(Model& model, int begin, int outer_end) {
   auto& triangles = model.surface.triangles;
+  model.surface.usual_height.push_back(0);
   std::vector<double> heights;
   for (int t = begin; t < outer_end; ++t)
     heights.push_back(triangles[t].height);
@@ -38,6 +39,7 @@ void raise_flat_ones(Model& model, int begin, int outer_end) {
     return;
   const auto middle = heights.begin() + static_cast<std::ptrdiff_t>(heights.size() / 2);
   std::nth_element(heights.begin(), middle, heights.end());
+  model.surface.usual_height.back() = *middle;
   for (int t = begin; t < static_cast<int>(triangles.size()); ++t) {
     const double height = std::max(triangles[t].height, *middle / 3);
     triangles[t].compliance *= height / triangles[t].height;
@@ -97,6 +99,7 @@ void build_surface(Model& model) {
   s.triangles.clear();
   s.edges.clear();
   s.block_begin.clear();
+  s.usual_height.clear();
   const auto touches_itself = [&](int body) { return s.joint.count({body, body}) > 0; };
   const auto meshed = std::count_if(model.blocks.begin(), model.blocks.end(),
                                     [](const Block& block) { return block.meshed; });
@@ -140,8 +143,8 @@ std::optional<ContactEdge> convex_edge(const Model& model, int triangle_a, int c
   return edge_between(s, triangle_a, corner_a, triangle_b, corner_b);
 }
 
-ContactStiffness contact_stiffness(const Joint& joint, const ContactTriangle& a, const ContactTriangle& b) {
-  const double normal = joint.normal_stiffness.value_or(1 / (a.compliance + b.compliance));
+ContactStiffness contact_stiffness(const Joint& joint, double compliance) {
+  const double normal = joint.normal_stiffness.value_or(1 / compliance);
   return {normal, joint.shear_stiffness.value_or(normal)};
 }
 

@@ -20,12 +20,12 @@ ContactEdge edge_between(const ContactSurface&, int triangle_a, int corner_a, in
 std::optional<ContactEdge> convex_edge(const Model&, int triangle_a, int corner_a, int triangle_b,
                                        int corner_b);
 
-// Stiffness per area of a contact of two triangles, Pa/m: what the joint gives, or that of the two tets behind them in
-// series; the shear stiffness is the normal one unless given (Feng 2014).
+// Stiffness per area of a contact, Pa/m: what the joint gives, or that of the two tets in series, whose compliances (m/Pa)
+// add up to this; the shear stiffness is the normal one unless given (Feng 2014).
 struct ContactStiffness {
   double normal = 0, shear = 0;
 };
-ContactStiffness contact_stiffness(const Joint&, const ContactTriangle& a, const ContactTriangle& b);
+ContactStiffness contact_stiffness(const Joint&, double compliance);
 
 // The law between two blocks; null: none is given.
 const Joint* contact_joint(const Model&, int block_a, int block_b);

@@ -92,7 +92,6 @@ void add_sorted(const std::vector<Contact>& found, std::vector<Contact>& contact
 }
 
 void add(const ContactSums& more, ContactSums& sums) {
-  sums.friction += more.friction;
   sums.depth = std::max(sums.depth, more.depth);
   sums.depth_over_height = std::max(sums.depth_over_height, more.depth_over_height);
   if (more.deepest > sums.deepest) {
@@ -109,10 +108,11 @@ ContactSums contact_forces(const Model& model, State& state, Workspace& work, in
   ContactWork& own = work.contact;
   if (model.surface.empty() || !own.due)
     return sums;
-  const bool out_of_skin = add_ways(model, state, own, threads), pieces_due = own.pieces_due;
+  const bool out_of_skin = add_ways(model, state, own, threads), pieces_due = own.pieces_due,
+             known = own.all_known;
   if ((pieces_due || out_of_skin) && !search_contacts(model, state, own, threads))
     return sums; // something is not a number: the stage's watch will say where
-  own.all_begin = pieces_due;
+  own.all_begin = !known || (pieces_due && !state.face_slip.empty());
   // Where a piece has fallen apart, contacts go with the part they touch.
   if (pieces_due) {
     for (Contact& c : state.contacts)
@@ -151,6 +151,8 @@ ContactSums contact_forces(const Model& model, State& state, Workspace& work, in
     for (std::int64_t i = 0; i < count; ++i) {
       add_sorted(own.chunks[i].contacts, own.now);
       add_forces(own.chunks[i].forces, work);
+      for (const ContactForce& force : own.chunks[i].forces)
+        sums.friction += force.friction;
       add(own.chunks[i].sums, sums);
     }
   }

@@ -19,6 +19,9 @@
 namespace cdem {
 
 inline constexpr std::int64_t contact_rows_per_chunk = 64;
+// Of the usual height of a tet at a block's surface: how deep a contact may be before the pairs around it are all looked
+// at in every step.
+inline constexpr double shallow_ratio = 0.01;
 
 struct ContactCandidate {
   std::uint32_t target : 29; // triangle or edge
@@ -36,7 +39,8 @@ struct ContactRow {
   int source = 0;
   int block = 0;                      // of its targets
   std::uint32_t begin = 0, count = 0; // into candidates
-  // m, its contacts are at most that deep, and what is further off may sleep; 0: not looked at yet.
+  // m, what is further off may sleep. Of springs: contacts are at most that deep; 0: not looked at yet. Of edges: as deep
+  // as any may get before the next search.
   float reach = 0;
   float wake = 0; // m, of its targets the least
 };
@@ -56,10 +60,11 @@ struct ContactForce {
   int source_block = 0, target_block = 0;
   geom::Vec3 normal = geom::Vec3::Zero(), shear = geom::Vec3::Zero(); // N, on the source
   double stiffness = 0;                                               // N/m
+  double friction = 0;                                                // J, this step
 };
 
 struct ContactSums {
-  double friction = 0; // J, this step
+  double friction = 0; // J, this step: of contacts in their order, whichever chunks they stand in
   // The deepest, in parts of the depth at which a contact is not to be trusted (depth_limit).
   double deepest = 0;
   double depth = 0, depth_over_height = 0;      // largest, m and in parts of the lower tet's height
@@ -93,10 +98,11 @@ struct ContactWork {
   std::vector<double> pace;      // the same, of the last step in which anything moved
   std::vector<double> skin;      // m, per block: how far it may go before the next search
   double lawless = 0;      // m, that two blocks for which no contact is given may go before a search is due
-  double shallow = 0;      // m, the least reach of a row
-  double usual_height = 0; // m, of a tet at the surface
-  bool pieces_due = true;  // faces have broken, or pieces were never told apart: a search is due with them
-  bool due = true;         // something moved since the contacts were looked at
+  double usual_height = 0; // m, of a tet at any surface: of skins, which change no force
+  // m, per block, a part of what is usual at its own surface: so deep contacts may begin, and the least reach of a row.
+  std::vector<double> shallow;
+  bool pieces_due = true; // faces have broken, or pieces were never told apart: a search is due with them
+  bool due = true;        // something moved since the contacts were looked at
   // State::contacts holds all there are, but for pieces. Not so where a stage begins: what stands in what then is
   // anybody's doing.
   bool all_known = false;

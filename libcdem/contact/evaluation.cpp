@@ -35,7 +35,8 @@ void Evaluation::springs(ContactRow& row, ContactCandidate* candidates) {
   const std::size_t contacts = out_.contacts.size(), forces = out_.forces.size();
   const ContactSums sums = out_.sums;
   const bool all = row.reach == 0;
-  const auto shallow = static_cast<float>(work_.shallow);
+  const auto shallow = static_cast<float>(
+      std::min(work_.shallow[surface_.triangles[row.source].block], work_.shallow[row.block]));
   row.reach = std::max(row.reach, shallow);
   double deepest = look_at(row, candidates, all);
   while (deepest > row.reach) {
@@ -66,24 +67,25 @@ void Evaluation::edges(ContactRow& row, ContactCandidate* candidates) {
     const ContactTriangle& to = surface_.triangles[f.triangles[0]];
     const NearestOfEdges nearest = nearest_of_edges(model_, state_, e, f);
     const double distance = nearest.way.norm(), limit = edge_depth(work_, from, to);
-    candidate.wake = rounded_down(moved + std::max(0.0, distance - limit));
+    candidate.wake =
+        rounded_down(moved + std::max(0.0, distance - std::max(limit, static_cast<double>(row.reach))));
     wake = std::min(wake, candidate.wake);
-    if (!nearest.within_both() || distance > limit)
+    if (!nearest.within_both())
       continue;
     if (const auto touch = touch_of(model_, state_, e, f, nearest))
-      press(row.source, static_cast<int>(candidate.target), nearest, *touch);
+      press(row.source, static_cast<int>(candidate.target), nearest, *touch, distance <= limit);
   }
   row.wake = wake;
 }
 
-void Evaluation::press(int source, int target, const NearestOfEdges& nearest, const EdgeTouch& touch) {
+void Evaluation::press(int source, int target, const NearestOfEdges& nearest, const EdgeTouch& touch,
+                       bool may_begin) {
   const ContactEdge &e = work_.edges[source], &f = work_.edges[target];
   const ContactTriangle &from = surface_.triangles[e.triangles[0]], &to = surface_.triangles[f.triangles[0]];
-  Contact c;
-  c.kind = Contact::edge;
-  c.source = e.id();
+  Contact c(Contact::edge, e.id());
   c.piece = e.triangles[1];
   c.target = f.id();
+  c.beside = f.triangles[1];
   const auto spin_of = [&](const ContactEdge& edge) {
     const auto [begin, end] = edge.nodes;
     return spin(place_of(model_, state_, end) - place_of(model_, state_, begin),
@@ -99,13 +101,11 @@ void Evaluation::press(int source, int target, const NearestOfEdges& nearest, co
   if (!old) {
     beyond = before_an_end(source, target, touch.normal);
     old = beyond ? &*beyond : nullptr;
-    if (!old && (at_last_end(source, nearest.at.s) || at_last_end(target, nearest.at.t)))
+    if (!old && (!may_begin || at_last_end(source, nearest.at.s) || at_last_end(target, nearest.at.t)))
       return;
   }
   finish(c, old, motion, edge_arms(model_, state_, e, f, nearest.at),
-         contact_law(*law.joint, law.tan_friction, area_of_edge(surface_, e.triangles[0], e.triangles[1]),
-                     from, to),
-         from, to);
+         edge_law(*law.joint, law.tan_friction, surface_, e.triangles, f.triangles), from, to);
 }
 
 const Evaluation::Law& Evaluation::law_between(int block_a, int block_b) {
@@ -123,7 +123,7 @@ bool Evaluation::sleeps(const ContactRow& row, int block) const {
 
 void Evaluation::go_to(int source) {
   const auto stands_before = [&](const Contact& c) {
-    return c.kind < kind_ || (c.kind == kind_ && c.source < source);
+    return c.kind < kind_ || (c.kind == kind_ && static_cast<int>(c.source) < source);
   };
   if (old_ == state_.contacts.end())
     old_ = std::partition_point(state_.contacts.begin(), state_.contacts.end(), stands_before);
@@ -183,7 +183,7 @@ double Evaluation::look_at(ContactRow& row, ContactCandidate* candidates, bool a
       continue; // beyond what the search covers: nearer ones may not be in the row
     // What is deep and was no contact before has come there by no motion, as at the mouth of a crack. Steps with some
     // asleep do not see it: it would begin where a search happens to be.
-    const double begins = work_.shallow + ways;
+    const double begins = std::min(work_.shallow[source.block], work_.shallow[row.block]) + ways;
     const bool may_begin = work_.all_begin || found.distance2 <= begins * begins;
     if (press(row.source, corner, spring[corner], work_.piece[found.target], found, may_begin))
       deepest2 = std::max(deepest2, found.distance2);
@@ -198,9 +198,7 @@ bool Evaluation::press(int source, int corner, const geom::Vec3& spring, int pie
   // The two sides of a face that has broken and not yet parted are held by its own springs.
   if (from.mate == nearest.target && !handed_over(state_.faces[from.face / lanes], from.face % lanes))
     return false;
-  Contact c;
-  c.kind = Contact::spring;
-  c.source = 3 * source + corner;
+  Contact c(Contact::spring, 3 * source + corner);
   c.piece = piece;
   c.target = nearest.target;
   const Contact* const old = before(c);
@@ -219,7 +217,7 @@ bool Evaluation::press(int source, int corner, const geom::Vec3& spring, int pie
                   (spin(x[1] - x[0], turn_from, motion.normal) + spin(y[1] - y[0], turn_to, motion.normal));
   const Law& law = law_between(from.block, to.block);
   finish(c, old, motion, spring_arms(model_, state_, from, corner, to, nearest.at.weights),
-         contact_law(*law.joint, law.tan_friction, from.area / 3, from, to), from, to);
+         spring_law(*law.joint, law.tan_friction, from, to), from, to);
   return true;
 }
 
@@ -253,9 +251,7 @@ bool Evaluation::at_last_end(int edge, double place) const {
 
 const Contact* Evaluation::contact_of(int e, int f) const {
   const ContactEdge &source = work_.edges[std::min(e, f)], &target = work_.edges[std::max(e, f)];
-  Contact like;
-  like.kind = Contact::edge;
-  like.source = source.id();
+  Contact like(Contact::edge, source.id());
   like.piece = source.triangles[1];
   like.target = target.id();
   const auto found = std::lower_bound(state_.contacts.begin(), state_.contacts.end(), like,
@@ -291,49 +287,49 @@ bool Evaluation::takes_over(int e, int f, const geom::Vec3& normal, int from, in
   const std::vector<int> targets = with_those_at_ends(to);
   for (const int a : with_those_at_ends(from))
     for (const int b : targets) {
-      if (a == b || (a == e && b == f) || (a < b) != (from < to) || contact_of(a, b))
+      if (a == b || (a == e && b == f) || contact_of(a, b))
         continue;
-      const NearestOfEdges nearest = nearest_of_edges(model_, state_, work_.edges[a], work_.edges[b]);
+      // As the two would be evaluated themselves, and their normal as if a were the source.
+      const ContactEdge &source = work_.edges[std::min(a, b)], &target = work_.edges[std::max(a, b)];
+      const NearestOfEdges nearest = nearest_of_edges(model_, state_, source, target);
       if (!nearest.within_both())
         continue;
-      const auto touch = touch_of(model_, state_, work_.edges[a], work_.edges[b], nearest);
-      if (touch && std::pair(-touch->normal.dot(before), std::pair(a, b)) <
-                       std::pair(-normal.dot(before), std::pair(e, f)))
+      const auto touch = touch_of(model_, state_, source, target, nearest);
+      const double side = a < b ? 1 : -1;
+      if (touch && std::pair(-side * touch->normal.dot(before), std::minmax({a, b})) <
+                       std::pair(-normal.dot(before), std::minmax({e, f})))
         return false;
     }
   return true;
 }
 
-void Evaluation::take_over(Contact& c, const Contact& old, const ContactLaw& law,
-                           const ContactMotion& motion) {
+double Evaluation::take_over(Contact& c, const Contact& old, const ContactLaw& law,
+                             const ContactMotion& motion) const {
   const ContactLaw before = law_of(model_, old);
   const double depth = std::max(0.0, motion.depth + motion.slid.dot(motion.normal)), // before the step
       pressed = std::min(depth, old.pressed() * std::sqrt(before.kn / law.kn));
   c.start = depth - pressed;
   if (before.ks > 0)
     c.shear *= std::sqrt(law.ks / before.ks);
-  out_.sums.friction -= energy(pressed, c.shear.norm(), law);
+  return energy(pressed, c.shear.norm(), law);
 }
 
 void Evaluation::finish(Contact& c, const Contact* old, ContactMotion& motion, const ContactArms& arms,
                         const ContactLaw& law, const ContactTriangle& from, const ContactTriangle& to) {
   motion.slid = work_.step * velocity_past(state_, arms);
-  if (old && work_.step == 0 && old->target == c.target) {
+  ContactForce force;
+  const bool own = old && key(*old) == key(c);
+  if (own && work_.step == 0 && old->target == c.target) {
     c = *old; // nothing moved
   } else {
-    if (old) {
-      c.normal = old->normal;
+    c.normal = old ? old->normal : motion.normal;
+    if (old)
       c.shear = old->shear;
-      c.start = old->start;
-      if (key(*old) != key(c)) // what it stored is booked as lost, and is not
-        out_.sums.friction -= energy(old->pressed(), old->shear.norm(), law);
-    } else {
-      c.normal = motion.normal;
-      c.start = start_depth(motion);
-    }
-    out_.sums.friction += advance(c, law, motion);
+    c.start = own ? old->start : start_depth(motion);
+    if (old && !own)
+      force.friction -= take_over(c, *old, law, motion);
+    force.friction += advance(c, law, motion);
   }
-  ContactForce force;
   force.arms = arms;
   force.source_block = from.block;
   force.target_block = to.block;

@@ -43,9 +43,9 @@ private:
   double look_at(ContactRow&, ContactCandidate*, bool all); // returns how deep the deepest is, m
   // may_begin: even if it was no contact before. False where it is none.
   bool press(int source, int corner, const geom::Vec3& spring, int piece, const Nearest&, bool may_begin);
-  void press(int source, int target, const NearestOfEdges&, const EdgeTouch&);
-  // Stores what the old one did before the step, which is booked as lost and is not.
-  void take_over(Contact&, const Contact& old, const ContactLaw&, const ContactMotion&);
+  void press(int source, int target, const NearestOfEdges&, const EdgeTouch&, bool may_begin);
+  // Stores what the old one did before the step. Returns it, J: it is booked as lost with the old one, and is not.
+  double take_over(Contact&, const Contact& old, const ContactLaw&, const ContactMotion&) const;
   // old: the contact before the step, null where there was none.
   void finish(Contact&, const Contact* old, ContactMotion&, const ContactArms&, const ContactLaw&,
               const ContactTriangle& from, const ContactTriangle& to);

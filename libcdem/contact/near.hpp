@@ -13,9 +13,9 @@ namespace cdem {
 // Of the smaller block's size: bodies without a law that come nearer than this meet.
 inline constexpr double meeting_ratio = 1e-3;
 
-// Edges deeper than this have slid past each other's ends, m.
-inline double edge_depth(const ContactWork& work) {
-  return 5 * work.shallow;
+// m, how deep a contact of two edges may begin: deeper ones have slid past each other's ends. Of one block at most.
+inline double edge_depth(const ContactWork& work, int block) {
+  return 5 * work.shallow[block];
 }
 double edge_depth(const ContactWork&, const ContactTriangle& source, const ContactTriangle& target);
 
@@ -30,10 +30,10 @@ std::vector<Near> near_springs(const Model&, const ContactWork&, const Cover&, c
                                Pairs& pairs);
 
 // Of two blocks. The edge with the lower number is the source.
-std::vector<Near> near_edges(const Model&, const State&, const ContactWork&, const TakingPart&,
+std::vector<Near> near_edges(const Model&, const State&, const ContactWork&, const Cover&, const TakingPart&,
                              const SharedPart&);
 // Of one block: edges of triangles that meet, by pairs that stand each once.
-std::vector<Near> near_edges_within(const Model&, const State&, const ContactWork&, const TakingPart&,
-                                    const Pairs& meeting);
+std::vector<Near> near_edges_within(const Model&, const State&, const ContactWork&, const Cover&,
+                                    const TakingPart&, const Pairs& meeting);
 
 } // namespace cdem

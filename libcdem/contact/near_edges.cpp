@@ -97,11 +97,11 @@ private:
 };
 
 // Adds the pair if it can touch.
-void add_near(const Model& model, const ContactWork& work, Bars& one, std::size_t k, Bars& other,
-              std::size_t l, std::vector<Near>& out) {
+void add_near(const Model& model, const ContactWork& work, const Cover& cover, Bars& one, std::size_t k,
+              Bars& other, std::size_t l, std::vector<Near>& out) {
   const ContactTriangle &a = model.surface.triangles[one.triangle(k)],
                         &b = model.surface.triangles[other.triangle(l)];
-  const double depth = edge_depth(work, a, b);
+  const double depth = std::max(edge_depth(work, a, b), cover.known(a.block, b.block));
   if (apart(grown(one.boxes()[k], depth + work.skin[a.block] + work.skin[b.block]), other.boxes()[l]) ||
       !may_touch(one[k], other[l], depth))
     return;
@@ -116,13 +116,16 @@ void add_near(const Model& model, const ContactWork& work, Bars& one, std::size_
 } // namespace
 
 double edge_depth(const ContactWork& work, const ContactTriangle& source, const ContactTriangle& target) {
-  return std::min(edge_depth(work), depth_limit(work, source, target));
+  return std::min(
+      {edge_depth(work, source.block), edge_depth(work, target.block), depth_limit(work, source, target)});
 }
 
 std::vector<Near> near_edges(const Model& model, const State& state, const ContactWork& work,
-                             const TakingPart& active, const SharedPart& part) {
+                             const Cover& cover, const TakingPart& active, const SharedPart& part) {
   // No two edges that touch are further apart than this; their triangles meet then.
-  const double reach = edge_depth(work) + work.skin[part.block_a] + work.skin[part.block_b];
+  const double depth = std::max(std::min(edge_depth(work, part.block_a), edge_depth(work, part.block_b)),
+                                cover.known(part.block_a, part.block_b));
+  const double reach = depth + work.skin[part.block_a] + work.skin[part.block_b];
   Bars one(model, state, work), other(model, state, work);
   for (const int i : part.of_a)
     one.add(active.triangles[i], grown(active.outlines[part.block_b], reach));
@@ -132,12 +135,12 @@ std::vector<Near> near_edges(const Model& model, const State& state, const Conta
     other.add(active.triangles[i], grown(active.outlines[part.block_a], reach));
   std::vector<Near> out;
   each_meeting(one.boxes(), reach, other.boxes(),
-               [&](std::size_t k, std::size_t l) { add_near(model, work, one, k, other, l, out); });
+               [&](std::size_t k, std::size_t l) { add_near(model, work, cover, one, k, other, l, out); });
   return out;
 }
 
 std::vector<Near> near_edges_within(const Model& model, const State& state, const ContactWork& work,
-                                    const TakingPart& active, const Pairs& meeting) {
+                                    const Cover& cover, const TakingPart& active, const Pairs& meeting) {
   std::vector<int> triangles;
   for (const auto& [i, j] : meeting) {
     triangles.push_back(active.triangles[i]);
@@ -164,7 +167,7 @@ std::vector<Near> near_edges_within(const Model& model, const State& state, cons
     const auto [l_begin, l_end] = edges_of(j);
     for (std::size_t k = k_begin; k < k_end; ++k)
       for (std::size_t l = l_begin; l < l_end; ++l)
-        add_near(model, work, bars, k, bars, l, out);
+        add_near(model, work, cover, bars, k, bars, l, out);
   }
   return out;
 }

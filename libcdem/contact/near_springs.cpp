@@ -29,7 +29,7 @@ public:
     const double skins = work_.skin[from.block] + work_.skin[first.block];
     // Where a surface has holes, as those of pieces that hang together by a corner, what is outside may be inside
     // beyond an edge.
-    const double outside = skins + (work_.broken[first.block] ? work_.shallow : 0);
+    const double outside = skins + (work_.broken[first.block] ? work_.shallow[first.block] : 0);
     bonded_ = has_bonds(model_, first.block);
     double cover_of_targets = 0, one_place_of_targets = 0; // the largest
     for (std::size_t i = begin; i < end; ++i) {

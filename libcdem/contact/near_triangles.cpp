@@ -107,7 +107,7 @@ bool may_get_into(const ContactWork& work, const TakingPart& active, const Conta
                   const geom::Vec3& x, int block) {
   const double skins = work.skin[source.block] + work.skin[block];
   return active.outlines[block].contains(
-      x, work.broken[block] ? skins + work.shallow + 2 * depth_of(work, source) : skins);
+      x, work.broken[block] ? skins + work.shallow[block] + 2 * depth_of(work, source) : skins);
 }
 
 NearWithin near_within(const Model& model, const ContactWork& work, const Cover& cover,

@@ -16,13 +16,10 @@
 namespace cdem {
 namespace {
 
-// Of the usual height of a tet at the surface: how deep a contact may be before the pairs around it are all looked at in
-// every step.
-constexpr double shallow_ratio = 0.01;
-
 // Rows by source with their targets by piece (springs) or block (edges) and number.
-void make_rows(const Model& model, const ContactWork& work, const std::vector<std::vector<Near>>& parts,
-               Contact::Kind kind, std::vector<ContactRow>& rows, std::vector<ContactCandidate>& candidates) {
+void make_rows(const Model& model, const ContactWork& work, const Cover& cover,
+               const std::vector<std::vector<Near>>& parts, Contact::Kind kind, std::vector<ContactRow>& rows,
+               std::vector<ContactCandidate>& candidates) {
   const ContactSurface& s = model.surface;
   const std::size_t sources = kind == Contact::spring ? s.triangles.size() : work.edges.size();
   std::vector<std::uint32_t> begin(sources + 1, 0);
@@ -57,7 +54,12 @@ void make_rows(const Model& model, const ContactWork& work, const std::vector<st
     for (std::uint32_t first = begin[i], end = first; first < begin[i + 1]; first = end) {
       while (end < begin[i + 1] && group(candidates[end].target) == group(candidates[first].target))
         ++end;
-      rows.push_back({static_cast<int>(i), block(candidates[first].target), first, end - first, 0, 0});
+      const int other = block(candidates[first].target);
+      rows.push_back({static_cast<int>(i), other, first, end - first, 0, 0});
+      if (kind == Contact::edge) {
+        const int own = s.triangles[work.edges[i].triangles[0]].block;
+        rows.back().reach = static_cast<float>(cover.known(own, other) + work.skin[own] + work.skin[other]);
+      }
     }
   }
 }
@@ -112,7 +114,9 @@ void start_contact(const Model& model, ContactWork& work) {
       heights.push_back(t.height);
   std::nth_element(heights.begin(), heights.begin() + heights.size() / 2, heights.end());
   work.usual_height = heights[heights.size() / 2];
-  work.shallow = shallow_ratio * work.usual_height;
+  work.shallow = s.usual_height;
+  for (double& height : work.shallow)
+    height *= shallow_ratio;
   for (std::vector<double>* of_blocks : {&work.travelled, &work.last_way, &work.pace, &work.skin})
     of_blocks->assign(model.blocks.size(), 0.0);
   work.stiffness.assign(model.node_position.size(), 0.0);
@@ -144,7 +148,7 @@ bool search_contacts(const Model& model, const State& state, ContactWork& work, 
   for_chunks(static_cast<std::int64_t>(springs.size()), threads, [&](std::int64_t i) {
     if (i >= n_pairs) {
       NearWithin near = near_within(model, work, cover, active, alone[i - n_pairs]);
-      edges[i] = near_edges_within(model, state, work, active, near.meeting);
+      edges[i] = near_edges_within(model, state, work, cover, active, near.meeting);
       springs[i] = near_springs(model, work, cover, active, near.looked_at);
       return;
     }
@@ -160,16 +164,17 @@ bool search_contacts(const Model& model, const State& state, ContactWork& work, 
       }
       return;
     }
-    edges[i] = near_edges(model, state, work, active, part);
+    edges[i] = near_edges(model, state, work, cover, active, part);
     Pairs pairs = looked_at(model, work, active, part);
     springs[i] = near_springs(model, work, cover, active, pairs);
   });
   for (const std::string& message : wrong)
     if (!message.empty())
       throw SolutionError(message);
-  make_rows(model, work, springs, Contact::spring, work.rows[Contact::spring],
+  make_rows(model, work, cover, springs, Contact::spring, work.rows[Contact::spring],
             work.candidates[Contact::spring]);
-  make_rows(model, work, edges, Contact::edge, work.rows[Contact::edge], work.candidates[Contact::edge]);
+  make_rows(model, work, cover, edges, Contact::edge, work.rows[Contact::edge],
+            work.candidates[Contact::edge]);
   work.lawless = may_go.empty() ? std::numeric_limits<double>::infinity()
                                 : *std::min_element(may_go.begin(), may_go.end());
   std::fill(work.travelled.begin(), work.travelled.end(), 0.0);

@@ -39,6 +39,7 @@ struct ContactSurface {
   std::vector<ContactTriangle> triangles; // by block, outer ones first
   std::vector<ContactEdge> edges;         // between outer ones, by id
   std::vector<int> block_begin;           // (n_blocks + 1) into triangles
+  std::vector<double> usual_height;       // m, per block, of the tets at its outside the median; 0: none
   std::vector<int> original;              // (n_nodes) one number for all copies of a node
   // Bodies (smaller first) -> index into Model::joints, the law of their contact.
   std::map<std::pair<int, int>, int> joint;

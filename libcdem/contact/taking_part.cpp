@@ -98,26 +98,31 @@ void choose_skins(const Model& model, const State& state, ContactWork& work) {
     work.skin[b] = std::min(std::max(least, steps_ahead * work.pace[b]), std::max(most, alone[b]));
 }
 
+// m, height of a tet at the surface of its block.
+static double usual(const ContactWork& work, const ContactTriangle& t) {
+  return work.shallow[t.block] / shallow_ratio;
+}
+
 double depth_of(const ContactWork& work, const ContactTriangle& t) {
-  return depth_ratio * std::min(t.height, work.usual_height);
+  return depth_ratio * std::min(t.height, usual(work, t));
 }
 
 double far_at_first(const ContactWork& work, const ContactTriangle& t) {
-  return depth_of(work, t) + thickest * work.usual_height;
+  return depth_of(work, t) + thickest * usual(work, t);
 }
 
 Cover::Cover(const Model& model, const State& state, const ContactWork& work)
-    : work_(work), whole_(work.broken), at_least_(model.blocks.size(), 0.0) {
+    : work_(work), whole_(work.broken), deepest_(model.blocks.size(), 0.0), at_least_(model.blocks.size()) {
   if (!work.all_known)
     std::fill(whole_.begin(), whole_.end(), 1);
   for (const Contact& c : state.contacts) {
     const auto [a, b] = blocks_of(model, c);
-    at_least_[a] = std::max(at_least_[a], c.depth);
-    at_least_[b] = std::max(at_least_[b], c.depth);
+    deepest_[a] = std::max(deepest_[a], c.depth);
+    deepest_[b] = std::max(deepest_[b], c.depth);
   }
   for (std::size_t b = 0; b < at_least_.size(); ++b)
     at_least_[b] =
-        std::max({at_least_[b], 0.5 * edge_depth(work), 0.5 * meeting_ratio * model.blocks[b].size});
+        std::max({deepest_[b], 0.5 * edge_depth(work, b), 0.5 * meeting_ratio * model.blocks[b].size});
 }
 
 bool TakingPart::finite() const {

@@ -14,7 +14,7 @@ void find_pieces(const Model&, const State&, ContactWork&);
 // Writes ContactWork::skin: thin for what hardly moves, so that little is near; thick for what flies by itself.
 void choose_skins(const Model&, const State&, ContactWork&);
 
-// m: a quarter of the tet's height, of those much higher than usual a quarter of the usual.
+// m: a quarter of the tet's height, of those much higher than usual in their block a quarter of the usual.
 double depth_of(const ContactWork&, const ContactTriangle&);
 
 // m, around triangles that belong together: those that were further from each other than both at first may meet.
@@ -28,12 +28,15 @@ public:
   double operator()(const ContactTriangle& t) const {
     return std::max(whole_[t.block] ? depth_of(work_, t) : 0, at_least_[t.block]);
   }
+  // m, no contact of the two blocks is deeper, of those known.
+  double known(int block_a, int block_b) const { return std::min(deepest_[block_a], deepest_[block_b]); }
   // What a triangle's box has to hold around it for it to meet another before the next search.
   double margin(const ContactTriangle& t) const { return work_.skin[t.block] + (*this)(t); }
 
 private:
   const ContactWork& work_;
-  std::vector<char> whole_; // per block: anything may stand in it, as where a stage begins or faces break
+  std::vector<char> whole_;     // per block: anything may stand in it, as where a stage begins or faces break
+  std::vector<double> deepest_; // m, per block, of the contacts that are known
   std::vector<double> at_least_; // m, per block
 };
 

@@ -85,6 +85,7 @@ Stage::Stage(const StageContext& context, std::string kind, double run_away)
     if (context_.moment)
       *context_.moment = *from;
     step = from->step;
+    work.contact.all_known = step > 0;
     broken_tension_before_ = from->broken_tension_before;
     broken_shear_before_ = from->broken_shear_before;
     work.spring_force = from->spring_force;

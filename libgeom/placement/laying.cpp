@@ -304,7 +304,10 @@ Pose Laying::lay(const Site& site) {
         "unit " + std::to_string(site.unit + 1) +
         " of the layer: there is no ground where it is to lie; give a larger ground, or a region "
         "within it");
-  Try best{tries.front().pose, far};
+  const auto fits = std::find_if(tries.begin(), tries.end(), [&](const Try& t) {
+    return t.cost < far && within_walls(surface_at(t.pose));
+  });
+  Try best{fits == tries.end() ? tries.front().pose : fits->pose, far};
   for (std::size_t i = 0; options_.nudges > 0 && i < tries.size(); ++i) {
     if ((i >= rested_tries && best.good) || tries[i].cost == far)
       break;
@@ -313,6 +316,11 @@ Pose Laying::lay(const Site& site) {
     if (one.cost < best.cost && clear(one.pose, around))
       best = one;
   }
+  if (best.cost == far && fits == tries.end())
+    throw InputError(
+        "unit " + std::to_string(site.unit + 1) +
+        " of the layer: it fits between the walls in none of its attitudes; ask for more columns or "
+        "a lower density, or leave the walls out");
   const Near around = near(best.pose.translation, 2 * radius_ + height_);
   Pose pose = best.cost < far ? best.pose : raised(best.pose, around);
   Surface surface = surface_at(pose);

@@ -1,5 +1,6 @@
 // Contact between meshed bodies: an incline, a drop, momentum, energy, bits.
 #include "libcdem/contact/acting.hpp"
+#include "libcdem/contact/contact_forces.hpp"
 #include "libcdem/results/energy.hpp"
 #include "libcdem/step/errors.hpp"
 #include "libgeom/core/error.hpp"
@@ -527,4 +528,130 @@ TEST_CASE("contact: the pieces of a broken body meet, and nothing blows up", "[c
   const cdem::EnergyLedger ledger = cdem::energy(s.model, s.state);
   INFO("friction " << ledger.friction << " breaking " << ledger.breaking << " kinetic " << ledger.kinetic);
   CHECK(std::abs(ledger.total() - kinetic - ledger.external) < 0.02 * kinetic);
+}
+
+TEST_CASE("contact: over nodes of uneven edges what is stored goes on or is lost, and never grows",
+          "[contact][edges]") {
+  // The lower bar's slices are 0.04 and 0.16 long in turn: soft and stiff edges.
+  const double d = 2e-4, gap = 1e-4, across = 0.3 / std::sqrt(2.0), pace = 0.5;
+  geom::TetMesh uneven = geom::box_mesh({0.9, 0.3, 0.3}, {9, 2, 2});
+  for (Vec3& x : uneven.nodes) {
+    const auto slice = static_cast<int>(std::lround(x.x() / 0.1));
+    x = Vec3(0.2 * (slice / 2) + (slice % 2) * 0.04, x.y(), x.z()) - Vec3(0.45, 0.15, 0.15);
+  }
+  System s(build({meshed("lower", placed(uneven, rotation({1, 0, 0}, 45 * degree), {0.43, 0.43, -across})),
+                  meshed("upper", box_at({0.3, 0.9, 0.3}, {2, 9, 2}, rotation({0, 1, 0}, 45 * degree),
+                                         {0.24, 0.26, across + gap}))},
+                 {{"lower", "upper", friction(0)}}));
+  s.hold(body_of("lower"), "xyz");
+  std::vector<double> stored, friction_taken;
+  std::size_t most = 0;
+  const auto move = [&](const Vec3& way) {
+    cdem::Fix fix = fixed(body_of("upper"));
+    fix.velocity = pace * way.normalized();
+    s.conditions.fixes.push_back(fix);
+    cdem::RunOptions options;
+    options.time_step = 2e-6;
+    options.duration = way.norm() / pace;
+    options.callback_every = 20;
+    options.callback = [&] {
+      stored.push_back(cdem::contact_energy(s.model, s.state, 0));
+      friction_taken.push_back(s.state.spent.friction);
+      most = std::max(most, s.state.contacts.size());
+    };
+    s.run(options);
+    s.conditions.fixes.pop_back();
+  };
+  move({0, 0, -gap - d});
+  const double before = stored.back(), taken = friction_taken.back();
+  stored.clear();
+  friction_taken.clear();
+  most = 0;
+  move({0.41, 0, 0});
+  REQUIRE(most == 1);
+  double least = before;
+  for (std::size_t i = 0; i < stored.size(); ++i) {
+    CHECK(stored[i] <
+          least * (1 + 1e-6)); // it falls where the next edge could store it only deeper than it is
+    least = std::min(least, stored[i]);
+    CHECK(stored[i] + friction_taken[i] - taken == Approx(before).epsilon(1e-6));
+  }
+  CHECK(least > 0.05 * before);
+  CHECK(least < 0.7 * before);
+}
+
+TEST_CASE("contact: two bodies that collide do so whichever comes first, however they are turned, whatever "
+          "else there is",
+          "[contact]") {
+  enum Case { swapped, turned, beside_a_far_one };
+  const auto collide = [](const std::set<Case>& how) {
+    const Mat3 turn = rotation({0, 0, 1}, how.count(turned) ? 90 * degree : 0);
+    std::vector<cdem::BodySpec> bodies{
+        meshed("one", placed(box_at({1, 0.8, 0.6}, {2, 2, 1}, rotation({1, 2, 3}, 0.4), {0, 0, 0}), turn,
+                             Vec3::Zero())),
+        meshed("two", placed(box_at({0.7, 0.7, 0.7}, {1, 2, 2}, rotation({3, -1, 1}, 1.1), {1.25, 0.3, 0.1}),
+                             turn, Vec3::Zero()))};
+    int two = 1;
+    if (how.count(swapped)) {
+      std::swap(bodies[0], bodies[1]);
+      two = 0;
+    }
+    if (how.count(beside_a_far_one)) // of many small tetrahedra
+      bodies.push_back(meshed("far", box_at({0.2, 0.2, 0.2}, {6, 6, 6}, Mat3::Identity(), {50, 0, 0})));
+    System s(build(bodies, {{"one", "two", friction(0)}}));
+    for (int i = 0; i < static_cast<int>(s.state.velocity.size()); ++i) {
+      const Vec3 x = turn.transpose() * s.model.node_position[i];
+      const Vec3 v = block_of(s.model, i) == two ? Vec3(Vec3(-6, 0.5, -1) + Vec3(0, 3, 5).cross(x))
+                     : block_of(s.model, i) == 2 ? Vec3(Vec3::Zero())
+                                                 : Vec3(2, 1, 0);
+      s.state.velocity[i] = node(turn * v);
+    }
+    cdem::RunOptions options;
+    options.steps = 60000;
+    options.time_step = 2e-6;
+    bool edges = false;
+    options.callback_every = 5;
+    options.callback = [&] {
+      for (const cdem::Contact& c : s.state.contacts)
+        edges = edges || c.kind == cdem::Contact::edge;
+    };
+    s.run(options);
+    REQUIRE(edges);
+    REQUIRE(s.state.contacts.empty());
+    Vec3 sum = Vec3::Zero();
+    for (int i = 0; i < static_cast<int>(s.state.velocity.size()); ++i)
+      if (block_of(s.model, i) == two)
+        sum += s.model.node_mass[i] * vec(s.state.velocity[i]);
+    return Vec3(turn.transpose() * sum);
+  };
+  const Vec3 once = collide({});
+  CHECK((collide({swapped}) - once).norm() < 1e-9 * once.norm());
+  CHECK((collide({turned}) - once).norm() < 1e-9 * once.norm());
+  CHECK((collide({beside_a_far_one}) - once).norm() == 0);
+}
+
+TEST_CASE("contact: edges pressed deep carry on, and end the run as too deep", "[contact][edges]") {
+  const double half = std::sqrt(0.5) * 0.4;
+  const Mat3 on_edge = rotation({1, 0, 0}, 45 * degree);
+  System s(build({meshed("lower", box_at({3, 0.4, 0.4}, {4, 1, 1}, on_edge, {0, 0, 0})),
+                  meshed("upper", box_at({3, 0.4, 0.4}, {4, 1, 1}, rotation({0, 0, 1}, 75 * degree) * on_edge,
+                                         {0.21, 0.17, 2 * half}))},
+                 {{"lower", "upper", friction(0)}}));
+  s.hold(body_of("lower"), "xyz");
+  cdem::Fix down = fixed(body_of("upper"));
+  down.velocity = Vec3(0, 0, -1);
+  s.conditions.fixes.push_back(down);
+  double last = 0;
+  cdem::RunOptions options;
+  options.duration = 0.2;
+  options.callback_every = 20;
+  options.callback = [&] {
+    double sum = 0;
+    for (const cdem::Contact& c : s.state.contacts)
+      sum += normal_force(s, c);
+    CHECK(sum > 0.999 * last);
+    last = sum;
+  };
+  CHECK_THROWS_WITH(s.run(options), Catch::Contains("of a tet's height"));
+  CHECK(s.state.time == Approx(0.25 * 0.4).epsilon(0.01)); // at a quarter of the height
 }

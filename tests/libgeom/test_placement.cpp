@@ -286,6 +286,17 @@ TEST_CASE("every unit of an armour layer lies on the slope, against others, at r
   CHECK(alike <= 4); // of about seventy pairs, each counted twice
 }
 
+TEST_CASE("a layer takes attitudes that fit between its walls, where the best one does not") {
+  LayerOptions options;
+  options.columns = 1;
+  options.walls = true;
+  options.nudges = 0;
+  options.density = 1;
+  const Pile pile =
+      place_layer(moved(box_mesh({1, 1, 6}, {1, 1, 6}), {-0.5, -0.5, -3}), 3, slope_ground(0.5), options);
+  CHECK(pile.poses.size() == 3);
+}
+
 TEST_CASE("units of a layer between walls lean on three things or more, row ends on a wall") {
   const double gradient = 1 / 1.5, gap = 1e-3, friction = std::tan(15 * M_PI / 180);
   const Ground ground = slope_ground(gradient);
