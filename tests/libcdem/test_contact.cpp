@@ -1,11 +1,8 @@
 // Contact between meshed bodies: an incline, a drop, momentum, energy, bits.
-#include "libcdem/contact/acting.hpp"
-#include "libcdem/contact/contact_forces.hpp"
 #include "libcdem/results/energy.hpp"
 #include "libcdem/step/errors.hpp"
 #include "libgeom/core/error.hpp"
-#include "libgeom/mesh/box_mesh.hpp"
-#include "tests/libcdem/system.hpp"
+#include "tests/libcdem/boxes.hpp"
 
 #include <catch2/catch.hpp>
 
@@ -16,43 +13,6 @@ using geom::Mat3;
 using geom::Vec3;
 
 namespace {
-
-geom::TetMesh placed(geom::TetMesh mesh, const Mat3& turn, const Vec3& shift) {
-  for (Vec3& x : mesh.nodes)
-    x = turn * x + shift;
-  return mesh;
-}
-
-// A box about the origin, then turned and moved.
-geom::TetMesh box_at(const Vec3& size, const std::array<int, 3>& divisions, const Mat3& turn,
-                     const Vec3& shift) {
-  return placed(placed(geom::box_mesh(size, divisions), Mat3::Identity(), -0.5 * size), turn, shift);
-}
-
-cdem::Joint friction(double angle) {
-  cdem::Joint joint;
-  joint.bonded = false;
-  joint.friction_angle = angle * degree;
-  return joint;
-}
-
-cdem::Selection body_of(const char* name) {
-  return cdem::Selection::of_body(name);
-}
-
-Vec3 centroid(const System& s, int block) {
-  Vec3 sum = Vec3::Zero();
-  double mass = 0;
-  for (int n = s.model.blocks[block].node_begin; n < s.model.blocks[block].node_end; ++n) {
-    sum += s.model.node_mass[n] * (s.model.node_position[n] + vec(s.state.displacement[n]));
-    mass += s.model.node_mass[n];
-  }
-  return sum / mass;
-}
-
-double normal_force(const System& s, const cdem::Contact& c) { // N
-  return cdem::law_of(s.model, c).kn * c.pressed();
-}
 
 // A flat block on a plate, both level; gravity is turned instead. The law is that of a rigid block: the contact's
 // period is 20 times the block's own.
@@ -193,176 +153,6 @@ TEST_CASE("contact: bodies that collide keep their momentum and angular momentum
   CHECK(ledger.friction >= 0);
   if (phi == 0)
     CHECK(ledger.friction < 1e-3 * ledger.kinetic);
-}
-
-TEST_CASE("contact: crossed edges stop each other", "[contact][edges]") {
-  // Two bars, each on one of its edges, crossed: no corner of one comes near a face of the other.
-  const Mat3 on_edge = rotation({1, 0, 0}, 45 * degree);
-  const double half = std::sqrt(0.5) * 0.4;
-  System s(build({meshed("lower", box_at({3, 0.4, 0.4}, {4, 1, 1}, on_edge, {0, 0, 0})),
-                  meshed("upper", box_at({3, 0.4, 0.4}, {4, 1, 1}, rotation({0, 0, 1}, 75 * degree) * on_edge,
-                                         {0.21, 0.17, 2 * half + 0.01}))},
-                 {{"lower", "upper", friction(0)}}));
-  s.hold(body_of("lower"), "xyz");
-  for (int i = 0; i < static_cast<int>(s.state.velocity.size()); ++i)
-    if (block_of(s.model, i) == 1)
-      s.state.velocity[i] = node({0, 0, -1});
-  double lowest = 10;
-  bool edges = false;
-  cdem::RunOptions options;
-  options.duration = 0.03;
-  options.callback_every = 10;
-  options.callback = [&] {
-    lowest = std::min(lowest, centroid(s, 1).z());
-    for (const cdem::Contact& c : s.state.contacts)
-      edges = edges || c.kind == cdem::Contact::edge;
-  };
-  s.run(options);
-  CHECK(edges);
-  CHECK(lowest > 2 * half - 0.01);
-  CHECK(centroid(s, 1).z() > lowest + 1e-4);
-}
-
-TEST_CASE("contact: an edge pressed on another carries on over the nodes of both", "[contact][edges]") {
-  // Two bars on edge, crossed, moved as they are: pressed together by d, then along the bisector over four nodes of each.
-  const double d = 2e-4, gap = 1e-4, across = 0.3 / std::sqrt(2.0), pace = 0.5;
-  const double phi = GENERATE(0.0, 20.0);
-  cdem::Joint law = friction(phi);
-  law.shear_stiffness = 1e9;
-  System s(build({meshed("lower", box_at({0.9, 0.3, 0.3}, {9, 2, 2}, rotation({1, 0, 0}, 45 * degree),
-                                         {0.43, 0.43, -across})),
-                  meshed("upper", box_at({0.3, 0.9, 0.3}, {2, 9, 2}, rotation({0, 1, 0}, 45 * degree),
-                                         {0.24, 0.26, across + gap}))},
-                 {{"lower", "upper", law}}));
-  s.hold(body_of("lower"), "xyz");
-  const auto move = [&](const Vec3& way) {
-    cdem::Fix fix = fixed(body_of("upper"));
-    fix.velocity = pace * way.normalized();
-    s.conditions.fixes.push_back(fix);
-    cdem::RunOptions options;
-    options.time_step = 2e-6;
-    options.duration = way.norm() / pace;
-    options.callback_every = 10;
-    std::vector<double> forces;
-    options.callback = [&] {
-      Vec3 force = Vec3::Zero();
-      for (const cdem::Contact& c : s.state.contacts)
-        force +=
-            (cdem::blocks_of(s.model, c).first == 1 ? 1 : -1) * (normal_force(s, c) * c.normal + c.shear);
-      forces.push_back(force.norm());
-    };
-    s.run(options);
-    s.conditions.fixes.pop_back();
-    return forces;
-  };
-  const double pressed = move({0, 0, -gap - d}).back();
-  REQUIRE(pressed > 0);
-  const std::vector<double> forces = move({0.41, 0.37, 0});
-  // Until it slides friction grows. Beside a node, as far as the edges are pressed, the semi-springs there act too.
-  const double slides = pressed * std::sqrt(1 + std::pow(std::tan(phi * degree), 2));
-  int odd = 0;
-  for (const double force : forces) {
-    CHECK(force > 0.99 * pressed);
-    CHECK(force < 3 * slides);
-    odd += force > 1.01 * slides;
-  }
-  CHECK(odd < 0.02 * static_cast<double>(forces.size()));
-}
-
-TEST_CASE("contact: a bar that lies flat across another rests on the crossings of their outlines",
-          "[contact][edges]") {
-  // No corner of a triangle is where they overlap; the normals are those of the faces, at the border of all fans.
-  System s(build({meshed("lower", box_at({2.8, 0.4, 0.4}, {5, 1, 1}, Mat3::Identity(), {0, 0, -0.2})),
-                  meshed("upper", box_at({2.8, 0.3, 0.4}, {5, 1, 1}, rotation({0, 0, 1}, 80 * degree),
-                                         {0, 0, 0.2 + 1e-4}))},
-                 {{"lower", "upper", friction(30)}}));
-  s.hold(body_of("lower"), "xyz");
-  s.conditions.gravity = gravity();
-  cdem::RunOptions options;
-  options.duration = 0.05;
-  options.local_damping = 0.5;
-  s.run(options);
-  const double start = centroid(s, 1).z(), weight = rock().density * 2.8 * 0.3 * 0.4 * 9.81;
-  double least = 1e30, most = 0, late = 0;
-  options.callback_every = 10;
-  options.callback = [&] {
-    double sum = 0;
-    for (const cdem::Contact& c : s.state.contacts) {
-      CHECK(c.kind == cdem::Contact::edge);
-      sum += normal_force(s, c) * std::abs(c.normal.z());
-      late = std::max(late, c.start);
-    }
-    least = std::min(least, sum);
-    most = std::max(most, sum);
-  };
-  s.run(options);
-  CHECK(late == 0);
-  CHECK(least == Approx(weight).epsilon(0.01));
-  CHECK(most == Approx(weight).epsilon(0.01));
-  CHECK(std::abs(centroid(s, 1).z() - start) < 1e-8);
-}
-
-TEST_CASE("contact: blocks in rows touch the ones beside them, not those across an edge or a corner",
-          "[contact][edges]") {
-  // Pressed together by a thousandth of an element, as rock and concrete are before they break, and not quite in line.
-  const int divisions = GENERATE(1, 2, 3);
-  const double size = 0.5, strain = 1e-3 / divisions;
-  std::vector<geom::TetMesh> cubes;
-  for (int i = 0; i < 8; ++i) {
-    const Vec3 cell(i & 1, i >> 1 & 1, i >> 2);
-    const Vec3 off(std::sin(2.0 * i), std::sin(3.0 * i), std::sin(5.0 * i));
-    cubes.push_back(box_at(Vec3::Constant(size), {divisions, divisions, divisions},
-                           rotation({1, 1, 0.3 * i}, 2e-4 * strain * i),
-                           size * ((1 - strain) * cell + 0.3 * strain * off)));
-  }
-  cdem::BodySpec bodies = meshed("cubes", cubes[0]);
-  bodies.meshes = cubes;
-  System s(build({bodies}, {{"cubes", "cubes", friction(30)}}));
-  s.hold(body_of("cubes"), "xyz");
-  cdem::RunOptions options;
-  options.steps = 1;
-  s.run(options);
-  std::set<std::pair<int, int>> met;
-  for (const cdem::Contact& c : s.state.contacts) {
-    const auto [a, b] = cdem::blocks_of(s.model, c);
-    met.insert(std::minmax(a, b));
-  }
-  std::set<std::pair<int, int>> beside;
-  for (int i = 0; i < 8; ++i)
-    for (const int bit : {1, 2, 4})
-      if (!(i & bit))
-        beside.emplace(i, i | bit);
-  CHECK(met == beside);
-}
-
-TEST_CASE("contact: a lone corner is felt as soon as its springs are in", "[contact]") {
-  const double size = 0.5, edge = size / 2;
-  const Mat3 on_corner = Eigen::Quaterniond::FromTwoVectors(Vec3(1, 1, 1), Vec3(0, 0, 1)).toRotationMatrix();
-  System s(build({meshed("floor", box_at({2, 2, 0.5}, {3, 3, 1}, Mat3::Identity(), {0.1, 0.1, -0.25})),
-                  meshed("cube", box_at({size, size, size}, {2, 2, 2}, on_corner,
-                                        {0, 0, std::sqrt(0.75) * size + 1e-6}))},
-                 {{"floor", "cube", friction(0)}}));
-  s.hold(body_of("floor"), "xyz");
-  cdem::Fix down = fixed(body_of("cube"));
-  down.velocity = Vec3(0, 0, -0.1);
-  s.conditions.fixes.push_back(down);
-  const auto force_at = [&](double depth) {
-    cdem::RunOptions options;
-    options.time_step = 1e-6;
-    options.duration = (depth - s.state.time * 0.1 + 1e-6) / 0.1;
-    s.run(options);
-    double sum = 0;
-    for (const cdem::Contact& c : s.state.contacts)
-      sum += normal_force(s, c);
-    return sum;
-  };
-  // Its triangles have an edge of the cube there, which rises by 1 / sqrt(3) of its length, and a face's diagonal, which
-  // rises by two of them; the springs stand in by 0.005 of both.
-  const double in = 3 * 0.005 * edge / std::sqrt(3.0);
-  CHECK(force_at(0.98 * in) == 0);
-  const double first = force_at(1.2 * in), second = force_at(1.4 * in);
-  CHECK(first > 0);
-  CHECK(second / first == Approx(2).epsilon(0.02));
 }
 
 TEST_CASE("contact: the same bits for every number of threads, and however often contacts are looked for",
@@ -530,56 +320,6 @@ TEST_CASE("contact: the pieces of a broken body meet, and nothing blows up", "[c
   CHECK(std::abs(ledger.total() - kinetic - ledger.external) < 0.02 * kinetic);
 }
 
-TEST_CASE("contact: over nodes of uneven edges what is stored goes on or is lost, and never grows",
-          "[contact][edges]") {
-  // The lower bar's slices are 0.04 and 0.16 long in turn: soft and stiff edges.
-  const double d = 2e-4, gap = 1e-4, across = 0.3 / std::sqrt(2.0), pace = 0.5;
-  geom::TetMesh uneven = geom::box_mesh({0.9, 0.3, 0.3}, {9, 2, 2});
-  for (Vec3& x : uneven.nodes) {
-    const auto slice = static_cast<int>(std::lround(x.x() / 0.1));
-    x = Vec3(0.2 * (slice / 2) + (slice % 2) * 0.04, x.y(), x.z()) - Vec3(0.45, 0.15, 0.15);
-  }
-  System s(build({meshed("lower", placed(uneven, rotation({1, 0, 0}, 45 * degree), {0.43, 0.43, -across})),
-                  meshed("upper", box_at({0.3, 0.9, 0.3}, {2, 9, 2}, rotation({0, 1, 0}, 45 * degree),
-                                         {0.24, 0.26, across + gap}))},
-                 {{"lower", "upper", friction(0)}}));
-  s.hold(body_of("lower"), "xyz");
-  std::vector<double> stored, friction_taken;
-  std::size_t most = 0;
-  const auto move = [&](const Vec3& way) {
-    cdem::Fix fix = fixed(body_of("upper"));
-    fix.velocity = pace * way.normalized();
-    s.conditions.fixes.push_back(fix);
-    cdem::RunOptions options;
-    options.time_step = 2e-6;
-    options.duration = way.norm() / pace;
-    options.callback_every = 20;
-    options.callback = [&] {
-      stored.push_back(cdem::contact_energy(s.model, s.state, 0));
-      friction_taken.push_back(s.state.spent.friction);
-      most = std::max(most, s.state.contacts.size());
-    };
-    s.run(options);
-    s.conditions.fixes.pop_back();
-  };
-  move({0, 0, -gap - d});
-  const double before = stored.back(), taken = friction_taken.back();
-  stored.clear();
-  friction_taken.clear();
-  most = 0;
-  move({0.41, 0, 0});
-  REQUIRE(most == 1);
-  double least = before;
-  for (std::size_t i = 0; i < stored.size(); ++i) {
-    CHECK(stored[i] <
-          least * (1 + 1e-6)); // it falls where the next edge could store it only deeper than it is
-    least = std::min(least, stored[i]);
-    CHECK(stored[i] + friction_taken[i] - taken == Approx(before).epsilon(1e-6));
-  }
-  CHECK(least > 0.05 * before);
-  CHECK(least < 0.7 * before);
-}
-
 TEST_CASE("contact: two bodies that collide do so whichever comes first, however they are turned, whatever "
           "else there is",
           "[contact]") {
@@ -628,30 +368,4 @@ TEST_CASE("contact: two bodies that collide do so whichever comes first, however
   CHECK((collide({swapped}) - once).norm() < 1e-9 * once.norm());
   CHECK((collide({turned}) - once).norm() < 1e-9 * once.norm());
   CHECK((collide({beside_a_far_one}) - once).norm() == 0);
-}
-
-TEST_CASE("contact: edges pressed deep carry on, and end the run as too deep", "[contact][edges]") {
-  const double half = std::sqrt(0.5) * 0.4;
-  const Mat3 on_edge = rotation({1, 0, 0}, 45 * degree);
-  System s(build({meshed("lower", box_at({3, 0.4, 0.4}, {4, 1, 1}, on_edge, {0, 0, 0})),
-                  meshed("upper", box_at({3, 0.4, 0.4}, {4, 1, 1}, rotation({0, 0, 1}, 75 * degree) * on_edge,
-                                         {0.21, 0.17, 2 * half}))},
-                 {{"lower", "upper", friction(0)}}));
-  s.hold(body_of("lower"), "xyz");
-  cdem::Fix down = fixed(body_of("upper"));
-  down.velocity = Vec3(0, 0, -1);
-  s.conditions.fixes.push_back(down);
-  double last = 0;
-  cdem::RunOptions options;
-  options.duration = 0.2;
-  options.callback_every = 20;
-  options.callback = [&] {
-    double sum = 0;
-    for (const cdem::Contact& c : s.state.contacts)
-      sum += normal_force(s, c);
-    CHECK(sum > 0.999 * last);
-    last = sum;
-  };
-  CHECK_THROWS_WITH(s.run(options), Catch::Contains("of a tet's height"));
-  CHECK(s.state.time == Approx(0.25 * 0.4).epsilon(0.01)); // at a quarter of the height
 }
