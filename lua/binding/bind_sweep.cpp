@@ -82,7 +82,8 @@ Value result_of(Session& session, const Case& one, const Job& job, const fs::pat
   Table figures;
   const fs::path report = folder / "report.json";
   std::error_code error;
-  if (job.exit_code == 0 && fs::exists(report, error)) {
+  // A check writes none: what lies there is of an earlier run.
+  if (!session.settings.check_only && job.exit_code == 0 && fs::exists(report, error)) {
     const Value all = read_report(read_file(report), report.string());
     const auto list =
         all.table() ? all.table()->named.find("figures") : std::map<std::string, Value>::const_iterator();
@@ -203,7 +204,7 @@ Value sweep(Session& session, Object*, const Arguments& a) {
     line.precision(3);
     line << "sweep " << done << "/" << count << ": " << one.name;
     if (job.exit_code == 0)
-      line << " done in " << job.seconds << " s";
+      line << (session.settings.check_only ? " checked in " : " done in ") << job.seconds << " s";
     else
       line << " failed with exit code " << job.exit_code << ": "
            << (session.settings.check_only ? "cdem check tells why" : last_line(job.console));
@@ -225,15 +226,15 @@ Value sweep(Session& session, Object*, const Arguments& a) {
 } // namespace
 
 void bind_sweep(Module& m) {
-  m.records.push_back(
-      {"SweepResult",
-       "What one case of a sweep came to.",
-       {plain("set").required().doc("as given"),
-        text("output").required().doc("its folder, in the output folder"),
-        integer("exit_code").required().doc("0 when it succeeded"),
-        number("seconds").unit("s").required().doc(
-            "wall clock; 0 for a run that had ended before its sweep was stopped"),
-        plain("figures").required().doc("values of its report by name; empty when it failed")}});
+  m.records.push_back({"SweepResult",
+                       "What one case of a sweep came to.",
+                       {plain("set").required().doc("as given"),
+                        text("output").required().doc("its folder, in the output folder"),
+                        integer("exit_code").required().doc("0 when it succeeded"),
+                        number("seconds").unit("s").required().doc(
+                            "wall clock; 0 for a run that had ended before its sweep was stopped"),
+                        plain("figures").required().doc(
+                            "values of its report by name; empty when it failed, and in a check")}});
   m.functions.push_back(
       {"sweep",
        "Runs a script with many settings, as processes side by side, each with a folder of "

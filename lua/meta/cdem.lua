@@ -273,7 +273,7 @@ local cdem = {}
 ---@field output string its folder, in the output folder
 ---@field exit_code integer 0 when it succeeded
 ---@field seconds number s: wall clock; 0 for a run that had ended before its sweep was stopped
----@field figures any values of its report by name; empty when it failed
+---@field figures any values of its report by name; empty when it failed, and in a check
 
 ---Made by cdem.elastic.
 ---@class cdem.Material

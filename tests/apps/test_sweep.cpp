@@ -119,6 +119,21 @@ for _, run in ipairs(runs) do print("a gives " .. run.figures.sum_m) end
   }
 }
 
+TEST_CASE("a check of a script that sweeps has no figures, whatever an earlier run has left") {
+  const Place cdem;
+  write_file(cdem.folder / "sum/all.lua", R"(
+local cdem = require "cdem"
+local runs = cdem.sweep{ script = "case.lua", set = { { a = 1 }, { a = 5 } }, jobs = 2 }
+for _, run in ipairs(runs) do print("a gives " .. tostring(run.figures.sum_m)) end
+)");
+  REQUIRE_THAT(cdem({"run", "sum/all.lua"}).out, Contains("a gives 6"));
+  const Outcome outcome = cdem({"check", "sum/all.lua"});
+  INFO(outcome.out << outcome.err);
+  CHECK(outcome.exit_code == 0);
+  CHECK_THAT(outcome.out, Contains("a gives nil") && !Contains("a gives 2") && !Contains("a gives 6"));
+  CHECK_THAT(outcome.out, Contains("sweep 2/2: a=") && Contains(" checked in ") && !Contains("done"));
+}
+
 TEST_CASE("a script that was stopped in a sweep goes on with the runs that had not ended") {
   Place cdem;
   const std::string swept = R"(
