@@ -119,6 +119,29 @@ for _, run in ipairs(runs) do print("a gives " .. run.figures.sum_m) end
   }
 }
 
+TEST_CASE("a run that fails in a script's sweep is a warning, counted and in the report") {
+  const Place cdem;
+  write_file(cdem.folder / "sum/all.lua", R"(
+local cdem = require "cdem"
+local runs = cdem.sweep{ script = "case.lua", set = { { a = 1 }, { a = 13, b = 2 } } }
+cdem.report{ { name = "sum", value = runs[1].figures.sum_m } }
+)");
+  const Outcome outcome = cdem({"run", "sum/all.lua"});
+  INFO(outcome.out << outcome.err);
+  CHECK(outcome.exit_code == 0);
+  const std::string warning =
+      "sweep: run 2 of 2 (a = 13, b = 2) failed with exit code 2: sum/case.lua:5: 13 brings no "
+      "luck; its figures are empty";
+  CHECK_THAT(outcome.err, StartsWith("sum/all.lua:3: warning: " + warning + "\n"));
+  CHECK_THAT(outcome.out, Contains("1 warning; results in results/sum-all"));
+  for (const std::string file : {"report.json", "report.md", "cdem.log"})
+    CHECK_THAT(read_file(cdem.folder / "results/sum-all" / file), Contains(warning));
+  CHECK_THAT(
+      cdem({"check", "sum/all.lua"}).err,
+      Contains("warning: sweep: run 2 of 2 (a = 13, b = 2) failed with exit code 2; cdem check sum/case.lua "
+               "--set a=13 --set b=2 tells why"));
+}
+
 TEST_CASE("a check of a script that sweeps has no figures, whatever an earlier run has left") {
   const Place cdem;
   write_file(cdem.folder / "sum/all.lua", R"(
@@ -249,7 +272,7 @@ for _, run in ipairs(runs) do print(run.set.a .. " gives " .. (run.figures.sum_m
       const Outcome outcome = cdem(command);
       editor.join();
       INFO(outcome.out << outcome.err);
-      CHECK_THAT(outcome.out, Contains("sum/helper.lua:2: no luck"));
+      CHECK_THAT(outcome.out + outcome.err, Contains("sum/helper.lua:2: no luck"));
       for (const std::string a : {"1", "2"})
         CHECK_THAT(read_file(results / ("a=" + a) / "report.json"),
                    Contains(std::to_string(std::stoi(a) + 1110)));
