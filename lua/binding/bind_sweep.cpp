@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <chrono>
 #include <sstream>
 #include <thread>
 
@@ -228,12 +229,14 @@ Value sweep(Session& session, Object*, const Arguments& a) {
   Progress progress;
   progress.kind = "sweep";
   progress.max_steps = count;
+  const auto start = std::chrono::steady_clock::now();
   const auto tell = [&](const Job& job) {
     const std::size_t index = number[static_cast<std::size_t>(&job - rest.data())];
     const Case& one = cases[index];
     jobs[index] = job;
     progress.step = ++done;
     progress.last = done == count;
+    progress.wall_time = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     if (observer)
       observer->progress(progress);
     std::ostringstream line;
