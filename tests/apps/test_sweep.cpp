@@ -104,6 +104,51 @@ TEST_CASE("Ctrl-C ends a sweep and every run of it") {
   CHECK_THAT(table[1], StartsWith("1,1,0,"));
 }
 
+TEST_CASE("a sweep that was stopped says what stands and what can be done, which then works") {
+  Place cdem;
+  write_file(cdem.folder / "sum/case.lua", R"(
+local cdem = require "cdem"
+local a = cdem.parameter{ name = "a", default = 1 }
+while a > 2 do end
+local function has_begun() -- the second run
+  local found, file = pcall(io.open, "../a=2/begun.csv")
+  return found and file
+end
+while a == 1 and not has_begun() do end
+if a == 2 then
+  local rock = cdem.elastic{ youngs_modulus = 1e9, poissons_ratio = 0, density = 2000 }
+  local model = cdem.model{ bodies = { { shape = cdem.box{ size = {1, 1, 1} }, material = rock } } }
+  model:fix{ on = "x-" }
+  model:traction{ on = "x+", stress = {1e6, 0, 0} }
+  local begun = false
+  model:run{ steps = 3000000, callback = function()
+    if not begun then cdem.write_csv{ file = "begun.csv", columns = { { name = "x", values = {1} } } } end
+    begun = true
+  end }
+end
+cdem.report{ { name = "a", value = a } }
+)");
+  cdem.start.signal = SIGINT;
+  cdem.start.signal_after = "a=1: done";
+  const Outcome outcome = cdem({"sweep", "sum/case.lua", "--set", "a=1,2,3,4", "--jobs", "2"});
+  INFO(outcome.out << outcome.err);
+  CHECK(outcome.exit_code == 130);
+  const auto lines = lines_of(outcome.out);
+  REQUIRE(lines.size() > 3);
+  CHECK(lines.end()[-3] == "1 of 4 runs had ended and stands; table in results/sum-sweep/sweep.csv");
+  CHECK(lines.end()[-2] == "a=2: stopped; to go on: cdem resume results/sum-sweep/a=2");
+  CHECK(
+      lines.end()[-1] ==
+      "2 runs have nothing to go on from: cdem sweep with their values and another --output runs them anew");
+  CHECK_THAT(read_file(cdem.folder / "results/sum-sweep/cdem.log"), Contains(lines.end()[-2]));
+  cdem.start.signal = 0;
+  cdem.start.signal_after.clear();
+  const Outcome on = cdem({"resume", "results/sum-sweep/a=2"});
+  INFO(on.out << on.err);
+  CHECK(on.exit_code == 0);
+  CHECK_THAT(read_file(cdem.folder / "results/sum-sweep/a=2/report.json"), Contains("\"value\": 2"));
+}
+
 TEST_CASE("a script can sweep another one") {
   const Place cdem;
   write_file(cdem.folder / "sum/all.lua", R"(
