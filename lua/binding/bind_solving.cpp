@@ -45,8 +45,8 @@ Value relax(Session& session, ModelObject& model, const Arguments& a) {
                  const RelaxResult result = simulation.relax(options);
                  if (!result.converged)
                    session.warn("relax: not converged after " + std::to_string(result.steps) +
-                                " steps, residual " + three_digits(result.residual) + " above " +
-                                number_text(options.residual) +
+                                (result.steps == 1 ? " step" : " steps") + ", residual " +
+                                three_digits(result.residual) + " above " + number_text(options.residual) +
                                 "; raise max_steps, or look whether something moves freely");
                  return relax_result(result);
                },

@@ -198,7 +198,8 @@ void bind_tet_meshes(Module& m) {
                         return static_cast<std::int64_t>(of(self).mesh.tets.size());
                       }}};
   mesh.text = [of](const Object& self) {
-    return "cdem.TetMesh (" + of(self).title + ", " + std::to_string(of(self).mesh.tets.size()) + " tets)";
+    return "cdem.TetMesh (" + of(self).title + ", " + std::to_string(of(self).mesh.tets.size()) +
+           (of(self).mesh.tets.size() == 1 ? " tet)" : " tets)");
   };
   mesh.methods = {
       {"volume",

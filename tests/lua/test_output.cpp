@@ -67,7 +67,7 @@ TEST_CASE("tables that do not fit are refused with their row", "[lua]") {
     script.write("t.csv", text);
     return script.error();
   };
-  CHECK_THAT(error_for("a,b\n1,2\n3\n"), Contains("row 3 has 1 values: must be 2"));
+  CHECK_THAT(error_for("a,b\n1,2\n3\n"), Contains("row 3 has 1 value: must be 2"));
   CHECK_THAT(error_for("a,b\n1,two\n"), Contains("row 2: \"two\": must be a number"));
   CHECK_THAT(error_for(""), Contains("must begin with a row of column names"));
 }
