@@ -24,6 +24,7 @@
 #include "libgeom/assembly/assembly.hpp"
 #include "libgeom/mesh/surface.hpp"
 
+#include <array>
 #include <memory>
 #include <string>
 #include <utility>
@@ -157,6 +158,8 @@ public:
 
   // Broken bonds, oldest first.
   const std::vector<BreakRow>& breaks() const;
+  // Spring points that the observer was told of as broken when stages ended: in tension, in shear.
+  std::array<std::int64_t, 2> told_broken() const;
 
   // One sample every 10 steps and at the end of each stage; thinned by halves beyond 20000 rows.
   const std::vector<HistoryRow>& history() const;

@@ -142,6 +142,9 @@ int Simulation::body_number(const std::string& body) const {
 const std::vector<BreakRow>& Simulation::breaks() const {
   return impl_->log.breaks;
 }
+std::array<std::int64_t, 2> Simulation::told_broken() const {
+  return {impl_->log.told_tension, impl_->log.told_shear};
+}
 const std::vector<HistoryRow>& Simulation::history() const {
   return impl_->log.history;
 }

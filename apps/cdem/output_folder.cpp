@@ -1,6 +1,5 @@
 #include "apps/cdem/output_folder.hpp"
 
-#include "apps/cdem/run_log.hpp"
 #include "lua/binding/engine.hpp"
 
 #include <algorithm>
@@ -10,10 +9,10 @@
 #include <ctime>
 #include <fcntl.h>
 #include <fstream>
+#include <regex>
 #include <sstream>
 #include <sys/file.h>
 #include <unistd.h>
-#include <vector>
 
 namespace cdem::app {
 
@@ -32,6 +31,12 @@ std::string date_now() {
   char text[64];
   std::strftime(text, sizeof text, "%Y-%m-%d %H:%M:%S %z", &local);
   return text;
+}
+
+// What a run that was stopped or failed leaves of its models (script::Engine::model_saved_after_failure).
+bool is_last_state(const std::string& name) {
+  static const std::regex pattern("last_good(_[0-9]+)?(_bonds)?[.]vtu");
+  return std::regex_match(name, pattern);
 }
 
 // The file as seen from the folder; empty when it lies outside.
@@ -152,8 +157,11 @@ void OutputFolder::open_log(const fs::path& file, const std::string& command) {
 
 void OutputFolder::go_on(const std::string& command) {
   log_path_ = folder_ / run_log_name;
-  for (const auto& listed : files_of_run_log(log_path_))
+  for (const auto& listed : files_of_run_log(log_path_)) {
     written_.insert(listed.name);
+    if (is_last_state(listed.name) && is_unchanged(folder_ / listed.name, listed))
+      last_states_.push_back(listed);
+  }
   log_ = std::fopen(log_path_.c_str(), "ae");
   if (log_ == nullptr)
     throw FileError(log_path_.string() + " cannot be written: " + system_reason());
@@ -234,6 +242,14 @@ void OutputFolder::remove_old_results() {
   }
 }
 
+void OutputFolder::remove_last_states() {
+  for (const LoggedFile& listed : last_states_) {
+    std::error_code none;
+    if (is_unchanged(folder_ / listed.name, listed))
+      fs::remove(folder_ / listed.name, none);
+  }
+}
+
 // Only what stands in it by our hand: log, script and settings; then the folders that were made for it.
 void OutputFolder::take_away() {
   std::fclose(log_);
@@ -256,8 +272,10 @@ void OutputFolder::finish(ExitCode code, const std::string& error) {
   });
   if (code == ExitCode::bad_input && !has_said_ && !made_something && !first_made_.empty())
     return take_away();
-  if (code == ExitCode::success)
+  if (code == ExitCode::success) {
     begin_results();
+    remove_last_states();
+  }
   if (!error.empty())
     log("error: " + error);
   for (const auto& name : written_)

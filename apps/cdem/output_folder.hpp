@@ -7,6 +7,7 @@
 #pragma once
 
 #include "apps/cdem/exit_code.hpp"
+#include "apps/cdem/run_log.hpp"
 
 #include <chrono>
 #include <cstdio>
@@ -14,6 +15,7 @@
 #include <map>
 #include <set>
 #include <string>
+#include <vector>
 
 namespace cdem::app {
 
@@ -46,7 +48,8 @@ public:
   // Before a file is written: the results begin, and the file goes on the list.
   void will_write(const std::filesystem::path& file);
 
-  // Writes the list of files and the end line. A run that bad input ended before it said or made anything leaves
+  // Writes the list of files and the end line. A resumed run that has ended well takes the last good states away that
+  // the stopped one left. A run that bad input ended before it said or made anything leaves
   // no folder that it had to make. Throws script::FileError when the log could not be written
   // whole.
   void finish(ExitCode, const std::string& error);
@@ -57,11 +60,13 @@ private:
   void write_to_log(const std::string& text);
   void write_script(); // a copy of it
   void take_away();
+  void remove_last_states();
   void remove_old_results();
 
   std::filesystem::path folder_, script_, log_path_;
-  std::string script_text_;       // as it was at the start: the copy shows what ran
-  std::set<std::string> written_; // relative to the folder
+  std::string script_text_;             // as it was at the start: the copy shows what ran
+  std::set<std::string> written_;       // relative to the folder
+  std::vector<LoggedFile> last_states_; // of the run that this one goes on from
   int lock_ = -1;
   std::FILE* log_ = nullptr;
   bool old_results_ = false, begun_ = false, has_said_ = false;

@@ -171,10 +171,11 @@ private:
   }
 
   void tell_end() {
-    context_.observer.message(
-        fmt::format("  grow, pass {} {}: {} cut, {} faces broken in {} rounds, {} steps{}", pass_.pass,
-                    name(pass_.state), blocks(pass_.cuts.size()), pass_.faces.size(), pass_.rounds,
-                    pass_.steps, pass_.path.empty() ? "" : ", tip at " + place(pass_.tip)));
+    context_.observer.message(fmt::format(
+        "  grow, pass {} {}: {} cut, {} {} broken in {} {}, {} {}{}", pass_.pass, name(pass_.state),
+        blocks(pass_.cuts.size()), pass_.faces.size(), pass_.faces.size() == 1 ? "face" : "faces",
+        pass_.rounds, pass_.rounds == 1 ? "round" : "rounds", pass_.steps,
+        pass_.steps == 1 ? "step" : "steps", pass_.path.empty() ? "" : ", tip at " + place(pass_.tip)));
   }
 
   // Faces that may break now.

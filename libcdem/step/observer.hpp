@@ -22,6 +22,8 @@ struct Progress {
   std::int64_t broken_tension = 0; // spring points broken so far in this stage
   std::int64_t broken_shear = 0;
   double steps_per_second = 0;
+  double wall_time =
+      0;             // s, of the stage so far; of a resumed one before it was stopped too, as its steps are
   bool last = false; // the stage ends here
 };
 
@@ -34,6 +36,9 @@ public:
   virtual void message(const std::string&) {}
   // A line that a user must see even of a quiet run.
   virtual void warning(const std::string& line) { message(line); }
+  // What an earlier run came to that this one goes on from: spring points broken in stages that had ended, warnings.
+  virtual void goes_on(std::int64_t /*broken_tension*/, std::int64_t /*broken_shear*/,
+                       std::int64_t /*warnings*/) {}
   // Polled every few steps: true ends the stage cleanly by throwing Interrupted.
   virtual bool stop_requested() { return false; }
 };

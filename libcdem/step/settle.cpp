@@ -120,7 +120,9 @@ void Settling::start() {
       "stage {} settle: for the deposition alone {}local damping {:g} of what touches{}; off "
       "afterwards",
       context_.number,
-      now_.turned.empty() ? "" : fmt::format("{} units are rigid, with ", now_.turned.size()),
+      now_.turned.empty()       ? ""
+      : now_.turned.size() == 1 ? "1 unit is rigid, with "
+                                : fmt::format("{} units are rigid, with ", now_.turned.size()),
       options_.local_damping,
       options_.friction_angle
           ? fmt::format(" and friction of at most {:g} degrees", *options_.friction_angle * 180 / M_PI)

@@ -272,6 +272,7 @@ void Stage::tell(const StepReport& report, bool last) {
   progress.step = step;
   progress.residual = report.residual;
   progress.time = context_.state.time;
+  progress.wall_time = wall_time();
   if (details)
     details(progress);
   telling_(std::move(progress), last);

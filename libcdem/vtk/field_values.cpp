@@ -73,7 +73,7 @@ std::vector<double> gather(std::size_t count, const Value& value) {
   std::string list;
   for (const std::string& name : offer)
     list += (list.empty() ? "" : ", ") + name;
-  throw geom::InputError("field", '"' + field + '"',
+  throw geom::InputError("colour", '"' + field + '"',
                          known.empty() ? "left empty: this result has no fields"
                                        : lead + list + (lead[0] == 'a' ? "?" : ""));
 }

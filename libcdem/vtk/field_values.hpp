@@ -17,7 +17,7 @@ struct FieldValues {
   bool id = false;            // a name in numbers: its size means nothing
 };
 
-// Throws geom::InputError naming the nearest right names.
+// Throws geom::InputError of a colour (as pictures call it), naming the nearest right names.
 FieldValues field_values(const Snapshot&, const std::string& field);
 
 // Takes the values of these bodies away (NaN): they are drawn without colour.

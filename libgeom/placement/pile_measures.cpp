@@ -149,7 +149,9 @@ Columns middle_of(const std::vector<Point>& centroids, double height) {
   if (std::count(columns.wanted.begin(), columns.wanted.end(), 1) < least_columns)
     throw InputError("the pile has no middle: porosity is measured a unit's height away from its edge, and "
                      "its " +
-                     std::to_string(centroids.size()) + " units reach no further; take more of them");
+                     std::to_string(centroids.size()) +
+                     (centroids.size() == 1 ? " unit reaches" : " units reach") +
+                     " no further; take more of them");
   columns.ground.assign(columns.wanted.size(), none);
   columns.faces.resize(columns.wanted.size());
   return columns;

@@ -103,7 +103,9 @@ void require_closed(const std::vector<Vec3>& vertices, const std::vector<Triangl
       first = edge;
   if (open > 0)
     throw InputError("file", '"' + path + '"', "one closed surface",
-                     "it is open: " + std::to_string(open) + " edges belong to one triangle only, the first" +
+                     "it is open: " + std::to_string(open) +
+                         (open == 1 ? " edge belongs to one triangle only,"
+                                    : " edges belong to one triangle only, the first") +
                          near(first[0], first[1]));
   std::vector<char> reached(triangles.size(), 0);
   std::vector<int> stack{0};
@@ -161,7 +163,8 @@ FacetedSurface read_stl(const std::string& path, double scale) {
   }
   if (triangles.size() < 4)
     throw InputError("file", '"' + path + '"', "one closed surface",
-                     "it has " + std::to_string(triangles.size()) + " triangles");
+                     "it has " + std::to_string(triangles.size()) +
+                         (triangles.size() == 1 ? " triangle" : " triangles"));
   require_closed(surface.vertices, triangles, path);
   double volume = 0;
   for (const Triangle& t : triangles)

@@ -142,7 +142,7 @@ Value remove(Session&, ModelObject& model, const Arguments& a) {
   std::int64_t count = 0;
   for (const Selection& on : selections(model, a.value("on"), "on"))
     count += model.simulation.remove(on);
-  note(model, std::to_string(count) + " blocks removed");
+  note(model, std::to_string(count) + (count == 1 ? " block removed" : " blocks removed"));
   return count;
 }
 
@@ -169,7 +169,7 @@ Value unbond(Session&, ModelObject& model, const Arguments& a) {
   std::int64_t count = 0;
   for (const Selection& on : selections(model, a.value("on"), "on"))
     count += model.simulation.unbond(on, a.flag("whole_faces"));
-  note(model, std::to_string(count) + " bonds undone");
+  note(model, std::to_string(count) + (count == 1 ? " bond undone" : " bonds undone"));
   return count;
 }
 

@@ -64,8 +64,8 @@ Value refine(Session& session, ModelObject& model, const Arguments& a) {
     const std::vector<BlockCut> cuts = simulation.refine(options);
     const auto shear = std::count_if(cuts.begin(), cuts.end(),
                                      [](const BlockCut& cut) { return cut.mode == CutMode::shear; });
-    session.message("stage " + std::to_string(session.stages.size()) +
-                    " refine: " + std::to_string(cuts.size()) + " blocks cut (" +
+    session.message("stage " + std::to_string(session.stages.size()) + " refine: " +
+                    std::to_string(cuts.size()) + (cuts.size() == 1 ? " block cut (" : " blocks cut (") +
                     std::to_string(static_cast<std::int64_t>(cuts.size()) - shear) + " tension, " +
                     std::to_string(shear) + " shear), " + std::to_string(simulation.counts().blocks) +
                     " blocks now" + (cuts.empty() ? "; what may break stays as it was" : ""));

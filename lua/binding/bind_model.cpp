@@ -143,10 +143,10 @@ std::string shown_build(const ModelObject& model) {
   const geom::Box box = model.simulation.box();
   return std::to_string(c.bodies) + (c.bodies == 1 ? " body (" : " bodies (") + joined(model.body_names) +
          "), " + std::to_string(c.blocks) + (c.blocks == 1 ? " block, " : " blocks, ") +
-         std::to_string(c.tets) + " tets, " + std::to_string(c.interfaces) +
+         std::to_string(c.tets) + (c.tets == 1 ? " tet, " : " tets, ") + std::to_string(c.interfaces) +
          (c.interfaces == 1 ? " interface, " : " interfaces, ") + std::to_string(c.bonds) +
-         " bonds; box from " + shown_vec(box.min) + " to " + shown_vec(box.max) + " m, size " +
-         shown_vec(box.size()) + " m";
+         (c.bonds == 1 ? " bond" : " bonds") + "; box from " + shown_vec(box.min) + " to " +
+         shown_vec(box.max) + " m, size " + shown_vec(box.size()) + " m";
 }
 
 Value make_model(Session& session, Object*, const Arguments& a) {
@@ -297,8 +297,9 @@ void bind_model(Module& m) {
     const auto& object = static_cast<const ModelObject&>(self);
     const ModelCounts c = object.simulation.counts();
     return "cdem.Model (" + std::to_string(c.bodies) + (c.bodies == 1 ? " body, " : " bodies, ") +
-           std::to_string(c.blocks) + " blocks, " + std::to_string(c.tets) + " tets, " +
-           std::to_string(c.bonds) + " bonds)";
+           std::to_string(c.blocks) + (c.blocks == 1 ? " block, " : " blocks, ") + std::to_string(c.tets) +
+           (c.tets == 1 ? " tet, " : " tets, ") + std::to_string(c.bonds) +
+           (c.bonds == 1 ? " bond)" : " bonds)");
   };
   model.methods = {{"select",
                     "Gives a place a name that `on` understands from now on.",

@@ -1,12 +1,11 @@
 // Files of a model: ParaView, pictures, films.
 #include "lua/binding/model_object.hpp"
 #include "lua/binding/module.hpp"
-#include "lua/binding/nearest.hpp"
 #include "lua/binding/picture_fields.hpp"
 
+#include "libcdem/vtk/field_values.hpp"
 #include "libcdem/vtk/film.hpp"
 #include "libcdem/vtk/without_bodies.hpp"
-#include "libgeom/core/error.hpp"
 
 #include <algorithm>
 
@@ -14,7 +13,6 @@ namespace cdem::script {
 
 namespace {
 
-using geom::InputError;
 namespace fs = std::filesystem;
 
 Value save(Session& session, ModelObject& model, const Arguments& a) {
@@ -59,10 +57,8 @@ Value picture(Session& session, ModelObject& model, const Arguments& a) {
   for (const Value& body : a.list("hidden"))
     hidden.push_back(model.simulation.body_number(*body.get<std::string>()));
   if (session.settings.check_only) {
-    const auto names = picture_fields(model.simulation.snapshot(""));
-    if (!options.field.empty() && std::find(names.begin(), names.end(), options.field) == names.end())
-      throw InputError("colour = \"" + options.field + "\": no such field" +
-                       which_there_are(options.field, names));
+    if (!options.field.empty())
+      field_values(model.simulation.snapshot(""), options.field);
     return {};
   }
   render(without_bodies(model.simulation.snapshot(model.title(session)), hidden), options,

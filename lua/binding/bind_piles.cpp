@@ -131,7 +131,8 @@ void bind_class(Module& m) {
   pile.text = [](const Object& self) {
     const geom::Pile& p = static_cast<const PileObject&>(self).pile;
     return "cdem.Pile (" + std::to_string(p.poses.size()) +
-           (p.poses.size() == 1 ? " unit of " : " units of ") + std::to_string(p.unit.tets.size()) + " tets)";
+           (p.poses.size() == 1 ? " unit of " : " units of ") + std::to_string(p.unit.tets.size()) +
+           (p.unit.tets.size() == 1 ? " tet)" : " tets)");
   };
   pile.properties = {
       pile_property("count", "integer", "", "how many units",

@@ -86,6 +86,7 @@ Value settle(Session& session, ModelObject& model, const Arguments& a) {
     throw InputError("every = " + describe(a.value("every")) +
                      ": says how often callback is called; give one");
   }
+  warn_if_nothing_acts(session, model, "settle");
   return stage(session, model, "settle", a, settle_result({}),
                [&](Simulation& simulation) {
                  const SettleResult result = simulation.settle(options);

@@ -10,6 +10,7 @@
 #include "libgeom/mesh/solid_mesh.hpp"
 
 #include <Eigen/Eigenvalues>
+#include <cstdio>
 
 namespace cdem::script {
 
@@ -42,6 +43,12 @@ geom::Box box_of(const Arguments& given, const std::string& path) {
   return box;
 }
 
+std::string four_digits(double x) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.4g", x);
+  return text;
+}
+
 Value mesh(Session& session, SolidObject& self, const Arguments& a) {
   geom::MeshSize sizes;
   const auto size = a.has("size") ? a.optional_number("size") : self.mesh_size;
@@ -71,8 +78,8 @@ Value mesh(Session& session, SolidObject& self, const Arguments& a) {
   for (const geom::Vec3& x : object->mesh.nodes)
     box.extend(x);
   if (const double least = box.size().minCoeff(); sizes.size > least)
-    session.warn("mesh: size = " + number_text(sizes.size) + " m is more than the solid's smallest extent, " +
-                 number_text(least) + " m; the mesh is as coarse as the shape allows");
+    session.warn("mesh: size = " + four_digits(sizes.size) + " m is more than the solid's smallest extent, " +
+                 four_digits(least) + " m; the mesh is as coarse as the shape allows");
   return object;
 }
 

@@ -39,16 +39,14 @@ Value relax(Session& session, ModelObject& model, const Arguments& a) {
   options.max_steps = a.integer("max_steps");
   options.callback_every = callback_interval(a);
   options.callback = callback_of(session, a);
-  if (!model.simulation.anything_acts())
-    session.warn("relax: nothing acts on the model: no load, no support that moves it, no initial stress; "
-                 "it stays as it is");
+  warn_if_nothing_acts(session, model, "relax");
   return stage(session, model, "relax", a, relax_result({}),
                [&](Simulation& simulation) {
                  const RelaxResult result = simulation.relax(options);
                  if (!result.converged)
                    session.warn("relax: not converged after " + std::to_string(result.steps) +
-                                " steps, residual " + three_digits(result.residual) + " above " +
-                                number_text(options.residual) +
+                                (result.steps == 1 ? " step" : " steps") + ", residual " +
+                                three_digits(result.residual) + " above " + number_text(options.residual) +
                                 "; raise max_steps, or look whether something moves freely");
                  return relax_result(result);
                },

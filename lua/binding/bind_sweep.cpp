@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <chrono>
 #include <sstream>
 #include <thread>
 
@@ -78,11 +79,48 @@ std::string last_line(const fs::path& file) {
   return last;
 }
 
+// What a failed run says it failed of; "" when it could not.
+std::string error_line(const fs::path& console) {
+  const std::string front = "cdem: error: ", line = last_line(console);
+  return line.rfind(front, 0) == 0 ? line.substr(front.size()) : std::string();
+}
+
+// "run 2 of 3 (friction_angle = 85)"
+std::string shown_run(const std::vector<Case>& cases, std::size_t index) {
+  std::string settings;
+  for (const std::string& setting : cases[index].settings) {
+    const auto equals = setting.find('=');
+    settings +=
+        (settings.empty() ? " (" : ", ") + setting.substr(0, equals) + " = " + setting.substr(equals + 1);
+  }
+  return "run " + std::to_string(index + 1) + " of " + std::to_string(cases.size()) + settings +
+         (settings.empty() ? "" : ")");
+}
+
+// The script goes on without the run, and a gap among its figures is easily overlooked.
+void warn_of_failure(Session& session, const std::vector<Case>& cases, std::size_t index, const Job& job,
+                     const fs::path& script) {
+  const std::string what = "sweep: " + shown_run(cases, index);
+  const std::string code = " failed with exit code " + std::to_string(job.exit_code);
+  if (session.settings.check_only) {
+    std::error_code none;
+    const fs::path near = fs::proximate(script, none);
+    std::string command = "cdem check " + (none ? script : near).string();
+    for (const std::string& setting : cases[index].settings)
+      command += " --set " + setting;
+    session.warn(what + code + "; " + command + " tells why");
+    return;
+  }
+  const std::string error = error_line(job.console);
+  session.warn(what + code + (error.empty() ? "" : ": " + error) + "; its figures are empty");
+}
+
 Value result_of(Session& session, const Case& one, const Job& job, const fs::path& folder) {
   Table figures;
   const fs::path report = folder / "report.json";
   std::error_code error;
-  if (job.exit_code == 0 && fs::exists(report, error)) {
+  // A check writes none: what lies there is of an earlier run.
+  if (!session.settings.check_only && job.exit_code == 0 && fs::exists(report, error)) {
     const Value all = read_report(read_file(report), report.string());
     const auto list =
         all.table() ? all.table()->named.find("figures") : std::map<std::string, Value>::const_iterator();
@@ -191,23 +229,26 @@ Value sweep(Session& session, Object*, const Arguments& a) {
   Progress progress;
   progress.kind = "sweep";
   progress.max_steps = count;
+  const auto start = std::chrono::steady_clock::now();
   const auto tell = [&](const Job& job) {
     const std::size_t index = number[static_cast<std::size_t>(&job - rest.data())];
     const Case& one = cases[index];
     jobs[index] = job;
     progress.step = ++done;
     progress.last = done == count;
+    progress.wall_time = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     if (observer)
       observer->progress(progress);
     std::ostringstream line;
     line.precision(3);
     line << "sweep " << done << "/" << count << ": " << one.name;
     if (job.exit_code == 0)
-      line << " done in " << job.seconds << " s";
+      line << (session.settings.check_only ? " checked in " : " done in ") << job.seconds << " s";
     else
-      line << " failed with exit code " << job.exit_code << ": "
-           << (session.settings.check_only ? "cdem check tells why" : last_line(job.console));
+      line << " failed with exit code " << job.exit_code;
     session.message(line.str());
+    if (job.exit_code != 0)
+      warn_of_failure(session, cases, index, job, script);
   };
   const auto stop = [&] { return observer && observer->stop_requested(); };
   if (!run_jobs(rest, jobs_at_a_time(a), stop, tell)) {
@@ -225,22 +266,24 @@ Value sweep(Session& session, Object*, const Arguments& a) {
 } // namespace
 
 void bind_sweep(Module& m) {
-  m.records.push_back(
-      {"SweepResult",
-       "What one case of a sweep came to.",
-       {plain("set").required().doc("as given"),
-        text("output").required().doc("its folder, in the output folder"),
-        integer("exit_code").required().doc("0 when it succeeded"),
-        number("seconds").unit("s").required().doc(
-            "wall clock; 0 for a run that had ended before its sweep was stopped"),
-        plain("figures").required().doc("values of its report by name; empty when it failed")}});
+  m.records.push_back({"SweepResult",
+                       "What one case of a sweep came to.",
+                       {plain("set").required().doc("as given"),
+                        text("output").required().doc("its folder, in the output folder"),
+                        integer("exit_code").required().doc("0 when it succeeded"),
+                        number("seconds").unit("s").required().doc(
+                            "wall clock; 0 for a run that had ended before its sweep was stopped"),
+                        plain("figures").required().doc(
+                            "values of its report by name; empty when it failed, and in a check")}});
   m.functions.push_back(
       {"sweep",
        "Runs a script with many settings, as processes side by side, each with a folder of "
        "its own in the output "
        "folder. All run the script, and the files that it requires by a name in quotes, as they "
        "are when the sweep begins; its folder swept/ keeps them. Where the script is stopped meanwhile `cdem "
-       "resume` goes on: runs that have ended well stand, the others begin again.",
+       "resume` goes on: runs that have ended well stand, the others begin again. A run that fails is told "
+       "of in a "
+       "warning.",
        {text("script").required().doc("another .lua file beside this one"),
         list("set", plain("").type)
             .required()

@@ -51,8 +51,8 @@ Value read_csv(Session& session, Object*, const Arguments& a) {
     const auto cells = split(line);
     if (cells.size() != names.size())
       throw InputError("file \"" + name + "\": row " + std::to_string(row) + " has " +
-                       std::to_string(cells.size()) + " values: must be " + std::to_string(names.size()) +
-                       ", as many as there are names");
+                       std::to_string(cells.size()) + (cells.size() == 1 ? " value" : " values") +
+                       ": must be " + std::to_string(names.size()) + ", as many as there are names");
     for (std::size_t c = 0; c < names.size(); ++c)
       columns[c].push_back(number_in(cells[c], name, row));
   }
@@ -75,7 +75,8 @@ Value write_csv(Session& session, Object*, const Arguments& a) {
       values.push_back(value.number());
     }
     if (!columns.empty() && columns.front().second.size() != values.size())
-      throw InputError("column \"" + name + "\" has " + std::to_string(values.size()) + " values: must be " +
+      throw InputError("column \"" + name + "\" has " + std::to_string(values.size()) +
+                       (values.size() == 1 ? " value" : " values") + ": must be " +
                        std::to_string(columns.front().second.size()) + ", as many as \"" +
                        columns.front().first + "\"");
     columns.emplace_back(name, std::move(values));

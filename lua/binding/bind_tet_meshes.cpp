@@ -1,18 +1,17 @@
 // Meshes of tetrahedra: how good they are, which outer faces they have, files and pictures.
 #include "lua/binding/angles.hpp"
 #include "lua/binding/module.hpp"
-#include "lua/binding/nearest.hpp"
 #include "lua/binding/picture_fields.hpp"
 #include "lua/binding/session.hpp"
 #include "lua/binding/solid_objects.hpp"
 
+#include "libcdem/vtk/field_values.hpp"
 #include "libcdem/vtk/files.hpp"
 #include "libgeom/core/error.hpp"
 #include "libgeom/mesh/box_mesh.hpp"
 #include "libgeom/mesh/read_mesh.hpp"
 #include "libgeom/mesh/tet_quality.hpp"
 
-#include <algorithm>
 #include <set>
 
 namespace cdem::script {
@@ -118,10 +117,8 @@ Value picture(Session& session, TetMeshObject& self, const Arguments& a) {
     render(snapshot, options, session.files.to_write(a.text("file")).string());
     return {};
   }
-  const auto names = picture_fields(snapshot);
-  if (!options.field.empty() && std::find(names.begin(), names.end(), options.field) == names.end())
-    throw InputError("colour = \"" + options.field + "\": no such field" +
-                     did_you_mean(options.field, names) + " There are: " + joined(names));
+  if (!options.field.empty())
+    field_values(snapshot, options.field);
   return {};
 }
 
@@ -201,7 +198,8 @@ void bind_tet_meshes(Module& m) {
                         return static_cast<std::int64_t>(of(self).mesh.tets.size());
                       }}};
   mesh.text = [of](const Object& self) {
-    return "cdem.TetMesh (" + of(self).title + ", " + std::to_string(of(self).mesh.tets.size()) + " tets)";
+    return "cdem.TetMesh (" + of(self).title + ", " + std::to_string(of(self).mesh.tets.size()) +
+           (of(self).mesh.tets.size() == 1 ? " tet)" : " tets)");
   };
   mesh.methods = {
       {"volume",

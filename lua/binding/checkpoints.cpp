@@ -5,6 +5,7 @@
 #include "lua/binding/model_object.hpp"
 
 #include <algorithm>
+#include <array>
 
 namespace cdem::script {
 
@@ -122,9 +123,17 @@ void Checkpoints::go_live() {
         object->series[(session_.files.output() / file).string()].push_back({time, name});
   }
   models_.clear();
+  std::array<std::int64_t, 2> broken{};
   for (const auto& known : session_.models)
-    if (const auto object = known.lock())
+    if (const auto object = known.lock()) {
       object->simulation.set_replaying(false);
+      const auto [tension, shear] = object->simulation.told_broken();
+      broken[0] += tension;
+      broken[1] += shear;
+    }
+  if (session_.settings.observer)
+    session_.settings.observer->goes_on(broken[0], broken[1],
+                                        static_cast<std::int64_t>(session_.warnings.size()));
   replaying_ = false;
   kept_ = journal_.size();
   last_ = std::chrono::steady_clock::now();

@@ -51,6 +51,13 @@ std::string three_digits(double x) {
   return text;
 }
 
+void warn_if_nothing_acts(Session& session, const ModelObject& model, const std::string& kind) {
+  if (!model.simulation.anything_acts())
+    session.warn(
+        kind + ": nothing acts on the model: no load, no support that moves it, no initial stress; it stays "
+               "as it is");
+}
+
 Value stage_row(const Stage& stage) {
   char hash[17];
   std::snprintf(hash, sizeof hash, "%016llx", static_cast<unsigned long long>(stage.hash));

@@ -10,6 +10,9 @@ namespace cdem::script {
 
 std::string three_digits(double); // for messages
 
+// Where no load, moved support or the like acts. kind: of the stage.
+void warn_if_nothing_acts(Session&, const ModelObject&, const std::string& kind);
+
 // A stage as scripts see it: number, kind, hash, result.
 Value stage_row(const Stage&);
 

@@ -273,7 +273,7 @@ local cdem = {}
 ---@field output string its folder, in the output folder
 ---@field exit_code integer 0 when it succeeded
 ---@field seconds number s: wall clock; 0 for a run that had ended before its sweep was stopped
----@field figures any values of its report by name; empty when it failed
+---@field figures any values of its report by name; empty when it failed, and in a check
 
 ---Made by cdem.elastic.
 ---@class cdem.Material
@@ -1599,7 +1599,7 @@ function cdem.elapsed() end
 ---@field jobs? integer in [1, 1024]: cases at a time; as many as there are processors for when left out
 ---@field threads? integer in [1, 1024], default 1: of each case
 
----Runs a script with many settings, as processes side by side, each with a folder of its own in the output folder. All run the script, and the files that it requires by a name in quotes, as they are when the sweep begins; its folder swept/ keeps them. Where the script is stopped meanwhile `cdem resume` goes on: runs that have ended well stand, the others begin again.
+---Runs a script with many settings, as processes side by side, each with a folder of its own in the output folder. All run the script, and the files that it requires by a name in quotes, as they are when the sweep begins; its folder swept/ keeps them. Where the script is stopped meanwhile `cdem resume` goes on: runs that have ended well stand, the others begin again. A run that fails is told of in a warning.
 ---@param options cdem.SweepOptions
 ---@return cdem.SweepResult[] # in the order given
 function cdem.sweep(options) end

@@ -84,9 +84,17 @@ TEST_CASE("a line of units that settle says how calm they are") {
 TEST_CASE("the last line of a stage says what it came to") {
   Progress p = half_way();
   p.last = true;
-  CHECK(stage_line(p, 2.5) ==
-        "stage 3 relax: 12,345 steps in 2.5 s, residual 0.001 (goal 1e-06), 1,204 broken "
-        "(4 tension, 1,200 shear)");
+  p.wall_time = 2.5;
+  CHECK(stage_line(p) == "stage 3 relax: 12,345 steps in 2.5 s, residual 0.001 (goal 1e-06), 1,204 broken "
+                         "(4 tension, 1,200 shear)");
+}
+
+TEST_CASE("one step is no steps") {
+  Progress p;
+  p.stage = 1;
+  p.kind = "run";
+  p.step = 1;
+  CHECK_THAT(stage_line(p), StartsWith("stage 1 run: 1 step in "));
 }
 
 TEST_CASE("a bar is empty at 0, full at 1 and as wide as asked at every fraction") {

@@ -80,6 +80,25 @@ TEST_CASE("resume: after Ctrl-C and SIGTERM a run goes on with any number of thr
   }
 }
 
+TEST_CASE("resume: a run that goes on ends as an unbroken one: its closing line, and no last good states") {
+  const std::vector<std::string> run{"run",        "plate/case.lua", "--set",
+                                     "steps=1500", "--output",       "results/plate"};
+  const auto closing_line = [](const Outcome& outcome) {
+    const std::string line = lines_of(outcome.out).back();
+    CHECK_THAT(line, Contains(" broken (") && Contains("2 warnings; results in "));
+    return line;
+  };
+  Place place;
+  const std::string whole = closing_line(place.cdem(run));
+  CHECK(place.cdem(run, SIGINT, "stage 1 relax: 250 steps").exit_code == 130);
+  CHECK(fs::exists(place.results / "last_good.vtu"));
+  const Outcome ended = place.cdem({"resume", "results/plate"});
+  CHECK(ended.exit_code == 0);
+  CHECK(closing_line(ended) == whole);
+  for (const auto& entry : fs::directory_iterator(place.results))
+    CHECK_THAT(entry.path().filename().string(), !StartsWith("last_good"));
+}
+
 TEST_CASE("resume: kill -9 at any moment leaves a whole checkpoint to go on from") {
   Place place;
   // A checkpoint whenever the run looks: most of the time one is being written.

@@ -104,6 +104,51 @@ TEST_CASE("Ctrl-C ends a sweep and every run of it") {
   CHECK_THAT(table[1], StartsWith("1,1,0,"));
 }
 
+TEST_CASE("a sweep that was stopped says what stands and what can be done, which then works") {
+  Place cdem;
+  write_file(cdem.folder / "sum/case.lua", R"(
+local cdem = require "cdem"
+local a = cdem.parameter{ name = "a", default = 1 }
+while a > 2 do end
+local function has_begun() -- the second run
+  local found, file = pcall(io.open, "../a=2/begun.csv")
+  return found and file
+end
+while a == 1 and not has_begun() do end
+if a == 2 then
+  local rock = cdem.elastic{ youngs_modulus = 1e9, poissons_ratio = 0, density = 2000 }
+  local model = cdem.model{ bodies = { { shape = cdem.box{ size = {1, 1, 1} }, material = rock } } }
+  model:fix{ on = "x-" }
+  model:traction{ on = "x+", stress = {1e6, 0, 0} }
+  local begun = false
+  model:run{ steps = 3000000, callback = function()
+    if not begun then cdem.write_csv{ file = "begun.csv", columns = { { name = "x", values = {1} } } } end
+    begun = true
+  end }
+end
+cdem.report{ { name = "a", value = a } }
+)");
+  cdem.start.signal = SIGINT;
+  cdem.start.signal_after = "a=1: done";
+  const Outcome outcome = cdem({"sweep", "sum/case.lua", "--set", "a=1,2,3,4", "--jobs", "2"});
+  INFO(outcome.out << outcome.err);
+  CHECK(outcome.exit_code == 130);
+  const auto lines = lines_of(outcome.out);
+  REQUIRE(lines.size() > 3);
+  CHECK(lines.end()[-3] == "1 of 4 runs had ended and stands; table in results/sum-sweep/sweep.csv");
+  CHECK(lines.end()[-2] == "a=2: stopped; to go on: cdem resume results/sum-sweep/a=2");
+  CHECK(
+      lines.end()[-1] ==
+      "2 runs have nothing to go on from: cdem sweep with their values and another --output runs them anew");
+  CHECK_THAT(read_file(cdem.folder / "results/sum-sweep/cdem.log"), Contains(lines.end()[-2]));
+  cdem.start.signal = 0;
+  cdem.start.signal_after.clear();
+  const Outcome on = cdem({"resume", "results/sum-sweep/a=2"});
+  INFO(on.out << on.err);
+  CHECK(on.exit_code == 0);
+  CHECK_THAT(read_file(cdem.folder / "results/sum-sweep/a=2/report.json"), Contains("\"value\": 2"));
+}
+
 TEST_CASE("a script can sweep another one") {
   const Place cdem;
   write_file(cdem.folder / "sum/all.lua", R"(
@@ -117,6 +162,44 @@ for _, run in ipairs(runs) do print("a gives " .. run.figures.sum_m) end
     CHECK(outcome.exit_code == 0);
     CHECK_THAT(outcome.out, Contains("a gives 2") && Contains("a gives 6"));
   }
+}
+
+TEST_CASE("a run that fails in a script's sweep is a warning, counted and in the report") {
+  const Place cdem;
+  write_file(cdem.folder / "sum/all.lua", R"(
+local cdem = require "cdem"
+local runs = cdem.sweep{ script = "case.lua", set = { { a = 1 }, { a = 13, b = 2 } } }
+cdem.report{ { name = "sum", value = runs[1].figures.sum_m } }
+)");
+  const Outcome outcome = cdem({"run", "sum/all.lua"});
+  INFO(outcome.out << outcome.err);
+  CHECK(outcome.exit_code == 0);
+  const std::string warning =
+      "sweep: run 2 of 2 (a = 13, b = 2) failed with exit code 2: sum/case.lua:5: 13 brings no "
+      "luck; its figures are empty";
+  CHECK_THAT(outcome.err, StartsWith("sum/all.lua:3: warning: " + warning + "\n"));
+  CHECK_THAT(outcome.out, Contains("1 warning; results in results/sum-all"));
+  for (const std::string file : {"report.json", "report.md", "cdem.log"})
+    CHECK_THAT(read_file(cdem.folder / "results/sum-all" / file), Contains(warning));
+  CHECK_THAT(
+      cdem({"check", "sum/all.lua"}).err,
+      Contains("warning: sweep: run 2 of 2 (a = 13, b = 2) failed with exit code 2; cdem check sum/case.lua "
+               "--set a=13 --set b=2 tells why"));
+}
+
+TEST_CASE("a check of a script that sweeps has no figures, whatever an earlier run has left") {
+  const Place cdem;
+  write_file(cdem.folder / "sum/all.lua", R"(
+local cdem = require "cdem"
+local runs = cdem.sweep{ script = "case.lua", set = { { a = 1 }, { a = 5 } }, jobs = 2 }
+for _, run in ipairs(runs) do print("a gives " .. tostring(run.figures.sum_m)) end
+)");
+  REQUIRE_THAT(cdem({"run", "sum/all.lua"}).out, Contains("a gives 6"));
+  const Outcome outcome = cdem({"check", "sum/all.lua"});
+  INFO(outcome.out << outcome.err);
+  CHECK(outcome.exit_code == 0);
+  CHECK_THAT(outcome.out, Contains("a gives nil") && !Contains("a gives 2") && !Contains("a gives 6"));
+  CHECK_THAT(outcome.out, Contains("sweep 2/2: a=") && Contains(" checked in ") && !Contains("done"));
 }
 
 TEST_CASE("a script that was stopped in a sweep goes on with the runs that had not ended") {
@@ -234,7 +317,7 @@ for _, run in ipairs(runs) do print(run.set.a .. " gives " .. (run.figures.sum_m
       const Outcome outcome = cdem(command);
       editor.join();
       INFO(outcome.out << outcome.err);
-      CHECK_THAT(outcome.out, Contains("sum/helper.lua:2: no luck"));
+      CHECK_THAT(outcome.out + outcome.err, Contains("sum/helper.lua:2: no luck"));
       for (const std::string a : {"1", "2"})
         CHECK_THAT(read_file(results / ("a=" + a) / "report.json"),
                    Contains(std::to_string(std::stoi(a) + 1110)));

@@ -12,6 +12,7 @@
 #include "libgeom/mesh/box_mesh.hpp"
 
 #include <catch2/catch.hpp>
+#include <chrono>
 #include <fstream>
 
 using namespace testing;
@@ -125,6 +126,36 @@ TEST_CASE("checkpoint: a run and a relaxation that were left go on to the same b
     REQUIRE(probe.breaks().size() > 10);
     check_going_on(column, solve);
   }
+}
+
+TEST_CASE("checkpoint: a stage that goes on tells the time of all its steps", "[checkpoint]") {
+  struct Told final : cdem::Observer {
+    double first = -1, last = -1; // s
+    int polls = 0, stop_at = 1 << 30;
+    void progress(const cdem::Progress& p) override {
+      first = first < 0 ? p.wall_time : first;
+      last = p.wall_time;
+    }
+    bool stop_requested() override { return ++polls >= stop_at; }
+  };
+  const auto begin = std::chrono::steady_clock::now();
+  const auto elapsed = [&] {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  };
+  const auto stopped = std::make_shared<Told>(), goes_on = std::make_shared<Told>();
+  stopped->stop_at = 65;
+  Saver saver;
+  cdem::Simulation left = plate(1, stopped);
+  saver.simulation = &left;
+  left.set_keeper(&saver);
+  REQUIRE_THROWS_AS(run(left), cdem::Interrupted);
+  REQUIRE(stopped->first > 0);
+  cdem::Simulation next = plate(1, goes_on);
+  next.restore(saver.saved);
+  run(next);
+  CHECK(goes_on->first > stopped->first);
+  CHECK(goes_on->last > goes_on->first);
+  CHECK(goes_on->last < elapsed());
 }
 
 TEST_CASE("checkpoint: bodies in contact go on to the same bits", "[checkpoint]") {

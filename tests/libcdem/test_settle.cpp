@@ -124,6 +124,18 @@ TEST_CASE("settle: deformable units fall freely until the first touch, and time 
   CHECK(result.time == Approx(0.12).epsilon(0.01));
 }
 
+TEST_CASE("settle: one unit is told of as one", "[settle]") {
+  const auto lines = std::make_shared<Lines>();
+  cdem::Simulation s =
+      units_over_floor(geom::box_mesh({2, 1.5, 0.5}, {4, 3, 1}),
+                       {cube_at({0.6, 0.75, 0.5 + 0.25 + 0.05}, Mat3::Identity())}, rock(), 1, lines);
+  cdem::SettleOptions options;
+  options.max_time = 1e-3;
+  s.settle(options);
+  REQUIRE_FALSE(lines->lines.empty());
+  CHECK_THAT(lines->lines[0], Catch::Contains("alone 1 unit is rigid, with "));
+}
+
 TEST_CASE("settle: a fall of rigid units is ballistic until they touch", "[settle]") {
   cdem::Simulation s = cubes();
   cdem::SettleOptions options;

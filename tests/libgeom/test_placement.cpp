@@ -188,7 +188,7 @@ TEST_CASE("a drop that cannot be made is refused") {
   CHECK_THAT(drop(5, {0.1, narrow, 0, 1}), Contains("region = 1 m by 5 m: must be at least"));
   CHECK_THAT(drop(5, {0.1, upside, 0, 1}), Contains("min below max"));
   CHECK_THAT(drop(1000000, {}), Contains("count = 1000000: must be at most"));
-  CHECK_THAT(drop(2000, {0.1, {}, 1, 1}), Contains("in 1 layers"));
+  CHECK_THAT(drop(2000, {0.1, {}, 1, 1}), Contains("in 1 layer;"));
 }
 
 TEST_CASE("a ground without a face that looks up is refused") {

@@ -34,6 +34,22 @@ TEST_CASE("pictures and charts are written as PNG", "[lua]") {
     CHECK(script.read(name).rfind("\x89PNG", 0) == 0);
 }
 
+TEST_CASE("an unknown colour is named as the script calls it, by a check and by a run", "[lua]") {
+  const auto refused = [](const std::string& colour, bool check_only) {
+    Script script(column() + "model:picture{ file = 'p.png', size = {320, 240}, colour = '" + colour + "' }");
+    script.settings.check_only = check_only;
+    return script.error();
+  };
+  for (const bool check_only : {false, true}) {
+    CHECK_THAT(refused("displacment.z", check_only),
+               Contains("case.lua:7: model:picture: colour = \"displacment.z\": must be ") &&
+                   Contains("did you mean displacement.z"));
+    CHECK_THAT(refused("contact_force", check_only),
+               Contains("case.lua:7: model:picture: colour = \"contact_force\": must be "));
+    CHECK(refused("displacement", check_only) == ""); // its magnitude
+  }
+}
+
 TEST_CASE("columns of numbers survive writing and reading", "[lua]") {
   Script script(
       "local cdem = require 'cdem'\n"
@@ -51,7 +67,7 @@ TEST_CASE("tables that do not fit are refused with their row", "[lua]") {
     script.write("t.csv", text);
     return script.error();
   };
-  CHECK_THAT(error_for("a,b\n1,2\n3\n"), Contains("row 3 has 1 values: must be 2"));
+  CHECK_THAT(error_for("a,b\n1,2\n3\n"), Contains("row 3 has 1 value: must be 2"));
   CHECK_THAT(error_for("a,b\n1,two\n"), Contains("row 2: \"two\": must be a number"));
   CHECK_THAT(error_for(""), Contains("must begin with a row of column names"));
 }

@@ -206,7 +206,32 @@ TEST_CASE("a pile's file that is none is refused, and units inside each other", 
     return script.error();
   };
   CHECK(refused(file(poses)) == "");
-  CHECK_THAT(refused("{\"format\""), Contains("pile.json: no pile; a file that pile:save{} wrote"));
+  const std::string needed = "; a whole file that pile:save{} wrote is needed: write it anew";
+  const std::string whole = file(poses);
+  for (const std::size_t bytes : {whole.size() - 1, whole.size() / 2, whole.find("0.75") + 2, std::size_t{9}})
+    CHECK_THAT(refused(whole.substr(0, bytes) + "\n"),
+               Contains("pile.json: ends in the middle, after ") && Contains(" bytes" + needed));
+  CHECK_THAT(refused(""), Contains("pile.json: is empty" + needed));
+  CHECK_THAT(refused("solid cube"), Contains("pile.json: is no pile" + needed));
+  const auto garbled = [&](const std::string& part, const std::string& other) {
+    std::string text = whole;
+    return refused(text.replace(text.find(part), part.size(), other));
+  };
+  const std::string byte = std::to_string(whole.find("0.75") + 1);
+  for (const std::string number : {"0.7x5", "0.7.5", "0x75", "nan", "0.", "--75", "0.75abc"})
+    CHECK_THAT(garbled("0.75", number),
+               Contains("pile.json: \"" + number + "\" at byte " + byte + " is not a number" + needed));
+  CHECK_THAT(garbled("0.75", "null"), Contains("pile.json: nodes[2] = null is not a number" + needed));
+  CHECK_THAT(garbled("0.75", "1e999"), Contains("pile.json: ") && Contains(needed));
+  CHECK_THAT(garbled("0.75,", "0.75,,"), Contains("pile.json: cannot be read at byte ") && Contains(needed));
+  CHECK_THAT(garbled("0.75, ", ""), Contains("pile.json: nodes[2] is not a list of 3" + needed));
+  CHECK_THAT(garbled("[0, 1, 2, 3]", "[0, 1, 2, 3.5]"),
+             Contains("pile.json: tets[1] = 3.5 is not a whole number"));
+  for (const std::string key : {"format", "height", "poses", "nodes", "tets", "regions"})
+    CHECK_THAT(garbled("\"" + key + "\"", "\"" + key + "s\""),
+               Contains("pile.json: \"" + key + "\" is missing" + needed));
+  CHECK_THAT(garbled("\"centroid\"", "\"center\""),
+             Contains("pile.json: poses[1]: \"centroid\" is missing" + needed));
   CHECK_THAT(refused(file(poses, "other")), Contains("pile.json: format = \"other\""));
   CHECK_THAT(refused(file("")), Contains("the pile has no units"));
   CHECK_THAT(refused(file(poses, "cdem pile 1", ", \"faces\": {\"foot\": [4]}")),

@@ -83,7 +83,7 @@ TEST_CASE("a sweep runs each case with its settings and returns the figures of i
                 "  print(i, row.output, row.exit_code, row.figures.arguments, row.set.case)\nend");
   script.write("one.lua", "");
   script.write("program", "#!/bin/sh\n"
-                          "case \"$*\" in *bad*) echo 'no such case' >&2; exit 2;; esac\n"
+                          "case \"$*\" in *bad*) echo 'cdem: error: no such case' >&2; exit 2;; esac\n"
                           "arguments=\"$(basename $2) $3 $4 $5 $6\"\n"
                           "while [ \"$1\" != --output ]; do shift; done\nmkdir -p $2\n"
                           "echo '{\"case\": \"one\", \"figures\": [{\"name\": \"arguments\", \"value\": "
@@ -92,13 +92,15 @@ TEST_CASE("a sweep runs each case with its settings and returns the figures of i
   script.settings.program = (script.folder / "program").string();
   script.run();
   const auto& lines = script.listener->lines;
-  REQUIRE(lines.size() == 6);
-  CHECK(lines[3] == "1\tcase=1\t0\tone.lua --set case=1 --quiet --output\t1");
-  CHECK(lines[4] == "2\tcase=2,list=1.5,2\t0\tone.lua --set case=2 --set list=1.5,2\t2");
-  CHECK(lines[5] == "3\tcase=bad\t2\tnil\tbad");
-  INFO(lines[0]);
-  std::string progress = lines[0] + lines[1] + lines[2];
-  CHECK_THAT(progress, Contains("case=bad failed with exit code 2: no such case"));
+  REQUIRE(lines.size() == 7);
+  CHECK(lines[4] == "1\tcase=1\t0\tone.lua --set case=1 --quiet --output\t1");
+  CHECK(lines[5] == "2\tcase=2,list=1.5,2\t0\tone.lua --set case=2 --set list=1.5,2\t2");
+  CHECK(lines[6] == "3\tcase=bad\t2\tnil\tbad");
+  const std::string progress = lines[0] + "\n" + lines[1] + "\n" + lines[2] + "\n" + lines[3] + "\n";
+  CHECK_THAT(progress, Contains("case=bad failed with exit code 2\n"));
+  CHECK_THAT(progress,
+             Contains("case.lua:2: warning: sweep: run 3 of 3 (case = bad) failed with exit code 2: no such "
+                      "case; its figures are empty\n"));
   CHECK_THAT(progress, Contains("sweep 3/3"));
 }
 

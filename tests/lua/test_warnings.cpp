@@ -1,6 +1,7 @@
 // What a script is warned of, and where the warnings go.
 #include "tests/lua/script.hpp"
 
+#include <algorithm>
 #include <catch2/catch.hpp>
 
 using namespace cdem::script;
@@ -34,6 +35,27 @@ TEST_CASE("a relaxation on which nothing acts warns", "[lua]") {
   REQUIRE(warnings.size() == 1);
   CHECK_THAT(warnings[0], Contains("nothing acts on the model"));
   CHECK(warnings_of(column() + pull + "model:relax{}").empty());
+}
+
+TEST_CASE("a settling on which nothing acts warns", "[lua]") {
+  const std::string gravity = "model:gravity{ vector = {0, 0, -9.81} }\n";
+  const std::string settle = "model:settle{ max_time = 1e-3 }";
+  const auto is_told = [](const std::string& text) {
+    const auto warnings = warnings_of(text);
+    return std::any_of(warnings.begin(), warnings.end(), [](const std::string& warning) {
+      return warning.find("settle: nothing acts on the model") != std::string::npos;
+    });
+  };
+  CHECK(is_told(column() + settle));
+  CHECK_FALSE(is_told(column() + gravity + settle));
+}
+
+TEST_CASE("a mesh size beyond the solid is told of with four digits", "[lua]") {
+  const auto warnings = warnings_of("local cdem = require 'cdem'\n"
+                                    "cdem.solid.box{ size = {1 / 3, 2, 3} }:mesh{ size = 2 / 3 }");
+  REQUIRE(warnings.size() == 1);
+  CHECK_THAT(warnings[0],
+             Contains("mesh: size = 0.6667 m is more than the solid's smallest extent, 0.3333 m;"));
 }
 
 TEST_CASE("a Young's modulus that no solid has warns, and none that one has", "[lua]") {

@@ -347,7 +347,7 @@ TEST_CASE("an unknown field names the nearest right ones") {
     return testing::refusal([&] { render(s, o, folder / "p.png"); });
   };
   CHECK_THAT(message("displacment.x"),
-             Contains("field = \"displacment.x\"") && Contains("did you mean displacement.x"));
+             Contains("colour = \"displacment.x\"") && Contains("did you mean displacement.x"));
   CHECK_THAT(message("stress"), Contains("stress.xx"));
   CHECK_THAT(message("stress.x"), Contains("stress.xx"));
   CHECK_THAT(message("block_id.x"), Contains("block_id"));

@@ -30,7 +30,7 @@ struct SweptRun {
   std::string name; // "pressure=24e6,cohesion=5e6", also its folder
   fs::path folder;  // its results
   fs::path console; // what it prints: its progress, then its error
-  bool ended = false;
+  bool begun = false, ended = false;
   int exit_code = -1; // not run
   double seconds = 0; // wall clock
 };
@@ -150,6 +150,42 @@ ExitCode judge(const std::vector<SweptRun>& runs) {
   return static_cast<ExitCode>(worst > 4 ? 1 : worst);
 }
 
+bool has_checkpoint(const SweptRun& run) {
+  try {
+    script::newest_checkpoint(run.folder);
+    return true;
+  } catch (const script::FileError&) {
+    return false;
+  }
+}
+
+std::string number_of_runs(std::size_t count) {
+  return std::to_string(count) + (count == 1 ? " run" : " runs");
+}
+
+// After Ctrl-C: what stands, and what can be done with the rest.
+std::vector<std::string> what_stands(const SweepCommand& command, const std::vector<SweptRun>& runs,
+                                     const fs::path& table) {
+  std::size_t ended = 0, rest = 0;
+  std::vector<std::string> lines;
+  for (const auto& run : runs)
+    if (run.ended)
+      ++ended;
+    else if (run.begun && has_checkpoint(run))
+      lines.push_back(shown(run.set) + ": stopped; to go on: cdem resume " + run.folder.string() +
+                      (command.unsafe ? " --unsafe" : ""));
+    else
+      ++rest;
+  lines.insert(lines.begin(), std::to_string(ended) + " of " + number_of_runs(runs.size()) +
+                                  (ended == 1 ? " had ended and stands" : " had ended and stand") +
+                                  "; table in " + table.string());
+  if (rest > 0)
+    lines.push_back(
+        number_of_runs(rest) + (rest == 1 ? " has" : " have") +
+        " nothing to go on from: cdem sweep with their values and another --output runs them anew");
+  return lines;
+}
+
 } // namespace
 
 ExitCode sweep(const SweepCommand& command) {
@@ -184,8 +220,8 @@ ExitCode sweep(const SweepCommand& command) {
     view.message(line);
     folder.log(line);
   };
-  say(count_text(static_cast<std::int64_t>(runs.size())) + " runs, " + std::to_string(jobs) +
-      " side by side, " + std::to_string(threads) + (threads == 1 ? " thread" : " threads") + " each");
+  say(number_of_runs(runs.size()) + ", " + std::to_string(jobs) + " side by side, " +
+      std::to_string(threads) + (threads == 1 ? " thread" : " threads") + " each");
   const auto ended = [&](const script::Job& process) {
     const auto index = static_cast<std::size_t>(&process - processes.data());
     SweptRun& run = runs[index];
@@ -209,15 +245,17 @@ ExitCode sweep(const SweepCommand& command) {
   };
   script::run_jobs(processes, jobs, stop, ended);
   view.clear();
-  for (const auto& run : runs) {
+  for (auto& run : runs) {
     std::error_code none;
-    fs::remove(run.console, none);
+    run.begun = fs::remove(run.console, none) || run.ended;
   }
 
   const fs::path table = root / "sweep.csv";
   folder.will_write(table);
   write_table(runs, table);
   if (interrupt::requested()) {
+    for (const auto& line : what_stands(command, runs, table))
+      say(line);
     folder.finish(interrupt::exit_code(), "stopped by the user");
     throw Interrupted();
   }

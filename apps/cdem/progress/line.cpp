@@ -105,8 +105,9 @@ std::string plain_line(const Progress& p, const TimeLeft& left) {
   return line;
 }
 
-std::string stage_line(const Progress& p, double wall) {
-  std::string line = stage_text(p) + ": " + count_text(p.step) + " steps in " + duration_text(wall);
+std::string stage_line(const Progress& p) {
+  std::string line = stage_text(p) + ": " + count_text(p.step) + (p.step == 1 ? " step in " : " steps in ") +
+                     duration_text(p.wall_time);
   if (p.residual_goal > 0)
     line += ", residual " + number_text(p.residual) + " (goal " + number_text(p.residual_goal) + ")";
   else if (p.time > 0)

@@ -17,7 +17,7 @@ std::string plain_line(const Progress&, const TimeLeft&);
 // "1,204 broken (4 tension, 1,200 shear)"
 std::string broken_text(std::int64_t tension, std::int64_t shear);
 
-// Once a stage has ended. wall: s.
-std::string stage_line(const Progress&, double wall);
+// Once a stage has ended.
+std::string stage_line(const Progress&);
 
 } // namespace cdem::app

@@ -18,10 +18,6 @@ constexpr milliseconds live_interval{100};
 constexpr milliseconds machine_interval{500};
 constexpr milliseconds plain_interval{10000};
 
-double seconds(std::chrono::steady_clock::duration duration) {
-  return std::chrono::duration<double>(duration).count();
-}
-
 // A sweep reads the last line of the file it gave us: there is no need for the older ones.
 void start_console_again() {
   struct stat status {};
@@ -44,9 +40,9 @@ void RunObserver::progress(const Progress& progress) {
   const auto now = Clock::now();
   if (progress.stage != stage_)
     start_stage(progress, now);
-  left_.add(progress, seconds(now - stage_start_));
+  left_.add(progress, progress.wall_time);
   if (progress.last)
-    end_stage(progress, now);
+    end_stage(progress);
   else
     show(progress, now);
 }
@@ -55,10 +51,6 @@ void RunObserver::start_stage(const Progress& progress, Clock::time_point now) {
   if (folder_ != nullptr)
     folder_->begin_results();
   stage_ = progress.stage;
-  // The first call comes one step into the stage.
-  const double gone =
-      progress.steps_per_second > 0 ? static_cast<double>(progress.step) / progress.steps_per_second : 0;
-  stage_start_ = now - std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(gone));
   last_logged_ = now;
   last_shown_ = now - plain_interval;
 }
@@ -87,8 +79,8 @@ void RunObserver::show(const Progress& progress, Clock::time_point now) {
     folder_->log(line);
 }
 
-void RunObserver::end_stage(const Progress& progress, Clock::time_point now) {
-  const std::string line = stage_line(progress, seconds(now - stage_start_));
+void RunObserver::end_stage(const Progress& progress) {
+  const std::string line = stage_line(progress);
   stage_ = no_stage;
   broken_tension_ += progress.broken_tension;
   broken_shear_ += progress.broken_shear;
@@ -113,6 +105,12 @@ void RunObserver::warning(const std::string& text) {
   }
   if (folder_ != nullptr)
     folder_->log(text);
+}
+
+void RunObserver::goes_on(std::int64_t broken_tension, std::int64_t broken_shear, std::int64_t warnings) {
+  broken_tension_ += broken_tension;
+  broken_shear_ += broken_shear;
+  warnings_ += warnings;
 }
 
 std::string RunObserver::in_all() const {

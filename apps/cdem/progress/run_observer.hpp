@@ -29,6 +29,7 @@ public:
   void progress(const Progress&) override;
   void message(const std::string&) override;
   void warning(const std::string&) override; // on stderr, of a quiet run too
+  void goes_on(std::int64_t broken_tension, std::int64_t broken_shear, std::int64_t warnings) override;
   bool stop_requested() override;
 
   // Takes the live line off the screen; before anything else prints.
@@ -41,7 +42,7 @@ private:
   using Clock = std::chrono::steady_clock;
   void start_stage(const Progress&, Clock::time_point now);
   void show(const Progress&, Clock::time_point now);
-  void end_stage(const Progress&, Clock::time_point now);
+  void end_stage(const Progress&);
   void print(const std::string& line);
 
   ProgressStyle style_;
@@ -51,7 +52,7 @@ private:
   int stage_ = no_stage;
   bool line_shown_ = false;
   std::int64_t broken_tension_ = 0, broken_shear_ = 0, warnings_ = 0; // of all stages so far
-  Clock::time_point stage_start_, last_shown_, last_logged_;
+  Clock::time_point last_shown_, last_logged_;
 };
 
 } // namespace cdem::app
