@@ -40,9 +40,7 @@ void add_surface(System& s) {
 }
 
 void touch(System& s, int block_a, int block_b, cdem::Contact::Kind kind = cdem::Contact::spring) {
-  cdem::Contact contact;
-  contact.kind = kind;
-  contact.source = 3 * block_a + 1;
+  cdem::Contact contact(kind, 3 * block_a + 1);
   contact.target = kind == cdem::Contact::spring ? block_b : 3 * block_b + 2;
   s.state.contacts.push_back(contact);
 }
