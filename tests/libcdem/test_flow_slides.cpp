@@ -95,7 +95,8 @@ TEST_CASE("a flow that rises slowly takes a lone cube at F = W' (sin a + mu cos 
   const auto [element, size] =
       GENERATE(std::pair(cdem::Element::rigid, 1.5), std::pair(cdem::Element::rigid, 0.1),
                std::pair(cdem::Element::finite_volume, 1.5));
-  const double mu = GENERATE(0.55, 0.8, 1.5), critical = critical_velocity(size, mu);
+  // From 0.77 to where it tips, 1, a cube that nothing damps rocks on its leading edge while it slides.
+  const double mu = GENERATE(0.55, 0.75, 1.5), critical = critical_velocity(size, mu);
   Cube cube(size, mu, element);
   cube.velocity = 0.95 * critical;
   cube.settle();
@@ -109,7 +110,7 @@ TEST_CASE("a flow that rises slowly takes a lone cube at F = W' (sin a + mu cos 
   CHECK(left.velocity == Approx(critical).epsilon(0.01));
   const double rises = left.displacement.z() / left.displacement.x(); // 1 where it turns about its upper edge
   if (mu < 1)
-    CHECK(std::abs(rises) < 0.1);
+    CHECK(std::abs(rises) < (element == cdem::Element::rigid ? 0.01 : 0.1)); // one that deforms chatters
   else
     CHECK(rises == Approx(1).epsilon(0.1));
 }
