@@ -26,6 +26,8 @@ double spin(const geom::Vec3& along, const geom::Vec3& relative_velocity, const 
 Evaluation::Evaluation(const Model& model, const State& state, const ContactWork& work, Contact::Kind kind,
                        ContactChunk& out)
     : model_(model), surface_(model.surface), state_(state), work_(work), kind_(kind), out_(out),
+      old_edges_(std::partition_point(state.contacts.begin(), state.contacts.end(),
+                                      [](const Contact& c) { return c.kind == Contact::spring; })),
       old_(state.contacts.end()) {}
 
 void Evaluation::springs(ContactRow& row, ContactCandidate* candidates) {
@@ -254,14 +256,16 @@ const Contact* Evaluation::contact_of(int e, int f) const {
   Contact like(Contact::edge, source.id());
   like.piece = source.triangles[1];
   like.target = target.id();
-  const auto found = std::lower_bound(state_.contacts.begin(), state_.contacts.end(), like,
+  const auto found = std::lower_bound(old_edges_, state_.contacts.end(), like,
                                       [](const Contact& a, const Contact& b) { return key(a) < key(b); });
   return found != state_.contacts.end() && key(*found) == key(like) ? &*found : nullptr;
 }
 
 std::optional<Contact> Evaluation::before_an_end(int e, int f, const geom::Vec3& normal) const {
-  const std::vector<int> targets = with_those_at_ends(f);
   std::optional<Contact> most;
+  if (old_edges_ == state_.contacts.end())
+    return most;
+  const std::vector<int> targets = with_those_at_ends(f);
   double most_force = -1; // N
   for (const int from : with_those_at_ends(e))
     for (const int to : targets) {

@@ -56,7 +56,8 @@ private:
   const ContactWork& work_;
   Contact::Kind kind_;
   ContactChunk& out_;
-  std::vector<Contact>::const_iterator old_; // the first contact of the row's source or a later one
+  std::vector<Contact>::const_iterator old_edges_; // the first contact of two edges before the step
+  std::vector<Contact>::const_iterator old_;       // the first contact of the row's source or a later one
   Law law_;
 };
 
