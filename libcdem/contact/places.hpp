@@ -23,6 +23,11 @@ inline geom::Vec3 weighted(const Corners& x, const geom::Vec3& w) {
   return w[0] * x[0] + w[1] * x[1] + w[2] * x[2];
 }
 
+// The angular velocity about `normal` of a line that moves with its ends, rad/s.
+inline double spin(const geom::Vec3& along, const geom::Vec3& relative_velocity, const geom::Vec3& normal) {
+  return normal.cross(along).dot(relative_velocity) / along.squaredNorm();
+}
+
 inline bool has_bonds(const Model& model, int block) {
   const Bonding& bonding = model.bodies[model.blocks[block].body].bonding;
   return bonding.everywhere || bonding.between_regions || !bonding.regions.empty();

@@ -61,6 +61,11 @@ std::vector<double> room_of_fast_ones(const Model& model, const State& state, co
   return room;
 }
 
+// m, height of a tet at the surface of its block.
+double usual(const ContactWork& work, const ContactTriangle& t) {
+  return work.shallow[t.block] / shallow_ratio;
+}
+
 } // namespace
 
 void find_pieces(const Model& model, const State& state, ContactWork& work) {
@@ -98,11 +103,6 @@ void choose_skins(const Model& model, const State& state, ContactWork& work) {
     work.skin[b] = std::min(std::max(least, steps_ahead * work.pace[b]), std::max(most, alone[b]));
 }
 
-// m, height of a tet at the surface of its block.
-static double usual(const ContactWork& work, const ContactTriangle& t) {
-  return work.shallow[t.block] / shallow_ratio;
-}
-
 double depth_of(const ContactWork& work, const ContactTriangle& t) {
   return depth_ratio * std::min(t.height, usual(work, t));
 }
@@ -121,8 +121,8 @@ Cover::Cover(const Model& model, const State& state, const ContactWork& work)
     deepest_[b] = std::max(deepest_[b], c.depth);
   }
   for (std::size_t b = 0; b < at_least_.size(); ++b)
-    at_least_[b] =
-        std::max({deepest_[b], 0.5 * edge_depth(work, b), 0.5 * meeting_ratio * model.blocks[b].size});
+    at_least_[b] = std::max({deepest_[b], 0.5 * edge_depth(work, static_cast<int>(b)),
+                             0.5 * meeting_ratio * model.blocks[b].size});
 }
 
 bool TakingPart::finite() const {
