@@ -3,6 +3,7 @@
 #include <atomic>
 #include <csignal>
 #include <ctime>
+#include <sys/prctl.h>
 #include <unistd.h>
 
 namespace cdem::app::interrupt {
@@ -42,6 +43,10 @@ extern "C" void handle(int signal) {
 }
 
 } // namespace
+
+void with_parent() {
+  prctl(PR_SET_PDEATHSIG, SIGTERM);
+}
 
 void install() {
   on_terminal.store(isatty(STDERR_FILENO) == 1);

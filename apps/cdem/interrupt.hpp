@@ -8,6 +8,7 @@ namespace cdem::app::interrupt {
 
 void install();       // handlers of SIGINT and SIGTERM
 bool requested();     // a signal has come
+void with_parent();   // SIGTERM comes when the program that started this one ends, as by kill -9
 void clear();         // forget it (the next line of the repl)
 ExitCode exit_code(); // interrupted or terminated
 

@@ -1,6 +1,7 @@
 #include "tests/apps/support/child.hpp"
 
 #include <catch2/catch.hpp>
+#include <chrono>
 #include <csignal>
 #include <thread>
 
@@ -102,6 +103,29 @@ TEST_CASE("Ctrl-C ends a sweep and every run of it") {
   const auto table = cdem.table();
   REQUIRE(table.size() == 3);
   CHECK_THAT(table[1], StartsWith("1,1,0,"));
+}
+
+TEST_CASE("runs of a sweep end with it, even when it is killed") {
+  Place cdem;
+  cdem.start.signal = SIGKILL;
+  cdem.start.signal_after = "a=1 b=1: done";
+  const Outcome outcome = cdem({"sweep", "sum/case.lua", "--set", "a=1", "--set", "b=1,99", "--jobs", "2"});
+  CHECK(outcome.exit_code == 128 + SIGKILL);
+  const auto runs = [&] { // processes that work in the folder
+    int count = 0;
+    for (const fs::directory_entry& process : fs::directory_iterator("/proc")) {
+      std::error_code none;
+      if (fs::read_symlink(process.path() / "cwd", none) == fs::canonical(cdem.folder.path()))
+        ++count;
+    }
+    return count;
+  };
+  bool ended = false;
+  for (int i = 0; i < 100 && !ended; ++i) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(100));
+    ended = runs() == 0;
+  }
+  CHECK(ended);
 }
 
 TEST_CASE("a sweep that was stopped says what stands and what can be done, which then works") {

@@ -3,6 +3,7 @@
 #include "apps/cdem/build_info.hpp"
 #include "apps/cdem/commands/script_run.hpp"
 #include "apps/cdem/failure.hpp"
+#include "apps/cdem/interrupt.hpp"
 #include "apps/cdem/records.hpp"
 #include "lua/binding/sources.hpp"
 
@@ -73,6 +74,8 @@ void run_script(const RunCommand& command, int threads, OutputFolder& folder,
 } // namespace
 
 ExitCode run(const RunCommand& command) {
+  if (!command.sources.empty()) // of a sweep
+    interrupt::with_parent();
   const fs::path source = script::kept_source(command.sources, command.script.filename(), command.script);
   require_script(source);
   std::signal(SIGPIPE, SIG_IGN); // `cdem run ... | head` must not end a long run
