@@ -4,11 +4,31 @@
 
 #include <catch2/catch.hpp>
 
+#include <functional>
 #include <set>
 
 using namespace testing;
 using geom::Mat3;
 using geom::Vec3;
+
+namespace {
+
+// Moves the upper body as it is.
+void move_upper(System& s, const Vec3& way, std::int64_t every, std::function<void()> look) {
+  const double pace = 0.5; // m/s
+  cdem::Fix fix = fixed(body_of("upper"));
+  fix.velocity = pace * way.normalized();
+  s.conditions.fixes.push_back(fix);
+  cdem::RunOptions options;
+  options.time_step = 2e-6;
+  options.duration = way.norm() / pace;
+  options.callback_every = every;
+  options.callback = std::move(look);
+  s.run(options);
+  s.conditions.fixes.pop_back();
+}
+
+} // namespace
 
 TEST_CASE("contact: crossed edges stop each other", "[contact][edges]") {
   // Two bars, each on one of its edges, crossed: no corner of one comes near a face of the other.
@@ -40,7 +60,7 @@ TEST_CASE("contact: crossed edges stop each other", "[contact][edges]") {
 
 TEST_CASE("contact: an edge pressed on another carries on over the nodes of both", "[contact][edges]") {
   // Two bars on edge, crossed, moved as they are: pressed together by d, then along the bisector over four nodes of each.
-  const double d = 2e-4, gap = 1e-4, across = 0.3 / std::sqrt(2.0), pace = 0.5;
+  const double d = 2e-4, gap = 1e-4, across = 0.3 / std::sqrt(2.0);
   const double phi = GENERATE(0.0, 20.0);
   cdem::Joint law = friction(phi);
   law.shear_stiffness = 1e9;
@@ -51,23 +71,14 @@ TEST_CASE("contact: an edge pressed on another carries on over the nodes of both
                  {{"lower", "upper", law}}));
   s.hold(body_of("lower"), "xyz");
   const auto move = [&](const Vec3& way) {
-    cdem::Fix fix = fixed(body_of("upper"));
-    fix.velocity = pace * way.normalized();
-    s.conditions.fixes.push_back(fix);
-    cdem::RunOptions options;
-    options.time_step = 2e-6;
-    options.duration = way.norm() / pace;
-    options.callback_every = 10;
     std::vector<double> forces;
-    options.callback = [&] {
+    move_upper(s, way, 10, [&] {
       Vec3 force = Vec3::Zero();
       for (const cdem::Contact& c : s.state.contacts)
         force +=
             (cdem::blocks_of(s.model, c).first == 1 ? 1 : -1) * (normal_force(s, c) * c.normal + c.shear);
       forces.push_back(force.norm());
-    };
-    s.run(options);
-    s.conditions.fixes.pop_back();
+    });
     return forces;
   };
   const double pressed = move({0, 0, -gap - d}).back();
@@ -183,7 +194,7 @@ TEST_CASE("contact: a lone corner is felt as soon as its springs are in", "[cont
 TEST_CASE("contact: over nodes of uneven edges what is stored goes on or is lost, and never grows",
           "[contact][edges]") {
   // The lower bar's slices are 0.04 and 0.16 long in turn: soft and stiff edges.
-  const double d = 2e-4, gap = 1e-4, across = 0.3 / std::sqrt(2.0), pace = 0.5;
+  const double d = 2e-4, gap = 1e-4, across = 0.3 / std::sqrt(2.0);
   geom::TetMesh uneven = geom::box_mesh({0.9, 0.3, 0.3}, {9, 2, 2});
   for (Vec3& x : uneven.nodes) {
     const auto slice = static_cast<int>(std::lround(x.x() / 0.1));
@@ -197,20 +208,11 @@ TEST_CASE("contact: over nodes of uneven edges what is stored goes on or is lost
   std::vector<double> stored, friction_taken;
   std::size_t most = 0;
   const auto move = [&](const Vec3& way) {
-    cdem::Fix fix = fixed(body_of("upper"));
-    fix.velocity = pace * way.normalized();
-    s.conditions.fixes.push_back(fix);
-    cdem::RunOptions options;
-    options.time_step = 2e-6;
-    options.duration = way.norm() / pace;
-    options.callback_every = 20;
-    options.callback = [&] {
+    move_upper(s, way, 20, [&] {
       stored.push_back(cdem::contact_energy(s.model, s.state, 0));
       friction_taken.push_back(s.state.spent.friction);
       most = std::max(most, s.state.contacts.size());
-    };
-    s.run(options);
-    s.conditions.fixes.pop_back();
+    });
   };
   move({0, 0, -gap - d});
   const double before = stored.back(), taken = friction_taken.back();
