@@ -182,7 +182,9 @@ Solid read_step(const std::string& path) {
 
 void write_step(const Solid& solid, const std::string& path) {
   in_session("writing " + path, [&] {
-    gmsh::option::setNumber("Geometry.OCCScaling", 1000); // gmsh writes millimetres
+    // gmsh writes millimetres; OpenCASCADE keeps the unit of what was read before.
+    gmsh::option::setNumber("Geometry.OCCScaling", 1000);
+    gmsh::option::setString("Geometry.OCCTargetUnit", "MM");
     load(solid);
     occ::synchronize();
     const TemporaryFile file(".step");

@@ -86,10 +86,13 @@ TEST_CASE("a solid turned by a quarter about z has its x along y") {
 
 TEST_CASE("a STEP file comes back with its size in metres") {
   const TemporaryFolder folder;
-  write_step(left, folder / "box.step");
-  const Solid again = read_step(folder / "box.step");
-  CHECK(volume(again) == Approx(6).epsilon(1e-9));
-  CHECK((bounding_box(again).max - Vec3(1, 2, 3)).norm() < 1e-6);
+  Solid again = left;
+  for (int i = 0; i < 2; ++i) { // what was read before does not change how files are written
+    write_step(again, folder / "box.step");
+    again = read_step(folder / "box.step");
+    CHECK(volume(again) == Approx(6).epsilon(1e-9));
+    CHECK((bounding_box(again).max - Vec3(1, 2, 3)).norm() < 1e-6);
+  }
 }
 
 TEST_CASE("a STEP file that is missing or none is refused") {
