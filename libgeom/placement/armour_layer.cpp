@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <memory>
 
 namespace geom {
 namespace {
@@ -87,8 +88,6 @@ Pattern choose_pattern(const Pile& pile, int count, const LayerOptions& options,
 
 // Lays rows from the toe, each unit one spacing above where the two below it have come to lie. Returns the density.
 double lay_rows(Pile& pile, int count, const Pattern& pattern, const Vec3& first, Laying& laying) {
-  std::vector<double> rows; // m up the slope, means of full ones
-  double sum = 0;
   pile.poses.clear();
   for (int i = 0; i < count; ++i) {
     const int row = i / pattern.columns, column = i % pattern.columns;
@@ -110,9 +109,15 @@ double lay_rows(Pile& pile, int count, const Pattern& pattern, const Vec3& first
         Vec3(first.x() + (column - 0.5 * (pattern.columns - 1) + shift) * pattern.spacing.across, up, 0);
     const double behind = first.y() + row * pattern.spacing.rows - up;
     site.wanted = up + std::clamp(behind, -catch_up * pile.height, catch_up * pile.height);
-    pile.poses.push_back(laying.lay(site));
+    laying.lay(site);
+  }
+  laying.rest_together(pattern.columns);
+  std::vector<double> rows; // m up the slope, means of full ones
+  double sum = 0;
+  for (int i = 0; i < count; ++i) {
+    pile.poses.push_back(laying.pose(i));
     sum += laying.place(i).y();
-    if (column + 1 == pattern.columns) {
+    if ((i + 1) % pattern.columns == 0) {
       rows.push_back(sum / pattern.columns);
       sum = 0;
     }
@@ -141,7 +146,7 @@ std::optional<double> measured_density(const Pile& pile, const Ground& ground) {
 Pile place_layer(const TetMesh& unit, int count, const Ground& ground, const LayerOptions& options) {
   check(options, count);
   Pile pile = pile_of(unit);
-  const double gap = options.gap.value_or(1e-3 * pile.height);
+  const double gap = options.gap.value_or(1e-4 * pile.height);
   require_positive("gap", gap);
   const PlanBox region = region_of(ground, options.region);
   const Mat3 frame = slope_frame(ground.normal(region));
@@ -160,7 +165,7 @@ Pile place_layer(const TetMesh& unit, int count, const Ground& ground, const Lay
   // Units that lean on the row below stand closer than the pattern: its places along the contour are widened until
   // the density is the one asked for.
   const Vec3 first(room.centre().x(), room.min.y() + bounding_radius(pile.unit), 0);
-  Pile best;
+  std::unique_ptr<Laying> best;
   double widening = 1, least_error = far;
   const Pattern as_asked = choose_pattern(pile, count, options, room.size().head<2>());
   const double widest = std::clamp(
@@ -174,17 +179,20 @@ Pile place_layer(const TetMesh& unit, int count, const Ground& ground, const Lay
           (0.5 * (pattern.columns - 1) + 0.25) * pattern.spacing.across + mean_half_width(pile.unit);
       walls = Laying::Between{first.x() - half, first.x() + half};
     }
-    Laying laying(pile, ground, frame, gap, options, pattern.spacing, walls);
-    const double by_rows = lay_rows(pile, count, pattern, first, laying);
+    auto laying = std::make_unique<Laying>(pile, ground, frame, gap, options, pattern.spacing, walls);
+    const double by_rows = lay_rows(pile, count, pattern, first, *laying);
     const double density = measured_density(pile, ground).value_or(by_rows);
     const double error = std::abs(density / options.density - 1);
     if (error < least_error) {
       least_error = error;
-      best = pile;
+      best = std::move(laying);
     }
     widening = std::clamp(widening * density / options.density, 0.8, widest);
   }
-  return best;
+  best->reseat(as_asked.columns);
+  for (int i = 0; i < count; ++i)
+    pile.poses[i] = best->pose(i);
+  return pile;
 }
 
 } // namespace geom

@@ -3,10 +3,11 @@
 //
 // phi = N Dn^2 / A is the packing density: N units on an area A of the slope, Dn the side of a cube of their volume.
 // The pattern is a diamond, twice as wide along the contour as its rows are apart, so that rows are Dn / sqrt(2 phi)
-// apart. Units lie at rest under gravity with friction, slid down against the two below, and keep `gap` from all others
-// (placement/laying.hpp). How far apart rows then are depends on how units fit: the pattern is widened along the contour
-// until the density in the middle of the pile (of rows and columns, where it has no middle) is phi within 1 %, in four
-// trials at most, of which the nearest is taken.
+// apart. Units lie at rest under gravity with friction, slid down against the two below, and keep `gap` from all others;
+// then all but the lowest row, which is taken for held, come to rest together, and those that lean on fewer than three
+// things are seated otherwise (placement/laying.hpp). How far apart rows then are depends on how units fit: the pattern
+// is widened along the contour until the density in the middle of the pile (of rows and columns, where it has no middle)
+// is phi within 1 %, in four trials at most, of which the nearest is taken.
 #pragma once
 
 #include "libgeom/placement/ground.hpp"
@@ -17,14 +18,14 @@ namespace geom {
 struct LayerOptions {
   double density = 0.645;        // phi
   std::optional<int> columns;    // units in a row; as many as the region allows
-  std::optional<double> gap;     // m, clear distance; a thousandth of the unit's height
+  std::optional<double> gap;     // m, clear distance; a ten-thousandth of the unit's height
   std::optional<PlanBox> region; // over the ground; all of it
   std::uint64_t seed = 1;        // of the attitudes
   int attitudes = 1500;          // tried for the family
-  int nudges = 200;              // steps of a unit on its way to rest; 0: only lowered on to what is there
-  double play = 0.1;             // of the height: how far along the contour from its place a unit may be laid
-  double friction = 0.268;       // coefficient, tan 15 degrees: with so much laid units are at rest
-  bool walls = false;            // upright along the slope, where rows end
+  int nudges = 200; // steps of a unit on its way to rest; 0: only lowered on to what is there, each by itself
+  double play = 0.1;       // of the height: how far along the contour from its place a unit may be laid
+  double friction = 0.268; // coefficient, tan 15 degrees: with so much laid units are at rest
+  bool walls = false;      // upright along the slope, where rows end
 };
 
 // Throws InputError for a count below 1, a density or gap out of range, a ground that is too small.

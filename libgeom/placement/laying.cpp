@@ -28,8 +28,7 @@ constexpr double lowest_rest = -0.4; // over the height: how far below its place
 
 constexpr double to_wall = 0.3; // over the height: how far beyond the play a unit at the end of a row may be
 
-constexpr double way = 1.5;  // over the height: how far a unit may go
-constexpr double roll = 0.5; // over the height: how far a unit may move once it is not held in its place
+constexpr double way = 1.5; // over the height: how far a unit may go
 
 int carriers(const Rest& rest) {
   return static_cast<int>(std::count(rest.carried_by.begin(), rest.carried_by.end(), 1));
@@ -41,11 +40,6 @@ constexpr double neighbours = 1.3; // over the height: how far apart
 // Every use has random numbers of its own.
 constexpr std::uint64_t turn_id = std::uint64_t{1} << 42, any_id = std::uint64_t{1} << 43,
                         stand_id = std::uint64_t{1} << 44;
-
-Mat3 turned(const Mat3& rotation, const Vec3& by) { // radians
-  return by.norm() > 0 ? Mat3(Eigen::AngleAxisd(by.norm(), by.normalized()).toRotationMatrix() * rotation)
-                       : rotation;
-}
 
 // Better too far down the slope, where units are keyed, than too far up.
 double astray(double up) {
@@ -98,10 +92,15 @@ double Laying::ground_level(const Vec3& place) const {
   return z ? frame_.row(2).dot(Vec3(x.x(), x.y(), *z)) : 0;
 }
 
-Laying::Near Laying::near(const Vec3& centroid, double reach) const {
+// What a unit may meet on its way to rest.
+Laying::Near Laying::on_the_way(const Vec3& centroid, int except) const {
+  return near(centroid, 2 * radius_ + (way + roll) * height_, except);
+}
+
+Laying::Near Laying::near(const Vec3& centroid, double reach, int except) const {
   Near found;
   for (const Laid& other : laid_)
-    if ((other.pose.translation - centroid).norm() < reach)
+    if (&other - laid_.data() != except && (other.pose.translation - centroid).norm() < reach)
       found.push_back(&other);
   return found;
 }
@@ -140,6 +139,7 @@ RestOptions Laying::resting(double friction) const {
   options.clear = gap_;
   options.step = 0.03 * height_;
   options.last_step = std::min(gap_, 1e-3 * height_);
+  options.probe = 5e-3 * height_;
   options.gyration = gyration_;
   options.steps = options_.nudges;
   options.way = way * height_;
@@ -244,7 +244,7 @@ Laying::Try Laying::rested(const Try& first, const Site& site, const Near& near)
 }
 
 int Laying::carriers_wanted(const Site& site) {
-  return site.below.empty() ? 1 : 3;
+  return site.below.empty() ? 1 : carried_by;
 }
 
 double Laying::cost(const Rest& rest, const Site& site, const Near& near) const {
@@ -292,7 +292,7 @@ Pose Laying::raised(Pose pose, const Near& near) const {
   return pose;
 }
 
-Pose Laying::lay(const Site& site) {
+void Laying::lay(const Site& site) {
   const std::vector<Mat3> rotations = attitudes(site);
   std::vector<Try> tries;
   tries.reserve(rotations.size());
@@ -311,7 +311,7 @@ Pose Laying::lay(const Site& site) {
   for (std::size_t i = 0; options_.nudges > 0 && i < tries.size(); ++i) {
     if ((i >= rested_tries && best.good) || tries[i].cost == far)
       break;
-    const Near around = near(tries[i].pose.translation, 2 * radius_ + (way + roll) * height_);
+    const Near around = on_the_way(tries[i].pose.translation);
     const Try one = rested(tries[i], site, around);
     if (one.cost < best.cost && clear(one.pose, around))
       best = one;
@@ -322,11 +322,14 @@ Pose Laying::lay(const Site& site) {
         " of the layer: it fits between the walls in none of its attitudes; ask for more columns or "
         "a lower density, or leave the walls out");
   const Near around = near(best.pose.translation, 2 * radius_ + height_);
-  Pose pose = best.cost < far ? best.pose : raised(best.pose, around);
+  sites_.push_back(site);
+  laid_.push_back(laid_at(best.cost < far ? best.pose : raised(best.pose, around)));
+}
+
+Laying::Laid Laying::laid_at(const Pose& pose) const {
   Surface surface = surface_at(pose);
   Profile profile(surface, frame_);
-  laid_.push_back({pose, moved(features_, pose), std::move(surface), std::move(profile)});
-  return pose;
+  return {pose, moved(features_, pose), std::move(surface), std::move(profile)};
 }
 
 } // namespace geom

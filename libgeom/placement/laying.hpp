@@ -1,4 +1,4 @@
-// Laying one unit of an armour layer after the other, each at rest.
+// Laying one unit of an armour layer after the other, each at rest; then all of them at rest together.
 //
 // A unit is tried in many attitudes: some in which it stands on the bare slope by itself, some that fit into the
 // pattern, any others. In each it is lowered along the normal of the slope as near to its place as it comes down to the
@@ -33,8 +33,16 @@ public:
     int end = 0;               // -1, 1: nothing is below it on that side, it may go there as far as the wall
   };
   // Throws InputError where there is no ground.
-  Pose lay(const Site&);
+  void lay(const Site&);
 
+  // Units from number `held` on come to rest once more, all together: those above press on those below. False where they
+  // do not.
+  bool rest_together(int held);
+  // After that: units on which fewer than three things press are seated otherwise, and all rest together again, until
+  // there are none, or so many times.
+  void reseat(int held);
+
+  const Pose& pose(int unit) const { return laid_[unit].pose; }
   // In the slope's axes, of the centroid.
   Vec3 place(int unit) const { return frame_ * laid_[unit].pose.translation; }
 
@@ -51,6 +59,9 @@ private:
     bool good = false; // at rest on three things or more
   };
   using Near = std::vector<const Laid*>;
+  static constexpr int carried_by = 3; // things, at least, above the first row
+  static constexpr double roll =
+      0.5; // over the height: how far a unit may move once it is not held in its place
 
   std::vector<Mat3> stands() const;
   std::vector<Mat3> attitudes(const Site&) const;
@@ -60,7 +71,11 @@ private:
   double cost(const Rest&, const Site&, const Near&) const;
   bool clear(const Pose&, const Near&) const;
   Pose raised(Pose, const Near&) const;
-  Near near(const Vec3& centroid, double reach) const;
+  Laid laid_at(const Pose&) const;
+  Near near(const Vec3& centroid, double reach, int except = -1) const;
+  Near on_the_way(const Vec3& centroid, int except = -1) const;
+  bool rest_together(int held, double step, int steps);
+  bool seat_otherwise(int unit, int round);
   double ground_level(const Vec3& place) const;
   double standing() const;
   RestOptions resting(double friction) const;
@@ -81,7 +96,9 @@ private:
   std::vector<Features> wall_features_;
   std::vector<Mat3> family_; // attitudes that fit into the pattern
   std::vector<Mat3> stands_; // in which a unit stands on the bare slope by itself
+  std::vector<Site> sites_;
   std::vector<Laid> laid_;
+  std::vector<int> short_; // units on which fewer than three press, after all have come to rest together
 };
 
 } // namespace geom

@@ -75,6 +75,11 @@ Mat3 random_rotation(std::uint64_t seed, std::uint64_t id, std::uint64_t first_d
       .toRotationMatrix();
 }
 
+Mat3 turned(const Mat3& rotation, const Vec3& by) {
+  return by.norm() > 0 ? Mat3(Eigen::AngleAxisd(by.norm(), by.normalized()).toRotationMatrix() * rotation)
+                       : rotation;
+}
+
 Pose best_fit(const std::vector<Vec3>& points, const std::vector<Vec3>& places,
               const std::vector<double>& weights) {
   assert(points.size() == places.size() && points.size() == weights.size());

@@ -33,6 +33,8 @@ double bounding_radius(const TetMesh& centred); // m, of the sphere about the or
 // Uniform over all rotations (Shoemake 1992), from three random numbers keyed by (seed, id, draw).
 Mat3 random_rotation(std::uint64_t seed, std::uint64_t id, std::uint64_t first_draw = 0);
 
+Mat3 turned(const Mat3& rotation, const Vec3& by); // about the direction of `by`, by its length, radians
+
 // The motion that takes points to places with the least sum of weighted squared distances (Kabsch 1976).
 Pose best_fit(const std::vector<Vec3>& points, const std::vector<Vec3>& places,
               const std::vector<double>& weights);

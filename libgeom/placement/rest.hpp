@@ -1,10 +1,8 @@
 // Where a rigid body comes to rest among bodies that do not move: it goes down in small steps, each from rest, without
 // inertia, until friction holds it.
 //
-// A step is that of contact dynamics (Moreau 1988) begun at rest: the motion v of centroid and body, pulled by s along
-// gravity, with impulses at all touches within reach so that normal . v + gap >= the clear distance, no impulse pulls,
-// and friction keeps a touch from sliding within mu times its normal impulse. v = 0 there is equilibrium with friction.
-// The impulses are found one by one in turn (projected Gauss-Seidel).
+// A step is that of placement/contact_impulses.hpp, which keeps bodies the clear distance apart: v = 0 there is
+// equilibrium with friction.
 #pragma once
 
 #include "libgeom/placement/features.hpp"
@@ -17,6 +15,7 @@ struct RestOptions {
   double clear = 0;     // m, distance kept from the others
   double step = 0;      // m, s at first
   double last_step = 0; // m; s is made smaller, down to this, whenever the body has come to rest
+  double probe = 0;     // m, s of the step that tells what presses on a body at rest
   double gyration = 0;  // m, radius of gyration of the body
   int steps = 200;      // at most
   double way = std::numeric_limits<double>::infinity(); // m; a body that has gone further is not followed

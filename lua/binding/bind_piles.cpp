@@ -209,25 +209,26 @@ void bind_piles(Module& m) {
   m.functions.push_back(
       {"place",
        "One layer of armour units on a slope, in the staggered pattern of a packing density: row by row from "
-       "the toe, each unit above the gap between two of the row below and slid down against them, at rest "
-       "under its weight with friction, on the slope and its neighbours.",
+       "the toe, each unit above the gap between two of the row below and slid down against them; then all "
+       "but the lowest row, which is to be held, come to rest together under their weight with friction.",
        with({number("density").within(0.05, 1.5).standard(0.645).doc(
                  "phi = N Dn^2 / A, units on an area of slope times that of their equal cube's side"),
              integer("columns").at_least(1).doc("units in a row; as many as the region allows when left out"),
-             number("gap").above(0).unit("m").doc("clear distance; a thousandth of the unit's height"),
+             number("gap").above(0).unit("m").doc("clear distance; a ten-thousandth of the unit's height"),
              integer("attitudes")
                  .within(1, 1e6)
                  .standard(1500)
                  .doc("of which those are taken that fit into the pattern, beside others"),
              integer("nudges").within(0, 100000).standard(200).doc(
-                 "steps of a unit on its way to rest, at most; 0: only lowered on to what is there"),
+                 "steps of a unit on its way to rest, at most; 0: only lowered on to what is there, each by "
+                 "itself"),
              number("play").within(0, 1).standard(0.1).doc(
                  "how far along the contour a unit may be from its place, over its height"),
              number("friction_angle")
                  .from(0, 90)
                  .unit("deg")
                  .standard(15.0)
-                 .doc("with so much, or the slope's angle for the lowest row, each unit is at rest"),
+                 .doc("with so much units are at rest; the lowest row with more than the slope's angle"),
              flag("walls").standard(false).doc("at both ends of the rows walls stand along the slope, on "
                                                "which units lean; the pile's box ends there")}),
        false, "cdem.Pile", "", lay});

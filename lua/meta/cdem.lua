@@ -1410,14 +1410,14 @@ function cdem.drop(options) end
 ---@field seed? integer >= 0, default 1: of the attitudes
 ---@field density? number in [0.05, 1.5], default 0.645: phi = N Dn^2 / A, units on an area of slope times that of their equal cube's side
 ---@field columns? integer >= 1: units in a row; as many as the region allows when left out
----@field gap? number m, > 0: clear distance; a thousandth of the unit's height
+---@field gap? number m, > 0: clear distance; a ten-thousandth of the unit's height
 ---@field attitudes? integer in [1, 1e+06], default 1500: of which those are taken that fit into the pattern, beside others
----@field nudges? integer in [0, 1e+05], default 200: steps of a unit on its way to rest, at most; 0: only lowered on to what is there
+---@field nudges? integer in [0, 1e+05], default 200: steps of a unit on its way to rest, at most; 0: only lowered on to what is there, each by itself
 ---@field play? number in [0, 1], default 0.1: how far along the contour a unit may be from its place, over its height
----@field friction_angle? number deg, in [0, 90), default 15: with so much, or the slope's angle for the lowest row, each unit is at rest
+---@field friction_angle? number deg, in [0, 90), default 15: with so much units are at rest; the lowest row with more than the slope's angle
 ---@field walls? boolean default false: at both ends of the rows walls stand along the slope, on which units lean; the pile's box ends there
 
----One layer of armour units on a slope, in the staggered pattern of a packing density: row by row from the toe, each unit above the gap between two of the row below and slid down against them, at rest under its weight with friction, on the slope and its neighbours.
+---One layer of armour units on a slope, in the staggered pattern of a packing density: row by row from the toe, each unit above the gap between two of the row below and slid down against them; then all but the lowest row, which is to be held, come to rest together under their weight with friction.
 ---@param options cdem.PlaceOptions
 ---@return cdem.Pile
 function cdem.place(options) end

@@ -26,6 +26,7 @@ RestOptions resting(double friction) {
   options.clear = clear_distance;
   options.step = 0.03;
   options.last_step = 1e-3;
+  options.probe = 5e-3;
   options.gyration = 0.4;
   options.steps = 2000;
   options.way = 3;

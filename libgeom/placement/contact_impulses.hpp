@@ -1,0 +1,54 @@
+// One step of contact dynamics (Moreau 1988) begun at rest: the motions v of bodies, each pulled by s along gravity, with
+// impulses at all touches within reach so that normal . v + room >= 0, no impulse pulls, and friction keeps a touch from
+// sliding within mu times its normal impulse. The impulses are found one by one in turn (projected Gauss-Seidel).
+//
+// Bodies are alike: of one mass and one radius of gyration about all axes.
+#pragma once
+
+#include "libgeom/placement/features.hpp"
+
+namespace geom {
+
+struct Motion {
+  Vec3 shift = Vec3::Zero(), turn = Vec3::Zero(); // m; the turn times the radius of gyration
+  double norm() const { return std::sqrt(shift.squaredNorm() + turn.squaredNorm()); }
+};
+
+// One direction at a point of one body or two, in which an impulse acts: on the first along it, on the second against it.
+struct ImpulseRow {
+  Vec3 direction, turn, other_turn;
+  double mass = 0; // inverse: motion along the direction per impulse
+  double impulse = 0;
+};
+
+struct BodyTouch {
+  int body = 0, other = -1;         // indices of motions; -1: what does not move
+  ImpulseRow normal, first, second; // the last two along the face
+  double room = 0;                  // m, until it touches
+};
+
+// A centroid stays where direction . x >= an offset.
+struct BodyBound {
+  int body = 0;
+  ImpulseRow row;
+  double room = 0; // m
+};
+
+struct Centroids {
+  Vec3 body, other; // m
+};
+BodyTouch body_touch(const Touch&, int body, int other, const Centroids&, double gyration);
+BodyBound body_bound(const Plane&, int body, const Vec3& centroid);
+
+struct ImpulseOptions {
+  double friction = 0;   // tangent of its angle
+  double step = 0;       // m, s
+  int sweeps = 60;       // over all impulses, at most
+  double compliance = 0; // m that a touch gives way by per m of impulse, along the face too
+};
+
+// Of all bodies; the impulses are left in the rows. Touches deeper than a step are taken for one.
+std::vector<Motion> motions(std::vector<BodyTouch>&, std::vector<BodyBound>&, std::size_t bodies,
+                            const Vec3& pull, const ImpulseOptions&);
+
+} // namespace geom

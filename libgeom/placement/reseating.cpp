@@ -1,0 +1,119 @@
+// Laying, second part: all units come to rest together, and those that lean on too little are seated otherwise.
+#include "libgeom/placement/laying.hpp"
+
+#include "libgeom/core/random.hpp"
+#include "libgeom/placement/rest_together.hpp"
+
+#include <limits>
+
+namespace geom {
+namespace {
+
+// Of all units at once.
+constexpr int first_steps = 1000, later_steps = 400;    // at most
+constexpr double first_step = 0.01, later_step = 0.003; // over the height
+
+// Of seating otherwise units that too few others press on.
+constexpr int rounds = 20, rounds_in_vain = 8; // at most, the latter in a row
+constexpr std::uint64_t seats_tried = 40;
+constexpr int seats_wanted = 4;
+constexpr double same_seat = 0.01;                   // over the height: nearer is the seat it had
+constexpr double least_turn = 0.1, turn_step = 0.02; // radians
+constexpr double seat_lift = 0.3;                    // over the height
+constexpr double seat_shift = 0.3;                   // over the height, for each radian
+
+constexpr std::uint64_t seat_id = std::uint64_t{1} << 45; // random numbers of its own
+
+} // namespace
+
+bool Laying::rest_together(int held) {
+  return rest_together(held, first_step * height_, first_steps);
+}
+
+bool Laying::rest_together(int held, double step, int steps) {
+  short_.clear();
+  if (options_.nudges == 0 || held >= static_cast<int>(laid_.size()))
+    return false;
+  std::vector<const Features*> others{&ground_features_};
+  for (const Features& wall : wall_features_)
+    others.push_back(&wall);
+  std::vector<Pose> poses;
+  for (int i = 0; i < static_cast<int>(laid_.size()); ++i) {
+    if (i < held)
+      others.push_back(&laid_[i].features);
+    else
+      poses.push_back(laid_[i].pose);
+  }
+  RestOptions options = resting(options_.friction);
+  options.step = step;
+  options.steps = steps;
+  options.way = roll * height_;
+  const RestTogether rest = come_to_rest_together(features_, poses, others, options);
+  std::vector<Laid> before(laid_.begin(), laid_.begin() + held);
+  for (const Pose& pose : rest.poses)
+    before.push_back(laid_at(pose));
+  std::swap(laid_, before);
+  for (int i = held; i < static_cast<int>(laid_.size()); ++i)
+    if (!clear(laid_[i].pose, near(laid_[i].pose.translation, 2 * radius_ + gap_, i))) {
+      std::swap(laid_, before);
+      return false;
+    }
+  for (std::size_t i = 0; i < rest.pressed_by.size(); ++i)
+    if (rest.stayed[i] == 0 && rest.pressed_by[i] < carried_by)
+      short_.push_back(held + static_cast<int>(i));
+  return rest.still;
+}
+
+// The nearest of some other seats near by where three things carry it by itself: turned a little, or in any attitude from
+// above. False where there is none.
+bool Laying::seat_otherwise(int unit, int round) {
+  const Pose here = laid_[unit].pose;
+  const Near around = on_the_way(here.translation, unit);
+  const std::vector<Mat3> rotations = attitudes(sites_[unit]);
+  const std::uint64_t id =
+      seat_id + static_cast<std::uint64_t>(unit) + (static_cast<std::uint64_t>(round) << 32);
+  Try best{here, std::numeric_limits<double>::infinity()};
+  int found = 0;
+  for (std::uint64_t k = 0; k < seats_tried && found < seats_wanted; ++k) {
+    const auto draw = [&](std::uint64_t i) { return 2 * uniform(options_.seed, id, 6 * k + i) - 1; };
+    const double angle = least_turn * (1 + round) + turn_step * static_cast<double>(k);
+    const Vec3 turn = angle * Vec3(draw(0), draw(1), draw(2));
+    const Vec3 shift = seat_shift * height_ * angle * Vec3(draw(3), draw(4), draw(5));
+    Pose start{turned(here.rotation, turn), here.translation + shift};
+    const bool anew = k % 2 == 1;
+    if (anew) {
+      const std::uint64_t number = (k + seats_tried * static_cast<std::uint64_t>(round)) / 2;
+      start.rotation = turned(rotations[number % rotations.size()], turn);
+      start.translation += seat_lift * height_ * frame_.row(2);
+    }
+    const Try one = rested({start}, sites_[unit], around);
+    const double away = (one.pose.translation - here.translation).norm();
+    if (!one.good || (!anew && away < same_seat * height_) || !clear(one.pose, around))
+      continue;
+    ++found;
+    if (away < best.cost)
+      best = {one.pose, away};
+  }
+  if (found > 0)
+    laid_[unit] = laid_at(best.pose);
+  return found > 0;
+}
+
+void Laying::reseat(int held) {
+  int in_vain = 0; // rounds in a row
+  for (int round = 0; round < rounds && in_vain < rounds_in_vain && !short_.empty(); ++round) {
+    const std::vector<Laid> before = laid_;
+    const std::vector<int> were_short = short_;
+    bool any = false;
+    for (const int unit : were_short)
+      any = seat_otherwise(unit, round) || any;
+    const bool rests = any && rest_together(held, later_step * height_, later_steps);
+    in_vain = rests && short_.size() < were_short.size() ? 0 : in_vain + 1;
+    if (rests && short_.size() <= were_short.size())
+      continue;
+    laid_ = before;
+    short_ = were_short;
+  }
+}
+
+} // namespace geom

@@ -1,0 +1,24 @@
+// Where many rigid bodies of one shape come to rest together, pressing on each other and on others that do not move: all of
+// them go down in small steps, each from rest, without inertia, until friction holds them.
+//
+// They are at rest when in four steps, of gravity tilted four ways, none has gone on: what only rocks comes back. Where
+// one slides on and on steps become larger again. One that goes further than `way` is put back and stays.
+#pragma once
+
+#include "libgeom/placement/rest.hpp"
+
+namespace geom {
+
+struct RestTogether {
+  std::vector<Pose> poses;
+  bool still = false;       // all of them at rest
+  std::vector<char> stayed; // those that would have gone further than `way`: they are where they were
+  // How many others, moving or not, press on each with a fiftieth of its weight or more; empty unless still.
+  std::vector<int> pressed_by;
+};
+
+// Of bodies of one shape that press on each other and on others that do not move; `bounds` are not asked.
+RestTogether come_to_rest_together(const Features& shape, const std::vector<Pose>& start,
+                                   const std::vector<const Features*>& others, const RestOptions&);
+
+} // namespace geom
