@@ -183,7 +183,7 @@ Pile place_layer(const TetMesh& unit, int count, const Ground& ground, const Lay
     const double by_rows = lay_rows(pile, count, pattern, first, *laying);
     const double density = measured_density(pile, ground).value_or(by_rows);
     const double error = std::abs(density / options.density - 1);
-    if (error < least_error) {
+    if (!best || error < least_error) {
       least_error = error;
       best = std::move(laying);
     }

@@ -3,11 +3,11 @@
 //
 // phi = N Dn^2 / A is the packing density: N units on an area A of the slope, Dn the side of a cube of their volume.
 // The pattern is a diamond, twice as wide along the contour as its rows are apart, so that rows are Dn / sqrt(2 phi)
-// apart. Units lie at rest under gravity with friction, slid down against the two below, and keep `gap` from all others;
-// then all but the lowest row, which is taken for held, come to rest together, and those that lean on fewer than three
-// things are seated otherwise (placement/laying.hpp). How far apart rows then are depends on how units fit: the pattern
-// is widened along the contour until the density in the middle of the pile (of rows and columns, where it has no middle)
-// is phi within 1 %, in four trials at most, of which the nearest is taken.
+// apart. Units lie at rest under gravity with friction, slid down against the two below, and keep `gap` from all
+// others; then all but the lowest row, which is taken for held, come to rest together, and those that lean on fewer
+// than three things are seated otherwise (placement/laying.hpp). How far apart rows then are depends on how units
+// fit: the pattern is widened along the contour until the density in the middle of the pile (of rows and columns,
+// where it has no middle) is phi within 1 %, in four trials at most, of which the nearest is taken.
 #pragma once
 
 #include "libgeom/placement/ground.hpp"

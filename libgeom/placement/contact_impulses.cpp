@@ -87,7 +87,8 @@ std::vector<Motion> motions(std::vector<BodyTouch>& touches, std::vector<BodyBou
     double most = 0;
     for (BodyBound& bound : bounds)
       most = std::max(most, press(bound.row, bound.room, 0, all[bound.body], nullptr));
-    // To and fro where there are many: weight goes down through all of them in one sweep if they are listed from the top.
+    // To and fro where there are many: weight goes down through all of them in one sweep if they are listed from the
+    // top.
     if (bodies == 1 || k % 2 == 0)
       for (auto touch = touches.begin(); touch != touches.end(); ++touch)
         most = std::max(most, meet(*touch, all, options));

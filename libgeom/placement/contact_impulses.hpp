@@ -1,6 +1,7 @@
-// One step of contact dynamics (Moreau 1988) begun at rest: the motions v of bodies, each pulled by s along gravity, with
-// impulses at all touches within reach so that normal . v + room >= 0, no impulse pulls, and friction keeps a touch from
-// sliding within mu times its normal impulse. The impulses are found one by one in turn (projected Gauss-Seidel).
+// One step of contact dynamics (Moreau 1988) begun at rest: the motions v of bodies, each pulled by s along gravity,
+// with impulses at all touches within reach so that normal . v + room >= 0, no impulse pulls, and friction keeps a
+// touch from sliding within mu times its normal impulse. The impulses are found one by one in turn (projected Gauss-
+// Seidel).
 //
 // Bodies are alike: of one mass and one radius of gyration about all axes.
 #pragma once
@@ -14,7 +15,8 @@ struct Motion {
   double norm() const { return std::sqrt(shift.squaredNorm() + turn.squaredNorm()); }
 };
 
-// One direction at a point of one body or two, in which an impulse acts: on the first along it, on the second against it.
+// One direction at a point of one body or two, in which an impulse acts: on the first along it, on the second against
+// it.
 struct ImpulseRow {
   Vec3 direction, turn, other_turn;
   double mass = 0; // inverse: motion along the direction per impulse

@@ -5,6 +5,7 @@
 #include "libgeom/placement/rest.hpp"
 
 #include <algorithm>
+#include <cassert>
 
 namespace geom {
 
@@ -40,6 +41,7 @@ inline double move(Pose& pose, const Motion& v, double gyration, double radius) 
 
 // What the impulses of one more step tell of a body at rest: what presses on it, and would with more friction.
 inline ImpulseOptions probing(const RestOptions& options, int sweeps) {
+  assert(options.probe > 0);
   return {descent::more_friction * options.friction, options.probe, sweeps, descent::gives};
 }
 

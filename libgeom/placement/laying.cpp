@@ -244,7 +244,7 @@ Laying::Try Laying::rested(const Try& first, const Site& site, const Near& near)
 }
 
 int Laying::carriers_wanted(const Site& site) {
-  return site.below.empty() ? 1 : carried_by;
+  return site.below.empty() ? 1 : least_carriers;
 }
 
 double Laying::cost(const Rest& rest, const Site& site, const Near& near) const {

@@ -1,4 +1,5 @@
-// Laying one unit of an armour layer after the other, each at rest; then all of them at rest together.
+// Laying one unit of an armour layer after the other, each at rest; then all of them come to rest together, and those
+// that lean on too little are seated otherwise (reseating.cpp).
 //
 // A unit is tried in many attitudes: some in which it stands on the bare slope by itself, some that fit into the
 // pattern, any others. In each it is lowered along the normal of the slope as near to its place as it comes down to the
@@ -35,8 +36,8 @@ public:
   // Throws InputError where there is no ground.
   void lay(const Site&);
 
-  // Units from number `held` on come to rest once more, all together: those above press on those below. False where they
-  // do not.
+  // Units from number `held` on come to rest once more, all together: those above press on those below. False where
+  // they do not; if they are not clear of each other then, they are where they were.
   bool rest_together(int held);
   // After that: units on which fewer than three things press are seated otherwise, and all rest together again, until
   // there are none, or so many times.
@@ -59,7 +60,7 @@ private:
     bool good = false; // at rest on three things or more
   };
   using Near = std::vector<const Laid*>;
-  static constexpr int carried_by = 3; // things, at least, above the first row
+  static constexpr int least_carriers = 3; // things, above the first row
   static constexpr double roll =
       0.5; // over the height: how far a unit may move once it is not held in its place
 
@@ -98,7 +99,10 @@ private:
   std::vector<Mat3> stands_; // in which a unit stands on the bare slope by itself
   std::vector<Site> sites_;
   std::vector<Laid> laid_;
-  std::vector<int> short_; // units on which fewer than three press, after all have come to rest together
+  // After all have come to rest together: units on which fewer than three things press, and how many were put back and
+  // stay.
+  std::vector<int> short_;
+  int stayed_ = 0;
 };
 
 } // namespace geom

@@ -4,6 +4,7 @@
 #include "libgeom/core/random.hpp"
 #include "libgeom/placement/rest_together.hpp"
 
+#include <algorithm>
 #include <limits>
 
 namespace geom {
@@ -32,6 +33,7 @@ bool Laying::rest_together(int held) {
 
 bool Laying::rest_together(int held, double step, int steps) {
   short_.clear();
+  stayed_ = 0;
   if (options_.nudges == 0 || held >= static_cast<int>(laid_.size()))
     return false;
   std::vector<const Features*> others{&ground_features_};
@@ -49,23 +51,24 @@ bool Laying::rest_together(int held, double step, int steps) {
   options.steps = steps;
   options.way = roll * height_;
   const RestTogether rest = come_to_rest_together(features_, poses, others, options);
-  std::vector<Laid> before(laid_.begin(), laid_.begin() + held);
+  std::vector<Laid> other(laid_.begin(), laid_.begin() + held); // laid_ as it will be, then as it was
   for (const Pose& pose : rest.poses)
-    before.push_back(laid_at(pose));
-  std::swap(laid_, before);
+    other.push_back(laid_at(pose));
+  std::swap(laid_, other);
   for (int i = held; i < static_cast<int>(laid_.size()); ++i)
     if (!clear(laid_[i].pose, near(laid_[i].pose.translation, 2 * radius_ + gap_, i))) {
-      std::swap(laid_, before);
+      std::swap(laid_, other);
       return false;
     }
+  stayed_ = static_cast<int>(std::count(rest.stayed.begin(), rest.stayed.end(), 1));
   for (std::size_t i = 0; i < rest.pressed_by.size(); ++i)
-    if (rest.stayed[i] == 0 && rest.pressed_by[i] < carried_by)
+    if (rest.stayed[i] == 0 && rest.pressed_by[i] < least_carriers)
       short_.push_back(held + static_cast<int>(i));
   return rest.still;
 }
 
-// The nearest of some other seats near by where three things carry it by itself: turned a little, or in any attitude from
-// above. False where there is none.
+// The nearest of some other seats near by where three things carry it by itself: turned and shifted, more in each
+// round, or lifted and in any attitude. False where there is none.
 bool Laying::seat_otherwise(int unit, int round) {
   const Pose here = laid_[unit].pose;
   const Near around = on_the_way(here.translation, unit);
@@ -104,15 +107,17 @@ void Laying::reseat(int held) {
   for (int round = 0; round < rounds && in_vain < rounds_in_vain && !short_.empty(); ++round) {
     const std::vector<Laid> before = laid_;
     const std::vector<int> were_short = short_;
+    const int had_stayed = stayed_;
     bool any = false;
     for (const int unit : were_short)
       any = seat_otherwise(unit, round) || any;
-    const bool rests = any && rest_together(held, later_step * height_, later_steps);
+    const bool rests = any && rest_together(held, later_step * height_, later_steps) && stayed_ <= had_stayed;
     in_vain = rests && short_.size() < were_short.size() ? 0 : in_vain + 1;
     if (rests && short_.size() <= were_short.size())
       continue;
     laid_ = before;
     short_ = were_short;
+    stayed_ = had_stayed;
   }
 }
 

@@ -15,7 +15,7 @@ struct RestOptions {
   double clear = 0;     // m, distance kept from the others
   double step = 0;      // m, s at first
   double last_step = 0; // m; s is made smaller, down to this, whenever the body has come to rest
-  double probe = 0;     // m, s of the step that tells what presses on a body at rest
+  double probe = 0;     // m, > 0: s of the step that tells what presses on a body at rest
   double gyration = 0;  // m, radius of gyration of the body
   int steps = 200;      // at most
   double way = std::numeric_limits<double>::infinity(); // m; a body that has gone further is not followed

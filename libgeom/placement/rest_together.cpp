@@ -45,7 +45,7 @@ private:
     std::vector<BodyBound> no_bounds;
     return geom::motions(touches, no_bounds, poses.size(), pull, options);
   }
-  void move(const std::vector<Motion>&);
+  void move(const std::vector<Motion>&, bool put_back);
 
   const Features& shape_;
   const std::vector<Pose>& start_;
@@ -119,13 +119,13 @@ std::vector<BodyTouch> Together::touches(double s) {
   return made;
 }
 
-void Together::move(const std::vector<Motion>& v) {
+void Together::move(const std::vector<Motion>& v, bool put_back) {
   double most = 0;
   for (std::size_t i = 0; i < poses.size(); ++i) {
     if (stays[i] != 0)
       continue;
     most = std::max(most, geom::move(poses[i], v[i], options_.gyration, radius_));
-    if ((poses[i].translation - start_[i].translation).norm() > options_.way) {
+    if (put_back && (poses[i].translation - start_[i].translation).norm() > options_.way) {
       poses[i] = start_[i];
       stays[i] = 1;
       room_ = -1;
@@ -137,7 +137,7 @@ void Together::move(const std::vector<Motion>& v) {
 std::vector<Motion> Together::step(const Vec3& down, double s) {
   std::vector<BodyTouch> touches = this->touches(s);
   const std::vector<Motion> v = motions(touches, s * down, {options_.friction, s, sweeps});
-  move(v);
+  move(v, true);
   return v;
 }
 
@@ -149,7 +149,7 @@ void Together::push_clear() {
       break;
     for (BodyTouch& touch : made)
       touch.room -= slack;
-    move(motions(made, Vec3::Zero(), {0, options_.clear, sweeps}));
+    move(motions(made, Vec3::Zero(), {0, options_.clear, sweeps}), false);
   }
 }
 

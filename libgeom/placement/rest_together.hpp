@@ -1,5 +1,5 @@
-// Where many rigid bodies of one shape come to rest together, pressing on each other and on others that do not move: all of
-// them go down in small steps, each from rest, without inertia, until friction holds them.
+// Where many rigid bodies of one shape come to rest together, pressing on each other and on others that do not move:
+// all of them go down in small steps, each from rest, without inertia, until friction holds them.
 //
 // They are at rest when in four steps, of gravity tilted four ways, none has gone on: what only rocks comes back. Where
 // one slides on and on steps become larger again. One that goes further than `way` is put back and stays.
@@ -13,7 +13,8 @@ struct RestTogether {
   std::vector<Pose> poses;
   bool still = false;       // all of them at rest
   std::vector<char> stayed; // those that would have gone further than `way`: they are where they were
-  // How many others, moving or not, press on each with a fiftieth of its weight or more; empty unless still.
+  // How many others, moving or not, press on each with a fiftieth of its weight or more; of one that stayed only those
+  // that moved. Empty unless still.
   std::vector<int> pressed_by;
 };
 
