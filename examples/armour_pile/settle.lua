@@ -18,7 +18,7 @@ local held = cdem.parameter{ name = "held", default = 5, range = {1, 100}, doc =
 local ratio = cdem.parameter{ name = "kinetic_energy_ratio", default = start == "drop" and 1e-8 or 1e-6,
                               range = {1e-12, 0.1}, doc = "of the largest there was: at rest" }
 local friction = cdem.parameter{ name = "friction_angle", default = 35.0, range = {0, 80}, unit = "deg" }
-local sliding = cdem.parameter{ name = "sliding_angle", default = 15.0, range = {0, 80}, unit = "deg",
+local sliding = cdem.parameter{ name = "sliding_angle", default = 18.0, range = {0, 80}, unit = "deg",
                                 doc = "friction of what is laid while it settles, at most" }
 local walls = cdem.parameter{ name = "walls", default = true, doc = "at the sides and the toe" }
 local draw = cdem.parameter{ name = "pictures", default = true, doc = "draw them" }

@@ -10,6 +10,8 @@ local cdem = require "cdem"
 local file = cdem.parameter{ name = "pile", default = "results/armour_pile-settle/pile.json",
                              doc = "of settle.lua" }
 local piles = cdem.parameter{ name = "piles", default = 1, range = {1, 100}, doc = "with more, others than that are settled" }
+local sliding = cdem.parameter{ name = "sliding_angle", default = 18.0, range = {0, 80}, unit = "deg",
+                                doc = "of settle.lua, with more piles than one" }
 local modes = cdem.parameter{ name = "modes", default = "both", choices = {"both", "hold", "ramp"} }
 local units = cdem.parameter{ name = "units", default = 4, range = {1, 100}, doc = "how many are to leave" }
 local first = cdem.parameter{ name = "first_velocity", default = 3.0, range = {0.1, 100}, unit = "m/s", doc = "for 5 t" }
@@ -23,7 +25,7 @@ local masses = { 5000.0, 9000.0, 16000.0 }
 local files = { file }
 if piles > 1 then
   local seeds = {}
-  for pile = 1, piles do seeds[pile] = { seed = pile, pictures = false } end
+  for pile = 1, piles do seeds[pile] = { seed = pile, sliding_angle = sliding, pictures = false } end
   for pile, run in ipairs(cdem.sweep{ script = "settle.lua", set = seeds, jobs = jobs }) do
     files[pile] = "../" .. run.output .. "/pile.json"
   end
