@@ -136,7 +136,7 @@ void Together::move(const std::vector<Motion>& v, bool put_back) {
 
 std::vector<Motion> Together::step(const Vec3& down, double s) {
   std::vector<BodyTouch> touches = this->touches(s);
-  const std::vector<Motion> v = motions(touches, s * down, {options_.friction, s, sweeps});
+  std::vector<Motion> v = motions(touches, s * down, {options_.friction, s, sweeps});
   move(v, true);
   return v;
 }
