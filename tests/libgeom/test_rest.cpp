@@ -1,24 +1,17 @@
 // Bodies that go down to their rest: where a box stands, slides or topples on an incline is known.
-#include "libgeom/mesh/box_mesh.hpp"
 #include "libgeom/placement/rest.hpp"
+#include "tests/libgeom/box_surface.hpp"
 
 #include <catch2/catch.hpp>
 
 #include <cmath>
 
 using namespace geom;
+using testing::box_surface;
 
 namespace {
 
 constexpr double clear_distance = 1e-3;
-
-// About its centroid.
-Surface box(const Vec3& size, const Vec3& centre = Vec3::Zero()) {
-  Surface surface = surface_of(box_mesh(size, {2, 2, 2}));
-  for (Vec3& x : surface.points)
-    x += centre - 0.5 * size;
-  return surface;
-}
 
 RestOptions resting(double friction) {
   RestOptions options;
@@ -40,12 +33,12 @@ struct OnIncline {
 
   OnIncline(const Vec3& size, double angle, double friction) {
     const Mat3 tilt = Eigen::AngleAxisd(-angle, Vec3::UnitY()).toRotationMatrix();
-    Surface plane = box({20, 20, 1}, {0, 0, -0.5});
+    Surface plane = box_surface({20, 20, 1}, {0, 0, -0.5});
     for (Vec3& x : plane.points)
       x = tilt * x;
     const Features ground = features_of(plane);
     const Pose start{tilt, tilt * Vec3(0, 0, 0.5 * size.z() + clear_distance)};
-    rest = come_to_rest(features_of(box(size)), start, {&ground}, resting(friction));
+    rest = come_to_rest(features_of(box_surface(size)), start, {&ground}, resting(friction));
     way = (rest.pose.translation - start.translation).norm();
     turn = Eigen::AngleAxisd(tilt.transpose() * rest.pose.rotation).angle();
   }
@@ -66,16 +59,16 @@ double least_gap(const Surface& one, const Surface& other) {
 } // namespace
 
 TEST_CASE("only what stands out of a box can touch: its corners and edges") {
-  const Features cube = features_of(box({1, 1, 1}));
+  const Features cube = features_of(box_surface({1, 1, 1}));
   CHECK(cube.faces.size() == 48);
   CHECK(cube.edges.size() == 24);   // twelve in two pieces
   CHECK(cube.corners.size() == 20); // eight, and the middles of twelve edges
 }
 
 TEST_CASE("the gap between features is the distance of the solids, and their depth when they overlap") {
-  const Surface cube = box({1, 1, 1});
-  CHECK(least_gap(box({1, 1, 1}, {0.2, 0.3, 1.1}), cube) == Approx(0.1));    // face over face
-  CHECK(least_gap(box({1, 1, 1}, {0.2, 0.3, 0.98}), cube) == Approx(-0.02)); // into it
+  const Surface cube = box_surface({1, 1, 1});
+  CHECK(least_gap(box_surface({1, 1, 1}, {0.2, 0.3, 1.1}), cube) == Approx(0.1));    // face over face
+  CHECK(least_gap(box_surface({1, 1, 1}, {0.2, 0.3, 0.98}), cube) == Approx(-0.02)); // into it
   const Mat3 quarter = Eigen::AngleAxisd(M_PI / 4, Vec3::UnitY()).toRotationMatrix(),
              other = Eigen::AngleAxisd(M_PI / 4, Vec3::UnitX()).toRotationMatrix();
   for (const double gap : {0.05, -0.03}) { // edge across edge
@@ -111,13 +104,13 @@ TEST_CASE("a cube slides until two posts hold it") {
   // A cube of side 1 on its face slides down until two posts hold it, one gap from each.
   const double angle = 30 * M_PI / 180;
   const Vec3 down(-std::sin(angle), 0, -std::cos(angle)); // the floor is level, gravity is not
-  const Features floor = features_of(box({20, 20, 1}, {0, 0, -0.5})),
-                 left = features_of(box({0.2, 0.2, 2}, {-1.5, 0.4, 1})),
-                 right = features_of(box({0.2, 0.2, 2}, {-1.5, -0.3, 1}));
+  const Features floor = features_of(box_surface({20, 20, 1}, {0, 0, -0.5})),
+                 left = features_of(box_surface({0.2, 0.2, 2}, {-1.5, 0.4, 1})),
+                 right = features_of(box_surface({0.2, 0.2, 2}, {-1.5, -0.3, 1}));
   RestOptions options = resting(0.1);
   options.down = down;
   const Rest rest =
-      come_to_rest(features_of(box({1, 1, 1})), {Mat3::Identity(), {0, 0, 0.5 + clear_distance}},
+      come_to_rest(features_of(box_surface({1, 1, 1})), {Mat3::Identity(), {0, 0, 0.5 + clear_distance}},
                    {&floor, &left, &right}, options);
   CHECK(rest.still);
   // The face of the cube one gap from the posts' faces at x = -1.4.
@@ -126,16 +119,16 @@ TEST_CASE("a cube slides until two posts hold it") {
   CHECK(rest.carried_by == std::vector<char>{1, 1, 1});
   options.friction = 0.8; // enough to stay where it is, away from the posts
   const Rest above =
-      come_to_rest(features_of(box({1, 1, 1})), {Mat3::Identity(), {0, 0, 0.5 + clear_distance}},
+      come_to_rest(features_of(box_surface({1, 1, 1})), {Mat3::Identity(), {0, 0, 0.5 + clear_distance}},
                    {&floor, &left, &right}, options);
   CHECK(above.still);
   CHECK(above.carried_by == std::vector<char>{1, 0, 0});
 }
 
 TEST_CASE("a body inside others' clear distance is pushed out by as much as it lacks") {
-  const Features floor = features_of(box({20, 20, 1}, {0, 0, -0.5}));
+  const Features floor = features_of(box_surface({20, 20, 1}, {0, 0, -0.5}));
   const Pose start{Mat3::Identity(), {0, 0, 0.5 + 0.3 * clear_distance}};
-  const Pose pose = pushed_clear(features_of(box({1, 1, 1})), start, {&floor}, resting(0));
+  const Pose pose = pushed_clear(features_of(box_surface({1, 1, 1})), start, {&floor}, resting(0));
   CHECK(pose.translation.z() == Approx(0.5 + clear_distance).epsilon(1e-5));
   CHECK((pose.translation - start.translation).head<2>().norm() < 1e-9);
 }

@@ -1,32 +1,26 @@
 // Boxes that come to rest together, leaning and standing on each other.
-#include "libgeom/mesh/box_mesh.hpp"
 #include "libgeom/placement/rest_together.hpp"
+#include "tests/libgeom/box_surface.hpp"
 
 #include <catch2/catch.hpp>
 
 #include <cmath>
 
 using namespace geom;
+using testing::box_surface;
 
 namespace {
 
 constexpr double clear_distance = 1e-3;
 
-Surface box(const Vec3& size, const Vec3& centre = Vec3::Zero()) {
-  Surface surface = surface_of(box_mesh(size, {2, 2, 2}));
-  for (Vec3& x : surface.points)
-    x += centre - 0.5 * size;
-  return surface;
-}
-
 const Features& cube() {
-  static const Features features = features_of(box({1, 1, 1}));
+  static const Features features = features_of(box_surface({1, 1, 1}));
   return features;
 }
 
 // The floor is level, gravity may be tilted.
 const Features& ground() {
-  static const Features features = features_of(box({40, 20, 1}, {0, 0, -0.5}));
+  static const Features features = features_of(box_surface({40, 20, 1}, {0, 0, -0.5}));
   return features;
 }
 
@@ -74,7 +68,7 @@ TEST_CASE("cubes that hang over each other come to stand on each other") {
 
 TEST_CASE("cubes slide down an incline until they lean on each other and on a post") {
   // Steeper than friction: what lies above presses on what lies below.
-  const Features post = features_of(box({1, 4, 4}, {-3, 0, 2}));
+  const Features post = features_of(box_surface({1, 4, 4}, {-3, 0, 2}));
   const RestTogether rest =
       come_to_rest_together(cube(), at({{-1.5, 0, 0.501}, {0, 0, 0.501}, {1.3, 0, 0.501}, {2.9, 0, 0.501}}),
                             {&ground(), &post}, resting(deg(30), std::tan(deg(15))));
@@ -97,7 +91,7 @@ TEST_CASE("cubes on an incline less steep than friction rest where they are") {
 }
 
 TEST_CASE("a cube that nothing holds is put back and stays, the others go on") {
-  const Features post = features_of(box({1, 1, 4}, {-1, 3, 2}));
+  const Features post = features_of(box_surface({1, 1, 4}, {-1, 3, 2}));
   RestOptions options = resting(deg(30), std::tan(deg(15)));
   options.way = 1;
   const Vec3 free(0, 0, 0.501), above(0.5, 3, 0.501);
