@@ -18,7 +18,9 @@ local held = cdem.parameter{ name = "held", default = 5, range = {1, 100}, doc =
 local ratio = cdem.parameter{ name = "kinetic_energy_ratio", default = start == "drop" and 1e-8 or 1e-6,
                               range = {1e-12, 0.1}, doc = "of the largest there was: at rest" }
 local friction = cdem.parameter{ name = "friction_angle", default = 35.0, range = {0, 80}, unit = "deg" }
-local sliding = cdem.parameter{ name = "sliding_angle", default = 18.0, range = {0, 80}, unit = "deg",
+local laying = cdem.parameter{ name = "laying_angle", default = 12.0, range = {0, 80}, unit = "deg",
+                               doc = "with so much friction units are laid at rest" }
+local sliding = cdem.parameter{ name = "sliding_angle", default = 15.0, range = {0, 80}, unit = "deg",
                                 doc = "friction of what is laid while it settles, at most" }
 local walls = cdem.parameter{ name = "walls", default = true, doc = "at the sides and the toe" }
 local draw = cdem.parameter{ name = "pictures", default = true, doc = "draw them" }
@@ -35,7 +37,8 @@ local pile
 if start == "drop" then
   pile = cdem.drop{ unit = unit, count = count, onto = bare, seed = seed, layers = 3, gap = 0.05 * height }
 else
-  pile = cdem.place{ unit = unit, count = count, onto = bare, seed = seed, columns = columns, walls = walls }
+  pile = cdem.place{ unit = unit, count = count, onto = bare, seed = seed, columns = columns, walls = walls,
+                     friction_angle = laying }
 end
 
 local model, ground = set_up.model(pile, { length = length, friction_angle = friction, walls = walls })

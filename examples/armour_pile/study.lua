@@ -10,7 +10,7 @@ local cdem = require "cdem"
 local file = cdem.parameter{ name = "pile", default = "results/armour_pile-settle/pile.json",
                              doc = "of settle.lua" }
 local piles = cdem.parameter{ name = "piles", default = 1, range = {1, 100}, doc = "with more, others than that are settled" }
-local sliding = cdem.parameter{ name = "sliding_angle", default = 18.0, range = {0, 80}, unit = "deg",
+local sliding = cdem.parameter{ name = "sliding_angle", default = 15.0, range = {0, 80}, unit = "deg",
                                 doc = "of settle.lua, with more piles than one" }
 local modes = cdem.parameter{ name = "modes", default = "both", choices = {"both", "hold", "ramp"} }
 local units = cdem.parameter{ name = "units", default = 4, range = {1, 100}, doc = "how many are to leave" }

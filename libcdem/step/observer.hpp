@@ -10,6 +10,8 @@ struct Progress {
   int stage = 0;                   // number of the solving call, from 1
   std::string kind;                // "relax", "run", ...
   std::string note;                // of the stage's own, "flow 12.3 m/s"
+  std::string counts = "step";     // what steps are: "run" of a sweep, "unit" laid
+  bool preparing = false;          // nothing is solved yet, results of an earlier run stand
   std::int64_t step = 0;           // within the stage
   std::int64_t max_steps = 0;      // limit, 0 when there is none
   double residual = 0;             // out-of-balance force norm over applied force norm

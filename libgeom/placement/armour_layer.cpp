@@ -18,8 +18,10 @@ constexpr double far = 1e30;
 
 constexpr double catch_up =
     0.2; // of the height: how far a unit may be laid off the two below for the density
-constexpr int spacings_tried = 4;
+constexpr int spacings_tried = 6;
 constexpr double density_tolerance = 0.01;
+constexpr double not_at_rest = 1; // error of the density that it counts for
+
 // The slope's own axes, as rows: along the contour, up the slope, out of it.
 Mat3 slope_frame(const Vec3& normal) {
   const Vec3 across = Vec3::UnitZ().cross(normal);
@@ -87,7 +89,8 @@ Pattern choose_pattern(const Pile& pile, int count, const LayerOptions& options,
 }
 
 // Lays rows from the toe, each unit one spacing above where the two below it have come to lie. Returns the density.
-double lay_rows(Pile& pile, int count, const Pattern& pattern, const Vec3& first, Laying& laying) {
+double lay_rows(Pile& pile, int count, const Pattern& pattern, const Vec3& first, Laying& laying,
+                LayerProgress& now, const std::function<void()>& poll) {
   pile.poses.clear();
   for (int i = 0; i < count; ++i) {
     const int row = i / pattern.columns, column = i % pattern.columns;
@@ -109,8 +112,11 @@ double lay_rows(Pile& pile, int count, const Pattern& pattern, const Vec3& first
         Vec3(first.x() + (column - 0.5 * (pattern.columns - 1) + shift) * pattern.spacing.across, up, 0);
     const double behind = first.y() + row * pattern.spacing.rows - up;
     site.wanted = up + std::clamp(behind, -catch_up * pile.height, catch_up * pile.height);
+    poll();
     laying.lay(site);
+    now.laid = i + 1;
   }
+  now.doing = "come to rest together";
   laying.rest_together(pattern.columns);
   std::vector<double> rows; // m up the slope, means of full ones
   double sum = 0;
@@ -143,9 +149,10 @@ std::optional<double> measured_density(const Pile& pile, const Ground& ground) {
 
 } // namespace
 
-Pile place_layer(const TetMesh& unit, int count, const Ground& ground, const LayerOptions& options) {
+Layer place_layer(const TetMesh& unit, int count, const Ground& ground, const LayerOptions& options) {
   check(options, count);
-  Pile pile = pile_of(unit);
+  Layer layer;
+  Pile& pile = layer.pile = pile_of(unit);
   const double gap = options.gap.value_or(1e-4 * pile.height);
   require_positive("gap", gap);
   const PlanBox region = region_of(ground, options.region);
@@ -170,7 +177,14 @@ Pile place_layer(const TetMesh& unit, int count, const Ground& ground, const Lay
   const Pattern as_asked = choose_pattern(pile, count, options, room.size().head<2>());
   const double widest = std::clamp(
       (room.size().x() - pile.height) / ((as_asked.columns - 0.5) * as_asked.spacing.across), 1., 1.4);
+  LayerProgress now;
+  now.trials = spacings_tried;
+  const auto poll = [&] {
+    if (options.tell)
+      options.tell(now);
+  };
   for (int i = 0; i < spacings_tried && least_error > density_tolerance; ++i) {
+    now = {i + 1, spacings_tried, 0, "laid"};
     Pattern pattern = as_asked;
     pattern.spacing.across *= widening;
     std::optional<Laying::Between> walls;
@@ -179,20 +193,27 @@ Pile place_layer(const TetMesh& unit, int count, const Ground& ground, const Lay
           (0.5 * (pattern.columns - 1) + 0.25) * pattern.spacing.across + mean_half_width(pile.unit);
       walls = Laying::Between{first.x() - half, first.x() + half};
     }
-    auto laying = std::make_unique<Laying>(pile, ground, frame, gap, options, pattern.spacing, walls);
-    const double by_rows = lay_rows(pile, count, pattern, first, *laying);
+    auto laying = std::make_unique<Laying>(pile, ground, frame, gap, options, pattern.spacing, walls, poll);
+    const double by_rows = lay_rows(pile, count, pattern, first, *laying, now, poll);
     const double density = measured_density(pile, ground).value_or(by_rows);
-    const double error = std::abs(density / options.density - 1);
+    const double error = std::abs(density / options.density - 1) +
+                         (laying->rested().still || options.nudges == 0 ? 0 : not_at_rest);
     if (!best || error < least_error) {
       least_error = error;
       best = std::move(laying);
     }
     widening = std::clamp(widening * density / options.density, 0.8, widest);
   }
+  now.doing = "seated otherwise";
   best->reseat(as_asked.columns);
   for (int i = 0; i < count; ++i)
     pile.poses[i] = best->pose(i);
-  return pile;
+  const Laying::Rested& rested = best->rested();
+  layer.at_rest = rested.still;
+  layer.leaning = rested.leaning;
+  layer.put_back = rested.put_back;
+  layer.trials = now.trial;
+  return layer;
 }
 
 } // namespace geom

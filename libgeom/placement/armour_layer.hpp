@@ -7,13 +7,21 @@
 // others; then all but the lowest row, which is taken for held, come to rest together, and those that lean on fewer
 // than three things are seated otherwise (placement/laying.hpp). How far apart rows then are depends on how units
 // fit: the pattern is widened along the contour until the density in the middle of the pile (of rows and columns,
-// where it has no middle) is phi within 1 %, in four trials at most, of which the nearest is taken.
+// where it has no middle) is phi within 1 %, in six trials at most, of which the nearest is taken.
 #pragma once
 
 #include "libgeom/placement/ground.hpp"
 #include "libgeom/placement/pile.hpp"
 
+#include <functional>
+
 namespace geom {
+
+struct LayerProgress {
+  int trial = 1, trials = 1; // this one, and how many there are at most
+  int laid = 0;              // units, in this trial
+  const char* doing = "";    // "laid", and with all of them "come to rest together", "seated otherwise"
+};
 
 struct LayerOptions {
   double density = 0.645;        // phi
@@ -26,9 +34,20 @@ struct LayerOptions {
   double play = 0.1;       // of the height: how far along the contour from its place a unit may be laid
   double friction = 0.268; // coefficient, tan 15 degrees: with so much laid units are at rest
   bool walls = false;      // upright along the slope, where rows end
+  std::function<void(const LayerProgress&)> tell; // called often; may throw to end it
+};
+
+// Numbers of units begin at 0.
+struct Layer {
+  Pile pile;
+  bool at_rest = false;     // all together, clear of each other; false where they were but lowered
+  std::vector<int> leaning; // units on which fewer than three things press, of those at rest
+  std::vector<int>
+      put_back;   // units that would have gone further than half a height, and stay as they were laid
+  int trials = 0; // of spacings
 };
 
 // Throws InputError for a count below 1, a density or gap out of range, a ground that is too small.
-Pile place_layer(const TetMesh& unit, int count, const Ground&, const LayerOptions& = {});
+Layer place_layer(const TetMesh& unit, int count, const Ground&, const LayerOptions& = {});
 
 } // namespace geom

@@ -23,14 +23,17 @@ double along(const ImpulseRow& r, const Motion& v, const Motion* w) {
   return w == nullptr ? one : one - r.direction.dot(w->shift) - r.other_turn.dot(w->turn);
 }
 
-void push(ImpulseRow& r, double to, Motion& v, Motion* w) {
-  const double by = to - r.impulse;
+void add(const ImpulseRow& r, double by, Motion& v, Motion* w) {
   v.shift += by * r.direction;
   v.turn += by * r.turn;
   if (w != nullptr) {
     w->shift -= by * r.direction;
     w->turn -= by * r.other_turn;
   }
+}
+
+void push(ImpulseRow& r, double to, Motion& v, Motion* w) {
+  add(r, to - r.impulse, v, w);
   r.impulse = to;
 }
 
@@ -73,7 +76,8 @@ BodyTouch body_touch(const Touch& touch, int body, int other, const Centroids& c
           row(n, arm, there, gyration),
           row(t, arm, there, gyration),
           row(n.cross(t), arm, there, gyration),
-          touch.gap};
+          touch.gap,
+          touch.features};
 }
 
 BodyBound body_bound(const Plane& plane, int body, const Vec3& centroid) {
@@ -83,10 +87,14 @@ BodyBound body_bound(const Plane& plane, int body, const Vec3& centroid) {
 std::vector<Motion> motions(std::vector<BodyTouch>& touches, std::vector<BodyBound>& bounds,
                             std::size_t bodies, const Vec3& pull, const ImpulseOptions& options) {
   std::vector<Motion> all(bodies, Motion{pull, Vec3::Zero()});
+  for (BodyTouch& touch : touches)
+    for (ImpulseRow* row : {&touch.normal, &touch.first, &touch.second})
+      add(*row, row->impulse, all[touch.body], touch.other < 0 ? nullptr : &all[touch.other]);
   for (int k = 0; k < options.sweeps; ++k) {
     double most = 0;
     for (BodyBound& bound : bounds)
-      most = std::max(most, press(bound.row, bound.room, 0, all[bound.body], nullptr));
+      most =
+          std::max(most, press(bound.row, std::max(bound.room, -options.step), 0, all[bound.body], nullptr));
     // To and fro where there are many: weight goes down through all of them in one sweep if they are listed from the
     // top.
     if (bodies == 1 || k % 2 == 0)

@@ -27,6 +27,7 @@ struct BodyTouch {
   int body = 0, other = -1;         // indices of motions; -1: what does not move
   ImpulseRow normal, first, second; // the last two along the face
   double room = 0;                  // m, until it touches
+  std::uint64_t features = 0;       // of the Touch
 };
 
 // A centroid stays where direction . x >= an offset.
@@ -49,7 +50,8 @@ struct ImpulseOptions {
   double compliance = 0; // m that a touch gives way by per m of impulse, along the face too
 };
 
-// Of all bodies; the impulses are left in the rows. Touches deeper than a step are taken for one.
+// Of all bodies; the impulses are left in the rows of the touches, where those that they begin with are found. Touches
+// and bounds deeper than a step are taken for one.
 std::vector<Motion> motions(std::vector<BodyTouch>&, std::vector<BodyBound>&, std::size_t bodies,
                             const Vec3& pull, const ImpulseOptions&);
 

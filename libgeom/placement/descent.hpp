@@ -16,7 +16,7 @@ inline constexpr double tilt = 0.07;       // of gravity, 4 degrees: what rests 
 inline constexpr int tilts = 4;            // ways it is tilted, by turns
 inline constexpr double skin = 3;          // times s: how far the lists of near features reach beyond a step
 inline constexpr int pushes = 10;          // at most, to the clear distance
-inline constexpr double presses = 0.02;    // of the weight
+inline constexpr double presses = 0.05;    // of the weight
 inline constexpr double more_friction = 2; // times as much: what presses even then is needed
 inline constexpr double gives = 0.02;      // of the impulse: touches side by side share the load
 } // namespace descent

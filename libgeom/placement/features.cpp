@@ -101,6 +101,10 @@ private:
   std::vector<std::pair<int, Touch>> inside_;
 };
 
+std::uint64_t named(std::uint64_t kind, int first, int second) {
+  return kind << 62 | static_cast<std::uint64_t>(first) << 31 | static_cast<std::uint64_t>(second);
+}
+
 } // namespace
 
 Features features_of(const Surface& surface) {
@@ -194,12 +198,14 @@ void NearFeatures::touches(const Features& first, const Features& second, double
   for (const auto& [i, j] : corner_face_) {
     const double gap = level(first.corners[i], second.faces[j], reach);
     if (gap < reach)
-      entered.add(i, {first.corners[i], second.faces[j].normal, gap}, found);
+      entered.add(i, {first.corners[i], second.faces[j].normal, gap, named(0, i, j)}, found);
   }
   for (const auto& [i, j] : face_corner_) {
     const double gap = level(second.corners[j], first.faces[i], reach);
     if (gap < reach)
-      entering.add(j, {second.corners[j] - gap * first.faces[i].normal, -first.faces[i].normal, gap}, found);
+      entering.add(
+          j, {second.corners[j] - gap * first.faces[i].normal, -first.faces[i].normal, gap, named(1, i, j)},
+          found);
   }
   entered.give(found);
   entering.give(found);
@@ -213,10 +219,10 @@ void NearFeatures::touches(const Features& first, const Features& second, double
       continue;
     const Vec3 normal = apart / gap;
     if (outward(other, normal, 1) && outward(one, normal, -1))
-      found.push_back({here, normal, gap});
+      found.push_back({here, normal, gap, named(2, i, j)});
     else if (at.s > 0 && at.s < 1 && at.t > 0 && at.t < 1 && outward(other, normal, -1) &&
              outward(one, normal, 1))
-      found.push_back({here, -normal, -gap});
+      found.push_back({here, -normal, -gap, named(2, i, j)});
   }
 }
 

@@ -7,6 +7,7 @@
 #include "libgeom/placement/pile.hpp"
 #include "libgeom/query/triangle_distance.hpp"
 
+#include <cstdint>
 #include <utility>
 
 namespace geom {
@@ -32,9 +33,10 @@ Features features_of(const Surface&); // closed, or a part of one: its rim stand
 Features moved(const Features&, const Pose&);
 
 struct Touch {
-  Vec3 point;     // m, on the first
-  Vec3 normal;    // out of the second
-  double gap = 0; // m; negative inside
+  Vec3 point;                 // m, on the first
+  Vec3 normal;                // out of the second
+  double gap = 0;             // m; negative inside
+  std::uint64_t features = 0; // tells which two, as long as both solids are the same
 };
 
 // The pairs of features nearer than `reach` to each other.

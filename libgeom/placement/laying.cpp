@@ -66,11 +66,12 @@ double gyration_of(const Pile& pile) {
 } // namespace
 
 Laying::Laying(const Pile& pile, const Ground& ground, const Mat3& frame, double gap,
-               const LayerOptions& options, const Spacing& spacing, std::optional<Between> walls)
+               const LayerOptions& options, const Spacing& spacing, std::optional<Between> walls,
+               std::function<void()> poll)
     : shape_(surface_of(pile.unit)), features_(features_of(shape_)),
       ground_features_(features_of(upper_side(ground.surface()))), ground_(ground), frame_(frame), gap_(gap),
       height_(pile.height), radius_(bounding_radius(pile.unit)), gyration_(gyration_of(pile)),
-      options_(options), ground_profile_(ground.surface(), frame), walls_(walls) {
+      options_(options), ground_profile_(ground.surface(), frame), walls_(walls), poll_(std::move(poll)) {
   if (walls)
     wall_features_ = {wall(walls->low, 1), wall(walls->high, -1)};
   for (const Mat3& rotation : attitudes_for(shape_, spacing, options.attitudes, options.seed))

@@ -22,9 +22,9 @@ public:
   struct Between {
     double low = 0, high = 0; // m along the contour
   };
-  // Rows of the frame: along the contour, up the slope, out of it.
+  // Rows of the frame: along the contour, up the slope, out of it. poll is called now and then; it may throw.
   Laying(const Pile&, const Ground&, const Mat3& frame, double gap, const LayerOptions&, const Spacing&,
-         std::optional<Between> walls);
+         std::optional<Between> walls, std::function<void()> poll);
 
   struct Site {
     int unit = 0;
@@ -36,12 +36,19 @@ public:
   // Throws InputError where there is no ground.
   void lay(const Site&);
 
-  // Units from number `held` on come to rest once more, all together: those above press on those below. False where
-  // they do not; if they are not clear of each other then, they are where they were.
-  bool rest_together(int held);
+  // How all units came to rest together.
+  struct Rested {
+    bool still = false;        // all of them at rest, and clear of each other
+    std::vector<int> leaning;  // units on which fewer than three things press
+    std::vector<int> put_back; // would have gone too far, and stay as they were laid
+  };
+  // Units from number `held` on come to rest once more, all together: those above press on those below. If they are not
+  // clear of each other then, they are where they were.
+  void rest_together(int held);
   // After that: units on which fewer than three things press are seated otherwise, and all rest together again, until
   // there are none, or so many times.
   void reseat(int held);
+  const Rested& rested() const { return rested_; }
 
   const Pose& pose(int unit) const { return laid_[unit].pose; }
   // In the slope's axes, of the centroid.
@@ -75,7 +82,7 @@ private:
   Laid laid_at(const Pose&) const;
   Near near(const Vec3& centroid, double reach, int except = -1) const;
   Near on_the_way(const Vec3& centroid, int except = -1) const;
-  bool rest_together(int held, double step, int steps);
+  void rest_together(int held, double step, int steps);
   bool seat_otherwise(int unit, int round);
   double ground_level(const Vec3& place) const;
   double standing() const;
@@ -99,10 +106,8 @@ private:
   std::vector<Mat3> stands_; // in which a unit stands on the bare slope by itself
   std::vector<Site> sites_;
   std::vector<Laid> laid_;
-  // After all have come to rest together: units on which fewer than three things press, and how many were put back and
-  // stay.
-  std::vector<int> short_;
-  int stayed_ = 0;
+  Rested rested_;
+  std::function<void()> poll_;
 };
 
 } // namespace geom

@@ -15,8 +15,9 @@ constexpr int first_steps = 1000, later_steps = 400;    // at most
 constexpr double first_step = 0.01, later_step = 0.003; // over the height
 
 // Of seating otherwise units that too few others press on.
-constexpr int rounds = 20, rounds_in_vain = 8; // at most, the latter in a row
-constexpr std::uint64_t seats_tried = 40;
+constexpr int rounds = 30, rounds_in_vain = 12; // at most, the latter in a row
+constexpr std::uint64_t seats_tried = 20;
+constexpr int without_seat = 5; // rounds in which a unit found none: it is left alone
 constexpr int seats_wanted = 4;
 constexpr double same_seat = 0.01;                   // over the height: nearer is the seat it had
 constexpr double least_turn = 0.1, turn_step = 0.02; // radians
@@ -27,15 +28,14 @@ constexpr std::uint64_t seat_id = std::uint64_t{1} << 45; // random numbers of i
 
 } // namespace
 
-bool Laying::rest_together(int held) {
-  return rest_together(held, first_step * height_, first_steps);
+void Laying::rest_together(int held) {
+  rest_together(held, first_step * height_, first_steps);
 }
 
-bool Laying::rest_together(int held, double step, int steps) {
-  short_.clear();
-  stayed_ = 0;
+void Laying::rest_together(int held, double step, int steps) {
+  rested_ = {};
   if (options_.nudges == 0 || held >= static_cast<int>(laid_.size()))
-    return false;
+    return;
   std::vector<const Features*> others{&ground_features_};
   for (const Features& wall : wall_features_)
     others.push_back(&wall);
@@ -50,6 +50,7 @@ bool Laying::rest_together(int held, double step, int steps) {
   options.step = step;
   options.steps = steps;
   options.way = roll * height_;
+  options.poll = poll_;
   const RestTogether rest = come_to_rest_together(features_, poses, others, options);
   std::vector<Laid> other(laid_.begin(), laid_.begin() + held); // laid_ as it will be, then as it was
   for (const Pose& pose : rest.poses)
@@ -58,20 +59,22 @@ bool Laying::rest_together(int held, double step, int steps) {
   for (int i = held; i < static_cast<int>(laid_.size()); ++i)
     if (!clear(laid_[i].pose, near(laid_[i].pose.translation, 2 * radius_ + gap_, i))) {
       std::swap(laid_, other);
-      return false;
+      return;
     }
-  stayed_ = static_cast<int>(std::count(rest.stayed.begin(), rest.stayed.end(), 1));
-  for (std::size_t i = 0; i < rest.pressed_by.size(); ++i)
-    if (rest.stayed[i] == 0 && rest.pressed_by[i] < least_carriers)
-      short_.push_back(held + static_cast<int>(i));
-  return rest.still;
+  rested_.still = rest.still;
+  for (std::size_t i = 0; i < rest.stayed.size(); ++i) {
+    const int unit = held + static_cast<int>(i);
+    if (rest.stayed[i] != 0)
+      rested_.put_back.push_back(unit);
+    else if (rest.still && rest.pressed_by[i] < least_carriers)
+      rested_.leaning.push_back(unit);
+  }
 }
 
-// The nearest of some other seats near by where three things carry it by itself: turned and shifted, more in each
+// The best, and nearest, of some other seats near by where three things carry it by itself: turned and shifted, more in each
 // round, or lifted and in any attitude. False where there is none.
 bool Laying::seat_otherwise(int unit, int round) {
   const Pose here = laid_[unit].pose;
-  const Near around = on_the_way(here.translation, unit);
   const std::vector<Mat3> rotations = attitudes(sites_[unit]);
   const std::uint64_t id =
       seat_id + static_cast<std::uint64_t>(unit) + (static_cast<std::uint64_t>(round) << 32);
@@ -89,13 +92,15 @@ bool Laying::seat_otherwise(int unit, int round) {
       start.rotation = turned(rotations[number % rotations.size()], turn);
       start.translation += seat_lift * height_ * frame_.row(2);
     }
+    const Near around = on_the_way(start.translation, unit);
     const Try one = rested({start}, sites_[unit], around);
     const double away = (one.pose.translation - here.translation).norm();
     if (!one.good || (!anew && away < same_seat * height_) || !clear(one.pose, around))
       continue;
     ++found;
-    if (away < best.cost)
-      best = {one.pose, away};
+    const double cost = one.cost + away / height_;
+    if (cost < best.cost)
+      best = {one.pose, cost};
   }
   if (found > 0)
     laid_[unit] = laid_at(best.pose);
@@ -104,20 +109,29 @@ bool Laying::seat_otherwise(int unit, int round) {
 
 void Laying::reseat(int held) {
   int in_vain = 0; // rounds in a row
-  for (int round = 0; round < rounds && in_vain < rounds_in_vain && !short_.empty(); ++round) {
+  std::vector<int> found_none(laid_.size(), 0);
+  for (int round = 0; round < rounds && in_vain < rounds_in_vain && !rested_.leaning.empty(); ++round) {
     const std::vector<Laid> before = laid_;
-    const std::vector<int> were_short = short_;
-    const int had_stayed = stayed_;
+    const Rested rested = rested_;
     bool any = false;
-    for (const int unit : were_short)
-      any = seat_otherwise(unit, round) || any;
-    const bool rests = any && rest_together(held, later_step * height_, later_steps) && stayed_ <= had_stayed;
-    in_vain = rests && short_.size() < were_short.size() ? 0 : in_vain + 1;
-    if (rests && short_.size() <= were_short.size())
+    for (const int unit : rested.leaning) {
+      if (found_none[unit] == without_seat)
+        continue;
+      poll_();
+      if (seat_otherwise(unit, round))
+        any = true;
+      else
+        ++found_none[unit];
+    }
+    if (any)
+      rest_together(held, later_step * height_, later_steps);
+    const bool no_worse = any && rested_.still && rested_.put_back.size() <= rested.put_back.size() &&
+                          rested_.leaning.size() <= rested.leaning.size();
+    in_vain = no_worse && rested_.leaning.size() < rested.leaning.size() ? 0 : in_vain + 1;
+    if (no_worse)
       continue;
     laid_ = before;
-    short_ = were_short;
-    stayed_ = had_stayed;
+    rested_ = rested;
   }
 }
 

@@ -26,19 +26,27 @@ Motion step(std::vector<BodyTouch>& touches, std::vector<BodyBound>& bounds, dou
   return motions(touches, bounds, 1, pull, {friction, s, sweeps}).front();
 }
 
-// Which of the others carry a body at rest. of: the other of each touch.
-std::vector<char> carriers(std::vector<BodyTouch>& touches, const std::vector<std::size_t>& of,
-                           std::size_t others, const RestOptions& options) {
-  std::vector<BodyBound> no_bounds;
+// Which of the others carry a body at rest.
+std::vector<char> carriers(const Features& body, const Vec3& centroid,
+                           const std::vector<const Features*>& others, const RestOptions& options) {
+  const ImpulseOptions probing = geom::probing(options, sweeps);
+  const double reach = 2 * probing.step + options.clear;
+  std::vector<Touch> found;
+  std::vector<std::size_t> of; // the other of each touch
+  for (std::size_t i = 0; i < others.size(); ++i) {
+    NearFeatures(body, *others[i], reach).touches(body, *others[i], reach, found);
+    of.resize(found.size(), i);
+  }
+  std::vector<BodyTouch> touches = touches_of(found, centroid, options);
   for (BodyTouch& touch : touches) // what pushes it out of another does not carry it
     touch.room = std::max(0., touch.room);
-  const ImpulseOptions probing = geom::probing(options, sweeps);
+  std::vector<BodyBound> no_bounds;
   motions(touches, no_bounds, 1, probing.step * options.down, probing);
-  std::vector<double> impulse(others, 0);
+  std::vector<double> impulse(others.size(), 0);
   for (std::size_t i = 0; i < touches.size(); ++i)
     impulse[of[i]] += touches[i].normal.impulse;
-  std::vector<char> carry(others);
-  for (std::size_t i = 0; i < others; ++i)
+  std::vector<char> carry(others.size());
+  for (std::size_t i = 0; i < others.size(); ++i)
     carry[i] = impulse[i] > descent::presses * probing.step ? 1 : 0;
   return carry;
 }
@@ -53,7 +61,6 @@ Rest come_to_rest(const Features& shape, const Pose& start, const std::vector<co
   const double radius = radius_of(shape);
   std::vector<NearFeatures> near(others.size());
   std::vector<Touch> found;
-  std::vector<std::size_t> of; // the other of each touch
   for (int k = 0; k < options.steps; ++k) {
     const Features body = moved(shape, rest.pose);
     const double s = descent.s, reach = 2 * s + options.clear;
@@ -64,11 +71,8 @@ Rest come_to_rest(const Features& shape, const Pose& start, const std::vector<co
         near[i] = NearFeatures(body, *others[i], reach + skin);
     }
     found.clear();
-    of.clear();
-    for (std::size_t i = 0; i < others.size(); ++i) {
+    for (std::size_t i = 0; i < others.size(); ++i)
       near[i].touches(body, *others[i], reach, found);
-      of.resize(found.size(), i);
-    }
     std::vector<BodyTouch> touches = touches_of(found, rest.pose.translation, options);
     std::vector<BodyBound> bounds;
     for (const Plane& plane : options.bounds)
@@ -81,8 +85,7 @@ Rest come_to_rest(const Features& shape, const Pose& start, const std::vector<co
     if (!descent.at_rest_after(v.norm()))
       continue;
     rest.still = true;
-    touches = touches_of(found, rest.pose.translation, options);
-    rest.carried_by = carriers(touches, of, others.size(), options);
+    rest.carried_by = carriers(moved(shape, rest.pose), rest.pose.translation, others, options);
     break;
   }
   return rest;

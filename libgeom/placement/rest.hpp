@@ -7,6 +7,8 @@
 
 #include "libgeom/placement/features.hpp"
 
+#include <functional>
+
 namespace geom {
 
 struct RestOptions {
@@ -19,6 +21,7 @@ struct RestOptions {
   double gyration = 0;  // m, radius of gyration of the body
   int steps = 200;      // at most
   double way = std::numeric_limits<double>::infinity(); // m; a body that has gone further is not followed
+  std::function<void()> poll;                           // called every few steps of many bodies; may throw
   // The centroid stays where normal . x >= offset.
   std::vector<Plane> bounds;
 };
@@ -27,7 +30,7 @@ struct Rest {
   Pose pose;
   bool still = false; // at rest, not stopped after so many steps or so long a way
   std::vector<char>
-      carried_by; // at rest: which of the others press on it, with a fiftieth of its weight or more
+      carried_by; // at rest: which of the others press on it, with a twentieth of its weight or more
 };
 
 // shape: about the body's centroid. Others: closed.

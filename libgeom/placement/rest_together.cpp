@@ -3,7 +3,10 @@
 #include "libgeom/placement/descent.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdint>
+#include <map>
 #include <numeric>
 
 namespace geom {
@@ -12,22 +15,29 @@ namespace {
 constexpr int sweeps = 400;     // over all impulses, at most
 constexpr double creeps = 0.06; // of s, a step: what is slower rests
 constexpr double slides = 0.15; // and what is faster goes on with larger steps
+// Of the way a body may go. When one has gone further than that, the lowest of those beyond this stays.
+constexpr double goes_on = 0.8;
+constexpr double too_far = 2; // times what is needed: lists that reach further are made anew
 
 // Bodies that move, those that stay, and their touches.
 class Together {
 public:
   Together(const Features& shape, const std::vector<Pose>& start, const std::vector<const Features*>& others,
-           const RestOptions& options)
-      : poses(start), stays(start.size(), 0), shape_(shape), start_(start), others_(others),
-        options_(options), radius_(radius_of(shape)) {}
+           const RestOptions& options, const std::vector<char>& stays)
+      : poses(start), shape_(shape), start_(start), others_(others), options_(options), stays_(stays),
+        radius_(radius_of(shape)) {}
 
   // A step; returns the motions.
   std::vector<Motion> step(const Vec3& down, double s);
   void push_clear();
   std::vector<int> pressed_by();
+  bool stays(std::size_t body) const { return stays_[body] != 0; }
+  // Of the way a body may go.
+  double gone(std::size_t body) const {
+    return (poses[body].translation - start_[body].translation).norm() / options_.way;
+  }
 
   std::vector<Pose> poses;
-  std::vector<char> stays;
 
 private:
   struct Pair {
@@ -35,26 +45,37 @@ private:
     std::size_t fixed = 0;    // this one
     NearFeatures near;
     std::size_t touches = 0; // of those made last
+    std::array<int, 3> name() const { return {body, other, static_cast<int>(fixed)}; }
+  };
+  struct Pushed {
+    std::uint64_t features = 0;
+    double normal = 0;
+    Vec3 along = Vec3::Zero();
   };
   void find(double reach);
   // Within reach of a step s; from the top down.
   std::vector<BodyTouch> touches(double s);
   BodyTouch made_of(Touch touch, const Pair& pair) const;
+  void begin(std::vector<BodyTouch>&, double s) const;
+  void remember(const std::vector<BodyTouch>&, double s);
   std::vector<Motion> motions(std::vector<BodyTouch>& touches, const Vec3& pull,
                               const ImpulseOptions& options) {
     std::vector<BodyBound> no_bounds;
     return geom::motions(touches, no_bounds, poses.size(), pull, options);
   }
-  void move(const std::vector<Motion>&, bool put_back);
+  void move(const std::vector<Motion>&);
 
   const Features& shape_;
   const std::vector<Pose>& start_;
   const std::vector<const Features*>& others_;
   const RestOptions& options_;
+  const std::vector<char>& stays_;
   double radius_ = 0;
-  double room_ = -1; // m, by which bodies may still come nearer before pairs are looked for again
+  double listed_ = -1; // m: what is nearer than this is in the pairs
   std::vector<Features> bodies_;
   std::vector<Pair> pairs_;
+  std::map<std::array<int, 3>, std::vector<Pushed>> pushed_; // in the last step, of pairs by name
+  double last_step_ = 0;                                     // m, s of it
 };
 
 void Together::find(double reach) {
@@ -73,22 +94,22 @@ void Together::find(double reach) {
     const int body = order[i];
     for (std::size_t k = i + 1; k < order.size(); ++k) {
       const int other = order[k];
-      if ((stays[body] == 0 || stays[other] == 0) &&
+      if (!(stays(body) && stays(other)) &&
           (poses[body].translation - poses[other].translation).norm() < 2 * radius_ + reach)
         add({body, other, 0, {}, 0}, bodies_[other]);
     }
-    for (std::size_t k = 0; k < others_.size() && stays[body] == 0; ++k)
+    for (std::size_t k = 0; k < others_.size() && !stays(body); ++k)
       add({body, -1, k, {}, 0}, *others_[k]);
   }
 }
 
 BodyTouch Together::made_of(Touch touch, const Pair& pair) const {
   int body = pair.body, other = pair.other;
-  if (stays[body] != 0) {
+  if (stays(body)) {
     std::swap(body, other);
     touch.normal = -touch.normal;
   }
-  if (other >= 0 && stays[other] != 0)
+  if (other >= 0 && stays(other))
     other = -1;
   const Vec3& here = poses[body].translation;
   BodyTouch made =
@@ -102,9 +123,9 @@ std::vector<BodyTouch> Together::touches(double s) {
   bodies_.clear();
   for (const Pose& pose : poses)
     bodies_.push_back(moved(shape_, pose));
-  if (room_ < 0) {
+  if (reach > listed_ || listed_ > too_far * (reach + skin)) {
     find(reach + skin);
-    room_ = skin;
+    listed_ = reach + skin;
   }
   std::vector<BodyTouch> made;
   std::vector<Touch> found;
@@ -119,25 +140,58 @@ std::vector<BodyTouch> Together::touches(double s) {
   return made;
 }
 
-void Together::move(const std::vector<Motion>& v, bool put_back) {
-  double most = 0;
-  for (std::size_t i = 0; i < poses.size(); ++i) {
-    if (stays[i] != 0)
-      continue;
-    most = std::max(most, geom::move(poses[i], v[i], options_.gyration, radius_));
-    if (put_back && (poses[i].translation - start_[i].translation).norm() > options_.way) {
-      poses[i] = start_[i];
-      stays[i] = 1;
-      room_ = -1;
+// Impulses are much as they were in the last step.
+void Together::begin(std::vector<BodyTouch>& touches, double s) const {
+  if (pushed_.empty())
+    return;
+  const double part = s / last_step_;
+  auto touch = touches.begin();
+  for (const Pair& pair : pairs_) {
+    const auto end = touch + static_cast<std::ptrdiff_t>(pair.touches);
+    const auto last = pushed_.find(pair.name());
+    for (; touch != end; ++touch) {
+      if (last == pushed_.end())
+        continue;
+      for (const Pushed& pushed : last->second) {
+        if (pushed.features != touch->features)
+          continue;
+        touch->normal.impulse = part * pushed.normal;
+        touch->first.impulse = part * pushed.along.dot(touch->first.direction);
+        touch->second.impulse = part * pushed.along.dot(touch->second.direction);
+      }
     }
   }
-  room_ -= 2 * most;
+}
+
+void Together::remember(const std::vector<BodyTouch>& touches, double s) {
+  pushed_.clear();
+  last_step_ = s;
+  auto touch = touches.begin();
+  for (const Pair& pair : pairs_) {
+    if (pair.touches == 0)
+      continue;
+    std::vector<Pushed>& list = pushed_[pair.name()];
+    for (std::size_t i = 0; i < pair.touches; ++i, ++touch)
+      list.push_back(
+          {touch->features, touch->normal.impulse,
+           touch->first.impulse * touch->first.direction + touch->second.impulse * touch->second.direction});
+  }
+}
+
+void Together::move(const std::vector<Motion>& v) {
+  double most = 0;
+  for (std::size_t i = 0; i < poses.size(); ++i)
+    if (!stays(i))
+      most = std::max(most, geom::move(poses[i], v[i], options_.gyration, radius_));
+  listed_ -= 2 * most;
 }
 
 std::vector<Motion> Together::step(const Vec3& down, double s) {
   std::vector<BodyTouch> touches = this->touches(s);
+  begin(touches, s);
   std::vector<Motion> v = motions(touches, s * down, {options_.friction, s, sweeps});
-  move(v, true);
+  remember(touches, s);
+  move(v);
   return v;
 }
 
@@ -149,13 +203,12 @@ void Together::push_clear() {
       break;
     for (BodyTouch& touch : made)
       touch.room -= slack;
-    move(motions(made, Vec3::Zero(), {0, options_.clear, sweeps}), false);
+    move(motions(made, Vec3::Zero(), {0, options_.clear, sweeps}));
   }
 }
 
 std::vector<int> Together::pressed_by() {
   const ImpulseOptions probing = geom::probing(options_, sweeps);
-  room_ = -1; // the reach may be a larger one
   std::vector<BodyTouch> made = touches(probing.step);
   for (BodyTouch& touch : made) // what pushes it out of another does not carry it
     touch.room = std::max(0., touch.room);
@@ -175,38 +228,63 @@ std::vector<int> Together::pressed_by() {
   return pressed;
 }
 
+// Takes steps until all are at rest, which it returns, or one has gone too far.
+bool descend(Together& together, const RestOptions& options) {
+  const std::size_t count = together.poses.size();
+  Descent descent(options);
+  std::vector<Motion> cycle(count); // since gravity was first tilted this way
+  for (int k = 0; k < options.steps; ++k) {
+    const double s = descent.s;
+    const std::vector<Motion> v = together.step(descent.down(k), s);
+    double most = 0;
+    for (std::size_t i = 0; i < count; ++i) {
+      if (together.stays(i))
+        continue;
+      cycle[i].shift += v[i].shift;
+      cycle[i].turn += v[i].turn;
+      most = std::max(most, cycle[i].norm());
+      if (together.gone(i) > 1)
+        return false;
+    }
+    if ((k + 1) % descent::tilts != 0)
+      continue;
+    if (options.poll)
+      options.poll();
+    std::fill(cycle.begin(), cycle.end(), Motion{});
+    if (most > descent::tilts * slides * s)
+      descent.hurry();
+    if (most < descent::tilts * creeps * s && descent.at_last())
+      return true;
+  }
+  return false;
+}
+
 } // namespace
 
 RestTogether come_to_rest_together(const Features& shape, const std::vector<Pose>& start,
                                    const std::vector<const Features*>& others, const RestOptions& options) {
   RestTogether rest;
-  Together together(shape, start, others, options);
-  Descent descent(options);
-  std::vector<Motion> cycle(start.size()); // since gravity was first tilted this way
-  for (int k = 0; k < options.steps && !rest.still; ++k) {
-    const double s = descent.s;
-    const std::vector<Motion> v = together.step(descent.down(k), s);
-    double most = 0;
-    for (std::size_t i = 0; i < v.size(); ++i) {
-      if (together.stays[i] != 0)
-        continue;
-      cycle[i].shift += v[i].shift;
-      cycle[i].turn += v[i].turn;
-      most = std::max(most, cycle[i].norm());
+  rest.stayed.assign(start.size(), 0);
+  for (;;) { // ends: every time one more stays
+    Together together(shape, start, others, options, rest.stayed);
+    rest.still = descend(together, options);
+    double furthest = 0;
+    std::size_t lowest = start.size(); // of those that went on
+    const auto depth = [&](std::size_t i) { return options.down.dot(start[i].translation); };
+    for (std::size_t i = 0; i < start.size(); ++i) {
+      furthest = std::max(furthest, together.gone(i));
+      if (together.gone(i) > goes_on && (lowest == start.size() || depth(i) > depth(lowest)))
+        lowest = i;
     }
-    if ((k + 1) % descent::tilts != 0)
-      continue;
-    std::fill(cycle.begin(), cycle.end(), Motion{});
-    if (most > descent::tilts * slides * s)
-      descent.hurry();
-    rest.still = most < descent::tilts * creeps * s && descent.at_last();
+    if (furthest <= 1) {
+      together.push_clear();
+      if (rest.still)
+        rest.pressed_by = together.pressed_by();
+      rest.poses = std::move(together.poses);
+      return rest;
+    }
+    rest.stayed[lowest] = 1;
   }
-  together.push_clear();
-  if (rest.still)
-    rest.pressed_by = together.pressed_by();
-  rest.poses = std::move(together.poses);
-  rest.stayed = std::move(together.stays);
-  return rest;
 }
 
 } // namespace geom

@@ -2,7 +2,8 @@
 // all of them go down in small steps, each from rest, without inertia, until friction holds them.
 //
 // They are at rest when in four steps, of gravity tilted four ways, none has gone on: what only rocks comes back. Where
-// one slides on and on steps become larger again. One that goes further than `way` is put back and stays.
+// one slides on and on steps become larger again. One that goes further than `way` is put back and stays, and all begin
+// again.
 #pragma once
 
 #include "libgeom/placement/rest.hpp"
@@ -11,9 +12,11 @@ namespace geom {
 
 struct RestTogether {
   std::vector<Pose> poses;
-  bool still = false;       // all of them at rest
-  std::vector<char> stayed; // those that would have gone further than `way`: they are where they were
-  // How many others, moving or not, press on each with a fiftieth of its weight or more; of one that stayed only those
+  bool still = false; // all of them at rest
+  std::vector<char>
+      stayed; // those that would have gone further than `way`, the lowest first: they are where they were, and all others
+      // begin again with these held
+  // How many others, moving or not, press on each with a twentieth of its weight or more; of one that stayed only those
   // that moved. Empty unless still.
   std::vector<int> pressed_by;
 };

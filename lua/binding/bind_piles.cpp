@@ -7,6 +7,7 @@
 #include "lua/binding/solid_objects.hpp"
 #include "lua/binding/solving_stage.hpp"
 
+#include "libcdem/step/errors.hpp"
 #include "libgeom/core/error.hpp"
 #include "libgeom/placement/armour_layer.hpp"
 #include "libgeom/placement/drop_grid.hpp"
@@ -48,7 +49,65 @@ Value drop(Session&, Object*, const Arguments& a) {
       a.object<TetMeshObject>("unit")->mesh, static_cast<int>(a.integer("count")), ground_of(a), options));
 }
 
-Value lay(Session&, Object*, const Arguments& a) {
+// Shows how far a layer is, and ends it when the user asks for that.
+class LayingObserver {
+public:
+  LayingObserver(Session& session, int count)
+      : session_(session), observer_(session.settings.observer), count_(count) {
+    progress_.kind = "place";
+    progress_.counts = "unit";
+    progress_.preparing = true;
+  }
+  void operator()(const geom::LayerProgress& now) {
+    if (observer_ && observer_->stop_requested())
+      throw Interrupted();
+    progress_.step = now.laid;
+    progress_.max_steps = now.laid < count_ ? count_ : 0; // how long the rest takes nobody knows
+    progress_.note = std::string(now.doing) + ", layer " + std::to_string(now.trial) + " of at most " +
+                     std::to_string(now.trials);
+    tell();
+  }
+  void end() {
+    progress_.last = true;
+    tell();
+  }
+
+private:
+  void tell() {
+    if (!observer_ || session_.checkpoints.silent())
+      return;
+    progress_.wall_time = session_.elapsed() - begun_;
+    observer_->progress(progress_);
+  }
+
+  Session& session_;
+  std::shared_ptr<Observer> observer_;
+  int count_;
+  double begun_ = session_.elapsed();
+  Progress progress_;
+};
+
+std::string numbers_text(const std::vector<int>& units) {
+  std::string text;
+  for (const int unit : units)
+    text += (text.empty() ? "" : ", ") + std::to_string(unit + 1);
+  return (units.size() == 1 ? "unit " : "units ") + text;
+}
+
+void tell(Session& session, const geom::Layer& layer) {
+  const std::string name = "cdem.place: ";
+  if (!layer.at_rest)
+    session.warn(
+        name + "the units were laid one by one, but did not come to rest together, clear of each other; they "
+               "will move when they settle; try another seed, a lower density or a larger gap");
+  if (!layer.put_back.empty())
+    session.message(name + numbers_text(layer.put_back) +
+                    " would have slid further than half a height, and stay as laid");
+  if (!layer.leaning.empty())
+    session.message(name + "fewer than three things press on " + numbers_text(layer.leaning));
+}
+
+Value lay(Session& session, Object*, const Arguments& a) {
   geom::LayerOptions options;
   options.density = a.number("density");
   if (a.has("columns"))
@@ -61,8 +120,14 @@ Value lay(Session&, Object*, const Arguments& a) {
   options.play = a.number("play");
   options.friction = std::tan(radians(a.number("friction_angle")));
   options.walls = a.flag("walls");
-  return std::make_shared<PileObject>(geom::place_layer(
-      a.object<TetMeshObject>("unit")->mesh, static_cast<int>(a.integer("count")), ground_of(a), options));
+  const int count = static_cast<int>(a.integer("count"));
+  LayingObserver observer(session, count);
+  options.tell = [&](const geom::LayerProgress& now) { observer(now); };
+  geom::Layer layer = geom::place_layer(a.object<TetMeshObject>("unit")->mesh, count, ground_of(a), options);
+  observer.end();
+  if (options.nudges > 0)
+    tell(session, layer);
+  return std::make_shared<PileObject>(std::move(layer.pile));
 }
 
 Value read_pile(Session& session, Object*, const Arguments& a) {

@@ -228,6 +228,7 @@ Value sweep(Session& session, Object*, const Arguments& a) {
                     " runs had ended and stand");
   Progress progress;
   progress.kind = "sweep";
+  progress.counts = "run";
   progress.max_steps = count;
   const auto start = std::chrono::steady_clock::now();
   const auto tell = [&](const Job& job) {

@@ -81,6 +81,18 @@ TEST_CASE("a line of units that settle says how calm they are") {
              Contains("time 0.5 of 60 s, kinetic energy 0.001 -> 1e-06 of its peak") && !Contains("left"));
 }
 
+TEST_CASE("a line of what is not solved counts what it counts") {
+  Progress p;
+  p.kind = "place";
+  p.counts = "unit";
+  p.note = "laid, layer 2 of at most 6";
+  p.step = 12;
+  p.max_steps = 50;
+  TimeLeft left;
+  left.add(p, 1);
+  CHECK(plain_line(p, left) == "place: unit 12 of 50, laid, layer 2 of at most 6, 24 %");
+}
+
 TEST_CASE("the last line of a stage says what it came to") {
   Progress p = half_way();
   p.last = true;

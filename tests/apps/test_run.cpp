@@ -174,6 +174,32 @@ TEST_CASE("a run on a terminal shows one live line that goes when it ends") {
   }
 }
 
+TEST_CASE("a layer of units shows how far it is laid, and Ctrl-C ends it; old results stand") {
+  const TempFolder folder;
+  write_file(folder / "case.lua",
+             "local cdem = require 'cdem'\n"
+             "local many = cdem.parameter{ name = 'many', default = false }\n"
+             "cdem.report{ { name = 'before', value = 1 } }\n"
+             "if not many then return end\n"
+             "local unit = cdem.accropode{ height = 1, corner = 0 }:mesh{ size = 0.5 }\n"
+             "local slope = cdem.slope{ gradient = 2 / 3, length = 40, width = 40 }:mesh{ size = 3 }\n"
+             "cdem.place{ unit = unit, count = 900, onto = slope, columns = 20 }\n");
+  Start start;
+  start.folder = folder.path();
+  REQUIRE(run_cdem({"run", "case.lua", "--output", "out"}, start).exit_code == 0);
+  start.terminal = true;
+  start.columns = 120;
+  start.signal = SIGINT;
+  start.signal_after = "laid, layer 1 of at most 6";
+  start.limit = 60;
+  const Outcome outcome = run_cdem({"run", "case.lua", "--output", "out", "--set", "many=true"}, start);
+  CHECK(outcome.exit_code == 130);
+  CHECK(outcome.after_signal < 3);
+  CHECK_THAT(outcome.out, Contains("\r\033[Kplace  [") && Contains("laid, layer 1 of at most 6") &&
+                              Contains("stopped by Ctrl-C"));
+  CHECK(fs::exists(folder / "out/report.json"));
+}
+
 TEST_CASE("a run that is stopped leaves what it had reached") {
   Place cdem;
   cdem.start.signal = SIGTERM;

