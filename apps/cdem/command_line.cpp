@@ -18,8 +18,8 @@ constexpr int most_threads = 1024;
 // Everything that can be typed, as typed.
 struct Typed {
   std::string file, output, threads, jobs, colour, deformation = "0", view = "front", up = "y",
-                                                   size = "1600x1200", range, colour_map = "auto", title,
-                                                   topic, checkpoint_every = "10", sources;
+                                                   size = "1600x1200", range, hidden, colour_map = "auto",
+                                                   title, topic, checkpoint_every = "10", sources;
   std::vector<std::string> set;
   bool unsafe = false, quiet = false, machine = false, version = false, manual = false;
   bool no_edges = false, no_broken_bonds = false, no_colour_bar = false, no_legend = false, no_axes = false;
@@ -273,6 +273,8 @@ private:
                      "auto, blue_white_red, cool_warm, viridis, grey or categorical (auto)")
         ->option_text("NAME");
     command->add_option("--title,-t", typed_.title, "title of the picture")->option_text("TEXT");
+    command->add_option("--hidden", typed_.hidden, "bodies to leave out, by their numbers in field body (0 is the first)")
+        ->option_text("N,...");
     command->add_flag("--no-edges", typed_.no_edges, "without the outlines of the blocks");
     command->add_flag("--no-broken-bonds", typed_.no_broken_bonds, "without broken bonds");
     command->add_flag("--no-colour-bar,--no-color-bar", typed_.no_colour_bar, "without the colour bar");
@@ -464,6 +466,8 @@ private:
     c.size = size_value("--size", typed_.size);
     if (!typed_.range.empty())
       c.range = range_value("--range", typed_.range);
+    if (!typed_.hidden.empty())
+      c.hidden = numbers_value("--hidden", typed_.hidden);
     c.colour_map = typed_.colour_map;
     c.title = typed_.title;
     c.edges = !typed_.no_edges;

@@ -1,5 +1,7 @@
 #include "apps/cdem/option_values.hpp"
 
+#include "libcdem/vtk/picture.hpp"
+
 #include "apps/cdem/failure.hpp"
 
 #include <cerrno>
@@ -87,9 +89,17 @@ std::array<int, 2> size_value(const std::string& option, const std::string& text
   const auto parts = split(text, 'x');
   if (parts.size() > 2 || parts[0].empty() || parts.back().empty())
     refuse(option, text, "WIDTHxHEIGHT or WIDTH in pixels, e.g. 1600x1200");
-  constexpr int least = 16, most = 16384;
-  return {whole_number(option, parts[0], least, most),
-          parts.size() == 2 ? whole_number(option, parts[1], least, most) : 0};
+  const auto side = [&](const std::string& part) {
+    return whole_number(option, part, least_picture_side, most_picture_side);
+  };
+  return {side(parts[0]), parts.size() == 2 ? side(parts[1]) : 0};
+}
+
+std::vector<int> numbers_value(const std::string& option, const std::string& text) {
+  std::vector<int> numbers;
+  for (const std::string& part : split(text, ','))
+    numbers.push_back(whole_number(option, part, 0, 1000000));
+  return numbers;
 }
 
 std::array<double, 2> range_value(const std::string& option, const std::string& text) {

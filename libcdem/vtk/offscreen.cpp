@@ -2,6 +2,8 @@
 // Mesa's surfaceless EGL platform with a small pbuffer; VTK draws into its own frame buffer and we read that.
 #include "libcdem/vtk/offscreen.hpp"
 
+#include "libcdem/vtk/picture.hpp"
+
 #include "libcdem/vtk/atomic_file.hpp"
 #include "libgeom/core/error.hpp"
 
@@ -160,7 +162,7 @@ private:
 
 void check_picture(const std::array<int, 2>& size, const std::string& png_path) {
   for (const int side : size)
-    if (side < 64 || side > 8000)
+    if (side < least_picture_side || side > most_picture_side)
       throw geom::InputError("size", "{" + std::to_string(size[0]) + ", " + std::to_string(size[1]) + "}",
                              "between 64 and 8000 pixels");
   require_extension(png_path, ".png");

@@ -20,9 +20,13 @@ Field colour_field() {
 
 std::array<int, 2> size_of(const Arguments& a) {
   const auto size = a.numbers("size");
-  const auto whole = [](double x, double low) { return x == std::floor(x) && x >= low && x <= 20000; };
-  if (size.size() != 2 || !whole(size[0], 16) || !(whole(size[1], 16) || size[1] == 0))
-    throw InputError("size", describe(a.value("size")), "{width, height} in pixels, each 16 to 20000");
+  const auto side = [](double x) {
+    return x == std::floor(x) && x >= least_picture_side && x <= most_picture_side;
+  };
+  if (size.size() != 2 || !side(size[0]) || !(side(size[1]) || size[1] == 0))
+    throw InputError("size", describe(a.value("size")),
+                     "{width, height} in pixels, each " + std::to_string(least_picture_side) + " to " +
+                         std::to_string(most_picture_side) + "; height 0: as high as needed");
   return {static_cast<int>(size[0]), static_cast<int>(size[1])};
 }
 

@@ -77,7 +77,7 @@ TEST_CASE("a wrong command line is refused with the nearest right one") {
   check({"run", "case.lua", "--set", "a=1", "--set", "a=2"}, "--set a is given twice");
   check({"--verison"}, "no option --verison; did you mean --version?");
   check({"sweep", "case.lua"}, "nothing varies");
-  check({"render", "a.vtu", "--size", "8x8"}, "--size = 8: must be a whole number from 16 to 16384");
+  check({"render", "a.vtu", "--size", "8x8"}, "--size = 8: must be a whole number from 64 to 8000");
   check({"render", "a.vtu", "--deformation", "much"}, "--deformation = much: must be a finite number");
   check({"render", "a.vtu", "--range", "3,1"}, "--range = 3,1");
   check({"info", "."}, "holds no cdem.log");

@@ -150,6 +150,41 @@ TEST_CASE("render draws a .vtu without a display") {
   CHECK_THAT(wrong.err, Contains("displacement.y"));
 }
 
+TEST_CASE("render leaves out the bodies it is told to") {
+  const TempFolder folder;
+  write_file(folder / "case.lua",
+             "local cdem = require 'cdem'\n"
+             "local rock = cdem.elastic{ density = 2500, youngs_modulus = 3e10, poissons_ratio = 0.25 }\n"
+             "local function cube(name, x)\n"
+             "  return { shape = cdem.cube{ height = 1 }:translate{ shift = {x, 0, 0} }:mesh{ size = 1 },\n"
+             "           material = rock, name = name }\n"
+             "end\n"
+             "local model = cdem.model{ bodies = { cube('one', 0), cube('two', 2) } }\n"
+             "model:save{ file = 'two.vtu' }\n");
+  Start start;
+  start.folder = folder.path();
+  const Outcome ran = run_cdem({"run", "case.lua", "--output", "out"}, start);
+  INFO(ran.err);
+  REQUIRE(ran.exit_code == 0);
+  const auto drawn = [&](const std::string& hide) {
+    std::vector<std::string> line{"render", "out/two.vtu", "--size", "320x240", "-c", "body", "-o", "p.png"};
+    if (!hide.empty())
+      line.insert(line.end(), {"--hidden", hide});
+    return run_cdem(line, start);
+  };
+  REQUIRE(drawn("").exit_code == 0);
+  const std::string both = read_file(folder / "p.png");
+  REQUIRE(drawn("1").exit_code == 0);
+  CHECK(read_file(folder / "p.png") != both);
+  for (const auto& [hide, said] : {std::pair("5", "--hidden = 5: must be a body of the file: 0, 1"),
+                                   std::pair("0,1", "nothing would be left to draw"),
+                                   std::pair("x", "--hidden = x: must be a whole number")}) {
+    const Outcome refused = drawn(hide);
+    CHECK(refused.exit_code == 2);
+    CHECK_THAT(refused.err, Contains(said));
+  }
+}
+
 TEST_CASE("a run on a terminal shows one live line that goes when it ends") {
   Place cdem;
   cdem.start.terminal = true;

@@ -3,11 +3,14 @@
 #include "libcdem/vtk/field_values.hpp"
 #include "libcdem/vtk/files.hpp"
 #include "libcdem/vtk/picture.hpp"
+#include "libcdem/vtk/without_bodies.hpp"
+#include "libgeom/core/error.hpp"
 #include "lua/binding/engine.hpp"
 
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
+#include <set>
 #include <unistd.h>
 
 namespace cdem::app {
@@ -26,6 +29,28 @@ std::string usual_field(const Snapshot& snapshot) {
     if (field.components == 1)
       return field.name;
   return "";
+}
+
+Snapshot without(const Snapshot& snapshot, const std::vector<int>& hidden) {
+  if (hidden.empty())
+    return snapshot;
+  std::set<int> bodies;
+  if (const SnapshotField* field = find_field(snapshot.cell_fields, "body"))
+    for (const double number : field->values)
+      bodies.insert(static_cast<int>(number));
+  std::string known;
+  for (const int body : bodies)
+    known += (known.empty() ? "" : ", ") + std::to_string(body);
+  for (const int body : hidden)
+    if (bodies.count(body) == 0)
+      throw geom::InputError("--hidden", std::to_string(body),
+                             bodies.empty() ? "left out: the file does not tell bodies"
+                                            : "a body of the file: " + known);
+  for (const int body : hidden)
+    bodies.erase(body);
+  if (bodies.empty())
+    throw geom::InputError("--hidden", known, "fewer bodies: nothing would be left to draw");
+  return without_bodies(snapshot, hidden);
 }
 
 } // namespace
@@ -61,7 +86,7 @@ ExitCode render_picture(const RenderCommand& command) {
   options.colour_bar = command.colour_bar;
   options.legend = command.legend;
   options.axes = command.axes;
-  render(snapshot, options, output.string());
+  render(without(snapshot, command.hidden), options, output.string());
   std::printf("%s\n", output.c_str());
   return ExitCode::success;
 }
