@@ -212,7 +212,7 @@ RelaxResult relax(const StageContext& context, const RelaxOptions& options, cons
           report.residual <= options.residual && stage.broken_in_step() == 0 && stage.step > moving_steps;
       settled = balanced ? settled + 1 : 0;
       if (options.callback && options.callback_every > 0 && stage.step % options.callback_every == 0) {
-        stage.catch_up(); // what it reads is of one moment
+        const Stage::Look look(stage); // what it reads is of one moment
         options.callback();
       }
     }

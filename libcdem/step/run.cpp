@@ -199,8 +199,9 @@ RunResult run(const StageContext& context, const RunOptions& options, const std:
     state.velocity_lag = 0.5 * stepping.time_step;
     stage.after_step(report);
     if (stage.step % ask_every == 0) {
+      std::optional<Stage::Look> look; // what they read is of one moment
       if (options.callback || options.stop)
-        stage.catch_up(); // what they read is of one moment
+        look.emplace(stage);
       if (options.callback && options.callback_every > 0)
         options.callback();
       stopped = options.stop && options.stop() && report.residual <= options.stop_residual;

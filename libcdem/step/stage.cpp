@@ -152,11 +152,19 @@ double Stage::wall_time() const {
 }
 
 void Stage::catch_up() {
+  catch_up_contacts();
+  catch_up_meshes();
+}
+
+void Stage::catch_up_contacts() {
   try {
     context_.state.spent.friction +=
         contact_forces(context_.model, context_.state, work, context_.threads).friction;
   } catch (const SolutionError&) { // the next step meets it again, and says so
   }
+}
+
+void Stage::catch_up_meshes() {
   const auto meshes = static_cast<std::int64_t>(context_.model.mesh.chunks.size());
   if (work.strain_step > 0)
     for_chunks(meshes, context_.threads, [&](std::int64_t c) {
@@ -173,6 +181,36 @@ void Stage::catch_up() {
         work.contact.pieces_due = work.contact.due = true;
     }
   work.strain_step = 0;
+}
+
+Stage::Look::Look(Stage& stage) : stage_(stage) {
+  stage.catch_up_contacts();
+  const State& state = stage.context_.state;
+  if (!state.faces.empty() && stage.work.strain_step > 0) {
+    strain_step_ = stage.work.strain_step;
+    contact_due_ = stage.work.contact.due;
+    pieces_due_ = stage.work.contact.pieces_due;
+    stress_ = state.stress;
+    viscous_stress_ = state.viscous_stress;
+    faces_ = state.faces;
+    face_slip_ = state.face_slip;
+    spent_ = state.spent;
+  }
+  stage.catch_up_meshes();
+}
+
+Stage::Look::~Look() {
+  if (strain_step_ == 0)
+    return;
+  State& state = stage_.context_.state;
+  stage_.work.strain_step = strain_step_;
+  stage_.work.contact.due = contact_due_;
+  stage_.work.contact.pieces_due = pieces_due_;
+  state.stress = std::move(stress_);
+  state.viscous_stress = std::move(viscous_stress_);
+  state.faces = std::move(faces_);
+  state.face_slip = std::move(face_slip_);
+  state.spent = spent_;
 }
 
 void Stage::keep_state() {
@@ -259,8 +297,9 @@ StageResult Stage::finish(const StepReport& report) {
 }
 
 void Stage::sample(const StepReport& report) {
+  std::optional<Look> look;
   if (!context_.log.probes.empty())
-    catch_up();
+    look.emplace(*this);
   record_history(context_.model, context_.state, context_.log, context_.number, report.residual,
                  report.sums.kinetic);
 }

@@ -65,6 +65,25 @@ public:
   // Brings the stress of meshes up to where the nodes are; before a state is kept or handed out.
   void catch_up();
 
+  // The same for those who only look, as long as this lives; then bonds are as they were. Brought up twice, in this
+  // step and in the next, they would break with other energies, and slide to other places in the last digit.
+  class Look {
+  public:
+    explicit Look(Stage&);
+    ~Look();
+    Look(const Look&) = delete;
+    Look& operator=(const Look&) = delete;
+
+  private:
+    Stage& stage_;
+    double strain_step_ = 0; // s; 0: nothing to put back
+    bool contact_due_ = false, pieces_due_ = false;
+    std::vector<StressBatch> stress_, viscous_stress_;
+    std::vector<FaceStateBatch> faces_;
+    std::vector<FaceSlip> face_slip_;
+    EnergyLedger spent_;
+  };
+
   // True at the head of a step before which the state has been kept: mark() there, with what the loop carries.
   bool can_be_left() const { return context_.moment && step > 0 && step % watch_every == 0; }
   void mark(std::vector<double> carried, const std::vector<Node>& previous_force = {});
@@ -83,6 +102,8 @@ private:
   NodeSums total() const;
   double wall_time() const; // s
   StageStep here() const { return {context_.number, kind_, step}; }
+  void catch_up_contacts();
+  void catch_up_meshes();
   void keep_state();
   void sample(const StepReport&); // a row of the history
   void tell(const StepReport&, bool last);
