@@ -15,7 +15,7 @@ constexpr int first_steps = 1000, later_steps = 400;    // at most
 constexpr double first_step = 0.01, later_step = 0.003; // over the height
 
 // Of seating otherwise units that too few others press on.
-constexpr int rounds = 30, rounds_in_vain = 12; // at most, the latter in a row
+constexpr int rounds = 40, rounds_in_vain = 20; // at most, the latter in a row
 constexpr std::uint64_t seats_tried = 20;
 constexpr int without_seat = 5; // rounds in which a unit found none: it is left alone
 constexpr int seats_wanted = 4;
