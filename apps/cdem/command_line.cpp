@@ -273,7 +273,9 @@ private:
                      "auto, blue_white_red, cool_warm, viridis, grey or categorical (auto)")
         ->option_text("NAME");
     command->add_option("--title,-t", typed_.title, "title of the picture")->option_text("TEXT");
-    command->add_option("--hidden", typed_.hidden, "bodies to leave out, by their numbers in field body (0 is the first)")
+    command
+        ->add_option("--hidden", typed_.hidden,
+                     "bodies to leave out, by their numbers in field body (0 is the first)")
         ->option_text("N,...");
     command->add_flag("--no-edges", typed_.no_edges, "without the outlines of the blocks");
     command->add_flag("--no-broken-bonds", typed_.no_broken_bonds, "without broken bonds");

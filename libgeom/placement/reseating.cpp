@@ -34,8 +34,12 @@ void Laying::rest_together(int held) {
 
 void Laying::rest_together(int held, double step, int steps) {
   rested_ = {};
-  if (options_.nudges == 0 || held >= static_cast<int>(laid_.size()))
+  if (options_.nudges == 0)
     return;
+  if (held >= static_cast<int>(laid_.size())) { // each by itself
+    rested_.still = true;
+    return;
+  }
   std::vector<const Features*> others{&ground_features_};
   for (const Features& wall : wall_features_)
     others.push_back(&wall);
@@ -71,8 +75,8 @@ void Laying::rest_together(int held, double step, int steps) {
   }
 }
 
-// The best, and nearest, of some other seats near by where three things carry it by itself: turned and shifted, more in each
-// round, or lifted and in any attitude. False where there is none.
+// The best, and nearest, of some other seats near by where three things carry it by itself: turned and shifted, more in
+// each round, or lifted and in any attitude. False where there is none.
 bool Laying::seat_otherwise(int unit, int round) {
   const Pose here = laid_[unit].pose;
   const std::vector<Mat3> rotations = attitudes(sites_[unit]);

@@ -15,8 +15,10 @@ namespace {
 constexpr int sweeps = 400;     // over all impulses, at most
 constexpr double creeps = 0.06; // of s, a step: what is slower rests
 constexpr double slides = 0.15; // and what is faster goes on with larger steps
-// Of the way a body may go. When one has gone further than that, the lowest of those beyond this stays.
+// Of the way a body may go. When one has gone further than that, the lowest of those beyond this stays, and all begin
+// again; after so many times what goes too far is put back at once.
 constexpr double goes_on = 0.8;
+constexpr int begins_again = 6;
 constexpr double too_far = 2; // times what is needed: lists that reach further are made anew
 
 // Bodies that move, those that stay, and their touches.
@@ -31,7 +33,15 @@ public:
   std::vector<Motion> step(const Vec3& down, double s);
   void push_clear();
   std::vector<int> pressed_by();
+  const std::vector<char>& stays() const { return stays_; }
   bool stays(std::size_t body) const { return stays_[body] != 0; }
+  // From now on, where it began.
+  void put_back(std::size_t body) {
+    poses[body] = start_[body];
+    stays_[body] = 1;
+    pushed_.clear();
+    listed_ = -1;
+  }
   // Of the way a body may go.
   double gone(std::size_t body) const {
     return (poses[body].translation - start_[body].translation).norm() / options_.way;
@@ -69,7 +79,7 @@ private:
   const std::vector<Pose>& start_;
   const std::vector<const Features*>& others_;
   const RestOptions& options_;
-  const std::vector<char>& stays_;
+  std::vector<char> stays_;
   double radius_ = 0;
   double listed_ = -1; // m: what is nearer than this is in the pairs
   std::vector<Features> bodies_;
@@ -228,8 +238,8 @@ std::vector<int> Together::pressed_by() {
   return pressed;
 }
 
-// Takes steps until all are at rest, which it returns, or one has gone too far.
-bool descend(Together& together, const RestOptions& options) {
+// Takes steps until all are at rest, which it returns, or one has gone too far, if that is not to be put back.
+bool descend(Together& together, const RestOptions& options, bool puts_back) {
   const std::size_t count = together.poses.size();
   Descent descent(options);
   std::vector<Motion> cycle(count); // since gravity was first tilted this way
@@ -243,8 +253,12 @@ bool descend(Together& together, const RestOptions& options) {
       cycle[i].shift += v[i].shift;
       cycle[i].turn += v[i].turn;
       most = std::max(most, cycle[i].norm());
-      if (together.gone(i) > 1)
-        return false;
+      if (together.gone(i) > 1) {
+        if (!puts_back)
+          return false;
+        together.put_back(i);
+        cycle[i] = {};
+      }
     }
     if ((k + 1) % descent::tilts != 0)
       continue;
@@ -265,9 +279,9 @@ RestTogether come_to_rest_together(const Features& shape, const std::vector<Pose
                                    const std::vector<const Features*>& others, const RestOptions& options) {
   RestTogether rest;
   rest.stayed.assign(start.size(), 0);
-  for (;;) { // ends: every time one more stays
+  for (int k = 0;; ++k) {
     Together together(shape, start, others, options, rest.stayed);
-    rest.still = descend(together, options);
+    rest.still = descend(together, options, k == begins_again);
     double furthest = 0;
     std::size_t lowest = start.size(); // of those that went on
     const auto depth = [&](std::size_t i) { return options.down.dot(start[i].translation); };
@@ -280,6 +294,7 @@ RestTogether come_to_rest_together(const Features& shape, const std::vector<Pose
       together.push_clear();
       if (rest.still)
         rest.pressed_by = together.pressed_by();
+      rest.stayed = together.stays();
       rest.poses = std::move(together.poses);
       return rest;
     }

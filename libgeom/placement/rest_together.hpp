@@ -2,8 +2,9 @@
 // all of them go down in small steps, each from rest, without inertia, until friction holds them.
 //
 // They are at rest when in four steps, of gravity tilted four ways, none has gone on: what only rocks comes back. Where
-// one slides on and on steps become larger again. One that goes further than `way` is put back and stays, and all begin
-// again.
+// one slides on and on steps become larger again. Where one goes further than `way`, the
+// lowest of those that do stays where it was, and all begin again; after some such times those that do are put back at
+// once.
 #pragma once
 
 #include "libgeom/placement/rest.hpp"
@@ -13,9 +14,8 @@ namespace geom {
 struct RestTogether {
   std::vector<Pose> poses;
   bool still = false; // all of them at rest
-  std::vector<char>
-      stayed; // those that would have gone further than `way`, the lowest first: they are where they were, and all others
-      // begin again with these held
+  // Those that would have gone further than `way`: they are where they were.
+  std::vector<char> stayed;
   // How many others, moving or not, press on each with a twentieth of its weight or more; of one that stayed only those
   // that moved. Empty unless still.
   std::vector<int> pressed_by;
