@@ -138,10 +138,8 @@ void Stage::moved(double time_step) {
 
 double Stage::meet() {
   const Model& model = context_.model;
-  const ContactSums sums = contact_forces(model, context_.state, work, context_.threads);
-  context_.state.spent.friction += sums.friction;
-  context_.log.deepest_contact = std::max(context_.log.deepest_contact, sums.depth);
-  context_.log.deepest_over_height = std::max(context_.log.deepest_over_height, sums.depth_over_height);
+  meet_contacts();
+  const ContactSums sums = std::exchange(met_, {});
   if (sums.deepest > 1)
     refuse_depth(model, context_.state, sums.deepest_source, sums.deepest_target, here());
   return contact_time_step(model, context_.state, work, row_sums_);
@@ -156,10 +154,18 @@ void Stage::catch_up() {
   catch_up_meshes();
 }
 
+void Stage::meet_contacts() {
+  const ContactSums sums = contact_forces(context_.model, context_.state, work, context_.threads);
+  context_.state.spent.friction += sums.friction;
+  context_.log.deepest_contact = std::max(context_.log.deepest_contact, sums.depth);
+  context_.log.deepest_over_height = std::max(context_.log.deepest_over_height, sums.depth_over_height);
+  if (sums.deepest > met_.deepest)
+    met_ = sums;
+}
+
 void Stage::catch_up_contacts() {
   try {
-    context_.state.spent.friction +=
-        contact_forces(context_.model, context_.state, work, context_.threads).friction;
+    meet_contacts();
   } catch (const SolutionError&) { // the next step meets it again, and says so
   }
 }
@@ -206,10 +212,10 @@ Stage::Look::~Look() {
   stage_.work.strain_step = strain_step_;
   stage_.work.contact.due = contact_due_;
   stage_.work.contact.pieces_due = pieces_due_;
-  state.stress = std::move(stress_);
-  state.viscous_stress = std::move(viscous_stress_);
-  state.faces = std::move(faces_);
-  state.face_slip = std::move(face_slip_);
+  state.stress = stress_; // copied: the step knows where these lie
+  state.viscous_stress = viscous_stress_;
+  state.faces = faces_;
+  state.face_slip = face_slip_;
   state.spent = spent_;
 }
 
@@ -258,6 +264,8 @@ void Stage::after_step(const StepReport& report) {
   if (!std::isfinite(report.sums.residual2) || !std::isfinite(report.sums.kinetic) ||
       !std::isfinite(report.sums.reaction2))
     require_sound(context_.model, context_.state, work, run_away_, here());
+  if (follows_pieces)
+    require_followed(context_.model, work, here());
   if (step % watch_every == 0)
     keep_state();
   if (!work.resolved.flows.empty() && step % flow_every == 0) {
@@ -266,8 +274,6 @@ void Stage::after_step(const StepReport& report) {
   }
   if (context_.log.due(context_.state.step))
     sample(report);
-  if (follows_pieces)
-    require_followed(context_.model, work, here());
   if (step % look_every == 0)
     look_at_units(context_.model, context_.state, context_.conditions, context_.log);
   // Not between the keeping of a state and its mark: the two would be of different moments.

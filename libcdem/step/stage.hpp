@@ -102,6 +102,7 @@ private:
   NodeSums total() const;
   double wall_time() const; // s
   StageStep here() const { return {context_.number, kind_, step}; }
+  void meet_contacts();
   void catch_up_contacts();
   void catch_up_meshes();
   void keep_state();
@@ -114,6 +115,7 @@ private:
   std::string kind_;
   double run_away_;
   std::int64_t broken_in_step_ = 0;
+  ContactSums met_; // the deepest since the head of the last step
   std::int64_t broken_tension_before_ = 0, broken_shear_before_ = 0;
   std::chrono::steady_clock::time_point start_;
   Telling telling_;

@@ -57,7 +57,8 @@ Layout arrange(const LayoutInput& in) {
     const Room room = room_beside(in, choices[0]);
     const double height =
         std::clamp((in.size[0] - room.left - room.right) / aspect, 0.15 * in.size[0], 2.0 * in.size[0]);
-    layout.size[1] = std::min(8000, static_cast<int>(std::lround(height + room.top + room.bottom)));
+    layout.size[1] =
+        std::min(most_picture_side, static_cast<int>(std::lround(height + room.top + room.bottom)));
   }
   Choice best = choices[0];
   double best_width = -1;

@@ -164,7 +164,8 @@ void check_picture(const std::array<int, 2>& size, const std::string& png_path) 
   for (const int side : size)
     if (side < least_picture_side || side > most_picture_side)
       throw geom::InputError("size", "{" + std::to_string(size[0]) + ", " + std::to_string(size[1]) + "}",
-                             "between 64 and 8000 pixels");
+                             "between " + std::to_string(least_picture_side) + " and " +
+                                 std::to_string(most_picture_side) + " pixels");
   require_extension(png_path, ".png");
   AtomicFile probe(png_path); // the folder exists
 }

@@ -46,7 +46,7 @@ ChartOptions chart_options(const Arguments& a) {
   options.y_range = limits_of(a, "y_range");
   options.right_range = limits_of(a, "right_range");
   options.legend = a.text("legend");
-  options.size = size_of(a);
+  options.size = size_of(a, false);
   return options;
 }
 

@@ -59,8 +59,10 @@ public:
     progress_.preparing = true;
   }
   void operator()(const geom::LayerProgress& now) {
-    if (observer_ && observer_->stop_requested())
+    if (observer_ && observer_->stop_requested()) {
+      session_.checkpoints.stop();
       throw Interrupted();
+    }
     progress_.step = now.laid;
     progress_.max_steps = now.laid < count_ ? count_ : 0; // how long the rest takes nobody knows
     progress_.note = std::string(now.doing) + ", layer " + std::to_string(now.trial) + " of at most " +
@@ -123,7 +125,13 @@ Value lay(Session& session, Object*, const Arguments& a) {
   const int count = static_cast<int>(a.integer("count"));
   LayingObserver observer(session, count);
   options.tell = [&](const geom::LayerProgress& now) { observer(now); };
-  geom::Layer layer = geom::place_layer(a.object<TetMeshObject>("unit")->mesh, count, ground_of(a), options);
+  geom::Layer layer;
+  try {
+    layer = geom::place_layer(a.object<TetMeshObject>("unit")->mesh, count, ground_of(a), options);
+  } catch (...) {
+    observer.end();
+    throw;
+  }
   observer.end();
   if (options.nudges > 0)
     tell(session, layer);

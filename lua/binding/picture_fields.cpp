@@ -18,15 +18,16 @@ Field colour_field() {
   return list("colour", number_type(), 3).doc("{red, green, blue}, each 0 .. 1");
 }
 
-std::array<int, 2> size_of(const Arguments& a) {
+std::array<int, 2> size_of(const Arguments& a, bool free_height) {
   const auto size = a.numbers("size");
   const auto side = [](double x) {
     return x == std::floor(x) && x >= least_picture_side && x <= most_picture_side;
   };
-  if (size.size() != 2 || !side(size[0]) || !(side(size[1]) || size[1] == 0))
+  if (size.size() != 2 || !side(size[0]) || !(side(size[1]) || (free_height && size[1] == 0)))
     throw InputError("size", describe(a.value("size")),
                      "{width, height} in pixels, each " + std::to_string(least_picture_side) + " to " +
-                         std::to_string(most_picture_side) + "; height 0: as high as needed");
+                         std::to_string(most_picture_side) +
+                         (free_height ? "; height 0: as high as needed" : ""));
   return {static_cast<int>(size[0]), static_cast<int>(size[1])};
 }
 

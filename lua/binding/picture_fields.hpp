@@ -10,7 +10,7 @@ namespace cdem::script {
 Field size_field();   // "size": {width, height} in pixels
 Field colour_field(); // "colour": {red, green, blue}
 
-std::array<int, 2> size_of(const Arguments&);
+std::array<int, 2> size_of(const Arguments&, bool free_height = true); // free: 0, as high as needed
 std::optional<Colour> colour_of(const Arguments&);
 std::optional<std::array<double, 2>> limits_of(const Arguments&,
                                                const std::string& name); // {lowest, highest}

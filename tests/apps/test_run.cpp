@@ -175,7 +175,11 @@ TEST_CASE("render leaves out the bodies it is told to") {
   REQUIRE(drawn("").exit_code == 0);
   const std::string both = read_file(folder / "p.png");
   REQUIRE(drawn("1").exit_code == 0);
+  const std::string first = read_file(folder / "p.png");
+  CHECK(first != both);
+  REQUIRE(drawn("0").exit_code == 0);
   CHECK(read_file(folder / "p.png") != both);
+  CHECK(read_file(folder / "p.png") != first);
   for (const auto& [hide, said] : {std::pair("5", "--hidden = 5: must be a body of the file: 0, 1"),
                                    std::pair("0,1", "nothing would be left to draw"),
                                    std::pair("x", "--hidden = x: must be a whole number")}) {
@@ -209,30 +213,35 @@ TEST_CASE("a run on a terminal shows one live line that goes when it ends") {
   }
 }
 
-TEST_CASE("a layer of units shows how far it is laid, and Ctrl-C ends it; old results stand") {
+TEST_CASE("a layer of units shows how far it is laid, and Ctrl-C ends it; what was solved is kept") {
   const TempFolder folder;
-  write_file(folder / "case.lua",
-             "local cdem = require 'cdem'\n"
-             "local many = cdem.parameter{ name = 'many', default = false }\n"
-             "cdem.report{ { name = 'before', value = 1 } }\n"
-             "if not many then return end\n"
-             "local unit = cdem.accropode{ height = 1, corner = 0 }:mesh{ size = 0.5 }\n"
-             "local slope = cdem.slope{ gradient = 2 / 3, length = 40, width = 40 }:mesh{ size = 3 }\n"
-             "cdem.place{ unit = unit, count = 900, onto = slope, columns = 20 }\n");
+  write_file(
+      folder / "case.lua",
+      "local cdem = require 'cdem'\n"
+      "local many = cdem.parameter{ name = 'many', default = false }\n"
+      "if not many then return cdem.report{ { name = 'before', value = 1 } } end\n"
+      "local rock = cdem.elastic{ density = 2500, youngs_modulus = 3e10, poissons_ratio = 0.25 }\n"
+      "local cube = { shape = cdem.cube{ height = 1 }:mesh{ size = 1 }, material = rock, name = 'cube' }\n"
+      "local model = cdem.model{ bodies = { cube } }\n"
+      "model:fix{ on = 'z-' }\n"
+      "model:gravity{ vector = {0, 0, -9.81} }\n"
+      "model:relax{}\n"
+      "local unit = cdem.accropode{ height = 1, corner = 0 }:mesh{ size = 0.5 }\n"
+      "local slope = cdem.slope{ gradient = 2 / 3, length = 40, width = 40 }:mesh{ size = 3 }\n"
+      "cdem.place{ unit = unit, count = 900, onto = slope, columns = 20 }\n");
   Start start;
   start.folder = folder.path();
-  REQUIRE(run_cdem({"run", "case.lua", "--output", "out"}, start).exit_code == 0);
   start.terminal = true;
   start.columns = 120;
   start.signal = SIGINT;
   start.signal_after = "laid, layer 1 of at most 6";
   start.limit = 60;
-  const Outcome outcome = run_cdem({"run", "case.lua", "--output", "out", "--set", "many=true"}, start);
+  const Outcome outcome = run_cdem({"run", "case.lua", "--output", "out"}, start);
   CHECK(outcome.exit_code == 130);
   CHECK(outcome.after_signal < 3);
   CHECK_THAT(outcome.out, Contains("\r\033[Kplace  [") && Contains("laid, layer 1 of at most 6") &&
-                              Contains("stopped by Ctrl-C"));
-  CHECK(fs::exists(folder / "out/report.json"));
+                              Contains("stopped by Ctrl-C") && Contains("cdem resume out"));
+  CHECK(fs::exists(folder / "out/checkpoint_1.cdem"));
 }
 
 TEST_CASE("a run that is stopped leaves what it had reached") {

@@ -353,6 +353,14 @@ TEST_CASE("units of a layer between walls lean on three things or more, row ends
   CHECK(2 * leaning > ends);
 }
 
+TEST_CASE("a layer of one row is at rest as it is laid") {
+  LayerOptions options;
+  options.columns = 3;
+  const Layer layer = place_layer(accropode_mesh(), 3, slope_ground(0.5), options);
+  CHECK(layer.at_rest);
+  CHECK(layer.trials == 1);
+}
+
 TEST_CASE("who watches a layer being laid can end it") {
   LayerOptions options;
   options.columns = 3;

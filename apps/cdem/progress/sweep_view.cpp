@@ -30,7 +30,7 @@ void SweepView::progress(std::size_t run, const std::string& name, const std::st
   double fraction = -1;
   if (!(words >> mark >> stage >> kind >> fraction) || mark != '@')
     return;
-  shown.stage = "stage " + std::to_string(stage) + " " + kind;
+  shown.stage = stage > 0 ? "stage " + std::to_string(stage) + " " + kind : kind;
   shown.fraction = fraction;
 }
 
