@@ -6,7 +6,7 @@
 --
 -- A smaller pile has its own folder, and fewer units that may be held:
 --
---   ./cdem run examples/armour_pile/flow.lua --set held=3 \
+--   ./cdem run examples/armour_pile/flow.lua --set held=2 \
 --       --set pile="results/armour_pile-settle-columns=3,count=12,held=3/pile.json"
 local cdem = require "cdem"
 local set_up = require "pile"

@@ -17,9 +17,9 @@ expect.between(figures, "largest_way_over_height", 0, 0.1)
 
 -- rho V^2 / 2 on a silhouette of H^2 carries a unit's weight under water up a frictionless slope of 1:1.5 at 3.1 m/s (a
 -- little less, as limbs do not shield each other); on a third of it, with friction of 35 degrees, at 7.7 m/s, and nothing
--- but neighbours can hold one back beyond.
+-- but neighbours can hold one back beyond: with the whole highest row held all twelve are wedged, one of it is left free.
 local run = cdem.sweep{ script = example .. "flow.lua",
-                        set = { { pile = "../" .. result.output .. "/pile.json", held = 3, units = 1,
+                        set = { { pile = "../" .. result.output .. "/pile.json", held = 2, units = 1,
                                   first_velocity = 2, velocity_step = 1, longest_hold = 0.4, pictures = false } } }[1]
 if run.exit_code ~= 0 then error("the flow ended with exit code " .. run.exit_code) end
 expect.between(run.figures, "unit_1_leaves_at_m_per_s_5_t", 2.5, 15)

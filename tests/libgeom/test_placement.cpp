@@ -231,7 +231,8 @@ TEST_CASE("an armour layer has the density it was asked for, and no unit cuts an
         measure_pile(surfaces(pile), ground.surface(), pile.height, volume(pile.unit));
     CHECK(measured.packing_density == Approx(density).epsilon(0.05));
 
-    // Each unit is above the gap between two of the row below, all within a tenth of the height of their places.
+    // Each unit is above the gap between two of the row below: laid within a tenth of the height of their places, and all move
+    // a little when they come to rest together.
     const Vec3 up = Vec3(1, 0, gradient).normalized();
     for (int i = 5; i < 30; ++i) {
       const int row = i / 5, column = i % 5, first = 5 * (row - 1), other = column + (row % 2 == 0 ? -1 : 1);
@@ -239,7 +240,7 @@ TEST_CASE("an armour layer has the density it was asked for, and no unit cuts an
         continue;
       const Vec3 here = pile.poses[i].translation, left = pile.poses[first + column].translation,
                  right = pile.poses[first + other].translation;
-      CHECK(std::abs(here.y() - 0.5 * (left.y() + right.y())) <= 0.2 * pile.height + 1e-9);
+      CHECK(std::abs(here.y() - 0.5 * (left.y() + right.y())) <= 0.25 * pile.height);
       CHECK(up.dot(here) > std::max(up.dot(left), up.dot(right)));
     }
   }
