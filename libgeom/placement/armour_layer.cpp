@@ -18,7 +18,8 @@ constexpr double far = 1e30;
 
 constexpr double catch_up =
     0.2; // of the height: how far a unit may be laid off the two below for the density
-constexpr int spacings_tried = 6;
+constexpr int most_spacings = 6;
+constexpr int many = 2000; // units times spacings, at most: a large layer has its density sooner
 constexpr double density_tolerance = 0.01;
 constexpr double not_at_rest = 1; // error of the density that it counts for
 
@@ -178,13 +179,14 @@ Layer place_layer(const TetMesh& unit, int count, const Ground& ground, const La
   const double widest = std::clamp(
       (room.size().x() - pile.height) / ((as_asked.columns - 0.5) * as_asked.spacing.across), 1., 1.4);
   LayerProgress now;
-  now.trials = spacings_tried;
+  const int spacings = std::clamp(many / count, 2, most_spacings);
+  now.trials = spacings;
   const auto poll = [&] {
     if (options.tell)
       options.tell(now);
   };
-  for (int i = 0; i < spacings_tried && least_error > density_tolerance; ++i) {
-    now = {i + 1, spacings_tried, 0, "laid"};
+  for (int i = 0; i < spacings && least_error > density_tolerance; ++i) {
+    now = {i + 1, spacings, 0, "laid"};
     Pattern pattern = as_asked;
     pattern.spacing.across *= widening;
     std::optional<Laying::Between> walls;

@@ -7,7 +7,8 @@
 // others; then all but the lowest row, which is taken for held, come to rest together, and those that lean on fewer
 // than three things are seated otherwise (placement/laying.hpp). How far apart rows then are depends on how units
 // fit: the pattern is widened along the contour until the density in the middle of the pile (of rows and columns,
-// where it has no middle) is phi within 1 %, in six trials at most, of which the nearest is taken.
+// where it has no middle) is phi within 1 %, in six trials at most (two of a thousand units), of which the nearest is
+// taken.
 #pragma once
 
 #include "libgeom/placement/ground.hpp"

@@ -280,7 +280,7 @@ RestTogether come_to_rest_together(const Features& shape, const std::vector<Pose
                                    const std::vector<const Features*>& others, const RestOptions& options) {
   RestTogether rest;
   rest.stayed.assign(start.size(), 0);
-  const int times = std::clamp(many / std::max(1, static_cast<int>(start.size())), 1, begins_again);
+  const int times = std::clamp(many / std::max(1, static_cast<int>(start.size())), 0, begins_again);
   for (int k = 0;; ++k) {
     Together together(shape, start, others, options, rest.stayed);
     rest.still = descend(together, options, k == times);
