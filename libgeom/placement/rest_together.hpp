@@ -3,8 +3,8 @@
 //
 // They are at rest when in four steps, of gravity tilted four ways, none has gone on: what only rocks comes back. Where
 // one slides on and on steps become larger again. Where one goes further than `way`, the
-// lowest of those that do stays where it was, and all begin again; after some such times those that do are put back at
-// once.
+// lowest of those that go on stays where it was, and all begin again; after some such times what goes too far is put
+// back at once.
 #pragma once
 
 #include "libgeom/placement/rest.hpp"

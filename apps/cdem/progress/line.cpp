@@ -35,7 +35,11 @@ std::string goal_text(const Progress& p) {
   return text;
 }
 
-std::string rate_text(const Progress& p, double rate) {
+// Empty where nothing is counted any more: all units are laid and come to rest.
+std::string rate_text(const Progress& p, const TimeLeft& left) {
+  const double rate = left.steps_per_second();
+  if (!(rate > 0) || (p.counts != Progress().counts && p.max_steps == 0))
+    return {};
   return (rate < 10 ? number_text(rate) : count_text(std::llround(rate))) + " " + p.counts + "s/s";
 }
 
@@ -84,8 +88,8 @@ std::string live_line(const Progress& p, const TimeLeft& left, int columns) {
     parts.push_back({goal, 1});
   if (const auto broken = p.broken_tension + p.broken_shear; broken > 0)
     parts.push_back({count_text(broken) + " broken", 4});
-  if (const double rate = left.steps_per_second(); rate > 0)
-    parts.push_back({rate_text(p, rate), 7});
+  if (const std::string rate = rate_text(p, left); !rate.empty())
+    parts.push_back({rate, 7});
   if (const double seconds = left.seconds(); seconds >= 0 && !p.last)
     parts.push_back({duration_text(seconds) + " left", 3});
 
@@ -107,8 +111,8 @@ std::string plain_line(const Progress& p, const TimeLeft& left) {
     line += ", " + percent_text(fraction);
   if (p.broken_tension + p.broken_shear > 0)
     line += ", " + broken_text(p.broken_tension, p.broken_shear);
-  if (const double rate = left.steps_per_second(); rate > 0)
-    line += ", " + rate_text(p, rate);
+  if (const std::string rate = rate_text(p, left); !rate.empty())
+    line += ", " + rate;
   if (const double seconds = left.seconds(); seconds >= 0)
     line += ", " + duration_text(seconds) + " left";
   return line;
