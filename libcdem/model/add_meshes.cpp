@@ -231,8 +231,6 @@ void add_boundary(Model& model, const std::vector<geom::OuterFace>& outer, int b
     side.boundary = static_cast<int>(model.mesh.boundary.size());
     side.area = area.norm();
     side.normal = area / side.area;
-    for (const int node : triangle.nodes)
-      side.node_area.emplace_back(node, side.area / 3);
     model.outer_faces.push_back(std::move(side));
     model.mesh.boundary.push_back(triangle);
   }

@@ -91,8 +91,9 @@ struct OuterFace {
   int boundary = -1;                      // of a meshed block: index into MeshData::boundary
   geom::Vec3 normal = geom::Vec3::Zero(); // unit, outward
   double area = 0;                        // m2, uncovered
-  std::vector<std::pair<int, double>>
-      node_area; // node, integral of its shape function over the uncovered part, m2
+  // Node, integral of its shape function over the uncovered part, m2. Of a meshed block none is kept: a third of the
+  // area each (each_node).
+  std::vector<std::pair<int, double>> node_area;
 };
 
 // Consecutive blocks, or a part of a meshed one: the smallest piece of parallel work. Its nodes belong to no other
@@ -156,5 +157,16 @@ struct Model {
 
 int block_of(const Model&, int node);       // index into Model::blocks
 double node_volume(const Model&, int node); // m3
+
+// f(node, integral of its shape function over the face, m2).
+template <class F>
+void each_node(const Model& model, const OuterFace& face, F&& f) {
+  if (face.boundary >= 0)
+    for (const int node : model.mesh.boundary[face.boundary].nodes)
+      f(node, face.area / 3);
+  else
+    for (const auto& [node, area] : face.node_area)
+      f(node, area);
+}
 
 } // namespace cdem

@@ -18,8 +18,13 @@ constexpr double far = 1e30;
 
 constexpr double catch_up =
     0.2; // of the height: how far a unit may be laid off the two below for the density
+constexpr double usual_gap = 2e-5; // of the height
 constexpr int most_spacings = 6;
-constexpr int many = 2000; // units times spacings, at most: a large layer has its density sooner
+constexpr int units_times_spacings = 2000; // at most: a large layer has its density sooner
+// Between walls every unit can lean on three things: where some do not, the layer is laid again with other attitudes.
+constexpr int most_layers = 4;
+constexpr int units_times_layers = 240;
+constexpr std::uint64_t next_seed = std::uint64_t{1} << 32;
 constexpr double density_tolerance = 0.01;
 constexpr double not_at_rest = 1; // error of the density that it counts for
 
@@ -45,6 +50,14 @@ double mean_half_width(const TetMesh& unit) {
     sum += most;
   }
   return sum / widths;
+}
+
+int spacings_tried(int count) {
+  return std::clamp(units_times_spacings / count, 2, most_spacings);
+}
+
+int layers_tried(int count, const LayerOptions& options) {
+  return options.walls && options.nudges > 0 ? std::clamp(units_times_layers / count, 1, most_layers) : 1;
 }
 
 struct Pattern {
@@ -148,13 +161,66 @@ std::optional<double> measured_density(const Pile& pile, const Ground& ground) {
   }
 }
 
+// Where a layer goes.
+struct Site {
+  const Ground& ground;
+  Mat3 frame;           // of the slope
+  double gap = 0;       // m
+  Eigen::Vector2d room; // m, along the contour and up the slope
+  Vec3 first;           // m, in the slope's axes: the middle of the lowest row
+};
+
+// Units that lean on the row below stand closer than the pattern: its places along the contour are widened until the
+// density is the one asked for.
+std::unique_ptr<Laying> lay_to_density(Pile& pile, int count, const Site& site, const LayerOptions& options,
+                                       LayerProgress& now, const std::function<void()>& poll) {
+  std::unique_ptr<Laying> best;
+  double widening = 1, least_error = far;
+  const Pattern as_asked = choose_pattern(pile, count, options, site.room);
+  const double widest = std::clamp(
+      (site.room.x() - pile.height) / ((as_asked.columns - 0.5) * as_asked.spacing.across), 1., 1.4);
+  for (int i = 0; i < spacings_tried(count) && least_error > density_tolerance; ++i) {
+    ++now.trial;
+    now.laid = 0;
+    now.doing = "laid";
+    Pattern pattern = as_asked;
+    pattern.spacing.across *= widening;
+    std::optional<Laying::Between> walls;
+    if (options.walls) {
+      const double half =
+          (0.5 * (pattern.columns - 1) + 0.25) * pattern.spacing.across + mean_half_width(pile.unit);
+      walls = Laying::Between{site.first.x() - half, site.first.x() + half};
+    }
+    auto laying = std::make_unique<Laying>(pile, site.ground, site.frame, site.gap, options, pattern.spacing,
+                                           walls, poll);
+    const double by_rows = lay_rows(pile, count, pattern, site.first, *laying, now, poll);
+    const double density = measured_density(pile, site.ground).value_or(by_rows);
+    const double error = std::abs(density / options.density - 1) +
+                         (laying->rested().still || options.nudges == 0 ? 0 : not_at_rest);
+    if (!best || error < least_error) {
+      least_error = error;
+      best = std::move(laying);
+    }
+    widening = std::clamp(widening * density / options.density, 0.8, widest);
+  }
+  now.doing = "seated otherwise";
+  best->reseat(as_asked.columns);
+  return best;
+}
+
+// Units that are not where they are to be.
+std::size_t faults(const Laying& laying, int count) {
+  const Laying::Rested& rested = laying.rested();
+  return rested.still ? rested.leaning.size() + rested.put_back.size() : static_cast<std::size_t>(count);
+}
+
 } // namespace
 
 Layer place_layer(const TetMesh& unit, int count, const Ground& ground, const LayerOptions& options) {
   check(options, count);
   Layer layer;
   Pile& pile = layer.pile = pile_of(unit);
-  const double gap = options.gap.value_or(1e-4 * pile.height);
+  const double gap = options.gap.value_or(usual_gap * pile.height);
   require_positive("gap", gap);
   const PlanBox region = region_of(ground, options.region);
   const Mat3 frame = slope_frame(ground.normal(region));
@@ -170,44 +236,25 @@ Layer place_layer(const TetMesh& unit, int count, const Ground& ground, const La
                          " is beside the ground; keep the region on the slope");
       room.extend(frame * Vec3(inside.x(), inside.y(), *z));
     }
-  // Units that lean on the row below stand closer than the pattern: its places along the contour are widened until
-  // the density is the one asked for.
-  const Vec3 first(room.centre().x(), room.min.y() + bounding_radius(pile.unit), 0);
-  std::unique_ptr<Laying> best;
-  double widening = 1, least_error = far;
-  const Pattern as_asked = choose_pattern(pile, count, options, room.size().head<2>());
-  const double widest = std::clamp(
-      (room.size().x() - pile.height) / ((as_asked.columns - 0.5) * as_asked.spacing.across), 1., 1.4);
+  const Site site{ground, frame, gap, room.size().head<2>(),
+                  Vec3(room.centre().x(), room.min.y() + bounding_radius(pile.unit), 0)};
+  const int layers = layers_tried(count, options);
   LayerProgress now;
-  const int spacings = std::clamp(many / count, 2, most_spacings);
-  now.trials = spacings;
+  now.trial = 0;
+  now.trials = layers * spacings_tried(count);
   const auto poll = [&] {
     if (options.tell)
       options.tell(now);
   };
-  for (int i = 0; i < spacings && least_error > density_tolerance; ++i) {
-    now = {i + 1, spacings, 0, "laid"};
-    Pattern pattern = as_asked;
-    pattern.spacing.across *= widening;
-    std::optional<Laying::Between> walls;
-    if (options.walls) {
-      const double half =
-          (0.5 * (pattern.columns - 1) + 0.25) * pattern.spacing.across + mean_half_width(pile.unit);
-      walls = Laying::Between{first.x() - half, first.x() + half};
-    }
-    auto laying = std::make_unique<Laying>(pile, ground, frame, gap, options, pattern.spacing, walls, poll);
-    const double by_rows = lay_rows(pile, count, pattern, first, *laying, now, poll);
-    const double density = measured_density(pile, ground).value_or(by_rows);
-    const double error = std::abs(density / options.density - 1) +
-                         (laying->rested().still || options.nudges == 0 ? 0 : not_at_rest);
-    if (!best || error < least_error) {
-      least_error = error;
+  std::unique_ptr<Laying> best;
+  for (int i = 0; i < layers && (!best || faults(*best, count) > 0); ++i) {
+    LayerOptions own = options;
+    own.seed += i * next_seed;
+    auto laying = lay_to_density(pile, count, site, own, now, poll);
+    layer.layers = i + 1;
+    if (!best || faults(*laying, count) < faults(*best, count))
       best = std::move(laying);
-    }
-    widening = std::clamp(widening * density / options.density, 0.8, widest);
   }
-  now.doing = "seated otherwise";
-  best->reseat(as_asked.columns);
   for (int i = 0; i < count; ++i)
     pile.poses[i] = best->pose(i);
   const Laying::Rested& rested = best->rested();

@@ -8,7 +8,8 @@
 // than three things are seated otherwise (placement/laying.hpp). How far apart rows then are depends on how units
 // fit: the pattern is widened along the contour until the density in the middle of the pile (of rows and columns,
 // where it has no middle) is phi within 1 %, in six trials at most (two of a thousand units), of which the nearest is
-// taken.
+// taken. Where units slid off or lean on too little for all that, and walls stand at the ends of rows, all begins again
+// with other attitudes, four times at most (once with more than 120 units); the layer with the fewest such is taken.
 #pragma once
 
 #include "libgeom/placement/ground.hpp"
@@ -19,7 +20,7 @@
 namespace geom {
 
 struct LayerProgress {
-  int trial = 1, trials = 1; // this one, and how many there are at most
+  int trial = 1, trials = 1; // of spacings and attitudes: this one, and how many there are at most
   int laid = 0;              // units, in this trial
   const char* doing = "";    // "laid", and with all of them "come to rest together", "seated otherwise"
 };
@@ -27,7 +28,7 @@ struct LayerProgress {
 struct LayerOptions {
   double density = 0.645;        // phi
   std::optional<int> columns;    // units in a row; as many as the region allows
-  std::optional<double> gap;     // m, clear distance; a ten-thousandth of the unit's height
+  std::optional<double> gap;     // m, clear distance; 2e-5 of the unit's height
   std::optional<PlanBox> region; // over the ground; all of it
   std::uint64_t seed = 1;        // of the attitudes
   int attitudes = 1500;          // tried for the family
@@ -44,7 +45,8 @@ struct Layer {
   bool at_rest = false;      // all together, clear of each other; false where they were but lowered
   std::vector<int> leaning;  // units on which fewer than three things press, of those at rest
   std::vector<int> put_back; // units that would have gone further than half a height: they stay as laid
-  int trials = 0;            // of spacings
+  int trials = 0;            // of spacings, in all
+  int layers = 1;            // that were laid, each with other attitudes
 };
 
 // Throws InputError for a count below 1, a density or gap out of range, a ground that is too small.

@@ -32,18 +32,20 @@ void add(const ImpulseRow& r, double by, Motion& v, Motion* w) {
   }
 }
 
-void push(ImpulseRow& r, double to, Motion& v, Motion* w) {
-  add(r, to - r.impulse, v, w);
-  r.impulse = to;
-}
-
 // Returns by how much the impulse has changed.
-double press(ImpulseRow& r, double room, double gives, Motion& v, Motion* w) {
-  const double before = r.impulse;
-  push(r, std::max(0., before - (along(r, v, w) + room + gives * before) / (r.mass + gives)), v, w);
-  return std::abs(r.impulse - before);
+double push(ImpulseRow& r, double to, Motion& v, Motion* w) {
+  const double change = to - r.impulse;
+  add(r, change, v, w);
+  r.impulse = to;
+  return std::abs(change);
 }
 
+double press(ImpulseRow& r, double room, double gives, Motion& v, Motion* w) {
+  const double now = r.impulse - (along(r, v, w) + room + gives * r.impulse) / (r.mass + gives);
+  return push(r, std::max(0., now), v, w);
+}
+
+// Returns by how much an impulse has changed at most.
 double meet(BodyTouch& touch, std::vector<Motion>& all, const ImpulseOptions& options) {
   Motion& v = all[touch.body];
   Motion* const w = touch.other < 0 ? nullptr : &all[touch.other];
@@ -60,9 +62,7 @@ double meet(BodyTouch& touch, std::vector<Motion>& all, const ImpulseOptions& op
     a *= part;
     b *= part;
   }
-  push(first, a, v, w);
-  push(second, b, v, w);
-  return change;
+  return std::max({change, push(first, a, v, w), push(second, b, v, w)});
 }
 
 } // namespace

@@ -16,7 +16,7 @@ constexpr double first_step = 0.01, later_step = 0.003; // over the height
 
 // Of seating otherwise units that too few others press on.
 constexpr int most_rounds = 40, most_in_vain = 20; // the latter in a row
-constexpr int many = 4000; // units times rounds, at most: every round takes all to rest again
+constexpr int units_times_rounds = 4000;           // at most: every round takes all to rest again
 constexpr std::uint64_t seats_tried = 20;
 constexpr int without_seat = 5; // rounds in which a unit found none: it is left alone
 constexpr int seats_wanted = 4;
@@ -113,7 +113,7 @@ bool Laying::seat_otherwise(int unit, int round) {
 }
 
 void Laying::reseat(int held) {
-  const int rounds = std::clamp(many / static_cast<int>(laid_.size()), 4, most_rounds);
+  const int rounds = std::clamp(units_times_rounds / static_cast<int>(laid_.size()), 4, most_rounds);
   const int rounds_in_vain = std::min(most_in_vain, (rounds + 1) / 2);
   int in_vain = 0; // rounds in a row
   std::vector<int> found_none(laid_.size(), 0);

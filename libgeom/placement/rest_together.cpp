@@ -19,7 +19,7 @@ constexpr double slides = 0.15; // and what is faster goes on with larger steps
 // again; after so many times what goes too far is put back at once.
 constexpr double goes_on = 0.8;
 constexpr int begins_again = 6;
-constexpr int many = 600;     // bodies times such times, at most
+constexpr int bodies_times_beginnings = 600;
 constexpr double too_far = 2; // times what is needed: lists that reach further are made anew
 
 // Bodies that move, those that stay, and their touches.
@@ -280,7 +280,8 @@ RestTogether come_to_rest_together(const Features& shape, const std::vector<Pose
                                    const std::vector<const Features*>& others, const RestOptions& options) {
   RestTogether rest;
   rest.stayed.assign(start.size(), 0);
-  const int times = std::clamp(many / std::max(1, static_cast<int>(start.size())), 0, begins_again);
+  const int times =
+      std::clamp(bodies_times_beginnings / std::max(1, static_cast<int>(start.size())), 0, begins_again);
   for (int k = 0;; ++k) {
     Together together(shape, start, others, options, rest.stayed);
     rest.still = descend(together, options, k == times);

@@ -102,9 +102,14 @@ void tell(Session& session, const geom::Layer& layer) {
     session.warn(
         name + "the units were laid one by one, but did not come to rest together, clear of each other; they "
                "will move when they settle; try another seed, a lower density or a larger gap");
+  if (layer.layers > 1)
+    session.message(
+        name + "laid " + std::to_string(layer.layers) +
+        " times, each with other attitudes, as units slid off or leant on too little; the best is taken");
   if (!layer.put_back.empty())
     session.message(name + numbers_text(layer.put_back) +
-                    " would have slid further than half a height, and stay as laid");
+                    " would have slid further than half a height, and " +
+                    (layer.put_back.size() == 1 ? "stays" : "stay") + " as laid");
   if (!layer.leaning.empty())
     session.message(name + "fewer than three things press on " + numbers_text(layer.leaning));
 }
@@ -287,7 +292,7 @@ void bind_piles(Module& m) {
        with({number("density").within(0.05, 1.5).standard(0.645).doc(
                  "phi = N Dn^2 / A, units on an area of slope times that of their equal cube's side"),
              integer("columns").at_least(1).doc("units in a row; as many as the region allows when left out"),
-             number("gap").above(0).unit("m").doc("clear distance; a ten-thousandth of the unit's height"),
+             number("gap").above(0).unit("m").doc("clear distance; 2e-5 of the unit's height"),
              integer("attitudes")
                  .within(1, 1e6)
                  .standard(1500)

@@ -223,9 +223,9 @@ TEST_CASE("an armour layer has the density it was asked for, and no unit cuts an
     const Ground ground = slope_ground(gradient);
     const Pile pile = place_layer(accropode_mesh(), 30, ground, options).pile;
     REQUIRE(pile.poses.size() == 30);
-    CHECK(least_distance(pile, 0.01) >= 0.99e-4);
+    CHECK(least_distance(pile, 0.01) >= 0.99 * 2e-5);
     for (const Surface& unit : surfaces(pile))
-      REQUIRE(distance(unit, ground.surface(), 0.01) >= 0.99e-4);
+      REQUIRE(distance(unit, ground.surface(), 0.01) >= 0.99 * 2e-5);
 
     const PileMeasures measured =
         measure_pile(surfaces(pile), ground.surface(), pile.height, volume(pile.unit));
@@ -252,7 +252,9 @@ TEST_CASE("every unit of an armour layer lies on the slope, against others, at r
   LayerOptions options;
   options.columns = 5;
   options.gap = gap;
-  const Pile pile = place_layer(accropode_mesh(), 30, ground, options).pile;
+  const Layer layer = place_layer(accropode_mesh(), 30, ground, options);
+  const Pile& pile = layer.pile;
+  CHECK(layer.put_back.size() <= 1); // at an open end of a row: it would slide off, and may move on
   const std::vector<Surface> units = surfaces(pile);
   const Features shape = features_of(surface_of(pile.unit)), slope = features_of(ground.surface());
   std::vector<Features> laid;
@@ -283,7 +285,8 @@ TEST_CASE("every unit of an armour layer lies on the slope, against others, at r
     // With friction of 40 degrees nothing goes on from here.
     const Pose rest =
         come_to_rest(shape, pile.poses[i], others, resting(std::tan(40 * M_PI / 180), gap)).pose;
-    CHECK((rest.translation - pile.poses[i].translation).norm() <= 0.01);
+    if (std::count(layer.put_back.begin(), layer.put_back.end(), i) == 0)
+      CHECK((rest.translation - pile.poses[i].translation).norm() <= 0.01);
   }
   CHECK(alike <= 4); // of about seventy pairs, each counted twice
 }
@@ -420,6 +423,7 @@ TEST_CASE("a layer and a drop grid of units four times the size are the same, fo
       x *= size;
     LayerOptions options;
     options.columns = 3;
+    options.gap = 1e-4 * size;
     options.walls = true;
     const Ground ground{surface_of(slope)};
     std::vector<Pose> poses = place_layer(unit, 9, ground, options).pile.poses;
@@ -431,7 +435,7 @@ TEST_CASE("a layer and a drop grid of units four times the size are the same, fo
   REQUIRE(large.size() == small.size());
   for (std::size_t i = 0; i < small.size(); ++i) {
     INFO("unit " << i + 1);
-    // Cube roots of volumes differ in the last digit; the way down to rest makes more of it.
+    // Cube roots of volumes differ in the last digit; the way down to rest makes more of it, the more the smaller the gap.
     CHECK((large[i].rotation - small[i].rotation).norm() < 1e-5);
     CHECK((large[i].translation / factor - small[i].translation).norm() < 1e-5);
   }
