@@ -69,7 +69,11 @@ void contacts(const Settings& settings) {
       const Stopwatch watch(threads);
       search_contacts(model, state, work.contact, threads);
       const double search = watch.seconds();
-      contact_forces(model, state, work, threads);
+      // Twice: from then on the contacts of the step before stand beside the new ones.
+      for (int k = 0; k < 2; ++k) {
+        work.contact.due = true;
+        contact_forces(model, state, work, threads);
+      }
       const double held = resident_bytes() - before;
       const double steps = step_rate(model, threads, settings.seconds);
       const double alone =

@@ -1,4 +1,5 @@
 // The search for the flow that breaks a held body: a coarse column on its foot, bonded everywhere.
+#include "libcdem/step/held_pressure.hpp"
 #include "libgeom/mesh/box_mesh.hpp"
 #include "tests/libcdem/system.hpp"
 
@@ -169,4 +170,19 @@ TEST_CASE("critical flow: bad input is refused", "[flow][input]") {
   CHECK_THAT(refused([](auto& o) { o.fragment_fraction = 1; }), Contains("fragment_fraction = 1"));
   CHECK_THAT(refused([](auto& o) { o.compliance_ratio = 1; }), Contains("compliance_ratio = 1"));
   CHECK_THAT(refused([](auto& o) { o.max_velocity = std::nan(""); }), Contains("max_velocity = nan"));
+}
+
+TEST_CASE("a pressure rises at its rate up to its limit, but for holds, after which it goes on from where it was") {
+  cdem::HeldPressure pressure{2, 100, 10, 150};
+  CHECK(pressure.at(2) == 100);
+  CHECK(pressure.at(5) == 130);
+  CHECK(pressure.at(9) == 150);
+  pressure.hold(4, 6);
+  CHECK(pressure.resume == 6);
+  CHECK(pressure.at(4) == 120);
+  CHECK(pressure.at(6) == 120);
+  pressure.go_on(6.5);
+  CHECK(pressure.at(6.5) == 120);
+  CHECK(pressure.at(8.5) == 140);
+  CHECK(pressure.at(20) == 150);
 }

@@ -440,3 +440,22 @@ TEST_CASE("a layer and a drop grid of units four times the size are the same, fo
     CHECK((large[i].translation / factor - small[i].translation).norm() < 1e-5);
   }
 }
+
+TEST_CASE("between walls a layer in which units lean on too little is laid anew with other attitudes") {
+  LayerOptions options;
+  options.columns = 2;
+  options.density = 0.35; // so wide that not every seat has three things to lean on
+  options.walls = true;
+  Layer layer;
+  for (options.seed = 3; options.seed < 40 && layer.layers == 1; ++options.seed) {
+    layer = place_layer(accropode_mesh(), 6, slope_ground(1 / 1.5), options);
+    CHECK(layer.layers <= 4);
+    if (layer.layers < 4) {
+      CHECK(layer.at_rest);
+      CHECK(layer.leaning.empty());
+      CHECK(layer.put_back.empty());
+    }
+  }
+  CHECK(layer.layers > 1);
+  CHECK(layer.trials > 6);
+}
