@@ -342,6 +342,8 @@ private:
         names.push_back("--" + long_name);
     }
     const std::string who = command->get_parent() == nullptr ? "cdem" : "cdem " + command->get_name();
+    if (std::find(names.begin(), names.end(), name) != names.end())
+      throw UsageError("cdem: " + name + " belongs after the command: " + who + " ... " + name);
     throw UsageError(who + ": no option " + name +
                      (name.size() > 2 ? script::did_you_mean(name, names) : std::string()));
   }

@@ -29,7 +29,7 @@ std::vector<std::string> split(const std::string& text, char separator) {
 std::pair<std::string, std::string> setting(const std::string& text, const std::string& form) {
   const auto equals = text.find('=');
   if (equals == 0 || equals == std::string::npos || equals + 1 == text.size())
-    refuse("--set", text, form);
+    throw UsageError("--set " + text + ": must be " + form);
   return {text.substr(0, equals), text.substr(equals + 1)};
 }
 
@@ -76,7 +76,7 @@ std::vector<std::map<std::string, std::string>> combinations_of(const std::vecto
     for (const auto& combination : combinations)
       for (const auto& value : values) {
         if (value.empty())
-          refuse("--set", text, form);
+          throw UsageError("--set " + text + ": must be " + form);
         longer.push_back(combination);
         longer.back()[name] = value;
       }

@@ -101,7 +101,7 @@ local function raise()
   if #left > memory.gone then
     memory.gone = #left
     picture(string.format("left_%d.png", #left),
-            string.format("%d left: unit %d, at %.2f m/s", #left, left[#left].unit, left[#left].velocity))
+            string.format("No. %d to leave: unit %d, at %.2f m/s", #left, left[#left].unit, left[#left].velocity))
   end
   if mode == "ramp" then
     rise_to(first * scale + rate * (model.time - memory.since))

@@ -8,8 +8,10 @@ local set_up = require "pile"
 local start = cdem.parameter{ name = "start", default = "place", choices = {"drop", "place"},
                               doc = "drop: three layers fall in random attitudes; place: one armour layer is laid" }
 local mass = cdem.parameter{ name = "mass", default = 5000.0, range = {1, 1e6}, unit = "kg" }
-local count = cdem.parameter{ name = "count", default = 50, range = {6, 1000} }
-local columns = cdem.parameter{ name = "columns", default = 5, range = {2, 30}, doc = "units in a row, of place" }
+local count = cdem.parameter{ name = "count", default = 50, range = {8, 1000} }
+-- Three rows at least: the measures are those of the middle.
+local columns = cdem.parameter{ name = "columns", default = math.min(5, count // 3), range = {2, math.min(30, count // 3)},
+                                doc = "units in a row, of place; a third of count at most" }
 local fineness = cdem.parameter{ name = "fineness", default = 3, range = {1.5, 30},
                                  doc = "height over the edge length of the tetrahedra" }
 local seed = cdem.parameter{ name = "seed", default = 1, range = {0, 1e6}, doc = "of the attitudes" }

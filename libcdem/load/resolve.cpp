@@ -91,8 +91,8 @@ Pattern traction_pattern(const Model& model, const Traction& traction) {
     selects_nothing("outer faces", traction.on);
   Pattern pattern;
   for (const int f : faces)
-    each_node(model, model.outer_faces[f],
-              [&](int node, double area) { pattern.emplace_back(node, area * traction.stress); });
+    each_face_node(model, model.outer_faces[f],
+                   [&](int node, double area) { pattern.emplace_back(node, area * traction.stress); });
   return pattern;
 }
 

@@ -92,7 +92,7 @@ struct OuterFace {
   geom::Vec3 normal = geom::Vec3::Zero(); // unit, outward
   double area = 0;                        // m2, uncovered
   // Node, integral of its shape function over the uncovered part, m2. Of a meshed block none is kept: a third of the
-  // area each (each_node).
+  // area each (each_face_node).
   std::vector<std::pair<int, double>> node_area;
 };
 
@@ -160,7 +160,7 @@ double node_volume(const Model&, int node); // m3
 
 // f(node, integral of its shape function over the face, m2).
 template <class F>
-void each_node(const Model& model, const OuterFace& face, F&& f) {
+void each_face_node(const Model& model, const OuterFace& face, F&& f) {
   if (face.boundary >= 0)
     for (const int node : model.mesh.boundary[face.boundary].nodes)
       f(node, face.area / 3);

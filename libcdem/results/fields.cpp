@@ -184,8 +184,8 @@ double mean_value(const Model& model, const State& state, const std::string& fie
   if (on.kind == Selection::Kind::side || on.kind == Selection::Kind::plane ||
       on.kind == Selection::Kind::faces)
     for (const int f : selected_outer_faces(model, on))
-      each_node(model, model.outer_faces[f],
-                [&](int node, double area) { add(node_value(state, field, node), area); });
+      each_face_node(model, model.outer_faces[f],
+                     [&](int node, double area) { add(node_value(state, field, node), area); });
   if (weight > 0)
     return sum / weight;
   for (const int node : selected_nodes(model, on))

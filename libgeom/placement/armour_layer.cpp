@@ -21,7 +21,7 @@ constexpr double catch_up =
 constexpr double usual_gap = 2e-5; // of the height
 constexpr int most_spacings = 6;
 constexpr int units_times_spacings = 2000; // at most: a large layer has its density sooner
-// Between walls every unit can lean on three things: where some do not, the layer is laid again with other attitudes.
+// Between walls every unit can lean on three things, as a rule: where some do not, other layers are laid.
 constexpr int most_layers = 4;
 constexpr int units_times_layers = 240;
 constexpr std::uint64_t next_seed = std::uint64_t{1} << 32;
@@ -170,17 +170,29 @@ struct Site {
   Vec3 first;           // m, in the slope's axes: the middle of the lowest row
 };
 
+// A layer with its attitudes, and how far its density is off, as a part of the one asked for.
+struct Candidate {
+  std::unique_ptr<Laying> laying;
+  double error = far;
+
+  // Units that are not where they are to be.
+  std::size_t faults(int count) const {
+    const Laying::Rested& rested = laying->rested();
+    return rested.still ? rested.leaning.size() + rested.put_back.size() : static_cast<std::size_t>(count);
+  }
+};
+
 // Units that lean on the row below stand closer than the pattern: its places along the contour are widened until the
 // density is the one asked for.
-std::unique_ptr<Laying> lay_to_density(Pile& pile, int count, const Site& site, const LayerOptions& options,
-                                       LayerProgress& now, const std::function<void()>& poll) {
-  std::unique_ptr<Laying> best;
-  double widening = 1, least_error = far;
+Candidate lay_to_density(Pile& pile, int count, const Site& site, const LayerOptions& options,
+                         LayerProgress& now, const std::function<void()>& poll) {
+  Candidate best;
+  double widening = 1;
   const Pattern as_asked = choose_pattern(pile, count, options, site.room);
   const double widest = std::clamp(
       (site.room.x() - pile.height) / ((as_asked.columns - 0.5) * as_asked.spacing.across), 1., 1.4);
-  for (int i = 0; i < spacings_tried(count) && least_error > density_tolerance; ++i) {
-    ++now.trial;
+  for (int i = 0; i < now.spacings && best.error > density_tolerance; ++i) {
+    now.spacing = i + 1;
     now.laid = 0;
     now.doing = "laid";
     Pattern pattern = as_asked;
@@ -197,21 +209,19 @@ std::unique_ptr<Laying> lay_to_density(Pile& pile, int count, const Site& site, 
     const double density = measured_density(pile, site.ground).value_or(by_rows);
     const double error = std::abs(density / options.density - 1) +
                          (laying->rested().still || options.nudges == 0 ? 0 : not_at_rest);
-    if (!best || error < least_error) {
-      least_error = error;
-      best = std::move(laying);
-    }
+    if (error < best.error)
+      best = {std::move(laying), error};
     widening = std::clamp(widening * density / options.density, 0.8, widest);
   }
   now.doing = "seated otherwise";
-  best->reseat(as_asked.columns);
+  best.laying->reseat(as_asked.columns);
   return best;
 }
 
-// Units that are not where they are to be.
-std::size_t faults(const Laying& laying, int count) {
-  const Laying::Rested& rested = laying.rested();
-  return rested.still ? rested.leaning.size() + rested.put_back.size() : static_cast<std::size_t>(count);
+bool better(const Candidate& one, const Candidate& other, int count) {
+  const std::size_t faults = one.faults(count), other_faults = other.faults(count);
+  return faults < other_faults ? one.error <= std::max(density_tolerance, other.error)
+                               : faults == other_faults && one.error < other.error;
 }
 
 } // namespace
@@ -238,30 +248,30 @@ Layer place_layer(const TetMesh& unit, int count, const Ground& ground, const La
     }
   const Site site{ground, frame, gap, room.size().head<2>(),
                   Vec3(room.centre().x(), room.min.y() + bounding_radius(pile.unit), 0)};
-  const int layers = layers_tried(count, options);
   LayerProgress now;
-  now.trial = 0;
-  now.trials = layers * spacings_tried(count);
+  now.layers = layers_tried(count, options);
+  now.spacings = spacings_tried(count);
   const auto poll = [&] {
     if (options.tell)
       options.tell(now);
   };
-  std::unique_ptr<Laying> best;
-  for (int i = 0; i < layers && (!best || faults(*best, count) > 0); ++i) {
-    LayerOptions own = options;
-    own.seed += i * next_seed;
-    auto laying = lay_to_density(pile, count, site, own, now, poll);
-    layer.layers = i + 1;
-    if (!best || faults(*laying, count) < faults(*best, count))
-      best = std::move(laying);
+  Candidate best;
+  LayerOptions own = options;
+  for (int i = 0; i < now.layers && (i == 0 || best.faults(count) > 0); ++i) {
+    now.layer = i + 1;
+    Candidate one = lay_to_density(pile, count, site, own, now, poll);
+    layer.layers = now.layer;
+    layer.trials += now.spacing;
+    if (i == 0 || better(one, best, count))
+      best = std::move(one);
+    own.seed += next_seed;
   }
   for (int i = 0; i < count; ++i)
-    pile.poses[i] = best->pose(i);
-  const Laying::Rested& rested = best->rested();
+    pile.poses[i] = best.laying->pose(i);
+  const Laying::Rested& rested = best.laying->rested();
   layer.at_rest = rested.still;
   layer.leaning = rested.leaning;
   layer.put_back = rested.put_back;
-  layer.trials = now.trial;
   return layer;
 }
 

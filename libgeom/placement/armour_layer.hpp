@@ -8,8 +8,9 @@
 // than three things are seated otherwise (placement/laying.hpp). How far apart rows then are depends on how units
 // fit: the pattern is widened along the contour until the density in the middle of the pile (of rows and columns,
 // where it has no middle) is phi within 1 %, in six trials at most (two of a thousand units), of which the nearest is
-// taken. Where units slid off or lean on too little for all that, and walls stand at the ends of rows, all begins again
-// with other attitudes, four times at most (once with more than 120 units); the layer with the fewest such is taken.
+// taken. Between walls, where units slid off or lean on too little for all that or do not come to rest, another layer
+// with other attitudes is laid, up to four in all (three from 61 units on, two from 81, one from 121). The one with the
+// fewest such units is taken, but none of a density further off than 1 % and than that of those before.
 #pragma once
 
 #include "libgeom/placement/ground.hpp"
@@ -20,9 +21,10 @@
 namespace geom {
 
 struct LayerProgress {
-  int trial = 1, trials = 1; // of spacings and attitudes: this one, and how many there are at most
-  int laid = 0;              // units, in this trial
-  const char* doing = "";    // "laid", and with all of them "come to rest together", "seated otherwise"
+  int layer = 1, layers = 1;     // with other attitudes: this one, and how many there are at most
+  int spacing = 1, spacings = 1; // of the layer's: the same
+  int laid = 0;                  // units, with this spacing
+  const char* doing = "";        // "laid", and with all of them "come to rest together", "seated otherwise"
 };
 
 struct LayerOptions {

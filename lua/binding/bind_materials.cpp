@@ -16,12 +16,21 @@ constexpr double softest = 1e5, stiffest = 1e13; // Pa
 constexpr double lightest = 10; // kg/m3
 // Below the cohesion of loose soil.
 constexpr double weakest = 1e3; // Pa
+// The radians of any usual angle are fewer.
+constexpr double smoothest = 1.5; // deg
 
 // Zero is meant: no strength.
 void warn_of_unit(Session& session, const Arguments& a, const char* strength) {
   if (const double given = a.number(strength); given > 0 && given < weakest)
     session.warn(std::string("cdem.mohr_coulomb: ") + strength + " = " + describe(a.value(strength)) +
                  ": no rock is as weak; it is in Pa, rock has 1e5 to 1e8");
+}
+
+// Zero is meant: no friction.
+void warn_of_angle(Session& session, const Arguments& a, const char* function) {
+  if (const double given = a.number("friction_angle"); given > 0 && given < smoothest)
+    session.warn(std::string(function) + ": friction_angle = " + describe(a.value("friction_angle")) +
+                 ": no rock is as smooth; it is in degrees, rock has 20 to 50");
 }
 
 Value elastic(Session& session, Object*, const Arguments& a) {
@@ -105,16 +114,18 @@ Value mohr_coulomb(Session& session, Object*, const Arguments& a) {
   object->joint.tensile_strength = a.number("tensile_strength");
   warn_of_unit(session, a, "cohesion");
   warn_of_unit(session, a, "tensile_strength");
+  warn_of_angle(session, a, "cdem.mohr_coulomb");
   read_softening(a, object->joint);
   read_stiffness(a, object->joint);
   validate(object->joint);
   return object;
 }
 
-Value coulomb(Session&, Object*, const Arguments& a) {
+Value coulomb(Session& session, Object*, const Arguments& a) {
   auto object = std::make_shared<JointObject>();
   object->joint.bonded = false;
   object->joint.friction_angle = radians(a.number("friction_angle"));
+  warn_of_angle(session, a, "cdem.coulomb");
   read_stiffness(a, object->joint);
   validate(object->joint);
   return object;

@@ -72,7 +72,7 @@ void require_blocks(const Arguments& given, const std::string& path) {
 }
 
 // Adds the piles of meshed bodies to `piles`; returns the bodies without a joint.
-std::vector<std::string> read_bodies(const Arguments& a, ModelSpec& spec,
+std::vector<std::string> read_bodies(Session& session, const Arguments& a, ModelSpec& spec,
                                      std::map<std::string, geom::Pile>& piles) {
   std::vector<std::string> unjointed;
   for (const Arguments& given : a.records("bodies")) {
@@ -90,11 +90,14 @@ std::vector<std::string> read_bodies(const Arguments& a, ModelSpec& spec,
       body.joint = joint->joint;
     if (const auto pile = pile_shape(given)) {
       std::vector<geom::TetMesh> units;
-      if (const auto mesh = given.object<TetMeshObject>("shape"))
+      const auto mesh = given.object<TetMeshObject>("shape");
+      if (mesh)
         units = {mesh->mesh};
       else
         units = geom::meshes(*pile);
       read_mesh(given, path, std::move(units), body);
+      if (mesh && !mesh->coarse.empty() && body.element != Element::rigid)
+        session.warn(path + ": " + mesh->coarse);
       piles.emplace(body.name, *pile);
       spec.bodies.push_back(std::move(body));
       continue;
@@ -152,7 +155,7 @@ std::string shown_build(const ModelObject& model) {
 Value make_model(Session& session, Object*, const Arguments& a) {
   ModelSpec spec;
   std::map<std::string, geom::Pile> piles;
-  const auto unjointed = read_bodies(a, spec, piles);
+  const auto unjointed = read_bodies(session, a, spec, piles);
   read_pairs(a, spec);
   // Lua sees only the few bytes it holds of a model, and would keep finished ones for long.
   session.collect_garbage();

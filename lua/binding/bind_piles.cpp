@@ -49,6 +49,10 @@ Value drop(Session&, Object*, const Arguments& a) {
       a.object<TetMeshObject>("unit")->mesh, static_cast<int>(a.integer("count")), ground_of(a), options));
 }
 
+std::string of_at_most(int number, int most) {
+  return std::to_string(number) + " of at most " + std::to_string(most);
+}
+
 // Shows how far a layer is, and ends it when the user asks for that.
 class LayingObserver {
 public:
@@ -65,8 +69,10 @@ public:
     }
     progress_.step = now.laid;
     progress_.max_steps = now.laid < count_ ? count_ : 0; // how long the rest takes nobody knows
-    progress_.note = std::string(now.doing) + ", layer " + std::to_string(now.trial) + " of at most " +
-                     std::to_string(now.trials);
+    progress_.note = now.doing;
+    if (now.layers > 1)
+      progress_.note += ", layer " + of_at_most(now.layer, now.layers);
+    progress_.note += ", spacing " + of_at_most(now.spacing, now.spacings);
     tell();
   }
   void end() {
@@ -103,9 +109,9 @@ void tell(Session& session, const geom::Layer& layer) {
         name + "the units were laid one by one, but did not come to rest together, clear of each other; they "
                "will move when they settle; try another seed, a lower density or a larger gap");
   if (layer.layers > 1)
-    session.message(
-        name + "laid " + std::to_string(layer.layers) +
-        " times, each with other attitudes, as units slid off or leant on too little; the best is taken");
+    session.message(name + "laid " + std::to_string(layer.layers) +
+                    " times, each with other attitudes, as units slid off, leant on too little or did not "
+                    "rest; the best is taken");
   if (!layer.put_back.empty())
     session.message(name + numbers_text(layer.put_back) +
                     " would have slid further than half a height, and " +

@@ -49,7 +49,7 @@ std::string four_digits(double x) {
   return text;
 }
 
-Value mesh(Session& session, SolidObject& self, const Arguments& a) {
+Value mesh(Session&, SolidObject& self, const Arguments& a) {
   geom::MeshSize sizes;
   const auto size = a.has("size") ? a.optional_number("size") : self.mesh_size;
   if (!size)
@@ -78,8 +78,9 @@ Value mesh(Session& session, SolidObject& self, const Arguments& a) {
   for (const geom::Vec3& x : object->mesh.nodes)
     box.extend(x);
   if (const double least = box.size().minCoeff(); sizes.size > least)
-    session.warn("mesh: size = " + four_digits(sizes.size) + " m is more than the solid's smallest extent, " +
-                 four_digits(least) + " m; the mesh is as coarse as the shape allows");
+    object->coarse = "mesh: size = " + four_digits(sizes.size) +
+                     " m is more than the solid's smallest extent, " + four_digits(least) +
+                     " m; a body that bends wants several tetrahedra across";
   return object;
 }
 

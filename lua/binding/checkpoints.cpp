@@ -2,6 +2,7 @@
 #include "libcdem/checkpoint/archive.hpp"
 #include "libcdem/checkpoint/file.hpp"
 #include "libgeom/core/error.hpp"
+#include "lua/binding/files.hpp"
 #include "lua/binding/model_object.hpp"
 
 #include <algorithm>
@@ -195,7 +196,7 @@ bool Checkpoints::put(const std::string& content) {
 }
 
 std::string Checkpoints::command() const {
-  return "cdem resume " + session_.settings.output.string() + (session_.settings.unsafe ? " --unsafe" : "");
+  return resume_command(session_.settings.output, session_.settings.unsafe);
 }
 
 void Checkpoints::write(bool stopping) {

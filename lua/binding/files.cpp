@@ -4,7 +4,9 @@
 #include "lua/binding/engine.hpp"
 
 #include <algorithm>
+#include <cctype>
 #include <cstdio>
+#include <cstring>
 #include <fstream>
 #include <sstream>
 
@@ -106,6 +108,20 @@ fs::path Files::to_read(const std::string& name) const {
                            "copy it beside the script, or run with --unsafe");
   throw FileError("file \"" + name + "\": not found beside the script (" + script_folder_.string() +
                   "), in the output folder or below the results");
+}
+
+std::string resume_command(const fs::path& folder, bool unsafe) {
+  std::string word = folder.string();
+  const auto plain = [](unsigned char c) {
+    return c > 127 || std::isalnum(c) != 0 || std::strchr("_-+=.,:@%/", c) != nullptr;
+  };
+  if (word.empty() || !std::all_of(word.begin(), word.end(), plain)) {
+    std::string quoted = "'";
+    for (const char c : word)
+      quoted += c == '\'' ? "'\\''" : std::string(1, c);
+    word = quoted + "'";
+  }
+  return "cdem resume " + word + (unsafe ? " --unsafe" : "");
 }
 
 std::string shown_name(const fs::path& script) {

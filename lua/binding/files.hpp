@@ -43,6 +43,9 @@ private:
 // long.
 std::string shown_name(const std::filesystem::path& script);
 
+// What to type to go on with a run that has a checkpoint in this folder, which is quoted where a shell would part it.
+std::string resume_command(const std::filesystem::path& folder, bool unsafe);
+
 // Writes through a temporary file and a rename, so that a reader never sees half a file. FileError on
 // failure.
 void write_file(const std::filesystem::path& path, const std::string& text);

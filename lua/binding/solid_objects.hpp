@@ -28,6 +28,7 @@ struct TetMeshObject final : Object {
   geom::TetMesh mesh;
   std::vector<geom::OuterFace> faces;
   std::string title;
+  std::string coarse; // what to warn of where it deforms; empty: nothing
 
   const char* class_name() const override { return "TetMesh"; }
 };

@@ -1410,7 +1410,7 @@ function cdem.drop(options) end
 ---@field seed? integer >= 0, default 1: of the attitudes
 ---@field density? number in [0.05, 1.5], default 0.645: phi = N Dn^2 / A, units on an area of slope times that of their equal cube's side
 ---@field columns? integer >= 1: units in a row; as many as the region allows when left out
----@field gap? number m, > 0: clear distance; a ten-thousandth of the unit's height
+---@field gap? number m, > 0: clear distance; 2e-5 of the unit's height
 ---@field attitudes? integer in [1, 1e+06], default 1500: of which those are taken that fit into the pattern, beside others
 ---@field nudges? integer in [0, 1e+05], default 200: steps of a unit on its way to rest, at most; 0: only lowered on to what is there, each by itself
 ---@field play? number in [0, 1], default 0.1: how far along the contour a unit may be from its place, over its height

@@ -73,8 +73,9 @@ TEST_CASE("a wrong command line is refused with the nearest right one") {
   check({"run", "case.lua", "--threads"}, "--threads: its value is missing");
   check({"run", "case.lua", "--threads", "0"}, "--threads = 0: must be a whole number from 1 to 1024");
   check({"run", "case.lua", "--threads", "two"}, "--threads = two");
-  check({"run", "case.lua", "--set", "pressure"}, "--set = pressure: must be name=value");
+  check({"run", "case.lua", "--set", "pressure"}, "--set pressure: must be name=value");
   check({"run", "case.lua", "--set", "a=1", "--set", "a=2"}, "--set a is given twice");
+  check({"--set", "a=1", "run", "case.lua"}, "--set belongs after the command: cdem run ... --set");
   check({"--verison"}, "no option --verison; did you mean --version?");
   check({"sweep", "case.lua"}, "nothing varies");
   check({"render", "a.vtu", "--size", "8x8"}, "--size = 8: must be a whole number from 64 to 8000");

@@ -85,17 +85,17 @@ TEST_CASE("a line of what is not solved counts what it counts") {
   Progress p;
   p.kind = "place";
   p.counts = "unit";
-  p.note = "laid, layer 2 of at most 6";
+  p.note = "laid, spacing 2 of at most 6";
   p.step = 12;
   p.max_steps = 50;
   TimeLeft left;
   left.add(p, 1);
-  CHECK(plain_line(p, left) == "place: unit 12 of 50, laid, layer 2 of at most 6, 24 %");
-  p.note = "come to rest together, layer 2 of at most 6";
+  CHECK(plain_line(p, left) == "place: unit 12 of 50, laid, spacing 2 of at most 6, 24 %");
+  p.note = "come to rest together, spacing 2 of at most 6";
   p.step = 50;
   p.max_steps = 0;
   left.add(p, 5);
-  CHECK(plain_line(p, left) == "place: 50 units, come to rest together, layer 2 of at most 6");
+  CHECK(plain_line(p, left) == "place: 50 units, come to rest together, spacing 2 of at most 6");
 }
 
 TEST_CASE("the last line of a stage says what it came to") {

@@ -232,12 +232,12 @@ TEST_CASE("a layer of units shows how far it is laid, and Ctrl-C ends it with wh
   start.terminal = true;
   start.columns = 120;
   start.signal = SIGINT;
-  start.signal_after = "laid, layer 1 of at most 2";
+  start.signal_after = "laid, spacing 1 of at most 2";
   start.limit = 60;
   const Outcome outcome = run_cdem({"run", "case.lua", "--output", "out"}, start);
   CHECK(outcome.exit_code == 130);
   CHECK(outcome.after_signal < 3);
-  CHECK_THAT(outcome.out, Contains("\r\033[Kplace  [") && Contains("laid, layer 1 of at most 2") &&
+  CHECK_THAT(outcome.out, Contains("\r\033[Kplace  [") && Contains("laid, spacing 1 of at most 2") &&
                               Contains("stopped by Ctrl-C") && Contains("cdem resume out"));
   CHECK(fs::exists(folder / "out/checkpoint_1.cdem"));
 }

@@ -44,8 +44,22 @@ TEST_CASE("a residual that falls exponentially gives the time left") {
     left.add(p, wall);
   }
   CHECK(left.seconds() == Approx(12 - (wall - interval)).epsilon(1e-6));
+  CHECK_FALSE(left.gives_up());
   CHECK(left.steps_per_second() == Approx(steps_per_second).epsilon(0.01));
   CHECK(left.fraction() == Approx((wall - interval) / 12).epsilon(1e-6));
+}
+
+TEST_CASE("a residual that would reach its goal after the last step gives the time to that") {
+  TimeLeft left;
+  double wall = 0;
+  for (; wall < 5; wall += interval) {
+    Progress p = relaxation(wall);
+    p.max_steps = 10000;
+    p.residual = std::pow(10, -static_cast<double>(p.step) / 2000);
+    left.add(p, wall);
+  }
+  CHECK(left.gives_up());
+  CHECK(left.seconds() == Approx(10 - (wall - interval)).epsilon(1e-6));
 }
 
 TEST_CASE("ripples and outliers of the residual move the time left little") {

@@ -305,3 +305,9 @@ TEST_CASE("a saved state is where another script begins", "[checkpoint]") {
                                  "model:save_state{ file = 'a.cdem' } end }"),
              Contains("not from a callback"));
 }
+
+TEST_CASE("what to type to go on is quoted where a shell would part it", "[lua]") {
+  CHECK(cdem::script::resume_command("results/plate-a=1,b=2", false) == "cdem resume results/plate-a=1,b=2");
+  CHECK(cdem::script::resume_command("my run", true) == "cdem resume 'my run' --unsafe");
+  CHECK(cdem::script::resume_command("it's", false) == "cdem resume 'it'\\''s'");
+}

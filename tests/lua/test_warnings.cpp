@@ -50,12 +50,32 @@ TEST_CASE("a settling on which nothing acts warns", "[lua]") {
   CHECK_FALSE(is_told(column() + gravity + settle));
 }
 
-TEST_CASE("a mesh size beyond the solid is told of with four digits", "[lua]") {
-  const auto warnings = warnings_of("local cdem = require 'cdem'\n"
-                                    "cdem.solid.box{ size = {1 / 3, 2, 3} }:mesh{ size = 2 / 3 }");
+TEST_CASE("a mesh size beyond the solid is told of with four digits where the body deforms", "[lua]") {
+  const auto of = [](const std::string& element) {
+    return warnings_of(
+        "local cdem = require 'cdem'\n"
+        "local mesh = cdem.solid.box{ size = {1 / 3, 2, 3} }:mesh{ size = 2 / 3 }\n"
+        "local rock = cdem.elastic{ youngs_modulus = 30e9, poissons_ratio = 0.2, density = 2500 }\n"
+        "cdem.model{ bodies = { { shape = mesh, material = rock, name = 'plate'" +
+        element + " } } }");
+  };
+  const auto warnings = of("");
   REQUIRE(warnings.size() == 1);
   CHECK_THAT(warnings[0],
              Contains("mesh: size = 0.6667 m is more than the solid's smallest extent, 0.3333 m;"));
+  CHECK(of(", element = 'rigid'").empty());
+}
+
+TEST_CASE("a friction angle in radians is told of", "[lua]") {
+  const auto of = [](const std::string& joint) {
+    return warnings_of("local cdem = require 'cdem'\ncdem." + joint + " }");
+  };
+  REQUIRE(of("coulomb{ friction_angle = 0.52").size() == 1);
+  CHECK_THAT(of("coulomb{ friction_angle = 0.52")[0],
+             Contains("friction_angle = 0.52: no rock is as smooth; it is in degrees"));
+  CHECK(of("mohr_coulomb{ friction_angle = 0.52, cohesion = 1e6, tensile_strength = 1e6").size() == 1);
+  CHECK(of("coulomb{ friction_angle = 30").empty());
+  CHECK(of("coulomb{ friction_angle = 0").empty());
 }
 
 TEST_CASE("a Young's modulus that no solid has warns, and none that one has", "[lua]") {

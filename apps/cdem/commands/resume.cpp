@@ -2,6 +2,7 @@
 #include "apps/cdem/commands/script_run.hpp"
 #include "apps/cdem/failure.hpp"
 #include "apps/cdem/run_log.hpp"
+#include "lua/binding/files.hpp"
 
 namespace cdem::app {
 
@@ -18,10 +19,9 @@ ExitCode resume(const ResumeCommand& command) {
                      run_log_name);
   const script::CheckpointInfo checkpoint = script::newest_checkpoint(command.folder);
   if (checkpoint.unsafe && !command.unsafe)
-    throw UsageError(
-        command.folder.string() +
-        ": the run was started with --unsafe; if its script can be trusted say so again: cdem resume " +
-        command.folder.string() + " --unsafe");
+    throw UsageError(command.folder.string() +
+                     ": the run was started with --unsafe; if its script can be trusted say so again: " +
+                     script::resume_command(command.folder, true));
   RunCommand run_on;
   run_on.script = fs::relative(checkpoint.script, fs::current_path(), none);
   if (none || *run_on.script.begin() == "..")

@@ -172,8 +172,8 @@ std::vector<std::string> what_stands(const SweepCommand& command, const std::vec
     if (run.ended)
       ++ended;
     else if (run.begun && has_checkpoint(run))
-      lines.push_back(shown(run.set) + ": stopped; to go on: cdem resume " + run.folder.string() +
-                      (command.unsafe ? " --unsafe" : ""));
+      lines.push_back(shown(run.set) +
+                      ": stopped; to go on: " + script::resume_command(run.folder, command.unsafe));
     else
       ++rest;
   lines.insert(lines.begin(), std::to_string(ended) + " of " + number_of_runs(runs.size()) +

@@ -43,6 +43,10 @@ std::string rate_text(const Progress& p, const TimeLeft& left) {
   return (rate < 10 ? number_text(rate) : count_text(std::llround(rate))) + " " + p.counts + "s/s";
 }
 
+std::string left_text(const TimeLeft& left) {
+  return duration_text(left.seconds()) + (left.gives_up() ? " to its limit" : " left");
+}
+
 std::string step_text(const Progress& p) {
   if (p.counts == Progress().counts)
     return p.counts + " " + count_text(p.step);
@@ -90,8 +94,8 @@ std::string live_line(const Progress& p, const TimeLeft& left, int columns) {
     parts.push_back({count_text(broken) + " broken", 4});
   if (const std::string rate = rate_text(p, left); !rate.empty())
     parts.push_back({rate, 7});
-  if (const double seconds = left.seconds(); seconds >= 0 && !p.last)
-    parts.push_back({duration_text(seconds) + " left", 3});
+  if (left.seconds() >= 0 && !p.last)
+    parts.push_back({left_text(left), 3});
 
   const std::size_t room = static_cast<std::size_t>(std::max(columns, 1));
   std::string line = joined(parts);
@@ -113,8 +117,8 @@ std::string plain_line(const Progress& p, const TimeLeft& left) {
     line += ", " + broken_text(p.broken_tension, p.broken_shear);
   if (const std::string rate = rate_text(p, left); !rate.empty())
     line += ", " + rate;
-  if (const double seconds = left.seconds(); seconds >= 0)
-    line += ", " + duration_text(seconds) + " left";
+  if (left.seconds() >= 0)
+    line += ", " + left_text(left);
   return line;
 }
 

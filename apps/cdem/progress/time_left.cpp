@@ -85,27 +85,44 @@ double TimeLeft::steps_to_goal(std::size_t which) const {
   return height <= 0 ? 0 : slope < 0 ? height / -slope : -1;
 }
 
+double TimeLeft::steps_to_limit() const {
+  return last_.max_steps > 0 ? static_cast<double>(last_.max_steps - last_.step) : -1;
+}
+
+double TimeLeft::steps_to_goals() const {
+  double steps = -1;
+  for (std::size_t i = 0; i < highest_.size(); ++i)
+    if (goals(last_)[i] > 0) {
+      const double own = steps_to_goal(i);
+      if (own < 0)
+        return -1;
+      steps = std::max(steps, own);
+    }
+  return steps;
+}
+
+bool TimeLeft::gives_up() const {
+  return steps_to_limit() >= 0 && steps_to_goals() > steps_to_limit();
+}
+
 double TimeLeft::seconds() const {
   if (last_.last)
     return 0;
   const double rate = steps_per_second();
   if (rate <= 0)
     return -1;
-  const double steps_to_limit = last_.max_steps > 0 ? static_cast<double>(last_.max_steps - last_.step) : -1;
-  double steps = -1;
-  for (std::size_t i = 0; i < highest_.size(); ++i)
-    if (goals(last_)[i] > 0) {
-      const double own = steps_to_goal(i);
-      if (own < 0) // what does not fall says nothing, however far the limit is
-        return -1;
-      steps = std::max(steps, own);
-    }
+  const double steps = steps_to_goals();
+  if (gives_up())
+    return steps_to_limit() / rate;
   if (steps >= 0)
-    return (steps_to_limit >= 0 ? std::min(steps, steps_to_limit) : steps) / rate;
+    return steps / rate;
+  const auto wanted = goals(last_);
+  if (std::any_of(wanted.begin(), wanted.end(), [](double goal) { return goal > 0; }))
+    return -1; // what does not fall says nothing, however far the limit is
   if (last_.time_goal > 0 && !samples_.empty() && newest_.time > samples_.front().time)
     return std::max(0.0, last_.time_goal - newest_.time) * (newest_.wall - samples_.front().wall) /
            (newest_.time - samples_.front().time);
-  return steps_to_limit >= 0 ? steps_to_limit / rate : -1;
+  return steps_to_limit() >= 0 ? steps_to_limit() / rate : -1;
 }
 
 double TimeLeft::fraction() const {

@@ -18,7 +18,9 @@ public:
   // halves, so that memory and time stay bounded however long the stage.
   void add(const Progress&, double wall);
 
-  double seconds() const;          // wall time to the end of the stage; negative when unknown
+  double seconds() const; // wall time to the end of the stage; negative when unknown
+  // Whether it ends then as it may take no more steps, short of its goal.
+  bool gives_up() const;
   double steps_per_second() const; // over the last samples; 0 when unknown
   // Done, 0 to 1: of what has to fall in decades, of time, or of steps; negative when unknown.
   double fraction() const;
@@ -32,6 +34,8 @@ private:
   };
   static Heights goals(const Progress&);
   double steps_to_goal(std::size_t which) const;
+  double steps_to_goals() const; // all of them; negative when unknown, or there are none
+  double steps_to_limit() const; // negative when there is none
 
   Progress last_;
   int stage_ = 0;
