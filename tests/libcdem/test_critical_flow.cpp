@@ -172,7 +172,8 @@ TEST_CASE("critical flow: bad input is refused", "[flow][input]") {
   CHECK_THAT(refused([](auto& o) { o.max_velocity = std::nan(""); }), Contains("max_velocity = nan"));
 }
 
-TEST_CASE("a pressure rises at its rate up to its limit, but for holds, after which it goes on from where it was") {
+TEST_CASE(
+    "a pressure rises at its rate up to its limit, but for holds, after which it goes on from where it was") {
   cdem::HeldPressure pressure{2, 100, 10, 150};
   CHECK(pressure.at(2) == 100);
   CHECK(pressure.at(5) == 130);
