@@ -8,7 +8,7 @@
 local cdem = require "cdem"
 
 local file = cdem.parameter{ name = "pile", default = "results/armour_pile-settle/pile.json",
-                             doc = "of settle.lua" }
+                             doc = "that settle.lua wrote: run it first" }
 local piles = cdem.parameter{ name = "piles", default = 1, range = {1, 100}, doc = "with more, others than that are settled" }
 local sliding = cdem.parameter{ name = "sliding_angle", default = 15.0, range = {0, 80}, unit = "deg",
                                 doc = "of settle.lua, with more piles than one" }
