@@ -12,7 +12,8 @@ local cdem = require "cdem"
 local set_up = require "pile"
 
 local mass = cdem.parameter{ name = "mass", default = 5000.0, range = {1, 1e6}, unit = "kg", doc = "the pile is scaled" }
-local file = cdem.parameter{ name = "pile", default = "results/armour_pile-settle/pile.json", doc = "that settle.lua wrote: run it first" }
+local file = cdem.parameter{ name = "pile", default = "results/armour_pile-settle/pile.json",
+                             doc = "that settle.lua wrote: run it first" }
 local mode = cdem.parameter{ name = "mode", default = "hold", choices = {"hold", "ramp"} }
 local first = cdem.parameter{ name = "first_velocity", default = 3.0, range = {0.1, 100}, unit = "m/s", doc = "for 5 t" }
 local step = cdem.parameter{ name = "velocity_step", default = 0.25, range = {1e-3, 10}, unit = "m/s", doc = "for 5 t" }
