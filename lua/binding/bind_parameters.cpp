@@ -167,8 +167,13 @@ Value parameter(Session& session, Object*, const Arguments& arguments) {
     value = standard.number();
   const auto typed = session.settings.set.find(name);
   if (typed != session.settings.set.end()) {
-    value = read(name, typed->second, type, standard);
-    check_range("--set " + name, value, range);
+    const std::string& unit = arguments.text_or("unit", "");
+    try {
+      value = read(name, typed->second, type, standard);
+      check_range("--set " + name, value, range);
+    } catch (const InputError& error) {
+      throw InputError(error.what() + (unit.empty() ? std::string() : "; it is in " + unit));
+    }
     check_choice("--set " + name, value, arguments.list("choices"));
   }
   ParameterInfo info;

@@ -52,6 +52,9 @@ TEST_CASE("a --set that cannot be read says what it must be", "[lua]") {
 
 TEST_CASE("ranges and choices hold for the default and for --set", "[lua]") {
   CHECK_THAT(error_for("default = 1.0, range = {0, 2}", "2.5"), Contains("--set p = 2.5: must be in [0, 2]"));
+  CHECK_THAT(error_for("default = 1.0, range = {0, 2}, unit = 'Pa'", "2.5"),
+             Contains("--set p = 2.5: must be in [0, 2]; it is in Pa"));
+  CHECK_THAT(error_for("default = 1.0, unit = 'Pa'", "24MPa"), Contains("e.g. 24e6; it is in Pa"));
   CHECK_THAT(error_for("default = {1, 2}, range = {0, 2}", "1,3"),
              Contains("--set p[2] = 3: must be in [0, 2]"));
   CHECK_THAT(error_for("default = 'fine', choices = {'fine', 'coarse'}", "corse"),
