@@ -39,6 +39,23 @@ double kinetic_energy(const Model& model, const State& state) {
   return kinetic;
 }
 
+std::vector<double> speeds_of_blocks(const Model& model, const State& state) {
+  std::vector<double> speeds;
+  for (const Block& block : model.blocks) {
+    double mass = 0, twice_energy = 0;
+    for (int i = block.node_begin; i < block.node_end; ++i) {
+      const Node& v = state.velocity[i];
+      mass += model.node_mass[i];
+      twice_energy += model.node_mass[i] * (v.x * v.x + v.y * v.y + v.z * v.z);
+    }
+    if (block.rigid >= 0)
+      twice_energy =
+          2 * kinetic_energy(model.rigid[block.rigid], state.rigid[block.rigid], state.velocity_lag);
+    speeds.push_back(std::sqrt(twice_energy / mass));
+  }
+  return speeds;
+}
+
 EnergyLedger energy(const Model& model, const State& state) {
   // Central differences keep the balance where velocities and work stand, half a step before the displacements: there
   // the stored terms are taken too. Taken at the displacements they would be off by half a step's work, 0.2 % for a bar.

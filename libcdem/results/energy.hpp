@@ -10,6 +10,9 @@ EnergyLedger energy(const Model&, const State&);
 
 double kinetic_energy(const Model&, const State&); // J, of nodes and rigid bodies
 
+// m/s (n_blocks): sqrt(2 E / m) of each block's kinetic energy and mass, so that what turns on the spot moves too.
+std::vector<double> speeds_of_blocks(const Model&, const State&);
+
 double elastic_energy(const Model&, const State&); // J, sum V (sigma0 : eps + eps : C : eps / 2)
 
 } // namespace cdem

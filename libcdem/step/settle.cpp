@@ -1,10 +1,12 @@
 #include "libcdem/step/settle.hpp"
 
 #include "libcdem/checkpoint/archive.hpp"
+#include "libcdem/model/names.hpp"
 #include "libcdem/results/energy.hpp"
 #include "libcdem/rigid/convert.hpp"
 #include "libcdem/step/run.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
 
@@ -218,6 +220,12 @@ SettleResult Settling::operator()() {
   result.time = state_.time - now_.start;
   result.kinetic_ratio = now_.calm.ratio;
   result.peak_kinetic = now_.calm.peak;
+  if (!result.converged) {
+    const std::vector<double> speeds = speeds_of_blocks(model_, state_);
+    const auto fastest = std::max_element(speeds.begin(), speeds.end());
+    result.fastest = block_name(model_, static_cast<int>(fastest - speeds.begin()));
+    result.fastest_speed = *fastest;
+  }
   return std::move(result);
 }
 

@@ -38,7 +38,9 @@ struct SettleResult {
   double time = 0;             // s, it took of the model's
   std::int64_t made_rigid = 0; // units, for the first phase
   std::vector<SettlePhase> phases;
-  double wall_time = 0; // s
+  std::string fastest;      // not converged: the name of the block that moves most; else empty
+  double fastest_speed = 0; // m/s, sqrt(2 E / m) of its kinetic energy and mass
+  double wall_time = 0;     // s
 };
 
 } // namespace cdem

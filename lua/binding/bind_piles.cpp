@@ -115,7 +115,8 @@ void tell(Session& session, const geom::Layer& layer) {
   if (!layer.put_back.empty())
     session.message(name + numbers_text(layer.put_back) +
                     " would have slid further than half a height, and " +
-                    (layer.put_back.size() == 1 ? "stays" : "stay") + " as laid");
+                    (layer.put_back.size() == 1 ? "stays as laid; it" : "stay as laid; they") +
+                    " may slide when " + (layer.put_back.size() == 1 ? "it settles" : "they settle"));
   if (!layer.leaning.empty())
     session.message(name + "fewer than three things press on " + numbers_text(layer.leaning));
 }

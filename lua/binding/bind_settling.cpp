@@ -95,8 +95,9 @@ Value settle(Session& session, ModelObject& model, const Arguments& a) {
                                 " s the kinetic energy is " + three_digits(result.kinetic_ratio) +
                                 " of its peak, for a goal of " + number_text(options.kinetic_energy_ratio) +
                                 ", and " + three_digits(out_of_balance(result)) +
-                                " of the loads are out of balance; raise max_time, or look whether something "
-                                "falls off");
+                                " of the loads are out of balance; " + result.fastest + " moves most, at " +
+                                three_digits(result.fastest_speed) +
+                                " m/s; look whether it falls off, or raise max_time");
                  return settle_result(result);
                },
                {{"callback", a.function("callback")}});

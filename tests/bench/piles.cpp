@@ -1,5 +1,5 @@
-// Armour units of a few hundred tetrahedra laid on a slope as one armour layer and settled by the solver's own `settle`,
-// rigid at first: what a pile costs until it is at rest, and what it holds there.
+// Armour units of a few hundred tetrahedra laid on a slope as one armour layer between two walls and settled by the
+// solver's own `settle`, rigid at first: what a pile costs until it is at rest, and what it holds there.
 #include "apps/cdem/progress/run_observer.hpp"
 #include "libcdem/contact/contact_forces.hpp"
 #include "libcdem/first_model.hpp"
@@ -36,6 +36,34 @@ PairSpec contact(const char* a, const char* b) {
   return {a, b, law};
 }
 
+BodySpec rigid_body(const char* name, std::vector<geom::TetMesh> meshes, const Elastic& material) {
+  BodySpec body;
+  body.name = name;
+  body.meshes = std::move(meshes);
+  body.material = material;
+  body.element = Element::rigid;
+  return body;
+}
+
+// Upright along the slope where rows end, and clear of it.
+std::vector<geom::TetMesh> walls_beside(const geom::Pile& pile, double length) {
+  const geom::Box box = geom::bounding_box(pile);
+  const double height = pile.height, clear = 0.05 * height, thick = height, toe = box.min.x() - clear;
+  geom::MeshSize size;
+  size.size = height;
+  std::vector<geom::TetMesh> walls;
+  for (const double y : {box.min.y() - thick, box.max.y()})
+    walls.push_back(geom::mesh_solid(
+        geom::box({length + height - toe, thick, gradient * length + 4 * height}, {toe, y, -height}), size));
+  return walls;
+}
+
+geom::TetMesh slope_mesh(double length, double width, double height) {
+  geom::MeshSize size;
+  size.size = 3 * height;
+  return geom::mesh_solid(geom::slope(gradient, length, width), size);
+}
+
 // Square bars, as the units of examples/armour_pile; the lowest row is held.
 Laid laid(int count) {
   geom::AccropodeShape shape = geom::AccropodeShape::slender();
@@ -48,32 +76,35 @@ Laid laid(int count) {
   geom::MeshSize size;
   size.size = height / fineness;
   const geom::TetMesh unit = geom::mesh_solid(geom::accropode(height, shape), size);
-  size.size = 3 * height;
-  const geom::TetMesh slope = geom::mesh_solid(
-      geom::slope(gradient, (0.55 * rows + 2.5) * height, (2 * columns + 3) * 0.62 * height), size);
+  const double length = (0.55 * rows + 2.5) * height;
+  const geom::Ground bare(geom::surface_of(slope_mesh(length, (2 * columns + 3) * 0.62 * height, height)));
   geom::LayerOptions options;
   options.columns = columns;
-  const geom::Pile pile = geom::place_layer(unit, count, geom::Ground(geom::surface_of(slope)), options).pile;
+  options.walls = true;
+  const geom::Pile pile = geom::place_layer(unit, count, bare, options).pile;
+  const geom::Box box = geom::bounding_box(pile);
+  const double width = 2 * (std::min(-box.min.y(), box.max.y()) - 0.05 * height); // short of the walls
 
   Elastic concrete;
   concrete.youngs_modulus = 30e9;
   concrete.poissons_ratio = 0.2;
   concrete.density = density;
-  BodySpec ground, units;
-  ground.name = "slope";
-  ground.meshes = {slope};
+  BodySpec units;
   units.name = "units";
   units.meshes = geom::meshes(pile);
-  ground.material = units.material = concrete;
-  ground.element = Element::rigid;
+  units.material = concrete;
   units.element = Element::finite_volume;
   Laid made;
   made.tets_per_unit = unit.tets.size();
-  made.spec = {{ground, units}, {contact("units", "units"), contact("units", "slope")}};
+  made.spec = {{rigid_body("slope", {slope_mesh(length, width, height)}, concrete),
+                rigid_body("walls", walls_beside(pile, length), concrete), units},
+               {contact("units", "units"), contact("units", "slope"), contact("units", "walls")}};
   Fix fix;
-  fix.on = Selection::of_body("slope");
   fix.axes = {true, true, true};
-  made.conditions.fixes.push_back(fix);
+  for (const char* ground : {"slope", "walls"}) {
+    fix.on = Selection::of_body(ground);
+    made.conditions.fixes.push_back(fix);
+  }
   std::vector<int> order(pile.poses.size());
   std::iota(order.begin(), order.end(), 0);
   std::stable_sort(order.begin(), order.end(), [&](int a, int b) {
@@ -103,7 +134,7 @@ void piles(const Settings& settings) {
     State state = initial_state(model), last_good;
     RunLog log;
     app::RunObserver told(app::ProgressStyle::automatic, nullptr);
-    std::printf("\n%d units of %zu tets laid on a slope\n", count, tets_per_unit);
+    std::printf("\n%d units of %zu tets laid on a slope between walls\n", count, tets_per_unit);
     std::fflush(stdout);
     const int threads = *std::max_element(settings.threads.begin(), settings.threads.end());
     const SettleResult result =

@@ -131,7 +131,7 @@ TEST_CASE("settle: one unit is told of as one", "[settle]") {
                        {cube_at({0.6, 0.75, 0.5 + 0.25 + 0.05}, Mat3::Identity())}, rock(), 1, lines);
   cdem::SettleOptions options;
   options.max_time = 1e-3;
-  s.settle(options);
+  CHECK(s.settle(options).fastest == "\"units\"");
   REQUIRE_FALSE(lines->lines.empty());
   CHECK_THAT(lines->lines[0], Catch::Contains("alone 1 unit is rigid, with "));
 }
@@ -140,8 +140,12 @@ TEST_CASE("settle: a fall of rigid units is ballistic until they touch", "[settl
   cdem::Simulation s = cubes();
   cdem::SettleOptions options;
   options.max_time = 0.05;
-  s.settle(options);
+  const cdem::SettleResult result = s.settle(options);
   const double t = s.time();
+  CHECK_FALSE(result.converged);
+  CHECK_THAT(result.fastest, Catch::EndsWith(" of \"units\"")); // all three fall alike
+  const double half_step = 0.5 * result.time / static_cast<double>(result.steps);
+  CHECK(result.fastest_speed == Approx(-g.z() * (t - half_step)).epsilon(1e-3));
   CHECK(s.blocks()[1].displacement.z() == Approx(0.5 * g.z() * t * t).epsilon(1e-6));
 }
 

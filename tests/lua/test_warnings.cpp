@@ -50,6 +50,15 @@ TEST_CASE("a settling on which nothing acts warns", "[lua]") {
   CHECK_FALSE(is_told(column() + gravity + settle));
 }
 
+TEST_CASE("a settling that does not come to rest names what moves most", "[lua]") {
+  const auto warnings = warnings_of(column() + "model:gravity{ vector = {0, 0, -9.81} }\n" +
+                                    "assert(not model:settle{ max_time = 1e-3 }.converged)");
+  REQUIRE(warnings.size() == 1);
+  CHECK_THAT(warnings[0], Contains("settle: after 0.001 s the kinetic energy is ") &&
+                              Contains(" moves most, at 0.0097") &&
+                              Contains(" m/s; look whether it falls off"));
+}
+
 TEST_CASE("a mesh size beyond the solid is told of with four digits where the body deforms", "[lua]") {
   const auto of = [](const std::string& element) {
     return warnings_of(
