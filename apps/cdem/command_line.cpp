@@ -274,9 +274,10 @@ private:
         ->option_text("NAME");
     command->add_option("--title,-t", typed_.title, "title of the picture")->option_text("TEXT");
     command
-        ->add_option("--hidden", typed_.hidden,
-                     "bodies to leave out, by their numbers in field body (0 is the first)")
-        ->option_text("N,...");
+        ->add_option(
+            "--hidden", typed_.hidden,
+            "bodies to leave out, by name or by number (0 is the first); cdem info FILE.vtu lists them")
+        ->option_text("BODY,...");
     command->add_flag("--no-edges", typed_.no_edges, "without the outlines of the blocks");
     command->add_flag("--no-broken-bonds", typed_.no_broken_bonds, "without broken bonds");
     command->add_flag("--no-colour-bar,--no-color-bar", typed_.no_colour_bar, "without the colour bar");
@@ -471,7 +472,7 @@ private:
     if (!typed_.range.empty())
       c.range = range_value("--range", typed_.range);
     if (!typed_.hidden.empty())
-      c.hidden = numbers_value("--hidden", typed_.hidden);
+      c.hidden = names_value(typed_.hidden);
     c.colour_map = typed_.colour_map;
     c.title = typed_.title;
     c.edges = !typed_.no_edges;

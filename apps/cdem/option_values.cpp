@@ -95,11 +95,8 @@ std::array<int, 2> size_value(const std::string& option, const std::string& text
   return {side(parts[0]), parts.size() == 2 ? side(parts[1]) : 0};
 }
 
-std::vector<int> numbers_value(const std::string& option, const std::string& text) {
-  std::vector<int> numbers;
-  for (const std::string& part : split(text, ','))
-    numbers.push_back(whole_number(option, part, 0, 1000000));
-  return numbers;
+std::vector<std::string> names_value(const std::string& text) {
+  return split(text, ',');
 }
 
 std::array<double, 2> range_value(const std::string& option, const std::string& text) {

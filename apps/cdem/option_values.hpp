@@ -18,7 +18,7 @@ std::map<std::string, std::string> settings_of(const std::vector<std::string>& t
 std::vector<std::map<std::string, std::string>> combinations_of(const std::vector<std::string>& texts);
 
 std::array<int, 2> size_value(const std::string& option, const std::string& text);     // 1600x1200, 1600
-std::vector<int> numbers_value(const std::string& option, const std::string& text);    // 0,2,3
+std::vector<std::string> names_value(const std::string& text);                         // floor,2,wall
 std::array<double, 2> range_value(const std::string& option, const std::string& text); // low,high
 
 } // namespace cdem::app

@@ -270,6 +270,8 @@ Snapshot make_snapshot(const Model& model, const State& state, const std::string
   snapshot.time = state.time;
   snapshot.step = state.step;
   snapshot.title = title;
+  for (const Body& body : model.bodies)
+    snapshot.body_names.push_back(body.name);
   snapshot.points = model.node_position;
   snapshot.tets = model.tets;
   snapshot.point_fields = {vectors("displacement", "m", state.displacement),

@@ -33,6 +33,7 @@ struct Snapshot {
   double time = 0; // s, or pseudo-time
   std::int64_t step = 0;
   std::string title;                       // e.g. "uniaxial_compression, stage 3 (relax)"
+  std::vector<std::string> body_names;     // by their numbers in cell field "body"; empty: not known
   std::vector<geom::Vec3> points;          // m, undeformed; blocks do not share points
   std::vector<geom::Tet> tets;             // over points
   std::vector<SnapshotField> point_fields; // "displacement" m, "velocity" m/s, ...

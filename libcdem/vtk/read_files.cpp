@@ -109,6 +109,15 @@ BondSnapshot read_bonds(const std::string& path) {
   return bonds;
 }
 
+// Empty when there are none of the name.
+std::vector<std::string> texts_of(vtkFieldData* header, const char* name) {
+  std::vector<std::string> texts;
+  if (auto* array = vtkStringArray::SafeDownCast(header->GetAbstractArray(name)))
+    for (vtkIdType i = 0; i < array->GetNumberOfValues(); ++i)
+      texts.push_back(array->GetValue(i));
+  return texts;
+}
+
 } // namespace
 
 Snapshot read_vtu(const std::string& path) {
@@ -125,9 +134,9 @@ Snapshot read_vtu(const std::string& path) {
     snapshot.time = time->GetComponent(0, 0);
   if (vtkDataArray* step = header->GetArray(step_name); step && step->GetNumberOfTuples() > 0)
     snapshot.step = static_cast<std::int64_t>(step->GetComponent(0, 0));
-  auto* title = vtkStringArray::SafeDownCast(header->GetAbstractArray(title_name));
-  if (title && title->GetNumberOfValues() > 0)
-    snapshot.title = title->GetValue(0);
+  if (const auto titles = texts_of(header, title_name); !titles.empty())
+    snapshot.title = titles[0];
+  snapshot.body_names = texts_of(header, bodies_name);
   find_surface(snapshot);
   if (std::filesystem::exists(bonds_path(path)))
     snapshot.bonds = read_bonds(bonds_path(path));

@@ -56,6 +56,7 @@ Snapshot without_bodies(const Snapshot& all, const std::vector<int>& bodies) {
   rest.time = all.time;
   rest.step = all.step;
   rest.title = all.title;
+  rest.body_names = all.body_names;
   rest.bonds = all.bonds;
   for (std::size_t i = 0; i < all.points.size(); ++i)
     if (point_stays[i])

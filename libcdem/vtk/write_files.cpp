@@ -87,6 +87,14 @@ vtkSmartPointer<vtkUnstructuredGrid> to_grid(const std::vector<geom::Vec3>& poin
   return grid;
 }
 
+void add_texts(vtkUnstructuredGrid* grid, const char* name, const std::vector<std::string>& texts) {
+  vtkNew<vtkStringArray> array;
+  array->SetName(name);
+  for (const std::string& text : texts)
+    array->InsertNextValue(text);
+  grid->GetFieldData()->AddArray(array);
+}
+
 void add_header(vtkUnstructuredGrid* grid, const Snapshot& snapshot) {
   vtkNew<vtkDoubleArray> time;
   time->SetName(time_name);
@@ -94,12 +102,11 @@ void add_header(vtkUnstructuredGrid* grid, const Snapshot& snapshot) {
   vtkNew<vtkTypeInt64Array> step;
   step->SetName(step_name);
   step->InsertNextValue(snapshot.step);
-  vtkNew<vtkStringArray> title;
-  title->SetName(title_name);
-  title->InsertNextValue(snapshot.title);
   grid->GetFieldData()->AddArray(time);
   grid->GetFieldData()->AddArray(step);
-  grid->GetFieldData()->AddArray(title);
+  add_texts(grid, title_name, {snapshot.title});
+  if (!snapshot.body_names.empty())
+    add_texts(grid, bodies_name, snapshot.body_names);
 }
 
 void write_grid(vtkUnstructuredGrid* grid, const std::string& path) {

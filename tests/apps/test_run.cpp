@@ -180,13 +180,17 @@ TEST_CASE("render leaves out the bodies it is told to") {
   REQUIRE(drawn("0").exit_code == 0);
   CHECK(read_file(folder / "p.png") != both);
   CHECK(read_file(folder / "p.png") != first);
-  for (const auto& [hide, said] : {std::pair("5", "--hidden = 5: must be a body of the file: 0, 1"),
-                                   std::pair("0,1", "nothing would be left to draw"),
-                                   std::pair("x", "--hidden = x: must be a whole number")}) {
+  REQUIRE(drawn("two").exit_code == 0);
+  CHECK(read_file(folder / "p.png") == first);
+  const std::string known = ": must be a body of the file, by name or number: 0 one, 1 two";
+  for (const auto& [hide, said] : {std::pair<std::string, std::string>("5", "--hidden = 5" + known),
+                                   {"x", "--hidden = x" + known},
+                                   {"0,two", "nothing would be left to draw"}}) {
     const Outcome refused = drawn(hide);
     CHECK(refused.exit_code == 2);
     CHECK_THAT(refused.err, Contains(said));
   }
+  CHECK_THAT(run_cdem({"info", "out/two.vtu"}, start).out, Contains("0 one, 1 two"));
 }
 
 TEST_CASE("a run on a terminal shows one live line that goes when it ends") {

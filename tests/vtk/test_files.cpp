@@ -72,6 +72,7 @@ TEST_CASE("a snapshot written to .vtu reads back to the bit") {
   const TemporaryFolder folder;
   Snapshot s = sample::plate();
   s.title = "plate <1> & \"2\", \u03c3 = \u221230 MPa";
+  s.body_names = {"plate", "<two> words & \"more\"", "", "\u00e9"};
   s.time = 0.1 + 0.2;
   s.step = (std::int64_t{1} << 40) + 1;
   s.point_fields[0].values[0] = 5e-324; // a subnormal, a signed zero and the largest double survive too
@@ -81,6 +82,7 @@ TEST_CASE("a snapshot written to .vtu reads back to the bit") {
   write_bonds(s, bonds_path(folder / "plate.vtu"));
   const Snapshot r = read_vtu(folder / "plate.vtu");
   CHECK(r.title == s.title);
+  CHECK(r.body_names == s.body_names);
   CHECK(r.time == s.time);
   CHECK(r.step == s.step);
   CHECK(r.points == s.points);

@@ -57,7 +57,7 @@ struct RenderCommand {
   std::string view = "front", up = "y", colour_map = "auto", title;
   std::array<int, 2> size = {1600, 1200}; // pixels; height 0: as high as the picture needs
   std::optional<std::array<double, 2>> range;
-  std::vector<int> hidden; // bodies, by their numbers in field body
+  std::vector<std::string> hidden; // bodies, by their names or by their numbers in field body
   bool edges = true, broken_bonds = true, colour_bar = true, legend = true, axes = true;
 };
 ExitCode render_picture(const RenderCommand&);

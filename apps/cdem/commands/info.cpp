@@ -111,7 +111,11 @@ void about_snapshot(const fs::path& file) {
                      "; give that file, its bonds are told with it");
   }
   const Snapshot snapshot = read_vtu(file.string());
+  std::string bodies;
+  for (std::size_t b = 0; b < snapshot.body_names.size(); ++b)
+    bodies += (b > 0 ? ", " : "") + std::to_string(b) + " " + snapshot.body_names[b];
   print_rows({{"title", snapshot.title},
+              {"bodies", bodies.empty() ? "not told" : bodies},
               {"time", number_text(snapshot.time) + " s"},
               {"step", count_text(snapshot.step)},
               {"points", count_text(static_cast<std::int64_t>(snapshot.points.size()))},

@@ -10,6 +10,7 @@
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
+#include <map>
 #include <set>
 #include <unistd.h>
 
@@ -31,26 +32,44 @@ std::string usual_field(const Snapshot& snapshot) {
   return "";
 }
 
-Snapshot without(const Snapshot& snapshot, const std::vector<int>& hidden) {
+// Numbers in cell field "body" that there are, ascending, with their names where the file tells them.
+std::map<int, std::string> bodies_of(const Snapshot& snapshot) {
+  std::map<int, std::string> bodies;
+  if (const SnapshotField* field = find_field(snapshot.cell_fields, "body"))
+    for (const double value : field->values) {
+      const auto number = static_cast<std::size_t>(value);
+      bodies.emplace(static_cast<int>(value),
+                     number < snapshot.body_names.size() ? snapshot.body_names[number] : "");
+    }
+  return bodies;
+}
+
+// A name goes before a number that reads the same.
+int body_number(const std::map<int, std::string>& bodies, const std::string& asked) {
+  for (const auto& [number, name] : bodies)
+    if (!name.empty() && name == asked)
+      return number;
+  for (const auto& [number, name] : bodies)
+    if (std::to_string(number) == asked)
+      return number;
+  std::string known;
+  for (const auto& [number, name] : bodies)
+    known += (known.empty() ? "" : ", ") + std::to_string(number) + (name.empty() ? "" : " " + name);
+  throw geom::InputError("--hidden", asked,
+                         bodies.empty() ? "left out: the file does not tell bodies"
+                                        : "a body of the file, by name or number: " + known);
+}
+
+Snapshot without(const Snapshot& snapshot, const std::vector<std::string>& hidden) {
   if (hidden.empty())
     return snapshot;
-  std::set<int> bodies;
-  if (const SnapshotField* field = find_field(snapshot.cell_fields, "body"))
-    for (const double number : field->values)
-      bodies.insert(static_cast<int>(number));
-  std::string known;
-  for (const int body : bodies)
-    known += (known.empty() ? "" : ", ") + std::to_string(body);
-  for (const int body : hidden)
-    if (bodies.count(body) == 0)
-      throw geom::InputError("--hidden", std::to_string(body),
-                             bodies.empty() ? "left out: the file does not tell bodies"
-                                            : "a body of the file: " + known);
-  for (const int body : hidden)
-    bodies.erase(body);
-  if (bodies.empty())
-    throw geom::InputError("--hidden", known, "fewer bodies: nothing would be left to draw");
-  return without_bodies(snapshot, hidden);
+  const std::map<int, std::string> bodies = bodies_of(snapshot);
+  std::vector<int> numbers;
+  for (const std::string& body : hidden)
+    numbers.push_back(body_number(bodies, body));
+  if (std::set<int>(numbers.begin(), numbers.end()).size() == bodies.size())
+    throw geom::InputError("--hidden", "every body", "fewer: nothing would be left to draw");
+  return without_bodies(snapshot, numbers);
 }
 
 } // namespace
