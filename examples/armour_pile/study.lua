@@ -4,12 +4,13 @@
 --
 --   ./cdem run examples/armour_pile/settle.lua
 --   ./cdem run examples/armour_pile/study.lua [--set modes=hold] [--set first_velocity=5]
---   ./cdem run examples/armour_pile/study.lua --set piles=6      # settles them first, with six seeds
+--   ./cdem run examples/armour_pile/study.lua --set piles=6 [--set first_seed=1]  # settles them first, seeds 1 to 6
 local cdem = require "cdem"
 
 local file = cdem.parameter{ name = "pile", default = "results/armour_pile-settle/pile.json",
                              doc = "that settle.lua wrote: run it first" }
 local piles = cdem.parameter{ name = "piles", default = 1, range = {1, 100}, doc = "with more, others than that are settled" }
+local first_seed = cdem.parameter{ name = "first_seed", default = 1, range = {0, 1e6}, doc = "of the piles; they count up" }
 local sliding = cdem.parameter{ name = "sliding_angle", default = 15.0, range = {0, 80}, unit = "deg",
                                 doc = "of settle.lua, with more piles than one" }
 local modes = cdem.parameter{ name = "modes", default = "both", choices = {"both", "hold", "ramp"} }
@@ -23,10 +24,12 @@ local jobs = cdem.parameter{ name = "jobs", default = 2, range = {1, 64}, doc = 
 
 local masses = { 5000.0, 9000.0, 16000.0 }
 local files = { file }
-if piles > 1 then
-  local seeds = {}
-  for pile = 1, piles do seeds[pile] = { seed = pile, sliding_angle = sliding, pictures = false } end
-  for pile, run in ipairs(cdem.sweep{ script = "settle.lua", set = seeds, jobs = jobs }) do
+if piles == 1 then
+  cdem.read_pile{ file = file } -- without it no run would begin
+else
+  local settings = {}
+  for pile = 1, piles do settings[pile] = { seed = first_seed + pile - 1, sliding_angle = sliding, pictures = false } end
+  for pile, run in ipairs(cdem.sweep{ script = "settle.lua", set = settings, jobs = jobs }) do
     files[pile] = "../" .. run.output .. "/pile.json"
   end
 end
