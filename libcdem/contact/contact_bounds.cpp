@@ -2,6 +2,7 @@
 
 #include "libcdem/contact/places.hpp"
 #include "libcdem/rigid/inertia.hpp"
+#include "libcdem/rigid/motion.hpp"
 #include "libcdem/step/row_sums.hpp"
 
 namespace cdem {
@@ -9,11 +10,20 @@ namespace {
 
 // Of a rigid body's surface: what touches at most, by the step that it starts with.
 constexpr double touching_part = 0.02;
+// Of the stable step, for the contacts of rigid bodies: they have no elements, so an impact is all in their stiffness,
+// and at 0.9 it takes three steps and gives back 0.75 to 1.5 of the energy, at 0.5 what it took within a tenth.
+constexpr double most_of_rigid = 0.5;
+// Of a tet's height, in a step.
+constexpr double way_part = 0.1;
+
+double for_rigid(double safety) {
+  return std::min(safety, most_of_rigid);
+}
 
 } // namespace
 
 double contact_time_step(const Model& model, const State& state, const Workspace& work,
-                         const std::vector<double>& row_sums) {
+                         const std::vector<double>& row_sums, double safety) {
   double least = std::numeric_limits<double>::infinity();
   std::vector<double> rigid(model.rigid.size(), 0.0);
   const ContactWork& own = work.contact;
@@ -22,8 +32,8 @@ double contact_time_step(const Model& model, const State& state, const Workspace
     if (body < 0) {
       const double mass = model.node_mass[node];
       const double beta = work.damped ? model.bodies[model.blocks[block].body].material.stiffness_damping : 0;
-      least = std::min(least, stable_time_step((row_sums[node] + own.stiffness[node]) / mass,
-                                               beta * row_sums[node] / mass));
+      least = std::min(least, safety * stable_time_step((row_sums[node] + own.stiffness[node]) / mass,
+                                                        beta * row_sums[node] / mass));
       continue;
     }
     const std::array<double, 3>& c = state.rigid[body].centroid;
@@ -31,12 +41,12 @@ double contact_time_step(const Model& model, const State& state, const Workspace
     rigid[body] += own.stiffness[node] * rigid_inverse_mass(model.rigid[body], arm);
   }
   for (const double sum : rigid)
-    least = std::min(least, stable_time_step(sum, 0));
+    least = std::min(least, for_rigid(safety) * stable_time_step(sum, 0));
   return least;
 }
 
-double rigid_frequency2(const Model& model) {
-  double largest = 0;
+double rigid_time_step(const Model& model, double safety) {
+  double largest = 0; // 1/s2
   for (const RigidBody& body : model.rigid) {
     double stiffness = 0, arm = 0;
     const Block& block = model.blocks[body.block];
@@ -49,7 +59,31 @@ double rigid_frequency2(const Model& model) {
       arm = std::max(arm, (model.node_position[node] - block.mass.centroid).norm());
     largest = std::max(largest, 2 * touching_part * stiffness * rigid_inverse_mass(body, arm));
   }
-  return largest;
+  return largest > 0 ? for_rigid(safety) * stable_time_step(largest, 0)
+                     : std::numeric_limits<double>::infinity();
+}
+
+std::vector<double> reaches_of_rigid(const Model& model, const State& state) {
+  std::vector<double> reaches;
+  for (const RigidBody& body : model.rigid) {
+    double reach2 = 0;
+    for (int node = model.blocks[body.block].node_begin; node < model.blocks[body.block].node_end; ++node)
+      reach2 = std::max(reach2, vec(state.rigid_offset[node]).squaredNorm());
+    reaches.push_back(std::sqrt(reach2));
+  }
+  return reaches;
+}
+
+double way_time_step(const Model& model, const State& state, const std::vector<double>& reaches) {
+  double height = std::numeric_limits<double>::infinity(), fastest = 0; // m, m/s
+  for (const double usual : model.surface.usual_height)
+    if (usual > 0)
+      height = std::min(height, usual);
+  for (std::size_t i = 0; i < model.rigid.size(); ++i) {
+    const double spin = vec(state.rigid[i].angular_momentum).norm() / model.rigid[i].principal.minCoeff();
+    fastest = std::max(fastest, vec(state.rigid[i].velocity).norm() + spin * reaches[i]);
+  }
+  return fastest > 0 ? way_part * height / fastest : std::numeric_limits<double>::infinity();
 }
 
 void add_contact_row_sums(const Model& model, std::vector<double>& row_sums) {

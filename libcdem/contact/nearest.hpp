@@ -53,9 +53,10 @@ inline Nearest nearest_of(int target, const geom::Vec3& spring, const Corners& x
 inline void take_nearer(Nearest& nearest, Nearest other, const Corners& x, const geom::Vec3& normal,
                         double size, bool bonded) {
   const double further = std::sqrt(std::max(nearest.distance2, other.distance2));
+  const double apart = further - std::sqrt(std::min(nearest.distance2, other.distance2));
   double reach = same_place * further + (bonded ? bond_gives : same_place_at_least) * size;
   // A small change of distance moves the nearest place far along an edge that runs across.
-  if (bonded && further - std::sqrt(std::min(nearest.distance2, other.distance2)) <= reach)
+  if (bonded && apart <= reach)
     reach += std::sqrt(2 * further * reach);
   // One of the two may have its place just off the edge. Within both they are the two sides of a crack.
   const bool on_edges = !nearest.at.inside || !other.at.inside;
@@ -66,7 +67,11 @@ inline void take_nearer(Nearest& nearest, Nearest other, const Corners& x, const
   other.outward = angle_at(other.at, x) * normal;
   if (one_place)
     other.outward += nearest.outward;
-  if (one_place && std::abs(other.height) <= std::abs(nearest.height))
+  // Places that bonds have parted count as one for the side that the spring is on, not for how deep it is.
+  const bool as_near = apart <= same_place * further + same_place_at_least * size;
+  const bool stays = as_near ? std::abs(other.height) <= std::abs(nearest.height)
+                             : other.distance2 >= nearest.distance2;
+  if (one_place && stays)
     nearest.outward = other.outward;
   else
     nearest = other;

@@ -70,9 +70,11 @@ std::vector<double> viscous_forces(const Model& model) {
 }
 
 double choose_time_step(const Model& model, const RunOptions& options) {
-  const double stable = stable_time_step(model);
+  const double stable = stable_time_step(model), infinite = std::numeric_limits<double>::infinity();
+  // Rigid bodies have a stable step only where they may touch.
   const double usual =
-      model.surface.empty() ? stable : std::min(stable, 2 / std::sqrt(rigid_frequency2(model)));
+      std::min(options.safety * stable,
+               model.surface.empty() ? infinite : rigid_time_step(model, options.safety));
   if (options.time_step == 0 && std::isinf(usual))
     throw geom::InputError(
         "time_step: missing; everything that moves is rigid and touches nothing, which has no "
@@ -81,7 +83,12 @@ double choose_time_step(const Model& model, const RunOptions& options) {
     throw geom::InputError("time_step", fmt::format("{:g}", options.time_step),
                            fmt::format("at most the stable step, {:.4g} s", stable),
                            "leave it out to use safety x stable");
-  return options.time_step > 0 ? options.time_step : options.safety * usual;
+  const double most = model.surface.joint.empty() ? infinite : rigid_time_step(model, 1);
+  if (options.time_step > most)
+    throw geom::InputError("time_step", fmt::format("{:g}", options.time_step),
+                           fmt::format("at most {:.4g} s, half the stable step of rigid bodies that touch", most),
+                           "leave it out to use the usual one");
+  return options.time_step > 0 ? options.time_step : usual;
 }
 
 // The time of each step of a run whose step may get shorter on the way, as contacts close.
@@ -169,7 +176,7 @@ RunResult run(const StageContext& context, const RunOptions& options, const std:
   while (stage.step < clock.steps() && !stopped) {
     if (stage.can_be_left())
       stage.mark(clock.carried());
-    if (const double longest = options.safety * stage.meet(); longest < stepping.time_step) {
+    if (const double longest = stage.meet(options.safety); longest < stepping.time_step) {
       stepping.time_step = longest;
       clock.shorten(stage.step, longest);
       set_goals();

@@ -97,6 +97,7 @@ Stage::Stage(const StageContext& context, std::string kind, double run_away)
   }
   if (!context_.model.surface.empty())
     row_sums_ = all_row_sums(context_.model);
+  rigid_reach_ = reaches_of_rigid(context_.model, context_.state);
 }
 
 void Stage::mark(std::vector<double> carried, const std::vector<Node>& previous_force) {
@@ -136,13 +137,14 @@ void Stage::moved(double time_step) {
   work.contact.due = true;
 }
 
-double Stage::meet() {
+double Stage::meet(double safety) {
   const Model& model = context_.model;
   meet_contacts();
   const ContactSums sums = std::exchange(met_, {});
   if (sums.deepest > 1)
     refuse_depth(model, context_.state, sums.deepest_source, sums.deepest_target, here());
-  return contact_time_step(model, context_.state, work, row_sums_);
+  return std::min(contact_time_step(model, context_.state, work, row_sums_, safety),
+                  way_time_step(model, context_.state, rigid_reach_));
 }
 
 double Stage::wall_time() const {

@@ -57,9 +57,9 @@ public:
   // move with them: move_rigid(rigid body, sums). Returns the sums over all chunks, added in order.
   template <class Move, class MoveRigid>
   NodeSums advance(bool breaking, const Move& move, const MoveRigid& move_rigid);
-  // Contacts for where the nodes are; before advance. Returns a bound of the stable step that they leave, s; infinite
-  // without contacts. Throws SolutionError when something has gone too deep.
-  double meet();
+  // Contacts for where the nodes are; before advance. Returns the longest step that they leave, s, `safety` times the
+  // stable one; infinite without contacts. Throws SolutionError when something has gone too deep.
+  double meet(double safety = 1);
   // Everything moved on by this long (s; steps of unit length in a relaxation).
   void moved(double time_step);
   // Brings the stress of meshes up to where the nodes are; before a state is kept or handed out.
@@ -111,6 +111,7 @@ private:
 
   StageContext context_;
   ThreadChoice threads_;
+  std::vector<double> rigid_reach_; // m, reaches_of_rigid
   std::vector<double> row_sums_; // N/m, of elements and bonds (n_nodes); empty without contacts
   std::string kind_;
   double run_away_;
