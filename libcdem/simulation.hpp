@@ -148,8 +148,8 @@ public:
     std::array<double, 6> stress;
   };
   std::vector<BlockRow> blocks() const;
-  int body_number(
-      const std::string& body) const; // from 0, the value of field "body"; geom::InputError: there is none
+  // From 0, the value of field "body". geom::InputError of `field`: there is none.
+  int body_number(const std::string& body, const std::string& field = "body") const;
 
   // The units of a body, in order. Each throws geom::InputError for a body that there is not.
   std::vector<Unit> units(const std::string& body) const;

@@ -131,12 +131,12 @@ std::vector<int> Simulation::touching(const std::string& body) const {
   return cdem::touching(impl_->model, impl_->state, body);
 }
 
-int Simulation::body_number(const std::string& body) const {
+int Simulation::body_number(const std::string& body, const std::string& field) const {
   const std::vector<Body>& bodies = impl_->model.bodies;
   for (std::size_t i = 0; i < bodies.size(); ++i)
     if (bodies[i].name == body)
       return static_cast<int>(i);
-  refuse_body("body", body, impl_->model);
+  refuse_body(field, body, impl_->model);
 }
 
 const std::vector<BreakRow>& Simulation::breaks() const {

@@ -43,6 +43,7 @@ void advance(double force, double mass, double viscous, const Stepping& s, const
     velocity = c.prescribed;
     const double ahead = 0.5 * s.time_step;
     sums.external += (c.applied - force) * ((s.kick - ahead) * before + ahead * velocity);
+    sums.external += 0.5 * mass * (velocity * velocity - before * before); // what holds it changes its motion
   }
   displacement += velocity * s.time_step;
 }
@@ -72,9 +73,8 @@ std::vector<double> viscous_forces(const Model& model) {
 double choose_time_step(const Model& model, const RunOptions& options) {
   const double stable = stable_time_step(model), infinite = std::numeric_limits<double>::infinity();
   // Rigid bodies have a stable step only where they may touch.
-  const double usual =
-      std::min(options.safety * stable,
-               model.surface.empty() ? infinite : rigid_time_step(model, options.safety));
+  const double usual = std::min(options.safety * stable,
+                                model.surface.empty() ? infinite : rigid_time_step(model, options.safety));
   if (options.time_step == 0 && std::isinf(usual))
     throw geom::InputError(
         "time_step: missing; everything that moves is rigid and touches nothing, which has no "
@@ -85,9 +85,10 @@ double choose_time_step(const Model& model, const RunOptions& options) {
                            "leave it out to use safety x stable");
   const double most = model.surface.joint.empty() ? infinite : rigid_time_step(model, 1);
   if (options.time_step > most)
-    throw geom::InputError("time_step", fmt::format("{:g}", options.time_step),
-                           fmt::format("at most {:.4g} s, half the stable step of rigid bodies that touch", most),
-                           "leave it out to use the usual one");
+    throw geom::InputError(
+        "time_step", fmt::format("{:g}", options.time_step),
+        fmt::format("at most {:.4g} s, half the stable step of rigid bodies that touch", most),
+        "leave it out to use the usual one");
   return options.time_step > 0 ? options.time_step : usual;
 }
 

@@ -49,7 +49,8 @@ void require_sound(const Model& model, const State& state, const Workspace& work
     const double moved = std::sqrt(u.x * u.x + u.y * u.y + u.z * u.z);
     if (moved > run_away)
       fail(fmt::format("run-away displacement of {:.3g} m (model {:.3g} m across)", moved, model.length),
-           node, "is this part held by supports, and can it carry its load?");
+           node,
+           "is this part held by supports, does it fall off what it lies on, and can it carry its load?");
   }
   for (int node = 0; node < static_cast<int>(work.force.size()); ++node)
     if (!std::isfinite(work.force[node].x + work.force[node].y + work.force[node].z))

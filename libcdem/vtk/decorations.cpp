@@ -47,7 +47,7 @@ std::optional<BarContent> bar_content(const FieldValues& field, const ColourScal
   std::set<std::int64_t> ids;
   if (field.integer) {
     for (const double value : field.values)
-      if (ids.size() <= most_swatches)
+      if (!std::isnan(value) && ids.size() <= most_swatches) // plain bodies have none
         ids.insert(std::llround(value));
     if (ids.size() <= most_swatches)
       bar.ids.assign(ids.begin(), ids.end());

@@ -272,6 +272,7 @@ Layer place_layer(const TetMesh& unit, int count, const Ground& ground, const La
   layer.at_rest = rested.still;
   layer.leaning = rested.leaning;
   layer.put_back = rested.put_back;
+  layer.density = measured_density(pile, ground);
   return layer;
 }
 

@@ -6,6 +6,7 @@
 #include "libcdem/vtk/field_values.hpp"
 #include "libcdem/vtk/film.hpp"
 #include "libcdem/vtk/without_bodies.hpp"
+#include "libgeom/core/error.hpp"
 
 #include <algorithm>
 
@@ -52,17 +53,19 @@ Value picture(Session& session, ModelObject& model, const Arguments& a) {
   require_ending(a.text("file"), ".png");
   PictureOptions options = picture_options(a);
   for (const Value& body : a.list("plain"))
-    options.plain.push_back(model.simulation.body_number(*body.get<std::string>()));
+    options.plain.push_back(model.simulation.body_number(*body.get<std::string>(), "plain"));
   std::vector<int> hidden;
   for (const Value& body : a.list("hidden"))
-    hidden.push_back(model.simulation.body_number(*body.get<std::string>()));
+    hidden.push_back(model.simulation.body_number(*body.get<std::string>(), "hidden"));
   if (session.settings.check_only) {
     if (!options.field.empty())
       field_values(model.simulation.snapshot(""), options.field);
     return {};
   }
-  render(without_bodies(model.simulation.snapshot(model.title(session)), hidden), options,
-         session.files.to_write(a.text("file")).string());
+  const Snapshot shown = without_bodies(model.simulation.snapshot(model.title(session)), hidden);
+  if (shown.tets.empty())
+    throw geom::InputError("hidden: holds every body; leave one to draw");
+  render(shown, options, session.files.to_write(a.text("file")).string());
   return {};
 }
 

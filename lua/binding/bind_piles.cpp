@@ -102,8 +102,15 @@ std::string numbers_text(const std::vector<int>& units) {
   return (units.size() == 1 ? "unit " : "units ") + text;
 }
 
-void tell(Session& session, const geom::Layer& layer) {
+// Of a settled layer the density is to be the one asked for within this part.
+constexpr double density_told_of = 0.05;
+
+void tell(Session& session, const geom::Layer& layer, double density) {
   const std::string name = "cdem.place: ";
+  if (layer.density && std::abs(*layer.density / density - 1) > density_told_of)
+    session.warn(name + "density = " + number_text(density) + " came to " + three_digits(*layer.density) +
+                 ", as near as these units lie at rest on this ground in rows of so many; ask for another "
+                 "density, other columns or a wider ground");
   if (!layer.at_rest)
     session.warn(
         name + "the units were laid one by one, but did not come to rest together, clear of each other; they "
@@ -146,7 +153,7 @@ Value lay(Session& session, Object*, const Arguments& a) {
   }
   observer.end();
   if (options.nudges > 0)
-    tell(session, layer);
+    tell(session, layer, options.density);
   return std::make_shared<PileObject>(std::move(layer.pile));
 }
 

@@ -145,8 +145,8 @@ void bind_settling(Module& m) {
   model.methods.push_back(
       {"watch",
        "Watches the units of a body from now on. A unit has left when its centroid has moved by `leaves` "
-       "against the ground and relative to the mean motion of the units that it touched when the watch "
-       "began, of those that stay.",
+       "against the ground and relative to the mean motion of the bodies that it touched when the watch "
+       "began, ground and units, of those that stay.",
        {text("bodies").required().doc("name of a body of meshes"),
         number("leaves").above(0).unit("m").required().doc("half a unit's height is usual")},
        false,

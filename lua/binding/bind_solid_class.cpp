@@ -18,6 +18,9 @@ namespace {
 
 using geom::InputError;
 
+// Of a mesh's volume that differs by more than this part from its solid's.
+constexpr double volume_told_of = 0.03;
+
 // The same unit in another place: it keeps its name, density and, unless scaled, its sizes.
 Value moved(const SolidObject& self, geom::Solid solid, double factor = 1) {
   auto object = std::make_shared<SolidObject>(self);
@@ -49,7 +52,7 @@ std::string four_digits(double x) {
   return text;
 }
 
-Value mesh(Session&, SolidObject& self, const Arguments& a) {
+Value mesh(Session& session, SolidObject& self, const Arguments& a) {
   geom::MeshSize sizes;
   const auto size = a.has("size") ? a.optional_number("size") : self.mesh_size;
   if (!size)
@@ -77,10 +80,15 @@ Value mesh(Session&, SolidObject& self, const Arguments& a) {
   geom::Box box;
   for (const geom::Vec3& x : object->mesh.nodes)
     box.extend(x);
-  if (const double least = box.size().minCoeff(); sizes.size > least)
+  if (const double least = box.size().minCoeff(); sizes.size > least * (1 + 1e-6))
     object->coarse = "mesh: size = " + four_digits(sizes.size) +
                      " m is more than the solid's smallest extent, " + four_digits(least) +
                      " m; a body that bends wants several tetrahedra across";
+  const double part = geom::volume(object->mesh) / geom::mass_properties(self.solid).volume;
+  if (std::abs(part - 1) > volume_told_of)
+    session.warn("mesh: with size = " + four_digits(sizes.size) + " m its volume, and mass, is " +
+                 four_digits(part) +
+                 " of the solid's, as flat faces stand for curved ones; give a smaller size");
   return object;
 }
 

@@ -66,11 +66,12 @@ CheckpointInfo newest_checkpoint(const fs::path& folder) {
     }
   }
   if (newest.file.empty())
-    throw FileError(wrong.empty()
-                        ? folder.string() +
-                              ": no checkpoint; one is written every few minutes and by Ctrl-C, and "
-                              "taken away when a run has ended well"
-                        : wrong);
+    throw FileError(
+        wrong.empty()
+            ? folder.string() +
+                  ": no checkpoint; one is written every few minutes and by Ctrl-C while a model is solved, "
+                  "and taken away when a run has ended well"
+            : wrong);
   return newest;
 }
 

@@ -699,7 +699,7 @@ function Model:stages() end
 ---@field bodies string name of a body of meshes
 ---@field leaves number m, > 0: half a unit's height is usual
 
----Watches the units of a body from now on. A unit has left when its centroid has moved by `leaves` against the ground and relative to the mean motion of the units that it touched when the watch began, of those that stay.
+---Watches the units of a body from now on. A unit has left when its centroid has moved by `leaves` against the ground and relative to the mean motion of the bodies that it touched when the watch began, ground and units, of those that stay.
 ---@param options cdem.ModelWatchOptions
 ---@return cdem.Watch # #watch, watch[i]: the units that have left so far, in order
 function Model:watch(options) end

@@ -398,3 +398,98 @@ TEST_CASE("contact: two bodies that collide do so whichever comes first, however
   CHECK((collide({turned}) - once).norm() < 1e-9 * once.norm());
   CHECK((collide({beside_a_far_one}) - once).norm() == 0);
 }
+
+TEST_CASE("contact: a block whose mesh may break slides on a plate as one that may not",
+          "[contact][fracture]") {
+  // Led along at a micron of depth, over edges of the plate's triangles, no friction. A place of its bottom and one of
+  // its side count as one where bonds part edges; the depth stays that of the bottom.
+  static constexpr double depth = 1e-6, speed = 0.1;
+  const auto deepest_and_work = [](bool bonded) {
+    cdem::Bonding bonding;
+    bonding.everywhere = bonded;
+    cdem::BodySpec block =
+        meshed("block", box_at({0.3, 0.2, 0.2}, {3, 2, 2}, Mat3::Identity(), {0.31, 0.013, 0.1 + 1e-4}),
+               bonding, rock());
+    cdem::BodySpec plate =
+        meshed("plate", box_at({1.2, 0.6, 0.2}, {12, 6, 2}, Mat3::Identity(), {0.5, 0, -0.1}), {});
+    plate.element = block.element = cdem::Element::rigid;
+    System s(build({plate, block}, {{"plate", "block", friction(0)}}));
+    s.hold(body_of("plate"), "xyz");
+    s.hold(body_of("block"), "xyz");
+    cdem::RunOptions options;
+    options.steps = 100;
+    const double down = 1e-4 + depth;
+    options.time_step = 1e-5;
+    s.conditions.fixes.back().velocity = Vec3(0, 0, -down / (options.time_step * 100));
+    s.run(options);
+    s.conditions.fixes.back().velocity = Vec3(speed, 0, 0);
+    const double before = s.state.spent.external;
+    options.steps = 0;
+    options.duration = 0.15 / speed;
+    s.run(options);
+    return std::pair(s.log.deepest_contact, std::abs(s.state.spent.external - before));
+  };
+  const auto [deepest, work] = deepest_and_work(true);
+  CHECK(deepest < 1.5 * depth);
+  CHECK(deepest_and_work(false).first < 1.5 * depth);
+  CHECK(work == Approx(deepest_and_work(false).second).margin(0.01));
+}
+
+namespace {
+
+System rigid_cube_over_floor(double stiffness, double speed) {
+  cdem::Elastic material = rock();
+  material.youngs_modulus = stiffness;
+  cdem::BodySpec floor =
+      meshed("floor", box_at({3, 3, 1}, {4, 4, 2}, Mat3::Identity(), {0, 0, -0.5}), {}, material);
+  cdem::BodySpec cube =
+      meshed("cube", box_at({1, 1, 1}, {3, 3, 3}, Mat3::Identity(), {0, 0, 0.6}), {}, material);
+  floor.element = cube.element = cdem::Element::rigid;
+  System s(build({floor, cube}, {{"floor", "cube", friction(0)}}));
+  s.hold(body_of("floor"), "xyz");
+  s.state.rigid[1].velocity = {0, 0, -speed};
+  return s;
+}
+
+} // namespace
+
+TEST_CASE("contact: a rigid cube that hits a floor flat gives back its energy at the default step",
+          "[contact][rigid]") {
+  for (const double speed : {1.137, 1.274, 1.411, 1.548, 1.685, 1.822}) {
+    System s = rigid_cube_over_floor(30e9, speed);
+    const double before = cdem::kinetic_energy(s.model, s.state);
+    cdem::RunOptions options;
+    options.duration = 0.3 / speed;
+    s.run(options);
+    CHECK(s.state.rigid[1].velocity[2] > 0);
+    CHECK(cdem::kinetic_energy(s.model, s.state) / before == Approx(1).margin(0.12));
+  }
+}
+
+TEST_CASE("contact: a step too long for rigid bodies that touch is refused", "[contact][rigid][input]") {
+  System s = rigid_cube_over_floor(30e9, 1);
+  cdem::RunOptions options;
+  options.steps = 10;
+  options.time_step = 1e-3;
+  CHECK_THROWS_WITH(s.run(options), Catch::Contains("time_step = 0.001: must be at most ") &&
+                                        Catch::Contains("rigid bodies that touch"));
+}
+
+TEST_CASE("contact: a fast, soft rigid cube does not pass through a floor unseen", "[contact][rigid]") {
+  System s = rigid_cube_over_floor(1e6, 20);
+  cdem::RunOptions options;
+  options.duration = 0.12;
+  CHECK_THROWS_WITH(s.run(options), Catch::Contains("\"cube\" has gone too deep into \"floor\"") ||
+                                        Catch::Contains("\"floor\" has gone too deep into \"cube\""));
+}
+
+TEST_CASE("a velocity that nodes are held at is work of what holds them", "[energy]") {
+  System s(build({meshed("cube", box_at({1, 1, 1}, {2, 2, 2}, Mat3::Identity(), {0, 0, 0}), {})}));
+  s.hold(body_of("cube"), "xyz");
+  s.conditions.fixes.back().velocity = Vec3(0.5, 0, 0);
+  cdem::RunOptions options;
+  options.steps = 10;
+  s.run(options);
+  CHECK(s.state.spent.external == Approx(0.5 * rock().density * 0.25).epsilon(1e-6));
+  CHECK(cdem::energy(s.model, s.state).total() == Approx(s.state.spent.external).epsilon(1e-6));
+}

@@ -75,6 +75,29 @@ TEST_CASE("a mesh size beyond the solid is told of with four digits where the bo
   CHECK(of(", element = 'rigid'").empty());
 }
 
+TEST_CASE("a mesh that lacks volume of its solid is told of", "[lua]") {
+  const auto of = [](const std::string& size) {
+    return warnings_of("local cdem = require 'cdem'\n"
+                       "cdem.solid.sphere{ radius = 1 }:mesh{ size = " +
+                       size + " }");
+  };
+  REQUIRE(of("1").size() == 1);
+  CHECK_THAT(of("1")[0], Contains("case.lua:2: warning: mesh: with size = 1 m its volume, and mass, is 0."));
+  CHECK(of("0.2").empty());
+}
+
+TEST_CASE("a layer that misses the density asked for is told of", "[lua]") {
+  const auto warnings =
+      warnings_of("local cdem = require 'cdem'\n"
+                  "local cube = cdem.cube{ height = 1 }:mesh{ size = 1 }\n"
+                  "local ground = cdem.slope{ gradient = 2 / 3, length = 12, width = 12 }:mesh{ size = 3 }\n"
+                  "cdem.place{ unit = cube, count = 12, columns = 4, onto = ground, density = 1.3, "
+                  "attitudes = 20, nudges = 20 }");
+  CHECK(std::any_of(warnings.begin(), warnings.end(), [](const std::string& warning) {
+    return warning.find("cdem.place: density = 1.3 came to 0.") != std::string::npos;
+  }));
+}
+
 TEST_CASE("a friction angle in radians is told of", "[lua]") {
   const auto of = [](const std::string& joint) {
     return warnings_of("local cdem = require 'cdem'\ncdem." + joint + " }");
