@@ -69,8 +69,8 @@ inline void take_nearer(Nearest& nearest, Nearest other, const Corners& x, const
     other.outward += nearest.outward;
   // Places that bonds have parted count as one for the side that the spring is on, not for how deep it is.
   const bool as_near = apart <= same_place * further + same_place_at_least * size;
-  const bool stays = as_near ? std::abs(other.height) <= std::abs(nearest.height)
-                             : other.distance2 >= nearest.distance2;
+  const bool stays =
+      as_near ? std::abs(other.height) <= std::abs(nearest.height) : other.distance2 >= nearest.distance2;
   if (one_place && stays)
     nearest.outward = other.outward;
   else

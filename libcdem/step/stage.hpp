@@ -112,7 +112,7 @@ private:
   StageContext context_;
   ThreadChoice threads_;
   std::vector<double> rigid_reach_; // m, reaches_of_rigid
-  std::vector<double> row_sums_; // N/m, of elements and bonds (n_nodes); empty without contacts
+  std::vector<double> row_sums_;    // N/m, of elements and bonds (n_nodes); empty without contacts
   std::string kind_;
   double run_away_;
   std::int64_t broken_in_step_ = 0;

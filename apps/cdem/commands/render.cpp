@@ -65,6 +65,7 @@ Snapshot without(const Snapshot& snapshot, const std::vector<std::string>& hidde
     return snapshot;
   const std::map<int, std::string> bodies = bodies_of(snapshot);
   std::vector<int> numbers;
+  numbers.reserve(hidden.size());
   for (const std::string& body : hidden)
     numbers.push_back(body_number(bodies, body));
   if (std::set<int>(numbers.begin(), numbers.end()).size() == bodies.size())
