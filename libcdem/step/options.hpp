@@ -35,8 +35,8 @@ struct RelaxResult : StageResult {
 struct RunOptions {
   double duration = 0; // s; 0 when `steps` is given
   std::int64_t steps = 0;
-  double safety = 0.9;  // time step over the stable one, in (0, 1]
-  double time_step = 0; // s; 0 = safety x stable; refused above the stable one
+  double safety = 0.9;  // time step over the stable one, in (0, 1]; of rigid bodies that touch 0.5 at most
+  double time_step = 0; // s; 0 = safety x stable; refused above the stable one, half of it for rigid bodies
   bool breaking = true;
   bool follows_pieces =
       true; // ends with a SolutionError where broken faces no longer stand for the pieces' contact

@@ -157,8 +157,15 @@ void bind_solving(Module& m) {
       "cdem.RelaxResult", "", relax);
   add("run", "Explicit stepping in real time with the real masses.",
       {number("duration").above(0).unit("s"), integer("steps").at_least(1).doc("instead of duration"),
-       number("safety").above(0).doc("time step over the stable one, at most 1").standard(0.9),
-       number("time_step").above(0).unit("s").doc("instead of safety; at most the stable one"), breaking(),
+       number("safety")
+           .above(0)
+           .doc("time step over the stable one, at most 1; rigid bodies that touch take 0.5 at most")
+           .standard(0.9),
+       number("time_step")
+           .above(0)
+           .unit("s")
+           .doc("instead of safety; at most the stable one, half of it for rigid bodies that may touch"),
+       breaking(),
        number("local_damping")
            .from(0, 1)
            .standard(0.0)

@@ -674,8 +674,8 @@ function Model:relax(options) end
 ---@class (exact) cdem.ModelRunOptions
 ---@field duration? number s, > 0
 ---@field steps? integer >= 1: instead of duration
----@field safety? number in (0, 1], default 0.9: time step over the stable one, at most 1
----@field time_step? number s, > 0: instead of safety; at most the stable one
+---@field safety? number in (0, 1], default 0.9: time step over the stable one, at most 1; rigid bodies that touch take 0.5 at most
+---@field time_step? number s, > 0: instead of safety; at most the stable one, half of it for rigid bodies that may touch
 ---@field breaking? boolean default true: bonds may break
 ---@field local_damping? number in [0, 1), default 0: force against the motion as a fraction of the out-of-balance force (Cundall)
 ---@field every? integer >= 1: steps between calls, 100 by default
