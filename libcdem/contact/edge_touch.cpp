@@ -3,6 +3,9 @@
 namespace cdem {
 namespace {
 
+// Of an edge's length: places nearer to each other than that have no direction.
+constexpr double same_place_of_ends = 1e-9;
+
 // The fan of an edge's outward normals: those that have both its faces behind.
 bool in_fan(const std::array<geom::Vec3, 2>& into, const geom::Vec3& normal) {
   return !(normal.dot(into[0]) > fan_slack * into[0].norm()) &&
@@ -37,6 +40,11 @@ std::optional<EdgeTouch> touch_of(const Model& model, const State& state, const 
   if (!in_fan(into_f, touch.normal) || !in_fan(into_faces(model, state, e, a0, a1), -touch.normal))
     return std::nullopt;
   touch.depth = nearest.way.dot(touch.normal);
+  const double distance = nearest.way.norm();
+  if (touch.depth > 0 && !nearest.within_both() && distance > same_place_of_ends * (a1 - a0).norm()) {
+    touch.normal = nearest.way / distance;
+    touch.depth = distance;
+  }
   return touch.depth > 0 ? std::optional(touch) : std::nullopt;
 }
 

@@ -30,8 +30,9 @@ inline NearestOfEdges nearest_of_edges(const Model& model, const State& state, c
 }
 
 struct EdgeTouch {
-  geom::Vec3 normal; // unit, out of the second edge's body
-  double depth = 0;  // m, > 0
+  // Unit, out of the second edge's body: at right angles to both edges, but at an end along the way of the two places.
+  geom::Vec3 normal;
+  double depth = 0; // m, > 0
 };
 
 // None for parallel edges, where no common normal lies in the fans of outward normals of both (the Gauss map), and where

@@ -18,9 +18,7 @@ constexpr double reach_over_depth = 1.5;
 Evaluation::Evaluation(const Model& model, const State& state, const ContactWork& work, Contact::Kind kind,
                        ContactChunk& out)
     : model_(model), surface_(model.surface), state_(state), work_(work), kind_(kind), out_(out),
-      old_edges_(std::partition_point(state.contacts.begin(), state.contacts.end(),
-                                      [](const Contact& c) { return c.kind == Contact::spring; })),
-      old_(state.contacts.end()) {}
+      lines_(model, state, work), old_(state.contacts.end()) {}
 
 void Evaluation::springs(ContactRow& row, ContactCandidate* candidates) {
   if (row.reach > 0 && sleeps(row, surface_.triangles[row.source].block))

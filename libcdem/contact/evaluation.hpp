@@ -3,11 +3,9 @@
 
 #include "libcdem/contact/contact_law.hpp"
 #include "libcdem/contact/contact_work.hpp"
-#include "libcdem/contact/edge_touch.hpp"
+#include "libcdem/contact/edge_lines.hpp"
 #include "libcdem/contact/nearest.hpp"
 #include "libcdem/state/state.hpp"
-
-#include <optional>
 
 namespace cdem {
 
@@ -31,15 +29,6 @@ private:
   bool sleeps(const ContactRow&, int block) const;
   void go_to(int source); // what stood at it before
   const Contact* before(const Contact&) const;
-  const Contact* contact_of(int e, int f) const; // of two edges, before the step
-  std::vector<int> with_those_at_ends(int edge) const;
-  // The contact that the two edges, or others which meet their ends, have just left behind an end, as if it were that of
-  // e and f: the one that presses the most of those that these two take over.
-  std::optional<Contact> before_an_end(int e, int f, const geom::Vec3& normal) const;
-  // Of all new contacts around that of `from` and `to` the one of e and f has the normal most like the one before.
-  bool takes_over(int e, int f, const geom::Vec3& normal, int from, int to, const geom::Vec3& before) const;
-  // Whether the place, in parts of the edge, is at an end of it where no other edge goes on.
-  bool at_last_end(int edge, double place) const;
   double look_at(ContactRow&, ContactCandidate*, bool all); // returns how deep the deepest is, m
   // may_begin: even if it was no contact before. False where it is none.
   bool press(int source, int corner, const geom::Vec3& spring, int piece, const Nearest&, bool may_begin);
@@ -56,8 +45,8 @@ private:
   const ContactWork& work_;
   Contact::Kind kind_;
   ContactChunk& out_;
-  std::vector<Contact>::const_iterator old_edges_; // the first contact of two edges before the step
-  std::vector<Contact>::const_iterator old_;       // the first contact of the row's source or a later one
+  EdgeLines lines_;
+  std::vector<Contact>::const_iterator old_; // the first contact of the row's source or a later one
   Law law_;
 };
 

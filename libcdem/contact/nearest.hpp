@@ -25,7 +25,8 @@ struct Nearest {
   geom::Vec3 outward = geom::Vec3::Zero(); // sum of the normals, weighted
   geom::Vec3 from = geom::Vec3::Zero();    // m, the spring from the place
 
-  bool inside() const { return target >= 0 && outward.dot(from) < 0; }
+  // A place within a triangle must be under that one, too: pushed out along its normal, what is over it would go further.
+  bool inside() const { return target >= 0 && outward.dot(from) < 0 && (!at.inside || height < 0); }
 };
 
 // rad, that the triangle fills around a place of it.

@@ -14,14 +14,15 @@ using geom::Vec3;
 namespace {
 
 // Moves the upper body as it is.
-void move_upper(System& s, const Vec3& way, std::int64_t every, std::function<void()> look) {
-  const double pace = 0.5; // m/s
+void move_upper(System& s, const Vec3& way, std::int64_t every, std::function<void()> look,
+                double pace = 0.5) { // m/s
   cdem::Fix fix = fixed(body_of("upper"));
   fix.velocity = pace * way.normalized();
   s.conditions.fixes.push_back(fix);
+  const double duration = way.norm() / pace;
   cdem::RunOptions options;
-  options.time_step = 2e-6;
-  options.duration = way.norm() / pace;
+  options.steps = std::lround(std::ceil(duration / 2e-6 - 1e-6));
+  options.time_step = duration / static_cast<double>(options.steps);
   options.callback_every = every;
   options.callback = std::move(look);
   s.run(options);
@@ -31,17 +32,20 @@ void move_upper(System& s, const Vec3& way, std::int64_t every, std::function<vo
 } // namespace
 
 TEST_CASE("contact: crossed edges stop each other", "[contact][edges]") {
-  // Two bars, each on one of its edges, crossed: no corner of one comes near a face of the other.
+  // Two bars, each on one of its edges, crossed: no corner of one comes near a face of the other. Between nodes, or over
+  // one of one of them, or of both.
+  const Vec3 at = GENERATE(Vec3(0.21, 0.17, 0), Vec3(0.21, 0, 0), Vec3(0, 0, 0));
   const Mat3 on_edge = rotation({1, 0, 0}, 45 * degree);
   const double half = std::sqrt(0.5) * 0.4;
   System s(build({meshed("lower", box_at({3, 0.4, 0.4}, {4, 1, 1}, on_edge, {0, 0, 0})),
                   meshed("upper", box_at({3, 0.4, 0.4}, {4, 1, 1}, rotation({0, 0, 1}, 75 * degree) * on_edge,
-                                         {0.21, 0.17, 2 * half + 0.01}))},
+                                         at + Vec3(0, 0, 2 * half + 0.01)))},
                  {{"lower", "upper", friction(0)}}));
   s.hold(body_of("lower"), "xyz");
   for (int i = 0; i < static_cast<int>(s.state.velocity.size()); ++i)
     if (block_of(s.model, i) == 1)
       s.state.velocity[i] = node({0, 0, -1});
+  const double kinetic = 0.5 * rock().density * 3 * 0.4 * 0.4; // J
   double lowest = 10;
   bool edges = false;
   cdem::RunOptions options;
@@ -56,6 +60,7 @@ TEST_CASE("contact: crossed edges stop each other", "[contact][edges]") {
   CHECK(edges);
   CHECK(lowest > 2 * half - 0.01);
   CHECK(centroid(s, 1).z() > lowest + 1e-4);
+  CHECK(s.state.spent.friction < 1e-3 * kinetic);
 }
 
 TEST_CASE("contact: an edge pressed on another carries on over the nodes of both", "[contact][edges]") {
@@ -93,6 +98,69 @@ TEST_CASE("contact: an edge pressed on another carries on over the nodes of both
     odd += force > 1.01 * slides;
   }
   CHECK(odd < 0.02 * static_cast<double>(forces.size()));
+}
+
+TEST_CASE("contact: an edge pressed on a bent one carries on over its nodes, bent outwards and inwards",
+          "[contact][edges]") {
+  // The lower ridge goes up and down by a kink at every node; the upper one is moved along it, d below it.
+  const double d = 2e-4, gap = 1e-4, across = 0.3 / std::sqrt(2.0), slice = 0.1;
+  const double kink = GENERATE(1e-5, 0.008, 0.6); // rad
+  const double turn = GENERATE(0.0, -35.0, 45.0) * degree;
+  const double sideways = GENERATE(0.0, 0.5); // the upper one's nodes pass, too
+  const double rise = 0.5 * slice * std::tan(0.5 * kink);
+  const auto height = [&](double x) { // of the ridge
+    const double part = x / slice - std::floor(x / slice);
+    const double up = rise * (2 * part - 1);
+    return static_cast<int>(std::floor(x / slice)) % 2 == 0 ? up : -up;
+  };
+  geom::TetMesh bent =
+      box_at({0.9, 0.3, 0.3}, {9, 2, 2}, rotation({1, 0, 0}, 45 * degree), {0.45, 0.02, -across});
+  for (Vec3& x : bent.nodes)
+    x.z() += height(x.x() + 1e-9);
+  const double start = 0.25;
+  System s(build({meshed("lower", bent),
+                  meshed("upper", box_at({0.3, 0.9, 0.3}, {2, 9, 2},
+                                         rotation({0, 0, 1}, turn) * rotation({0, 1, 0}, 45 * degree),
+                                         {start, 0.02, across + gap + height(start)}))},
+                 {{"lower", "upper", friction(0)}}));
+  s.hold(body_of("lower"), "xyz");
+  double least = 1e30, most = 0, latest = 0;
+  int not_one = 0;
+  const auto look = [&] {
+    double force = 0;
+    int edges = 0;
+    for (const cdem::Contact& c : s.state.contacts) {
+      force += normal_force(s, c);
+      latest = std::max(latest, c.start);
+      edges += c.kind == cdem::Contact::edge ? 1 : 0;
+    }
+    not_one += edges == 1 ? 0 : 1;
+    least = std::min(least, force);
+    most = std::max(most, force);
+  };
+  move_upper(s, {0, 0, -gap - d}, 1000000, [] {});
+  look();
+  const double pressed = least, stored = cdem::contact_energy(s.model, s.state, 0);
+  REQUIRE(pressed > 0);
+  double x = start, z = height(start);
+  const auto cross_to = [&](double to, double pace) {
+    const double way = to - x; // of the crossing
+    move_upper(s, {way * (1 - sideways * std::tan(turn)), way * sideways, height(to - 1e-9) - z}, 1, look,
+               pace);
+    x = to;
+    z = height(to - 1e-9);
+  };
+  for (const double ridge_node : {0.3, 0.4, 0.5, 0.6}) {
+    cross_to(ridge_node - 5e-4, 25);
+    cross_to(ridge_node, 1); // 2 um a step
+    cross_to(ridge_node + 5e-4, 1);
+  }
+  CHECK(not_one == 0);
+  // Depth is that below the ridge, which is inclined, and over a node bent inwards the way to the node.
+  CHECK(least > (1 - 0.1 * kink) * pressed);
+  CHECK(most < (1 + 0.2 * kink) * pressed);
+  CHECK(latest < 0.01 * d);
+  CHECK(s.state.spent.friction < 1e-3 * stored);
 }
 
 TEST_CASE("contact: a bar that lies flat across another rests on the crossings of their outlines",

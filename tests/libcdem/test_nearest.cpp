@@ -120,3 +120,27 @@ TEST_CASE(
   CHECK(in_solid > 500);
   CHECK(in_crack > 200);
 }
+
+TEST_CASE(
+    "nearest: what stands over the triangle that holds its nearest place is not inside, whatever others say",
+    "[contact][nearest]") {
+  // The triangle, and beside the place the edges of three that look the other way, parted from it by a little.
+  const double over = 1e-3, parted = 1e-6;
+  const Vec3 spring(0, 0, over);
+  std::vector<Corners> triangles{{Vec3(1, 0, 0), Vec3(-0.5, 0.9, 0), Vec3(-0.5, -0.9, 0)}};
+  for (int i = 0; i < 3; ++i) {
+    const double angle = 2 * M_PI * i / 3;
+    const Vec3 out(std::cos(angle), std::sin(angle), 0), along(-out.y(), out.x(), 0);
+    triangles.push_back({parted * out + along, out, parted * out - along});
+    REQUIRE(cdem::unit_normal(triangles.back()).z() < -0.99);
+  }
+  cdem::Nearest nearest;
+  for (std::size_t t = 0; t < triangles.size(); ++t) {
+    const Vec3 normal = cdem::unit_normal(triangles[t]);
+    take_nearer(nearest, cdem::nearest_of(static_cast<int>(t), spring, triangles[t], normal), triangles[t],
+                normal, 1, true);
+  }
+  CHECK(nearest.target == 0);
+  CHECK(nearest.outward.dot(nearest.from) < 0); // the others are more
+  CHECK_FALSE(nearest.inside());
+}

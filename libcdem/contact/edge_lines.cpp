@@ -1,0 +1,165 @@
+#include "libcdem/contact/edge_lines.hpp"
+
+#include "libcdem/contact/acting.hpp"
+
+#include <algorithm>
+
+namespace cdem {
+namespace {
+
+// An edge goes on in another one that encloses an angle with it of which this is the cosine, or more.
+constexpr double goes_on = 0.7;
+// Of a tet's height: distances that differ by less are one, as at a node that two edges share.
+constexpr double same_distance = 1e-12;
+
+} // namespace
+
+EdgeLines::EdgeLines(const Model& model, const State& state, const ContactWork& work)
+    : model_(model), surface_(model.surface), state_(state), work_(work),
+      contacts_(std::partition_point(state.contacts.begin(), state.contacts.end(),
+                                     [](const Contact& c) { return c.kind == Contact::spring; })) {}
+
+std::optional<EdgeTouch> EdgeLines::acting(int e, int f, const NearestOfEdges& here) const {
+  const auto found = on_lines(e, f, here);
+  const auto passed = [&](int a, int b) { // as the two would be evaluated themselves
+    const auto [source, target] = std::minmax(a, b);
+    const NearestOfEdges there = nearest(source, target);
+    return nearer(source, target, there, e, f, here) && on_lines(source, target, there);
+  };
+  if (found && any_of_line(e, [&](int a) { return any_of_line(f, [&](int b) { return passed(a, b); }); }))
+    return std::nullopt;
+  return found;
+}
+
+std::optional<Contact> EdgeLines::left_behind(int e, int f, const geom::Vec3& normal) const {
+  std::optional<Contact> most;
+  if (contacts_ == state_.contacts.end())
+    return most;
+  const std::vector<int> targets = with_those_at_ends(f);
+  double most_force = -1; // N
+  for (const int from : with_those_at_ends(e))
+    for (const int to : targets) {
+      const Contact* const old = contact_of(from, to);
+      if (!old)
+        continue;
+      const auto [source, target] = std::minmax(from, to);
+      const double side = from < to ? 1 : -1;
+      if (acting(source, target, nearest(source, target)) ||
+          !takes_over(e, f, normal, from, to, side * old->normal))
+        continue;
+      const double force = law_of(model_, *old).kn * old->pressed();
+      if (force <= most_force)
+        continue;
+      most_force = force;
+      most = *old;
+      most->normal *= side;
+      most->shear *= side;
+    }
+  return most;
+}
+
+bool EdgeLines::takes_over(int e, int f, const geom::Vec3& normal, int from, int to,
+                           const geom::Vec3& before) const {
+  const std::vector<int> targets = with_those_at_ends(to);
+  for (const int a : with_those_at_ends(from))
+    for (const int b : targets) {
+      if (a == b || (a == e && b == f) || contact_of(a, b))
+        continue;
+      // As the two would be evaluated themselves, and their normal as if a were the source.
+      const auto [source, target] = std::minmax(a, b);
+      const auto other = acting(source, target, nearest(source, target));
+      const double side = a < b ? 1 : -1;
+      if (other && std::pair(-side * other->normal.dot(before), std::minmax({a, b})) <
+                       std::pair(-normal.dot(before), std::minmax({e, f})))
+        return false;
+    }
+  return true;
+}
+
+bool EdgeLines::at_last_end(int edge, double place) const {
+  if (place > drawn_in && place < 1 - drawn_in)
+    return false;
+  return !any_next(edge, place < 0.5 ? 0 : 1, [](int) { return true; });
+}
+
+const Contact* EdgeLines::contact_of(int e, int f) const {
+  const ContactEdge &source = work_.edges[std::min(e, f)], &target = work_.edges[std::max(e, f)];
+  Contact like(Contact::edge, source.id());
+  like.piece = source.triangles[1];
+  like.target = target.id();
+  const auto found = std::lower_bound(contacts_, state_.contacts.end(), like,
+                                      [](const Contact& a, const Contact& b) { return key(a) < key(b); });
+  return found != state_.contacts.end() && key(*found) == key(like) ? &*found : nullptr;
+}
+
+NearestOfEdges EdgeLines::nearest(int e, int f) const {
+  return nearest_of_edges(model_, state_, work_.edges[e], work_.edges[f]);
+}
+
+std::optional<EdgeTouch> EdgeLines::touch(int e, int f) const {
+  const auto [source, target] = std::minmax(e, f);
+  return touch_of(model_, state_, work_.edges[source], work_.edges[target], nearest(source, target));
+}
+
+geom::Vec3 EdgeLines::direction(int from, int to) const {
+  return (place_of(model_, state_, to) - place_of(model_, state_, from)).normalized();
+}
+
+template <typename Does>
+bool EdgeLines::any_next(int edge, int end, const Does& does) const {
+  const ContactEdge& e = work_.edges[edge];
+  const int node = surface_.original[e.nodes[end]];
+  geom::Vec3 along = geom::Vec3::Zero();
+  for (const int* other = &work_.edges_at[work_.edge_ends[edge][end]]; *other >= 0; ++other) {
+    if (*other == edge)
+      continue;
+    if (along.isZero(0))
+      along = direction(e.nodes[1 - end], e.nodes[end]);
+    const auto& [a, b] = work_.edges[*other].nodes;
+    if (along.dot(surface_.original[a] == node ? direction(a, b) : direction(b, a)) > goes_on && does(*other))
+      return true;
+  }
+  return false;
+}
+
+template <typename Does>
+bool EdgeLines::any_of_line(int edge, const Does& does) const {
+  return does(edge) || any_next(edge, 0, does) || any_next(edge, 1, does);
+}
+
+// The place is within the edge, or at an end of it where one that goes on touches the other edge as well.
+bool EdgeLines::on_line(int edge, double place, int other) const {
+  return (place > 0 && place < 1) ||
+         any_next(edge, place < 0.5 ? 0 : 1, [&](int next) { return next != other && touch(next, other); });
+}
+
+std::optional<EdgeTouch> EdgeLines::on_lines(int e, int f, const NearestOfEdges& here) const {
+  auto found = touch_of(model_, state_, work_.edges[e], work_.edges[f], here);
+  if (found && (!on_line(e, here.at.s, f) || !on_line(f, here.at.t, e)))
+    return std::nullopt;
+  return found;
+}
+
+bool EdgeLines::nearer(int e, int f, const NearestOfEdges& here, int than_e, int than_f,
+                       const NearestOfEdges& than) const {
+  if (e == f)
+    return false;
+  const double distance = here.way.norm(), other = than.way.norm();
+  const int block = surface_.triangles[work_.edges[e].triangles[0]].block;
+  const double same = same_distance * surface_.usual_height[block];
+  if (std::abs(distance - other) > same)
+    return distance < other;
+  // What has stored something stays.
+  return std::tuple(!contact_of(e, f), e, f) < std::tuple(!contact_of(than_e, than_f), than_e, than_f);
+}
+
+std::vector<int> EdgeLines::with_those_at_ends(int edge) const {
+  std::vector<int> edges{edge};
+  for (const int begin : work_.edge_ends[edge])
+    for (const int* other = &work_.edges_at[begin]; *other >= 0; ++other)
+      if (*other != edge)
+        edges.push_back(*other);
+  return edges;
+}
+
+} // namespace cdem
