@@ -8,7 +8,10 @@ namespace cdem {
 namespace {
 
 // An edge goes on in another one that encloses an angle with it of which this is the cosine, or more.
-constexpr double goes_on = 0.7;
+constexpr double line_cosine = 0.7;
+// Of the distance of two edges: further from an end of both no other edges of their lines are as near. Edges that act
+// enclose an angle with a sine of 0.05 or more.
+constexpr double reach_of_ends = 40;
 // Of a tet's height: distances that differ by less are one, as at a node that two edges share.
 constexpr double same_distance = 1e-12;
 
@@ -20,15 +23,25 @@ EdgeLines::EdgeLines(const Model& model, const State& state, const ContactWork& 
                                      [](const Contact& c) { return c.kind == Contact::spring; })) {}
 
 std::optional<EdgeTouch> EdgeLines::acting(int e, int f, const NearestOfEdges& here) const {
-  const auto found = on_lines(e, f, here);
-  const auto passed = [&](int a, int b) { // as the two would be evaluated themselves
+  const auto touch = touch_of(model_, state_, work_.edges[e], work_.edges[f], here);
+  if (!touch || !(touch->depth > 0))
+    return std::nullopt;
+  const double distance = here.way.norm();
+  if (far_from_ends(e, here.at.s, distance) && far_from_ends(f, here.at.t, distance))
+    return touch;
+  const auto passed = [&](int a, int b, double ways) { // as the two would be evaluated themselves
     const auto [source, target] = std::minmax(a, b);
     const NearestOfEdges there = nearest(source, target);
-    return nearer(source, target, there, e, f, here) && on_lines(source, target, there);
+    if (!nearer(source, target, there, e, f, here))
+      return false;
+    const auto other = touch_of(model_, state_, work_.edges[source], work_.edges[target], there);
+    return other && ways * other->sense == touch->sense;
   };
-  if (found && any_of_line(e, [&](int a) { return any_of_line(f, [&](int b) { return passed(a, b); }); }))
+  if (!goes_on(e, here.at.s, f) || !goes_on(f, here.at.t, e) || any_of_line(e, [&](int a, double way_of_a) {
+        return any_of_line(f, [&](int b, double way_of_b) { return passed(a, b, way_of_a * way_of_b); });
+      }))
     return std::nullopt;
-  return found;
+  return touch;
 }
 
 std::optional<Contact> EdgeLines::left_behind(int e, int f, const geom::Vec3& normal) const {
@@ -79,7 +92,7 @@ bool EdgeLines::takes_over(int e, int f, const geom::Vec3& normal, int from, int
 bool EdgeLines::at_last_end(int edge, double place) const {
   if (place > drawn_in && place < 1 - drawn_in)
     return false;
-  return !any_next(edge, place < 0.5 ? 0 : 1, [](int) { return true; });
+  return !any_next(edge, place < 0.5 ? 0 : 1, [](int, double) { return true; });
 }
 
 const Contact* EdgeLines::contact_of(int e, int f) const {
@@ -96,11 +109,6 @@ NearestOfEdges EdgeLines::nearest(int e, int f) const {
   return nearest_of_edges(model_, state_, work_.edges[e], work_.edges[f]);
 }
 
-std::optional<EdgeTouch> EdgeLines::touch(int e, int f) const {
-  const auto [source, target] = std::minmax(e, f);
-  return touch_of(model_, state_, work_.edges[source], work_.edges[target], nearest(source, target));
-}
-
 geom::Vec3 EdgeLines::direction(int from, int to) const {
   return (place_of(model_, state_, to) - place_of(model_, state_, from)).normalized();
 }
@@ -109,14 +117,16 @@ template <typename Does>
 bool EdgeLines::any_next(int edge, int end, const Does& does) const {
   const ContactEdge& e = work_.edges[edge];
   const int node = surface_.original[e.nodes[end]];
-  geom::Vec3 along = geom::Vec3::Zero();
+  geom::Vec3 along = geom::Vec3::Zero(); // over the end
   for (const int* other = &work_.edges_at[work_.edge_ends[edge][end]]; *other >= 0; ++other) {
     if (*other == edge)
       continue;
     if (along.isZero(0))
       along = direction(e.nodes[1 - end], e.nodes[end]);
     const auto& [a, b] = work_.edges[*other].nodes;
-    if (along.dot(surface_.original[a] == node ? direction(a, b) : direction(b, a)) > goes_on && does(*other))
+    const bool begins = surface_.original[a] == node;
+    if (along.dot(begins ? direction(a, b) : direction(b, a)) > line_cosine &&
+        does(*other, begins == (end == 1) ? 1. : -1.))
       return true;
   }
   return false;
@@ -124,20 +134,25 @@ bool EdgeLines::any_next(int edge, int end, const Does& does) const {
 
 template <typename Does>
 bool EdgeLines::any_of_line(int edge, const Does& does) const {
-  return does(edge) || any_next(edge, 0, does) || any_next(edge, 1, does);
+  return does(edge, 1.) || any_next(edge, 0, does) || any_next(edge, 1, does);
 }
 
-// The place is within the edge, or at an end of it where one that goes on touches the other edge as well.
-bool EdgeLines::on_line(int edge, double place, int other) const {
-  return (place > 0 && place < 1) ||
-         any_next(edge, place < 0.5 ? 0 : 1, [&](int next) { return next != other && touch(next, other); });
+// The place is within the edge, or at an end of it where it goes on in one that touches the other edge as well.
+bool EdgeLines::goes_on(int edge, double place, int other) const {
+  return (place > 0 && place < 1) || any_next(edge, place < 0.5 ? 0 : 1, [&](int next, double) {
+           if (next == other)
+             return false;
+           const auto [source, target] = std::minmax(next, other);
+           const auto touch =
+               touch_of(model_, state_, work_.edges[source], work_.edges[target], nearest(source, target));
+           return touch && touch->depth > 0;
+         });
 }
 
-std::optional<EdgeTouch> EdgeLines::on_lines(int e, int f, const NearestOfEdges& here) const {
-  auto found = touch_of(model_, state_, work_.edges[e], work_.edges[f], here);
-  if (found && (!on_line(e, here.at.s, f) || !on_line(f, here.at.t, e)))
-    return std::nullopt;
-  return found;
+bool EdgeLines::far_from_ends(int edge, double place, double distance) const {
+  const auto& [a, b] = work_.edges[edge].nodes;
+  return std::min(place, 1 - place) * (place_of(model_, state_, b) - place_of(model_, state_, a)).norm() >
+         reach_of_ends * distance;
 }
 
 bool EdgeLines::nearer(int e, int f, const NearestOfEdges& here, int than_e, int than_f,

@@ -1,7 +1,8 @@
 // Semi-edges as the lines that they make up: which pairs of them act, and which go on with what another has stored.
 //
-// Edges go on in each other over a node where they enclose less than 45 degrees. Of two such lines the nearest places
-// act, as a spring acts with the nearest place of a surface: within both edges, or at an end where the line goes on.
+// Edges go on in each other over a node where they enclose less than 45 degrees. Where two such lines cross the nearest
+// places act, as a spring acts with the nearest place of a surface: within both edges, or at an end where the line goes
+// on. Edges of a line that cross another from opposite sides, in and out again, are two crossings.
 #pragma once
 
 #include "libcdem/contact/contact_work.hpp"
@@ -17,7 +18,7 @@ public:
   EdgeLines(const Model&, const State&, const ContactWork&);
 
   // Two edges by their numbers, e < f. None where they do not touch, where one ends at their nearest places and its line
-  // does not go on, and where edges in which their lines go on are nearer to each other.
+  // does not go on, and where edges of the same crossing are nearer to each other, touching or not.
   std::optional<EdgeTouch> acting(int e, int f, const NearestOfEdges&) const;
 
   // The contact that the two edges, or others which meet their ends, have just left behind, as if it were that of e and f:
@@ -30,15 +31,15 @@ public:
 private:
   const Contact* contact_of(int e, int f) const; // before the step
   NearestOfEdges nearest(int e, int f) const;
-  std::optional<EdgeTouch> touch(int e, int f) const;
   geom::Vec3 direction(int from_node, int to_node) const; // unit
-  // Calls does(next) for the edges in which one goes on over an end of it, until it returns true. Returns whether it did.
+  // Calls does(next, way) for the edges in which one goes on over an end of it, until it returns true; way: 1 or -1, with
+  // or against their own direction. Returns whether it did.
   template <typename Does>
   bool any_next(int edge, int end, const Does& does) const;
   template <typename Does>
   bool any_of_line(int edge, const Does& does) const; // of the edge itself, too
-  bool on_line(int edge, double place, int other) const;
-  std::optional<EdgeTouch> on_lines(int e, int f, const NearestOfEdges&) const;
+  bool goes_on(int edge, double place, int other) const;
+  bool far_from_ends(int edge, double place, double distance) const;
   bool nearer(int e, int f, const NearestOfEdges&, int than_e, int than_f, const NearestOfEdges& than) const;
   std::vector<int> with_those_at_ends(int edge) const;
   // Of all new contacts around that of `from` and `to` the one of e and f has the normal most like the one before.

@@ -34,18 +34,20 @@ std::optional<EdgeTouch> touch_of(const Model& model, const State& state, const 
   if (across.norm() < parallel_edges * (a1 - a0).norm() * (b1 - b0).norm())
     return std::nullopt;
   EdgeTouch touch{across.normalized()};
-  const auto into_f = into_faces(model, state, f, b0, b1);
-  if (!in_fan(into_f, touch.normal))
+  const auto into_e = into_faces(model, state, e, a0, a1), into_f = into_faces(model, state, f, b0, b1);
+  if (!in_fan(into_f, touch.normal)) {
     touch.normal = -touch.normal;
-  if (!in_fan(into_f, touch.normal) || !in_fan(into_faces(model, state, e, a0, a1), -touch.normal))
+    touch.sense = -1;
+  }
+  if (!in_fan(into_f, touch.normal) || !in_fan(into_e, -touch.normal))
     return std::nullopt;
   touch.depth = nearest.way.dot(touch.normal);
   const double distance = nearest.way.norm();
   if (touch.depth > 0 && !nearest.within_both() && distance > same_place_of_ends * (a1 - a0).norm()) {
     touch.normal = nearest.way / distance;
-    touch.depth = distance;
+    touch.depth = in_fan(into_f, touch.normal) && in_fan(into_e, -touch.normal) ? distance : -distance;
   }
-  return touch.depth > 0 ? std::optional(touch) : std::nullopt;
+  return touch;
 }
 
 } // namespace cdem

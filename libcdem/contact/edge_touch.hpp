@@ -32,11 +32,11 @@ inline NearestOfEdges nearest_of_edges(const Model& model, const State& state, c
 struct EdgeTouch {
   // Unit, out of the second edge's body: at right angles to both edges, but at an end along the way of the two places.
   geom::Vec3 normal;
-  double depth = 0; // m, > 0
+  double depth = 0; // m, > 0 where they touch
+  double sense = 1; // of (first x second) . normal, 1 or -1
 };
 
-// None for parallel edges, where no common normal lies in the fans of outward normals of both (the Gauss map), and where
-// they are apart.
+// None for parallel edges and where no common normal lies in the fans of outward normals of both (the Gauss map).
 std::optional<EdgeTouch> touch_of(const Model&, const State&, const ContactEdge& e, const ContactEdge& f,
                                   const NearestOfEdges&);
 

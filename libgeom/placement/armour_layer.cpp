@@ -228,6 +228,7 @@ bool better(const Candidate& one, const Candidate& other, int count) {
 
 Layer place_layer(const TetMesh& unit, int count, const Ground& ground, const LayerOptions& options) {
   check(options, count);
+  require_one_part(unit);
   Layer layer;
   Pile& pile = layer.pile = pile_of(unit);
   const double gap = options.gap.value_or(usual_gap * pile.height);

@@ -52,7 +52,8 @@ struct Layer {
   int layers = 1;                // that were laid, each with other attitudes
 };
 
-// Throws InputError for a count below 1, a density or gap out of range, a ground that is too small.
+// Throws InputError for a count below 1, a density or gap out of range, a unit of loose parts, a ground
+// that is too small.
 Layer place_layer(const TetMesh& unit, int count, const Ground&, const LayerOptions& = {});
 
 } // namespace geom

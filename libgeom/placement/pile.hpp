@@ -23,6 +23,9 @@ struct Pile {
 // Without poses yet: the unit's mesh moved to its centroid, its height that of its box along z.
 Pile pile_of(TetMesh unit);
 
+// Throws InputError about the field `unit` when its tets are parts that share no node.
+void require_one_part(const TetMesh& unit);
+
 TetMesh posed(const TetMesh&, const Pose&);
 std::vector<TetMesh> meshes(const Pile&);       // of all units, where they are
 Pile scaled(const Pile&, double factor);        // all lengths times the factor, about the origin
