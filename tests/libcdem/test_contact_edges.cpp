@@ -13,15 +13,15 @@ using geom::Vec3;
 
 namespace {
 
-// Moves the upper body as it is.
-void move_upper(System& s, const Vec3& way, std::int64_t every, std::function<void()> look,
-                double pace = 0.5) { // m/s
+// Moves the upper body as it is. pace: m/s; step: s, at most.
+void move_upper(System& s, const Vec3& way, std::int64_t every, std::function<void()> look, double pace = 0.5,
+                double step = 2e-6) {
   cdem::Fix fix = fixed(body_of("upper"));
   fix.velocity = pace * way.normalized();
   s.conditions.fixes.push_back(fix);
   const double duration = way.norm() / pace;
   cdem::RunOptions options;
-  options.steps = std::lround(std::ceil(duration / 2e-6 - 1e-6));
+  options.steps = std::lround(std::ceil(duration / step - 1e-6));
   options.time_step = duration / static_cast<double>(options.steps);
   options.callback_every = every;
   options.callback = std::move(look);
@@ -161,6 +161,87 @@ TEST_CASE("contact: an edge pressed on a bent one carries on over its nodes, ben
   CHECK(most < (1 + 0.2 * kink) * pressed);
   CHECK(latest < 0.01 * d);
   CHECK(s.state.spent.friction < 1e-3 * stored);
+}
+
+TEST_CASE("contact: an edge led off the end of another lets go, however short the last of its edges is",
+          "[contact][edges]") {
+  const double d = 2e-4, gap = 1e-4, across = 0.3 / std::sqrt(2.0), last = GENERATE(0.1, 0.005, 0.001);
+  geom::TetMesh lower =
+      box_at({0.9, 0.3, 0.3}, {9, 2, 2}, rotation({1, 0, 0}, 45 * degree), {-0.45, 0.02, -across});
+  for (Vec3& x : lower.nodes)
+    if (std::abs(x.x() + 0.1) < 1e-6)
+      x.x() = -last;
+  System s(build({meshed("lower", lower),
+                  meshed("upper", box_at({0.3, 0.9, 0.3}, {2, 9, 2}, rotation({0, 1, 0}, 45 * degree),
+                                         {-0.05, 0, across + gap}))},
+                 {{"lower", "upper", friction(0)}}));
+  s.hold(body_of("lower"), "xyz");
+  std::size_t contacts = 0;
+  const auto move = [&](const Vec3& way) {
+    contacts = 0;
+    move_upper(
+        s, way, 1, [&] { contacts += s.state.contacts.size(); }, 20, 1.5e-7);
+    return s.state.contacts.size();
+  };
+  REQUIRE(move({0, 0, -gap - d}) == 1);
+  CHECK(move({0.0495, 0, 0}) == 1);
+  move({0.001, 0, 0});
+  move({0.02, 0, 0});
+  CHECK(contacts == 0);
+}
+
+TEST_CASE("contact: an edge across a corner of an outline presses on both sides of it", "[contact][edges]") {
+  // The plate's outline is bent by 28 degrees in its plane: a straight edge crosses it twice, in and out again.
+  const double d = 2e-4, gap = 1e-4, slope = 0.25, at = 0.16;
+  geom::TetMesh plate = box_at({0.8, 0.3, 0.3}, {2, 2, 2}, Mat3::Identity(), {0, 0, -0.15});
+  for (Vec3& x : plate.nodes)
+    x.y() -= slope * std::abs(x.x());
+  System s(build({meshed("plate", plate),
+                  meshed("upper", box_at({0.9, 0.3, 0.3}, {1, 2, 2}, rotation({1, 0, 0}, 45 * degree),
+                                         {0, 0.15 - slope * at, 0.3 / std::sqrt(2.0) + gap}))},
+                 {{"plate", "upper", friction(0)}}));
+  s.hold(body_of("plate"), "xyz");
+  move_upper(s, {0, 0, -gap - d}, 1000000, [] {});
+  REQUIRE(s.state.contacts.size() == 2);
+  for (const cdem::Contact& c : s.state.contacts) {
+    CHECK(c.kind == cdem::Contact::edge);
+    CHECK(c.depth == Approx(d).epsilon(0.01));
+    CHECK(c.start == 0);
+  }
+}
+
+TEST_CASE("contact: bent edges that hit each other beside their nodes let go without loss",
+          "[contact][edges]") {
+  // Rigid, each bent by 10 degrees outwards or inwards in the middle. All that is lost is stored and let go elsewhere.
+  const double bend = GENERATE(10.0, -10.0) * degree, turn = GENERATE(40.0, 75.0) * degree;
+  const Vec3 off = GENERATE(Vec3(0.003, 0.001, 0), Vec3(-0.002, 0.0005, 0)), velocity(1, 0.4, -1);
+  const auto bar = [&](const Mat3& attitude, const Vec3& at, double side) {
+    geom::TetMesh mesh = box_at({2, 0.2, 0.2}, {2, 1, 1}, rotation({1, 0, 0}, 45 * degree), {0, 0, 0});
+    for (Vec3& x : mesh.nodes)
+      x.z() -= side * std::tan(0.5 * bend) * std::abs(x.x());
+    return placed(mesh, attitude, at);
+  };
+  const double apart = 0.2 * std::sqrt(2.0) + 1e-3;
+  std::vector<cdem::BodySpec> bodies{
+      meshed("lower", bar(Mat3::Identity(), {0, 0, 0}, 1)),
+      meshed("upper", bar(rotation({0, 0, 1}, turn), off + Vec3(0, 0, apart), -1))};
+  for (cdem::BodySpec& body : bodies)
+    body.element = cdem::Element::rigid;
+  System s(build(bodies, {{"lower", "upper", friction(0)}}));
+  s.state.rigid[1].velocity = {velocity.x(), velocity.y(), velocity.z()};
+  const double kinetic = 0.5 * s.model.rigid[1].mass * velocity.squaredNorm();
+  cdem::RunOptions options;
+  options.duration = 0.01;
+  double deepest = 0;
+  options.callback_every = 1;
+  options.callback = [&] {
+    for (const cdem::Contact& c : s.state.contacts)
+      deepest = std::max(deepest, c.depth);
+  };
+  s.run(options);
+  CHECK(deepest > 0);
+  CHECK(s.state.contacts.empty());
+  CHECK(s.state.spent.friction < 0.01 * kinetic);
 }
 
 TEST_CASE("contact: a bar that lies flat across another rests on the crossings of their outlines",
