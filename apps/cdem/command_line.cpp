@@ -472,7 +472,7 @@ private:
     if (!typed_.range.empty())
       c.range = range_value("--range", typed_.range);
     if (!typed_.hidden.empty())
-      c.hidden = names_value(typed_.hidden);
+      c.hidden = names_value("--hidden", typed_.hidden);
     c.colour_map = typed_.colour_map;
     c.title = typed_.title;
     c.edges = !typed_.no_edges;

@@ -4,6 +4,7 @@
 
 #include "apps/cdem/failure.hpp"
 
+#include <algorithm>
 #include <cerrno>
 #include <cmath>
 #include <cstdlib>
@@ -95,8 +96,11 @@ std::array<int, 2> size_value(const std::string& option, const std::string& text
   return {side(parts[0]), parts.size() == 2 ? side(parts[1]) : 0};
 }
 
-std::vector<std::string> names_value(const std::string& text) {
-  return split(text, ',');
+std::vector<std::string> names_value(const std::string& option, const std::string& text) {
+  std::vector<std::string> names = split(text, ',');
+  if (std::any_of(names.begin(), names.end(), [](const std::string& name) { return name.empty(); }))
+    refuse(option, text, "NAME,..., with a name or number between any two commas");
+  return names;
 }
 
 std::array<double, 2> range_value(const std::string& option, const std::string& text) {

@@ -63,4 +63,12 @@ inline double energy(double pressed, double shear_force, const ContactLaw& law) 
   return 0.5 * law.kn * pressed * pressed + (law.ks > 0 ? 0.5 * shear_force * shear_force / law.ks : 0);
 }
 
+// J, that the normal spring loses when another face is suddenly nearer, as one that has just broken: what it stored at
+// its depth before the step, less what it stores at the depth under the new face then.
+inline double jump_loss(const Contact& old, const ContactLaw& law, const ContactMotion& m) {
+  const double before = m.depth + m.slid.dot(m.normal);
+  const double left = std::clamp(before - old.start, 0., old.pressed());
+  return 0.5 * law.kn * (old.pressed() * old.pressed() - left * left);
+}
+
 } // namespace cdem

@@ -168,6 +168,8 @@ void Evaluation::finish(Contact& c, const Contact* old, ContactMotion& motion, c
     c.start = own ? old->start : start_depth(motion);
     if (old && !own)
       force.friction -= take_over(c, *old, law, motion);
+    else if (old && old->target != c.target)
+      force.friction += jump_loss(*old, law, motion);
     force.friction += advance(c, law, motion);
   }
   force.arms = arms;

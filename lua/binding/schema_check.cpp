@@ -254,8 +254,8 @@ Arguments check_in_order(const Values& given, const std::vector<Field>& fields) 
     for (std::size_t i = fields.size(); i < given.size(); ++i)
       extra = extra || !given[i].is_nil();
     if (extra)
-      throw InputError(std::to_string(given.size()) + " arguments: takes " +
-                       (fields.empty() ? "none" : "(" + joined(names_of(fields)) + ")"));
+      throw InputError(std::to_string(given.size()) + (given.size() == 1 ? " argument" : " arguments") +
+                       ": takes " + (fields.empty() ? "none" : "(" + joined(names_of(fields)) + ")"));
   }
   Table named;
   for (std::size_t i = 0; i < std::min(given.size(), fields.size()); ++i)

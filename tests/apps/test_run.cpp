@@ -185,6 +185,7 @@ TEST_CASE("render leaves out the bodies it is told to") {
   const std::string known = ": must be a body of the file, by name or number: 0 one, 1 two";
   for (const auto& [hide, said] : {std::pair<std::string, std::string>("5", "--hidden = 5" + known),
                                    {"x", "--hidden = x" + known},
+                                   {"0,,two", "--hidden = 0,,two: must be NAME,..."},
                                    {"0,two", "nothing would be left to draw"}}) {
     const Outcome refused = drawn(hide);
     CHECK(refused.exit_code == 2);

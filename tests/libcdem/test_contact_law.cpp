@@ -92,3 +92,15 @@ TEST_CASE("contact law: an overlap that was found starts without force, one that
   advance(c, law, motion(1e-4));
   CHECK(c.pressed() == Approx(8e-5));
 }
+
+TEST_CASE("contact law: what is stored under a face is lost where another is suddenly nearer",
+          "[contact][law]") {
+  const Contact c = pressed(3e-4);
+  const Vec3 deeper(0, 0, -1e-5); // in the step
+  // The other face was as near before the step: nothing jumps.
+  CHECK(jump_loss(c, law, motion(3.1e-4, deeper)) == Approx(0).margin(1e-9));
+  CHECK(jump_loss(c, law, motion(4e-4, deeper)) == 0);
+  // It was at 2e-4, or this side of it.
+  CHECK(jump_loss(c, law, motion(2.1e-4, deeper)) == Approx(0.5 * law.kn * (9e-8 - 4e-8)));
+  CHECK(jump_loss(c, law, motion(-1e-4, deeper)) == Approx(0.5 * law.kn * 9e-8));
+}

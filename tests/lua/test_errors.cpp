@@ -72,6 +72,7 @@ TEST_CASE("calling in the wrong way is explained", "[lua]") {
   CHECK_THAT(error_of(column() + "print(rock.youngs)"), Contains("did you mean youngs_modulus?"));
   CHECK_THAT(error_of(column() + "model:max('displacement.x', 'x-', 3)"),
              Contains("3 arguments: takes (field, on)"));
+  CHECK_THAT(error_of(column() + "model:energy(1)"), Contains("1 argument: takes none"));
   CHECK_THAT(error_of(head + "local t = {}\nt.t = t\ncdem.report{ { name = 'a', value = t } }"),
              Contains("does it contain itself?"));
   CHECK_THAT(error_of(head + "cdem.model{ bodies = { { shape = coroutine.create(print) } } }"),
