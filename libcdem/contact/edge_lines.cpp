@@ -23,7 +23,7 @@ EdgeLines::EdgeLines(const Model& model, const State& state, const ContactWork& 
                                      [](const Contact& c) { return c.kind == Contact::spring; })) {}
 
 std::optional<EdgeTouch> EdgeLines::acting(int e, int f, const NearestOfEdges& here) const {
-  const auto touch = touch_of(model_, state_, work_.edges[e], work_.edges[f], here);
+  auto touch = touch_of(model_, state_, work_.edges[e], work_.edges[f], here);
   if (!touch || !(touch->depth > 0))
     return std::nullopt;
   const double distance = here.way.norm();
@@ -35,7 +35,11 @@ std::optional<EdgeTouch> EdgeLines::acting(int e, int f, const NearestOfEdges& h
     if (!nearer(source, target, there, e, f, here))
       return false;
     const auto other = touch_of(model_, state_, work_.edges[source], work_.edges[target], there);
-    return other && ways * other->sense == touch->sense;
+    if (!other || ways * other->sense != touch->sense)
+      return false;
+    // Two that are others on both lines may be near without being passed there.
+    return a == e || b == f ||
+           (other->depth > 0 && goes_on(source, there.at.s, target) && goes_on(target, there.at.t, source));
   };
   if (!goes_on(e, here.at.s, f) || !goes_on(f, here.at.t, e) || any_of_line(e, [&](int a, double way_of_a) {
         return any_of_line(f, [&](int b, double way_of_b) { return passed(a, b, way_of_a * way_of_b); });

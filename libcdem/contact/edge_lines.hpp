@@ -18,7 +18,8 @@ public:
   EdgeLines(const Model&, const State&, const ContactWork&);
 
   // Two edges by their numbers, e < f. None where they do not touch, where one ends at their nearest places and its line
-  // does not go on, and where edges of the same crossing are nearer to each other, touching or not.
+  // does not go on, and where a pair of the same crossing is nearer: with one of the two edges, touching or not, or with
+  // two others that touch.
   std::optional<EdgeTouch> acting(int e, int f, const NearestOfEdges&) const;
 
   // The contact that the two edges, or others which meet their ends, have just left behind, as if it were that of e and f:

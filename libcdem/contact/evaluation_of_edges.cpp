@@ -1,4 +1,4 @@
-// Semi-edges: which of them act, and which go on with what another has stored when an end has been passed.
+// Semi-edges that act: their motion and law, and what they take over from others.
 #include "libcdem/contact/acting.hpp"
 #include "libcdem/contact/evaluation.hpp"
 #include "libcdem/contact/near.hpp"
@@ -8,6 +8,7 @@
 #include <cmath>
 
 namespace cdem {
+
 void Evaluation::edges(ContactRow& row, ContactCandidate* candidates) {
   const ContactEdge& e = work_.edges[row.source];
   const ContactTriangle& from = surface_.triangles[e.triangles[0]];
