@@ -1,6 +1,6 @@
 #include "libcdem/first_model.hpp"
 
-#include "libcdem/model/build.hpp"
+#include "libcdem/model/build/build_model.hpp"
 #include "libcdem/model/separate.hpp"
 #include "libcdem/simulation_checks.hpp"
 #include "libgeom/core/error.hpp"

@@ -1,20 +1,20 @@
 #include "libcdem/simulation_impl.hpp"
 
 #include "libcdem/checkpoint/model_archive.hpp"
+#include "libcdem/element/rigid_body.hpp"
+#include "libcdem/element/rigid_motion.hpp"
 #include "libcdem/element/small_strain.hpp"
 #include "libcdem/first_model.hpp"
-#include "libcdem/fracture/grow.hpp"
-#include "libcdem/fracture/refine.hpp"
+#include "libcdem/procedure/critical_flow.hpp"
+#include "libcdem/procedure/grow.hpp"
+#include "libcdem/procedure/refine.hpp"
+#include "libcdem/procedure/relax.hpp"
+#include "libcdem/procedure/run.hpp"
+#include "libcdem/procedure/settle.hpp"
 #include "libcdem/results/units.hpp"
-#include "libcdem/rigid/convert.hpp"
-#include "libcdem/rigid/motion.hpp"
 #include "libcdem/simulation_checks.hpp"
-#include "libcdem/step/critical_flow.hpp"
 #include "libcdem/step/forces.hpp"
 #include "libcdem/step/mesh_forces.hpp"
-#include "libcdem/step/relax.hpp"
-#include "libcdem/step/run.hpp"
-#include "libcdem/step/settle.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,9 +1,9 @@
 // What a Simulation is made of; only simulation*.cpp see it.
 #pragma once
 
+#include "libcdem/bond/spring_forces.hpp"
 #include "libcdem/element/mesh_fields.hpp"
 #include "libcdem/fracture/rebuild.hpp"
-#include "libcdem/interface/spring_forces.hpp"
 #include "libcdem/results/energy.hpp"
 #include "libcdem/simulation.hpp"
 #include "libcdem/step/stage.hpp"

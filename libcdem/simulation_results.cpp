@@ -3,11 +3,11 @@
 
 #include "libcdem/element/small_strain.hpp"
 #include "libcdem/model/names.hpp"
+#include "libcdem/procedure/run.hpp"
 #include "libcdem/results/fragments.hpp"
 #include "libcdem/results/make_snapshot.hpp"
 #include "libcdem/results/units.hpp"
 #include "libcdem/step/forces.hpp"
-#include "libcdem/step/run.hpp"
 
 #include <algorithm>
 

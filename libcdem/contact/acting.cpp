@@ -1,7 +1,7 @@
 #include "libcdem/contact/acting.hpp"
 
-#include "libcdem/contact/build_surface.hpp"
 #include "libcdem/contact/places.hpp"
+#include "libcdem/model/build/contact_surface.hpp"
 
 namespace cdem {
 namespace {

@@ -1,8 +1,8 @@
 #include "libcdem/contact/contact_bounds.hpp"
 
 #include "libcdem/contact/places.hpp"
-#include "libcdem/rigid/inertia.hpp"
-#include "libcdem/rigid/motion.hpp"
+#include "libcdem/element/rigid_inertia.hpp"
+#include "libcdem/element/rigid_motion.hpp"
 #include "libcdem/step/row_sums.hpp"
 
 namespace cdem {

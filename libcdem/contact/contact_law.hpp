@@ -8,7 +8,7 @@
 // millimetre would throw a unit into the air.
 #pragma once
 
-#include "libcdem/contact/contact.hpp"
+#include "libcdem/state/contact.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -7,10 +7,10 @@
 // side on which more is looked at.
 #pragma once
 
-#include "libcdem/contact/contact.hpp"
-#include "libcdem/contact/surface.hpp"
+#include "libcdem/model/contact_surface.hpp"
 #include "libcdem/parallel/chunks.hpp"
 #include "libcdem/parallel/node.hpp"
+#include "libcdem/state/contact.hpp"
 
 #include <array>
 #include <limits>

@@ -1,8 +1,8 @@
 #include "libcdem/contact/evaluation.hpp"
 
 #include "libcdem/contact/acting.hpp"
-#include "libcdem/contact/build_surface.hpp"
 #include "libcdem/contact/search.hpp"
+#include "libcdem/model/build/contact_surface.hpp"
 
 #include <algorithm>
 #include <cmath>

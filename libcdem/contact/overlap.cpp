@@ -1,7 +1,7 @@
 #include "libcdem/contact/overlap.hpp"
 
-#include "libcdem/contact/build_surface.hpp"
 #include "libcdem/contact/places.hpp"
+#include "libcdem/model/build/contact_surface.hpp"
 #include "libcdem/model/names.hpp"
 #include "libgeom/core/error.hpp"
 #include "libgeom/query/box_pairs.hpp"

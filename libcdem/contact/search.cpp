@@ -1,9 +1,9 @@
 #include "libcdem/contact/search.hpp"
 
-#include "libcdem/contact/build_surface.hpp"
 #include "libcdem/contact/near.hpp"
 #include "libcdem/contact/places.hpp"
 #include "libcdem/contact/semi_edges.hpp"
+#include "libcdem/model/build/contact_surface.hpp"
 #include "libcdem/model/names.hpp"
 #include "libcdem/step/errors.hpp"
 #include "libgeom/query/box_pairs.hpp"

@@ -1,6 +1,6 @@
 #include "libcdem/contact/semi_edges.hpp"
 
-#include "libcdem/contact/build_surface.hpp"
+#include "libcdem/model/build/contact_surface.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,9 +1,9 @@
 #include "libcdem/element/mesh_fields.hpp"
 
+#include "libcdem/element/rigid_body.hpp"
+#include "libcdem/element/rigid_motion.hpp"
 #include "libcdem/element/small_strain.hpp"
-#include "libcdem/model/add_meshes.hpp"
-#include "libcdem/rigid/convert.hpp"
-#include "libcdem/rigid/motion.hpp"
+#include "libcdem/model/build/add_meshes.hpp"
 #include "libcdem/state/places.hpp"
 
 namespace cdem {

@@ -1,6 +1,6 @@
 #include "libcdem/fracture/crack_faces.hpp"
 
-#include "libcdem/interface/spring_forces.hpp"
+#include "libcdem/bond/spring_forces.hpp"
 
 #include <limits>
 

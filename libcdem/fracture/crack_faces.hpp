@@ -5,7 +5,7 @@
 // by it.
 #pragma once
 
-#include "libcdem/interface/spring_law.hpp"
+#include "libcdem/joint/spring_law.hpp"
 #include "libcdem/results/log.hpp"
 #include "libcdem/state/state.hpp"
 

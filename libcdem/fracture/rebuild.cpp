@@ -1,7 +1,7 @@
 #include "libcdem/fracture/rebuild.hpp"
 
+#include "libcdem/bond/spring_forces.hpp"
 #include "libcdem/element/small_strain.hpp"
-#include "libcdem/interface/spring_forces.hpp"
 #include "libgeom/polyhedron/cut.hpp"
 
 #include <cassert>

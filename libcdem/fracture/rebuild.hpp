@@ -7,7 +7,7 @@
 #pragma once
 
 #include "libcdem/fracture/options.hpp"
-#include "libcdem/model/build.hpp"
+#include "libcdem/model/build/build_model.hpp"
 #include "libcdem/state/state.hpp"
 
 namespace cdem {

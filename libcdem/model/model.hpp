@@ -1,13 +1,13 @@
 // Model: everything that stays as it is while the solver steps. Only fracture/ makes a new one, between steps.
 #pragma once
 
-#include "libcdem/contact/surface.hpp"
+#include "libcdem/bond/face_bonds.hpp"
 #include "libcdem/element/finite_volume.hpp"
-#include "libcdem/interface/face_bonds.hpp"
+#include "libcdem/joint/joint.hpp"
+#include "libcdem/material/elastic.hpp"
 #include "libcdem/model/bonding.hpp"
+#include "libcdem/model/contact_surface.hpp"
 #include "libcdem/model/element.hpp"
-#include "libcdem/model/joint.hpp"
-#include "libcdem/model/material.hpp"
 #include "libcdem/model/mesh.hpp"
 #include "libcdem/parallel/chunks.hpp"
 #include "libcdem/parallel/node.hpp"

@@ -1,10 +1,10 @@
 #include "libcdem/results/energy.hpp"
 
+#include "libcdem/bond/spring_forces.hpp"
 #include "libcdem/contact/contact_forces.hpp"
 #include "libcdem/element/mesh_fields.hpp"
+#include "libcdem/element/rigid_motion.hpp"
 #include "libcdem/element/small_strain.hpp"
-#include "libcdem/interface/spring_forces.hpp"
-#include "libcdem/rigid/motion.hpp"
 
 namespace cdem {
 

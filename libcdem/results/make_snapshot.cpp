@@ -1,8 +1,8 @@
 #include "libcdem/results/make_snapshot.hpp"
 
+#include "libcdem/bond/spring_forces.hpp"
 #include "libcdem/element/mesh_fields.hpp"
-#include "libcdem/interface/spring_forces.hpp"
-#include "libcdem/model/add_meshes.hpp"
+#include "libcdem/model/build/add_meshes.hpp"
 #include "libcdem/results/fields.hpp"
 
 #include <map>

@@ -1,6 +1,6 @@
 #include "libcdem/state/state.hpp"
 
-#include "libcdem/rigid/convert.hpp"
+#include "libcdem/element/rigid_body.hpp"
 
 #include <algorithm>
 

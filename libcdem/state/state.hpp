@@ -2,10 +2,10 @@
 // drives the hash, the carrying over at cuts, the watch for NaN and checkpoints.
 #pragma once
 
-#include "libcdem/contact/contact.hpp"
 #include "libcdem/model/model.hpp"
-#include "libcdem/results/ledger.hpp"
 #include "libcdem/results/snapshot.hpp"
+#include "libcdem/state/contact.hpp"
+#include "libcdem/state/ledger.hpp"
 #include "libcdem/state/rigid_state.hpp"
 
 #include <functional>
@@ -23,7 +23,7 @@ struct State {
       bond_offset; // m, jump at which the spring carries nothing: preload and slip (n_points)
   std::vector<std::uint8_t>
       bond_mode; // BondMode (n_points); bond_offset and bond_mode: written by spring_forces
-  // Of bonds that soften (interface/softening.hpp), written by spring_forces; empty where no joint of the model does.
+  // Of bonds that soften (joint/softening.hpp), written by spring_forces; empty where no joint of the model does.
   std::vector<double> bond_damage; // D, 0 whole .. 1 separated (n_points)
   std::vector<geom::Vec3>
       bond_slip; // m, slip of the damaged part, added to bond_offset at separation (n_points)

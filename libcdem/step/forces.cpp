@@ -1,8 +1,8 @@
 #include "libcdem/step/forces.hpp"
 
+#include "libcdem/bond/spring_forces.hpp"
 #include "libcdem/contact/contact_forces.hpp"
 #include "libcdem/element/small_strain.hpp"
-#include "libcdem/interface/spring_forces.hpp"
 #include "libcdem/step/mesh_forces.hpp"
 
 namespace cdem {

@@ -1,6 +1,6 @@
 #include "libcdem/step/mesh_forces.hpp"
 
-#include "libcdem/model/add_meshes.hpp"
+#include "libcdem/model/build/add_meshes.hpp"
 #include "libcdem/parallel/simd.hpp"
 
 namespace cdem {

@@ -1,7 +1,7 @@
 #include "libcdem/step/record.hpp"
 
-#include "libcdem/interface/spring_forces.hpp"
-#include "libcdem/model/add_meshes.hpp"
+#include "libcdem/bond/spring_forces.hpp"
+#include "libcdem/model/build/add_meshes.hpp"
 #include "libcdem/results/fields.hpp"
 
 #include <cmath>

@@ -1,8 +1,8 @@
 #include "libcdem/step/row_sums.hpp"
 
+#include "libcdem/bond/spring_forces.hpp"
 #include "libcdem/element/mesh_fields.hpp"
 #include "libcdem/element/small_strain.hpp"
-#include "libcdem/interface/spring_forces.hpp"
 
 #include <cmath>
 

@@ -1,10 +1,10 @@
 #include "libcdem/step/soundness.hpp"
 
+#include "libcdem/bond/spring_forces.hpp"
 #include "libcdem/contact/places.hpp"
+#include "libcdem/element/rigid_motion.hpp"
 #include "libcdem/element/small_strain.hpp"
-#include "libcdem/interface/spring_forces.hpp"
 #include "libcdem/model/names.hpp"
-#include "libcdem/rigid/motion.hpp"
 #include "libcdem/step/errors.hpp"
 
 #include <cmath>

@@ -1,7 +1,7 @@
 // What relaxing and running share: the parts of a step that go over all chunks, and the watch over a stage.
 #pragma once
 
-#include "libcdem/interface/spring_forces.hpp"
+#include "libcdem/bond/spring_forces.hpp"
 #include "libcdem/parallel/thread_choice.hpp"
 #include "libcdem/results/log.hpp"
 #include "libcdem/step/forces.hpp"

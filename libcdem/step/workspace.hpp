@@ -3,7 +3,7 @@
 #pragma once
 
 #include "libcdem/contact/contact_work.hpp"
-#include "libcdem/interface/softening.hpp"
+#include "libcdem/joint/softening.hpp"
 #include "libcdem/load/resolve.hpp"
 #include "libcdem/state/state.hpp"
 

@@ -1,7 +1,7 @@
 // Star blocks bonded on all faces, stepped with breaking on and nothing breaking: the cost of a step far from
 // failure.
 #include "libcdem/element/small_strain.hpp"
-#include "libcdem/model/build.hpp"
+#include "libcdem/model/build/build_model.hpp"
 #include "libcdem/step/stage.hpp"
 #include "libgeom/assembly/builders.hpp"
 #include "tests/bench/measure.hpp"

@@ -2,7 +2,7 @@
 // step of contact cost, beside the step of the tets. Every cube has its own nodes; nothing holds it.
 #include "libcdem/contact/contact_forces.hpp"
 #include "libcdem/contact/search.hpp"
-#include "libcdem/model/build.hpp"
+#include "libcdem/model/build/build_model.hpp"
 #include "libgeom/core/random.hpp"
 #include "libgeom/mesh/box_mesh.hpp"
 #include "tests/bench/measure.hpp"

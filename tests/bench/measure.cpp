@@ -1,6 +1,6 @@
 #include "tests/bench/measure.hpp"
 
-#include "libcdem/step/run.hpp"
+#include "libcdem/procedure/run.hpp"
 
 #include <cmath>
 #include <ctime>

@@ -3,7 +3,7 @@
 // The bare kernel: forces of tets and faces from given positions into the chunks' own partial forces; it neither adds
 // those up nor moves a node. Operations are counted in the sources: 364 a tet (elements of vectors that are added,
 // multiplied or divided), 112 a bonded face that is far from its strength, with Ks = Kn; those of nodes are left out.
-#include "libcdem/model/build.hpp"
+#include "libcdem/model/build/build_model.hpp"
 #include "libcdem/step/mesh_forces.hpp"
 #include "libcdem/step/stage.hpp"
 #include "libgeom/mesh/box_mesh.hpp"

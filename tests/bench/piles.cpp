@@ -3,7 +3,7 @@
 #include "apps/cdem/progress/run_observer.hpp"
 #include "libcdem/contact/contact_forces.hpp"
 #include "libcdem/first_model.hpp"
-#include "libcdem/step/settle.hpp"
+#include "libcdem/procedure/settle.hpp"
 #include "libgeom/mesh/solid_mesh.hpp"
 #include "libgeom/placement/armour_layer.hpp"
 #include "libgeom/solid/armour_units.hpp"

@@ -1,6 +1,6 @@
 // Laws of the softening bond: its energies, its irreversibility, its friction. Reference values are the
-// closed forms of interface/softening.hpp's opening comment, integrated by hand.
-#include "libcdem/interface/softening.hpp"
+// closed forms of joint/softening.hpp's opening comment, integrated by hand.
+#include "libcdem/joint/softening.hpp"
 #include "libgeom/core/error.hpp"
 #include "libgeom/core/random.hpp"
 #include "tests/libcdem/softening_joint.hpp"

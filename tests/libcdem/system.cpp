@@ -2,10 +2,10 @@
 
 #include "libcdem/first_model.hpp"
 
+#include "libcdem/bond/spring_forces.hpp"
 #include "libcdem/element/mesh_fields.hpp"
 #include "libcdem/element/small_strain.hpp"
-#include "libcdem/interface/spring_forces.hpp"
-#include "libcdem/model/build.hpp"
+#include "libcdem/model/build/build_model.hpp"
 #include "libcdem/step/forces.hpp"
 #include "libcdem/step/mesh_forces.hpp"
 #include "libgeom/mesh/box_mesh.hpp"

@@ -1,10 +1,10 @@
 // A model with its state and conditions, open to the tests: what Simulation holds behind its door.
 #pragma once
 
+#include "libcdem/procedure/relax.hpp"
+#include "libcdem/procedure/run.hpp"
 #include "libcdem/simulation.hpp"
 #include "libcdem/state/places.hpp"
-#include "libcdem/step/relax.hpp"
-#include "libcdem/step/run.hpp"
 
 namespace testing {
 

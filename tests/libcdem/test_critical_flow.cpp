@@ -1,5 +1,5 @@
 // The search for the flow that breaks a held body: a coarse column on its foot, bonded everywhere.
-#include "libcdem/step/held_pressure.hpp"
+#include "libcdem/procedure/held_pressure.hpp"
 #include "libgeom/mesh/box_mesh.hpp"
 #include "tests/libcdem/system.hpp"
 

@@ -1,5 +1,5 @@
 // A crack that grows in stages: what breaks, where it goes, when it stops, and what grow refuses.
-#include "libcdem/fracture/grow.hpp"
+#include "libcdem/procedure/grow.hpp"
 #include "libcdem/simulation.hpp"
 #include "libgeom/assembly/builders.hpp"
 #include "libgeom/assembly/edit.hpp"

@@ -3,8 +3,8 @@
 #include "tests/libcdem/random_cuts.hpp"
 #include "tests/libcdem/system.hpp"
 
+#include "libcdem/bond/spring_forces.hpp"
 #include "libcdem/element/small_strain.hpp"
-#include "libcdem/interface/spring_forces.hpp"
 #include "libgeom/assembly/builders.hpp"
 #include "libgeom/assembly/edit.hpp"
 #include "libgeom/polyhedron/cut.hpp"

@@ -1,8 +1,8 @@
 // Rigid bodies: Newton and Euler by central differences, and the way from rigid to deformable and back.
+#include "libcdem/element/rigid_body.hpp"
+#include "libcdem/element/rigid_inertia.hpp"
+#include "libcdem/element/rigid_motion.hpp"
 #include "libcdem/results/energy.hpp"
-#include "libcdem/rigid/convert.hpp"
-#include "libcdem/rigid/inertia.hpp"
-#include "libcdem/rigid/motion.hpp"
 #include "libgeom/core/error.hpp"
 #include "libgeom/core/random.hpp"
 #include "libgeom/mesh/box_mesh.hpp"

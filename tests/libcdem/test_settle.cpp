@@ -1,6 +1,6 @@
 // Cubes dropped on a floor come to rest, as rigid bodies first.
+#include "libcdem/procedure/settle.hpp"
 #include "libcdem/results/energy.hpp"
-#include "libcdem/step/settle.hpp"
 #include "libgeom/mesh/box_mesh.hpp"
 #include "tests/libcdem/system.hpp"
 

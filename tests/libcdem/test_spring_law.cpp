@@ -1,5 +1,5 @@
 // Law of one spring (Han 2010 eqs 9-11, amended): pure functions, random inputs.
-#include "libcdem/interface/spring_law.hpp"
+#include "libcdem/joint/spring_law.hpp"
 #include "libgeom/core/random.hpp"
 
 #include <catch2/catch.hpp>

@@ -1,7 +1,7 @@
 // Stiffness damping (Rayleigh's beta): vibrations die out at beta w^2 / 2, motion as a rigid body does not, and the
 // stable step shrinks as beta w demands.
+#include "libcdem/procedure/run.hpp"
 #include "libcdem/results/energy.hpp"
-#include "libcdem/step/run.hpp"
 #include "libgeom/mesh/box_mesh.hpp"
 #include "tests/libcdem/system.hpp"
 

@@ -1,7 +1,7 @@
 // Which units have left their place, and in which order.
+#include "libcdem/element/rigid_body.hpp"
+#include "libcdem/element/rigid_motion.hpp"
 #include "libcdem/results/watch.hpp"
-#include "libcdem/rigid/convert.hpp"
-#include "libcdem/rigid/motion.hpp"
 #include "libgeom/mesh/box_mesh.hpp"
 #include "tests/libcdem/system.hpp"
 

@@ -1,0 +1,271 @@
+#include "libcdem/bond/broken_faces.hpp"
+
+#include "libcdem/state/places.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace cdem {
+namespace {
+
+using simd::Vec;
+
+using Plane2 = std::array<double, 2>;
+
+// A face as a broken one sees itself.
+struct Frame {
+  std::array<geom::Vec3, 3> gap;
+  geom::Vec3 normal, along, across; // unit, the first edge in the plane
+};
+
+// place(node), moved(node): m.
+template <class Place, class Moved>
+Frame frame_of(const FaceNodes& at, const Place& place, const Moved& moved) {
+  geom::Vec3 d[3];
+  for (int k = 0; k < 3; ++k)
+    d[k] = moved(at.b[k]) - moved(at.a[k]);
+  const geom::Vec3 x0 = place(at.a[0]);
+  const geom::Vec3 e1 = place(at.a[1]) - x0, e2 = place(at.a[2]) - x0;
+  Frame f;
+  f.normal = (e1.cross(e2) + (e1 + d[1] - d[0]).cross(e2 + d[2] - d[0])).normalized();
+  const geom::Vec3 edge = e1 + 0.5 * (d[1] - d[0]);
+  f.along = (edge - edge.dot(f.normal) * f.normal).normalized();
+  f.across = f.normal.cross(f.along);
+  for (int k = 0; k < 3; ++k)
+    f.gap[k] = (d[0] + d[1] + d[2]) / 6 + 0.5 * d[k];
+  return f;
+}
+
+// Where the face is now (behind: 0 s) or was that long ago, by what its nodes have done since.
+Frame frame_of(const FaceBatch& batch, int lane, const FaceMotion& m, double behind) {
+  FaceNodes places; // of the chunk
+  for (int k = 0; k < 3; ++k) {
+    places.a[k] = batch.place_a[k][lane];
+    places.b[k] = batch.place_b[k][lane];
+  }
+  return frame_of(
+      places, [&](int i) { return geom::Vec3(vec(m.position[i]) - behind * vec(m.velocity[i])); },
+      [&](int i) { return geom::Vec3(vec(m.displacement[i]) - behind * vec(m.velocity[i])); });
+}
+
+Frame frame_of(const FaceNodes& nodes, const Node* position, const Node* displacement) {
+  return frame_of(
+      nodes, [&](int i) { return vec(position[i]); }, [&](int i) { return vec(displacement[i]); });
+}
+
+struct Response {
+  double opening = 0;        // m
+  Plane2 shear{};            // N, along and across
+  geom::Vec3 force{0, 0, 0}; // N, on side a
+  double energy = 0;         // J
+};
+
+Plane2 tangential(const Frame& f, int point) {
+  return {f.gap[point].dot(f.along), f.gap[point].dot(f.across)};
+}
+
+// slip: m, as in FaceSlip.
+Response stretched(double kn, double ks, const Frame& f, int point, const Plane2& slip = {}) {
+  const Plane2 gap = tangential(f, point);
+  Response r;
+  r.opening = f.gap[point].dot(f.normal);
+  r.shear = {ks * (gap[0] - slip[0]), ks * (gap[1] - slip[1])};
+  r.force = kn * r.opening * f.normal + r.shear[0] * f.along + r.shear[1] * f.across;
+  r.energy = 0.5 * (kn * r.opening * r.opening + (r.shear[0] * r.shear[0] + r.shear[1] * r.shear[1]) / ks);
+  return r;
+}
+
+// A contact that does not slide.
+Response sticking(double kn, double ks, const Frame& f, int point, const Plane2& slip) {
+  const Response r = stretched(kn, ks, f, point, slip);
+  return r.opening > 0 ? Response{r.opening} : r;
+}
+
+// The contact a broken spring is; slip moves on where it slides.
+Response contact(double kn, double ks, double tan_friction, const Frame& f, int point, Plane2& slip) {
+  Response trial = stretched(kn, ks, f, point, slip);
+  if (trial.opening > 0) {
+    slip = tangential(f, point);
+    return {trial.opening};
+  }
+  const double shear = std::hypot(trial.shear[0], trial.shear[1]), limit = -kn * trial.opening * tan_friction;
+  if (shear <= limit)
+    return trial;
+  const double too_much = (1 - limit / shear) / ks;
+  for (int axis = 0; axis < 2; ++axis)
+    slip[axis] += too_much * trial.shear[axis];
+  return stretched(kn, ks, f, point, slip);
+}
+
+void set_lane(Vec& v, int lane, const geom::Vec3& value) {
+  v.x[lane] = value.x();
+  v.y[lane] = value.y();
+  v.z[lane] = value.z();
+}
+
+BondMode due(const FaceLaw& law, double area, double normal_force, double shear_force) {
+  if (normal_force > law.tensile_strength * area)
+    return BondMode::broken_tension;
+  if (shear_force > std::max(0.0, law.cohesion * area - normal_force * law.tan_friction))
+    return BondMode::broken_shear;
+  return BondMode::intact;
+}
+
+bool is_intact(std::uint8_t mode) {
+  return mode == static_cast<std::uint8_t>(BondMode::intact);
+}
+
+// Parted, or slid away sideways, by these parts of the face's size at all its points.
+constexpr double parted = 1e-3, slid = 0.2;
+
+bool is_gone(const Frame& f, double size) {
+  const auto everywhere = [&](const auto& holds) { return holds(0) && holds(1) && holds(2); };
+  return everywhere([&](int point) { return f.gap[point].dot(f.normal) > parted * size; }) ||
+         everywhere([&](int point) {
+           const Plane2 gap = tangential(f, point);
+           return std::hypot(gap[0], gap[1]) > slid * size;
+         });
+}
+
+// One face some of whose springs are broken or may break now: replaces their force on side a.
+class OneFace {
+public:
+  OneFace(const FaceBatch& batch, int lane, const FaceMotion& motion, const FaceLaw& law)
+      : batch_(batch), lane_(lane), motion_(motion), law_(law), now_(frame_of(batch, lane, motion, 0)) {}
+
+  // spring: the place of the face's first one. slips: of the model.
+  void advance(bool breaking, std::int64_t spring, FaceStateBatch& state, FaceSlip* slips, Vec (&force)[3],
+               FaceSums& sums) {
+    const std::int64_t kept = state.slip < 0 ? -1 : state.slip + lane_;
+    FaceSlip slip = kept < 0 ? FaceSlip{} : slips[kept];
+    bool whole_face = true;
+    for (int point = 0; point < 3; ++point) {
+      Plane2 s = {slip.value[point][0], slip.value[point][1]};
+      if (!is_intact(state.mode[point][lane_]))
+        slide(point, s, sums);
+      else if (!breaking || !snap(point, spring + point * lanes, state.mode[point][lane_], s, sums)) {
+        whole_face = false;
+        continue;
+      }
+      slip.value[point][0] = s[0];
+      slip.value[point][1] = s[1];
+      set_lane(force[point], lane_, response_[point].force);
+    }
+    if (kept >= 0)
+      slips[kept] = slip;
+    if (whole_face)
+      leave(spring / (3 * lanes) * lanes + lane_, state, force, sums);
+  }
+
+private:
+  const Frame& before() {
+    if (!has_before_)
+      before_ = frame_of(batch_, lane_, motion_, motion_.step);
+    has_before_ = true;
+    return before_;
+  }
+  double kn() const { return batch_.kn[lane_]; }
+  double ks() const { return law_.shear_ratio * kn(); }
+  geom::Vec3 moved(int point) { return now_.gap[point] - before().gap[point]; }
+
+  // Friction by the trapezoidal rule.
+  void slide(int point, Plane2& slip, FaceSums& sums) {
+    const Plane2 from = slip;
+    const Plane2 shear = sticking(kn(), ks(), before(), point, from).shear;
+    const Response& r = response_[point] = contact(kn(), ks(), law_.tan_friction, now_, point, slip);
+    for (int axis = 0; axis < 2; ++axis)
+      sums.friction += 0.5 * (shear[axis] + r.shear[axis]) * (slip[axis] - from[axis]);
+  }
+
+  // True when the spring breaks.
+  bool snap(int point, std::int64_t spring, std::uint8_t& mode, Plane2& slip, FaceSums& sums) {
+    const Response bonded = stretched(kn(), ks(), now_, point);
+    const double area = batch_.area[lane_], shear = std::hypot(bonded.shear[0], bonded.shear[1]);
+    const BondMode now = due(law_, area, kn() * bonded.opening, shear);
+    if (now == BondMode::intact)
+      return false;
+    mode = static_cast<std::uint8_t>(now);
+    const Response& r = response_[point] = contact(kn(), ks(), law_.tan_friction, now_, point, slip);
+    // The work of the step with the force it ends with, less what is stored.
+    sums.breaking += bonded.energy - r.energy + 0.5 * (r.force - bonded.force).dot(moved(point));
+    sums.broken.push_back(
+        {spring, now, now_.normal, kn() * bonded.opening / area, shear / area, {slip[0], slip[1]}});
+    return true;
+  }
+
+  // A face without any bond left: handed over, or looked at whether it still may be two planes without end.
+  void leave(std::int64_t face, FaceStateBatch& state, Vec (&force)[3], FaceSums& sums) {
+    const double size = std::sqrt(3 * batch_.area[lane_]);
+    if (law_.hands_over) {
+      if (!is_gone(now_, size))
+        return;
+      state.handed_over[lane_] = 1;
+      sums.hands_over = true;
+      for (int point = 0; point < 3; ++point) {
+        const Response& r = response_[point];
+        sums.breaking += r.energy - 0.5 * r.force.dot(moved(point));
+        set_lane(force[point], lane_, geom::Vec3::Zero());
+      }
+      return;
+    }
+    for (int point = 0; point < 3; ++point)
+      if (response_[point].opening < 0 && now_.gap[point].squaredNorm() > size * size)
+        sums.astray = face;
+  }
+
+  const FaceBatch& batch_;
+  int lane_;
+  const FaceMotion& motion_;
+  const FaceLaw& law_;
+  Frame now_, before_;
+  bool has_before_ = false;
+  Response response_[3];
+};
+
+} // namespace
+
+void one_by_one(const FaceBatch& batch, int faces, const FaceMotion& motion, const FaceLaw& law,
+                bool breaking, std::int64_t first_spring, FaceStateBatch& state, FaceSlip* slips,
+                Vec (&force)[3], FaceSums& sums) {
+  for (int lane = 0; lane < faces; ++lane) {
+    if (handed_over(state, lane)) {
+      for (Vec& f : force)
+        set_lane(f, lane, geom::Vec3::Zero());
+      continue;
+    }
+    const bool whole =
+        is_intact(state.mode[0][lane]) && is_intact(state.mode[1][lane]) && is_intact(state.mode[2][lane]);
+    if (!whole || breaking)
+      OneFace(batch, lane, motion, law).advance(breaking, first_spring + lane, state, slips, force, sums);
+  }
+}
+
+FaceSpring face_spring(const FaceBatch& batch, const FaceNodes& nodes, int point, int lane,
+                       const Node* position, const Node* displacement, const FaceLaw& law,
+                       const FaceStateBatch& state, const FaceSlip* slip) {
+  const Frame f = frame_of(nodes, position, displacement);
+  FaceSpring spring;
+  spring.gap = f.gap[point];
+  spring.normal = f.normal;
+  if (handed_over(state, lane))
+    return spring;
+  const double kn = batch.kn[lane], ks = law.shear_ratio * kn;
+  Plane2 s = slip ? Plane2{slip->value[point][0], slip->value[point][1]} : Plane2{};
+  const Response r = is_intact(state.mode[point][lane]) ? stretched(kn, ks, f, point)
+                                                        : contact(kn, ks, law.tan_friction, f, point, s);
+  spring.force = r.force;
+  spring.energy = r.energy;
+  return spring;
+}
+
+void settle(const FaceBatch& batch, const FaceNodes& nodes, int point, int lane, const Node* position,
+            const Node* displacement, const FaceLaw& law, FaceSlip& slip) {
+  Plane2 s = {slip.value[point][0], slip.value[point][1]};
+  const double kn = batch.kn[lane];
+  contact(kn, law.shear_ratio * kn, law.tan_friction, frame_of(nodes, position, displacement), point, s);
+  slip.value[point][0] = s[0];
+  slip.value[point][1] = s[1];
+}
+
+} // namespace cdem

@@ -1,0 +1,19 @@
+// Faces of a mesh some of whose springs have broken or may break now, one by one: the law at the top of face_bonds.hpp
+// on one face's own axes, what breaking and friction take, and the hand-over to the contact of the surface.
+//
+// Energies go by the trapezoidal rule, which is what central differences do. A spring that slides by ds takes
+// (Fs before + Fs now) . ds / 2; one that breaks takes what it lets go of, less the half step of work that its force
+// would have done.
+#pragma once
+
+#include "libcdem/bond/face_bonds.hpp"
+#include "libcdem/parallel/simd.hpp"
+
+namespace cdem {
+
+// Of the first `faces` faces of a batch, whose first spring has the place `first_spring`; replaces the force that the
+// three points have on side a, N, wherever it is not that of an intact spring.
+void one_by_one(const FaceBatch&, int faces, const FaceMotion&, const FaceLaw&, bool breaking,
+                std::int64_t first_spring, FaceStateBatch&, FaceSlip*, simd::Vec (&force)[3], FaceSums&);
+
+} // namespace cdem

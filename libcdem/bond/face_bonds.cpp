@@ -1,0 +1,140 @@
+#include "libcdem/bond/broken_faces.hpp"
+
+#include <algorithm>
+
+namespace cdem {
+namespace {
+
+using simd::Oct;
+using simd::Vec;
+
+struct Gaps {
+  Vec corner[3], point[3]; // m, from a to b
+};
+
+template <class Index>
+CDEM_INLINE Gaps gaps_of(const Index (&a)[3][lanes], const Index (&b)[3][lanes], const Node* displacement) {
+  // Both sides of a face were one place: the gap is the difference of their displacements, with all its digits.
+  const Vec d0 = minus(simd::gather(displacement, b[0]), simd::gather(displacement, a[0]));
+  const Vec d1 = minus(simd::gather(displacement, b[1]), simd::gather(displacement, a[1]));
+  const Vec d2 = minus(simd::gather(displacement, b[2]), simd::gather(displacement, a[2]));
+  const Oct sixth = Oct{} + 1.0 / 6, half = Oct{} + 0.5;
+  const Vec common = scaled(sixth, plus(plus(d0, d1), d2));
+  return {{d0, d1, d2},
+          {plus(common, scaled(half, d0)), plus(common, scaled(half, d1)), plus(common, scaled(half, d2))}};
+}
+
+// Not made a unit vector: four times the area. The corners of b stand where those of a do plus the gap.
+template <class Index>
+CDEM_INLINE Vec normal_of(const Index (&a)[3][lanes], const Vec (&d)[3], const Node* position) {
+  const Vec a0 = simd::gather(position, a[0]);
+  const Vec e1 = minus(simd::gather(position, a[1]), a0);
+  const Vec e2 = minus(simd::gather(position, a[2]), a0);
+  return plus(cross(e1, e2), cross(plus(e1, minus(d[1], d[0])), plus(e2, minus(d[2], d[0]))));
+}
+
+CDEM_INLINE bool all_intact(const FaceStateBatch& state) {
+  static_assert(static_cast<int>(BondMode::intact) == 0 && lanes == 8);
+  std::uint64_t modes[3];
+  std::memcpy(modes, state.mode, sizeof modes);
+  return (modes[0] | modes[1] | modes[2]) == 0;
+}
+
+using Mask = decltype(Oct{} < Oct{});
+
+CDEM_INLINE bool any(const Mask& mask) {
+  const auto four =
+      __builtin_shufflevector(mask, mask, 0, 1, 2, 3) | __builtin_shufflevector(mask, mask, 4, 5, 6, 7);
+  return (four[0] | four[1] | four[2] | four[3]) != 0;
+}
+
+// Of what a spring bears: below that none breaks, whatever the rounding. one_by_one decides.
+constexpr double margin = 0.98;
+
+// Some spring of the batch carries a force that would break it in the worst of all directions, which is
+// F = A min(T, C cos(phi)): a look that needs no normal.
+CDEM_INLINE bool under_load(const FaceBatch& batch, const Gaps& gaps, const FaceLaw& law) {
+  const double worst =
+      std::min(law.tensile_strength, law.cohesion / std::sqrt(1 + law.tan_friction * law.tan_friction)) /
+      std::max(1.0, law.shear_ratio);
+  const Oct most = (margin * worst) * simd::load(batch.area), kn = simd::load(batch.kn);
+  const Oct kn2 = kn * kn, most2 = most * most;
+  Mask over{};
+  for (const Vec& gap : gaps.point)
+    over |= kn2 * dot(gap, gap) >= most2;
+  return any(over);
+}
+
+// Some spring of the batch may be at its strength. Judged without roots: the length of the normal from the face's area,
+// a unit vector to 1e-4 while strains stay under some per cent, and with a margin above that.
+CDEM_INLINE bool near_strength(const FaceBatch& batch, const Gaps& gaps, const Vec& normal,
+                               const FaceLaw& law) {
+  const Oct area = simd::load(batch.area), kn = simd::load(batch.kn);
+  const Oct guess = 1.0 / (12.0 * area);
+  const Oct n2 = dot(normal, normal);
+  const Oct once = guess * (1.5 - 0.5 * n2 * guess * guess);
+  const Oct inverse = once * (1.5 - 0.5 * n2 * once * once); // 1 / |n|, by Newton
+  const Oct tension = (margin * law.tensile_strength) * area, cohesion = (margin * law.cohesion) * area;
+  Mask near{};
+  for (const Vec& gap : gaps.point) {
+    const Oct gn = dot(gap, normal) * inverse;
+    const Oct g2 = dot(gap, gap);
+    const Oct fn = kn * gn;
+    const Oct shear2 = (law.shear_ratio * law.shear_ratio) * kn * kn * (g2 - gn * gn);
+    const Oct left =
+        cohesion - margin * law.tan_friction * fn; // of the shear strength; negative: beyond the cone's tip
+    near |= (fn >= tension) | (shear2 >= left * left) | (left <= Oct{});
+  }
+  return any(near);
+}
+
+} // namespace
+
+// Batches by which reading runs ahead.
+constexpr int batches_ahead = 3;
+
+// The kernel is compiled for several instruction sets; everything it calls on the way of intact bonds is inlined.
+CDEM_KERNEL void face_bond_forces(const FaceBatch* batches, std::int64_t count, int faces,
+                                  const FaceMotion& motion, const FaceLaw& law, bool breaking,
+                                  FaceStateBatch* state, FaceSlip* slips, Node* total, FaceSums& sums,
+                                  ReadAhead& ahead) {
+  const bool directed = law.shear_ratio != 1; // else the force lies along the gap
+  for (std::int64_t i = 0; i < count; ++i) {
+    const FaceBatch& batch = batches[i];
+    ahead.some();
+    simd::prefetch(batches + i + batches_ahead, sizeof batch);
+    simd::prefetch(state + i + batches_ahead, sizeof *state);
+    const Gaps gaps = gaps_of(batch.place_a, batch.place_b, motion.displacement);
+    const Oct kn = simd::load(batch.kn), ks = law.shear_ratio * kn;
+    Vec force[3] = {scaled(ks, gaps.point[0]), scaled(ks, gaps.point[1]), scaled(ks, gaps.point[2])};
+    bool one_by_one_too = !all_intact(state[i]);
+    const bool looks = breaking && !one_by_one_too && under_load(batch, gaps, law);
+    if (directed || looks) {
+      const Vec normal = normal_of(batch.place_a, gaps.corner, motion.position);
+      if (directed) {
+        const Oct difference = (kn - ks) / dot(normal, normal);
+        for (int point = 0; point < 3; ++point)
+          force[point] = plus(force[point], scaled(difference * dot(gaps.point[point], normal), normal));
+      }
+      if (looks)
+        one_by_one_too = near_strength(batch, gaps, normal, law);
+    }
+    if (one_by_one_too) {
+      // What is handed on by reference does not stay in registers.
+      Vec changed[3] = {force[0], force[1], force[2]};
+      one_by_one(batch, static_cast<int>(std::min<std::int64_t>(lanes, faces - i * lanes)), motion, law,
+                 breaking, i * 3 * lanes, state[i], slips, changed, sums);
+      for (int point = 0; point < 3; ++point)
+        force[point] = changed[point];
+    }
+    const Oct sixth = Oct{} + 1.0 / 6, half = Oct{} + 0.5;
+    const Vec common = scaled(sixth, plus(plus(force[0], force[1]), force[2]));
+    for (int corner = 0; corner < 3; ++corner) {
+      const Vec f = plus(common, scaled(half, force[corner]));
+      simd::scatter_add(total, batch.place_a[corner], f);
+      simd::scatter_add(total, batch.place_b[corner], Vec{-f.x, -f.y, -f.z});
+    }
+  }
+}
+
+} // namespace cdem

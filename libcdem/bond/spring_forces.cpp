@@ -1,0 +1,196 @@
+#include "libcdem/bond/spring_forces.hpp"
+
+#include "libcdem/state/places.hpp"
+
+namespace cdem {
+namespace {
+
+CDEM_INLINE geom::Vec3 jump_at(const BondPoint& p, const Node* u) {
+  if (p.one_to_one)
+    return vec(u[p.node_b[0]]) - vec(u[p.node_a[0]]);
+  geom::Vec3 j = geom::Vec3::Zero();
+  for (int k = 0; k < 3; ++k)
+    j += p.weight_b[k] * vec(u[p.node_b[k]]) - p.weight_a[k] * vec(u[p.node_a[k]]);
+  return j;
+}
+
+bool is_intact(std::uint8_t mode) {
+  return mode == static_cast<std::uint8_t>(BondMode::intact);
+}
+
+double stored(const Interface& interface, const geom::Vec3& traction, const geom::Vec3& normal) {
+  const double tn = traction.dot(normal);
+  return 0.5 * (tn * tn / interface.kn + (traction.squaredNorm() - tn * tn) / interface.ks); // J/m2
+}
+
+// A bond that softens, up to its separation; a contact from the next step on.
+void softening_spring(const BondPoint& point, State& state, Workspace& work, std::int64_t p,
+                      const geom::Vec3& stretch, SpringSums& sums, bool grows) {
+  const SofteningLaw& law = work.softening[point.interface];
+  const geom::Vec3 before = work.stretch[p];
+  work.stretch[p] = stretch;
+  double& damage = state.bond_damage[p];
+  const SofteningResponse r =
+      softening_response(law, point.normal, stretch, damage, state.bond_slip[p], grows);
+  work.spring_force[p] = point.area * r.traction;
+  if (r.damage == 0)
+    return;
+  const SofteningLoss loss =
+      softening_loss(law, point.normal, before, damage, state.bond_slip[p], stretch, r);
+  sums.friction += point.area * loss.friction;
+  sums.breaking += point.area * loss.breaking;
+  damage = r.damage;
+  state.bond_slip[p] = r.slip;
+  if (r.mode != BondMode::intact) {
+    state.bond_mode[p] = static_cast<std::uint8_t>(r.mode);
+    state.bond_offset[p] += r.slip;
+    state.bond_slip[p].setZero();
+    const double normal_traction = r.traction.dot(point.normal);
+    sums.broken.push_back(
+        {static_cast<int>(p), r.mode, normal_traction, (r.traction - normal_traction * point.normal).norm()});
+  }
+}
+
+bool damaged(const State& state, int p) {
+  return !state.bond_damage.empty() && is_intact(state.bond_mode[p]) && state.bond_damage[p] > 0;
+}
+
+// The present response of a damaged bond, nothing advanced.
+SofteningResponse damaged_response(const SofteningLaw& law, const BondPoint& point, const State& state, int p,
+                                   const geom::Vec3& stretch) {
+  return softening_response(law, point.normal, stretch, state.bond_damage[p], state.bond_slip[p], false);
+}
+
+SofteningLaw law_of(const Model& model, const Interface& interface) {
+  return softening_law(model.joints[interface.joint], interface.kn, interface.ks);
+}
+
+// softens: some joint of the model does. A model of brittle bonds pays nothing for the others.
+template <bool softens>
+void forces_of_springs(const Model& model, State& state, Workspace& work, Range range, SpringSums& sums,
+                       bool breaking) {
+  sums.friction = sums.breaking = 0;
+  sums.broken.clear();
+  const Node* u = state.displacement.data();
+  for (std::int64_t p = range.begin; p < range.end; ++p) {
+    const BondPoint& point = model.points[p];
+    const geom::Vec3& n = point.normal;
+    const geom::Vec3 j = jump_at(point, u);
+    const Interface& interface = model.interfaces[point.interface];
+    const SpringStrength& strength = work.strength[point.interface];
+    const geom::Vec3 stretch = j - state.bond_offset[p];
+    const double open = stretch.dot(n);
+    const geom::Vec3 shear = stretch - open * n;
+    bool broke = false;
+    if (is_intact(state.bond_mode[p])) {
+      if constexpr (softens)
+        if (work.softening[point.interface].softens()) {
+          softening_spring(point, state, work, p, stretch, sums, breaking && interface.may_break);
+          continue;
+        }
+      if (breaking && interface.may_break) {
+        const double normal_traction = interface.kn * open, shear_traction = interface.ks * shear.norm();
+        const BondMode mode = breaks(strength, normal_traction, shear_traction);
+        broke = mode != BondMode::intact;
+        if (broke) {
+          state.bond_mode[p] = static_cast<std::uint8_t>(mode);
+          sums.broken.push_back({static_cast<int>(p), mode, normal_traction, shear_traction});
+        }
+      }
+      if (!broke) {
+        work.spring_force[p] = point.kn_area * open * n + point.ks_area * shear;
+        continue;
+      }
+    }
+    // Contact: the spring was never bonded or has broken, at the latest just now.
+    const SpringResponse r =
+        contact_response(interface.kn, interface.ks, strength.tan_friction, n, j, state.bond_offset[p]);
+    state.bond_offset[p] = r.offset;
+    const geom::Vec3 before = work.spring_force[p] / point.area;
+    work.spring_force[p] = point.area * r.traction;
+
+    const geom::Vec3 normal_before = before.dot(n) * n, normal_after = r.traction.dot(n) * n;
+    const double lost =
+        point.area * lost_energy(interface.ks, before - normal_before, r.traction - normal_after, shear);
+    if (broke)
+      sums.breaking += lost + point.area * lost_energy(interface.kn, normal_before, normal_after, open * n);
+    else
+      sums.friction += lost;
+  }
+}
+
+} // namespace
+
+geom::Vec3 jump(const BondPoint& point, const std::vector<Node>& displacement) {
+  return jump_at(point, displacement.data());
+}
+
+void spring_forces(const Model& model, State& state, Workspace& work, Range range, SpringSums& sums,
+                   bool breaking) {
+  if (state.bond_damage.empty())
+    forces_of_springs<false>(model, state, work, range, sums, breaking);
+  else
+    forces_of_springs<true>(model, state, work, range, sums, breaking);
+}
+
+void start_spring_forces(const Model& model, const State& state, Workspace& work) {
+  for (int p = 0; p < static_cast<int>(model.points.size()); ++p)
+    work.spring_force[p] = model.points[p].area * traction(model, state, p);
+  for (std::size_t p = 0; p < work.stretch.size(); ++p)
+    work.stretch[p] = jump(model.points[p], state.displacement) - state.bond_offset[p];
+}
+
+geom::Vec3 traction(const Model& model, const State& state, int p) {
+  const BondPoint& point = model.points[p];
+  const Interface& interface = model.interfaces[point.interface];
+  const geom::Vec3 stretch = jump(point, state.displacement) - state.bond_offset[p];
+  const double open = stretch.dot(point.normal);
+  if (!is_intact(state.bond_mode[p]))
+    return contact_response(interface.kn, interface.ks,
+                            std::tan(model.joints[interface.joint].friction_angle), point.normal,
+                            jump(point, state.displacement), state.bond_offset[p])
+        .traction;
+  if (damaged(state, p))
+    return damaged_response(law_of(model, interface), point, state, p, stretch).traction;
+  return interface.kn * open * point.normal + interface.ks * (stretch - open * point.normal);
+}
+
+void settle(const Model& model, State& state, int p) {
+  const BondPoint& point = model.points[p];
+  const Interface& interface = model.interfaces[point.interface];
+  state.bond_offset[p] =
+      contact_response(interface.kn, interface.ks, std::tan(model.joints[interface.joint].friction_angle),
+                       point.normal, jump(point, state.displacement), state.bond_offset[p])
+          .offset;
+}
+
+double spring_energy(const Model& model, const State& state) {
+  double energy = 0;
+  for (int p = 0; p < static_cast<int>(model.points.size()); ++p) {
+    const BondPoint& point = model.points[p];
+    const Interface& interface = model.interfaces[point.interface];
+    if (damaged(state, p)) {
+      const SofteningLaw law = law_of(model, interface);
+      const geom::Vec3 stretch = jump(point, state.displacement) - state.bond_offset[p];
+      energy += point.area * softening_stored(law, point.normal, stretch, state.bond_damage[p],
+                                              damaged_response(law, point, state, p, stretch).contact);
+      continue;
+    }
+    energy += point.area * stored(interface, traction(model, state, p), point.normal);
+  }
+  return energy;
+}
+
+void add_spring_row_sums(const Model& model, std::vector<double>& sums) {
+  for (const BondPoint& point : model.points) {
+    const geom::Mat3 k = point.ks_area * geom::Mat3::Identity() +
+                         (point.kn_area - point.ks_area) * point.normal * point.normal.transpose();
+    const double row = 2 * k.cwiseAbs().rowwise().sum().maxCoeff(); // weights of both sides sum to 2
+    for (int i = 0; i < 3; ++i) {
+      sums[point.node_a[i]] += point.weight_a[i] * row;
+      sums[point.node_b[i]] += point.weight_b[i] * row;
+    }
+  }
+}
+
+} // namespace cdem

@@ -1,0 +1,169 @@
+#include "libcdem/element/rigid_body.hpp"
+
+#include "libcdem/element/rigid_inertia.hpp"
+#include "libcdem/element/rigid_motion.hpp"
+#include "libcdem/element/small_strain.hpp"
+#include "libcdem/results/energy.hpp"
+#include "libcdem/state/places.hpp"
+
+#include <algorithm>
+#include <iterator>
+
+namespace cdem {
+namespace {
+
+void set_offsets(const Model& model, State& state, const Block& block, const geom::Vec3& centroid) {
+  for (int i = block.node_begin; i < block.node_end; ++i)
+    state.rigid_offset[i] = node(model.node_position[i] + vec(state.displacement[i]) - centroid);
+}
+
+RigidState motion_of(const Model& model, const State& state, const RigidShape& shape) {
+  const Block& block = model.blocks[shape.body.block];
+  geom::Vec3 momentum = geom::Vec3::Zero(), angular = geom::Vec3::Zero();
+  for (int i = block.node_begin; i < block.node_end; ++i)
+    momentum += model.node_mass[i] * vec(state.velocity[i]);
+  const geom::Vec3 velocity = momentum / shape.body.mass;
+  for (int i = block.node_begin; i < block.node_end; ++i)
+    angular += model.node_mass[i] * (model.node_position[i] + vec(state.displacement[i]) - shape.centroid)
+                                        .cross(vec(state.velocity[i]) - velocity);
+  RigidState motion;
+  motion.centroid = triple(shape.centroid);
+  motion.velocity = triple(velocity);
+  motion.angular_momentum = triple(angular);
+  return motion;
+}
+
+// What stood in the old directions is turned to the present ones; the slip of broken faces turns with them by itself.
+void turn_stress(const Model& model, State& state, int block, const geom::Mat3& rotation) {
+  for (const MeshChunk& chunk : model.mesh.chunks) {
+    if (chunk.block != block)
+      continue;
+    for (std::int64_t t = chunk.tets.begin; t < chunk.tets.end; ++t) {
+      const int slot = model.mesh.tet_slot[t - model.mesh.first_tet];
+      StressBatch& batch = state.stress[slot / lanes];
+      Stress stress{};
+      for (int c = 0; c < 6; ++c)
+        stress[c] = batch.component[c][slot % lanes];
+      stress = turned(rotation, stress);
+      for (int c = 0; c < 6; ++c)
+        batch.component[c][slot % lanes] = stress[c];
+    }
+  }
+}
+
+struct Rigid {
+  RigidBody body;
+  RigidState motion;
+};
+
+// Model::rigid and State::rigid anew.
+void replace(Model& model, State& state, std::vector<Rigid>&& all) {
+  std::sort(all.begin(), all.end(),
+            [](const Rigid& a, const Rigid& b) { return a.body.block < b.body.block; });
+  for (Block& block : model.blocks)
+    block.rigid = -1;
+  model.rigid.clear();
+  state.rigid.clear();
+  for (const Rigid& rigid : all) {
+    model.blocks[rigid.body.block].rigid = static_cast<int>(model.rigid.size());
+    model.rigid.push_back(rigid.body);
+    state.rigid.push_back(rigid.motion);
+  }
+  if (all.empty())
+    state.rigid_offset.clear();
+  else
+    state.rigid_offset.resize(model.node_position.size());
+}
+
+} // namespace
+
+Stress turned(const geom::Mat3& rotation, const Stress& stress) {
+  const geom::Mat3 s = rotation * matrix(stress) * rotation.transpose();
+  return {s(0, 0), s(1, 1), s(2, 2), s(0, 1), s(1, 2), s(0, 2)};
+}
+
+void place_nodes(const Model& model, State& state, int rigid) {
+  const RigidState& motion = state.rigid[rigid];
+  const RigidBody& body = model.rigid[rigid];
+  const Block& block = model.blocks[body.block];
+  const geom::Mat3 r = rotation(motion);
+  const geom::Vec3 w = spin(body, motion, 0), centroid = vec(motion.centroid),
+                   velocity = vec(motion.velocity);
+  for (int i = block.node_begin; i < block.node_end; ++i) {
+    const geom::Vec3 arm = r * vec(state.rigid_offset[i]);
+    state.displacement[i] = node(centroid + arm - model.node_position[i]);
+    state.velocity[i] = node(velocity + w.cross(arm));
+  }
+}
+
+void add_rigid_states(const Model& model, State& state) {
+  state.rigid.clear();
+  state.rigid_offset.clear();
+  if (model.rigid.empty())
+    return;
+  state.rigid_offset.resize(model.node_position.size());
+  for (const RigidBody& body : model.rigid) {
+    const RigidShape shape = rigid_shape(model, body.block, state.displacement.data());
+    set_offsets(model, state, model.blocks[body.block], shape.centroid);
+    state.rigid.push_back(motion_of(model, state, shape));
+  }
+}
+
+std::int64_t set_rigid(Model& model, State& state, const std::vector<int>& blocks) {
+  std::vector<int> fresh;
+  std::copy_if(blocks.begin(), blocks.end(), std::back_inserter(fresh),
+               [&](int b) { return model.blocks[b].rigid < 0; });
+  if (fresh.empty())
+    return 0;
+  const double before = energy(model, state).total();
+  std::vector<Rigid> all;
+  for (std::size_t i = 0; i < model.rigid.size(); ++i)
+    all.push_back({model.rigid[i], state.rigid[i]});
+  state.rigid_offset.resize(model.node_position.size());
+  for (const int b : fresh) {
+    const RigidShape shape = rigid_shape(model, b, state.displacement.data());
+    set_offsets(model, state, model.blocks[b], shape.centroid);
+    all.push_back({shape.body, motion_of(model, state, shape)});
+  }
+  replace(model, state, std::move(all));
+  if (!state.viscous_stress.empty())
+    for (const MeshChunk& chunk : model.mesh.chunks)
+      if (std::find(fresh.begin(), fresh.end(), chunk.block) != fresh.end())
+        std::fill(state.viscous_stress.begin() + chunk.batches.begin,
+                  state.viscous_stress.begin() + chunk.batches.end, StressBatch{});
+  for (const int b : fresh)
+    place_nodes(model, state, model.blocks[b].rigid);
+  state.spent.fictitious += before - energy(model, state).total();
+  return static_cast<std::int64_t>(fresh.size());
+}
+
+std::int64_t set_deformable(Model& model, State& state, const std::vector<int>& blocks) {
+  const double before = energy(model, state).total();
+  std::vector<char> leaves(model.rigid.size(), 0);
+  std::int64_t changed = 0;
+  for (const int b : blocks) {
+    const int rigid = model.blocks[b].rigid;
+    if (rigid < 0)
+      continue;
+    place_nodes(model, state, rigid);
+    turn_stress(model, state, b, rotation(state.rigid[rigid]));
+    leaves[rigid] = 1;
+    ++changed;
+  }
+  if (changed == 0)
+    return 0;
+  std::vector<Rigid> stay;
+  for (std::size_t i = 0; i < leaves.size(); ++i)
+    if (!leaves[i])
+      stay.push_back({model.rigid[i], state.rigid[i]});
+  for (const int b : blocks) {
+    const Block& block = model.blocks[b];
+    std::fill(state.rigid_offset.begin() + block.node_begin, state.rigid_offset.begin() + block.node_end,
+              Node{});
+  }
+  replace(model, state, std::move(stay));
+  state.spent.fictitious += before - energy(model, state).total();
+  return changed;
+}
+
+} // namespace cdem

@@ -1,0 +1,125 @@
+#include "libcdem/integrate/move_nodes.hpp"
+
+#include "libcdem/parallel/simd.hpp"
+
+namespace cdem {
+namespace {
+
+using simd::Quad;
+
+CDEM_INLINE double sum(const Quad& q) {
+  return q[0] + q[1] + q[2];
+}
+
+CDEM_INLINE Quad all(double value) {
+  return Quad{} + value;
+}
+
+CDEM_INLINE Quad load_or_zero(const Node* nodes, std::int64_t i) {
+  return nodes ? simd::load(nodes[i]) : Quad{};
+}
+
+} // namespace
+
+MovingNodes moving_nodes(State& state, const Workspace& work, const std::vector<double>& mass, Range range,
+                         const Node* force) {
+  const ResolvedConditions& r = work.resolved;
+  const std::int64_t first = range.begin;
+  MovingNodes nodes;
+  nodes.force = force;
+  nodes.internal = r.internal.empty() ? nullptr : r.internal.data() + first;
+  nodes.external = r.external.empty() ? nullptr : r.external.data() + first;
+  nodes.contact = work.contact_force.empty() ? nullptr : work.contact_force.data() + first;
+  nodes.mass = mass.data() + first;
+  nodes.velocity = state.velocity.data() + first;
+  nodes.displacement = state.displacement.data() + first;
+  nodes.count = range.size();
+  return nodes;
+}
+
+HeldForces held_node_forces(const MovingNodes& node) {
+  HeldForces forces;
+  const Quad load = load_or_zero(node.external, 0);
+  simd::store(forces.load, load);
+  simd::store(forces.net, simd::load(*node.force) + load_or_zero(node.internal, 0) +
+                              load_or_zero(node.contact, 0) + load);
+  return forces;
+}
+
+// The kernels are compiled for several instruction sets; everything they call is inlined into each of them.
+CDEM_KERNEL void step_nodes(const MovingNodes& moving, const Stepping& stepping, NodeSums& sums) {
+  const MovingNodes nodes = moving; // copies: what is written cannot change them
+  const Stepping s = stepping;
+  Quad residual2{}, applied2{}, external{}, lost{}, kinetic{};
+  const Quad zero{};
+  const double per_kick = 1 / s.kick;
+  const bool damped = nodes.viscous || s.local_damping != 0;
+  for (std::int64_t i = 0; i < nodes.count; ++i) {
+    const Quad load = load_or_zero(nodes.external, i);
+    const Quad force =
+        simd::load(nodes.force[i]) + load_or_zero(nodes.internal, i) + load_or_zero(nodes.contact, i) + load;
+    const Quad before = simd::load(nodes.velocity[i]);
+    const double mass = nodes.mass[i], inertia = mass * per_kick;
+    Quad velocity;
+    if (damped) {
+      const double half = nodes.viscous ? 0.5 * nodes.viscous[i] : 0, heavy = inertia + half;
+      const double inverse = 1 / heavy;
+      const Quad undamped = ((inertia - half) * before + force) * inverse;
+      const Quad most =
+          s.local_damping * inverse * (force < zero ? zero - force : force); // can take off the velocity
+      const Quad both = before + undamped;
+      // A node that it could hold at mean velocity 0 is held there, without loss.
+      velocity = both > most ? undamped - most : both < zero - most ? undamped + most : zero - before;
+      const Quad against = heavy * (undamped - velocity), mean = 0.5 * (before + velocity);
+      lost += (2 * half * mean + against) * mean;
+    } else {
+      velocity = before + force * (1 / inertia);
+    }
+    residual2 += force * force;
+    applied2 += load * load;
+    external += load * (0.5 * (before + velocity));
+    kinetic += 0.5 * mass * velocity * velocity;
+    simd::store(nodes.velocity[i], velocity);
+    simd::store(nodes.displacement[i], simd::load(nodes.displacement[i]) + velocity * all(s.time_step));
+  }
+  sums.residual2 += sum(residual2);
+  sums.applied2 += sum(applied2);
+  sums.external += sum(external) * s.kick;
+  sums.damping += sum(lost) * s.kick;
+  sums.kinetic += sum(kinetic);
+}
+
+CDEM_KERNEL void relax_nodes(const MovingNodes& moving, double damping, Node* previous_force,
+                             NodeSums& sums) {
+  const MovingNodes nodes = moving;
+  Quad residual2{}, applied2{}, stiffness{}, inertia{}, external{}, lost{}, kinetic{};
+  const double keep = (2 - damping) / (2 + damping), push = 2 / (2 + damping);
+  for (std::int64_t i = 0; i < nodes.count; ++i) {
+    const Quad load = load_or_zero(nodes.external, i);
+    const Quad force =
+        simd::load(nodes.force[i]) + load_or_zero(nodes.internal, i) + load_or_zero(nodes.contact, i) + load;
+    const Quad before = simd::load(nodes.velocity[i]);
+    const double mass = nodes.mass[i];
+    const Quad velocity = keep * before + (push / mass) * force;
+    const Quad mean = 0.5 * (before + velocity);
+    residual2 += force * force;
+    applied2 += load * load;
+    stiffness -= before * (force - simd::load(previous_force[i]));
+    inertia += mass * before * before;
+    external += load * mean;
+    lost += mass * mean * mean;
+    kinetic += 0.5 * mass * velocity * velocity;
+    simd::store(previous_force[i], force);
+    simd::store(nodes.velocity[i], velocity);
+    simd::store(nodes.displacement[i], simd::load(nodes.displacement[i]) + velocity);
+  }
+  sums.residual2 += sum(residual2);
+  sums.applied2 += sum(applied2);
+  sums.stiffness += sum(stiffness);
+  sums.inertia += sum(inertia);
+  sums.external += sum(external);
+  sums.damping += damping * sum(lost);
+  sums.kinetic += sum(kinetic);
+}
+
+} // namespace cdem

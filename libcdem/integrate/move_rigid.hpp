@@ -1,0 +1,25 @@
+// One step of a rigid body: the forces on its nodes summed to a force and a torque about the centroid, Newton and Euler
+// by central differences (element/rigid_motion.hpp), and its nodes where it then is. Like step_nodes, with the velocity and the
+// angular momentum half a step before the places.
+#pragma once
+
+#include "libcdem/integrate/move_nodes.hpp"
+
+namespace cdem {
+
+// Loads and contacts on the nodes of a rigid body, about its centroid.
+struct RigidForces {
+  geom::Vec3 load = geom::Vec3::Zero(), load_torque = geom::Vec3::Zero();       // N, N m
+  geom::Vec3 contact = geom::Vec3::Zero(), contact_torque = geom::Vec3::Zero(); // N, N m
+};
+RigidForces rigid_forces(const Model&, const State&, const Workspace&, int rigid);
+
+// Local damping takes alpha |F| off each component of the force, and of the torque in the principal axes, against the
+// motion. Viscosity mu takes mu / rho times momentum and angular momentum. Nodes: displacements grow by velocity x time
+// step, the chord of the turn.
+void move_rigid(const Model&, State&, const Workspace&, int rigid, const Stepping&, NodeSums&);
+
+// Of one that is held and does not move, in a relaxation: its reaction.
+void hold_rigid(const Model&, const State&, const Workspace&, int rigid, NodeSums&);
+
+} // namespace cdem

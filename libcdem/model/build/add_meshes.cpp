@@ -1,0 +1,362 @@
+#include "libcdem/model/build/add_meshes.hpp"
+
+#include "libgeom/core/disjoint_sets.hpp"
+#include "libgeom/mesh/boundary.hpp"
+#include "libgeom/mesh/order.hpp"
+
+#include <cmath>
+#include <numeric>
+
+namespace cdem {
+namespace {
+
+// Tets of a chunk: their nodes and forces stay in the first cache, and 10k of them make twenty pieces.
+constexpr int tets_per_chunk = 512;
+
+// A mesh whose nodes are split along its bonded faces, in its own numbers.
+struct SplitMesh {
+  std::vector<geom::Tet> tets; // over copies of nodes, numbered by first touch
+  std::vector<int> original;   // per copy: node of the mesh
+};
+
+SplitMesh split_nodes(const geom::TetMesh& mesh, const std::vector<geom::InnerFace>& inner,
+                      const Bonding& bonding) {
+  geom::DisjointSets sets(4 * mesh.tets.size()); // of corners, 4 tet + corner
+  if (bonding.none()) {
+    std::vector<int> first(mesh.nodes.size(), -1);
+    for (int i = 0; i < static_cast<int>(4 * mesh.tets.size()); ++i) {
+      int& corner = first[mesh.tets[i / 4][i % 4]];
+      if (corner < 0)
+        corner = i;
+      sets.unite(corner, i);
+    }
+  }
+  for (const geom::InnerFace& face : inner) {
+    if (bonding.none() || bonding.bonds(mesh.region[face.tets[0]], mesh.region[face.tets[1]]))
+      continue;
+    for (int i = 0; i < 3; ++i)
+      sets.unite(4 * face.tets[0] + face.corners[0][i], 4 * face.tets[1] + face.corners[1][i]);
+  }
+  SplitMesh split;
+  split.tets.reserve(mesh.tets.size());
+  std::vector<int> copy(4 * mesh.tets.size(), -1);
+  for (int t = 0; t < static_cast<int>(mesh.tets.size()); ++t) {
+    geom::Tet tet{};
+    for (int corner = 0; corner < 4; ++corner) {
+      int& node = copy[sets.find(4 * t + corner)];
+      if (node < 0) {
+        node = static_cast<int>(split.original.size());
+        split.original.push_back(mesh.tets[t][corner]);
+      }
+      tet[corner] = node;
+    }
+    split.tets.push_back(tet);
+  }
+  return split;
+}
+
+double tet_volume(const geom::TetMesh& mesh, int t) {
+  const geom::Tet& n = mesh.tets[t];
+  const auto& x = mesh.nodes;
+  return (x[n[1]] - x[n[0]]).dot((x[n[2]] - x[n[0]]).cross(x[n[3]] - x[n[0]])) / 6;
+}
+
+// Gives the nodes a chunk touches their places: its own first, the others as they come.
+class Places {
+public:
+  explicit Places(std::size_t nodes) : place_(nodes, -1) {}
+  void start(Range own) {
+    for (const int node : others_)
+      place_[node] = -1;
+    others_.clear();
+    own_ = own;
+  }
+  std::uint16_t of(int node) {
+    if (node >= own_.begin && node < own_.end)
+      return static_cast<std::uint16_t>(node - own_.begin);
+    if (place_[node] < 0) {
+      place_[node] = static_cast<int>(own_.size()) + static_cast<int>(others_.size());
+      others_.push_back(node);
+    }
+    return static_cast<std::uint16_t>(place_[node]);
+  }
+  const std::vector<int>& others() const { return others_; }
+
+private:
+  std::vector<int> place_, others_;
+  Range own_;
+};
+
+struct BondedFace {
+  geom::InnerFace face;
+  double kn = 0, area = 0; // of one spring
+};
+
+std::vector<BondedFace> bonded_faces(const geom::TetMesh& mesh, const std::vector<geom::InnerFace>& inner,
+                                     const Body& body) {
+  std::vector<BondedFace> bonded;
+  for (const geom::InnerFace& face : inner) {
+    if (!body.bonding.bonds(mesh.region[face.tets[0]], mesh.region[face.tets[1]]))
+      continue;
+    const geom::Vec3 &x0 = mesh.nodes[face.nodes[0]], &x1 = mesh.nodes[face.nodes[1]],
+                     &x2 = mesh.nodes[face.nodes[2]];
+    const double area = 0.5 * (x1 - x0).cross(x2 - x0).norm();
+    const double d = 3 * (tet_volume(mesh, face.tets[0]) + tet_volume(mesh, face.tets[1])) / (4 * area);
+    bonded.push_back(
+        {face, body.bonding.stiffness_ratio * body.material.youngs_modulus * area / (3 * d), area / 3});
+  }
+  return bonded;
+}
+
+// Numbers the copies anew, chunk by chunk: first those that no other chunk touches. Returns for each chunk how many.
+std::vector<std::int64_t> inner_first(SplitMesh& split, const std::vector<BondedFace>& faces) {
+  const std::size_t nodes = split.original.size();
+  std::vector<int> owner(nodes, -1);
+  std::vector<char> shared(nodes, 0);
+  const auto touch = [&](int node, int tet) {
+    const int chunk = tet / tets_per_chunk;
+    if (owner[node] < 0)
+      owner[node] = chunk;
+    shared[node] |= static_cast<char>(owner[node] != chunk);
+  };
+  for (int t = 0; t < static_cast<int>(split.tets.size()); ++t)
+    for (const int node : split.tets[t])
+      touch(node, t);
+  for (const BondedFace& f : faces) // their forces are summed where the tet of side a is
+    for (const int corner : f.face.corners[1])
+      touch(split.tets[f.face.tets[1]][corner], f.face.tets[0]);
+
+  std::vector<int> order(nodes), number(nodes), original(nodes);
+  std::iota(order.begin(), order.end(), 0);
+  std::stable_sort(order.begin(), order.end(), [&](int a, int b) {
+    return owner[a] != owner[b] ? owner[a] < owner[b] : shared[a] < shared[b];
+  });
+  std::vector<std::int64_t> inner((split.tets.size() + tets_per_chunk - 1) / tets_per_chunk);
+  for (std::size_t i = 0; i < nodes; ++i) {
+    number[order[i]] = static_cast<int>(i);
+    original[i] = split.original[order[i]];
+    inner[owner[order[i]]] += shared[order[i]] ? 0 : 1;
+  }
+  split.original = std::move(original);
+  for (geom::Tet& tet : split.tets)
+    for (int& node : tet)
+      node = number[node];
+  return inner;
+}
+
+void add_faces(MeshData& data, const std::vector<BondedFace>& faces, int first_tet,
+               const std::vector<geom::Tet>& tets, Places& places) {
+  for (std::size_t begin = 0; begin < faces.size(); begin += lanes) {
+    FaceBatch batch{};
+    for (int lane = 0; lane < lanes; ++lane) {
+      const bool used = begin + lane < faces.size();
+      const BondedFace& f = faces[used ? begin + lane : begin];
+      for (int i = 0; i < 3; ++i) {
+        const int a = tets[first_tet + f.face.tets[0]][f.face.corners[0][i]];
+        const int b = tets[first_tet + f.face.tets[1]][f.face.corners[1][i]];
+        batch.place_a[i][lane] = places.of(a);
+        batch.place_b[i][lane] = places.of(b);
+      }
+      batch.kn[lane] = used ? f.kn : 0;
+      batch.area[lane] = f.area;
+      data.face_tets.push_back(used ? FaceTets{first_tet + f.face.tets[0], first_tet + f.face.tets[1]}
+                                    : FaceTets{});
+    }
+    data.faces.push_back(batch);
+  }
+}
+
+void add_tets(MeshData& data, Range tets, const std::vector<geom::Tet>& all, Places& places) {
+  for (std::int64_t begin = tets.begin; begin < tets.end; begin += lanes) {
+    MeshBatch batch{};
+    for (int lane = 0; lane < lanes; ++lane) {
+      const bool used = begin + lane < tets.end;
+      const geom::Tet& tet = all[used ? begin + lane : begin];
+      for (int corner = 0; corner < 4; ++corner)
+        batch.place[corner][lane] = places.of(tet[corner]);
+      if (used)
+        data.tet_slot.push_back(static_cast<int>(data.batches.size()) * lanes + lane);
+    }
+    data.batches.push_back(batch);
+  }
+}
+
+// Those a chunk is the first to touch follow each other.
+int nodes_end(const std::vector<geom::Tet>& tets, Range range, int begin) {
+  int end = begin;
+  for (std::int64_t t = range.begin; t < range.end; ++t)
+    for (const int node : tets[t])
+      end = std::max(end, node + 1);
+  return end;
+}
+
+void add_nodes(Model& model, const geom::TetMesh& mesh, const SplitMesh& split, int block) {
+  const double density = model.bodies[model.blocks[block].body].material.density;
+  const int first = model.blocks[block].node_begin;
+  const int first_original =
+      model.mesh.original.empty()
+          ? 0
+          : *std::max_element(model.mesh.original.begin(), model.mesh.original.end()) + 1;
+  for (const int original : split.original) {
+    model.node_position.push_back(mesh.nodes[original]);
+    model.mesh.original.push_back(first_original + original);
+  }
+  model.node_mass.resize(model.node_position.size(), 0.0);
+  for (int t = 0; t < static_cast<int>(split.tets.size()); ++t) {
+    geom::Tet tet = split.tets[t];
+    const double volume = tet_volume(mesh, t);
+    for (int& node : tet) {
+      node += first;
+      model.node_mass[node] += density * volume / 4;
+    }
+    model.tets.push_back(tet);
+    model.tet_block.push_back(block);
+  }
+}
+
+void add_boundary(Model& model, const std::vector<geom::OuterFace>& outer, int block) {
+  const int first_tet = model.blocks[block].tet_begin;
+  for (const geom::OuterFace& face : outer) {
+    BoundaryTriangle triangle;
+    triangle.block = block;
+    triangle.tet = first_tet + face.tet;
+    for (int i = 0; i < 3; ++i)
+      triangle.nodes[i] = model.tets[triangle.tet][geom::tet_faces[face.face][i]];
+    const auto& x = model.node_position;
+    const geom::Vec3 area =
+        0.5 *
+        (x[triangle.nodes[1]] - x[triangle.nodes[0]]).cross(x[triangle.nodes[2]] - x[triangle.nodes[0]]);
+    OuterFace side;
+    side.block = block;
+    side.boundary = static_cast<int>(model.mesh.boundary.size());
+    side.area = area.norm();
+    side.normal = area / side.area;
+    model.outer_faces.push_back(std::move(side));
+    model.mesh.boundary.push_back(triangle);
+  }
+}
+
+void add_chunks(Model& model, const std::vector<BondedFace>& faces, const std::vector<std::int64_t>& inner,
+                int block, Places& places) {
+  MeshData& data = model.mesh;
+  const Block& b = model.blocks[block];
+  std::size_t face = 0;
+  int node = b.node_begin;
+  for (int begin = b.tet_begin; begin < b.tet_end; begin += tets_per_chunk) {
+    MeshChunk chunk;
+    chunk.block = block;
+    chunk.tets = {begin, std::min(b.tet_end, begin + tets_per_chunk)};
+    chunk.nodes = {node, nodes_end(model.tets, chunk.tets, node)};
+    chunk.inner_end = chunk.nodes.begin + inner[(begin - b.tet_begin) / tets_per_chunk];
+    node = static_cast<int>(chunk.nodes.end);
+    places.start(chunk.nodes);
+    chunk.batches.begin = static_cast<std::int64_t>(data.batches.size());
+    add_tets(data, chunk.tets, model.tets, places);
+    chunk.batches.end = static_cast<std::int64_t>(data.batches.size());
+
+    std::vector<BondedFace> own;
+    for (; face < faces.size() && b.tet_begin + faces[face].face.tets[0] < chunk.tets.end; ++face)
+      own.push_back(faces[face]);
+    chunk.faces = static_cast<int>(own.size());
+    chunk.face_batches.begin = static_cast<std::int64_t>(data.faces.size());
+    add_faces(data, own, b.tet_begin, model.tets, places);
+    chunk.face_batches.end = static_cast<std::int64_t>(data.faces.size());
+
+    chunk.others.begin = static_cast<std::int64_t>(data.others.size());
+    data.others.insert(data.others.end(), places.others().begin(), places.others().end());
+    chunk.others.end = static_cast<std::int64_t>(data.others.size());
+    chunk.partial.begin = data.chunks.empty() ? 0 : data.chunks.back().partial.end;
+    chunk.partial.end = chunk.partial.begin + chunk.nodes.end - chunk.inner_end + chunk.others.size();
+    data.chunks.push_back(chunk);
+
+    BlockChunk step;
+    step.blocks = {block, block}; // it owns no whole block
+    step.nodes = chunk.nodes;
+    model.chunks.push_back(step);
+  }
+}
+
+void add_shares(Model& model) {
+  MeshData& data = model.mesh;
+  const int first = data.first_node;
+  std::vector<int> rank(model.node_position.size() - static_cast<std::size_t>(first),
+                        -1); // among shared nodes
+  int shared = 0;
+  for (MeshChunk& chunk : data.chunks) {
+    chunk.share_begin = shared;
+    for (std::int64_t node = chunk.inner_end; node < chunk.nodes.end; ++node)
+      rank[node - first] = shared++;
+  }
+  // Of the partial forces, in their order: visit(rank of the node, place).
+  const auto each = [&](const auto& visit) {
+    for (const MeshChunk& chunk : data.chunks) {
+      auto place = static_cast<int>(chunk.partial.begin);
+      for (std::int64_t node = chunk.inner_end; node < chunk.nodes.end; ++node)
+        visit(rank[node - first], place++);
+      for (std::int64_t i = chunk.others.begin; i < chunk.others.end; ++i)
+        visit(rank[data.others[i] - first], place++);
+    }
+  };
+  data.share_begin.assign(static_cast<std::size_t>(shared) + 1, 0);
+  each([&](int node, int) { ++data.share_begin[node + 1]; });
+  std::partial_sum(data.share_begin.begin(), data.share_begin.end(), data.share_begin.begin());
+  std::vector<int> next(data.share_begin.begin(), data.share_begin.end() - 1);
+  data.shares.resize(data.share_begin.back());
+  each([&](int node, int place) { data.shares[next[node]++] = place; });
+}
+
+} // namespace
+
+geom::Vec3 face_point(const Model& model, const MeshChunk& chunk, const FaceSpringPlace& at) {
+  const FaceNodes nodes = face_nodes(model.mesh, chunk, at.batch, at.lane);
+  geom::Vec3 x = geom::Vec3::Zero();
+  for (int i = 0; i < 3; ++i)
+    x += (i == at.point ? 2.0 / 3 : 1.0 / 6) * model.node_position[nodes.a[i]];
+  return x;
+}
+
+FaceLaw face_law(const Body& body) {
+  return {body.bonding.shear_ratio, body.joint.tensile_strength, body.joint.cohesion,
+          std::tan(body.joint.friction_angle)};
+}
+
+TetStiffness tet_stiffness(const Elastic& material) {
+  return {material.lame_lambda(), 2 * material.shear_modulus()};
+}
+
+void add_meshes(Model& model, std::vector<MeshSeed>&& seeds) {
+  model.mesh.first_node = static_cast<int>(model.node_position.size());
+  model.mesh.first_tet = static_cast<int>(model.tets.size());
+  for (MeshSeed& seed : seeds) {
+    const geom::TetMesh mesh = geom::ordered(seed.mesh);
+    seed.mesh = {};
+    const std::vector<geom::InnerFace> inner = geom::inner_faces(mesh);
+    const Body& body = model.bodies[seed.body];
+    const std::vector<BondedFace> bonded = bonded_faces(mesh, inner, body);
+    SplitMesh split = split_nodes(mesh, inner, body.bonding);
+    const std::vector<std::int64_t> inner_nodes = inner_first(split, bonded);
+
+    const int index = static_cast<int>(model.blocks.size());
+    Block block;
+    block.id = seed.id ? seed.id : model.next_id++;
+    block.body = seed.body;
+    block.meshed = true;
+    block.mass = geom::mass_properties(mesh);
+    block.size = block.first_size = std::cbrt(block.mass.volume);
+    block.node_begin = static_cast<int>(model.node_position.size());
+    block.node_end = block.node_begin + static_cast<int>(split.original.size());
+    block.tet_begin = static_cast<int>(model.tets.size());
+    block.tet_end = block.tet_begin + static_cast<int>(mesh.tets.size());
+    model.blocks.push_back(std::move(block));
+    add_nodes(model, mesh, split, index);
+    for (const auto& [name, faces] : mesh.named)
+      for (const int face : faces)
+        model.mesh.named[{seed.body, name}].push_back(static_cast<int>(model.mesh.boundary.size()) + face);
+    add_boundary(model, geom::outer_faces(mesh), index);
+    Places places(model.node_position.size());
+    add_chunks(model, bonded, inner_nodes, index, places);
+  }
+  add_shares(model);
+}
+
+} // namespace cdem

@@ -1,0 +1,302 @@
+#include "libcdem/model/build/build_model.hpp"
+
+#include "libcdem/element/rigid_inertia.hpp"
+#include "libcdem/model/build/contact_surface.hpp"
+#include "libgeom/assembly/assembly.hpp"
+#include "libgeom/core/error.hpp"
+#include "libgeom/mesh/star_mesh.hpp"
+#include "libgeom/query/face_overlap.hpp"
+
+#include <cmath>
+
+namespace cdem {
+namespace {
+
+// Places nearer than this part of a block's size are one.
+constexpr double relative_tolerance = 1e-7;
+// Blocks of a chunk: enough tets to fill the caches' lines, few enough to share a small model among threads.
+constexpr int tets_per_chunk = 384;
+constexpr int points_per_chunk = 512;
+
+// Returns the fans of the block's faces, in its own node numbers.
+std::vector<std::vector<geom::Triangle>> add_block(Model& model, BlockSeed&& seed) {
+  Block block;
+  block.id = seed.id;
+  block.parent = seed.parent;
+  block.generation = seed.generation;
+  block.body = seed.body;
+  block.shape = std::move(seed.shape);
+  block.mass = geom::mass_properties(block.shape);
+  block.size = std::cbrt(block.mass.volume);
+  block.first_size = seed.first_size > 0 ? seed.first_size : block.size;
+
+  geom::StarMesh mesh = geom::star_mesh(block.shape);
+  const int index = static_cast<int>(model.blocks.size());
+  block.node_begin = static_cast<int>(model.node_position.size());
+  block.node_end = block.node_begin + static_cast<int>(mesh.nodes.size());
+  block.tet_begin = static_cast<int>(model.tets.size());
+  block.tet_end = block.tet_begin + static_cast<int>(mesh.tets.size());
+  model.node_position.insert(model.node_position.end(), mesh.nodes.begin(), mesh.nodes.end());
+  model.node_mass.resize(block.node_end, 0.0);
+  const double density = model.bodies[block.body].material.density;
+  for (geom::Tet tet : mesh.tets) {
+    for (int& node : tet)
+      node += block.node_begin;
+    const auto& x = model.node_position;
+    const double volume =
+        (x[tet[1]] - x[tet[0]]).dot((x[tet[2]] - x[tet[0]]).cross(x[tet[3]] - x[tet[0]])) / 6;
+    for (const int node : tet) {
+      model.node_mass[node] += density * volume / 4;
+    }
+    model.tets.push_back(tet);
+    model.tet_block.push_back(index);
+  }
+  model.blocks.push_back(std::move(block));
+  return std::move(mesh.fans);
+}
+
+TetBatch make_batch(const Model& model, const std::vector<int>& tets) {
+  TetBatch batch{};
+  for (int lane = 0; lane < lanes; ++lane) {
+    // A lane past the end repeats the first tet with modulus 0: it adds zeros.
+    const bool used = lane < static_cast<int>(tets.size());
+    const int t = tets[used ? lane : 0];
+    const geom::Tet& tet = model.tets[t];
+    const auto& x = model.node_position;
+    const geom::Vec3 e1 = x[tet[1]] - x[tet[0]], e2 = x[tet[2]] - x[tet[0]], e3 = x[tet[3]] - x[tet[0]];
+    const double six_volume = e1.dot(e2.cross(e3));
+    const geom::Vec3 g[3] = {e2.cross(e3) / six_volume, e3.cross(e1) / six_volume, e1.cross(e2) / six_volume};
+    const Elastic& material = model.bodies[model.blocks[model.tet_block[t]].body].material;
+    for (int corner = 0; corner < 4; ++corner)
+      batch.node[corner][lane] = tet[corner];
+    for (int k = 0; k < 3; ++k)
+      for (int axis = 0; axis < 3; ++axis)
+        batch.grad[3 * k + axis][lane] = g[k][axis];
+    const double volume = used ? six_volume / 6 : 0;
+    batch.lambda_volume[lane] = material.lame_lambda() * volume;
+    batch.two_g_volume[lane] = 2 * material.shear_modulus() * volume;
+  }
+  return batch;
+}
+
+void add_chunks(Model& model) {
+  const auto n_blocks = static_cast<std::int64_t>(model.blocks.size());
+  for (std::int64_t begin = 0; begin < n_blocks;) {
+    std::int64_t end = begin;
+    const int tet_begin = model.blocks[begin].tet_begin;
+    while (end < n_blocks && model.blocks[end].tet_end - tet_begin <= tets_per_chunk)
+      ++end;
+    end = std::max(end, begin + 1);
+    BlockChunk chunk;
+    chunk.blocks = {begin, end};
+    chunk.nodes = {model.blocks[begin].node_begin, model.blocks[end - 1].node_end};
+    chunk.batches.begin = static_cast<std::int64_t>(model.batches.size());
+    std::vector<int> tets;
+    for (int t = tet_begin; t < model.blocks[end - 1].tet_end; ++t) {
+      tets.push_back(t);
+      if (tets.size() == lanes || t + 1 == model.blocks[end - 1].tet_end) {
+        model.batches.push_back(make_batch(model, tets));
+        tets.clear();
+      }
+    }
+    chunk.batches.end = static_cast<std::int64_t>(model.batches.size());
+    model.chunks.push_back(chunk);
+    begin = end;
+  }
+  model.point_chunks = split(static_cast<std::int64_t>(model.points.size()), points_per_chunk);
+}
+
+// Stiffness per area of two half layers of thickness L/2 in series (Han 2010 eq 8 when the two materials are one).
+void set_stiffness(const Model& model, Interface& interface) {
+  const Elastic& a = model.bodies[model.blocks[interface.block_a].body].material;
+  const Elastic& b = model.bodies[model.blocks[interface.block_b].body].material;
+  const Joint& joint = model.joints[interface.joint];
+  const auto series = [&](double p, double q) { return 2 / (interface.thickness * (1 / p + 1 / q)); };
+  interface.kn = joint.normal_stiffness.value_or(series(a.youngs_modulus, b.youngs_modulus));
+  interface.ks = joint.shear_stiffness.value_or(series(a.shear_modulus(), b.shear_modulus()));
+  validate(joint, interface.kn, interface.ks);
+}
+
+std::vector<geom::Vec3> block_nodes(const Model& model, const Block& block) {
+  return {model.node_position.begin() + block.node_begin, model.node_position.begin() + block.node_end};
+}
+
+void add_interface(Model& model, const geom::SharedFace& pair, const InterfaceRule& rule,
+                   const std::vector<std::vector<std::vector<geom::Triangle>>>& fans) {
+  const Block& a = model.blocks[pair.block_a];
+  const Block& b = model.blocks[pair.block_b];
+  Interface interface;
+  interface.block_a = pair.block_a;
+  interface.face_a = pair.face_a;
+  interface.block_b = pair.block_b;
+  interface.face_b = pair.face_b;
+  interface.normal = geom::face_normal(a.shape, pair.face_a);
+  const double tolerance = relative_tolerance * std::min(a.size, b.size);
+  const geom::FaceOverlap faces =
+      geom::overlap(block_nodes(model, a), fans[pair.block_a][pair.face_a], block_nodes(model, b),
+                    fans[pair.block_b][pair.face_b], interface.normal, tolerance);
+  if (faces.points.empty())
+    return;
+
+  const InterfaceTraits traits = rule(model, pair.block_a, pair.face_a, pair.block_b, pair.face_b);
+  interface.id = traits.id ? traits.id : model.next_id++;
+  interface.joint = traits.joint;
+  interface.thickness = traits.thickness;
+  interface.origin = traits.origin;
+  interface.may_break = traits.may_break;
+  set_stiffness(model, interface);
+
+  interface.point_begin = static_cast<int>(model.points.size());
+  interface.triangle_begin = static_cast<int>(model.bond_triangles.size());
+  for (const geom::OverlapPoint& p : faces.points) {
+    BondPoint point;
+    for (int k = 0; k < 3; ++k) {
+      point.node_a[k] = a.node_begin + p.nodes_a[k];
+      point.node_b[k] = b.node_begin + p.nodes_b[k];
+    }
+    point.weight_a = p.weights_a;
+    point.weight_b = p.weights_b;
+    point.normal = interface.normal;
+    point.area = p.area;
+    point.kn_area = interface.kn * p.area;
+    point.ks_area = interface.ks * p.area;
+    point.interface = static_cast<int>(model.interfaces.size());
+    point.one_to_one = p.weights_a[0] == 1 && p.weights_b[0] == 1;
+    model.points.push_back(point);
+    model.point_position.push_back(p.position);
+  }
+  for (geom::Triangle triangle : faces.triangles) {
+    for (int& corner : triangle)
+      corner += interface.point_begin;
+    model.bond_triangles.push_back(triangle);
+  }
+  interface.point_end = static_cast<int>(model.points.size());
+  interface.triangle_end = static_cast<int>(model.bond_triangles.size());
+  model.interfaces.push_back(interface);
+}
+
+void add_bonds_on_nodes(Model& model) {
+  std::vector<std::int64_t> begin(model.node_position.size() + 1, 0);
+  const auto each_end = [&](const auto& visit) {
+    for (int p = 0; p < static_cast<int>(model.points.size()); ++p)
+      for (int k = 0; k < 3; ++k) {
+        const BondPoint& point = model.points[p];
+        if (point.weight_a[k] != 0)
+          visit(point.node_a[k], p, point.weight_a[k]);
+        if (point.weight_b[k] != 0)
+          visit(point.node_b[k], p, -point.weight_b[k]);
+      }
+  };
+  each_end([&](int node, int, double) { ++begin[node + 1]; });
+  for (std::size_t i = 1; i < begin.size(); ++i)
+    begin[i] += begin[i - 1];
+  model.bonds_on_nodes.resize(begin.back());
+  std::vector<std::int64_t> next(begin.begin(), begin.end() - 1);
+  each_end([&](int node, int p, double weight) { model.bonds_on_nodes[next[node]++] = {p, weight}; });
+  model.bond_begin = std::move(begin);
+}
+
+// A face's nodes carry the integral of their shape functions over the face less that over what other faces cover.
+void add_outer_faces(Model& model, const std::vector<std::vector<std::vector<geom::Triangle>>>& fans) {
+  std::map<std::pair<int, int>, std::map<int, double>> covered;
+  for (const Interface& interface : model.interfaces)
+    for (int p = interface.point_begin; p < interface.point_end; ++p)
+      for (int k = 0; k < 3; ++k) {
+        const BondPoint& point = model.points[p];
+        covered[{interface.block_a, interface.face_a}][point.node_a[k]] += point.area * point.weight_a[k];
+        covered[{interface.block_b, interface.face_b}][point.node_b[k]] += point.area * point.weight_b[k];
+      }
+  for (int b = 0; b < static_cast<int>(model.blocks.size()); ++b) {
+    const Block& block = model.blocks[b];
+    for (int f = 0; f < static_cast<int>(block.shape.faces.size()); ++f) {
+      std::map<int, double> node_area;
+      double area = 0;
+      for (const geom::Triangle& t : fans[b][f]) {
+        const geom::Vec3& x0 = model.node_position[block.node_begin + t[0]];
+        const geom::Vec3& x1 = model.node_position[block.node_begin + t[1]];
+        const geom::Vec3& x2 = model.node_position[block.node_begin + t[2]];
+        const double triangle_area = 0.5 * (x1 - x0).cross(x2 - x0).norm();
+        area += triangle_area;
+        for (const int corner : t)
+          node_area[block.node_begin + corner] += triangle_area / 3;
+      }
+      const double whole = area;
+      const auto cover = covered.find({b, f});
+      if (cover != covered.end())
+        for (const auto& [node, covered_area] : cover->second) {
+          node_area[node] -= covered_area;
+          area -= covered_area;
+        }
+      if (area <= 1e-9 * whole)
+        continue;
+      OuterFace outer;
+      outer.block = b;
+      outer.face = f;
+      outer.normal = geom::face_normal(block.shape, f);
+      outer.area = area;
+      outer.node_area.assign(node_area.begin(), node_area.end());
+      model.outer_faces.push_back(std::move(outer));
+    }
+  }
+}
+
+} // namespace
+
+InterfaceTraits default_traits(const Model& model, int block_a, int, int block_b, int) {
+  const Block& a = model.blocks[block_a];
+  const Block& b = model.blocks[block_b];
+  const auto pair = std::minmax(a.body, b.body);
+  const auto found = model.pair_joint.find(pair);
+  if (found == model.pair_joint.end())
+    throw geom::InputError(
+        "contacts: bodies \"" + model.bodies[pair.first].name + "\" and \"" + model.bodies[pair.second].name +
+        "\" touch but no joint between them is given; add {\"" + model.bodies[pair.first].name + "\", \"" +
+        model.bodies[pair.second].name + "\", joint} to contacts");
+  InterfaceTraits traits;
+  traits.joint = found->second;
+  const Joint& joint = model.joints[traits.joint];
+  traits.thickness = joint.thickness.value_or(joint.thickness_ratio * 0.5 * (a.first_size + b.first_size));
+  return traits;
+}
+
+Model build_model(const Model& frame, std::vector<BlockSeed> seeds, const InterfaceRule& rule,
+                  std::vector<MeshSeed> meshes) {
+  Model model;
+  model.bodies = frame.bodies;
+  model.joints = frame.joints;
+  model.pair_joint = frame.pair_joint;
+  model.next_id = frame.next_id;
+  model.surface.joint = frame.surface.joint;
+
+  std::vector<geom::Polyhedron> shapes;
+  std::vector<std::vector<std::vector<geom::Triangle>>> fans;
+  double smallest = std::numeric_limits<double>::infinity();
+  shapes.reserve(seeds.size());
+  fans.reserve(seeds.size());
+  model.blocks.reserve(seeds.size());
+  for (BlockSeed& seed : seeds) {
+    if (seed.id == 0)
+      seed.id = model.next_id++;
+    fans.push_back(add_block(model, std::move(seed)));
+    shapes.push_back(model.blocks.back().shape);
+    smallest = std::min(smallest, model.blocks.back().size);
+  }
+  for (const geom::SharedFace& pair : geom::shared_faces(shapes, relative_tolerance * smallest))
+    add_interface(model, pair, rule, fans);
+  add_outer_faces(model, fans);
+  add_chunks(model);
+  add_meshes(model, std::move(meshes));
+  add_rigid_bodies(model);
+  add_bonds_on_nodes(model);
+  build_surface(model);
+
+  for (const Block& block : model.blocks)
+    smallest = std::min(smallest, block.size);
+  for (const geom::Vec3& x : model.node_position)
+    model.box.extend(x);
+  model.length = model.box.size().norm();
+  model.tolerance = relative_tolerance * smallest;
+  return model;
+}
+
+} // namespace cdem

@@ -1,0 +1,38 @@
+// From shapes to a Model: star meshes, node numbering, interfaces with their springs, uncovered faces, chunks.
+#pragma once
+
+#include "libcdem/model/build/add_meshes.hpp"
+
+#include <functional>
+
+namespace cdem {
+
+// A block before it is meshed.
+struct BlockSeed {
+  std::int64_t id = 0, parent = -1;
+  int generation = 0;
+  int body = 0;
+  geom::Polyhedron shape;
+  double first_size = 0; // h of the generation-0 block, m; 0 = this is one
+};
+
+// What an interface is made with; the default asks the bodies. fracture/ passes one that remembers the old interface.
+struct InterfaceTraits {
+  std::int64_t id = 0;
+  int joint = 0;
+  double thickness = 0; // L, m
+  InterfaceOrigin origin = InterfaceOrigin::original;
+  bool may_break = true;
+};
+using InterfaceRule =
+    std::function<InterfaceTraits(const Model&, int block_a, int face_a, int block_b, int face_b)>;
+
+// bodies, joints, pair_joint and next_id of `frame` are taken over. Throws geom::InputError for overlapping or
+// touching bodies without a joint.
+Model build_model(const Model& frame, std::vector<BlockSeed> blocks, const InterfaceRule& rule,
+                  std::vector<MeshSeed> meshes = {});
+
+// The rule of a first model: the body's own joint, or that of the pair of bodies; L from the joint.
+InterfaceTraits default_traits(const Model&, int block_a, int face_a, int block_b, int face_b);
+
+} // namespace cdem

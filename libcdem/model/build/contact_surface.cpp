@@ -1,0 +1,157 @@
+#include "libcdem/model/build/contact_surface.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+namespace cdem {
+namespace {
+
+geom::Vec3 area_vector(const Model& model, const geom::Triangle& n) {
+  const auto& x = model.node_position;
+  return 0.5 * (x[n[1]] - x[n[0]]).cross(x[n[2]] - x[n[0]]);
+}
+
+ContactTriangle make_triangle(const Model& model, const geom::Triangle& nodes, int tet) {
+  const geom::Tet& t = model.tets[tet];
+  const auto& x = model.node_position;
+  const double volume = (x[t[1]] - x[t[0]]).dot((x[t[2]] - x[t[0]]).cross(x[t[3]] - x[t[0]])) / 6;
+  ContactTriangle triangle;
+  triangle.nodes = nodes;
+  triangle.tet = tet;
+  triangle.block = model.tet_block[tet];
+  triangle.area = area_vector(model, nodes).norm();
+  triangle.height = 3 * volume / triangle.area;
+  triangle.compliance =
+      triangle.height / model.bodies[model.blocks[triangle.block].body].material.youngs_modulus;
+  return triangle;
+}
+
+// A flat tet at the surface neither makes the contact there stiffer nor lets less into it: its height counts as a third
+// of what is usual at the block's outside, at least.
+void raise_flat_ones(Model& model, int begin, int outer_end) {
+  auto& triangles = model.surface.triangles;
+  model.surface.usual_height.push_back(0);
+  std::vector<double> heights;
+  for (int t = begin; t < outer_end; ++t)
+    heights.push_back(triangles[t].height);
+  if (heights.empty())
+    return;
+  const auto middle = heights.begin() + static_cast<std::ptrdiff_t>(heights.size() / 2);
+  std::nth_element(heights.begin(), middle, heights.end());
+  model.surface.usual_height.back() = *middle;
+  for (int t = begin; t < static_cast<int>(triangles.size()); ++t) {
+    const double height = std::max(triangles[t].height, *middle / 3);
+    triangles[t].compliance *= height / triangles[t].height;
+    triangles[t].height = height;
+  }
+}
+
+// The two sides of the bonded faces of a block, each the other's mate.
+void add_inner_faces(Model& model, int block) {
+  auto& triangles = model.surface.triangles;
+  for (const MeshChunk& chunk : model.mesh.chunks) {
+    if (chunk.block != block)
+      continue;
+    for (int i = 0; i < chunk.faces; ++i) {
+      const std::int64_t face = chunk.face_batches.begin * lanes + i;
+      const FaceTets& tets = model.mesh.face_tets[face];
+      const FaceNodes nodes = face_nodes(model.mesh, chunk, face / lanes, static_cast<int>(face % lanes));
+      const auto first = static_cast<int>(triangles.size());
+      triangles.push_back(make_triangle(model, nodes.a, tets.tet_a));
+      triangles.push_back(make_triangle(model, nodes.outward_b(), tets.tet_b));
+      for (int side = 0; side < 2; ++side) {
+        triangles[first + side].face = static_cast<int>(face);
+        triangles[first + side].mate = first + 1 - side;
+      }
+    }
+  }
+}
+
+// Convex edges between two outer triangles of a block, by the first of them.
+void add_edges(Model& model, int begin, int end) {
+  ContactSurface& s = model.surface;
+  struct Side {
+    int triangle, corner; // the edge runs from this corner to the next
+  };
+  std::map<std::pair<int, int>, std::vector<Side>> sides;
+  for (int t = begin; t < end; ++t)
+    for (int corner = 0; corner < 3; ++corner) {
+      const int a = s.original[s.triangles[t].nodes[corner]],
+                b = s.original[s.triangles[t].nodes[(corner + 1) % 3]];
+      sides[std::minmax(a, b)].push_back({t, corner});
+    }
+  std::vector<ContactEdge> found;
+  for (const auto& [nodes, both] : sides)
+    if (both.size() == 2) // not where parts of the outside touch along an edge
+      if (const auto edge =
+              convex_edge(model, both[0].triangle, both[0].corner, both[1].triangle, both[1].corner))
+        found.push_back(*edge);
+  std::sort(found.begin(), found.end(),
+            [](const ContactEdge& a, const ContactEdge& b) { return a.id() < b.id(); });
+  s.edges.insert(s.edges.end(), found.begin(), found.end());
+}
+
+} // namespace
+
+void build_surface(Model& model) {
+  ContactSurface& s = model.surface;
+  s.triangles.clear();
+  s.edges.clear();
+  s.block_begin.clear();
+  s.usual_height.clear();
+  const auto touches_itself = [&](int body) { return s.joint.count({body, body}) > 0; };
+  const auto meshed = std::count_if(model.blocks.begin(), model.blocks.end(),
+                                    [](const Block& block) { return block.meshed; });
+  if (meshed < 2 && s.joint.empty())
+    return;
+  s.original.assign(model.node_position.size(), -1);
+  for (std::size_t i = 0; i < model.mesh.original.size(); ++i)
+    s.original[static_cast<std::size_t>(model.mesh.first_node) + i] = model.mesh.original[i];
+  std::size_t next = 0;
+  s.block_begin.push_back(0);
+  for (int b = 0; b < static_cast<int>(model.blocks.size()); ++b) {
+    const int begin = static_cast<int>(s.triangles.size());
+    for (; next < model.mesh.boundary.size() && model.mesh.boundary[next].block == b; ++next)
+      s.triangles.push_back(
+          make_triangle(model, model.mesh.boundary[next].nodes, model.mesh.boundary[next].tet));
+    const int outer_end = static_cast<int>(s.triangles.size());
+    add_edges(model, begin, outer_end);
+    if (model.blocks[b].meshed && touches_itself(model.blocks[b].body))
+      add_inner_faces(model, b);
+    raise_flat_ones(model, begin, outer_end);
+    s.block_begin.push_back(static_cast<int>(s.triangles.size()));
+  }
+}
+
+ContactEdge edge_between(const ContactSurface& s, int triangle_a, int corner_a, int triangle_b,
+                         int corner_b) {
+  const bool a_first = triangle_a < triangle_b;
+  const int triangle = a_first ? triangle_a : triangle_b, corner = a_first ? corner_a : corner_b;
+  const geom::Triangle& n = s.triangles[triangle].nodes;
+  return {{n[corner], n[(corner + 1) % 3]}, {triangle, a_first ? triangle_b : triangle_a}, corner};
+}
+
+std::optional<ContactEdge> convex_edge(const Model& model, int triangle_a, int corner_a, int triangle_b,
+                                       int corner_b) {
+  const ContactSurface& s = model.surface;
+  const geom::Triangle &n = s.triangles[triangle_a].nodes, &m = s.triangles[triangle_b].nodes;
+  const geom::Vec3 u = area_vector(model, n).normalized(), v = area_vector(model, m).normalized();
+  const geom::Vec3 away = model.node_position[m[(corner_b + 2) % 3]] - model.node_position[n[corner_a]];
+  if (away.dot(u) >= 0 || std::acos(std::clamp(u.dot(v), -1.0, 1.0)) < least_edge_turn)
+    return std::nullopt;
+  return edge_between(s, triangle_a, corner_a, triangle_b, corner_b);
+}
+
+ContactStiffness contact_stiffness(const Joint& joint, double compliance) {
+  const double normal = joint.normal_stiffness.value_or(1 / compliance);
+  return {normal, joint.shear_stiffness.value_or(normal)};
+}
+
+const Joint* contact_joint(const Model& model, int block_a, int block_b) {
+  const auto found =
+      model.surface.joint.find(std::minmax(model.blocks[block_a].body, model.blocks[block_b].body));
+  return found == model.surface.joint.end() ? nullptr : &model.joints[found->second];
+}
+
+} // namespace cdem

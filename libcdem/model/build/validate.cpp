@@ -1,0 +1,110 @@
+#include "libcdem/material/elastic.hpp"
+
+#include "libcdem/joint/joint.hpp"
+#include "libgeom/core/error.hpp"
+
+#include <cmath>
+#include <fmt/format.h>
+
+namespace cdem {
+namespace {
+
+constexpr double degree = 3.14159265358979323846 / 180;
+
+void require(bool ok, const char* field, double value, const char* allowed, const char* advice = "") {
+  if (!ok)
+    throw geom::InputError(field, fmt::format("{:g}", value), allowed, advice);
+}
+
+bool positive(double x) {
+  return std::isfinite(x) && x > 0;
+}
+bool not_negative(double x) {
+  return std::isfinite(x) && x >= 0;
+}
+
+void validate_softening(const Joint& j) {
+  const char* const energies = "a finite number > 0 J/m2";
+  const char* const advice =
+      "a softening bond needs both fracture energies; with softening = none it is brittle";
+  if (j.softening == Softening::none) {
+    const char* const none = "left out without softening";
+    const char* const choose =
+        "a brittle bond has no fracture energy; choose softening = linear or exponential";
+    require(j.fracture_energy_1 == 0, "fracture_energy_1", j.fracture_energy_1, none, choose);
+    require(j.fracture_energy_2 == 0, "fracture_energy_2", j.fracture_energy_2, none, choose);
+    return;
+  }
+  if (!j.bonded)
+    throw geom::InputError("softening", j.softening == Softening::linear ? "linear" : "exponential",
+                           "none for a joint that is not bonded", "a contact has no strength to lose");
+  require(positive(j.fracture_energy_1), "fracture_energy_1", j.fracture_energy_1, energies, advice);
+  require(positive(j.fracture_energy_2), "fracture_energy_2", j.fracture_energy_2, energies, advice);
+  require(positive(j.cohesion), "cohesion", j.cohesion, "a finite number > 0 Pa with softening",
+          "without strength there is nothing to soften");
+  require(positive(j.tensile_strength), "tensile_strength", j.tensile_strength,
+          "a finite number > 0 Pa with softening", "without strength there is nothing to soften");
+  // Beyond the cone's tip pure tension would break the bond in shear, and G_I would not be what opening it
+  // takes.
+  const double tip = j.cohesion / std::tan(j.friction_angle);
+  require(j.tensile_strength <= tip * (1 + 1e-12), "tensile_strength", j.tensile_strength,
+          fmt::format("at most cohesion / tan(friction_angle) = {:g} Pa with softening", tip).c_str(),
+          "the tip of the Mohr-Coulomb cone");
+}
+
+// Three digits, rounded up so that the printed value is itself allowed.
+std::string at_least(double x) {
+  const double digit = std::pow(10.0, std::floor(std::log10(x)) - 2);
+  return fmt::format("{:g}", std::ceil(x / digit) * digit);
+}
+
+void require_energy(const char* field, double energy, double strength, double stiffness, const char* letter) {
+  const double stored = strength * strength / (2 * stiffness);
+  if (energy < stored)
+    throw geom::InputError(
+        field, fmt::format("{:g}", energy),
+        fmt::format(
+            "at least {} J/m2, what a spring of stiffness {} = {:g} Pa/m stores at its strength of {:g} Pa",
+            at_least(stored), letter, stiffness, strength),
+        "raise it, or stiffen the joint (smaller thickness_ratio)");
+}
+
+} // namespace
+
+void validate(const Elastic& m) {
+  require(positive(m.youngs_modulus), "youngs_modulus", m.youngs_modulus, "a finite number > 0 Pa");
+  require(m.poissons_ratio > -1 && m.poissons_ratio < 0.5, "poissons_ratio", m.poissons_ratio, "in (-1, 0.5)",
+          "an incompressible material (0.5) locks; use at most 0.49");
+  require(positive(m.density), "density", m.density, "a finite number > 0 kg/m3");
+  require(not_negative(m.viscosity), "viscosity", m.viscosity, "a finite number >= 0 N s/m4");
+  require(not_negative(m.stiffness_damping), "stiffness_damping", m.stiffness_damping,
+          "a finite number >= 0 s");
+}
+
+void validate(const Joint& j) {
+  require(not_negative(j.cohesion), "cohesion", j.cohesion, "a finite number >= 0 Pa");
+  const double angle = j.friction_angle / degree;
+  require(angle >= 0 && angle < 90, "friction_angle", angle, "in [0, 90) degrees");
+  require(not_negative(j.tensile_strength), "tensile_strength", j.tensile_strength,
+          "a finite number >= 0 Pa");
+  require(positive(j.thickness_ratio) && j.thickness_ratio <= 1, "thickness_ratio", j.thickness_ratio,
+          "in (0, 1]", "it is the joint's equivalent thickness over the block size");
+  if (j.thickness)
+    require(positive(*j.thickness), "thickness", *j.thickness, "a finite number > 0 m");
+  if (j.normal_stiffness)
+    require(positive(*j.normal_stiffness), "normal_stiffness", *j.normal_stiffness,
+            "a finite number > 0 Pa/m");
+  if (j.shear_stiffness)
+    require(positive(*j.shear_stiffness), "shear_stiffness", *j.shear_stiffness, "a finite number > 0 Pa/m");
+  validate_softening(j);
+}
+
+void validate(const Joint& j, double normal_stiffness, double shear_stiffness) {
+  if (j.softening == Softening::none)
+    return;
+  validate_softening(j);
+  require_energy("fracture_energy_1", j.fracture_energy_1, j.tensile_strength, normal_stiffness, "kn");
+  require_energy("fracture_energy_2", j.fracture_energy_2, j.cohesion, shear_stiffness, "ks");
+}
+
+} // namespace cdem

@@ -1,0 +1,223 @@
+#include "libcdem/procedure/relax.hpp"
+
+#include "libcdem/contact/contact_bounds.hpp"
+#include "libcdem/integrate/move_nodes.hpp"
+#include "libcdem/integrate/move_rigid.hpp"
+#include "libcdem/results/energy.hpp"
+#include "libcdem/step/row_sums.hpp"
+#include "libgeom/core/error.hpp"
+
+#include <cmath>
+#include <fmt/format.h>
+#include <utility>
+
+namespace cdem {
+namespace {
+
+// Part of the Gershgorin limit that a unit step uses; the rest covers the bound's round-off and closing contacts.
+constexpr double step_safety = 0.95;
+// Weight of a step's Rayleigh quotient in the smoothed one.
+constexpr double smoothing = 0.05;
+constexpr double most_damping = 1.8;
+// Supports with a given displacement get there in this many steps.
+constexpr int support_steps = 200;
+static_assert(support_steps <= watch_every, "a relaxation that goes on does not move its supports any more");
+// The residual must stay under its goal this long: a body that swings through its balance is under it for a moment.
+constexpr int settled_steps = 10;
+// Without loads the residual is measured against the reactions. Moved supports that have torn their part off, and a free
+// body that springs back from its initial stress, leave none: then against this fraction of the largest reaction of the
+// stage or of the forces of the initial stress (squared norms).
+constexpr double reaction_floor2 = 1e-4;
+
+// One component of a node of which some are held: the law of relax_nodes where it is free.
+struct Component {
+  double free, prescribed, applied;
+};
+
+void advance(double force, double previous, double mass, double damping, const Component& c, double& velocity,
+             double& displacement, NodeSums& sums) {
+  const double before = velocity;
+  if (c.free != 0) {
+    sums.residual2 += force * force;
+    sums.applied2 += c.applied * c.applied;
+    sums.stiffness -= before * (force - previous);
+    sums.inertia += before * mass * before;
+    velocity = ((2 - damping) * before + 2 * force / mass) / (2 + damping);
+    const double mean = 0.5 * (before + velocity);
+    sums.external += c.applied * mean;
+    sums.damping += damping * mass * mean * mean;
+    sums.kinetic += 0.5 * mass * velocity * velocity;
+  } else {
+    sums.reaction2 += force * force;
+    velocity = c.prescribed;
+    // The support gives what the body's own forces do not: work of loads and reaction together.
+    sums.external += (c.applied - force) * 0.5 * (before + velocity);
+  }
+  displacement += velocity;
+}
+
+void relax_held_node(const MovingNodes& node, const HeldNode& h, double damping, Node& previous_force,
+                     NodeSums& sums) {
+  const auto [f, load] = held_node_forces(node);
+  const Node old = std::exchange(previous_force, f);
+  const double m = *node.mass;
+  Node &v = *node.velocity, &u = *node.displacement;
+  advance(f.x, old.x, m, damping, {h.free.x, h.prescribed.x, load.x}, v.x, u.x, sums);
+  advance(f.y, old.y, m, damping, {h.free.y, h.prescribed.y, load.y}, v.y, u.y, sums);
+  advance(f.z, old.z, m, damping, {h.free.z, h.prescribed.z, load.z}, v.z, u.z, sums);
+}
+
+// Velocities per step that bring held components to their given displacement.
+void aim_supports(const State& state, ResolvedConditions& r, int steps) {
+  const auto aim = [&](double target, double now) {
+    return std::isnan(target) ? 0.0 : (target - now) / steps;
+  };
+  for (HeldNode& h : r.held) {
+    const Node& u = state.displacement[h.node];
+    h.prescribed = {aim(h.target.x, u.x), aim(h.target.y, u.y), aim(h.target.z, u.z), 0};
+  }
+}
+
+void stop_supports(ResolvedConditions& r) {
+  for (HeldNode& h : r.held)
+    h.prescribed = {};
+}
+
+// Squared norm of the initial stress's forces on free components, N2.
+double initial_stress_forces2(const ResolvedConditions& r) {
+  double sum = 0;
+  const auto add = [&](const Node& f, const Node& free) {
+    const double x = free.x * f.x, y = free.y * f.y, z = free.z * f.z;
+    sum += x * x + y * y + z * z;
+  };
+  each_node(
+      r, {0, static_cast<std::int64_t>(r.internal.size())},
+      [&](Range free) {
+        for (std::int64_t i = free.begin; i < free.end; ++i)
+          add(r.internal[i], {1, 1, 1, 0});
+      },
+      [&](const HeldNode& h) { add(r.internal[h.node], h.free); });
+  return sum;
+}
+
+// Rigid bodies have no stiffness to find a balance with.
+void require_held(const Model& model, const ResolvedConditions& r) {
+  for (std::size_t i = 0; i < model.rigid.size(); ++i)
+    if (!r.rigid[i]) {
+      const Block& block = model.blocks[model.rigid[i].block];
+      throw geom::InputError(
+          fmt::format("relax: block {} of body \"{}\" is rigid and free; hold it, use run or settle, "
+                      "or make it deformable",
+                      block.id, model.bodies[block.body].name));
+    }
+}
+
+void stop(State& state) {
+  std::fill(state.velocity.begin(), state.velocity.end(), Node{});
+  for (RigidState& rigid : state.rigid)
+    rigid.velocity = rigid.angular_momentum = {};
+}
+
+// However a relaxation ends, it leaves the state at rest: its velocities are lengths per step of fictitious masses.
+struct AtRest {
+  Stage& stage;
+  State &state, &last_good;
+  const NodeSums& sums;
+  ~AtRest() {
+    stage.catch_up();
+    state.spent.fictitious += sums.kinetic;
+    stop(state);
+    stop(last_good);
+  }
+};
+
+} // namespace
+
+std::vector<double> fictitious_masses(const Model& model) {
+  std::vector<double> masses = all_row_sums(model);
+  add_contact_row_sums(model, masses);
+  for (double& mass : masses)
+    mass /= 4 * step_safety * step_safety;
+  return masses;
+}
+
+RelaxResult relax(const StageContext& context, const RelaxOptions& options, const std::string& kind) {
+  State& state = context.state;
+  Stage stage(context, kind, context.model.length);
+  require_held(context.model, stage.work.resolved);
+  const std::vector<double> mass = fictitious_masses(context.model);
+  const Moment* const from = context.from;
+  std::vector<Node> previous_force(mass.size()); // N, of the step before
+  update_external(stage.work.resolved, state.time);
+  if (from) {
+    previous_force = from->previous_force;
+    stop_supports(stage.work.resolved);
+  } else {
+    const double moving = energy(context.model, state).total();
+    stop(state);
+    std::fill(state.viscous_stress.begin(), state.viscous_stress.end(), StressBatch{});
+    state.velocity_lag = 0;
+    state.spent.fictitious += moving - energy(context.model, state).total();
+    aim_supports(state, stage.work.resolved, support_steps);
+  }
+  const int moving_steps = stage.work.resolved.has_target ? support_steps : 0;
+
+  Stage::StepReport report;
+  report.goals.residual_goal = options.residual;
+  report.goals.max_steps = options.max_steps;
+  double lambda = 0, damping = 0, largest_reaction2 = initial_stress_forces2(stage.work.resolved);
+  int settled = 0;
+  if (from) {
+    lambda = from->carried.at(0);
+    damping = from->carried.at(1);
+    largest_reaction2 = from->carried.at(2);
+    settled = static_cast<int>(from->carried.at(3));
+    report.sums.kinetic = from->carried.at(4);
+  }
+  {
+    const AtRest at_rest{stage, state, context.last_good, report.sums};
+    while (stage.step < options.max_steps && settled < settled_steps) {
+      if (stage.can_be_left())
+        stage.mark({lambda, damping, largest_reaction2, static_cast<double>(settled), report.sums.kinetic},
+                   previous_force);
+      if (stage.step == moving_steps)
+        stop_supports(stage.work.resolved);
+      stage.meet();
+      const auto move = [&](Range range, const Node* force, NodeSums& sums) {
+        const auto nodes = [&](Range part) {
+          return moving_nodes(state, stage.work, mass, part, force + (part.begin - range.begin));
+        };
+        each_node(
+            stage.work.resolved, range,
+            [&](Range part) { relax_nodes(nodes(part), damping, previous_force.data() + part.begin, sums); },
+            [&](const HeldNode& h) {
+              relax_held_node(nodes({h.node, h.node + 1}), h, damping, previous_force[h.node], sums);
+            });
+      };
+      report.sums = stage.advance(options.breaking, move, [&](int rigid, NodeSums& sums) {
+        hold_rigid(context.model, state, stage.work, rigid, sums);
+      });
+      stage.moved(1); // velocities are lengths per step
+      largest_reaction2 = std::max(largest_reaction2, report.sums.reaction2);
+      report.sums.reaction2 = std::max(report.sums.reaction2, reaction_floor2 * largest_reaction2);
+      report.residual = relative_residual(report.sums);
+      stage.after_step(report);
+
+      if (report.sums.inertia > 0) {
+        const double quotient = std::max(0.0, report.sums.stiffness / report.sums.inertia);
+        lambda += (stage.step < 3 ? 1.0 : smoothing) * (quotient - lambda);
+        damping = std::min(2 * std::sqrt(lambda), most_damping);
+      }
+      const bool balanced =
+          report.residual <= options.residual && stage.broken_in_step() == 0 && stage.step > moving_steps;
+      settled = balanced ? settled + 1 : 0;
+      if (options.callback && options.callback_every > 0 && stage.step % options.callback_every == 0) {
+        const Stage::Look look(stage); // what it reads is of one moment
+        options.callback();
+      }
+    }
+  }
+  return {stage.finish(report), settled >= settled_steps};
+}
+
+} // namespace cdem

@@ -1,0 +1,221 @@
+#include "libcdem/procedure/run.hpp"
+
+#include "libcdem/contact/contact_bounds.hpp"
+#include "libcdem/integrate/move_nodes.hpp"
+#include "libcdem/integrate/move_rigid.hpp"
+#include "libcdem/step/row_sums.hpp"
+#include "libgeom/core/error.hpp"
+
+#include <cmath>
+#include <fmt/format.h>
+#include <limits>
+
+namespace cdem {
+namespace {
+
+// Bodies in free flight may travel; only what leaves the scene altogether has run away.
+constexpr double run_away_lengths = 100;
+
+// One component of a node of which some are held: the law of step_nodes where it is free.
+struct Component {
+  double free, prescribed, applied;
+};
+
+void advance(double force, double mass, double viscous, const Stepping& s, const Component& c,
+             double& velocity, double& displacement, NodeSums& sums) {
+  const double before = velocity;
+  if (c.free != 0) {
+    sums.residual2 += force * force;
+    sums.applied2 += c.applied * c.applied;
+    const double inertia = mass / s.kick;
+    const double undamped = ((inertia - 0.5 * viscous) * before + force) / (inertia + 0.5 * viscous);
+    const double most = s.local_damping * std::abs(force) / (inertia + 0.5 * viscous);
+    velocity = before + undamped > most    ? undamped - most
+               : before + undamped < -most ? undamped + most
+                                           : 0 - before;
+    const double against = (inertia + 0.5 * viscous) * (undamped - velocity);
+    const double mean = 0.5 * (before + velocity);
+    sums.external += c.applied * mean * s.kick;
+    sums.damping += (viscous * mean + against) * mean * s.kick;
+    sums.kinetic += 0.5 * mass * velocity * velocity;
+  } else {
+    sums.reaction2 += force * force;
+    velocity = c.prescribed;
+    const double ahead = 0.5 * s.time_step;
+    sums.external += (c.applied - force) * ((s.kick - ahead) * before + ahead * velocity);
+    sums.external += 0.5 * mass * (velocity * velocity - before * before); // what holds it changes its motion
+  }
+  displacement += velocity * s.time_step;
+}
+
+void step_held_node(const MovingNodes& node, const HeldNode& h, const Stepping& stepping, NodeSums& sums) {
+  const auto [f, load] = held_node_forces(node);
+  const double m = *node.mass, viscous = node.viscous ? *node.viscous : 0;
+  Node &v = *node.velocity, &u = *node.displacement;
+  advance(f.x, m, viscous, stepping, {h.free.x, h.prescribed.x, load.x}, v.x, u.x, sums);
+  advance(f.y, m, viscous, stepping, {h.free.y, h.prescribed.y, load.y}, v.y, u.y, sums);
+  advance(f.z, m, viscous, stepping, {h.free.z, h.prescribed.z, load.z}, v.z, u.z, sums);
+}
+
+// mu V of every node, N s/m; empty when nothing is viscous.
+std::vector<double> viscous_forces(const Model& model) {
+  std::vector<double> viscous;
+  if (std::all_of(model.bodies.begin(), model.bodies.end(),
+                  [](const Body& body) { return body.material.viscosity == 0; }))
+    return viscous;
+  viscous.reserve(model.node_position.size());
+  for (int i = 0; i < static_cast<int>(model.node_position.size()); ++i)
+    viscous.push_back(model.bodies[model.blocks[block_of(model, i)].body].material.viscosity *
+                      node_volume(model, i));
+  return viscous;
+}
+
+double choose_time_step(const Model& model, const RunOptions& options) {
+  const double stable = stable_time_step(model), infinite = std::numeric_limits<double>::infinity();
+  // Rigid bodies have a stable step only where they may touch.
+  const double usual = std::min(options.safety * stable,
+                                model.surface.empty() ? infinite : rigid_time_step(model, options.safety));
+  if (options.time_step == 0 && std::isinf(usual))
+    throw geom::InputError(
+        "time_step: missing; everything that moves is rigid and touches nothing, which has no "
+        "stable step to take: give one (s)");
+  if (options.time_step > stable)
+    throw geom::InputError("time_step", fmt::format("{:g}", options.time_step),
+                           fmt::format("at most the stable step, {:.4g} s", stable),
+                           "leave it out to use safety x stable");
+  const double most = model.surface.joint.empty() ? infinite : rigid_time_step(model, 1);
+  if (options.time_step > most)
+    throw geom::InputError(
+        "time_step", fmt::format("{:g}", options.time_step),
+        fmt::format("at most {:.4g} s, half the stable step of rigid bodies that touch", most),
+        "leave it out to use the usual one");
+  return options.time_step > 0 ? options.time_step : usual;
+}
+
+// The time of each step of a run whose step may get shorter on the way, as contacts close.
+class Clock {
+public:
+  Clock(double start, double time_step, const RunOptions& options)
+      : start_(start), end_(start + options.duration), time_step_(time_step), given_(options.steps) {
+    set_steps();
+  }
+  // As it was when carried() was called.
+  explicit Clock(const std::vector<double>& c)
+      : start_(c.at(0)), end_(c.at(1)), time_step_(c.at(2)),
+        given_(c.at(3) < 0 ? without_end : static_cast<std::int64_t>(c.at(3))),
+        first_(static_cast<std::int64_t>(c.at(4))) {
+    set_steps();
+  }
+  std::vector<double> carried() const {
+    return {start_, end_, time_step_, given_ == without_end ? -1 : static_cast<double>(given_),
+            static_cast<double>(first_)};
+  }
+  double time_step() const { return time_step_; }
+  std::int64_t steps() const { return steps_; }
+  double time_at(std::int64_t step) const { return start_ + static_cast<double>(step - first_) * time_step_; }
+  void shorten(std::int64_t step, double time_step) {
+    start_ = time_at(step);
+    first_ = step;
+    time_step_ = time_step;
+    set_steps();
+  }
+
+private:
+  void set_steps() {
+    steps_ = given_ > 0 ? given_
+                        : first_ + static_cast<std::int64_t>(std::ceil((end_ - start_) / time_step_ - 1e-9));
+  }
+  static constexpr std::int64_t without_end = std::numeric_limits<std::int64_t>::max();
+  double start_, end_, time_step_;
+  std::int64_t given_, first_ = 0, steps_ = 0;
+};
+
+} // namespace
+
+double stable_time_step(const Model& model) {
+  const std::vector<double> sums = all_row_sums(model);
+  double least = std::numeric_limits<double>::infinity();
+  for (int i = 0; i < static_cast<int>(sums.size()); ++i)
+    if (const Block& block = model.blocks[block_of(model, i)]; block.rigid < 0) {
+      const double frequency2 = sums[i] / model.node_mass[i];
+      least =
+          std::min(least, stable_time_step(frequency2, block.meshed ? damping_of(model, i) * frequency2 : 0));
+    }
+  return least;
+}
+
+RunResult run(const StageContext& context, const RunOptions& options, const std::string& kind) {
+  State& state = context.state;
+  const Moment* const from = context.from;
+  Stepping stepping{choose_time_step(context.model, options), 0, options.local_damping, options.damp_flight};
+  Stage stage(context, kind, run_away_lengths * context.model.length);
+  stage.follows_pieces = options.follows_pieces;
+  stage.details = options.details;
+  stage.work.contact.most_friction = options.most_friction;
+  stage.work.damped = !state.viscous_stress.empty();
+  const std::vector<double> viscous = viscous_forces(context.model);
+  Stage::StepReport report;
+  Clock clock(state.time, stepping.time_step, options);
+  if (from) {
+    clock = Clock(from->carried);
+    stepping.time_step = clock.time_step();
+  }
+  const auto set_goals = [&] {
+    // What only `stop` ends has no goal to tell of.
+    if (clock.steps() < std::numeric_limits<std::int64_t>::max()) {
+      report.goals.max_steps = clock.steps();
+      report.goals.time_goal = clock.time_at(clock.steps());
+      report.goals.time_start =
+          report.goals.time_goal -
+          (options.duration > 0 ? options.duration : static_cast<double>(clock.steps()) * clock.time_step());
+    }
+  };
+  set_goals();
+  const std::int64_t ask_every = options.callback_every > 0 ? options.callback_every : 100;
+
+  bool stopped = false;
+  while (stage.step < clock.steps() && !stopped) {
+    if (stage.can_be_left())
+      stage.mark(clock.carried());
+    if (const double longest = stage.meet(options.safety); longest < stepping.time_step) {
+      stepping.time_step = longest;
+      clock.shorten(stage.step, longest);
+      set_goals();
+    }
+    update_external(stage.work.resolved, state.time);
+    // Velocities that stand at the time of the displacements, at the start or after a relaxation, take half a step.
+    stepping.kick = state.velocity_lag + 0.5 * stepping.time_step;
+    const auto move = [&](Range range, const Node* force, NodeSums& sums) {
+      const auto nodes = [&](Range part) {
+        MovingNodes moving = moving_nodes(state, stage.work, context.model.node_mass, part,
+                                          force + (part.begin - range.begin));
+        moving.viscous = viscous.empty() ? nullptr : viscous.data() + part.begin;
+        return moving;
+      };
+      each_node(
+          stage.work.resolved, range, [&](Range part) { step_nodes(nodes(part), stepping, sums); },
+          [&](const HeldNode& h) {
+            step_held_node(nodes({h.node, h.node + 1}), h, stepping, sums);
+          });
+    };
+    report.sums = stage.advance(options.breaking, move, [&](int rigid, NodeSums& sums) {
+      move_rigid(context.model, state, stage.work, rigid, stepping, sums);
+    });
+    stage.moved(stepping.time_step);
+    report.residual = relative_residual(report.sums);
+    state.time = clock.time_at(stage.step + 1);
+    state.velocity_lag = 0.5 * stepping.time_step;
+    stage.after_step(report);
+    if (stage.step % ask_every == 0) {
+      std::optional<Stage::Look> look; // what they read is of one moment
+      if (options.callback || options.stop)
+        look.emplace(stage);
+      if (options.callback && options.callback_every > 0)
+        options.callback();
+      stopped = options.stop && options.stop() && report.residual <= options.stop_residual;
+    }
+  }
+  return {stage.finish(report), state.time, stepping.time_step};
+}
+
+} // namespace cdem
