@@ -5,6 +5,7 @@
 #include "libcdem/simulation_checks.hpp"
 #include "libgeom/core/error.hpp"
 
+#include <cmath>
 #include <set>
 
 namespace cdem {
@@ -28,6 +29,35 @@ void require_contact(const Joint& joint, const std::string& both) {
         "meshed bodies are not bonded to each other; unite them to one solid before meshing");
 }
 
+void add_contact(Model& frame, int a, int b, const Joint& law, const std::string& both) {
+  if (!frame.surface.joint.emplace(std::minmax(a, b), static_cast<int>(frame.joints.size())).second)
+    throw geom::InputError("contacts", both, "given once", "two bodies have one law between them");
+  frame.joints.push_back(law);
+}
+
+double mean_block_size(const BodySpec& body) {
+  double volume = 0;
+  for (const geom::Polyhedron& block : body.shape.blocks)
+    volume += geom::mass_properties(block).volume;
+  return std::cbrt(volume / static_cast<double>(body.shape.blocks.size()));
+}
+
+// The contact of what such a joint held together: its friction, and as stiff as it was, so that nothing sinks when an
+// interface is handed over.
+Joint contact_after(const Joint& joint, const BodySpec& a, const BodySpec& b) {
+  Joint contact;
+  contact.bonded = false;
+  contact.friction_angle = joint.friction_angle;
+  const double thickness =
+      joint.thickness.value_or(joint.thickness_ratio * 0.5 * (mean_block_size(a) + mean_block_size(b)));
+  const auto series = [&](double p, double q) { return 2 / (thickness * (1 / p + 1 / q)); };
+  contact.normal_stiffness =
+      joint.normal_stiffness.value_or(series(a.material.youngs_modulus, b.material.youngs_modulus));
+  contact.shear_stiffness =
+      joint.shear_stiffness.value_or(series(a.material.shear_modulus(), b.material.shear_modulus()));
+  return contact;
+}
+
 } // namespace
 
 Model first_model(const ModelSpec& spec) {
@@ -49,8 +79,8 @@ Model first_model(const ModelSpec& spec) {
     if (meshed)
       validate_meshed(body);
     const int index = static_cast<int>(frame.bodies.size());
-    frame.bodies.push_back(
-        {body.name, body.material, body.joint, body.bonding, meshed ? body.element : Element::small_strain});
+    frame.bodies.push_back({body.name, body.material, body.joint, body.bonding,
+                            body.element.value_or(meshed ? Element::finite_volume : Element::small_strain)});
     for (const geom::TetMesh& mesh : body.meshes)
       meshes.push_back({0, index, mesh});
     frame.pair_joint[{index, index}] = static_cast<int>(frame.joints.size());
@@ -66,15 +96,20 @@ Model first_model(const ModelSpec& spec) {
     validate(pair.joint);
     const int a = body_index(frame, pair.body_a), b = body_index(frame, pair.body_b);
     const std::string both = "{\"" + pair.body_a + "\", \"" + pair.body_b + "\"}";
-    const auto is_meshed = [&](int body) { return frame.bodies[body].element != Element::small_strain; };
-    if (is_meshed(a) != is_meshed(b))
-      throw geom::InputError("contacts", both, "two meshed bodies, or two of blocks",
-                             "there is no contact between a mesh and an assembly of blocks; mesh both");
-    if (is_meshed(a)) {
+    const auto is_small = [&](int body) { return frame.bodies[body].element == Element::small_strain; };
+    const auto is_mesh = [&](int body) { return !spec.bodies[body].meshes.empty(); };
+    if (is_small(a) != is_small(b))
+      throw geom::InputError(
+          "contacts", both, "two bodies that move far, or two of small strain",
+          "leave element = \"small_strain\" out: a body of small strain meets nothing new");
+    if (is_mesh(a) || is_mesh(b)) {
       require_contact(pair.joint, both);
-      if (!frame.surface.joint.emplace(std::minmax(a, b), static_cast<int>(frame.joints.size())).second)
-        throw geom::InputError("contacts", both, "given once", "two bodies have one law between them");
-      frame.joints.push_back(pair.joint);
+      add_contact(frame, a, b, pair.joint, both);
+      continue;
+    }
+    if (a == b && !is_small(a)) {
+      require_contact(pair.joint, both);
+      add_contact(frame, a, b, pair.joint, both);
       continue;
     }
     if (a == b)
@@ -83,7 +118,15 @@ Model first_model(const ModelSpec& spec) {
     if (!frame.pair_joint.emplace(std::minmax(a, b), static_cast<int>(frame.joints.size())).second)
       throw geom::InputError("contacts", both, "given once", "two bodies have one joint between them");
     frame.joints.push_back(pair.joint);
+    if (!is_small(a))
+      add_contact(frame, a, b, contact_after(pair.joint, spec.bodies[a], spec.bodies[b]), both);
   }
+  // The blocks of a body that come loose meet with the friction of their joint.
+  for (int b = 0; b < static_cast<int>(frame.bodies.size()); ++b)
+    if (const BodySpec& body = spec.bodies[b]; frame.bodies[b].element != Element::small_strain &&
+                                               body.shape.blocks.size() > 1 &&
+                                               frame.surface.joint.count({b, b}) == 0)
+      add_contact(frame, b, b, contact_after(body.joint, body, body), body.name);
   Model model = build_model(frame, std::move(seeds), default_traits, std::move(meshes));
   require_separate(model);
   return model;

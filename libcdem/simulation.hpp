@@ -26,6 +26,7 @@
 
 #include <array>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 
@@ -39,7 +40,7 @@ struct BodySpec {
   Joint joint; // between the body's own blocks; of a meshed body on the inner faces that `bonding` names
   std::vector<geom::TetMesh> meshes = {};
   Bonding bonding = {};
-  Element element = Element::finite_volume; // of meshes: this or rigid; blocks are of small strain
+  std::optional<Element> element = {}; // default: finite_volume of meshes, small_strain of blocks
 };
 
 struct PairSpec {

@@ -1,5 +1,6 @@
 #include "libcdem/bond/spring_forces.hpp"
 
+#include "libcdem/bond/interface_frame.hpp"
 #include "libcdem/state/places.hpp"
 
 namespace cdem {
@@ -65,57 +66,84 @@ SofteningLaw law_of(const Model& model, const Interface& interface) {
   return softening_law(model.joints[interface.joint], interface.kn, interface.ks);
 }
 
-// softens: some joint of the model does. A model of brittle bonds pays nothing for the others.
+// One spring at the jump j of its two sides, in undeformed directions. softens: some joint of the model does; a model of
+// brittle bonds pays nothing for the others.
+template <bool softens>
+CDEM_INLINE void update_spring(const BondPoint& point, const Interface& interface, State& state,
+                               Workspace& work, std::int64_t p, const geom::Vec3& j, SpringSums& sums,
+                               bool breaking) {
+  const geom::Vec3& n = point.normal;
+  const SpringStrength& strength = work.strength[point.interface];
+  const geom::Vec3 stretch = j - state.bond_offset[p];
+  const double open = stretch.dot(n);
+  const geom::Vec3 shear = stretch - open * n;
+  bool broke = false;
+  if (is_intact(state.bond_mode[p])) {
+    if constexpr (softens)
+      if (work.softening[point.interface].softens()) {
+        softening_spring(point, state, work, p, stretch, sums, breaking && interface.may_break);
+        return;
+      }
+    if (breaking && interface.may_break) {
+      const double normal_traction = interface.kn * open, shear_traction = interface.ks * shear.norm();
+      const BondMode mode = breaks(strength, normal_traction, shear_traction);
+      broke = mode != BondMode::intact;
+      if (broke) {
+        state.bond_mode[p] = static_cast<std::uint8_t>(mode);
+        sums.broken.push_back({static_cast<int>(p), mode, normal_traction, shear_traction});
+      }
+    }
+    if (!broke) {
+      work.spring_force[p] = point.kn_area * open * n + point.ks_area * shear;
+      return;
+    }
+  }
+  // Contact: the spring was never bonded or has broken, at the latest just now.
+  const SpringResponse r =
+      contact_response(interface.kn, interface.ks, strength.tan_friction, n, j, state.bond_offset[p]);
+  state.bond_offset[p] = r.offset;
+  const geom::Vec3 before = work.spring_force[p] / point.area;
+  work.spring_force[p] = point.area * r.traction;
+
+  const geom::Vec3 normal_before = before.dot(n) * n, normal_after = r.traction.dot(n) * n;
+  const double lost =
+      point.area * lost_energy(interface.ks, before - normal_before, r.traction - normal_after, shear);
+  if (broke)
+    sums.breaking += lost + point.area * lost_energy(interface.kn, normal_before, normal_after, open * n);
+  else
+    sums.friction += lost;
+}
+
 template <bool softens>
 void forces_of_springs(const Model& model, State& state, Workspace& work, Range range, SpringSums& sums,
                        bool breaking) {
   sums.friction = sums.breaking = 0;
   sums.broken.clear();
   const Node* u = state.displacement.data();
+  const bool any_turns = !model.frames.empty();
+  int turned_interface = -1; // whose rotation it is
+  geom::Mat3 rotation = geom::Mat3::Identity();
   for (std::int64_t p = range.begin; p < range.end; ++p) {
     const BondPoint& point = model.points[p];
-    const geom::Vec3& n = point.normal;
-    const geom::Vec3 j = jump_at(point, u);
     const Interface& interface = model.interfaces[point.interface];
-    const SpringStrength& strength = work.strength[point.interface];
-    const geom::Vec3 stretch = j - state.bond_offset[p];
-    const double open = stretch.dot(n);
-    const geom::Vec3 shear = stretch - open * n;
-    bool broke = false;
-    if (is_intact(state.bond_mode[p])) {
-      if constexpr (softens)
-        if (work.softening[point.interface].softens()) {
-          softening_spring(point, state, work, p, stretch, sums, breaking && interface.may_break);
-          continue;
-        }
-      if (breaking && interface.may_break) {
-        const double normal_traction = interface.kn * open, shear_traction = interface.ks * shear.norm();
-        const BondMode mode = breaks(strength, normal_traction, shear_traction);
-        broke = mode != BondMode::intact;
-        if (broke) {
-          state.bond_mode[p] = static_cast<std::uint8_t>(mode);
-          sums.broken.push_back({static_cast<int>(p), mode, normal_traction, shear_traction});
-        }
-      }
-      if (!broke) {
-        work.spring_force[p] = point.kn_area * open * n + point.ks_area * shear;
-        continue;
-      }
+    if (interface.frame < 0) {
+      update_spring<softens>(point, interface, state, work, p, jump_at(point, u), sums, breaking);
+      if (any_turns)
+        work.turned_force[p] = work.spring_force[p];
+      continue;
     }
-    // Contact: the spring was never bonded or has broken, at the latest just now.
-    const SpringResponse r =
-        contact_response(interface.kn, interface.ks, strength.tan_friction, n, j, state.bond_offset[p]);
-    state.bond_offset[p] = r.offset;
-    const geom::Vec3 before = work.spring_force[p] / point.area;
-    work.spring_force[p] = point.area * r.traction;
-
-    const geom::Vec3 normal_before = before.dot(n) * n, normal_after = r.traction.dot(n) * n;
-    const double lost =
-        point.area * lost_energy(interface.ks, before - normal_before, r.traction - normal_after, shear);
-    if (broke)
-      sums.breaking += lost + point.area * lost_energy(interface.kn, normal_before, normal_after, open * n);
-    else
-      sums.friction += lost;
+    if (released(state, interface)) {
+      work.spring_force[p].setZero();
+      work.turned_force[p].setZero();
+      continue;
+    }
+    if (point.interface != turned_interface) {
+      rotation = interface_rotation(model, u, interface);
+      turned_interface = point.interface;
+    }
+    update_spring<softens>(point, interface, state, work, p, rotation.transpose() * jump_at(point, u), sums,
+                           breaking);
+    work.turned_force[p] = rotation * work.spring_force[p];
   }
 }
 
@@ -123,6 +151,10 @@ void forces_of_springs(const Model& model, State& state, Workspace& work, Range 
 
 geom::Vec3 jump(const BondPoint& point, const std::vector<Node>& displacement) {
   return jump_at(point, displacement.data());
+}
+
+bool released(const State& state, const Interface& interface) {
+  return interface.frame >= 0 && state.released[interface.frame] != 0;
 }
 
 void spring_forces(const Model& model, State& state, Workspace& work, Range range, SpringSums& sums,
@@ -133,22 +165,40 @@ void spring_forces(const Model& model, State& state, Workspace& work, Range rang
     forces_of_springs<true>(model, state, work, range, sums, breaking);
 }
 
+void add_bond_forces(const Model& model, const std::vector<geom::Vec3>& bond_force, Range nodes,
+                     Node* force) {
+  if (model.points.empty())
+    return;
+  for (std::int64_t node = nodes.begin; node < nodes.end; ++node) {
+    Node& f = force[node - nodes.begin];
+    for (std::int64_t i = model.bond_begin[node]; i < model.bond_begin[node + 1]; ++i) {
+      const BondOnNode& bond = model.bonds_on_nodes[i];
+      const geom::Vec3& spring = bond_force[bond.point];
+      f.x += bond.weight * spring.x();
+      f.y += bond.weight * spring.y();
+      f.z += bond.weight * spring.z();
+    }
+  }
+}
+
 void start_spring_forces(const Model& model, const State& state, Workspace& work) {
   for (int p = 0; p < static_cast<int>(model.points.size()); ++p)
     work.spring_force[p] = model.points[p].area * traction(model, state, p);
   for (std::size_t p = 0; p < work.stretch.size(); ++p)
-    work.stretch[p] = jump(model.points[p], state.displacement) - state.bond_offset[p];
+    work.stretch[p] = local_jump(model, state.displacement, static_cast<int>(p)) - state.bond_offset[p];
 }
 
 geom::Vec3 traction(const Model& model, const State& state, int p) {
   const BondPoint& point = model.points[p];
   const Interface& interface = model.interfaces[point.interface];
-  const geom::Vec3 stretch = jump(point, state.displacement) - state.bond_offset[p];
+  if (released(state, interface))
+    return geom::Vec3::Zero();
+  const geom::Vec3 gap = local_jump(model, state.displacement, p), stretch = gap - state.bond_offset[p];
   const double open = stretch.dot(point.normal);
   if (!is_intact(state.bond_mode[p]))
     return contact_response(interface.kn, interface.ks,
-                            std::tan(model.joints[interface.joint].friction_angle), point.normal,
-                            jump(point, state.displacement), state.bond_offset[p])
+                            std::tan(model.joints[interface.joint].friction_angle), point.normal, gap,
+                            state.bond_offset[p])
         .traction;
   if (damaged(state, p))
     return damaged_response(law_of(model, interface), point, state, p, stretch).traction;
@@ -160,24 +210,25 @@ void settle(const Model& model, State& state, int p) {
   const Interface& interface = model.interfaces[point.interface];
   state.bond_offset[p] =
       contact_response(interface.kn, interface.ks, std::tan(model.joints[interface.joint].friction_angle),
-                       point.normal, jump(point, state.displacement), state.bond_offset[p])
+                       point.normal, local_jump(model, state.displacement, p), state.bond_offset[p])
           .offset;
+}
+
+double spring_energy(const Model& model, const State& state, int p) {
+  const BondPoint& point = model.points[p];
+  const Interface& interface = model.interfaces[point.interface];
+  if (!damaged(state, p))
+    return point.area * stored(interface, traction(model, state, p), point.normal);
+  const SofteningLaw law = law_of(model, interface);
+  const geom::Vec3 stretch = local_jump(model, state.displacement, p) - state.bond_offset[p];
+  return point.area * softening_stored(law, point.normal, stretch, state.bond_damage[p],
+                                       damaged_response(law, point, state, p, stretch).contact);
 }
 
 double spring_energy(const Model& model, const State& state) {
   double energy = 0;
-  for (int p = 0; p < static_cast<int>(model.points.size()); ++p) {
-    const BondPoint& point = model.points[p];
-    const Interface& interface = model.interfaces[point.interface];
-    if (damaged(state, p)) {
-      const SofteningLaw law = law_of(model, interface);
-      const geom::Vec3 stretch = jump(point, state.displacement) - state.bond_offset[p];
-      energy += point.area * softening_stored(law, point.normal, stretch, state.bond_damage[p],
-                                              damaged_response(law, point, state, p, stretch).contact);
-      continue;
-    }
-    energy += point.area * stored(interface, traction(model, state, p), point.normal);
-  }
+  for (int p = 0; p < static_cast<int>(model.points.size()); ++p)
+    energy += spring_energy(model, state, p);
   return energy;
 }
 

@@ -10,19 +10,26 @@ namespace cdem {
 // opens or softens, bond_mode, bond_offset, bond_damage and bond_slip.
 void spring_forces(const Model&, State&, Workspace&, Range points, SpringSums&, bool breaking);
 
+// Adds what bonds do to nodes, force[0] the first of them, N; bond_force: Workspace::bond_force().
+void add_bond_forces(const Model&, const std::vector<geom::Vec3>& bond_force, Range nodes, Node* force);
+
 // Forces of the present state without any breaking or slip: what the first step's energy losses are counted
 // from.
 void start_spring_forces(const Model&, const State&, Workspace&);
 
-// Jump of the displacement from side a to side b, m.
+// Jump of the displacement from side a to side b in space, m (bond/interface_frame.hpp: in undeformed directions).
 geom::Vec3 jump(const BondPoint&, const std::vector<Node>& displacement);
 
-// Traction that a spring carries at the present state, Pa: positive normal part is tension.
+// The interface has been handed over to contact: its springs carry nothing any more.
+bool released(const State&, const Interface&);
+
+// Traction that a spring carries at the present state in the interface's undeformed directions, Pa: positive normal part is tension.
 geom::Vec3 traction(const Model&, const State&, int point);
 
 // Lets a spring that has just become a contact slide to where friction holds it.
 void settle(const Model&, State&, int point);
 
+double spring_energy(const Model&, const State&, int point); // stored, J
 // Stored energy of all springs, J.
 double spring_energy(const Model&, const State&);
 

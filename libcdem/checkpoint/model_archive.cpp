@@ -72,9 +72,15 @@ void archive(A& a, Block& x) {
 template <class A>
 void archive(A& a, Interface& x) {
   auto& [id, block_a, face_a, block_b, face_b, normal, joint, thickness, kn, ks, origin, may_break,
-         point_begin, point_end, triangle_begin, triangle_end] = x;
+         point_begin, point_end, frame, triangle_begin, triangle_end] = x;
   archive_all(a, id, block_a, face_a, block_b, face_b, normal, joint, thickness, kn, ks, origin, may_break,
-              point_begin, point_end, triangle_begin, triangle_end);
+              point_begin, point_end, frame, triangle_begin, triangle_end);
+}
+
+template <class A>
+void archive(A& a, InterfaceFrame& x) {
+  auto& [nodes_a, nodes_b, along_a, along_b, along, size] = x;
+  archive_all(a, nodes_a, nodes_b, along_a, along_b, along, size);
 }
 
 template <class A>
@@ -115,8 +121,10 @@ void archive(A& a, FaceBatch& x) {
 
 template <class A>
 void archive(A& a, MeshChunk& x) {
-  auto& [block, nodes, inner_end, others, tets, batches, face_batches, faces, partial, share_begin] = x;
-  archive_all(a, block, nodes, inner_end, others, tets, batches, face_batches, faces, partial, share_begin);
+  auto& [block, blocks, stars, nodes, inner_end, others, tets, batches, face_batches, faces, partial,
+         share_begin] = x;
+  archive_all(a, block, blocks, stars, nodes, inner_end, others, tets, batches, face_batches, faces, partial,
+              share_begin);
 }
 
 template <class A>
@@ -161,11 +169,11 @@ void archive(A& a, ContactSurface& x) {
 template <class A>
 void archive(A& a, Model& x) {
   auto& [bodies, joints, blocks, pair_joint, node_position, node_mass, tets, tet_block, batches, interfaces,
-         points, point_position, bond_triangles, bond_begin, bonds_on_nodes, outer_faces, mesh, surface,
-         rigid, chunks, point_chunks, box, length, tolerance, next_id] = x;
+         frames, points, point_position, bond_triangles, bond_begin, bonds_on_nodes, outer_faces, mesh,
+         surface, rigid, chunks, point_chunks, box, length, tolerance, next_id] = x;
   archive_all(a, bodies, joints, blocks, pair_joint, node_position, node_mass, tets, tet_block, batches,
-              interfaces, points, point_position, bond_triangles, bond_begin, bonds_on_nodes, outer_faces,
-              mesh, surface, rigid, chunks, point_chunks, box, length, tolerance, next_id);
+              interfaces, frames, points, point_position, bond_triangles, bond_begin, bonds_on_nodes,
+              outer_faces, mesh, surface, rigid, chunks, point_chunks, box, length, tolerance, next_id);
 }
 
 template <class A>

@@ -135,8 +135,8 @@ void require_separate_meshes(const Model& model) {
     meshed.push_back(static_cast<char>(model.blocks[b].meshed));
   }
   for (const auto& [a, b] : geom::touching_pairs(block_boxes, meshed)) {
-    if (!meshed[a] || !meshed[b])
-      continue;
+    if (!meshed[a] || !meshed[b] || (model.blocks[a].convex() && model.blocks[b].convex()))
+      continue; // two convex blocks: require_separate
     const double smaller = std::min(model.blocks[a].size, model.blocks[b].size);
     const double depth = overlap_ratio * smaller;
     std::vector<geom::Box> near;

@@ -1,5 +1,7 @@
 #include "libcdem/contact/search.hpp"
 
+#include "libcdem/bond/release.hpp"
+
 #include "libcdem/contact/near.hpp"
 #include "libcdem/contact/places.hpp"
 #include "libcdem/contact/semi_edges.hpp"
@@ -97,6 +99,27 @@ double require_apart(const Model& model, const TakingPart& active, const Pairs& 
   return may_go;
 }
 
+// Without those of convex blocks that an interface holds together, and without those of one unbroken piece that have no
+// broken bond between them and what is around them.
+Pairs free_pairs(const Model& model, const State& state, const ContactWork& work, Pairs pairs) {
+  if (model.frames.empty())
+    return pairs;
+  const Pairs held = held_pairs(model, state);
+  const std::vector<char> loose = blocks_with_broken_bonds(model, state);
+  const auto piece = [&](int block) { return work.piece[model.surface.block_begin[block]]; };
+  const auto convex = [&](int block) { return model.blocks[block].convex(); };
+  pairs.erase(std::remove_if(pairs.begin(), pairs.end(),
+                             [&](const auto& pair) {
+                               const auto [a, b] = std::minmax(pair.first, pair.second);
+                               if (!convex(a) || !convex(b))
+                                 return false;
+                               return (piece(a) == piece(b) && !loose[a] && !loose[b]) ||
+                                      std::binary_search(held.begin(), held.end(), std::pair<int, int>(a, b));
+                             }),
+              pairs.end());
+  return pairs;
+}
+
 } // namespace
 
 double depth_limit(const ContactWork& work, const ContactTriangle& a, const ContactTriangle& b) {
@@ -136,7 +159,7 @@ bool search_contacts(const Model& model, const State& state, ContactWork& work, 
   std::vector<char> has_surface;
   for (std::size_t b = 0; b + 1 < active.block_begin.size(); ++b)
     has_surface.push_back(static_cast<char>(active.block_begin[b] < active.block_begin[b + 1]));
-  const Pairs blocks = geom::touching_pairs(active.block_boxes, has_surface);
+  const Pairs blocks = free_pairs(model, state, work, geom::touching_pairs(active.block_boxes, has_surface));
   std::vector<int> alone; // blocks that may touch themselves
   for (int b = 0; b + 1 < static_cast<int>(s.block_begin.size()); ++b)
     if (model.blocks[b].meshed && model.blocks[b].rigid < 0 && contact_joint(model, b, b))

@@ -93,9 +93,7 @@ Stress tet_stress(const Model& model, const State& state, int tet) {
       stress[c] += state.initial_stress[block][c];
     return stress;
   }
-  const int slot = model.mesh.tet_slot[tet - model.mesh.first_tet];
-  for (int c = 0; c < 6; ++c)
-    stress[c] = state.stress[slot / lanes].component[c][slot % lanes];
+  stress = mesh_stress(model, state, tet);
   const int rigid = model.blocks[model.tet_block[tet]].rigid;
   return rigid < 0 ? stress : turned(rotation(state.rigid[rigid]), stress);
 }

@@ -35,19 +35,16 @@ RigidState motion_of(const Model& model, const State& state, const RigidShape& s
 
 // What stood in the old directions is turned to the present ones; the slip of broken faces turns with them by itself.
 void turn_stress(const Model& model, State& state, int block, const geom::Mat3& rotation) {
-  for (const MeshChunk& chunk : model.mesh.chunks) {
-    if (chunk.block != block)
-      continue;
-    for (std::int64_t t = chunk.tets.begin; t < chunk.tets.end; ++t) {
-      const int slot = model.mesh.tet_slot[t - model.mesh.first_tet];
-      StressBatch& batch = state.stress[slot / lanes];
-      Stress stress{};
-      for (int c = 0; c < 6; ++c)
-        stress[c] = batch.component[c][slot % lanes];
-      stress = turned(rotation, stress);
-      for (int c = 0; c < 6; ++c)
-        batch.component[c][slot % lanes] = stress[c];
-    }
+  const Block& b = model.blocks[block];
+  for (int tet = b.tet_begin; tet < b.tet_end; ++tet)
+    set_mesh_stress(model, state, tet, turned(rotation, mesh_stress(model, state, tet)));
+}
+
+void clear_viscous_stress(const Model& model, State& state, const Block& block) {
+  for (int tet = block.tet_begin; tet < block.tet_end; ++tet) {
+    const int slot = model.mesh.tet_slot[tet - model.mesh.first_tet];
+    for (auto& component : state.viscous_stress[slot / lanes].component)
+      component[slot % lanes] = 0;
   }
 }
 
@@ -127,10 +124,8 @@ std::int64_t set_rigid(Model& model, State& state, const std::vector<int>& block
   }
   replace(model, state, std::move(all));
   if (!state.viscous_stress.empty())
-    for (const MeshChunk& chunk : model.mesh.chunks)
-      if (std::find(fresh.begin(), fresh.end(), chunk.block) != fresh.end())
-        std::fill(state.viscous_stress.begin() + chunk.batches.begin,
-                  state.viscous_stress.begin() + chunk.batches.end, StressBatch{});
+    for (const int b : fresh)
+      clear_viscous_stress(model, state, model.blocks[b]);
   for (const int b : fresh)
     place_nodes(model, state, model.blocks[b].rigid);
   state.spent.fictitious += before - energy(model, state).total();

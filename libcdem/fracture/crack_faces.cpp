@@ -1,5 +1,6 @@
 #include "libcdem/fracture/crack_faces.hpp"
 
+#include "libcdem/bond/interface_frame.hpp"
 #include "libcdem/bond/spring_forces.hpp"
 
 #include <limits>
@@ -84,7 +85,7 @@ CrackFace break_face(const Model& model, State& state, RunLog& log, int stage, c
     state.bond_mode[p] = static_cast<std::uint8_t>(load.ratio.mode);
     // The offset moves with the stress drop at once, so that the next step does not count it as sliding.
     state.bond_offset[p] = contact_response(interface.kn, interface.ks, tan_friction, point.normal,
-                                            jump(point, state.displacement), state.bond_offset[p])
+                                            local_jump(model, state.displacement, p), state.bond_offset[p])
                                .offset;
 
     BreakRow row;

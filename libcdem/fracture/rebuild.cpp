@@ -1,5 +1,6 @@
 #include "libcdem/fracture/rebuild.hpp"
 
+#include "libcdem/bond/interface_frame.hpp"
 #include "libcdem/bond/spring_forces.hpp"
 #include "libcdem/element/small_strain.hpp"
 #include "libgeom/polyhedron/cut.hpp"
@@ -216,7 +217,7 @@ private:
         stress_at(old_, from_, successors_[now.block_a].old_block, r.model.point_position[p]) * now.normal;
     const double normal = traction.dot(now.normal);
     const geom::Vec3 stretch = normal / now.kn * now.normal + (traction - normal * now.normal) / now.ks;
-    r.state.bond_offset[p] = jump(r.model.points[p], r.state.displacement) - stretch;
+    r.state.bond_offset[p] = local_jump(r.model, r.state.displacement, p) - stretch;
   }
 
   const Model& old_;

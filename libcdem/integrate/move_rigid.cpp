@@ -1,5 +1,6 @@
 #include "libcdem/integrate/move_rigid.hpp"
 
+#include "libcdem/bond/spring_forces.hpp"
 #include "libcdem/element/rigid_motion.hpp"
 #include "libcdem/state/places.hpp"
 
@@ -60,6 +61,15 @@ RigidForces rigid_forces(const Model& model, const State& state, const Workspace
   };
   sum(work.resolved.external, forces.load, forces.load_torque);
   sum(work.contact_force, forces.contact, forces.contact_torque);
+  if (block.convex() && !model.points.empty()) {
+    const std::vector<geom::Vec3>& bonds = work.bond_force();
+    for (int i = block.node_begin; i < block.node_end; ++i) {
+      Node f;
+      add_bond_forces(model, bonds, {i, i + 1}, &f);
+      forces.contact += vec(f);
+      forces.contact_torque += (model.node_position[i] - centroid + vec(state.displacement[i])).cross(vec(f));
+    }
+  }
   return forces;
 }
 

@@ -7,7 +7,7 @@
 
 namespace cdem {
 
-// Loads and contacts on the nodes of a rigid body, about its centroid.
+// Loads, and contacts and bonds together, on the nodes of a rigid body, about its centroid.
 struct RigidForces {
   geom::Vec3 load = geom::Vec3::Zero(), load_torque = geom::Vec3::Zero();       // N, N m
   geom::Vec3 contact = geom::Vec3::Zero(), contact_torque = geom::Vec3::Zero(); // N, N m

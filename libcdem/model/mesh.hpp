@@ -37,8 +37,10 @@ struct alignas(32) FaceBatch {
 };
 
 struct MeshChunk {
-  int block = 0;
-  Range nodes;                // its own, the inner ones first
+  int block = 0;      // the first of `blocks`; all are of one body
+  Range blocks;       // whole convex blocks with star meshes, or the one block that this is a part of
+  bool stars = false; // convex blocks: no node is touched by another chunk, and bonds may act on all of them
+  Range nodes;        // its own, the inner ones first
   std::int64_t inner_end = 0; // of those: nodes that no other chunk touches
   Range others;               // into MeshData::others: further nodes it touches
   Range tets;                 // of the model

@@ -5,6 +5,13 @@
 
 namespace cdem {
 
+bool is_rigid(const Model& model, const MeshChunk& chunk) {
+  for (std::int64_t b = chunk.blocks.begin; b < chunk.blocks.end; ++b)
+    if (model.blocks[b].rigid < 0)
+      return false;
+  return true;
+}
+
 int block_of(const Model& model, int node) {
   const auto after = std::upper_bound(model.blocks.begin(), model.blocks.end(), node,
                                       [](int n, const Block& block) { return n < block.node_begin; });

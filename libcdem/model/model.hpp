@@ -34,9 +34,9 @@ struct Block {
   std::int64_t parent = -1; // id of the block it was cut from
   int generation = 0;       // cuts between the first block and this one
   int body = 0;
-  bool meshed = false;       // a meshed solid
+  bool meshed = false;       // its tets are of finite volume and stand in MeshData: it may move far
   int rigid = -1;            // index into Model::rigid; -1: it deforms
-  geom::Polyhedron shape;    // empty when meshed
+  geom::Polyhedron shape;    // empty when not convex: a meshed solid
   geom::MassProperties mass; // unit density
   double size = 0;           // h, cube root of the volume, m
   double first_size =
@@ -45,6 +45,7 @@ struct Block {
       node_end = 0; // of a convex block: vertices, then one centre per face, then the centroid
   int tet_begin = 0, tet_end = 0;
 
+  bool convex() const { return !shape.faces.empty(); } // with a star mesh
   int face_centre(int face) const { return node_begin + static_cast<int>(shape.vertices.size()) + face; }
   int centroid_node() const { return node_end - 1; }
 };
@@ -62,7 +63,18 @@ struct Interface {
   InterfaceOrigin origin = InterfaceOrigin::original;
   bool may_break = true;
   int point_begin = 0, point_end = 0;
+  int frame = -1; // into Model::frames; -1: both blocks are of small strain, the interface does not turn
   int triangle_begin = 0, triangle_end = 0;
+};
+
+// What tells how an interface between blocks that move far has turned: on each side three nodes x0 x1 x2 of its face,
+// and the fixed direction `along` in the undeformed face as along[0] (x1 - x0) + along[1] (x2 - x0)
+// (bond/interface_frame.hpp).
+struct InterfaceFrame {
+  std::array<int, 3> nodes_a{}, nodes_b{};
+  std::array<double, 2> along_a{}, along_b{};
+  geom::Vec3 along = geom::Vec3::Zero(); // unit, undeformed
+  double size = 0;                       // m, root of the interface's area
 };
 
 // One spring: a point of face a against a point of face b, both interpolated linearly.
@@ -133,6 +145,7 @@ struct Model {
   std::vector<TetBatch> batches;
 
   std::vector<Interface> interfaces;
+  std::vector<InterfaceFrame> frames;         // of those that may turn
   std::vector<BondPoint> points;              // springs (n_points)
   std::vector<geom::Vec3> point_position;     // undeformed, m (n_points)
   std::vector<geom::Triangle> bond_triangles; // over points
@@ -146,7 +159,7 @@ struct Model {
   ContactSurface surface;       // empty without contacts of meshed bodies
   std::vector<RigidBody> rigid; // by block
 
-  std::vector<BlockChunk> chunks; // those of star blocks, then one for each MeshChunk
+  std::vector<BlockChunk> chunks; // those of blocks of small strain, then one for each MeshChunk
   std::vector<Range> point_chunks;
 
   geom::Box box;        // undeformed
@@ -154,6 +167,24 @@ struct Model {
   double tolerance = 0; // places nearer than this are one, m
   std::int64_t next_id = 1;
 };
+
+// All blocks that the chunk is made of keep their shape: it has nothing to compute.
+bool is_rigid(const Model&, const MeshChunk&);
+
+// visit(first node, end) for the runs of nodes of a chunk of convex blocks that deform.
+template <class Visit>
+void each_deformable_run(const Model& model, const MeshChunk& chunk, const Visit& visit) {
+  for (std::int64_t b = chunk.blocks.begin; b < chunk.blocks.end;) {
+    if (model.blocks[b].rigid >= 0) {
+      ++b;
+      continue;
+    }
+    const std::int64_t first = b;
+    while (b < chunk.blocks.end && model.blocks[b].rigid < 0)
+      ++b;
+    visit(Range{model.blocks[first].node_begin, model.blocks[b - 1].node_end});
+  }
+}
 
 int block_of(const Model&, int node);       // index into Model::blocks
 double node_volume(const Model&, int node); // m3

@@ -199,7 +199,7 @@ bool Selector::block(int block) const {
     return chosen_[block] != 0;
   if (selection_.kind != Selection::Kind::side)
     return (*this)(b.mass.centroid, block);
-  if (b.meshed) {
+  if (!b.convex()) {
     const auto begin = model_.node_position.begin() + b.node_begin,
                end = model_.node_position.begin() + b.node_end;
     return std::any_of(begin, end, [&](const geom::Vec3& x) { return (*this)(x, block); });

@@ -59,10 +59,10 @@ geom::Box box_of_nodes(const Model& model, const Block& block) {
 }
 
 [[noreturn]] void refuse_contact(const Model& model, const Block& one, const Block& other) {
-  throw geom::InputError("bodies: \"" + model.bodies[one.body].name + "\" and \"" +
-                         model.bodies[other.body].name +
-                         "\" may touch, and there is no contact between a mesh and an assembly of blocks; "
-                         "move them apart, or mesh both");
+  throw geom::InputError(
+      "bodies: \"" + model.bodies[one.body].name + "\" and \"" + model.bodies[other.body].name +
+      "\" may touch, and blocks of small strain meet nothing new; move them apart, or leave "
+      "element = \"small_strain\" out");
 }
 
 } // namespace
@@ -72,21 +72,21 @@ void require_separate(const Model& model) {
   std::vector<geom::Box> boxes;
   std::vector<std::vector<geom::Plane>> planes;
   for (const Block& block : model.blocks) {
-    boxes.push_back(block.meshed ? box_of_nodes(model, block) : geom::bounding_box(block.shape));
-    planes.push_back(block.meshed ? std::vector<geom::Plane>() : face_planes(block.shape));
+    boxes.push_back(block.convex() ? geom::bounding_box(block.shape) : box_of_nodes(model, block));
+    planes.push_back(block.convex() ? face_planes(block.shape) : std::vector<geom::Plane>());
   }
   // Meshes next to each other differ by rounding, however they were put there.
   for (std::size_t b = 0; b < boxes.size(); ++b)
-    if (model.blocks[b].meshed) {
+    if (!model.blocks[b].convex()) {
       const geom::Vec3 margin = geom::Vec3::Constant(touching_tolerance * model.blocks[b].size);
       boxes[b].min -= margin;
       boxes[b].max += margin;
     }
   for (const auto& [a, b] : geom::touching_pairs(boxes)) {
     const Block &one = model.blocks[a], &other = model.blocks[b];
-    if (one.meshed && other.meshed)
+    if (one.meshed && other.meshed && !(one.convex() && other.convex()))
       continue; // judged by their surfaces
-    if (one.meshed || other.meshed)
+    if (!one.convex() || !other.convex())
       refuse_contact(model, one, other);
     const double depth = depth_tolerance * std::min(one.size, other.size);
     if (apart(planes[a], other.shape, depth) || apart(planes[b], one.shape, depth))

@@ -108,7 +108,7 @@ std::vector<Cell> selected_cells(const Model& model, const Selection& on) {
         on_side[model.mesh.boundary[model.outer_faces[f].boundary].tet] = 1;
   for (int b = 0; b < static_cast<int>(model.blocks.size()); ++b) {
     const Block& block = model.blocks[b];
-    if (!block.meshed) {
+    if (block.convex()) {
       if (selects_block(model, on, b))
         cells.push_back({b, -1});
       continue;
@@ -199,7 +199,7 @@ double value_at(const Model& model, const State& state, const std::string& field
   const bool nodal = find_field(field).nodal;
   for (int b = 0; b < static_cast<int>(model.blocks.size()); ++b) {
     const Block& block = model.blocks[b];
-    if (!block.meshed && !geom::bounding_box(block.shape).contains(place, model.tolerance))
+    if (block.convex() && !geom::bounding_box(block.shape).contains(place, model.tolerance))
       continue;
     for (int t = block.tet_begin; t < block.tet_end; ++t) {
       const geom::Tet& tet = model.tets[t];
@@ -211,7 +211,7 @@ double value_at(const Model& model, const State& state, const std::string& field
       if (std::min(w0, w.minCoeff()) < -1e-6)
         continue;
       if (!nodal)
-        return cell_value(model, state, field, {b, block.meshed ? t : -1});
+        return cell_value(model, state, field, {b, block.convex() ? -1 : t});
       // The vector is interpolated and then measured: its length at the nodes says little about that between them.
       const double weight[] = {w0, w[0], w[1], w[2]};
       Node value;

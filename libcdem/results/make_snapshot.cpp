@@ -1,5 +1,6 @@
 #include "libcdem/results/make_snapshot.hpp"
 
+#include "libcdem/bond/interface_frame.hpp"
 #include "libcdem/bond/spring_forces.hpp"
 #include "libcdem/element/mesh_fields.hpp"
 #include "libcdem/model/build/add_meshes.hpp"
@@ -115,7 +116,7 @@ void add_cells(const Model& model, const State& state, Snapshot& snapshot) {
     generation.values.push_back(block.generation);
     body.values.push_back(block.body);
     unit.values.push_back(units[b]);
-    damage.values.push_back(block.meshed ? mesh_damages[t - model.mesh.first_tet] : damages[b]);
+    damage.values.push_back(!block.convex() ? mesh_damages[t - model.mesh.first_tet] : damages[b]);
   }
   snapshot.cell_fields = {std::move(stress), std::move(principal_stress), std::move(mises), std::move(id),
                           std::move(parent), std::move(generation),       std::move(body),  std::move(unit),
@@ -136,6 +137,8 @@ bool opened(const FaceStateBatch& state, int lane) {
 void add_mesh_surface(const Model& model, const State& state, Snapshot& snapshot) {
   std::map<std::array<int, 2>, geom::Vec3> normal_at; // of the first triangle that has the edge
   for (const BoundaryTriangle& triangle : model.mesh.boundary) {
+    if (model.blocks[triangle.block].convex())
+      continue; // add_surface
     snapshot.surface.push_back(triangle.nodes);
     snapshot.surface_tet.push_back(triangle.tet);
     const auto& x = model.node_position;
@@ -166,7 +169,7 @@ void add_mesh_surface(const Model& model, const State& state, Snapshot& snapshot
 
 void add_surface(const Model& model, Snapshot& snapshot) {
   for (const Block& block : model.blocks) {
-    if (block.meshed)
+    if (!block.convex())
       continue;
     for (const auto& edge : geom::edges(block.shape))
       snapshot.block_edges.push_back({block.node_begin + edge[0], block.node_begin + edge[1]});
@@ -209,7 +212,8 @@ void add_springs(const Model& model, const State& state, BondFields& fields) {
       moved += 0.5 * (point.weight_a[k] * geom::Vec3(a.x, a.y, a.z) +
                       point.weight_b[k] * geom::Vec3(b.x, b.y, b.z));
     }
-    fields.add(state.bond_mode[p], damage_of(state, p), jump(point, state.displacement), point.normal,
+    fields.add(state.bond_mode[p], damage_of(state, p),
+               local_jump(model, state.displacement, static_cast<int>(p)), point.normal,
                traction(model, state, static_cast<int>(p)), moved);
   }
 }

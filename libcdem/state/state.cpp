@@ -20,6 +20,20 @@ const FaceSlip* slip_of(const State& state, std::int64_t batch, int lane) {
   return first < 0 ? nullptr : &state.face_slip[first + lane];
 }
 
+Stress mesh_stress(const Model& model, const State& state, int tet) {
+  const int slot = model.mesh.tet_slot[tet - model.mesh.first_tet];
+  Stress stress{};
+  for (int c = 0; c < 6; ++c)
+    stress[c] = state.stress[slot / lanes].component[c][slot % lanes];
+  return stress;
+}
+
+void set_mesh_stress(const Model& model, State& state, int tet, const Stress& stress) {
+  const int slot = model.mesh.tet_slot[tet - model.mesh.first_tet];
+  for (int c = 0; c < 6; ++c)
+    state.stress[slot / lanes].component[c][slot % lanes] = stress[c];
+}
+
 State initial_state(const Model& model) {
   State state;
   state.displacement.resize(model.node_position.size());
@@ -34,6 +48,7 @@ State initial_state(const Model& model) {
                                    [](const Joint& joint) { return joint.softening != Softening::none; });
   state.bond_damage.assign(softens ? model.points.size() : 0, 0.0);
   state.bond_slip.assign(softens ? model.points.size() : 0, geom::Vec3::Zero());
+  state.released.assign(model.frames.size(), 0);
   state.initial_stress.assign(model.blocks.size(), Stress{});
   state.stress.assign(model.mesh.batches.size(), StressBatch{});
   if (std::any_of(model.bodies.begin(), model.bodies.end(),
@@ -72,6 +87,7 @@ std::vector<StateField> fields(State& s) {
       field("bond_mode", "1", FieldPlace::bond, "spring_forces", s.bond_mode, false),
       field("bond_damage", "1", FieldPlace::bond, "spring_forces", s.bond_damage, true),
       field("bond_slip", "m", FieldPlace::bond, "spring_forces", s.bond_slip, true),
+      field("released", "1", FieldPlace::bond, "release_interfaces", s.released, false),
       field("initial_stress", "Pa", FieldPlace::block, "initial_stress", s.initial_stress, true),
       field("stress", "Pa", FieldPlace::tet, "mesh_forces", s.stress, true),
       field("viscous_stress", "Pa", FieldPlace::tet, "mesh_forces", s.viscous_stress, true),

@@ -27,6 +27,8 @@ struct State {
   std::vector<double> bond_damage; // D, 0 whole .. 1 separated (n_points)
   std::vector<geom::Vec3>
       bond_slip; // m, slip of the damaged part, added to bond_offset at separation (n_points)
+  // 1: the interface has parted or slid away and is left to contact (n frames); written by release_interfaces
+  std::vector<std::uint8_t> released;
   std::vector<Stress> initial_stress; // Pa (n_blocks); written by initial_stress
   // Of meshed bodies.
   std::vector<StressBatch> stress; // Pa (n mesh batches); written by mesh_forces
@@ -48,6 +50,11 @@ struct State {
 // The slip of a face's broken springs; zero slip is made room for when there is none yet.
 FaceSlip& slip_of(State&, std::int64_t batch, int lane);
 const FaceSlip* slip_of(const State&, std::int64_t batch, int lane); // null when there is none
+
+// The stress that State::stress holds for a tet of a mesh (its number in the model), Pa; of a rigid block in the
+// directions it was made rigid in.
+Stress mesh_stress(const Model&, const State&, int tet);
+void set_mesh_stress(const Model&, State&, int tet, const Stress&);
 
 // A State at rest for the model: no displacement, contacts where the joint is not bonded.
 State initial_state(const Model&);

@@ -12,19 +12,6 @@ void clear_forces(Workspace& work, Range nodes) {
   std::fill(work.force.begin() + nodes.begin, work.force.begin() + nodes.end, Node{});
 }
 
-void add_spring_forces(const Model& model, Workspace& work, Range nodes) {
-  for (std::int64_t node = nodes.begin; node < nodes.end; ++node) {
-    Node& f = work.force[node];
-    for (std::int64_t i = model.bond_begin[node]; i < model.bond_begin[node + 1]; ++i) {
-      const BondOnNode& bond = model.bonds_on_nodes[i];
-      const geom::Vec3& spring = work.spring_force[bond.point];
-      f.x += bond.weight * spring.x();
-      f.y += bond.weight * spring.y();
-      f.z += bond.weight * spring.z();
-    }
-  }
-}
-
 void add(Node& force, const Node& more) {
   force.x += more.x;
   force.y += more.y;
@@ -37,7 +24,7 @@ void block_forces(const Model& model, const State& state, Workspace& work, const
   clear_forces(work, chunk.nodes);
   add_small_strain_forces(model.batches.data() + chunk.batches.begin, chunk.batches.size(),
                           state.displacement.data(), work.force.data());
-  add_spring_forces(model, work, chunk.nodes);
+  add_bond_forces(model, work.bond_force(), chunk.nodes, work.force.data() + chunk.nodes.begin);
 }
 
 std::vector<Node> net_forces(const Model& model, const State& state, Workspace& work) {
@@ -50,13 +37,13 @@ std::vector<Node> net_forces(const Model& model, const State& state, Workspace& 
   std::vector<Node> force(model.node_position.size());
   for (std::size_t c = 0; c < model.mesh.chunks.size(); ++c) {
     const MeshChunk& chunk = model.mesh.chunks[c];
-    if (model.blocks[chunk.block].rigid >= 0)
+    if (is_rigid(model, chunk))
       continue;
     const Node* const at = mesh_forces(model, copy, work, static_cast<std::int64_t>(c), false);
     std::copy(at, at + (chunk.inner_end - chunk.nodes.begin), force.begin() + chunk.nodes.begin);
   }
   for (const MeshChunk& chunk : model.mesh.chunks)
-    if (model.blocks[chunk.block].rigid < 0)
+    if (!is_rigid(model, chunk))
       each_shared_force(model.mesh, work, chunk, {}, [&](Range nodes, const Node* at) {
         std::copy(at, at + nodes.size(), force.begin() + nodes.begin);
       });

@@ -1,5 +1,6 @@
 #include "libcdem/step/mesh_forces.hpp"
 
+#include "libcdem/bond/spring_forces.hpp"
 #include "libcdem/model/build/add_meshes.hpp"
 #include "libcdem/parallel/simd.hpp"
 
@@ -69,6 +70,31 @@ ReadAhead reads_of(const Model& model, const State& state, std::int64_t index) {
   return ahead;
 }
 
+// The stress of tets of rigid blocks in a chunk of which others deform: it stands in the directions they were made rigid
+// in, and is put back behind the kernel.
+class StressOfRigid {
+public:
+  StressOfRigid(const Model& model, State& state, const MeshChunk& chunk) : model_(model), state_(state) {
+    if (model.rigid.empty())
+      return;
+    for (std::int64_t b = chunk.blocks.begin; b < chunk.blocks.end; ++b)
+      if (model.blocks[b].rigid >= 0)
+        for (int t = model.blocks[b].tet_begin; t < model.blocks[b].tet_end; ++t)
+          kept_.emplace_back(t, mesh_stress(model, state, t));
+  }
+  ~StressOfRigid() {
+    for (const auto& [tet, stress] : kept_)
+      set_mesh_stress(model_, state_, tet, stress);
+  }
+  StressOfRigid(const StressOfRigid&) = delete;
+  StressOfRigid& operator=(const StressOfRigid&) = delete;
+
+private:
+  const Model& model_;
+  State& state_;
+  std::vector<std::pair<int, Stress>> kept_;
+};
+
 } // namespace
 
 ReadAhead shared_reads_of(const Model& model, const State& state, const Workspace& work, std::int64_t index) {
@@ -98,6 +124,7 @@ const Node* mesh_forces(const Model& model, State& state, Workspace& work, std::
   if (work.damped && body.material.stiffness_damping > 0)
     damping = {body.material.stiffness_damping, state.viscous_stress.data() + chunk.batches.begin};
   FaceSums& sums = work.face_sums[index];
+  const StressOfRigid stress_of_rigid(model, state, chunk);
   sums.damping =
       finite_volume_forces(model.mesh.batches.data() + chunk.batches.begin, chunk.batches.size(), last_lanes,
                            at.position, at.velocity, work.strain_step, tet_stiffness(body.material), damping,
@@ -114,6 +141,10 @@ const Node* mesh_forces(const Model& model, State& state, Workspace& work, std::
     face_bond_forces(model.mesh.faces.data() + chunk.face_batches.begin, chunk.face_batches.size(),
                      chunk.faces, motion, law, breaking, state.faces.data() + chunk.face_batches.begin,
                      state.face_slip.data(), at.force, sums, ahead);
+  }
+  if (chunk.stars) {
+    add_bond_forces(model, work.bond_force(), chunk.nodes, at.force);
+    return at.force;
   }
   const Node* const shared = at.force + (chunk.inner_end - chunk.nodes.begin);
   geom::Vec3* const partial = work.partial.data() + chunk.partial.begin;

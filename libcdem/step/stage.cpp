@@ -1,5 +1,6 @@
 #include "libcdem/step/stage.hpp"
 
+#include "libcdem/bond/release.hpp"
 #include "libcdem/contact/contact_bounds.hpp"
 #include "libcdem/contact/contact_forces.hpp"
 #include "libcdem/contact/search.hpp"
@@ -19,6 +20,9 @@ constexpr std::int64_t poll_every = 16;
 // Steps between looks at which faces a flow meets: they turn by next to nothing in between.
 constexpr std::int64_t flow_every = 100;
 static_assert(watch_every % flow_every == 0, "a stage that goes on looks anew where it did when it was left");
+// Steps between looks at which interfaces of blocks have parted.
+constexpr std::int64_t release_every = 20;
+static_assert(watch_every % release_every == 0, "as above");
 // Steps between looks at which units have left their place.
 constexpr std::int64_t look_every = 50;
 static_assert(watch_every % look_every == 0, "as above");
@@ -176,7 +180,7 @@ void Stage::catch_up_meshes() {
   const auto meshes = static_cast<std::int64_t>(context_.model.mesh.chunks.size());
   if (work.strain_step > 0)
     for_chunks(meshes, context_.threads, [&](std::int64_t c) {
-      if (context_.model.blocks[context_.model.mesh.chunks[c].block].rigid < 0)
+      if (!is_rigid(context_.model, context_.model.mesh.chunks[c]))
         mesh_forces(context_.model, context_.state, work, c, false);
     });
   // Broken faces slide to where the nodes are too; the next step finds nothing left to do.
@@ -268,6 +272,11 @@ void Stage::after_step(const StepReport& report) {
     require_sound(context_.model, context_.state, work, run_away_, here());
   if (follows_pieces)
     require_followed(context_.model, work, here());
+  if (!context_.model.frames.empty() && step % release_every == 0) {
+    const Released released = release_interfaces(context_.model, context_.state, context_.threads);
+    spent.breaking += released.stored;
+    work.contact.pieces_due = work.contact.pieces_due || released.interfaces > 0;
+  }
   if (step % watch_every == 0)
     keep_state();
   if (!work.resolved.flows.empty() && step % flow_every == 0) {

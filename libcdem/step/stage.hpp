@@ -136,15 +136,14 @@ NodeSums Stage::advance(bool breaking, const Move& move, const MoveRigid& move_r
       return;
     }
     const MeshChunk& chunk = model.mesh.chunks[c - springs];
-    if (model.blocks[chunk.block].rigid >= 0)
+    if (chunk.stars || is_rigid(model, chunk))
       return;
     const Node* const force = mesh_forces(model, state, work, c - springs, breaking);
     NodeSums sums;
     move(Range{chunk.nodes.begin, chunk.inner_end}, force, sums);
     work.node_sums[stars + c - springs] = sums;
   });
-  work.strain_step = 0;
-  // Star blocks, and the nodes that several chunks of a mesh read.
+  // Blocks, and the nodes that several chunks of a mesh read.
   for_chunks(stars + meshes, context_.threads, [&](std::int64_t c) {
     if (c < stars) {
       NodeSums sums;
@@ -153,16 +152,25 @@ NodeSums Stage::advance(bool breaking, const Move& move, const MoveRigid& move_r
       work.node_sums[c] = sums;
       return;
     }
-    if (model.blocks[model.mesh.chunks[c - stars].block].rigid >= 0)
-      return;
-    NodeSums sums = work.node_sums[c];
     const MeshChunk& chunk = model.mesh.chunks[c - stars];
+    if (is_rigid(model, chunk))
+      return;
+    if (chunk.stars) { // its bonds have been computed
+      NodeSums sums;
+      const Node* const force = mesh_forces(model, state, work, c - stars, breaking);
+      each_deformable_run(model, chunk,
+                          [&](Range nodes) { move(nodes, force + (nodes.begin - chunk.nodes.begin), sums); });
+      work.node_sums[c] = sums;
+      return;
+    }
+    NodeSums sums = work.node_sums[c];
     ReadAhead ahead = shared_reads_of(model, state, work, c - stars + 1);
     ahead.spread(chunk.nodes.end - chunk.inner_end);
     each_shared_force(model.mesh, work, chunk, ahead,
                       [&](Range nodes, const Node* force) { move(nodes, force, sums); });
     work.node_sums[c] = sums;
   });
+  work.strain_step = 0;
   if (const auto bodies = static_cast<std::int64_t>(model.rigid.size()); bodies > 0)
     for_chunks(bodies, context_.threads, [&](std::int64_t body) {
       NodeSums sums;

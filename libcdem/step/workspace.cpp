@@ -8,8 +8,9 @@ Workspace::Workspace(const Model& model, const State& state, const Conditions& c
     : resolved(resolve(model, state, conditions)),
       force(model.mesh.empty() ? model.node_position.size()
                                : static_cast<std::size_t>(model.mesh.first_node)),
-      spring_force(model.points.size(), geom::Vec3::Zero()), spring_sums(model.point_chunks.size()),
-      node_sums(model.chunks.size()), rigid_sums(model.rigid.size()) {
+      spring_force(model.points.size(), geom::Vec3::Zero()),
+      turned_force(model.frames.empty() ? 0 : model.points.size(), geom::Vec3::Zero()),
+      spring_sums(model.point_chunks.size()), node_sums(model.chunks.size()), rigid_sums(model.rigid.size()) {
   if (!model.mesh.empty()) {
     partial.resize(static_cast<std::size_t>(model.mesh.chunks.back().partial.end));
     face_sums.resize(model.mesh.chunks.size());

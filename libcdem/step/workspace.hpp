@@ -40,6 +40,11 @@ struct Workspace {
   ResolvedConditions resolved;
   std::vector<Node> force; // N, at the nodes of star blocks, without loads; written by block_forces
   std::vector<geom::Vec3> spring_force; // N, on side a (n_points); written by spring_forces
+  // N, the same where interfaces have turned to (n_points); empty where none can turn.
+  std::vector<geom::Vec3> turned_force;
+  const std::vector<geom::Vec3>& bond_force() const {
+    return turned_force.empty() ? spring_force : turned_force;
+  }
   std::vector<SpringStrength> strength; // per interface
   // Both empty in a model without softening joints.
   std::vector<SofteningLaw> softening; // per interface

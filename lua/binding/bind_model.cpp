@@ -58,10 +58,6 @@ std::optional<geom::Pile> pile_shape(const Arguments& given) {
 }
 
 void require_blocks(const Arguments& given, const std::string& path) {
-  if (given.has("element") && given.text("element") != "small_strain")
-    throw InputError(path + ".element", "\"" + given.text("element") + "\"",
-                     "small_strain for an assembly of blocks",
-                     "finite_volume and rigid are for meshes, made by solid:mesh{} or cdem.read_mesh{}");
   for (const char* const only : {"bonds", "bonded_regions", "stiffness_ratio", "shear_ratio"})
     if (given.has(only))
       throw InputError(path + "." + only + ": only for a meshed body; an assembly's faces are all bonded");
@@ -103,6 +99,10 @@ std::vector<std::string> read_bodies(Session& session, const Arguments& a, Model
       continue;
     }
     require_blocks(given, path);
+    if (given.has("element"))
+      body.element = given.text("element") == "rigid"           ? Element::rigid
+                     : given.text("element") == "finite_volume" ? Element::finite_volume
+                                                                : Element::small_strain;
     body.shape = given.object<AssemblyObject>("shape")->assembly;
     if (!given.has("joint") && body.shape.blocks.size() > 1)
       throw InputError(path + ".joint: missing; the body has " + std::to_string(body.shape.blocks.size()) +

@@ -245,6 +245,7 @@ void add_chunks(Model& model, const std::vector<BondedFace>& faces, const std::v
   for (int begin = b.tet_begin; begin < b.tet_end; begin += tets_per_chunk) {
     MeshChunk chunk;
     chunk.block = block;
+    chunk.blocks = {block, block + 1};
     chunk.tets = {begin, std::min(b.tet_end, begin + tets_per_chunk)};
     chunk.nodes = {node, nodes_end(model.tets, chunk.tets, node)};
     chunk.inner_end = chunk.nodes.begin + inner[(begin - b.tet_begin) / tets_per_chunk];
@@ -274,6 +275,30 @@ void add_chunks(Model& model, const std::vector<BondedFace>& faces, const std::v
     step.nodes = chunk.nodes;
     model.chunks.push_back(step);
   }
+}
+
+void add_star_chunk(Model& model, Range blocks, Places& places) {
+  MeshData& data = model.mesh;
+  const Block &head = model.blocks[blocks.begin], &last = model.blocks[blocks.end - 1];
+  MeshChunk chunk;
+  chunk.block = static_cast<int>(blocks.begin);
+  chunk.blocks = blocks;
+  chunk.stars = true;
+  chunk.tets = {head.tet_begin, last.tet_end};
+  chunk.nodes = {head.node_begin, last.node_end};
+  chunk.inner_end = chunk.nodes.end;
+  places.start(chunk.nodes);
+  chunk.batches.begin = static_cast<std::int64_t>(data.batches.size());
+  add_tets(data, chunk.tets, model.tets, places);
+  chunk.batches.end = static_cast<std::int64_t>(data.batches.size());
+  chunk.face_batches.begin = chunk.face_batches.end = static_cast<std::int64_t>(data.faces.size());
+  chunk.others.begin = chunk.others.end = static_cast<std::int64_t>(data.others.size());
+  chunk.partial.begin = chunk.partial.end = data.chunks.empty() ? 0 : data.chunks.back().partial.end;
+  data.chunks.push_back(chunk);
+  BlockChunk step;
+  step.blocks = {blocks.end, blocks.end}; // it owns no block of small strain
+  step.nodes = chunk.nodes;
+  model.chunks.push_back(step);
 }
 
 void add_shares(Model& model) {
@@ -324,9 +349,37 @@ TetStiffness tet_stiffness(const Elastic& material) {
   return {material.lame_lambda(), 2 * material.shear_modulus()};
 }
 
-void add_meshes(Model& model, std::vector<MeshSeed>&& seeds) {
+void start_meshes(Model& model) {
   model.mesh.first_node = static_cast<int>(model.node_position.size());
   model.mesh.first_tet = static_cast<int>(model.tets.size());
+}
+
+void add_star_meshes(Model& model) {
+  const auto n_blocks = static_cast<int>(model.blocks.size());
+  const auto first = static_cast<int>(
+      std::find_if(model.blocks.begin(), model.blocks.end(), [](const Block& b) { return b.meshed; }) -
+      model.blocks.begin());
+  model.mesh.original.resize(model.node_position.size() - static_cast<std::size_t>(model.mesh.first_node));
+  std::iota(model.mesh.original.begin(), model.mesh.original.end(), 0);
+  Places places(model.node_position.size());
+  for (int begin = first; begin < n_blocks;) {
+    const Block& head = model.blocks[begin];
+    int end = begin + 1;
+    while (end < n_blocks && model.blocks[end].body == head.body &&
+           model.blocks[end].tet_end - head.tet_begin <= tets_per_chunk)
+      ++end;
+    add_star_chunk(model, {begin, end}, places);
+    begin = end;
+  }
+  for (int b = first; b < n_blocks; ++b)
+    for (int t = model.blocks[b].tet_begin; t < model.blocks[b].tet_end; ++t) {
+      // Corner 0 of a star mesh's tet is the centroid, the others are a triangle of a face's fan.
+      const geom::Tet& tet = model.tets[t];
+      model.mesh.boundary.push_back({{tet[1], tet[2], tet[3]}, t, b});
+    }
+}
+
+void add_meshes(Model& model, std::vector<MeshSeed>&& seeds) {
   for (MeshSeed& seed : seeds) {
     const geom::TetMesh mesh = geom::ordered(seed.mesh);
     seed.mesh = {};

@@ -13,7 +13,14 @@ struct MeshSeed {
   geom::TetMesh mesh;
 };
 
-// After the star blocks are in. Bodies' materials, joints and bonding say what the tets and faces are.
+// Nodes and tets that are added from now on belong to MeshData.
+void start_meshes(Model&);
+
+// The convex blocks that move far, whose star meshes stand in the model already: chunks of whole blocks of one body,
+// and their faces as boundary.
+void add_star_meshes(Model&);
+
+// After the convex blocks are in. Bodies' materials, joints and bonding say what the tets and faces are.
 void add_meshes(Model&, std::vector<MeshSeed>&&);
 
 geom::Vec3 face_point(const Model&, const MeshChunk&, const FaceSpringPlace&); // m, undeformed

@@ -79,8 +79,10 @@ TetBatch make_batch(const Model& model, const std::vector<int>& tets) {
   return batch;
 }
 
+// Blocks of small strain.
 void add_chunks(Model& model) {
-  const auto n_blocks = static_cast<std::int64_t>(model.blocks.size());
+  const auto n_blocks = std::count_if(model.blocks.begin(), model.blocks.end(),
+                                      [](const Block& block) { return !block.meshed; });
   for (std::int64_t begin = 0; begin < n_blocks;) {
     std::int64_t end = begin;
     const int tet_begin = model.blocks[begin].tet_begin;
@@ -104,6 +106,58 @@ void add_chunks(Model& model) {
     begin = end;
   }
   model.point_chunks = split(static_cast<std::int64_t>(model.points.size()), points_per_chunk);
+}
+
+bool moves_far(const Model& model, int body) {
+  return model.bodies[body].element != Element::small_strain;
+}
+
+// The three corners of a face that span the largest triangle, in the order of its loop.
+std::array<int, 3> widest_corners(const Model& model, const Block& block, int face) {
+  const std::vector<int>& loop = block.shape.faces[face].loop;
+  const auto n = static_cast<int>(loop.size());
+  std::array<int, 3> best{0, 1, 2};
+  double most = -1;
+  for (int i = 1; i + 1 < n; ++i)
+    for (int j = i + 1; j < n; ++j) {
+      const auto& x = block.shape.vertices;
+      const double area = (x[loop[i]] - x[loop[0]]).cross(x[loop[j]] - x[loop[0]]).squaredNorm();
+      if (area > most * (1 + 1e-9)) { // not for a rounding's sake
+        most = area;
+        best = {0, i, j};
+      }
+    }
+  for (int& corner : best)
+    corner = block.node_begin + loop[corner];
+  return best;
+}
+
+// `along` of the plane of three nodes by the two edges from the first.
+std::array<double, 2> in_edges(const Model& model, const std::array<int, 3>& nodes, const geom::Vec3& along) {
+  const auto& x = model.node_position;
+  const geom::Vec3 e1 = x[nodes[1]] - x[nodes[0]], e2 = x[nodes[2]] - x[nodes[0]];
+  const geom::Vec3 n = e1.cross(e2);
+  const double n2 = n.squaredNorm();
+  return {along.cross(e2).dot(n) / n2, e1.cross(along).dot(n) / n2};
+}
+
+void add_frame(Model& model, Interface& interface) {
+  const Block &a = model.blocks[interface.block_a], &b = model.blocks[interface.block_b];
+  if (!a.meshed && !b.meshed)
+    return;
+  InterfaceFrame frame;
+  frame.nodes_a = widest_corners(model, a, interface.face_a);
+  frame.nodes_b = widest_corners(model, b, interface.face_b);
+  const geom::Vec3 edge = model.node_position[frame.nodes_a[1]] - model.node_position[frame.nodes_a[0]];
+  frame.along = (edge - edge.dot(interface.normal) * interface.normal).normalized();
+  frame.along_a = in_edges(model, frame.nodes_a, frame.along);
+  frame.along_b = in_edges(model, frame.nodes_b, frame.along);
+  double area = 0;
+  for (int p = interface.point_begin; p < interface.point_end; ++p)
+    area += model.points[p].area;
+  frame.size = std::sqrt(area);
+  interface.frame = static_cast<int>(model.frames.size());
+  model.frames.push_back(frame);
 }
 
 // Stiffness per area of two half layers of thickness L/2 in series (Han 2010 eq 8 when the two materials are one).
@@ -172,6 +226,7 @@ void add_interface(Model& model, const geom::SharedFace& pair, const InterfaceRu
   }
   interface.point_end = static_cast<int>(model.points.size());
   interface.triangle_end = static_cast<int>(model.bond_triangles.size());
+  add_frame(model, interface);
   model.interfaces.push_back(interface);
 }
 
@@ -274,17 +329,29 @@ Model build_model(const Model& frame, std::vector<BlockSeed> seeds, const Interf
   shapes.reserve(seeds.size());
   fans.reserve(seeds.size());
   model.blocks.reserve(seeds.size());
-  for (BlockSeed& seed : seeds) {
+  for (BlockSeed& seed : seeds)
     if (seed.id == 0)
       seed.id = model.next_id++;
+  // Blocks of small strain first.
+  const auto far = std::stable_partition(seeds.begin(), seeds.end(),
+                                         [&](const BlockSeed& seed) { return !moves_far(model, seed.body); });
+  const auto small_strain = static_cast<std::size_t>(far - seeds.begin());
+  for (std::size_t i = 0; i < seeds.size(); ++i) {
+    if (i == small_strain)
+      start_meshes(model);
+    BlockSeed& seed = seeds[i];
     fans.push_back(add_block(model, std::move(seed)));
     shapes.push_back(model.blocks.back().shape);
     smallest = std::min(smallest, model.blocks.back().size);
+    model.blocks.back().meshed = i >= small_strain;
   }
+  if (small_strain == seeds.size())
+    start_meshes(model);
   for (const geom::SharedFace& pair : geom::shared_faces(shapes, relative_tolerance * smallest))
     add_interface(model, pair, rule, fans);
   add_outer_faces(model, fans);
   add_chunks(model);
+  add_star_meshes(model);
   add_meshes(model, std::move(meshes));
   add_rigid_bodies(model);
   add_bonds_on_nodes(model);

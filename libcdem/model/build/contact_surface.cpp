@@ -117,7 +117,7 @@ void build_surface(Model& model) {
           make_triangle(model, model.mesh.boundary[next].nodes, model.mesh.boundary[next].tet));
     const int outer_end = static_cast<int>(s.triangles.size());
     add_edges(model, begin, outer_end);
-    if (model.blocks[b].meshed && touches_itself(model.blocks[b].body))
+    if (!model.blocks[b].convex() && touches_itself(model.blocks[b].body))
       add_inner_faces(model, b);
     raise_flat_ones(model, begin, outer_end);
     s.block_begin.push_back(static_cast<int>(s.triangles.size()));

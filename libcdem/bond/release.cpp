@@ -1,0 +1,85 @@
+#include "libcdem/bond/release.hpp"
+
+#include "libcdem/bond/interface_frame.hpp"
+#include "libcdem/bond/spring_forces.hpp"
+
+#include <algorithm>
+
+namespace cdem {
+namespace {
+
+constexpr double parted = 1e-3, slid = 0.02; // of the interface's size
+constexpr double opened = 0.02;              // rad
+
+bool any_intact(const State& state, const Interface& interface) {
+  for (int p = interface.point_begin; p < interface.point_end; ++p)
+    if (state.bond_mode[p] == static_cast<std::uint8_t>(BondMode::intact))
+      return true;
+  return false;
+}
+
+bool has_left(const Model& model, const State& state, const Interface& interface) {
+  if (interface_opening_angle(model, state.displacement.data(), interface) > opened)
+    return true;
+  const double size = model.frames[interface.frame].size;
+  const geom::Mat3 back = interface_rotation(model, state.displacement.data(), interface).transpose();
+  bool open = true, shifted = true;
+  for (int p = interface.point_begin; p < interface.point_end; ++p) {
+    const geom::Vec3 gap = back * jump(model.points[p], state.displacement);
+    const double normal = gap.dot(interface.normal);
+    open = open && normal > parted * size;
+    shifted = shifted && (gap - normal * interface.normal).norm() > slid * size;
+  }
+  return open || shifted;
+}
+
+double stored_in(const Model& model, const State& state, const Interface& interface) {
+  double energy = 0;
+  for (int p = interface.point_begin; p < interface.point_end; ++p)
+    energy += spring_energy(model, state, p);
+  return energy;
+}
+
+} // namespace
+
+Released release_interfaces(const Model& model, State& state, int threads) {
+  Released sum;
+  if (model.frames.empty())
+    return sum;
+  const auto n = static_cast<std::int64_t>(model.interfaces.size());
+  std::vector<char> leaves(model.interfaces.size(), 0);
+  for_chunks(n, threads, [&](std::int64_t i) {
+    const Interface& interface = model.interfaces[i];
+    if (interface.frame >= 0 && !released(state, interface) && !any_intact(state, interface))
+      leaves[i] = static_cast<char>(has_left(model, state, interface));
+  });
+  for (std::int64_t i = 0; i < n; ++i)
+    if (leaves[i]) {
+      const Interface& interface = model.interfaces[i];
+      sum.stored += stored_in(model, state, interface);
+      state.released[interface.frame] = 1;
+      ++sum.interfaces;
+    }
+  return sum;
+}
+
+std::vector<std::pair<int, int>> held_pairs(const Model& model, const State& state) {
+  std::vector<std::pair<int, int>> pairs;
+  for (const Interface& interface : model.interfaces)
+    if (interface.frame >= 0 && !released(state, interface))
+      pairs.emplace_back(interface.block_a, interface.block_b);
+  std::sort(pairs.begin(), pairs.end());
+  return pairs;
+}
+
+std::vector<char> blocks_with_broken_bonds(const Model& model, const State& state) {
+  std::vector<char> loose(model.blocks.size(), 0);
+  for (std::size_t p = 0; p < model.points.size(); ++p)
+    if (state.bond_mode[p] != static_cast<std::uint8_t>(BondMode::intact)) {
+      const Interface& interface = model.interfaces[model.points[p].interface];
+      loose[interface.block_a] = loose[interface.block_b] = 1;
+    }
+  return loose;
+}
+
+} // namespace cdem

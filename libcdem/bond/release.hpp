@@ -1,0 +1,28 @@
+// Interfaces that are left to contact: an interface between two blocks that move far holds them while its faces stand
+// before each other. Once none of its bonds is whole it is handed over to the contact of the surfaces when
+//   1. its faces have parted at every point (by 1e-3 of the interface's size), or
+//   2. they have slid, at every point (by 0.02 of it), or
+//   3. they have opened like a hinge (by more than 0.02 rad).
+// Beyond these the springs no longer stand for what touches: forces act at the places that lay on each other once.
+#pragma once
+
+#include "libcdem/state/state.hpp"
+
+namespace cdem {
+
+struct Released {
+  std::int64_t interfaces = 0;
+  double stored = 0; // J, that their springs held and hold no more
+};
+
+// Writes State::released.
+Released release_interfaces(const Model&, State&, int threads);
+
+// Blocks that an interface still holds together, pairs of Model::blocks with the smaller first, ascending: contact
+// leaves them alone.
+std::vector<std::pair<int, int>> held_pairs(const Model&, const State&);
+
+// Per block: some of its interfaces has a bond that is not whole.
+std::vector<char> blocks_with_broken_bonds(const Model&, const State&);
+
+} // namespace cdem
