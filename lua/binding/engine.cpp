@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <lua.hpp>
 
 namespace cdem::script {
 

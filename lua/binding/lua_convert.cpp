@@ -3,6 +3,8 @@
 
 #include "libgeom/core/error.hpp"
 
+#include <lua.hpp>
+
 namespace cdem::script {
 
 // Holds a Lua value through the registry. Outliving the interpreter is allowed; use after its end is an

@@ -6,6 +6,7 @@
 
 #include <cctype>
 #include <cstring>
+#include <lua.hpp>
 
 namespace cdem::script {
 

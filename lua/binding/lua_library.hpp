@@ -5,10 +5,7 @@
 
 namespace cdem::script {
 
-inline int raise(lua_State* L, const std::string& message) {
-  lua_pushlstring(L, message.data(), message.size());
-  return lua_error(L);
-}
+int raise(lua_State* L, const std::string& message); // as a Lua error; does not return
 
 // Runs body, which may throw; a C++ exception becomes a Lua error with the place in front.
 template <class Body>
@@ -23,11 +20,7 @@ int guarded(lua_State* L, const char* shown, Body body) {
 }
 
 // Replaces the entry `name` of the table on top by `wrapper`, which gets the old one as its first upvalue.
-inline void replace_with(lua_State* L, const char* name, lua_CFunction wrapper) {
-  lua_getfield(L, -1, name);
-  lua_pushcclosure(L, wrapper, 1);
-  lua_setfield(L, -2, name);
-}
+void replace_with(lua_State* L, const char* name, int (*wrapper)(lua_State*));
 
 // pcall, xpcall and coroutines that let an interrupt pass (lua_protected.cpp).
 void use_interruptible_calls(lua_State* L);

@@ -6,6 +6,7 @@
 
 #include "libgeom/core/error.hpp"
 
+#include <lua.hpp>
 #include <new>
 
 namespace cdem::script {

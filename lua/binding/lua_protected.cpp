@@ -1,6 +1,8 @@
 // Protected calls and coroutines that an interrupt passes through: a script can catch errors, not a Ctrl-C.
 #include "lua/binding/lua_library.hpp"
 
+#include <lua.hpp>
+
 namespace cdem::script {
 
 namespace {

@@ -3,8 +3,20 @@
 #include "lua/binding/lua_library.hpp"
 
 #include <algorithm>
+#include <lua.hpp>
 
 namespace cdem::script {
+
+int raise(lua_State* L, const std::string& message) {
+  lua_pushlstring(L, message.data(), message.size());
+  return lua_error(L);
+}
+
+void replace_with(lua_State* L, const char* name, int (*wrapper)(lua_State*)) {
+  lua_getfield(L, -1, name);
+  lua_pushcclosure(L, wrapper, 1);
+  lua_setfield(L, -2, name);
+}
 
 namespace {
 

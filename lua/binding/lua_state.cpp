@@ -7,6 +7,7 @@
 
 #include <cstdlib>
 #include <cstring>
+#include <lua.hpp>
 #include <new>
 
 namespace cdem::script {

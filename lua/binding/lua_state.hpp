@@ -1,16 +1,16 @@
-// The Lua interpreter of a script. The only header that shows Lua; engine.cpp and lua_*.cpp alone include it.
+// The Lua interpreter of a script. Only engine.cpp and lua_*.cpp include it.
 #pragma once
 
 #include "lua/binding/module.hpp"
 #include "lua/binding/session.hpp"
-
-#include <lua.hpp>
 
 #include <deque>
 #include <exception>
 #include <map>
 #include <set>
 #include <thread>
+
+struct lua_State;
 
 namespace cdem::script {
 
