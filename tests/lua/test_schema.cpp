@@ -1,6 +1,6 @@
 // Arguments against their declaration, without Lua.
 #include "libgeom/core/error.hpp"
-#include "lua/binding/schema.hpp"
+#include "lua/binding/schema/schema.hpp"
 
 #include <catch2/catch.hpp>
 #include <cmath>

@@ -1,8 +1,8 @@
 // Line charts: of a model's histories, and of any lists.
-#include "lua/binding/model_object.hpp"
-#include "lua/binding/module.hpp"
-#include "lua/binding/nearest.hpp"
-#include "lua/binding/picture_fields.hpp"
+#include "lua/binding/functions/picture_fields.hpp"
+#include "lua/binding/objects/model_object.hpp"
+#include "lua/binding/runtime/module.hpp"
+#include "lua/binding/schema/nearest.hpp"
 
 #include "libcdem/vtk/chart.hpp"
 #include "libgeom/core/error.hpp"

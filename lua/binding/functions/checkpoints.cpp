@@ -1,7 +1,7 @@
 // Checkpoints of a run, and states that other scripts start from.
-#include "lua/binding/model_object.hpp"
-#include "lua/binding/module.hpp"
-#include "lua/binding/picture_fields.hpp"
+#include "lua/binding/functions/picture_fields.hpp"
+#include "lua/binding/objects/model_object.hpp"
+#include "lua/binding/runtime/module.hpp"
 
 #include "libcdem/checkpoint/file.hpp"
 #include "libgeom/core/error.hpp"

@@ -1,7 +1,7 @@
 // Supports, loads and initial states of a model.
-#include "lua/binding/model_object.hpp"
-#include "lua/binding/module.hpp"
-#include "lua/binding/selections.hpp"
+#include "lua/binding/functions/selections.hpp"
+#include "lua/binding/objects/model_object.hpp"
+#include "lua/binding/runtime/module.hpp"
 
 #include "libgeom/core/error.hpp"
 

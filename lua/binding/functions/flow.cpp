@@ -1,7 +1,7 @@
 // Flow on outer faces, pieces, and the search for the flow that breaks a solid (Feng 2014 section 3).
-#include "lua/binding/module.hpp"
-#include "lua/binding/selections.hpp"
-#include "lua/binding/solving_stage.hpp"
+#include "lua/binding/functions/selections.hpp"
+#include "lua/binding/functions/solving_stage.hpp"
+#include "lua/binding/runtime/module.hpp"
 
 #include "libgeom/core/error.hpp"
 

@@ -1,8 +1,8 @@
 // Cutting blocks near failure, and cracks that grow in stages.
-#include "lua/binding/angles.hpp"
-#include "lua/binding/module.hpp"
-#include "lua/binding/selections.hpp"
-#include "lua/binding/solving_stage.hpp"
+#include "lua/binding/functions/angles.hpp"
+#include "lua/binding/functions/selections.hpp"
+#include "lua/binding/functions/solving_stage.hpp"
+#include "lua/binding/runtime/module.hpp"
 
 #include "libgeom/core/error.hpp"
 

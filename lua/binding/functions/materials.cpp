@@ -1,8 +1,8 @@
 // Materials and joints.
-#include "lua/binding/angles.hpp"
-#include "lua/binding/module.hpp"
-#include "lua/binding/objects.hpp"
-#include "lua/binding/session.hpp"
+#include "lua/binding/functions/angles.hpp"
+#include "lua/binding/objects/objects.hpp"
+#include "lua/binding/runtime/module.hpp"
+#include "lua/binding/runtime/session.hpp"
 
 #include <cmath>
 

@@ -1,8 +1,8 @@
 // Results of a model as Lua values.
-#include "lua/binding/model_object.hpp"
-#include "lua/binding/module.hpp"
-#include "lua/binding/nearest.hpp"
-#include "lua/binding/selections.hpp"
+#include "lua/binding/functions/selections.hpp"
+#include "lua/binding/objects/model_object.hpp"
+#include "lua/binding/runtime/module.hpp"
+#include "lua/binding/schema/nearest.hpp"
 
 #include "libgeom/core/error.hpp"
 

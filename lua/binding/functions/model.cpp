@@ -1,10 +1,10 @@
 // cdem.model, and what a model is apart from its conditions, stages and results.
-#include "lua/binding/model_object.hpp"
-#include "lua/binding/module.hpp"
-#include "lua/binding/nearest.hpp"
-#include "lua/binding/pile_object.hpp"
-#include "lua/binding/selections.hpp"
-#include "lua/binding/solid_objects.hpp"
+#include "lua/binding/functions/selections.hpp"
+#include "lua/binding/objects/model_object.hpp"
+#include "lua/binding/objects/pile_object.hpp"
+#include "lua/binding/objects/solid_objects.hpp"
+#include "lua/binding/runtime/module.hpp"
+#include "lua/binding/schema/nearest.hpp"
 
 #include "libgeom/core/error.hpp"
 

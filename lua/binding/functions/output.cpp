@@ -1,7 +1,7 @@
 // Files of a model: ParaView, pictures, films.
-#include "lua/binding/model_object.hpp"
-#include "lua/binding/module.hpp"
-#include "lua/binding/picture_fields.hpp"
+#include "lua/binding/functions/picture_fields.hpp"
+#include "lua/binding/objects/model_object.hpp"
+#include "lua/binding/runtime/module.hpp"
 
 #include "libcdem/vtk/field_values.hpp"
 #include "libcdem/vtk/film.hpp"

@@ -1,7 +1,7 @@
 // cdem.parameter: a value of the script that --set can change.
-#include "lua/binding/module.hpp"
-#include "lua/binding/nearest.hpp"
-#include "lua/binding/session.hpp"
+#include "lua/binding/runtime/module.hpp"
+#include "lua/binding/runtime/session.hpp"
+#include "lua/binding/schema/nearest.hpp"
 
 #include "libgeom/core/error.hpp"
 

@@ -1,4 +1,4 @@
-#include "lua/binding/picture_fields.hpp"
+#include "lua/binding/functions/picture_fields.hpp"
 
 #include "libgeom/core/error.hpp"
 

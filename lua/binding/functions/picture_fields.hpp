@@ -1,7 +1,7 @@
 // What pictures and charts have in common in their declarations.
 #pragma once
 
-#include "lua/binding/schema.hpp"
+#include "lua/binding/schema/schema.hpp"
 
 #include "libcdem/vtk/picture.hpp"
 

@@ -1,11 +1,11 @@
 // Piles: units of one shape hung over a ground, or laid on it, before there is a model of them.
-#include "lua/binding/angles.hpp"
-#include "lua/binding/module.hpp"
-#include "lua/binding/picture_fields.hpp"
-#include "lua/binding/pile_object.hpp"
-#include "lua/binding/session.hpp"
-#include "lua/binding/solid_objects.hpp"
-#include "lua/binding/solving_stage.hpp"
+#include "lua/binding/functions/angles.hpp"
+#include "lua/binding/functions/picture_fields.hpp"
+#include "lua/binding/functions/solving_stage.hpp"
+#include "lua/binding/objects/pile_object.hpp"
+#include "lua/binding/objects/solid_objects.hpp"
+#include "lua/binding/runtime/module.hpp"
+#include "lua/binding/runtime/session.hpp"
 
 #include "libcdem/step/errors.hpp"
 #include "libgeom/core/error.hpp"

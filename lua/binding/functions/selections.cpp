@@ -1,7 +1,7 @@
 // cdem.select.*: places that do not depend on a model.
-#include "lua/binding/module.hpp"
-#include "lua/binding/objects.hpp"
-#include "lua/binding/selections.hpp"
+#include "lua/binding/functions/selections.hpp"
+#include "lua/binding/objects/objects.hpp"
+#include "lua/binding/runtime/module.hpp"
 
 #include "libgeom/core/error.hpp"
 

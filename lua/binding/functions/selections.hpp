@@ -1,7 +1,7 @@
 // From what a script writes after `on =` to libcdem's selections.
 #pragma once
 
-#include "lua/binding/value.hpp"
+#include "lua/binding/schema/value.hpp"
 
 #include "libcdem/model/selection.hpp"
 

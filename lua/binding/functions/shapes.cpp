@@ -1,7 +1,7 @@
 // Block assemblies: the builders of libgeom.
-#include "lua/binding/angles.hpp"
-#include "lua/binding/module.hpp"
-#include "lua/binding/objects.hpp"
+#include "lua/binding/functions/angles.hpp"
+#include "lua/binding/objects/objects.hpp"
+#include "lua/binding/runtime/module.hpp"
 
 #include "libgeom/assembly/builders.hpp"
 #include "libgeom/assembly/edit.hpp"

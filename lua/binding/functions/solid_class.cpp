@@ -1,10 +1,10 @@
 // What a script can ask of a solid, and do with one.
-#include "lua/binding/angles.hpp"
-#include "lua/binding/module.hpp"
-#include "lua/binding/nearest.hpp"
-#include "lua/binding/picture_fields.hpp"
-#include "lua/binding/session.hpp"
-#include "lua/binding/solid_objects.hpp"
+#include "lua/binding/functions/angles.hpp"
+#include "lua/binding/functions/picture_fields.hpp"
+#include "lua/binding/objects/solid_objects.hpp"
+#include "lua/binding/runtime/module.hpp"
+#include "lua/binding/runtime/session.hpp"
+#include "lua/binding/schema/nearest.hpp"
 
 #include "libgeom/core/error.hpp"
 #include "libgeom/mesh/solid_mesh.hpp"

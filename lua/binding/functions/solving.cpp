@@ -1,6 +1,6 @@
 // Solving calls: numbered stages, hashed by their arguments. In a check they return typed, empty results.
-#include "lua/binding/module.hpp"
-#include "lua/binding/solving_stage.hpp"
+#include "lua/binding/functions/solving_stage.hpp"
+#include "lua/binding/runtime/module.hpp"
 
 #include "libgeom/core/error.hpp"
 

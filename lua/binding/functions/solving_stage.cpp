@@ -1,7 +1,7 @@
-#include "lua/binding/solving_stage.hpp"
+#include "lua/binding/functions/solving_stage.hpp"
 
 #include "libcdem/step/errors.hpp"
-#include "lua/binding/angles.hpp"
+#include "lua/binding/functions/angles.hpp"
 
 #include <cstdio>
 

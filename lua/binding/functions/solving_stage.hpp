@@ -1,8 +1,8 @@
 // A solving call as a numbered stage.
 #pragma once
 
-#include "lua/binding/model_object.hpp"
-#include "lua/binding/schema.hpp"
+#include "lua/binding/objects/model_object.hpp"
+#include "lua/binding/schema/schema.hpp"
 
 #include <functional>
 

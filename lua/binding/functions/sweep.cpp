@@ -1,8 +1,8 @@
 // cdem.sweep: one script with many settings, as processes side by side.
-#include "lua/binding/module.hpp"
-#include "lua/binding/process_pool.hpp"
-#include "lua/binding/session.hpp"
-#include "lua/binding/sources.hpp"
+#include "lua/binding/runtime/module.hpp"
+#include "lua/binding/runtime/process_pool.hpp"
+#include "lua/binding/runtime/session.hpp"
+#include "lua/binding/runtime/sources.hpp"
 
 #include "libcdem/step/errors.hpp"
 #include "libgeom/core/error.hpp"

@@ -1,6 +1,6 @@
 // Small helpers: tables of numbers as .csv, lines for the log, the version.
-#include "lua/binding/model_object.hpp"
-#include "lua/binding/module.hpp"
+#include "lua/binding/objects/model_object.hpp"
+#include "lua/binding/runtime/module.hpp"
 
 #include "libgeom/core/error.hpp"
 

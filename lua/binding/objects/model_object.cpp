@@ -1,8 +1,8 @@
-#include "lua/binding/model_object.hpp"
+#include "lua/binding/objects/model_object.hpp"
 
-#include "lua/binding/nearest.hpp"
-#include "lua/binding/schema.hpp"
-#include "lua/binding/selections.hpp"
+#include "lua/binding/functions/selections.hpp"
+#include "lua/binding/schema/nearest.hpp"
+#include "lua/binding/schema/schema.hpp"
 
 #include "libgeom/core/error.hpp"
 

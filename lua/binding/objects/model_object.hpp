@@ -1,8 +1,8 @@
 // A model as the script holds it: libcdem's Simulation with the names the script gave.
 #pragma once
 
-#include "lua/binding/objects.hpp"
-#include "lua/binding/session.hpp"
+#include "lua/binding/objects/objects.hpp"
+#include "lua/binding/runtime/session.hpp"
 
 #include "libcdem/vtk/files.hpp"
 #include "libgeom/placement/pile.hpp"

@@ -1,7 +1,7 @@
 // What a script holds of ours.
 #pragma once
 
-#include "lua/binding/value.hpp"
+#include "lua/binding/schema/value.hpp"
 
 #include "libcdem/simulation.hpp"
 

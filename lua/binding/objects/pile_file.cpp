@@ -1,4 +1,4 @@
-#include "lua/binding/pile_object.hpp"
+#include "lua/binding/objects/pile_object.hpp"
 
 #include "libgeom/core/error.hpp"
 #include "libgeom/mesh/boundary.hpp"

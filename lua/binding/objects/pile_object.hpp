@@ -1,7 +1,7 @@
 // Piles of units as a script holds them, and their files.
 #pragma once
 
-#include "lua/binding/value.hpp"
+#include "lua/binding/schema/value.hpp"
 
 #include "libgeom/placement/pile.hpp"
 

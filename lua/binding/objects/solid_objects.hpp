@@ -1,7 +1,7 @@
 // Solids and their meshes as a script holds them.
 #pragma once
 
-#include "lua/binding/value.hpp"
+#include "lua/binding/schema/value.hpp"
 
 #include "libcdem/vtk/mesh_snapshot.hpp"
 #include "libgeom/solid/solid.hpp"

@@ -2,8 +2,8 @@
 #include "libcdem/checkpoint/archive.hpp"
 #include "libcdem/checkpoint/file.hpp"
 #include "libgeom/core/error.hpp"
-#include "lua/binding/files.hpp"
-#include "lua/binding/model_object.hpp"
+#include "lua/binding/objects/model_object.hpp"
+#include "lua/binding/runtime/files.hpp"
 
 #include <algorithm>
 #include <array>

@@ -1,7 +1,7 @@
-#include "lua/binding/journal.hpp"
+#include "lua/binding/replay/journal.hpp"
 
 #include "libcdem/checkpoint/archive.hpp"
-#include "lua/binding/pile_object.hpp"
+#include "lua/binding/objects/pile_object.hpp"
 
 namespace cdem::script {
 

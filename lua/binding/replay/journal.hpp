@@ -3,7 +3,7 @@
 // where its checkpoint was written; so its own variables come back as well.
 #pragma once
 
-#include "lua/binding/value.hpp"
+#include "lua/binding/schema/value.hpp"
 
 #include <optional>
 

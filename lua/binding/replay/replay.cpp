@@ -1,10 +1,10 @@
 // Calls through the journal.
-#include "lua/binding/replay.hpp"
+#include "lua/binding/replay/replay.hpp"
 
 #include "libcdem/step/errors.hpp"
 #include "libgeom/core/error.hpp"
-#include "lua/binding/model_object.hpp"
-#include "lua/binding/session.hpp"
+#include "lua/binding/objects/model_object.hpp"
+#include "lua/binding/runtime/session.hpp"
 
 namespace cdem::script {
 

@@ -1,8 +1,8 @@
 // Calls of a script on their way through the journal, and what a session keeps for its checkpoints.
 #pragma once
 
-#include "lua/binding/engine.hpp"
-#include "lua/binding/journal.hpp"
+#include "lua/binding/replay/journal.hpp"
+#include "lua/binding/runtime/engine.hpp"
 
 #include "libcdem/step/keeper.hpp"
 

@@ -1,6 +1,6 @@
-#include "lua/binding/report.hpp"
+#include "lua/binding/report/report.hpp"
 
-#include "lua/binding/engine.hpp"
+#include "lua/binding/runtime/engine.hpp"
 
 #include <nlohmann/json.hpp>
 

@@ -1,7 +1,7 @@
 // Figures of a case beside their references: report.json for programs, report.md for people.
 #pragma once
 
-#include "lua/binding/value.hpp"
+#include "lua/binding/schema/value.hpp"
 
 #include <optional>
 

@@ -1,8 +1,8 @@
-#include "lua/binding/engine.hpp"
+#include "lua/binding/runtime/engine.hpp"
 
-#include "lua/binding/lua_state.hpp"
-#include "lua/binding/model_object.hpp"
-#include "lua/binding/sources.hpp"
+#include "lua/binding/objects/model_object.hpp"
+#include "lua/binding/runtime/lua_state.hpp"
+#include "lua/binding/runtime/sources.hpp"
 
 #include "libcdem/step/errors.hpp"
 #include "libgeom/core/error.hpp"

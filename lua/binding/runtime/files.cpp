@@ -1,7 +1,7 @@
-#include "lua/binding/files.hpp"
+#include "lua/binding/runtime/files.hpp"
 
 #include "libgeom/core/error.hpp"
-#include "lua/binding/engine.hpp"
+#include "lua/binding/runtime/engine.hpp"
 
 #include <algorithm>
 #include <cctype>

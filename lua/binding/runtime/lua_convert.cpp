@@ -1,5 +1,5 @@
 // Values between Lua and C++.
-#include "lua/binding/lua_state.hpp"
+#include "lua/binding/runtime/lua_state.hpp"
 
 #include "libgeom/core/error.hpp"
 

@@ -1,8 +1,8 @@
 // io.open, io.lines, io.write and require as scripts get them.
-#include "lua/binding/lua_library.hpp"
+#include "lua/binding/runtime/lua_library.hpp"
 
 #include "libgeom/core/error.hpp"
-#include "lua/binding/sources.hpp"
+#include "lua/binding/runtime/sources.hpp"
 
 #include <cctype>
 #include <cstring>

@@ -1,7 +1,7 @@
 // What the functions that replace Lua's own have in common. Only lua_*.cpp include it.
 #pragma once
 
-#include "lua/binding/lua_state.hpp"
+#include "lua/binding/runtime/lua_state.hpp"
 
 namespace cdem::script {
 

@@ -1,8 +1,8 @@
 // The `cdem` table and the metatables of its classes, made from the module's declarations.
-#include "lua/binding/embedded.hpp"
-#include "lua/binding/lua_state.hpp"
-#include "lua/binding/model_object.hpp"
-#include "lua/binding/nearest.hpp"
+#include "lua/binding/objects/model_object.hpp"
+#include "lua/binding/runtime/embedded.hpp"
+#include "lua/binding/runtime/lua_state.hpp"
+#include "lua/binding/schema/nearest.hpp"
 
 #include "libgeom/core/error.hpp"
 

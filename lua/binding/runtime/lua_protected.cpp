@@ -1,5 +1,5 @@
 // Protected calls and coroutines that an interrupt passes through: a script can catch errors, not a Ctrl-C.
-#include "lua/binding/lua_library.hpp"
+#include "lua/binding/runtime/lua_library.hpp"
 
 #include <lua.hpp>
 

@@ -1,6 +1,6 @@
 // The libraries a script gets. By default: no commands, no foreign code, no bytecode, no introspection of the
 // interpreter; files only where Files allows; `require` only of cdem and of .lua files beside the script.
-#include "lua/binding/lua_library.hpp"
+#include "lua/binding/runtime/lua_library.hpp"
 
 #include <algorithm>
 #include <lua.hpp>

@@ -1,9 +1,9 @@
 // Making, running and ending the interpreter; errors on their way between Lua and C++.
-#include "lua/binding/lua_state.hpp"
+#include "lua/binding/runtime/lua_state.hpp"
 
 #include "libcdem/step/errors.hpp"
 #include "libgeom/core/error.hpp"
-#include "lua/binding/schema.hpp"
+#include "lua/binding/schema/schema.hpp"
 
 #include <cstdlib>
 #include <cstring>

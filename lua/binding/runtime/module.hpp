@@ -2,8 +2,8 @@
 // return.
 #pragma once
 
-#include "lua/binding/journal.hpp"
-#include "lua/binding/schema.hpp"
+#include "lua/binding/replay/journal.hpp"
+#include "lua/binding/schema/schema.hpp"
 
 #include <functional>
 
@@ -63,7 +63,7 @@ struct Module {
   Class& the_class(const std::string& name); // declared before; assert
 };
 
-// Everything, declared once by the bind_* files.
+// Everything, declared once by the files of functions/.
 const Module& module();
 
 // A method whose self is a T.

@@ -1,6 +1,6 @@
-#include "lua/binding/process_pool.hpp"
+#include "lua/binding/runtime/process_pool.hpp"
 
-#include "lua/binding/engine.hpp"
+#include "lua/binding/runtime/engine.hpp"
 
 #include <chrono>
 #include <csignal>

@@ -1,7 +1,7 @@
-#include "lua/binding/session.hpp"
+#include "lua/binding/runtime/session.hpp"
 
 #include "libgeom/core/error.hpp"
-#include "lua/binding/nearest.hpp"
+#include "lua/binding/schema/nearest.hpp"
 
 #include <algorithm>
 #include <cstdio>

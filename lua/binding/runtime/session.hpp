@@ -1,11 +1,11 @@
 // What a running script has declared and done so far. Knows nothing of Lua.
 #pragma once
 
-#include "lua/binding/engine.hpp"
-#include "lua/binding/files.hpp"
-#include "lua/binding/replay.hpp"
-#include "lua/binding/report.hpp"
-#include "lua/binding/value.hpp"
+#include "lua/binding/replay/replay.hpp"
+#include "lua/binding/report/report.hpp"
+#include "lua/binding/runtime/engine.hpp"
+#include "lua/binding/runtime/files.hpp"
+#include "lua/binding/schema/value.hpp"
 
 #include <chrono>
 #include <functional>

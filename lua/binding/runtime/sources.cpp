@@ -1,6 +1,6 @@
-#include "lua/binding/sources.hpp"
+#include "lua/binding/runtime/sources.hpp"
 
-#include "lua/binding/files.hpp"
+#include "lua/binding/runtime/files.hpp"
 
 #include <algorithm>
 #include <regex>

@@ -1,4 +1,4 @@
-#include "lua/binding/nearest.hpp"
+#include "lua/binding/schema/nearest.hpp"
 
 namespace cdem::script {
 

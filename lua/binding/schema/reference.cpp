@@ -1,6 +1,6 @@
 // The reference page of the script language (docs/script-reference.md).
-#include "lua/binding/engine.hpp"
-#include "lua/binding/module.hpp"
+#include "lua/binding/runtime/engine.hpp"
+#include "lua/binding/runtime/module.hpp"
 
 namespace cdem::script {
 

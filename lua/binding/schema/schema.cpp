@@ -1,4 +1,4 @@
-#include "lua/binding/schema.hpp"
+#include "lua/binding/schema/schema.hpp"
 
 #include <cassert>
 

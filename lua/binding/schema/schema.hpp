@@ -3,7 +3,7 @@
 // page (reference.cpp), so the three cannot drift apart.
 #pragma once
 
-#include "lua/binding/value.hpp"
+#include "lua/binding/schema/value.hpp"
 
 #include <optional>
 

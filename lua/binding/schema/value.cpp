@@ -1,4 +1,4 @@
-#include "lua/binding/value.hpp"
+#include "lua/binding/schema/value.hpp"
 
 #include <charconv>
 #include <cmath>
