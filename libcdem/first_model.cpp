@@ -21,11 +21,27 @@ int body_index(const Model& model, const std::string& name) {
 }
 
 // Between meshes nothing is glued.
-void require_contact(const Joint& joint, const std::string& both) {
+void require_contact(const Joint& joint, const std::string& field, const std::string& value) {
   if (joint.bonded)
     throw geom::InputError(
-        "contacts", both, "cdem.coulomb{ friction_angle = ... } between meshes",
+        field, value, "cdem.coulomb{ friction_angle = ... } between meshes",
         "meshed bodies are not bonded to each other; unite them to one solid before meshing");
+}
+
+// The law of all pairs that have none. A mesh and an assembly of blocks have no contact; require_separate says so.
+void add_default(Model& frame, const Joint& joint) {
+  validate(joint);
+  const int number = static_cast<int>(frame.joints.size()), count = static_cast<int>(frame.bodies.size());
+  frame.joints.push_back(joint);
+  for (int a = 0; a < count; ++a)
+    for (int b = a; b < count; ++b) {
+      const bool meshed = frame.bodies[a].element != Element::small_strain;
+      if (meshed != (frame.bodies[b].element != Element::small_strain))
+        continue;
+      if (meshed)
+        require_contact(joint, "contacts.default", "a joint that bonds");
+      (meshed ? frame.surface.joint : frame.pair_joint).emplace(std::pair(a, b), number);
+    }
 }
 
 } // namespace
@@ -71,7 +87,7 @@ Model first_model(const ModelSpec& spec) {
       throw geom::InputError("contacts", both, "two meshed bodies, or two of blocks",
                              "there is no contact between a mesh and an assembly of blocks; mesh both");
     if (is_meshed(a)) {
-      require_contact(pair.joint, both);
+      require_contact(pair.joint, "contacts", both);
       if (!frame.surface.joint.emplace(std::minmax(a, b), static_cast<int>(frame.joints.size())).second)
         throw geom::InputError("contacts", both, "given once", "two bodies have one law between them");
       frame.joints.push_back(pair.joint);
@@ -84,6 +100,8 @@ Model first_model(const ModelSpec& spec) {
       throw geom::InputError("contacts", both, "given once", "two bodies have one joint between them");
     frame.joints.push_back(pair.joint);
   }
+  if (spec.default_contact)
+    add_default(frame, *spec.default_contact);
   Model model = build_model(frame, std::move(seeds), default_traits, std::move(meshes));
   require_separate(model);
   return model;

@@ -118,6 +118,9 @@ void read_pairs(const Arguments& a, ModelSpec& spec) {
   std::vector<std::string> names;
   for (const BodySpec& body : spec.bodies)
     names.push_back(body.name);
+  if (const auto contacts = a.record("contacts"))
+    if (const auto law = contacts->object<JointObject>("default"))
+      spec.default_contact = law->joint;
   std::size_t index = 0;
   for (const Value& row : a.list("contacts")) {
     const Values& items = row.table()->items;
@@ -279,7 +282,13 @@ void bind_model(Module& m) {
       {"model",
        "A model: bodies of blocks, and what holds touching bodies to each other.",
        {list("bodies", record_type(body)).required(),
-        list("contacts", pair, 0).doc("{\"body a\", \"body b\", joint} for every two bodies that touch")},
+        list("contacts", pair, 0)
+            .beside(
+                {object("default", "Joint")
+                     .doc("of every two bodies that are not named; of meshes it is cdem.coulomb, and the law "
+                          "between the units of a body and its fragments too")})
+            .doc("{\"body a\", \"body b\", joint} for every two bodies that touch; default = joint for all "
+                 "others")},
        false,
        "cdem.Model",
        "",

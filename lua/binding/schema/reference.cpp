@@ -22,8 +22,9 @@ std::string type_text(const Type& type) {
   case Kind::record:
     return "table (below)";
   case Kind::list:
-    return type.items[0].kind == Kind::record ? "list of tables (below)"
-                                              : "list of " + type_text(type.items[0]);
+    return (type.items[0].kind == Kind::record ? "list of tables (below)"
+                                               : "list of " + type_text(type.items[0])) +
+           (type.fields.empty() ? "" : ", and named values (below)");
   case Kind::vec3:
     return type.whole ? "{x, y, z}, whole" : "{x, y, z}";
   case Kind::place:
@@ -49,11 +50,12 @@ std::string type_text(const Type& type) {
   }
 }
 
-void table_of(std::string& out, const std::vector<Field>& fields, const std::string& path, bool results) {
+void table_of(std::string& out, const std::vector<Field>& fields, const std::string& path, bool results,
+              const char* heading = "Each of") {
   if (fields.empty())
     return;
   if (!path.empty())
-    out += "Each of `" + path + "`:\n\n";
+    out += std::string(heading) + " `" + path + "`:\n\n";
   out += results ? "| name | type | unit | meaning |\n|---|---|---|---|\n"
                  : "| name | type | unit | range | default | meaning |\n|---|---|---|---|---|---|\n";
   for (const Field& f : fields) {
@@ -73,6 +75,8 @@ void table_of(std::string& out, const std::vector<Field>& fields, const std::str
       table_of(out, f.type.fields, inner, results);
     if (f.type.kind == Kind::list && f.type.items[0].kind == Kind::record)
       table_of(out, f.type.items[0].fields, inner, results);
+    if (f.type.kind == Kind::list)
+      table_of(out, f.type.fields, inner, results, "Named values of");
   }
 }
 

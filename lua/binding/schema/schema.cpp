@@ -42,7 +42,8 @@ std::string Type::lua_type() const {
   case Kind::list: {
     const std::string item = items[0].lua_type();
     const bool compound = item.find('|') != std::string::npos;
-    return (compound ? "(" + item + ")" : item) + "[]";
+    const std::string list = (compound ? "(" + item + ")" : item) + "[]";
+    return fields.empty() ? list : list + "|" + record_type(fields).lua_type();
   }
   case Kind::function:
     return (or_number ? "number|fun" : "fun") + name;
@@ -89,7 +90,8 @@ std::string Type::words() const {
   case Kind::vec3:
     return whole ? "three whole numbers {x, y, z}" : "three numbers {x, y, z}";
   case Kind::list:
-    return "a list, each item " + items[0].words();
+    return "a list, each item " + items[0].words() +
+           (fields.empty() ? "" : ", and " + fields[0].name + " = " + fields[0].type.words());
   case Kind::tuple: {
     std::string out;
     for (const Type& item : items)
@@ -154,6 +156,10 @@ Field& Field::within(double low, double high) {
 }
 Field& Field::from(double low, double high) {
   type.range = {low, high, false, true};
+  return *this;
+}
+Field& Field::beside(std::vector<Field> named) {
+  type.fields = std::move(named);
   return *this;
 }
 

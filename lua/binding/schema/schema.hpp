@@ -50,7 +50,7 @@ struct Type {
       name{}; // object: class, or "A|B" for either; function: its parameters, e.g. "(time: number): number"
   std::vector<Type> items{};   // list: one; tuple: one per place
   std::size_t min_items = 0;   // list
-  std::vector<Field> fields{}; // record
+  std::vector<Field> fields{}; // record; list: values with a name beside its items
 
   std::string lua_type() const; // as LuaCATS writes it
   std::string words() const;    // as a message says it: "a number", "a list of numbers"
@@ -72,6 +72,7 @@ struct Field {
   Field& between(double low, double high); // in (low, high)
   Field& within(double low, double high);  // in [low, high]
   Field& from(double low, double high);    // in [low, high)
+  Field& beside(std::vector<Field> named); // of a list: { name = value, item, ... }
 };
 
 // Fields by type.

@@ -125,7 +125,14 @@ Value checked_list(const Value& given, const Type& type, const std::string& path
   if (table->items.empty() && !table->named.empty() && type.items[0].kind == Kind::record)
     throw InputError(path + ": must be a list of tables; write one more pair of braces: { { " +
                      table->named.begin()->first + " = ... } }");
-  no_names(*table, path, type.words());
+  std::shared_ptr<Table> named; // what stands beside the items
+  if (type.fields.empty()) {
+    no_names(*table, path, type.words());
+  } else {
+    Table beside = *table;
+    beside.items.clear();
+    named = checked_record(Value(std::move(beside)), type.fields, path);
+  }
   if (table->items.size() < type.min_items)
     throw InputError(path, describe(given),
                      "a list of at least " + std::to_string(type.min_items) +
@@ -134,7 +141,10 @@ Value checked_list(const Value& given, const Type& type, const std::string& path
   out.reserve(table->items.size());
   for (std::size_t i = 0; i < table->items.size(); ++i)
     out.push_back(check_value(table->items[i], type.items[0], path + "[" + std::to_string(i + 1) + "]"));
-  return Table::list(std::move(out));
+  if (!named)
+    return Table::list(std::move(out));
+  named->items = std::move(out);
+  return Value(std::move(*named));
 }
 
 Value checked_tuple(const Value& given, const Type& type, const std::string& path) {
