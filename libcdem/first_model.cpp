@@ -21,42 +21,93 @@ int body_index(const Model& model, const std::string& name) {
   throw geom::InputError("contacts", "\"" + name + "\"", "the name of a body (" + names + ")");
 }
 
-// Between meshes nothing is glued.
-void require_contact(const Joint& joint, const std::string& both) {
-  if (joint.bonded)
-    throw geom::InputError(
-        "contacts", both, "cdem.coulomb{ friction_angle = ... } between meshes",
-        "meshed bodies are not bonded to each other; unite them to one solid before meshing");
-}
+// The laws between the bodies of a spec. Faces of blocks that touch get the pair's joint. Bodies that move far get a
+// contact as well: between blocks the friction of their joint, else the law itself.
+class PairLaws {
+public:
+  PairLaws(Model& frame, const ModelSpec& spec) : frame_(frame), spec_(spec) {}
 
-void add_contact(Model& frame, int a, int b, const Joint& law, const std::string& both) {
-  if (!frame.surface.joint.emplace(std::minmax(a, b), static_cast<int>(frame.joints.size())).second)
-    throw geom::InputError("contacts", both, "given once", "two bodies have one law between them");
-  frame.joints.push_back(law);
-}
+  // field, value: what the user gave, for messages.
+  void add(int a, int b, const Joint& joint, const std::string& field, const std::string& value) {
+    if (is_small(a) != is_small(b))
+      throw geom::InputError(
+          field, value, "two bodies that move far, or two of small strain",
+          "leave element = \"small_strain\" out: a body of small strain meets nothing new");
+    if (are_blocks(a, b)) {
+      if (a == b && is_small(a))
+        throw geom::InputError(field, value, "two different bodies",
+                               "what holds a body's own blocks together is the body's joint");
+      if (a != b && !add_to(frame_.pair_joint, a, b, joint))
+        throw geom::InputError(field, value, "given once", "two bodies have one joint between them");
+      if (is_small(a))
+        return;
+    }
+    if (joint.bonded && !(are_blocks(a, b) && a != b))
+      throw geom::InputError(
+          field, value, "cdem.coulomb{ friction_angle = ... } between meshes",
+          "meshed bodies are not bonded to each other; unite them to one solid before meshing");
+    if (!add_to(frame_.surface.joint, a, b, contact_of(a, b, joint)))
+      throw geom::InputError(field, value, "given once", "two bodies have one law between them");
+  }
 
-double mean_block_size(const BodySpec& body) {
-  double volume = 0;
-  for (const geom::Polyhedron& block : body.shape.blocks)
-    volume += geom::mass_properties(block).volume;
-  return std::cbrt(volume / static_cast<double>(body.shape.blocks.size()));
-}
+  // The blocks of a body that come loose meet with the friction of their joint.
+  void add_within_bodies() {
+    for (int b = 0; b < count(); ++b)
+      if (!is_small(b) && spec_.bodies[b].shape.blocks.size() > 1)
+        add_to(frame_.surface.joint, b, b, contact_of(b, b, spec_.bodies[b].joint));
+  }
 
-// The contact of what such a joint held together: its friction, and as stiff as it was, so that nothing sinks when an
-// interface is handed over.
-Joint contact_after(const Joint& joint, const BodySpec& a, const BodySpec& b) {
-  Joint contact;
-  contact.bonded = false;
-  contact.friction_angle = joint.friction_angle;
-  const double thickness =
-      joint.thickness.value_or(joint.thickness_ratio * 0.5 * (mean_block_size(a) + mean_block_size(b)));
-  const auto series = [&](double p, double q) { return 2 / (thickness * (1 / p + 1 / q)); };
-  contact.normal_stiffness =
-      joint.normal_stiffness.value_or(series(a.material.youngs_modulus, b.material.youngs_modulus));
-  contact.shear_stiffness =
-      joint.shear_stiffness.value_or(series(a.material.shear_modulus(), b.material.shear_modulus()));
-  return contact;
-}
+  // The law of all pairs that have none. A body of small strain meets none that moves far; require_separate says so.
+  void add_default(const Joint& joint) {
+    validate(joint);
+    for (int a = 0; a < count(); ++a)
+      for (int b = a; b < count(); ++b) {
+        const auto& given = is_small(a) || are_blocks(a, b) ? frame_.pair_joint : frame_.surface.joint;
+        if (is_small(a) == is_small(b) && given.count({a, b}) == 0)
+          add(a, b, joint, "contacts.default", joint.bonded ? "a joint that bonds" : "a contact");
+      }
+  }
+
+private:
+  int count() const { return static_cast<int>(frame_.bodies.size()); }
+  bool is_small(int body) const { return frame_.bodies[body].element == Element::small_strain; }
+  bool are_blocks(int a, int b) const {
+    return spec_.bodies[a].meshes.empty() && spec_.bodies[b].meshes.empty();
+  }
+  double block_size(int body) const { // m, in the mean
+    double volume = 0;
+    const auto& blocks = spec_.bodies[body].shape.blocks;
+    for (const geom::Polyhedron& block : blocks)
+      volume += geom::mass_properties(block).volume;
+    return std::cbrt(volume / static_cast<double>(blocks.size()));
+  }
+  bool add_to(std::map<std::pair<int, int>, int>& laws, int a, int b, const Joint& law) {
+    const bool fresh = laws.emplace(std::minmax(a, b), static_cast<int>(frame_.joints.size())).second;
+    if (fresh)
+      frame_.joints.push_back(law);
+    return fresh;
+  }
+  // Between blocks as stiff as the joint that held them, so that nothing sinks when an interface is handed over.
+  Joint contact_of(int a, int b, const Joint& joint) const {
+    if (!are_blocks(a, b))
+      return joint;
+    const Elastic &one = spec_.bodies[a].material, &other = spec_.bodies[b].material;
+    const double thickness =
+        joint.thickness.value_or(joint.thickness_ratio * 0.5 * (block_size(a) + block_size(b)));
+    const auto series = [&](double p, double q) { return 2 / (thickness * (1 / p + 1 / q)); };
+    Joint contact;
+    contact.bonded = false;
+    contact.friction_angle = joint.friction_angle;
+    contact.normal_stiffness =
+        joint.normal_stiffness.value_or(series(one.youngs_modulus, other.youngs_modulus));
+    contact.shear_stiffness =
+        joint.shear_stiffness.value_or(series(one.shear_modulus(), other.shear_modulus()));
+    return contact;
+  }
+
+  Model& frame_;
+  const ModelSpec& spec_;
+};
 
 } // namespace
 
@@ -92,41 +143,15 @@ Model first_model(const ModelSpec& spec) {
       seeds.push_back(std::move(seed));
     }
   }
+  PairLaws laws(frame, spec);
   for (const PairSpec& pair : spec.pairs) {
     validate(pair.joint);
-    const int a = body_index(frame, pair.body_a), b = body_index(frame, pair.body_b);
-    const std::string both = "{\"" + pair.body_a + "\", \"" + pair.body_b + "\"}";
-    const auto is_small = [&](int body) { return frame.bodies[body].element == Element::small_strain; };
-    const auto is_mesh = [&](int body) { return !spec.bodies[body].meshes.empty(); };
-    if (is_small(a) != is_small(b))
-      throw geom::InputError(
-          "contacts", both, "two bodies that move far, or two of small strain",
-          "leave element = \"small_strain\" out: a body of small strain meets nothing new");
-    if (is_mesh(a) || is_mesh(b)) {
-      require_contact(pair.joint, both);
-      add_contact(frame, a, b, pair.joint, both);
-      continue;
-    }
-    if (a == b && !is_small(a)) {
-      require_contact(pair.joint, both);
-      add_contact(frame, a, b, pair.joint, both);
-      continue;
-    }
-    if (a == b)
-      throw geom::InputError("contacts", both, "two different bodies",
-                             "what holds a body's own blocks together is the body's joint");
-    if (!frame.pair_joint.emplace(std::minmax(a, b), static_cast<int>(frame.joints.size())).second)
-      throw geom::InputError("contacts", both, "given once", "two bodies have one joint between them");
-    frame.joints.push_back(pair.joint);
-    if (!is_small(a))
-      add_contact(frame, a, b, contact_after(pair.joint, spec.bodies[a], spec.bodies[b]), both);
+    laws.add(body_index(frame, pair.body_a), body_index(frame, pair.body_b), pair.joint, "contacts",
+             "{\"" + pair.body_a + "\", \"" + pair.body_b + "\"}");
   }
-  // The blocks of a body that come loose meet with the friction of their joint.
-  for (int b = 0; b < static_cast<int>(frame.bodies.size()); ++b)
-    if (const BodySpec& body = spec.bodies[b]; frame.bodies[b].element != Element::small_strain &&
-                                               body.shape.blocks.size() > 1 &&
-                                               frame.surface.joint.count({b, b}) == 0)
-      add_contact(frame, b, b, contact_after(body.joint, body, body), body.name);
+  laws.add_within_bodies();
+  if (spec.default_contact)
+    laws.add_default(*spec.default_contact);
   Model model = build_model(frame, std::move(seeds), default_traits, std::move(meshes));
   require_separate(model);
   return model;

@@ -4,7 +4,7 @@
 #include "apps/cdem/commands/commands.hpp"
 #include "apps/cdem/failure.hpp"
 #include "apps/cdem/option_values.hpp"
-#include "lua/binding/nearest.hpp"
+#include "lua/binding/schema/nearest.hpp"
 
 #include <CLI/CLI.hpp>
 #include <cstdio>

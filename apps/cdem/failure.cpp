@@ -3,7 +3,7 @@
 #include "apps/cdem/interrupt.hpp"
 #include "libcdem/step/errors.hpp"
 #include "libgeom/core/error.hpp"
-#include "lua/binding/engine.hpp"
+#include "lua/binding/runtime/engine.hpp"
 
 #include <cstdio>
 #include <filesystem>

@@ -1,6 +1,6 @@
 #include "apps/cdem/output_folder.hpp"
 
-#include "lua/binding/engine.hpp"
+#include "lua/binding/runtime/engine.hpp"
 
 #include <algorithm>
 #include <cctype>

@@ -1,7 +1,7 @@
 // The JSON files of an output folder; the only place that sees the JSON library.
 #pragma once
 
-#include "lua/binding/engine.hpp"
+#include "lua/binding/runtime/engine.hpp"
 
 #include <filesystem>
 #include <map>

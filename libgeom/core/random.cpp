@@ -1,7 +1,6 @@
 // Philox 4x32-10: uniform() takes the first two words of a block, normal() the other two, so that the two
 // never share a number. normal() inverts the normal distribution by Wichura's rational approximations (AS
-// 241, 1988; relative error 1e-16). Compiled without contraction to fused operations, which would change the
-// last bits.
+// 241, 1988; relative error 1e-16).
 #include "libgeom/core/random.hpp"
 
 #include <cassert>

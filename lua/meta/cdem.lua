@@ -1486,7 +1486,7 @@ function cdem.select.where(predicate) end
 
 ---@class (exact) cdem.ModelOptions
 ---@field bodies cdem.ModelOptionsBodies[]
----@field contacts? [string, string, cdem.Joint][] {"body a", "body b", joint} for every two bodies that touch
+---@field contacts? [string, string, cdem.Joint][]|{default?: cdem.Joint} {"body a", "body b", joint} for every two bodies that touch; default = joint for all others
 
 ---A model: bodies of blocks, and what holds touching bodies to each other.
 ---@param options cdem.ModelOptions

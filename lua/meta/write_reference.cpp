@@ -1,5 +1,5 @@
 // write_reference ANNOTATIONS PAGE: the two texts that are generated from the binding's declarations.
-#include "lua/binding/engine.hpp"
+#include "lua/binding/runtime/engine.hpp"
 
 #include <cstdio>
 #include <fstream>

@@ -1,6 +1,6 @@
 #include "apps/cdem/output_folder.hpp"
 #include "apps/cdem/run_log.hpp"
-#include "lua/binding/engine.hpp"
+#include "lua/binding/runtime/engine.hpp"
 #include "tests/apps/support/child.hpp"
 
 #include <catch2/catch.hpp>

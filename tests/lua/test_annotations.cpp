@@ -1,4 +1,4 @@
-#include "lua/binding/module.hpp"
+#include "lua/binding/runtime/module.hpp"
 #include "tests/lua/script.hpp"
 
 #include <catch2/catch.hpp>

@@ -125,6 +125,46 @@ TEST_CASE("histories and probes come as lists of one length and as history.csv",
                    0) == 0);
 }
 
+namespace {
+
+// hash(contacts): the state of three blocks in a row after they were pushed along it and across.
+std::string row_of_blocks(const std::string& script) {
+  return column() +
+         "local function block(x)\n"
+         "  return { shape = cdem.grid{ size = {1, 1, 1}, divisions = {1, 1, 1}, origin = {x, 0, 0} },\n"
+         "           material = rock, joint = joint, name = 'block' .. x }\nend\n"
+         "local smooth, rough = cdem.coulomb{ friction_angle = 10 }, cdem.coulomb{ friction_angle = 40 }\n"
+         "local function hash(contacts)\n"
+         "  local row = cdem.model{ bodies = { block(0), block(1), block(2) }, contacts = contacts }\n"
+         "  assert(row:counts().interfaces == 2)\n"
+         "  row:fix{ on = 'x-', axes = 'xyz' }\n"
+         "  row:traction{ on = 'x+', stress = {-1e6, 6e5, 0} }\n"
+         "  row:run{ steps = 200 }\n"
+         "  return row.state_hash\nend\n" +
+         script;
+}
+
+} // namespace
+
+TEST_CASE("default is the law of the pairs that are not named", "[lua]") {
+  CHECK(
+      error_of(row_of_blocks(
+          "local named = hash{ { 'block0', 'block1', rough }, { 'block1', 'block2', rough } }\n"
+          "assert(hash{ default = rough } == named)\n"
+          "assert(hash{ default = smooth } ~= named)\n"
+          "assert(hash{ default = smooth, { 'block1', 'block0', rough }, { 'block1', 'block2', rough } } == "
+          "named)\n"
+          "assert(hash{ default = rough, { 'block1', 'block2', smooth } } ==\n"
+          "       hash{ { 'block0', 'block1', rough }, { 'block1', 'block2', smooth } })")) == "");
+  CHECK_THAT(error_of(row_of_blocks("hash{ { 'block0', 'block1', rough } }")),
+             Contains("\"block1\" and \"block2\" touch but no joint between them is given") &&
+                 Contains("or default = joint"));
+  CHECK_THAT(error_of(row_of_blocks("hash{ defualt = rough }")),
+             Contains("contacts: defualt: no such key; did you mean default?"));
+  CHECK_THAT(error_of(row_of_blocks("hash{ default = rock }")),
+             Contains("contacts.default = cdem.Material: must be a cdem.Joint"));
+}
+
 TEST_CASE("bodies and contacts that do not fit are refused", "[lua]") {
   const std::string box = "local a = cdem.grid{ size = {1,1,1}, divisions = {2,1,1} }\n";
   CHECK_THAT(error_of(column() + box + "cdem.model{ bodies = { { shape = a, material = rock } } }"),

@@ -158,6 +158,33 @@ TEST_CASE("a layer of armour units stays as it was laid when it settles", "[lua]
                  "  assert(math.sqrt(way) <= 0.1, i .. ' has moved by ' .. math.sqrt(way))\nend") == "");
 }
 
+TEST_CASE("default is the law between meshed bodies, and between the units of one", "[lua]") {
+  // Three cubes fall on the slab and on each other.
+  const std::string fall =
+      head + "local rough = cdem.coulomb{ friction_angle = 30 }\n"
+             "local pile = cdem.drop{ unit = cube, count = 3, onto = slab, layers = 3, gap = 0.02,\n"
+             "  region = { min = {9, 9}, max = {11, 11} } }\n"
+             "local function fallen(contacts)\n"
+             "  local model = cdem.model{\n"
+             "    bodies = { { shape = slab, material = concrete, element = 'rigid', name = 'slab' },\n"
+             "               { shape = pile, material = concrete, element = 'rigid', name = 'units' } },\n"
+             "    contacts = contacts }\n"
+             "  model:fix{ on = 'slab' }\n  model:gravity{ vector = {0, 0, -9.81} }\n"
+             "  model:run{ duration = 0.5 }\n"
+             "  return model.state_hash\nend\n";
+  CHECK(error_of(fall +
+                 "local all = fallen{ { 'slab', 'slab', rough }, { 'units', 'slab', rough },\n"
+                 "                    { 'units', 'units', rough } }\n"
+                 "assert(fallen{ default = rough } == all)\n"
+                 "local smooth = cdem.coulomb{ friction_angle = 0 }\n"
+                 "assert(fallen{ default = smooth } ~= all)\n"
+                 "assert(fallen{ default = smooth, { 'slab', 'units', rough }, { 'units', 'units', rough } }"
+                 " == all)") == "");
+  CHECK_THAT(error_of(fall + "fallen{ default = cdem.mohr_coulomb{ cohesion = 1e6, friction_angle = 30, "
+                             "tensile_strength = 1e6 } }"),
+             Contains("contacts.default = a joint that bonds: must be cdem.coulomb"));
+}
+
 TEST_CASE("piles that cannot be made are refused", "[lua]") {
   const auto refused = [](const std::string& call) { return error_of(head + call); };
   CHECK_THAT(refused("cdem.drop{ unit = cube, count = 0, onto = slab }"), Contains("count = 0: must be"));

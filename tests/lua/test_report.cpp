@@ -1,4 +1,4 @@
-#include "lua/binding/report.hpp"
+#include "lua/binding/report/report.hpp"
 #include "tests/lua/script.hpp"
 
 #include <catch2/catch.hpp>

@@ -1,6 +1,6 @@
 // Arguments against their declaration, without Lua.
 #include "libgeom/core/error.hpp"
-#include "lua/binding/schema.hpp"
+#include "lua/binding/schema/schema.hpp"
 
 #include <catch2/catch.hpp>
 #include <cmath>
@@ -10,18 +10,19 @@ using Catch::Matchers::Contains;
 
 namespace {
 
-const std::vector<Field> fields{number("ratio").between(-1, 0.5).required(),
-                                integer("count").at_least(1).standard(3),
-                                text("name"),
-                                flag("open").standard(false),
-                                choice("axes", {"x", "xy", "xyz"}),
-                                vec3("size").above(0),
-                                ivec3("divisions").at_least(1),
-                                list("values", number_type(), 2),
-                                list("rows", record_type({number("x").required(), text("label")})),
-                                list("pairs", tuple_type({text_type(), number_type()}), 0),
-                                function("call", "()"),
-                                place("on")};
+const std::vector<Field> fields{
+    number("ratio").between(-1, 0.5).required(),
+    integer("count").at_least(1).standard(3),
+    text("name"),
+    flag("open").standard(false),
+    choice("axes", {"x", "xy", "xyz"}),
+    vec3("size").above(0),
+    ivec3("divisions").at_least(1),
+    list("values", number_type(), 2),
+    list("rows", record_type({number("x").required(), text("label")})),
+    list("pairs", tuple_type({text_type(), number_type()}), 0).beside({number("default").above(0)}),
+    function("call", "()"),
+    place("on")};
 
 std::string error_for(Table table) {
   if (table.named.count("ratio") == 0)
@@ -49,6 +50,21 @@ TEST_CASE("good arguments come through, defaults are filled in", "[lua]") {
   CHECK(a.text("name") == "a");
   CHECK_FALSE(a.flag("open"));
   CHECK_FALSE(a.has("axes"));
+}
+
+TEST_CASE("a list may take named values beside its items", "[lua]") {
+  Table pairs{{"default", 2}};
+  const auto given = [&] { return Value(Table{{"ratio", 0}, {"pairs", Value(pairs)}}); };
+  CHECK(check(given(), fields).record("pairs")->number("default") == 2);
+  CHECK(check(given(), fields).list("pairs").empty());
+  pairs.items.push_back(list_of({"a", 3}));
+  CHECK(check(given(), fields).list("pairs").size() == 1);
+  CHECK(check(given(), fields).record("pairs")->number("default") == 2);
+  CHECK_THAT(error_for({{"pairs", Value(Table{{"defualt", 2}})}}),
+             Contains("pairs: defualt: no such key; did you mean default?"));
+  CHECK_THAT(error_for({{"pairs", Value(Table{{"default", -1}})}}),
+             Contains("pairs.default = -1: must be > 0"));
+  CHECK_THAT(error_for({{"pairs", 3}}), Contains("and default = a number"));
 }
 
 TEST_CASE("an unknown key names the nearest right one and lists those allowed", "[lua]") {

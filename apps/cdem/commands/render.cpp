@@ -5,7 +5,7 @@
 #include "libcdem/vtk/picture.hpp"
 #include "libcdem/vtk/without_bodies.hpp"
 #include "libgeom/core/error.hpp"
-#include "lua/binding/engine.hpp"
+#include "lua/binding/runtime/engine.hpp"
 
 #include <cerrno>
 #include <cstdio>

@@ -2,7 +2,7 @@
 #include "apps/cdem/commands/script_run.hpp"
 #include "apps/cdem/failure.hpp"
 #include "apps/cdem/run_log.hpp"
-#include "lua/binding/files.hpp"
+#include "lua/binding/runtime/files.hpp"
 
 namespace cdem::app {
 

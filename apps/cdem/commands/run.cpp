@@ -5,7 +5,7 @@
 #include "apps/cdem/failure.hpp"
 #include "apps/cdem/interrupt.hpp"
 #include "apps/cdem/records.hpp"
-#include "lua/binding/sources.hpp"
+#include "lua/binding/runtime/sources.hpp"
 
 #include <csignal>
 

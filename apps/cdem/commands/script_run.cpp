@@ -2,7 +2,7 @@
 
 #include "apps/cdem/failure.hpp"
 #include "apps/cdem/text.hpp"
-#include "lua/binding/nearest.hpp"
+#include "lua/binding/schema/nearest.hpp"
 
 #include <algorithm>
 #include <cerrno>

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "apps/cdem/commands/commands.hpp"
-#include "lua/binding/engine.hpp"
+#include "lua/binding/runtime/engine.hpp"
 
 #include <memory>
 

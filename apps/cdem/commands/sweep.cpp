@@ -9,10 +9,10 @@
 #include "apps/cdem/run_log.hpp"
 #include "apps/cdem/text.hpp"
 #include "libcdem/step/errors.hpp"
-#include "lua/binding/files.hpp"
-#include "lua/binding/nearest.hpp"
-#include "lua/binding/process_pool.hpp"
-#include "lua/binding/sources.hpp"
+#include "lua/binding/runtime/files.hpp"
+#include "lua/binding/runtime/process_pool.hpp"
+#include "lua/binding/runtime/sources.hpp"
+#include "lua/binding/schema/nearest.hpp"
 
 #include <algorithm>
 #include <cstdio>

@@ -306,7 +306,7 @@ InterfaceTraits default_traits(const Model& model, int block_a, int, int block_b
     throw geom::InputError(
         "contacts: bodies \"" + model.bodies[pair.first].name + "\" and \"" + model.bodies[pair.second].name +
         "\" touch but no joint between them is given; add {\"" + model.bodies[pair.first].name + "\", \"" +
-        model.bodies[pair.second].name + "\", joint} to contacts");
+        model.bodies[pair.second].name + "\", joint} or default = joint to contacts");
   InterfaceTraits traits;
   traits.joint = found->second;
   const Joint& joint = model.joints[traits.joint];

@@ -1,0 +1,136 @@
+// Armour units by mass or height, and the slope they lie on.
+#include "lua/binding/objects/solid_objects.hpp"
+#include "lua/binding/runtime/module.hpp"
+
+#include "libgeom/core/error.hpp"
+#include "libgeom/solid/armour_units.hpp"
+
+namespace cdem::script {
+
+namespace {
+
+using geom::InputError;
+
+Value made(const Arguments& a, const std::string& kind, const std::function<geom::Solid(double)>& build) {
+  const auto mass = a.optional_number("mass"), density = a.optional_number("density");
+  auto height = a.optional_number("height");
+  if (height && mass)
+    throw InputError("height and mass: both given; give the height, or mass and density");
+  if (!height && !(mass && density))
+    throw InputError(std::string(mass      ? "density"
+                                 : density ? "mass"
+                                           : "height") +
+                     ": missing; give the height, or mass and density");
+  if (!height)
+    height = geom::height_of_volume(*mass / *density, build);
+  auto object = std::make_shared<SolidObject>(build(*height));
+  object->kind = kind;
+  object->height = height;
+  object->density = density;
+  object->mesh_size = a.optional_number("mesh_size");
+  return object;
+}
+
+// A proportion that has a default.
+Field share(std::string name, std::string doc) {
+  return number(std::move(name)).above(0).doc(std::move(doc));
+}
+
+std::vector<Field> unit_fields(std::vector<Field> more) {
+  std::vector<Field> fields{
+      number("height").above(0).unit("m"),
+      number("mass").above(0).unit("kg").doc("with density, instead of height: the volume is met exactly"),
+      number("density").above(0).unit("kg/m3"),
+      number("mesh_size").above(0).unit("m").doc("what solid:mesh{} takes when it is given no size")};
+  fields.insert(fields.end(), more.begin(), more.end());
+  return fields;
+}
+
+Value accropode(Session&, Object*, const Arguments& a) {
+  geom::AccropodeShape shape =
+      a.text("shape") == "stocky" ? geom::AccropodeShape::stocky() : geom::AccropodeShape::slender();
+  for (const auto& [name, member] :
+       {std::pair<const char*, double geom::AccropodeShape::*>{"width", &geom::AccropodeShape::width},
+        {"bar", &geom::AccropodeShape::bar},
+        {"core", &geom::AccropodeShape::core},
+        {"length", &geom::AccropodeShape::length},
+        {"taper", &geom::AccropodeShape::taper},
+        {"corner", &geom::AccropodeShape::corner}})
+    shape.*member = a.optional_number(name).value_or(shape.*member);
+  return made(a, "accropode", [&](double height) { return geom::accropode(height, shape); });
+}
+
+Value dolos(Session&, Object*, const Arguments& a) {
+  const geom::DolosShape shape{a.number("tip"), a.number("waist"), a.number("root")};
+  return made(a, "dolos", [&](double height) { return geom::dolos(height, shape); });
+}
+
+Value tetrapod(Session&, Object*, const Arguments& a) {
+  const geom::TetrapodShape shape{a.number("tip"), a.number("root")};
+  return made(a, "tetrapod", [&](double height) { return geom::tetrapod(height, shape); });
+}
+
+Value cube(Session&, Object*, const Arguments& a) {
+  return made(a, "cube", [](double height) { return geom::cube(height); });
+}
+
+Value antifer(Session&, Object*, const Arguments& a) {
+  const geom::AntiferShape shape{a.number("bottom"), a.number("top"), a.number("groove")};
+  return made(a, "antifer cube", [&](double height) { return geom::antifer(height, shape); });
+}
+
+Value slope(Session&, Object*, const Arguments& a) {
+  auto object =
+      std::make_shared<SolidObject>(geom::slope(a.number("gradient"), a.number("length"), a.number("width")));
+  object->kind = "slope";
+  object->height = a.number("gradient") * a.number("length");
+  object->mesh_size = a.optional_number("mesh_size");
+  return object;
+}
+
+} // namespace
+
+void bind_armour_units(Module& m) {
+  const auto add = [&](std::string name, std::string doc, std::vector<Field> fields, auto body) {
+    m.functions.push_back(
+        {std::move(name), std::move(doc), std::move(fields), false, "cdem.Solid", "", body});
+  };
+  add("accropode",
+      "An accropode-like unit, V = 0.34 H^3: two end bars along z, a middle bar along x, a core. Centred on "
+      "the "
+      "origin. Proportions are fractions of the height; those left out are the shape's.",
+      unit_fields({choice("shape", {"slender", "stocky"}).standard("slender"),
+                   share("width", "of the end bars and the core along x: 0.42 or 0.386"),
+                   share("bar", "of an end bar along y: 0.33 or 0.30"),
+                   share("core", "of the core and the middle bar along z: 0.42"),
+                   share("length", "of the middle bar along x: 1 or 0.80"),
+                   share("taper", "size of a bar's end over that at the core: 0.70 or 0.95"),
+                   number("corner").at_least(0).doc(
+                       "cut off a bar's edges, over the shorter side of its section: 0.20; 0: square "
+                       "bars, which make larger tetrahedra")}),
+      accropode);
+  add("dolos",
+      "A dolos without fillets, V = 0.163 C^3: octagonal flukes along z and y at the ends of a shank along "
+      "x.",
+      unit_fields({share("tip", "width of a fluke at its ends, over the height").standard(0.20),
+                   share("waist", "width of the shank, over the height").standard(0.32),
+                   share("root", "width of a fluke at its middle, over the height").standard(0.364)}),
+      dolos);
+  add("tetrapod", "A tetrapod, V = 0.28 H^3: four conical legs, one of them up.",
+      unit_fields({share("tip", "diameter of a leg at its end, over the height").standard(0.302),
+                   share("root", "diameter of a leg where it meets the others").standard(0.470)}),
+      tetrapod);
+  add("cube", "A plain cube.", unit_fields({}), cube);
+  add("antifer", "An antifer cube, V = 1.0247 H^3: its sides lean in and have a round groove each.",
+      unit_fields({share("bottom", "width of the lower face, over the height").standard(1.086),
+                   share("top", "width of the upper face").standard(1.005),
+                   number("groove").at_least(0).standard(0.1047).doc("radius of the grooves; 0: none")}),
+      antifer);
+  add("slope", "A wedge that rises along +x from x = 0, z = 0; y from -width/2 to width/2.",
+      {number("gradient").above(0).required().doc("rise over run: 1/1.5"),
+       number("length").above(0).unit("m").required().doc("along x"),
+       number("width").above(0).unit("m").required().doc("along y"), number("mesh_size").above(0).unit("m")},
+      slope);
+}
+
+} // namespace cdem::script

@@ -1,0 +1,145 @@
+// Line charts: of a model's histories, and of any lists.
+#include "lua/binding/functions/picture_fields.hpp"
+#include "lua/binding/objects/model_object.hpp"
+#include "lua/binding/runtime/module.hpp"
+#include "lua/binding/schema/nearest.hpp"
+
+#include "libcdem/vtk/chart.hpp"
+#include "libgeom/core/error.hpp"
+
+#include <algorithm>
+
+namespace cdem::script {
+
+namespace {
+
+using geom::InputError;
+
+std::vector<Field> chart_fields() {
+  return {text("file").required().doc("ends in .png; in the output folder"),
+          text("title").doc("_{...} and ^{...} set sub- and superscripts"),
+          text("x_label").doc(
+              "ending in an SI unit, \"opening (m)\", the axis is shown with the prefix that suits: mm"),
+          text("y_label"),
+          text("right_label").doc("of the axis on the right"),
+          flag("log_x").standard(false),
+          flag("log_y").standard(false),
+          flag("log_right").standard(false),
+          list("x_range", number_type(), 2),
+          list("y_range", number_type(), 2),
+          list("right_range", number_type(), 2),
+          choice("legend", {"auto", "top_left", "top_right", "bottom_left", "bottom_right", "none"})
+              .standard("auto"),
+          size_field()};
+}
+
+ChartOptions chart_options(const Arguments& a) {
+  ChartOptions options;
+  options.title = a.text_or("title", "");
+  options.x_label = a.text_or("x_label", "");
+  options.y_label = a.text_or("y_label", "");
+  options.right_label = a.text_or("right_label", "");
+  options.log_x = a.flag("log_x");
+  options.log_y = a.flag("log_y");
+  options.log_right = a.flag("log_right");
+  options.x_range = limits_of(a, "x_range");
+  options.y_range = limits_of(a, "y_range");
+  options.right_range = limits_of(a, "right_range");
+  options.legend = a.text("legend");
+  options.size = size_of(a, false);
+  return options;
+}
+
+Value chart_of_lists(Session& session, Object*, const Arguments& a) {
+  require_ending(a.text("file"), ".png");
+  const ChartOptions options = chart_options(a);
+  std::vector<Series> all;
+  for (const Arguments& given : a.records("series")) {
+    Series series;
+    series.name = given.text("name");
+    // Lists may hold nan or inf: they leave a gap in the line.
+    for (const char* axis : {"x", "y"}) {
+      for (const Value& value : given.list(axis)) {
+        if (!value.is_number())
+          throw InputError("series \"" + series.name + "\": " + axis + ": " + describe(value) +
+                           ": must be a number");
+        (*axis == 'x' ? series.x : series.y).push_back(value.number());
+      }
+    }
+    if (series.x.size() != series.y.size())
+      throw InputError("series \"" + series.name + "\": x has " + std::to_string(series.x.size()) +
+                       " values, y has " + std::to_string(series.y.size()) + ": must be as many");
+    series.right_axis = given.flag("right_axis");
+    series.style = given.text("style");
+    series.colour = colour_of(given);
+    all.push_back(std::move(series));
+  }
+  if (!session.settings.check_only)
+    chart(all, options, session.files.to_write(a.text("file")).string());
+  return {};
+}
+
+const std::vector<double>& column(const std::vector<std::pair<std::string, std::vector<double>>>& columns,
+                                  const std::string& name, const std::string& key) {
+  std::vector<std::string> names;
+  for (const auto& [other, values] : columns) {
+    if (other == name)
+      return values;
+    names.push_back(other);
+  }
+  throw InputError(key + " = \"" + name + "\": no such history" + which_there_are(name, names));
+}
+
+Value chart_of_histories(Session& session, ModelObject& model, const Arguments& a) {
+  require_ending(a.text("file"), ".png");
+  ChartOptions options = chart_options(a);
+  const auto columns = history_columns(model.simulation);
+  const std::string& x_name = a.text("x");
+  const auto& x = column(columns, x_name, "x");
+  if (options.x_label.empty())
+    options.x_label = x_name == "time" ? "time (s)" : x_name;
+  std::vector<Series> all;
+  const auto add = [&](const char* key, bool right) {
+    for (const Value& item : a.list(key)) {
+      const std::string& name = *item.get<std::string>();
+      Series series;
+      series.name = name;
+      std::replace(series.name.begin(), series.name.end(), '_', ' ');
+      series.x = x;
+      series.y = column(columns, name, key);
+      series.right_axis = right;
+      all.push_back(std::move(series));
+    }
+  };
+  add("y", false);
+  add("right", true);
+  if (!session.settings.check_only)
+    chart(all, options, session.files.to_write(a.text("file")).string());
+  return {};
+}
+
+} // namespace
+
+void bind_charts(Module& m) {
+  const std::vector<Field> series{text("name").required().doc("in the legend"),
+                                  list("x", scalar_type(), 0).required(),
+                                  list("y", scalar_type(), 0).required().doc("as many; nan leaves a gap"),
+                                  flag("right_axis").standard(false).doc("read y on the right"),
+                                  choice("style", {"line", "dashed", "points", "both"}).standard("line"),
+                                  colour_field()};
+  std::vector<Field> lists = chart_fields();
+  lists.insert(lists.begin() + 1, list("series", record_type(series)).required());
+  m.functions.push_back({"chart", "Line chart of lists of numbers.", lists, false, "", "", chart_of_lists,
+                         false, Replay::recorded});
+
+  std::vector<Field> histories = chart_fields();
+  histories.insert(
+      histories.begin() + 1,
+      {list("y", text_type()).required().doc("histories, e.g. {\"residual\"}; model:history() has all"),
+       list("right", text_type(), 0).doc("histories read on the right"),
+       text("x").standard("step").doc("history along the x axis")});
+  m.the_class("Model").methods.push_back({"chart", "Line chart of histories.", histories, false, "", "",
+                                          method<ModelObject>(chart_of_histories)});
+}
+
+} // namespace cdem::script

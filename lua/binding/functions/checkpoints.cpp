@@ -1,0 +1,82 @@
+// Checkpoints of a run, and states that other scripts start from.
+#include "lua/binding/functions/picture_fields.hpp"
+#include "lua/binding/objects/model_object.hpp"
+#include "lua/binding/runtime/module.hpp"
+
+#include "libcdem/checkpoint/file.hpp"
+#include "libgeom/core/error.hpp"
+
+namespace cdem::script {
+
+namespace {
+
+using geom::InputError;
+
+Value checkpoint(Session& session, ModelObject& model, const Arguments&) {
+  model.require_idle("checkpoint");
+  if (session.settings.script.empty())
+    throw InputError("checkpoint: only in a script, which cdem resume can run again; save_state works here");
+  session.checkpoints.ask();
+  return {};
+}
+
+Value save_state(Session& session, ModelObject& model, const Arguments& a) {
+  model.require_idle("save_state");
+  require_ending(a.text("file"), ".cdem");
+  if (!session.settings.check_only)
+    write_saved(session.files.to_write(a.text("file")), SavedKind::state, model.simulation.save());
+  return {};
+}
+
+Value load_state(Session& session, ModelObject& model, const Arguments& a) {
+  model.require_idle("load_state");
+  const std::string& name = a.text("file");
+  require_ending(name, ".cdem");
+  if (session.settings.check_only)
+    return {};
+  const std::string saved = read_saved(session.files.to_read(name), SavedKind::state);
+  try {
+    model.simulation.restore_state(saved);
+  } catch (const InputError& error) {
+    throw InputError("file = \"" + name + "\": " + error.what());
+  }
+  return {};
+}
+
+} // namespace
+
+void bind_checkpoints(Module& m) {
+  Class& model = m.the_class("Model");
+  model.methods.push_back({"checkpoint",
+                           "Writes a checkpoint of the whole run, from which `cdem resume` goes on. One is "
+                           "written every few minutes "
+                           "of a solving call too, and when a run is stopped. To go on, the script is run "
+                           "again from its beginning: "
+                           "what it has solved and read so far it is told again.",
+                           {},
+                           true,
+                           "",
+                           "",
+                           method<ModelObject>(checkpoint)});
+  model.methods.push_back(
+      {"save_state",
+       "Writes the state of the model to a file that other scripts start from: motion, stress, broken bonds, "
+       "contacts, time, and how it was cut. Conditions and histories stay behind.",
+       {text("file").required().doc("ends in .cdem; in the output folder")},
+       false,
+       "",
+       "",
+       method<ModelObject>(save_state)});
+  model.methods.push_back(
+      {"load_state",
+       "Takes the state from a file of save_state. The model must have been built from the same shapes, "
+       "materials, "
+       "joints and contacts.",
+       {text("file").required().doc("beside the script, in the output folder or below the results")},
+       false,
+       "",
+       "",
+       method<ModelObject>(load_state)});
+}
+
+} // namespace cdem::script

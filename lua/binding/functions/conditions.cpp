@@ -1,0 +1,260 @@
+// Supports, loads and initial states of a model.
+#include "lua/binding/functions/selections.hpp"
+#include "lua/binding/objects/model_object.hpp"
+#include "lua/binding/runtime/module.hpp"
+
+#include "libgeom/core/error.hpp"
+
+#include <cmath>
+
+namespace cdem::script {
+
+namespace {
+
+using geom::InputError;
+
+std::array<bool, 3> axes_of(const std::string& text) {
+  return {text.find('x') != std::string::npos, text.find('y') != std::string::npos,
+          text.find('z') != std::string::npos};
+}
+
+// The factor over time. Asked once at time 0, so that a slip in it is an error of the line that gave it.
+Amplitude amplitude_of(const Arguments& a) {
+  const auto function = a.function("amplitude");
+  if (!function)
+    return {};
+  Amplitude amplitude = [function](double time) {
+    const Values answer = function->call({time});
+    if (answer.empty() || !answer[0].is_number() || !std::isfinite(answer[0].number()))
+      throw InputError("amplitude(" + number_text(time) + ") of " + function->place(),
+                       answer.empty() ? "nothing" : describe(answer[0]), "a finite number");
+    return answer[0].number();
+  };
+  amplitude(0);
+  return amplitude;
+}
+
+void note(ModelObject& model, const std::string& line) {
+  model.notes->conditions.push_back(line);
+}
+
+std::string shown(const Selection& s) {
+  return s.text;
+}
+
+Value fix(Session&, ModelObject& model, const Arguments& a) {
+  model.require_idle("fix");
+  for (const Selection& on : selections(model, a.value("on"), "on")) {
+    Fix fix;
+    fix.on = on;
+    fix.axes = axes_of(a.text("axes"));
+    fix.displacement = a.optional_vec3("displacement");
+    fix.velocity = a.optional_vec3("velocity");
+    if (fix.displacement && fix.velocity)
+      throw InputError("displacement and velocity: give one of them");
+    model.simulation.fix(fix);
+    note(model, "fix " + shown(on) + " in " + a.text("axes") +
+                    (fix.displacement ? " at displacement " + describe(a.value("displacement")) + " m" : "") +
+                    (fix.velocity ? " moving at " + describe(a.value("velocity")) + " m/s" : ""));
+  }
+  return {};
+}
+
+Value release(Session&, ModelObject& model, const Arguments& a) {
+  model.require_idle("release");
+  for (const Selection& on : selections(model, a.value("on"), "on")) {
+    model.simulation.release(on, axes_of(a.text("axes")));
+    note(model, "release " + shown(on) + " in " + a.text("axes"));
+  }
+  return {};
+}
+
+Value traction(Session&, ModelObject& model, const Arguments& a) {
+  model.require_idle("traction");
+  const Amplitude amplitude = amplitude_of(a);
+  for (const Selection& on : selections(model, a.value("on"), "on")) {
+    Traction traction;
+    traction.on = on;
+    traction.stress = a.vec3("stress");
+    traction.amplitude = amplitude;
+    model.simulation.traction(traction);
+    note(model, "traction " + describe(a.value("stress")) + " Pa on " + shown(on));
+  }
+  return {};
+}
+
+Value force(Session&, ModelObject& model, const Arguments& a) {
+  model.require_idle("force");
+  PointForce force;
+  force.on = one_selection(model, a.value("on"), "on");
+  force.force = a.vec3("force");
+  force.amplitude = amplitude_of(a);
+  model.simulation.force(force);
+  note(model, "force " + describe(a.value("force")) + " N on " + shown(force.on));
+  return {};
+}
+
+Value gravity(Session&, ModelObject& model, const Arguments& a) {
+  model.require_idle("gravity");
+  Gravity gravity;
+  gravity.acceleration = a.vec3("vector");
+  gravity.water_density = a.number("water_density");
+  gravity.amplitude = amplitude_of(a);
+  model.simulation.gravity(gravity);
+  note(model,
+       "gravity " + describe(a.value("vector")) + " m/s2" +
+           (gravity.water_density > 0 ? ", in water of " + number_text(gravity.water_density) + " kg/m3"
+                                      : ""));
+  return {};
+}
+
+Value clear_loads(Session&, ModelObject& model, const Arguments&) {
+  model.require_idle("clear_loads");
+  model.simulation.clear_loads();
+  note(model, "loads cleared");
+  return {};
+}
+
+Value initial_stress(Session&, ModelObject& model, const Arguments& a) {
+  model.require_idle("initial_stress");
+  const std::vector<double> given = a.numbers("stress");
+  if (given.size() != 6)
+    throw InputError("stress", describe(a.value("stress")), "six numbers {xx, yy, zz, xy, yz, xz}");
+  std::array<double, 6> stress{};
+  std::copy(given.begin(), given.end(), stress.begin());
+  const Selection on = one_selection(model, a.value("on"), "on");
+  model.simulation.initial_stress(on, stress);
+  note(model, "initial stress " + describe(a.value("stress")) + " Pa in " + shown(on));
+  return {};
+}
+
+Value initial_velocity(Session&, ModelObject& model, const Arguments& a) {
+  model.require_idle("initial_velocity");
+  for (const Selection& on : selections(model, a.value("on"), "on")) {
+    model.simulation.initial_velocity(on, a.vec3("velocity"));
+    note(model, "initial velocity " + describe(a.value("velocity")) + " m/s of " + shown(on));
+  }
+  return {};
+}
+
+Value remove(Session&, ModelObject& model, const Arguments& a) {
+  model.require_idle("remove");
+  std::int64_t count = 0;
+  for (const Selection& on : selections(model, a.value("on"), "on"))
+    count += model.simulation.remove(on);
+  note(model, std::to_string(count) + (count == 1 ? " block removed" : " blocks removed"));
+  return count;
+}
+
+Value make_rigid(Session&, ModelObject& model, const Arguments& a) {
+  model.require_idle("make_rigid");
+  std::int64_t count = 0;
+  for (const Selection& on : selections(model, a.value("on"), "on"))
+    count += model.simulation.make_rigid(on);
+  note(model, std::to_string(count) + (count == 1 ? " body" : " bodies") + " made rigid");
+  return count;
+}
+
+Value make_deformable(Session&, ModelObject& model, const Arguments& a) {
+  model.require_idle("make_deformable");
+  std::int64_t count = 0;
+  for (const Selection& on : selections(model, a.value("on"), "on"))
+    count += model.simulation.make_deformable(on);
+  note(model, std::to_string(count) + (count == 1 ? " body" : " bodies") + " made deformable");
+  return count;
+}
+
+Value unbond(Session&, ModelObject& model, const Arguments& a) {
+  model.require_idle("unbond");
+  std::int64_t count = 0;
+  for (const Selection& on : selections(model, a.value("on"), "on"))
+    count += model.simulation.unbond(on, a.flag("whole_faces"));
+  note(model, std::to_string(count) + (count == 1 ? " bond undone" : " bonds undone"));
+  return count;
+}
+
+Field on() {
+  return place("on").required().doc("where: a place or a list of places");
+}
+Field one_place() {
+  return place("on").required().doc("where: one place");
+}
+Field axes() {
+  return choice("axes", {"x", "y", "z", "xy", "xz", "yz", "xyz"}).standard("xyz").doc("components held");
+}
+Field amplitude() {
+  return function("amplitude", "(time: number): number")
+      .doc("factor over time (s); a relaxation asks once at its start; 1 when left out");
+}
+
+} // namespace
+
+void bind_conditions(Module& m) {
+  Class& model = m.the_class("Model");
+  const auto add = [&](std::string name, std::string doc, std::vector<Field> fields, auto body,
+                       std::string returns = "", std::string returns_doc = "") {
+    model.methods.push_back({std::move(name), std::move(doc), std::move(fields), false, std::move(returns),
+                             std::move(returns_doc), method<ModelObject>(body)});
+  };
+  const auto again = [&] { model.methods.back().replay = Replay::again; };
+  add("fix", "Holds nodes, or moves them as told. A later call wins over an earlier one where they meet.",
+      {on(), axes(),
+       vec3("displacement").unit("m").doc("total value to be held; a relaxation moves there first"),
+       vec3("velocity").unit("m/s").doc("in real-time stepping; zero when left out")},
+      fix);
+  again();
+  add("release", "Undoes fixes.", {on(), axes().doc("components set free")}, release);
+  again();
+  add("traction", "Force per undeformed area on outer faces.",
+      {on(), vec3("stress").unit("Pa").required().doc("force over area, not following the surface"),
+       amplitude()},
+      traction);
+  again();
+  add("force", "A total force, shared among the nodes of a place.",
+      {one_place(), vec3("force").unit("N").required().doc("total"), amplitude()}, force);
+  again();
+  add("gravity", "Weight of all blocks; one at a time, the last call counts.",
+      {vec3("vector").unit("m/s2").required().doc("acceleration, e.g. {0, 0, -9.81}"),
+       number("water_density")
+           .at_least(0)
+           .standard(0.0)
+           .unit("kg/m3")
+           .doc("buoyancy: takes from the weight, never from the inertia"),
+       amplitude()},
+      gravity);
+  again();
+  add("clear_loads", "Takes away tractions, forces, gravity and flows.", {}, clear_loads);
+  again();
+  add("initial_stress",
+      "Stress present before anything moves, the same in all blocks of a place; interfaces between them "
+      "start with its "
+      "traction.",
+      {place("on").standard("all").doc("where: one place"),
+       list("stress", number_type(), 6)
+           .unit("Pa")
+           .required()
+           .doc("{xx, yy, zz, xy, yz, xz}, tension positive")},
+      initial_stress);
+  add("initial_velocity", "Velocity before the first real-time step.",
+      {place("on").standard("all").doc("where: a place or a list of places"),
+       vec3("velocity").unit("m/s").required()},
+      initial_velocity);
+  add("remove", "Takes blocks out of the model (an excavation): those whose centroid is selected.", {on()},
+      remove, "integer", "how many");
+  add("make_rigid",
+      "Meshed bodies keep the shape and the stress of this moment from now on, and move as a whole: those "
+      "whose "
+      "undeformed centroid is selected.",
+      {on()}, make_rigid, "integer", "how many changed");
+  add("make_deformable",
+      "Rigid bodies deform again, with the motion they have: those whose undeformed centroid is selected.",
+      {on()}, make_deformable, "integer", "how many changed");
+  add("unbond", "Breaks bonds before anything is loaded (a notch): those whose point is selected.",
+      {on(), flag("whole_faces")
+                 .standard(false)
+                 .doc("only faces that are selected with all their points, so that faces that meet the notch "
+                      "at its tip stay bonded")},
+      unbond, "integer", "how many");
+}
+
+} // namespace cdem::script

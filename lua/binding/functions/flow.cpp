@@ -1,0 +1,250 @@
+// Flow on outer faces, pieces, and the search for the flow that breaks a solid (Feng 2014 section 3).
+#include "lua/binding/functions/selections.hpp"
+#include "lua/binding/functions/solving_stage.hpp"
+#include "lua/binding/runtime/module.hpp"
+
+#include "libgeom/core/error.hpp"
+
+#include <cmath>
+
+namespace cdem::script {
+
+namespace {
+
+using geom::InputError;
+
+std::function<double(double)> velocity_of(const Arguments& a) {
+  if (const Value& given = a.value("velocity"); given.is_number())
+    return [v = given.number()](double) { return v; };
+  const auto function = a.function("velocity");
+  auto velocity = [function](double time) {
+    const Values answer = function->call({time});
+    if (answer.empty() || !answer[0].is_number() || !(answer[0].number() >= 0) ||
+        !std::isfinite(answer[0].number()))
+      throw InputError("velocity(" + number_text(time) + ") of " + function->place(),
+                       answer.empty() ? "nothing" : describe(answer[0]), "a finite number >= 0 m/s");
+    return answer[0].number();
+  };
+  velocity(0); // so that a slip in it is an error of the line that gave it
+  return velocity;
+}
+
+Flow flow_of(const ModelObject& model, const Arguments& a) {
+  Flow flow;
+  flow.on = one_selection(model, a.value("on"), "on");
+  flow.direction = a.vec3("direction");
+  flow.water_density = a.number("water_density");
+  flow.new_faces = a.flag("new_faces");
+  return flow;
+}
+
+Value flow(Session& session, ModelObject& model, const Arguments& a) {
+  model.require_idle("flow");
+  Flow flow = flow_of(model, a);
+  flow.velocity = velocity_of(a);
+  if (model.simulation.flow(flow))
+    session.warn("model:flow: it meets faces that another flow already meets; their pressures add up");
+  model.notes->conditions.push_back("flow along " + describe(a.value("direction")) + " on " + flow.on.text);
+  return {};
+}
+
+Value fragment_row(const Fragment& f) {
+  return Table{{"volume", f.volume}, {"centroid", f.centroid}, {"tets", f.tets}, {"held", f.held}};
+}
+
+Value rows(const std::vector<Fragment>& fragments) {
+  Values out;
+  for (const Fragment& f : fragments)
+    out.push_back(fragment_row(f));
+  return Table::list(std::move(out));
+}
+
+Value pieces(Session&, ModelObject& model, const Arguments&) {
+  return rows(model.simulation.fragments());
+}
+
+const char* third(double fraction) {
+  return fraction < 1.0 / 3 ? "root" : fraction < 2.0 / 3 ? "waist" : "top";
+}
+
+// Where the bonds broke, as fractions of the model's box; along `held` from that side on.
+void add_place(const geom::Box& box, const std::string& held, const CriticalFlowResult& r, Table& row) {
+  const geom::Vec3 fraction = (r.place - box.min).cwiseQuotient(box.size());
+  row.named["place"] = r.place;
+  row.named["place_fraction"] = fraction;
+  if (held.empty())
+    return;
+  const double along = fraction[held[0] - 'x'], from_held = held[1] == '-' ? along : 1 - along;
+  row.named["height_fraction"] = from_held;
+  row.named["part"] = std::string(third(from_held));
+}
+
+Value result_of(const CriticalFlowResult& r, const geom::Box& box, const std::string& held) {
+  static const char* const reasons[] = {"fragment", "compliance", "limit"};
+  Values curve;
+  for (const CriticalFlowSample& s : r.curve)
+    curve.emplace_back(Table{{"time", s.time},
+                             {"pressure", s.pressure},
+                             {"velocity", s.velocity},
+                             {"displacement", s.displacement},
+                             {"broken", s.broken}});
+  Table row{{"reason", std::string(reasons[static_cast<int>(r.reason)])},
+            {"velocity", r.velocity},
+            {"pressure", r.pressure},
+            {"time", r.time},
+            {"period", r.period},
+            {"compliance", r.compliance},
+            {"fragments", rows(r.fragments)},
+            {"broken_area", r.broken_area},
+            {"broken_tension", r.broken_tension},
+            {"broken_shear", r.broken_shear},
+            {"steps", r.steps},
+            {"curve", Table::list(std::move(curve))}};
+  if (r.broken_area > 0) {
+    add_place(box, held, r, row);
+    row.named["first_break_velocity"] = r.first_break_velocity;
+    row.named["first_break_pressure"] = r.first_break_pressure;
+    row.named["first_break_place"] = r.first_break_place;
+  }
+  return row;
+}
+
+Value critical_flow(Session& session, ModelObject& model, const Arguments& a) {
+  CriticalFlowOptions options;
+  options.flow = flow_of(model, a);
+  options.hold = a.text("mode") == "hold";
+  options.pressure_rate = a.number("pressure_rate");
+  options.hold_periods = a.number("hold_periods");
+  options.fragment_fraction = a.number("fragment_fraction");
+  options.compliance_ratio = a.number("compliance_ratio");
+  options.max_velocity = a.number("max_velocity");
+  options.safety = a.number("safety");
+  options.local_damping = a.number("local_damping");
+  const std::string held = a.text_or("held", "");
+  if (!held.empty())
+    options.held = Selection::side(held);
+  return stage(session, model, "critical_flow", a, result_of({}, {}, held), [&](Simulation& simulation) {
+    const CriticalFlowResult result = simulation.critical_flow(options);
+    if (result.reason == CriticalFlowResult::Reason::limit)
+      session.warn(
+          "critical_flow: nothing broke off up to max_velocity = " + number_text(options.max_velocity) +
+          (simulation.counts().bonds > 0 ? " m/s; raise it"
+                                         : " m/s: the model has no bonds; give its bodies a joint"));
+    return result_of(result, simulation.box(), held);
+  });
+}
+
+Value pressure(Session&, Object*, const Arguments& a) {
+  return flow_pressure(a.number("velocity"), a.number("water_density"));
+}
+Value velocity(Session&, Object*, const Arguments& a) {
+  return flow_velocity(a.number("pressure"), a.number("water_density"));
+}
+
+Field water_density() {
+  return number("water_density").above(0).standard(1025.0).unit("kg/m3").doc("sea water by default");
+}
+
+std::vector<Field> flow_fields() {
+  return {vec3("direction").required().doc("of the flow; made a unit vector"),
+          place("on").standard(std::string("all")).doc("outer faces that may take it: one place"),
+          water_density(),
+          flag("new_faces").standard(false).doc("faces opened by cracks take the pressure too")};
+}
+
+void bind_records(Module& m) {
+  m.records.push_back({"Fragment",
+                       "A piece of a model that unbroken bonds hold together.",
+                       {number("volume").unit("m3").required(), vec3("centroid").unit("m").required(),
+                        integer("tets").required(), flag("held").required().doc("some node of it is held")}});
+  m.records.push_back(
+      {"CriticalFlowSample",
+       "One moment of a search.",
+       {number("time").unit("s").required(), number("pressure").unit("Pa").required(),
+        number("velocity").unit("m/s").required(),
+        number("displacement").unit("m").required().doc("mean where the flow pushes, along it"),
+        integer("broken").required().doc("bonds so far")}});
+  m.records.push_back(
+      {"CriticalFlowResult",
+       "What the search for the critical flow came to.",
+       {choice("reason", {"fragment", "compliance", "limit"})
+            .required()
+            .doc("a piece came off; the compliance grew; or max_velocity was reached"),
+        number("velocity").unit("m/s").required(), number("pressure").unit("Pa").required(),
+        number("time").unit("s").required(), number("period").unit("s").required().doc("of the first mode"),
+        number("compliance").unit("m/Pa").required().doc("of the unbroken solid at rest"),
+        list("fragments", object_type("Fragment"), 0).required().doc("largest first"),
+        number("broken_area").unit("m2").required(),
+        vec3("place").unit("m").doc("centroid of the broken area; nil when nothing broke"),
+        vec3("place_fraction").doc("the same in parts of the model's box, 0 to 1"),
+        number("height_fraction").doc("along the held side's normal, from that side on"),
+        choice("part", {"root", "waist", "top"}).doc("third of that height"),
+        number("first_break_velocity").unit("m/s").doc("when the first bond broke; nil when none did"),
+        number("first_break_pressure").unit("Pa"), vec3("first_break_place").unit("m").doc("undeformed"),
+        integer("broken_tension").required(), integer("broken_shear").required(), integer("steps").required(),
+        list("curve", object_type("CriticalFlowSample"), 0).required().doc("every 100 steps")}});
+}
+
+} // namespace
+
+void bind_flow(Module& m) {
+  bind_records(m);
+  const auto convert = [&](std::string name, std::string doc, Field given, auto body) {
+    m.functions.push_back(
+        {std::move(name), std::move(doc), {std::move(given), water_density()}, false, "number", "", body});
+    m.functions.back().in_order = true;
+  };
+  convert("flow_pressure", "Pressure of a stream, rho V^2 / 2 (Feng 2014 eq 20), Pa.",
+          number("velocity").at_least(0).unit("m/s").required(), pressure);
+  convert("flow_velocity", "Velocity of a stream from its pressure, sqrt(2 F / rho), m/s.",
+          number("pressure").at_least(0).unit("Pa").required(), velocity);
+
+  Class& model = m.the_class("Model");
+  const auto add = [&](std::string name, std::string doc, std::vector<Field> fields, std::string returns,
+                       std::string returns_doc, auto body) {
+    model.methods.push_back({std::move(name), std::move(doc), std::move(fields), false, std::move(returns),
+                             std::move(returns_doc), method<ModelObject>(body)});
+  };
+  std::vector<Field> steady = flow_fields();
+  steady.insert(steady.begin() + 1,
+                number_or_function("velocity", "(time: number): number").at_least(0).required().unit("m/s"));
+  add("flow",
+      "Pressure of a flow on the outer faces that look towards it, as they stand at each moment: alpha F "
+      "along the "
+      "flow, alpha the cosine to the inward normal (Feng 2014 eqs 19-20). Shielding is not modelled.",
+      steady, "", "", flow);
+  model.methods.back().replay = Replay::again;
+  std::vector<Field> search = flow_fields();
+  for (const Field& field :
+       {choice("mode", {"hold", "ramp"})
+            .standard("hold")
+            .doc("hold: the pressure rises only while no bond broke for hold_periods, near the static "
+                 "strength; "
+                 "ramp: "
+                 "always, and inertia has its part"),
+        choice("held", {"x-", "x+", "y-", "y+", "z-", "z+"})
+            .doc("the side that is fixed: then the result says at which part of the height the solid broke"),
+        number("pressure_rate").above(0).standard(5e6).unit("Pa/s"),
+        number("hold_periods").above(0).standard(3.0).doc("hold time in periods of the first mode"),
+        number("fragment_fraction")
+            .between(0, 1)
+            .standard(0.1)
+            .doc("of the volume: what counts as broken off"),
+        number("compliance_ratio")
+            .above(1)
+            .standard(10.0)
+            .doc("to the unbroken, static one: what counts as broken"),
+        number("max_velocity").above(1).standard(100.0).unit("m/s").doc("gives up there"),
+        number("safety").within(0, 1).standard(0.9).doc("time step over the stable one"),
+        number("local_damping").from(0, 1).standard(0.1).doc("above 0.2 it acts as added mass")})
+    search.push_back(field);
+  add("critical_flow",
+      "Raises a flow from 1 m/s until a held solid breaks: a piece of it comes off, or it has become "
+      "compliant.",
+      search, "cdem.CriticalFlowResult", "", critical_flow);
+  add("fragments", "Pieces that unbroken bonds hold together.", {}, "cdem.Fragment[]", "largest first",
+      pieces);
+  model.methods.back().in_order = true;
+}
+
+} // namespace cdem::script

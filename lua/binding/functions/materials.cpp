@@ -1,0 +1,251 @@
+// Materials and joints.
+#include "lua/binding/functions/angles.hpp"
+#include "lua/binding/objects/objects.hpp"
+#include "lua/binding/runtime/module.hpp"
+#include "lua/binding/runtime/session.hpp"
+
+#include <cmath>
+
+namespace cdem::script {
+
+namespace {
+
+// Softer than gelatine or stiffer than diamond: a unit is wrong.
+constexpr double softest = 1e5, stiffest = 1e13; // Pa
+
+constexpr double lightest = 10; // kg/m3
+// Below the cohesion of loose soil.
+constexpr double weakest = 1e3; // Pa
+// The radians of any usual angle are fewer.
+constexpr double smoothest = 1.5; // deg
+
+// Zero is meant: no strength.
+void warn_of_unit(Session& session, const Arguments& a, const char* strength) {
+  if (const double given = a.number(strength); given > 0 && given < weakest)
+    session.warn(std::string("cdem.mohr_coulomb: ") + strength + " = " + describe(a.value(strength)) +
+                 ": no rock is as weak; it is in Pa, rock has 1e5 to 1e8");
+}
+
+// Zero is meant: no friction.
+void warn_of_angle(Session& session, const Arguments& a, const char* function) {
+  if (const double given = a.number("friction_angle"); given > 0 && given < smoothest)
+    session.warn(std::string(function) + ": friction_angle = " + describe(a.value("friction_angle")) +
+                 ": no rock is as smooth; it is in degrees, rock has 20 to 50");
+}
+
+Value elastic(Session& session, Object*, const Arguments& a) {
+  auto object = std::make_shared<MaterialObject>();
+  object->elastic.youngs_modulus = a.number("youngs_modulus");
+  object->elastic.poissons_ratio = a.number("poissons_ratio");
+  object->elastic.density = a.number("density");
+  object->elastic.viscosity = a.number("viscosity");
+  object->elastic.stiffness_damping = a.number("stiffness_damping");
+  validate(object->elastic);
+  if (object->elastic.youngs_modulus < softest || object->elastic.youngs_modulus > stiffest)
+    session.warn("cdem.elastic: youngs_modulus = " + describe(a.value("youngs_modulus")) +
+                 ": no rock is like that; it is in Pa, rock has 1e9 to 1e11");
+  if (object->elastic.density < lightest)
+    session.warn("cdem.elastic: density = " + describe(a.value("density")) +
+                 ": lighter than any solid; it is in kg/m3, rock has 2000 to 3000");
+  return object;
+}
+
+std::vector<Field> stiffness_fields() {
+  return {number("thickness_ratio")
+              .above(0)
+              .standard(0.02)
+              .doc("equivalent thickness of the joint over the block size (cube root of its volume), which "
+                   "sets the "
+                   "stiffness E/L and G/L"),
+          number("thickness").above(0).unit("m").doc("equivalent thickness itself; wins over the ratio"),
+          number("normal_stiffness").above(0).unit("Pa/m").doc("instead of E/L"),
+          number("shear_stiffness").above(0).unit("Pa/m").doc("instead of G/L")};
+}
+
+void read_stiffness(const Arguments& a, Joint& joint) {
+  joint.thickness_ratio = a.number("thickness_ratio");
+  joint.thickness = a.optional_number("thickness");
+  joint.normal_stiffness = a.optional_number("normal_stiffness");
+  joint.shear_stiffness = a.optional_number("shear_stiffness");
+}
+
+std::vector<Field> softening_fields() {
+  return {choice("softening", {"none", "linear", "exponential"})
+              .standard("none")
+              .doc("how the strength falls once it is reached; none: brittle. It needs both fracture "
+                   "energies, and "
+                   "tensile_strength at most cohesion / tan(friction angle)"),
+          number("fracture_energy_1")
+              .above(0)
+              .unit("J/m2")
+              .doc("G_I, work per crack area that opening to separation takes, elastic part included"),
+          number("fracture_energy_2")
+              .above(0)
+              .unit("J/m2")
+              .doc("G_II, the same for slip, beyond the work of friction")};
+}
+
+void read_softening(const Arguments& a, Joint& joint) {
+  const std::string& curve = a.text("softening");
+  joint.softening = curve == "linear"        ? Softening::linear
+                    : curve == "exponential" ? Softening::exponential
+                                             : Softening::none;
+  joint.fracture_energy_1 = a.optional_number("fracture_energy_1").value_or(0);
+  joint.fracture_energy_2 = a.optional_number("fracture_energy_2").value_or(0);
+}
+
+std::string softening_name(const Joint& joint) {
+  switch (joint.softening) {
+  case Softening::none:
+    break;
+  case Softening::linear:
+    return "linear";
+  case Softening::exponential:
+    return "exponential";
+  }
+  return "none";
+}
+
+Value mohr_coulomb(Session& session, Object*, const Arguments& a) {
+  auto object = std::make_shared<JointObject>();
+  object->joint.bonded = true;
+  object->joint.cohesion = a.number("cohesion");
+  object->joint.friction_angle = radians(a.number("friction_angle"));
+  object->joint.tensile_strength = a.number("tensile_strength");
+  warn_of_unit(session, a, "cohesion");
+  warn_of_unit(session, a, "tensile_strength");
+  warn_of_angle(session, a, "cdem.mohr_coulomb");
+  read_softening(a, object->joint);
+  read_stiffness(a, object->joint);
+  validate(object->joint);
+  return object;
+}
+
+Value coulomb(Session& session, Object*, const Arguments& a) {
+  auto object = std::make_shared<JointObject>();
+  object->joint.bonded = false;
+  object->joint.friction_angle = radians(a.number("friction_angle"));
+  warn_of_angle(session, a, "cdem.coulomb");
+  read_stiffness(a, object->joint);
+  validate(object->joint);
+  return object;
+}
+
+template <class Get>
+Property material_property(std::string name, std::string unit, std::string doc, Get get) {
+  return {std::move(name), "number", std::move(unit), std::move(doc),
+          [get](Session&, Object& self) -> Value { return get(static_cast<MaterialObject&>(self).elastic); }};
+}
+
+template <class Get>
+Property joint_property(std::string name, std::string type, std::string unit, Get get) {
+  return {std::move(name), std::move(type), std::move(unit), "",
+          [get](Session&, Object& self) -> Value { return get(static_cast<JointObject&>(self).joint); }};
+}
+
+Value optional(const std::optional<double>& x) {
+  return x ? Value(*x) : Value();
+}
+
+} // namespace
+
+void bind_materials(Module& m) {
+  m.functions.push_back(
+      {"elastic",
+       "Isotropic linear elasticity (Han 2010 eq 3).",
+       {number("youngs_modulus").above(0).unit("Pa").required().doc("Young's modulus E"),
+        number("poissons_ratio").between(-1, 0.5).required().doc("Poisson's ratio nu"),
+        number("density").above(0).unit("kg/m3").required(),
+        number("viscosity")
+            .at_least(0)
+            .standard(0.0)
+            .unit("N s/m4")
+            .doc("damping force per volume and velocity, mu of Han 2010 eq 1; used by real-time stepping"),
+        number("stiffness_damping")
+            .at_least(0)
+            .standard(0.0)
+            .unit("s")
+            .doc("beta of Rayleigh damping, of meshes in real-time stepping: a vibration of angular "
+                 "frequency w has "
+                 "beta w / 2 of critical damping, motion as a rigid body none")},
+       false,
+       "cdem.Material",
+       "",
+       elastic});
+
+  std::vector<Field> bonded{number("cohesion").at_least(0).unit("Pa").required(),
+                            number("friction_angle").from(0, 90).unit("deg").required(),
+                            number("tensile_strength").at_least(0).unit("Pa").required()};
+  std::vector<Field> loose{number("friction_angle").from(0, 90).unit("deg").required()};
+  for (const Field& f : softening_fields())
+    bonded.push_back(f);
+  for (const Field& f : stiffness_fields()) {
+    bonded.push_back(f);
+    loose.push_back(f);
+  }
+  m.functions.push_back(
+      {"mohr_coulomb",
+       "Bond between block faces: breaks in tension above the tensile strength and in shear "
+       "above cohesion + normal pressure x tan(friction angle); then it is a contact with the same "
+       "friction angle (Han 2010 eqs 8-11). With softening it loses its strength along a curve whose "
+       "area is the fracture energy.",
+       bonded, false, "cdem.Joint", "", mohr_coulomb});
+  m.functions.push_back({"coulomb",
+                         "Contact that never was bonded: no tension, friction only (Han 2010 eq 9).", loose,
+                         false, "cdem.Joint", "", coulomb});
+
+  Class material{"Material", "Made by cdem.elastic."};
+  material.properties = {
+      material_property("youngs_modulus", "Pa", "", [](const Elastic& e) { return e.youngs_modulus; }),
+      material_property("poissons_ratio", "", "", [](const Elastic& e) { return e.poissons_ratio; }),
+      material_property("density", "kg/m3", "", [](const Elastic& e) { return e.density; }),
+      material_property("viscosity", "N s/m4", "", [](const Elastic& e) { return e.viscosity; }),
+      material_property("stiffness_damping", "s", "beta of Rayleigh damping",
+                        [](const Elastic& e) { return e.stiffness_damping; }),
+      material_property("shear_modulus", "Pa", "G = E / 2(1 + nu)",
+                        [](const Elastic& e) { return e.shear_modulus(); }),
+      material_property("p_wave_modulus", "Pa", "lambda + 2 G",
+                        [](const Elastic& e) { return e.p_wave_modulus(); })};
+  material.text = [](const Object& self) {
+    const Elastic& e = static_cast<const MaterialObject&>(self).elastic;
+    return "cdem.Material (E " + number_text(e.youngs_modulus) + " Pa, nu " + number_text(e.poissons_ratio) +
+           ", " + number_text(e.density) + " kg/m3)";
+  };
+  m.classes.push_back(material);
+
+  Class joint{"Joint", "Made by cdem.mohr_coulomb or cdem.coulomb."};
+  joint.properties = {
+      joint_property("bonded", "boolean", "", [](const Joint& j) { return Value(j.bonded); }),
+      joint_property("cohesion", "number", "Pa", [](const Joint& j) { return Value(j.cohesion); }),
+      joint_property("friction_angle", "number", "deg",
+                     [](const Joint& j) { return Value(degrees(j.friction_angle)); }),
+      joint_property("tensile_strength", "number", "Pa",
+                     [](const Joint& j) { return Value(j.tensile_strength); }),
+      joint_property("softening", "string", "", [](const Joint& j) { return Value(softening_name(j)); }),
+      joint_property("fracture_energy_1", "number", "J/m2",
+                     [](const Joint& j) { return Value(j.fracture_energy_1); }),
+      joint_property("fracture_energy_2", "number", "J/m2",
+                     [](const Joint& j) { return Value(j.fracture_energy_2); }),
+      joint_property("thickness_ratio", "number", "",
+                     [](const Joint& j) { return Value(j.thickness_ratio); }),
+      joint_property("thickness", "number?", "m", [](const Joint& j) { return optional(j.thickness); }),
+      joint_property("normal_stiffness", "number?", "Pa/m",
+                     [](const Joint& j) { return optional(j.normal_stiffness); }),
+      joint_property("shear_stiffness", "number?", "Pa/m",
+                     [](const Joint& j) { return optional(j.shear_stiffness); })};
+  joint.text = [](const Object& self) {
+    const Joint& j = static_cast<const JointObject&>(self).joint;
+    return std::string(j.bonded ? "cdem.Joint (bonded, c " + number_text(j.cohesion) +
+                                      " Pa, tensile strength " + number_text(j.tensile_strength) + " Pa, "
+                                : std::string("cdem.Joint (contact, ")) +
+           "friction angle " + number_text(degrees(j.friction_angle)) + " deg" +
+           (j.softening == Softening::none
+                ? std::string()
+                : ", " + softening_name(j) + " softening, G_I " + number_text(j.fracture_energy_1) +
+                      " J/m2, G_II " + number_text(j.fracture_energy_2) + " J/m2") +
+           ")";
+  };
+  m.classes.push_back(joint);
+}
+
+} // namespace cdem::script

@@ -1,0 +1,194 @@
+// Results of a model as Lua values.
+#include "lua/binding/functions/selections.hpp"
+#include "lua/binding/objects/model_object.hpp"
+#include "lua/binding/runtime/module.hpp"
+#include "lua/binding/schema/nearest.hpp"
+
+#include "libgeom/core/error.hpp"
+
+#include <algorithm>
+
+namespace cdem::script {
+
+namespace {
+
+using geom::InputError;
+
+Selection place_of(const ModelObject& model, const Arguments& a) {
+  return one_selection(model, a.value("on"), "on");
+}
+
+Value extreme(const FieldValue& found) {
+  return Table{{"value", found.value}, {"place", found.place}, {"block", found.block}};
+}
+
+Value max(Session&, ModelObject& model, const Arguments& a) {
+  return model.simulation.max(a.text("field"), place_of(model, a)).value;
+}
+Value min(Session&, ModelObject& model, const Arguments& a) {
+  return model.simulation.min(a.text("field"), place_of(model, a)).value;
+}
+Value find_max(Session&, ModelObject& model, const Arguments& a) {
+  return extreme(model.simulation.max(a.text("field"), place_of(model, a)));
+}
+Value find_min(Session&, ModelObject& model, const Arguments& a) {
+  return extreme(model.simulation.min(a.text("field"), place_of(model, a)));
+}
+Value mean(Session&, ModelObject& model, const Arguments& a) {
+  return model.simulation.mean(a.text("field"), place_of(model, a));
+}
+Value at(Session&, ModelObject& model, const Arguments& a) {
+  return model.simulation.at(a.text("field"), a.vec3("place"));
+}
+Value reaction(Session&, ModelObject& model, const Arguments& a) {
+  return model.simulation.reaction(place_of(model, a));
+}
+
+Value fields(Session&, ModelObject&, const Arguments&) {
+  const auto names = Simulation::field_names();
+  return Table::list(Values(names.begin(), names.end()));
+}
+
+Value energy(Session&, ModelObject& model, const Arguments&) {
+  const EnergyLedger e = model.simulation.energy();
+  return Table{{"elastic", e.elastic},   {"springs", e.springs},
+               {"kinetic", e.kinetic},   {"damping", e.damping},
+               {"friction", e.friction}, {"breaking", e.breaking},
+               {"cutting", e.cutting},   {"fictitious", e.fictitious},
+               {"external", e.external}, {"external_peak", e.external_peak},
+               {"total", e.total()},     {"balance_error", e.balance_error()}};
+}
+
+Value blocks(Session&, ModelObject& model, const Arguments&) {
+  Values rows;
+  for (const auto& b : model.simulation.blocks())
+    rows.emplace_back(Table{{"id", b.id},
+                            {"parent", b.parent},
+                            {"generation", b.generation},
+                            {"body", b.body},
+                            {"centroid", b.centroid},
+                            {"volume", b.volume},
+                            {"displacement", b.displacement},
+                            {"stress", b.stress}});
+  return Table::list(std::move(rows));
+}
+
+Value breaks(Session&, ModelObject& model, const Arguments&) {
+  Values rows;
+  for (const BreakRow& b : model.simulation.breaks())
+    rows.emplace_back(Table{{"stage", b.stage},
+                            {"step", b.step},
+                            {"time", b.time},
+                            {"mode", b.mode == BondMode::broken_shear ? "shear" : "tension"},
+                            {"place", b.place},
+                            {"normal", b.normal},
+                            {"area", b.area},
+                            {"normal_traction", b.normal_traction},
+                            {"shear_traction", b.shear_traction},
+                            {"block_a", b.block_a},
+                            {"block_b", b.block_b}});
+  return Table::list(std::move(rows));
+}
+
+Value history(Session&, ModelObject& model, const Arguments&) {
+  Table table;
+  for (auto& [name, values] : history_columns(model.simulation))
+    table.named[name] = Table::list(Values(values.begin(), values.end()));
+  return table;
+}
+
+Value probe(Session&, ModelObject& model, const Arguments& a) {
+  model.require_idle("probe");
+  std::vector<std::string> taken = model.simulation.probe_names();
+  for (const auto& [name, values] : history_columns(model.simulation))
+    taken.push_back(name);
+  const std::string& name = a.text("name");
+  if (name.empty() || name.find_first_of(",\n\"") != std::string::npos)
+    throw InputError("name", describe(a.value("name")), "a word: it becomes a column of history.csv");
+  if (std::find(taken.begin(), taken.end(), name) != taken.end())
+    throw InputError("name", describe(a.value("name")), "a new name",
+                     "the history has these: " + joined(taken));
+  model.simulation.probe(name, a.text("field"), a.vec3("at"));
+  return {};
+}
+
+void bind_rows(Module& m) {
+  m.records.push_back({"Extreme",
+                       "Where a field is largest or smallest.",
+                       {number("value").required(), vec3("place").unit("m").required().doc("undeformed"),
+                        integer("block").required().doc("id")}});
+  m.records.push_back(
+      {"Energy",
+       "Energy ledger, J: what is stored, what was spent, what was given.",
+       {number("elastic").unit("J").required().doc("stored in the blocks"),
+        number("springs").unit("J").required().doc("stored in bonds and contacts"),
+        number("kinetic").unit("J").required().doc(
+            "of the real masses, or of a relaxation's fictitious ones"),
+        number("damping").unit("J").required(), number("friction").unit("J").required(),
+        number("breaking").unit("J").required().doc("lost by bonds that broke or softened"),
+        number("cutting").unit("J").required().doc("lost when blocks were cut"),
+        number("fictitious").unit("J").required().doc("kinetic energy a relaxation threw away at its end"),
+        number("external").unit("J").required().doc("work of loads, gravity and moving supports"),
+        number("external_peak").unit("J").required().doc("largest |external| so far"),
+        number("total").unit("J").required().doc("sum of all but external"),
+        number("balance_error").required().doc("|total - external| over external_peak")}});
+  m.records.push_back(
+      {"BlockState",
+       "A block of a model.",
+       {integer("id").required(), integer("parent").required().doc("id of the block it was cut from"),
+        integer("generation").required().doc("how often it was cut"), text("body").required(),
+        vec3("centroid").unit("m").required().doc("undeformed"), number("volume").unit("m3").required(),
+        vec3("displacement").unit("m").required().doc("of the centroid"),
+        list("stress", number_type(), 6).unit("Pa").required().doc("{xx, yy, zz, xy, yz, xz}")}});
+  m.records.push_back(
+      {"Break",
+       "A bond that broke.",
+       {integer("stage").required(), integer("step").required().doc("within the stage"),
+        number("time").unit("s").required(), choice("mode", {"tension", "shear"}).required(),
+        vec3("place").unit("m").required().doc("undeformed"), vec3("normal").required(),
+        number("area").unit("m2").required(),
+        number("normal_traction").unit("Pa").required().doc("when it broke, tension positive"),
+        number("shear_traction").unit("Pa").required().doc("when it broke"),
+        integer("block_a").required().doc("id"), integer("block_b").required().doc("id")}});
+}
+
+} // namespace
+
+void bind_measures(Module& m) {
+  bind_rows(m);
+  Class& model = m.the_class("Model");
+  const auto add = [&](std::string name, std::string doc, std::vector<Field> fields, std::string returns,
+                       std::string returns_doc, auto body, bool in_order = true) {
+    model.methods.push_back({std::move(name), std::move(doc), std::move(fields), in_order, std::move(returns),
+                             std::move(returns_doc), method<ModelObject>(body)});
+    model.methods.back().named_too = in_order;
+  };
+  const Field field =
+      text("field").required().doc("e.g. \"displacement.x\", \"stress.yy\"; model:fields() has all");
+  const Field on = place("on").doc("where: one place; the whole model when left out. Stresses are those of "
+                                   "blocks: on a side, of those that have "
+                                   "a face there; elsewhere of those whose centroid is there");
+  add("max", "Largest value of a field.", {field, on}, "number", "", max);
+  add("min", "Smallest value of a field.", {field, on}, "number", "", min);
+  add("find_max", "Largest value of a field, and where it is.", {field, on}, "cdem.Extreme", "", find_max);
+  add("find_min", "Smallest value of a field, and where it is.", {field, on}, "cdem.Extreme", "", find_min);
+  add("mean", "Mean of a field: over nodes, or over blocks by volume.", {field, on}, "number", "", mean);
+  add("at", "Value of a field at an undeformed place, interpolated in the block there.",
+      {field, vec3("place").unit("m").required()}, "number", "", at);
+  add("reaction", "Force of the supports on a place.", {place("on").required().doc("where: one place")},
+      "number[]", "N, {x, y, z}", reaction);
+  add("fields", "Names that max, min, mean, at and probe understand.", {}, "string[]", "", fields);
+  add("energy", "Energy ledger.", {}, "cdem.Energy", "", energy);
+  add("blocks", "One table per block.", {}, "cdem.BlockState[]", "", blocks);
+  add("breaks", "One table per broken bond, the oldest first.", {}, "cdem.Break[]", "", breaks);
+  add("history",
+      "Histories as lists by name: stage, step, time, residual, kinetic_energy, external_work, "
+      "broken_tension, broken_shear and the probes. The same are in history.csv after each stage.",
+      {}, "table<string, number[]>", "", history);
+  add("probe", "Samples a field at a place into the history.",
+      {text("name").required().doc("of the column"), field,
+       vec3("at").unit("m").required().doc("undeformed place")},
+      "", "", probe, false);
+}
+
+} // namespace cdem::script

@@ -1,0 +1,342 @@
+// cdem.model, and what a model is apart from its conditions, stages and results.
+#include "lua/binding/functions/selections.hpp"
+#include "lua/binding/objects/model_object.hpp"
+#include "lua/binding/objects/pile_object.hpp"
+#include "lua/binding/objects/solid_objects.hpp"
+#include "lua/binding/runtime/module.hpp"
+#include "lua/binding/schema/nearest.hpp"
+
+#include "libgeom/core/error.hpp"
+
+#include <algorithm>
+#include <cstdio>
+
+namespace cdem::script {
+
+namespace {
+
+using geom::InputError;
+
+// A meshed body: its joint stands on all inner faces unless `bonds` says which.
+void read_mesh(const Arguments& given, const std::string& path, std::vector<geom::TetMesh> meshes,
+               BodySpec& body) {
+  const std::string element = given.text_or("element", "finite_volume");
+  if (element == "small_strain")
+    throw InputError(path + ".element", "\"small_strain\"", "finite_volume or rigid for a mesh",
+                     "small_strain is for assemblies of convex blocks");
+  body.element = element == "rigid" ? Element::rigid : Element::finite_volume;
+  const std::string bonds = given.text_or("bonds", given.has("joint") ? "all" : "none");
+  if (bonds != "none" && !given.has("joint"))
+    throw InputError(path + ".joint: missing; bonds = \"" + bonds +
+                     "\" needs to know what holds the faces, cdem.mohr_coulomb{...}");
+  if (bonds == "none" && given.has("joint"))
+    throw InputError(path + ".bonds", "\"none\"", "all, regions or listed with a joint",
+                     "leave the joint out");
+  if ((bonds == "listed") != given.has("bonded_regions"))
+    throw InputError(path +
+                     ".bonded_regions: goes with bonds = \"listed\", the regions whose faces are bonded");
+  body.meshes = std::move(meshes);
+  body.bonding.everywhere = bonds == "all";
+  body.bonding.between_regions = bonds == "regions";
+  for (const double region : given.numbers("bonded_regions"))
+    body.bonding.regions.push_back(static_cast<int>(region) - 1);
+  body.bonding.stiffness_ratio =
+      given.optional_number("stiffness_ratio").value_or(body.bonding.stiffness_ratio);
+  body.bonding.shear_ratio = given.optional_number("shear_ratio").value_or(body.bonding.shear_ratio);
+}
+
+// The shape of a meshed body as a pile, of one unit when it is a mesh; none for an assembly.
+std::optional<geom::Pile> pile_shape(const Arguments& given) {
+  if (const auto pile = given.object<PileObject>("shape"))
+    return pile->pile;
+  const auto mesh = given.object<TetMeshObject>("shape");
+  if (!mesh)
+    return std::nullopt;
+  geom::Pile pile = geom::pile_of(mesh->mesh);
+  pile.poses = {{geom::Mat3::Identity(), geom::mass_properties(mesh->mesh).centroid}};
+  return pile;
+}
+
+void require_blocks(const Arguments& given, const std::string& path) {
+  for (const char* const only : {"bonds", "bonded_regions", "stiffness_ratio", "shear_ratio"})
+    if (given.has(only))
+      throw InputError(path + "." + only + ": only for a meshed body; an assembly's faces are all bonded");
+  if (const auto material = given.object<MaterialObject>("material");
+      material && material->elastic.stiffness_damping > 0)
+    throw InputError(path +
+                     ".material: stiffness_damping is for meshes; an assembly of blocks takes viscosity");
+}
+
+// Adds the piles of meshed bodies to `piles`; returns the bodies without a joint.
+std::vector<std::string> read_bodies(Session& session, const Arguments& a, ModelSpec& spec,
+                                     std::map<std::string, geom::Pile>& piles) {
+  std::vector<std::string> unjointed;
+  for (const Arguments& given : a.records("bodies")) {
+    const std::string path = "bodies[" + std::to_string(spec.bodies.size() + 1) + "]";
+    BodySpec body;
+    body.name = given.text_or("name", "body_" + std::to_string(spec.bodies.size() + 1));
+    const auto same = [&](const BodySpec& other) { return other.name == body.name; };
+    if (std::any_of(spec.bodies.begin(), spec.bodies.end(), same))
+      throw InputError(path + ".name", "\"" + body.name + "\"", "unique", "another body has it");
+    if (body.name.empty() || body.name == "all" ||
+        (body.name.size() == 2 && (body.name[1] == '-' || body.name[1] == '+')))
+      throw InputError(path + ".name", "\"" + body.name + "\"", "a word that is no side of the model");
+    body.material = given.object<MaterialObject>("material")->elastic;
+    if (const auto joint = given.object<JointObject>("joint"))
+      body.joint = joint->joint;
+    if (const auto pile = pile_shape(given)) {
+      std::vector<geom::TetMesh> units;
+      const auto mesh = given.object<TetMeshObject>("shape");
+      if (mesh)
+        units = {mesh->mesh};
+      else
+        units = geom::meshes(*pile);
+      read_mesh(given, path, std::move(units), body);
+      if (mesh && !mesh->coarse.empty() && body.element != Element::rigid)
+        session.warn(path + ": " + mesh->coarse);
+      piles.emplace(body.name, *pile);
+      spec.bodies.push_back(std::move(body));
+      continue;
+    }
+    require_blocks(given, path);
+    if (given.has("element"))
+      body.element = given.text("element") == "rigid"           ? Element::rigid
+                     : given.text("element") == "finite_volume" ? Element::finite_volume
+                                                                : Element::small_strain;
+    body.shape = given.object<AssemblyObject>("shape")->assembly;
+    if (!given.has("joint") && body.shape.blocks.size() > 1)
+      throw InputError(path + ".joint: missing; the body has " + std::to_string(body.shape.blocks.size()) +
+                       " blocks: say what holds them together, cdem.mohr_coulomb{...} or cdem.coulomb{...}");
+    if (!given.has("joint"))
+      unjointed.push_back(body.name);
+    spec.bodies.push_back(std::move(body));
+  }
+  return unjointed;
+}
+
+void read_pairs(const Arguments& a, ModelSpec& spec) {
+  std::vector<std::string> names;
+  for (const BodySpec& body : spec.bodies)
+    names.push_back(body.name);
+  if (const auto contacts = a.record("contacts"))
+    if (const auto law = contacts->object<JointObject>("default"))
+      spec.default_contact = law->joint;
+  std::size_t index = 0;
+  for (const Value& row : a.list("contacts")) {
+    const Values& items = row.table()->items;
+    PairSpec pair;
+    pair.body_a = *items[0].get<std::string>();
+    pair.body_b = *items[1].get<std::string>();
+    pair.joint = static_cast<const JointObject&>(*items[2].object()).joint;
+    ++index;
+    for (const std::string& name : {pair.body_a, pair.body_b})
+      if (std::find(names.begin(), names.end(), name) == names.end())
+        throw InputError("contacts[" + std::to_string(index) + "]: no body \"" + name + "\"" +
+                         which_there_are(name, names));
+    spec.pairs.push_back(pair);
+  }
+}
+
+// Six digits: places to be found again, not to be computed with.
+std::string shown_vec(const geom::Vec3& x) {
+  char text[64];
+  std::snprintf(text, sizeof text, "{%.6g, %.6g, %.6g}", x.x(), x.y(), x.z());
+  return text;
+}
+
+std::string shown_build(const ModelObject& model) {
+  const ModelCounts c = model.simulation.counts();
+  const geom::Box box = model.simulation.box();
+  return std::to_string(c.bodies) + (c.bodies == 1 ? " body (" : " bodies (") + joined(model.body_names) +
+         "), " + std::to_string(c.blocks) + (c.blocks == 1 ? " block, " : " blocks, ") +
+         std::to_string(c.tets) + (c.tets == 1 ? " tet, " : " tets, ") + std::to_string(c.interfaces) +
+         (c.interfaces == 1 ? " interface, " : " interfaces, ") + std::to_string(c.bonds) +
+         (c.bonds == 1 ? " bond" : " bonds") + "; box from " + shown_vec(box.min) + " to " +
+         shown_vec(box.max) + " m, size " + shown_vec(box.size()) + " m";
+}
+
+Value make_model(Session& session, Object*, const Arguments& a) {
+  ModelSpec spec;
+  std::map<std::string, geom::Pile> piles;
+  const auto unjointed = read_bodies(session, a, spec, piles);
+  read_pairs(a, spec);
+  // Lua sees only the few bytes it holds of a model, and would keep finished ones for long.
+  session.collect_garbage();
+  auto model =
+      std::make_shared<ModelObject>(Simulation(spec, session.settings.threads, session.settings.observer));
+  for (const BodySpec& body : spec.bodies)
+    model->body_names.push_back(body.name);
+  model->piles = std::move(piles);
+  model->unjointed = unjointed;
+  model->number = static_cast<int>(session.models.size()) + 1;
+  if (session.checkpoints.keeps())
+    model->simulation.set_keeper(&session.checkpoints);
+  model->simulation.set_replaying(session.checkpoints.replaying());
+  model->memory = session.new_memory(Table());
+  model->notes->built = shown_build(*model);
+  session.models.push_back(model);
+  session.notes.push_back(model->notes);
+  return model;
+}
+
+Value select(Session&, ModelObject& model, const Arguments& a) {
+  const std::string& name = a.text("name");
+  const bool body =
+      std::find(model.body_names.begin(), model.body_names.end(), name) != model.body_names.end();
+  const bool side = name.size() == 2 && (name[1] == '-' || name[1] == '+');
+  if (name.empty() || name == "all" || body || side || model.places.count(name) > 0)
+    throw InputError("name", "\"" + name + "\"", "a new name",
+                     body || side || name == "all" || name.empty() ? "that one stands for something else"
+                                                                   : "it was given before");
+  model.places[name] = selections(model, a.value("on"), "on");
+  return {};
+}
+
+Value counts(Session&, ModelObject& model, const Arguments&) {
+  const ModelCounts c = model.simulation.counts();
+  return Table{{"bodies", c.bodies},
+               {"blocks", c.blocks},
+               {"nodes", c.nodes},
+               {"tets", c.tets},
+               {"interfaces", c.interfaces},
+               {"bonds", c.bonds},
+               {"intact", c.intact},
+               {"broken_tension", c.broken_tension},
+               {"broken_shear", c.broken_shear},
+               {"contacts", c.contacts},
+               {"damaged", c.damaged}};
+}
+
+Value box(Session&, ModelObject& model, const Arguments&) {
+  const geom::Box box = model.simulation.box();
+  return Table{{"min", box.min}, {"max", box.max}};
+}
+
+template <class Get>
+Property simulation_property(std::string name, std::string type, std::string unit, std::string doc, Get get) {
+  return {std::move(name), std::move(type), std::move(unit), std::move(doc),
+          [get](Session&, Object& self) -> Value { return get(static_cast<ModelObject&>(self).simulation); }};
+}
+
+std::vector<Property> model_properties() {
+  Property memory{
+      "memory", "table", "",
+      "What callbacks must remember: only booleans, numbers, strings and tables of them. It is saved with "
+      "the model, a local variable is not.",
+      [](Session&, Object& self) -> Value { return static_cast<ModelObject&>(self).memory; }};
+  memory.set = [](Session& session, Object& self, const Value& value) {
+    if (!value.table())
+      throw InputError("memory", describe(value), "a table");
+    check_value(value, plain("memory").type, "memory");
+    static_cast<ModelObject&>(self).memory = session.new_memory(value);
+  };
+  return {simulation_property("time", "number", "s", "", [](const Simulation& s) { return s.time(); }),
+          simulation_property("residual", "number", "", "out-of-balance force norm over applied force norm",
+                              [](const Simulation& s) { return s.residual(); }),
+          simulation_property("steps", "integer", "", "of all stages so far",
+                              [](const Simulation& s) { return s.steps(); }),
+          simulation_property("stable_time_step", "number", "s", "of real-time stepping",
+                              [](const Simulation& s) { return s.stable_time_step(); }),
+          simulation_property("state_hash", "string", "", "of every state field, bit for bit",
+                              [](const Simulation& s) {
+                                char text[17];
+                                std::snprintf(text, sizeof text, "%016llx",
+                                              static_cast<unsigned long long>(s.state_hash()));
+                                return std::string(text);
+                              }),
+          memory};
+}
+
+} // namespace
+
+void bind_model(Module& m) {
+  const Type pair = tuple_type({text_type(), text_type(), object_type("Joint")});
+  Type whole_number;
+  whole_number.kind = Kind::integer;
+  const std::vector<Field> body{
+      object("shape", "Assembly|TetMesh|Pile")
+          .required()
+          .doc("blocks, a mesh of tetrahedra, or a pile of them"),
+      object("material", "Material").required(),
+      object("joint", "Joint")
+          .doc("between the body's own blocks; needed when there are several, or when they are cut. Of a "
+               "mesh: on "
+               "inner faces, which can break then"),
+      text("name").doc("for selections and contacts; body_1, body_2 ... by default"),
+      choice("element", {"small_strain", "finite_volume", "rigid"})
+          .doc("how tets deform: small_strain for assemblies (Han 2010), finite_volume for meshes (Feng "
+               "2014), as they are by default; rigid: a mesh that keeps its shape until "
+               "model:make_deformable"),
+      choice("bonds", {"none", "all", "regions", "listed"})
+          .doc("of a mesh, which inner faces carry the joint: all (default with a joint), those between "
+               "different "
+               "regions, or all of the bonded_regions"),
+      list("bonded_regions", whole_number, 1).doc("numbers of regions, from 1, with bonds = \"listed\""),
+      number("stiffness_ratio")
+          .above(0)
+          .doc(
+              "of a mesh, beta in Kn = beta E A / (3 d); 10 by default. A body bonded everywhere keeps about "
+              "E / (1 + 1/beta)"),
+      number("shear_ratio").above(0).doc("of a mesh, Ks / Kn; 1 by default")};
+  m.functions.push_back(
+      {"model",
+       "A model: bodies of blocks, and what holds touching bodies to each other.",
+       {list("bodies", record_type(body)).required(),
+        list("contacts", pair, 0)
+            .beside(
+                {object("default", "Joint")
+                     .doc("of every two bodies that are not named; of meshes it is cdem.coulomb, and the law "
+                          "between the units of a body and its fragments too")})
+            .doc("{\"body a\", \"body b\", joint} for every two bodies that touch; default = joint for all "
+                 "others")},
+       false,
+       "cdem.Model",
+       "",
+       make_model});
+
+  m.records.push_back(
+      {"Counts",
+       "Each bond (spring point) stands in exactly one of intact, broken_tension, broken_shear and "
+       "contacts.",
+       {integer("bodies").required(), integer("blocks").required(), integer("nodes").required(),
+        integer("tets").required(), integer("interfaces").required(), integer("bonds").required(),
+        integer("intact").required(), integer("broken_tension").required(),
+        integer("broken_shear").required(), integer("contacts").required(),
+        integer("damaged").required().doc("of the intact ones: have begun to soften")}});
+  Class model{"Model", "Made by cdem.model."};
+  model.properties = model_properties();
+  model.text = [](const Object& self) {
+    const auto& object = static_cast<const ModelObject&>(self);
+    const ModelCounts c = object.simulation.counts();
+    return "cdem.Model (" + std::to_string(c.bodies) + (c.bodies == 1 ? " body, " : " bodies, ") +
+           std::to_string(c.blocks) + (c.blocks == 1 ? " block, " : " blocks, ") + std::to_string(c.tets) +
+           (c.tets == 1 ? " tet, " : " tets, ") + std::to_string(c.bonds) +
+           (c.bonds == 1 ? " bond)" : " bonds)");
+  };
+  model.methods = {{"select",
+                    "Gives a place a name that `on` understands from now on.",
+                    {text("name").required(), place("on").required()},
+                    false,
+                    "",
+                    "",
+                    method<ModelObject>(select),
+                    false,
+                    Replay::again},
+                   {"counts",
+                    "How many there are of everything.",
+                    {},
+                    true,
+                    "cdem.Counts",
+                    "",
+                    method<ModelObject>(counts)},
+                   {"box",
+                    "Smallest axis-aligned box around the undeformed model.",
+                    {},
+                    true,
+                    "cdem.Box",
+                    "",
+                    method<ModelObject>(box)}};
+  m.classes.push_back(model);
+}
+
+} // namespace cdem::script

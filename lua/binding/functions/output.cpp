@@ -1,0 +1,130 @@
+// Files of a model: ParaView, pictures, films.
+#include "lua/binding/functions/picture_fields.hpp"
+#include "lua/binding/objects/model_object.hpp"
+#include "lua/binding/runtime/module.hpp"
+
+#include "libcdem/vtk/field_values.hpp"
+#include "libcdem/vtk/film.hpp"
+#include "libcdem/vtk/without_bodies.hpp"
+#include "libgeom/core/error.hpp"
+
+#include <algorithm>
+
+namespace cdem::script {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+Value save(Session& session, ModelObject& model, const Arguments& a) {
+  require_ending(a.text("file"), ".vtu");
+  if (a.has("series"))
+    require_ending(a.text("series"), ".pvd");
+  if (session.settings.check_only)
+    return {};
+  const Snapshot snapshot = model.simulation.snapshot(model.title(session));
+  const fs::path path = session.files.to_write(a.text("file"));
+  write_vtu(snapshot, path.string());
+  write_bonds(snapshot, session.files.to_write(bonds_path(a.text("file"))).string());
+  if (a.has("series")) {
+    const fs::path series = session.files.to_write(a.text("series"));
+    auto& entries = model.series[series.string()];
+    const std::string file = path.lexically_relative(series.parent_path()).generic_string();
+    const auto same = [&](const SeriesEntry& e) { return e.file == file; };
+    entries.erase(std::remove_if(entries.begin(), entries.end(), same), entries.end());
+    // Relaxations have no time: the steps so far keep their moments in order.
+    const double moment = snapshot.time > 0 ? snapshot.time : static_cast<double>(snapshot.step);
+    entries.push_back({moment, file});
+    write_pvd(series.string(), entries);
+  }
+  return {};
+}
+
+PictureOptions picture_options(const Arguments& a) {
+  PictureOptions options = view_options(a);
+  options.deformation = a.number("deformation");
+  options.opacity = a.number("opacity");
+  options.edges = a.flag("edges");
+  options.broken_bonds = a.flag("broken_bonds");
+  return options;
+}
+
+Value picture(Session& session, ModelObject& model, const Arguments& a) {
+  require_ending(a.text("file"), ".png");
+  PictureOptions options = picture_options(a);
+  for (const Value& body : a.list("plain"))
+    options.plain.push_back(model.simulation.body_number(*body.get<std::string>(), "plain"));
+  std::vector<int> hidden;
+  for (const Value& body : a.list("hidden"))
+    hidden.push_back(model.simulation.body_number(*body.get<std::string>(), "hidden"));
+  if (session.settings.check_only) {
+    if (!options.field.empty())
+      field_values(model.simulation.snapshot(""), options.field);
+    return {};
+  }
+  const Snapshot shown = without_bodies(model.simulation.snapshot(model.title(session)), hidden);
+  if (shown.tets.empty())
+    throw geom::InputError("hidden: holds every body; leave one to draw");
+  render(shown, options, session.files.to_write(a.text("file")).string());
+  return {};
+}
+
+Value film(Session& session, Object*, const Arguments& a) {
+  require_ending(a.text("file"), ".ogv");
+  if (session.settings.check_only)
+    return {};
+  std::vector<std::string> frames;
+  for (const Value& frame : a.list("frames"))
+    frames.push_back(session.files.to_read(*frame.get<std::string>()).string());
+  write_film(frames, static_cast<int>(a.integer("frames_per_second")),
+             session.files.to_write(a.text("file")).string());
+  return {};
+}
+
+std::vector<Field> picture_declaration() {
+  std::vector<Field> fields =
+      view_fields("field to colour by, e.g. \"displacement.x\", \"stress.yy\", \"von_mises\", \"block_id\"; "
+                  "plain blocks when left out");
+  fields.insert(fields.begin() + 2,
+                number("deformation")
+                    .standard(0.0)
+                    .doc("displacements are drawn this many times larger; 0: undeformed"));
+  fields.push_back(
+      list("plain", text_type(), 0).doc("names of bodies that are drawn without colour, such as a floor"));
+  fields.push_back(list("hidden", text_type(), 0).doc("names of bodies that are left out, such as a wall"));
+  fields.push_back(number("opacity").within(0.05, 1).standard(1.0).doc(
+      "of the blocks; below 1 broken interfaces inside show through"));
+  fields.push_back(flag("edges").standard(true).doc("outlines of the blocks"));
+  fields.push_back(flag("broken_bonds").standard(true).doc("broken interfaces, coloured by how they broke"));
+  return fields;
+}
+
+} // namespace
+
+void bind_output(Module& m) {
+  Class& model = m.the_class("Model");
+  model.methods.push_back(
+      {"save",
+       "Writes the model for ParaView: blocks to the file, bonds beside it (result.vtu, result_bonds.vtu).",
+       {text("file").required().doc("ends in .vtu; in the output folder"),
+        text("series").doc("ends in .pvd: a time series this file is added to")},
+       false,
+       "",
+       "",
+       method<ModelObject>(save)});
+  model.methods.push_back({"picture", "Draws the model, without a display.", picture_declaration(), false, "",
+                           "", method<ModelObject>(picture)});
+  m.functions.push_back({"film",
+                         "A film (Ogg/Theora) from pictures of one size.",
+                         {text("file").required().doc("ends in .ogv; in the output folder"),
+                          list("frames", text_type()).required().doc("names of the pictures, in order"),
+                          integer("frames_per_second").within(1, 120).standard(12)},
+                         false,
+                         "",
+                         "",
+                         film,
+                         false,
+                         Replay::recorded});
+}
+
+} // namespace cdem::script

@@ -1,0 +1,133 @@
+#include "lua/binding/functions/picture_fields.hpp"
+
+#include "libgeom/core/error.hpp"
+
+#include <cmath>
+
+namespace cdem::script {
+
+using geom::InputError;
+
+Field size_field() {
+  return list("size", number_type(), 2)
+      .standard(Value(Table::list({1600, 1200})))
+      .doc("{width, height} in pixels; height 0: as high as it needs to be");
+}
+
+Field colour_field() {
+  return list("colour", number_type(), 3).doc("{red, green, blue}, each 0 .. 1");
+}
+
+std::array<int, 2> size_of(const Arguments& a, bool free_height) {
+  const auto size = a.numbers("size");
+  const auto side = [](double x) {
+    return x == std::floor(x) && x >= least_picture_side && x <= most_picture_side;
+  };
+  if (size.size() != 2 || !side(size[0]) || !(side(size[1]) || (free_height && size[1] == 0)))
+    throw InputError("size", describe(a.value("size")),
+                     "{width, height} in pixels, each " + std::to_string(least_picture_side) + " to " +
+                         std::to_string(most_picture_side) +
+                         (free_height ? "; height 0: as high as needed" : ""));
+  return {static_cast<int>(size[0]), static_cast<int>(size[1])};
+}
+
+std::optional<Colour> colour_of(const Arguments& a) {
+  if (!a.has("colour"))
+    return std::nullopt;
+  const auto c = a.numbers("colour");
+  if (c.size() != 3)
+    throw InputError("colour", describe(a.value("colour")), "{red, green, blue}");
+  for (const double x : c)
+    if (x < 0 || x > 1)
+      throw InputError("colour", describe(a.value("colour")), "numbers from 0 to 1");
+  return Colour{c[0], c[1], c[2]};
+}
+
+std::optional<std::array<double, 2>> limits_of(const Arguments& a, const std::string& name) {
+  if (!a.has(name))
+    return std::nullopt;
+  const auto limits = a.numbers(name);
+  if (limits.size() != 2 || !(limits[0] < limits[1]))
+    throw InputError(name, describe(a.value(name)), "{lowest, highest}");
+  return std::array<double, 2>{limits[0], limits[1]};
+}
+
+std::vector<Field> view_fields(const std::string& colour_doc) {
+  const std::vector<Field> camera{
+      vec3("position").unit("m").required(), vec3("focal_point").unit("m").required(),
+      vec3("up").standard(Value(geom::Vec3(0, 1, 0))),
+      number("view_angle").between(0, 180).unit("deg").standard(30.0).doc("over the height of the picture"),
+      flag("perspective").standard(true)};
+  const std::vector<Field> marker{vec3("at").unit("m").required().doc("undeformed place"), text("label"),
+                                  colour_field(),
+                                  number("size").above(0).standard(14.0).doc("pixels across")};
+  const std::vector<Field> line{list("points", vec3_type(), 2).unit("m").required(), text("label"),
+                                colour_field(), number("width").above(0).standard(4.0).doc("pixels"),
+                                flag("dashed").standard(false)};
+  return {text("file").required().doc("ends in .png; in the output folder"),
+          text("colour").doc(colour_doc),
+          choice("view", {"front", "back", "left", "right", "top", "bottom", "iso"})
+              .standard("front")
+              .doc("front looks along -z at the x-y plane"),
+          choice("up", {"y", "z"}).standard("y").doc("z: front looks along y with z up"),
+          record("camera", camera).doc("instead of view"),
+          size_field(),
+          list("range", number_type(), 2).doc("{lowest, highest} of the colours, SI units"),
+          choice("colour_map", {"auto", "blue_white_red", "cool_warm", "viridis", "grey", "categorical"})
+              .standard("auto")
+              .doc("auto: blue_white_red when values change sign, viridis when not"),
+          text("title").doc("_{...} and ^{...} set sub- and superscripts"),
+          flag("colour_bar").standard(true),
+          flag("legend").standard(true),
+          flag("axes").standard(true).doc("small arrows that name the directions"),
+          list("markers", record_type(marker), 0),
+          list("lines", record_type(line), 0)};
+}
+
+PictureOptions view_options(const Arguments& a) {
+  PictureOptions options;
+  options.field = a.text_or("colour", "");
+  options.view = a.text("view");
+  options.up = a.text("up");
+  if (const auto camera = a.record("camera")) {
+    options.camera.emplace();
+    options.camera->position = camera->vec3("position");
+    options.camera->focal_point = camera->vec3("focal_point");
+    options.camera->up = camera->vec3("up");
+    options.camera->view_angle = camera->number("view_angle");
+    options.camera->perspective = camera->flag("perspective");
+  }
+  options.size = size_of(a);
+  options.range = limits_of(a, "range");
+  options.colour_map = a.text("colour_map");
+  options.title = a.text_or("title", "");
+  options.colour_bar = a.flag("colour_bar");
+  options.legend = a.flag("legend");
+  options.axes = a.flag("axes");
+  for (const Arguments& given : a.records("markers")) {
+    Marker marker;
+    marker.position = given.vec3("at");
+    marker.label = given.text_or("label", "");
+    marker.colour = colour_of(given).value_or(marker.colour);
+    marker.size = given.number("size");
+    options.markers.push_back(marker);
+  }
+  for (const Arguments& given : a.records("lines")) {
+    Polyline line;
+    for (const Value& point : given.list("points"))
+      line.points.push_back(to_vec3(point));
+    line.label = given.text_or("label", "");
+    line.colour = colour_of(given).value_or(line.colour);
+    line.width = given.number("width");
+    line.dashed = given.flag("dashed");
+    options.polylines.push_back(line);
+  }
+  return options;
+}
+
+void require_ending(const std::string& file, const std::string& ending) {
+  if (file.size() <= ending.size() || file.compare(file.size() - ending.size(), ending.size(), ending) != 0)
+    throw InputError("file", "\"" + file + "\"", "a name that ends in " + ending);
+}
+
+} // namespace cdem::script

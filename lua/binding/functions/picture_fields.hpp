@@ -1,0 +1,25 @@
+// What pictures and charts have in common in their declarations.
+#pragma once
+
+#include "lua/binding/schema/schema.hpp"
+
+#include "libcdem/vtk/picture.hpp"
+
+namespace cdem::script {
+
+Field size_field();   // "size": {width, height} in pixels
+Field colour_field(); // "colour": {red, green, blue}
+
+std::array<int, 2> size_of(const Arguments&, bool free_height = true); // free: 0, as high as needed
+std::optional<Colour> colour_of(const Arguments&);
+std::optional<std::array<double, 2>> limits_of(const Arguments&,
+                                               const std::string& name); // {lowest, highest}
+
+// What every picture takes: file, colour, where to look from, and what is written around the body.
+std::vector<Field> view_fields(const std::string& colour_doc);
+PictureOptions view_options(const Arguments&);
+
+// Throws geom::InputError when a file name has another ending.
+void require_ending(const std::string& file, const std::string& ending);
+
+} // namespace cdem::script

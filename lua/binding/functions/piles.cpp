@@ -1,0 +1,339 @@
+// Piles: units of one shape hung over a ground, or laid on it, before there is a model of them.
+#include "lua/binding/functions/angles.hpp"
+#include "lua/binding/functions/picture_fields.hpp"
+#include "lua/binding/functions/solving_stage.hpp"
+#include "lua/binding/objects/pile_object.hpp"
+#include "lua/binding/objects/solid_objects.hpp"
+#include "lua/binding/runtime/module.hpp"
+#include "lua/binding/runtime/session.hpp"
+
+#include "libcdem/step/errors.hpp"
+#include "libgeom/core/error.hpp"
+#include "libgeom/placement/armour_layer.hpp"
+#include "libgeom/placement/drop_grid.hpp"
+
+#include <cmath>
+
+namespace cdem::script {
+
+namespace {
+
+using geom::InputError;
+
+constexpr double unit_tolerance = 0.01; // of volume and height, between meshes of one unit
+
+geom::Ground ground_of(const Arguments& a) {
+  return geom::Ground(geom::surface_of(a.object<TetMeshObject>("onto")->mesh));
+}
+
+std::optional<geom::PlanBox> plan_region(const Arguments& a) {
+  const auto region = a.record("region");
+  if (!region)
+    return std::nullopt;
+  const auto corner = [&](const char* name) {
+    const std::vector<double> x = region->numbers(name);
+    if (x.size() != 2)
+      throw InputError(std::string("region.") + name, describe(region->value(name)), "two numbers, {x, y}");
+    return Eigen::Vector2d(x[0], x[1]);
+  };
+  return geom::PlanBox{corner("min"), corner("max")};
+}
+
+Value drop(Session&, Object*, const Arguments& a) {
+  geom::DropOptions options;
+  options.gap = a.optional_number("gap");
+  options.region = plan_region(a);
+  options.layers = a.has("layers") ? static_cast<int>(a.integer("layers")) : 0;
+  options.seed = static_cast<std::uint64_t>(a.integer("seed"));
+  return std::make_shared<PileObject>(geom::drop_grid(
+      a.object<TetMeshObject>("unit")->mesh, static_cast<int>(a.integer("count")), ground_of(a), options));
+}
+
+std::string of_at_most(int number, int most) {
+  return std::to_string(number) + " of at most " + std::to_string(most);
+}
+
+// Shows how far a layer is, and ends it when the user asks for that.
+class LayingObserver {
+public:
+  LayingObserver(Session& session, int count)
+      : session_(session), observer_(session.settings.observer), count_(count) {
+    progress_.kind = "place";
+    progress_.counts = "unit";
+    progress_.preparing = true;
+  }
+  void operator()(const geom::LayerProgress& now) {
+    if (observer_ && observer_->stop_requested()) {
+      session_.checkpoints.stop();
+      throw Interrupted();
+    }
+    progress_.step = now.laid;
+    progress_.max_steps = now.laid < count_ ? count_ : 0; // how long the rest takes nobody knows
+    progress_.note = now.doing;
+    if (now.layers > 1)
+      progress_.note += ", layer " + of_at_most(now.layer, now.layers);
+    progress_.note += ", spacing " + of_at_most(now.spacing, now.spacings);
+    tell();
+  }
+  void end() {
+    progress_.last = true;
+    tell();
+  }
+
+private:
+  void tell() {
+    if (!observer_ || session_.checkpoints.silent())
+      return;
+    progress_.wall_time = session_.elapsed() - begun_;
+    observer_->progress(progress_);
+  }
+
+  Session& session_;
+  std::shared_ptr<Observer> observer_;
+  int count_;
+  double begun_ = session_.elapsed();
+  Progress progress_;
+};
+
+std::string numbers_text(const std::vector<int>& units) {
+  std::string text;
+  for (const int unit : units)
+    text += (text.empty() ? "" : ", ") + std::to_string(unit + 1);
+  return (units.size() == 1 ? "unit " : "units ") + text;
+}
+
+// Of a settled layer the density is to be the one asked for within this part.
+constexpr double density_told_of = 0.05;
+
+void tell(Session& session, const geom::Layer& layer, double density) {
+  const std::string name = "cdem.place: ";
+  if (layer.density && std::abs(*layer.density / density - 1) > density_told_of)
+    session.warn(name + "density = " + number_text(density) + " came to " + three_digits(*layer.density) +
+                 ", as near as these units lie at rest on this ground in rows of so many; ask for another "
+                 "density, other columns or a wider ground");
+  if (!layer.at_rest)
+    session.warn(
+        name + "the units were laid one by one, but did not come to rest together, clear of each other; they "
+               "will move when they settle; try another seed, a lower density or a larger gap");
+  if (layer.layers > 1)
+    session.message(name + "laid " + std::to_string(layer.layers) +
+                    " times, each with other attitudes, as units slid off, leant on too little or did not "
+                    "rest; the best is taken");
+  if (!layer.put_back.empty())
+    session.message(name + numbers_text(layer.put_back) +
+                    " would have slid further than half a height, and " +
+                    (layer.put_back.size() == 1 ? "stays as laid; it" : "stay as laid; they") +
+                    " may slide when " + (layer.put_back.size() == 1 ? "it settles" : "they settle"));
+  if (!layer.leaning.empty())
+    session.message(name + "fewer than three things press on " + numbers_text(layer.leaning));
+}
+
+Value lay(Session& session, Object*, const Arguments& a) {
+  geom::LayerOptions options;
+  options.density = a.number("density");
+  if (a.has("columns"))
+    options.columns = static_cast<int>(a.integer("columns"));
+  options.gap = a.optional_number("gap");
+  options.region = plan_region(a);
+  options.seed = static_cast<std::uint64_t>(a.integer("seed"));
+  options.attitudes = static_cast<int>(a.integer("attitudes"));
+  options.nudges = static_cast<int>(a.integer("nudges"));
+  options.play = a.number("play");
+  options.friction = std::tan(radians(a.number("friction_angle")));
+  options.walls = a.flag("walls");
+  const int count = static_cast<int>(a.integer("count"));
+  LayingObserver observer(session, count);
+  options.tell = [&](const geom::LayerProgress& now) { observer(now); };
+  geom::Layer layer;
+  try {
+    layer = geom::place_layer(a.object<TetMeshObject>("unit")->mesh, count, ground_of(a), options);
+  } catch (...) {
+    observer.end();
+    throw;
+  }
+  observer.end();
+  if (options.nudges > 0)
+    tell(session, layer, options.density);
+  return std::make_shared<PileObject>(std::move(layer.pile));
+}
+
+Value read_pile(Session& session, Object*, const Arguments& a) {
+  const std::filesystem::path path = session.files.to_read(a.text("file"));
+  return std::make_shared<PileObject>(pile_from(read_file(path), a.text("file")));
+}
+
+Value save(Session& session, PileObject& self, const Arguments& a) {
+  require_ending(a.text("file"), ".json");
+  if (!session.settings.check_only)
+    write_file(session.files.to_write(a.text("file")), pile_text(self.pile));
+  return {};
+}
+
+Value scaled(Session&, PileObject& self, const Arguments& a) {
+  return std::make_shared<PileObject>(geom::scaled(self.pile, a.number("factor")));
+}
+
+Value with_unit(Session&, PileObject& self, const Arguments& a) {
+  const geom::TetMesh& unit = a.object<TetMeshObject>("unit")->mesh;
+  geom::require_one_part(unit);
+  geom::Pile pile = geom::pile_of(unit);
+  const double volume = geom::volume(pile.unit), before = geom::volume(self.pile.unit);
+  const geom::Vec3 apart = geom::bounding_box(pile.unit).size() - geom::bounding_box(self.pile.unit).size();
+  if (std::abs(volume / before - 1) > unit_tolerance || apart.norm() > unit_tolerance * self.pile.height)
+    throw InputError("unit", three_digits(volume) + " m3",
+                     "another mesh of the same unit, of " + number_text(before) +
+                         " m3 and as long, wide and high",
+                     "scale the pile first where the size differs");
+  pile.height = self.pile.height;
+  pile.poses = self.pile.poses;
+  return std::make_shared<PileObject>(std::move(pile));
+}
+
+Value poses(Session&, PileObject& self, const Arguments&) {
+  Values rows;
+  for (const geom::Pose& pose : self.pile.poses) {
+    Values rotation;
+    for (int i = 0; i < 3; ++i)
+      rotation.emplace_back(geom::Vec3(pose.rotation.row(i)));
+    rows.emplace_back(Table{{"centroid", pose.translation}, {"rotation", Table::list(std::move(rotation))}});
+  }
+  return Table::list(std::move(rows));
+}
+
+Value box(Session&, PileObject& self, const Arguments&) {
+  const geom::Box box = geom::bounding_box(self.pile);
+  return Table{{"min", box.min}, {"max", box.max}};
+}
+
+template <class Get>
+Property pile_property(std::string name, std::string type, std::string unit, std::string doc, Get get) {
+  return {std::move(name), std::move(type), std::move(unit), std::move(doc),
+          [get](Session&, Object& self) -> Value { return get(static_cast<PileObject&>(self).pile); }};
+}
+
+void bind_class(Module& m) {
+  m.records.push_back(
+      {"Pose",
+       "Place and attitude of a unit.",
+       {vec3("centroid").unit("m").required(),
+        list("rotation", vec3_type(), 3).required().doc("rows of the matrix that turns the unit")}});
+  Class pile{"Pile", "Units of one shape, each with its place and attitude: made by cdem.drop, cdem.place, "
+                     "cdem.read_pile and model:pile. The shape of a meshed body with one block for each."};
+  pile.length = [](const Object& self) {
+    return static_cast<std::int64_t>(static_cast<const PileObject&>(self).pile.poses.size());
+  };
+  pile.text = [](const Object& self) {
+    const geom::Pile& p = static_cast<const PileObject&>(self).pile;
+    return "cdem.Pile (" + std::to_string(p.poses.size()) +
+           (p.poses.size() == 1 ? " unit of " : " units of ") + std::to_string(p.unit.tets.size()) +
+           (p.unit.tets.size() == 1 ? " tet)" : " tets)");
+  };
+  pile.properties = {
+      pile_property("count", "integer", "", "how many units",
+                    [](const geom::Pile& p) { return static_cast<std::int64_t>(p.poses.size()); }),
+      pile_property("height", "number", "m", "of a unit: that of its mesh along z",
+                    [](const geom::Pile& p) { return p.height; }),
+      pile_property("unit_volume", "number", "m3", "of the unit's mesh",
+                    [](const geom::Pile& p) { return geom::volume(p.unit); }),
+      pile_property("nominal_diameter", "number", "m", "Dn, side of a cube of that volume",
+                    [](const geom::Pile& p) { return geom::nominal_diameter(p); })};
+  pile.methods = {
+      {"scaled",
+       "The same pile in another size: all lengths about the origin times the factor.",
+       {number("factor").above(0).required()},
+       false,
+       "cdem.Pile",
+       "",
+       method<PileObject>(scaled)},
+      {"with_unit",
+       "The same places and attitudes with another mesh of the unit, such as a finer one; it must stand "
+       "along the "
+       "same axes.",
+       {object("unit", "TetMesh").required()},
+       false,
+       "cdem.Pile",
+       "",
+       method<PileObject>(with_unit)},
+      {"poses", "Place and attitude of each unit.", {}, true, "cdem.Pose[]", "", method<PileObject>(poses)},
+      {"box",
+       "Smallest axis-aligned box that holds all units where they are.",
+       {},
+       true,
+       "cdem.Box",
+       "",
+       method<PileObject>(box)},
+      {"save",
+       "Writes the pile, for cdem.read_pile in another script.",
+       {text("file").required().doc("ends in .json; in the output folder")},
+       false,
+       "",
+       "",
+       method<PileObject>(save)}};
+  m.classes.push_back(pile);
+}
+
+} // namespace
+
+void bind_piles(Module& m) {
+  const std::vector<Field> unit{
+      object("unit", "TetMesh").required().doc("a unit's mesh"),
+      integer("count").within(1, 1e6).required().doc("how many units"),
+      object("onto", "TetMesh").required().doc("the ground, z up; a slope's mesh"),
+      record("region", {list("min", number_type(), 2).required(), list("max", number_type(), 2).required()})
+          .doc("part of the ground's plan, corners {x, y}; all of it when left out"),
+      integer("seed").at_least(0).standard(1).doc("of the attitudes")};
+  const auto with = [&](std::vector<Field> more) {
+    std::vector<Field> fields = unit;
+    fields.insert(fields.end(), more.begin(), more.end());
+    return fields;
+  };
+  m.functions.push_back(
+      {"drop",
+       "Units hung over the ground in random attitudes, to be dropped: on a grid in the middle of the "
+       "region, "
+       "so far apart that they are clear of each other however they are turned. Rows run across the rise of "
+       "the ground, the lowest first.",
+       with(
+           {number("gap").above(0).unit("m").doc(
+                "between the spheres around units, and under the lowest layer; a tenth of the unit's height"),
+            integer("layers")
+                .within(1, geom::max_drop_layers)
+                .doc("on top of each other; as few as the region allows when left out")}),
+       false, "cdem.Pile", "", drop});
+  m.functions.push_back(
+      {"place",
+       "One layer of armour units on a slope, in the staggered pattern of a packing density: row by row from "
+       "the toe, each unit above the gap between two of the row below and slid down against them; then all "
+       "but the lowest row, which is to be held, come to rest together under their weight with friction.",
+       with({number("density").within(0.05, 1.5).standard(0.645).doc(
+                 "phi = N Dn^2 / A, units on an area of slope times that of their equal cube's side"),
+             integer("columns").at_least(1).doc("units in a row; as many as the region allows when left out"),
+             number("gap").above(0).unit("m").doc("clear distance; 2e-5 of the unit's height"),
+             integer("attitudes")
+                 .within(1, 1e6)
+                 .standard(1500)
+                 .doc("of which those are taken that fit into the pattern, beside others"),
+             integer("nudges").within(0, 100000).standard(200).doc(
+                 "steps of a unit on its way to rest, at most; 0: only lowered on to what is there, each by "
+                 "itself"),
+             number("play").within(0, 1).standard(0.1).doc(
+                 "how far along the contour a unit may be from its place, over its height"),
+             number("friction_angle")
+                 .from(0, 90)
+                 .unit("deg")
+                 .standard(15.0)
+                 .doc("with so much units are at rest; the lowest row with more than the slope's angle"),
+             flag("walls").standard(false).doc("at both ends of the rows walls stand along the slope, on "
+                                               "which units lean; the pile's box ends there")}),
+       false, "cdem.Pile", "", lay});
+  m.functions.push_back({"read_pile",
+                         "A pile that pile:save{} wrote.",
+                         {text("file").required()},
+                         false,
+                         "cdem.Pile",
+                         "",
+                         read_pile});
+  bind_class(m);
+}
+
+} // namespace cdem::script

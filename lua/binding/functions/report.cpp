@@ -1,0 +1,84 @@
+// cdem.report: figures beside their references.
+#include "lua/binding/runtime/module.hpp"
+#include "lua/binding/runtime/session.hpp"
+
+#include "libgeom/core/error.hpp"
+
+#include <cmath>
+
+namespace cdem::script {
+
+namespace {
+
+// Numbers that are not finite cannot be written in JSON: null, and the script's author is told.
+Value finite_or_nil(Session& session, const std::string& name, const char* field, const Value& value) {
+  if (value.is_number() && !std::isfinite(value.number())) {
+    if (!session.settings.check_only)
+      session.warn("cdem.report: " + name + ": " + field + " is " + describe(value) + "; written as null");
+    return {};
+  }
+  if (!value.is_nil() && !value.is_number() && !value.get<std::string>() && !value.get<bool>())
+    throw geom::InputError(name + ": " + field + " = " + describe(value) +
+                           ": must be a number, a string, a boolean or nil");
+  return value;
+}
+
+Value report(Session& session, Object*, const Arguments& arguments) {
+  for (const Arguments& given : arguments.records("figures")) {
+    Figure figure;
+    figure.name = given.text("name");
+    figure.value = finite_or_nil(session, figure.name, "value", given.value("value"));
+    figure.reference = finite_or_nil(session, figure.name, "reference", given.value("reference"));
+    figure.unit = given.text_or("unit", "");
+    figure.kind = given.text_or("kind", "");
+    figure.source = given.text_or("source", "");
+    figure.tolerance = given.optional_number("tolerance");
+    if (const auto absolute = given.optional_number("tolerance_absolute")) {
+      if (figure.tolerance)
+        throw geom::InputError(figure.name + ": give tolerance (relative) or tolerance_absolute, not both");
+      figure.tolerance = absolute;
+      figure.absolute = true;
+    }
+    if (figure.kind.empty() && !figure.reference.is_nil())
+      throw geom::InputError(figure.name +
+                             ": kind: missing; a reference needs its kind: \"formula\", \"paper\", "
+                             "\"fe\" or \"trial\"");
+    if (figure.kind == "trial" && figure.tolerance)
+      throw geom::InputError(figure.name +
+                             ": tolerance: a trial figure is shown beside ours and never judged; leave "
+                             "the tolerance out");
+    session.report.add(figure);
+  }
+  session.write_report();
+  return {};
+}
+
+} // namespace
+
+void bind_report(Module& m) {
+  const std::vector<Field> figure{
+      text("name").required().doc("name of the figure, with its unit at the end, e.g. \"side_ux_max_m\""),
+      plain("value").doc("number, text or boolean; leave out (nil) when there is none"),
+      text("unit"),
+      plain("reference").doc("number, text or boolean to compare with"),
+      choice("kind", {"formula", "paper", "fe", "trial"})
+          .doc("where the reference comes from; a trial figure is shown and never judged"),
+      text("source").doc("e.g. \"Han 2010 fig 7\""),
+      number("tolerance").at_least(0).doc("allowed |value - reference| over |reference|"),
+      number("tolerance_absolute").at_least(0).doc("the same in the figure's unit, instead of tolerance"),
+  };
+  m.functions.push_back(
+      {"report",
+       "Writes figures beside their references to report.json and report.md in the output folder. "
+       "Further calls add figures; a name given again takes the place of the earlier one. Numbers "
+       "that are not finite become null, with a warning. Booleans are judged by equality. The warnings of "
+       "the "
+       "run stand in the report too.",
+       {list("figures", record_type(figure)).required().doc("the figures, in order")},
+       true,
+       "",
+       "",
+       report});
+}
+
+} // namespace cdem::script

@@ -1,0 +1,122 @@
+// cdem.select.*: places that do not depend on a model.
+#include "lua/binding/functions/selections.hpp"
+#include "lua/binding/objects/objects.hpp"
+#include "lua/binding/runtime/module.hpp"
+
+#include "libgeom/core/error.hpp"
+
+namespace cdem::script {
+
+namespace {
+
+Value plane(Session&, Object*, const Arguments& a) {
+  const geom::Vec3 normal = a.vec3("normal");
+  if (!(normal.norm() > 0))
+    throw geom::InputError("normal", describe(a.value("normal")), "longer than zero");
+  auto object = std::make_shared<SelectionObject>();
+  object->selection = Selection::on_plane(geom::Plane::through(a.vec3("point"), normal));
+  object->selection.text =
+      "plane through " + describe(a.value("point")) + " with normal " + describe(a.value("normal"));
+  return object;
+}
+
+Value box(Session&, Object*, const Arguments& a) {
+  geom::Box box;
+  box.min = a.vec3("min");
+  box.max = a.vec3("max");
+  if ((box.min.array() > box.max.array()).any())
+    throw geom::InputError("min", describe(a.value("min")), "below max in every axis",
+                           "max is " + describe(a.value("max")));
+  auto object = std::make_shared<SelectionObject>();
+  object->selection = Selection::in_box(box);
+  object->selection.text = "box from " + describe(a.value("min")) + " to " + describe(a.value("max"));
+  return object;
+}
+
+Value units(Session&, Object*, const Arguments& a) {
+  std::vector<int> numbers;
+  for (const Value& number : a.list("numbers"))
+    numbers.push_back(static_cast<int>(*number.get<std::int64_t>()));
+  auto object = std::make_shared<SelectionObject>();
+  object->selection = Selection::of_units(a.text("body"), std::move(numbers));
+  return object;
+}
+
+Value faces(Session&, Object*, const Arguments& a) {
+  auto object = std::make_shared<SelectionObject>();
+  object->selection = Selection::of_faces(a.text("name"), a.text_or("body", ""));
+  return object;
+}
+
+Value where(Session&, Object*, const Arguments& a) {
+  auto object = std::make_shared<SelectionObject>();
+  object->selection = predicate_selection(a.function("predicate"));
+  return object;
+}
+
+} // namespace
+
+Selection predicate_selection(const std::shared_ptr<Reference>& function) {
+  return Selection::where(
+      [function](const geom::Vec3& x) {
+        const Values answer = function->call({x.x(), x.y(), x.z()});
+        const bool* yes = answer.empty() ? nullptr : answer[0].get<bool>();
+        if (!yes)
+          throw geom::InputError("function(x, y, z) of " + function->place(),
+                                 answer.empty() ? "nothing" : describe(answer[0]), "true or false");
+        return *yes;
+      },
+      "function of " + function->place());
+}
+
+void bind_selections(Module& m) {
+  m.functions.push_back({"select.plane",
+                         "Everything that lies on a plane.",
+                         {vec3("point").unit("m").required().doc("any point of the plane"),
+                          vec3("normal").required().doc("of any length")},
+                         false,
+                         "cdem.Selection",
+                         "",
+                         plane});
+  m.functions.push_back({"select.box",
+                         "Everything inside an axis-aligned box, its faces included.",
+                         {vec3("min").unit("m").required(), vec3("max").unit("m").required()},
+                         false,
+                         "cdem.Selection",
+                         "",
+                         box});
+  Type whole_number;
+  whole_number.kind = Kind::integer;
+  whole_number.range = {1, 1e7};
+  m.functions.push_back({"select.units",
+                         "Some of a body's units: the blocks of a pile, counted from 1 in its order.",
+                         {text("body").required().doc("by name"), list("numbers", whole_number).required()},
+                         false,
+                         "cdem.Selection",
+                         "",
+                         units});
+  m.functions.push_back(
+      {"select.faces",
+       "Outer faces that mesh:faces{ name = ... } named before the model was made; of a pile, "
+       "those of each unit. To hold them is to hold all nodes that lie on them.",
+       {text("name").required(), text("body").doc("by name; all bodies that have such faces when left out")},
+       false,
+       "cdem.Selection",
+       "",
+       faces});
+  m.functions.push_back({"select.where",
+                         "Everything for whose undeformed place a function returns true.",
+                         {function("predicate", "(x: number, y: number, z: number): boolean").required()},
+                         true,
+                         "cdem.Selection",
+                         "",
+                         where});
+  Class selection{"Selection",
+                  "A place, made by cdem.select.*; judged on undeformed places, so it survives cutting."};
+  selection.text = [](const Object& self) {
+    return "cdem.Selection (" + static_cast<const SelectionObject&>(self).selection.text + ")";
+  };
+  m.classes.push_back(selection);
+}
+
+} // namespace cdem::script

@@ -1,0 +1,268 @@
+// Block assemblies: the builders of libgeom.
+#include "lua/binding/functions/angles.hpp"
+#include "lua/binding/objects/objects.hpp"
+#include "lua/binding/runtime/module.hpp"
+
+#include "libgeom/assembly/builders.hpp"
+#include "libgeom/assembly/edit.hpp"
+#include "libgeom/core/error.hpp"
+
+namespace cdem::script {
+
+namespace {
+
+Value made(geom::Assembly assembly) {
+  auto object = std::make_shared<AssemblyObject>();
+  object->assembly = std::move(assembly);
+  return object;
+}
+
+Value grid(Session&, Object*, const Arguments& a) {
+  return made(geom::grid(a.vec3("size"), a.ivec3("divisions"), a.vec3("origin")));
+}
+
+Value box(Session&, Object*, const Arguments& a) {
+  return made(geom::grid(a.vec3("size"), {1, 1, 1}, a.vec3("origin")));
+}
+
+Value voronoi(Session&, Object*, const Arguments& a) {
+  geom::VoronoiOptions options;
+  options.size = a.vec3("size");
+  options.origin = a.vec3("origin");
+  options.count = static_cast<int>(a.integer("count"));
+  options.seed = static_cast<std::uint64_t>(a.integer("seed"));
+  options.relaxations = static_cast<int>(a.integer("relaxations"));
+  options.extruded = a.flag("extruded");
+  return made(geom::voronoi(options));
+}
+
+Value bricks(Session&, Object*, const Arguments& a) {
+  geom::BrickOptions options;
+  options.size = a.vec3("size");
+  options.brick = a.vec3("brick");
+  options.shift = a.number("shift");
+  options.origin = a.vec3("origin");
+  return made(geom::bricks(options));
+}
+
+Value cut_by_joints(Session&, Object*, const Arguments& a) {
+  std::vector<geom::JointSet> sets;
+  for (const Arguments& given : a.records("sets")) {
+    geom::JointSet set;
+    set.dip = radians(given.number("dip"));
+    set.dip_direction = radians(given.number("dip_direction"));
+    set.spacing = given.number("spacing");
+    set.spacing_scatter = given.number("spacing_scatter");
+    set.dip_scatter = radians(given.number("dip_scatter"));
+    set.direction_scatter = radians(given.number("direction_scatter"));
+    sets.push_back(set);
+  }
+  return made(geom::cut_by_joints(a.object<AssemblyObject>("shape")->assembly, sets,
+                                  static_cast<std::uint64_t>(a.integer("seed"))));
+}
+
+Value convex_hull(Session&, Object*, const Arguments& a) {
+  std::vector<geom::Vec3> points;
+  for (const Value& point : a.list("points"))
+    points.push_back(to_vec3(point));
+  geom::Assembly assembly;
+  assembly.blocks.push_back(geom::convex_hull(points));
+  return made(std::move(assembly));
+}
+
+std::optional<geom::Box> optional_box(const Arguments& a, const std::string& name) {
+  const auto given = a.record(name);
+  if (!given)
+    return {};
+  geom::Box box;
+  box.min = given->vec3("min");
+  box.max = given->vec3("max");
+  if ((box.min.array() > box.max.array()).any())
+    throw geom::InputError(name + ".min", describe(given->value("min")),
+                           "below " + name + ".max in every axis");
+  return box;
+}
+
+Value keep(Session&, Object*, const Arguments& a) {
+  return made(geom::kept(a.object<AssemblyObject>("shape")->assembly, *optional_box(a, "inside")));
+}
+
+Value cut_by_plane(Session&, Object*, const Arguments& a) {
+  const geom::Vec3 normal = a.vec3("normal");
+  if (!(normal.norm() > 0))
+    throw geom::InputError("normal", describe(a.value("normal")), "longer than zero");
+  geom::PlaneCutOptions options;
+  options.inside = optional_box(a, "inside");
+  options.crossing = optional_box(a, "crossing");
+  options.clearance = a.number("clearance");
+  return made(geom::cut_by_plane(a.object<AssemblyObject>("shape")->assembly,
+                                 geom::Plane::through(a.vec3("point"), normal), options));
+}
+
+Value translate(Session&, Object*, const Arguments& a) {
+  return made(geom::translated(a.object<AssemblyObject>("shape")->assembly, a.vec3("shift")));
+}
+
+Value rotate(Session&, Object*, const Arguments& a) {
+  return made(geom::rotated(a.object<AssemblyObject>("shape")->assembly, a.vec3("axis"),
+                            radians(a.number("angle")), a.vec3("centre")));
+}
+
+Value merge(Session&, Object*, const Arguments& a) {
+  std::vector<geom::Assembly> parts;
+  for (const Value& shape : a.list("shapes"))
+    parts.push_back(static_cast<const AssemblyObject&>(*shape.object()).assembly);
+  return made(geom::merged(parts));
+}
+
+double volume(const geom::Assembly& assembly) {
+  double sum = 0;
+  for (const geom::Polyhedron& block : assembly.blocks)
+    sum += geom::mass_properties(block).volume;
+  return sum;
+}
+
+Value blocks(Session&, AssemblyObject& self, const Arguments&) {
+  Values rows;
+  for (const geom::Polyhedron& block : self.assembly.blocks) {
+    const geom::MassProperties mass = geom::mass_properties(block);
+    Values vertices(block.vertices.begin(), block.vertices.end());
+    rows.emplace_back(Table{{"centroid", mass.centroid},
+                            {"volume", mass.volume},
+                            {"faces", static_cast<std::int64_t>(block.faces.size())},
+                            {"vertices", Table::list(std::move(vertices))}});
+  }
+  return Table::list(std::move(rows));
+}
+
+Field size_field() {
+  return vec3("size").above(0).unit("m").required();
+}
+Field origin_field() {
+  return vec3("origin").unit("m").standard(Value(geom::Vec3(0, 0, 0))).doc("lower corner");
+}
+Field seed_field() {
+  return integer("seed").at_least(0).standard(1).doc("the same seed gives the same blocks on every machine");
+}
+
+void bind_builders(Module& m) {
+  const auto add = [&](std::string name, std::string doc, std::vector<Field> fields, auto body) {
+    m.functions.push_back(
+        {std::move(name), std::move(doc), std::move(fields), false, "cdem.Assembly", "", body});
+  };
+  add("grid", "A box of equal boxes in rows.",
+      {size_field().doc("of the whole"),
+       ivec3("divisions").at_least(1).required().doc("boxes along x, y and z"), origin_field()},
+      grid);
+  add("box", "One box.", {size_field(), origin_field()}, box);
+  add("voronoi", "A box of Voronoi cells about seeded random points.",
+      {size_field().doc("of the whole"), integer("count").at_least(1).required().doc("number of blocks"),
+       seed_field(),
+       integer("relaxations")
+           .within(0, 1000)
+           .standard(3)
+           .doc("Lloyd steps: each moves the points to their cells' centroids, which evens the cells out"),
+       flag("extruded").standard(false).doc("cells in x and y, one block through z"), origin_field()},
+      voronoi);
+  add("bricks", "A wall in running bond: courses laid along z, bricks running along x, the end bricks cut.",
+      {size_field().doc("of the wall"), vec3("brick").above(0).unit("m").required().doc("one brick"),
+       number("shift").from(0, 1).standard(0.5).doc(
+           "of each course against the one below, as a fraction of the brick's length"),
+       origin_field()},
+      bricks);
+  const std::vector<Field> set{
+      number("dip").within(0, 90).unit("deg").required().doc("below the horizontal plane, z up"),
+      number("dip_direction")
+          .within(0, 360)
+          .unit("deg")
+          .required()
+          .doc("clockwise from +y (north) seen from above"),
+      number("spacing").above(0).unit("m").required().doc("mean, along the normal"),
+      number("spacing_scatter").from(0, 0.5).standard(0.0).doc("standard deviation over the mean"),
+      number("dip_scatter").within(0, 90).unit("deg").standard(0.0).doc("standard deviation"),
+      number("direction_scatter").within(0, 360).unit("deg").standard(0.0).doc("standard deviation")};
+  add("cut_by_joints", "Cuts every block by the planes of joint sets, one set after the other.",
+      {object("shape", "Assembly").required(), list("sets", record_type(set)).required(), seed_field()},
+      cut_by_joints);
+  add("convex_hull", "One block: the convex hull of points.",
+      {list("points", vec3_type(), 4).unit("m").required().doc("four or more, not in one plane")},
+      convex_hull);
+}
+
+Field box_field(std::string name) {
+  return record(std::move(name), {vec3("min").unit("m").required(), vec3("max").unit("m").required()});
+}
+
+void bind_edits(Module& m) {
+  const auto add = [&](std::string name, std::string doc, std::vector<Field> fields, auto body) {
+    m.functions.push_back(
+        {std::move(name), std::move(doc), std::move(fields), false, "cdem.Assembly", "", body});
+  };
+  const Field shape = object("shape", "Assembly").required().doc("left as it is; the result is a new one");
+  add("cut_by_plane", "Splits every block that a plane crosses.",
+      {shape, vec3("point").unit("m").required().doc("any point of the plane"),
+       vec3("normal").required().doc("of any length"),
+       box_field("inside").doc("only blocks whose centroid lies in this box"),
+       box_field("crossing")
+           .doc("only blocks that reach into this box: the notch or the load line to be cut"),
+       number("clearance")
+           .at_least(0)
+           .unit("m")
+           .standard(0.0)
+           .doc("where a vertex of a block is nearer than this, the plane is shifted for that block")},
+      cut_by_plane);
+  add("keep", "The blocks whose centroid lies in a box.", {shape, box_field("inside").required()}, keep);
+  add("translate", "Moves blocks.", {shape, vec3("shift").unit("m").required()}, translate);
+  add("rotate", "Turns blocks, right-handed, about an axis through `centre`.",
+      {shape, vec3("axis").required().doc("of any length"), number("angle").unit("deg").required(),
+       vec3("centre").unit("m").standard(Value(geom::Vec3(0, 0, 0)))},
+      rotate);
+  add("merge", "One assembly of the blocks of several.", {list("shapes", object_type("Assembly")).required()},
+      merge);
+}
+
+} // namespace
+
+void bind_shapes(Module& m) {
+  bind_builders(m);
+  bind_edits(m);
+
+  m.records.push_back(
+      {"Box", "An axis-aligned box.", {vec3("min").unit("m").required(), vec3("max").unit("m").required()}});
+  m.records.push_back({"Block",
+                       "One block of an assembly.",
+                       {vec3("centroid").unit("m").required(), number("volume").unit("m3").required(),
+                        integer("faces").required().doc("number of faces"),
+                        list("vertices", vec3_type()).unit("m").required()}});
+  Class assembly{"Assembly", "Convex blocks, made by the builders; #assembly is the number of blocks."};
+  assembly.length = [](const Object& self) {
+    return static_cast<std::int64_t>(static_cast<const AssemblyObject&>(self).assembly.blocks.size());
+  };
+  assembly.text = [](const Object& self) {
+    const auto count = static_cast<const AssemblyObject&>(self).assembly.blocks.size();
+    return "cdem.Assembly (" + std::to_string(count) + (count == 1 ? " block)" : " blocks)");
+  };
+  assembly.methods = {
+      {"volume",
+       "Sum over the blocks, m3.",
+       {},
+       true,
+       "number",
+       "m3",
+       method<AssemblyObject>(
+           [](Session&, AssemblyObject& self, const Arguments&) { return volume(self.assembly); })},
+      {"box",
+       "Smallest axis-aligned box that holds all blocks.",
+       {},
+       true,
+       "cdem.Box",
+       "",
+       method<AssemblyObject>([](Session&, AssemblyObject& self, const Arguments&) {
+         const geom::Box box = geom::bounding_box(self.assembly);
+         return Table{{"min", box.min}, {"max", box.max}};
+       })},
+      {"blocks", "One table per block.", {}, true, "cdem.Block[]", "", method<AssemblyObject>(blocks)}};
+  m.classes.push_back(assembly);
+}
+
+} // namespace cdem::script

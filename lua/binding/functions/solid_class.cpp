@@ -1,0 +1,240 @@
+// What a script can ask of a solid, and do with one.
+#include "lua/binding/functions/angles.hpp"
+#include "lua/binding/functions/picture_fields.hpp"
+#include "lua/binding/objects/solid_objects.hpp"
+#include "lua/binding/runtime/module.hpp"
+#include "lua/binding/runtime/session.hpp"
+#include "lua/binding/schema/nearest.hpp"
+
+#include "libgeom/core/error.hpp"
+#include "libgeom/mesh/solid_mesh.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <cstdio>
+
+namespace cdem::script {
+
+namespace {
+
+using geom::InputError;
+
+// Of a mesh's volume that differs by more than this part from its solid's.
+constexpr double volume_told_of = 0.03;
+
+// The same unit in another place: it keeps its name, density and, unless scaled, its sizes.
+Value moved(const SolidObject& self, geom::Solid solid, double factor = 1) {
+  auto object = std::make_shared<SolidObject>(self);
+  object->solid = std::move(solid);
+  if (object->height)
+    *object->height *= factor;
+  if (object->mesh_size)
+    *object->mesh_size *= factor;
+  return object;
+}
+
+Value inertia(Session&, SolidObject& self, const Arguments& a) {
+  return inertia_table(geom::mass_properties(self.solid),
+                       a.optional_number("density").value_or(self.density.value_or(1)));
+}
+
+geom::Box box_of(const Arguments& given, const std::string& path) {
+  geom::Box box;
+  box.min = given.vec3("min");
+  box.max = given.vec3("max");
+  if (!(box.min.array() < box.max.array()).all())
+    throw InputError(path + ".min", describe(given.value("min")), "below " + path + ".max in every axis");
+  return box;
+}
+
+std::string four_digits(double x) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.4g", x);
+  return text;
+}
+
+Value mesh(Session& session, SolidObject& self, const Arguments& a) {
+  geom::MeshSize sizes;
+  const auto size = a.has("size") ? a.optional_number("size") : self.mesh_size;
+  if (!size)
+    throw InputError("size: missing; give the edge length of the tetrahedra in metres");
+  sizes.size = *size;
+  sizes.growth = a.number("growth");
+  std::size_t index = 0;
+  for (const Arguments& given : a.records("refine")) {
+    const std::string path = "refine[" + std::to_string(++index) + "]";
+    if (given.has("at") + given.has("line") + given.has("box") != 1)
+      throw InputError(path + ": must have one of at, line and box");
+    geom::Refinement refinement;
+    refinement.size = given.number("size");
+    refinement.radius = given.number("radius");
+    if (const auto at = given.optional_vec3("at"))
+      refinement.line = {*at};
+    for (const Value& point : given.list("line"))
+      refinement.line.push_back(to_vec3(point));
+    if (const auto box = given.record("box"))
+      refinement.box = box_of(*box, path + ".box");
+    sizes.refinements.push_back(refinement);
+  }
+  auto object = std::make_shared<TetMeshObject>(geom::mesh_solid(self.solid, sizes));
+  object->title = self.kind;
+  geom::Box box;
+  for (const geom::Vec3& x : object->mesh.nodes)
+    box.extend(x);
+  if (const double least = box.size().minCoeff(); sizes.size > least * (1 + 1e-6))
+    object->coarse = "mesh: size = " + four_digits(sizes.size) +
+                     " m is more than the solid's smallest extent, " + four_digits(least) +
+                     " m; a body that bends wants several tetrahedra across";
+  const double part = geom::volume(object->mesh) / geom::mass_properties(self.solid).volume;
+  if (std::abs(part - 1) > volume_told_of)
+    session.warn("mesh: with size = " + four_digits(sizes.size) + " m its volume, and mass, is " +
+                 four_digits(part) +
+                 " of the solid's, as flat faces stand for curved ones; give a smaller size");
+  return object;
+}
+
+Value save(Session& session, SolidObject& self, const Arguments& a) {
+  require_ending(a.text("file"), ".step");
+  if (!session.settings.check_only)
+    geom::write_step(self.solid, session.files.to_write(a.text("file")).string());
+  return {};
+}
+
+std::vector<Function> solid_methods() {
+  const std::vector<Field> refinement{
+      vec3("at").unit("m").doc("near a point"),
+      list("line", vec3_type(), 2).unit("m").doc("along a line, an edge"),
+      record("box", {vec3("min").unit("m").required(), vec3("max").unit("m").required()}).doc("in a box"),
+      number("size").above(0).unit("m").required(),
+      number("radius").at_least(0).unit("m").standard(0.0).doc("how far the size holds")};
+  return {
+      {"volume",
+       "",
+       {},
+       true,
+       "number",
+       "m3",
+       method<SolidObject>([](Session&, SolidObject& self, const Arguments&) -> Value {
+         return geom::mass_properties(self.solid).volume;
+       })},
+      {"regions",
+       "Volume of each region, m3.",
+       {},
+       true,
+       "number[]",
+       "",
+       method<SolidObject>([](Session&, SolidObject& self, const Arguments&) -> Value {
+         const auto volumes = geom::region_volumes(self.solid);
+         return Table::list({volumes.begin(), volumes.end()});
+       })},
+      {"box",
+       "Axis-aligned box around the solid; where curved faces are cut by others it may be up to 1 % too "
+       "large.",
+       {},
+       true,
+       "cdem.Box",
+       "",
+       method<SolidObject>([](Session&, SolidObject& self, const Arguments&) -> Value {
+         const geom::Box box = geom::bounding_box(self.solid);
+         return Table{{"min", box.min}, {"max", box.max}};
+       })},
+      {"inertia",
+       "Mass, centroid and inertia about the centroid.",
+       {number("density").above(0).unit("kg/m3").doc("the solid's own when left out; 1 when it has none")},
+       false,
+       "cdem.Inertia",
+       "",
+       method<SolidObject>(inertia)},
+      {"mesh",
+       "Tetrahedra that fill the solid; the same call gives the same mesh.",
+       {number("size").above(0).unit("m").doc("edge length; the solid's mesh_size when left out"),
+        list("refine", record_type(refinement), 0).doc("smaller tetrahedra in some places"),
+        number("growth").within(0.05, 2).standard(0.3).doc(
+            "m of size per m of distance from a refined place")},
+       false,
+       "cdem.TetMesh",
+       "",
+       method<SolidObject>(mesh)},
+      {"translate",
+       "A moved copy.",
+       {vec3("shift").unit("m").required()},
+       false,
+       "cdem.Solid",
+       "",
+       method<SolidObject>([](Session&, SolidObject& self, const Arguments& a) -> Value {
+         return moved(self, geom::translated(self.solid, a.vec3("shift")));
+       })},
+      {"rotate",
+       "A copy turned, right-handed, about an axis through `centre`.",
+       {vec3("axis").required().doc("of any length"), number("angle").unit("deg").required(),
+        vec3("centre").unit("m").standard(Value(geom::Vec3(0, 0, 0)))},
+       false,
+       "cdem.Solid",
+       "",
+       method<SolidObject>([](Session&, SolidObject& self, const Arguments& a) -> Value {
+         return moved(
+             self, geom::rotated(self.solid, a.vec3("axis"), radians(a.number("angle")), a.vec3("centre")));
+       })},
+      {"scale",
+       "A copy of another size.",
+       {number("factor").above(0).required(), vec3("centre").unit("m").standard(Value(geom::Vec3(0, 0, 0)))},
+       false,
+       "cdem.Solid",
+       "",
+       method<SolidObject>([](Session&, SolidObject& self, const Arguments& a) -> Value {
+         return moved(self, geom::scaled(self.solid, a.number("factor"), a.vec3("centre")),
+                      a.number("factor"));
+       })},
+      {"save",
+       "Writes a STEP file.",
+       {text("file").required().doc("ends in .step; in the output folder")},
+       false,
+       "",
+       "",
+       method<SolidObject>(save)}};
+}
+
+} // namespace
+
+Value inertia_table(const geom::MassProperties& mass, double density) {
+  const geom::Mat3 tensor = density * mass.inertia;
+  Values rows;
+  for (int i = 0; i < 3; ++i)
+    rows.emplace_back(geom::Vec3(tensor.row(i)));
+  const Eigen::SelfAdjointEigenSolver<geom::Mat3> solver(tensor, Eigen::EigenvaluesOnly);
+  return Table{{"mass", density * mass.volume},
+               {"centroid", mass.centroid},
+               {"tensor", Table::list(std::move(rows))},
+               {"principal", geom::Vec3(solver.eigenvalues())},
+               {"principal_ratio", geom::principal_inertia_ratio(mass)}};
+}
+
+void bind_solid_class(Module& m) {
+  m.records.push_back({"Inertia",
+                       "About the centroid.",
+                       {number("mass").unit("kg").required(), vec3("centroid").unit("m").required(),
+                        list("tensor", vec3_type()).unit("kg m2").required().doc("three rows"),
+                        vec3("principal").unit("kg m2").required().doc("ascending"),
+                        number("principal_ratio").required().doc("largest over smallest of them")}});
+  Class solid{"Solid", "A free-form solid, made by cdem.solid.* and the armour units; it never changes."};
+  const auto optional = [](std::optional<double> SolidObject::*member) {
+    return [member](Session&, Object& self) -> Value {
+      const auto& value = static_cast<SolidObject&>(self).*member;
+      return value ? Value(*value) : Value();
+    };
+  };
+  solid.properties = {
+      {"height", "number?", "m", "of an armour unit as it was made", optional(&SolidObject::height)},
+      {"density", "number?", "kg/m3", "", optional(&SolidObject::density)}};
+  solid.length = [](const Object& self) {
+    return static_cast<std::int64_t>(static_cast<const SolidObject&>(self).solid.regions());
+  };
+  solid.text = [](const Object& self) {
+    const auto& object = static_cast<const SolidObject&>(self);
+    return "cdem.Solid (" + object.kind +
+           (object.height ? ", height " + number_text(*object.height) + " m)" : ")");
+  };
+  solid.methods = solid_methods();
+  m.classes.push_back(solid);
+}
+
+} // namespace cdem::script

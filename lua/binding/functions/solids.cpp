@@ -1,0 +1,125 @@
+// Solids: primitives, boolean operations, import.
+#include "lua/binding/objects/solid_objects.hpp"
+#include "lua/binding/runtime/module.hpp"
+#include "lua/binding/runtime/session.hpp"
+
+#include "libgeom/core/error.hpp"
+#include "libgeom/solid/read_stl.hpp"
+
+namespace cdem::script {
+
+namespace {
+
+using geom::InputError;
+
+Value made(geom::Solid solid, std::string kind = "solid") {
+  auto object = std::make_shared<SolidObject>(std::move(solid));
+  object->kind = std::move(kind);
+  return object;
+}
+
+std::vector<geom::Solid> solids_of(const Arguments& a, const std::string& key) {
+  std::vector<geom::Solid> solids;
+  for (const Value& item : a.list(key))
+    solids.push_back(static_cast<const SolidObject&>(*item.object()).solid);
+  return solids;
+}
+
+const geom::Solid& solid_of(const Arguments& a, const std::string& key) {
+  return a.object<SolidObject>(key)->solid;
+}
+
+Value read_solid(Session& session, Object*, const Arguments& a) {
+  std::string ending = std::filesystem::path(a.text("file")).extension().string();
+  for (char& c : ending)
+    c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  if (ending != ".stl" && ending != ".step" && ending != ".stp")
+    throw InputError("file", '"' + a.text("file") + '"', "a name that ends in .step, .stp or .stl");
+  const std::filesystem::path path = session.files.to_read(a.text("file"));
+  const double scale = a.number("scale");
+  if (ending == ".stl")
+    return made(geom::make_solid(geom::read_stl(path.string(), scale)), path.stem().string());
+  geom::Solid solid = geom::read_step(path.string());
+  if (scale != 1)
+    solid = geom::scaled(solid, scale, geom::Vec3::Zero());
+  return made(solid, path.stem().string());
+}
+
+void bind_builders(Module& m) {
+  const auto add = [&](std::string name, std::string doc, std::vector<Field> fields, auto body) {
+    m.functions.push_back(
+        {std::move(name), std::move(doc), std::move(fields), false, "cdem.Solid", "", body});
+  };
+  const auto place = [](std::string name) {
+    return vec3(std::move(name)).unit("m").standard(Value(geom::Vec3(0, 0, 0)));
+  };
+  const Field radius = number("radius").above(0).unit("m").required();
+  const Field axis = vec3("axis").unit("m").required().doc("from the middle of the base to that of the top");
+  add("solid.box", "A box.",
+      {vec3("size").above(0).unit("m").required(), place("origin").doc("lower corner")},
+      [](Session&, Object*, const Arguments& a) -> Value {
+        return made(geom::box(a.vec3("size"), a.vec3("origin")), "box");
+      });
+  add("solid.cylinder", "A cylinder.", {radius, axis, place("base").doc("middle of the base")},
+      [](Session&, Object*, const Arguments& a) -> Value {
+        return made(geom::cylinder(a.vec3("base"), a.vec3("axis"), a.number("radius")), "cylinder");
+      });
+  add("solid.cone", "A cone, cut off at the top unless top_radius is 0.",
+      {number("radius").at_least(0).unit("m").required().doc("of the base"),
+       number("top_radius").at_least(0).unit("m").standard(0.0), axis,
+       place("base").doc("middle of the base")},
+      [](Session&, Object*, const Arguments& a) -> Value {
+        return made(geom::cone(a.vec3("base"), a.vec3("axis"), a.number("radius"), a.number("top_radius")),
+                    "cone");
+      });
+  add("solid.sphere", "A ball.", {radius, place("centre")},
+      [](Session&, Object*, const Arguments& a) -> Value {
+        return made(geom::sphere(a.vec3("centre"), a.number("radius")), "sphere");
+      });
+  add("solid.read",
+      "A solid from a STEP file (in the file's units) or from a closed STL surface, whose triangles become "
+      "its "
+      "faces and bound the mesh size from above.",
+      {text("file").required().doc("ends in .step, .stp or .stl"),
+       number("scale").above(0).standard(1.0).doc("0.001 for an STL in millimetres")},
+      read_solid);
+}
+
+void bind_booleans(Module& m) {
+  const auto add = [&](std::string name, std::string doc, std::vector<Field> fields, auto body) {
+    m.functions.push_back(
+        {std::move(name), std::move(doc), std::move(fields), false, "cdem.Solid", "", body});
+  };
+  const Field solids = list("solids", object_type("Solid"), 2).required();
+  const Field solid = object("solid", "Solid").required().doc("left as it is; the result is a new one");
+  add("solid.union", "All of several solids as one.", {solids},
+      [](Session&, Object*, const Arguments& a) -> Value {
+        return made(geom::united(solids_of(a, "solids")));
+      });
+  add("solid.cut", "A solid without the parts that others cover.",
+      {solid, list("tools", object_type("Solid")).required().doc("what is taken away")},
+      [](Session&, Object*, const Arguments& a) -> Value {
+        return made(geom::cut(solid_of(a, "solid"), solids_of(a, "tools")));
+      });
+  add("solid.common", "What two solids have in common.", {solid, object("other", "Solid").required()},
+      [](Session&, Object*, const Arguments& a) -> Value {
+        return made(geom::common(solid_of(a, "solid"), solid_of(a, "other")));
+      });
+  add("solid.fragments",
+      "The pieces that solids cut each other into, as regions of one solid; neighbours share faces, and "
+      "their "
+      "meshes share nodes.",
+      {solids}, [](Session&, Object*, const Arguments& a) -> Value {
+        return made(geom::fragments(solids_of(a, "solids")));
+      });
+}
+
+} // namespace
+
+void bind_solids(Module& m) {
+  bind_builders(m);
+  bind_booleans(m);
+  bind_solid_class(m);
+}
+
+} // namespace cdem::script

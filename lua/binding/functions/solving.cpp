@@ -1,0 +1,186 @@
+// Solving calls: numbered stages, hashed by their arguments. In a check they return typed, empty results.
+#include "lua/binding/functions/solving_stage.hpp"
+#include "lua/binding/runtime/module.hpp"
+
+#include "libgeom/core/error.hpp"
+
+namespace cdem::script {
+
+namespace {
+
+using geom::InputError;
+
+std::function<void()> callback_of(Session& session, const Arguments& a) {
+  const auto function = a.function("callback");
+  if (!function)
+    return {};
+  return [&session, function] { session.checkpoints.call_back("callback", *function, {}); };
+}
+
+std::int64_t callback_interval(const Arguments& a) {
+  if (a.has("callback") || a.has("stop"))
+    return a.has("every") ? a.integer("every") : 100;
+  if (a.has("every"))
+    throw InputError("every = " + describe(a.value("every")) +
+                     ": says how often callback is called; give one");
+  return 0;
+}
+
+Value relax_result(const RelaxResult& r) {
+  return Table{{"converged", r.converged},       {"steps", r.steps},
+               {"residual", r.residual},         {"broken_tension", r.broken_tension},
+               {"broken_shear", r.broken_shear}, {"wall_time", r.wall_time}};
+}
+
+Value relax(Session& session, ModelObject& model, const Arguments& a) {
+  RelaxOptions options;
+  options.residual = a.number("residual");
+  options.breaking = a.flag("breaking");
+  options.max_steps = a.integer("max_steps");
+  options.callback_every = callback_interval(a);
+  options.callback = callback_of(session, a);
+  warn_if_nothing_acts(session, model, "relax");
+  return stage(session, model, "relax", a, relax_result({}),
+               [&](Simulation& simulation) {
+                 const RelaxResult result = simulation.relax(options);
+                 if (!result.converged)
+                   session.warn("relax: not converged after " + std::to_string(result.steps) +
+                                (result.steps == 1 ? " step" : " steps") + ", residual " +
+                                three_digits(result.residual) + " above " + number_text(options.residual) +
+                                "; raise max_steps, or look whether something moves freely");
+                 return relax_result(result);
+               },
+               {{"callback", a.function("callback")}});
+}
+
+Value run_result(const RunResult& r) {
+  return Table{{"steps", r.steps},
+               {"time", r.time},
+               {"time_step", r.time_step},
+               {"broken_tension", r.broken_tension},
+               {"broken_shear", r.broken_shear},
+               {"wall_time", r.wall_time}};
+}
+
+Value run(Session& session, ModelObject& model, const Arguments& a) {
+  RunOptions options;
+  options.duration = a.optional_number("duration").value_or(0);
+  options.steps = a.has("steps") ? a.integer("steps") : 0;
+  if (a.has("duration") && a.has("steps"))
+    throw InputError("duration and steps: give one of them");
+  if (!a.has("duration") && !a.has("steps") && !a.has("stop"))
+    throw InputError("duration: missing; give duration (s), steps, or stop = function() ... end");
+  options.safety = a.number("safety");
+  options.time_step = a.optional_number("time_step").value_or(0);
+  options.breaking = a.flag("breaking");
+  options.local_damping = a.number("local_damping");
+  options.callback_every = callback_interval(a);
+  options.callback = callback_of(session, a);
+  if (const auto stop = a.function("stop"))
+    options.stop = [&session, stop] {
+      const Values answer = session.checkpoints.call_back("stop", *stop, {});
+      const bool* yes = answer.empty() ? nullptr : answer[0].get<bool>();
+      if (!yes && !(answer.empty() || answer[0].is_nil()))
+        throw InputError("stop() of " + stop->place(), describe(answer[0]), "true or false");
+      return yes && *yes;
+    };
+  if (!a.has("duration") && !a.has("steps"))
+    options.steps = std::numeric_limits<std::int64_t>::max(); // until stop says so
+  return stage(session, model, "run", a, run_result({}),
+               [&](Simulation& simulation) { return run_result(simulation.run(options)); },
+               {{"callback", a.function("callback")}, {"stop", a.function("stop")}});
+}
+
+Value stages(Session& session, ModelObject& model, const Arguments&) {
+  Values rows;
+  for (const Stage& stage : session.stages)
+    if (stage.model == model.number)
+      rows.push_back(stage_row(stage));
+  return Table::list(std::move(rows));
+}
+
+Value after_stage(Session&, ModelObject& model, const Arguments& a) {
+  model.require_idle("after_stage");
+  model.after_stage.push_back(a.function("callback"));
+  return {};
+}
+
+Field every() {
+  return integer("every").at_least(1).doc("steps between calls, 100 by default");
+}
+Field callback() {
+  return function("callback", "()").doc("called every so many steps; may read the model and write files");
+}
+Field breaking() {
+  return flag("breaking").standard(true).doc("bonds may break");
+}
+
+void bind_results(Module& m) {
+  m.records.push_back(
+      {"RelaxResult",
+       "What a relaxation came to.",
+       {flag("converged").required(), integer("steps").required(), number("residual").required(),
+        integer("broken_tension").required().doc("bonds, in this stage"),
+        integer("broken_shear").required().doc("bonds, in this stage"),
+        number("wall_time").unit("s").required()}});
+  m.records.push_back({"RunResult",
+                       "What real-time stepping came to.",
+                       {integer("steps").required(), number("time").unit("s").required().doc("of the model"),
+                        number("time_step").unit("s").required(),
+                        integer("broken_tension").required().doc("bonds, in this stage"),
+                        integer("broken_shear").required().doc("bonds, in this stage"),
+                        number("wall_time").unit("s").required()}});
+  m.records.push_back({"Stage",
+                       "A solving call.",
+                       {integer("number").required().doc("over all models"), text("kind").required(),
+                        text("hash").required().doc("of its arguments"), plain("result").required()}});
+}
+
+} // namespace
+
+void bind_solving(Module& m) {
+  bind_results(m);
+  Class& model = m.the_class("Model");
+  const auto add = [&](std::string name, std::string doc, std::vector<Field> fields, std::string returns,
+                       std::string returns_doc, auto body) {
+    model.methods.push_back({std::move(name), std::move(doc), std::move(fields), false, std::move(returns),
+                             std::move(returns_doc), method<ModelObject>(body)});
+  };
+  add("relax",
+      "Dynamic relaxation to static balance, with fictitious masses and adaptive damping (Han 2010 eq 12).",
+      {number("residual")
+           .between(0, 1)
+           .standard(1e-6)
+           .doc("goal: out-of-balance force norm over applied force norm"),
+       breaking(), integer("max_steps").at_least(1).standard(500000).doc("gives up with converged = false"),
+       every(), callback()},
+      "cdem.RelaxResult", "", relax);
+  add("run", "Explicit stepping in real time with the real masses.",
+      {number("duration").above(0).unit("s"), integer("steps").at_least(1).doc("instead of duration"),
+       number("safety")
+           .above(0)
+           .doc("time step over the stable one, at most 1; rigid bodies that touch take 0.5 at most")
+           .standard(0.9),
+       number("time_step")
+           .above(0)
+           .unit("s")
+           .doc("instead of safety; at most the stable one, half of it for rigid bodies that may touch"),
+       breaking(),
+       number("local_damping")
+           .from(0, 1)
+           .standard(0.0)
+           .doc("force against the motion as a fraction of the out-of-balance force (Cundall)"),
+       every(), callback(), function("stop", "(): boolean").doc("ends the stage when it returns true")},
+      "cdem.RunResult", "", run);
+  model.methods.back().fields[2].type.range = {0, 1, true, false};
+  add("after_stage",
+      "Has a function called after every solving call from now on, for what each stage should leave behind.",
+      {function("callback", "(stage: cdem.Stage)").required().doc("may read the model and write files")}, "",
+      "", after_stage);
+  model.methods.back().in_order = true;
+  model.methods.back().replay = Replay::again;
+  add("stages", "The model's solving calls so far.", {}, "cdem.Stage[]", "", stages);
+  model.methods.back().in_order = true;
+}
+
+} // namespace cdem::script

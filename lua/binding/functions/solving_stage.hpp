@@ -1,0 +1,26 @@
+// A solving call as a numbered stage.
+#pragma once
+
+#include "lua/binding/objects/model_object.hpp"
+#include "lua/binding/schema/schema.hpp"
+
+#include <functional>
+
+namespace cdem::script {
+
+std::string three_digits(double); // for messages
+
+// Where no load, moved support or the like acts. kind: of the stage.
+void warn_if_nothing_acts(Session&, const ModelObject&, const std::string& kind);
+
+// A stage as scripts see it: number, kind, hash, result.
+Value stage_row(const Stage&);
+
+// Runs `solve` as the next stage, whose callbacks go through Checkpoints::call_back; in a check, calls each of them once
+// with `tried` and returns `empty` instead. The history is written however the stage ends; a model whose stage ended
+// early is kept, so that its last good state can be saved.
+Value stage(Session&, ModelObject&, const char* kind, const Arguments&, const Value& empty,
+            const std::function<Value(Simulation&)>& solve, const Checkpoints::Callbacks& = {},
+            const Values& tried = {});
+
+} // namespace cdem::script

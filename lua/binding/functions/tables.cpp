@@ -1,0 +1,163 @@
+// Small helpers: tables of numbers as .csv, lines for the log, the version.
+#include "lua/binding/objects/model_object.hpp"
+#include "lua/binding/runtime/module.hpp"
+
+#include "libgeom/core/error.hpp"
+
+#include <charconv>
+#include <cmath>
+#include <sstream>
+
+namespace cdem::script {
+
+namespace {
+
+using geom::InputError;
+
+std::vector<std::string> split(const std::string& line) {
+  std::vector<std::string> cells;
+  std::istringstream in(line);
+  for (std::string cell; std::getline(in, cell, ',');) {
+    const auto first = cell.find_first_not_of(" \t\r\"");
+    const auto last = cell.find_last_not_of(" \t\r\"");
+    cells.push_back(first == std::string::npos ? std::string() : cell.substr(first, last - first + 1));
+  }
+  if (!line.empty() && line.back() == ',')
+    cells.emplace_back();
+  return cells;
+}
+
+// An empty cell is nan, so that every column keeps one value per row.
+Value number_in(const std::string& cell, const std::string& file, int row) {
+  double x = std::nan("");
+  const auto [end, error] = std::from_chars(cell.data(), cell.data() + cell.size(), x);
+  if (!cell.empty() && (error != std::errc() || end != cell.data() + cell.size()))
+    throw InputError("file \"" + file + "\": row " + std::to_string(row) + ": \"" + cell +
+                     "\": must be a number");
+  return x;
+}
+
+Value read_csv(Session& session, Object*, const Arguments& a) {
+  const std::string& name = a.text("file");
+  std::istringstream in(read_file(session.files.to_read(name)));
+  std::string line;
+  if (!std::getline(in, line))
+    throw InputError("file \"" + name + "\": empty; must begin with a row of column names");
+  const std::vector<std::string> names = split(line);
+  std::vector<Values> columns(names.size());
+  for (int row = 2; std::getline(in, line); ++row) {
+    if (line.find_first_not_of(" \t\r") == std::string::npos)
+      continue;
+    const auto cells = split(line);
+    if (cells.size() != names.size())
+      throw InputError("file \"" + name + "\": row " + std::to_string(row) + " has " +
+                       std::to_string(cells.size()) + (cells.size() == 1 ? " value" : " values") +
+                       ": must be " + std::to_string(names.size()) + ", as many as there are names");
+    for (std::size_t c = 0; c < names.size(); ++c)
+      columns[c].push_back(number_in(cells[c], name, row));
+  }
+  Table table;
+  for (std::size_t c = 0; c < names.size(); ++c)
+    table.named[names[c]] = Table::list(std::move(columns[c]));
+  return table;
+}
+
+Value write_csv(Session& session, Object*, const Arguments& a) {
+  std::vector<std::pair<std::string, std::vector<double>>> columns;
+  for (const Arguments& given : a.records("columns")) {
+    const std::string& name = given.text("name");
+    if (name.empty() || name.find_first_of(",\n\"") != std::string::npos)
+      throw InputError("columns: name", describe(given.value("name")), "a word without commas and quotes");
+    std::vector<double> values;
+    for (const Value& value : given.list("values")) {
+      if (!value.is_number())
+        throw InputError("column \"" + name + "\": " + describe(value) + ": must be a number");
+      values.push_back(value.number());
+    }
+    if (!columns.empty() && columns.front().second.size() != values.size())
+      throw InputError("column \"" + name + "\" has " + std::to_string(values.size()) +
+                       (values.size() == 1 ? " value" : " values") + ": must be " +
+                       std::to_string(columns.front().second.size()) + ", as many as \"" +
+                       columns.front().first + "\"");
+    columns.emplace_back(name, std::move(values));
+  }
+  if (!session.settings.check_only)
+    write_file(session.files.to_write(a.text("file")), csv(columns));
+  return {};
+}
+
+Value log(Session& session, Object*, const Arguments& a) {
+  session.message(a.text("text"));
+  return {};
+}
+
+} // namespace
+
+void bind_tables(Module& m) {
+  m.functions.push_back(
+      {"read_csv",
+       "Reads columns of numbers; the first row has their names. Empty cells are nan.",
+       {text("file").required().doc("beside the script, in the output folder or below the results")},
+       true,
+       "table<string, number[]>",
+       "lists by name",
+       read_csv,
+       false,
+       Replay::recorded});
+  m.functions.push_back(
+      {"write_csv",
+       "Writes columns of numbers.",
+       {text("file").required().doc("in the output folder"),
+        list("columns", record_type({text("name").required(), list("values", scalar_type(), 0)
+                                                                  .required()
+                                                                  .doc("as many as in the others; nan "
+                                                                       "leaves an empty cell")}))
+            .required()},
+       false,
+       "",
+       "",
+       write_csv,
+       false,
+       Replay::recorded});
+  m.functions.push_back(
+      {"log", "Writes a line to the log and the terminal.", {text("text").required()}, true, "", "", log});
+  m.functions.push_back(
+      {"linspace",
+       "Numbers at equal distances.",
+       {number("first").required(), number("last").required(), integer("count").at_least(2).required()},
+       true,
+       "number[]",
+       "count numbers, both ends included",
+       [](Session&, Object*, const Arguments& a) -> Value {
+         const double first = a.number("first"), last = a.number("last");
+         const auto count = a.integer("count");
+         if (count > 10000000)
+           throw InputError("count", std::to_string(count), "<= 10000000");
+         Values values;
+         for (std::int64_t i = 0; i < count; ++i)
+           values.emplace_back(i + 1 == count ? last
+                                              : first + (last - first) * static_cast<double>(i) /
+                                                            static_cast<double>(count - 1));
+         return Table::list(std::move(values));
+       }});
+  m.functions.push_back({"describe",
+                         "Any value as readable text, tables with their contents.",
+                         {plain("value")},
+                         true,
+                         "string",
+                         "",
+                         {}});
+  m.functions.push_back(
+      {"elapsed",
+       "Wall-clock time since the script began, s.",
+       {},
+       true,
+       "number",
+       "",
+       [](Session& session, Object*, const Arguments&) -> Value { return session.elapsed(); },
+       false,
+       Replay::recorded});
+  m.constants.push_back({"version", "Version of the toolkit.", CDEM_VERSION});
+}
+
+} // namespace cdem::script

@@ -1,0 +1,267 @@
+// Meshes of tetrahedra: how good they are, which outer faces they have, files and pictures.
+#include "lua/binding/functions/angles.hpp"
+#include "lua/binding/functions/picture_fields.hpp"
+#include "lua/binding/objects/solid_objects.hpp"
+#include "lua/binding/runtime/module.hpp"
+#include "lua/binding/runtime/session.hpp"
+
+#include "libcdem/vtk/field_values.hpp"
+#include "libcdem/vtk/files.hpp"
+#include "libgeom/core/error.hpp"
+#include "libgeom/mesh/box_mesh.hpp"
+#include "libgeom/mesh/read_mesh.hpp"
+#include "libgeom/mesh/tet_quality.hpp"
+
+#include <set>
+
+namespace cdem::script {
+
+namespace {
+
+using geom::InputError;
+
+Value read_mesh(Session& session, Object*, const Arguments& a) {
+  const std::filesystem::path path = session.files.to_read(a.text("file"));
+  static const std::set<std::string> endings = {".msh", ".mesh", ".bdf", ".unv", ".vtk", ".vtu"};
+  if (endings.count(path.extension().string()) == 0)
+    throw InputError("file", describe(a.value("file")),
+                     "a name that ends in .msh, .mesh, .bdf, .unv, .vtk or .vtu");
+  geom::TetMesh mesh =
+      path.extension() == ".vtu" ? read_vtu_mesh(path.string()) : geom::read_mesh(path.string());
+  for (geom::Vec3& x : mesh.nodes)
+    x *= a.number("scale");
+  auto object = std::make_shared<TetMeshObject>(std::move(mesh));
+  object->title = path.stem().string();
+  return object;
+}
+
+Value box_mesh(Session&, Object*, const Arguments& a) {
+  auto object =
+      std::make_shared<TetMeshObject>(geom::box_mesh(a.vec3("size"), a.ivec3("divisions"), a.number("jitter"),
+                                                     static_cast<std::uint64_t>(a.integer("seed"))));
+  object->title = "box";
+  return object;
+}
+
+Value quality(Session&, TetMeshObject& self, const Arguments&) {
+  const geom::MeshQuality q = geom::quality(self.mesh);
+  const auto count = [](std::size_t n) { return static_cast<std::int64_t>(n); };
+  return Table{{"nodes", count(q.nodes)},
+               {"tets", count(q.tets)},
+               {"outer_faces", count(q.outer_faces)},
+               {"volume", q.volume},
+               {"min_volume", q.min_volume},
+               {"max_volume", q.max_volume},
+               {"min_radius_ratio", q.min_radius_ratio},
+               {"mean_radius_ratio", q.mean_radius_ratio},
+               {"min_dihedral", degrees(q.min_dihedral)},
+               {"max_dihedral", degrees(q.max_dihedral)},
+               {"min_height", q.min_height},
+               {"min_edge", q.min_edge},
+               {"mean_edge", q.mean_edge},
+               {"max_edge", q.max_edge}};
+}
+
+std::vector<int> picked(const TetMeshObject& self, const Arguments& a) {
+  if (a.has("side") + a.has("plane") + a.has("direction") != 1)
+    throw InputError("must have one of side, plane and direction");
+  if (a.has("side"))
+    return geom::faces_on_side(self.mesh, self.faces, a.text("side"));
+  if (a.has("direction"))
+    return geom::faces_towards(self.mesh, self.faces, a.vec3("direction"), radians(a.number("angle")));
+  const Arguments plane = *a.record("plane");
+  if (!(plane.vec3("normal").norm() > 0))
+    throw InputError("plane.normal", describe(plane.value("normal")), "longer than zero");
+  const double tolerance =
+      a.optional_number("tolerance").value_or(1e-6 * geom::bounding_box(self.mesh).size().norm());
+  return geom::faces_on_plane(self.mesh, self.faces,
+                              geom::Plane::through(plane.vec3("point"), plane.vec3("normal")), tolerance);
+}
+
+Value faces(Session&, TetMeshObject& self, const Arguments& a) {
+  const std::vector<int> chosen = picked(self, a);
+  if (chosen.empty())
+    throw InputError("no outer face of the mesh lies there" +
+                     std::string(a.has("side")
+                                     ? "; where the solid is not flat on that side pick a plane with a "
+                                       "tolerance, or a direction"
+                                     : "; its box is from " + describe(geom::bounding_box(self.mesh).min) +
+                                           " to " + describe(geom::bounding_box(self.mesh).max)));
+  if (a.has("name"))
+    self.mesh.named[a.text("name")] = chosen;
+  const geom::FaceGroup group = geom::measure(self.mesh, self.faces, chosen);
+  return Table{{"count", static_cast<std::int64_t>(chosen.size())},
+               {"area", group.area},
+               {"centroid", group.centroid},
+               {"area_vector", group.area_vector}};
+}
+
+Value save(Session& session, TetMeshObject& self, const Arguments& a) {
+  require_ending(a.text("file"), ".vtu");
+  if (session.settings.check_only)
+    return {};
+  Snapshot snapshot = mesh_snapshot(self.mesh, self.mesh.named, -1);
+  snapshot.title = self.title;
+  write_vtu(snapshot, session.files.to_write(a.text("file")).string());
+  return {};
+}
+
+Value picture(Session& session, TetMeshObject& self, const Arguments& a) {
+  require_ending(a.text("file"), ".png");
+  PictureOptions options = view_options(a);
+  options.edges = a.text("edges") != "none";
+  Snapshot snapshot =
+      mesh_snapshot(self.mesh, self.mesh.named, a.text("edges") == "mesh" ? -1 : radians(a.number("crease")));
+  set_apart(snapshot, self.faces, self.mesh.named);
+  if (!session.settings.check_only) {
+    render(snapshot, options, session.files.to_write(a.text("file")).string());
+    return {};
+  }
+  if (!options.field.empty())
+    field_values(snapshot, options.field);
+  return {};
+}
+
+std::vector<Field> picture_declaration() {
+  std::vector<Field> fields = view_fields("\"region\", \"radius_ratio\", \"min_dihedral\", \"volume\" of the "
+                                          "tetrahedra, \"on_<name>\" of named faces; plain when left out");
+  fields.push_back(
+      choice("edges", {"creases", "mesh", "none"}).standard("creases").doc("lines on the surface"));
+  fields.push_back(number("crease").within(0, 180).unit("deg").standard(25.0).doc(
+      "the surface is outlined where it turns by more than this"));
+  return fields;
+}
+
+Field deg(std::string name) {
+  return number(std::move(name)).unit("deg").required();
+}
+Field metres(std::string name) {
+  return number(std::move(name)).unit("m").required();
+}
+Field cubic_metres(std::string name) {
+  return number(std::move(name)).unit("m3").required();
+}
+
+void bind_records(Module& m) {
+  m.records.push_back(
+      {"MeshQuality",
+       "How good the tetrahedra of a mesh are.",
+       {integer("nodes").required(), integer("tets").required(), integer("outer_faces").required(),
+        cubic_metres("volume"), cubic_metres("min_volume"), cubic_metres("max_volume"),
+        number("min_radius_ratio").required().doc("3 r_inscribed / r_circumscribed: 1 regular, 0 flat"),
+        number("mean_radius_ratio").required(), deg("min_dihedral").doc("70.5 in a regular tetrahedron"),
+        deg("max_dihedral"), metres("min_height").doc("corner to opposite face: limits the time step"),
+        metres("min_edge"), metres("mean_edge"), metres("max_edge")}});
+  m.records.push_back({"FaceGroup",
+                       "Outer faces of a mesh that were picked.",
+                       {integer("count").required(), number("area").unit("m2").required(),
+                        vec3("centroid").unit("m").required(),
+                        vec3("area_vector").unit("m2").required().doc("sum of outward normals times area")}});
+}
+
+} // namespace
+
+void bind_tet_meshes(Module& m) {
+  m.functions.push_back({"read_mesh",
+                         "Linear tetrahedra from a file: gmsh .msh, Medit .mesh, Nastran .bdf, I-deas .unv, "
+                         "legacy .vtk, or a .vtu "
+                         "written by cdem. What is wrong with them is said.",
+                         {text("file").required(),
+                          number("scale").above(0).standard(1.0).doc("0.001 for a mesh in millimetres")},
+                         false,
+                         "cdem.TetMesh",
+                         "",
+                         read_mesh});
+  m.functions.push_back({"box_mesh",
+                         "A box of nx ny nz cells with six tetrahedra each; lower corner at the origin.",
+                         {vec3("size").above(0).unit("m").required(),
+                          ivec3("divisions").at_least(1).required().doc("cells along x, y and z"),
+                          number("jitter")
+                              .within(0, geom::max_box_jitter)
+                              .standard(0.0)
+                              .doc("inner nodes move along each axis by up to this share of a cell"),
+                          integer("seed").at_least(0).standard(1).doc("of the jitter")},
+                         false,
+                         "cdem.TetMesh",
+                         "",
+                         box_mesh});
+  bind_records(m);
+  Class mesh{"TetMesh", "Tetrahedra, made by solid:mesh{} or cdem.read_mesh."};
+  const auto of = [](const Object& self) -> const TetMeshObject& {
+    return static_cast<const TetMeshObject&>(self);
+  };
+  mesh.properties = {{"nodes", "integer", "", "how many",
+                      [of](Session&, Object& self) -> Value {
+                        return static_cast<std::int64_t>(of(self).mesh.nodes.size());
+                      }},
+                     {"tets", "integer", "", "how many", [of](Session&, Object& self) -> Value {
+                        return static_cast<std::int64_t>(of(self).mesh.tets.size());
+                      }}};
+  mesh.text = [of](const Object& self) {
+    return "cdem.TetMesh (" + of(self).title + ", " + std::to_string(of(self).mesh.tets.size()) +
+           (of(self).mesh.tets.size() == 1 ? " tet)" : " tets)");
+  };
+  mesh.methods = {
+      {"volume",
+       "",
+       {},
+       true,
+       "number",
+       "m3",
+       method<TetMeshObject>(
+           [](Session&, TetMeshObject& self, const Arguments&) -> Value { return geom::volume(self.mesh); })},
+      {"box",
+       "Smallest axis-aligned box that holds all nodes.",
+       {},
+       true,
+       "cdem.Box",
+       "",
+       method<TetMeshObject>([](Session&, TetMeshObject& self, const Arguments&) -> Value {
+         const geom::Box box = geom::bounding_box(self.mesh);
+         return Table{{"min", box.min}, {"max", box.max}};
+       })},
+      {"inertia",
+       "Mass, centroid and inertia about the centroid of the tetrahedra.",
+       {number("density").above(0).unit("kg/m3").standard(1.0)},
+       false,
+       "cdem.Inertia",
+       "",
+       method<TetMeshObject>([](Session&, TetMeshObject& self, const Arguments& a) -> Value {
+         return inertia_table(geom::mass_properties(self.mesh), a.number("density"));
+       })},
+      {"quality",
+       "How good the tetrahedra are.",
+       {},
+       true,
+       "cdem.MeshQuality",
+       "",
+       method<TetMeshObject>(quality)},
+      {"faces",
+       "Picks outer faces; with a name they show as point field on_<name> in files and pictures, and are a "
+       "place "
+       "in a model that is made of the mesh afterwards: cdem.select.faces.",
+       {choice("side", {"x-", "x+", "y-", "y+", "z-", "z+"}).doc("faces in that face of the mesh's box"),
+        record("plane", {vec3("point").unit("m").required(), vec3("normal").required()})
+            .doc("faces in a plane"),
+        number("tolerance").at_least(0).unit("m").doc("of plane; 1e-6 of the mesh's size when left out"),
+        vec3("direction").doc("faces whose outward normal points this way"),
+        number("angle").within(0, 90).unit("deg").standard(10.0).doc(
+            "of direction: how far off a normal may be"),
+        text("name")},
+       false,
+       "cdem.FaceGroup",
+       "",
+       method<TetMeshObject>(faces)},
+      {"save",
+       "Writes the mesh for ParaView.",
+       {text("file").required().doc("ends in .vtu; in the output folder")},
+       false,
+       "",
+       "",
+       method<TetMeshObject>(save)},
+      {"picture", "Draws the mesh, without a display.", picture_declaration(), false, "", "",
+       method<TetMeshObject>(picture)}};
+  m.classes.push_back(mesh);
+}
+
+} // namespace cdem::script

@@ -1,0 +1,150 @@
+// The units of a model's body: the pile they are now, its measures, and which of them lie lowest.
+#include "lua/binding/objects/model_object.hpp"
+#include "lua/binding/objects/pile_object.hpp"
+#include "lua/binding/runtime/module.hpp"
+#include "lua/binding/schema/nearest.hpp"
+
+#include "libgeom/core/error.hpp"
+#include "libgeom/placement/pile_measures.hpp"
+
+#include <algorithm>
+#include <numeric>
+
+namespace cdem::script {
+
+namespace {
+
+using geom::InputError;
+
+void require_body(const ModelObject& model, const std::string& key, const std::string& name) {
+  if (std::find(model.body_names.begin(), model.body_names.end(), name) == model.body_names.end())
+    throw InputError(key + " = \"" + name + "\": no such body" + which_there_are(name, model.body_names));
+}
+
+const geom::Pile& first_pile(const ModelObject& model, const std::string& body) {
+  require_body(model, "body", body);
+  const auto pile = model.piles.find(body);
+  if (pile == model.piles.end())
+    throw InputError("body", "\"" + body + "\"", "a meshed body", "this one is of convex blocks");
+  return pile->second;
+}
+
+Value pile(Session&, ModelObject& model, const Arguments& a) {
+  geom::Pile now = first_pile(model, a.text("body"));
+  const std::vector<Unit> units = model.simulation.units(a.text("body"));
+  for (std::size_t i = 0; i < units.size(); ++i)
+    now.poses[i] = geom::after(units[i].motion, now.poses[i]);
+  return std::make_shared<PileObject>(std::move(now));
+}
+
+Value measures_table(const geom::PileMeasures& m, const std::vector<int>& touching) {
+  const double sum = std::accumulate(touching.begin(), touching.end(), 0.0);
+  return Table{{"porosity", m.porosity},
+               {"porosity_error", m.porosity_error},
+               {"units_per_area", m.units_per_area},
+               {"units_per_area_times_dn2", m.packing_density},
+               {"thickness", m.thickness},
+               {"area", m.area},
+               {"contacts_per_unit", sum / static_cast<double>(touching.size())},
+               {"fewest_contacts", *std::min_element(touching.begin(), touching.end())},
+               {"contacts", Table::list(Values(touching.begin(), touching.end()))}};
+}
+
+Value measures(Session& session, ModelObject& model, const Arguments& a) {
+  const geom::Pile& first = first_pile(model, a.text("body"));
+  require_body(model, "ground", a.text("ground"));
+  if (session.settings.check_only)
+    return measures_table({}, {0});
+  geom::Surface ground;
+  for (const geom::Surface& part : model.simulation.surfaces(a.text("ground"))) {
+    const int before = static_cast<int>(ground.points.size());
+    ground.points.insert(ground.points.end(), part.points.begin(), part.points.end());
+    for (geom::Triangle t : part.triangles) {
+      for (int& point : t)
+        point += before;
+      ground.triangles.push_back(t);
+    }
+  }
+  return measures_table(geom::measure_pile(model.simulation.surfaces(a.text("body")), ground, first.height,
+                                           geom::volume(first.unit)),
+                        model.simulation.touching(a.text("body")));
+}
+
+// Numbers of the units furthest along a direction, the furthest first.
+Value furthest(ModelObject& model, const Arguments& a, double sign) {
+  require_body(model, "body", a.text("body"));
+  const geom::Vec3 up = a.vec3("up");
+  if (!(up.norm() > 0))
+    throw InputError("up", describe(a.value("up")), "longer than zero");
+  const std::vector<Unit> units = model.simulation.units(a.text("body"));
+  const auto count = a.integer("count");
+  if (count > static_cast<std::int64_t>(units.size()))
+    throw InputError("count", std::to_string(count),
+                     "at most " + std::to_string(units.size()) + ", the units of \"" + a.text("body") + "\"");
+  std::vector<std::int64_t> order(units.size());
+  std::iota(order.begin(), order.end(), 0);
+  const auto level = [&](std::int64_t i) {
+    return sign * up.dot(units[static_cast<std::size_t>(i)].centroid);
+  };
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::int64_t i, std::int64_t j) { return level(i) > level(j); });
+  Values numbers;
+  for (std::int64_t i = 0; i < count; ++i)
+    numbers.emplace_back(order[static_cast<std::size_t>(i)] + 1);
+  return Table::list(std::move(numbers));
+}
+
+} // namespace
+
+void bind_units(Module& m) {
+  m.records.push_back(
+      {"PileMeasures",
+       "How densely units lie on a slope, away from the edge of the pile by about one unit.",
+       {number("porosity").required().doc("between the slope and the mean top of the pile"),
+        number("porosity_error").required().doc("change when every second column is left out"),
+        number("units_per_area").unit("1/m2").required().doc("volume of solid over area and unit volume"),
+        number("units_per_area_times_dn2").required().doc("packing density phi = N Dn^2 / A"),
+        number("thickness").unit("m").required().doc("mean height of the top above the slope"),
+        number("area").unit("m2").required().doc("of slope that was measured"),
+        number("contacts_per_unit").required().doc("mean number of other meshed blocks that press on a unit"),
+        integer("fewest_contacts").required().doc("of any unit"),
+        list("contacts", number_type()).required().doc("of each unit")}});
+  m.records.push_back(
+      {"Contacts",
+       "Contacts of meshed bodies.",
+       {integer("acting").required().doc("semi-springs and semi-edges now"),
+        number("deepest").unit("m").required().doc("largest depth so far"),
+        number("deepest_over_tet_height").required().doc("the same over the height of the lower tet")}});
+  Class& model = m.the_class("Model");
+  const auto add = [&](std::string name, std::string doc, std::vector<Field> fields, std::string returns,
+                       std::string returns_doc, auto body) {
+    model.methods.push_back({std::move(name), std::move(doc), std::move(fields), false, std::move(returns),
+                             std::move(returns_doc), method<ModelObject>(body)});
+  };
+  const Field body = text("body").required().doc("name of a meshed body");
+  add("pile",
+      "The units of a body as they lie now, without their deformation: a pile that can be scaled, saved and "
+      "be the shape of a body of another model.",
+      {body}, "cdem.Pile", "", pile);
+  add("pile_measures",
+      "Porosity, density and thickness of a layer of units, and how many neighbours press on them.",
+      {body, text("ground").required().doc("name of the body they lie on")}, "cdem.PileMeasures", "",
+      measures);
+  const std::vector<Field> fields{text("body").required(), integer("count").at_least(1).required(),
+                                  vec3("up").standard(Value(geom::Vec3(0, 0, 1)))};
+  add("contacts", "How many contacts of meshed bodies act, and how deep they have been.", {}, "cdem.Contacts",
+      "", [](Session&, ModelObject& self, const Arguments&) -> Value {
+        const ContactSummary c = self.simulation.contacts();
+        return Table{
+            {"acting", c.acting}, {"deepest", c.deepest}, {"deepest_over_tet_height", c.deepest_over_height}};
+      });
+  model.methods.back().in_order = true;
+  add("lowest_units", "Numbers of the units whose centroids are lowest now, for cdem.select.units.", fields,
+      "integer[]", "the lowest first",
+      [](Session&, ModelObject& self, const Arguments& a) { return furthest(self, a, -1); });
+  add("highest_units", "Numbers of the units whose centroids are highest now, for cdem.select.units.", fields,
+      "integer[]", "the highest first",
+      [](Session&, ModelObject& self, const Arguments& a) { return furthest(self, a, 1); });
+}
+
+} // namespace cdem::script

@@ -1,0 +1,142 @@
+#include "lua/binding/objects/model_object.hpp"
+
+#include "lua/binding/functions/selections.hpp"
+#include "lua/binding/schema/nearest.hpp"
+#include "lua/binding/schema/schema.hpp"
+
+#include "libgeom/core/error.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace cdem::script {
+
+std::string ModelObject::title(const Session& session) const {
+  std::string text = session.report.case_name;
+  for (auto it = session.stages.rbegin(); it != session.stages.rend(); ++it)
+    if (it->model == number)
+      return text + ", stage " + std::to_string(it->number) + " (" + it->kind + ")";
+  return text;
+}
+
+void ModelObject::require_idle(const char* call) const {
+  if (solving)
+    throw geom::InputError(std::string(call) +
+                           ": not from a callback of a running stage; a callback may read the "
+                           "model and write files. End the stage first");
+  touched = true;
+}
+
+void ModelObject::check_memory() const {
+  const Field field = plain("model.memory");
+  check_value(memory->copy(), field.type, field.name);
+}
+
+std::string ModelObject::history_name() const {
+  return number == 1 ? "history.csv" : "history_" + std::to_string(number) + ".csv";
+}
+
+void ModelObject::write_history(const Session& session) const {
+  write_file(session.files.to_write(history_name()), csv(history_columns(simulation)));
+}
+
+std::vector<std::pair<std::string, std::vector<double>>> history_columns(const Simulation& simulation) {
+  const auto& rows = simulation.history();
+  std::vector<std::pair<std::string, std::vector<double>>> columns;
+  const auto add = [&](const std::string& name, auto get) {
+    std::vector<double> values;
+    values.reserve(rows.size());
+    for (const auto& row : rows)
+      values.push_back(static_cast<double>(get(row)));
+    columns.emplace_back(name, std::move(values));
+  };
+  add("stage", [](const auto& r) { return r.stage; });
+  add("step", [](const auto& r) { return r.step; });
+  add("time", [](const auto& r) { return r.time; });
+  add("residual", [](const auto& r) { return r.residual; });
+  add("kinetic_energy", [](const auto& r) { return r.kinetic; });
+  add("external_work", [](const auto& r) { return r.external; });
+  add("broken_tension", [](const auto& r) { return r.broken_tension; });
+  add("broken_shear", [](const auto& r) { return r.broken_shear; });
+  const auto names = simulation.probe_names();
+  for (std::size_t i = 0; i < names.size(); ++i)
+    add(names[i], [i](const auto& r) {
+      // Samples older than the probe have no value.
+      return i < r.probes.size() ? r.probes[i] : std::nan("");
+    });
+  return columns;
+}
+
+std::string csv(const std::vector<std::pair<std::string, std::vector<double>>>& columns) {
+  std::string out;
+  std::size_t rows = 0;
+  for (const auto& [name, values] : columns) {
+    out += (out.empty() ? "" : ",") + name;
+    rows = std::max(rows, values.size());
+  }
+  out += '\n';
+  for (std::size_t r = 0; r < rows; ++r) {
+    for (std::size_t c = 0; c < columns.size(); ++c) {
+      const auto& values = columns[c].second;
+      if (c > 0)
+        out += ',';
+      if (r < values.size() && !std::isnan(values[r]))
+        out += number_text(values[r]);
+    }
+    out += '\n';
+  }
+  return out;
+}
+
+namespace {
+
+std::vector<std::string> place_names(const ModelObject& model) {
+  std::vector<std::string> names{"x-", "x+", "y-", "y+", "z-", "z+", "all"};
+  for (const auto& [name, place] : model.places)
+    names.push_back(name);
+  names.insert(names.end(), model.body_names.begin(), model.body_names.end());
+  return names;
+}
+
+std::vector<Selection> by_name(const ModelObject& model, const std::string& name, const std::string& key) {
+  const auto given = model.places.find(name);
+  if (given != model.places.end())
+    return given->second;
+  if (std::find(model.body_names.begin(), model.body_names.end(), name) != model.body_names.end())
+    return {Selection::of_body(name)};
+  if (name == "all")
+    return {Selection::everything()};
+  if (name.size() == 2 && name[0] >= 'x' && name[0] <= 'z' && (name[1] == '-' || name[1] == '+'))
+    return {Selection::side(name)};
+  const auto names = place_names(model);
+  throw geom::InputError(key + " = \"" + name + "\": no such place" + which_there_are(name, names));
+}
+
+} // namespace
+
+std::vector<Selection> selections(const ModelObject& model, const Value& place, const std::string& key) {
+  if (const std::string* name = place.get<std::string>())
+    return by_name(model, *name, key);
+  if (const auto function = place.reference())
+    return {predicate_selection(function)};
+  if (const Table* table = place.table()) {
+    std::vector<Selection> all;
+    for (std::size_t i = 0; i < table->items.size(); ++i)
+      for (Selection& s : selections(model, table->items[i], key + "[" + std::to_string(i + 1) + "]"))
+        all.push_back(std::move(s));
+    return all;
+  }
+  return {static_cast<const SelectionObject&>(*place.object()).selection};
+}
+
+Selection one_selection(const ModelObject& model, const Value& place, const std::string& key) {
+  if (place.is_nil())
+    return Selection::everything();
+  std::vector<Selection> all = selections(model, place, key);
+  if (all.size() != 1)
+    throw geom::InputError(key, describe(place), "one place here, not several",
+                           "use cdem.select.where with a function that is true in all of them");
+  return all.front();
+}
+
+} // namespace cdem::script

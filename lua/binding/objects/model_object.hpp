@@ -1,0 +1,43 @@
+// A model as the script holds it: libcdem's Simulation with the names the script gave.
+#pragma once
+
+#include "lua/binding/objects/objects.hpp"
+#include "lua/binding/runtime/session.hpp"
+
+#include "libcdem/vtk/files.hpp"
+#include "libgeom/placement/pile.hpp"
+
+namespace cdem::script {
+
+struct ModelObject final : Object {
+  explicit ModelObject(Simulation given) : simulation(std::move(given)) {}
+
+  Simulation simulation;
+  int number = 1; // in the order the script made them
+  std::vector<std::string> body_names;
+  std::map<std::string, geom::Pile> piles; // of meshed bodies, as they were when the model was made
+  std::vector<std::string> unjointed;      // bodies without a joint of their own
+  std::map<std::string, std::vector<Selection>> places; // by model:select
+  std::shared_ptr<ModelNotes> notes = std::make_shared<ModelNotes>();
+  std::map<std::string, std::vector<SeriesEntry>> series; // by .pvd, in the order saved
+  std::vector<std::shared_ptr<Reference>> after_stage;    // called with each stage that has ended
+  std::shared_ptr<Reference> memory;                      // table model.memory
+  bool solving = false;                                   // a callback of a stage may look and not touch
+  mutable bool touched = false;                           // by the running call, which has asked require_idle
+
+  const char* class_name() const override { return "Model"; }
+
+  std::string title(const Session&) const; // "uniaxial_compression, stage 3 (relax)"
+  // For what may change the model. Throws geom::InputError when called from a callback of a running stage.
+  void require_idle(const char* call) const;
+  // Throws geom::InputError when model.memory holds something a checkpoint could not.
+  void check_memory() const;
+  std::string history_name() const; // "history.csv", "history_2.csv" ...
+  void write_history(const Session&) const;
+};
+
+// The history as columns by name, in the order of the file.
+std::vector<std::pair<std::string, std::vector<double>>> history_columns(const Simulation&);
+std::string csv(const std::vector<std::pair<std::string, std::vector<double>>>& columns);
+
+} // namespace cdem::script

@@ -1,0 +1,215 @@
+// Making, running and ending the interpreter; errors on their way between Lua and C++.
+#include "lua/binding/runtime/lua_state.hpp"
+
+#include "libcdem/step/errors.hpp"
+#include "libgeom/core/error.hpp"
+#include "lua/binding/schema/schema.hpp"
+
+#include <cstdlib>
+#include <cstring>
+#include <lua.hpp>
+#include <new>
+
+namespace cdem::script {
+
+namespace {
+
+void* allocate(void* user, void* block, std::size_t old_size, std::size_t new_size) {
+  auto& state = *static_cast<LuaState*>(user);
+  const std::size_t held = block ? old_size : 0; // without a block, old_size is a type tag
+  if (new_size == 0) {
+    std::free(block);
+    state.memory -= held;
+    return nullptr;
+  }
+  if (new_size > held && state.memory - held + new_size > LuaState::memory_limit)
+    return nullptr;
+  void* moved = std::realloc(block, new_size);
+  if (moved)
+    state.memory += new_size - held;
+  return moved;
+}
+
+bool stop_wanted(LuaState& state) {
+  const auto& observer = state.session.settings.observer;
+  if (observer && observer->stop_requested()) {
+    if (!state.interrupted)
+      state.session.checkpoints.stop();
+    state.interrupted = true;
+  }
+  return state.interrupted;
+}
+
+void hook(lua_State* L, lua_Debug*) {
+  LuaState& state = LuaState::of(L);
+  if (stop_wanted(state))
+    luaL_error(L, "%s: stopped by the user", state.where(L).c_str());
+}
+
+// Makes a message out of whatever error value the script raised.
+int text_of_error(lua_State* L) {
+  if (lua_type(L, 1) == LUA_TSTRING || LuaState::of(L).interrupted)
+    return 1;
+  if (luaL_callmeta(L, 1, "__tostring") && lua_type(L, -1) == LUA_TSTRING)
+    return 1;
+  const std::string place = LuaState::of(L).where(L);
+  lua_pushfstring(L, "%s%serror value is a %s; give error() a text", place.c_str(), place.empty() ? "" : ": ",
+                  luaL_typename(L, 1));
+  return 1;
+}
+
+// model.memory.key = value: what a checkpoint could not hold is refused in the line that assigns it.
+int set_in_memory(lua_State* L) {
+  LuaState& state = LuaState::of(L);
+  std::string message;
+  try {
+    if (lua_type(L, 2) == LUA_TSTRING)
+      check_value(to_value(L, 3), plain("").type, "model.memory." + std::string(lua_tostring(L, 2)));
+    lua_rawset(L, 1);
+    return 0;
+  } catch (const std::exception&) {
+    message = state.message_of_current_exception(L, "cdem.Model");
+  }
+  lua_pushlstring(L, message.data(), message.size());
+  return lua_error(L);
+}
+
+// Of the table on top of the stack. Lua asks for new keys only; the rest is looked at when a stage begins and ends.
+void guard_memory(lua_State* L) {
+  lua_newtable(L);
+  lua_pushcfunction(L, set_in_memory);
+  lua_setfield(L, -2, "__newindex");
+  lua_pushboolean(L, 0);
+  lua_setfield(L, -2, "__metatable");
+  lua_setmetatable(L, -2);
+}
+
+} // namespace
+
+LuaState::LuaState(Session& given)
+    : session(given), alive(std::make_shared<LuaState*>(this)), thread_(std::this_thread::get_id()) {
+  main = lua_newstate(allocate, this);
+  if (!main)
+    throw std::bad_alloc();
+  current = main;
+  *static_cast<LuaState**>(lua_getextraspace(main)) = this;
+  lua_sethook(main, hook, LUA_MASKCOUNT, hook_interval);
+  session.where = [this] { return where(current); };
+  session.new_memory = [this](const Value& table) {
+    push(current, table);
+    guard_memory(current);
+    auto reference = make_reference(current, -1);
+    lua_pop(current, 1);
+    return reference;
+  };
+  session.collect_garbage = [this] { lua_gc(current, LUA_GCCOLLECT); };
+  open_libraries(main, session.settings.unsafe);
+}
+
+LuaState::~LuaState() {
+  *alive = nullptr;
+  session.where = nullptr;
+  session.new_memory = nullptr;
+  session.collect_garbage = nullptr;
+  lua_close(main);
+}
+
+LuaState& LuaState::of(lua_State* L) {
+  return **static_cast<LuaState**>(lua_getextraspace(L));
+}
+
+std::string LuaState::where(lua_State* L) const {
+  lua_Debug frame;
+  for (int level = 0; lua_getstack(L, level, &frame); ++level) {
+    lua_getinfo(L, "Sl", &frame);
+    const bool ours = std::strncmp(frame.source, "=[", 2) == 0; // "=[C]" and the Lua side of the module
+    if (!ours && frame.currentline > 0)
+      return std::string(frame.source[0] == '@' || frame.source[0] == '=' ? frame.source + 1
+                                                                          : frame.short_src) +
+             ":" + std::to_string(frame.currentline);
+  }
+  return {};
+}
+
+namespace {
+
+// "model:flow" before "flow: ...": the library names its calls too, for those that use it without scripts.
+std::string after_name(const std::string& shown, const std::string& what) {
+  const std::string name = shown.substr(shown.find_last_of(".:") + 1) + ": ";
+  return what.compare(0, name.size(), name) == 0 ? what.substr(name.size()) : what;
+}
+
+} // namespace
+
+std::string LuaState::message_of_current_exception(lua_State* L, const std::string& shown) {
+  const std::string place = where(L);
+  const std::string front = (place.empty() ? "" : place + ": ") + shown + ": ";
+  std::string message;
+  ErrorKind kind = ErrorKind::script;
+  try {
+    throw;
+  } catch (const Interrupted& error) {
+    interrupted = true;
+    return (place.empty() ? "" : place + ": ") + error.what();
+  } catch (const ScriptError& error) {
+    return error.what(); // from a callback: has its own place
+  } catch (const SolutionError& error) {
+    kind = ErrorKind::solution;
+    message = front + after_name(shown, error.what());
+  } catch (const FileError& error) {
+    kind = ErrorKind::file;
+    message = front + error.what();
+  } catch (const std::bad_alloc&) {
+    message = front + "not enough memory; use fewer blocks or fewer rows";
+  } catch (const std::exception& error) {
+    message = front + after_name(shown, error.what());
+  }
+  if (kind != ErrorKind::script)
+    kinds_[message] = kind;
+  return message;
+}
+
+void LuaState::throw_error(lua_State* L, int status) {
+  const char* text = lua_tostring(L, -1);
+  std::string message = text ? text : "error without a message";
+  lua_pop(L, 1);
+  if (interrupted)
+    throw Interrupted();
+  if (status == LUA_ERRMEM)
+    throw ScriptError(shown_name(session.settings.script) +
+                      ": the script's own tables and strings need more than 4 GiB; keep less of them");
+  const auto kind = kinds_.find(message);
+  if (kind != kinds_.end() && kind->second == ErrorKind::solution)
+    throw SolutionError(message);
+  if (kind != kinds_.end() && kind->second == ErrorKind::file)
+    throw FileError(message);
+  throw ScriptError(message);
+}
+
+void LuaState::call(lua_State* L, int arguments, int results) {
+  if (std::this_thread::get_id() != thread_)
+    throw std::logic_error("a Lua function was called from a second thread");
+  const int handler = lua_gettop(L) - arguments;
+  lua_pushcfunction(L, text_of_error);
+  lua_insert(L, handler);
+  lua_State* const caller = current;
+  current = L;
+  const int status = lua_pcall(L, arguments, results, handler);
+  current = caller;
+  lua_remove(L, handler);
+  if (status != LUA_OK)
+    throw_error(L, status);
+  if (interrupted)
+    throw Interrupted();
+}
+
+void LuaState::run(const std::string& text, const std::string& chunk_name, int results) {
+  // Text only: precompiled chunks can crash the interpreter.
+  const char* mode = session.settings.unsafe ? "bt" : "t";
+  const int status = luaL_loadbufferx(main, text.data(), text.size(), chunk_name.c_str(), mode);
+  if (status != LUA_OK)
+    throw_error(main, status);
+  call(main, 0, results);
+}
+
+} // namespace cdem::script

@@ -1,0 +1,102 @@
+// The `cdem` module as data: functions, classes with their methods and properties, and the tables that calls
+// return.
+#pragma once
+
+#include "lua/binding/replay/journal.hpp"
+#include "lua/binding/schema/schema.hpp"
+
+#include <functional>
+
+namespace cdem::script {
+
+struct Session;
+
+struct Function {
+  std::string name; // "elastic", "select.plane"; a method's own name
+  std::string doc;
+  std::vector<Field> fields;
+  bool in_order = false; // f(a, b) rather than f{ a = ..., b = ... }
+  std::string returns{}; // LuaCATS type, "" for nothing
+  std::string returns_doc{};
+  // self is null for a function; an empty body: defined in lua/cdem, declared here for the annotations
+  std::function<Value(Session&, Object* self, const Arguments&)> body;
+  bool named_too = false; // an in_order function that takes one table with its fields as well
+  // In a resumed script. A method of Model that keeps a place, a condition or a function of the script is `again`; a
+  // function that reads or writes files or the clock is `recorded`.
+  Replay replay = Replay::standard;
+};
+
+struct Property {
+  std::string name, lua_type, unit, doc;
+  std::function<Value(Session&, Object&)> get;
+  std::function<void(Session&, Object&, const Value&)> set{}; // empty: read only
+};
+
+struct Class {
+  std::string name, doc;
+  std::vector<Property> properties{};
+  std::vector<Function> methods{};
+  std::function<std::int64_t(const Object&)> length{}; // the # operator, when there is one
+  std::function<std::string(const Object&)> text{};    // what print shows
+  // What [1] .. [length] hold; ipairs goes over them.
+  std::function<Value(const Object&, std::int64_t)> item{};
+  std::string item_type{}; // LuaCATS
+};
+
+// A table that a call returns.
+struct RecordType {
+  std::string name, doc;
+  std::vector<Field> fields;
+};
+
+struct Constant {
+  std::string name, doc;
+  Value value;
+};
+
+struct Module {
+  std::vector<Function> functions;
+  std::vector<Class> classes;
+  std::vector<RecordType> records;
+  std::vector<Constant> constants;
+
+  Class& the_class(const std::string& name); // declared before; assert
+};
+
+// Everything, declared once by the files of functions/.
+const Module& module();
+
+// A method whose self is a T.
+template <class T, class Body>
+auto method(Body body) {
+  return [body](Session& session, Object* self, const Arguments& arguments) -> Value {
+    return body(session, static_cast<T&>(*self), arguments);
+  };
+}
+
+// Shares in the module, one per file.
+void bind_parameters(Module&);
+void bind_materials(Module&);
+void bind_shapes(Module&);
+void bind_solids(Module&);
+void bind_solid_class(Module&); // by bind_solids
+void bind_armour_units(Module&);
+void bind_tet_meshes(Module&);
+void bind_piles(Module&);
+void bind_selections(Module&);
+void bind_model(Module&);
+void bind_conditions(Module&);
+void bind_solving(Module&);
+void bind_settling(Module&);
+void bind_fracture(Module&);
+void bind_flow(Module&);
+void bind_measures(Module&);
+void bind_units(Module&);
+void bind_output(Module&);
+void bind_checkpoints(Module&);
+void bind_charts(Module&);
+void bind_report(Module&);
+void bind_tables(Module&);
+void bind_sweep(Module&);
+
+} // namespace cdem::script

@@ -1,0 +1,84 @@
+#include "lua/binding/runtime/session.hpp"
+
+#include "libgeom/core/error.hpp"
+#include "lua/binding/schema/nearest.hpp"
+
+#include <algorithm>
+#include <cstdio>
+
+namespace cdem::script {
+
+namespace {
+
+std::filesystem::path output_folder(const EngineSettings& settings) {
+  return settings.output.empty() ? std::filesystem::path("results") : settings.output;
+}
+
+// examples/plate/case.lua is the case "plate", examples/plate/coarse.lua "plate-coarse".
+std::string case_name(const std::filesystem::path& script, const std::filesystem::path& output) {
+  if (script.empty())
+    return output.filename().string();
+  const std::string folder =
+      std::filesystem::absolute(script).lexically_normal().parent_path().filename().string();
+  const std::string stem = script.stem().string();
+  return stem == "case" ? folder : folder + "-" + stem;
+}
+
+} // namespace
+
+Session::Session(EngineSettings given)
+    : settings(std::move(given)), files(settings.script, output_folder(settings), settings.results,
+                                        settings.unsafe, settings.sources.parent_path()) {
+  files.will_write = settings.will_write;
+  report.case_name = case_name(settings.script, files.output());
+}
+
+double Session::elapsed() const {
+  const std::chrono::duration<double> since = std::chrono::steady_clock::now() - start;
+  return checkpoints.elapsed_before() + since.count();
+}
+
+void Session::message(const std::string& line) const {
+  if (checkpoints.silent() || (settings.check_only && !stages.empty()))
+    return; // shown before; figures made of the empty results of solving calls
+  if (settings.observer)
+    settings.observer->message(line);
+  else
+    std::printf("%s\n", line.c_str());
+}
+
+void Session::warn(const std::string& text) {
+  if (checkpoints.silent())
+    return; // it stands among the warnings of the checkpoint
+  const std::string place = where ? where() : std::string();
+  const std::string line = (place.empty() ? "" : place + ": ") + "warning: " + text;
+  if (std::find(warnings.begin(), warnings.end(), line) != warnings.end())
+    return;
+  warnings.push_back(line);
+  if (settings.observer)
+    settings.observer->warning(line);
+  else
+    std::fprintf(stderr, "%s\n", line.c_str());
+}
+
+void Session::write_report() {
+  if (settings.check_only)
+    return;
+  report.warnings = warnings;
+  write_file(files.to_write("report.json"), report.json());
+  write_file(files.to_write("report.md"), report.markdown());
+}
+
+void Session::check_set_names() const {
+  std::vector<std::string> names;
+  for (const Parameter& p : parameters)
+    names.push_back(p.info.name);
+  for (const auto& [name, value] : settings.set) {
+    if (std::find(names.begin(), names.end(), name) != names.end())
+      continue;
+    throw geom::InputError("--set " + name + "=" + value + ": the script has no such parameter" +
+                           (names.empty() ? "; it declares none" : which_there_are(name, names, "Declared")));
+  }
+}
+
+} // namespace cdem::script
