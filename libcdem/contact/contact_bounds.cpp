@@ -16,6 +16,15 @@ constexpr double most_of_rigid = 0.5;
 // Of a tet's height, in a step.
 constexpr double way_part = 0.1;
 
+// Pa/m, per body: the stiffest that any of its contacts is given to be; 0: all are as stiff as their tets.
+std::vector<double> given_stiffness(const Model& model) {
+  std::vector<double> stiffest(model.bodies.size(), 0.0);
+  for (const auto& [bodies, law] : model.surface.joint)
+    for (const int body : {bodies.first, bodies.second})
+      stiffest[body] = std::max(stiffest[body], model.joints[law].normal_stiffness.value_or(0));
+  return stiffest;
+}
+
 double for_rigid(double safety) {
   return std::min(safety, most_of_rigid);
 }
@@ -47,13 +56,14 @@ double contact_time_step(const Model& model, const State& state, const Workspace
 
 double rigid_time_step(const Model& model, double safety) {
   double largest = 0; // 1/s2
+  const std::vector<double> given = given_stiffness(model);
   for (const RigidBody& body : model.rigid) {
     double stiffness = 0, arm = 0;
     const Block& block = model.blocks[body.block];
     for (int t = model.surface.block_begin[body.block]; t < model.surface.block_begin[body.block + 1]; ++t) {
       const ContactTriangle& triangle = model.surface.triangles[t];
       if (triangle.face < 0)
-        stiffness += triangle.area / triangle.compliance;
+        stiffness += triangle.area * std::max(1 / triangle.compliance, given[block.body]);
     }
     for (int node = block.node_begin; node < block.node_end; ++node)
       arm = std::max(arm, (model.node_position[node] - block.mass.centroid).norm());
@@ -87,10 +97,14 @@ double way_time_step(const Model& model, const State& state, const std::vector<d
 }
 
 void add_contact_row_sums(const Model& model, std::vector<double>& row_sums) {
+  const std::vector<double> given = given_stiffness(model);
   for (const ContactTriangle& t : model.surface.triangles)
     if (t.face < 0)
       for (const int node : t.nodes)
-        row_sums[node] += 4 * t.area / (3 * t.compliance); // own springs, those of others, and edges
+        row_sums[node] +=
+            4 * t.area / 3 *
+            std::max(1 / t.compliance,
+                     given[model.blocks[t.block].body]); // own springs, those of others, and edges
 }
 
 } // namespace cdem

@@ -113,7 +113,7 @@ bool moves_far(const Model& model, int body) {
 }
 
 // The three corners of a face that span the largest triangle, in the order of its loop.
-std::array<int, 3> widest_corners(const Model& model, const Block& block, int face) {
+std::array<int, 3> widest_corners(const Block& block, int face) {
   const std::vector<int>& loop = block.shape.faces[face].loop;
   const auto n = static_cast<int>(loop.size());
   std::array<int, 3> best{0, 1, 2};
@@ -146,8 +146,8 @@ void add_frame(Model& model, Interface& interface) {
   if (!a.meshed && !b.meshed)
     return;
   InterfaceFrame frame;
-  frame.nodes_a = widest_corners(model, a, interface.face_a);
-  frame.nodes_b = widest_corners(model, b, interface.face_b);
+  frame.nodes_a = widest_corners(a, interface.face_a);
+  frame.nodes_b = widest_corners(b, interface.face_b);
   const geom::Vec3 edge = model.node_position[frame.nodes_a[1]] - model.node_position[frame.nodes_a[0]];
   frame.along = (edge - edge.dot(interface.normal) * interface.normal).normalized();
   frame.along_a = in_edges(model, frame.nodes_a, frame.along);

@@ -1,0 +1,191 @@
+// Convex blocks that move far: bonded they behave as blocks of small strain do, turned they feel nothing, and loose they
+// fall, meet what they never touched before, and stay outside of it.
+#include "libcdem/bond/release.hpp"
+#include "libcdem/results/energy.hpp"
+#include "libgeom/assembly/builders.hpp"
+#include "tests/libcdem/boxes.hpp"
+
+#include <catch2/catch.hpp>
+
+using namespace testing;
+using geom::Vec3;
+
+namespace {
+
+cdem::BodySpec moving(std::string name, geom::Assembly shape, const cdem::Elastic& material = rock(),
+                      const cdem::Joint& joint = rock_joint()) {
+  cdem::BodySpec spec = body(std::move(name), std::move(shape), material, joint);
+  spec.element = cdem::Element::finite_volume;
+  return spec;
+}
+
+cdem::BodySpec rigid(std::string name, geom::Assembly shape) {
+  cdem::BodySpec spec = body(std::move(name), std::move(shape));
+  spec.element = cdem::Element::rigid;
+  return spec;
+}
+
+geom::Assembly cells(int count, const Vec3& origin = {0, 0, 0}) {
+  geom::VoronoiOptions options;
+  options.count = count;
+  options.origin = origin;
+  return geom::voronoi(options);
+}
+
+cdem::Elastic soft() {
+  cdem::Elastic material = rock();
+  material.youngs_modulus = 1e8;
+  return material;
+}
+
+// Lowest node of a block, m.
+double lowest(const System& s, int block) {
+  double z = 1e300;
+  for (int n = s.model.blocks[block].node_begin; n < s.model.blocks[block].node_end; ++n)
+    z = std::min(z, s.model.node_position[n].z() + s.state.displacement[n].z);
+  return z;
+}
+
+double balance(const System& s) {
+  return cdem::energy(s.model, s.state).balance_error();
+}
+
+} // namespace
+
+TEST_CASE("bonded blocks that may move far deform under small loads as those of small strain do",
+          "[moving]") {
+  const auto pressed = [](const cdem::BodySpec& spec) {
+    System s(build({spec}));
+    s.hold(cdem::Selection::side("z-"), "xyz");
+    s.conditions.tractions.push_back(traction(cdem::Selection::side("z+"), {3e4, 0, -1e5}));
+    REQUIRE(s.relax(1e-9).converged);
+    return s;
+  };
+  const System far = pressed(moving("rock", cells(30))), small = pressed(body("rock", cells(30)));
+  REQUIRE(far.model.node_position.size() == small.model.node_position.size());
+  double largest = 0, difference = 0;
+  for (std::size_t i = 0; i < far.state.displacement.size(); ++i) {
+    largest = std::max(largest, vec(small.state.displacement[i]).norm());
+    difference =
+        std::max(difference, (vec(far.state.displacement[i]) - vec(small.state.displacement[i])).norm());
+  }
+  CHECK(difference < 1e-4 * largest);
+}
+
+TEST_CASE("an assembly that has turned as a whole feels nothing", "[moving]") {
+  System s(build({moving("rock", cells(30))}));
+  const geom::Mat3 turn = rotation({1, 2, -0.5}, 130 * degree);
+  for (std::size_t i = 0; i < s.model.node_position.size(); ++i)
+    s.state.displacement[i] =
+        node(turn * s.model.node_position[i] + Vec3(3, -20, 7) - s.model.node_position[i]);
+  double largest = 0;
+  for (const Vec3& f : s.net_forces())
+    largest = std::max(largest, f.norm());
+  CHECK(largest < 1e-10 * rock().youngs_modulus); // on faces of about 0.1 m2, springs of 50 E / h
+}
+
+TEST_CASE("a preload between blocks turns with them", "[moving]") {
+  System s(build({moving("rock", geom::grid({1, 1, 2}, {1, 1, 2}))}));
+  for (geom::Vec3& offset : s.state.bond_offset)
+    offset = Vec3(1e-6, 0, -2e-6);
+  const auto bond_forces = [&] { return s.net_forces(); };
+  const std::vector<Vec3> before = bond_forces();
+  const geom::Mat3 turn = rotation({1, 2, -0.5}, 130 * degree);
+  for (std::size_t i = 0; i < s.model.node_position.size(); ++i)
+    s.state.displacement[i] = node(turn * s.model.node_position[i] - s.model.node_position[i]);
+  const std::vector<Vec3> after = bond_forces();
+  double largest = 0, error = 0;
+  for (std::size_t i = 0; i < before.size(); ++i) {
+    largest = std::max(largest, before[i].norm());
+    error = std::max(error, (after[i] - turn * before[i]).norm());
+  }
+  REQUIRE(largest > 0);
+  CHECK(error < 1e-8 * largest);
+}
+
+TEST_CASE("a block that slides off a ledge falls, lands on the floor and comes to rest there", "[moving]") {
+  const bool deforms = GENERATE(true, false);
+  cdem::BodySpec block = deforms
+                             ? moving("block", geom::grid({0.5, 0.5, 0.5}, {1, 1, 1}, {1.4, 0.25, 0}), soft())
+                             : rigid("block", geom::grid({0.5, 0.5, 0.5}, {1, 1, 1}, {1.4, 0.25, 0}));
+  System s(build({rigid("ledge", geom::grid({2, 1, 0.5}, {1, 1, 1}, {0, 0, -0.5})),
+                  rigid("floor", geom::grid({8, 3, 0.5}, {1, 1, 1}, {0, -1, -2})), block},
+                 {{"ledge", "block", friction(20)}, {"floor", "block", friction(40)}}));
+  s.hold(body_of("ledge"), "xyz");
+  s.hold(body_of("floor"), "xyz");
+  s.conditions.gravity = gravity();
+  const int moves = 2;
+  for (int n = s.model.blocks[moves].node_begin; n < s.model.blocks[moves].node_end; ++n)
+    s.state.velocity[n] = node({3, 0, 0});
+  if (!deforms)
+    s.state.rigid[s.model.blocks[moves].rigid].velocity = {3, 0, 0};
+  cdem::RunOptions options;
+  options.duration = deforms ? 3 : 6;
+  options.local_damping = 0.05;
+  double deepest = 0;
+  options.callback_every = 200;
+  options.callback = [&] { deepest = std::min(deepest, lowest(s, moves) + 1.5); };
+  s.run(options);
+  CHECK(centroid(s, moves).x() > 2);
+  CHECK(lowest(s, moves) == Approx(-1.5).margin(2e-3));
+  CHECK(deepest > -0.02);
+}
+
+TEST_CASE("a heap that falls apart on a floor stays above it, and its energy closes", "[moving]") {
+  cdem::Joint weak = rock_joint();
+  weak.cohesion = weak.tensile_strength = 2e3;
+  System s(build({rigid("floor", geom::grid({6, 6, 0.5}, {1, 1, 1}, {-2.5, -2.5, -0.5})),
+                  moving("heap", cells(12, {0, 0, 0.3}), soft(), weak)},
+                 {{"floor", "heap", friction(30)}}));
+  s.hold(body_of("floor"), "xyz");
+  s.conditions.gravity = gravity();
+  cdem::RunOptions options;
+  options.duration = 1;
+  options.safety = 0.5;
+  s.run(options);
+  const auto parted = std::count(s.state.released.begin(), s.state.released.end(), 1);
+  CHECK(parted > 3);
+  CHECK(balance(s) < 1e-2);
+  for (int b = 0; b < static_cast<int>(s.model.blocks.size()); ++b)
+    if (s.model.blocks[b].body == 1)
+      CHECK(lowest(s, b) > -0.01);
+}
+
+TEST_CASE("a block lands on a meshed body, and the other way round", "[moving]") {
+  const bool block_below = GENERATE(false, true);
+  const auto blocks = [](const Vec3& origin) {
+    return moving("blocks", geom::grid({1, 1, 0.4}, {1, 1, 1}, origin), soft());
+  };
+  const auto mesh = [](const Vec3& centre) {
+    return meshed("mesh", box_at({0.8, 0.8, 0.4}, {3, 3, 2}, geom::Mat3::Identity(), centre), {}, soft());
+  };
+  System s(build({block_below ? blocks({-0.5, -0.5, 0}) : blocks({-0.5, -0.5, 0.45}),
+                  block_below ? mesh({0.03, 0.02, 0.65}) : mesh({0.03, 0.02, 0.2})},
+                 {{"blocks", "mesh", friction(30)}}));
+  s.hold(cdem::Selection::in_box({{-2, -2, -0.01}, {2, 2, 0.01}}), "xyz");
+  s.conditions.gravity = gravity();
+  cdem::RunOptions options;
+  options.duration = 1;
+  options.local_damping = 0.1;
+  s.run(options);
+  const int upper = block_below ? 1 : 0;
+  CHECK(lowest(s, upper) == Approx(0.4).margin(2e-3));
+}
+
+TEST_CASE("blocks that move far end in the same bits for every number of threads", "[moving][threads]") {
+  const auto hash_with = [](int threads) {
+    cdem::Joint weak = rock_joint();
+    weak.cohesion = weak.tensile_strength = 2e3;
+    System s(build({rigid("floor", geom::grid({6, 6, 0.5}, {1, 1, 1}, {-2.5, -2.5, -0.5})),
+                    moving("heap", cells(40, {0, 0, 0.05}), soft(), weak)},
+                   {{"floor", "heap", friction(30)}}));
+    s.threads = threads;
+    s.hold(body_of("floor"), "xyz");
+    s.conditions.gravity = gravity();
+    cdem::RunOptions options;
+    options.duration = 0.2;
+    s.run(options);
+    return cdem::hash(s.state);
+  };
+  CHECK(hash_with(1) == hash_with(3));
+}
