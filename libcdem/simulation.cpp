@@ -1,5 +1,6 @@
 #include "libcdem/simulation_impl.hpp"
 
+#include "libcdem/bond/interface_frame.hpp"
 #include "libcdem/checkpoint/model_archive.hpp"
 #include "libcdem/element/rigid_body.hpp"
 #include "libcdem/element/rigid_motion.hpp"
@@ -124,11 +125,24 @@ void Simulation::initial_stress(const Selection& on, const std::array<double, 6>
   for (std::size_t b = 0; b < selected.size(); ++b)
     if (selects_block(s.model, on, static_cast<int>(b))) {
       selected[b] = 1;
-      if (s.model.blocks[b].meshed)
-        throw geom::InputError("on", on.text, "convex blocks",
-                               "an initial stress cannot be given to a meshed body");
-      for (int c = 0; c < 6; ++c)
-        s.state.initial_stress[b][c] += stress[c];
+      const Block& block = s.model.blocks[b];
+      if (!block.convex() && !s.model.bodies[block.body].bonding.none())
+        throw geom::InputError("on", on.text, "blocks, or meshes without bonds",
+                               "the bonded faces of a mesh cannot be given an initial stress");
+      if (!block.meshed) {
+        for (int c = 0; c < 6; ++c)
+          s.state.initial_stress[b][c] += stress[c];
+        continue;
+      }
+      // Kept by each tet, in the directions of now; of a rigid block in those it was made rigid in.
+      const geom::Mat3 turn = block.rigid < 0 ? geom::Mat3::Identity() : rotation(s.state.rigid[block.rigid]);
+      const Stress own = turned(turn.transpose(), stress);
+      for (int tet = block.tet_begin; tet < block.tet_end; ++tet) {
+        Stress sum = mesh_stress(s.model, s.state, tet);
+        for (int c = 0; c < 6; ++c)
+          sum[c] += own[c];
+        set_mesh_stress(s.model, s.state, tet, sum);
+      }
     }
   if (std::find(selected.begin(), selected.end(), 1) == selected.end())
     throw geom::InputError("on", on.text, "a place that holds block centroids",
@@ -138,7 +152,8 @@ void Simulation::initial_stress(const Selection& on, const std::array<double, 6>
     const Interface& interface = s.model.interfaces[s.model.points[p].interface];
     if (!selected[interface.block_a] || !selected[interface.block_b])
       continue;
-    const geom::Vec3 t = sigma * interface.normal;
+    const geom::Mat3 turn = interface_rotation(s.model, s.state.displacement.data(), interface);
+    const geom::Vec3 t = turn.transpose() * sigma * turn * interface.normal;
     const double normal = t.dot(interface.normal);
     s.state.bond_offset[p] -=
         normal / interface.kn * interface.normal + (t - normal * interface.normal) / interface.ks;

@@ -9,6 +9,7 @@
 #include "libcdem/step/stage.hpp"
 #include "libgeom/core/error.hpp"
 
+#include <algorithm>
 #include <string_view>
 
 namespace cdem {
@@ -92,7 +93,7 @@ struct Simulation::Impl {
 
   // Cutting and removing know convex blocks only.
   void require_blocks(const char* call) const {
-    if (!model.mesh.empty())
+    if (!std::all_of(model.blocks.begin(), model.blocks.end(), [](const Block& b) { return b.convex(); }))
       throw geom::InputError(std::string(call) +
                              ": the model has meshed bodies; only a model of convex blocks alone "
                              "can be cut or lose blocks");
@@ -107,7 +108,7 @@ struct Simulation::Impl {
         if (!model.blocks[b].meshed)
           throw geom::InputError("on", on.text, "meshed bodies",
                                  "block " + std::to_string(model.blocks[b].id) +
-                                     " is a convex block, which always deforms");
+                                     " is of small strain, which always deforms");
         blocks.push_back(b);
       }
     if (blocks.empty())

@@ -3,6 +3,8 @@
 #include "libcdem/element/small_strain.hpp"
 #include "libcdem/state/places.hpp"
 
+#include <Eigen/SVD>
+
 namespace cdem {
 namespace {
 
@@ -87,6 +89,17 @@ Stress block_stress(const Model& model, const State& state, int block) {
   for (int c = 0; c < 6; ++c)
     stress[c] += state.initial_stress[block][c];
   return stress;
+}
+
+geom::Mat3 rotation_in(const geom::Mat3& m) {
+  const Eigen::JacobiSVD<geom::Mat3> svd(m, Eigen::ComputeFullU | Eigen::ComputeFullV);
+  return svd.matrixU() * svd.matrixV().transpose();
+}
+
+geom::Mat3 block_rotation(const Model& model, const State& state, int block) {
+  if (!model.blocks[block].meshed)
+    return geom::Mat3::Identity();
+  return rotation_in(geom::Mat3::Identity() + block_gradient(model, state.displacement, model.blocks[block]));
 }
 
 void add_uniform_stress_forces(const Model& model, const Block& block, const Stress& stress,

@@ -27,6 +27,10 @@ double tet_volume(const Model&, int tet);                          // m3, undefo
 // Volume means over a block.
 geom::Mat3 block_gradient(const Model&, const std::vector<Node>& displacement, const Block&);
 Stress block_stress(const Model&, const State&, int block); // initial stress included
+// The rotation of the mean deformation I + grad u (polar decomposition); the identity for a block of small strain.
+geom::Mat3 block_rotation(const Model&, const State&, int block);
+// The rotation in a deformation gradient or any other matrix with a positive determinant.
+geom::Mat3 rotation_in(const geom::Mat3&);
 
 geom::Mat3 matrix(const Stress&);
 Stress tensor(const geom::Mat3&); // symmetric part

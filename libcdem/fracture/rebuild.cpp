@@ -2,9 +2,12 @@
 
 #include "libcdem/bond/interface_frame.hpp"
 #include "libcdem/bond/spring_forces.hpp"
+#include "libcdem/contact/acting.hpp"
 #include "libcdem/element/small_strain.hpp"
+#include "libcdem/results/fragments.hpp"
 #include "libgeom/polyhedron/cut.hpp"
 
+#include <algorithm>
 #include <cassert>
 #include <cmath>
 #include <map>
@@ -68,13 +71,26 @@ geom::Mat3 stress_at(const Model& old, const State& from, int block, const geom:
   int count = 0;
   for (int tet = b.tet_begin; tet < b.tet_end; ++tet)
     if (weights(old, tet, place).minCoeff() >= inside) {
-      sum += matrix(
-          elastic_stress(old.bodies[b.body].material, displacement_gradient(old, from.displacement, tet)));
+      sum += matrix(b.meshed ? mesh_stress(old, from, tet)
+                             : elastic_stress(old.bodies[b.body].material,
+                                              displacement_gradient(old, from.displacement, tet)));
       ++count;
     }
   if (count == 0)
     return matrix(block_stress(old, from, block));
   return sum / count + matrix(from.initial_stress[block]);
+}
+
+// The tet of an old block that holds a place best.
+int tet_at(const Model& old, const Block& block, const geom::Vec3& place) {
+  int best = block.tet_begin;
+  double best_weight = -1e30;
+  for (int tet = block.tet_begin; tet < block.tet_end; ++tet)
+    if (const double w = weights(old, tet, place).minCoeff(); w > best_weight) {
+      best = tet;
+      best_weight = w;
+    }
+  return best;
 }
 
 int nearest_point(const Model& old, const Interface& interface, const geom::Vec3& place) {
@@ -117,8 +133,10 @@ public:
     for (const Successor& s : successors_)
       result.old_block.push_back(s.old_block);
     carry_blocks(result);
+    carry_rigid(result);
     for (const Interface& interface : result.model.interfaces)
       carry_interface(result, interface);
+    carry_contacts(result);
     return result;
   }
 
@@ -188,7 +206,74 @@ private:
                      r.state.velocity[node]);
         }
       }
+      if (!now.meshed)
+        continue;
+      for (int tet = now.tet_begin; tet < now.tet_end; ++tet) {
+        const int source = successors_[b].whole ? before.tet_begin + (tet - now.tet_begin)
+                                                : tet_at(old_, before, centre_of(r.model, tet));
+        set_mesh_stress(r.model, r.state, tet, mesh_stress(old_, from_, source));
+      }
     }
+  }
+
+  static geom::Vec3 centre_of(const Model& model, int tet) {
+    geom::Vec3 sum = geom::Vec3::Zero();
+    for (const int node : model.tets[tet])
+      sum += model.node_position[node];
+    return sum / 4;
+  }
+
+  // Blocks that keep their shape are never cut.
+  void carry_rigid(Rebuilt& r) const {
+    for (Block& block : r.model.blocks)
+      block.rigid = -1;
+    r.model.rigid.clear();
+    r.state.rigid.clear();
+    r.state.rigid_offset.assign(old_.rigid.empty() ? 0 : r.model.node_position.size(), Node{});
+    for (int b = 0; b < static_cast<int>(r.model.blocks.size()); ++b) {
+      const Block& before = old_.blocks[successors_[b].old_block];
+      if (before.rigid < 0)
+        continue;
+      Block& now = r.model.blocks[b];
+      now.rigid = static_cast<int>(r.model.rigid.size());
+      r.model.rigid.push_back(old_.rigid[before.rigid]);
+      r.model.rigid.back().block = b;
+      r.state.rigid.push_back(from_.rigid[before.rigid]);
+      std::copy(from_.rigid_offset.begin() + before.node_begin, from_.rigid_offset.begin() + before.node_end,
+                r.state.rigid_offset.begin() + now.node_begin);
+    }
+    if (r.model.rigid.empty())
+      r.state.rigid_offset.clear();
+  }
+
+  // Contacts between blocks that are still whole; those of a block that was cut are found anew.
+  void carry_contacts(Rebuilt& r) const {
+    if (from_.contacts.empty() || r.model.surface.empty())
+      return;
+    std::vector<int> new_block(old_.blocks.size(), -1);
+    for (std::size_t b = 0; b < successors_.size(); ++b)
+      if (successors_[b].whole)
+        new_block[successors_[b].old_block] = static_cast<int>(b);
+    const auto triangle_now = [&](int triangle) {
+      const int block = old_.surface.triangles[triangle].block, now = new_block[block];
+      return now < 0 ? -1 : triangle - old_.surface.block_begin[block] + r.model.surface.block_begin[now];
+    };
+    const std::vector<int> pieces = pieces_of_nodes(r.model, r.state);
+    for (Contact c : from_.contacts) {
+      const int source = triangle_now(static_cast<int>(c.source) / 3), target = triangle_now(c.target);
+      const bool edge = c.kind == Contact::edge;
+      const int beside = edge ? triangle_now(c.beside) : c.beside;
+      const int own_second = edge ? triangle_now(c.piece) : 0;
+      if (source < 0 || target < 0 || (edge && (beside < 0 || own_second < 0)))
+        continue;
+      c.source = static_cast<std::uint32_t>(3 * source + static_cast<int>(c.source) % 3) & 0x7fffffffu;
+      c.target = target;
+      c.beside = beside;
+      c.piece = edge ? own_second : pieces[r.model.surface.triangles[target].nodes[0]];
+      r.state.contacts.push_back(c);
+    }
+    std::sort(r.state.contacts.begin(), r.state.contacts.end(),
+              [](const Contact& a, const Contact& b) { return key(a) < key(b); });
   }
 
   void carry_interface(Rebuilt& r, const Interface& now) const {
@@ -200,6 +285,8 @@ private:
       if (before) {
         const int source = same ? before->point_begin + (p - now.point_begin)
                                 : nearest_point(old_, *before, r.model.point_position[p]);
+        if (now.frame >= 0)
+          r.state.released[now.frame] = static_cast<std::uint8_t>(released(from_, *before));
         r.state.bond_mode[p] = from_.bond_mode[source];
         r.state.bond_offset[p] = from_.bond_offset[source];
         if (!from_.bond_damage.empty()) {
@@ -213,8 +300,10 @@ private:
   }
 
   void preload(Rebuilt& r, const Interface& now, int p) const {
+    const int parent = successors_[now.block_a].old_block;
+    const geom::Mat3 turn = block_rotation(old_, from_, parent);
     const geom::Vec3 traction =
-        stress_at(old_, from_, successors_[now.block_a].old_block, r.model.point_position[p]) * now.normal;
+        turn.transpose() * stress_at(old_, from_, parent, r.model.point_position[p]) * turn * now.normal;
     const double normal = traction.dot(now.normal);
     const geom::Vec3 stretch = normal / now.kn * now.normal + (traction - normal * now.normal) / now.ks;
     r.state.bond_offset[p] = local_jump(r.model, r.state.displacement, p) - stretch;

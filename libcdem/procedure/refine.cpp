@@ -4,6 +4,7 @@
 #include "libcdem/fracture/failure_plane.hpp"
 #include "libcdem/fracture/slicing.hpp"
 #include "libcdem/fracture/tip_field.hpp"
+#include "libcdem/state/places.hpp"
 #include "libgeom/core/error.hpp"
 #include "libgeom/polyhedron/cut.hpp"
 
@@ -141,6 +142,34 @@ std::vector<int> cut_joints(Model& frame, const RefineOptions& o) {
   return joints;
 }
 
+// The same for bodies that move far (Kabsch): R of the least squares fit of R X + c to the nodes' positions.
+geom::Mat3 best_rotation(const Model& model, const State& state) {
+  double mass = 0;
+  geom::Vec3 before = geom::Vec3::Zero(), now = geom::Vec3::Zero();
+  for (std::size_t i = 0; i < model.node_position.size(); ++i) {
+    mass += model.node_mass[i];
+    before += model.node_mass[i] * model.node_position[i];
+    now += model.node_mass[i] * place_of(model, state, static_cast<int>(i));
+  }
+  geom::Mat3 moments = geom::Mat3::Zero();
+  for (std::size_t i = 0; i < model.node_position.size(); ++i)
+    moments += model.node_mass[i] * (place_of(model, state, static_cast<int>(i)) - now / mass) *
+               (model.node_position[i] - before / mass).transpose();
+  return rotation_in(moments);
+}
+
+// Stress and displacement gradient of a block in its undeformed directions, in which it is cut; the motion of the whole
+// model is taken out of the gradient.
+MeanField field_of(const Model& model, const State& state, int block, const geom::Mat3& small_turn,
+                   const geom::Mat3& far_turn) {
+  const geom::Mat3 stress = matrix(block_stress(model, state, block)),
+                   gradient = block_gradient(model, state.displacement, model.blocks[block]);
+  if (!model.blocks[block].meshed)
+    return {stress, gradient - small_turn};
+  const geom::Mat3 turn = block_rotation(model, state, block), one = geom::Mat3::Identity();
+  return {turn.transpose() * stress * turn, far_turn.transpose() * (one + gradient) - one};
+}
+
 } // namespace
 
 Refined refine(const Model& model, const State& state, const RefineOptions& options) {
@@ -148,6 +177,7 @@ Refined refine(const Model& model, const State& state, const RefineOptions& opti
   Model frame = model;
   const std::vector<int> joints = cut_joints(frame, options);
   const geom::Mat3 turn = rigid_rotation(model, state);
+  const geom::Mat3 far_turn = model.mesh.empty() ? geom::Mat3::Identity() : best_rotation(model, state);
   std::optional<MeanField> around;
   if (options.judged_by)
     around = mean_field(model, state, options.judged_by->centre, options.judged_by->radius);
@@ -157,13 +187,12 @@ Refined refine(const Model& model, const State& state, const RefineOptions& opti
   for (int b = 0; b < static_cast<int>(model.blocks.size()); ++b) {
     const Block& block = model.blocks[b];
     std::optional<FailurePlane> plane;
-    if (block.generation < options.max_depth && is_candidate(model, b, options)) {
+    if (block.rigid < 0 && block.generation < options.max_depth && is_candidate(model, b, options)) {
       const BlockStrength strength = strength_of(model.bodies[block.body], options);
       require_strength(model.bodies[block.body], strength);
-      const MeanField field = around ? *around
-                                     : MeanField{matrix(block_stress(model, state, b)),
-                                                 block_gradient(model, state.displacement, block)};
-      plane = failure_plane(field.stress, field.gradient - turn, strength, options);
+      const MeanField field = around ? MeanField{around->stress, around->gradient - turn}
+                                     : field_of(model, state, b, turn, far_turn);
+      plane = failure_plane(field.stress, field.gradient, strength, options);
     }
     std::vector<Successor> parts;
     if (plane) {

@@ -177,7 +177,7 @@ TEST_CASE("blocks that move far end in the same bits for every number of threads
     cdem::Joint weak = rock_joint();
     weak.cohesion = weak.tensile_strength = 2e3;
     System s(build({rigid("floor", geom::grid({6, 6, 0.5}, {1, 1, 1}, {-2.5, -2.5, -0.5})),
-                    moving("heap", cells(40, {0, 0, 0.05}), soft(), weak)},
+                    moving("heap", cells(15, {0, 0, 0.05}), soft(), weak)},
                    {{"floor", "heap", friction(30)}}));
     s.threads = threads;
     s.hold(body_of("floor"), "xyz");
@@ -188,4 +188,68 @@ TEST_CASE("blocks that move far end in the same bits for every number of threads
     return cdem::hash(s.state);
   };
   CHECK(hash_with(1) == hash_with(3));
+}
+
+namespace {
+
+// A plate under uniaxial compression, as in Han 2010 example 4.1, coarser.
+cdem::Simulation pressed_plate(cdem::Element element) {
+  cdem::ModelSpec spec;
+  spec.bodies = {body("plate", geom::grid({0.3, 0.3, 0.03}, {6, 6, 1}))};
+  spec.bodies[0].element = element;
+  cdem::Simulation s(spec, 1, nullptr);
+  for (const char* side : {"z-", "z+"})
+    s.fix(fixed(cdem::Selection::side(side), "z"));
+  s.fix(fixed(cdem::Selection::side("y-")));
+  s.fix(fixed(cdem::Selection::side("y+"), "xz"));
+  s.traction(traction(cdem::Selection::side("y+"), {0, -30e6, 0}));
+  cdem::RelaxOptions elastic;
+  elastic.breaking = false;
+  REQUIRE(s.relax(elastic).converged);
+  return s;
+}
+
+} // namespace
+
+TEST_CASE("blocks that may move far are cut where those of small strain are, without a kick",
+          "[moving][cut]") {
+  cdem::Simulation far = pressed_plate(cdem::Element::finite_volume),
+                   small = pressed_plate(cdem::Element::small_strain);
+  cdem::RefineOptions options;
+  options.shear_threshold = 2e6;
+  const double before = far.min("displacement.y").value;
+  CHECK(before == Approx(small.min("displacement.y").value).epsilon(2e-3)); // strains of 1e-3
+  const auto cuts = far.refine(options), expected = small.refine(options);
+  REQUIRE(expected.size() > 4);
+  REQUIRE(cuts.size() == expected.size());
+  for (std::size_t i = 0; i < cuts.size(); ++i)
+    CHECK(std::abs(cuts[i].normal.dot(expected[i].normal)) > 0.999);
+  cdem::RelaxOptions elastic;
+  elastic.breaking = false;
+  REQUIRE(far.relax(elastic).converged);
+  CHECK(far.min("displacement.y").value == Approx(before).epsilon(1e-2));
+}
+
+TEST_CASE("blocks that may move far keep an initial stress, and close in on a hole cut into it",
+          "[moving][cut]") {
+  cdem::ModelSpec spec;
+  spec.bodies = {moving("rock", geom::grid({0.7, 0.1, 0.7}, {7, 1, 7}, {-0.35, 0, -0.35}))};
+  cdem::Simulation s(spec, 1, nullptr);
+  s.initial_stress(cdem::Selection::everything(), {-2e6, 0, -2e6, 0, 0, 0});
+  for (const char* side : {"x-", "x+"})
+    s.fix(fixed(cdem::Selection::side(side), "x"));
+  for (const char* side : {"z-", "z+"})
+    s.fix(fixed(cdem::Selection::side(side), "z"));
+  s.fix(fixed(cdem::Selection::side("y-"), "y"));
+  s.fix(fixed(cdem::Selection::side("y+"), "y"));
+  cdem::RelaxOptions options;
+  options.breaking = false;
+  REQUIRE(s.relax(options).converged);
+  CHECK(s.max("displacement.magnitude").value < 1e-12);
+  CHECK(s.remove(cdem::Selection::in_box({{-0.06, -1, -0.06}, {0.06, 1, 0.06}})) == 1);
+  REQUIRE(s.relax(options).converged);
+  const double left = s.at("displacement.x", {-0.051, 0.05, 0}),
+               right = s.at("displacement.x", {0.051, 0.05, 0});
+  CHECK(left > 0.5 * 2e6 / rock().youngs_modulus * 0.05);
+  CHECK(right == Approx(-left).epsilon(1e-4));
 }
