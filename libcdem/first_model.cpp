@@ -130,8 +130,7 @@ Model first_model(const ModelSpec& spec) {
     if (meshed)
       validate_meshed(body);
     const int index = static_cast<int>(frame.bodies.size());
-    frame.bodies.push_back({body.name, body.material, body.joint, body.bonding,
-                            body.element.value_or(meshed ? Element::finite_volume : Element::small_strain)});
+    frame.bodies.push_back({body.name, body.material, body.joint, body.bonding, body.element});
     for (const geom::TetMesh& mesh : body.meshes)
       meshes.push_back({0, index, mesh});
     frame.pair_joint[{index, index}] = static_cast<int>(frame.joints.size());

@@ -40,7 +40,7 @@ struct BodySpec {
   Joint joint; // between the body's own blocks; of a meshed body on the inner faces that `bonding` names
   std::vector<geom::TetMesh> meshes = {};
   Bonding bonding = {};
-  std::optional<Element> element = {}; // default: finite_volume of meshes, small_strain of blocks
+  Element element = Element::finite_volume; // small_strain: of blocks only
 };
 
 struct PairSpec {

@@ -31,8 +31,10 @@ local function way(curve, G, peak)
 end
 
 local function two_bodies(first, second, curve)
-  return cdem.model{ bodies = { { shape = first, material = concrete, joint = whole, name = "first" },
-                                { shape = second, material = concrete, joint = whole, name = "second" } },
+  return cdem.model{ bodies = { { shape = first, material = concrete, joint = whole, name = "first",
+                                  element = "small_strain" },
+                                { shape = second, material = concrete, joint = whole, name = "second",
+                                  element = "small_strain" } },
                      contacts = { { "first", "second", joint(curve) } } }
 end
 

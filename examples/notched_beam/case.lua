@@ -22,7 +22,8 @@ local thickness_ratio = cdem.parameter{ name = "thickness_ratio", default = 0.02
 
 local joint = cdem.mohr_coulomb{ cohesion = 10e6, friction_angle = 30, tensile_strength = 2e6,
                                  thickness_ratio = thickness_ratio }
-local model = beam.model({ { shape = beam.shape(mesh, seed), material = beam.rock, joint = joint, name = "beam" } }, support)
+local model = beam.model({ { shape = beam.shape(mesh, seed), material = beam.rock, joint = joint, name = "beam",
+                             element = "small_strain" } }, support)
 model:force{ on = "load line", force = {0, -load, 0} }
 
 model:relax{ residual = 1e-6, breaking = false }

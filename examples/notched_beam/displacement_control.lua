@@ -55,7 +55,8 @@ end
 -- displacement, so a state before a break, over the ratio of the worst face's traction to its strength, is the state that
 -- just starts the break: these are the points of a test led by the opening itself.
 local whole = cdem.mohr_coulomb{ cohesion = 10e6, friction_angle = 30, tensile_strength = 2e6 }
-local brittle = beam.model({ { shape = beam.shape("41x10"), material = beam.rock, joint = whole, name = "beam" } }, support)
+local brittle = beam.model({ { shape = beam.shape("41x10"), material = beam.rock, joint = whole, name = "beam",
+                              element = "small_strain" } }, support)
 local near_the_top = 0.85 * beam.height -- under the last row of blocks the crack turns aside
 local by_opening = { opening = {0}, load = {0} }
 local starts
@@ -138,8 +139,10 @@ if softening then
   local strong = cdem.mohr_coulomb{ cohesion = 1e12, friction_angle = 30, tensile_strength = 1e12 } -- does not break
   local soft = cdem.mohr_coulomb{ cohesion = 10e6, friction_angle = 30, tensile_strength = 2e6, softening = "exponential",
                                   fracture_energy_1 = energy_1, fracture_energy_2 = energy_2 }
-  local model = beam.model({ { shape = left, material = beam.rock, joint = strong, name = "left" },
-                             { shape = right, material = beam.rock, joint = strong, name = "right" } }, support,
+  local model = beam.model({ { shape = left, material = beam.rock, joint = strong, name = "left",
+                               element = "small_strain" },
+                             { shape = right, material = beam.rock, joint = strong, name = "right",
+                               element = "small_strain" } }, support,
                            { { "left", "right", soft } })
   local first
   local fall = lead(model, function(note)

@@ -16,7 +16,8 @@ local rock = cdem.elastic{ youngs_modulus = 30e9, poissons_ratio = 0.25, density
 local joint = cdem.mohr_coulomb{ cohesion = 8e6, friction_angle = 30, tensile_strength = 5e6, thickness_ratio = thickness_ratio }
 local plate = cdem.grid{ size = {size, size, depth}, divisions = {divisions, divisions, 1} }
 
-local model = cdem.model{ bodies = { { shape = plate, material = rock, joint = joint, name = "plate" } } }
+local model = cdem.model{ bodies = { { shape = plate, material = rock, joint = joint, name = "plate",
+                                       element = "small_strain" } } }
 model:fix{ on = {"z-", "z+"}, axes = "z" }
 model:fix{ on = "y-", axes = "xyz" }
 model:fix{ on = "y+", axes = "xz" }

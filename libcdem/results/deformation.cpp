@@ -1,8 +1,12 @@
 #include "libcdem/results/deformation.hpp"
 
+#include "libcdem/bond/spring_forces.hpp"
 #include "libcdem/element/small_strain.hpp"
 
 #include <Eigen/Eigenvalues>
+
+#include <cmath>
+#include <limits>
 
 namespace cdem {
 namespace {
@@ -20,6 +24,19 @@ double turn_of(const geom::Mat3& gradient) {
 }
 
 } // namespace
+
+double departure(const Model& model, const State& state, const Interface& interface) {
+  if (interface.frame >= 0 || interface.point_begin == interface.point_end)
+    return 0;
+  double area = 0, least = std::numeric_limits<double>::infinity();
+  for (int p = interface.point_begin; p < interface.point_end; ++p) {
+    if (state.bond_mode[p] == static_cast<std::uint8_t>(BondMode::intact))
+      return 0;
+    area += model.points[p].area;
+    least = std::min(least, jump(model.points[p], state.displacement).norm());
+  }
+  return least / std::sqrt(area);
+}
 
 Deformation largest_deformation(const Model& model, const State& state) {
   Deformation found;
@@ -43,6 +60,11 @@ Deformation largest_deformation(const Model& model, const State& state) {
       }
     }
   }
+  for (const Interface& interface : model.interfaces)
+    if (const double gone = departure(model, state, interface); gone > found.departure) {
+      found.departure = gone;
+      found.departure_block = model.blocks[interface.block_b].id;
+    }
   return found;
 }
 

@@ -5,6 +5,7 @@
 #include "libcdem/element/rigid_motion.hpp"
 #include "libcdem/element/small_strain.hpp"
 #include "libcdem/model/names.hpp"
+#include "libcdem/results/deformation.hpp"
 #include "libcdem/step/errors.hpp"
 
 #include <cmath>
@@ -73,6 +74,18 @@ void require_sound(const Model& model, const State& state, const Workspace& work
                ? "the load there crushes the mesh"
                : "the load there is beyond what small strain can carry");
   }
+}
+
+void require_neighbours(const Model& model, const State& state, const StageStep& at) {
+  for (const Interface& interface : model.interfaces)
+    if (departure(model, state, interface) > 1) {
+      const Block &a = model.blocks[interface.block_a], &b = model.blocks[interface.block_b];
+      throw SolutionError(fmt::format("{}: blocks {} and {} of small strain have left each other by more "
+                                      "than their face's size ({}): such "
+                                      "blocks meet nothing new; give body \"{}\" element = \"finite_volume\"",
+                                      in_words(at), a.id, b.id, where(model, b.node_begin),
+                                      model.bodies[b.body].name));
+    }
 }
 
 void require_followed(const Model& model, const Workspace& work, const StageStep& at) {

@@ -227,6 +227,7 @@ Stage::Look::~Look() {
 
 void Stage::keep_state() {
   require_sound(context_.model, context_.state, work, run_away_, here());
+  require_neighbours(context_.model, context_.state, here());
   // Pieces are told apart anew when a face is handed over, and here: a run that goes on from a checkpoint does so too.
   if (!context_.state.face_slip.empty())
     work.contact.pieces_due = true;

@@ -1478,7 +1478,7 @@ function cdem.select.where(predicate) end
 ---@field material cdem.Material
 ---@field joint? cdem.Joint between the body's own blocks; needed when there are several, or when they are cut. Of a mesh: on inner faces, which can break then
 ---@field name? string for selections and contacts; body_1, body_2 ... by default
----@field element? "small_strain"|"finite_volume"|"rigid" how tets deform: small_strain for assemblies (Han 2010), finite_volume for meshes (Feng 2014), as they are by default; rigid: a mesh that keeps its shape until model:make_deformable
+---@field element? "small_strain"|"finite_volume"|"rigid" how its tetrahedra deform: finite_volume (Feng 2014) for any motion, the default; small_strain (Han 2010) of an assembly whose blocks hardly turn and keep the neighbours they begin with; rigid: keeps its shape until model:make_deformable
 ---@field bonds? "none"|"all"|"regions"|"listed" of a mesh, which inner faces carry the joint: all (default with a joint), those between different regions, or all of the bonded_regions
 ---@field bonded_regions? integer[] numbers of regions, from 1, with bonds = "listed"
 ---@field stiffness_ratio? number > 0: of a mesh, beta in Kn = beta E A / (3 d); 10 by default. A body bonded everywhere keeps about E / (1 + 1/beta)

@@ -18,7 +18,7 @@ local rock = cdem.elastic{ youngs_modulus = 1e9, poissons_ratio = 0.2, density =
 local joint = cdem.mohr_coulomb{ cohesion = 6e5, friction_angle = 30, tensile_strength = 2e5 }
 local steps = cdem.parameter{ name = "steps", default = 500 }
 local model = cdem.model{ bodies = { { shape = cdem.grid{ size = {2.7, 1, 0.05}, divisions = {54, 20, 1} },
-  material = rock, joint = joint, name = "plate" } } }
+  material = rock, joint = joint, name = "plate", element = "small_strain" } } }
 model:fix{ on = "y-" }
 model:traction{ on = "y+", stress = {2e5, 2.5e5, 0} }
 print "begins"

@@ -154,7 +154,7 @@ end
 while a == 1 and not has_begun() do end
 if a == 2 then
   local rock = cdem.elastic{ youngs_modulus = 1e9, poissons_ratio = 0, density = 2000 }
-  local model = cdem.model{ bodies = { { shape = cdem.box{ size = {1, 1, 1} }, material = rock } } }
+  local model = cdem.model{ bodies = { { shape = cdem.box{ size = {1, 1, 1} }, material = rock, element = "small_strain" } } }
   model:fix{ on = "x-" }
   model:traction{ on = "x+", stress = {1e6, 0, 0} }
   local begun = false

@@ -22,6 +22,7 @@ Model build(int count) {
   Body body;
   body.name = "rock";
   body.material = {30e9, 0.25, 2500, 0};
+  body.element = Element::small_strain;
   body.joint.cohesion = 8e6;
   body.joint.friction_angle = 0.5;
   body.joint.tensile_strength = 5e6;

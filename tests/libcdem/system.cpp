@@ -30,12 +30,12 @@ cdem::Joint rock_joint() {
 
 cdem::BodySpec body(std::string name, geom::Assembly shape, const cdem::Elastic& material,
                     const cdem::Joint& joint) {
-  return {std::move(name), std::move(shape), material, joint, {}, {}};
+  return {std::move(name), std::move(shape), material, joint, {}, {}, cdem::Element::small_strain};
 }
 
 cdem::BodySpec meshed(std::string name, geom::TetMesh mesh, const cdem::Bonding& bonding,
                       const cdem::Elastic& material, const cdem::Joint& joint) {
-  return {std::move(name), {}, material, joint, {std::move(mesh)}, bonding};
+  return {std::move(name), {}, material, joint, {std::move(mesh)}, bonding, cdem::Element::finite_volume};
 }
 
 cdem::Simulation simulation(geom::Assembly shape, const cdem::Elastic& material, const cdem::Joint& joint,

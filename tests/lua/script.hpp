@@ -117,7 +117,7 @@ inline std::string column(const std::string& divisions = "{2, 1, 1}", const std:
          "local joint = cdem.mohr_coulomb{ cohesion = 1e9, friction_angle = 30, tensile_strength = 1e9 }\n"
          "local model = cdem.model{ bodies = { { shape = cdem.grid{ size = " +
          size + ", divisions = " + divisions +
-         " },\n  material = rock, joint = joint, name = 'column' } } }\n"
+         " },\n  material = rock, joint = joint, name = 'column', element = 'small_strain' } } }\n"
          "model:fix{ on = 'x-', axes = 'xyz' }\n";
 }
 

@@ -123,22 +123,24 @@ TEST_CASE("meshed bodies that do not fit are refused", "[lua]") {
   CHECK_THAT(error_of(head + "cdem.model{ bodies = { { shape = cdem.box{ size = {1, 1, 1} }, material = "
                              "concrete, bonds = 'all' } } }"),
              Contains("bodies[1].bonds: only for a meshed body"));
-  CHECK_THAT(error_of(head + "cdem.model{ bodies = { { shape = cdem.box{ size = {1, 1, 1} }, material = "
-                             "concrete, element = 'finite_volume' } } }"),
-             Contains("bodies[1].element = \"finite_volume\": must be small_strain"));
 }
 
-TEST_CASE("a mesh that may touch a body of blocks is refused: there is no contact between them", "[lua]") {
-  const auto beside = [](const std::string& x) {
+TEST_CASE("a mesh that touches a block needs a law between them, and small strain knows none", "[lua]") {
+  const auto beside = [](const std::string& x, const std::string& more) {
     return error_of(head +
                     "cdem.model{ bodies = { { shape = cube, material = concrete, name = 'unit' },\n"
                     "  { shape = cdem.box{ size = {1, 1, 1}, origin = {" +
-                    x + ", 0, 0} }, material = concrete, name = 'slope' } } }");
+                    x + ", 0, 0} }, material = concrete, name = 'slope', " + more);
   };
-  CHECK_THAT(beside("1"), Contains("\"unit\"") && Contains("\"slope\"") &&
-                              Contains("no contact between a mesh and an assembly"));
-  CHECK_THAT(beside("0.5"), Contains("no contact between a mesh and an assembly"));
-  CHECK(beside("1.1") == "");
+  const std::string no_law = " } } }",
+                    law = " } }, contacts = { default = cdem.coulomb{ friction_angle = 30 } } }";
+  CHECK_THAT(beside("1", no_law), Contains("\"unit\"") && Contains("\"slope\"") &&
+                                      Contains("touch and no contact between them is given"));
+  CHECK(beside("1", law) == "");
+  CHECK_THAT(beside("0.5", law), Contains("stand in each other"));
+  CHECK(beside("1.1", no_law) == "");
+  CHECK_THAT(beside("1", "element = 'small_strain'" + law),
+             Contains("blocks of small strain meet nothing new"));
 }
 
 TEST_CASE("cutting, growing and removing refuse a model with meshed bodies", "[lua]") {
@@ -146,8 +148,9 @@ TEST_CASE("cutting, growing and removing refuse a model with meshed bodies", "[l
     INFO(call);
     CHECK_THAT(error_of(held + "model:" + call), Contains("the model has meshed bodies"));
   }
-  CHECK_THAT(error_of(held + "model:initial_stress{ on = 'all', stress = {1e5, 0, 0, 0, 0, 0} }"),
-             Contains("meshed body"));
+  CHECK_THAT(
+      error_of(head + "model_of{ joint = bond }:initial_stress{ on = 'all', stress = {1e5, 0, 0, 0, 0, 0} }"),
+      Contains("bonded faces of a mesh"));
 }
 
 // To 1e-5: the faces are taken as the load strains them, by 1.7e-6.

@@ -62,9 +62,11 @@ void require_blocks(const Arguments& given, const std::string& path) {
     if (given.has(only))
       throw InputError(path + "." + only + ": only for a meshed body; an assembly's faces are all bonded");
   if (const auto material = given.object<MaterialObject>("material");
-      material && material->elastic.stiffness_damping > 0)
-    throw InputError(path +
-                     ".material: stiffness_damping is for meshes; an assembly of blocks takes viscosity");
+      given.text_or("element", "finite_volume") == "small_strain" && material &&
+      material->elastic.stiffness_damping > 0)
+    throw InputError(
+        path +
+        ".material: stiffness_damping is for bodies that move far; one of small strain takes viscosity");
 }
 
 // Adds the piles of meshed bodies to `piles`; returns the bodies without a joint.
@@ -264,9 +266,11 @@ void bind_model(Module& m) {
                "inner faces, which can break then"),
       text("name").doc("for selections and contacts; body_1, body_2 ... by default"),
       choice("element", {"small_strain", "finite_volume", "rigid"})
-          .doc("how tets deform: small_strain for assemblies (Han 2010), finite_volume for meshes (Feng "
-               "2014), as they are by default; rigid: a mesh that keeps its shape until "
-               "model:make_deformable"),
+          .doc(
+              "how its tetrahedra deform: finite_volume (Feng 2014) for any motion, the default; "
+              "small_strain (Han "
+              "2010) of an assembly whose blocks hardly turn and keep the neighbours they begin with; rigid: "
+              "keeps its shape until model:make_deformable"),
       choice("bonds", {"none", "all", "regions", "listed"})
           .doc("of a mesh, which inner faces carry the joint: all (default with a joint), those between "
                "different "

@@ -1,5 +1,5 @@
 -- exit code: 2
--- says: there is no contact between a mesh and an assembly of blocks
+-- says: touch and no contact between them is given
 
 local cdem = require "cdem"
 local concrete = cdem.elastic{ youngs_modulus = 30e9, poissons_ratio = 0.2, density = 2500 }
