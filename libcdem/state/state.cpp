@@ -1,10 +1,30 @@
 #include "libcdem/state/state.hpp"
 
-#include "libcdem/element/rigid_body.hpp"
+#include "libcdem/model/build/rigid_bodies.hpp"
+#include "libcdem/state/places.hpp"
 
 #include <algorithm>
 
 namespace cdem {
+namespace {
+
+// At rest; displacement and velocity are there.
+void add_rigid_states(const Model& model, State& state) {
+  if (model.rigid.empty())
+    return;
+  state.rigid_offset.resize(model.node_position.size());
+  for (const RigidBody& body : model.rigid) {
+    const Block& block = model.blocks[body.block];
+    const geom::Vec3 centroid = rigid_shape(model, body.block, state.displacement.data()).centroid;
+    for (int i = block.node_begin; i < block.node_end; ++i)
+      state.rigid_offset[i] = node(place_of(model, state, i) - centroid);
+    RigidState motion;
+    motion.centroid = {centroid.x(), centroid.y(), centroid.z()};
+    state.rigid.push_back(motion);
+  }
+}
+
+} // namespace
 
 FaceSlip& slip_of(State& state, std::int64_t batch, int lane) {
   std::int32_t& first = state.faces[batch].slip;

@@ -2,11 +2,13 @@
 // drives the hash, the carrying over at cuts, the watch for NaN and checkpoints.
 #pragma once
 
+#include "libcdem/joint/bond_mode.hpp"
 #include "libcdem/model/model.hpp"
-#include "libcdem/results/snapshot.hpp"
 #include "libcdem/state/contact.hpp"
+#include "libcdem/state/face_state.hpp"
 #include "libcdem/state/ledger.hpp"
 #include "libcdem/state/rigid_state.hpp"
+#include "libcdem/state/stress_batch.hpp"
 
 #include <functional>
 
