@@ -1,7 +1,7 @@
 #include "libcdem/first_model.hpp"
 
+#include "libcdem/contact/separate.hpp"
 #include "libcdem/model/build/build_model.hpp"
-#include "libcdem/model/separate.hpp"
 #include "libcdem/simulation_checks.hpp"
 #include "libgeom/core/error.hpp"
 

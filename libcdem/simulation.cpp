@@ -2,7 +2,6 @@
 
 #include "libcdem/bond/interface_frame.hpp"
 #include "libcdem/checkpoint/model_archive.hpp"
-#include "libcdem/element/rigid_body.hpp"
 #include "libcdem/element/rigid_motion.hpp"
 #include "libcdem/element/small_strain.hpp"
 #include "libcdem/first_model.hpp"
@@ -12,6 +11,7 @@
 #include "libcdem/procedure/relax.hpp"
 #include "libcdem/procedure/run.hpp"
 #include "libcdem/procedure/settle.hpp"
+#include "libcdem/procedure/turn_rigid.hpp"
 #include "libcdem/results/units.hpp"
 #include "libcdem/simulation_checks.hpp"
 #include "libcdem/step/forces.hpp"

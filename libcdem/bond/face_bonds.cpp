@@ -90,6 +90,11 @@ CDEM_INLINE bool near_strength(const FaceBatch& batch, const Gaps& gaps, const V
 
 } // namespace
 
+FaceLaw face_law(const Body& body) {
+  return {body.bonding.shear_ratio, body.joint.tensile_strength, body.joint.cohesion,
+          std::tan(body.joint.friction_angle)};
+}
+
 // Batches by which reading runs ahead.
 constexpr int batches_ahead = 3;
 

@@ -11,9 +11,10 @@
 // broken and then parted or slid away is handed over to the contact of the surface where there is one for its body.
 #pragma once
 
-#include "libcdem/model/mesh.hpp"
+#include "libcdem/joint/bond_mode.hpp"
+#include "libcdem/model/model.hpp"
 #include "libcdem/parallel/read_ahead.hpp"
-#include "libcdem/results/snapshot.hpp"
+#include "libcdem/state/face_state.hpp"
 
 #include <vector>
 
@@ -26,23 +27,7 @@ struct FaceLaw {
   double tan_friction = 0;
   bool hands_over = false; // broken faces that part or slide away go to the contact of the surface
 };
-
-// Of the three springs of eight faces; a spring's place in the whole is (batch * 3 + point) * lanes + lane.
-struct FaceStateBatch {
-  std::uint8_t mode[3][lanes];     // BondMode
-  std::uint8_t handed_over[lanes]; // 1: the springs carry nothing any more
-  std::int32_t slip; // of the first lane in State::face_slip; -1: no spring of the batch is broken
-};
-
-// Its sides have parted since it broke: what meets there is found by search (contact/).
-inline bool handed_over(const FaceStateBatch& state, int lane) {
-  return state.handed_over[lane] != 0;
-}
-
-// m, tangential gap at which the broken springs of a face carry no shear: point; along its first edge, across.
-struct FaceSlip {
-  double value[3][2] = {};
-};
+FaceLaw face_law(const Body&);
 
 struct FaceBreak {
   std::int64_t spring = 0; // place as above, of the range's first batch on

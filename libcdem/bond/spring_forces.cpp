@@ -25,7 +25,7 @@ double stored(const Interface& interface, const geom::Vec3& traction, const geom
 }
 
 // A bond that softens, up to its separation; a contact from the next step on.
-void softening_spring(const BondPoint& point, State& state, Workspace& work, std::int64_t p,
+void softening_spring(const BondPoint& point, State& state, BondWork& work, std::int64_t p,
                       const geom::Vec3& stretch, SpringSums& sums, bool grows) {
   const SofteningLaw& law = work.softening[point.interface];
   const geom::Vec3 before = work.stretch[p];
@@ -70,7 +70,7 @@ SofteningLaw law_of(const Model& model, const Interface& interface) {
 // brittle bonds pays nothing for the others.
 template <bool softens>
 CDEM_INLINE void update_spring(const BondPoint& point, const Interface& interface, State& state,
-                               Workspace& work, std::int64_t p, const geom::Vec3& j, SpringSums& sums,
+                               BondWork& work, std::int64_t p, const geom::Vec3& j, SpringSums& sums,
                                bool breaking) {
   const geom::Vec3& n = point.normal;
   const SpringStrength& strength = work.strength[point.interface];
@@ -115,7 +115,7 @@ CDEM_INLINE void update_spring(const BondPoint& point, const Interface& interfac
 }
 
 template <bool softens>
-void forces_of_springs(const Model& model, State& state, Workspace& work, Range range, SpringSums& sums,
+void forces_of_springs(const Model& model, State& state, BondWork& work, Range range, SpringSums& sums,
                        bool breaking) {
   sums.friction = sums.breaking = 0;
   sums.broken.clear();
@@ -157,7 +157,7 @@ bool released(const State& state, const Interface& interface) {
   return interface.frame >= 0 && state.released[interface.frame] != 0;
 }
 
-void spring_forces(const Model& model, State& state, Workspace& work, Range range, SpringSums& sums,
+void spring_forces(const Model& model, State& state, BondWork& work, Range range, SpringSums& sums,
                    bool breaking) {
   if (state.bond_damage.empty())
     forces_of_springs<false>(model, state, work, range, sums, breaking);
@@ -181,7 +181,7 @@ void add_bond_forces(const Model& model, const std::vector<geom::Vec3>& bond_for
   }
 }
 
-void start_spring_forces(const Model& model, const State& state, Workspace& work) {
+void start_spring_forces(const Model& model, const State& state, BondWork& work) {
   for (int p = 0; p < static_cast<int>(model.points.size()); ++p)
     work.spring_force[p] = model.points[p].area * traction(model, state, p);
   for (std::size_t p = 0; p < work.stretch.size(); ++p)

@@ -2,20 +2,20 @@
 // springs.
 #pragma once
 
-#include "libcdem/step/workspace.hpp"
+#include "libcdem/bond/bond_work.hpp"
 
 namespace cdem {
 
-// Reads displacement; writes Workspace::spring_force, stretch, spring_sums and, where a spring breaks, slips,
-// opens or softens, bond_mode, bond_offset, bond_damage and bond_slip.
-void spring_forces(const Model&, State&, Workspace&, Range points, SpringSums&, bool breaking);
+// Reads displacement; writes spring_force, turned_force and stretch of BondWork, the sums and, where a spring breaks,
+// slips, opens or softens, bond_mode, bond_offset, bond_damage and bond_slip.
+void spring_forces(const Model&, State&, BondWork&, Range points, SpringSums&, bool breaking);
 
-// Adds what bonds do to nodes, force[0] the first of them, N; bond_force: Workspace::bond_force().
+// Adds what bonds do to nodes, force[0] the first of them, N; bond_force: BondWork::force().
 void add_bond_forces(const Model&, const std::vector<geom::Vec3>& bond_force, Range nodes, Node* force);
 
 // Forces of the present state without any breaking or slip: what the first step's energy losses are counted
 // from.
-void start_spring_forces(const Model&, const State&, Workspace&);
+void start_spring_forces(const Model&, const State&, BondWork&);
 
 // Jump of the displacement from side a to side b in space, m (bond/interface_frame.hpp: in undeformed directions).
 geom::Vec3 jump(const BondPoint&, const std::vector<Node>& displacement);

@@ -1,9 +1,9 @@
 #include "libcdem/contact/contact_bounds.hpp"
 
 #include "libcdem/contact/places.hpp"
-#include "libcdem/element/rigid_inertia.hpp"
 #include "libcdem/element/rigid_motion.hpp"
-#include "libcdem/step/row_sums.hpp"
+#include "libcdem/integrate/row_sums.hpp"
+#include "libcdem/model/build/rigid_bodies.hpp"
 
 namespace cdem {
 namespace {
@@ -31,18 +31,18 @@ double for_rigid(double safety) {
 
 } // namespace
 
-double contact_time_step(const Model& model, const State& state, const Workspace& work,
-                         const std::vector<double>& row_sums, double safety) {
+double contact_time_step(const Model& model, const State& state, const ContactWork& own,
+                         const ContactStep& step) {
   double least = std::numeric_limits<double>::infinity();
   std::vector<double> rigid(model.rigid.size(), 0.0);
-  const ContactWork& own = work.contact;
   for (const auto& [node, block] : own.touched) {
     const int body = model.blocks[block].rigid;
     if (body < 0) {
       const double mass = model.node_mass[node];
-      const double beta = work.damped ? model.bodies[model.blocks[block].body].material.stiffness_damping : 0;
-      least = std::min(least, safety * stable_time_step((row_sums[node] + own.stiffness[node]) / mass,
-                                                        beta * row_sums[node] / mass));
+      const double beta = step.damped ? model.bodies[model.blocks[block].body].material.stiffness_damping : 0;
+      least =
+          std::min(least, step.safety * stable_time_step((step.row_sums[node] + own.stiffness[node]) / mass,
+                                                         beta * step.row_sums[node] / mass));
       continue;
     }
     const std::array<double, 3>& c = state.rigid[body].centroid;
@@ -50,7 +50,7 @@ double contact_time_step(const Model& model, const State& state, const Workspace
     rigid[body] += own.stiffness[node] * rigid_inverse_mass(model.rigid[body], arm);
   }
   for (const double sum : rigid)
-    least = std::min(least, for_rigid(safety) * stable_time_step(sum, 0));
+    least = std::min(least, for_rigid(step.safety) * stable_time_step(sum, 0));
   return least;
 }
 

@@ -1,14 +1,19 @@
 // What contacts add to the bounds of the largest eigenvalue of stiffness over mass (Gershgorin), for the stable step.
 #pragma once
 
-#include "libcdem/step/workspace.hpp"
+#include "libcdem/contact/contact_work.hpp"
+#include "libcdem/state/state.hpp"
 
 namespace cdem {
 
 // s: `safety` times a bound of the stable step of all nodes and rigid bodies that contacts act on, as they are now;
-// row_sums: those of elements and bonds, N/m (n_nodes). Infinite without contacts.
-double contact_time_step(const Model&, const State&, const Workspace&, const std::vector<double>& row_sums,
-                         double safety);
+// Infinite without contacts.
+struct ContactStep {
+  const std::vector<double>& row_sums; // N/m, of elements and bonds (n_nodes)
+  bool damped = false;                 // stiffness damping acts
+  double safety = 1;
+};
+double contact_time_step(const Model&, const State&, const ContactWork&, const ContactStep&);
 
 // s, likewise, of rigid bodies before anything touches, if a fiftieth of their surface does: a step that lets no more
 // than a few contacts close at once. contact_time_step shortens it when more do. Infinite without rigid bodies.

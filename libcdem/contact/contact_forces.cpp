@@ -51,18 +51,17 @@ double lost(const Model& model, const std::vector<Contact>& before, const std::v
 }
 
 // Serial, as it is little beside finding them.
-void clear_forces(Workspace& work) {
-  for (const TouchedNode& at : work.contact.touched) {
-    work.contact_force[at.node] = {};
-    work.contact.stiffness[at.node] = 0;
+void clear_forces(ContactWork& work) {
+  for (const TouchedNode& at : work.touched) {
+    work.force[at.node] = {};
+    work.stiffness[at.node] = 0;
   }
-  work.contact.touched.clear();
+  work.touched.clear();
 }
 
-void add_forces(const std::vector<ContactForce>& forces, Workspace& work) {
-  ContactWork& own = work.contact;
+void add_forces(const std::vector<ContactForce>& forces, ContactWork& own) {
   const auto add = [&](int node, int block, const geom::Vec3& force, double stiffness) {
-    Node& sum = work.contact_force[node];
+    Node& sum = own.force[node];
     sum.x += force.x();
     sum.y += force.y();
     sum.z += force.z();
@@ -103,9 +102,8 @@ void add(const ContactSums& more, ContactSums& sums) {
 
 } // namespace
 
-ContactSums contact_forces(const Model& model, State& state, Workspace& work, int threads) {
+ContactSums contact_forces(const Model& model, State& state, ContactWork& own, int threads) {
   ContactSums sums;
-  ContactWork& own = work.contact;
   if (model.surface.empty() || !own.due)
     return sums;
   const bool out_of_skin = add_ways(model, state, own, threads), pieces_due = own.pieces_due,
@@ -128,7 +126,7 @@ ContactSums contact_forces(const Model& model, State& state, Workspace& work, in
   };
   const std::int64_t n_springs = chunks(springs), n = n_springs + chunks(edges);
   own.chunks.resize(static_cast<std::size_t>(chunks_at_a_time * threads));
-  clear_forces(work);
+  clear_forces(own);
   own.now.clear();
   own.now.reserve(state.contacts.size() + state.contacts.size() / 8 + 64);
   for (std::int64_t first = 0; first < n; first += chunks_at_a_time * threads) {
@@ -150,7 +148,7 @@ ContactSums contact_forces(const Model& model, State& state, Workspace& work, in
     });
     for (std::int64_t i = 0; i < count; ++i) {
       add_sorted(own.chunks[i].contacts, own.now);
-      add_forces(own.chunks[i].forces, work);
+      add_forces(own.chunks[i].forces, own);
       for (const ContactForce& force : own.chunks[i].forces)
         sums.friction += force.friction;
       add(own.chunks[i].sums, sums);

@@ -12,13 +12,14 @@
 // away what they store, and gives it back when the spring lets go.
 #pragma once
 
-#include "libcdem/step/workspace.hpp"
+#include "libcdem/contact/contact_work.hpp"
+#include "libcdem/state/state.hpp"
 
 namespace cdem {
 
-// Advances State::contacts and writes Workspace::contact for where the nodes are; searches when something has moved.
+// Advances State::contacts and writes the workspace for where the nodes are; searches when something has moved.
 // Nothing happens when nothing moved since the last call.
-ContactSums contact_forces(const Model&, State&, Workspace&, int threads);
+ContactSums contact_forces(const Model&, State&, ContactWork&, int threads);
 
 // J, that contacts store `lag` seconds before now, at the velocities of now.
 double contact_energy(const Model&, const State&, double lag);

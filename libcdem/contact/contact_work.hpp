@@ -117,6 +117,7 @@ struct ContactWork {
 
   std::vector<ContactChunk> chunks; // of as many chunks of rows as are computed at a time
   std::vector<Contact> now;         // those of the step, before they replace State::contacts
+  std::vector<Node> force;          // N, of contacts (n_nodes); empty without; written by contact_forces
   std::vector<double> stiffness;    // N/m, of contacts at nodes, row sums (n_nodes)
   std::vector<TouchedNode> touched; // nodes with a force, in the order of the contacts
 };

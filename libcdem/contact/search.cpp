@@ -7,7 +7,7 @@
 #include "libcdem/contact/semi_edges.hpp"
 #include "libcdem/model/build/contact_surface.hpp"
 #include "libcdem/model/names.hpp"
-#include "libcdem/step/errors.hpp"
+#include "libcdem/state/solution_error.hpp"
 #include "libgeom/query/box_pairs.hpp"
 #include "libgeom/query/closest.hpp"
 
@@ -142,6 +142,7 @@ void start_contact(const Model& model, ContactWork& work) {
     height *= shallow_ratio;
   for (std::vector<double>* of_blocks : {&work.travelled, &work.last_way, &work.pace, &work.skin})
     of_blocks->assign(model.blocks.size(), 0.0);
+  work.force.assign(model.node_position.size(), Node{});
   work.stiffness.assign(model.node_position.size(), 0.0);
 }
 

@@ -1,9 +1,9 @@
 #include "libcdem/contact/taking_part.hpp"
 
+#include "libcdem/bond/pieces.hpp"
 #include "libcdem/contact/acting.hpp"
 #include "libcdem/contact/near.hpp"
 #include "libcdem/contact/places.hpp"
-#include "libcdem/results/fragments.hpp"
 
 #include <algorithm>
 

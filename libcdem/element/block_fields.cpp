@@ -43,6 +43,11 @@ Stress tensor(const geom::Mat3& m) {
           0.5 * (m(0, 2) + m(2, 0))};
 }
 
+Stress turned(const geom::Mat3& rotation, const Stress& stress) {
+  const geom::Mat3 s = rotation * matrix(stress) * rotation.transpose();
+  return {s(0, 0), s(1, 1), s(2, 2), s(0, 1), s(1, 2), s(0, 2)};
+}
+
 double tet_volume(const Model& model, int tet) {
   return geometry(model, tet).volume;
 }

@@ -29,6 +29,10 @@ CDEM_INLINE Vec corner_force(const Symmetric& s, const Vec& c) {
 
 } // namespace
 
+TetStiffness tet_stiffness(const Elastic& material) {
+  return {material.lame_lambda(), 2 * material.shear_modulus()};
+}
+
 // The kernel is compiled for several instruction sets; everything it calls is inlined into each of them.
 CDEM_KERNEL double finite_volume_forces(const MeshBatch* batches, std::int64_t count, int last_lanes,
                                         const Node* position, const Node* velocity, double dt,

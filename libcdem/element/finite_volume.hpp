@@ -10,6 +10,7 @@
 // in concrete. c_k / 6V is the gradient of the shape function, the same as the sum over face areas with one division.
 #pragma once
 
+#include "libcdem/material/elastic.hpp"
 #include "libcdem/model/mesh.hpp"
 #include "libcdem/parallel/read_ahead.hpp"
 #include "libcdem/state/stress_batch.hpp"
@@ -19,6 +20,7 @@ namespace cdem {
 struct TetStiffness {
   double lambda = 0, two_g = 0; // Pa
 };
+TetStiffness tet_stiffness(const Elastic&);
 
 // Stiffness damping of a run of batches.
 struct TetDamping {

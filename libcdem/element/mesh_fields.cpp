@@ -1,9 +1,8 @@
 #include "libcdem/element/mesh_fields.hpp"
 
-#include "libcdem/element/rigid_body.hpp"
+#include "libcdem/bond/face_bonds.hpp"
 #include "libcdem/element/rigid_motion.hpp"
 #include "libcdem/element/small_strain.hpp"
-#include "libcdem/model/build/add_meshes.hpp"
 #include "libcdem/state/places.hpp"
 
 namespace cdem {

@@ -21,15 +21,15 @@ CDEM_INLINE Quad load_or_zero(const Node* nodes, std::int64_t i) {
 
 } // namespace
 
-MovingNodes moving_nodes(State& state, const Workspace& work, const std::vector<double>& mass, Range range,
-                         const Node* force) {
-  const ResolvedConditions& r = work.resolved;
+MovingNodes moving_nodes(State& state, const ActingForces& acting, const std::vector<double>& mass,
+                         Range range, const Node* force) {
+  const ResolvedConditions& r = acting.resolved;
   const std::int64_t first = range.begin;
   MovingNodes nodes;
   nodes.force = force;
   nodes.internal = r.internal.empty() ? nullptr : r.internal.data() + first;
   nodes.external = r.external.empty() ? nullptr : r.external.data() + first;
-  nodes.contact = work.contact_force.empty() ? nullptr : work.contact_force.data() + first;
+  nodes.contact = acting.contact.empty() ? nullptr : acting.contact.data() + first;
   nodes.mass = mass.data() + first;
   nodes.velocity = state.velocity.data() + first;
   nodes.displacement = state.displacement.data() + first;

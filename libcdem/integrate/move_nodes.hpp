@@ -2,9 +2,28 @@
 // Velocities stand half a step before the displacements (central differences).
 #pragma once
 
-#include "libcdem/step/workspace.hpp"
+#include "libcdem/load/resolve.hpp"
 
 namespace cdem {
+
+// Sums of one chunk of blocks, over its free degrees of freedom.
+struct NodeSums {
+  double residual2 = 0; // N2, out-of-balance forces
+  double applied2 = 0;  // N2, external forces
+  double reaction2 = 0; // N2, out-of-balance forces where nodes are held
+  double stiffness = 0; // J, -du . dF
+  double inertia = 0;   // J, du . M du
+  double kinetic = 0;   // J
+  double external = 0;  // J, this step
+  double damping = 0;   // J, this step
+};
+
+// What acts on nodes beside the stress of elements.
+struct ActingForces {
+  const ResolvedConditions& resolved;
+  const std::vector<Node>& contact;    // N, of contacts (n_nodes); empty without
+  const std::vector<geom::Vec3>& bond; // N, of springs of interfaces on side a (n_points)
+};
 
 // Arrays of the nodes that move, first of them first. force: of elements and springs, without loads.
 struct MovingNodes {
@@ -20,7 +39,7 @@ struct MovingNodes {
 };
 
 // The nodes `range` of a model, without viscosity; force points at the first.
-MovingNodes moving_nodes(State&, const Workspace&, const std::vector<double>& mass, Range range,
+MovingNodes moving_nodes(State&, const ActingForces&, const std::vector<double>& mass, Range range,
                          const Node* force);
 
 // Of the first node: net force, loads included, and the load in it.

@@ -46,7 +46,7 @@ void kick(const Model& model, const RigidBody& body, RigidState& motion, const g
 
 } // namespace
 
-RigidForces rigid_forces(const Model& model, const State& state, const Workspace& work, int rigid) {
+RigidForces rigid_forces(const Model& model, const State& state, const ActingForces& acting, int rigid) {
   const Block& block = model.blocks[model.rigid[rigid].block];
   const geom::Vec3 centroid = cdem::vec(state.rigid[rigid].centroid);
   RigidForces forces;
@@ -59,10 +59,10 @@ RigidForces rigid_forces(const Model& model, const State& state, const Workspace
       torque += (model.node_position[i] - centroid + vec(state.displacement[i])).cross(f);
     }
   };
-  sum(work.resolved.external, forces.load, forces.load_torque);
-  sum(work.contact_force, forces.contact, forces.contact_torque);
+  sum(acting.resolved.external, forces.load, forces.load_torque);
+  sum(acting.contact, forces.contact, forces.contact_torque);
   if (block.convex() && !model.points.empty()) {
-    const std::vector<geom::Vec3>& bonds = work.bond_force();
+    const std::vector<geom::Vec3>& bonds = acting.bond;
     for (int i = block.node_begin; i < block.node_end; ++i) {
       Node f;
       add_bond_forces(model, bonds, {i, i + 1}, &f);
@@ -73,18 +73,18 @@ RigidForces rigid_forces(const Model& model, const State& state, const Workspace
   return forces;
 }
 
-void move_rigid(const Model& model, State& state, const Workspace& work, int rigid, const Stepping& s,
+void move_rigid(const Model& model, State& state, const ActingForces& acting, int rigid, const Stepping& s,
                 NodeSums& sums) {
   const RigidBody& body = model.rigid[rigid];
   const Block& block = model.blocks[body.block];
   RigidState& motion = state.rigid[rigid];
-  const RigidForces f = rigid_forces(model, state, work, rigid);
+  const RigidForces f = rigid_forces(model, state, acting, rigid);
   const geom::Vec3 force = f.load + f.contact, torque = f.load_torque + f.contact_torque;
   const geom::Vec3 velocity_before = cdem::vec(motion.velocity);
   const double ahead = 0.5 * s.time_step;
 
   geom::Vec3 turning = geom::Vec3::Zero(); // w, half a step ahead
-  if (const auto& held = work.resolved.rigid[rigid]) {
+  if (const auto& held = acting.resolved.rigid[rigid]) {
     const double before = kinetic_energy(body, motion, s.kick - ahead);
     motion.velocity = triple(*held);
     motion.angular_momentum = {};
@@ -123,8 +123,9 @@ void move_rigid(const Model& model, State& state, const Workspace& work, int rig
   }
 }
 
-void hold_rigid(const Model& model, const State& state, const Workspace& work, int rigid, NodeSums& sums) {
-  const RigidForces f = rigid_forces(model, state, work, rigid);
+void hold_rigid(const Model& model, const State& state, const ActingForces& acting, int rigid,
+                NodeSums& sums) {
+  const RigidForces f = rigid_forces(model, state, acting, rigid);
   sums.reaction2 += (f.load + f.contact).squaredNorm();
 }
 

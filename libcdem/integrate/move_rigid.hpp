@@ -12,14 +12,14 @@ struct RigidForces {
   geom::Vec3 load = geom::Vec3::Zero(), load_torque = geom::Vec3::Zero();       // N, N m
   geom::Vec3 contact = geom::Vec3::Zero(), contact_torque = geom::Vec3::Zero(); // N, N m
 };
-RigidForces rigid_forces(const Model&, const State&, const Workspace&, int rigid);
+RigidForces rigid_forces(const Model&, const State&, const ActingForces&, int rigid);
 
 // Local damping takes alpha |F| off each component of the force, and of the torque in the principal axes, against the
 // motion. Viscosity mu takes mu / rho times momentum and angular momentum. Nodes: displacements grow by velocity x time
 // step, the chord of the turn.
-void move_rigid(const Model&, State&, const Workspace&, int rigid, const Stepping&, NodeSums&);
+void move_rigid(const Model&, State&, const ActingForces&, int rigid, const Stepping&, NodeSums&);
 
 // Of one that is held and does not move, in a relaxation: its reaction.
-void hold_rigid(const Model&, const State&, const Workspace&, int rigid, NodeSums&);
+void hold_rigid(const Model&, const State&, const ActingForces&, int rigid, NodeSums&);
 
 } // namespace cdem

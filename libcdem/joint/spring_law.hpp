@@ -9,7 +9,8 @@
 // A bond that softens on the way from one to the other: joint/softening.hpp.
 #pragma once
 
-#include "libcdem/results/snapshot.hpp"
+#include "libcdem/joint/bond_mode.hpp"
+#include "libgeom/core/types.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,8 +1,6 @@
 // Model: everything that stays as it is while the solver steps. Only fracture/ makes a new one, between steps.
 #pragma once
 
-#include "libcdem/bond/face_bonds.hpp"
-#include "libcdem/element/finite_volume.hpp"
 #include "libcdem/joint/joint.hpp"
 #include "libcdem/material/elastic.hpp"
 #include "libcdem/model/bonding.hpp"

@@ -3,8 +3,8 @@
 #include "libcdem/contact/contact_bounds.hpp"
 #include "libcdem/integrate/move_nodes.hpp"
 #include "libcdem/integrate/move_rigid.hpp"
+#include "libcdem/integrate/row_sums.hpp"
 #include "libcdem/results/energy.hpp"
-#include "libcdem/step/row_sums.hpp"
 #include "libgeom/core/error.hpp"
 
 #include <cmath>
@@ -185,7 +185,7 @@ RelaxResult relax(const StageContext& context, const RelaxOptions& options, cons
       stage.meet();
       const auto move = [&](Range range, const Node* force, NodeSums& sums) {
         const auto nodes = [&](Range part) {
-          return moving_nodes(state, stage.work, mass, part, force + (part.begin - range.begin));
+          return moving_nodes(state, stage.work.acting(), mass, part, force + (part.begin - range.begin));
         };
         each_node(
             stage.work.resolved, range,
@@ -195,7 +195,7 @@ RelaxResult relax(const StageContext& context, const RelaxOptions& options, cons
             });
       };
       report.sums = stage.advance(options.breaking, move, [&](int rigid, NodeSums& sums) {
-        hold_rigid(context.model, state, stage.work, rigid, sums);
+        hold_rigid(context.model, state, stage.work.acting(), rigid, sums);
       });
       stage.moved(1); // velocities are lengths per step
       largest_reaction2 = std::max(largest_reaction2, report.sums.reaction2);

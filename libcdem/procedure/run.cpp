@@ -3,7 +3,7 @@
 #include "libcdem/contact/contact_bounds.hpp"
 #include "libcdem/integrate/move_nodes.hpp"
 #include "libcdem/integrate/move_rigid.hpp"
-#include "libcdem/step/row_sums.hpp"
+#include "libcdem/integrate/row_sums.hpp"
 #include "libgeom/core/error.hpp"
 
 #include <cmath>
@@ -187,7 +187,7 @@ RunResult run(const StageContext& context, const RunOptions& options, const std:
     stepping.kick = state.velocity_lag + 0.5 * stepping.time_step;
     const auto move = [&](Range range, const Node* force, NodeSums& sums) {
       const auto nodes = [&](Range part) {
-        MovingNodes moving = moving_nodes(state, stage.work, context.model.node_mass, part,
+        MovingNodes moving = moving_nodes(state, stage.work.acting(), context.model.node_mass, part,
                                           force + (part.begin - range.begin));
         moving.viscous = viscous.empty() ? nullptr : viscous.data() + part.begin;
         return moving;
@@ -199,7 +199,7 @@ RunResult run(const StageContext& context, const RunOptions& options, const std:
           });
     };
     report.sums = stage.advance(options.breaking, move, [&](int rigid, NodeSums& sums) {
-      move_rigid(context.model, state, stage.work, rigid, stepping, sums);
+      move_rigid(context.model, state, stage.work.acting(), rigid, stepping, sums);
     });
     stage.moved(stepping.time_step);
     report.residual = relative_residual(report.sums);

@@ -1,9 +1,9 @@
 #include "libcdem/procedure/settle.hpp"
 
 #include "libcdem/checkpoint/archive.hpp"
-#include "libcdem/element/rigid_body.hpp"
 #include "libcdem/model/names.hpp"
 #include "libcdem/procedure/run.hpp"
+#include "libcdem/procedure/turn_rigid.hpp"
 #include "libcdem/results/energy.hpp"
 
 #include <algorithm>

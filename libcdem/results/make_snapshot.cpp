@@ -1,5 +1,6 @@
 #include "libcdem/results/make_snapshot.hpp"
 
+#include "libcdem/bond/face_bonds.hpp"
 #include "libcdem/bond/interface_frame.hpp"
 #include "libcdem/bond/spring_forces.hpp"
 #include "libcdem/element/mesh_fields.hpp"

@@ -2,6 +2,7 @@
 // VTK. results/ makes it, vtk/ reads it.
 #pragma once
 
+#include "libcdem/joint/bond_mode.hpp"
 #include "libgeom/core/types.hpp"
 
 #include <string>
@@ -16,9 +17,6 @@ struct SnapshotField {
   std::vector<double> values; // components values for each point or cell, cell-major
   bool integer = false;       // written as Int64 (ids, modes)
 };
-
-// How a bond stands; also the value of the bond field "mode".
-enum class BondMode : int { intact = 0, broken_tension = 1, broken_shear = 2, contact = 3 };
 
 // Interfaces between blocks as triangles over the spring points (undeformed places).
 struct BondSnapshot {

@@ -1,10 +1,30 @@
 #include "libcdem/state/state.hpp"
 
-#include "libcdem/element/rigid_body.hpp"
+#include "libcdem/model/build/rigid_bodies.hpp"
+#include "libcdem/state/places.hpp"
 
 #include <algorithm>
 
 namespace cdem {
+namespace {
+
+// At rest; displacement and velocity are there.
+void add_rigid_states(const Model& model, State& state) {
+  if (model.rigid.empty())
+    return;
+  state.rigid_offset.resize(model.node_position.size());
+  for (const RigidBody& body : model.rigid) {
+    const Block& block = model.blocks[body.block];
+    const geom::Vec3 centroid = rigid_shape(model, body.block, state.displacement.data()).centroid;
+    for (int i = block.node_begin; i < block.node_end; ++i)
+      state.rigid_offset[i] = node(place_of(model, state, i) - centroid);
+    RigidState motion;
+    motion.centroid = {centroid.x(), centroid.y(), centroid.z()};
+    state.rigid.push_back(motion);
+  }
+}
+
+} // namespace
 
 FaceSlip& slip_of(State& state, std::int64_t batch, int lane) {
   std::int32_t& first = state.faces[batch].slip;
@@ -78,25 +98,28 @@ std::vector<StateField> fields(State& s) {
                       floating, resize};
   };
   return {
-      {"time", "s", FieldPlace::model, "step", &s.time, sizeof s.time, true},
-      {"step", "1", FieldPlace::model, "step", &s.step, sizeof s.step, false},
-      {"velocity_lag", "s", FieldPlace::model, "step", &s.velocity_lag, sizeof s.velocity_lag, true},
-      field("displacement", "m", FieldPlace::node, "integrate", s.displacement, true),
-      field("velocity", "m/s", FieldPlace::node, "integrate", s.velocity, true),
+      {"time", "s", FieldPlace::model, "run", &s.time, sizeof s.time, true},
+      {"step", "1", FieldPlace::model, "after_step", &s.step, sizeof s.step, false},
+      {"velocity_lag", "s", FieldPlace::model, "run, relax", &s.velocity_lag, sizeof s.velocity_lag, true},
+      field("displacement", "m", FieldPlace::node, "step_nodes, relax_nodes, move_rigid", s.displacement,
+            true),
+      field("velocity", "m/s", FieldPlace::node, "step_nodes, relax_nodes, move_rigid", s.velocity, true),
       field("bond_offset", "m", FieldPlace::bond, "spring_forces", s.bond_offset, true),
       field("bond_mode", "1", FieldPlace::bond, "spring_forces", s.bond_mode, false),
       field("bond_damage", "1", FieldPlace::bond, "spring_forces", s.bond_damage, true),
       field("bond_slip", "m", FieldPlace::bond, "spring_forces", s.bond_slip, true),
-      field("released", "1", FieldPlace::bond, "release_interfaces", s.released, false),
+      field("released", "1", FieldPlace::frame, "release_interfaces", s.released, false),
       field("initial_stress", "Pa", FieldPlace::block, "initial_stress", s.initial_stress, true),
       field("stress", "Pa", FieldPlace::tet, "mesh_forces", s.stress, true),
       field("viscous_stress", "Pa", FieldPlace::tet, "mesh_forces", s.viscous_stress, true),
-      field("faces", "1", FieldPlace::bond, "mesh_forces", s.faces, false),
-      field("face_slip", "m", FieldPlace::bond, "mesh_forces", s.face_slip, true),
-      field("contacts", "N", FieldPlace::contact, "contact_forces", s.contacts, false),
-      field("rigid", "m", FieldPlace::block, "move_rigid", s.rigid, true),
+      field("faces", "1", FieldPlace::face, "mesh_forces", s.faces, false),
+      field("face_slip", "m", FieldPlace::face, "mesh_forces, record_face_breaks", s.face_slip, true),
+      field("contacts", "record", FieldPlace::contact, "contact_forces", s.contacts, false),
+      field("rigid", "record", FieldPlace::rigid_body, "move_rigid, set_rigid", s.rigid, true),
       field("rigid_offset", "m", FieldPlace::node, "set_rigid", s.rigid_offset, true),
-      {"spent", "J", FieldPlace::model, "step", &s.spent, sizeof s.spent, true},
+      {"spent", "J", FieldPlace::model,
+       "record_bond_breaks, record_face_breaks, meet_contacts, after_step, relax", &s.spent, sizeof s.spent,
+       true},
   };
 }
 

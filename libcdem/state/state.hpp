@@ -2,23 +2,26 @@
 // drives the hash, the carrying over at cuts, the watch for NaN and checkpoints.
 #pragma once
 
+#include "libcdem/joint/bond_mode.hpp"
 #include "libcdem/model/model.hpp"
-#include "libcdem/results/snapshot.hpp"
 #include "libcdem/state/contact.hpp"
+#include "libcdem/state/face_state.hpp"
 #include "libcdem/state/ledger.hpp"
 #include "libcdem/state/rigid_state.hpp"
+#include "libcdem/state/stress_batch.hpp"
 
 #include <functional>
 
 namespace cdem {
 
 struct State {
-  double time = 0;         // s
-  std::int64_t step = 0;   // over all stages
-  double velocity_lag = 0; // s, velocities and the summed energies stand this long before the displacements
+  double time = 0;       // s; written by run
+  std::int64_t step = 0; // over all stages; written by after_step
+  // s, velocities and the summed energies stand this long before the displacements; written by run, relax
+  double velocity_lag = 0;
 
-  std::vector<Node> displacement; // m (n_nodes); written by integrate
-  std::vector<Node> velocity;     // m/s, velocity_lag behind (n_nodes); written by integrate
+  std::vector<Node> displacement; // m (n_nodes); written by step_nodes, relax_nodes, move_rigid
+  std::vector<Node> velocity;     // m/s, velocity_lag behind (n_nodes); likewise
   std::vector<geom::Vec3>
       bond_offset; // m, jump at which the spring carries nothing: preload and slip (n_points)
   std::vector<std::uint8_t>
@@ -35,13 +38,14 @@ struct State {
   // Pa, of the strain rate, beside it; as long, or empty where no material has stiffness damping.
   std::vector<StressBatch> viscous_stress;
   std::vector<FaceStateBatch> faces; // (n face batches); written by mesh_forces
-  // m, of the batches of faces with a broken spring, eight faces each, in the order they broke; likewise.
+  // m, of the batches of faces with a broken spring, eight faces each, in the order they broke; written by mesh_forces
+  // and, where a spring has just broken, by record_face_breaks
   std::vector<FaceSlip> face_slip;
 
   std::vector<Contact> contacts; // those that act, by kind, source and piece; written by contact_forces
-  std::vector<RigidState> rigid; // (n rigid bodies); written by move_rigid
+  std::vector<RigidState> rigid; // (n rigid bodies); written by move_rigid, set_rigid
   // m, of the nodes of rigid bodies from their centroids in the directions they were made rigid in (n_nodes); empty
-  // without rigid bodies.
+  // without rigid bodies; written by set_rigid
   std::vector<Node> rigid_offset;
 
   EnergyLedger spent; // J, the summed entries only (damping, friction, ... external); the stored ones stay 0
@@ -59,13 +63,15 @@ void set_mesh_stress(const Model&, State&, int tet, const Stress&);
 // A State at rest for the model: no displacement, contacts where the joint is not bonded.
 State initial_state(const Model&);
 
-enum class FieldPlace { model, node, bond, block, tet, contact };
+// What an entry of the array belongs to. bond: a spring of an interface; frame: an interface that may turn; face, tet:
+// of a mesh, eight side by side.
+enum class FieldPlace { model, node, bond, frame, block, tet, face, contact, rigid_body };
 
 struct StateField {
   const char* name;
-  const char* unit;
+  const char* unit; // "record": an entry has members of several units, given where its struct is declared
   FieldPlace place;
-  const char* writer;
+  const char* writer; // the functions of a step that write it, or of a script where no step does
   void* data;
   std::size_t bytes; // of the whole array
   bool floating;     // made of doubles: watched for NaN

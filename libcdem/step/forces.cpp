@@ -24,16 +24,16 @@ void block_forces(const Model& model, const State& state, Workspace& work, const
   clear_forces(work, chunk.nodes);
   add_small_strain_forces(model.batches.data() + chunk.batches.begin, chunk.batches.size(),
                           state.displacement.data(), work.force.data());
-  add_bond_forces(model, work.bond_force(), chunk.nodes, work.force.data() + chunk.nodes.begin);
+  add_bond_forces(model, work.bond.force(), chunk.nodes, work.force.data() + chunk.nodes.begin);
 }
 
 std::vector<Node> net_forces(const Model& model, const State& state, Workspace& work) {
   State copy = state; // bookkeeping of springs and faces stays as it is
   work.strain_step = 0;
   work.contact.due = true;
-  contact_forces(model, copy, work, 1);
+  contact_forces(model, copy, work.contact, 1);
   for (std::size_t c = 0; c < model.point_chunks.size(); ++c)
-    spring_forces(model, copy, work, model.point_chunks[c], work.spring_sums[c], false);
+    spring_forces(model, copy, work.bond, model.point_chunks[c], work.bond.sums[c], false);
   std::vector<Node> force(model.node_position.size());
   for (std::size_t c = 0; c < model.mesh.chunks.size(); ++c) {
     const MeshChunk& chunk = model.mesh.chunks[c];
@@ -52,8 +52,8 @@ std::vector<Node> net_forces(const Model& model, const State& state, Workspace& 
   std::copy(work.force.begin(), work.force.end(), force.begin());
   const ResolvedConditions& r = work.resolved;
   for (std::size_t i = 0; i < force.size(); ++i) {
-    if (!work.contact_force.empty())
-      add(force[i], work.contact_force[i]);
+    if (!work.contact.force.empty())
+      add(force[i], work.contact.force[i]);
     if (!r.internal.empty())
       add(force[i], r.internal[i]);
     if (!r.external.empty())

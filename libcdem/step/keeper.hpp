@@ -21,7 +21,7 @@ struct Moment {
   std::int64_t broken_tension_before = 0, broken_shear_before = 0; // when the stage began
   std::vector<double> carried;                                     // numbers of the stage's own loop
   std::vector<Node> previous_force;                                // N, of a relaxation (n_nodes)
-  // Those of the Workspace: what broken and softening springs lose is counted from the step before.
+  // Those of the BondWork: what broken and softening springs lose is counted from the step before.
   std::vector<geom::Vec3> spring_force, stretch; // N, m (n_points)
   // Of a stage of several loops: what it carries beside them, and which of them runs, as it has written it itself.
   std::string beside;

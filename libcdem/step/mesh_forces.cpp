@@ -1,7 +1,7 @@
 #include "libcdem/step/mesh_forces.hpp"
 
 #include "libcdem/bond/spring_forces.hpp"
-#include "libcdem/model/build/add_meshes.hpp"
+#include "libcdem/element/finite_volume.hpp"
 #include "libcdem/parallel/simd.hpp"
 
 namespace cdem {
@@ -143,7 +143,7 @@ const Node* mesh_forces(const Model& model, State& state, Workspace& work, std::
                      state.face_slip.data(), at.force, sums, ahead);
   }
   if (chunk.stars) {
-    add_bond_forces(model, work.bond_force(), chunk.nodes, at.force);
+    add_bond_forces(model, work.bond.force(), chunk.nodes, at.force);
     return at.force;
   }
   const Node* const shared = at.force + (chunk.inner_end - chunk.nodes.begin);

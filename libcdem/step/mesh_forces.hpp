@@ -2,6 +2,7 @@
 // own and of others, gives those of its inner nodes back, and leaves the rest in its own slice of the partial forces.
 #pragma once
 
+#include "libcdem/parallel/read_ahead.hpp"
 #include "libcdem/step/workspace.hpp"
 
 namespace cdem {

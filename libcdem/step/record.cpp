@@ -12,7 +12,7 @@ std::int64_t record_bond_breaks(const Model& model, State& state, const Workspac
                                 int stage, std::int64_t step) {
   EnergyLedger& spent = state.spent;
   std::int64_t count = 0;
-  for (const SpringSums& sums : work.spring_sums) {
+  for (const SpringSums& sums : work.bond.sums) {
     spent.friction += sums.friction;
     spent.breaking += sums.breaking;
     for (const BreakEvent& event : sums.broken) {

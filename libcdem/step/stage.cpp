@@ -4,11 +4,11 @@
 #include "libcdem/contact/contact_bounds.hpp"
 #include "libcdem/contact/contact_forces.hpp"
 #include "libcdem/contact/search.hpp"
+#include "libcdem/integrate/row_sums.hpp"
 #include "libcdem/parallel/huge_pages.hpp"
 #include "libcdem/step/errors.hpp"
 #include "libcdem/step/mesh_forces.hpp"
 #include "libcdem/step/record.hpp"
-#include "libcdem/step/row_sums.hpp"
 #include "libcdem/step/soundness.hpp"
 
 #include <cmath>
@@ -83,7 +83,7 @@ Stage::Stage(const StageContext& context, std::string kind, double run_away)
       telling_(context.observer, context.log, context.from ? context.from->step : 0) {
   context_.threads = threads_.threads();
   ask_for_huge_pages_of(context_.model, context_.state, work);
-  start_spring_forces(context_.model, context_.state, work);
+  start_spring_forces(context_.model, context_.state, work.bond);
   if (const Moment* from = context_.from) {
     context_.last_good = context_.state;
     if (context_.moment)
@@ -92,8 +92,8 @@ Stage::Stage(const StageContext& context, std::string kind, double run_away)
     work.contact.all_known = step > 0;
     broken_tension_before_ = from->broken_tension_before;
     broken_shear_before_ = from->broken_shear_before;
-    work.spring_force = from->spring_force;
-    work.stretch = from->stretch;
+    work.bond.spring_force = from->spring_force;
+    work.bond.stretch = from->stretch;
     start_ -= std::chrono::duration_cast<std::chrono::steady_clock::duration>(
         std::chrono::duration<double>(from->wall_time));
   } else {
@@ -113,8 +113,8 @@ void Stage::mark(std::vector<double> carried, const std::vector<Node>& previous_
   moment.wall_time = wall_time();
   moment.carried = std::move(carried);
   moment.previous_force = previous_force;
-  moment.spring_force = work.spring_force;
-  moment.stretch = work.stretch;
+  moment.spring_force = work.bond.spring_force;
+  moment.stretch = work.bond.stretch;
   if (context_.beside)
     moment.beside = context_.beside();
   // Contacts are looked for anew here, as by a stage that goes on: which pairs sleep is not saved.
@@ -125,7 +125,6 @@ void Stage::mark(std::vector<double> carried, const std::vector<Node>& previous_
     work.contact.pace = std::move(before.pace); // how thick skins are changes no force
     work.contact.most_friction = before.most_friction;
     work.contact.all_known = true; // those of the step before
-    std::fill(work.contact_force.begin(), work.contact_force.end(), Node{});
   }
   if (context_.keeper)
     context_.keeper->marked();
@@ -147,7 +146,7 @@ double Stage::meet(double safety) {
   const ContactSums sums = std::exchange(met_, {});
   if (sums.deepest > 1)
     refuse_depth(model, context_.state, sums.deepest_source, sums.deepest_target, here());
-  return std::min(contact_time_step(model, context_.state, work, row_sums_, safety),
+  return std::min(contact_time_step(model, context_.state, work.contact, {row_sums_, work.damped, safety}),
                   way_time_step(model, context_.state, rigid_reach_));
 }
 
@@ -161,7 +160,7 @@ void Stage::catch_up() {
 }
 
 void Stage::meet_contacts() {
-  const ContactSums sums = contact_forces(context_.model, context_.state, work, context_.threads);
+  const ContactSums sums = contact_forces(context_.model, context_.state, work.contact, context_.threads);
   context_.state.spent.friction += sums.friction;
   context_.log.deepest_contact = std::max(context_.log.deepest_contact, sums.depth);
   context_.log.deepest_over_height = std::max(context_.log.deepest_over_height, sums.depth_over_height);

@@ -132,7 +132,7 @@ NodeSums Stage::advance(bool breaking, const Move& move, const MoveRigid& move_r
   // Springs, and meshes with those of their nodes that only one chunk reads.
   for_chunks(springs + meshes, context_.threads, [&](std::int64_t c) {
     if (c < springs) {
-      spring_forces(model, state, work, model.point_chunks[c], work.spring_sums[c], breaking);
+      spring_forces(model, state, work.bond, model.point_chunks[c], work.bond.sums[c], breaking);
       return;
     }
     const MeshChunk& chunk = model.mesh.chunks[c - springs];

@@ -72,7 +72,7 @@ void contacts(const Settings& settings) {
       // Twice: from then on the contacts of the step before stand beside the new ones.
       for (int k = 0; k < 2; ++k) {
         work.contact.due = true;
-        contact_forces(model, state, work, threads);
+        contact_forces(model, state, work.contact, threads);
       }
       const double held = resident_bytes() - before;
       const double steps = step_rate(model, threads, settings.seconds);

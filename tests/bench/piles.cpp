@@ -146,7 +146,7 @@ void piles(const Settings& settings) {
                 result.kinetic_ratio);
     last_good = state;
     Workspace work(model, state, conditions);
-    contact_forces(model, state, work, threads);
+    contact_forces(model, state, work.contact, threads);
     std::printf("  %zu contacts, %zu near pairs, deepest %.2g of a tet's height; %.0f bytes a tet\n",
                 state.contacts.size(),
                 work.contact.candidates[Contact::spring].size() +

@@ -156,7 +156,7 @@ void System::adopt(cdem::Model&& m, cdem::State&& s) {
 std::vector<geom::Vec3> System::net_forces() const {
   cdem::Workspace work(model, state, conditions);
   cdem::update_external(work.resolved, state.time);
-  cdem::start_spring_forces(model, state, work);
+  cdem::start_spring_forces(model, state, work.bond);
   std::vector<geom::Vec3> forces;
   for (const cdem::Node& f : cdem::net_forces(model, state, work))
     forces.push_back(vec(f));

@@ -123,7 +123,7 @@ public:
         system_.state.displacement[i] = node(shift - away);
     cdem::State state = system_.state;
     cdem::Workspace work(system_.model, state, system_.conditions);
-    contact_forces(system_.model, state, work, 1);
+    contact_forces(system_.model, state, work.contact, 1);
     return state.contacts;
   }
 

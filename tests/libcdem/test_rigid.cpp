@@ -1,7 +1,7 @@
 // Rigid bodies: Newton and Euler by central differences, and the way from rigid to deformable and back.
-#include "libcdem/element/rigid_body.hpp"
-#include "libcdem/element/rigid_inertia.hpp"
 #include "libcdem/element/rigid_motion.hpp"
+#include "libcdem/model/build/rigid_bodies.hpp"
+#include "libcdem/procedure/turn_rigid.hpp"
 #include "libcdem/results/energy.hpp"
 #include "libgeom/core/error.hpp"
 #include "libgeom/core/random.hpp"

@@ -1,6 +1,6 @@
 // Which units have left their place, and in which order.
-#include "libcdem/element/rigid_body.hpp"
 #include "libcdem/element/rigid_motion.hpp"
+#include "libcdem/procedure/turn_rigid.hpp"
 #include "libcdem/results/watch.hpp"
 #include "libgeom/mesh/box_mesh.hpp"
 #include "tests/libcdem/system.hpp"

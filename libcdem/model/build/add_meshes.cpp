@@ -340,15 +340,6 @@ geom::Vec3 face_point(const Model& model, const MeshChunk& chunk, const FaceSpri
   return x;
 }
 
-FaceLaw face_law(const Body& body) {
-  return {body.bonding.shear_ratio, body.joint.tensile_strength, body.joint.cohesion,
-          std::tan(body.joint.friction_angle)};
-}
-
-TetStiffness tet_stiffness(const Elastic& material) {
-  return {material.lame_lambda(), 2 * material.shear_modulus()};
-}
-
 void start_meshes(Model& model) {
   model.mesh.first_node = static_cast<int>(model.node_position.size());
   model.mesh.first_tet = static_cast<int>(model.tets.size());

@@ -25,7 +25,4 @@ void add_meshes(Model&, std::vector<MeshSeed>&&);
 
 geom::Vec3 face_point(const Model&, const MeshChunk&, const FaceSpringPlace&); // m, undeformed
 
-FaceLaw face_law(const Body&);
-TetStiffness tet_stiffness(const Elastic&);
-
 } // namespace cdem

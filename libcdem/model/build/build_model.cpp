@@ -1,7 +1,7 @@
 #include "libcdem/model/build/build_model.hpp"
 
-#include "libcdem/element/rigid_inertia.hpp"
 #include "libcdem/model/build/contact_surface.hpp"
+#include "libcdem/model/build/rigid_bodies.hpp"
 #include "libgeom/assembly/assembly.hpp"
 #include "libgeom/core/error.hpp"
 #include "libgeom/mesh/star_mesh.hpp"

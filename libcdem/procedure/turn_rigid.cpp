@@ -1,8 +1,8 @@
-#include "libcdem/element/rigid_body.hpp"
+#include "libcdem/procedure/turn_rigid.hpp"
 
-#include "libcdem/element/rigid_inertia.hpp"
 #include "libcdem/element/rigid_motion.hpp"
 #include "libcdem/element/small_strain.hpp"
+#include "libcdem/model/build/rigid_bodies.hpp"
 #include "libcdem/results/energy.hpp"
 #include "libcdem/state/places.hpp"
 
@@ -74,11 +74,6 @@ void replace(Model& model, State& state, std::vector<Rigid>&& all) {
 
 } // namespace
 
-Stress turned(const geom::Mat3& rotation, const Stress& stress) {
-  const geom::Mat3 s = rotation * matrix(stress) * rotation.transpose();
-  return {s(0, 0), s(1, 1), s(2, 2), s(0, 1), s(1, 2), s(0, 2)};
-}
-
 void place_nodes(const Model& model, State& state, int rigid) {
   const RigidState& motion = state.rigid[rigid];
   const RigidBody& body = model.rigid[rigid];
@@ -90,19 +85,6 @@ void place_nodes(const Model& model, State& state, int rigid) {
     const geom::Vec3 arm = r * vec(state.rigid_offset[i]);
     state.displacement[i] = node(centroid + arm - model.node_position[i]);
     state.velocity[i] = node(velocity + w.cross(arm));
-  }
-}
-
-void add_rigid_states(const Model& model, State& state) {
-  state.rigid.clear();
-  state.rigid_offset.clear();
-  if (model.rigid.empty())
-    return;
-  state.rigid_offset.resize(model.node_position.size());
-  for (const RigidBody& body : model.rigid) {
-    const RigidShape shape = rigid_shape(model, body.block, state.displacement.data());
-    set_offsets(model, state, model.blocks[body.block], shape.centroid);
-    state.rigid.push_back(motion_of(model, state, shape));
   }
 }
 

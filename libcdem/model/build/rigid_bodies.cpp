@@ -1,6 +1,4 @@
-#include "libcdem/element/rigid_inertia.hpp"
-
-#include "libcdem/state/places.hpp"
+#include "libcdem/model/build/rigid_bodies.hpp"
 
 #include <Eigen/Eigenvalues>
 
@@ -11,7 +9,8 @@ RigidShape rigid_shape(const Model& model, int block, const Node* displacement) 
   const auto place = [&](int node) -> geom::Vec3 {
     if (!displacement)
       return model.node_position[node];
-    return model.node_position[node] + vec(displacement[node]);
+    const Node& u = displacement[node];
+    return model.node_position[node] + geom::Vec3(u.x, u.y, u.z);
   };
   RigidShape shape;
   shape.body.block = block;

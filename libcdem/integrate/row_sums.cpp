@@ -1,4 +1,4 @@
-#include "libcdem/step/row_sums.hpp"
+#include "libcdem/integrate/row_sums.hpp"
 
 #include "libcdem/bond/spring_forces.hpp"
 #include "libcdem/element/mesh_fields.hpp"

@@ -15,13 +15,7 @@ namespace cdem {
 std::int64_t set_rigid(Model&, State&, const std::vector<int>& blocks);
 std::int64_t set_deformable(Model&, State&, const std::vector<int>& blocks);
 
-// The rigid bodies of an undeformed model at rest.
-void add_rigid_states(const Model&, State&);
-
 // As the node stands with its rigid body: displacement, and velocity v + w x r.
 void place_nodes(const Model&, State&, int rigid);
-
-// Of a rigid body: what stands in the directions it was made rigid in, as it stands now.
-Stress turned(const geom::Mat3& rotation, const Stress&);
 
 } // namespace cdem

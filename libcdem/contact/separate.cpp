@@ -1,4 +1,4 @@
-#include "libcdem/model/separate.hpp"
+#include "libcdem/contact/separate.hpp"
 
 #include "libcdem/contact/overlap.hpp"
 #include "libgeom/core/error.hpp"

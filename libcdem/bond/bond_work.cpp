@@ -1,0 +1,19 @@
+#include "libcdem/bond/bond_work.hpp"
+
+#include <cmath>
+
+namespace cdem {
+
+BondWork::BondWork(const Model& model, const State& state)
+    : spring_force(model.points.size(), geom::Vec3::Zero()),
+      turned_force(model.frames.empty() ? 0 : model.points.size(), geom::Vec3::Zero()),
+      stretch(state.bond_damage.size(), geom::Vec3::Zero()), sums(model.point_chunks.size()) {
+  for (const Interface& interface : model.interfaces) {
+    const Joint& joint = model.joints[interface.joint];
+    strength.push_back({joint.cohesion, std::tan(joint.friction_angle), joint.tensile_strength});
+    if (!state.bond_damage.empty())
+      softening.push_back(softening_law(joint, interface.kn, interface.ks));
+  }
+}
+
+} // namespace cdem

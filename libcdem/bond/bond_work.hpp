@@ -1,0 +1,38 @@
+// What the springs of interfaces need beside Model and State and throw away with their stage: the forces they carry and
+// the numbers of their laws.
+#pragma once
+
+#include "libcdem/joint/softening.hpp"
+#include "libcdem/state/state.hpp"
+
+namespace cdem {
+
+struct BreakEvent {
+  int point = 0;
+  BondMode mode = BondMode::intact;
+  double normal_traction = 0, shear_traction = 0; // Pa, at breaking
+};
+
+// Sums of one chunk of springs.
+struct SpringSums {
+  double friction = 0;            // J, this step
+  double breaking = 0;            // J, this step
+  std::vector<BreakEvent> broken; // this step
+};
+
+struct BondWork {
+  BondWork(const Model&, const State&);
+
+  std::vector<geom::Vec3> spring_force; // N, on side a (n_points); written by spring_forces
+  // N, the same where interfaces have turned to (n_points); empty where none can turn.
+  std::vector<geom::Vec3> turned_force;
+  const std::vector<geom::Vec3>& force() const { return turned_force.empty() ? spring_force : turned_force; }
+  std::vector<SpringStrength> strength; // per interface
+  // Both empty in a model without softening joints.
+  std::vector<SofteningLaw> softening; // per interface
+  // m, of each spring in the step before (n_points); written by spring_forces
+  std::vector<geom::Vec3> stretch;
+  std::vector<SpringSums> sums; // per chunk of springs
+};
+
+} // namespace cdem
