@@ -4,7 +4,7 @@
 #include "libcdem/bond/spring_forces.hpp"
 #include "libcdem/contact/acting.hpp"
 #include "libcdem/element/small_strain.hpp"
-#include "libcdem/results/fragments.hpp"
+#include "libcdem/bond/pieces.hpp"
 #include "libgeom/polyhedron/cut.hpp"
 
 #include <algorithm>

@@ -47,8 +47,8 @@ bool stopped_short(const Value& result) {
   const Table* const table = result.table();
   if (!table)
     return false;
-  const auto found = table->find("converged");
-  const bool* const converged = found ? found->get<bool>() : nullptr;
+  const auto found = table->named.find("converged");
+  const bool* const converged = found == table->named.end() ? nullptr : found->second.get<bool>();
   return converged && !*converged;
 }
 
