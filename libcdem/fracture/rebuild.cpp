@@ -1,10 +1,10 @@
 #include "libcdem/fracture/rebuild.hpp"
 
 #include "libcdem/bond/interface_frame.hpp"
+#include "libcdem/bond/pieces.hpp"
 #include "libcdem/bond/spring_forces.hpp"
 #include "libcdem/contact/acting.hpp"
 #include "libcdem/element/small_strain.hpp"
-#include "libcdem/bond/pieces.hpp"
 #include "libgeom/polyhedron/cut.hpp"
 
 #include <algorithm>
