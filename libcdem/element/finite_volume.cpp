@@ -21,6 +21,53 @@ struct Symmetric {
   Oct xx, yy, zz, xy, yz, xz;
 };
 
+CDEM_INLINE Symmetric load(const StressBatch& s) {
+  return {simd::load(s.component[0]), simd::load(s.component[1]), simd::load(s.component[2]),
+          simd::load(s.component[3]), simd::load(s.component[4]), simd::load(s.component[5])};
+}
+
+CDEM_INLINE void store(StressBatch& to, const Symmetric& s) {
+  simd::store(to.component[0], s.xx);
+  simd::store(to.component[1], s.yy);
+  simd::store(to.component[2], s.zz);
+  simd::store(to.component[3], s.xy);
+  simd::store(to.component[4], s.yz);
+  simd::store(to.component[5], s.xz);
+}
+
+CDEM_INLINE Symmetric plus(const Symmetric& a, const Symmetric& b) {
+  return {a.xx + b.xx, a.yy + b.yy, a.zz + b.zz, a.xy + b.xy, a.yz + b.yz, a.xz + b.xz};
+}
+
+CDEM_INLINE Symmetric scaled(double s, const Symmetric& a) {
+  return {s * a.xx, s * a.yy, s * a.zz, s * a.xy, s * a.yz, s * a.xz};
+}
+
+// A rotation, row by row.
+struct Turn {
+  Vec x, y, z;
+};
+
+// Q for the axial vector w of dt W: W r = w x r, Q - I = s (W + W^2 / 2), W^2 = w w^T - |w|^2 I.
+CDEM_INLINE Turn turn_of(const Vec& w) {
+  const Oct w2 = dot(w, w), s = 1.0 / (1.0 + 0.25 * w2), h = 0.5 * s;
+  const Oct xy = h * w.x * w.y, yz = h * w.y * w.z, xz = h * w.x * w.z;
+  const Vec sw = scaled(s, w);
+  return {{1.0 + h * (w.x * w.x - w2), xy - sw.z, xz + sw.y},
+          {xy + sw.z, 1.0 + h * (w.y * w.y - w2), yz - sw.x},
+          {xz - sw.y, yz + sw.x, 1.0 + h * (w.z * w.z - w2)}};
+}
+
+// Q sigma Q^T
+CDEM_INLINE Symmetric turned(const Turn& q, const Symmetric& s) {
+  const auto row = [&](const Vec& r) {
+    return Vec{r.x * s.xx + r.y * s.xy + r.z * s.xz, r.x * s.xy + r.y * s.yy + r.z * s.yz,
+               r.x * s.xz + r.y * s.yz + r.z * s.zz};
+  };
+  const Vec x = row(q.x), y = row(q.y), z = row(q.z);
+  return {dot(x, q.x), dot(y, q.y), dot(z, q.z), dot(x, q.y), dot(y, q.z), dot(x, q.z)};
+}
+
 CDEM_INLINE Vec corner_force(const Symmetric& s, const Vec& c) {
   constexpr double sixth = -1.0 / 6;
   return {sixth * (s.xx * c.x + s.xy * c.y + s.xz * c.z), sixth * (s.xy * c.x + s.yy * c.y + s.yz * c.z),
@@ -70,62 +117,27 @@ CDEM_KERNEL double finite_volume_forces(const MeshBatch* batches, std::int64_t c
     const Oct zx = v1.z * a1.x + v2.z * a2.x + v3.z * a3.x, zy = v1.z * a1.y + v2.z * a2.y + v3.z * a3.y,
               zz = v1.z * a1.z + v2.z * a2.z + v3.z * a3.z;
 
-    // W r = w x r; Q - I = s (W + W^2 / 2), W^2 = w w^T - |w|^2 I.
-    const Oct wx = 0.5 * (zy - yz), wy = 0.5 * (xz - zx), wz = 0.5 * (yx - xy);
-    const Oct w2 = wx * wx + wy * wy + wz * wz;
-    const Oct s = 1.0 / (1.0 + 0.25 * w2), h = 0.5 * s;
-    const Oct qxx = 1.0 + h * (wx * wx - w2), qyy = 1.0 + h * (wy * wy - w2), qzz = 1.0 + h * (wz * wz - w2);
-    const Oct pxy = h * wx * wy, pyz = h * wy * wz, pxz = h * wx * wz;
-    const Oct sx = s * wx, sy = s * wy, sz = s * wz;
-    const Oct qxy = pxy - sz, qyx = pxy + sz, qxz = pxz + sy, qzx = pxz - sy, qyz = pyz - sx, qzy = pyz + sx;
-
-    StressBatch& t = stress[i];
-    const Oct txx = simd::load(t.component[0]), tyy = simd::load(t.component[1]),
-              tzz = simd::load(t.component[2]), txy = simd::load(t.component[3]),
-              tyz = simd::load(t.component[4]), txz = simd::load(t.component[5]);
-    // Q sigma, row by row
-    const Oct bxx = qxx * txx + qxy * txy + qxz * txz, bxy = qxx * txy + qxy * tyy + qxz * tyz,
-              bxz = qxx * txz + qxy * tyz + qxz * tzz;
-    const Oct byx = qyx * txx + qyy * txy + qyz * txz, byy = qyx * txy + qyy * tyy + qyz * tyz,
-              byz = qyx * txz + qyy * tyz + qyz * tzz;
-    const Oct bzx = qzx * txx + qzy * txy + qzz * txz, bzy = qzx * txy + qzy * tyy + qzz * tyz,
-              bzz = qzx * txz + qzy * tyz + qzz * tzz;
+    const Turn turn = turn_of({0.5 * (zy - yz), 0.5 * (xz - zx), 0.5 * (yx - xy)});
     const Oct pressure = lambda * (xx + yy + zz), g = 0.5 * two_g;
-    const Oct rxx = bxx * qxx + bxy * qxy + bxz * qxz + pressure + two_g * xx;
-    const Oct ryy = byx * qyx + byy * qyy + byz * qyz + pressure + two_g * yy;
-    const Oct rzz = bzx * qzx + bzy * qzy + bzz * qzz + pressure + two_g * zz;
-    const Oct rxy = bxx * qyx + bxy * qyy + bxz * qyz + g * (xy + yx);
-    const Oct ryz = byx * qzx + byy * qzy + byz * qzz + g * (yz + zy);
-    const Oct rxz = bxx * qzx + bxy * qzy + bxz * qzz + g * (xz + zx);
-    simd::store(t.component[0], rxx);
-    simd::store(t.component[1], ryy);
-    simd::store(t.component[2], rzz);
-    simd::store(t.component[3], rxy);
-    simd::store(t.component[4], ryz);
-    simd::store(t.component[5], rxz);
-
-    Symmetric r{rxx, ryy, rzz, rxy, ryz, rxz};
+    const Symmetric increment{pressure + two_g * xx, pressure + two_g * yy, pressure + two_g * zz,
+                              g * (xy + yx),         g * (yz + zy),         g * (xz + zx)};
+    const Symmetric half_increment = scaled(0.5, increment);
+    StressBatch& kept_stress = stress[i];
+    Symmetric r = plus(turned(turn, plus(load(kept_stress), half_increment)), half_increment);
+    store(kept_stress, r);
     if (damping.viscous) {
       StressBatch& kept = damping.viscous[i];
-      const Symmetric before{simd::load(kept.component[0]), simd::load(kept.component[1]),
-                             simd::load(kept.component[2]), simd::load(kept.component[3]),
-                             simd::load(kept.component[4]), simd::load(kept.component[5])};
+      const Symmetric before = load(kept);
       Symmetric now = before;
       if (dt > 0) {
-        now = {rate * (pressure + two_g * xx), rate * (pressure + two_g * yy), rate * (pressure + two_g * zz),
-               rate * g * (xy + yx),           rate * g * (yz + zy),           rate * g * (xz + zx)};
+        now = scaled(rate, increment);
+        const Symmetric both = plus(before, now);
         const Oct half_volume = dot(m1, middle.c1) / 12;
-        damped += half_volume * ((before.xx + now.xx) * xx + (before.yy + now.yy) * yy +
-                                 (before.zz + now.zz) * zz + (before.xy + now.xy) * (xy + yx) +
-                                 (before.yz + now.yz) * (yz + zy) + (before.xz + now.xz) * (xz + zx));
-        simd::store(kept.component[0], now.xx);
-        simd::store(kept.component[1], now.yy);
-        simd::store(kept.component[2], now.zz);
-        simd::store(kept.component[3], now.xy);
-        simd::store(kept.component[4], now.yz);
-        simd::store(kept.component[5], now.xz);
+        damped += half_volume * (both.xx * xx + both.yy * yy + both.zz * zz + both.xy * (xy + yx) +
+                                 both.yz * (yz + zy) + both.xz * (xz + zx));
+        store(kept, now);
       }
-      r = {rxx + now.xx, ryy + now.yy, rzz + now.zz, rxy + now.xy, ryz + now.yz, rxz + now.xz};
+      r = plus(r, now);
     }
 
     const AreaVectors end = area_vectors(e1, e2, e3);

@@ -1,11 +1,15 @@
 // Tetrahedra for large motion, by finite volumes (Feng 2014 eqs 2-14). Over a step of length dt in which the corners
 // came with velocity v to where they are now, with the geometry of the middle of the step and c_k the area vectors
 //   c_1 = e_2 x e_3, ...,  6 V = e_1 . c_1,   grad v = sum_k (v_k - v_0) (x) c_k / 6V                     (eqs 2-6)
-//   sigma <- Q sigma Q^T + dt (lambda tr(D) I + 2 G D),  D, W: symmetric and skew part of grad v          (eqs 7-11)
+//   sigma <- Q (sigma + d/2) Q^T + d/2,  d = dt (lambda tr(D) I + 2 G D)                                (eqs 7-11)
 //   Q = I + (W + W^2 / 2) / (1 + |w|^2 / 4),  w the axial vector of dt W (Hughes and Winget 1980)
+// with D, W the symmetric and skew part of grad v. Half of the increment d turns with the body and half does not: in
+// the mean it has turned by half of Q, from the middle of the step, where D stands, to its end. A step back from the
+// end then leads to where it came from; with all of d unturned each turn of a body that rings adds to its energy.
 // and with the geometry of its end the force on a corner over its three faces, normals outward
 //   f_k = -sigma c_k / 6,  f_0 = -sum f_k                                                                 (eq 12)
-// With stiffness damping the stress of the force, not the one that is kept, has beta (lambda tr(D) I + 2 G D) more.
+// With stiffness damping the stress of the force, not the one that is kept, has beta (lambda tr(D) I + 2 G D) more; it
+// does not add up from step to step and stays unturned.
 // The paper prints no rotation of the stress and the geometry of the start: one slow turn then leaves 9 MPa of stress
 // in concrete. c_k / 6V is the gradient of the shape function, the same as the sum over face areas with one division.
 #pragma once
