@@ -1,6 +1,7 @@
 #include "libcdem/first_model.hpp"
 
 #include "libcdem/model/build/build_model.hpp"
+#include "libcdem/model/build/contact_field.hpp"
 #include "libcdem/model/separate.hpp"
 #include "libcdem/simulation_checks.hpp"
 #include "libgeom/core/error.hpp"
@@ -152,7 +153,9 @@ Model first_model(const ModelSpec& spec) {
   laws.add_within_bodies();
   if (spec.default_contact)
     laws.add_default(*spec.default_contact);
+  frame.surface.method = spec.contact_method;
   Model model = build_model(frame, std::move(seeds), default_traits, std::move(meshes));
+  require_field_can(model);
   require_separate(model);
   return model;
 }

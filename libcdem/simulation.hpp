@@ -7,6 +7,7 @@
 #include "libcdem/load/conditions.hpp"
 #include "libcdem/material/elastic.hpp"
 #include "libcdem/model/bonding.hpp"
+#include "libcdem/model/contact_surface.hpp"
 #include "libcdem/model/element.hpp"
 #include "libcdem/procedure/critical_flow_options.hpp"
 #include "libcdem/procedure/grow_options.hpp"
@@ -54,6 +55,7 @@ struct ModelSpec {
   // Between every two bodies that are not named, and of a meshed body with itself. Without it two bodies that touch and
   // are not named: geom::InputError.
   std::optional<Joint> default_contact = {};
+  ContactMethod contact_method = ContactMethod::semi_springs; // of meshed bodies
 };
 
 struct ModelCounts {

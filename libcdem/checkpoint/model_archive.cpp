@@ -1,5 +1,7 @@
 #include "libcdem/checkpoint/model_archive.hpp"
 
+#include "libcdem/model/build/contact_field.hpp"
+
 #include <algorithm>
 
 namespace cdem {
@@ -162,15 +164,16 @@ void archive(A& a, ContactEdge& x) {
 
 template <class A>
 void archive(A& a, ContactSurface& x) {
-  auto& [triangles, edges, block_begin, usual_height, original, joint] = x;
-  archive_all(a, triangles, edges, block_begin, usual_height, original, joint);
+  auto& [triangles, edges, block_begin, usual_height, original, joint, method] = x;
+  archive_all(a, triangles, edges, block_begin, usual_height, original, joint, method);
 }
 
 template <class A>
 void archive(A& a, Model& x) {
   auto& [bodies, joints, blocks, pair_joint, node_position, node_mass, tets, tet_block, batches, interfaces,
          frames, points, point_position, bond_triangles, bond_begin, bonds_on_nodes, outer_faces, mesh,
-         surface, rigid, chunks, point_chunks, box, length, tolerance, next_id] = x;
+         surface, field, rigid, chunks, point_chunks, box, length, tolerance, next_id] = x;
+  static_cast<void>(field); // built anew
   archive_all(a, bodies, joints, blocks, pair_joint, node_position, node_mass, tets, tet_block, batches,
               interfaces, frames, points, point_position, bond_triangles, bond_begin, bonds_on_nodes,
               outer_faces, mesh, surface, rigid, chunks, point_chunks, box, length, tolerance, next_id);
@@ -222,6 +225,7 @@ void write(Writer& a, const Model& model) {
 
 void read(Reader& a, Model& model) {
   archive(a, model);
+  build_field(model);
 }
 
 std::uint64_t hash(const Model& model) {

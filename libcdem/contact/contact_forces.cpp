@@ -2,6 +2,9 @@
 
 #include "libcdem/contact/acting.hpp"
 #include "libcdem/contact/evaluation.hpp"
+#include "libcdem/contact/field/field_contacts.hpp"
+#include "libcdem/contact/field/field_energy.hpp"
+#include "libcdem/contact/field/field_places.hpp"
 #include "libcdem/contact/places.hpp"
 #include "libcdem/contact/search.hpp"
 
@@ -45,7 +48,9 @@ double lost(const Model& model, const std::vector<Contact>& before, const std::v
     while (next != now.end() && key(*next) < key(c))
       ++next;
     if (next == now.end() || key(*next) != key(c))
-      energy_lost += energy(c.pressed(), c.shear.norm(), law_of(model, c));
+      energy_lost += model.field.empty()        ? energy(c.pressed(), c.shear.norm(), law_of(model, c))
+                     : c.shear_stiffness > 0 ? 0.5 * c.shear.squaredNorm() / c.shear_stiffness
+                                             : 0;
   }
   return energy_lost;
 }
@@ -59,7 +64,7 @@ void clear_forces(Workspace& work) {
   work.contact.touched.clear();
 }
 
-void add_forces(const std::vector<ContactForce>& forces, Workspace& work) {
+void add_forces(const Model& model, const std::vector<ContactForce>& forces, Workspace& work) {
   ContactWork& own = work.contact;
   const auto add = [&](int node, int block, const geom::Vec3& force, double stiffness) {
     Node& sum = work.contact_force[node];
@@ -77,8 +82,10 @@ void add_forces(const std::vector<ContactForce>& forces, Workspace& work) {
         add(arms.source[i], f.source_block, arms.on_source[i] * (f.normal + f.shear),
             arms.on_source[i] * f.stiffness);
     for (int i = 0; i < 4; ++i)
-      add(arms.target[i], f.target_block, -arms.normal[i] * f.normal - arms.shear[i] * f.shear,
-          std::max(arms.normal[i], std::abs(arms.shear[i])) * f.stiffness);
+      field::each_real_node(model, arms.target[i], [&](int node, double weight) {
+        add(node, f.target_block, -weight * (arms.normal[i] * f.normal + arms.shear[i] * f.shear),
+            weight * std::max(std::abs(arms.normal[i]), std::abs(arms.shear[i])) * f.stiffness);
+      });
   }
 }
 
@@ -101,6 +108,62 @@ void add(const ContactSums& more, ContactSums& sums) {
   }
 }
 
+// evaluate(chunk of rows, out) for all chunks, some at a time; what they found is added up in their order.
+template <class Evaluate>
+void add_chunks(const Model& model, std::int64_t n, int threads, Workspace& work, ContactSums& sums,
+                const Evaluate& evaluate) {
+  ContactWork& own = work.contact;
+  own.chunks.resize(static_cast<std::size_t>(chunks_at_a_time * threads));
+  for (std::int64_t first = 0; first < n; first += chunks_at_a_time * threads) {
+    const std::int64_t count = std::min(n - first, chunks_at_a_time * threads);
+    for_chunks(count, threads, [&](std::int64_t i) {
+      ContactChunk& out = own.chunks[i];
+      out.contacts.clear();
+      out.forces.clear();
+      out.sums = {};
+      evaluate(first + i, out);
+    });
+    for (std::int64_t i = 0; i < count; ++i) {
+      add_sorted(own.chunks[i].contacts, own.now);
+      add_forces(model, own.chunks[i].forces, work);
+      for (const ContactForce& force : own.chunks[i].forces)
+        sums.friction += force.friction;
+      add(own.chunks[i].sums, sums);
+    }
+  }
+}
+
+std::int64_t chunks_of(std::int64_t rows) {
+  return (rows + contact_rows_per_chunk - 1) / contact_rows_per_chunk;
+}
+
+void add_semi_springs(const Model& model, const State& state, int threads, Workspace& work, ContactSums& sums) {
+  ContactWork& own = work.contact;
+  const auto springs = static_cast<std::int64_t>(own.rows[Contact::spring].size()),
+             edges = static_cast<std::int64_t>(own.rows[Contact::edge].size());
+  const std::int64_t n_springs = chunks_of(springs);
+  add_chunks(model, n_springs + chunks_of(edges), threads, work, sums, [&](std::int64_t chunk, ContactChunk& out) {
+    const bool edge = chunk >= n_springs;
+    const Contact::Kind kind = edge ? Contact::edge : Contact::spring;
+    const std::int64_t begin = (edge ? chunk - n_springs : chunk) * contact_rows_per_chunk;
+    const std::int64_t end = std::min(edge ? edges : springs, begin + contact_rows_per_chunk);
+    ContactCandidate* const candidates = own.candidates[kind].data();
+    Evaluation evaluation(model, state, own, kind, out);
+    for (std::int64_t r = begin; r < end; ++r)
+      edge ? evaluation.edges(own.rows[kind][r], candidates) : evaluation.springs(own.rows[kind][r], candidates);
+  });
+}
+
+void add_field(const Model& model, const State& state, int threads, Workspace& work, ContactSums& sums) {
+  ContactWork& own = work.contact;
+  field::find_field_places(model, state, own, threads);
+  const auto rows = static_cast<std::int64_t>(own.field_rows.size());
+  add_chunks(model, chunks_of(rows), threads, work, sums, [&](std::int64_t chunk, ContactChunk& out) {
+    const std::int64_t begin = chunk * contact_rows_per_chunk;
+    field::field_contacts(model, state, own, begin, std::min(rows, begin + contact_rows_per_chunk), out);
+  });
+}
+
 } // namespace
 
 ContactSums contact_forces(const Model& model, State& state, Workspace& work, int threads) {
@@ -109,53 +172,25 @@ ContactSums contact_forces(const Model& model, State& state, Workspace& work, in
   if (model.surface.empty() || !own.due)
     return sums;
   const bool out_of_skin = add_ways(model, state, own, threads), pieces_due = own.pieces_due,
-             known = own.all_known;
+             known = own.all_known, by_field = !model.field.empty();
   if ((pieces_due || out_of_skin) && !search_contacts(model, state, own, threads))
     return sums; // something is not a number: the stage's watch will say where
   own.all_begin = !known || (pieces_due && !state.face_slip.empty());
   // Where a piece has fallen apart, contacts go with the part they touch.
-  if (pieces_due) {
+  if (pieces_due && !by_field) {
     for (Contact& c : state.contacts)
       if (c.kind == Contact::spring)
         c.piece = own.piece[c.target];
     std::sort(state.contacts.begin(), state.contacts.end(),
               [](const Contact& a, const Contact& b) { return key(a) < key(b); });
   }
-  const auto springs = static_cast<std::int64_t>(own.rows[Contact::spring].size()),
-             edges = static_cast<std::int64_t>(own.rows[Contact::edge].size());
-  const auto chunks = [](std::int64_t rows) {
-    return (rows + contact_rows_per_chunk - 1) / contact_rows_per_chunk;
-  };
-  const std::int64_t n_springs = chunks(springs), n = n_springs + chunks(edges);
-  own.chunks.resize(static_cast<std::size_t>(chunks_at_a_time * threads));
   clear_forces(work);
   own.now.clear();
   own.now.reserve(state.contacts.size() + state.contacts.size() / 8 + 64);
-  for (std::int64_t first = 0; first < n; first += chunks_at_a_time * threads) {
-    const std::int64_t count = std::min(n - first, chunks_at_a_time * threads);
-    for_chunks(count, threads, [&](std::int64_t i) {
-      ContactChunk& out = own.chunks[i];
-      out.contacts.clear();
-      out.forces.clear();
-      out.sums = {};
-      const bool edge = first + i >= n_springs;
-      const Contact::Kind kind = edge ? Contact::edge : Contact::spring;
-      const std::int64_t begin = (edge ? first + i - n_springs : first + i) * contact_rows_per_chunk;
-      const std::int64_t end = std::min(edge ? edges : springs, begin + contact_rows_per_chunk);
-      ContactCandidate* const candidates = own.candidates[kind].data();
-      Evaluation evaluation(model, state, own, kind, out);
-      for (std::int64_t r = begin; r < end; ++r)
-        edge ? evaluation.edges(own.rows[kind][r], candidates)
-             : evaluation.springs(own.rows[kind][r], candidates);
-    });
-    for (std::int64_t i = 0; i < count; ++i) {
-      add_sorted(own.chunks[i].contacts, own.now);
-      add_forces(own.chunks[i].forces, work);
-      for (const ContactForce& force : own.chunks[i].forces)
-        sums.friction += force.friction;
-      add(own.chunks[i].sums, sums);
-    }
-  }
+  if (by_field)
+    add_field(model, state, threads, work, sums);
+  else
+    add_semi_springs(model, state, threads, work, sums);
   if (own.step > 0)
     sums.friction += lost(model, state.contacts, own.now);
   if (own.now.capacity() > 2 * own.now.size() + 64)
@@ -167,6 +202,8 @@ ContactSums contact_forces(const Model& model, State& state, Workspace& work, in
 }
 
 double contact_energy(const Model& model, const State& state, double lag) {
+  if (!model.field.empty())
+    return field::field_energy(model, state, lag);
   double sum = 0;
   for (const Contact& c : state.contacts) {
     const ContactLaw law = law_of(model, c);

@@ -82,9 +82,26 @@ struct TouchedNode {
   int node = 0, block = 0;
 };
 
+// Of the pressure field (contact/field/): a cell near a source, and the source with the cells of one other block.
+struct FieldCandidate {
+  int cell = 0;   // of ContactField
+  float wake = 0; // m, it sleeps until the two blocks have gone so far since the search
+};
+struct FieldRow {
+  Contact::Kind kind = Contact::spring;
+  int source = 0;                     // triangle; of ContactSurface::edges
+  int block = 0;                      // of its cells
+  std::uint32_t begin = 0, count = 0; // into field_candidates, by cell
+  float wake = 0;                     // m, of its cells the least
+};
+
 struct ContactWork {
   std::array<std::vector<ContactRow>, 2> rows; // of springs, of edges
   std::array<std::vector<ContactCandidate>, 2> candidates;
+  std::vector<FieldRow> field_rows; // by kind, source and block
+  std::vector<FieldCandidate> field_candidates;
+  std::vector<char> field_near;  // per block: it has rows, or cells in one
+  std::vector<Node> field_place; // m, of nodes and means, of those blocks (n_nodes + n_means)
   std::vector<int> piece;         // per triangle: what holds together, by its smallest node
   std::vector<char> active;       // per triangle: it is outside, or its face has broken
   std::vector<char> broken;       // per block: some of its faces have

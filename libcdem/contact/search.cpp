@@ -2,6 +2,7 @@
 
 #include "libcdem/bond/release.hpp"
 
+#include "libcdem/contact/field/field_search.hpp"
 #include "libcdem/contact/near.hpp"
 #include "libcdem/contact/places.hpp"
 #include "libcdem/contact/semi_edges.hpp"
@@ -149,7 +150,8 @@ bool search_contacts(const Model& model, const State& state, ContactWork& work, 
   const ContactSurface& s = model.surface;
   if (work.pieces_due) {
     find_pieces(model, state, work);
-    find_semi_edges(model, state, work);
+    if (model.field.empty())
+      find_semi_edges(model, state, work);
   }
   choose_skins(model, state, work);
   const Cover cover(model, state, work);
@@ -160,12 +162,14 @@ bool search_contacts(const Model& model, const State& state, ContactWork& work, 
   for (std::size_t b = 0; b + 1 < active.block_begin.size(); ++b)
     has_surface.push_back(static_cast<char>(active.block_begin[b] < active.block_begin[b + 1]));
   const Pairs blocks = free_pairs(model, state, work, geom::touching_pairs(active.block_boxes, has_surface));
+  const bool by_field = !model.field.empty();
   std::vector<int> alone; // blocks that may touch themselves
-  for (int b = 0; b + 1 < static_cast<int>(s.block_begin.size()); ++b)
+  for (int b = 0; !by_field && b + 1 < static_cast<int>(s.block_begin.size()); ++b)
     if (model.blocks[b].meshed && model.blocks[b].rigid < 0 && contact_joint(model, b, b))
       alone.push_back(b);
   const auto n_pairs = static_cast<std::int64_t>(blocks.size());
   std::vector<std::vector<Near>> springs(blocks.size() + alone.size()), edges(springs.size());
+  std::vector<std::vector<field::NearCell>> cells(by_field ? blocks.size() : 0);
   std::vector<double> may_go(springs.size(), std::numeric_limits<double>::infinity());
   std::vector<std::string> wrong(springs.size()); // nothing may be thrown out of a parallel loop
   for_chunks(static_cast<std::int64_t>(springs.size()), threads, [&](std::int64_t i) {
@@ -187,6 +191,10 @@ bool search_contacts(const Model& model, const State& state, ContactWork& work, 
       }
       return;
     }
+    if (by_field) {
+      cells[i] = field::near_cells(model, state, work, active, a, b);
+      return;
+    }
     edges[i] = near_edges(model, state, work, cover, active, part);
     Pairs pairs = looked_at(model, work, active, part);
     springs[i] = near_springs(model, work, cover, active, pairs);
@@ -194,6 +202,8 @@ bool search_contacts(const Model& model, const State& state, ContactWork& work, 
   for (const std::string& message : wrong)
     if (!message.empty())
       throw SolutionError(message);
+  if (by_field)
+    field::make_field_rows(model, cells, work);
   make_rows(model, work, cover, springs, Contact::spring, work.rows[Contact::spring],
             work.candidates[Contact::spring]);
   make_rows(model, work, cover, edges, Contact::edge, work.rows[Contact::edge],

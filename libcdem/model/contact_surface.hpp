@@ -15,6 +15,10 @@
 
 namespace cdem {
 
+// What presses bodies apart: points and edges of one against the surface of the other, or a pressure field in both
+// (contact/field/, experimental).
+enum class ContactMethod : std::uint8_t { semi_springs, field };
+
 struct ContactTriangle {
   geom::Triangle nodes{}; // of the model, counter-clockwise seen from outside
   int block = 0;
@@ -43,6 +47,7 @@ struct ContactSurface {
   std::vector<int> original;              // (n_nodes) one number for all copies of a node
   // Bodies (smaller first) -> index into Model::joints, the law of their contact.
   std::map<std::pair<int, int>, int> joint;
+  ContactMethod method = ContactMethod::semi_springs;
 
   bool empty() const { return triangles.empty(); }
 };

@@ -6,6 +6,7 @@
 #include "libcdem/joint/joint.hpp"
 #include "libcdem/material/elastic.hpp"
 #include "libcdem/model/bonding.hpp"
+#include "libcdem/model/contact_field.hpp"
 #include "libcdem/model/contact_surface.hpp"
 #include "libcdem/model/element.hpp"
 #include "libcdem/model/mesh.hpp"
@@ -157,6 +158,7 @@ struct Model {
 
   MeshData mesh;
   ContactSurface surface;       // empty without contacts of meshed bodies
+  ContactField field;           // of `surface`; empty unless it is the contact method
   std::vector<RigidBody> rigid; // by block
 
   std::vector<BlockChunk> chunks; // those of blocks of small strain, then one for each MeshChunk

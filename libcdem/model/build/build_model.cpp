@@ -1,6 +1,7 @@
 #include "libcdem/model/build/build_model.hpp"
 
 #include "libcdem/element/rigid_inertia.hpp"
+#include "libcdem/model/build/contact_field.hpp"
 #include "libcdem/model/build/contact_surface.hpp"
 #include "libgeom/assembly/assembly.hpp"
 #include "libgeom/core/error.hpp"
@@ -356,6 +357,7 @@ Model build_model(const Model& frame, std::vector<BlockSeed> seeds, const Interf
   add_rigid_bodies(model);
   add_bonds_on_nodes(model);
   build_surface(model);
+  build_field(model);
 
   for (const Block& block : model.blocks)
     smallest = std::min(smallest, block.size);
