@@ -51,7 +51,7 @@ std::vector<int> numbers(const char* option, const std::string& text) {
 
 constexpr const char* help =
     R"(Usage: cdem bench [--sizes 100,10000,100000] [--tets 10000,105000] [--bodies 1000,10000]
-                  [--body-divisions 1] [--settle 1000] [--threads 1,2] [--seconds 1]
+                  [--body-divisions 1] [--contact semi_springs|field] [--settle 1000] [--threads 1,2] [--seconds 1]
 
 Steps plates of bonded blocks, meshed cubes, continuous and with every face bonded, and lattices of cubes that touch,
 and prints rates beside the bare element kernels and a copy of memory.
@@ -59,6 +59,7 @@ and prints rates beside the bare element kernels and a copy of memory.
   --tets     tetrahedra in the cubes, e.g. 10000,105000,1000000; 0: none
   --bodies   cubes that touch, e.g. 1000,10000,100000; 0: none
   --body-divisions  cells along an edge of each of them, of six tetrahedra
+  --contact  what presses the cubes apart: semi_springs or field
   --settle   armour units laid on a slope that come to rest, e.g. 1000, with the most threads given; none by
              default
   --threads  thread counts to compare
@@ -77,9 +78,9 @@ int main(int argc, char** argv) {
     }
     if (i + 1 == argc ||
         (option != "--sizes" && option != "--tets" && option != "--bodies" && option != "--body-divisions" &&
-         option != "--settle" && option != "--threads" && option != "--seconds")) {
+         option != "--contact" && option != "--settle" && option != "--threads" && option != "--seconds")) {
       std::fprintf(stderr,
-                   "cdem bench: error: %s: must be --sizes, --tets, --bodies, --body-divisions, --settle, "
+                   "cdem bench: error: %s: must be --sizes, --tets, --bodies, --body-divisions, --contact, --settle, "
                    "--threads or --seconds with a value\n%s",
                    option.c_str(), help);
       return 2;
@@ -93,12 +94,18 @@ int main(int argc, char** argv) {
       settings.bodies = numbers("--bodies", value);
     else if (option == "--body-divisions")
       settings.body_divisions = numbers("--body-divisions", value)[0];
+    else if (option == "--contact")
+      settings.contact = value;
     else if (option == "--settle")
       settings.units = numbers("--settle", value);
     else if (option == "--threads")
       settings.threads = numbers("--threads", value);
     else
       settings.seconds = numbers("--seconds", value)[0];
+  }
+  if (settings.contact != "semi_springs" && settings.contact != "field") {
+    std::fprintf(stderr, "cdem bench: error: --contact = %s: must be semi_springs or field\n", settings.contact.c_str());
+    return 2;
   }
   std::printf("%u processors; rates of one thread by its processor time, of more by the clock\n\nmemory copy "
               "(read + written)\n",

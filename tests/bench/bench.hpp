@@ -1,6 +1,7 @@
 // Benchmarks: each prints a table. What travels between machines are the ratios; absolute rates do not.
 #pragma once
 
+#include <string>
 #include <vector>
 
 namespace bench {
@@ -10,6 +11,7 @@ struct Settings {
   std::vector<int> tets{10000, 105000};       // of meshed cubes
   std::vector<int> bodies{1000, 10000};       // that touch
   int body_divisions = 1;                     // cells along an edge of one of them
+  std::string contact = "semi_springs";       // or field: contact method of those that touch
   std::vector<int> units{};                   // that fall and settle
   std::vector<int> threads{1, 2};
   double seconds = 1; // of stepping per figure, at least

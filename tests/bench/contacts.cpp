@@ -15,7 +15,7 @@ namespace {
 
 using namespace cdem;
 
-Model lattice(int bodies, int divisions, bool touching) {
+Model lattice(int bodies, int divisions, bool touching, const std::string& method) {
   const int n = std::max(1, static_cast<int>(std::lround(std::cbrt(bodies))));
   Model frame;
   Body body;
@@ -32,6 +32,8 @@ Model lattice(int bodies, int divisions, bool touching) {
     frame.surface.joint[{0, 0}] = 1;
     frame.joints.push_back(law);
   }
+  if (method == "field")
+    frame.surface.method = ContactMethod::field;
   const geom::TetMesh cube = geom::box_mesh({1, 1, 1}, {divisions, divisions, divisions});
   std::vector<MeshSeed> seeds;
   for (int i = 0; i < n * n * n; ++i) {
@@ -61,7 +63,7 @@ void contacts(const Settings& settings) {
               "tet");
   for (const int size : settings.bodies) {
     const double before = resident_bytes();
-    const Model model = lattice(size, settings.body_divisions, true);
+    const Model model = lattice(size, settings.body_divisions, true, settings.contact);
     const auto n = static_cast<double>(model.tets.size());
     for (const int threads : settings.threads) {
       State state = initial_state(model);
@@ -77,11 +79,11 @@ void contacts(const Settings& settings) {
       const double held = resident_bytes() - before;
       const double steps = step_rate(model, threads, settings.seconds);
       const double alone =
-          step_rate(lattice(size, settings.body_divisions, false), threads, settings.seconds);
+          step_rate(lattice(size, settings.body_divisions, false, settings.contact), threads, settings.seconds);
       const auto active = static_cast<double>(state.contacts.size());
       std::printf("%8zu %9.0f %9zu %9.0f %7d | %9.3f %10.2f %7.2f %9.2f | %10.0f\n", model.blocks.size(), n,
                   work.contact.candidates[Contact::spring].size() +
-                      work.contact.candidates[Contact::edge].size(),
+                      work.contact.candidates[Contact::edge].size() + work.contact.field_candidates.size(),
                   active, threads, search, steps * active / 1e6, steps * n / 1e6, alone * n / 1e6, held / n);
       std::fflush(stdout);
     }

@@ -275,3 +275,173 @@ TEST_CASE("field: two flat faces carry kn' = 1 / (hA/EA + hB/EB) a depth", "[fie
     CHECK(Vec3(sum.x(), sum.y(), 0).norm() < 1e-9 * sum.z());
   }
 }
+
+namespace {
+
+constexpr cdem::ContactMethod both_methods[] = {cdem::ContactMethod::semi_springs, cdem::ContactMethod::field};
+
+cdem::Model model_by(cdem::ContactMethod method, const std::vector<cdem::BodySpec>& bodies,
+                     const std::vector<cdem::PairSpec>& pairs) {
+  cdem::ModelSpec spec;
+  spec.bodies = bodies;
+  spec.pairs = pairs;
+  spec.contact_method = method;
+  return cdem::first_model(spec);
+}
+
+// Two boxes of meshes without order that fly into each other, turning.
+System two_that_collide(cdem::ContactMethod method, double angle) {
+  System s(model_by(
+      method,
+      {meshed("one", shaken(box_at({1, 0.8, 0.6}, {3, 3, 2}, rotation({1, 2, 3}, 0.4), {0, 0, 0}), 0.05, 1)),
+       meshed("two", shaken(box_at({0.7, 0.7, 0.7}, {2, 3, 2}, rotation({3, -1, 1}, 1.1), {1.4, 0.3, 0.1}), 0.05, 2))},
+      {{"one", "two", friction(angle)}}));
+  for (int i = 0; i < static_cast<int>(s.state.velocity.size()); ++i)
+    s.state.velocity[i] = node(block_of(s.model, i) == 1
+                                   ? Vec3(Vec3(-6, 0.5, -1) + Vec3(0, 3, 5).cross(s.model.node_position[i]))
+                                   : Vec3(2, 1, 0));
+  return s;
+}
+
+double force_on_block(const System& s, int axis) { // N, of contacts without friction
+  double sum = 0;
+  if (s.model.field.empty()) {
+    for (const cdem::Contact& c : s.state.contacts)
+      sum += (cdem::blocks_of(s.model, c).first == 1 ? 1 : -1) * normal_force(s, c) * c.normal[axis];
+    return sum;
+  }
+  System copy = s;
+  const std::vector<Vec3> f = contact_forces_of(copy);
+  for (int i = s.model.blocks[1].node_begin; i < s.model.blocks[1].node_end; ++i)
+    sum += f[i][axis];
+  return sum;
+}
+
+} // namespace
+
+TEST_CASE("field: two bodies that collide keep momentum, angular momentum and energy", "[field]") {
+  for (const cdem::ContactMethod method : both_methods) {
+    const double angle = GENERATE(0.0, 40.0);
+    System s = two_that_collide(method, angle);
+    const Momentum before = momentum(s, Places::present);
+    const double start = cdem::kinetic_energy(s.model, s.state);
+    double worst = 0;
+    bool touched = false;
+    cdem::RunOptions options;
+    options.duration = 0.1;
+    options.callback_every = 50;
+    options.callback = [&] {
+      touched = touched || !s.state.contacts.empty();
+      worst = std::max(worst, std::abs(cdem::energy(s.model, s.state).total() / start - 1));
+    };
+    s.run(options);
+    REQUIRE(touched);
+    REQUIRE(s.state.contacts.empty());
+    const Momentum after = momentum(s, Places::present);
+    const double last = cdem::energy(s.model, s.state).total() / start - 1;
+    const bool by_field = method == cdem::ContactMethod::field;
+    CAPTURE(by_field, angle, worst, last, s.state.spent.friction / start, s.log.deepest_contact);
+    CHECK((after.linear - before.linear).norm() < 1e-12 * before.linear.norm());
+    CHECK((after.angular - before.angular).norm() < 1e-10 * before.angular.norm());
+    CHECK(std::abs(last) < 2e-3);
+    CHECK(s.state.spent.friction >= 0);
+  }
+}
+
+TEST_CASE("field: a block that slides over a meshed plate is carried evenly", "[field]") {
+  for (const cdem::ContactMethod method : both_methods) {
+    cdem::BodySpec block = meshed("block", box_at({0.3, 0.2, 0.2}, {3, 2, 2}, Mat3::Identity(), {0.31, 0.013, 0.1 + 1e-4}));
+    cdem::BodySpec plate = meshed("plate", box_at({1.2, 0.6, 0.2}, {12, 6, 2}, Mat3::Identity(), {0.5, 0, -0.1}));
+    plate.element = block.element = cdem::Element::rigid;
+    constexpr double speed = 2;
+    System s(model_by(method, {plate, block}, {{"plate", "block", friction(0)}}));
+    s.hold(body_of("plate"), "xyz");
+    s.hold(body_of("block"), "xyz");
+    cdem::RunOptions options;
+    options.steps = 100;
+    options.time_step = 1e-5;
+    s.conditions.fixes.back().velocity = Vec3(0, 0, -(1e-4 + 1e-4) / (options.time_step * 100));
+    s.run(options);
+    s.conditions.fixes.back().velocity = Vec3(speed, 0, 0);
+    double least = std::numeric_limits<double>::infinity(), most = 0, along = 0;
+    options.steps = 0;
+    options.duration = 0.15 / speed;
+    options.callback_every = 25;
+    options.callback = [&] {
+      least = std::min(least, force_on_block(s, 2));
+      most = std::max(most, force_on_block(s, 2));
+      along = std::max(along, std::abs(force_on_block(s, 0)));
+    };
+    s.run(options);
+    const bool by_field = method == cdem::ContactMethod::field;
+    const double ripple = (most - least) / (most + least), drag = along / most;
+    CAPTURE(by_field, ripple, drag, most);
+    REQUIRE(least > 0);
+    if (by_field) {
+      CHECK(ripple < 1e-6);
+      CHECK(drag < 1e-6);
+    }
+  }
+}
+
+TEST_CASE("field: a block on a slope rests at 0.9 tan(phi) and slides at 1.1", "[field]") {
+  for (const cdem::ContactMethod method : both_methods)
+    for (const double part : {0.9, 1.1}) {
+      cdem::Joint law = friction(30);
+      law.normal_stiffness = 1e8;
+      System s(model_by(method,
+                        {meshed("plate", box_at({3, 2, 0.4}, {6, 4, 1}, Mat3::Identity(), {0.7, 0, -0.2})),
+                         meshed("block", box_at({1, 1, 0.3}, {3, 3, 1}, Mat3::Identity(), {0, 0, 0.15}))},
+                        {{"plate", "block", law}}));
+      s.hold(body_of("plate"), "xyz");
+      const double slope = std::atan(part * std::tan(30 * degree));
+      s.conditions.gravity = gravity(9.81 * Vec3(std::sin(slope), 0, -std::cos(slope)));
+      s.hold(body_of("block"), "x");
+      REQUIRE(s.relax(1e-6).converged);
+      s.conditions.fixes.pop_back();
+      const double x0 = centroid(s, 1).x();
+      cdem::RunOptions options;
+      options.duration = 0.1;
+      s.run(options);
+      const double first = centroid(s, 1).x() - x0;
+      s.run(options);
+      const double second = centroid(s, 1).x() - x0 - first;
+      // The second difference: how it was let go does not count.
+      const double acceleration = (second - first) / 0.01;
+      const double expected = 9.81 * (std::sin(slope) - std::tan(30 * degree) * std::cos(slope));
+      const bool by_field = method == cdem::ContactMethod::field;
+      CAPTURE(by_field, part, first, second, acceleration, expected);
+      if (part < 1)
+        CHECK(std::abs(second) < 1e-6);
+      else
+        CHECK(acceleration == Approx(expected).epsilon(0.01));
+    }
+}
+
+TEST_CASE("field: the same bits for every number of threads, and however often it is looked for", "[field]") {
+  const auto hash_with = [](int threads, bool anew_every_200_steps) {
+    System s = two_that_collide(cdem::ContactMethod::field, 35);
+    s.threads = threads;
+    cdem::RunOptions options;
+    options.duration = 0.08;
+    std::optional<cdem::Moment> moment;
+    cdem::run({s.model, s.state, s.conditions, s.log, s.last_good, s.observer, s.threads, 1, nullptr,
+               anew_every_200_steps ? &moment : nullptr},
+              options);
+    CHECK(s.log.deepest_contact > 0);
+    return cdem::hash(s.state);
+  };
+  const auto once = hash_with(1, false);
+  CHECK(hash_with(2, false) == once);
+  CHECK(hash_with(2, true) == once);
+}
+
+TEST_CASE("field: a mesh that may break is refused", "[field][input]") {
+  cdem::Bonding everywhere;
+  everywhere.everywhere = true;
+  CHECK_THROWS_WITH(
+      field_model({meshed("floor", box_at({2, 2, 0.4}, {2, 2, 1}, Mat3::Identity(), {0, 0, -0.2})),
+                   meshed("unit", box_at({0.5, 0.5, 0.5}, {1, 1, 1}, Mat3::Identity(), {0, 0, 0.5}), everywhere)},
+                  {{"floor", "unit", friction(30)}}),
+      Catch::Contains("\"semi_springs\" with the body \"unit\": its mesh may break"));
+}

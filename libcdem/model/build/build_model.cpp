@@ -323,6 +323,7 @@ Model build_model(const Model& frame, std::vector<BlockSeed> seeds, const Interf
   model.pair_joint = frame.pair_joint;
   model.next_id = frame.next_id;
   model.surface.joint = frame.surface.joint;
+  model.surface.method = frame.surface.method;
 
   std::vector<geom::Polyhedron> shapes;
   std::vector<std::vector<std::vector<geom::Triangle>>> fans;

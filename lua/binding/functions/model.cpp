@@ -121,6 +121,8 @@ void read_pairs(const Arguments& a, ModelSpec& spec) {
   if (const auto contacts = a.record("contacts"))
     if (const auto law = contacts->object<JointObject>("default"))
       spec.default_contact = law->joint;
+  if (a.text("contact_method") == "field")
+    spec.contact_method = ContactMethod::field;
   std::size_t index = 0;
   for (const Value& row : a.list("contacts")) {
     const Values& items = row.table()->items;
@@ -288,7 +290,11 @@ void bind_model(Module& m) {
                      .doc("of every two bodies that are not named; of meshes it is cdem.coulomb, and the law "
                           "between the units of a body and its fragments too")})
             .doc("{\"body a\", \"body b\", joint} for every two bodies that touch; default = joint for all "
-                 "others")},
+                 "others"),
+        choice("contact_method", {"semi_springs", "field"})
+            .standard("semi_springs")
+            .doc("of meshed bodies and blocks that move far. field is experimental: a pressure field in each body "
+                 "(docs/theory.md, section 20); meshes that may break are refused, and no block touches itself")},
        false,
        "cdem.Model",
        "",
