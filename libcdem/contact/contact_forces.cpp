@@ -48,7 +48,7 @@ double lost(const Model& model, const std::vector<Contact>& before, const std::v
     while (next != now.end() && key(*next) < key(c))
       ++next;
     if (next == now.end() || key(*next) != key(c))
-      energy_lost += model.field.empty()        ? energy(c.pressed(), c.shear.norm(), law_of(model, c))
+      energy_lost += model.field.empty()     ? energy(c.pressed(), c.shear.norm(), law_of(model, c))
                      : c.shear_stiffness > 0 ? 0.5 * c.shear.squaredNorm() / c.shear_stiffness
                                              : 0;
   }
@@ -137,21 +137,24 @@ std::int64_t chunks_of(std::int64_t rows) {
   return (rows + contact_rows_per_chunk - 1) / contact_rows_per_chunk;
 }
 
-void add_semi_springs(const Model& model, const State& state, int threads, Workspace& work, ContactSums& sums) {
+void add_semi_springs(const Model& model, const State& state, int threads, Workspace& work,
+                      ContactSums& sums) {
   ContactWork& own = work.contact;
   const auto springs = static_cast<std::int64_t>(own.rows[Contact::spring].size()),
              edges = static_cast<std::int64_t>(own.rows[Contact::edge].size());
   const std::int64_t n_springs = chunks_of(springs);
-  add_chunks(model, n_springs + chunks_of(edges), threads, work, sums, [&](std::int64_t chunk, ContactChunk& out) {
-    const bool edge = chunk >= n_springs;
-    const Contact::Kind kind = edge ? Contact::edge : Contact::spring;
-    const std::int64_t begin = (edge ? chunk - n_springs : chunk) * contact_rows_per_chunk;
-    const std::int64_t end = std::min(edge ? edges : springs, begin + contact_rows_per_chunk);
-    ContactCandidate* const candidates = own.candidates[kind].data();
-    Evaluation evaluation(model, state, own, kind, out);
-    for (std::int64_t r = begin; r < end; ++r)
-      edge ? evaluation.edges(own.rows[kind][r], candidates) : evaluation.springs(own.rows[kind][r], candidates);
-  });
+  add_chunks(model, n_springs + chunks_of(edges), threads, work, sums,
+             [&](std::int64_t chunk, ContactChunk& out) {
+               const bool edge = chunk >= n_springs;
+               const Contact::Kind kind = edge ? Contact::edge : Contact::spring;
+               const std::int64_t begin = (edge ? chunk - n_springs : chunk) * contact_rows_per_chunk;
+               const std::int64_t end = std::min(edge ? edges : springs, begin + contact_rows_per_chunk);
+               ContactCandidate* const candidates = own.candidates[kind].data();
+               Evaluation evaluation(model, state, own, kind, out);
+               for (std::int64_t r = begin; r < end; ++r)
+                 edge ? evaluation.edges(own.rows[kind][r], candidates)
+                      : evaluation.springs(own.rows[kind][r], candidates);
+             });
 }
 
 void add_field(const Model& model, const State& state, int threads, Workspace& work, ContactSums& sums) {

@@ -100,8 +100,8 @@ struct ContactWork {
   std::array<std::vector<ContactCandidate>, 2> candidates;
   std::vector<FieldRow> field_rows; // by kind, source and block
   std::vector<FieldCandidate> field_candidates;
-  std::vector<char> field_near;  // per block: it has rows, or cells in one
-  std::vector<Node> field_place; // m, of nodes and means, of those blocks (n_nodes + n_means)
+  std::vector<char> field_near;   // per block: it has rows, or cells in one
+  std::vector<Node> field_place;  // m, of nodes and means, of those blocks (n_nodes + n_means)
   std::vector<int> piece;         // per triangle: what holds together, by its smallest node
   std::vector<char> active;       // per triangle: it is outside, or its face has broken
   std::vector<char> broken;       // per block: some of its faces have

@@ -17,11 +17,11 @@ struct MeanNode {
 };
 
 struct FieldCell {
-  std::array<int, 4> nodes{};   // positive volume
-  std::array<double, 4> phi{};  // m
-  double volume6 = 0;           // m3, six times the volume, undeformed
-  double slope = 1;             // |grad phi|, undeformed: a depth is phi / slope
-  double compliance = 0;        // h / E, m/Pa, of the tetrahedron it is part of
+  std::array<int, 4> nodes{};  // positive volume
+  std::array<double, 4> phi{}; // m
+  double volume6 = 0;          // m3, six times the volume, undeformed
+  double slope = 1;            // |grad phi|, undeformed: a depth is phi / slope
+  double compliance = 0;       // h / E, m/Pa, of the tetrahedron it is part of
 };
 
 struct ContactField {

@@ -79,10 +79,11 @@ int main(int argc, char** argv) {
     if (i + 1 == argc ||
         (option != "--sizes" && option != "--tets" && option != "--bodies" && option != "--body-divisions" &&
          option != "--contact" && option != "--settle" && option != "--threads" && option != "--seconds")) {
-      std::fprintf(stderr,
-                   "cdem bench: error: %s: must be --sizes, --tets, --bodies, --body-divisions, --contact, --settle, "
-                   "--threads or --seconds with a value\n%s",
-                   option.c_str(), help);
+      std::fprintf(
+          stderr,
+          "cdem bench: error: %s: must be --sizes, --tets, --bodies, --body-divisions, --contact, --settle, "
+          "--threads or --seconds with a value\n%s",
+          option.c_str(), help);
       return 2;
     }
     const std::string value = argv[++i];
@@ -104,7 +105,8 @@ int main(int argc, char** argv) {
       settings.seconds = numbers("--seconds", value)[0];
   }
   if (settings.contact != "semi_springs" && settings.contact != "field") {
-    std::fprintf(stderr, "cdem bench: error: --contact = %s: must be semi_springs or field\n", settings.contact.c_str());
+    std::fprintf(stderr, "cdem bench: error: --contact = %s: must be semi_springs or field\n",
+                 settings.contact.c_str());
     return 2;
   }
   std::printf("%u processors; rates of one thread by its processor time, of more by the clock\n\nmemory copy "

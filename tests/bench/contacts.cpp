@@ -78,8 +78,8 @@ void contacts(const Settings& settings) {
       }
       const double held = resident_bytes() - before;
       const double steps = step_rate(model, threads, settings.seconds);
-      const double alone =
-          step_rate(lattice(size, settings.body_divisions, false, settings.contact), threads, settings.seconds);
+      const double alone = step_rate(lattice(size, settings.body_divisions, false, settings.contact), threads,
+                                     settings.seconds);
       const auto active = static_cast<double>(state.contacts.size());
       std::printf("%8zu %9.0f %9zu %9.0f %7d | %9.3f %10.2f %7.2f %9.2f | %10.0f\n", model.blocks.size(), n,
                   work.contact.candidates[Contact::spring].size() +

@@ -83,7 +83,6 @@ Forces forces_of(const Pair& p) {
   return out;
 }
 
-
 } // namespace
 TEST_CASE("field: what presses a triangle presses the tetrahedron back, in force and in moment", "[field]") {
   int touching = 0;
@@ -219,9 +218,11 @@ std::vector<Vec3> contact_forces_of(System& s) {
 }
 
 System two_shaken_boxes(const Vec3& overlap) {
-  System s(field_model({meshed("one", shaken(box_at({1, 0.8, 0.6}, {2, 2, 1}, rotation({1, 2, 3}, 0.4), {0, 0, 0}), 0.05, 1)),
-                        meshed("two", shaken(box_at({0.7, 0.7, 0.7}, {1, 2, 2}, rotation({3, -1, 1}, 1.1), {1.4, 0.3, 0.1}), 0.05, 2))},
-                       {{"one", "two", friction(0)}}));
+  System s(field_model(
+      {meshed("one", shaken(box_at({1, 0.8, 0.6}, {2, 2, 1}, rotation({1, 2, 3}, 0.4), {0, 0, 0}), 0.05, 1)),
+       meshed("two", shaken(box_at({0.7, 0.7, 0.7}, {1, 2, 2}, rotation({3, -1, 1}, 1.1), {1.4, 0.3, 0.1}),
+                            0.05, 2))},
+      {{"one", "two", friction(0)}}));
   shift(s, 1, overlap);
   return s;
 }
@@ -260,16 +261,16 @@ TEST_CASE("field: two flat faces carry kn' = 1 / (hA/EA + hB/EB) a depth", "[fie
       law.normal_stiffness = 3e9;
     cdem::Elastic soft = rock();
     soft.youngs_modulus /= 3;
-    System s(field_model({meshed("plate", box_at({3, 3, 0.6}, {5, 5, 3}, Mat3::Identity(), {0, 0, -0.3})),
-                          meshed("block", box_at({1, 1, 1}, {2, 2, 2}, Mat3::Identity(), {0.13, 0.07, 0.5}), {}, soft)},
-                         {{"plate", "block", law}}));
+    System s(field_model(
+        {meshed("plate", box_at({3, 3, 0.6}, {5, 5, 3}, Mat3::Identity(), {0, 0, -0.3})),
+         meshed("block", box_at({1, 1, 1}, {2, 2, 2}, Mat3::Identity(), {0.13, 0.07, 0.5}), {}, soft)},
+        {{"plate", "block", law}}));
     shift(s, 1, {0, 0, -depth});
     const std::vector<Vec3> f = contact_forces_of(s);
     Vec3 sum = Vec3::Zero();
     for (int i = s.model.blocks[1].node_begin; i < s.model.blocks[1].node_end; ++i)
       sum += f[i];
-    const double stiffness =
-        given ? 3e9 : 1 / (0.2 / rock().youngs_modulus + 0.5 / soft.youngs_modulus);
+    const double stiffness = given ? 3e9 : 1 / (0.2 / rock().youngs_modulus + 0.5 / soft.youngs_modulus);
     // The block's four lower edges are lines: w / 2 of each length more, times the depth. Sides meet at right angles.
     CHECK(sum.z() == Approx(stiffness * depth).epsilon(0.15));
     CHECK(Vec3(sum.x(), sum.y(), 0).norm() < 1e-9 * sum.z());
@@ -278,7 +279,8 @@ TEST_CASE("field: two flat faces carry kn' = 1 / (hA/EA + hB/EB) a depth", "[fie
 
 namespace {
 
-constexpr cdem::ContactMethod both_methods[] = {cdem::ContactMethod::semi_springs, cdem::ContactMethod::field};
+constexpr cdem::ContactMethod both_methods[] = {cdem::ContactMethod::semi_springs,
+                                                cdem::ContactMethod::field};
 
 cdem::Model model_by(cdem::ContactMethod method, const std::vector<cdem::BodySpec>& bodies,
                      const std::vector<cdem::PairSpec>& pairs) {
@@ -294,7 +296,8 @@ System two_that_collide(cdem::ContactMethod method, double angle) {
   System s(model_by(
       method,
       {meshed("one", shaken(box_at({1, 0.8, 0.6}, {3, 3, 2}, rotation({1, 2, 3}, 0.4), {0, 0, 0}), 0.05, 1)),
-       meshed("two", shaken(box_at({0.7, 0.7, 0.7}, {2, 3, 2}, rotation({3, -1, 1}, 1.1), {1.4, 0.3, 0.1}), 0.05, 2))},
+       meshed("two", shaken(box_at({0.7, 0.7, 0.7}, {2, 3, 2}, rotation({3, -1, 1}, 1.1), {1.4, 0.3, 0.1}),
+                            0.05, 2))},
       {{"one", "two", friction(angle)}}));
   for (int i = 0; i < static_cast<int>(s.state.velocity.size()); ++i)
     s.state.velocity[i] = node(block_of(s.model, i) == 1
@@ -350,8 +353,10 @@ TEST_CASE("field: two bodies that collide keep momentum, angular momentum and en
 
 TEST_CASE("field: a block that slides over a meshed plate is carried evenly", "[field]") {
   for (const cdem::ContactMethod method : both_methods) {
-    cdem::BodySpec block = meshed("block", box_at({0.3, 0.2, 0.2}, {3, 2, 2}, Mat3::Identity(), {0.31, 0.013, 0.1 + 1e-4}));
-    cdem::BodySpec plate = meshed("plate", box_at({1.2, 0.6, 0.2}, {12, 6, 2}, Mat3::Identity(), {0.5, 0, -0.1}));
+    cdem::BodySpec block =
+        meshed("block", box_at({0.3, 0.2, 0.2}, {3, 2, 2}, Mat3::Identity(), {0.31, 0.013, 0.1 + 1e-4}));
+    cdem::BodySpec plate =
+        meshed("plate", box_at({1.2, 0.6, 0.2}, {12, 6, 2}, Mat3::Identity(), {0.5, 0, -0.1}));
     plate.element = block.element = cdem::Element::rigid;
     constexpr double speed = 2;
     System s(model_by(method, {plate, block}, {{"plate", "block", friction(0)}}));
@@ -440,8 +445,9 @@ TEST_CASE("field: a mesh that may break is refused", "[field][input]") {
   cdem::Bonding everywhere;
   everywhere.everywhere = true;
   CHECK_THROWS_WITH(
-      field_model({meshed("floor", box_at({2, 2, 0.4}, {2, 2, 1}, Mat3::Identity(), {0, 0, -0.2})),
-                   meshed("unit", box_at({0.5, 0.5, 0.5}, {1, 1, 1}, Mat3::Identity(), {0, 0, 0.5}), everywhere)},
-                  {{"floor", "unit", friction(30)}}),
+      field_model(
+          {meshed("floor", box_at({2, 2, 0.4}, {2, 2, 1}, Mat3::Identity(), {0, 0, -0.2})),
+           meshed("unit", box_at({0.5, 0.5, 0.5}, {1, 1, 1}, Mat3::Identity(), {0, 0, 0.5}), everywhere)},
+          {{"floor", "unit", friction(30)}}),
       Catch::Contains("\"semi_springs\" with the body \"unit\": its mesh may break"));
 }

@@ -9,9 +9,9 @@ namespace cdem::field {
 
 template <class T>
 struct TetFrame {
-  Vec<T> origin;   // x0, m
+  Vec<T> origin;      // x0, m
   Vec<T> gradient[3]; // g_1, g_2, g_3, 1/m
-  T volume6;       // 6V, m3
+  T volume6;          // 6V, m3
 };
 
 template <class T>

@@ -12,10 +12,10 @@ namespace cdem::field {
 
 template <class T>
 struct ClippedEdge {
-  T length;     // of t
-  T i, it;      // m
-  T square;     // m2, integral of phi^2 dt
-  T deepest;    // m
+  T length;  // of t
+  T i, it;   // m
+  T square;  // m2, integral of phi^2 dt
+  T deepest; // m
 };
 
 // l[k][i]: barycentric k of the edge's end i.

@@ -21,14 +21,14 @@ constexpr double depth_ratio = 0.25;
 struct Batch {
   int source[3][lanes];
   int cell[4][lanes];
-  double phi[4][lanes]; // m
+  double phi[4][lanes];  // m
   double volume6[lanes]; // m3, undeformed
   // What comes of it.
   double gap[lanes]; // m, at most the distance of source and cell; 0: they may touch
   double volume_ratio[lanes];
-  double weight[3][lanes];  // m: integrals of phi times the shape functions; of an edge the first two
+  double weight[3][lanes]; // m: integrals of phi times the shape functions; of an edge the first two
   double part[lanes], deepest[lanes];
-  double arm[4][lanes];     // m: the same of the cell's nodes
+  double arm[4][lanes];       // m: the same of the cell's nodes
   double direction[3][lanes]; // n2, m2; of an edge grad phi
 };
 
@@ -220,8 +220,7 @@ void Rows::end(const FieldRow& row) {
   }
   now.normal = pressing > 0 && sum.norm() > 0 ? geom::Vec3(sum.normalized()) : geom::Vec3::UnitX();
   const int own = source_block(row);
-  const double limit =
-      sum.norm() * std::min(std::tan(joint_->friction_angle), work_.most_friction);
+  const double limit = sum.norm() * std::min(std::tan(joint_->friction_angle), work_.most_friction);
   now.shear_stiffness = stiffness * shear_ratio(model_, *joint_, own, row.block);
   const auto old = std::lower_bound(state_.contacts.begin(), state_.contacts.end(), now,
                                     [](const Contact& a, const Contact& b) { return key(a) < key(b); });
@@ -234,20 +233,24 @@ void Rows::end(const FieldRow& row) {
     shear = tangential(frame * old->shear) * std::min(1.0, now.shear_stiffness / old->shear_stiffness);
   }
   double friction = 0;
-  if (limit > 0 || stored > 0) {
+  // Looked at again where nothing has moved, not a bit of it may change.
+  const bool unmoved = work_.step == 0 && stored > 0 && old->normal == now.normal &&
+                       old->shear_stiffness == now.shear_stiffness;
+  if (unmoved)
+    now.shear = old->shear;
+  else if (limit > 0 || stored > 0) {
     geom::Vec3 slid = geom::Vec3::Zero();
     if (work_.step > 0)
       for (const Press& p : pressed_)
-        slid += work_.step * p.force.normal.norm() / pressing *
-                [&] {
-                  geom::Vec3 v = geom::Vec3::Zero();
-                  const ContactArms& arms = p.force.arms;
-                  for (int i = 0; i < 3; ++i)
-                    v += arms.on_source[i] * velocity_of(state_, arms.source[i]);
-                  for (int k = 0; k < 4; ++k)
-                    v -= arms.shear[k] * field_velocity(model_, state_, arms.target[k]);
-                  return v;
-                }();
+        slid += work_.step * p.force.normal.norm() / pressing * [&] {
+          geom::Vec3 v = geom::Vec3::Zero();
+          const ContactArms& arms = p.force.arms;
+          for (int i = 0; i < 3; ++i)
+            v += arms.on_source[i] * velocity_of(state_, arms.source[i]);
+          for (int k = 0; k < 4; ++k)
+            v -= arms.shear[k] * field_velocity(model_, state_, arms.target[k]);
+          return v;
+        }();
     slid = tangential(slid);
     const geom::Vec3 before = shear;
     shear -= now.shear_stiffness * slid;
@@ -255,8 +258,9 @@ void Rows::end(const FieldRow& row) {
       shear *= limit / trial;
     const double left = now.shear_stiffness > 0 ? 0.5 * shear.squaredNorm() / now.shear_stiffness : 0;
     friction = -0.5 * (before + shear).dot(slid) + stored - left;
+    now.shear = frame.transpose() * shear;
   }
-  now.shear = frame.transpose() * shear;
+  shear = frame * now.shear;
   for (Press& p : pressed_) {
     p.force.shear = p.force.normal.norm() / pressing * shear;
     out_.forces.push_back(p.force);

@@ -16,6 +16,7 @@ namespace cdem::field {
 void find_field_places(const Model&, const State&, ContactWork&, int threads);
 
 // Rows [begin, end) of ContactWork::field_rows.
-void field_contacts(const Model&, const State&, ContactWork&, std::int64_t begin, std::int64_t end, ContactChunk& out);
+void field_contacts(const Model&, const State&, ContactWork&, std::int64_t begin, std::int64_t end,
+                    ContactChunk& out);
 
 } // namespace cdem::field

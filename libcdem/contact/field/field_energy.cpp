@@ -36,7 +36,8 @@ V flux_of_square(const V (&faces_of)[4], const TetFrame<double>& in, const doubl
     for (int i = 0; i < 3; ++i)
       p[i] = values[0] * l[0][i] + values[1] * l[1][i] + values[2] * l[2][i] + values[3] * l[3][i];
     const double square = p[0] * (c.p - c.pu - c.pv) + p[1] * c.pu + p[2] * c.pv;
-    const V n2 = cross(minus(faces_of[face[1]], faces_of[face[0]]), minus(faces_of[face[2]], faces_of[face[0]]));
+    const V n2 =
+        cross(minus(faces_of[face[1]], faces_of[face[0]]), minus(faces_of[face[2]], faces_of[face[0]]));
     sum = {sum.x + square * n2.x, sum.y + square * n2.y, sum.z + square * n2.z};
   }
   return sum;
@@ -141,8 +142,8 @@ double field_energy(const Model& model, const State& state, double lag) {
       sum += 0.5 * c.shear.squaredNorm() / c.shear_stiffness;
   }
   for (const auto& [a, b] : pairs)
-    sum += volume_energy(model, then, a, b) + volume_energy(model, then, b, a) + line_energy(model, then, a, b) +
-           line_energy(model, then, b, a);
+    sum += volume_energy(model, then, a, b) + volume_energy(model, then, b, a) +
+           line_energy(model, then, a, b) + line_energy(model, then, b, a);
   return sum;
 }
 

@@ -106,10 +106,11 @@ void make_field_rows(const Model& model, const std::vector<std::vector<NearCell>
   for (const NearCell& near : all) {
     FieldRow* row = work.field_rows.empty() ? nullptr : &work.field_rows.back();
     if (!row || row->kind != near.kind || row->source != near.source || row->block != near.block) {
-      work.field_rows.push_back(
-          {near.kind, near.source, near.block, static_cast<std::uint32_t>(work.field_candidates.size()), 0, 0});
+      work.field_rows.push_back({near.kind, near.source, near.block,
+                                 static_cast<std::uint32_t>(work.field_candidates.size()), 0, 0});
       row = &work.field_rows.back();
-      const int triangle = near.kind == Contact::edge ? model.surface.edges[near.source].triangles[0] : near.source;
+      const int triangle =
+          near.kind == Contact::edge ? model.surface.edges[near.source].triangles[0] : near.source;
       work.field_near[near.block] = work.field_near[model.surface.triangles[triangle].block] = 1;
     }
     work.field_candidates.push_back({near.cell, 0});

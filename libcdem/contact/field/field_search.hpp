@@ -14,8 +14,8 @@ struct NearCell {
 };
 
 // Of two blocks, each as source of the other.
-std::vector<NearCell> near_cells(const Model&, const State&, const ContactWork&, const TakingPart&, int block_a,
-                                 int block_b);
+std::vector<NearCell> near_cells(const Model&, const State&, const ContactWork&, const TakingPart&,
+                                 int block_a, int block_b);
 
 // Writes ContactWork::field_rows, field_candidates and field_near.
 void make_field_rows(const Model&, const std::vector<std::vector<NearCell>>&, ContactWork&);

@@ -57,8 +57,7 @@ void SurfaceDistance::look(int part, const geom::Vec3& x, double& least2) const 
     }
     return;
   }
-  const bool right_first =
-      distance2(parts_[at.left + 1].box, x) < distance2(parts_[at.left].box, x);
+  const bool right_first = distance2(parts_[at.left + 1].box, x) < distance2(parts_[at.left].box, x);
   look(at.left + (right_first ? 1 : 0), x, least2);
   look(at.left + (right_first ? 0 : 1), x, least2);
 }

@@ -23,9 +23,9 @@ inline constexpr double least_area = 1e-11;
 
 template <class T>
 struct ClippedTriangle {
-  T area;       // A, of the triangle's parameters: 1/2 when all of it is inside
-  T p, pu, pv;  // m
-  T deepest;    // m, largest phi on it
+  T area;      // A, of the triangle's parameters: 1/2 when all of it is inside
+  T p, pu, pv; // m
+  T deepest;   // m, largest phi on it
 };
 
 template <class T>

@@ -293,8 +293,10 @@ void bind_model(Module& m) {
                  "others"),
         choice("contact_method", {"semi_springs", "field"})
             .standard("semi_springs")
-            .doc("of meshed bodies and blocks that move far. field is experimental: a pressure field in each body "
-                 "(docs/theory.md, section 20); meshes that may break are refused, and no block touches itself")},
+            .doc("of meshed bodies and blocks that move far. field is experimental: a pressure field in each "
+                 "body "
+                 "(docs/theory.md, section 20); meshes that may break are refused, and no block touches "
+                 "itself")},
        false,
        "cdem.Model",
        "",
