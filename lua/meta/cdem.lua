@@ -1487,6 +1487,7 @@ function cdem.select.where(predicate) end
 ---@class (exact) cdem.ModelOptions
 ---@field bodies cdem.ModelOptionsBodies[]
 ---@field contacts? [string, string, cdem.Joint][]|{default?: cdem.Joint} {"body a", "body b", joint} for every two bodies that touch; default = joint for all others
+---@field contact_method? "semi_springs"|"field" default "semi_springs": of meshed bodies and blocks that move far. field is experimental: a pressure field in each body (docs/theory.md, section 20); meshes that may break are refused, and no block touches itself
 
 ---A model: bodies of blocks, and what holds touching bodies to each other.
 ---@param options cdem.ModelOptions
