@@ -3,6 +3,7 @@
 #include "libcdem/contact/contact_forces.hpp"
 #include "libcdem/contact/search.hpp"
 #include "libcdem/model/build/build_model.hpp"
+#include "libcdem/step/workspace.hpp"
 #include "libgeom/core/random.hpp"
 #include "libgeom/mesh/box_mesh.hpp"
 #include "tests/bench/measure.hpp"
