@@ -49,13 +49,14 @@ local function draw(name)
   return name
 end
 local step, undamped, energy = 0.025, 0, {}
-while model.time < fall + rest - 0.5 * step do
+for i = 1, math.floor((fall + rest) / step + 0.5) do
+  local time = (i - 1) * step
   -- The pusher starts softly and stops at the edge of the ledge.
-  model:fix{ on = "pusher", velocity = {model.time > 0.55 and 0 or 2 * math.min(1, model.time / 0.2), 0, 0} }
-  model:run{ duration = step, safety = safety, local_damping = model.time < fall - 0.5 * step and 0 or 0.3 }
+  model:fix{ on = "pusher", velocity = {time > 0.55 and 0 or 2 * math.min(1, time / 0.2), 0, 0} }
+  model:run{ duration = step, safety = safety, local_damping = time < fall - 0.5 * step and 0 or 0.3 }
   energy = model:energy()
-  if model.time < fall + 0.5 * step then undamped = math.max(undamped, energy.balance_error) end
-  if (model.time + 0.1 * step) % every < 0.5 * step then
+  if time < fall - 0.5 * step then undamped = math.max(undamped, energy.balance_error) end
+  if (i * step + 0.1 * step) % every < 0.5 * step then
     frames[#frames + 1] = draw(string.format("frames/fall_%03d.png", #frames + 1))
   end
 end

@@ -1,5 +1,6 @@
 -- The thinnest semicircular arch that stands under its own weight: dry voussoirs, no tension, friction that holds.
--- Thickness over mean radius is 0.1075 (Milankovitch 1907; Heyman 1969). A bisection finds it; then a thinner arch falls to the ground.
+-- Thickness over mean radius is 0.1075 (Milankovitch 1907; Heyman 1969). A bisection finds it, then a thinner arch
+-- falls to the ground.
 --
 --   ./cdem run examples/masonry_arch/case.lua [--set voussoirs=41] [--set halvings=8]
 local cdem = require "cdem"
