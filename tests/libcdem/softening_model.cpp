@@ -35,6 +35,7 @@ Simulation two_slabs(const Joint& joint, int blocks, double youngs_modulus = 30e
                  strong};
   BodySpec upper{"upper", geom::grid({side, side, height}, {blocks, blocks, 1}, {0, 0, height}),
                  rock(youngs_modulus), strong};
+  lower.element = upper.element = Element::small_strain;
   spec.bodies = {lower, upper};
   spec.pairs = {{"lower", "upper", joint}};
   return Simulation(spec, 1, nullptr);

@@ -126,20 +126,20 @@ TEST_CASE("meshed bodies that do not fit are refused", "[lua]") {
 }
 
 TEST_CASE("a mesh that touches a block needs a law between them, and small strain knows none", "[lua]") {
-  const auto beside = [](const std::string& x, const std::string& more) {
+  const auto beside = [](const std::string& origin, const std::string& more) {
     return error_of(head +
                     "cdem.model{ bodies = { { shape = cube, material = concrete, name = 'unit' },\n"
                     "  { shape = cdem.box{ size = {1, 1, 1}, origin = {" +
-                    x + ", 0, 0} }, material = concrete, name = 'slope', " + more);
+                    origin + "} }, material = concrete, name = 'slope', " + more);
   };
   const std::string no_law = " } } }",
                     law = " } }, contacts = { default = cdem.coulomb{ friction_angle = 30 } } }";
-  CHECK_THAT(beside("1", no_law), Contains("\"unit\"") && Contains("\"slope\"") &&
-                                      Contains("touch and no contact between them is given"));
-  CHECK(beside("1", law) == "");
-  CHECK_THAT(beside("0.5", law), Contains("stand in each other"));
-  CHECK(beside("1.1", no_law) == "");
-  CHECK_THAT(beside("1", "element = 'small_strain'" + law),
+  CHECK_THAT(beside("1, 0, 0", no_law), Contains("\"unit\"") && Contains("\"slope\"") &&
+                                            Contains("touch and no contact between them is given"));
+  CHECK(beside("1, 0, 0", law) == "");
+  CHECK_THAT(beside("0.5, 0.2, 0.2", law), Contains("stand in each other"));
+  CHECK(beside("1.1, 0, 0", no_law) == "");
+  CHECK_THAT(beside("1, 0, 0", "element = 'small_strain'" + law),
              Contains("blocks of small strain meet nothing new"));
 }
 

@@ -149,8 +149,8 @@ TEST_CASE("a block that has turned by more than a degree is told of", "[lua]") {
       "    return math.abs(x - p[1]) < 0.01 and math.abs(y - p[2]) < 0.01 end)\n"
       "  model:fix{ on = on, axes = 'xy', velocity = {0.5 - p[2], p[1] - 0.5, 0} }\n"
       "end\n";
-  CHECK(warnings_of(spin + "model:run{ duration = 0.01 }").empty());
-  const auto warnings = warnings_of(spin + "model:run{ duration = 0.02 }");
+  CHECK(warnings_of(spin + "model:run{ duration = 0.01, safety = 0.2 }").empty());
+  const auto warnings = warnings_of(spin + "model:run{ duration = 0.02, safety = 0.2 }");
   REQUIRE(warnings.size() == 1);
   CHECK_THAT(warnings[0], Contains("has turned by 1.1") && Contains("more than 1"));
 }
