@@ -81,6 +81,22 @@ void add_forces(const std::vector<ContactForce>& forces, ContactWork& own) {
   }
 }
 
+// Marks the edges that have a contact before the step.
+void mark_touched_edges(const ContactSurface& surface, const std::vector<Contact>& contacts,
+                        ContactWork& work) {
+  std::fill(work.edge_touched.begin(), work.edge_touched.end(), 0);
+  std::fill(work.block_edges_touched.begin(), work.block_edges_touched.end(), 0);
+  const auto mark = [&](int id) {
+    for (int e = work.edge_begin[id / 3]; e < work.edge_begin[id / 3 + 1]; ++e)
+      if (work.edges[e].id() == id)
+        work.edge_touched[e] = work.block_edges_touched[surface.triangles[id / 3].block] = 1;
+  };
+  for (auto c = contacts.rbegin(); c != contacts.rend() && c->kind == Contact::edge; ++c) {
+    mark(static_cast<int>(c->source));
+    mark(c->target);
+  }
+}
+
 // Those of one source stand by piece, then corner: next to their places.
 void add_sorted(const std::vector<Contact>& found, std::vector<Contact>& contacts) {
   for (const Contact& c : found) {
@@ -127,6 +143,7 @@ ContactSums contact_forces(const Model& model, State& state, ContactWork& own, i
   const std::int64_t n_springs = chunks(springs), n = n_springs + chunks(edges);
   own.chunks.resize(static_cast<std::size_t>(chunks_at_a_time * threads));
   clear_forces(own);
+  mark_touched_edges(model.surface, state.contacts, own);
   own.now.clear();
   own.now.reserve(state.contacts.size() + state.contacts.size() / 8 + 64);
   for (std::int64_t first = 0; first < n; first += chunks_at_a_time * threads) {

@@ -25,7 +25,9 @@ inline constexpr double shallow_ratio = 0.01;
 
 struct ContactCandidate {
   std::uint32_t target : 29; // triangle or edge
-  std::uint32_t springs : 3; // of a triangle's row: which of its three semi-springs may come near the target
+  // Of a triangle's row: which of its three semi-springs may come near the target. Of an edge's: 1 where it sleeps only as
+  // long as no contact stands on the edges around.
+  std::uint32_t springs : 3;
   float wake;                // m
 };
 inline constexpr std::uint32_t last_contact_triangle = (1u << 29) - 1;
@@ -42,7 +44,12 @@ struct ContactRow {
   // m, what is further off may sleep. Of springs: contacts are at most that deep; 0: not looked at yet. Of edges: as deep
   // as any may get before the next search.
   float reach = 0;
-  float wake = 0; // m, of its targets the least
+  float wake = 0;        // m, of its targets the least
+  bool hindered = false; // of edges: some sleep only as long as no contact stands on the edges around
+  // Per semi-spring, of what was found when all its targets were last looked at: until the two blocks have gone so far, m,
+  // it touches nothing (target -1) or nothing but this triangle.
+  std::array<float, 3> known_until{};
+  std::array<int, 3> known_target{-1, -1, -1};
 };
 
 // Where a contact acts: at a place of the source's triangle, and on the corners of the tet behind the target's. The
@@ -78,6 +85,12 @@ struct ContactChunk {
   ContactSums sums;
 };
 
+// An edge in which the line of another continues over one of its ends.
+struct EdgeBeyond {
+  int edge = -1;
+  double direction = 1; // 1 or -1: the line runs along the edge's own direction or against it
+};
+
 struct TouchedNode {
   int node = 0, block = 0;
 };
@@ -92,7 +105,12 @@ struct ContactWork {
   std::vector<int> edge_begin;    // (n_triangles + 1) into edges, by their first triangle
   // Per edge: where the edges of its piece that meet at its two ends begin in edges_at.
   std::vector<std::array<int, 2>> edge_ends;
-  std::vector<int> edges_at;     // by end, each list closed by -1
+  std::vector<int> edges_at; // by end, each list closed by -1
+  // Per edge and end: where the edges in which its line continues begin in edges_beyond.
+  std::vector<std::array<int, 2>> edge_continues;
+  std::vector<EdgeBeyond> edges_beyond; // by edge and end, each list closed by -1
+  // Per edge, and per block: it had a contact of edges before the step.
+  std::vector<char> edge_touched, block_edges_touched;
   std::vector<double> travelled; // m, per block, at most, since the search
   std::vector<double> last_way;  // m, per block, at most, in the last step
   std::vector<double> pace;      // the same, of the last step in which anything moved

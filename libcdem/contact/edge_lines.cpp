@@ -7,8 +7,6 @@
 namespace cdem {
 namespace {
 
-// An edge goes on in another one that encloses an angle with it of which this is the cosine, or more.
-constexpr double line_cosine = 0.7;
 // Of the distance of two edges: further from an end of both no other edges of their lines are as near. Edges that act
 // enclose an angle with a sine of 0.05 or more.
 constexpr double reach_of_ends = 40;
@@ -96,7 +94,20 @@ bool EdgeLines::takes_over(int e, int f, const geom::Vec3& normal, int from, int
 bool EdgeLines::at_last_end(int edge, double place) const {
   if (place > drawn_in && place < 1 - drawn_in)
     return false;
-  return !any_next(edge, place < 0.5 ? 0 : 1, [](int, double) { return true; });
+  return work_.edges_beyond[work_.edge_continues[edge][place < 0.5 ? 0 : 1]].edge < 0;
+}
+
+bool EdgeLines::touched_around(int e, int f) const {
+  const auto touched = [&](int edge) {
+    if (work_.edge_touched[edge])
+      return true;
+    for (const int begin : work_.edge_ends[edge])
+      for (const int* other = &work_.edges_at[begin]; *other >= 0; ++other)
+        if (work_.edge_touched[*other])
+          return true;
+    return false;
+  };
+  return contacts_ != state_.contacts.end() && touched(e) && touched(f);
 }
 
 const Contact* EdgeLines::contact_of(int e, int f) const {
@@ -113,26 +124,11 @@ NearestOfEdges EdgeLines::nearest(int e, int f) const {
   return nearest_of_edges(model_, state_, work_.edges[e], work_.edges[f]);
 }
 
-geom::Vec3 EdgeLines::direction(int from, int to) const {
-  return (place_of(model_, state_, to) - place_of(model_, state_, from)).normalized();
-}
-
 template <typename Does>
 bool EdgeLines::any_next(int edge, int end, const Does& does) const {
-  const ContactEdge& e = work_.edges[edge];
-  const int node = surface_.original[e.nodes[end]];
-  geom::Vec3 along = geom::Vec3::Zero(); // over the end
-  for (const int* other = &work_.edges_at[work_.edge_ends[edge][end]]; *other >= 0; ++other) {
-    if (*other == edge)
-      continue;
-    if (along.isZero(0))
-      along = direction(e.nodes[1 - end], e.nodes[end]);
-    const auto& [a, b] = work_.edges[*other].nodes;
-    const bool begins = surface_.original[a] == node;
-    if (along.dot(begins ? direction(a, b) : direction(b, a)) > line_cosine &&
-        does(*other, begins == (end == 1) ? 1. : -1.))
+  for (const EdgeBeyond* next = &work_.edges_beyond[work_.edge_continues[edge][end]]; next->edge >= 0; ++next)
+    if (does(next->edge, next->direction))
       return true;
-  }
   return false;
 }
 

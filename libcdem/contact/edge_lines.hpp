@@ -26,13 +26,15 @@ public:
   // the one that presses the most of those that these two take over.
   std::optional<Contact> left_behind(int e, int f, const geom::Vec3& normal) const;
 
+  // Whether any edge that meets an end of the one, or that edge itself, had a contact before the step, and of the other.
+  bool touched_around(int e, int f) const;
+
   // Whether the place, in parts of the edge, is at an end of it where no other edge goes on.
   bool at_last_end(int edge, double place) const;
 
 private:
   const Contact* contact_of(int e, int f) const; // before the step
   NearestOfEdges nearest(int e, int f) const;
-  geom::Vec3 direction(int from_node, int to_node) const; // unit
   // Calls does(next, way) for the edges in which one goes on over an end of it, until it returns true; way: 1 or -1, with
   // or against their own direction. Returns whether it did.
   template <typename Does>

@@ -71,37 +71,127 @@ const Contact* Evaluation::before(const Contact& like) const {
   return nullptr;
 }
 
-double Evaluation::look_at(ContactRow& row, ContactCandidate* candidates, bool all) {
-  const ContactTriangle& source = surface_.triangles[row.source];
-  const Corners x = corners_of(model_, state_, source.nodes);
-  std::array<geom::Vec3, 3> spring;
-  for (int corner = 0; corner < 3; ++corner)
-    spring[corner] = weighted(x, spring_weights(corner));
-  const double moved = work_.travelled[source.block] + work_.travelled[row.block];
+namespace {
+
+// The distances of one semi-spring from its targets, as a search for the nearest goes through them.
+struct Distances {
+  double least = std::numeric_limits<double>::infinity(), second = least; // m
+  double tet = 0;                                                         // m, the highest behind a target
+  int target = -1;                                                        // the nearest
+
+  void add(double distance, int of, double height) {
+    tet = std::max(tet, height);
+    second = std::min(second, std::max(least, distance));
+    if (distance < least) {
+      least = distance;
+      target = of;
+    }
+  }
+  // A target that sleeps is at least so far off.
+  void add_asleep(double distance, double height) {
+    tet = std::max(tet, height);
+    second = std::min(second, distance);
+  }
+};
+
+} // namespace
+
+const Facet& Evaluation::facet(int triangle) {
+  const auto slot = static_cast<std::size_t>(triangle) % facets_.size();
+  Facet& facet = facets_[slot];
+  if (facet_of_[slot] != triangle) {
+    facet_of_[slot] = triangle;
+    facet.x = corners_of(model_, state_, surface_.triangles[triangle].nodes);
+    facet.normal = unit_normal(facet.x);
+  }
+  return facet;
+}
+
+Nearest Evaluation::nearest_on(int target, const geom::Vec3& spring, bool bonded) {
+  const Facet& y = facet(target);
+  Nearest nearest;
+  take_nearer(nearest, nearest_of(target, spring, y.x, y.normal), y.x, y.normal,
+              surface_.triangles[target].height, bonded);
+  return nearest;
+}
+
+void Evaluation::find_nearest(ContactRow& row, ContactCandidate* candidates, bool all, const Springs& spring,
+                              std::array<Nearest, 3>& nearest) {
+  const double moved = work_.travelled[surface_.triangles[row.source].block] + work_.travelled[row.block];
   const bool bonded = has_bonds(model_, row.block);
-  std::array<Nearest, 3> nearest;
+  std::array<Distances, 3> distances;
   float wake = std::numeric_limits<float>::infinity();
   for (std::uint32_t i = row.begin; i < row.begin + row.count; ++i) {
     ContactCandidate& candidate = candidates[i];
+    const auto target = static_cast<int>(candidate.target);
+    const ContactTriangle& triangle = surface_.triangles[target];
     if (!all && moved < candidate.wake) {
       wake = std::min(wake, candidate.wake);
+      for (int corner = 0; corner < 3; ++corner)
+        if (candidate.springs >> corner & 1u)
+          distances[corner].add_asleep(row.reach + candidate.wake - moved, triangle.height);
       continue;
     }
-    const auto target = static_cast<int>(candidate.target);
-    const Corners y = corners_of(model_, state_, surface_.triangles[target].nodes);
-    const geom::Vec3 normal = unit_normal(y);
+    const Facet& y = facet(target);
     double least2 = std::numeric_limits<double>::infinity();
     for (int corner = 0; corner < 3; ++corner) {
       if ((candidate.springs >> corner & 1u) == 0)
         continue;
-      const Nearest found = nearest_of(target, spring[corner], y, normal);
+      const Nearest found = nearest_of(target, spring[corner], y.x, y.normal);
       least2 = std::min(least2, found.distance2);
-      take_nearer(nearest[corner], found, y, normal, surface_.triangles[target].height, bonded);
+      distances[corner].add(std::sqrt(found.distance2), target, triangle.height);
+      take_nearer(nearest[corner], found, y.x, y.normal, triangle.height, bonded);
     }
     candidate.wake = rounded_down(moved + std::max(0.0, std::sqrt(least2) - row.reach));
     wake = std::min(wake, candidate.wake);
   }
   row.wake = wake;
+  for (int corner = 0; corner < 3; ++corner) {
+    const Distances& d = distances[corner];
+    const double least = std::min(d.least, d.second);
+    if (std::isinf(least)) { // no target of the row is one of this spring
+      row.known_target[corner] = -1;
+      row.known_until[corner] = std::numeric_limits<float>::infinity();
+      continue;
+    }
+    // Places nearer to each other than this may count as one.
+    const double one_place = (bonded ? bond_gives : same_place_at_least) * d.tet + 4 * same_place * least;
+    double until = 0;
+    if (nearest[corner].inside()) {
+      row.known_target[corner] = d.target;
+      if (d.target == nearest[corner].target)
+        until = 0.5 * (d.second * (1 - 4 * same_place) - least - one_place);
+    } else {
+      // What is outside gets in through the surface. A broken one has holes.
+      row.known_target[corner] = -1;
+      if (!work_.broken[row.block])
+        until = least - 4 * one_place;
+    }
+    row.known_until[corner] = rounded_down(moved + std::max(0.0, until));
+  }
+}
+
+double Evaluation::look_at(ContactRow& row, ContactCandidate* candidates, bool all) {
+  const ContactTriangle& source = surface_.triangles[row.source];
+  const Corners x = corners_of(model_, state_, source.nodes);
+  Springs spring;
+  for (int corner = 0; corner < 3; ++corner)
+    spring[corner] = weighted(x, spring_weights(corner));
+  const double moved = work_.travelled[source.block] + work_.travelled[row.block];
+  std::array<Nearest, 3> nearest;
+  if (all || moved >= *std::min_element(row.known_until.begin(), row.known_until.end())) {
+    find_nearest(row, candidates, all, spring, nearest);
+  } else {
+    const bool bonded = has_bonds(model_, row.block);
+    row.wake = std::numeric_limits<float>::infinity();
+    for (int corner = 0; corner < 3; ++corner)
+      if (row.known_target[corner] < 0) {
+        row.wake = std::min(row.wake, row.known_until[corner]);
+      } else {
+        nearest[corner] = nearest_on(row.known_target[corner], spring[corner], bonded);
+        row.wake = 0;
+      }
+  }
   double deepest2 = 0;
   for (int corner = 0; corner < 3; ++corner) {
     const Nearest& found = nearest[corner];
@@ -137,17 +227,17 @@ bool Evaluation::press(int source, int corner, const geom::Vec3& spring, int pie
   const Contact* const old = before(c);
   if (!old && !may_begin)
     return false;
-  const Corners y = corners_of(model_, state_, to.nodes);
+  const Facet& y = facet(nearest.target);
   ContactMotion motion;
   motion.depth = depth;
   motion.normal =
-      nearest.at.inside || depth < 1e-9 * to.height ? unit_normal(y) : (nearest.place - spring) / depth;
+      nearest.at.inside || depth < 1e-9 * to.height ? y.normal : (nearest.place - spring) / depth;
   const Corners x = corners_of(model_, state_, from.nodes);
   const geom::Triangle &n = from.nodes, &m = to.nodes;
   const geom::Vec3 turn_from = velocity_of(state_, n[1]) - velocity_of(state_, n[0]),
                    turn_to = velocity_of(state_, m[1]) - velocity_of(state_, m[0]);
   motion.turned = 0.5 * work_.step *
-                  (spin(x[1] - x[0], turn_from, motion.normal) + spin(y[1] - y[0], turn_to, motion.normal));
+                  (spin(x[1] - x[0], turn_from, motion.normal) + spin(y.x[1] - y.x[0], turn_to, motion.normal));
   const Law& law = law_between(from.block, to.block);
   finish(c, old, motion, spring_arms(model_, state_, from, corner, to, nearest.at.weights),
          spring_law(*law.joint, law.tan_friction, from, to), from, to);

@@ -5,6 +5,7 @@
 #include "libcdem/contact/contact_work.hpp"
 #include "libcdem/contact/edge_lines.hpp"
 #include "libcdem/contact/nearest.hpp"
+#include "libcdem/contact/taking_part.hpp"
 #include "libcdem/state/state.hpp"
 
 namespace cdem {
@@ -30,6 +31,10 @@ private:
   void go_to(int source); // what stood at it before
   const Contact* before(const Contact&) const;
   double look_at(ContactRow&, ContactCandidate*, bool all); // returns how deep the deepest is, m
+  using Springs = std::array<geom::Vec3, 3>;                // where the three of a source are, m
+  // The nearest places of one piece to them, of all targets that do not sleep.
+  void find_nearest(ContactRow&, ContactCandidate*, bool all, const Springs&, std::array<Nearest, 3>&);
+  Nearest nearest_on(int target, const geom::Vec3& spring, bool bonded);
   // may_begin: even if it was no contact before. False where it is none.
   bool press(int source, int corner, const geom::Vec3& spring, int piece, const Nearest&, bool may_begin);
   void press(int source, int target, const NearestOfEdges&, const EdgeTouch&, bool may_begin);
@@ -38,6 +43,9 @@ private:
   // old: the contact before the step, null where there was none.
   void finish(Contact&, const Contact* old, ContactMotion&, const ContactArms&, const ContactLaw&,
               const ContactTriangle& from, const ContactTriangle& to);
+
+  // Where a triangle is now: of a few that follow each other it is worked out once.
+  const Facet& facet(int triangle);
 
   const Model& model_;
   const ContactSurface& surface_;
@@ -48,6 +56,8 @@ private:
   EdgeLines lines_;
   std::vector<Contact>::const_iterator old_; // the first contact of the row's source or a later one
   Law law_;
+  std::array<Facet, 4> facets_; // by the last two bits of a triangle's number
+  std::array<int, 4> facet_of_{-1, -1, -1, -1};
 };
 
 } // namespace cdem

@@ -8,31 +8,71 @@
 #include <cmath>
 
 namespace cdem {
+namespace {
+
+// How far, m, two edges may go, both together, before a pair that may not begin now can do so: because they are nearly
+// parallel, or because their nearest places stay at the last end of one of their lines.
+struct Hindrance {
+  double parallel = 0, last_end = 0;
+};
+
+Hindrance hindrance_of(const Model& model, const State& state, const ContactEdge& e, const ContactEdge& f,
+                       const geom::PlacesOnSegments& at, bool e_ends, bool f_ends) {
+  const geom::Vec3 a = place_of(model, state, e.nodes[1]) - place_of(model, state, e.nodes[0]),
+                   b = place_of(model, state, f.nodes[1]) - place_of(model, state, f.nodes[0]);
+  const double la = a.norm(), lb = b.norm(), sine = a.cross(b).norm() / (la * lb);
+  // An edge turns by at most twice the way of its ends over its length.
+  const double parallel = 0.4 * (parallel_edges - sine) * std::min(la, lb);
+  // The nearest places of two lines move by some times that over the sine between them.
+  const auto left = [&](bool ends, double place, double length) {
+    return ends ? (drawn_in - std::min(place, 1 - place)) * length * sine / 16 : 0.;
+  };
+  return {std::max(0., parallel), std::max({0., left(e_ends, at.s, la), left(f_ends, at.t, lb)})};
+}
+
+} // namespace
 
 void Evaluation::edges(ContactRow& row, ContactCandidate* candidates) {
   const ContactEdge& e = work_.edges[row.source];
   const ContactTriangle& from = surface_.triangles[e.triangles[0]];
-  if (sleeps(row, from.block))
+  const bool touched = work_.block_edges_touched[from.block] && work_.block_edges_touched[row.block];
+  if (sleeps(row, from.block) && !(row.hindered && touched))
     return;
+  row.hindered = false;
   go_to(e.id());
   const double moved = work_.travelled[from.block] + work_.travelled[row.block];
   float wake = std::numeric_limits<float>::infinity();
   for (std::uint32_t i = row.begin; i < row.begin + row.count; ++i) {
     ContactCandidate& candidate = candidates[i];
-    if (moved < candidate.wake) {
+    const auto target = static_cast<int>(candidate.target);
+    const bool hindered = candidate.springs != 0;
+    if (moved < candidate.wake && !(hindered && touched && lines_.touched_around(row.source, target))) {
       wake = std::min(wake, candidate.wake);
+      row.hindered = row.hindered || hindered;
       continue;
     }
-    const ContactEdge& f = work_.edges[candidate.target];
+    const ContactEdge& f = work_.edges[target];
     const ContactTriangle& to = surface_.triangles[f.triangles[0]];
     const NearestOfEdges nearest = nearest_of_edges(model_, state_, e, f);
     const double distance = nearest.way.norm(), limit = edge_depth(work_, from, to);
-    candidate.wake =
-        rounded_down(moved + std::max(0.0, distance - std::max(limit, static_cast<double>(row.reach))));
+    const double apart = distance - std::max(limit, static_cast<double>(row.reach));
+    candidate.wake = rounded_down(moved + std::max(0.0, apart));
+    candidate.springs = 0;
+    // At the last end of a line contacts go on but do not begin.
+    const bool e_ends = lines_.at_last_end(row.source, nearest.at.s),
+               f_ends = lines_.at_last_end(target, nearest.at.t);
+    const bool may_begin = distance <= limit && !e_ends && !f_ends;
+    if (apart <= 0) {
+      const Hindrance hindrance = hindrance_of(model_, state_, e, f, nearest.at, e_ends, f_ends);
+      candidate.wake = rounded_down(moved + std::max(hindrance.parallel, hindrance.last_end));
+      candidate.springs = hindrance.last_end > hindrance.parallel ? 1 : 0;
+    }
     wake = std::min(wake, candidate.wake);
-    const auto target = static_cast<int>(candidate.target);
+    row.hindered = row.hindered || candidate.springs != 0;
+    if (!may_begin && !(touched && lines_.touched_around(row.source, target)))
+      continue;
     if (const auto touch = lines_.acting(row.source, target, nearest))
-      press(row.source, target, nearest, *touch, distance <= limit);
+      press(row.source, target, nearest, *touch, may_begin);
   }
   row.wake = wake;
 }
@@ -60,8 +100,7 @@ void Evaluation::press(int source, int target, const NearestOfEdges& nearest, co
   if (!old) {
     beyond = lines_.left_behind(source, target, touch.normal);
     old = beyond ? &*beyond : nullptr;
-    if (!old &&
-        (!may_begin || lines_.at_last_end(source, nearest.at.s) || lines_.at_last_end(target, nearest.at.t)))
+    if (!old && !may_begin)
       return;
   }
   finish(c, old, motion, edge_arms(model_, state_, e, f, nearest.at),

@@ -92,6 +92,9 @@ void add_edges_of_broken(const Model& model, const State& state, int block, std:
   }
 }
 
+// Cosine of the angle, undeformed, up to which an edge continues the line of another one.
+constexpr double line_cosine = 0.7;
+
 // One end of an edge of a piece.
 struct End {
   int piece = 0, node = 0; // original
@@ -122,6 +125,31 @@ void find_ends(const Model& model, ContactWork& work) {
   }
 }
 
+// In which edges the lines of all edges continue.
+void find_lines(const Model& model, ContactWork& work) {
+  const auto direction = [&](int from, int to) -> geom::Vec3 {
+    return (model.node_position[to] - model.node_position[from]).normalized();
+  };
+  const std::vector<int>& original = model.surface.original;
+  work.edge_continues.resize(work.edges.size());
+  work.edges_beyond.clear();
+  work.edge_touched.assign(work.edges.size(), 0);
+  work.block_edges_touched.assign(model.blocks.size(), 0);
+  for (int e = 0; e < static_cast<int>(work.edges.size()); ++e)
+    for (int end = 0; end < 2; ++end) {
+      const std::array<int, 2>& nodes = work.edges[e].nodes;
+      const geom::Vec3 along = direction(nodes[1 - end], nodes[end]);
+      work.edge_continues[e][end] = static_cast<int>(work.edges_beyond.size());
+      for (const int* other = &work.edges_at[work.edge_ends[e][end]]; *other >= 0; ++other) {
+        const auto& [a, b] = work.edges[*other].nodes;
+        const bool begins = original[a] == original[nodes[end]];
+        if (*other != e && along.dot(begins ? direction(a, b) : direction(b, a)) > line_cosine)
+          work.edges_beyond.push_back({*other, begins == (end == 1) ? 1. : -1.});
+      }
+      work.edges_beyond.push_back({});
+    }
+}
+
 } // namespace
 
 void find_semi_edges(const Model& model, const State& state, ContactWork& work) {
@@ -148,6 +176,7 @@ void find_semi_edges(const Model& model, const State& state, ContactWork& work) 
   for (std::size_t t = 0; t < s.triangles.size(); ++t)
     work.edge_begin[t + 1] += work.edge_begin[t];
   find_ends(model, work);
+  find_lines(model, work);
 }
 
 } // namespace cdem
