@@ -198,7 +198,7 @@ private:
   void leave(std::int64_t face, FaceStateBatch& state, Vec (&force)[3], FaceSums& sums) {
     const double size = std::sqrt(3 * batch_.area[lane_]);
     if (law_.hands_over) {
-      if (!is_gone(now_, size))
+      if (!law_.hand_over_due || !is_gone(now_, size))
         return;
       state.handed_over[lane_] = 1;
       sums.hands_over = true;

@@ -20,9 +20,9 @@ void archive(A& a, Elastic& x) {
 template <class A>
 void archive(A& a, Joint& x) {
   auto& [bonded, cohesion, friction_angle, tensile_strength, softening, g1, g2, thickness_ratio, thickness,
-         kn, ks] = x;
+         kn, ks, restitution] = x;
   archive_all(a, bonded, cohesion, friction_angle, tensile_strength, softening, g1, g2, thickness_ratio,
-              thickness, kn, ks);
+              thickness, kn, ks, restitution);
 }
 
 template <class A>

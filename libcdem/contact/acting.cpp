@@ -23,7 +23,9 @@ std::array<double, 4> in_tet(const Model& model, const State& state, const geom:
 ContactLaw law_over(const Joint& joint, double tan_friction, double area, double compliance) {
   const ContactStiffness stiffness = contact_stiffness(joint, compliance);
   const double half = 0.5 * area; // both bodies bring theirs
-  return {stiffness.normal * half, stiffness.shear * half, tan_friction};
+  const double e2 = joint.restitution * joint.restitution;
+  return {stiffness.normal * half * 0.5 * (1 + e2), stiffness.shear * half, tan_friction,
+          (1 - e2) / (1 + e2)};
 }
 
 void set_normal_weight(ContactArms& arms, int node, double weight) {

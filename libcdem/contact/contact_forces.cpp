@@ -97,6 +97,17 @@ void mark_touched_edges(const ContactSurface& surface, const std::vector<Contact
   }
 }
 
+// N, of the springs on each block, before the step.
+void sum_block_forces(const Model& model, const std::vector<Contact>& contacts, ContactWork& work) {
+  work.block_forces.assign(model.blocks.size(), 0.0);
+  for (const Contact& c : contacts) {
+    const double force = law_of(model, c).kn * c.pressed();
+    const auto [a, b] = blocks_of(model, c);
+    work.block_forces[a] += force;
+    work.block_forces[b] += force;
+  }
+}
+
 // Those of one source stand by piece, then corner: next to their places.
 void add_sorted(const std::vector<Contact>& found, std::vector<Contact>& contacts) {
   for (const Contact& c : found) {
@@ -144,6 +155,8 @@ ContactSums contact_forces(const Model& model, State& state, ContactWork& own, i
   own.chunks.resize(static_cast<std::size_t>(chunks_at_a_time * threads));
   clear_forces(own);
   mark_touched_edges(model.surface, state.contacts, own);
+  if (own.restitution)
+    sum_block_forces(model, state.contacts, own);
   own.now.clear();
   own.now.reserve(state.contacts.size() + state.contacts.size() / 8 + 64);
   for (std::int64_t first = 0; first < n; first += chunks_at_a_time * threads) {
@@ -166,8 +179,10 @@ ContactSums contact_forces(const Model& model, State& state, ContactWork& own, i
     for (std::int64_t i = 0; i < count; ++i) {
       add_sorted(own.chunks[i].contacts, own.now);
       add_forces(own.chunks[i].forces, own);
-      for (const ContactForce& force : own.chunks[i].forces)
+      for (const ContactForce& force : own.chunks[i].forces) {
         sums.friction += force.friction;
+        sums.damping += force.damping;
+      }
       add(own.chunks[i].sums, sums);
     }
   }

@@ -4,6 +4,14 @@
 //   Fs = R Fs - ks du_s          R turns it with the normal, and about it with the two faces; du_s slip of this step
 //   |Fs| <= Fn tan(phi)
 //
+// With a coefficient of restitution e < 1 the normal force is larger while the two approach and smaller while they part,
+// so that of the energy 1/2 kn d^2 that goes in e^2 comes back:
+//
+//   Fn = kn (d - d0)+ [(1 + e^2)/2 + (1 - e^2)/2 s],   s = v / v0 within -1 and 1,   v approach speed
+//
+// v0 is the speed that the forces of one step can turn round, so that what is at rest stays so. The first part is the
+// spring's, and stored; the second is damping.
+//
 // An overlap that is there before anything moved (d0 > 0) carries nothing: at the stiffness of concrete a tenth of a
 // millimetre would throw a unit into the air.
 #pragma once
@@ -16,8 +24,9 @@
 namespace cdem {
 
 struct ContactLaw {
-  double kn = 0, ks = 0; // N/m
+  double kn = 0, ks = 0; // N/m, of the springs
   double tan_friction = 0;
+  double damping_ratio = 0; // (1 - e^2) / (1 + e^2)
 };
 
 // What has happened to a contact since it was last looked at.
@@ -26,6 +35,13 @@ struct ContactMotion {
   double depth = 0;                       // m, now
   geom::Vec3 slid = geom::Vec3::Zero();   // m, of the source past the target
   double turned = 0;                      // rad, of the two faces about the normal
+  double speed = 0;                       // m/s, of approach
+  double turning_speed = 0;               // v0, m/s
+};
+
+// What a contact loses in a step, J, >= 0.
+struct ContactLoss {
+  double friction = 0, damping = 0;
 };
 
 // A vector at right angles to the unit vector `from`, turned the shortest way to `to`.
@@ -41,21 +57,35 @@ inline double start_depth(const ContactMotion& m) {
   return m.depth <= -1.5 * m.slid.dot(m.normal) ? 0 : m.depth;
 }
 
-// Advances the contact. Returns the energy that friction took, J >= 0: the trapezoidal rule over the step, less what
-// the spring stores more.
-inline double advance(Contact& c, const ContactLaw& law, const ContactMotion& m) {
+// N, of a contact pressed by `elastic` (N) by its spring.
+inline double contact_damping(double elastic, const ContactLaw& law, double speed, double turning_speed) {
+  if (law.damping_ratio == 0 || speed == 0)
+    return 0;
+  const double part = turning_speed > std::abs(speed) ? speed / turning_speed : std::copysign(1., speed);
+  return law.damping_ratio * elastic * part;
+}
+
+// Advances the contact. Returns the energy that friction and damping took: the trapezoidal rule over the step, of
+// friction less what the spring stores more.
+inline ContactLoss advance(Contact& c, const ContactLaw& law, const ContactMotion& m) {
   geom::Vec3 shear = turned_with(c.shear, c.normal, m.normal);
   shear += m.turned * m.normal.cross(shear);
   shear -= law.ks * (m.slid - m.slid.dot(m.normal) * m.normal);
   c.start = std::min(c.start, std::max(0.0, m.depth)); // it does not pull when it comes back from further out
   c.normal = m.normal;
   c.depth = m.depth;
-  const double before = c.shear.norm(), trial = shear.norm(), limit = law.kn * c.pressed() * law.tan_friction;
+  ContactLoss loss;
+  const double elastic = law.kn * c.pressed();
+  const double damping = contact_damping(elastic, law, m.speed, m.turning_speed);
+  loss.damping = -0.5 * (c.damping + damping) * m.slid.dot(m.normal);
+  c.damping = damping;
+  const double before = c.shear.norm(), trial = shear.norm(), limit = (elastic + damping) * law.tan_friction;
   c.shear = shear;
   if (trial <= limit)
-    return 0;
+    return loss;
   c.shear *= limit / trial;
-  return law.ks > 0 ? 0.5 * (before + limit) * (trial - limit) / law.ks : 0;
+  loss.friction = law.ks > 0 ? 0.5 * (before + limit) * (trial - limit) / law.ks : 0;
+  return loss;
 }
 
 // J, stored.

@@ -28,7 +28,7 @@ struct ContactCandidate {
   // Of a triangle's row: which of its three semi-springs may come near the target. Of an edge's: 1 where it sleeps only as
   // long as no contact stands on the edges around.
   std::uint32_t springs : 3;
-  float wake;                // m
+  float wake; // m
 };
 inline constexpr std::uint32_t last_contact_triangle = (1u << 29) - 1;
 
@@ -67,11 +67,12 @@ struct ContactForce {
   int source_block = 0, target_block = 0;
   geom::Vec3 normal = geom::Vec3::Zero(), shear = geom::Vec3::Zero(); // N, on the source
   double stiffness = 0;                                               // N/m
-  double friction = 0;                                                // J, this step
+  double friction = 0, damping = 0;                                   // J, this step
 };
 
 struct ContactSums {
-  double friction = 0; // J, this step: of contacts in their order, whichever chunks they stand in
+  double friction = 0,
+         damping = 0; // J, this step: of contacts in their order, whichever chunks they stand in
   // The deepest, in parts of the depth at which a contact is not to be trusted (depth_limit).
   double deepest = 0;
   double depth = 0, depth_over_height = 0;      // largest, m and in parts of the lower tet's height
@@ -129,6 +130,9 @@ struct ContactWork {
   double step = 0; // s, since then
   // Tangent of the largest friction angle of any contact, for a stage that wants less than joints give.
   double most_friction = std::numeric_limits<double>::infinity();
+  bool restitution = false; // some contact law has one below 1, and the stage wants it
+  std::vector<double>
+      block_forces;       // N, per block, of all springs that pressed on it before the step; with restitution
   int hurry = 0;          // how often skins have been doubled, as searches followed each other closely
   std::int64_t looks = 0; // steps since the search
   std::int64_t searches = 0;

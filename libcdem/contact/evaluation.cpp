@@ -3,6 +3,7 @@
 #include "libcdem/contact/acting.hpp"
 #include "libcdem/contact/search.hpp"
 #include "libcdem/model/build/contact_surface.hpp"
+#include "libcdem/model/build/rigid_bodies.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -162,10 +163,9 @@ void Evaluation::find_nearest(ContactRow& row, ContactCandidate* candidates, boo
       if (d.target == nearest[corner].target)
         until = 0.5 * (d.second * (1 - 4 * same_place) - least - one_place);
     } else {
-      // What is outside gets in through the surface. A broken one has holes.
+      // What is outside gets in through the surface. A broken one has holes: what is near it may be inside beyond an edge.
       row.known_target[corner] = -1;
-      if (!work_.broken[row.block])
-        until = least - 4 * one_place;
+      until = least - 4 * one_place - (work_.broken[row.block] ? work_.shallow[row.block] : 0);
     }
     row.known_until[corner] = rounded_down(moved + std::max(0.0, until));
   }
@@ -230,23 +230,50 @@ bool Evaluation::press(int source, int corner, const geom::Vec3& spring, int pie
   const Facet& y = facet(nearest.target);
   ContactMotion motion;
   motion.depth = depth;
-  motion.normal =
-      nearest.at.inside || depth < 1e-9 * to.height ? y.normal : (nearest.place - spring) / depth;
+  motion.normal = nearest.at.inside || depth < 1e-9 * to.height ? y.normal : (nearest.place - spring) / depth;
   const Corners x = corners_of(model_, state_, from.nodes);
   const geom::Triangle &n = from.nodes, &m = to.nodes;
   const geom::Vec3 turn_from = velocity_of(state_, n[1]) - velocity_of(state_, n[0]),
                    turn_to = velocity_of(state_, m[1]) - velocity_of(state_, m[0]);
-  motion.turned = 0.5 * work_.step *
-                  (spin(x[1] - x[0], turn_from, motion.normal) + spin(y.x[1] - y.x[0], turn_to, motion.normal));
+  motion.turned =
+      0.5 * work_.step *
+      (spin(x[1] - x[0], turn_from, motion.normal) + spin(y.x[1] - y.x[0], turn_to, motion.normal));
   const Law& law = law_between(from.block, to.block);
   finish(c, old, motion, spring_arms(model_, state_, from, corner, to, nearest.at.weights),
          spring_law(*law.joint, law.tan_friction, from, to), from, to);
   return true;
 }
 
+double Evaluation::turning_acceleration(const ContactArms& arms, int source_block, int target_block,
+                                        double force) const {
+  const auto of = [&](int block, const int* nodes, const double* weights, int count) {
+    const Block& b = model_.blocks[block];
+    if (b.rigid >= 0) {
+      const std::array<double, 3>& c = state_.rigid[b.rigid].centroid;
+      geom::Vec3 arm(-c[0], -c[1], -c[2]);
+      for (int i = 0; i < count; ++i)
+        arm += weights[i] * place_of(model_, state_, nodes[i]);
+      return work_.block_forces[block] * rigid_inverse_mass(model_.rigid[b.rigid], arm.norm());
+    }
+    double local = 0; // 1/kg
+    for (int i = 0; i < count; ++i)
+      local += weights[i] * weights[i] / model_.node_mass[nodes[i]];
+    return work_.block_forces[block] / (b.mass.volume * model_.bodies[b.body].material.density) +
+           force * local;
+  };
+  return of(source_block, arms.source.data(), arms.on_source.data(), 3) +
+         of(target_block, arms.target.data(), arms.normal.data(), 4);
+}
+
 void Evaluation::finish(Contact& c, const Contact* old, ContactMotion& motion, const ContactArms& arms,
                         const ContactLaw& law, const ContactTriangle& from, const ContactTriangle& to) {
-  motion.slid = work_.step * velocity_past(state_, arms);
+  const geom::Vec3 velocity = velocity_past(state_, arms);
+  motion.slid = work_.step * velocity;
+  if (work_.restitution && law.damping_ratio > 0) {
+    motion.speed = -velocity.dot(motion.normal);
+    motion.turning_speed =
+        work_.step * turning_acceleration(arms, from.block, to.block, law.kn * std::max(0.0, motion.depth));
+  }
   ContactForce force;
   const bool own = old && key(*old) == key(c);
   if (own && work_.step == 0 && old->target == c.target) {
@@ -260,14 +287,16 @@ void Evaluation::finish(Contact& c, const Contact* old, ContactMotion& motion, c
       force.friction -= take_over(c, *old, law, motion);
     else if (old && old->target != c.target)
       force.friction += jump_loss(*old, law, motion);
-    force.friction += advance(c, law, motion);
+    const ContactLoss loss = advance(c, law, motion);
+    force.friction += loss.friction;
+    force.damping = loss.damping;
   }
   force.arms = arms;
   force.source_block = from.block;
   force.target_block = to.block;
-  force.normal = law.kn * c.pressed() * c.normal;
+  force.normal = (law.kn * c.pressed() + c.damping) * c.normal;
   force.shear = c.shear;
-  force.stiffness = law.kn + law.ks;
+  force.stiffness = law.kn * (1 + law.damping_ratio) + law.ks;
   out_.contacts.push_back(c);
   out_.forces.push_back(force);
   // Not what was found so deep: between the pieces of a broken body that still hang together by a corner.

@@ -113,16 +113,43 @@ private:
   std::vector<std::array<double, 3>> distance_; // m, of each target from each spring
 };
 
+// By source, fragment of the target and target: sources are counted, and only the few targets of each are compared.
+template <class Piece>
+void sort_by_source(Pairs& pairs, const Piece& piece) {
+  const auto before = [&](const std::pair<int, int>& a, const std::pair<int, int>& b) {
+    return std::tuple(a.first, piece(a), a.second) < std::tuple(b.first, piece(b), b.second);
+  };
+  if (std::is_sorted(pairs.begin(), pairs.end(), before))
+    return;
+  int least = pairs.front().first, most = least;
+  for (const auto& pair : pairs) {
+    least = std::min(least, pair.first);
+    most = std::max(most, pair.first);
+  }
+  const std::size_t n_sources = static_cast<std::size_t>(most - least) + 1;
+  if (n_sources > pairs.size()) {
+    std::sort(pairs.begin(), pairs.end(), before);
+    return;
+  }
+  std::vector<std::uint32_t> next(n_sources + 1, 0);
+  for (const auto& pair : pairs)
+    ++next[pair.first - least + 1];
+  for (std::size_t i = 1; i <= n_sources; ++i)
+    next[i] += next[i - 1];
+  Pairs sorted(pairs.size());
+  for (const auto& pair : pairs)
+    sorted[next[pair.first - least]++] = pair;
+  for (std::size_t i = 0, begin = 0; i < n_sources; begin = next[i++])
+    std::sort(sorted.begin() + static_cast<std::ptrdiff_t>(begin), sorted.begin() + next[i], before);
+  pairs = std::move(sorted);
+}
+
 } // namespace
 
 std::vector<Near> near_springs(const Model& model, const ContactWork& work, const Cover& cover,
                                const TakingPart& active, Pairs& pairs) {
   const auto piece = [&](const std::pair<int, int>& p) { return work.piece[active.triangles[p.second]]; };
-  const auto before = [&](const std::pair<int, int>& a, const std::pair<int, int>& b) {
-    return std::tuple(a.first, piece(a), a.second) < std::tuple(b.first, piece(b), b.second);
-  };
-  if (!std::is_sorted(pairs.begin(), pairs.end(), before))
-    std::sort(pairs.begin(), pairs.end(), before);
+  sort_by_source(pairs, piece);
   std::vector<Near> out;
   SpringsOfSource springs(model, work, cover, active);
   for (std::size_t begin = 0, end = 0; begin < pairs.size(); begin = end) {

@@ -142,6 +142,8 @@ void start_contact(const Model& model, ContactWork& work) {
     height *= shallow_ratio;
   for (std::vector<double>* of_blocks : {&work.travelled, &work.last_way, &work.pace, &work.skin})
     of_blocks->assign(model.blocks.size(), 0.0);
+  for (const auto& [bodies, law] : s.joint)
+    work.restitution = work.restitution || model.joints[law].restitution < 1;
   work.force.assign(model.node_position.size(), Node{});
   work.stiffness.assign(model.node_position.size(), 0.0);
 }

@@ -15,6 +15,9 @@ constexpr double thinnest = 0.001, thickest = 0.1;
 // Steps that a block can go on at its pace before it leaves its skin, and what of the fastest block's pace the others
 // are trusted to get to.
 constexpr double steps_ahead = 250, pace_of_others = 0.25;
+// While a body shatters searches follow each other more closely than skins ask for: they need not be thicker than for
+// twice the steps between the last two.
+constexpr double least_steps_ahead = 20;
 // Searches that follow each other within fewer steps than this make skins twice as thick, those after more halve them.
 constexpr std::int64_t few_looks = 50, many_looks = 150;
 constexpr int most_hurry = 6;
@@ -92,15 +95,19 @@ void choose_skins(const Model& model, const State& state, ContactWork& work) {
     work.hurry = std::min(work.hurry + 1, most_hurry);
   else if (work.looks > many_looks)
     work.hurry = std::max(work.hurry - 1, 0);
+  const bool shatters = work.pieces_due && work.searches > 0;
+  const double ahead = shatters
+                           ? std::clamp(2. * static_cast<double>(work.looks), least_steps_ahead, steps_ahead)
+                           : steps_ahead;
   const std::vector<double> alone = room_of_fast_ones(model, state, work, most / steps_ahead);
   double fastest = 0;
   for (std::size_t b = 0; b < work.skin.size(); ++b)
     if (alone[b] <= most)
       fastest = std::max(fastest, work.pace[b]);
-  const double least = std::max(thinnest * work.usual_height, pace_of_others * steps_ahead * fastest) *
+  const double least = std::max(thinnest * work.usual_height, pace_of_others * ahead * fastest) *
                        static_cast<double>(1 << work.hurry);
   for (std::size_t b = 0; b < work.skin.size(); ++b)
-    work.skin[b] = std::min(std::max(least, steps_ahead * work.pace[b]), std::max(most, alone[b]));
+    work.skin[b] = std::min(std::max(least, ahead * work.pace[b]), std::max(most, alone[b]));
 }
 
 double depth_of(const ContactWork& work, const ContactTriangle& t) {

@@ -145,6 +145,7 @@ RelaxResult relax(const StageContext& context, const RelaxOptions& options, cons
   State& state = context.state;
   Stage stage(context, kind, context.model.length);
   require_held(context.model, stage.work.resolved);
+  stage.work.contact.restitution = false; // its steps are no times
   const std::vector<double> mass = fictitious_masses(context.model);
   const Moment* const from = context.from;
   std::vector<Node> previous_force(mass.size()); // N, of the step before

@@ -22,6 +22,7 @@ struct Contact {
   geom::Vec3 shear = geom::Vec3::Zero();  // Fs, N, on the source
   double start = 0;                       // m, depth at which it carries nothing: it was found that deep
   double depth = 0;                       // m, below the target's surface
+  double damping = 0;                     // N, what restitution adds to the spring's normal force
 
   explicit Contact(Kind of = spring, int from = 0)
       : kind(of & 1u), source(static_cast<std::uint32_t>(from) & 0x7fffffffu) {}

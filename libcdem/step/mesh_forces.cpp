@@ -138,6 +138,7 @@ const Node* mesh_forces(const Model& model, State& state, Workspace& work, std::
     const int number = model.blocks[chunk.block].body;
     FaceLaw law = face_law(body);
     law.hands_over = model.surface.joint.count({number, number}) > 0;
+    law.hand_over_due = work.hand_over_due;
     face_bond_forces(model.mesh.faces.data() + chunk.face_batches.begin, chunk.face_batches.size(),
                      chunk.faces, motion, law, breaking, state.faces.data() + chunk.face_batches.begin,
                      state.face_slip.data(), at.force, sums, ahead);

@@ -124,6 +124,7 @@ void Stage::mark(std::vector<double> carried, const std::vector<Node>& previous_
     start_contact(context_.model, work.contact);
     work.contact.pace = std::move(before.pace); // how thick skins are changes no force
     work.contact.most_friction = before.most_friction;
+    work.contact.restitution = before.restitution;
     work.contact.all_known = true; // those of the step before
   }
   if (context_.keeper)
@@ -162,6 +163,7 @@ void Stage::catch_up() {
 void Stage::meet_contacts() {
   const ContactSums sums = contact_forces(context_.model, context_.state, work.contact, context_.threads);
   context_.state.spent.friction += sums.friction;
+  context_.state.spent.damping += sums.damping;
   context_.log.deepest_contact = std::max(context_.log.deepest_contact, sums.depth);
   context_.log.deepest_over_height = std::max(context_.log.deepest_over_height, sums.depth_over_height);
   if (sums.deepest > met_.deepest)
@@ -177,6 +179,7 @@ void Stage::catch_up_contacts() {
 
 void Stage::catch_up_meshes() {
   const auto meshes = static_cast<std::int64_t>(context_.model.mesh.chunks.size());
+  work.hand_over_due = step % hand_over_every == 0;
   if (work.strain_step > 0)
     for_chunks(meshes, context_.threads, [&](std::int64_t c) {
       if (!is_rigid(context_.model, context_.model.mesh.chunks[c]))

@@ -37,6 +37,11 @@ void leave_from_here(const StageContext&);
 
 // Steps between looks at every node and element, and between copies of the state.
 inline constexpr std::int64_t watch_every = 200;
+// Steps between looks at which broken faces have parted or slid away. Until then their own springs hold them: in a body
+// that shatters every look would else be followed by a search for contacts.
+inline constexpr std::int64_t hand_over_every = 20;
+static_assert(watch_every % hand_over_every == 0,
+              "a stage that goes on looks anew where it did when it was left");
 
 class Stage {
 public:
@@ -126,6 +131,7 @@ template <class Move, class MoveRigid>
 NodeSums Stage::advance(bool breaking, const Move& move, const MoveRigid& move_rigid) {
   const Model& model = context_.model;
   State& state = context_.state;
+  work.hand_over_due = step % hand_over_every == 0;
   const auto springs = static_cast<std::int64_t>(model.point_chunks.size());
   const auto meshes = static_cast<std::int64_t>(model.mesh.chunks.size());
   const auto stars = static_cast<std::int64_t>(model.chunks.size()) - meshes;

@@ -96,6 +96,8 @@ void validate(const Joint& j) {
             "a finite number > 0 Pa/m");
   if (j.shear_stiffness)
     require(positive(*j.shear_stiffness), "shear_stiffness", *j.shear_stiffness, "a finite number > 0 Pa/m");
+  require(positive(j.restitution) && j.restitution <= 1, "restitution", j.restitution, "in (0, 1]",
+          "it is the speed after an impact over the speed before it");
   validate_softening(j);
 }
 
