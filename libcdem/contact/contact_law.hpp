@@ -41,21 +41,27 @@ inline double start_depth(const ContactMotion& m) {
   return m.depth <= -1.5 * m.slid.dot(m.normal) ? 0 : m.depth;
 }
 
-// Advances the contact. Returns the energy that friction took, J >= 0: the trapezoidal rule over the step, less what
-// the spring stores more.
+// Advances the contact. Returns the energy that friction took, J: the work of the shear force by the trapezoidal rule,
+// which is what central differences do, less what the spring stores more. With F0 the turned force before the step, T the
+// trial force and F1 = T limit / |T| that is (F0 + F1) . (T - F1) / (2 ks), and what turning took off the stored energy.
+// A step in which the slip turns back may give energy.
 inline double advance(Contact& c, const ContactLaw& law, const ContactMotion& m) {
   geom::Vec3 shear = turned_with(c.shear, c.normal, m.normal);
   shear += m.turned * m.normal.cross(shear);
+  const geom::Vec3 turned = shear;
   shear -= law.ks * (m.slid - m.slid.dot(m.normal) * m.normal);
   c.start = std::min(c.start, std::max(0.0, m.depth)); // it does not pull when it comes back from further out
   c.normal = m.normal;
   c.depth = m.depth;
-  const double before = c.shear.norm(), trial = shear.norm(), limit = law.kn * c.pressed() * law.tan_friction;
+  const double trial = shear.norm(), limit = law.kn * c.pressed() * law.tan_friction;
+  const double by_turning = c.shear.squaredNorm() - turned.squaredNorm();
   c.shear = shear;
-  if (trial <= limit)
+  if (law.ks <= 0)
     return 0;
+  if (trial <= limit)
+    return 0.5 * by_turning / law.ks;
   c.shear *= limit / trial;
-  return law.ks > 0 ? 0.5 * (before + limit) * (trial - limit) / law.ks : 0;
+  return 0.5 * ((turned.dot(shear) / trial + limit) * (trial - limit) + by_turning) / law.ks;
 }
 
 // J, stored.
