@@ -69,6 +69,14 @@ inline double energy(double pressed, double shear_force, const ContactLaw& law) 
   return 0.5 * law.kn * pressed * pressed + (law.ks > 0 ? 0.5 * shear_force * shear_force / law.ks : 0);
 }
 
+// J, that a contact loses which acts no more, having slid by this in its last step: what it stored, less the work of its
+// force in that step. Of the normal spring that is nothing when it opened.
+inline double end_loss(const Contact& c, const ContactLaw& law, const geom::Vec3& slid) {
+  const double pressed = c.pressed(), opened = std::min(slid.dot(c.normal), pressed);
+  return 0.5 * law.kn * pressed * (pressed - opened) +
+         (law.ks > 0 ? 0.5 * c.shear.squaredNorm() / law.ks - 0.5 * c.shear.dot(slid) : 0);
+}
+
 // J, that the normal spring loses when another face is suddenly nearer, as one that has just broken: what it stored at
 // its depth before the step, less what it stores at the depth under the new face then.
 inline double jump_loss(const Contact& old, const ContactLaw& law, const ContactMotion& m) {

@@ -124,3 +124,19 @@ TEST_CASE(
   CHECK(slips > 100);
   CHECK(work == Approx(taken + 0.5 * c.shear.squaredNorm() / law.ks).epsilon(1e-12));
 }
+
+TEST_CASE("contact law: one that opens gives back what its normal spring stored, one that goes round an edge "
+          "does not",
+          "[contact][law]") {
+  Contact c = pressed(1e-4);
+  CHECK(end_loss(c, law, {0, 0, 1.2e-4}) == 0); // opened within the step
+  const double stored = 0.5 * law.kn * 1e-8;
+  CHECK(end_loss(c, law, {1e-3, 0, 0}) == Approx(stored)); // off sideways
+  // Half way out: the force has worked along half of its depth.
+  CHECK(end_loss(c, law, {0, 0, 5e-5}) == Approx(0.5 * stored));
+  // Shear: what was stored less the work of its force.
+  advance(c, law, motion(1e-4, {4e-5, 0, 0}));
+  const double shear = 2e3;
+  CHECK(end_loss(c, law, {0, 0, 1.2e-4}) == Approx(0.5 * shear * shear / law.ks));
+  CHECK(end_loss(c, law, {-1e-5, 0, 1.2e-4}) == Approx(0.5 * shear * shear / law.ks - 0.5 * shear * 1e-5));
+}
