@@ -41,8 +41,8 @@ TEST_CASE("slivers among blocks: their step, and that of the others", "[slivers]
   CHECK(found[0].step == cdem::stable_time_step(with));
   CHECK(found[0].other_step == Approx(cdem::stable_time_step(without)).epsilon(1e-12));
   CHECK(found[0].worst == with.blocks.back().id);
-  // The lowest tets of a box stand on its centroid, half its thickness high.
-  CHECK(found[0].height_over_size == Approx(0.005 / std::cbrt(0.01)));
+  // The least height of a plate's tets is that of a face's centre above an edge of the face and the centroid.
+  CHECK(found[0].height_over_size == Approx(0.005 * 0.5 / std::hypot(0.5, 0.005) / std::cbrt(0.01)));
   CHECK(cdem::find_slivers(without).empty());
 }
 

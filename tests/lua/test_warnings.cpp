@@ -1,6 +1,8 @@
 // What a script is warned of, and where the warnings go.
 #include "tests/lua/script.hpp"
 
+#include "libcdem/step/errors.hpp"
+
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <iterator>
@@ -217,7 +219,7 @@ TEST_CASE("a contact that closes once has acted", "[lua]") {
   CHECK(those_with(
             warnings_of(on_ground("left = 0.2, right = 0.61", "{'left', 'right', rough}, default = rough") +
                         "model:initial_velocity{ on = 'left', velocity = {0.5, 0, 0} }\n"
-                        "model:run{ duration = 0.03 }"),
+                        "model:run{ duration = 0.03, safety = 0.3 }"),
             "the law acted on nothing")
             .empty());
 }
@@ -246,7 +248,7 @@ TEST_CASE("a unit that falls off its ground is told of once, and the others come
   REQUIRE(told.size() == 1);
   CHECK_THAT(told[0], Contains("warning: stage 1 (settle: rigid fall): \"falls\" has left the model at 1.") &&
                           Contains("it is held there and the rest goes on"));
-  CHECK_THAT(script.read("report.json"), Contains("case.lua:8: warning: stage 1 (settle: rigid fall)"));
+  CHECK_THAT(script.read("report.json"), Contains("case.lua:9: warning: stage 1 (settle: rigid fall)"));
 }
 
 TEST_CASE("slivers are told of before a stage in real time, once, and not where they cost nothing", "[lua]") {
@@ -274,4 +276,20 @@ TEST_CASE("slivers are told of before a stage in real time, once, and not where 
                               Contains("take element = \"rigid\""));
   CHECK(told("rigid", run).empty());
   CHECK(told("finite_volume", "").empty());
+}
+
+TEST_CASE("an energy balance that is open names its likely cause, and ends the run when it is wide open",
+          "[lua]") {
+  // Cubes that meet at the default time step, which contact is too stiff for.
+  Script script(on_ground("left = 0.2, right = 0.61", "default = rough") +
+                "model:initial_velocity{ on = 'left', velocity = {0.5, 0, 0} }\n"
+                "model:run{ duration = 0.03 }");
+  try {
+    script.run();
+    FAIL("the run went on");
+  } catch (const cdem::SolutionError& error) {
+    CHECK_THAT(error.what(), Contains("the energy balance is open by ") &&
+                                 Contains(" J gained); most likely from contacts") &&
+                                 Contains("take a smaller safety"));
+  }
 }
