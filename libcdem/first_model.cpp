@@ -156,4 +156,20 @@ Model first_model(const ModelSpec& spec) {
   return model;
 }
 
+std::vector<std::array<int, 2>> pairs_without_interface(const ModelSpec& spec, const Model& model) {
+  std::set<std::array<int, 2>> pairs;
+  for (const PairSpec& pair : spec.pairs) {
+    const int a = body_index(model, pair.body_a), b = body_index(model, pair.body_b);
+    pairs.insert({std::min(a, b), std::max(a, b)});
+  }
+  for (int b = 0; b < static_cast<int>(spec.bodies.size()); ++b)
+    if (spec.bodies[b].shape.blocks.size() > 1)
+      pairs.insert({b, b});
+  for (const Interface& interface : model.interfaces) {
+    const int a = model.blocks[interface.block_a].body, b = model.blocks[interface.block_b].body;
+    pairs.erase({std::min(a, b), std::max(a, b)});
+  }
+  return {pairs.begin(), pairs.end()};
+}
+
 } // namespace cdem

@@ -14,6 +14,8 @@
 #include "libcdem/results/deformation.hpp"
 #include "libcdem/results/fields.hpp"
 #include "libcdem/results/log.hpp"
+#include "libcdem/results/overlap.hpp"
+#include "libcdem/results/slivers.hpp"
 #include "libcdem/results/snapshot.hpp"
 #include "libcdem/results/unit.hpp"
 #include "libcdem/state/ledger.hpp"
@@ -122,9 +124,15 @@ public:
   int stage() const;               // solving calls so far
   std::int64_t steps() const;      // steps of all stages
   EnergyLedger energy() const;
-  std::uint64_t state_hash() const; // of every State field, bit for bit
-  geom::Box box() const;            // undeformed
-  Deformation deformation() const;  // how far from small strain
+  std::uint64_t state_hash() const;     // of every State field, bit for bit
+  geom::Box box() const;                // undeformed
+  Deformation deformation() const;      // how far from small strain
+  std::vector<Slivers> slivers() const; // results/slivers.hpp
+  Overlap overlap() const;              // results/overlap.hpp
+  // Pairs of bodies, by name, for which a law was given and that had neither interface nor contact so far; twice the same
+  // body: its own blocks.
+  std::vector<std::array<std::string, 2>> unmet() const;
+  const std::vector<EscapeRow>& escapes() const; // what has left the model, in order
   // There is something that could move the model: a load, a support that moves it, an initial stress or velocity, or
   // a state that is deformed already.
   bool anything_acts() const;

@@ -36,16 +36,17 @@ bool add_ways(const Model& model, const State& state, ContactWork& work, int thr
   return out;
 }
 
-// What contacts stored that act no more, J: their other side has gone round an edge or off the end of another. Both lists
-// are sorted.
-double lost(const Model& model, const std::vector<Contact>& before, const std::vector<Contact>& now) {
+// What contacts stored and did not give back that act no more, J: those that opened gave it back, the other side of the
+// rest has gone round an edge or off the end of another. Both lists are sorted.
+double lost(const Model& model, const State& state, double step, const std::vector<Contact>& before,
+            const std::vector<Contact>& now) {
   double energy_lost = 0;
   auto next = now.begin();
   for (const Contact& c : before) {
     while (next != now.end() && key(*next) < key(c))
       ++next;
     if (next == now.end() || key(*next) != key(c))
-      energy_lost += energy(c.pressed(), c.shear.norm(), law_of(model, c));
+      energy_lost += end_loss(c, law_of(model, c), step * velocity_past(state, arms_of(model, state, c)));
   }
   return energy_lost;
 }
@@ -187,7 +188,7 @@ ContactSums contact_forces(const Model& model, State& state, ContactWork& own, i
     }
   }
   if (own.step > 0)
-    sums.friction += lost(model, state.contacts, own.now);
+    sums.friction += lost(model, state, own.step, state.contacts, own.now);
   if (own.now.capacity() > 2 * own.now.size() + 64)
     own.now.shrink_to_fit();
   std::swap(state.contacts, own.now);

@@ -65,11 +65,14 @@ inline double contact_damping(double elastic, const ContactLaw& law, double spee
   return law.damping_ratio * elastic * part;
 }
 
-// Advances the contact. Returns the energy that friction and damping took: the trapezoidal rule over the step, of
-// friction less what the spring stores more.
+// Advances the contact. Returns the energy that friction and damping took: the work of shear force and damping by the
+// trapezoidal rule, which is what central differences do, of friction less what the spring stores more. With F0 the
+// turned force before the step, T the trial force and F1 = T limit / |T| that is (F0 + F1) . (T - F1) / (2 ks), and what
+// turning took off the stored energy. A step in which the slip turns back may give energy.
 inline ContactLoss advance(Contact& c, const ContactLaw& law, const ContactMotion& m) {
   geom::Vec3 shear = turned_with(c.shear, c.normal, m.normal);
   shear += m.turned * m.normal.cross(shear);
+  const geom::Vec3 turned = shear;
   shear -= law.ks * (m.slid - m.slid.dot(m.normal) * m.normal);
   c.start = std::min(c.start, std::max(0.0, m.depth)); // it does not pull when it comes back from further out
   c.normal = m.normal;
@@ -79,18 +82,30 @@ inline ContactLoss advance(Contact& c, const ContactLaw& law, const ContactMotio
   const double damping = contact_damping(elastic, law, m.speed, m.turning_speed);
   loss.damping = -0.5 * (c.damping + damping) * m.slid.dot(m.normal);
   c.damping = damping;
-  const double before = c.shear.norm(), trial = shear.norm(), limit = (elastic + damping) * law.tan_friction;
+  const double trial = shear.norm(), limit = (elastic + damping) * law.tan_friction;
+  const double by_turning = c.shear.squaredNorm() - turned.squaredNorm();
   c.shear = shear;
+  if (law.ks <= 0)
+    return loss;
+  loss.friction = 0.5 * by_turning / law.ks;
   if (trial <= limit)
     return loss;
   c.shear *= limit / trial;
-  loss.friction = law.ks > 0 ? 0.5 * (before + limit) * (trial - limit) / law.ks : 0;
+  loss.friction += 0.5 * (turned.dot(shear) / trial + limit) * (trial - limit) / law.ks;
   return loss;
 }
 
 // J, stored.
 inline double energy(double pressed, double shear_force, const ContactLaw& law) {
   return 0.5 * law.kn * pressed * pressed + (law.ks > 0 ? 0.5 * shear_force * shear_force / law.ks : 0);
+}
+
+// J, that a contact loses which acts no more, having slid by this in its last step: what it stored, less the work of its
+// force in that step. Of the normal spring that is nothing when it opened.
+inline double end_loss(const Contact& c, const ContactLaw& law, const geom::Vec3& slid) {
+  const double pressed = c.pressed(), opened = std::min(slid.dot(c.normal), pressed);
+  return 0.5 * law.kn * pressed * (pressed - opened) - 0.5 * c.damping * opened +
+         (law.ks > 0 ? 0.5 * c.shear.squaredNorm() / law.ks - 0.5 * c.shear.dot(slid) : 0);
 }
 
 // J, that the normal spring loses when another face is suddenly nearer, as one that has just broken: what it stored at

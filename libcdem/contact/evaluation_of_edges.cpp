@@ -115,7 +115,10 @@ double Evaluation::take_over(Contact& c, const Contact& old, const ContactLaw& l
   c.start = depth - pressed;
   if (before.ks > 0)
     c.shear *= std::sqrt(law.ks / before.ks);
-  return energy(pressed, c.shear.norm(), law);
+  // contact_forces counts the old contact as ended; what it gave back in the step this one gives.
+  const geom::Vec3 slid = work_.step * velocity_past(state_, arms_of(model_, state_, old));
+  const double given_back = energy(old.pressed(), old.shear.norm(), before) - end_loss(old, before, slid);
+  return energy(pressed, c.shear.norm(), law) - given_back;
 }
 
 } // namespace cdem

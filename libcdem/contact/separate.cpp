@@ -2,7 +2,7 @@
 
 #include "libcdem/contact/overlap.hpp"
 #include "libgeom/core/error.hpp"
-#include "libgeom/polyhedron/cut.hpp"
+#include "libgeom/polyhedron/common_part.hpp"
 #include "libgeom/query/box_pairs.hpp"
 
 #include <fmt/format.h>
@@ -16,40 +16,6 @@ constexpr double touching_tolerance = 1e-3;
 // Blocks may reach this part of their size into each other, and share this part of their volume: rounding of
 // builders and of coordinates read from files.
 constexpr double depth_tolerance = 1e-6, volume_tolerance = 1e-6;
-
-std::vector<geom::Plane> face_planes(const geom::Polyhedron& shape) {
-  std::vector<geom::Plane> planes;
-  planes.reserve(shape.faces.size());
-  for (int f = 0; f < static_cast<int>(shape.faces.size()); ++f)
-    planes.push_back(
-        geom::Plane::through(shape.vertices[shape.faces[f].loop.front()], geom::face_normal(shape, f)));
-  return planes;
-}
-
-// Does a face of one block have all of the other outside? Settles all but a few pairs.
-bool apart(const std::vector<geom::Plane>& planes, const geom::Polyhedron& other, double depth) {
-  for (const geom::Plane& plane : planes) {
-    bool outside = true;
-    for (const geom::Vec3& x : other.vertices)
-      outside = outside && plane.level(x) >= -depth;
-    if (outside)
-      return true;
-  }
-  return false;
-}
-
-// What two convex blocks share: one cut by all the faces of the other.
-std::optional<geom::Polyhedron> common_part(const geom::Polyhedron& a,
-                                            const std::vector<geom::Plane>& planes_of_b, double tolerance) {
-  geom::Polyhedron rest = a;
-  for (const geom::Plane& plane : planes_of_b) {
-    geom::Cut parts = geom::cut(rest, plane, tolerance);
-    if (!parts.below)
-      return {};
-    rest = std::move(parts.below->shape);
-  }
-  return rest;
-}
 
 geom::Box box_of_nodes(const Model& model, const Block& block) {
   geom::Box box;
@@ -73,7 +39,7 @@ void require_separate(const Model& model) {
   std::vector<std::vector<geom::Plane>> planes;
   for (const Block& block : model.blocks) {
     boxes.push_back(block.convex() ? geom::bounding_box(block.shape) : box_of_nodes(model, block));
-    planes.push_back(block.convex() ? face_planes(block.shape) : std::vector<geom::Plane>());
+    planes.push_back(block.convex() ? geom::face_planes(block.shape) : std::vector<geom::Plane>());
   }
   // Meshes next to each other differ by rounding, however they were put there.
   for (std::size_t b = 0; b < boxes.size(); ++b)
@@ -89,9 +55,9 @@ void require_separate(const Model& model) {
     if (!one.convex() || !other.convex())
       refuse_contact(model, one, other);
     const double depth = depth_tolerance * std::min(one.size, other.size);
-    if (apart(planes[a], other.shape, depth) || apart(planes[b], one.shape, depth))
+    if (geom::apart(planes[a], other.shape, depth) || geom::apart(planes[b], one.shape, depth))
       continue;
-    const auto common = common_part(one.shape, planes[b], depth);
+    const auto common = geom::common_part(one.shape, planes[b], depth);
     if (!common)
       continue;
     const geom::MassProperties shared = geom::mass_properties(*common);

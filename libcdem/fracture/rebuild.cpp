@@ -196,6 +196,11 @@ private:
       const Block& now = r.model.blocks[b];
       const Block& before = old_.blocks[successors_[b].old_block];
       r.state.initial_stress[b] = from_.initial_stress[successors_[b].old_block];
+      if (!from_.escaped.empty()) {
+        r.state.escaped.resize(r.model.node_position.size(), 0);
+        std::fill(r.state.escaped.begin() + now.node_begin, r.state.escaped.begin() + now.node_end,
+                  from_.escaped[before.node_begin]);
+      }
       for (int node = now.node_begin; node < now.node_end; ++node) {
         if (successors_[b].whole) {
           const int same = before.node_begin + (node - now.node_begin);

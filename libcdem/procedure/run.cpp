@@ -13,8 +13,8 @@
 namespace cdem {
 namespace {
 
-// Bodies in free flight may travel; only what leaves the scene altogether has run away.
-constexpr double run_away_lengths = 100;
+// Of the model's size: so far from its box a piece has left it, or has run away when it is the only one.
+constexpr double left_lengths = 1, run_away_lengths = 100;
 
 // One component of a node of which some are held: the law of step_nodes where it is free.
 struct Component {
@@ -150,6 +150,8 @@ RunResult run(const StageContext& context, const RunOptions& options, const std:
   Stepping stepping{choose_time_step(context.model, options), 0, options.local_damping, options.damp_flight};
   Stage stage(context, kind, run_away_lengths * context.model.length);
   stage.follows_pieces = options.follows_pieces;
+  stage.escapes = {left_lengths * context.model.length,
+                   (options.holds_what_left ? left_lengths : run_away_lengths) * context.model.length};
   stage.details = options.details;
   stage.work.contact.most_friction = options.most_friction;
   stage.work.damped = !state.viscous_stress.empty();

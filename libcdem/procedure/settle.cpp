@@ -156,6 +156,7 @@ void Settling::phase(const std::string& name, double time_step, Until until) {
   stepping.time_step = time_step;
   stepping.local_damping = until == Until::touch ? 0 : options_.local_damping;
   stepping.damp_flight = false;
+  stepping.holds_what_left = true; // else nothing would come to rest
   if (options_.friction_angle)
     stepping.most_friction = std::tan(*options_.friction_angle);
   const std::int64_t looks_per_call =

@@ -117,6 +117,7 @@ std::vector<StateField> fields(State& s) {
       field("contacts", "record", FieldPlace::contact, "contact_forces", s.contacts, false),
       field("rigid", "record", FieldPlace::rigid_body, "move_rigid, set_rigid", s.rigid, true),
       field("rigid_offset", "m", FieldPlace::node, "set_rigid", s.rigid_offset, true),
+      field("escaped", "1", FieldPlace::node, "find_escapes", s.escaped, false),
       {"spent", "J", FieldPlace::model,
        "record_bond_breaks, record_face_breaks, meet_contacts, after_step, relax", &s.spent, sizeof s.spent,
        true},

@@ -40,6 +40,7 @@ struct RunOptions {
   bool breaking = true;
   bool follows_pieces =
       true; // ends with a SolutionError where broken faces no longer stand for the pieces' contact
+  bool holds_what_left = false; // a piece that has left the model is held at once (step/escape.hpp)
   // Cundall's: force against the motion, as a fraction of the out-of-balance force, [0, 1)
   double local_damping = 0;
   bool damp_flight = true; // of rigid bodies that touch nothing too

@@ -26,6 +26,8 @@ static_assert(watch_every % release_every == 0, "as above");
 // Steps between looks at which units have left their place.
 constexpr std::int64_t look_every = 50;
 static_assert(watch_every % look_every == 0, "as above");
+// Steps between looks at which bodies have met, where the number of contacts stays the same.
+constexpr std::int64_t meetings_every = 10;
 // Chunks a thread must have before a further one is worth its two barriers a step: about half a millisecond of work.
 constexpr std::int64_t chunks_per_thread = 32;
 // The same where contacts are looked for, which is most of the work of a pile.
@@ -168,6 +170,10 @@ void Stage::meet_contacts() {
   context_.log.deepest_over_height = std::max(context_.log.deepest_over_height, sums.depth_over_height);
   if (sums.deepest > met_.deepest)
     met_ = sums;
+  const std::size_t contacts = context_.state.contacts.size();
+  if (contacts != contacts_before_ || step % meetings_every == 0)
+    strike_out_met(context_.model, context_.state, context_.log);
+  contacts_before_ = contacts;
 }
 
 void Stage::catch_up_contacts() {
@@ -234,7 +240,23 @@ void Stage::keep_state() {
   if (!context_.state.face_slip.empty())
     work.contact.pieces_due = true;
   catch_up();
+  look_for_escapes();
   context_.last_good = context_.state;
+}
+
+void Stage::look_for_escapes() {
+  bool holds = false;
+  for (const Escape& escape : find_escapes(context_.model, context_.state, work.resolved, escapes)) {
+    require_kept_energy(context_.model, context_.state, escape, here());
+    context_.log.escapes.push_back({context_.number, context_.state.step, context_.state.time,
+                                    in_words(escape, context_.state, here())});
+    context_.observer.warning("warning: " + context_.log.escapes.back().text);
+    holds = holds || escape.held;
+  }
+  if (!holds)
+    return;
+  work.resolved = resolve(context_.model, context_.state, context_.conditions);
+  update_external(work.resolved, context_.state.time);
 }
 
 NodeSums Stage::total() const {

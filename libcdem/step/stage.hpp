@@ -4,6 +4,7 @@
 #include "libcdem/bond/spring_forces.hpp"
 #include "libcdem/parallel/thread_choice.hpp"
 #include "libcdem/results/log.hpp"
+#include "libcdem/step/escape.hpp"
 #include "libcdem/step/forces.hpp"
 #include "libcdem/step/keeper.hpp"
 #include "libcdem/step/mesh_forces.hpp"
@@ -56,6 +57,7 @@ public:
   std::function<void(Progress&)> details; // adds to what the progress line shows; may be empty
   // Ends with a SolutionError where broken faces no longer stand for the pieces' contact.
   bool follows_pieces = false;
+  EscapeLimits escapes; // where pieces have left the model
 
   // One step: all forces where the nodes are, and move(nodes, forces, sums) for every node once all that reads where it
   // is has done so; `forces` are those of elements and springs at `nodes`, the first first. The nodes of rigid bodies
@@ -111,6 +113,7 @@ private:
   void catch_up_contacts();
   void catch_up_meshes();
   void keep_state();
+  void look_for_escapes();        // the state is caught up
   void sample(const StepReport&); // a row of the history
   void tell(const StepReport&, bool last);
 
@@ -121,6 +124,7 @@ private:
   std::string kind_;
   double run_away_;
   std::int64_t broken_in_step_ = 0;
+  std::size_t contacts_before_ = 0;
   ContactSums met_; // the deepest since the head of the last step
   std::int64_t broken_tension_before_ = 0, broken_shear_before_ = 0;
   std::chrono::steady_clock::time_point start_;

@@ -104,3 +104,39 @@ TEST_CASE("contact law: what is stored under a face is lost where another is sud
   CHECK(jump_loss(c, law, motion(2.1e-4, deeper)) == Approx(0.5 * law.kn * (9e-8 - 4e-8)));
   CHECK(jump_loss(c, law, motion(-1e-4, deeper)) == Approx(0.5 * law.kn * 9e-8));
 }
+
+TEST_CASE(
+    "contact law: work of the shear force is what is stored and what friction takes, however the slip turns",
+    "[contact][law]") {
+  Contact c = pressed(1e-4);
+  double work = 0, taken = 0;
+  int slips = 0;
+  for (int i = 0; i < 200; ++i) {
+    const double phase = 0.3 * i;
+    const ContactMotion m = motion(1e-4 * (1.1 + std::sin(1.7 * phase)),
+                                   {8e-5 * std::cos(phase), 5e-5 * std::sin(2.3 * phase), 0});
+    const Vec3 before = c.shear;
+    const double lost = advance(c, law, m).friction;
+    work -= 0.5 * (before + c.shear).dot(m.slid);
+    taken += lost;
+    slips += lost > 0 ? 1 : 0;
+  }
+  CHECK(slips > 100);
+  CHECK(work == Approx(taken + 0.5 * c.shear.squaredNorm() / law.ks).epsilon(1e-12));
+}
+
+TEST_CASE("contact law: one that opens gives back what its normal spring stored, one that goes round an edge "
+          "does not",
+          "[contact][law]") {
+  Contact c = pressed(1e-4);
+  CHECK(end_loss(c, law, {0, 0, 1.2e-4}) == 0); // opened within the step
+  const double stored = 0.5 * law.kn * 1e-8;
+  CHECK(end_loss(c, law, {1e-3, 0, 0}) == Approx(stored)); // off sideways
+  // Half way out: the force has worked along half of its depth.
+  CHECK(end_loss(c, law, {0, 0, 5e-5}) == Approx(0.5 * stored));
+  // Shear: what was stored less the work of its force.
+  advance(c, law, motion(1e-4, {4e-5, 0, 0}));
+  const double shear = 2e3;
+  CHECK(end_loss(c, law, {0, 0, 1.2e-4}) == Approx(0.5 * shear * shear / law.ks));
+  CHECK(end_loss(c, law, {-1e-5, 0, 1.2e-4}) == Approx(0.5 * shear * shear / law.ks - 0.5 * shear * 1e-5));
+}
