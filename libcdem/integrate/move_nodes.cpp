@@ -19,35 +19,7 @@ CDEM_INLINE Quad load_or_zero(const Node* nodes, std::int64_t i) {
   return nodes ? simd::load(nodes[i]) : Quad{};
 }
 
-} // namespace
-
-MovingNodes moving_nodes(State& state, const ActingForces& acting, const std::vector<double>& mass,
-                         Range range, const Node* force) {
-  const ResolvedConditions& r = acting.resolved;
-  const std::int64_t first = range.begin;
-  MovingNodes nodes;
-  nodes.force = force;
-  nodes.internal = r.internal.empty() ? nullptr : r.internal.data() + first;
-  nodes.external = r.external.empty() ? nullptr : r.external.data() + first;
-  nodes.contact = acting.contact.empty() ? nullptr : acting.contact.data() + first;
-  nodes.mass = mass.data() + first;
-  nodes.velocity = state.velocity.data() + first;
-  nodes.displacement = state.displacement.data() + first;
-  nodes.count = range.size();
-  return nodes;
-}
-
-HeldForces held_node_forces(const MovingNodes& node) {
-  HeldForces forces;
-  const Quad load = load_or_zero(node.external, 0);
-  simd::store(forces.load, load);
-  simd::store(forces.net, simd::load(*node.force) + load_or_zero(node.internal, 0) +
-                              load_or_zero(node.contact, 0) + load);
-  return forces;
-}
-
-// The kernels are compiled for several instruction sets; everything they call is inlined into each of them.
-CDEM_KERNEL void step_nodes(const MovingNodes& moving, const Stepping& stepping, NodeSums& sums) {
+CDEM_INLINE void step_kernel(const MovingNodes& moving, const Stepping& stepping, NodeSums& sums) {
   const MovingNodes nodes = moving; // copies: what is written cannot change them
   const Stepping s = stepping;
   Quad residual2{}, applied2{}, external{}, lost{}, kinetic{};
@@ -89,8 +61,8 @@ CDEM_KERNEL void step_nodes(const MovingNodes& moving, const Stepping& stepping,
   sums.kinetic += sum(kinetic);
 }
 
-CDEM_KERNEL void relax_nodes(const MovingNodes& moving, double damping, Node* previous_force,
-                             NodeSums& sums) {
+CDEM_INLINE void relax_kernel(const MovingNodes& moving, double damping, Node* previous_force,
+                              NodeSums& sums) {
   const MovingNodes nodes = moving;
   Quad residual2{}, applied2{}, stiffness{}, inertia{}, external{}, lost{}, kinetic{};
   const double keep = (2 - damping) / (2 + damping), push = 2 / (2 + damping);
@@ -120,6 +92,41 @@ CDEM_KERNEL void relax_nodes(const MovingNodes& moving, double damping, Node* pr
   sums.external += sum(external);
   sums.damping += damping * sum(lost);
   sums.kinetic += sum(kinetic);
+}
+
+} // namespace
+
+MovingNodes moving_nodes(State& state, const ActingForces& acting, const std::vector<double>& mass,
+                         Range range, const Node* force) {
+  const ResolvedConditions& r = acting.resolved;
+  const std::int64_t first = range.begin;
+  MovingNodes nodes;
+  nodes.force = force;
+  nodes.internal = r.internal.empty() ? nullptr : r.internal.data() + first;
+  nodes.external = r.external.empty() ? nullptr : r.external.data() + first;
+  nodes.contact = acting.contact.empty() ? nullptr : acting.contact.data() + first;
+  nodes.mass = mass.data() + first;
+  nodes.velocity = state.velocity.data() + first;
+  nodes.displacement = state.displacement.data() + first;
+  nodes.count = range.size();
+  return nodes;
+}
+
+HeldForces held_node_forces(const MovingNodes& node) {
+  HeldForces forces;
+  const Quad load = load_or_zero(node.external, 0);
+  simd::store(forces.load, load);
+  simd::store(forces.net, simd::load(*node.force) + load_or_zero(node.internal, 0) +
+                              load_or_zero(node.contact, 0) + load);
+  return forces;
+}
+
+void step_nodes(const MovingNodes& nodes, const Stepping& stepping, NodeSums& sums) {
+  simd::best<step_kernel>(nodes, stepping, sums);
+}
+
+void relax_nodes(const MovingNodes& nodes, double damping, Node* previous_force, NodeSums& sums) {
+  simd::best<relax_kernel>(nodes, damping, previous_force, sums);
 }
 
 } // namespace cdem

@@ -5,6 +5,7 @@
 #include "libcdem/procedure/run.hpp"
 #include "libcdem/procedure/turn_rigid.hpp"
 #include "libcdem/results/energy.hpp"
+#include "libgeom/core/portable.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -157,7 +158,7 @@ void Settling::phase(const std::string& name, double time_step, Until until) {
   stepping.local_damping = until == Until::touch ? 0 : options_.local_damping;
   stepping.damp_flight = false;
   if (options_.friction_angle)
-    stepping.most_friction = std::tan(*options_.friction_angle);
+    stepping.most_friction = geom::portable::tan(*options_.friction_angle);
   const std::int64_t looks_per_call =
       options_.callback ? (options_.callback_every + steps_per_look - 1) / steps_per_look : 0;
   stepping.callback_every = steps_per_look;
