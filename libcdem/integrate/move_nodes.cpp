@@ -1,5 +1,7 @@
 #include "libcdem/integrate/move_nodes.hpp"
 
+#include "libcdem/integrate/central_difference.hpp"
+#include "libcdem/integrate/dynamic_relaxation.hpp"
 #include "libcdem/parallel/simd.hpp"
 
 namespace cdem {
@@ -23,7 +25,6 @@ CDEM_INLINE void step_kernel(const MovingNodes& moving, const Stepping& stepping
   const MovingNodes nodes = moving; // copies: what is written cannot change them
   const Stepping s = stepping;
   Quad residual2{}, applied2{}, external{}, lost{}, kinetic{};
-  const Quad zero{};
   const double per_kick = 1 / s.kick;
   const bool damped = nodes.viscous || s.local_damping != 0;
   for (std::int64_t i = 0; i < nodes.count; ++i) {
@@ -34,18 +35,12 @@ CDEM_INLINE void step_kernel(const MovingNodes& moving, const Stepping& stepping
     const double mass = nodes.mass[i], inertia = mass * per_kick;
     Quad velocity;
     if (damped) {
-      const double half = nodes.viscous ? 0.5 * nodes.viscous[i] : 0, heavy = inertia + half;
-      const double inverse = 1 / heavy;
-      const Quad undamped = ((inertia - half) * before + force) * inverse;
-      const Quad most =
-          s.local_damping * inverse * (force < zero ? zero - force : force); // can take off the velocity
-      const Quad both = before + undamped;
-      // A node that it could hold at mean velocity 0 is held there, without loss.
-      velocity = both > most ? undamped - most : both < zero - most ? undamped + most : zero - before;
-      const Quad against = heavy * (undamped - velocity), mean = 0.5 * (before + velocity);
-      lost += (2 * half * mean + against) * mean;
+      const auto after = central_difference::velocity_after(
+          before, force, inertia, nodes.viscous ? nodes.viscous[i] : 0, s.local_damping);
+      velocity = after.velocity;
+      lost += after.lost;
     } else {
-      velocity = before + force * (1 / inertia);
+      velocity = central_difference::velocity_after(before, force, inertia);
     }
     residual2 += force * force;
     applied2 += load * load;
@@ -65,21 +60,21 @@ CDEM_INLINE void relax_kernel(const MovingNodes& moving, double damping, Node* p
                               NodeSums& sums) {
   const MovingNodes nodes = moving;
   Quad residual2{}, applied2{}, stiffness{}, inertia{}, external{}, lost{}, kinetic{};
-  const double keep = (2 - damping) / (2 + damping), push = 2 / (2 + damping);
+  const DynamicRelaxation law(damping);
   for (std::int64_t i = 0; i < nodes.count; ++i) {
     const Quad load = load_or_zero(nodes.external, i);
     const Quad force =
         simd::load(nodes.force[i]) + load_or_zero(nodes.internal, i) + load_or_zero(nodes.contact, i) + load;
     const Quad before = simd::load(nodes.velocity[i]);
     const double mass = nodes.mass[i];
-    const Quad velocity = keep * before + (push / mass) * force;
+    const Quad velocity = law.velocity_after(before, force, mass);
     const Quad mean = 0.5 * (before + velocity);
     residual2 += force * force;
     applied2 += load * load;
     stiffness -= before * (force - simd::load(previous_force[i]));
     inertia += mass * before * before;
     external += load * mean;
-    lost += mass * mean * mean;
+    lost += law.lost(mean, mass);
     kinetic += 0.5 * mass * velocity * velocity;
     simd::store(previous_force[i], force);
     simd::store(nodes.velocity[i], velocity);
@@ -90,7 +85,7 @@ CDEM_INLINE void relax_kernel(const MovingNodes& moving, double damping, Node* p
   sums.stiffness += sum(stiffness);
   sums.inertia += sum(inertia);
   sums.external += sum(external);
-  sums.damping += damping * sum(lost);
+  sums.damping += sum(lost);
   sums.kinetic += sum(kinetic);
 }
 
