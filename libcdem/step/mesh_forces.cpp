@@ -13,7 +13,7 @@ struct Near {
 };
 
 struct NearArrays {
-  Node *position, *displacement, *velocity, *force;
+  Node *position, *displacement, *velocity, *force; // displacement: null where no bond asks for it
 };
 
 // Of one node. An undeformed place is three numbers: it is read one by one.
@@ -21,7 +21,8 @@ CDEM_INLINE void fetch_node(const geom::Vec3& undeformed, const Node& displaceme
                             std::int64_t place, const NearArrays& near) {
   const simd::Quad x = {undeformed[0], undeformed[1], undeformed[2], 0};
   const simd::Quad u = simd::load(displacement);
-  simd::store(near.displacement[place], u);
+  if (near.displacement)
+    simd::store(near.displacement[place], u);
   simd::store(near.position[place], x + u);
   simd::store(near.velocity[place], simd::load(velocity));
   simd::store(near.force[place], simd::Quad{});
@@ -41,8 +42,8 @@ NearArrays fetch(const Model& model, const State& state, const MeshChunk& chunk,
   if (near.force.size() < places)
     for (std::vector<Node>* array : {&near.position, &near.displacement, &near.velocity, &near.force})
       array->resize(places);
-  const NearArrays at{near.position.data(), near.displacement.data(), near.velocity.data(),
-                      near.force.data()};
+  const NearArrays at{near.position.data(), chunk.faces > 0 ? near.displacement.data() : nullptr,
+                      near.velocity.data(), near.force.data()};
   simd::best<fetch_kernel>(model.node_position.data(), state.displacement.data(), state.velocity.data(),
                            chunk.nodes, model.mesh.others.data() + chunk.others.begin, chunk.others.size(),
                            at);
