@@ -19,8 +19,8 @@
 #include "libcdem/results/snapshot.hpp"
 #include "libcdem/results/unit.hpp"
 #include "libcdem/state/ledger.hpp"
+#include "libcdem/step/checkpoint_writer.hpp"
 #include "libcdem/step/errors.hpp"
-#include "libcdem/step/keeper.hpp"
 #include "libcdem/step/observer.hpp"
 #include "libcdem/step/options.hpp"
 #include "libgeom/assembly/assembly.hpp"
@@ -188,7 +188,7 @@ public:
   // Takes the state alone: neither log nor stages.
   void restore_state(const std::string& saved);
   // Who is asked for checkpoints during solving calls; must outlive them. Null: nobody.
-  void set_keeper(Keeper*);
+  void set_checkpoint_writer(CheckpointWriter*);
   // While a script is replayed up to its checkpoint conditions are taken without being tried: the model they were
   // meant for is not there yet.
   void set_replaying(bool);

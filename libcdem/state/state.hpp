@@ -19,7 +19,7 @@ enum class Escaped : std::uint8_t { inside, told, held };
 
 struct State {
   double time = 0;       // s; written by run
-  std::int64_t step = 0; // over all stages; written by after_step
+  std::int64_t step = 0; // over all stages; written by end_step
   // s, velocities and the summed energies stand this long before the displacements; written by run, relax
   double velocity_lag = 0;
 

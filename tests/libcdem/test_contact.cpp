@@ -180,12 +180,12 @@ TEST_CASE("contact: the same bits for every number of threads, and however often
     options.callback_every = 100;
     bool touched = false;
     options.callback = [&] { touched = touched || !s.state.contacts.empty(); };
-    std::optional<cdem::Moment> moment; // where a stage can be left
+    std::optional<cdem::RestartPoint> restart_point; // where a stage can be left
     cdem::run({s.model, s.state, s.conditions, s.log, s.last_good, s.observer, s.threads, 1, nullptr,
-               anew_every_200_steps ? &moment : nullptr},
+               anew_every_200_steps ? &restart_point : nullptr},
               options);
     CHECK(touched);
-    CHECK(moment.has_value() == anew_every_200_steps);
+    CHECK(restart_point.has_value() == anew_every_200_steps);
     return cdem::hash(s.state);
   };
   const auto once = hash_with(1, false);

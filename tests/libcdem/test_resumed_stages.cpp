@@ -170,7 +170,7 @@ TEST_CASE("resume: a stage that was left can be left again where its next loop b
     cdem::Simulation s = dropped(1, observer);
     Saver saver;
     saver.simulation = &s;
-    s.set_keeper(&saver);
+    s.set_checkpoint_writer(&saver);
     if (!saved.empty())
       s.restore(saved);
     Figures these;

@@ -191,7 +191,7 @@ Value make_model(Session& session, Object*, const Arguments& a) {
   model->unjointed = unjointed;
   model->number = static_cast<int>(session.models.size()) + 1;
   if (session.checkpoints.keeps())
-    model->simulation.set_keeper(&session.checkpoints);
+    model->simulation.set_checkpoint_writer(&session.checkpoints);
   model->simulation.set_replaying(session.checkpoints.replaying());
   model->memory = session.new_memory(Table());
   model->notes->built = shown_build(*model);

@@ -1,4 +1,4 @@
-#include "libcdem/step/telling.hpp"
+#include "libcdem/step/progress_reporter.hpp"
 
 namespace cdem {
 namespace {
@@ -11,14 +11,14 @@ double since(std::chrono::steady_clock::time_point then) { // s
 
 } // namespace
 
-Telling::Telling(Observer& observer, RunLog& log, std::int64_t step)
+ProgressReporter::ProgressReporter(Observer& observer, RunLog& log, std::int64_t step)
     : observer_(observer), log_(log), told_(std::chrono::steady_clock::now()), step_(step) {}
 
-bool Telling::due() const {
+bool ProgressReporter::due() const {
   return since(told_) > seconds_between;
 }
 
-void Telling::operator()(Progress progress, bool last) {
+void ProgressReporter::operator()(Progress progress, bool last) {
   const double passed = since(told_);
   progress.broken_tension = log_.broken_tension - log_.told_tension;
   progress.broken_shear = log_.broken_shear - log_.told_shear;

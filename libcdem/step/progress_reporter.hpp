@@ -8,9 +8,9 @@
 
 namespace cdem {
 
-class Telling {
+class ProgressReporter {
 public:
-  Telling(Observer&, RunLog&, std::int64_t step); // from this step of the stage on
+  ProgressReporter(Observer&, RunLog&, std::int64_t step); // from this step of the stage on
 
   bool due() const;
   // Adds what broke in the stage, and how fast it steps.
