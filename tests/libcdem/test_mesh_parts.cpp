@@ -85,14 +85,14 @@ TEST_CASE("loose units of one mesh fall, land on each other and on the floor, an
   s.hold(body_of("floor"), "xyz");
   s.conditions.gravity = gravity();
   cdem::RunOptions options;
-  options.duration = 2;
-  options.local_damping = 0.1;
+  options.duration = 4;
+  options.local_damping = 0.3;
   s.run(options);
   for (int b = 1; b < 4; ++b) {
     INFO("unit " << b);
     CHECK(lowest(s, b) > -0.01);
     CHECK(centroid(s, b).z() < 1.0); // the highest began at 1.6 m
-    CHECK(vec(s.state.velocity[s.model.blocks[b].node_begin]).norm() < 0.3);
+    CHECK(vec(s.state.velocity[s.model.blocks[b].node_begin]).norm() < 0.05);
   }
   CHECK(cdem::energy(s.model, s.state).balance_error() < 1e-2);
   // Nothing holds them together: they have turned by themselves, and no two have moved alike.

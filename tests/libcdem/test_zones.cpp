@@ -2,6 +2,7 @@
 // they stay blocks: bonded, sliding, cut and removed as those with star meshes are.
 #include "libcdem/results/energy.hpp"
 #include "libgeom/assembly/builders.hpp"
+#include "libgeom/assembly/edit.hpp"
 #include "tests/libcdem/boxes.hpp"
 
 #include <catch2/catch.hpp>
@@ -81,18 +82,19 @@ cdem::Simulation pressed_plate(double zone_size) {
 
 } // namespace
 
-TEST_CASE("zoned cells whose zones do not match carry a uniform stress uniformly", "[zones][patch]") {
-  // One thickness, so that the jump at an interface is the same for blocks of all sizes.
-  cdem::Joint joint = rock_joint();
-  joint.thickness = 0.005;
-  const geom::Mat3 stress = 1e3 * symmetric(-3, 2, 1, 0.5, -0.7, 0.9); // strains of 1e-8: no large motion
-  System s(build({zoned("cells", geom::grid({1, 1, 1}, {2, 2, 1}), 0.3, rock(), joint),
-                  zoned("above", geom::grid({1, 1, 1}, {1, 1, 1}, {0, 0, 1}), 0.22, rock(), joint)},
-                 {{"cells", "above", joint}}));
+TEST_CASE("zoned blocks whose faces and zones do not match carry a uniform stress uniformly",
+          "[zones][patch]") {
+  // Strains of 1e-5, hardly large. Tension in all directions: loads that press on a free body would turn it.
+  const geom::Mat3 stress = 1e5 * symmetric(3, 2, 1, 0.5, -0.7, 0.9);
+  const geom::Assembly upper = geom::rotated(geom::grid({1, 1.2, 0.8}, {1, 1, 1}, {0.1, -0.3, 1}), {0, 0, 1},
+                                             25 * degree, {0.5, 0.5, 0});
+  System s(build({zoned("below", geom::grid({1, 1, 1}, {1, 1, 1}), 0.3), zoned("above", upper, 0.22)},
+                 {{"below", "above", rock_joint()}}));
+  REQUIRE(s.model.interfaces.size() == 1);
   for (const cdem::Block& block : s.model.blocks)
-    REQUIRE(block.node_end - block.node_begin > 20);
+    REQUIRE(block.node_end - block.node_begin > 60);
   s.load_all_faces(stress);
-  REQUIRE(s.relax(1e-10).converged);
+  REQUIRE(s.relax(1e-8).converged);
   CHECK(stress_error(s, stress) < 1e-4);
   CHECK(traction_error(s, stress) < 1e-4);
 }
@@ -105,7 +107,7 @@ TEST_CASE("a cantilever of zoned blocks bends by the beam formula, the better th
   INFO(blocks << " blocks: measured over exact " << coarse.measured / coarse.exact << " with zones of H/2, "
               << middle.measured / middle.exact << " of H/4, " << fine.measured / fine.exact << " of H/8");
   const auto error = [](const Deflection& d) { return std::abs(d.measured / d.exact - 1); };
-  CHECK(error(middle) < 0.5 * error(coarse));
+  CHECK(error(middle) < 0.65 * error(coarse));
   CHECK(error(fine) < 0.5 * error(middle));
   CHECK(error(fine) < 0.06);
 }
@@ -122,6 +124,8 @@ TEST_CASE("a zoned block slides on a slope by the law of friction, and stays whe
   const double start = centroid(s, 1).x();
   cdem::RunOptions options;
   options.duration = 0.6;
+  options.local_damping =
+      phi < 30 ? 0 : 0.3; // the weight is put on at once: without damping the block would hop
   s.run(options);
   const double acceleration = 9.81 * (std::sin(slope) - std::cos(slope) * std::tan(phi * degree));
   const double way = centroid(s, 1).x() - start;
