@@ -3,6 +3,7 @@
 #include "libgeom/core/check.hpp"
 #include "libgeom/mesh/boundary.hpp"
 #include "libgeom/mesh/mesh_size.hpp"
+#include "libgeom/mesh/star_mesh.hpp"
 #include "libgeom/solid/gmsh_session.hpp"
 
 #include <gmsh.h>
@@ -112,6 +113,28 @@ BlockMesh collect(const Polyhedron& block) {
   return mesh;
 }
 
+double volume_of(const BlockMesh& mesh) {
+  TetMesh tets;
+  tets.nodes = mesh.nodes;
+  tets.tets = mesh.tets;
+  return volume(tets);
+}
+
+// The mesh that gmsh holds; the star mesh where that fails to fill the block (a sliver left by a cut) or has fewer tets.
+BlockMesh collected_or_star(const Polyhedron& block) {
+  constexpr double volume_tolerance = 1e-6;
+  BlockMesh star = star_mesh(block);
+  try {
+    BlockMesh zones = collect(block);
+    const double missing = std::abs(volume_of(zones) / mass_properties(block).volume - 1);
+    if (zones.tets.size() >= star.tets.size() && missing < volume_tolerance)
+      return zones;
+  } catch (const InputError&) {
+    return star;
+  }
+  return star;
+}
+
 void require_size(const std::vector<Polyhedron>& blocks, double size) {
   if (!(size > 0) || !std::isfinite(size))
     throw InputError("zone_size", text(size), "a finite number > 0 m");
@@ -150,7 +173,7 @@ std::vector<BlockMesh> zone_meshes(const std::vector<Polyhedron>& blocks, double
       gmsh::clear();
       make_model(block, size);
       gmsh::model::mesh::generate(3);
-      meshes.push_back(collect(block));
+      meshes.push_back(collected_or_star(block));
       if (static_cast<int>(meshes.back().nodes.size()) > max_zone_nodes)
         throw InputError("zone_size", text(size), "such that no block has more than 65535 nodes",
                          "the block at " + text(mass_properties(block).centroid) + " m has " +

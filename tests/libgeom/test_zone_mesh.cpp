@@ -3,6 +3,7 @@
 #include "libgeom/core/error.hpp"
 #include "libgeom/mesh/boundary.hpp"
 #include "libgeom/mesh/solid_mesh.hpp"
+#include "libgeom/mesh/star_mesh.hpp"
 #include "libgeom/mesh/zone_mesh.hpp"
 
 #include <catch2/catch.hpp>
@@ -65,6 +66,22 @@ TEST_CASE("half the zone size makes about eight times the zones, and the same ea
   CHECK(ratio > 5);
   CHECK(ratio < 12);
   CHECK(again[0].tets == coarse[0].tets);
+}
+
+TEST_CASE("blocks smaller than a zone, and slivers, are filled by at least their star mesh", "[zones]") {
+  VoronoiOptions thin;
+  thin.size = {1, 1, 1e-4};
+  thin.count = 6;
+  std::vector<Polyhedron> blocks = voronoi(thin).blocks;
+  blocks.push_back(make_box({0, 0, 0}, {0.1, 0.1, 0.1}));
+  const std::vector<BlockMesh> meshes = zone_meshes(blocks, 0.3);
+  for (std::size_t b = 0; b < blocks.size(); ++b) {
+    CHECK(meshes[b].tets.size() >= star_mesh(blocks[b]).tets.size());
+    double volume = 0;
+    for (const Tet& tet : meshes[b].tets)
+      volume += tet_volume(meshes[b], tet);
+    CHECK(volume == Approx(mass_properties(blocks[b]).volume).epsilon(1e-6));
+  }
 }
 
 TEST_CASE("a zone size that is no size, or far too small, is refused", "[zones]") {
