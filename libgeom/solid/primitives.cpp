@@ -61,29 +61,6 @@ Solid make_solid(const Polyhedron& polyhedron) {
   return make_solid(surface_of(polyhedron));
 }
 
-Solid make_solid(const Assembly& assembly) {
-  if (assembly.blocks.empty())
-    throw InputError("blocks", "none", "at least one");
-  if (assembly.blocks.size() == 1)
-    return make_solid(assembly.blocks.front());
-  for (const Polyhedron& block : assembly.blocks)
-    for (const Vec3& x : block.vertices)
-      require_place("vertices", x);
-  Solid solid = in_session("solid of blocks", [&] {
-    Pieces first, others;
-    for (const Polyhedron& block : assembly.blocks)
-      (first.empty() ? first : others).emplace_back(3, add_volume(surface_of(block)));
-    Pieces out;
-    std::vector<Pieces> map;
-    occ::fragment(first, others, out, map); // keeps the numbers of volumes that stay whole
-    return store("solid of blocks");
-  });
-  if (solid.regions() != static_cast<int>(assembly.blocks.size()))
-    throw InputError("solid of blocks: " + std::to_string(assembly.blocks.size()) + " blocks make " +
-                     std::to_string(solid.regions()) + " regions; blocks may touch but not overlap");
-  return solid;
-}
-
 Solid box(const Vec3& size, const Vec3& origin) {
   require_positive("size", size);
   require_length("size", size.minCoeff());
