@@ -101,6 +101,29 @@ TEST_CASE("loose units of one mesh fall, land on each other and on the floor, an
   CHECK(((c - b) - Vec3(-0.1, 0, 0.65)).norm() > 0.05);
 }
 
+TEST_CASE("parts of one mesh that touch from the start rest on each other, at any attitude", "[mesh_parts]") {
+  const geom::Mat3 turn = GENERATE(geom::Mat3(geom::Mat3::Identity()), rotation({1, 2, -0.5}, 77 * degree));
+  const auto slab = [&](double z) {
+    return placed(geom::box_mesh({1, 1, 0.4}, {3, 3, 2}, 0.1), turn, turn * Vec3(0.02 * z, 0, z));
+  };
+  System s(build({meshed("stack", together({slab(0), slab(0.4), slab(0.8)}), {}, soft())},
+                 {{"stack", "stack", friction(30)}}));
+  REQUIRE(s.model.blocks.size() == 3);
+  s.hold(cdem::Selection::where([turn](const Vec3& x) { return (turn.transpose() * x).z() < 0.01; }, "foot"),
+         "xyz");
+  s.conditions.gravity = gravity(turn * Vec3(0, 0, -9.81));
+  cdem::RunOptions options;
+  options.duration = 0.3;
+  options.local_damping = 0.3;
+  s.run(options);
+  for (int b = 1; b < 3; ++b) {
+    const Vec3 moved = turn.transpose() * centroid(s, b) - Vec3(0.5 + 0.02 * 0.4 * b, 0.5, 0.4 * b + 0.2);
+    INFO("slab " << b << " moved by " << moved.transpose());
+    CHECK(moved.norm() < 5e-3);
+    CHECK(moved.z() < 0);
+  }
+}
+
 TEST_CASE("two parts of a mesh that meet without a law say which is missing; a joint brings its friction",
           "[mesh_parts]") {
   const auto thrown_at_each_other = [](const cdem::Bonding& bonding) {

@@ -99,6 +99,18 @@ TEST_CASE("zoned blocks whose faces and zones do not match carry a uniform stres
   CHECK(traction_error(s, stress) < 1e-4);
 }
 
+TEST_CASE("zoned blocks that have turned as a whole feel nothing", "[zones]") {
+  System s(build({zoned("rock", cells(10), 0.3)}));
+  const geom::Mat3 turn = rotation({1, 2, -0.5}, 130 * degree);
+  for (std::size_t i = 0; i < s.model.node_position.size(); ++i)
+    s.state.displacement[i] =
+        node(turn * s.model.node_position[i] + Vec3(3, -20, 7) - s.model.node_position[i]);
+  double largest = 0;
+  for (const Vec3& f : s.net_forces())
+    largest = std::max(largest, f.norm());
+  CHECK(largest < 1e-10 * rock().youngs_modulus);
+}
+
 TEST_CASE("a cantilever of zoned blocks bends by the beam formula, the better the finer its zones",
           "[zones][cantilever]") {
   const int blocks = GENERATE(1, 4);
