@@ -128,10 +128,10 @@ struct Simulation::Impl {
   // A change of topology between stages: the ledger counts what it does to the stored and the kinetic energy. Smaller
   // tets carry less of the mass at their corners, so that a block that spins has less of it once it is cut.
   void adopt(Rebuilt&& rebuilt) {
-    const double before = energy(model, state).total();
+    const double before = cdem::energy(model, state).total();
     model = std::move(rebuilt.model);
     state = std::move(rebuilt.state);
-    state.spent.cutting += before - energy(model, state).total();
+    state.spent.cutting += before - cdem::energy(model, state).total();
     last_good = state;
   }
 };
