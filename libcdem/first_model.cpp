@@ -4,6 +4,7 @@
 #include "libcdem/model/build/build_model.hpp"
 #include "libcdem/simulation_checks.hpp"
 #include "libgeom/core/error.hpp"
+#include "libgeom/mesh/parts.hpp"
 
 #include <cmath>
 #include <set>
@@ -25,7 +26,9 @@ int body_index(const Model& model, const std::string& name) {
 // contact as well: between blocks the friction of their joint, else the law itself.
 class PairLaws {
 public:
-  PairLaws(Model& frame, const ModelSpec& spec) : frame_(frame), spec_(spec) {}
+  // parts: of each body, how many it has: blocks, or connected parts of its meshes.
+  PairLaws(Model& frame, const ModelSpec& spec, const std::vector<std::size_t>& parts)
+      : frame_(frame), spec_(spec), parts_(parts) {}
 
   // field, value: what the user gave, for messages.
   void add(int a, int b, const Joint& joint, const std::string& field, const std::string& value) {
@@ -50,10 +53,11 @@ public:
       throw geom::InputError(field, value, "given once", "two bodies have one law between them");
   }
 
-  // The blocks of a body that come loose meet with the friction of their joint.
+  // The parts of a body meet with the friction of its joint: blocks that come loose, and what a mesh is made of. A mesh
+  // without bonds has no joint: its parts need a law in contacts.
   void add_within_bodies() {
     for (int b = 0; b < count(); ++b)
-      if (!is_small(b) && spec_.bodies[b].shape.blocks.size() > 1)
+      if (!is_small(b) && parts_[b] > 1 && (are_blocks(b, b) || !frame_.bodies[b].bonding.none()))
         add_to(frame_.surface.joint, b, b, contact_of(b, b, spec_.bodies[b].joint));
   }
 
@@ -89,15 +93,17 @@ private:
   }
   // Between blocks as stiff as the joint that held them, so that nothing sinks when an interface is handed over.
   Joint contact_of(int a, int b, const Joint& joint) const {
-    if (!are_blocks(a, b))
+    if (!are_blocks(a, b) && !joint.bonded)
       return joint;
+    Joint contact;
+    contact.bonded = false;
+    contact.friction_angle = joint.friction_angle;
+    if (!are_blocks(a, b))
+      return contact;
     const Elastic &one = spec_.bodies[a].material, &other = spec_.bodies[b].material;
     const double thickness =
         joint.thickness.value_or(joint.thickness_ratio * 0.5 * (block_size(a) + block_size(b)));
     const auto series = [&](double p, double q) { return 2 / (thickness * (1 / p + 1 / q)); };
-    Joint contact;
-    contact.bonded = false;
-    contact.friction_angle = joint.friction_angle;
     contact.normal_stiffness =
         joint.normal_stiffness.value_or(series(one.youngs_modulus, other.youngs_modulus));
     contact.shear_stiffness =
@@ -107,7 +113,21 @@ private:
 
   Model& frame_;
   const ModelSpec& spec_;
+  const std::vector<std::size_t>& parts_;
 };
+
+void require_zones(const BodySpec& body) {
+  if (body.zone_size == 0)
+    return;
+  if (!(body.zone_size > 0) || !std::isfinite(body.zone_size))
+    throw geom::InputError("zone_size", number(body.zone_size), "a finite number > 0 m");
+  if (!body.meshes.empty())
+    throw geom::InputError("zone_size", "of a mesh", "of an assembly of convex blocks",
+                           "a mesh has the size that it was made with");
+  if (body.element == Element::small_strain)
+    throw geom::InputError("zone_size", "of a body of small strain", "of a body that moves far",
+                           "leave element = \"small_strain\" out");
+}
 
 } // namespace
 
@@ -119,6 +139,7 @@ Model first_model(const ModelSpec& spec) {
   std::set<std::string> names;
   std::vector<BlockSeed> seeds;
   std::vector<MeshSeed> meshes;
+  std::vector<std::size_t> parts;
   for (const BodySpec& body : spec.bodies) {
     if (!names.insert(body.name).second)
       throw geom::InputError("name", "\"" + body.name + "\"", "unique among the bodies");
@@ -129,10 +150,15 @@ Model first_model(const ModelSpec& spec) {
     const bool meshed = !body.meshes.empty();
     if (meshed)
       validate_meshed(body);
+    require_zones(body);
     const int index = static_cast<int>(frame.bodies.size());
-    frame.bodies.push_back({body.name, body.material, body.joint, body.bonding, body.element});
+    frame.bodies.push_back(
+        {body.name, body.material, body.joint, body.bonding, body.element, body.zone_size});
+    const std::size_t before = meshes.size();
     for (const geom::TetMesh& mesh : body.meshes)
-      meshes.push_back({0, index, mesh});
+      for (geom::TetMesh& part : geom::parts(mesh))
+        meshes.push_back({0, index, std::move(part)});
+    parts.push_back(body.shape.blocks.size() + meshes.size() - before);
     frame.pair_joint[{index, index}] = static_cast<int>(frame.joints.size());
     frame.joints.push_back(body.joint);
     for (const geom::Polyhedron& block : body.shape.blocks) {
@@ -142,7 +168,7 @@ Model first_model(const ModelSpec& spec) {
       seeds.push_back(std::move(seed));
     }
   }
-  PairLaws laws(frame, spec);
+  PairLaws laws(frame, spec, parts);
   for (const PairSpec& pair : spec.pairs) {
     validate(pair.joint);
     laws.add(body_index(frame, pair.body_a), body_index(frame, pair.body_b), pair.joint, "contacts",

@@ -6,6 +6,7 @@
 #include "libcdem/element/small_strain.hpp"
 #include "libcdem/first_model.hpp"
 #include "libcdem/procedure/critical_flow.hpp"
+#include "libcdem/procedure/give_motion.hpp"
 #include "libcdem/procedure/grow.hpp"
 #include "libcdem/procedure/refine.hpp"
 #include "libcdem/procedure/relax.hpp"
@@ -162,41 +163,20 @@ void Simulation::initial_stress(const Selection& on, const std::array<double, 6>
   s.state.spent.cutting += before - s.stored_energy();
 }
 
-void Simulation::initial_velocity(const Selection& on, const geom::Vec3& velocity) {
+void Simulation::initial_velocity(const Selection& on, const geom::Vec3& velocity,
+                                  const geom::Vec3& angular_velocity,
+                                  const std::optional<geom::Vec3>& about) {
   require_finite("velocity", velocity);
+  require_finite("angular_velocity", angular_velocity);
+  if (about)
+    require_finite("about", *about);
   Impl& s = *impl_;
   const std::vector<int> nodes = selected_nodes(s.model, on);
   if (nodes.empty())
     throw geom::InputError("on", on.text, "a place that holds nodes", "nothing of the model lies there");
-  std::vector<int> selected(s.model.blocks.size(), 0);
-  for (const int node : nodes)
-    ++selected[block_of(s.model, node)];
-  const auto kinetic = [&](const RigidBody& body) {
-    return kinetic_energy(body, s.state.rigid[s.model.blocks[body.block].rigid], s.state.velocity_lag);
-  };
-  for (const RigidBody& body : s.model.rigid) {
-    const Block& block = s.model.blocks[body.block];
-    if (selected[body.block] != 0 && selected[body.block] != block.node_end - block.node_begin)
-      throw geom::InputError("on", on.text, "whole rigid bodies",
-                             "a part of block " + std::to_string(block.id) + " has no velocity of its own");
-  }
-  // Kinetic energy given from outside.
-  double given = 0;
-  for (const RigidBody& body : s.model.rigid)
-    if (selected[body.block] != 0) {
-      given -= kinetic(body);
-      RigidState& motion = s.state.rigid[s.model.blocks[body.block].rigid];
-      motion.velocity = triple(velocity);
-      motion.angular_momentum = {};
-      given += kinetic(body);
-    }
-  for (const int node : nodes) {
-    Node& v = s.state.velocity[node];
-    const double before = v.x * v.x + v.y * v.y + v.z * v.z;
-    v = {velocity.x(), velocity.y(), velocity.z(), 0};
-    if (s.model.blocks[block_of(s.model, node)].rigid < 0)
-      given += 0.5 * s.model.node_mass[node] * (velocity.squaredNorm() - before);
-  }
+  const double given = give_motion(
+      s.model, s.state, nodes,
+      {velocity, angular_velocity, about ? *about : centroid_of(s.model, s.state, nodes)}, on.text);
   s.state.spent.external += given;
   s.state.spent.external_peak = std::max(s.state.spent.external_peak, std::abs(s.state.spent.external));
 }

@@ -34,7 +34,7 @@
 
 namespace cdem {
 
-// Convex blocks (shape), or meshed solids (meshes), each of which becomes one block of tetrahedra.
+// Convex blocks (shape), or meshes. Each connected part of a mesh becomes one block of tetrahedra.
 struct BodySpec {
   std::string name; // unique; "body_1", ... when the user gives none
   geom::Assembly shape;
@@ -43,6 +43,7 @@ struct BodySpec {
   std::vector<geom::TetMesh> meshes = {};
   Bonding bonding = {};
   Element element = Element::finite_volume; // small_strain: of blocks only
+  double zone_size = 0; // m, edge length of the tets inside each convex block; 0: its star mesh
 };
 
 struct PairSpec {
@@ -90,8 +91,11 @@ public:
   // Stress present before anything moves, Pa, tension positive (xx yy zz xy yz xz), constant over the selected blocks;
   // interfaces between two selected blocks start with its traction.
   void initial_stress(const Selection&, const std::array<double, 6>&);
-  // A rigid body takes it as a whole, without spin.
-  void initial_velocity(const Selection&, const geom::Vec3&);
+  // The motion of a rigid body, given to all that is selected: v + w x (x - about), m/s and rad/s; about: m, where it
+  // is now, the centroid of what is selected unless given. A rigid body takes it as a whole.
+  void initial_velocity(const Selection&, const geom::Vec3& velocity,
+                        const geom::Vec3& angular_velocity = geom::Vec3::Zero(),
+                        const std::optional<geom::Vec3>& about = {});
   // Selected meshed blocks keep their shape from now on, or deform again; the ledger counts the kinetic energy of
   // deformation that is lost. Each returns how many changed.
   std::int64_t make_rigid(const Selection&);

@@ -126,12 +126,13 @@ struct Simulation::Impl {
     return count;
   }
 
-  // A change of topology or of the stress state between stages: the ledger counts what it does to the stored energy.
+  // A change of topology between stages: the ledger counts what it does to the stored and the kinetic energy. Smaller
+  // tets carry less of the mass at their corners, so that a block that spins has less of it once it is cut.
   void adopt(Rebuilt&& rebuilt) {
-    const double before = stored_energy();
+    const double before = cdem::energy(model, state).total();
     model = std::move(rebuilt.model);
     state = std::move(rebuilt.state);
-    state.spent.cutting += before - stored_energy();
+    state.spent.cutting += before - cdem::energy(model, state).total();
     last_good = state;
   }
 };

@@ -33,8 +33,8 @@ void archive(A& a, Bonding& x) {
 
 template <class A>
 void archive(A& a, Body& x) {
-  auto& [name, material, joint, bonding, element] = x;
-  archive_all(a, name, material, joint, bonding, element);
+  auto& [name, material, joint, bonding, element, zone_size] = x;
+  archive_all(a, name, material, joint, bonding, element, zone_size);
 }
 
 template <class A>
@@ -63,9 +63,9 @@ void archive(A& a, geom::Box& x) {
 
 template <class A>
 void archive(A& a, Block& x) {
-  auto& [id, parent, generation, body, meshed, rigid, shape, mass, size, first_size, node_begin, node_end,
+  auto& [id, parent, generation, body, meshed, zoned, rigid, shape, mass, size, first_size, node_begin, node_end,
          tet_begin, tet_end] = x;
-  archive_all(a, id, parent, generation, body, meshed, rigid, shape, mass, size, first_size, node_begin,
+  archive_all(a, id, parent, generation, body, meshed, zoned, rigid, shape, mass, size, first_size, node_begin,
               node_end, tet_begin, tet_end);
 }
 
@@ -129,8 +129,8 @@ void archive(A& a, MeshChunk& x) {
 
 template <class A>
 void archive(A& a, BoundaryTriangle& x) {
-  auto& [nodes, tet, block] = x;
-  archive_all(a, nodes, tet, block);
+  auto& [nodes, tet, block, face] = x;
+  archive_all(a, nodes, tet, block, face);
 }
 
 template <class A>

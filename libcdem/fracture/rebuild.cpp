@@ -152,6 +152,8 @@ private:
       seed.body = parent.body;
       seed.shape = s.shape;
       seed.first_size = parent.first_size;
+      if (s.whole)
+        seed.zones = zones_of(old_, s.old_block);
       seeds.push_back(std::move(seed));
     }
     return seeds;

@@ -37,10 +37,11 @@ struct alignas(32) FaceBatch {
 };
 
 struct MeshChunk {
-  int block = 0;      // the first of `blocks`; all are of one body
-  Range blocks;       // whole convex blocks with star meshes, or the one block that this is a part of
-  bool stars = false; // convex blocks: no node is touched by another chunk, and bonds may act on all of them
-  Range nodes;        // its own, the inner ones first
+  int block = 0; // the first of `blocks`; all are of one body
+  Range blocks;  // whole convex blocks, or the one block that this is a part of
+  bool stars =
+      false;   // whole convex blocks: no node is touched by another chunk, and bonds may act on all of them
+  Range nodes; // its own, the inner ones first
   std::int64_t inner_end = 0; // of those: nodes that no other chunk touches
   Range others;               // into MeshData::others: further nodes it touches
   Range tets;                 // of the model
@@ -57,6 +58,7 @@ struct BoundaryTriangle {
   geom::Triangle nodes{}; // of the model, counter-clockwise seen from outside
   int tet = 0;
   int block = 0;
+  int face = -1; // of a convex block: the one it is a part of
 };
 
 // The two tets at a bonded face, in the place batch * lanes + lane.

@@ -11,6 +11,7 @@
 #include "libcdem/parallel/node.hpp"
 #include "libgeom/polyhedron/polyhedron.hpp"
 
+#include <algorithm>
 #include <cstdint>
 #include <map>
 #include <string>
@@ -24,27 +25,30 @@ struct Body {
   Joint joint; // between its own blocks; its strength is that of the blocks themselves when they are cut
   Bonding bonding = {};                    // of a meshed body: which of its faces carry that joint
   Element element = Element::small_strain; // that it starts as; single blocks may turn rigid and back
+  double zone_size = 0; // m, edge length of the tets inside its convex blocks; 0: their star meshes
 };
 
-// A part of a body with nodes of its own: a convex block with its star mesh, or a meshed solid.
+// A part of a body with nodes of its own: a convex block with its star mesh or with zones, or a connected part of a
+// mesh.
 struct Block {
   std::int64_t id = 0;      // stable, never used again
   std::int64_t parent = -1; // id of the block it was cut from
   int generation = 0;       // cuts between the first block and this one
   int body = 0;
   bool meshed = false;       // its tets are of finite volume and stand in MeshData: it may move far
+  bool zoned = false;        // a convex block with a finer mesh than its star mesh
   int rigid = -1;            // index into Model::rigid; -1: it deforms
-  geom::Polyhedron shape;    // empty when not convex: a meshed solid
+  geom::Polyhedron shape;    // empty when not convex: a part of a mesh
   geom::MassProperties mass; // unit density
   double size = 0;           // h, cube root of the volume, m
   double first_size =
       0; // h of the generation-0 block it comes from, m; joints keep their thickness through cuts
-  int node_begin = 0,
-      node_end = 0; // of a convex block: vertices, then one centre per face, then the centroid
+  // Of a convex block: its vertices first; of one that is not zoned then one centre per face, then the centroid.
+  int node_begin = 0, node_end = 0;
   int tet_begin = 0, tet_end = 0;
 
-  bool convex() const { return !shape.faces.empty(); } // with a star mesh
-  int face_centre(int face) const { return node_begin + static_cast<int>(shape.vertices.size()) + face; }
+  bool convex() const { return !shape.faces.empty(); }
+  bool star() const { return convex() && !zoned; } // judged as a whole: its stress is that of the block
   int centroid_node() const { return node_end - 1; }
 };
 
@@ -182,6 +186,17 @@ void each_deformable_run(const Model& model, const MeshChunk& chunk, const Visit
       ++b;
     visit(Range{model.blocks[first].node_begin, model.blocks[b - 1].node_end});
   }
+}
+
+// visit(index into MeshData::boundary, triangle) for the outer triangles of a block that moves far, in order.
+template <class Visit>
+void each_boundary_triangle(const Model& model, int block, const Visit& visit) {
+  const auto& all = model.mesh.boundary; // by block
+  const auto first =
+      std::lower_bound(all.begin(), all.end(), block,
+                       [](const BoundaryTriangle& triangle, int b) { return triangle.block < b; });
+  for (auto i = first; i != all.end() && i->block == block; ++i)
+    visit(static_cast<int>(i - all.begin()), *i);
 }
 
 int block_of(const Model&, int node);       // index into Model::blocks

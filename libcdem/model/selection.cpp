@@ -260,7 +260,7 @@ std::vector<int> selected_outer_faces(const Model& model, const Selection& selec
         for (const int node : t)
           selected = selected && selects(x[node], face.block);
     } else if (selection.kind == Selection::Kind::predicate)
-      selected = selects(model.node_position[block.face_centre(face.face)], face.block);
+      selected = selects(geom::face_centroid(block.shape, face.face), face.block);
     else
       for (const int v : block.shape.faces[face.face].loop)
         selected = selected && selects(block.shape.vertices[v], face.block);

@@ -97,18 +97,25 @@ double cell_volume(const Model& model, const Cell& cell) {
   return cell.tet < 0 ? model.blocks[cell.block].mass.volume : tet_volume(model, cell.tet);
 }
 
-// Blocks and tets by their centroid; a side, or a name of faces, selects those that have a face there.
+// Star blocks and tets by their centroid; a side, or a name of faces, selects those that have a face there.
 std::vector<Cell> selected_cells(const Model& model, const Selection& on) {
   std::vector<Cell> cells;
   const bool by_faces = on.kind == Selection::Kind::side || on.kind == Selection::Kind::faces;
   std::vector<char> on_side(by_faces ? model.tets.size() : 0, 0);
   if (!on_side.empty())
-    for (const int f : selected_outer_faces(model, on))
-      if (model.outer_faces[f].boundary >= 0)
-        on_side[model.mesh.boundary[model.outer_faces[f].boundary].tet] = 1;
+    for (const int f : selected_outer_faces(model, on)) {
+      const OuterFace& face = model.outer_faces[f];
+      if (face.boundary >= 0)
+        on_side[model.mesh.boundary[face.boundary].tet] = 1;
+      else if (model.blocks[face.block].zoned)
+        each_boundary_triangle(model, face.block, [&](int, const BoundaryTriangle& triangle) {
+          if (triangle.face == face.face)
+            on_side[triangle.tet] = 1;
+        });
+    }
   for (int b = 0; b < static_cast<int>(model.blocks.size()); ++b) {
     const Block& block = model.blocks[b];
-    if (block.convex()) {
+    if (block.star()) {
       if (selects_block(model, on, b))
         cells.push_back({b, -1});
       continue;
@@ -211,7 +218,7 @@ double value_at(const Model& model, const State& state, const std::string& field
       if (std::min(w0, w.minCoeff()) < -1e-6)
         continue;
       if (!nodal)
-        return cell_value(model, state, field, {b, block.convex() ? -1 : t});
+        return cell_value(model, state, field, {b, block.star() ? -1 : t});
       // The vector is interpolated and then measured: its length at the nodes says little about that between them.
       const double weight[] = {w0, w[0], w[1], w[2]};
       Node value;

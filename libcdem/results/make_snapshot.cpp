@@ -134,11 +134,15 @@ bool opened(const FaceStateBatch& state, int lane) {
   return true;
 }
 
-// The outer faces of meshed blocks, both sides of faces whose three springs have broken, and sharp edges.
+// The outer faces of meshes and zoned blocks, both sides of faces whose three springs have broken, and sharp edges.
 void add_mesh_surface(const Model& model, const State& state, Snapshot& snapshot) {
-  std::map<std::array<int, 2>, geom::Vec3> normal_at; // of the first triangle that has the edge
+  struct Side {
+    geom::Vec3 normal;
+    int face; // of a zoned block
+  };
+  std::map<std::array<int, 2>, Side> first_at; // the first triangle that has the edge
   for (const BoundaryTriangle& triangle : model.mesh.boundary) {
-    if (model.blocks[triangle.block].convex())
+    if (model.blocks[triangle.block].star())
       continue; // add_surface
     snapshot.surface.push_back(triangle.nodes);
     snapshot.surface_tet.push_back(triangle.tet);
@@ -151,8 +155,8 @@ void add_mesh_surface(const Model& model, const State& state, Snapshot& snapshot
       const int a = model.mesh.original[ends[0] - model.mesh.first_node],
                 b = model.mesh.original[ends[1] - model.mesh.first_node];
       const auto [found, first] =
-          normal_at.emplace(std::array<int, 2>{std::min(a, b), std::max(a, b)}, normal);
-      if (!first && found->second.dot(normal) < flat)
+          first_at.emplace(std::array<int, 2>{std::min(a, b), std::max(a, b)}, Side{normal, triangle.face});
+      if (!first && (found->second.normal.dot(normal) < flat || found->second.face != triangle.face))
         snapshot.block_edges.push_back(ends);
     }
   }
@@ -170,7 +174,7 @@ void add_mesh_surface(const Model& model, const State& state, Snapshot& snapshot
 
 void add_surface(const Model& model, Snapshot& snapshot) {
   for (const Block& block : model.blocks) {
-    if (!block.convex())
+    if (!block.star())
       continue;
     for (const auto& edge : geom::edges(block.shape))
       snapshot.block_edges.push_back({block.node_begin + edge[0], block.node_begin + edge[1]});

@@ -13,7 +13,7 @@ struct EnergyLedger {
   double friction = 0;
   // Stored in a spring when it broke and no longer stored after; damage of softening bonds.
   double breaking = 0;
-  double cutting = 0;    // change of the stored energy when blocks are cut (positive: lost)
+  double cutting = 0;    // stored and kinetic energy lost when blocks are cut or removed
   double fictitious = 0; // kinetic energy thrown away when a relaxation ends or its masses are rebuilt
   // given
   double external = 0;      // work of loads, gravity and moving supports

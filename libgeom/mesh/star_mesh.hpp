@@ -2,16 +2,13 @@
 // of that face (Han 2010 fig 2).
 #pragma once
 
+#include "libgeom/mesh/block_mesh.hpp"
 #include "libgeom/polyhedron/polyhedron.hpp"
 
 namespace geom {
 
-struct StarMesh {
-  std::vector<Vec3> nodes; // the block's vertices (same order), then one centre per face, then the centroid
-  std::vector<Tet> tets;
-  std::vector<std::vector<Triangle>> fans; // per face: triangles (face centre, edge start, edge end), outward
-};
-
-StarMesh star_mesh(const Polyhedron&);
+// Nodes: the block's vertices, then one centre per face, then the centroid. Triangles: face centre, edge start, edge
+// end. Tets: the centroid, then such a triangle, in the order of the fans.
+BlockMesh star_mesh(const Polyhedron&);
 
 } // namespace geom

@@ -69,7 +69,6 @@ Pile drop_grid(const TetMesh& unit, int count, const Ground& ground, const DropO
   if (options.layers < 0 || options.layers > max_drop_layers)
     throw InputError("layers", std::to_string(options.layers),
                      "from 1 to " + std::to_string(max_drop_layers));
-  require_one_part(unit);
   Pile pile = pile_of(unit);
   const double gap = options.gap.value_or(0.1 * pile.height);
   require_positive("gap", gap);

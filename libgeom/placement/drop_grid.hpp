@@ -19,8 +19,8 @@ struct DropOptions {
 
 inline constexpr int max_drop_layers = 20;
 
-// Throws InputError for a count below 1, a gap that is not positive, a unit of loose parts, units that miss the ground or
-// do not fit over the region in so many layers.
+// Throws InputError for a count below 1, a gap that is not positive, units that miss the ground or do not fit
+// over the region in so many layers. A unit of loose parts is hung up as one and falls as many.
 Pile drop_grid(const TetMesh& unit, int count, const Ground&, const DropOptions& = {});
 
 } // namespace geom

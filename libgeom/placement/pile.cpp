@@ -5,12 +5,12 @@
 #include "libgeom/core/portable.hpp"
 #include "libgeom/core/random.hpp"
 #include "libgeom/core/rotation.hpp"
+#include "libgeom/mesh/parts.hpp"
 
 #include <Eigen/SVD>
 
 #include <cassert>
 #include <cmath>
-#include <numeric>
 
 namespace geom {
 
@@ -25,23 +25,9 @@ Pile pile_of(TetMesh unit) {
 }
 
 void require_one_part(const TetMesh& unit) {
-  std::vector<int> part(unit.nodes.size()); // another node of the same part, of one node itself
-  std::iota(part.begin(), part.end(), 0);
-  const auto first = [&](int node) {
-    while (part[node] != node)
-      node = part[node] = part[part[node]];
-    return node;
-  };
-  std::size_t parts = unit.nodes.size();
-  for (const Tet& tet : unit.tets)
-    for (int i = 1; i < 4; ++i) {
-      const int a = first(tet[0]), b = first(tet[i]);
-      part[b] = a;
-      parts -= a == b ? 0 : 1;
-    }
-  if (parts > 1)
+  if (const int parts = count_parts(unit); parts > 1)
     throw InputError("unit", "a mesh of " + std::to_string(parts) + " parts", "one that hangs together",
-                     "join its solids, or lay one of them");
+                     "a unit is laid as one rigid body: join its solids, or lay one of them");
 }
 
 TetMesh posed(const TetMesh& mesh, const Pose& pose) {

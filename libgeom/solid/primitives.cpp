@@ -12,40 +12,53 @@ namespace geom {
 
 namespace occ = gmsh::model::occ;
 
+namespace {
+
+// Inside a session: the volume within a surface, its number in gmsh's model.
+int add_volume(const FacetedSurface& surface) {
+  std::vector<int> points, faces;
+  for (const Vec3& x : surface.vertices)
+    points.push_back(occ::addPoint(x.x(), x.y(), x.z()));
+  std::map<std::array<int, 2>, int> lines; // by ends, ascending: neighbouring faces share them
+  for (const auto& loops : surface.faces) {
+    std::vector<int> wires;
+    for (const auto& loop : loops) {
+      std::vector<int> curves;
+      for (std::size_t i = 0; i < loop.size(); ++i) {
+        const int a = loop[i], b = loop[(i + 1) % loop.size()];
+        const auto [line, added] = lines.try_emplace({std::min(a, b), std::max(a, b)}, 0);
+        if (added)
+          line->second = occ::addLine(points[line->first[0]], points[line->first[1]]);
+        curves.push_back(line->second);
+      }
+      wires.push_back(occ::addCurveLoop(curves));
+    }
+    faces.push_back(occ::addPlaneSurface(wires));
+  }
+  return occ::addVolume({occ::addSurfaceLoop(faces)});
+}
+
+FacetedSurface surface_of(const Polyhedron& polyhedron) {
+  FacetedSurface surface;
+  surface.vertices = polyhedron.vertices;
+  for (const PolyhedronFace& face : polyhedron.faces)
+    surface.faces.push_back({face.loop});
+  return surface;
+}
+
+} // namespace
+
 Solid make_solid(const FacetedSurface& surface) {
   for (const Vec3& x : surface.vertices)
     require_place("vertices", x);
   return in_session("solid of flat faces", [&] {
-    std::vector<int> points, faces;
-    for (const Vec3& x : surface.vertices)
-      points.push_back(occ::addPoint(x.x(), x.y(), x.z()));
-    std::map<std::array<int, 2>, int> lines; // by ends, ascending: neighbouring faces share them
-    for (const auto& loops : surface.faces) {
-      std::vector<int> wires;
-      for (const auto& loop : loops) {
-        std::vector<int> curves;
-        for (std::size_t i = 0; i < loop.size(); ++i) {
-          const int a = loop[i], b = loop[(i + 1) % loop.size()];
-          const auto [line, added] = lines.try_emplace({std::min(a, b), std::max(a, b)}, 0);
-          if (added)
-            line->second = occ::addLine(points[line->first[0]], points[line->first[1]]);
-          curves.push_back(line->second);
-        }
-        wires.push_back(occ::addCurveLoop(curves));
-      }
-      faces.push_back(occ::addPlaneSurface(wires));
-    }
-    occ::addVolume({occ::addSurfaceLoop(faces)});
+    add_volume(surface);
     return store("solid of flat faces");
   });
 }
 
 Solid make_solid(const Polyhedron& polyhedron) {
-  FacetedSurface surface;
-  surface.vertices = polyhedron.vertices;
-  for (const PolyhedronFace& face : polyhedron.faces)
-    surface.faces.push_back({face.loop});
-  return make_solid(surface);
+  return make_solid(surface_of(polyhedron));
 }
 
 Solid box(const Vec3& size, const Vec3& origin) {

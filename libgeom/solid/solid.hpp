@@ -5,7 +5,7 @@
 // than 1e-7 m for one.
 #pragma once
 
-#include "libgeom/polyhedron/polyhedron.hpp"
+#include "libgeom/assembly/assembly.hpp"
 
 #include <memory>
 #include <string>
@@ -37,6 +37,8 @@ struct FacetedSurface {
 // Builders. All throw InputError for sizes that are not positive and finite.
 Solid make_solid(const FacetedSurface&);
 Solid make_solid(const Polyhedron&);
+// One region for each block, in their order; regions share the parts of faces that lie on each other.
+Solid make_solid(const Assembly&);
 Solid box(const Vec3& size, const Vec3& origin);                           // origin: lower corner
 Solid cylinder(const Vec3& base, const Vec3& axis, double radius);         // axis: from base to top, m
 Solid cone(const Vec3& base, const Vec3& axis, double radius, double top); // truncated unless a radius is 0

@@ -326,6 +326,10 @@ function Assembly:box() end
 ---@return cdem.Block[]
 function Assembly:blocks() end
 
+---The blocks as one solid with a region for each, in their order; its mesh{} shares nodes on the faces between them. As the shape of a body with bonds = "regions" such a mesh breaks along the faces of the blocks, with bonds = "all" anywhere.
+---@return cdem.Solid
+function Assembly:solid() end
+
 ---A free-form solid, made by cdem.solid.* and the armour units; it never changes.
 ---@class cdem.Solid
 ---@field height? number m: of an armour unit as it was made
@@ -412,6 +416,7 @@ function Solid:save(options) end
 ---@class cdem.TetMesh
 ---@field nodes integer how many
 ---@field tets integer how many
+---@field parts integer how many sets of tetrahedra share no node; in a model each moves by itself
 local TetMesh = {}
 
 ---
@@ -627,11 +632,13 @@ function Model:clear_loads() end
 function Model:initial_stress(options) end
 
 ---@class (exact) cdem.ModelInitialVelocityOptions
----@field on? cdem.Place default "all": where: a place or a list of places
----@field velocity number[] m/s
+---@field on? cdem.Place default "all": where: a place or a list of places, each by itself
+---@field velocity? number[] m/s: v
+---@field angular_velocity? number[] rad/s: w, right-handed about its direction; a full turn is 2 pi
+---@field about? number[] m: the point that w turns about; the centroid of what is selected when left out
 
----Velocity before the first real-time step.
----@param options cdem.ModelInitialVelocityOptions
+---The motion of a rigid body, v + w x (x - about), as velocities before the first real-time step; of blocks, meshes and rigid bodies alike. It takes the place of the velocities that were there.
+---@param options? cdem.ModelInitialVelocityOptions
 function Model:initial_velocity(options) end
 
 ---@class (exact) cdem.ModelRemoveOptions
@@ -1145,6 +1152,14 @@ function cdem.cut_by_joints(options) end
 ---@return cdem.Assembly
 function cdem.convex_hull(options) end
 
+---@class (exact) cdem.BlocksOptions
+---@field mesh cdem.TetMesh
+
+---Every tetrahedron of a mesh as a block: blocks whose tetrahedra share a face share it too, so that they can be bonded, cut and come loose.
+---@param options cdem.BlocksOptions
+---@return cdem.Assembly
+function cdem.blocks(options) end
+
 ---@class (exact) cdem.CutByPlaneOptionsInside
 ---@field min number[] m
 ---@field max number[] m
@@ -1466,7 +1481,7 @@ function cdem.select.box(options) end
 ---@field body string by name
 ---@field numbers integer[]
 
----Some of a body's units: the blocks of a pile, counted from 1 in its order.
+---Some of a body's units: those of a pile, the parts of a mesh, or blocks, counted from 1 in their order.
 ---@param options cdem.SelectUnitsOptions
 ---@return cdem.Selection
 function cdem.select.units(options) end
@@ -1491,6 +1506,7 @@ function cdem.select.where(predicate) end
 ---@field joint? cdem.Joint between the body's own blocks; needed when there are several, or when they are cut. Of a mesh: on inner faces, which can break then
 ---@field name? string for selections and contacts; body_1, body_2 ... by default
 ---@field element? "small_strain"|"finite_volume"|"rigid" how its tetrahedra deform: finite_volume (Feng 2014) for any motion, the default; small_strain (Han 2010) of an assembly whose blocks hardly turn and keep the neighbours they begin with; rigid: keeps its shape until model:make_deformable
+---@field zone_size? number m, > 0: of an assembly: each block gets tetrahedra of about this edge length inside, so that it bends and shows where it is stressed; without it a few about its centroid. Joints between blocks stay as they are
 ---@field bonds? "none"|"all"|"regions"|"listed" of a mesh, which inner faces carry the joint: all (default with a joint), those between different regions, or all of the bonded_regions
 ---@field bonded_regions? integer[] numbers of regions, from 1, with bonds = "listed"
 ---@field stiffness_ratio? number > 0: of a mesh, beta in Kn = beta E A / (3 d); 10 by default. A body bonded everywhere keeps about E / (1 + 1/beta)

@@ -138,7 +138,7 @@ void System::hold(const cdem::Selection& on, const std::string& names) {
 
 geom::Vec3 centre(const cdem::Model& model, const cdem::OuterFace& face) {
   if (face.boundary < 0)
-    return model.node_position[model.blocks[face.block].face_centre(face.face)];
+    return geom::face_centroid(model.blocks[face.block].shape, face.face);
   const geom::Triangle& t = model.mesh.boundary[face.boundary].nodes;
   return (model.node_position[t[0]] + model.node_position[t[1]] + model.node_position[t[2]]) / 3;
 }

@@ -20,14 +20,14 @@ inline double total_volume(const geom::Assembly& assembly) {
 // outside surface: zero when the blocks fill their region without gaps.
 inline double loose_area(const geom::Assembly& assembly, double outside, double tolerance) {
   double faces = 0, shared = 0;
-  std::vector<geom::StarMesh> meshes;
+  std::vector<geom::BlockMesh> meshes;
   for (const geom::Polyhedron& block : assembly.blocks) {
     for (std::size_t f = 0; f < block.faces.size(); ++f)
       faces += geom::face_area(block, static_cast<int>(f));
     meshes.push_back(geom::star_mesh(block));
   }
   for (const geom::SharedFace& s : geom::shared_faces(assembly.blocks, tolerance)) {
-    const geom::StarMesh &a = meshes[s.block_a], &b = meshes[s.block_b];
+    const geom::BlockMesh &a = meshes[s.block_a], &b = meshes[s.block_b];
     shared += geom::overlap(a.nodes, a.fans[s.face_a], b.nodes, b.fans[s.face_b],
                             geom::face_normal(assembly.blocks[s.block_a], s.face_a), tolerance)
                   .area;

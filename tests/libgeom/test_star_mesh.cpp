@@ -9,7 +9,7 @@ TEST_CASE("the star mesh fills the block with positive tets, one per edge of eac
   testing::Draws draws{3, 1};
   for (int i = 0; i < 200; ++i) {
     const Polyhedron p = testing::random_block(draws);
-    const StarMesh mesh = star_mesh(p);
+    const BlockMesh mesh = star_mesh(p);
     CHECK(mesh.nodes.size() == p.vertices.size() + p.faces.size() + 1);
     CHECK(mesh.tets.size() == 2 * edges(p).size());
     double sum = 0;
@@ -28,7 +28,7 @@ TEST_CASE("the fans of the star mesh tile the faces and look outward") {
   testing::Draws draws{4, 1};
   for (int i = 0; i < 200; ++i) {
     const Polyhedron p = testing::random_block(draws);
-    const StarMesh mesh = star_mesh(p);
+    const BlockMesh mesh = star_mesh(p);
     REQUIRE(mesh.fans.size() == p.faces.size());
     for (int f = 0; f < static_cast<int>(p.faces.size()); ++f) {
       double area = 0;
@@ -43,7 +43,7 @@ TEST_CASE("the fans of the star mesh tile the faces and look outward") {
 
 TEST_CASE("the star mesh's inner nodes are area and volume centroids") {
   const Polyhedron p = make_box({0, 0, 0}, {2, 4, 6});
-  const StarMesh mesh = star_mesh(p);
+  const BlockMesh mesh = star_mesh(p);
   CHECK((mesh.nodes.back() - Vec3(1, 2, 3)).norm() < 1e-15);
   CHECK((mesh.nodes[8] - Vec3(0, 2, 3)).norm() < 1e-15); // face 0 is x-
 }

@@ -357,7 +357,7 @@ void start_meshes(Model& model) {
   model.mesh.first_tet = static_cast<int>(model.tets.size());
 }
 
-void add_star_meshes(Model& model) {
+void add_convex_blocks(Model& model, const std::vector<geom::BlockMesh>& meshes) {
   const auto n_blocks = static_cast<int>(model.blocks.size());
   const auto first = static_cast<int>(
       std::find_if(model.blocks.begin(), model.blocks.end(), [](const Block& b) { return b.meshed; }) -
@@ -375,11 +375,13 @@ void add_star_meshes(Model& model) {
     begin = end;
   }
   for (int b = first; b < n_blocks; ++b)
-    for (int t = model.blocks[b].tet_begin; t < model.blocks[b].tet_end; ++t) {
-      // Corner 0 of a star mesh's tet is the centroid, the others are a triangle of a face's fan.
-      const geom::Tet& tet = model.tets[t];
-      model.mesh.boundary.push_back({{tet[1], tet[2], tet[3]}, t, b});
-    }
+    for (int f = 0; f < static_cast<int>(meshes[b].fans.size()); ++f)
+      for (std::size_t i = 0; i < meshes[b].fans[f].size(); ++i) {
+        geom::Triangle nodes = meshes[b].fans[f][i];
+        for (int& node : nodes)
+          node += model.blocks[b].node_begin;
+        model.mesh.boundary.push_back({nodes, model.blocks[b].tet_begin + meshes[b].fan_tets[f][i], b, f});
+      }
 }
 
 void add_meshes(Model& model, std::vector<MeshSeed>&& seeds) {

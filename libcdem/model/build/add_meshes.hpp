@@ -2,11 +2,12 @@
 #pragma once
 
 #include "libcdem/model/model.hpp"
+#include "libgeom/mesh/block_mesh.hpp"
 #include "libgeom/mesh/tet_mesh.hpp"
 
 namespace cdem {
 
-// One meshed solid: it becomes one block.
+// One connected part of a mesh: it becomes one block.
 struct MeshSeed {
   std::int64_t id = 0; // of the block; 0: a new one
   int body = 0;
@@ -16,9 +17,9 @@ struct MeshSeed {
 // Nodes and tets that are added from now on belong to MeshData.
 void start_meshes(Model&);
 
-// The convex blocks that move far, whose star meshes stand in the model already: chunks of whole blocks of one body,
-// and their faces as boundary.
-void add_star_meshes(Model&);
+// The convex blocks that move far, whose tets stand in the model already: chunks of whole blocks of one body, and their
+// faces as boundary. meshes: of all convex blocks; tets and nodes numbered from those of the block.
+void add_convex_blocks(Model&, const std::vector<geom::BlockMesh>& meshes);
 
 // After the convex blocks are in. Bodies' materials, joints and bonding say what the tets and faces are.
 void add_meshes(Model&, std::vector<MeshSeed>&&);

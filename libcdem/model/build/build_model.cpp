@@ -5,6 +5,7 @@
 #include "libgeom/assembly/assembly.hpp"
 #include "libgeom/core/error.hpp"
 #include "libgeom/mesh/star_mesh.hpp"
+#include "libgeom/mesh/zone_mesh.hpp"
 #include "libgeom/query/face_overlap.hpp"
 
 #include <cmath>
@@ -18,8 +19,7 @@ constexpr double relative_tolerance = 1e-7;
 constexpr int tets_per_chunk = 384;
 constexpr int points_per_chunk = 512;
 
-// Returns the fans of the block's faces, in its own node numbers.
-std::vector<std::vector<geom::Triangle>> add_block(Model& model, BlockSeed&& seed) {
+void add_block(Model& model, BlockSeed&& seed, const geom::BlockMesh& mesh) {
   Block block;
   block.id = seed.id;
   block.parent = seed.parent;
@@ -29,8 +29,8 @@ std::vector<std::vector<geom::Triangle>> add_block(Model& model, BlockSeed&& see
   block.mass = geom::mass_properties(block.shape);
   block.size = std::cbrt(block.mass.volume);
   block.first_size = seed.first_size > 0 ? seed.first_size : block.size;
+  block.zoned = model.bodies[seed.body].zone_size > 0;
 
-  geom::StarMesh mesh = geom::star_mesh(block.shape);
   const int index = static_cast<int>(model.blocks.size());
   block.node_begin = static_cast<int>(model.node_position.size());
   block.node_end = block.node_begin + static_cast<int>(mesh.nodes.size());
@@ -52,7 +52,24 @@ std::vector<std::vector<geom::Triangle>> add_block(Model& model, BlockSeed&& see
     model.tet_block.push_back(index);
   }
   model.blocks.push_back(std::move(block));
-  return std::move(mesh.fans);
+}
+
+// Zones of the seeds that have none yet, of all those of a body at once: the mesher is slow to start.
+void make_zones(const Model& model, std::vector<BlockSeed>& seeds) {
+  for (int body = 0; body < static_cast<int>(model.bodies.size()); ++body) {
+    if (model.bodies[body].zone_size == 0)
+      continue;
+    std::vector<BlockSeed*> fresh;
+    std::vector<geom::Polyhedron> shapes;
+    for (BlockSeed& seed : seeds)
+      if (seed.body == body && seed.zones.tets.empty()) {
+        fresh.push_back(&seed);
+        shapes.push_back(seed.shape);
+      }
+    std::vector<geom::BlockMesh> zones = geom::zone_meshes(shapes, model.bodies[body].zone_size);
+    for (std::size_t i = 0; i < fresh.size(); ++i)
+      fresh[i]->zones = std::move(zones[i]);
+  }
 }
 
 TetBatch make_batch(const Model& model, const std::vector<int>& tets) {
@@ -176,7 +193,7 @@ std::vector<geom::Vec3> block_nodes(const Model& model, const Block& block) {
 }
 
 void add_interface(Model& model, const geom::SharedFace& pair, const InterfaceRule& rule,
-                   const std::vector<std::vector<std::vector<geom::Triangle>>>& fans) {
+                   const std::vector<geom::BlockMesh>& meshes) {
   const Block& a = model.blocks[pair.block_a];
   const Block& b = model.blocks[pair.block_b];
   Interface interface;
@@ -187,8 +204,8 @@ void add_interface(Model& model, const geom::SharedFace& pair, const InterfaceRu
   interface.normal = geom::face_normal(a.shape, pair.face_a);
   const double tolerance = relative_tolerance * std::min(a.size, b.size);
   const geom::FaceOverlap faces =
-      geom::overlap(block_nodes(model, a), fans[pair.block_a][pair.face_a], block_nodes(model, b),
-                    fans[pair.block_b][pair.face_b], interface.normal, tolerance);
+      geom::overlap(block_nodes(model, a), meshes[pair.block_a].fans[pair.face_a], block_nodes(model, b),
+                    meshes[pair.block_b].fans[pair.face_b], interface.normal, tolerance);
   if (faces.points.empty())
     return;
 
@@ -252,7 +269,7 @@ void add_bonds_on_nodes(Model& model) {
 }
 
 // A face's nodes carry the integral of their shape functions over the face less that over what other faces cover.
-void add_outer_faces(Model& model, const std::vector<std::vector<std::vector<geom::Triangle>>>& fans) {
+void add_outer_faces(Model& model, const std::vector<geom::BlockMesh>& meshes) {
   std::map<std::pair<int, int>, std::map<int, double>> covered;
   for (const Interface& interface : model.interfaces)
     for (int p = interface.point_begin; p < interface.point_end; ++p)
@@ -266,7 +283,7 @@ void add_outer_faces(Model& model, const std::vector<std::vector<std::vector<geo
     for (int f = 0; f < static_cast<int>(block.shape.faces.size()); ++f) {
       std::map<int, double> node_area;
       double area = 0;
-      for (const geom::Triangle& t : fans[b][f]) {
+      for (const geom::Triangle& t : meshes[b].fans[f]) {
         const geom::Vec3& x0 = model.node_position[block.node_begin + t[0]];
         const geom::Vec3& x1 = model.node_position[block.node_begin + t[1]];
         const geom::Vec3& x2 = model.node_position[block.node_begin + t[2]];
@@ -297,6 +314,28 @@ void add_outer_faces(Model& model, const std::vector<std::vector<std::vector<geo
 
 } // namespace
 
+geom::BlockMesh zones_of(const Model& model, int block) {
+  const Block& b = model.blocks[block];
+  geom::BlockMesh mesh;
+  if (!b.zoned)
+    return mesh;
+  mesh.nodes.assign(model.node_position.begin() + b.node_begin, model.node_position.begin() + b.node_end);
+  mesh.tets.assign(model.tets.begin() + b.tet_begin, model.tets.begin() + b.tet_end);
+  for (geom::Tet& tet : mesh.tets)
+    for (int& node : tet)
+      node -= b.node_begin;
+  mesh.fans.resize(b.shape.faces.size());
+  mesh.fan_tets.resize(b.shape.faces.size());
+  each_boundary_triangle(model, block, [&](int, const BoundaryTriangle& triangle) {
+    geom::Triangle nodes = triangle.nodes;
+    for (int& node : nodes)
+      node -= b.node_begin;
+    mesh.fans[triangle.face].push_back(nodes);
+    mesh.fan_tets[triangle.face].push_back(triangle.tet - b.tet_begin);
+  });
+  return mesh;
+}
+
 InterfaceTraits default_traits(const Model& model, int block_a, int, int block_b, int) {
   const Block& a = model.blocks[block_a];
   const Block& b = model.blocks[block_b];
@@ -324,10 +363,10 @@ Model build_model(const Model& frame, std::vector<BlockSeed> seeds, const Interf
   model.surface.joint = frame.surface.joint;
 
   std::vector<geom::Polyhedron> shapes;
-  std::vector<std::vector<std::vector<geom::Triangle>>> fans;
+  std::vector<geom::BlockMesh> block_meshes;
   double smallest = std::numeric_limits<double>::infinity();
   shapes.reserve(seeds.size());
-  fans.reserve(seeds.size());
+  block_meshes.reserve(seeds.size());
   model.blocks.reserve(seeds.size());
   for (BlockSeed& seed : seeds)
     if (seed.id == 0)
@@ -336,11 +375,13 @@ Model build_model(const Model& frame, std::vector<BlockSeed> seeds, const Interf
   const auto far = std::stable_partition(seeds.begin(), seeds.end(),
                                          [&](const BlockSeed& seed) { return !moves_far(model, seed.body); });
   const auto small_strain = static_cast<std::size_t>(far - seeds.begin());
+  make_zones(model, seeds);
   for (std::size_t i = 0; i < seeds.size(); ++i) {
     if (i == small_strain)
       start_meshes(model);
     BlockSeed& seed = seeds[i];
-    fans.push_back(add_block(model, std::move(seed)));
+    block_meshes.push_back(seed.zones.tets.empty() ? geom::star_mesh(seed.shape) : std::move(seed.zones));
+    add_block(model, std::move(seed), block_meshes.back());
     shapes.push_back(model.blocks.back().shape);
     smallest = std::min(smallest, model.blocks.back().size);
     model.blocks.back().meshed = i >= small_strain;
@@ -348,10 +389,10 @@ Model build_model(const Model& frame, std::vector<BlockSeed> seeds, const Interf
   if (small_strain == seeds.size())
     start_meshes(model);
   for (const geom::SharedFace& pair : geom::shared_faces(shapes, relative_tolerance * smallest))
-    add_interface(model, pair, rule, fans);
-  add_outer_faces(model, fans);
+    add_interface(model, pair, rule, block_meshes);
+  add_outer_faces(model, block_meshes);
   add_chunks(model);
-  add_star_meshes(model);
+  add_convex_blocks(model, block_meshes);
   add_meshes(model, std::move(meshes));
   add_rigid_bodies(model);
   add_bonds_on_nodes(model);

@@ -1,7 +1,8 @@
-// From shapes to a Model: star meshes, node numbering, interfaces with their springs, uncovered faces, chunks.
+// From shapes to a Model: star meshes or zones, node numbering, interfaces with their springs, uncovered faces, chunks.
 #pragma once
 
 #include "libcdem/model/build/add_meshes.hpp"
+#include "libgeom/mesh/block_mesh.hpp"
 
 #include <functional>
 
@@ -13,7 +14,8 @@ struct BlockSeed {
   int generation = 0;
   int body = 0;
   geom::Polyhedron shape;
-  double first_size = 0; // h of the generation-0 block, m; 0 = this is one
+  double first_size = 0;      // h of the generation-0 block, m; 0 = this is one
+  geom::BlockMesh zones = {}; // those of a zoned block that was there before; none: it is meshed anew
 };
 
 // What an interface is made with; the default asks the bodies. fracture/ passes one that remembers the old interface.
@@ -31,6 +33,9 @@ using InterfaceRule =
 // touching bodies without a joint.
 Model build_model(const Model& frame, std::vector<BlockSeed> blocks, const InterfaceRule& rule,
                   std::vector<MeshSeed> meshes = {});
+
+// The zones of a block, to build it again.
+geom::BlockMesh zones_of(const Model&, int block);
 
 // The rule of a first model: the body's own joint, or that of the pair of bodies; L from the joint.
 InterfaceTraits default_traits(const Model&, int block_a, int face_a, int block_b, int face_b);

@@ -130,9 +130,23 @@ Value initial_stress(Session&, ModelObject& model, const Arguments& a) {
 
 Value initial_velocity(Session&, ModelObject& model, const Arguments& a) {
   model.require_idle("initial_velocity");
+  if (!a.has("velocity") && !a.has("angular_velocity"))
+    throw InputError("give velocity (m/s), angular_velocity (rad/s) or both");
+  if (a.has("about") && !a.has("angular_velocity"))
+    throw InputError("about: goes with angular_velocity, the point to turn about");
+  const geom::Vec3 none = geom::Vec3::Zero();
   for (const Selection& on : selections(model, a.value("on"), "on")) {
-    model.simulation.initial_velocity(on, a.vec3("velocity"));
-    note(model, "initial velocity " + describe(a.value("velocity")) + " m/s of " + shown(on));
+    model.simulation.initial_velocity(on, a.optional_vec3("velocity").value_or(none),
+                                      a.optional_vec3("angular_velocity").value_or(none),
+                                      a.optional_vec3("about"));
+    std::string given;
+    if (a.has("velocity"))
+      given = "initial velocity " + describe(a.value("velocity")) + " m/s";
+    if (a.has("angular_velocity"))
+      given += (given.empty() ? "initial angular velocity " : ", angular velocity ") +
+               describe(a.value("angular_velocity")) + " rad/s about " +
+               (a.has("about") ? describe(a.value("about")) + " m" : "the centroid");
+    note(model, given + " of " + shown(on));
   }
   return {};
 }
@@ -235,9 +249,15 @@ void bind_conditions(Module& m) {
            .required()
            .doc("{xx, yy, zz, xy, yz, xz}, tension positive")},
       initial_stress);
-  add("initial_velocity", "Velocity before the first real-time step.",
-      {place("on").standard("all").doc("where: a place or a list of places"),
-       vec3("velocity").unit("m/s").required()},
+  add("initial_velocity",
+      "The motion of a rigid body, v + w x (x - about), as velocities before the first real-time step; of "
+      "blocks, meshes "
+      "and rigid bodies alike. It takes the place of the velocities that were there.",
+      {place("on").standard("all").doc("where: a place or a list of places, each by itself"),
+       vec3("velocity").unit("m/s").doc("v"),
+       vec3("angular_velocity").unit("rad/s").doc("w, right-handed about its direction; a full turn is 2 pi"),
+       vec3("about").unit("m").doc(
+           "the point that w turns about; the centroid of what is selected when left out")},
       initial_velocity);
   add("remove", "Takes blocks out of the model (an excavation): those whose centroid is selected.", {on()},
       remove, "integer", "how many");

@@ -134,7 +134,7 @@ void bind_rows(Module& m) {
             "of the real masses, or of a relaxation's fictitious ones"),
         number("damping").unit("J").required(), number("friction").unit("J").required(),
         number("breaking").unit("J").required().doc("lost by bonds that broke or softened"),
-        number("cutting").unit("J").required().doc("lost when blocks were cut"),
+        number("cutting").unit("J").required().doc("lost when blocks were cut or removed"),
         number("fictitious").unit("J").required().doc("kinetic energy a relaxation threw away at its end"),
         number("external").unit("J").required().doc("work of loads, gravity and moving supports"),
         number("external_peak").unit("J").required().doc("largest |external| so far"),

@@ -8,6 +8,7 @@
 #include "lua/binding/schema/nearest.hpp"
 
 #include "libgeom/core/error.hpp"
+#include "libgeom/mesh/parts.hpp"
 
 #include <algorithm>
 #include <cstdio>
@@ -70,9 +71,12 @@ void require_blocks(const Arguments& given, const std::string& path) {
         ".material: stiffness_damping is for bodies that move far; one of small strain takes viscosity");
 }
 
+// The meshes of bodies that do not hang together: the body, and how many parts it is in.
+using PartCounts = std::vector<std::pair<std::string, int>>;
+
 // Adds the piles of meshed bodies to `piles`; returns the bodies without a joint.
 std::vector<std::string> read_bodies(Session& session, const Arguments& a, ModelSpec& spec,
-                                     std::map<std::string, geom::Pile>& piles) {
+                                     std::map<std::string, geom::Pile>& piles, PartCounts& in_parts) {
   std::vector<std::string> unjointed;
   for (const Arguments& given : a.records("bodies")) {
     const std::string path = "bodies[" + std::to_string(spec.bodies.size() + 1) + "]";
@@ -94,10 +98,16 @@ std::vector<std::string> read_bodies(Session& session, const Arguments& a, Model
         units = {mesh->mesh};
       else
         units = geom::meshes(*pile);
+      if (given.has("zone_size"))
+        throw InputError(
+            path + ".zone_size: only for an assembly of blocks; a mesh has the size that it was made with");
       read_mesh(given, path, std::move(units), body);
       if (mesh && !mesh->coarse.empty() && body.element != Element::rigid)
         session.warn(path + ": " + mesh->coarse);
-      piles.emplace(body.name, *pile);
+      if (const int parts = geom::count_parts(pile->unit); parts == 1)
+        piles.emplace(body.name, *pile);
+      else
+        in_parts.emplace_back(body.name, parts);
       spec.bodies.push_back(std::move(body));
       continue;
     }
@@ -107,6 +117,7 @@ std::vector<std::string> read_bodies(Session& session, const Arguments& a, Model
                      : given.text("element") == "finite_volume" ? Element::finite_volume
                                                                 : Element::small_strain;
     body.shape = given.object<AssemblyObject>("shape")->assembly;
+    body.zone_size = given.optional_number("zone_size").value_or(0);
     if (!given.has("joint") && body.shape.blocks.size() > 1)
       throw InputError(path + ".joint: missing; the body has " + std::to_string(body.shape.blocks.size()) +
                        " blocks: say what holds them together, cdem.mohr_coulomb{...} or cdem.coulomb{...}");
@@ -147,6 +158,13 @@ std::string shown_vec(const geom::Vec3& x) {
   return text;
 }
 
+std::string shown_parts(const PartCounts& in_parts) {
+  std::string shown;
+  for (const auto& [body, parts] : in_parts)
+    shown += "; mesh of \"" + body + "\" in " + std::to_string(parts) + " parts, each moves by itself";
+  return shown;
+}
+
 std::string shown_build(const ModelObject& model) {
   const ModelCounts c = model.simulation.counts();
   const geom::Box box = model.simulation.box();
@@ -179,7 +197,8 @@ void note_pairs_apart(Session& session, ModelObject& model, const ModelSpec& spe
 Value make_model(Session& session, Object*, const Arguments& a) {
   ModelSpec spec;
   std::map<std::string, geom::Pile> piles;
-  const auto unjointed = read_bodies(session, a, spec, piles);
+  PartCounts in_parts;
+  const auto unjointed = read_bodies(session, a, spec, piles, in_parts);
   read_pairs(a, spec);
   // Lua sees only the few bytes it holds of a model, and would keep finished ones for long.
   session.collect_garbage();
@@ -194,7 +213,10 @@ Value make_model(Session& session, Object*, const Arguments& a) {
     model->simulation.set_checkpoint_writer(&session.checkpoints);
   model->simulation.set_replaying(session.checkpoints.replaying());
   model->memory = session.new_memory(Table());
-  model->notes->built = shown_build(*model);
+  model->notes->built = shown_build(*model) + shown_parts(in_parts);
+  for (const auto& [body, parts] :
+       session.settings.check_only ? PartCounts() : in_parts) // told with the rest
+    session.message("mesh of \"" + body + "\" in " + std::to_string(parts) + " parts: each moves by itself");
   session.models.push_back(model);
   session.notes.push_back(model->notes);
   note_pairs_apart(session, *model, spec);
@@ -291,6 +313,14 @@ void bind_model(Module& m) {
               "small_strain (Han "
               "2010) of an assembly whose blocks hardly turn and keep the neighbours they begin with; rigid: "
               "keeps its shape until model:make_deformable"),
+      number("zone_size")
+          .above(0)
+          .unit("m")
+          .doc("of an assembly: each block gets tetrahedra of about this edge length inside, so that it "
+               "bends and "
+               "shows where it is stressed; without it a few about its centroid. Joints between blocks stay "
+               "as they "
+               "are"),
       choice("bonds", {"none", "all", "regions", "listed"})
           .doc("of a mesh, which inner faces carry the joint: all (default with a joint), those between "
                "different "

@@ -176,7 +176,6 @@ Value scaled(Session&, PileObject& self, const Arguments& a) {
 
 Value with_unit(Session&, PileObject& self, const Arguments& a) {
   const geom::TetMesh& unit = a.object<TetMeshObject>("unit")->mesh;
-  geom::require_one_part(unit);
   geom::Pile pile = geom::pile_of(unit);
   const double volume = geom::volume(pile.unit), before = geom::volume(self.pile.unit);
   const geom::Vec3 apart = geom::bounding_box(pile.unit).size() - geom::bounding_box(self.pile.unit).size();

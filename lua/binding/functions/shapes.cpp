@@ -1,11 +1,13 @@
 // Block assemblies: the builders of libgeom.
 #include "lua/binding/functions/angles.hpp"
 #include "lua/binding/objects/objects.hpp"
+#include "lua/binding/objects/solid_objects.hpp"
 #include "lua/binding/runtime/module.hpp"
 
 #include "libgeom/assembly/builders.hpp"
 #include "libgeom/assembly/edit.hpp"
 #include "libgeom/core/error.hpp"
+#include "libgeom/mesh/tet_blocks.hpp"
 
 namespace cdem::script {
 
@@ -59,6 +61,16 @@ Value cut_by_joints(Session&, Object*, const Arguments& a) {
   }
   return made(geom::cut_by_joints(a.object<AssemblyObject>("shape")->assembly, sets,
                                   static_cast<std::uint64_t>(a.integer("seed"))));
+}
+
+Value blocks_of_mesh(Session&, Object*, const Arguments& a) {
+  return made(geom::tet_blocks(a.object<TetMeshObject>("mesh")->mesh));
+}
+
+Value solid_of(Session&, AssemblyObject& self, const Arguments&) {
+  auto object = std::make_shared<SolidObject>(geom::make_solid(self.assembly));
+  object->kind = "blocks";
+  return object;
 }
 
 Value convex_hull(Session&, Object*, const Arguments& a) {
@@ -187,6 +199,11 @@ void bind_builders(Module& m) {
   add("convex_hull", "One block: the convex hull of points.",
       {list("points", vec3_type(), 4).unit("m").required().doc("four or more, not in one plane")},
       convex_hull);
+  add("blocks",
+      "Every tetrahedron of a mesh as a block: blocks whose tetrahedra share a face share it too, so that "
+      "they can be "
+      "bonded, cut and come loose.",
+      {object("mesh", "TetMesh").required()}, blocks_of_mesh);
 }
 
 Field box_field(std::string name) {
@@ -261,7 +278,18 @@ void bind_shapes(Module& m) {
          const geom::Box box = geom::bounding_box(self.assembly);
          return Table{{"min", box.min}, {"max", box.max}};
        })},
-      {"blocks", "One table per block.", {}, true, "cdem.Block[]", "", method<AssemblyObject>(blocks)}};
+      {"blocks", "One table per block.", {}, true, "cdem.Block[]", "", method<AssemblyObject>(blocks)},
+      {"solid",
+       "The blocks as one solid with a region for each, in their order; its mesh{} shares nodes on the faces "
+       "between "
+       "them. As the shape of a body with bonds = \"regions\" such a mesh breaks along the faces of the "
+       "blocks, with "
+       "bonds = \"all\" anywhere.",
+       {},
+       false,
+       "cdem.Solid",
+       "",
+       method<AssemblyObject>(solid_of)}};
   m.classes.push_back(assembly);
 }
 

@@ -190,16 +190,21 @@ void bind_tet_meshes(Module& m) {
   const auto of = [](const Object& self) -> const TetMeshObject& {
     return static_cast<const TetMeshObject&>(self);
   };
-  mesh.properties = {{"nodes", "integer", "", "how many",
-                      [of](Session&, Object& self) -> Value {
-                        return static_cast<std::int64_t>(of(self).mesh.nodes.size());
-                      }},
-                     {"tets", "integer", "", "how many", [of](Session&, Object& self) -> Value {
-                        return static_cast<std::int64_t>(of(self).mesh.tets.size());
-                      }}};
+  mesh.properties = {
+      {"nodes", "integer", "", "how many",
+       [of](Session&, Object& self) -> Value {
+         return static_cast<std::int64_t>(of(self).mesh.nodes.size());
+       }},
+      {"tets", "integer", "", "how many",
+       [of](Session&, Object& self) -> Value {
+         return static_cast<std::int64_t>(of(self).mesh.tets.size());
+       }},
+      {"parts", "integer", "", "how many sets of tetrahedra share no node; in a model each moves by itself",
+       [of](Session&, Object& self) -> Value { return static_cast<std::int64_t>(of(self).parts); }}};
   mesh.text = [of](const Object& self) {
     return "cdem.TetMesh (" + of(self).title + ", " + std::to_string(of(self).mesh.tets.size()) +
-           (of(self).mesh.tets.size() == 1 ? " tet)" : " tets)");
+           (of(self).mesh.tets.size() == 1 ? " tet" : " tets") +
+           (of(self).parts > 1 ? ", in " + std::to_string(of(self).parts) + " parts)" : ")");
   };
   mesh.methods = {
       {"volume",

@@ -25,7 +25,8 @@ const geom::Pile& first_pile(const ModelObject& model, const std::string& body) 
   require_body(model, "body", body);
   const auto pile = model.piles.find(body);
   if (pile == model.piles.end())
-    throw InputError("body", "\"" + body + "\"", "a meshed body", "this one is of convex blocks");
+    throw InputError("body", "\"" + body + "\"", "a meshed body of units that are alike",
+                     "this one is of convex blocks, or of a mesh in several parts");
   return pile->second;
 }
 

@@ -4,6 +4,7 @@
 #include "lua/binding/schema/value.hpp"
 
 #include "libcdem/vtk/mesh_snapshot.hpp"
+#include "libgeom/mesh/parts.hpp"
 #include "libgeom/solid/solid.hpp"
 
 #include <optional>
@@ -23,10 +24,12 @@ struct SolidObject final : Object {
 };
 
 struct TetMeshObject final : Object {
-  explicit TetMeshObject(geom::TetMesh given) : mesh(std::move(given)), faces(geom::outer_faces(mesh)) {}
+  explicit TetMeshObject(geom::TetMesh given)
+      : mesh(std::move(given)), faces(geom::outer_faces(mesh)), parts(geom::count_parts(mesh)) {}
 
   geom::TetMesh mesh;
   std::vector<geom::OuterFace> faces;
+  int parts; // that do not hang together
   std::string title;
   std::string coarse; // what to warn of where it deforms; empty: nothing
 
