@@ -20,9 +20,24 @@ void add_triangle(const Model& model, const State& state, const geom::Triangle& 
     pattern.emplace_back(node, facing / 3 * direction);
 }
 
-// A star block hardly turns: its undeformed faces do.
-void add_block_face(const OuterFace& face, const geom::Vec3& direction, Pattern& pattern) {
-  const double alpha = -face.normal.dot(direction);
+// Outward, unit, of a face of a convex block where it stands now; a block of small strain hardly turns.
+geom::Vec3 present_normal(const Model& model, const State& state, const OuterFace& face) {
+  const Block& block = model.blocks[face.block];
+  if (!block.meshed)
+    return face.normal;
+  const std::vector<int>& loop = block.shape.faces[face.face].loop;
+  const auto vertex = [&](std::size_t i) { return place_of(model, state, block.node_begin + loop[i]); };
+  const geom::Vec3 x0 = vertex(0);
+  geom::Vec3 twice_area = geom::Vec3::Zero();
+  for (std::size_t i = 1; i + 1 < loop.size(); ++i)
+    twice_area += (vertex(i) - x0).cross(vertex(i + 1) - x0);
+  return twice_area.normalized();
+}
+
+// The part of it that no other block covered when the model was made.
+void add_block_face(const Model& model, const State& state, const OuterFace& face,
+                    const geom::Vec3& direction, Pattern& pattern) {
+  const double alpha = -present_normal(model, state, face).dot(direction);
   if (alpha <= 0)
     return;
   for (const auto& [node, area] : face.node_area)
@@ -55,7 +70,7 @@ Pattern flow_pattern(const Model& model, const State& state, const ResolvedFlow&
     if (face.boundary >= 0)
       add_triangle(model, state, model.mesh.boundary[face.boundary].nodes, flow.direction, pattern);
     else
-      add_block_face(face, flow.direction, pattern);
+      add_block_face(model, state, face, flow.direction, pattern);
   }
   if (flow.new_faces)
     add_new_faces(model, state, flow.direction, pattern);

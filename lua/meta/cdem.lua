@@ -217,7 +217,7 @@ local cdem = {}
 ---@field damping number J
 ---@field friction number J
 ---@field breaking number J: lost by bonds that broke or softened
----@field cutting number J: lost when blocks were cut
+---@field cutting number J: lost when blocks were cut or removed
 ---@field fictitious number J: kinetic energy a relaxation threw away at its end
 ---@field external number J: work of loads, gravity and moving supports
 ---@field external_peak number J: largest |external| so far

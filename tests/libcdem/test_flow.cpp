@@ -1,4 +1,5 @@
 // The pressure of a flow on what faces it, and the search for the flow that breaks a held body.
+#include "libgeom/assembly/builders.hpp"
 #include "libgeom/mesh/box_mesh.hpp"
 #include "tests/libcdem/system.hpp"
 
@@ -55,6 +56,25 @@ void turn(System& s, const geom::Mat3& rotation) {
 }
 
 } // namespace
+
+TEST_CASE("a flow pushes blocks by their faces as they have turned, zoned or not", "[flow]") {
+  cdem::BodySpec spec = body("block", geom::grid({1, 0.8, 1.3}, {1, 1, 1}));
+  spec.element = cdem::Element::finite_volume;
+  spec.zone_size = GENERATE(0.0, 0.4);
+  System s(build({spec}));
+  const Vec3 d = Vec3(1, 2, -0.5).normalized();
+  s.conditions.flows = {flow_along(d)};
+  cdem::ResolvedConditions r = cdem::resolve(s.model, s.state, s.conditions);
+  const geom::Mat3 edges = Vec3(1, 0.8, 1.3).asDiagonal(), turned = rotation({1, 1, -2}, 130 * degree);
+  const double pressure = 0.5 * density * speed * speed;
+  for (const geom::Mat3& attitude : {geom::Mat3(geom::Mat3::Identity()), turned}) {
+    turn(s, attitude);
+    cdem::refresh_flows(s.model, s.state, r);
+    cdem::update_external(r, 0);
+    const Vec3 expected = pressure * silhouette(attitude * edges, d) * d;
+    CHECK((resultant(r) - expected).norm() < 1e-10 * expected.norm());
+  }
+}
 
 TEST_CASE("pressure and velocity of a flow turn into each other by F = rho V^2 / 2", "[flow]") {
   CHECK(cdem::flow_pressure(10, 1000) == Approx(50000).epsilon(1e-15));
