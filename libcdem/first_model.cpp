@@ -1,6 +1,6 @@
 #include "libcdem/first_model.hpp"
 
-#include "libcdem/contact/separate.hpp"
+#include "libcdem/contact/initial/separate.hpp"
 #include "libcdem/model/build/build_model.hpp"
 #include "libcdem/simulation_checks.hpp"
 #include "libgeom/core/error.hpp"

@@ -1,9 +1,9 @@
 #include "libcdem/contact/contact_forces.hpp"
 
-#include "libcdem/contact/acting.hpp"
-#include "libcdem/contact/evaluation.hpp"
-#include "libcdem/contact/places.hpp"
-#include "libcdem/contact/search.hpp"
+#include "libcdem/contact/broad_phase/search.hpp"
+#include "libcdem/contact/geometry/positions.hpp"
+#include "libcdem/contact/narrow_phase/evaluation.hpp"
+#include "libcdem/contact/response/contact_point.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -15,7 +15,7 @@ namespace {
 constexpr std::int64_t chunks_at_a_time = 16;
 
 // The furthest that a node of each block goes in a step of this length. True when one has left its skin.
-bool add_ways(const Model& model, const State& state, ContactWork& work, int threads) {
+bool add_displacements(const Model& model, const State& state, ContactWork& work, int threads) {
   const auto blocks = static_cast<std::int64_t>(model.blocks.size());
   for_chunks(blocks, threads, [&](std::int64_t b) {
     const Block& block = model.blocks[b];
@@ -24,15 +24,15 @@ bool add_ways(const Model& model, const State& state, ContactWork& work, int thr
     double speed2 = 0;
     for (int node = block.node_begin; node < block.node_end; ++node)
       speed2 = std::max(speed2, velocity_of(state, node).squaredNorm());
-    work.last_way[b] = std::sqrt(speed2) * work.step;
-    work.travelled[b] += work.last_way[b];
+    work.last_displacement[b] = std::sqrt(speed2) * work.step;
+    work.travelled[b] += work.last_displacement[b];
   });
   if (work.step > 0)
-    work.pace = work.last_way;
-  ++work.looks;
+    work.pace = work.last_displacement;
+  ++work.steps_since_search;
   bool out = false;
   for (std::size_t b = 0; b < model.blocks.size(); ++b)
-    out = out || work.travelled[b] > std::min(work.skin[b], work.lawless);
+    out = out || work.travelled[b] > std::min(work.skin[b], work.undefined_pair_margin);
   return out;
 }
 
@@ -102,14 +102,14 @@ void mark_touched_edges(const ContactSurface& surface, const std::vector<Contact
 void sum_block_forces(const Model& model, const std::vector<Contact>& contacts, ContactWork& work) {
   work.block_forces.assign(model.blocks.size(), 0.0);
   for (const Contact& c : contacts) {
-    const double force = law_of(model, c).kn * c.pressed();
+    const double force = law_of(model, c).kn * c.effective_penetration();
     const auto [a, b] = blocks_of(model, c);
     work.block_forces[a] += force;
     work.block_forces[b] += force;
   }
 }
 
-// Those of one source stand by piece, then corner: next to their places.
+// Those of one source stand by fragment, then corner: next to their places.
 void add_sorted(const std::vector<Contact>& found, std::vector<Contact>& contacts) {
   for (const Contact& c : found) {
     contacts.push_back(c);
@@ -134,16 +134,16 @@ ContactSums contact_forces(const Model& model, State& state, ContactWork& own, i
   ContactSums sums;
   if (model.surface.empty() || !own.due)
     return sums;
-  const bool out_of_skin = add_ways(model, state, own, threads), pieces_due = own.pieces_due,
-             known = own.all_known;
-  if ((pieces_due || out_of_skin) && !search_contacts(model, state, own, threads))
+  const bool out_of_skin = add_displacements(model, state, own, threads), fragments_due = own.fragments_due,
+             known = own.history_complete;
+  if ((fragments_due || out_of_skin) && !search_contacts(model, state, own, threads))
     return sums; // something is not a number: the stage's watch will say where
-  own.all_begin = !known || (pieces_due && !state.face_slip.empty());
-  // Where a piece has fallen apart, contacts go with the part they touch.
-  if (pieces_due) {
+  own.any_depth_begins = !known || (fragments_due && !state.face_slip.empty());
+  // Where a fragment has fallen apart, contacts go with the part they touch.
+  if (fragments_due) {
     for (Contact& c : state.contacts)
       if (c.kind == Contact::spring)
-        c.piece = own.piece[c.target];
+        c.fragment = own.fragment[c.target];
     std::sort(state.contacts.begin(), state.contacts.end(),
               [](const Contact& a, const Contact& b) { return key(a) < key(b); });
   }
@@ -203,7 +203,8 @@ double contact_energy(const Model& model, const State& state, double lag) {
     const ContactLaw law = law_of(model, c);
     const geom::Vec3 ago = lag * velocity_past(state, arms_of(model, state, c));
     const double along = ago.dot(c.normal);
-    const double pressed = c.pressed() > 0 ? std::max(0.0, c.pressed() + along) : 0;
+    const double pressed =
+        c.effective_penetration() > 0 ? std::max(0.0, c.effective_penetration() + along) : 0;
     const double shear_force = (c.shear + law.ks * (ago - along * c.normal)).norm();
     sum += energy(pressed, std::min(shear_force, law.kn * pressed * law.tan_friction), law);
   }

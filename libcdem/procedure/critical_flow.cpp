@@ -200,7 +200,7 @@ CriticalFlowResult Search::raise() {
   stepping.steps = std::numeric_limits<std::int64_t>::max();
   stepping.safety = options_.safety;
   stepping.local_damping = options_.local_damping;
-  stepping.follows_pieces = false; // crumbs may go where they like until it ends
+  stepping.follows_fragments = false; // crumbs may go where they like until it ends
   stepping.callback_every = steps_per_look;
   stepping.callback = [&] { look(); };
   stepping.stop = [&] { return ended_; };

@@ -1,6 +1,6 @@
 #include "libcdem/procedure/relax.hpp"
 
-#include "libcdem/contact/contact_bounds.hpp"
+#include "libcdem/contact/response/contact_bounds.hpp"
 #include "libcdem/integrate/move_held_nodes.hpp"
 #include "libcdem/integrate/move_rigid.hpp"
 #include "libcdem/integrate/row_sums.hpp"

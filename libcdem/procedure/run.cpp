@@ -1,6 +1,6 @@
 #include "libcdem/procedure/run.hpp"
 
-#include "libcdem/contact/contact_bounds.hpp"
+#include "libcdem/contact/response/contact_bounds.hpp"
 #include "libcdem/integrate/move_held_nodes.hpp"
 #include "libcdem/integrate/move_rigid.hpp"
 #include "libcdem/integrate/row_sums.hpp"
@@ -109,7 +109,7 @@ RunResult run(const StageContext& context, const RunOptions& options, const std:
   const RestartPoint* const from = context.from;
   Stepping stepping{choose_time_step(context.model, options), 0, options.local_damping, options.damp_flight};
   Stage stage(context, kind, run_away_lengths * context.model.length);
-  stage.follows_pieces = options.follows_pieces;
+  stage.follows_fragments = options.follows_fragments;
   stage.escapes = {left_lengths * context.model.length,
                    (options.holds_what_left ? left_lengths : run_away_lengths) * context.model.length};
   stage.details = options.details;

@@ -1,8 +1,8 @@
 #include "libcdem/step/contact_update.hpp"
 
-#include "libcdem/contact/contact_bounds.hpp"
+#include "libcdem/contact/broad_phase/search.hpp"
 #include "libcdem/contact/contact_forces.hpp"
-#include "libcdem/contact/search.hpp"
+#include "libcdem/contact/response/contact_bounds.hpp"
 #include "libcdem/integrate/row_sums.hpp"
 #include "libcdem/step/record.hpp"
 
@@ -43,7 +43,7 @@ double ContactUpdate::longest_step(const StageContext& context, const Workspace&
     refuse_depth(context.model, context.state, sums.deepest_source, sums.deepest_target, here);
   return std::min(
       contact_time_step(context.model, context.state, work.contact, {row_sums_, work.damped, safety}),
-      way_time_step(context.model, context.state, rigid_reach_));
+      displacement_time_step(context.model, context.state, rigid_reach_));
 }
 
 void ContactUpdate::start_anew(const Model& model, ContactWork& work) const {
@@ -55,7 +55,7 @@ void ContactUpdate::start_anew(const Model& model, ContactWork& work) const {
   work.pace = std::move(before.pace); // how thick skins are changes no force
   work.most_friction = before.most_friction;
   work.restitution = before.restitution;
-  work.all_known = true; // those of the step before
+  work.history_complete = true; // those of the step before
 }
 
 } // namespace cdem

@@ -1,6 +1,6 @@
 #include "libcdem/step/escape.hpp"
 
-#include "libcdem/bond/pieces.hpp"
+#include "libcdem/bond/fragments.hpp"
 #include "libcdem/model/names.hpp"
 #include "libcdem/state/places.hpp"
 
@@ -56,7 +56,7 @@ std::vector<Escape> find_escapes(const Model& model, State& state, const Resolve
   std::vector<Escape> found;
   if (!any_node_is_out(model, state, limits))
     return found;
-  const std::vector<int> pieces = pieces_of_nodes(model, state);
+  const std::vector<int> pieces = fragments_of_nodes(model, state);
   std::map<int, Piece> by_first; // by the smallest node of the piece
   for (int node = 0; node < static_cast<int>(pieces.size()); ++node) {
     Piece& piece = by_first[pieces[node]];

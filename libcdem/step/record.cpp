@@ -1,7 +1,7 @@
 #include "libcdem/step/record.hpp"
 
 #include "libcdem/bond/spring_forces.hpp"
-#include "libcdem/contact/acting.hpp"
+#include "libcdem/contact/response/contact_point.hpp"
 #include "libcdem/model/build/add_meshes.hpp"
 #include "libcdem/results/fields.hpp"
 
@@ -64,7 +64,7 @@ std::int64_t record_face_breaks(const Model& model, State& state, Workspace& wor
     state.spent.friction += sums.friction;
     state.spent.breaking += sums.breaking;
     state.spent.damping += sums.damping;
-    work.contact.pieces_due = work.contact.pieces_due || sums.hands_over;
+    work.contact.fragments_due = work.contact.fragments_due || sums.hands_over;
     for (const FaceBreak& broken : sums.broken) {
       const FaceSpringPlace at{chunk.face_batches.begin + broken.spring / (3 * lanes),
                                static_cast<int>(broken.spring / lanes % 3),

@@ -1,7 +1,7 @@
 #include "libcdem/step/soundness.hpp"
 
 #include "libcdem/bond/spring_forces.hpp"
-#include "libcdem/contact/places.hpp"
+#include "libcdem/contact/geometry/positions.hpp"
 #include "libcdem/element/rigid_motion.hpp"
 #include "libcdem/element/small_strain.hpp"
 #include "libcdem/model/names.hpp"

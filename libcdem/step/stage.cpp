@@ -98,7 +98,7 @@ Stage::Stage(const StageContext& context, std::string kind, double run_away)
     if (context_.restart_point)
       *context_.restart_point = *from;
     step = from->step;
-    work.contact.all_known = step > 0;
+    work.contact.history_complete = step > 0;
     broken_tension_before_ = from->broken_tension_before;
     broken_shear_before_ = from->broken_shear_before;
     work.bond.spring_force = from->spring_force;
@@ -184,7 +184,7 @@ void Stage::synchronise_stress() {
       context_.state.spent.breaking += sums.breaking;
       context_.state.spent.damping += sums.damping;
       if (sums.hands_over) // what is handed over now is looked for where things stand now
-        work.contact.pieces_due = work.contact.due = true;
+        work.contact.fragments_due = work.contact.due = true;
     }
   work.strain_step = 0;
 }
@@ -194,7 +194,7 @@ void Stage::keep_state() {
   require_neighbours(context_.model, context_.state, here());
   // Pieces are told apart anew when a face is handed over, and here: a run that goes on from a checkpoint does so too.
   if (!context_.state.face_slip.empty())
-    work.contact.pieces_due = true;
+    work.contact.fragments_due = true;
   synchronise();
   look_for_escapes();
   context_.last_good = context_.state;
@@ -219,7 +219,7 @@ void Stage::watch(const StepReport& report) {
   record_step(report);
   if (!finite(report.sums))
     require_sound(context_.model, context_.state, work, run_away_, here());
-  if (follows_pieces)
+  if (follows_fragments)
     require_followed(context_.model, work, here());
   release_parted_blocks();
   if (step % watch_every == 0)
@@ -251,7 +251,7 @@ void Stage::release_parted_blocks() {
     return;
   const Released released = release_interfaces(context_.model, context_.state, context_.threads);
   context_.state.spent.breaking += released.stored;
-  work.contact.pieces_due = work.contact.pieces_due || released.interfaces > 0;
+  work.contact.fragments_due = work.contact.fragments_due || released.interfaces > 0;
 }
 
 void Stage::poll(const StepReport& step_report) {

@@ -43,7 +43,7 @@ public:
   std::int64_t step = 0;                  // within the stage
   std::function<void(Progress&)> details; // adds to what the progress line shows; may be empty
   // Ends with a SolutionError where broken faces no longer stand for the pieces' contact.
-  bool follows_pieces = false;
+  bool follows_fragments = false;
   EscapeLimits escapes; // where pieces have left the model
 
   // True at the head of a step before which the state has been kept: keep_restart_point there, with what the loop

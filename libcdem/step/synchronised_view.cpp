@@ -8,7 +8,7 @@ SynchronisedView::SynchronisedView(Stage& stage) : stage_(stage) {
   if (!state.faces.empty() && stage.work.strain_step > 0) {
     strain_step_ = stage.work.strain_step;
     contact_due_ = stage.work.contact.due;
-    pieces_due_ = stage.work.contact.pieces_due;
+    pieces_due_ = stage.work.contact.fragments_due;
     stress_ = state.stress;
     viscous_stress_ = state.viscous_stress;
     faces_ = state.faces;
@@ -24,7 +24,7 @@ SynchronisedView::~SynchronisedView() {
   State& state = stage_.context_.state;
   stage_.work.strain_step = strain_step_;
   stage_.work.contact.due = contact_due_;
-  stage_.work.contact.pieces_due = pieces_due_;
+  stage_.work.contact.fragments_due = pieces_due_;
   state.stress = stress_; // copied: the step knows where these lie
   state.viscous_stress = viscous_stress_;
   state.faces = faces_;

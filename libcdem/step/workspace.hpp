@@ -4,7 +4,7 @@
 
 #include "libcdem/bond/bond_work.hpp"
 #include "libcdem/bond/face_bonds.hpp"
-#include "libcdem/contact/contact_work.hpp"
+#include "libcdem/contact/data/contact_work.hpp"
 #include "libcdem/integrate/move_nodes.hpp"
 #include "libcdem/load/resolve.hpp"
 #include "libcdem/state/state.hpp"

@@ -211,7 +211,7 @@ TEST_CASE("contact: a body that was put elsewhere between two stages meets what 
   double deepest = 0;
   for (const cdem::Contact& c : s.state.contacts) {
     deepest = std::max(deepest, c.depth);
-    CHECK(c.pressed() == 0); // it was found that deep
+    CHECK(c.effective_penetration() == 0); // it was found that deep
   }
   CHECK(deepest == Approx(depth));
 }
@@ -334,7 +334,7 @@ TEST_CASE("contact: the pieces of a broken body meet, and nothing blows up", "[c
   options.callback = [&] {
     for (const cdem::Contact& c : s.state.contacts) {
       const auto [a, b] = cdem::blocks_of(s.model, c);
-      pieces_met = pieces_met || (a == 1 && b == 1 && c.pressed() > 0);
+      pieces_met = pieces_met || (a == 1 && b == 1 && c.effective_penetration() > 0);
     }
   };
   s.run(options);

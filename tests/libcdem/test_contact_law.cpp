@@ -1,5 +1,5 @@
 // The law of one contact: numbers in, numbers out.
-#include "libcdem/contact/contact_law.hpp"
+#include "libcdem/contact/response/contact_law.hpp"
 
 #include "tests/libcdem/system.hpp"
 
@@ -32,10 +32,10 @@ Contact pressed(double depth) {
 } // namespace
 
 TEST_CASE("contact law: kn d presses, nothing pulls", "[contact][law]") {
-  CHECK(pressed(1e-4).pressed() == Approx(1e-4));
+  CHECK(pressed(1e-4).effective_penetration() == Approx(1e-4));
   Contact c = pressed(1e-4);
   advance(c, law, motion(-1e-5));
-  CHECK(c.pressed() == 0);
+  CHECK(c.effective_penetration() == 0);
 }
 
 TEST_CASE("contact law: it sticks by ks and slips at tan(phi), and friction takes what the slip costs",
@@ -78,19 +78,19 @@ TEST_CASE("contact law: shear turns with the normal and keeps its size", "[conta
 
 TEST_CASE("contact law: an overlap that was found starts without force, one that was entered does not",
           "[contact][law]") {
-  CHECK(start_depth(motion(1e-4)) == 1e-4);
-  CHECK(start_depth(motion(1e-4, {0, 0, -1e-4})) == 0); // it came that far in this step
+  CHECK(first_reference_penetration(motion(1e-4)) == 1e-4);
+  CHECK(first_reference_penetration(motion(1e-4, {0, 0, -1e-4})) == 0); // it came that far in this step
   Contact c;
   c.normal = Vec3::UnitZ();
-  c.start = 1e-4;
+  c.reference_penetration = 1e-4;
   advance(c, law, motion(1e-4));
-  CHECK(c.pressed() == 0);
+  CHECK(c.effective_penetration() == 0);
   advance(c, law, motion(1.5e-4));
-  CHECK(c.pressed() == Approx(5e-5));
+  CHECK(c.effective_penetration() == Approx(5e-5));
   advance(c, law, motion(2e-5)); // it backs out and comes again: now from there
-  CHECK(c.pressed() == 0);
+  CHECK(c.effective_penetration() == 0);
   advance(c, law, motion(1e-4));
-  CHECK(c.pressed() == Approx(8e-5));
+  CHECK(c.effective_penetration() == Approx(8e-5));
 }
 
 TEST_CASE("contact law: what is stored under a face is lost where another is suddenly nearer",
@@ -98,11 +98,11 @@ TEST_CASE("contact law: what is stored under a face is lost where another is sud
   const Contact c = pressed(3e-4);
   const Vec3 deeper(0, 0, -1e-5); // in the step
   // The other face was as near before the step: nothing jumps.
-  CHECK(jump_loss(c, law, motion(3.1e-4, deeper)) == Approx(0).margin(1e-9));
-  CHECK(jump_loss(c, law, motion(4e-4, deeper)) == 0);
+  CHECK(target_change_loss(c, law, motion(3.1e-4, deeper)) == Approx(0).margin(1e-9));
+  CHECK(target_change_loss(c, law, motion(4e-4, deeper)) == 0);
   // It was at 2e-4, or this side of it.
-  CHECK(jump_loss(c, law, motion(2.1e-4, deeper)) == Approx(0.5 * law.kn * (9e-8 - 4e-8)));
-  CHECK(jump_loss(c, law, motion(-1e-4, deeper)) == Approx(0.5 * law.kn * 9e-8));
+  CHECK(target_change_loss(c, law, motion(2.1e-4, deeper)) == Approx(0.5 * law.kn * (9e-8 - 4e-8)));
+  CHECK(target_change_loss(c, law, motion(-1e-4, deeper)) == Approx(0.5 * law.kn * 9e-8));
 }
 
 TEST_CASE(
