@@ -1,5 +1,7 @@
 #include "libcdem/bond/broken_faces.hpp"
 
+#include "libcdem/joint/coulomb_friction.hpp"
+#include "libcdem/joint/mohr_coulomb.hpp"
 #include "libcdem/state/places.hpp"
 
 #include <algorithm>
@@ -93,10 +95,10 @@ Response contact(double kn, double ks, double tan_friction, const Frame& f, int 
     slip = tangential(f, point);
     return {trial.opening};
   }
-  const double shear = length(trial.shear), limit = -kn * trial.opening * tan_friction;
+  const double shear = length(trial.shear), limit = friction_limit(-kn * trial.opening, tan_friction);
   if (shear <= limit)
     return trial;
-  const double too_much = (1 - limit / shear) / ks;
+  const double too_much = (1 - held_by_friction(shear, limit)) / ks;
   for (int axis = 0; axis < 2; ++axis)
     slip[axis] += too_much * trial.shear[axis];
   return stretched(kn, ks, f, point, slip);
@@ -109,11 +111,8 @@ void set_lane(Vec& v, int lane, const geom::Vec3& value) {
 }
 
 BondMode due(const FaceLaw& law, double area, double normal_force, double shear_force) {
-  if (normal_force > law.tensile_strength * area)
-    return BondMode::broken_tension;
-  if (shear_force > std::max(0.0, law.cohesion * area - normal_force * law.tan_friction))
-    return BondMode::broken_shear;
-  return BondMode::intact;
+  return breaks({law.cohesion * area, law.tan_friction, law.tensile_strength * area}, normal_force,
+                shear_force);
 }
 
 bool is_intact(std::uint8_t mode) {

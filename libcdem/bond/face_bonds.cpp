@@ -1,4 +1,5 @@
 #include "libcdem/bond/broken_faces.hpp"
+#include "libcdem/joint/mohr_coulomb.hpp"
 #include "libgeom/core/portable.hpp"
 
 #include <algorithm>
@@ -82,8 +83,7 @@ CDEM_INLINE bool near_strength(const FaceBatch& batch, const Gaps& gaps, const V
     const Oct g2 = dot(gap, gap);
     const Oct fn = kn * gn;
     const Oct shear2 = (law.shear_ratio * law.shear_ratio) * kn * kn * (g2 - gn * gn);
-    const Oct left =
-        cohesion - margin * law.tan_friction * fn; // of the shear strength; negative: beyond the cone's tip
+    const Oct left = shear_strength(cohesion, margin * law.tan_friction, fn);
     near |= (fn >= tension) | (shear2 >= left * left) | (left <= Oct{});
   }
   return any(near);

@@ -28,7 +28,7 @@ double over(double load, double strength) {
 
 LoadRatio load_ratio(const SpringStrength& s, double normal_traction, double shear_traction) {
   const double tension = over(normal_traction, s.tensile_strength);
-  const double shear = over(shear_traction + normal_traction * s.tan_friction, s.cohesion);
+  const double shear = over(cohesive_load(shear_traction, s.tan_friction, normal_traction), s.cohesion);
   return shear > tension ? LoadRatio{shear, BondMode::broken_shear}
                          : LoadRatio{tension, BondMode::broken_tension};
 }

@@ -1,4 +1,5 @@
 #include "libcdem/fracture/failure_plane.hpp"
+#include "libcdem/joint/mohr_coulomb.hpp"
 #include "libgeom/core/portable.hpp"
 
 #include <Eigen/Eigenvalues>
@@ -84,8 +85,8 @@ std::optional<FailurePlane> failure_plane(const geom::Mat3& stress, const geom::
     return plane;
   }
   const double phi = strength.friction_angle;
-  const double excess = (sigma1 - sigma3) / (2 * geom::portable::cos(phi)) -
-                        (sigma1 + sigma3) * geom::portable::tan(phi) / 2 - strength.cohesion;
+  const double excess =
+      mohr_coulomb(sigma1, sigma3, strength.cohesion, geom::portable::cos(phi), geom::portable::tan(phi));
   if (excess < -options.shear_threshold)
     return {};
   plane.mode = CutMode::shear;

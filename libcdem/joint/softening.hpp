@@ -94,12 +94,14 @@ struct DamageDrive {
 // open, shear: parts of the stretch, m.
 inline DamageDrive damage_drive(const SofteningLaw& law, double open, double shear) {
   const double tn = law.kn * open;
-  const double r = std::max(tn / law.strength.tensile_strength,
-                            (law.ks * shear + tn * law.strength.tan_friction) / law.strength.cohesion);
+  const double r =
+      std::max(tn / law.strength.tensile_strength,
+               cohesive_load(law.ks * shear, law.strength.tan_friction, tn) / law.strength.cohesion);
   if (!(r > 1))
     return {};
   const double beyond = 1 - 1 / r;
-  const double held = std::max(0.0, -tn) * law.strength.tan_friction / law.ks; // m, by friction alone
+  const double held =
+      friction_limit(std::max(0.0, -tn), law.strength.tan_friction) / law.ks; // m, by friction alone
   const double xi_n = std::max(0.0, open) * beyond / law.opening;
   const double xi_s = std::max(0.0, shear - held) * beyond / law.slip;
   const double left = softening_curve(law.curve, std::sqrt(xi_n * xi_n + xi_s * xi_s));

@@ -9,28 +9,14 @@
 // A bond that softens on the way from one to the other: joint/softening.hpp.
 #pragma once
 
-#include "libcdem/joint/bond_mode.hpp"
+#include "libcdem/joint/coulomb_friction.hpp"
+#include "libcdem/joint/mohr_coulomb.hpp"
 #include "libgeom/core/types.hpp"
 
 #include <algorithm>
 #include <cmath>
 
 namespace cdem {
-
-struct SpringStrength {
-  double cohesion = 0;         // Pa
-  double tan_friction = 0;     // tan(phi)
-  double tensile_strength = 0; // Pa
-};
-
-// Eqs 10-11: with the signed t_n, so that tension weakens the shear strength, and never below zero.
-inline BondMode breaks(const SpringStrength& s, double normal_traction, double shear_traction) {
-  if (normal_traction > s.tensile_strength)
-    return BondMode::broken_tension;
-  if (shear_traction > std::max(0.0, s.cohesion - normal_traction * s.tan_friction))
-    return BondMode::broken_shear;
-  return BondMode::intact;
-}
 
 struct SpringResponse {
   geom::Vec3 traction = geom::Vec3::Zero(); // Pa, pulls a towards b when along the normal
@@ -48,13 +34,12 @@ inline SpringResponse contact_response(double kn, double ks, double tan_friction
     return r;
   }
   const double normal_traction = kn * open;
-  const double limit = -normal_traction * tan_friction;
+  const double limit = friction_limit(-normal_traction, tan_friction);
   const double shear_traction = ks * shear.norm();
   r.offset = offset;
   r.traction = normal_traction * normal + ks * shear;
   if (shear_traction > limit) {
-    // Return to the friction cone along the direction of the trial shear.
-    const double scale = limit / shear_traction;
+    const double scale = held_by_friction(shear_traction, limit);
     const geom::Vec3 slip = (1 - scale) * shear;
     r.offset += slip;
     r.traction = normal_traction * normal + (ks * scale) * shear;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "libcdem/contact/geometry/positions.hpp"
+#include "libgeom/core/portable.hpp"
 #include "libgeom/query/closest.hpp"
 
 #include <cmath>
@@ -34,7 +35,7 @@ inline double angle_at(const geom::PlaceOnTriangle& at, const Corners& x) {
   for (int i = 0; i < 3; ++i)
     if (at.weights[(i + 1) % 3] == 0 && at.weights[(i + 2) % 3] == 0) {
       const geom::Vec3 a = x[(i + 1) % 3] - x[i], b = x[(i + 2) % 3] - x[i];
-      return std::atan2(a.cross(b).norm(), a.dot(b));
+      return geom::portable::atan2(a.cross(b).norm(), a.dot(b));
     }
   return at.inside ? 2 * M_PI : M_PI;
 }

@@ -1,6 +1,7 @@
 #include "libcdem/contact/geometry/semi_edges.hpp"
 
 #include "libcdem/model/build/contact_surface.hpp"
+#include "libgeom/core/portable.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -52,7 +53,7 @@ void set_angles(const Model& model, Side* begin, Side* end) {
                    right = along.cross(zero);
   for (Side* side = begin; side != end; ++side) {
     const geom::Vec3 arm = place(*side, 2) - x;
-    side->angle = std::atan2(arm.dot(right), arm.dot(zero));
+    side->angle = geom::portable::atan2(arm.dot(right), arm.dot(zero));
   }
   std::sort(begin, end,
             [](const Side& p, const Side& q) { // the two sides of a broken face stand at one angle

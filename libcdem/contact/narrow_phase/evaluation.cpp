@@ -4,6 +4,7 @@
 #include "libcdem/contact/response/contact_point.hpp"
 #include "libcdem/model/build/contact_surface.hpp"
 #include "libcdem/model/build/rigid_bodies.hpp"
+#include "libgeom/core/portable.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -46,7 +47,7 @@ const Evaluation::Law& Evaluation::law_between(int block_a, int block_b) {
   const std::pair bodies(model_.blocks[block_a].body, model_.blocks[block_b].body);
   if (law_.bodies != bodies) {
     const Joint* const joint = contact_joint(model_, block_a, block_b);
-    law_ = {bodies, joint, std::min(std::tan(joint->friction_angle), work_.most_friction)};
+    law_ = {bodies, joint, std::min(geom::portable::tan(joint->friction_angle), work_.most_friction)};
   }
   return law_;
 }

@@ -16,6 +16,7 @@
 // millimetre would throw a unit into the air.
 #pragma once
 
+#include "libcdem/joint/coulomb_friction.hpp"
 #include "libcdem/state/contact.hpp"
 
 #include <algorithm>
@@ -84,7 +85,7 @@ inline ContactLoss advance(Contact& c, const ContactLaw& law, const ContactMotio
   const double damping = contact_damping(elastic, law, m.speed, m.turning_speed);
   loss.damping = -0.5 * (c.damping + damping) * m.slid.dot(m.normal);
   c.damping = damping;
-  const double trial = shear.norm(), limit = (elastic + damping) * law.tan_friction;
+  const double trial = shear.norm(), limit = friction_limit(elastic + damping, law.tan_friction);
   const double by_turning = c.shear.squaredNorm() - turned.squaredNorm();
   c.shear = shear;
   if (law.ks <= 0)
@@ -92,7 +93,7 @@ inline ContactLoss advance(Contact& c, const ContactLaw& law, const ContactMotio
   loss.friction = 0.5 * by_turning / law.ks;
   if (trial <= limit)
     return loss;
-  c.shear *= limit / trial;
+  c.shear *= held_by_friction(trial, limit);
   loss.friction += 0.5 * (turned.dot(shear) / trial + limit) * (trial - limit) / law.ks;
   return loss;
 }

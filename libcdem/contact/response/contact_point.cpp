@@ -2,6 +2,7 @@
 
 #include "libcdem/contact/geometry/positions.hpp"
 #include "libcdem/model/build/contact_surface.hpp"
+#include "libgeom/core/portable.hpp"
 
 namespace cdem {
 namespace {
@@ -45,7 +46,7 @@ ContactLaw law_of(const Model& model, const Contact& c) {
   const auto [source, target] = triangles_of(c);
   const ContactTriangle &from = s.triangles[source], &to = s.triangles[target];
   const Joint& joint = *contact_joint(model, from.block, to.block);
-  const double tan_friction = std::tan(joint.friction_angle);
+  const double tan_friction = geom::portable::tan(joint.friction_angle);
   return c.kind == Contact::spring
              ? spring_law(joint, tan_friction, from, to)
              : edge_law(joint, tan_friction, s, {source, c.fragment}, {target, c.beside});
