@@ -51,7 +51,7 @@ std::vector<int> numbers(const char* option, const std::string& text) {
 
 constexpr const char* help =
     R"(Usage: cdem bench [--sizes 100,10000,100000] [--tets 10000,105000] [--bodies 1000,10000]
-                  [--body-divisions 1] [--settle 1000] [--threads 1,2] [--seconds 1]
+                  [--body-divisions 1] [--settle 1000] [--shatter 6000] [--threads 1,2] [--seconds 1]
 
 Steps plates of bonded blocks, meshed cubes, continuous and with every face bonded, and lattices of cubes that touch,
 and prints rates beside the bare element kernels and a copy of memory.
@@ -61,6 +61,7 @@ and prints rates beside the bare element kernels and a copy of memory.
   --body-divisions  cells along an edge of each of them, of six tetrahedra
   --settle   armour units laid on a slope that come to rest, e.g. 1000, with the most threads given; none by
              default
+  --shatter  tetrahedra in a cube that hits a floor and breaks everywhere, e.g. 6000; none by default
   --threads  thread counts to compare
   --seconds  stepping time per figure, at least
 )";
@@ -77,10 +78,10 @@ int main(int argc, char** argv) {
     }
     if (i + 1 == argc ||
         (option != "--sizes" && option != "--tets" && option != "--bodies" && option != "--body-divisions" &&
-         option != "--settle" && option != "--threads" && option != "--seconds")) {
+         option != "--settle" && option != "--shatter" && option != "--threads" && option != "--seconds")) {
       std::fprintf(stderr,
                    "cdem bench: error: %s: must be --sizes, --tets, --bodies, --body-divisions, --settle, "
-                   "--threads or --seconds with a value\n%s",
+                   "--shatter, --threads or --seconds with a value\n%s",
                    option.c_str(), help);
       return 2;
     }
@@ -95,6 +96,8 @@ int main(int argc, char** argv) {
       settings.body_divisions = numbers("--body-divisions", value)[0];
     else if (option == "--settle")
       settings.units = numbers("--settle", value);
+    else if (option == "--shatter")
+      settings.shatter = numbers("--shatter", value);
     else if (option == "--threads")
       settings.threads = numbers("--threads", value);
     else
@@ -114,5 +117,7 @@ int main(int argc, char** argv) {
     bench::contacts(settings);
   if (!settings.units.empty())
     bench::piles(settings);
+  if (!settings.shatter.empty())
+    bench::shatter(settings);
   return 0;
 }

@@ -11,6 +11,7 @@ struct Settings {
   std::vector<int> bodies{1000, 10000};       // that touch
   int body_divisions = 1;                     // cells along an edge of one of them
   std::vector<int> units{};                   // that fall and settle
+  std::vector<int> shatter{};                 // tetrahedra of cubes that shatter
   std::vector<int> threads{1, 2};
   double seconds = 1; // of stepping per figure, at least
 };
@@ -22,5 +23,6 @@ void meshes(const Settings&); // meshed cubes, continuous and bonded: full step 
 
 void contacts(const Settings&); // cubes that touch: search and full step
 void piles(const Settings&);    // armour units that settle on a slope
+void shatter(const Settings&);  // a bonded cube that breaks while it runs
 
 } // namespace bench
