@@ -33,8 +33,10 @@ std::vector<double> viscous_forces(const Model& model) {
 double choose_time_step(const Model& model, const RunOptions& options) {
   const double stable = stable_time_step(model), infinite = std::numeric_limits<double>::infinity();
   // Rigid bodies have a stable step only where they may touch.
-  const double usual = std::min(options.safety * stable,
-                                model.surface.empty() ? infinite : rigid_time_step(model, options.safety));
+  const double touching = model.surface.empty() ? infinite
+                                                : std::min(rigid_time_step(model, options.safety),
+                                                           closing_time_step(model, options.safety));
+  const double usual = std::min(options.safety * stable, touching);
   if (options.time_step == 0 && std::isinf(usual))
     throw geom::InputError(
         "time_step: missing; everything that moves is rigid and touches nothing, which has no "

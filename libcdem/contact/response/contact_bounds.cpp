@@ -1,7 +1,10 @@
 #include "libcdem/contact/response/contact_bounds.hpp"
 
+#include "libcdem/bond/spring_forces.hpp"
 #include "libcdem/contact/geometry/positions.hpp"
+#include "libcdem/element/mesh_fields.hpp"
 #include "libcdem/element/rigid_motion.hpp"
+#include "libcdem/element/small_strain.hpp"
 #include "libcdem/integrate/row_sums.hpp"
 #include "libcdem/model/build/rigid_bodies.hpp"
 
@@ -71,6 +74,28 @@ double rigid_time_step(const Model& model, double safety) {
   }
   return largest > 0 ? for_rigid(safety) * stable_time_step(largest, 0)
                      : std::numeric_limits<double>::infinity();
+}
+
+double closing_time_step(const Model& model, double safety) {
+  const std::vector<double> given = given_stiffness(model);
+  std::vector<double> contact(model.node_mass.size(), 0.0);
+  for (const ContactTriangle& t : model.surface.triangles)
+    if (t.face < 0 && model.blocks[t.block].rigid < 0)
+      for (const int node : t.nodes)
+        contact[node] += 2 * t.area / 3 * given[model.blocks[t.block].body];
+  std::vector<double> elements = stiffness_row_sums(model);
+  add_mesh_row_sums(model, elements);
+  // Where an interface holds a face no contact does.
+  std::vector<double> springs(model.node_mass.size(), 0.0);
+  add_spring_row_sums(model, springs);
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < contact.size(); ++i)
+    if (contact[i] > springs[i]) {
+      const double mass = model.node_mass[i];
+      least = std::min(least, stable_time_step((elements[i] + contact[i]) / mass,
+                                               damping_of(model, static_cast<int>(i)) * elements[i] / mass));
+    }
+  return safety * least;
 }
 
 std::vector<double> reaches_of_rigid(const Model& model, const State& state) {

@@ -19,6 +19,11 @@ double contact_time_step(const Model&, const State&, const ContactWork&, const C
 // than a few contacts close at once. contact_time_step shortens it when more do. Infinite without rigid bodies.
 double rigid_time_step(const Model&, double safety);
 
+// s, `safety` times the stable step of nodes at surfaces whose contacts are given a stiffness, as if all semi-springs of
+// its own side were pressed: a contact that closes within a step must not be too stiff for that step, since contact_time_step shortens
+// the next one only. Contacts as stiff as their tets are no stiffer than what the step is for. Infinite without.
+double closing_time_step(const Model&, double safety);
+
 // m, from each rigid body's centroid to its furthest node; it keeps its shape.
 std::vector<double> reaches_of_rigid(const Model&, const State&);
 // s, in which no point of a rigid body goes further than a tenth of the usual height of the tets at any surface, moving
