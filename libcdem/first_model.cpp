@@ -1,6 +1,6 @@
 #include "libcdem/first_model.hpp"
 
-#include "libcdem/contact/separate.hpp"
+#include "libcdem/contact/initial/separate.hpp"
 #include "libcdem/model/build/build_model.hpp"
 #include "libcdem/simulation_checks.hpp"
 #include "libgeom/core/error.hpp"
@@ -180,6 +180,22 @@ Model first_model(const ModelSpec& spec) {
   Model model = build_model(frame, std::move(seeds), default_traits, std::move(meshes));
   require_separate(model);
   return model;
+}
+
+std::vector<std::array<int, 2>> pairs_without_interface(const ModelSpec& spec, const Model& model) {
+  std::set<std::array<int, 2>> pairs;
+  for (const PairSpec& pair : spec.pairs) {
+    const int a = body_index(model, pair.body_a), b = body_index(model, pair.body_b);
+    pairs.insert({std::min(a, b), std::max(a, b)});
+  }
+  for (int b = 0; b < static_cast<int>(spec.bodies.size()); ++b)
+    if (spec.bodies[b].shape.blocks.size() > 1)
+      pairs.insert({b, b});
+  for (const Interface& interface : model.interfaces) {
+    const int a = model.blocks[interface.block_a].body, b = model.blocks[interface.block_b].body;
+    pairs.erase({std::min(a, b), std::max(a, b)});
+  }
+  return {pairs.begin(), pairs.end()};
 }
 
 } // namespace cdem

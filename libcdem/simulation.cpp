@@ -34,6 +34,7 @@ Simulation::Simulation(const ModelSpec& spec, int threads, std::shared_ptr<Obser
   impl_->built = hash(impl_->model);
   impl_->state = initial_state(impl_->model);
   impl_->last_good = impl_->state;
+  impl_->log.unmet = pairs_without_interface(spec, impl_->model);
 }
 
 Simulation::~Simulation() = default;

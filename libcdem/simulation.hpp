@@ -14,11 +14,13 @@
 #include "libcdem/results/deformation.hpp"
 #include "libcdem/results/fields.hpp"
 #include "libcdem/results/log.hpp"
+#include "libcdem/results/overlap.hpp"
+#include "libcdem/results/slivers.hpp"
 #include "libcdem/results/snapshot.hpp"
 #include "libcdem/results/unit.hpp"
 #include "libcdem/state/ledger.hpp"
+#include "libcdem/step/checkpoint_writer.hpp"
 #include "libcdem/step/errors.hpp"
-#include "libcdem/step/keeper.hpp"
 #include "libcdem/step/observer.hpp"
 #include "libcdem/step/options.hpp"
 #include "libgeom/assembly/assembly.hpp"
@@ -126,9 +128,15 @@ public:
   int stage() const;               // solving calls so far
   std::int64_t steps() const;      // steps of all stages
   EnergyLedger energy() const;
-  std::uint64_t state_hash() const; // of every State field, bit for bit
-  geom::Box box() const;            // undeformed
-  Deformation deformation() const;  // how far from small strain
+  std::uint64_t state_hash() const;     // of every State field, bit for bit
+  geom::Box box() const;                // undeformed
+  Deformation deformation() const;      // how far from small strain
+  std::vector<Slivers> slivers() const; // results/slivers.hpp
+  Overlap overlap() const;              // results/overlap.hpp
+  // Pairs of bodies, by name, for which a law was given and that had neither interface nor contact so far; twice the same
+  // body: its own blocks.
+  std::vector<std::array<std::string, 2>> unmet() const;
+  const std::vector<EscapeRow>& escapes() const; // what has left the model, in order
   // There is something that could move the model: a load, a support that moves it, an initial stress or velocity, or
   // a state that is deformed already.
   bool anything_acts() const;
@@ -184,7 +192,7 @@ public:
   // Takes the state alone: neither log nor stages.
   void restore_state(const std::string& saved);
   // Who is asked for checkpoints during solving calls; must outlive them. Null: nobody.
-  void set_keeper(Keeper*);
+  void set_checkpoint_writer(CheckpointWriter*);
   // While a script is replayed up to its checkpoint conditions are taken without being tried: the model they were
   // meant for is not there yet.
   void set_replaying(bool);

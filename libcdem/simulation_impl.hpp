@@ -28,19 +28,19 @@ struct Simulation::Impl {
 
   std::uint64_t built = 0; // hash of the model as it was built
   bool replaying = false;
-  Keeper* keeper = nullptr;
-  std::optional<Moment> moment; // of the stage that runs
-  std::optional<Moment> from;   // of a restored stage, until it is taken up
-  std::string at_start;         // saved before a stage that can be begun again only; empty: none runs
+  CheckpointWriter* checkpoints = nullptr;
+  std::optional<RestartPoint> restart_point; // of the stage that runs
+  std::optional<RestartPoint> from;          // of a restored stage, until it is taken up
+  std::string at_start; // saved before a stage that can be begun again only; empty: none runs
 
   // Runs one stage, from where it was left if it was.
   template <class Solve>
   auto run_stage(const Solve& solve) {
-    std::optional<Moment> entry;
+    std::optional<RestartPoint> entry;
     entry.swap(from);
     const struct Leave {
       Impl& s;
-      ~Leave() { s.moment.reset(); }
+      ~Leave() { s.restart_point.reset(); }
     } leave{*this};
     const StageContext context{model,
                                state,
@@ -50,14 +50,14 @@ struct Simulation::Impl {
                                *observer,
                                threads,
                                ++stage,
-                               keeper,
-                               &moment,
+                               checkpoints,
+                               &restart_point,
                                entry ? &*entry : nullptr};
     if (entry) {
       last_good = state;
-      moment = entry;
+      restart_point = entry;
     } else {
-      leave_from_here(context);
+      keep_start_of_loop(context);
     }
     return solve(context);
   }
@@ -65,13 +65,14 @@ struct Simulation::Impl {
   // Runs one that is begun again when it was left, as it changes the model from step to step.
   template <class Solve>
   auto run_whole_stage(const Solve& solve) {
-    if (keeper)
+    if (checkpoints)
       at_start = saved();
     const struct Leave {
       Impl& s;
       ~Leave() { s.at_start.clear(); }
     } leave{*this};
-    return solve(StageContext{model, state, conditions, log, last_good, *observer, threads, ++stage, keeper});
+    return solve(
+        StageContext{model, state, conditions, log, last_good, *observer, threads, ++stage, checkpoints});
   }
 
   std::string saved() const;

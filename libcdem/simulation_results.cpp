@@ -22,6 +22,25 @@ ContactSummary Simulation::contacts() const {
           impl_->log.deepest_over_height};
 }
 
+std::vector<Slivers> Simulation::slivers() const {
+  return find_slivers(impl_->model);
+}
+
+Overlap Simulation::overlap() const {
+  return cdem::overlap(impl_->model, impl_->state);
+}
+
+std::vector<std::array<std::string, 2>> Simulation::unmet() const {
+  std::vector<std::array<std::string, 2>> names;
+  for (const auto& [a, b] : impl_->log.unmet)
+    names.push_back({impl_->model.bodies[a].name, impl_->model.bodies[b].name});
+  return names;
+}
+
+const std::vector<EscapeRow>& Simulation::escapes() const {
+  return impl_->log.escapes;
+}
+
 ModelCounts Simulation::counts() const {
   const Model& m = impl_->model;
   ModelCounts c;

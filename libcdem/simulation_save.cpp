@@ -7,17 +7,17 @@
 namespace cdem {
 
 template <class A>
-void archive(A& a, Moment& moment) {
-  auto& [step, breaks, wall_time, tension_before, shear_before, carried, previous_force, spring_force,
-         stretch, beside] = moment;
-  archive_all(a, step, breaks, wall_time, tension_before, shear_before, carried, previous_force, spring_force,
-              stretch, beside);
+void archive(A& a, RestartPoint& restart_point) {
+  auto& [step, breaks, wall_time, tension_before, shear_before, loop_state, previous_force, spring_force,
+         stretch, procedure_state] = restart_point;
+  archive_all(a, step, breaks, wall_time, tension_before, shear_before, loop_state, previous_force,
+              spring_force, stretch, procedure_state);
 }
 
 std::string Simulation::Impl::saved() const {
   if (!at_start.empty())
     return at_start;
-  const State& then = moment ? last_good : state;
+  const State& then = restart_point ? last_good : state;
   Writer a;
   archive_const(a, built);
   archive_const(a, model.blocks.size());
@@ -28,12 +28,12 @@ std::string Simulation::Impl::saved() const {
     write(a, model);
   write(a, then);
   archive_const(a, last_residual);
-  archive_const(a, moment ? stage - 1 : stage);
-  write(a, log, then.step, moment ? moment->breaks : log.breaks.size());
-  const bool midway = moment && (moment->step > 0 || !moment->beside.empty());
+  archive_const(a, restart_point ? stage - 1 : stage);
+  write(a, log, then.step, restart_point ? restart_point->breaks : log.breaks.size());
+  const bool midway = restart_point && (restart_point->step > 0 || !restart_point->procedure_state.empty());
   archive_const(a, midway);
   if (midway)
-    archive_const(a, *moment);
+    archive_const(a, *restart_point);
   return a.take();
 }
 
@@ -84,8 +84,8 @@ void Simulation::restore(const std::string& saved) {
 void Simulation::restore_state(const std::string& saved) {
   impl_->take(saved, true);
 }
-void Simulation::set_keeper(Keeper* keeper) {
-  impl_->keeper = keeper;
+void Simulation::set_checkpoint_writer(CheckpointWriter* checkpoints) {
+  impl_->checkpoints = checkpoints;
 }
 void Simulation::set_replaying(bool replaying) {
   impl_->replaying = replaying;

@@ -78,17 +78,22 @@ public:
     auto* help = app_.add_subcommand("help", "print the help of a command");
     finish(help, "");
     help->add_option("[COMMAND]", typed_.topic, "run, check, ...");
-    app_.footer("examples:\n"
-                "  cdem run examples/uniaxial_compression/case.lua\n"
-                "  cdem run case.lua --set pressure=24e6 --threads 2 --output results/gentle\n"
-                "  cdem resume results/gentle\n"
-                "  cdem check case.lua\n"
-                "  cdem sweep case.lua --set pressure=20e6,25e6,30e6 --jobs 2\n"
-                "  cdem render results/plate/result.vtu --colour displacement.x --deformation 20\n"
-                "  cdem help run\n"
-                "\n"
-                "exit codes:\n" +
-                exit_code_table());
+    app_.footer(
+        "examples:\n"
+        "  cdem run examples/uniaxial_compression/case.lua\n"
+        "  cdem run case.lua --set pressure=24e6 --threads 2 --output results/gentle\n"
+        "  cdem resume results/gentle\n"
+        "  cdem check case.lua\n"
+        "  cdem sweep case.lua --set pressure=20e6,25e6,30e6 --jobs 2\n"
+        "  cdem render results/plate/result.vtu --colour displacement.x --deformation 20\n"
+        "  cdem help run\n"
+        "\n"
+        "environment:\n"
+        "  CDEM_INSTRUCTION_SET        baseline, avx2 or avx512: what kernels run with (the widest that the\n"
+        "                              processor has); results are the same bits for every one\n"
+        "\n"
+        "exit codes:\n" +
+        exit_code_table());
   }
 
   std::function<ExitCode()> parse(int argc, const char* const* argv) {

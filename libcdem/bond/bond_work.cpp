@@ -1,4 +1,5 @@
 #include "libcdem/bond/bond_work.hpp"
+#include "libgeom/core/portable.hpp"
 
 #include <cmath>
 
@@ -10,7 +11,7 @@ BondWork::BondWork(const Model& model, const State& state)
       stretch(state.bond_damage.size(), geom::Vec3::Zero()), sums(model.point_chunks.size()) {
   for (const Interface& interface : model.interfaces) {
     const Joint& joint = model.joints[interface.joint];
-    strength.push_back({joint.cohesion, std::tan(joint.friction_angle), joint.tensile_strength});
+    strength.push_back({joint.cohesion, geom::portable::tan(joint.friction_angle), joint.tensile_strength});
     if (!state.bond_damage.empty())
       softening.push_back(softening_law(joint, interface.kn, interface.ks));
   }

@@ -13,6 +13,10 @@ using simd::Vec;
 
 using Plane2 = std::array<double, 2>;
 
+double length(const Plane2& v) {
+  return std::sqrt(v[0] * v[0] + v[1] * v[1]);
+}
+
 // A face as a broken one sees itself.
 struct Frame {
   std::array<geom::Vec3, 3> gap;
@@ -89,7 +93,7 @@ Response contact(double kn, double ks, double tan_friction, const Frame& f, int 
     slip = tangential(f, point);
     return {trial.opening};
   }
-  const double shear = std::hypot(trial.shear[0], trial.shear[1]), limit = -kn * trial.opening * tan_friction;
+  const double shear = length(trial.shear), limit = -kn * trial.opening * tan_friction;
   if (shear <= limit)
     return trial;
   const double too_much = (1 - limit / shear) / ks;
@@ -124,7 +128,7 @@ bool is_gone(const Frame& f, double size) {
   return everywhere([&](int point) { return f.gap[point].dot(f.normal) > parted * size; }) ||
          everywhere([&](int point) {
            const Plane2 gap = tangential(f, point);
-           return std::hypot(gap[0], gap[1]) > slid * size;
+           return length(gap) > slid * size;
          });
 }
 
@@ -181,7 +185,7 @@ private:
   // True when the spring breaks.
   bool snap(int point, std::int64_t spring, std::uint8_t& mode, Plane2& slip, FaceSums& sums) {
     const Response bonded = stretched(kn(), ks(), now_, point);
-    const double area = batch_.area[lane_], shear = std::hypot(bonded.shear[0], bonded.shear[1]);
+    const double area = batch_.area[lane_], shear = length(bonded.shear);
     const BondMode now = due(law_, area, kn() * bonded.opening, shear);
     if (now == BondMode::intact)
       return false;
@@ -198,7 +202,7 @@ private:
   void leave(std::int64_t face, FaceStateBatch& state, Vec (&force)[3], FaceSums& sums) {
     const double size = std::sqrt(3 * batch_.area[lane_]);
     if (law_.hands_over) {
-      if (!is_gone(now_, size))
+      if (!law_.hand_over_due || !is_gone(now_, size))
         return;
       state.handed_over[lane_] = 1;
       sums.hands_over = true;

@@ -1,4 +1,5 @@
 #include "libcdem/bond/broken_faces.hpp"
+#include "libgeom/core/portable.hpp"
 
 #include <algorithm>
 
@@ -88,18 +89,11 @@ CDEM_INLINE bool near_strength(const FaceBatch& batch, const Gaps& gaps, const V
   return any(near);
 }
 
-} // namespace
-
-FaceLaw face_law(const Body& body) {
-  return {body.bonding.shear_ratio, body.joint.tensile_strength, body.joint.cohesion,
-          std::tan(body.joint.friction_angle)};
-}
-
 // Batches by which reading runs ahead.
 constexpr int batches_ahead = 3;
 
-// The kernel is compiled for several instruction sets; everything it calls on the way of intact bonds is inlined.
-CDEM_KERNEL void face_bond_forces(const FaceBatch* batches, std::int64_t count, int faces,
+// All that it calls for intact bonds is inlined; one_by_one is not, and is the same code for every instruction set.
+CDEM_INLINE void face_bond_kernel(const FaceBatch* batches, std::int64_t count, int faces,
                                   const FaceMotion& motion, const FaceLaw& law, bool breaking,
                                   FaceStateBatch* state, FaceSlip* slips, Node* total, FaceSums& sums,
                                   ReadAhead& ahead) {
@@ -140,6 +134,20 @@ CDEM_KERNEL void face_bond_forces(const FaceBatch* batches, std::int64_t count, 
       simd::scatter_add(total, batch.place_b[corner], Vec{-f.x, -f.y, -f.z});
     }
   }
+}
+
+} // namespace
+
+FaceLaw face_law(const Body& body) {
+  return {body.bonding.shear_ratio, body.joint.tensile_strength, body.joint.cohesion,
+          geom::portable::tan(body.joint.friction_angle)};
+}
+
+void face_bond_forces(const FaceBatch* batches, std::int64_t count, int faces, const FaceMotion& motion,
+                      const FaceLaw& law, bool breaking, FaceStateBatch* state, FaceSlip* slips, Node* total,
+                      FaceSums& sums, ReadAhead& ahead) {
+  simd::best<face_bond_kernel>(batches, count, faces, motion, law, breaking, state, slips, total, sums,
+                               ahead);
 }
 
 } // namespace cdem

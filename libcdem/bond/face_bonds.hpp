@@ -25,7 +25,8 @@ struct FaceLaw {
   double tensile_strength = 0; // T, Pa
   double cohesion = 0;         // C, Pa
   double tan_friction = 0;
-  bool hands_over = false; // broken faces that part or slide away go to the contact of the surface
+  bool hands_over = false;    // broken faces that part or slide away go to the contact of the surface
+  bool hand_over_due = false; // in this step
 };
 FaceLaw face_law(const Body&);
 

@@ -2,6 +2,7 @@
 
 #include "libcdem/bond/spring_forces.hpp"
 #include "libcdem/state/places.hpp"
+#include "libgeom/core/portable.hpp"
 
 #include <cmath>
 
@@ -47,7 +48,7 @@ double interface_opening_angle(const Model& model, const Node* u, const Interfac
   const InterfaceFrame& frame = model.frames[interface.frame];
   const geom::Vec3 a = side_of(model, u, frame.nodes_a, frame.along_a).normal,
                    b = side_of(model, u, frame.nodes_b, frame.along_b).normal;
-  return std::atan2(a.cross(b).norm(), -a.dot(b));
+  return geom::portable::atan2(a.cross(b).norm(), -a.dot(b));
 }
 
 geom::Vec3 local_jump(const Model& model, const std::vector<Node>& displacement, int point) {

@@ -2,6 +2,7 @@
 
 #include "libcdem/bond/interface_frame.hpp"
 #include "libcdem/state/places.hpp"
+#include "libgeom/core/portable.hpp"
 
 namespace cdem {
 namespace {
@@ -197,8 +198,8 @@ geom::Vec3 traction(const Model& model, const State& state, int p) {
   const double open = stretch.dot(point.normal);
   if (!is_intact(state.bond_mode[p]))
     return contact_response(interface.kn, interface.ks,
-                            std::tan(model.joints[interface.joint].friction_angle), point.normal, gap,
-                            state.bond_offset[p])
+                            geom::portable::tan(model.joints[interface.joint].friction_angle), point.normal,
+                            gap, state.bond_offset[p])
         .traction;
   if (damaged(state, p))
     return damaged_response(law_of(model, interface), point, state, p, stretch).traction;
@@ -209,8 +210,9 @@ void settle(const Model& model, State& state, int p) {
   const BondPoint& point = model.points[p];
   const Interface& interface = model.interfaces[point.interface];
   state.bond_offset[p] =
-      contact_response(interface.kn, interface.ks, std::tan(model.joints[interface.joint].friction_angle),
-                       point.normal, local_jump(model, state.displacement, p), state.bond_offset[p])
+      contact_response(interface.kn, interface.ks,
+                       geom::portable::tan(model.joints[interface.joint].friction_angle), point.normal,
+                       local_jump(model, state.displacement, p), state.bond_offset[p])
           .offset;
 }
 

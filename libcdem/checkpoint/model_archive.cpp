@@ -20,9 +20,9 @@ void archive(A& a, Elastic& x) {
 template <class A>
 void archive(A& a, Joint& x) {
   auto& [bonded, cohesion, friction_angle, tensile_strength, softening, g1, g2, thickness_ratio, thickness,
-         kn, ks] = x;
+         kn, ks, restitution] = x;
   archive_all(a, bonded, cohesion, friction_angle, tensile_strength, softening, g1, g2, thickness_ratio,
-              thickness, kn, ks);
+              thickness, kn, ks, restitution);
 }
 
 template <class A>
@@ -208,11 +208,17 @@ void archive(A& a, Watch& x) {
 }
 
 template <class A>
+void archive(A& a, EscapeRow& x) {
+  auto& [stage, step, time, text] = x;
+  archive_all(a, stage, step, time, text);
+}
+
+template <class A>
 void archive(A& a, RunLog& x) {
-  auto& [breaks, history, probes, watches, broken_tension, broken_shear, told_tension, told_shear,
-         deepest_contact, deepest_over_height, every] = x;
-  archive_all(a, breaks, history, probes, watches, broken_tension, broken_shear, told_tension, told_shear,
-              deepest_contact, deepest_over_height, every);
+  auto& [breaks, history, probes, watches, escapes, unmet, broken_tension, broken_shear, told_tension,
+         told_shear, deepest_contact, deepest_over_height, every] = x;
+  archive_all(a, breaks, history, probes, watches, escapes, unmet, broken_tension, broken_shear, told_tension,
+              told_shear, deepest_contact, deepest_over_height, every);
 }
 // NOLINTEND(readability-identifier-length)
 
@@ -261,6 +267,9 @@ void write(Writer& a, const RunLog& log, std::int64_t last_step, std::size_t bre
     ++(row.mode == BondMode::broken_tension ? then.broken_tension : then.broken_shear);
   const auto later = [&](const HistoryRow& row) { return row.step > last_step; };
   then.history.erase(std::remove_if(then.history.begin(), then.history.end(), later), then.history.end());
+  const auto escaped_later = [&](const EscapeRow& row) { return row.step > last_step; };
+  then.escapes.erase(std::remove_if(then.escapes.begin(), then.escapes.end(), escaped_later),
+                     then.escapes.end());
   for (Watch& watch : then.watches)
     watch = watch_at(watch, last_step);
   archive(a, then);

@@ -1,9 +1,9 @@
 #include "libcdem/contact/contact_forces.hpp"
 
-#include "libcdem/contact/acting.hpp"
-#include "libcdem/contact/evaluation.hpp"
-#include "libcdem/contact/places.hpp"
-#include "libcdem/contact/search.hpp"
+#include "libcdem/contact/broad_phase/search.hpp"
+#include "libcdem/contact/geometry/positions.hpp"
+#include "libcdem/contact/narrow_phase/evaluation.hpp"
+#include "libcdem/contact/response/contact_point.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -15,7 +15,7 @@ namespace {
 constexpr std::int64_t chunks_at_a_time = 16;
 
 // The furthest that a node of each block goes in a step of this length. True when one has left its skin.
-bool add_ways(const Model& model, const State& state, ContactWork& work, int threads) {
+bool add_displacements(const Model& model, const State& state, ContactWork& work, int threads) {
   const auto blocks = static_cast<std::int64_t>(model.blocks.size());
   for_chunks(blocks, threads, [&](std::int64_t b) {
     const Block& block = model.blocks[b];
@@ -24,28 +24,29 @@ bool add_ways(const Model& model, const State& state, ContactWork& work, int thr
     double speed2 = 0;
     for (int node = block.node_begin; node < block.node_end; ++node)
       speed2 = std::max(speed2, velocity_of(state, node).squaredNorm());
-    work.last_way[b] = std::sqrt(speed2) * work.step;
-    work.travelled[b] += work.last_way[b];
+    work.last_displacement[b] = std::sqrt(speed2) * work.step;
+    work.travelled[b] += work.last_displacement[b];
   });
   if (work.step > 0)
-    work.pace = work.last_way;
-  ++work.looks;
+    work.pace = work.last_displacement;
+  ++work.steps_since_search;
   bool out = false;
   for (std::size_t b = 0; b < model.blocks.size(); ++b)
-    out = out || work.travelled[b] > std::min(work.skin[b], work.lawless);
+    out = out || work.travelled[b] > std::min(work.skin[b], work.undefined_pair_margin);
   return out;
 }
 
-// What contacts stored that act no more, J: their other side has gone round an edge or off the end of another. Both lists
-// are sorted.
-double lost(const Model& model, const std::vector<Contact>& before, const std::vector<Contact>& now) {
+// What contacts stored and did not give back that act no more, J: those that opened gave it back, the other side of the
+// rest has gone round an edge or off the end of another. Both lists are sorted.
+double lost(const Model& model, const State& state, double step, const std::vector<Contact>& before,
+            const std::vector<Contact>& now) {
   double energy_lost = 0;
   auto next = now.begin();
   for (const Contact& c : before) {
     while (next != now.end() && key(*next) < key(c))
       ++next;
     if (next == now.end() || key(*next) != key(c))
-      energy_lost += energy(c.pressed(), c.shear.norm(), law_of(model, c));
+      energy_lost += end_loss(c, law_of(model, c), step * velocity_past(state, arms_of(model, state, c)));
   }
   return energy_lost;
 }
@@ -81,7 +82,34 @@ void add_forces(const std::vector<ContactForce>& forces, ContactWork& own) {
   }
 }
 
-// Those of one source stand by piece, then corner: next to their places.
+// Marks the edges that have a contact before the step.
+void mark_touched_edges(const ContactSurface& surface, const std::vector<Contact>& contacts,
+                        ContactWork& work) {
+  std::fill(work.edge_touched.begin(), work.edge_touched.end(), 0);
+  std::fill(work.block_edges_touched.begin(), work.block_edges_touched.end(), 0);
+  const auto mark = [&](int id) {
+    for (int e = work.edge_begin[id / 3]; e < work.edge_begin[id / 3 + 1]; ++e)
+      if (work.edges[e].id() == id)
+        work.edge_touched[e] = work.block_edges_touched[surface.triangles[id / 3].block] = 1;
+  };
+  for (auto c = contacts.rbegin(); c != contacts.rend() && c->kind == Contact::edge; ++c) {
+    mark(static_cast<int>(c->source));
+    mark(c->target);
+  }
+}
+
+// N, of the springs on each block, before the step.
+void sum_block_forces(const Model& model, const std::vector<Contact>& contacts, ContactWork& work) {
+  work.block_forces.assign(model.blocks.size(), 0.0);
+  for (const Contact& c : contacts) {
+    const double force = law_of(model, c).kn * c.effective_penetration();
+    const auto [a, b] = blocks_of(model, c);
+    work.block_forces[a] += force;
+    work.block_forces[b] += force;
+  }
+}
+
+// Those of one source stand by fragment, then corner: next to their places.
 void add_sorted(const std::vector<Contact>& found, std::vector<Contact>& contacts) {
   for (const Contact& c : found) {
     contacts.push_back(c);
@@ -106,16 +134,16 @@ ContactSums contact_forces(const Model& model, State& state, ContactWork& own, i
   ContactSums sums;
   if (model.surface.empty() || !own.due)
     return sums;
-  const bool out_of_skin = add_ways(model, state, own, threads), pieces_due = own.pieces_due,
-             known = own.all_known;
-  if ((pieces_due || out_of_skin) && !search_contacts(model, state, own, threads))
+  const bool out_of_skin = add_displacements(model, state, own, threads), fragments_due = own.fragments_due,
+             known = own.history_complete;
+  if ((fragments_due || out_of_skin) && !search_contacts(model, state, own, threads))
     return sums; // something is not a number: the stage's watch will say where
-  own.all_begin = !known || (pieces_due && !state.face_slip.empty());
-  // Where a piece has fallen apart, contacts go with the part they touch.
-  if (pieces_due) {
+  own.any_depth_begins = !known || (fragments_due && !state.face_slip.empty());
+  // Where a fragment has fallen apart, contacts go with the part they touch.
+  if (fragments_due) {
     for (Contact& c : state.contacts)
       if (c.kind == Contact::spring)
-        c.piece = own.piece[c.target];
+        c.fragment = own.fragment[c.target];
     std::sort(state.contacts.begin(), state.contacts.end(),
               [](const Contact& a, const Contact& b) { return key(a) < key(b); });
   }
@@ -127,6 +155,9 @@ ContactSums contact_forces(const Model& model, State& state, ContactWork& own, i
   const std::int64_t n_springs = chunks(springs), n = n_springs + chunks(edges);
   own.chunks.resize(static_cast<std::size_t>(chunks_at_a_time * threads));
   clear_forces(own);
+  mark_touched_edges(model.surface, state.contacts, own);
+  if (own.restitution)
+    sum_block_forces(model, state.contacts, own);
   own.now.clear();
   own.now.reserve(state.contacts.size() + state.contacts.size() / 8 + 64);
   for (std::int64_t first = 0; first < n; first += chunks_at_a_time * threads) {
@@ -149,13 +180,15 @@ ContactSums contact_forces(const Model& model, State& state, ContactWork& own, i
     for (std::int64_t i = 0; i < count; ++i) {
       add_sorted(own.chunks[i].contacts, own.now);
       add_forces(own.chunks[i].forces, own);
-      for (const ContactForce& force : own.chunks[i].forces)
+      for (const ContactForce& force : own.chunks[i].forces) {
         sums.friction += force.friction;
+        sums.damping += force.damping;
+      }
       add(own.chunks[i].sums, sums);
     }
   }
   if (own.step > 0)
-    sums.friction += lost(model, state.contacts, own.now);
+    sums.friction += lost(model, state, own.step, state.contacts, own.now);
   if (own.now.capacity() > 2 * own.now.size() + 64)
     own.now.shrink_to_fit();
   std::swap(state.contacts, own.now);
@@ -170,7 +203,8 @@ double contact_energy(const Model& model, const State& state, double lag) {
     const ContactLaw law = law_of(model, c);
     const geom::Vec3 ago = lag * velocity_past(state, arms_of(model, state, c));
     const double along = ago.dot(c.normal);
-    const double pressed = c.pressed() > 0 ? std::max(0.0, c.pressed() + along) : 0;
+    const double pressed =
+        c.effective_penetration() > 0 ? std::max(0.0, c.effective_penetration() + along) : 0;
     const double shear_force = (c.shear + law.ks * (ago - along * c.normal)).norm();
     sum += energy(pressed, std::min(shear_force, law.kn * pressed * law.tan_friction), law);
   }

@@ -74,14 +74,7 @@ CDEM_INLINE Vec corner_force(const Symmetric& s, const Vec& c) {
           sixth * (s.xz * c.x + s.yz * c.y + s.zz * c.z)};
 }
 
-} // namespace
-
-TetStiffness tet_stiffness(const Elastic& material) {
-  return {material.lame_lambda(), 2 * material.shear_modulus()};
-}
-
-// The kernel is compiled for several instruction sets; everything it calls is inlined into each of them.
-CDEM_KERNEL double finite_volume_forces(const MeshBatch* batches, std::int64_t count, int last_lanes,
+CDEM_INLINE double finite_volume_kernel(const MeshBatch* batches, std::int64_t count, int last_lanes,
                                         const Node* position, const Node* velocity, double dt,
                                         const TetStiffness& stiffness, const TetDamping& damping,
                                         StressBatch* stress, Node* force, ReadAhead& ahead) {
@@ -152,6 +145,20 @@ CDEM_KERNEL double finite_volume_forces(const MeshBatch* batches, std::int64_t c
   for (int lane = 0; lane < lanes; ++lane)
     sum += damped[lane];
   return sum;
+}
+
+} // namespace
+
+TetStiffness tet_stiffness(const Elastic& material) {
+  return {material.lame_lambda(), 2 * material.shear_modulus()};
+}
+
+double finite_volume_forces(const MeshBatch* batches, std::int64_t count, int last_lanes,
+                            const Node* position, const Node* velocity, double dt,
+                            const TetStiffness& stiffness, const TetDamping& damping, StressBatch* stress,
+                            Node* force, ReadAhead& ahead) {
+  return simd::best<finite_volume_kernel>(batches, count, last_lanes, position, velocity, dt, stiffness,
+                                          damping, stress, force, ahead);
 }
 
 } // namespace cdem

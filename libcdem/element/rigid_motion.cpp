@@ -1,4 +1,5 @@
 #include "libcdem/element/rigid_motion.hpp"
+#include "libgeom/core/portable.hpp"
 
 #include <cmath>
 
@@ -17,7 +18,7 @@ geom::Mat3 cross_matrix(const geom::Vec3& w) {
 
 // sin(x) / x
 double sinc(double x) {
-  return x < 1e-4 ? 1 - x * x / 6 : std::sin(x) / x;
+  return x < 1e-4 ? 1 - x * x / 6 : geom::portable::sin(x) / x;
 }
 
 } // namespace
@@ -49,9 +50,9 @@ void turn_by(RigidState& state, const geom::Vec3& angle) {
   const double half = 0.5 * angle.norm();
   const geom::Vec3 v = 0.5 * sinc(half) * angle;
   const auto& q = state.rotation;
-  const Eigen::Quaterniond now =
-      (Eigen::Quaterniond(std::cos(half), v.x(), v.y(), v.z()) * Eigen::Quaterniond(q[0], q[1], q[2], q[3]))
-          .normalized();
+  const Eigen::Quaterniond now = (Eigen::Quaterniond(geom::portable::cos(half), v.x(), v.y(), v.z()) *
+                                  Eigen::Quaterniond(q[0], q[1], q[2], q[3]))
+                                     .normalized();
   state.rotation = {now.w(), now.x(), now.y(), now.z()};
 }
 

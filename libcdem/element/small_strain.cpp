@@ -3,10 +3,10 @@
 #include "libcdem/parallel/simd.hpp"
 
 namespace cdem {
+namespace {
 
-// The kernel is compiled for several instruction sets; everything it calls is inlined into each of them.
-CDEM_KERNEL void add_small_strain_forces(const TetBatch* batches, std::int64_t count,
-                                         const Node* displacement, Node* force) {
+CDEM_INLINE void small_strain_kernel(const TetBatch* batches, std::int64_t count, const Node* displacement,
+                                     Node* force) {
   using simd::Oct;
   for (std::int64_t i = 0; i < count; ++i) {
     const TetBatch& batch = batches[i];
@@ -42,6 +42,13 @@ CDEM_KERNEL void add_small_strain_forces(const TetBatch* batches, std::int64_t c
     }
     simd::scatter_add(force, batch.node[0], f0);
   }
+}
+
+} // namespace
+
+void add_small_strain_forces(const TetBatch* batches, std::int64_t count, const Node* displacement,
+                             Node* force) {
+  simd::best<small_strain_kernel>(batches, count, displacement, force);
 }
 
 } // namespace cdem

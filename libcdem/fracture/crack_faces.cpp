@@ -2,6 +2,7 @@
 
 #include "libcdem/bond/interface_frame.hpp"
 #include "libcdem/bond/spring_forces.hpp"
+#include "libgeom/core/portable.hpp"
 
 #include <limits>
 
@@ -10,7 +11,7 @@ namespace {
 
 SpringStrength strength_of(const Model& model, const Interface& interface) {
   const Joint& joint = model.joints[interface.joint];
-  return {joint.cohesion, std::tan(joint.friction_angle), joint.tensile_strength};
+  return {joint.cohesion, geom::portable::tan(joint.friction_angle), joint.tensile_strength};
 }
 
 bool is_intact(const State& state, int point) {

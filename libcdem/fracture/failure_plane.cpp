@@ -1,4 +1,5 @@
 #include "libcdem/fracture/failure_plane.hpp"
+#include "libgeom/core/portable.hpp"
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>
@@ -36,8 +37,8 @@ void choose_conjugate(const geom::Vec3& axis1, const geom::Vec3& axis3, double a
   geom::Vec3 normal[2];
   for (int k = 0; k < 2; ++k) {
     const double side = k == 0 ? 1 : -1;
-    const geom::Vec3 along = std::cos(angle) * axis1 + side * std::sin(angle) * axis3;
-    normal[k] = std::sin(angle) * axis1 - side * std::cos(angle) * axis3;
+    const geom::Vec3 along = geom::portable::cos(angle) * axis1 + side * geom::portable::sin(angle) * axis3;
+    normal[k] = geom::portable::sin(angle) * axis1 - side * geom::portable::cos(angle) * axis3;
     slide[k] = std::abs(along.dot(gradient * normal[k]));
   }
   plane.tie = std::abs(slide[0] - slide[1]) <= tie_tolerance * std::max(slide[0], slide[1]);
@@ -77,13 +78,14 @@ std::optional<FailurePlane> failure_plane(const geom::Mat3& stress, const geom::
         -options.tension_threshold)
       return {};
     plane.mode = CutMode::tension;
-    choose_conjugate(axis1, axis3, 0.5 * std::acos(std::min(1.0, difference / (2 * (sigma1 + sigma3)))),
+    choose_conjugate(axis1, axis3,
+                     0.5 * geom::portable::acos(std::min(1.0, difference / (2 * (sigma1 + sigma3)))),
                      gradient, plane);
     return plane;
   }
   const double phi = strength.friction_angle;
-  const double excess =
-      (sigma1 - sigma3) / (2 * std::cos(phi)) - (sigma1 + sigma3) * std::tan(phi) / 2 - strength.cohesion;
+  const double excess = (sigma1 - sigma3) / (2 * geom::portable::cos(phi)) -
+                        (sigma1 + sigma3) * geom::portable::tan(phi) / 2 - strength.cohesion;
   if (excess < -options.shear_threshold)
     return {};
   plane.mode = CutMode::shear;

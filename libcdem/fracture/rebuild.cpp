@@ -1,9 +1,9 @@
 #include "libcdem/fracture/rebuild.hpp"
 
+#include "libcdem/bond/fragments.hpp"
 #include "libcdem/bond/interface_frame.hpp"
-#include "libcdem/bond/pieces.hpp"
 #include "libcdem/bond/spring_forces.hpp"
-#include "libcdem/contact/acting.hpp"
+#include "libcdem/contact/response/contact_point.hpp"
 #include "libcdem/element/small_strain.hpp"
 #include "libgeom/polyhedron/cut.hpp"
 
@@ -198,6 +198,11 @@ private:
       const Block& now = r.model.blocks[b];
       const Block& before = old_.blocks[successors_[b].old_block];
       r.state.initial_stress[b] = from_.initial_stress[successors_[b].old_block];
+      if (!from_.escaped.empty()) {
+        r.state.escaped.resize(r.model.node_position.size(), 0);
+        std::fill(r.state.escaped.begin() + now.node_begin, r.state.escaped.begin() + now.node_end,
+                  from_.escaped[before.node_begin]);
+      }
       for (int node = now.node_begin; node < now.node_end; ++node) {
         if (successors_[b].whole) {
           const int same = before.node_begin + (node - now.node_begin);
@@ -260,18 +265,18 @@ private:
       const int block = old_.surface.triangles[triangle].block, now = new_block[block];
       return now < 0 ? -1 : triangle - old_.surface.block_begin[block] + r.model.surface.block_begin[now];
     };
-    const std::vector<int> pieces = pieces_of_nodes(r.model, r.state);
+    const std::vector<int> pieces = fragments_of_nodes(r.model, r.state);
     for (Contact c : from_.contacts) {
       const int source = triangle_now(static_cast<int>(c.source) / 3), target = triangle_now(c.target);
       const bool edge = c.kind == Contact::edge;
       const int beside = edge ? triangle_now(c.beside) : c.beside;
-      const int own_second = edge ? triangle_now(c.piece) : 0;
+      const int own_second = edge ? triangle_now(c.fragment) : 0;
       if (source < 0 || target < 0 || (edge && (beside < 0 || own_second < 0)))
         continue;
       c.source = static_cast<std::uint32_t>(3 * source + static_cast<int>(c.source) % 3) & 0x7fffffffu;
       c.target = target;
       c.beside = beside;
-      c.piece = edge ? own_second : pieces[r.model.surface.triangles[target].nodes[0]];
+      c.fragment = edge ? own_second : pieces[r.model.surface.triangles[target].nodes[0]];
       r.state.contacts.push_back(c);
     }
     std::sort(r.state.contacts.begin(), r.state.contacts.end(),

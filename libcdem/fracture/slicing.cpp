@@ -1,5 +1,6 @@
 #include "libcdem/fracture/slicing.hpp"
 
+#include "libgeom/core/portable.hpp"
 #include "libgeom/polyhedron/cut.hpp"
 
 #include <cmath>
@@ -45,7 +46,7 @@ geom::Vec3 turned_onto_vertices(const Block& block, const geom::Vec3& normal, co
       break;
     }
   }
-  return turned.dot(normal) < std::cos(most_turn) ? normal : turned;
+  return turned.dot(normal) < geom::portable::cos(most_turn) ? normal : turned;
 }
 
 // Middle of the places where a plane meets the edges of a block.

@@ -1,6 +1,7 @@
 #include "libcdem/fracture/tip_field.hpp"
 
 #include "libcdem/element/small_strain.hpp"
+#include "libgeom/core/portable.hpp"
 
 #include <cmath>
 #include <limits>
@@ -27,7 +28,7 @@ MeanField mean_field(const Model& model, const State& state, const geom::Vec3& c
     if (exponent > 30)
       continue;
     const int block = model.tet_block[tet];
-    const double w = std::exp(-exponent) * tet_volume(model, tet);
+    const double w = geom::portable::exp(-exponent) * tet_volume(model, tet);
     const geom::Mat3 gradient = displacement_gradient(model, state.displacement, tet);
     sum.gradient += w * gradient;
     sum.stress += w * (matrix(elastic_stress(model.bodies[model.blocks[block].body].material, gradient)) +

@@ -1,5 +1,7 @@
 #include "libcdem/integrate/move_nodes.hpp"
 
+#include "libcdem/integrate/central_difference.hpp"
+#include "libcdem/integrate/dynamic_relaxation.hpp"
 #include "libcdem/parallel/simd.hpp"
 
 namespace cdem {
@@ -17,6 +19,74 @@ CDEM_INLINE Quad all(double value) {
 
 CDEM_INLINE Quad load_or_zero(const Node* nodes, std::int64_t i) {
   return nodes ? simd::load(nodes[i]) : Quad{};
+}
+
+CDEM_INLINE void step_kernel(const MovingNodes& moving, const Stepping& stepping, NodeSums& sums) {
+  const MovingNodes nodes = moving; // copies: what is written cannot change them
+  const Stepping s = stepping;
+  Quad residual2{}, applied2{}, external{}, lost{}, kinetic{};
+  const double per_kick = 1 / s.kick;
+  const bool damped = nodes.viscous || s.local_damping != 0;
+  for (std::int64_t i = 0; i < nodes.count; ++i) {
+    const Quad load = load_or_zero(nodes.external, i);
+    const Quad force =
+        simd::load(nodes.force[i]) + load_or_zero(nodes.internal, i) + load_or_zero(nodes.contact, i) + load;
+    const Quad before = simd::load(nodes.velocity[i]);
+    const double mass = nodes.mass[i], inertia = mass * per_kick;
+    Quad velocity;
+    if (damped) {
+      const auto after = central_difference::velocity_after(
+          before, force, inertia, nodes.viscous ? nodes.viscous[i] : 0, s.local_damping);
+      velocity = after.velocity;
+      lost += after.lost;
+    } else {
+      velocity = central_difference::velocity_after(before, force, inertia);
+    }
+    residual2 += force * force;
+    applied2 += load * load;
+    external += load * (0.5 * (before + velocity));
+    kinetic += 0.5 * mass * velocity * velocity;
+    simd::store(nodes.velocity[i], velocity);
+    simd::store(nodes.displacement[i], simd::load(nodes.displacement[i]) + velocity * all(s.time_step));
+  }
+  sums.residual2 += sum(residual2);
+  sums.applied2 += sum(applied2);
+  sums.external += sum(external) * s.kick;
+  sums.damping += sum(lost) * s.kick;
+  sums.kinetic += sum(kinetic);
+}
+
+CDEM_INLINE void relax_kernel(const MovingNodes& moving, double damping, Node* previous_force,
+                              NodeSums& sums) {
+  const MovingNodes nodes = moving;
+  Quad residual2{}, applied2{}, stiffness{}, inertia{}, external{}, lost{}, kinetic{};
+  const DynamicRelaxation law(damping);
+  for (std::int64_t i = 0; i < nodes.count; ++i) {
+    const Quad load = load_or_zero(nodes.external, i);
+    const Quad force =
+        simd::load(nodes.force[i]) + load_or_zero(nodes.internal, i) + load_or_zero(nodes.contact, i) + load;
+    const Quad before = simd::load(nodes.velocity[i]);
+    const double mass = nodes.mass[i];
+    const Quad velocity = law.velocity_after(before, force, mass);
+    const Quad mean = 0.5 * (before + velocity);
+    residual2 += force * force;
+    applied2 += load * load;
+    stiffness -= before * (force - simd::load(previous_force[i]));
+    inertia += mass * before * before;
+    external += load * mean;
+    lost += law.lost(mean, mass);
+    kinetic += 0.5 * mass * velocity * velocity;
+    simd::store(previous_force[i], force);
+    simd::store(nodes.velocity[i], velocity);
+    simd::store(nodes.displacement[i], simd::load(nodes.displacement[i]) + velocity);
+  }
+  sums.residual2 += sum(residual2);
+  sums.applied2 += sum(applied2);
+  sums.stiffness += sum(stiffness);
+  sums.inertia += sum(inertia);
+  sums.external += sum(external);
+  sums.damping += sum(lost);
+  sums.kinetic += sum(kinetic);
 }
 
 } // namespace
@@ -46,80 +116,12 @@ HeldForces held_node_forces(const MovingNodes& node) {
   return forces;
 }
 
-// The kernels are compiled for several instruction sets; everything they call is inlined into each of them.
-CDEM_KERNEL void step_nodes(const MovingNodes& moving, const Stepping& stepping, NodeSums& sums) {
-  const MovingNodes nodes = moving; // copies: what is written cannot change them
-  const Stepping s = stepping;
-  Quad residual2{}, applied2{}, external{}, lost{}, kinetic{};
-  const Quad zero{};
-  const double per_kick = 1 / s.kick;
-  const bool damped = nodes.viscous || s.local_damping != 0;
-  for (std::int64_t i = 0; i < nodes.count; ++i) {
-    const Quad load = load_or_zero(nodes.external, i);
-    const Quad force =
-        simd::load(nodes.force[i]) + load_or_zero(nodes.internal, i) + load_or_zero(nodes.contact, i) + load;
-    const Quad before = simd::load(nodes.velocity[i]);
-    const double mass = nodes.mass[i], inertia = mass * per_kick;
-    Quad velocity;
-    if (damped) {
-      const double half = nodes.viscous ? 0.5 * nodes.viscous[i] : 0, heavy = inertia + half;
-      const double inverse = 1 / heavy;
-      const Quad undamped = ((inertia - half) * before + force) * inverse;
-      const Quad most =
-          s.local_damping * inverse * (force < zero ? zero - force : force); // can take off the velocity
-      const Quad both = before + undamped;
-      // A node that it could hold at mean velocity 0 is held there, without loss.
-      velocity = both > most ? undamped - most : both < zero - most ? undamped + most : zero - before;
-      const Quad against = heavy * (undamped - velocity), mean = 0.5 * (before + velocity);
-      lost += (2 * half * mean + against) * mean;
-    } else {
-      velocity = before + force * (1 / inertia);
-    }
-    residual2 += force * force;
-    applied2 += load * load;
-    external += load * (0.5 * (before + velocity));
-    kinetic += 0.5 * mass * velocity * velocity;
-    simd::store(nodes.velocity[i], velocity);
-    simd::store(nodes.displacement[i], simd::load(nodes.displacement[i]) + velocity * all(s.time_step));
-  }
-  sums.residual2 += sum(residual2);
-  sums.applied2 += sum(applied2);
-  sums.external += sum(external) * s.kick;
-  sums.damping += sum(lost) * s.kick;
-  sums.kinetic += sum(kinetic);
+void step_nodes(const MovingNodes& nodes, const Stepping& stepping, NodeSums& sums) {
+  simd::best<step_kernel>(nodes, stepping, sums);
 }
 
-CDEM_KERNEL void relax_nodes(const MovingNodes& moving, double damping, Node* previous_force,
-                             NodeSums& sums) {
-  const MovingNodes nodes = moving;
-  Quad residual2{}, applied2{}, stiffness{}, inertia{}, external{}, lost{}, kinetic{};
-  const double keep = (2 - damping) / (2 + damping), push = 2 / (2 + damping);
-  for (std::int64_t i = 0; i < nodes.count; ++i) {
-    const Quad load = load_or_zero(nodes.external, i);
-    const Quad force =
-        simd::load(nodes.force[i]) + load_or_zero(nodes.internal, i) + load_or_zero(nodes.contact, i) + load;
-    const Quad before = simd::load(nodes.velocity[i]);
-    const double mass = nodes.mass[i];
-    const Quad velocity = keep * before + (push / mass) * force;
-    const Quad mean = 0.5 * (before + velocity);
-    residual2 += force * force;
-    applied2 += load * load;
-    stiffness -= before * (force - simd::load(previous_force[i]));
-    inertia += mass * before * before;
-    external += load * mean;
-    lost += mass * mean * mean;
-    kinetic += 0.5 * mass * velocity * velocity;
-    simd::store(previous_force[i], force);
-    simd::store(nodes.velocity[i], velocity);
-    simd::store(nodes.displacement[i], simd::load(nodes.displacement[i]) + velocity);
-  }
-  sums.residual2 += sum(residual2);
-  sums.applied2 += sum(applied2);
-  sums.stiffness += sum(stiffness);
-  sums.inertia += sum(inertia);
-  sums.external += sum(external);
-  sums.damping += damping * sum(lost);
-  sums.kinetic += sum(kinetic);
+void relax_nodes(const MovingNodes& nodes, double damping, Node* previous_force, NodeSums& sums) {
+  simd::best<relax_kernel>(nodes, damping, previous_force, sums);
 }
 
 } // namespace cdem

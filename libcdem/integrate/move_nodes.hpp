@@ -55,11 +55,10 @@ struct Stepping {
   bool damp_flight = true;  // of rigid bodies without contact forces too
 };
 
-// m dv/dt = F - mu V v - alpha |F| sign(v), all at the mean velocity of the step: taken at the velocity before, local
-// damping would feed a node that turns round within the step, and blow up near the stable step.
+// By central differences (integrate/central_difference.hpp), c = mu V.
 void step_nodes(const MovingNodes&, const Stepping&, NodeSums&);
 
-// m (v+ - v-) = F - c m (v+ + v-) / 2, u += v+, with a unit step. previous_force: N, of the step before; replaced.
+// By dynamic relaxation (integrate/dynamic_relaxation.hpp). previous_force: N, of the step before; replaced.
 void relax_nodes(const MovingNodes&, double damping, Node* previous_force, NodeSums&);
 
 } // namespace cdem

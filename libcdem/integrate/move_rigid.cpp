@@ -2,6 +2,7 @@
 
 #include "libcdem/bond/spring_forces.hpp"
 #include "libcdem/element/rigid_motion.hpp"
+#include "libcdem/integrate/central_difference.hpp"
 #include "libcdem/state/places.hpp"
 
 #include <cmath>
@@ -9,37 +10,32 @@
 namespace cdem {
 namespace {
 
-// One component of m dv/dt = F - c m v - alpha |F| sign(v): the law of step_nodes. Returns the velocity after.
-double damped(double before, double force, double mass, double viscous_rate, const Stepping& s,
-              double& lost) {
-  const double inertia = mass / s.kick, half = 0.5 * viscous_rate * mass, heavy = inertia + half;
-  const double undamped = ((inertia - half) * before + force) / heavy;
-  const double most = s.local_damping * std::abs(force) / heavy, both = before + undamped;
-  const double velocity = both > most ? undamped - most : both < -most ? undamped + most : -before;
-  const double mean = 0.5 * (before + velocity);
-  lost += (2 * half * mean + heavy * (undamped - velocity)) * mean * s.kick;
-  return velocity;
-}
-
 void kick(const Model& model, const RigidBody& body, RigidState& motion, const geom::Vec3& force,
           const geom::Vec3& torque, const Stepping& s, NodeSums& sums) {
   const Elastic& material = model.bodies[model.blocks[body.block].body].material;
-  const double viscous = material.viscosity / material.density;
+  const double viscous = material.viscosity / material.density; // 1/s
   geom::Vec3 l = cdem::vec(motion.angular_momentum);
   if (viscous == 0 && s.local_damping == 0) {
-    motion.velocity = triple(cdem::vec(motion.velocity) + s.kick / body.mass * force);
-    motion.angular_momentum = triple(l + s.kick * torque);
+    motion.velocity = triple(central_difference::velocity_after<geom::Vec3>(cdem::vec(motion.velocity), force,
+                                                                            body.mass / s.kick));
+    motion.angular_momentum = triple(l + s.kick * torque); // kept to the last bit without a torque
     return;
   }
+  const auto kicked = [&](double before, double pull, double inertia) {
+    const auto after = central_difference::velocity_after(before, pull, inertia / s.kick, viscous * inertia,
+                                                          s.local_damping);
+    sums.damping += after.lost * s.kick;
+    return after.velocity;
+  };
   for (int axis = 0; axis < 3; ++axis)
-    motion.velocity[axis] = damped(motion.velocity[axis], force[axis], body.mass, viscous, s, sums.damping);
+    motion.velocity[axis] = kicked(motion.velocity[axis], force[axis], body.mass);
   // Component by component where they do not mix.
   const geom::Mat3 axes = rotation(motion) * body.axes;
   l = axes.transpose() * l;
   const geom::Vec3 about = axes.transpose() * torque;
   for (int axis = 0; axis < 3; ++axis) {
     const double moment = body.principal[axis];
-    l[axis] = moment * damped(l[axis] / moment, about[axis], moment, viscous, s, sums.damping);
+    l[axis] = moment * kicked(l[axis] / moment, about[axis], moment);
   }
   motion.angular_momentum = triple(axes * l);
 }

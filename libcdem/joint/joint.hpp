@@ -28,6 +28,9 @@ struct Joint {
   std::optional<double> thickness;        // L, m, > 0; wins over the ratio
   std::optional<double> normal_stiffness; // kn, Pa/m, > 0
   std::optional<double> shear_stiffness;  // ks, Pa/m, > 0
+
+  // e, in (0, 1]: speed after over speed before an impact, as far as the contact decides it. 1: it loses nothing.
+  double restitution = 1;
 };
 
 // Throws geom::InputError naming the field, its value and the allowed range. Angles are printed in degrees.

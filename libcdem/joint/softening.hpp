@@ -33,6 +33,7 @@
 
 #include "libcdem/joint/joint.hpp"
 #include "libcdem/joint/spring_law.hpp"
+#include "libgeom/core/portable.hpp"
 
 namespace cdem {
 
@@ -44,15 +45,15 @@ inline double softening_curve(Softening curve, double xi) {
     return 0;
   if (curve == Softening::linear)
     return 1 - xi;
-  const double end = std::exp(-exponential_decay);
-  return (std::exp(-exponential_decay * xi) - end) / (1 - end);
+  const double end = geom::portable::exp(-exponential_decay);
+  return (geom::portable::exp(-exponential_decay * xi) - end) / (1 - end);
 }
 
 // Integral of s from 0 to 1.
 inline double softening_area(Softening curve) {
   if (curve == Softening::linear)
     return 0.5;
-  return 1 / exponential_decay - 1 / (std::exp(exponential_decay) - 1);
+  return 1 / exponential_decay - 1 / (geom::portable::exp(exponential_decay) - 1);
 }
 
 struct SofteningLaw {
@@ -71,7 +72,7 @@ inline SofteningLaw softening_law(const Joint& joint, double kn, double ks) {
   law.curve = joint.softening;
   law.kn = kn;
   law.ks = ks;
-  law.strength = {joint.cohesion, std::tan(joint.friction_angle), joint.tensile_strength};
+  law.strength = {joint.cohesion, geom::portable::tan(joint.friction_angle), joint.tensile_strength};
   if (!law.softens())
     return law;
   // At the least fracture energy the length is zero; a floor far below the elastic stretch keeps the

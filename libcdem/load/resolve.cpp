@@ -48,6 +48,15 @@ void hold(const Model& model, const Fix& fix, HeldNodes& held, ResolvedCondition
   }
 }
 
+// What left the model far behind stays where it was then (step/escape.hpp).
+void hold_escaped(const State& state, HeldNodes& held) {
+  for (std::size_t i = 0; i < state.escaped.size(); ++i)
+    if (state.escaped[i] == static_cast<std::uint8_t>(Escaped::held)) {
+      const int node = static_cast<int>(i);
+      held.insert_or_assign(node, HeldNode{node, {}, {}, {nan, nan, nan, 0}});
+    }
+}
+
 bool is_held(const HeldNode& h) {
   return h.free.x == 0 || h.free.y == 0 || h.free.z == 0;
 }
@@ -159,6 +168,7 @@ ResolvedConditions resolve(const Model& model, const State& state, const Conditi
   HeldNodes held;
   for (const Fix& fix : conditions.fixes)
     hold(model, fix, held, r);
+  hold_escaped(state, held);
   for (const RigidBody& body : model.rigid)
     r.rigid.push_back(hold_rigid(model, model.blocks[body.block], held));
   for (const auto& [node, h] : held)

@@ -1,17 +1,12 @@
 // Eight tets side by side: vectors of eight doubles and the transposes between node records and components.
-// Plain compiler vectors: each kernel is compiled for several instruction sets and picks one at run time
-// (CDEM_KERNEL); with none of them they fall back to pairs.
+// Plain compiler vectors: each kernel is compiled for several instruction sets (parallel/instruction_set.hpp); with none
+// of them they fall back to pairs.
 #pragma once
 
+#include "libcdem/parallel/instruction_set.hpp"
 #include "libcdem/parallel/node.hpp"
 
 #include <cstring>
-
-#if defined(__clang__)
-#define CDEM_KERNEL
-#else
-#define CDEM_KERNEL __attribute__((target_clones("arch=x86-64-v4", "arch=x86-64-v3", "default")))
-#endif
 
 namespace cdem {
 

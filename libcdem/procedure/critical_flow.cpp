@@ -60,8 +60,8 @@ void require_held_there(const Model& model, const ResolvedConditions& r, const S
     throw geom::InputError("held", on.text, "a side that fix holds", "it is free");
 }
 
-// What the search carries beside the loops of its parts.
-struct Carried {
+// What the search keeps around the loops of its parts.
+struct ProcedureState {
   Part part = Part::other_loads;
   NodeForces pattern;               // N at 1 Pa, where the faces were when the stage began
   std::vector<Node> start;          // m, displacement before the flow (n_nodes)
@@ -73,7 +73,7 @@ struct Carried {
 };
 
 template <class A>
-void archive(A& a, Carried& x) {
+void archive(A& a, ProcedureState& x) {
   auto& [part, pattern, start, start_time, first_break, seen, looks, pressure, result] = x;
   auto& [base_time, base, rate, limit, resume] = pressure;
   archive_all(a, part, pattern, start, start_time, first_break, seen, looks, base_time, base, rate, limit,
@@ -98,7 +98,7 @@ public:
     };
     conditions_.flows.push_back(flow);
     resolved_ = resolve(model_, state_, conditions_);
-    without_flow_.beside = [this] {
+    without_flow_.procedure_state = [this] {
       Writer a;
       archive(a, now_);
       return a.take();
@@ -116,8 +116,8 @@ private:
   void begin(Part);
   StageContext with_flow() const {
     const StageContext& c = without_flow_;
-    return {c.model,   c.state,  conditions_, c.log,    c.last_good, c.observer,
-            c.threads, c.number, c.keeper,    c.moment, c.from,      c.beside};
+    return {c.model,   c.state,  conditions_,   c.log,           c.last_good, c.observer,
+            c.threads, c.number, c.checkpoints, c.restart_point, c.from,      c.procedure_state};
   }
   void measure();
   void look();
@@ -131,7 +131,7 @@ private:
   ResolvedConditions resolved_;
   double volume_; // m3
   bool ended_ = false;
-  Carried now_;
+  ProcedureState now_;
 };
 
 void Search::start() {
@@ -148,7 +148,7 @@ void Search::start() {
 void Search::begin(Part part) {
   now_.part = part;
   without_flow_.from = nullptr;
-  leave_from_here(without_flow_);
+  keep_start_of_loop(without_flow_);
 }
 
 // The unbroken solid at rest under the small pressure.
@@ -200,7 +200,7 @@ CriticalFlowResult Search::raise() {
   stepping.steps = std::numeric_limits<std::int64_t>::max();
   stepping.safety = options_.safety;
   stepping.local_damping = options_.local_damping;
-  stepping.follows_pieces = false; // crumbs may go where they like until it ends
+  stepping.follows_fragments = false; // crumbs may go where they like until it ends
   stepping.callback_every = steps_per_look;
   stepping.callback = [&] { look(); };
   stepping.stop = [&] { return ended_; };
@@ -224,8 +224,8 @@ CriticalFlowResult Search::raise() {
 }
 
 CriticalFlowResult Search::operator()() {
-  if (const Moment* const from = without_flow_.from) {
-    Reader a(from->beside);
+  if (const RestartPoint* const from = without_flow_.from) {
+    Reader a(from->procedure_state);
     archive(a, now_);
     if (from->step == 0) // where a part begins
       without_flow_.from = nullptr;

@@ -1,10 +1,11 @@
 #include "libcdem/procedure/relax.hpp"
 
-#include "libcdem/contact/contact_bounds.hpp"
-#include "libcdem/integrate/move_nodes.hpp"
+#include "libcdem/contact/response/contact_bounds.hpp"
+#include "libcdem/integrate/move_held_nodes.hpp"
 #include "libcdem/integrate/move_rigid.hpp"
 #include "libcdem/integrate/row_sums.hpp"
 #include "libcdem/results/energy.hpp"
+#include "libcdem/step/synchronised_view.hpp"
 #include "libgeom/core/error.hpp"
 
 #include <cmath>
@@ -28,44 +29,6 @@ constexpr int settled_steps = 10;
 // body that springs back from its initial stress, leave none: then against this fraction of the largest reaction of the
 // stage or of the forces of the initial stress (squared norms).
 constexpr double reaction_floor2 = 1e-4;
-
-// One component of a node of which some are held: the law of relax_nodes where it is free.
-struct Component {
-  double free, prescribed, applied;
-};
-
-void advance(double force, double previous, double mass, double damping, const Component& c, double& velocity,
-             double& displacement, NodeSums& sums) {
-  const double before = velocity;
-  if (c.free != 0) {
-    sums.residual2 += force * force;
-    sums.applied2 += c.applied * c.applied;
-    sums.stiffness -= before * (force - previous);
-    sums.inertia += before * mass * before;
-    velocity = ((2 - damping) * before + 2 * force / mass) / (2 + damping);
-    const double mean = 0.5 * (before + velocity);
-    sums.external += c.applied * mean;
-    sums.damping += damping * mass * mean * mean;
-    sums.kinetic += 0.5 * mass * velocity * velocity;
-  } else {
-    sums.reaction2 += force * force;
-    velocity = c.prescribed;
-    // The support gives what the body's own forces do not: work of loads and reaction together.
-    sums.external += (c.applied - force) * 0.5 * (before + velocity);
-  }
-  displacement += velocity;
-}
-
-void relax_held_node(const MovingNodes& node, const HeldNode& h, double damping, Node& previous_force,
-                     NodeSums& sums) {
-  const auto [f, load] = held_node_forces(node);
-  const Node old = std::exchange(previous_force, f);
-  const double m = *node.mass;
-  Node &v = *node.velocity, &u = *node.displacement;
-  advance(f.x, old.x, m, damping, {h.free.x, h.prescribed.x, load.x}, v.x, u.x, sums);
-  advance(f.y, old.y, m, damping, {h.free.y, h.prescribed.y, load.y}, v.y, u.y, sums);
-  advance(f.z, old.z, m, damping, {h.free.z, h.prescribed.z, load.z}, v.z, u.z, sums);
-}
 
 // Velocities per step that bring held components to their given displacement.
 void aim_supports(const State& state, ResolvedConditions& r, int steps) {
@@ -124,7 +87,7 @@ struct AtRest {
   State &state, &last_good;
   const NodeSums& sums;
   ~AtRest() {
-    stage.catch_up();
+    stage.synchronise();
     state.spent.fictitious += sums.kinetic;
     stop(state);
     stop(last_good);
@@ -145,8 +108,9 @@ RelaxResult relax(const StageContext& context, const RelaxOptions& options, cons
   State& state = context.state;
   Stage stage(context, kind, context.model.length);
   require_held(context.model, stage.work.resolved);
+  stage.work.contact.restitution = false; // its steps are no times
   const std::vector<double> mass = fictitious_masses(context.model);
-  const Moment* const from = context.from;
+  const RestartPoint* const from = context.from;
   std::vector<Node> previous_force(mass.size()); // N, of the step before
   update_external(stage.work.resolved, state.time);
   if (from) {
@@ -168,21 +132,22 @@ RelaxResult relax(const StageContext& context, const RelaxOptions& options, cons
   double lambda = 0, damping = 0, largest_reaction2 = initial_stress_forces2(stage.work.resolved);
   int settled = 0;
   if (from) {
-    lambda = from->carried.at(0);
-    damping = from->carried.at(1);
-    largest_reaction2 = from->carried.at(2);
-    settled = static_cast<int>(from->carried.at(3));
-    report.sums.kinetic = from->carried.at(4);
+    lambda = from->loop_state.at(0);
+    damping = from->loop_state.at(1);
+    largest_reaction2 = from->loop_state.at(2);
+    settled = static_cast<int>(from->loop_state.at(3));
+    report.sums.kinetic = from->loop_state.at(4);
   }
   {
     const AtRest at_rest{stage, state, context.last_good, report.sums};
     while (stage.step < options.max_steps && settled < settled_steps) {
       if (stage.can_be_left())
-        stage.mark({lambda, damping, largest_reaction2, static_cast<double>(settled), report.sums.kinetic},
-                   previous_force);
+        stage.keep_restart_point(
+            {lambda, damping, largest_reaction2, static_cast<double>(settled), report.sums.kinetic},
+            previous_force);
       if (stage.step == moving_steps)
         stop_supports(stage.work.resolved);
-      stage.meet();
+      stage.update_contacts();
       const auto move = [&](Range range, const Node* force, NodeSums& sums) {
         const auto nodes = [&](Range part) {
           return moving_nodes(state, stage.work.acting(), mass, part, force + (part.begin - range.begin));
@@ -197,11 +162,11 @@ RelaxResult relax(const StageContext& context, const RelaxOptions& options, cons
       report.sums = stage.advance(options.breaking, move, [&](int rigid, NodeSums& sums) {
         hold_rigid(context.model, state, stage.work.acting(), rigid, sums);
       });
-      stage.moved(1); // velocities are lengths per step
+      stage.end_step(1); // velocities are lengths per step
       largest_reaction2 = std::max(largest_reaction2, report.sums.reaction2);
       report.sums.reaction2 = std::max(report.sums.reaction2, reaction_floor2 * largest_reaction2);
       report.residual = relative_residual(report.sums);
-      stage.after_step(report);
+      stage.watch(report);
 
       if (report.sums.inertia > 0) {
         const double quotient = std::max(0.0, report.sums.stiffness / report.sums.inertia);
@@ -212,7 +177,7 @@ RelaxResult relax(const StageContext& context, const RelaxOptions& options, cons
           report.residual <= options.residual && stage.broken_in_step() == 0 && stage.step > moving_steps;
       settled = balanced ? settled + 1 : 0;
       if (options.callback && options.callback_every > 0 && stage.step % options.callback_every == 0) {
-        const Stage::Look look(stage); // what it reads is of one moment
+        const SynchronisedView view(stage); // what it reads is of one moment
         options.callback();
       }
     }

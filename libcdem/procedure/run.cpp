@@ -1,9 +1,10 @@
 #include "libcdem/procedure/run.hpp"
 
-#include "libcdem/contact/contact_bounds.hpp"
-#include "libcdem/integrate/move_nodes.hpp"
+#include "libcdem/contact/response/contact_bounds.hpp"
+#include "libcdem/integrate/move_held_nodes.hpp"
 #include "libcdem/integrate/move_rigid.hpp"
 #include "libcdem/integrate/row_sums.hpp"
+#include "libcdem/step/synchronised_view.hpp"
 #include "libgeom/core/error.hpp"
 
 #include <cmath>
@@ -13,49 +14,8 @@
 namespace cdem {
 namespace {
 
-// Bodies in free flight may travel; only what leaves the scene altogether has run away.
-constexpr double run_away_lengths = 100;
-
-// One component of a node of which some are held: the law of step_nodes where it is free.
-struct Component {
-  double free, prescribed, applied;
-};
-
-void advance(double force, double mass, double viscous, const Stepping& s, const Component& c,
-             double& velocity, double& displacement, NodeSums& sums) {
-  const double before = velocity;
-  if (c.free != 0) {
-    sums.residual2 += force * force;
-    sums.applied2 += c.applied * c.applied;
-    const double inertia = mass / s.kick;
-    const double undamped = ((inertia - 0.5 * viscous) * before + force) / (inertia + 0.5 * viscous);
-    const double most = s.local_damping * std::abs(force) / (inertia + 0.5 * viscous);
-    velocity = before + undamped > most    ? undamped - most
-               : before + undamped < -most ? undamped + most
-                                           : 0 - before;
-    const double against = (inertia + 0.5 * viscous) * (undamped - velocity);
-    const double mean = 0.5 * (before + velocity);
-    sums.external += c.applied * mean * s.kick;
-    sums.damping += (viscous * mean + against) * mean * s.kick;
-    sums.kinetic += 0.5 * mass * velocity * velocity;
-  } else {
-    sums.reaction2 += force * force;
-    velocity = c.prescribed;
-    const double ahead = 0.5 * s.time_step;
-    sums.external += (c.applied - force) * ((s.kick - ahead) * before + ahead * velocity);
-    sums.external += 0.5 * mass * (velocity * velocity - before * before); // what holds it changes its motion
-  }
-  displacement += velocity * s.time_step;
-}
-
-void step_held_node(const MovingNodes& node, const HeldNode& h, const Stepping& stepping, NodeSums& sums) {
-  const auto [f, load] = held_node_forces(node);
-  const double m = *node.mass, viscous = node.viscous ? *node.viscous : 0;
-  Node &v = *node.velocity, &u = *node.displacement;
-  advance(f.x, m, viscous, stepping, {h.free.x, h.prescribed.x, load.x}, v.x, u.x, sums);
-  advance(f.y, m, viscous, stepping, {h.free.y, h.prescribed.y, load.y}, v.y, u.y, sums);
-  advance(f.z, m, viscous, stepping, {h.free.z, h.prescribed.z, load.z}, v.z, u.z, sums);
-}
+// Of the model's size: so far from its box a piece has left it, or has run away when it is the only one.
+constexpr double left_lengths = 1, run_away_lengths = 100;
 
 // mu V of every node, N s/m; empty when nothing is viscous.
 std::vector<double> viscous_forces(const Model& model) {
@@ -99,14 +59,14 @@ public:
       : start_(start), end_(start + options.duration), time_step_(time_step), given_(options.steps) {
     set_steps();
   }
-  // As it was when carried() was called.
+  // As it was when loop_state() was called.
   explicit Clock(const std::vector<double>& c)
       : start_(c.at(0)), end_(c.at(1)), time_step_(c.at(2)),
         given_(c.at(3) < 0 ? without_end : static_cast<std::int64_t>(c.at(3))),
         first_(static_cast<std::int64_t>(c.at(4))) {
     set_steps();
   }
-  std::vector<double> carried() const {
+  std::vector<double> loop_state() const {
     return {start_, end_, time_step_, given_ == without_end ? -1 : static_cast<double>(given_),
             static_cast<double>(first_)};
   }
@@ -146,10 +106,12 @@ double stable_time_step(const Model& model) {
 
 RunResult run(const StageContext& context, const RunOptions& options, const std::string& kind) {
   State& state = context.state;
-  const Moment* const from = context.from;
+  const RestartPoint* const from = context.from;
   Stepping stepping{choose_time_step(context.model, options), 0, options.local_damping, options.damp_flight};
   Stage stage(context, kind, run_away_lengths * context.model.length);
-  stage.follows_pieces = options.follows_pieces;
+  stage.follows_fragments = options.follows_fragments;
+  stage.escapes = {left_lengths * context.model.length,
+                   (options.holds_what_left ? left_lengths : run_away_lengths) * context.model.length};
   stage.details = options.details;
   stage.work.contact.most_friction = options.most_friction;
   stage.work.damped = !state.viscous_stress.empty();
@@ -157,7 +119,7 @@ RunResult run(const StageContext& context, const RunOptions& options, const std:
   Stage::StepReport report;
   Clock clock(state.time, stepping.time_step, options);
   if (from) {
-    clock = Clock(from->carried);
+    clock = Clock(from->loop_state);
     stepping.time_step = clock.time_step();
   }
   const auto set_goals = [&] {
@@ -176,13 +138,13 @@ RunResult run(const StageContext& context, const RunOptions& options, const std:
   bool stopped = false;
   while (stage.step < clock.steps() && !stopped) {
     if (stage.can_be_left())
-      stage.mark(clock.carried());
-    if (const double longest = stage.meet(options.safety); longest < stepping.time_step) {
+      stage.keep_restart_point(clock.loop_state());
+    if (const double longest = stage.update_contacts(options.safety); longest < stepping.time_step) {
       stepping.time_step = longest;
       clock.shorten(stage.step, longest);
       set_goals();
     }
-    update_external(stage.work.resolved, state.time);
+    stage.update_loads(state.time);
     // Velocities that stand at the time of the displacements, at the start or after a relaxation, take half a step.
     stepping.kick = state.velocity_lag + 0.5 * stepping.time_step;
     const auto move = [&](Range range, const Node* force, NodeSums& sums) {
@@ -201,15 +163,15 @@ RunResult run(const StageContext& context, const RunOptions& options, const std:
     report.sums = stage.advance(options.breaking, move, [&](int rigid, NodeSums& sums) {
       move_rigid(context.model, state, stage.work.acting(), rigid, stepping, sums);
     });
-    stage.moved(stepping.time_step);
+    stage.end_step(stepping.time_step);
     report.residual = relative_residual(report.sums);
-    state.time = clock.time_at(stage.step + 1);
+    state.time = clock.time_at(stage.step);
     state.velocity_lag = 0.5 * stepping.time_step;
-    stage.after_step(report);
+    stage.watch(report);
     if (stage.step % ask_every == 0) {
-      std::optional<Stage::Look> look; // what they read is of one moment
+      std::optional<SynchronisedView> view; // what they read is of one moment
       if (options.callback || options.stop)
-        look.emplace(stage);
+        view.emplace(stage);
       if (options.callback && options.callback_every > 0)
         options.callback();
       stopped = options.stop && options.stop() && report.residual <= options.stop_residual;

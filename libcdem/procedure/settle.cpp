@@ -5,6 +5,7 @@
 #include "libcdem/procedure/run.hpp"
 #include "libcdem/procedure/turn_rigid.hpp"
 #include "libcdem/results/energy.hpp"
+#include "libgeom/core/portable.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -62,8 +63,8 @@ void take_velocities_as_present(const Model& model, State& state) {
   state.spent.fictitious += before - energy(model, state).total();
 }
 
-// What settling carries beside the loops of its phases.
-struct Carried {
+// What settling keeps around the loops of its phases.
+struct ProcedureState {
   Part part = Part::rigid;
   double start = 0, part_start = 0; // s
   std::int64_t looks = 0;           // in this part
@@ -73,7 +74,7 @@ struct Carried {
 };
 
 template <class A>
-void archive(A& a, Carried& x) {
+void archive(A& a, ProcedureState& x) {
   auto& [part, start, part_start, looks, turned, calm, result] = x;
   archive_all(a, part, start, part_start, looks, turned, calm.peak, calm.ratio, calm.quiet, result.steps,
               result.made_rigid, result.wall_time);
@@ -87,7 +88,7 @@ class Settling {
 public:
   Settling(Model& model, const StageContext& context, const SettleOptions& options)
       : model_(model), state_(context.state), options_(options), context_(context) {
-    context_.beside = [this] {
+    context_.procedure_state = [this] {
       Writer a;
       archive(a, now_);
       return a.take();
@@ -111,7 +112,7 @@ private:
   State& state_;
   const SettleOptions& options_;
   StageContext context_;
-  Carried now_;
+  ProcedureState now_;
 };
 
 void Settling::start() {
@@ -144,7 +145,7 @@ void Settling::begin(Part part) {
   now_.looks = 0;
   now_.calm.quiet = 0;
   context_.from = nullptr;
-  leave_from_here(context_);
+  keep_start_of_loop(context_);
 }
 
 void Settling::phase(const std::string& name, double time_step, Until until) {
@@ -156,8 +157,9 @@ void Settling::phase(const std::string& name, double time_step, Until until) {
   stepping.time_step = time_step;
   stepping.local_damping = until == Until::touch ? 0 : options_.local_damping;
   stepping.damp_flight = false;
+  stepping.holds_what_left = true; // else nothing would come to rest
   if (options_.friction_angle)
-    stepping.most_friction = std::tan(*options_.friction_angle);
+    stepping.most_friction = geom::portable::tan(*options_.friction_angle);
   const std::int64_t looks_per_call =
       options_.callback ? (options_.callback_every + steps_per_look - 1) / steps_per_look : 0;
   stepping.callback_every = steps_per_look;
@@ -195,8 +197,8 @@ void Settling::phase(const std::string& name, double time_step, Until until) {
 }
 
 SettleResult Settling::operator()() {
-  if (const Moment* const from = context_.from) {
-    Reader a(from->beside);
+  if (const RestartPoint* const from = context_.from) {
+    Reader a(from->procedure_state);
     archive(a, now_);
     if (from->step == 0) // where a phase begins
       context_.from = nullptr;

@@ -1,6 +1,6 @@
 #include "libcdem/results/fragments.hpp"
 
-#include "libcdem/bond/pieces.hpp"
+#include "libcdem/bond/fragments.hpp"
 
 #include <algorithm>
 
@@ -8,7 +8,7 @@ namespace cdem {
 
 std::vector<Fragment> fragments(const Model& model, const State& state,
                                 const ResolvedConditions& conditions) {
-  const std::vector<int> pieces = pieces_of_nodes(model, state);
+  const std::vector<int> pieces = fragments_of_nodes(model, state);
   std::vector<int> place(model.node_position.size(), -1);
   std::vector<Fragment> list;
   const auto of = [&](int node) -> Fragment& {

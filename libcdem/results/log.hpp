@@ -41,11 +41,22 @@ struct Probe {
   geom::Vec3 place; // m, undeformed
 };
 
+// A piece that has left the model (step/escape.hpp).
+struct EscapeRow {
+  int stage = 0;
+  std::int64_t step = 0; // over all stages
+  double time = 0;       // s
+  std::string text;      // what the user was told
+};
+
 struct RunLog {
   std::vector<BreakRow> breaks;
   std::vector<HistoryRow> history;
   std::vector<Probe> probes;
   std::vector<Watch> watches;
+  std::vector<EscapeRow> escapes;
+  // Bodies, smaller first, for which a law was given and that have had neither interface nor contact so far.
+  std::vector<std::array<int, 2>> unmet;
   std::int64_t broken_tension = 0, broken_shear = 0;
   std::int64_t told_tension = 0, told_shear = 0; // of these: told of when earlier stages ended
 

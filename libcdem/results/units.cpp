@@ -1,6 +1,6 @@
 #include "libcdem/results/units.hpp"
 
-#include "libcdem/contact/acting.hpp"
+#include "libcdem/contact/response/contact_point.hpp"
 #include "libcdem/model/names.hpp"
 #include "libcdem/state/places.hpp"
 
@@ -66,7 +66,7 @@ std::vector<geom::Surface> surfaces_of(const Model& model, const State& state, c
 std::vector<int> touching(const Model& model, const State& state, const std::string& body) {
   std::set<std::pair<int, int>> pairs;
   for (const Contact& contact : state.contacts) {
-    if (!(contact.pressed() > 0))
+    if (!(contact.effective_penetration() > 0))
       continue;
     const auto [a, b] = cdem::blocks_of(model, contact);
     if (a != b) {

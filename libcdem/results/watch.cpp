@@ -1,6 +1,6 @@
 #include "libcdem/results/watch.hpp"
 
-#include "libcdem/contact/acting.hpp"
+#include "libcdem/contact/response/contact_point.hpp"
 #include "libcdem/model/names.hpp"
 #include "libcdem/results/units.hpp"
 #include "libgeom/core/error.hpp"

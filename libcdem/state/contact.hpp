@@ -15,18 +15,19 @@ struct Contact {
   std::uint32_t source : 31; // 3 triangle + corner; of an edge where it starts on the first of its triangles
   // Of a spring's target, one contact for each: its block, or its fragment once it has broken. Of an edge its own second
   // triangle.
-  std::int32_t piece = 0;
+  std::int32_t fragment = 0;
   std::int32_t target = 0;                // triangle; of an edge as source
   std::int32_t beside = 0;                // of an edge the second triangle of the target
   geom::Vec3 normal = geom::Vec3::Zero(); // unit, out of the target
   geom::Vec3 shear = geom::Vec3::Zero();  // Fs, N, on the source
-  double start = 0;                       // m, depth at which it carries nothing: it was found that deep
+  double reference_penetration = 0;       // m, depth at which it carries nothing: it was found that deep
   double depth = 0;                       // m, below the target's surface
+  double damping = 0;                     // N, what restitution adds to the spring's normal force
 
   explicit Contact(Kind of = spring, int from = 0)
       : kind(of & 1u), source(static_cast<std::uint32_t>(from) & 0x7fffffffu) {}
 
-  double pressed() const { return std::max(0.0, depth - start); } // m
+  double effective_penetration() const { return std::max(0.0, depth - reference_penetration); } // m
 };
 
 } // namespace cdem

@@ -26,4 +26,7 @@ struct EnergyLedger {
   double balance_error() const;
 };
 
+// A balance that is open by more than this says that the solution is not to be trusted.
+inline constexpr double open_balance = 0.01, broken_balance = 0.1;
+
 } // namespace cdem

@@ -99,7 +99,7 @@ std::vector<StateField> fields(State& s) {
   };
   return {
       {"time", "s", FieldPlace::model, "run", &s.time, sizeof s.time, true},
-      {"step", "1", FieldPlace::model, "after_step", &s.step, sizeof s.step, false},
+      {"step", "1", FieldPlace::model, "end_step", &s.step, sizeof s.step, false},
       {"velocity_lag", "s", FieldPlace::model, "run, relax", &s.velocity_lag, sizeof s.velocity_lag, true},
       field("displacement", "m", FieldPlace::node, "step_nodes, relax_nodes, move_rigid", s.displacement,
             true),
@@ -117,8 +117,9 @@ std::vector<StateField> fields(State& s) {
       field("contacts", "record", FieldPlace::contact, "contact_forces", s.contacts, false),
       field("rigid", "record", FieldPlace::rigid_body, "move_rigid, set_rigid", s.rigid, true),
       field("rigid_offset", "m", FieldPlace::node, "set_rigid", s.rigid_offset, true),
+      field("escaped", "1", FieldPlace::node, "find_escapes", s.escaped, false),
       {"spent", "J", FieldPlace::model,
-       "record_bond_breaks, record_face_breaks, meet_contacts, after_step, relax", &s.spent, sizeof s.spent,
+       "record_bond_breaks, record_face_breaks, ContactUpdate, record_step, relax", &s.spent, sizeof s.spent,
        true},
   };
 }

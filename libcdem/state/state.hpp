@@ -14,9 +14,12 @@
 
 namespace cdem {
 
+// Of a node: its piece is where the model is, has left it and been told of, or is held where it was then.
+enum class Escaped : std::uint8_t { inside, told, held };
+
 struct State {
   double time = 0;       // s; written by run
-  std::int64_t step = 0; // over all stages; written by after_step
+  std::int64_t step = 0; // over all stages; written by end_step
   // s, velocities and the summed energies stand this long before the displacements; written by run, relax
   double velocity_lag = 0;
 
@@ -47,6 +50,9 @@ struct State {
   // m, of the nodes of rigid bodies from their centroids in the directions they were made rigid in (n_nodes); empty
   // without rigid bodies; written by set_rigid
   std::vector<Node> rigid_offset;
+
+  // Escaped (n_nodes); empty until something has left the model; written by find_escapes
+  std::vector<std::uint8_t> escaped;
 
   EnergyLedger spent; // J, the summed entries only (damping, friction, ... external); the stored ones stay 0
 };

@@ -13,27 +13,28 @@ struct Near {
 };
 
 struct NearArrays {
-  Node *position, *displacement, *velocity, *force;
+  Node *position, *displacement, *velocity, *force; // displacement: null where no bond asks for it
 };
 
 // Of one node. An undeformed place is three numbers: it is read one by one.
-CDEM_INLINE void fetch(const geom::Vec3& undeformed, const Node& displacement, const Node& velocity,
-                       std::int64_t place, const NearArrays& near) {
+CDEM_INLINE void fetch_node(const geom::Vec3& undeformed, const Node& displacement, const Node& velocity,
+                            std::int64_t place, const NearArrays& near) {
   const simd::Quad x = {undeformed[0], undeformed[1], undeformed[2], 0};
   const simd::Quad u = simd::load(displacement);
-  simd::store(near.displacement[place], u);
+  if (near.displacement)
+    simd::store(near.displacement[place], u);
   simd::store(near.position[place], x + u);
   simd::store(near.velocity[place], simd::load(velocity));
   simd::store(near.force[place], simd::Quad{});
 }
 
-CDEM_KERNEL void fetch(const geom::Vec3* undeformed, const Node* displacement, const Node* velocity,
-                       Range own, const int* others, std::int64_t count, const NearArrays& to) {
+CDEM_INLINE void fetch_kernel(const geom::Vec3* undeformed, const Node* displacement, const Node* velocity,
+                              Range own, const int* others, std::int64_t count, const NearArrays& to) {
   const NearArrays near = to;
   for (std::int64_t i = 0; i < own.size(); ++i)
-    fetch(undeformed[own.begin + i], displacement[own.begin + i], velocity[own.begin + i], i, near);
+    fetch_node(undeformed[own.begin + i], displacement[own.begin + i], velocity[own.begin + i], i, near);
   for (std::int64_t i = 0; i < count; ++i)
-    fetch(undeformed[others[i]], displacement[others[i]], velocity[others[i]], own.size() + i, near);
+    fetch_node(undeformed[others[i]], displacement[others[i]], velocity[others[i]], own.size() + i, near);
 }
 
 NearArrays fetch(const Model& model, const State& state, const MeshChunk& chunk, Near& near) {
@@ -41,10 +42,11 @@ NearArrays fetch(const Model& model, const State& state, const MeshChunk& chunk,
   if (near.force.size() < places)
     for (std::vector<Node>* array : {&near.position, &near.displacement, &near.velocity, &near.force})
       array->resize(places);
-  const NearArrays at{near.position.data(), near.displacement.data(), near.velocity.data(),
-                      near.force.data()};
-  fetch(model.node_position.data(), state.displacement.data(), state.velocity.data(), chunk.nodes,
-        model.mesh.others.data() + chunk.others.begin, chunk.others.size(), at);
+  const NearArrays at{near.position.data(), chunk.faces > 0 ? near.displacement.data() : nullptr,
+                      near.velocity.data(), near.force.data()};
+  simd::best<fetch_kernel>(model.node_position.data(), state.displacement.data(), state.velocity.data(),
+                           chunk.nodes, model.mesh.others.data() + chunk.others.begin, chunk.others.size(),
+                           at);
   return at;
 }
 
@@ -138,6 +140,7 @@ const Node* mesh_forces(const Model& model, State& state, Workspace& work, std::
     const int number = model.blocks[chunk.block].body;
     FaceLaw law = face_law(body);
     law.hands_over = model.surface.joint.count({number, number}) > 0;
+    law.hand_over_due = work.hand_over_due;
     face_bond_forces(model.mesh.faces.data() + chunk.face_batches.begin, chunk.face_batches.size(),
                      chunk.faces, motion, law, breaking, state.faces.data() + chunk.face_batches.begin,
                      state.face_slip.data(), at.force, sums, ahead);

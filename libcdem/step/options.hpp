@@ -38,8 +38,9 @@ struct RunOptions {
   double safety = 0.9;  // time step over the stable one, in (0, 1]; of rigid bodies that touch 0.5 at most
   double time_step = 0; // s; 0 = safety x stable; refused above the stable one, half of it for rigid bodies
   bool breaking = true;
-  bool follows_pieces =
+  bool follows_fragments =
       true; // ends with a SolutionError where broken faces no longer stand for the pieces' contact
+  bool holds_what_left = false; // a piece that has left the model is held at once (step/escape.hpp)
   // Cundall's: force against the motion, as a fraction of the out-of-balance force, [0, 1)
   double local_damping = 0;
   bool damp_flight = true; // of rigid bodies that touch nothing too

@@ -1,12 +1,29 @@
 #include "libcdem/step/record.hpp"
 
 #include "libcdem/bond/spring_forces.hpp"
+#include "libcdem/contact/response/contact_point.hpp"
 #include "libcdem/model/build/add_meshes.hpp"
 #include "libcdem/results/fields.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace cdem {
+
+void strike_out_met(const Model& model, const State& state, RunLog& log) {
+  if (log.unmet.empty())
+    return;
+  for (const Contact& contact : state.contacts) {
+    const auto [one, other] = blocks_of(model, contact);
+    const int a = model.blocks[one].body, b = model.blocks[other].body;
+    const auto met =
+        std::find(log.unmet.begin(), log.unmet.end(), std::array{std::min(a, b), std::max(a, b)});
+    if (met != log.unmet.end())
+      log.unmet.erase(met);
+    if (log.unmet.empty())
+      return;
+  }
+}
 
 std::int64_t record_bond_breaks(const Model& model, State& state, const Workspace& work, RunLog& log,
                                 int stage, std::int64_t step) {
@@ -47,7 +64,7 @@ std::int64_t record_face_breaks(const Model& model, State& state, Workspace& wor
     state.spent.friction += sums.friction;
     state.spent.breaking += sums.breaking;
     state.spent.damping += sums.damping;
-    work.contact.pieces_due = work.contact.pieces_due || sums.hands_over;
+    work.contact.fragments_due = work.contact.fragments_due || sums.hands_over;
     for (const FaceBreak& broken : sums.broken) {
       const FaceSpringPlace at{chunk.face_batches.begin + broken.spring / (3 * lanes),
                                static_cast<int>(broken.spring / lanes % 3),

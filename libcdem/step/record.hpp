@@ -15,6 +15,9 @@ std::int64_t record_face_breaks(const Model&, State&, Workspace&, RunLog&, int s
 // kinetic: J. Probes read stresses: they have to be caught up.
 void record_history(const Model&, const State&, RunLog&, int stage, double residual, double kinetic);
 
+// Bodies that touch now are taken out of RunLog::unmet.
+void strike_out_met(const Model&, const State&, RunLog&);
+
 // Which watched units have left.
 void look_at_units(const Model&, const State&, const Conditions&, RunLog&);
 

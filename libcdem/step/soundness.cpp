@@ -1,11 +1,12 @@
 #include "libcdem/step/soundness.hpp"
 
 #include "libcdem/bond/spring_forces.hpp"
-#include "libcdem/contact/places.hpp"
+#include "libcdem/contact/geometry/positions.hpp"
 #include "libcdem/element/rigid_motion.hpp"
 #include "libcdem/element/small_strain.hpp"
 #include "libcdem/model/names.hpp"
 #include "libcdem/results/deformation.hpp"
+#include "libcdem/results/energy.hpp"
 #include "libcdem/step/errors.hpp"
 
 #include <cmath>
@@ -48,7 +49,8 @@ void require_sound(const Model& model, const State& state, const Workspace& work
     if (!std::isfinite(u.x + u.y + u.z) || !std::isfinite(v.x + v.y + v.z))
       fail("displacement, velocity or force is not a number", node, "look at loads and stiffnesses there");
     const double moved = std::sqrt(u.x * u.x + u.y * u.y + u.z * u.z);
-    if (moved > run_away)
+    const bool told = !state.escaped.empty() && state.escaped[node] != 0; // step/escape.hpp
+    if (moved > run_away && !told)
       fail(fmt::format("run-away displacement of {:.3g} m (model {:.3g} m across)", moved, model.length),
            node,
            "is this part held by supports, does it fall off what it lies on, and can it carry its load?");
@@ -86,6 +88,23 @@ void require_neighbours(const Model& model, const State& state, const StageStep&
                                       in_words(at), a.id, b.id, where(model, b.node_begin),
                                       model.bodies[b.body].name));
     }
+}
+
+void require_kept_energy(const Model& model, const State& state, const Escape& escape, const StageStep& at) {
+  const double open = energy(model, state).balance_error();
+  if (open > broken_balance)
+    throw SolutionError(fmt::format(
+        "{}: run-away displacement of {}, now at ({:.6g}, {:.6g}, {:.6g}) m and {:.3g} m/s, with the energy "
+        "balance open by {:.3g} %: it gained its speed from no load; take a smaller safety or time_step",
+        in_words(at), escape.name, escape.place.x(), escape.place.y(), escape.place.z(), escape.speed,
+        100 * open));
+}
+
+std::string in_words(const Escape& escape, const State& state, const StageStep& at) {
+  return fmt::format("stage {} ({}): {} has left the model at {:.6g} s, at ({:.6g}, {:.6g}, {:.6g}) m and "
+                     "{:.3g} m/s; {}the rest goes on; look whether it falls off its ground",
+                     at.stage, at.kind, escape.name, state.time, escape.place.x(), escape.place.y(),
+                     escape.place.z(), escape.speed, escape.held ? "it is held there and " : "");
 }
 
 void require_followed(const Model& model, const Workspace& work, const StageStep& at) {

@@ -1,6 +1,7 @@
 // What a stage does not go on with: each ends it with a SolutionError that names stage, step, block and place.
 #pragma once
 
+#include "libcdem/step/escape.hpp"
 #include "libcdem/step/workspace.hpp"
 
 #include <string>
@@ -18,6 +19,12 @@ void require_sound(const Model&, const State&, const Workspace&, double run_away
 
 // Throws SolutionError where a block of small strain has left a neighbour by more than the size of their face.
 void require_neighbours(const Model&, const State&, const StageStep&);
+
+// What left the model did not gain its speed from an instability: the energy balance is open by less than 10 %.
+void require_kept_energy(const Model&, const State&, const Escape&, const StageStep&);
+
+// One line for the user.
+std::string in_words(const Escape&, const State&, const StageStep&);
 
 // The sides of broken faces are where their own springs can stand for the contact of the pieces.
 void require_followed(const Model&, const Workspace&, const StageStep&);

@@ -1,42 +1,35 @@
-// What relaxing and running share: the parts of a step that go over all chunks, and the watch over a stage.
+// A stage: the steps of one loop of a solving call, and the watch over them. A step reads, in the loop of the caller,
+//
+//   keep_restart_point       where the stage can be left
+//   update_contacts          contacts for where the nodes are; the longest step that they leave
+//   update_loads             loads at this time
+//   advance                  bond_forces; element_forces; shared_node_forces; rigid_bodies
+//   end_step                 everything has moved on by the time step
+//   watch                    energies, breaks, soundness, histories, progress, stop
+//
+// Each is a line of StepTimes. The stress of meshes and the contacts stand a step behind the nodes between two steps:
+// synchronise brings them up, SynchronisedView for those who only look.
 #pragma once
 
-#include "libcdem/bond/spring_forces.hpp"
 #include "libcdem/parallel/thread_choice.hpp"
-#include "libcdem/results/log.hpp"
-#include "libcdem/step/forces.hpp"
-#include "libcdem/step/keeper.hpp"
-#include "libcdem/step/mesh_forces.hpp"
+#include "libcdem/step/contact_update.hpp"
+#include "libcdem/step/escape.hpp"
 #include "libcdem/step/options.hpp"
+#include "libcdem/step/progress_reporter.hpp"
 #include "libcdem/step/soundness.hpp"
-#include "libcdem/step/telling.hpp"
-
-#include <chrono>
-#include <functional>
-#include <optional>
+#include "libcdem/step/stage_context.hpp"
+#include "libcdem/step/step_loops.hpp"
+#include "libcdem/step/step_times.hpp"
 
 namespace cdem {
 
-struct StageContext {
-  const Model& model;
-  State& state;
-  const Conditions& conditions;
-  RunLog& log;
-  State& last_good; // copy of the state that last passed the watch
-  Observer& observer;
-  int threads = 1;
-  int number = 0;                          // of the stage, from 1
-  Keeper* keeper = nullptr;                // may be null
-  std::optional<Moment>* moment = nullptr; // written by the stage: where it can be left; null: nowhere
-  const Moment* from = nullptr;            // the stage goes on from here; the state is the one of that moment
-  std::function<std::string()> beside{};   // Moment::beside as it is now; empty: a stage of one loop
-};
-
-// The stage can be left here, where none of its loops has begun a step: the state is kept, the Moment written anew.
-void leave_from_here(const StageContext&);
-
 // Steps between looks at every node and element, and between copies of the state.
 inline constexpr std::int64_t watch_every = 200;
+// Steps between looks at which broken faces have parted or slid away. Until then their own springs hold them: in a body
+// that shatters every look would else be followed by a search for contacts.
+inline constexpr std::int64_t hand_over_every = 20;
+static_assert(watch_every % hand_over_every == 0,
+              "a stage that goes on looks anew where it did when it was left");
 
 class Stage {
 public:
@@ -50,134 +43,86 @@ public:
   std::int64_t step = 0;                  // within the stage
   std::function<void(Progress&)> details; // adds to what the progress line shows; may be empty
   // Ends with a SolutionError where broken faces no longer stand for the pieces' contact.
-  bool follows_pieces = false;
+  bool follows_fragments = false;
+  EscapeLimits escapes; // where pieces have left the model
 
-  // One step: all forces where the nodes are, and move(nodes, forces, sums) for every node once all that reads where it
-  // is has done so; `forces` are those of elements and springs at `nodes`, the first first. The nodes of rigid bodies
-  // move with them: move_rigid(rigid body, sums). Returns the sums over all chunks, added in order.
+  // True at the head of a step before which the state has been kept: keep_restart_point there, with what the loop
+  // carries from step to step.
+  bool can_be_left() const { return context_.restart_point && step > 0 && step % watch_every == 0; }
+  void keep_restart_point(std::vector<double> loop_state, const std::vector<Node>& previous_force = {});
+
+  // Returns the longest step that contacts leave, s, `safety` times the stable one; infinite without contacts. Throws
+  // SolutionError when something has gone too deep.
+  double update_contacts(double safety = 1);
+  void update_loads(double time); // s
+  // All forces where the nodes are, and move(nodes, forces, sums), move_rigid(rigid body, sums) (step_loops.hpp).
+  // Returns the sums over all chunks, added in order.
   template <class Move, class MoveRigid>
   NodeSums advance(bool breaking, const Move& move, const MoveRigid& move_rigid);
-  // Contacts for where the nodes are; before advance. Returns the longest step that they leave, s, `safety` times the
-  // stable one; infinite without contacts. Throws SolutionError when something has gone too deep.
-  double meet(double safety = 1);
-  // Everything moved on by this long (s; steps of unit length in a relaxation).
-  void moved(double time_step);
-  // Brings the stress of meshes up to where the nodes are; before a state is kept or handed out.
-  void catch_up();
+  void end_step(double time_step); // s; steps of unit length in a relaxation
 
-  // The same for those who only look, as long as this lives; then bonds are as they were. Brought up twice, in this
-  // step and in the next, they would break with other energies, and slide to other places in the last digit.
-  class Look {
-  public:
-    explicit Look(Stage&);
-    ~Look();
-    Look(const Look&) = delete;
-    Look& operator=(const Look&) = delete;
-
-  private:
-    Stage& stage_;
-    double strain_step_ = 0; // s; 0: nothing to put back
-    bool contact_due_ = false, pieces_due_ = false;
-    std::vector<StressBatch> stress_, viscous_stress_;
-    std::vector<FaceStateBatch> faces_;
-    std::vector<FaceSlip> face_slip_;
-    EnergyLedger spent_;
-  };
-
-  // True at the head of a step before which the state has been kept: mark() there, with what the loop carries.
-  bool can_be_left() const { return context_.moment && step > 0 && step % watch_every == 0; }
-  void mark(std::vector<double> carried, const std::vector<Node>& previous_force = {});
-
-  // Bookkeeping after a step: ledger, breaks, history, progress, soundness, stop. Throws SolutionError, Interrupted.
+  // Throws SolutionError, Interrupted.
   struct StepReport {
     NodeSums sums;
     double residual = 0;
     Progress goals; // residual_goal, time_start, time_goal, max_steps
   };
-  void after_step(const StepReport&);
+  void watch(const StepReport&);
   StageResult finish(const StepReport&); // last history row and progress
   std::int64_t broken_in_step() const { return broken_in_step_; }
 
+  // Brings contacts and the stress of meshes up to where the nodes are; before a state is kept or handed out.
+  void synchronise();
+
 private:
-  NodeSums total() const;
+  friend class SynchronisedView;
+  void synchronise_contacts();
+  void synchronise_stress();
+
   double wall_time() const; // s
   StageStep here() const { return {context_.number, kind_, step}; }
-  void meet_contacts();
-  void catch_up_contacts();
-  void catch_up_meshes();
+  void record_step(const StepReport&); // energies and breaks
+  void release_parted_blocks();
   void keep_state();
+  void look_for_escapes();        // the state is caught up
   void sample(const StepReport&); // a row of the history
-  void tell(const StepReport&, bool last);
+  void poll(const StepReport&);   // stop, checkpoints, progress
+  void report(const StepReport&, bool last);
 
   StageContext context_;
   ThreadChoice threads_;
-  std::vector<double> rigid_reach_; // m, reaches_of_rigid
-  std::vector<double> row_sums_;    // N/m, of elements and bonds (n_nodes); empty without contacts
+  ContactUpdate contacts_;
+  StepTimes times_;
+  bool has_shared_nodes_;
   std::string kind_;
   double run_away_;
   std::int64_t broken_in_step_ = 0;
-  ContactSums met_; // the deepest since the head of the last step
   std::int64_t broken_tension_before_ = 0, broken_shear_before_ = 0;
   std::chrono::steady_clock::time_point start_;
-  Telling telling_;
+  ProgressReporter progress_;
 };
 
 template <class Move, class MoveRigid>
 NodeSums Stage::advance(bool breaking, const Move& move, const MoveRigid& move_rigid) {
   const Model& model = context_.model;
   State& state = context_.state;
-  const auto springs = static_cast<std::int64_t>(model.point_chunks.size());
-  const auto meshes = static_cast<std::int64_t>(model.mesh.chunks.size());
-  const auto stars = static_cast<std::int64_t>(model.chunks.size()) - meshes;
-  // Springs, and meshes with those of their nodes that only one chunk reads.
-  for_chunks(springs + meshes, context_.threads, [&](std::int64_t c) {
-    if (c < springs) {
-      spring_forces(model, state, work.bond, model.point_chunks[c], work.bond.sums[c], breaking);
-      return;
-    }
-    const MeshChunk& chunk = model.mesh.chunks[c - springs];
-    if (chunk.stars || is_rigid(model, chunk))
-      return;
-    const Node* const force = mesh_forces(model, state, work, c - springs, breaking);
-    NodeSums sums;
-    move(Range{chunk.nodes.begin, chunk.inner_end}, force, sums);
-    work.node_sums[stars + c - springs] = sums;
-  });
-  // Blocks, and the nodes that several chunks of a mesh read.
-  for_chunks(stars + meshes, context_.threads, [&](std::int64_t c) {
-    if (c < stars) {
-      NodeSums sums;
-      block_forces(model, state, work, model.chunks[c]);
-      move(model.chunks[c].nodes, work.force.data() + model.chunks[c].nodes.begin, sums);
-      work.node_sums[c] = sums;
-      return;
-    }
-    const MeshChunk& chunk = model.mesh.chunks[c - stars];
-    if (is_rigid(model, chunk))
-      return;
-    if (chunk.stars) { // its bonds have been computed
-      NodeSums sums;
-      const Node* const force = mesh_forces(model, state, work, c - stars, breaking);
-      each_deformable_run(model, chunk,
-                          [&](Range nodes) { move(nodes, force + (nodes.begin - chunk.nodes.begin), sums); });
-      work.node_sums[c] = sums;
-      return;
-    }
-    NodeSums sums = work.node_sums[c];
-    ReadAhead ahead = shared_reads_of(model, state, work, c - stars + 1);
-    ahead.spread(chunk.nodes.end - chunk.inner_end);
-    each_shared_force(model.mesh, work, chunk, ahead,
-                      [&](Range nodes, const Node* force) { move(nodes, force, sums); });
-    work.node_sums[c] = sums;
-  });
-  work.strain_step = 0;
-  if (const auto bodies = static_cast<std::int64_t>(model.rigid.size()); bodies > 0)
-    for_chunks(bodies, context_.threads, [&](std::int64_t body) {
-      NodeSums sums;
-      move_rigid(static_cast<int>(body), sums);
-      work.rigid_sums[body] = sums;
-    });
-  return total();
+  work.hand_over_due = step % hand_over_every == 0;
+  const int threads = context_.threads;
+  if (!model.point_chunks.empty()) {
+    bond_forces(model, state, work, threads, breaking);
+    times_.end(StepLine::bonds);
+  }
+  element_forces(model, state, work, threads, breaking, move);
+  times_.end(StepLine::elements);
+  if (has_shared_nodes_) {
+    shared_node_forces(model, state, work, threads, move);
+    times_.end(StepLine::shared_nodes);
+  }
+  if (!model.rigid.empty()) {
+    rigid_bodies(model, work, threads, move_rigid);
+    times_.end(StepLine::rigid_bodies);
+  }
+  return sums_of(work);
 }
 
 // Of the threads allowed, as many as the model keeps busy.

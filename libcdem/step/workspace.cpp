@@ -1,6 +1,6 @@
 #include "libcdem/step/workspace.hpp"
 
-#include "libcdem/contact/search.hpp"
+#include "libcdem/contact/broad_phase/search.hpp"
 
 namespace cdem {
 

@@ -4,7 +4,7 @@
 
 #include "libcdem/bond/bond_work.hpp"
 #include "libcdem/bond/face_bonds.hpp"
-#include "libcdem/contact/contact_work.hpp"
+#include "libcdem/contact/data/contact_work.hpp"
 #include "libcdem/integrate/move_nodes.hpp"
 #include "libcdem/load/resolve.hpp"
 #include "libcdem/state/state.hpp"
@@ -23,6 +23,7 @@ struct Workspace {
   std::vector<FaceSums> face_sums; // per mesh chunk
   double strain_step = 0;          // s, by which their stress stands behind the nodes
   bool damped = false;             // stiffness damping acts
+  bool hand_over_due = false;      // broken faces that are gone go to contact in this step
   ContactWork contact;
   std::vector<NodeSums> node_sums;  // per chunk of blocks
   std::vector<NodeSums> rigid_sums; // per rigid body

@@ -2,6 +2,7 @@
 
 #include "libgeom/core/check.hpp"
 #include "libgeom/core/error.hpp"
+#include "libgeom/core/rotation.hpp"
 #include "libgeom/polyhedron/cut.hpp"
 
 #include <cmath>
@@ -85,7 +86,7 @@ Assembly rotated(Assembly assembly, const Vec3& axis, double angle, const Vec3& 
   if (!std::isfinite(angle))
     throw InputError("angle", text(angle), "a finite number");
   require_finite("centre", centre);
-  const Mat3 q = Eigen::AngleAxisd(angle, axis.normalized()).toRotationMatrix();
+  const Mat3 q = rotation_about(axis.normalized(), angle).toRotationMatrix();
   for (Polyhedron& block : assembly.blocks)
     for (Vec3& x : block.vertices)
       x = centre + q * (x - centre);

@@ -3,6 +3,7 @@
 #include "libgeom/assembly/edit.hpp"
 #include "libgeom/core/check.hpp"
 #include "libgeom/core/error.hpp"
+#include "libgeom/core/portable.hpp"
 #include "libgeom/core/random.hpp"
 #include "libgeom/polyhedron/cut.hpp"
 
@@ -42,7 +43,8 @@ void check(const JointSet& set) {
 
 // Upward normal of a plane that dips towards dip_direction: x east, y north, z up.
 Vec3 normal_of(double dip, double dip_direction) {
-  return {std::sin(dip) * std::sin(dip_direction), std::sin(dip) * std::cos(dip_direction), std::cos(dip)};
+  return {portable::sin(dip) * portable::sin(dip_direction),
+          portable::sin(dip) * portable::cos(dip_direction), portable::cos(dip)};
 }
 
 // About how many blocks come out: each set cuts a block into 1 + width / spacing parts.
@@ -73,9 +75,9 @@ std::vector<Plane> planes_of(const JointSet& set, std::uint64_t id, std::uint64_
   const Vec3 mean = normal_of(set.dip, set.dip_direction), centre = box.centre();
   const bool scattered = set.spacing_scatter > 0 || set.dip_scatter > 0 || set.direction_scatter > 0;
   const double tilt = std::min(widest_draw * (set.dip_scatter + set.direction_scatter), pi / 3);
-  const double half = tilt > 0
-                          ? 0.5 * box.size().norm() / std::cos(tilt) // a tilted plane leans in from outside
-                          : 0.5 * mean.cwiseAbs().dot(box.size());
+  const double half =
+      tilt > 0 ? 0.5 * box.size().norm() / portable::cos(tilt) // a tilted plane leans in from outside
+               : 0.5 * mean.cwiseAbs().dot(box.size());
   if (!(2 * half <= most_planes * set.spacing))
     throw InputError("spacing", text(set.spacing),
                      "such that there are at most a million planes in a set (this asks for "

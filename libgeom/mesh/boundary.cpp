@@ -2,6 +2,7 @@
 
 #include "libgeom/core/check.hpp"
 #include "libgeom/core/error.hpp"
+#include "libgeom/core/portable.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -144,7 +145,7 @@ std::vector<FeatureEdge> feature_edges(const TetMesh& mesh, const std::vector<Ou
       for (; j < end && edges.entries[j].other == edges.entries[i].other; ++j) {
         const Vec3 a = area_vector(mesh, faces[edges.entries[i].face].nodes);
         const Vec3 b = area_vector(mesh, faces[edges.entries[j].face].nodes);
-        angle = std::max(angle, std::atan2(a.cross(b).norm(), a.dot(b)));
+        angle = std::max(angle, portable::atan2(a.cross(b).norm(), a.dot(b)));
       }
       if (angle > min_angle)
         out.push_back({{static_cast<int>(n), edges.entries[i].other}, angle});
@@ -178,7 +179,7 @@ std::vector<int> faces_towards(const TetMesh& mesh, const std::vector<OuterFace>
   if (!direction.allFinite() || !(direction.norm() > 0))
     throw InputError("direction", text(direction), "finite and longer than zero");
   const Vec3 unit = direction.normalized();
-  const double least = std::cos(angle);
+  const double least = portable::cos(angle);
   return select(faces, [&](const OuterFace& face) {
     return area_vector(mesh, face.nodes).normalized().dot(unit) >= least;
   });

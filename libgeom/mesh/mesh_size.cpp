@@ -49,7 +49,8 @@ double expected_tets(const MeshSize& sizes, const Box& box, double solid_volume)
     for (int j = 0; j < n; ++j)
       for (int k = 0; k < n; ++k) {
         const Vec3 share = (Vec3(i, j, k) + Vec3::Constant(0.5)) / n;
-        sum += std::pow(size_at(sizes, box.min + share.cwiseProduct(box.size())), -3);
+        const double h = size_at(sizes, box.min + share.cwiseProduct(box.size()));
+        sum += 1 / (h * h * h);
       }
   return solid_volume * sum / (n * n * n) /
          0.17; // the volume of a tet, h^3, in meshes made here; regular ones take 0.118

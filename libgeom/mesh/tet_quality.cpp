@@ -1,5 +1,6 @@
 #include "libgeom/mesh/tet_quality.hpp"
 
+#include "libgeom/core/portable.hpp"
 #include "libgeom/mesh/boundary.hpp"
 
 #include <algorithm>
@@ -33,7 +34,7 @@ TetShape tet_shape(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
   shape.min_dihedral = M_PI;
   for (std::size_t i = 0; i < 4; ++i)
     for (std::size_t j = i + 1; j < 4; ++j) {
-      const double angle = std::atan2(outward[i].cross(outward[j]).norm(), -outward[i].dot(outward[j]));
+      const double angle = portable::atan2(outward[i].cross(outward[j]).norm(), -outward[i].dot(outward[j]));
       shape.min_dihedral = std::min(shape.min_dihedral, angle);
       shape.max_dihedral = std::max(shape.max_dihedral, angle);
     }

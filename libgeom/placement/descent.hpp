@@ -1,6 +1,7 @@
 // What bodies that come to rest by themselves (placement/rest.hpp) and together (placement/rest_together.hpp) share.
 #pragma once
 
+#include "libgeom/core/rotation.hpp"
 #include "libgeom/placement/contact_impulses.hpp"
 #include "libgeom/placement/rest.hpp"
 
@@ -33,8 +34,9 @@ inline double move(Pose& pose, const Motion& v, double gyration, double radius) 
   const Vec3 turn = v.turn / gyration;
   pose.translation += v.shift;
   if (turn.norm() > 0)
-    pose.rotation = Eigen::Quaterniond(Eigen::AngleAxisd(turn.norm(), turn.normalized()) * pose.rotation)
+    pose.rotation = (rotation_about(turn.normalized(), turn.norm()) * Eigen::Quaterniond(pose.rotation))
                         .normalized()
+
                         .toRotationMatrix();
   return v.shift.norm() + turn.norm() * radius;
 }

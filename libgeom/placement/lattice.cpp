@@ -1,6 +1,7 @@
 #include "libgeom/placement/lattice.hpp"
 
 #include "libgeom/core/random.hpp"
+#include "libgeom/core/rotation.hpp"
 #include "libgeom/placement/lowering.hpp"
 #include "libgeom/placement/pile.hpp"
 
@@ -67,7 +68,7 @@ Attitude improved(const Search& search, Attitude best, std::uint64_t seed, std::
     };
     const Vec3 turn = size * Vec3(draw(0), draw(1), draw(2));
     Attitude other =
-        search.at(Eigen::AngleAxisd(turn.norm(), turn.normalized()).toRotationMatrix() * best.rotation);
+        search.at(rotation_about(turn.normalized(), turn.norm()).toRotationMatrix() * best.rotation);
     if (other.cost < best.cost)
       best = std::move(other);
     else

@@ -1,6 +1,7 @@
 #include "libgeom/placement/laying.hpp"
 
 #include "libgeom/core/error.hpp"
+#include "libgeom/core/portable.hpp"
 #include "libgeom/core/random.hpp"
 
 #include <algorithm>
@@ -130,7 +131,7 @@ Laying::Between Laying::room(const Site& site) const {
 
 // Coefficient of friction of what rests on the slope by itself.
 double Laying::standing() const {
-  const double steep = std::tan(std::acos(std::min(1., std::abs(frame_(2, 2)))));
+  const double steep = portable::tan(portable::acos(std::min(1., std::abs(frame_(2, 2)))));
   return std::max(options_.friction, steep + steeper);
 }
 

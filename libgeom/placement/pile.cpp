@@ -2,7 +2,9 @@
 
 #include "libgeom/core/check.hpp"
 #include "libgeom/core/error.hpp"
+#include "libgeom/core/portable.hpp"
 #include "libgeom/core/random.hpp"
+#include "libgeom/core/rotation.hpp"
 #include "libgeom/mesh/parts.hpp"
 
 #include <Eigen/SVD>
@@ -77,13 +79,14 @@ Mat3 random_rotation(std::uint64_t seed, std::uint64_t id, std::uint64_t first_d
   const double u = uniform(seed, id, first_draw), v = 2 * M_PI * uniform(seed, id, first_draw + 1),
                w = 2 * M_PI * uniform(seed, id, first_draw + 2);
   const double a = std::sqrt(1 - u), b = std::sqrt(u);
-  return Eigen::Quaterniond(b * std::cos(w), a * std::sin(v), a * std::cos(v), b * std::sin(w))
+  return Eigen::Quaterniond(b * portable::cos(w), a * portable::sin(v), a * portable::cos(v),
+                            b * portable::sin(w))
       .normalized()
       .toRotationMatrix();
 }
 
 Mat3 turned(const Mat3& rotation, const Vec3& by) {
-  return by.norm() > 0 ? Mat3(Eigen::AngleAxisd(by.norm(), by.normalized()).toRotationMatrix() * rotation)
+  return by.norm() > 0 ? Mat3(rotation_about(by.normalized(), by.norm()).toRotationMatrix() * rotation)
                        : rotation;
 }
 

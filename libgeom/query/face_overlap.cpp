@@ -2,6 +2,7 @@
 // against each edge of the other fan is decided once, and every pair of triangles reads its corners off that
 // table. Neighbouring pairs therefore agree on the points between them, and slivers cannot tear the tiling.
 #include "libgeom/query/face_overlap.hpp"
+#include "libgeom/core/portable.hpp"
 #include "libgeom/query/flat_fan.hpp"
 
 #include <Eigen/LU>
@@ -208,7 +209,7 @@ private:
     order.clear();
     for (int c : corners_) {
       const Point d = candidates_[c].p - middle;
-      order.emplace_back(std::atan2(d.y(), d.x()), c);
+      order.emplace_back(portable::atan2(d.y(), d.x()), c);
     }
     std::sort(order.begin(), order.end());
     double area = 0, perimeter = 0;

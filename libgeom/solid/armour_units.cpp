@@ -2,6 +2,7 @@
 
 #include "libgeom/core/check.hpp"
 #include "libgeom/core/error.hpp"
+#include "libgeom/core/portable.hpp"
 
 #include <array>
 #include <cmath>
@@ -136,8 +137,8 @@ Solid tetrapod(double height, const TetrapodShape& shape) {
   part.vertices = {centre};
   for (int i = 0; i < 3; ++i) {
     const double turn = 2 * M_PI * i / 3;
-    part.vertices.push_back(centre +
-                            5 * length * Vec3(-cosine * std::cos(turn), -cosine * std::sin(turn), sine));
+    part.vertices.push_back(
+        centre + 5 * length * Vec3(-cosine * portable::cos(turn), -cosine * portable::sin(turn), sine));
   }
   part.faces = {{{0, 2, 1}}, {{0, 3, 2}}, {{0, 1, 3}}, {{1, 2, 3}}};
   const Solid leg = common(cone(centre, {0, 0, length}, at_centre, tip), make_solid(part));
@@ -145,7 +146,7 @@ Solid tetrapod(double height, const TetrapodShape& shape) {
   for (int i = 0; i < 3; ++i) {
     const double turn = 2 * M_PI * i / 3;
     // About the bisector of up and the leg, which leaves the other two in place.
-    const Vec3 lower(cosine * std::cos(turn), cosine * std::sin(turn), -sine);
+    const Vec3 lower(cosine * portable::cos(turn), cosine * portable::sin(turn), -sine);
     legs.push_back(rotated(leg, lower + Vec3::UnitZ(), M_PI, centre));
   }
   return sized(united(legs), height);
@@ -171,7 +172,7 @@ Solid antifer(double height, const AntiferShape& shape) {
     return sized(smooth, height);
   std::vector<Solid> grooves;
   for (int side = 0; side < 4; ++side) {
-    const Vec3 outward(std::cos(0.5 * M_PI * side), std::sin(0.5 * M_PI * side), 0);
+    const Vec3 outward(portable::cos(0.5 * M_PI * side), portable::sin(0.5 * M_PI * side), 0);
     const Vec3 from = low * outward - 0.5 * H * Vec3::UnitZ(), to = high * outward + 0.5 * H * Vec3::UnitZ();
     const Vec3 over = 0.5 * (to - from); // beyond both ends, so that they come out level with the faces
     grooves.push_back(cylinder(from - over, to - from + 2 * over, shape.groove * H));

@@ -224,6 +224,14 @@ local cdem = {}
 ---@field total number J: sum of all but external
 ---@field balance_error number |total - external| over external_peak
 
+---Volume that two blocks occupy at once, as they stand now.
+---@class (exact) cdem.Overlap
+---@field volume number m3: of all pairs of blocks
+---@field pairs integer
+---@field largest number m3: of one pair
+---@field place number[] m: of that pair
+---@field blocks? string[] names of that pair; nil where nothing overlaps
+
 ---A block of a model.
 ---@class (exact) cdem.BlockState
 ---@field id integer
@@ -854,6 +862,10 @@ function Model:fields() end
 ---Energy ledger.
 ---@return cdem.Energy
 function Model:energy() end
+
+---How far contacts let blocks into each other, as a volume.
+---@return cdem.Overlap
+function Model:overlap() end
 
 ---One table per block.
 ---@return cdem.BlockState[]

@@ -109,3 +109,14 @@ TEST_CASE("a file that is no .vtu of ours is refused") {
     CHECK(lines_of(outcome.err).size() == 1);
   }
 }
+
+TEST_CASE("an instruction set that is none, or that the processor lacks, ends with 2 and one line") {
+  Start start;
+  start.environment = {"CDEM_INSTRUCTION_SET=mmx"};
+  const Outcome outcome = run_cdem({"info"}, start);
+  CHECK(outcome.exit_code == 2);
+  CHECK_THAT(outcome.err, Contains("CDEM_INSTRUCTION_SET = mmx: must be baseline, avx2 or avx512"));
+  CHECK(lines_of(outcome.err).size() == 1);
+  start.environment = {"CDEM_INSTRUCTION_SET=baseline"};
+  CHECK_THAT(run_cdem({"info"}, start).out, Contains("baseline unless"));
+}

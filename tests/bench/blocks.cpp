@@ -75,10 +75,12 @@ void blocks(const Settings& settings) {
       if (used < threads)
         continue; // the solver would not share so small a model
       const double kernel = kernel_rate(model, state, used, 0.5 * settings.seconds) * n_tets;
-      const double steps = step_rate(model, used, settings.seconds);
+      std::string times;
+      const double steps = step_rate(model, used, settings.seconds, &times);
       std::printf("%8.0f %9.0f %9.0f %7d | %8.3f %8.2f %8.2f | %9.2f %7.2f | %11.0f\n", n_blocks, n_tets,
                   n_bonds, threads, steps * n_blocks / 1e6, steps * n_tets / 1e6, steps * n_bonds / 1e6,
                   kernel / 1e6, steps * n_tets / kernel, bytes / n_blocks);
+      std::printf("%8s %s\n", "", times.c_str());
       std::fflush(stdout);
     }
   }

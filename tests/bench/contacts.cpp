@@ -1,7 +1,7 @@
 // Cubes of six tets a cell in a lattice, each pressed a little into its neighbours and turned a little: what a search and a
 // step of contact cost, beside the step of the tets. Every cube has its own nodes; nothing holds it.
+#include "libcdem/contact/broad_phase/search.hpp"
 #include "libcdem/contact/contact_forces.hpp"
-#include "libcdem/contact/search.hpp"
 #include "libcdem/model/build/build_model.hpp"
 #include "libcdem/step/workspace.hpp"
 #include "libgeom/core/random.hpp"

@@ -26,7 +26,7 @@ double Stopwatch::now() const {
   return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
 }
 
-double step_rate(const Model& model, int threads, double at_least) {
+double step_rate(const Model& model, int threads, double at_least, std::string* times) {
   State state = initial_state(model), last_good;
   for (std::size_t i = 0; i < state.velocity.size(); ++i)
     state.velocity[i].x = 1e-3 * std::sin(static_cast<double>(i));
@@ -37,7 +37,10 @@ double step_rate(const Model& model, int threads, double at_least) {
     void progress(const Progress& p) override {
       if (seconds < 0 && p.step == 1)
         seconds = watch->seconds();
+      if (p.last)
+        times = p.times;
     }
+    std::string times;
   };
   return rate(at_least, [&](std::int64_t n) {
     RunLog log;
@@ -51,6 +54,8 @@ double step_rate(const Model& model, int threads, double at_least) {
         n + 1; // once: what callbacks read has to be brought to one moment, a kernel's work
     options.callback = [&] { last = watch.seconds(); };
     run({model, state, none, log, last_good, first, threads, 1}, options);
+    if (times)
+      *times = first.times;
     return last - first.seconds;
   });
 }

@@ -31,7 +31,7 @@ double rate(double at_least, const Repeat& repeat) {
 }
 
 // Steps per second of `run`, breaking on, with velocities far below what breaks a bond. From the first step to the
-// last: what a stage does once, at its start and end, is left out.
-double step_rate(const cdem::Model&, int threads, double at_least);
+// last: what a stage does once, at its start and end, is left out. times: where that time went, by lines of the step.
+double step_rate(const cdem::Model&, int threads, double at_least, std::string* times = nullptr);
 
 } // namespace bench

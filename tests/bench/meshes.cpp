@@ -99,14 +99,16 @@ void meshes(const Settings& settings) {
         if (useful_threads(model, threads) < threads)
           continue; // the solver would not share so small a model
         double kernel = 0, steps = 0, copy = 0;
+        std::string times;
         for (int round = 0; round < rounds; ++round) {
           copy = std::max(copy, copy_rate(threads));
           kernel = std::max(kernel, kernel_rate(model, threads, 0.5 * settings.seconds / rounds));
-          steps = std::max(steps, step_rate(model, threads, settings.seconds / rounds));
+          steps = std::max(steps, step_rate(model, threads, settings.seconds / rounds, &times));
         }
         std::printf("%10s %8.0f %7d | %7.2f %7.2f %8.2f | %6.1f %6.2f | %7.2f | %9.0f\n",
                     bonded ? "bonded" : "continuous", n, threads, steps * n / 1e6, kernel * n / 1e6,
                     steps / kernel, steps * moved / 1e9, steps * moved / copy, steps * flops / 1e9, held / n);
+        std::printf("%10s %s\n", "", times.c_str());
         std::fflush(stdout);
       }
     }

@@ -1,7 +1,7 @@
 // Boxes that touch, and what is measured of them.
 #pragma once
 
-#include "libcdem/contact/acting.hpp"
+#include "libcdem/contact/response/contact_point.hpp"
 #include "libgeom/mesh/box_mesh.hpp"
 #include "tests/libcdem/system.hpp"
 
@@ -41,7 +41,7 @@ inline geom::Vec3 centroid(const System& s, int block) {
 }
 
 inline double normal_force(const System& s, const cdem::Contact& c) { // N
-  return cdem::law_of(s.model, c).kn * c.pressed();
+  return cdem::law_of(s.model, c).kn * c.effective_penetration();
 }
 
 } // namespace testing

@@ -8,7 +8,7 @@
 namespace testing {
 
 // Saves at the given look and, when told to, stops there.
-struct Saver final : cdem::Keeper {
+struct Saver final : cdem::CheckpointWriter {
   cdem::Simulation* simulation = nullptr;
   int look = 0, save_at = 0;
   std::string saved;
@@ -56,7 +56,7 @@ void check_going_on(const Build& build, const Solve& solve,
       Saver saver;
       saver.simulation = &left;
       (stop ? observer->stop_at : saver.save_at) = look;
-      left.set_keeper(&saver);
+      left.set_checkpoint_writer(&saver);
       if (stop)
         REQUIRE_THROWS_AS(solve(left, 0), cdem::Interrupted);
       else

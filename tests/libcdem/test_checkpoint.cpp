@@ -147,7 +147,7 @@ TEST_CASE("checkpoint: a stage that goes on tells the time of all its steps", "[
   Saver saver;
   cdem::Simulation left = plate(1, stopped);
   saver.simulation = &left;
-  left.set_keeper(&saver);
+  left.set_checkpoint_writer(&saver);
   REQUIRE_THROWS_AS(run(left), cdem::Interrupted);
   REQUIRE(stopped->first > 0);
   cdem::Simulation next = plate(1, goes_on);
@@ -192,7 +192,7 @@ TEST_CASE("checkpoint: after cutting, the cut model goes on to the same bits", "
   cdem::Simulation left = plate(1, observer);
   Saver saver;
   saver.simulation = &left;
-  left.set_keeper(&saver);
+  left.set_checkpoint_writer(&saver);
   REQUIRE_THROWS_AS(solve(left, 0), cdem::Interrupted);
   REQUIRE(left.stage() == 3);
   cdem::Simulation next = plate(2);

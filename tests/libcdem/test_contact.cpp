@@ -180,12 +180,12 @@ TEST_CASE("contact: the same bits for every number of threads, and however often
     options.callback_every = 100;
     bool touched = false;
     options.callback = [&] { touched = touched || !s.state.contacts.empty(); };
-    std::optional<cdem::Moment> moment; // where a stage can be left
+    std::optional<cdem::RestartPoint> restart_point; // where a stage can be left
     cdem::run({s.model, s.state, s.conditions, s.log, s.last_good, s.observer, s.threads, 1, nullptr,
-               anew_every_200_steps ? &moment : nullptr},
+               anew_every_200_steps ? &restart_point : nullptr},
               options);
     CHECK(touched);
-    CHECK(moment.has_value() == anew_every_200_steps);
+    CHECK(restart_point.has_value() == anew_every_200_steps);
     return cdem::hash(s.state);
   };
   const auto once = hash_with(1, false);
@@ -211,7 +211,7 @@ TEST_CASE("contact: a body that was put elsewhere between two stages meets what 
   double deepest = 0;
   for (const cdem::Contact& c : s.state.contacts) {
     deepest = std::max(deepest, c.depth);
-    CHECK(c.pressed() == 0); // it was found that deep
+    CHECK(c.effective_penetration() == 0); // it was found that deep
   }
   CHECK(deepest == Approx(depth));
 }
@@ -334,7 +334,7 @@ TEST_CASE("contact: the pieces of a broken body meet, and nothing blows up", "[c
   options.callback = [&] {
     for (const cdem::Contact& c : s.state.contacts) {
       const auto [a, b] = cdem::blocks_of(s.model, c);
-      pieces_met = pieces_met || (a == 1 && b == 1 && c.pressed() > 0);
+      pieces_met = pieces_met || (a == 1 && b == 1 && c.effective_penetration() > 0);
     }
   };
   s.run(options);

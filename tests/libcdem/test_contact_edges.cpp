@@ -131,7 +131,7 @@ TEST_CASE("contact: an edge pressed on a bent one carries on over its nodes, ben
     int edges = 0;
     for (const cdem::Contact& c : s.state.contacts) {
       force += normal_force(s, c);
-      latest = std::max(latest, c.start);
+      latest = std::max(latest, c.reference_penetration);
       edges += c.kind == cdem::Contact::edge ? 1 : 0;
     }
     not_one += edges == 1 ? 0 : 1;
@@ -206,7 +206,7 @@ TEST_CASE("contact: an edge across a corner of an outline presses on both sides 
   for (const cdem::Contact& c : s.state.contacts) {
     CHECK(c.kind == cdem::Contact::edge);
     CHECK(c.depth == Approx(d).epsilon(0.01));
-    CHECK(c.start == 0);
+    CHECK(c.reference_penetration == 0);
   }
 }
 
@@ -300,7 +300,7 @@ TEST_CASE("contact: a bar that lies flat across another rests on the crossings o
     for (const cdem::Contact& c : s.state.contacts) {
       CHECK(c.kind == cdem::Contact::edge);
       sum += normal_force(s, c) * std::abs(c.normal.z());
-      late = std::max(late, c.start);
+      late = std::max(late, c.reference_penetration);
     }
     least = std::min(least, sum);
     most = std::max(most, sum);

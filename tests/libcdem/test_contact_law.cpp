@@ -1,5 +1,5 @@
 // The law of one contact: numbers in, numbers out.
-#include "libcdem/contact/contact_law.hpp"
+#include "libcdem/contact/response/contact_law.hpp"
 
 #include "tests/libcdem/system.hpp"
 
@@ -32,21 +32,21 @@ Contact pressed(double depth) {
 } // namespace
 
 TEST_CASE("contact law: kn d presses, nothing pulls", "[contact][law]") {
-  CHECK(pressed(1e-4).pressed() == Approx(1e-4));
+  CHECK(pressed(1e-4).effective_penetration() == Approx(1e-4));
   Contact c = pressed(1e-4);
   advance(c, law, motion(-1e-5));
-  CHECK(c.pressed() == 0);
+  CHECK(c.effective_penetration() == 0);
 }
 
 TEST_CASE("contact law: it sticks by ks and slips at tan(phi), and friction takes what the slip costs",
           "[contact][law]") {
   Contact c = pressed(1e-4); // may carry 5 kN
-  CHECK(advance(c, law, motion(1e-4, {4e-5, 0, 0})) == 0);
+  CHECK(advance(c, law, motion(1e-4, {4e-5, 0, 0})).friction == 0);
   CHECK(c.shear.x() == Approx(-2e3));
   // 2 kN to 5 kN over 60 micrometres, then 40 more at 5 kN.
   double taken = 0;
   for (int i = 0; i < 1000; ++i)
-    taken += advance(c, law, motion(1e-4, {1e-7, 0, 0}));
+    taken += advance(c, law, motion(1e-4, {1e-7, 0, 0})).friction;
   CHECK(c.shear.x() == Approx(-5e3));
   CHECK(taken == Approx(5e3 * 4e-5).epsilon(1e-3));
 }
@@ -57,7 +57,7 @@ TEST_CASE("contact law: unloading a slipping contact gives back what its shear s
   advance(c, law, motion(1e-4, {1e-4, 0, 0})); // at its limit, 5 kN
   CHECK(c.shear.norm() == Approx(5e3));
   const double stored = 0.5 * 5e3 * 5e3 / law.ks;
-  CHECK(advance(c, law, motion(-1e-6)) == Approx(stored));
+  CHECK(advance(c, law, motion(-1e-6)).friction == Approx(stored));
   CHECK(c.shear.norm() == 0);
 }
 
@@ -78,19 +78,19 @@ TEST_CASE("contact law: shear turns with the normal and keeps its size", "[conta
 
 TEST_CASE("contact law: an overlap that was found starts without force, one that was entered does not",
           "[contact][law]") {
-  CHECK(start_depth(motion(1e-4)) == 1e-4);
-  CHECK(start_depth(motion(1e-4, {0, 0, -1e-4})) == 0); // it came that far in this step
+  CHECK(first_reference_penetration(motion(1e-4)) == 1e-4);
+  CHECK(first_reference_penetration(motion(1e-4, {0, 0, -1e-4})) == 0); // it came that far in this step
   Contact c;
   c.normal = Vec3::UnitZ();
-  c.start = 1e-4;
+  c.reference_penetration = 1e-4;
   advance(c, law, motion(1e-4));
-  CHECK(c.pressed() == 0);
+  CHECK(c.effective_penetration() == 0);
   advance(c, law, motion(1.5e-4));
-  CHECK(c.pressed() == Approx(5e-5));
+  CHECK(c.effective_penetration() == Approx(5e-5));
   advance(c, law, motion(2e-5)); // it backs out and comes again: now from there
-  CHECK(c.pressed() == 0);
+  CHECK(c.effective_penetration() == 0);
   advance(c, law, motion(1e-4));
-  CHECK(c.pressed() == Approx(8e-5));
+  CHECK(c.effective_penetration() == Approx(8e-5));
 }
 
 TEST_CASE("contact law: what is stored under a face is lost where another is suddenly nearer",
@@ -98,9 +98,45 @@ TEST_CASE("contact law: what is stored under a face is lost where another is sud
   const Contact c = pressed(3e-4);
   const Vec3 deeper(0, 0, -1e-5); // in the step
   // The other face was as near before the step: nothing jumps.
-  CHECK(jump_loss(c, law, motion(3.1e-4, deeper)) == Approx(0).margin(1e-9));
-  CHECK(jump_loss(c, law, motion(4e-4, deeper)) == 0);
+  CHECK(target_change_loss(c, law, motion(3.1e-4, deeper)) == Approx(0).margin(1e-9));
+  CHECK(target_change_loss(c, law, motion(4e-4, deeper)) == 0);
   // It was at 2e-4, or this side of it.
-  CHECK(jump_loss(c, law, motion(2.1e-4, deeper)) == Approx(0.5 * law.kn * (9e-8 - 4e-8)));
-  CHECK(jump_loss(c, law, motion(-1e-4, deeper)) == Approx(0.5 * law.kn * 9e-8));
+  CHECK(target_change_loss(c, law, motion(2.1e-4, deeper)) == Approx(0.5 * law.kn * (9e-8 - 4e-8)));
+  CHECK(target_change_loss(c, law, motion(-1e-4, deeper)) == Approx(0.5 * law.kn * 9e-8));
+}
+
+TEST_CASE(
+    "contact law: work of the shear force is what is stored and what friction takes, however the slip turns",
+    "[contact][law]") {
+  Contact c = pressed(1e-4);
+  double work = 0, taken = 0;
+  int slips = 0;
+  for (int i = 0; i < 200; ++i) {
+    const double phase = 0.3 * i;
+    const ContactMotion m = motion(1e-4 * (1.1 + std::sin(1.7 * phase)),
+                                   {8e-5 * std::cos(phase), 5e-5 * std::sin(2.3 * phase), 0});
+    const Vec3 before = c.shear;
+    const double lost = advance(c, law, m).friction;
+    work -= 0.5 * (before + c.shear).dot(m.slid);
+    taken += lost;
+    slips += lost > 0 ? 1 : 0;
+  }
+  CHECK(slips > 100);
+  CHECK(work == Approx(taken + 0.5 * c.shear.squaredNorm() / law.ks).epsilon(1e-12));
+}
+
+TEST_CASE("contact law: one that opens gives back what its normal spring stored, one that goes round an edge "
+          "does not",
+          "[contact][law]") {
+  Contact c = pressed(1e-4);
+  CHECK(end_loss(c, law, {0, 0, 1.2e-4}) == 0); // opened within the step
+  const double stored = 0.5 * law.kn * 1e-8;
+  CHECK(end_loss(c, law, {1e-3, 0, 0}) == Approx(stored)); // off sideways
+  // Half way out: the force has worked along half of its depth.
+  CHECK(end_loss(c, law, {0, 0, 5e-5}) == Approx(0.5 * stored));
+  // Shear: what was stored less the work of its force.
+  advance(c, law, motion(1e-4, {4e-5, 0, 0}));
+  const double shear = 2e3;
+  CHECK(end_loss(c, law, {0, 0, 1.2e-4}) == Approx(0.5 * shear * shear / law.ks));
+  CHECK(end_loss(c, law, {-1e-5, 0, 1.2e-4}) == Approx(0.5 * shear * shear / law.ks - 0.5 * shear * 1e-5));
 }

@@ -29,7 +29,7 @@ TEST_CASE("finite volume: a free bonded body keeps its momentum over 1e5 steps",
   };
   cdem::RunOptions options;
   options.breaking = breaking;
-  options.follows_pieces = false; // momentum is kept however wrong the contact of the pieces is
+  options.follows_fragments = false; // momentum is kept however wrong the contact of the pieces is
   options.steps = 20000;
   s.run(options);
   CHECK((s.log.broken_tension + s.log.broken_shear > 0) == breaking);

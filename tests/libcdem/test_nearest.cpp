@@ -1,6 +1,6 @@
 // Whether a place is inside a surface, told by the triangles that hold its nearest place: at sharp corners and where
 // bonds part the edges of tets.
-#include "libcdem/contact/nearest.hpp"
+#include "libcdem/contact/geometry/nearest.hpp"
 
 #include "libgeom/core/random.hpp"
 

@@ -8,8 +8,8 @@ using geom::Vec3;
 
 namespace {
 
-// Cubes over a rigid floor, one of them turned.
-cdem::Simulation dropped(int threads, std::shared_ptr<cdem::Observer> observer) {
+// Cubes over a rigid floor, one of them turned, at this x.
+cdem::Simulation dropped_at(double x, int threads, std::shared_ptr<cdem::Observer> observer) {
   const double side = 0.5;
   const auto cube = [&](const Vec3& centre, double turn) {
     geom::TetMesh mesh = geom::box_mesh(Vec3::Constant(side), {2, 2, 2});
@@ -20,8 +20,12 @@ cdem::Simulation dropped(int threads, std::shared_ptr<cdem::Observer> observer) 
   cdem::Elastic soft = rock(); // large steps
   soft.youngs_modulus = 2e8;
   return units_over_floor(geom::box_mesh({2, 1, 0.5}, {4, 2, 1}),
-                          {cube({0.6, 0.5, 0.5 + 0.25 + 0.05}, 0), cube({1.4, 0.5, 0.5 + 0.4}, 20 * degree)},
+                          {cube({0.6, 0.5, 0.5 + 0.25 + 0.05}, 0), cube({x, 0.5, 0.5 + 0.4}, 20 * degree)},
                           soft, threads, std::move(observer));
+}
+
+cdem::Simulation dropped(int threads, std::shared_ptr<cdem::Observer> observer) {
+  return dropped_at(1.4, threads, std::move(observer));
 }
 
 Figures settle(cdem::Simulation& s, bool rigid, double max_time) {
@@ -122,6 +126,25 @@ TEST_CASE("resume: settling of units that deform from the start goes on in its f
   check_going_on(dropped, solve, places(dropped, solve, {0.5, 0.95}));
 }
 
+TEST_CASE("resume: settling goes on where one unit has left the model, and tells of it once",
+          "[checkpoint]") {
+  const auto beside_the_floor = [](int threads, std::shared_ptr<cdem::Observer> observer) {
+    return dropped_at(2.5, threads, std::move(observer));
+  };
+  const auto solve = [](cdem::Simulation& s, int) {
+    Figures figures = settle(s, true, 5);
+    REQUIRE(s.escapes().size() == 1);
+    figures.push_back(static_cast<double>(s.escapes()[0].step));
+    return figures;
+  };
+  cdem::Simulation probe = beside_the_floor(1, nullptr);
+  const Figures whole = solve(probe, 0);
+  CHECK(whole[0] == 1);             // converged
+  REQUIRE(whole.back() < whole[6]); // it left in the rigid phase
+  const double part = whole.back() / (whole[6] + whole[9]);
+  check_going_on(beside_the_floor, solve, places(beside_the_floor, solve, {0.5 * part, part + 0.01, 0.99}));
+}
+
 TEST_CASE("resume: a search for the critical flow goes on in each of its parts", "[checkpoint]") {
   const bool hold = GENERATE(true, false), heavy = hold;
   const auto build = [&](int threads, std::shared_ptr<cdem::Observer> observer) {
@@ -147,7 +170,7 @@ TEST_CASE("resume: a stage that was left can be left again where its next loop b
     cdem::Simulation s = dropped(1, observer);
     Saver saver;
     saver.simulation = &s;
-    s.set_keeper(&saver);
+    s.set_checkpoint_writer(&saver);
     if (!saved.empty())
       s.restore(saved);
     Figures these;

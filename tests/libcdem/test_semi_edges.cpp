@@ -1,7 +1,7 @@
 // Semi-edges that broken faces bring: those of the pieces, as if they had never been one.
-#include "libcdem/contact/search.hpp"
-#include "libcdem/contact/semi_edges.hpp"
-#include "libcdem/contact/taking_part.hpp"
+#include "libcdem/contact/broad_phase/active_surface.hpp"
+#include "libcdem/contact/broad_phase/search.hpp"
+#include "libcdem/contact/geometry/semi_edges.hpp"
 #include "libgeom/mesh/box_mesh.hpp"
 #include "tests/libcdem/system.hpp"
 
@@ -134,7 +134,7 @@ using Segment = std::array<double, 6>; // ends in order, m, to a micrometre
 std::vector<Segment> edges_of(const System& s) {
   cdem::ContactWork work;
   cdem::start_contact(s.model, work);
-  cdem::find_pieces(s.model, s.state, work);
+  cdem::find_fragments(s.model, s.state, work);
   cdem::find_semi_edges(s.model, s.state, work);
   CHECK(std::is_sorted(work.edges.begin(), work.edges.end(),
                        [](const auto& a, const auto& b) { return a.id() < b.id(); }));

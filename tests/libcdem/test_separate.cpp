@@ -1,7 +1,7 @@
 // Blocks may touch but not overlap.
 #include "tests/libcdem/system.hpp"
 
-#include "libcdem/contact/separate.hpp"
+#include "libcdem/contact/initial/separate.hpp"
 #include "libgeom/assembly/builders.hpp"
 #include "libgeom/assembly/edit.hpp"
 #include "libgeom/core/error.hpp"

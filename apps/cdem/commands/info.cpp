@@ -5,6 +5,7 @@
 #include "apps/cdem/records.hpp"
 #include "apps/cdem/run_log.hpp"
 #include "apps/cdem/text.hpp"
+#include "libcdem/parallel/instruction_set.hpp"
 #include "libcdem/vtk/files.hpp"
 
 #include <algorithm>
@@ -51,6 +52,7 @@ void about_program() {
               {"build", build_text()},
               {"program", program_path().string()},
               {"processor", processor()},
+              {"instruction set", name(instruction_set()) + " unless CDEM_INSTRUCTION_SET says otherwise"},
               {"threads", std::to_string(cores) + " unless --threads says otherwise"}});
   std::printf("\nexit codes\n%s", exit_code_table().c_str());
 }

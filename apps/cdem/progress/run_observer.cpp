@@ -84,10 +84,13 @@ void RunObserver::end_stage(const Progress& progress) {
   stage_ = no_stage;
   broken_tension_ += progress.broken_tension;
   broken_shear_ += progress.broken_shear;
-  if (progress.stage > 0)
+  if (progress.stage > 0) {
     message(line);
-  else
+    if (folder_ != nullptr && !progress.times.empty())
+      folder_->log("  time of the steps: " + progress.times);
+  } else {
     clear_line(); // a sweep of the script or a layer laid: these tell themselves how they ended
+  }
 }
 
 void RunObserver::message(const std::string& text) {

@@ -4,20 +4,31 @@
 #include "libgeom/mesh/boundary.hpp"
 #include "libgeom/mesh/order.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <numeric>
 
 namespace cdem {
 namespace {
 
-// Tets of a chunk: their nodes and forces stay in the first cache, and 10k of them make twenty pieces.
-constexpr int tets_per_chunk = 512;
+// Tets of a chunk, and the most of them: nodes and forces of the first stay in the first cache where every tet has nodes
+// of its own, those of the second where nodes are shared. The larger a chunk, the fewer nodes are touched by several.
+constexpr int tets_per_chunk = 512, most_tets_per_chunk = 2048;
+// Below the most, a mesh makes so many chunks, which threads share among them.
+constexpr int chunks_per_mesh = 64;
 
 // A mesh whose nodes are split along its bonded faces, in its own numbers.
 struct SplitMesh {
   std::vector<geom::Tet> tets; // over copies of nodes, numbered by first touch
   std::vector<int> original;   // per copy: node of the mesh
 };
+
+int chunk_size(const SplitMesh& split) {
+  const auto tets = static_cast<int>(split.tets.size());
+  if (split.original.size() > split.tets.size())
+    return tets_per_chunk;
+  return std::clamp(tets / chunks_per_mesh / lanes * lanes, tets_per_chunk, most_tets_per_chunk);
+}
 
 SplitMesh split_nodes(const geom::TetMesh& mesh, const std::vector<geom::InnerFace>& inner,
                       const Bonding& bonding) {
@@ -109,12 +120,13 @@ std::vector<BondedFace> bonded_faces(const geom::TetMesh& mesh, const std::vecto
 }
 
 // Numbers the copies anew, chunk by chunk: first those that no other chunk touches. Returns for each chunk how many.
-std::vector<std::int64_t> inner_first(SplitMesh& split, const std::vector<BondedFace>& faces) {
+std::vector<std::int64_t> inner_first(SplitMesh& split, const std::vector<BondedFace>& faces,
+                                      int chunk_tets) {
   const std::size_t nodes = split.original.size();
   std::vector<int> owner(nodes, -1);
   std::vector<char> shared(nodes, 0);
   const auto touch = [&](int node, int tet) {
-    const int chunk = tet / tets_per_chunk;
+    const int chunk = tet / chunk_tets;
     if (owner[node] < 0)
       owner[node] = chunk;
     shared[node] |= static_cast<char>(owner[node] != chunk);
@@ -131,7 +143,7 @@ std::vector<std::int64_t> inner_first(SplitMesh& split, const std::vector<Bonded
   std::stable_sort(order.begin(), order.end(), [&](int a, int b) {
     return owner[a] != owner[b] ? owner[a] < owner[b] : shared[a] < shared[b];
   });
-  std::vector<std::int64_t> inner((split.tets.size() + tets_per_chunk - 1) / tets_per_chunk);
+  std::vector<std::int64_t> inner((split.tets.size() + chunk_tets - 1) / chunk_tets);
   for (std::size_t i = 0; i < nodes; ++i) {
     number[order[i]] = static_cast<int>(i);
     original[i] = split.original[order[i]];
@@ -237,18 +249,18 @@ void add_boundary(Model& model, const std::vector<geom::OuterFace>& outer, int b
 }
 
 void add_chunks(Model& model, const std::vector<BondedFace>& faces, const std::vector<std::int64_t>& inner,
-                int block, Places& places) {
+                int chunk_tets, int block, Places& places) {
   MeshData& data = model.mesh;
   const Block& b = model.blocks[block];
   std::size_t face = 0;
   int node = b.node_begin;
-  for (int begin = b.tet_begin; begin < b.tet_end; begin += tets_per_chunk) {
+  for (int begin = b.tet_begin; begin < b.tet_end; begin += chunk_tets) {
     MeshChunk chunk;
     chunk.block = block;
     chunk.blocks = {block, block + 1};
-    chunk.tets = {begin, std::min(b.tet_end, begin + tets_per_chunk)};
+    chunk.tets = {begin, std::min(b.tet_end, begin + chunk_tets)};
     chunk.nodes = {node, nodes_end(model.tets, chunk.tets, node)};
-    chunk.inner_end = chunk.nodes.begin + inner[(begin - b.tet_begin) / tets_per_chunk];
+    chunk.inner_end = chunk.nodes.begin + inner[(begin - b.tet_begin) / chunk_tets];
     node = static_cast<int>(chunk.nodes.end);
     places.start(chunk.nodes);
     chunk.batches.begin = static_cast<std::int64_t>(data.batches.size());
@@ -380,7 +392,8 @@ void add_meshes(Model& model, std::vector<MeshSeed>&& seeds) {
     const Body& body = model.bodies[seed.body];
     const std::vector<BondedFace> bonded = bonded_faces(mesh, inner, body);
     SplitMesh split = split_nodes(mesh, inner, body.bonding);
-    const std::vector<std::int64_t> inner_nodes = inner_first(split, bonded);
+    const int chunk_tets = chunk_size(split);
+    const std::vector<std::int64_t> inner_nodes = inner_first(split, bonded, chunk_tets);
 
     const int index = static_cast<int>(model.blocks.size());
     Block block;
@@ -400,7 +413,7 @@ void add_meshes(Model& model, std::vector<MeshSeed>&& seeds) {
         model.mesh.named[{seed.body, name}].push_back(static_cast<int>(model.mesh.boundary.size()) + face);
     add_boundary(model, geom::outer_faces(mesh), index);
     Places places(model.node_position.size());
-    add_chunks(model, bonded, inner_nodes, index, places);
+    add_chunks(model, bonded, inner_nodes, chunk_tets, index, places);
   }
   add_shares(model);
 }

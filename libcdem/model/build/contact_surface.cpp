@@ -1,4 +1,5 @@
 #include "libcdem/model/build/contact_surface.hpp"
+#include "libgeom/core/portable.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -138,7 +139,7 @@ std::optional<ContactEdge> convex_edge(const Model& model, int triangle_a, int c
   const geom::Triangle &n = s.triangles[triangle_a].nodes, &m = s.triangles[triangle_b].nodes;
   const geom::Vec3 u = area_vector(model, n).normalized(), v = area_vector(model, m).normalized();
   const geom::Vec3 away = model.node_position[m[(corner_b + 2) % 3]] - model.node_position[n[corner_a]];
-  if (away.dot(u) >= 0 || std::acos(std::clamp(u.dot(v), -1.0, 1.0)) < least_edge_turn)
+  if (away.dot(u) >= 0 || geom::portable::acos(std::clamp(u.dot(v), -1.0, 1.0)) < least_edge_turn)
     return std::nullopt;
   return edge_between(s, triangle_a, corner_a, triangle_b, corner_b);
 }

@@ -2,6 +2,7 @@
 
 #include "libcdem/joint/joint.hpp"
 #include "libgeom/core/error.hpp"
+#include "libgeom/core/portable.hpp"
 
 #include <cmath>
 #include <fmt/format.h>
@@ -46,7 +47,7 @@ void validate_softening(const Joint& j) {
           "a finite number > 0 Pa with softening", "without strength there is nothing to soften");
   // Beyond the cone's tip pure tension would break the bond in shear, and G_I would not be what opening it
   // takes.
-  const double tip = j.cohesion / std::tan(j.friction_angle);
+  const double tip = j.cohesion / geom::portable::tan(j.friction_angle);
   require(j.tensile_strength <= tip * (1 + 1e-12), "tensile_strength", j.tensile_strength,
           fmt::format("at most cohesion / tan(friction_angle) = {:g} Pa with softening", tip).c_str(),
           "the tip of the Mohr-Coulomb cone");
@@ -96,6 +97,8 @@ void validate(const Joint& j) {
             "a finite number > 0 Pa/m");
   if (j.shear_stiffness)
     require(positive(*j.shear_stiffness), "shear_stiffness", *j.shear_stiffness, "a finite number > 0 Pa/m");
+  require(positive(j.restitution) && j.restitution <= 1, "restitution", j.restitution, "in (0, 1]",
+          "it is the speed after an impact over the speed before it");
   validate_softening(j);
 }
 

@@ -123,6 +123,7 @@ Value critical_flow(Session& session, ModelObject& model, const Arguments& a) {
   const std::string held = a.text_or("held", "");
   if (!held.empty())
     options.held = Selection::side(held);
+  warn_of_slivers(session, model);
   return stage(session, model, "critical_flow", a, result_of({}, {}, held), [&](Simulation& simulation) {
     const CriticalFlowResult result = simulation.critical_flow(options);
     if (result.reason == CriticalFlowResult::Reason::limit)

@@ -125,6 +125,7 @@ Value coulomb(Session& session, Object*, const Arguments& a) {
   auto object = std::make_shared<JointObject>();
   object->joint.bonded = false;
   object->joint.friction_angle = radians(a.number("friction_angle"));
+  object->joint.restitution = a.number("restitution");
   warn_of_angle(session, a, "cdem.coulomb");
   read_stiffness(a, object->joint);
   validate(object->joint);
@@ -183,6 +184,13 @@ void bind_materials(Module& m) {
     bonded.push_back(f);
     loose.push_back(f);
   }
+  loose.push_back(number("restitution")
+                      .within(0.01, 1)
+                      .standard(1.0)
+                      .doc("coefficient of restitution of the contact of bodies that move far: speed after "
+                           "over speed before an impact, "
+                           "as far as the contact and not waves within the bodies decide it; 1: the contact "
+                           "loses nothing but by friction"));
   m.functions.push_back(
       {"mohr_coulomb",
        "Bond between block faces: breaks in tension above the tensile strength and in shear "
@@ -232,7 +240,8 @@ void bind_materials(Module& m) {
       joint_property("normal_stiffness", "number?", "Pa/m",
                      [](const Joint& j) { return optional(j.normal_stiffness); }),
       joint_property("shear_stiffness", "number?", "Pa/m",
-                     [](const Joint& j) { return optional(j.shear_stiffness); })};
+                     [](const Joint& j) { return optional(j.shear_stiffness); }),
+      joint_property("restitution", "number", "", [](const Joint& j) { return Value(j.restitution); })};
   joint.text = [](const Object& self) {
     const Joint& j = static_cast<const JointObject&>(self).joint;
     return std::string(j.bonded ? "cdem.Joint (bonded, c " + number_text(j.cohesion) +

@@ -59,6 +59,14 @@ Value energy(Session&, ModelObject& model, const Arguments&) {
                {"total", e.total()},     {"balance_error", e.balance_error()}};
 }
 
+Value overlap(Session&, ModelObject& model, const Arguments&) {
+  const Overlap o = model.simulation.overlap();
+  Table table{{"volume", o.volume}, {"pairs", o.pairs}, {"largest", o.largest}, {"place", o.place}};
+  if (o.pairs > 0)
+    table.named["blocks"] = Table::list({o.largest_a, o.largest_b});
+  return table;
+}
+
 Value blocks(Session&, ModelObject& model, const Arguments&) {
   Values rows;
   for (const auto& b : model.simulation.blocks())
@@ -133,6 +141,13 @@ void bind_rows(Module& m) {
         number("total").unit("J").required().doc("sum of all but external"),
         number("balance_error").required().doc("|total - external| over external_peak")}});
   m.records.push_back(
+      {"Overlap",
+       "Volume that two blocks occupy at once, as they stand now.",
+       {number("volume").unit("m3").required().doc("of all pairs of blocks"), integer("pairs").required(),
+        number("largest").unit("m3").required().doc("of one pair"),
+        vec3("place").unit("m").required().doc("of that pair"),
+        list("blocks", text_type(), 2).doc("names of that pair; nil where nothing overlaps")}});
+  m.records.push_back(
       {"BlockState",
        "A block of a model.",
        {integer("id").required(), integer("parent").required().doc("id of the block it was cut from"),
@@ -179,6 +194,8 @@ void bind_measures(Module& m) {
       "number[]", "N, {x, y, z}", reaction);
   add("fields", "Names that max, min, mean, at and probe understand.", {}, "string[]", "", fields);
   add("energy", "Energy ledger.", {}, "cdem.Energy", "", energy);
+  add("overlap", "How far contacts let blocks into each other, as a volume.", {}, "cdem.Overlap", "",
+      overlap);
   add("blocks", "One table per block.", {}, "cdem.BlockState[]", "", blocks);
   add("breaks", "One table per broken bond, the oldest first.", {}, "cdem.Break[]", "", breaks);
   add("history",

@@ -1,5 +1,6 @@
 // cdem.model, and what a model is apart from its conditions, stages and results.
 #include "lua/binding/functions/selections.hpp"
+#include "lua/binding/functions/solving_warnings.hpp"
 #include "lua/binding/objects/model_object.hpp"
 #include "lua/binding/objects/pile_object.hpp"
 #include "lua/binding/objects/solid_objects.hpp"
@@ -175,6 +176,24 @@ std::string shown_build(const ModelObject& model) {
          shown_vec(box.max) + " m, size " + shown_vec(box.size()) + " m";
 }
 
+// Laws that hold nothing as the model stands now.
+void note_pairs_apart(Session& session, ModelObject& model, const ModelSpec& spec) {
+  const auto is_small = [&](const std::string& name) {
+    return std::any_of(spec.bodies.begin(), spec.bodies.end(), [&](const BodySpec& body) {
+      return body.name == name && body.meshes.empty() && body.element == Element::small_strain;
+    });
+  };
+  for (const auto& [a, b] : model.simulation.unmet()) {
+    const std::string what = shown_pair(a, b);
+    if (is_small(a))
+      session.warn(what +
+                   ": they share no face, and blocks of small strain meet nothing new: the law acts on "
+                   "nothing; move them together, or leave element = \"small_strain\" out");
+    else
+      model.notes->apart.push_back(what + ": no interface now; they meet only if they move");
+  }
+}
+
 Value make_model(Session& session, Object*, const Arguments& a) {
   ModelSpec spec;
   std::map<std::string, geom::Pile> piles;
@@ -191,7 +210,7 @@ Value make_model(Session& session, Object*, const Arguments& a) {
   model->unjointed = unjointed;
   model->number = static_cast<int>(session.models.size()) + 1;
   if (session.checkpoints.keeps())
-    model->simulation.set_keeper(&session.checkpoints);
+    model->simulation.set_checkpoint_writer(&session.checkpoints);
   model->simulation.set_replaying(session.checkpoints.replaying());
   model->memory = session.new_memory(Table());
   model->notes->built = shown_build(*model) + shown_parts(in_parts);
@@ -200,6 +219,7 @@ Value make_model(Session& session, Object*, const Arguments& a) {
     session.message("mesh of \"" + body + "\" in " + std::to_string(parts) + " parts: each moves by itself");
   session.models.push_back(model);
   session.notes.push_back(model->notes);
+  note_pairs_apart(session, *model, spec);
   return model;
 }
 

@@ -9,6 +9,7 @@
 
 #include "libcdem/step/errors.hpp"
 #include "libgeom/core/error.hpp"
+#include "libgeom/core/portable.hpp"
 #include "libgeom/placement/armour_layer.hpp"
 #include "libgeom/placement/drop_grid.hpp"
 
@@ -139,7 +140,7 @@ Value lay(Session& session, Object*, const Arguments& a) {
   options.attitudes = static_cast<int>(a.integer("attitudes"));
   options.nudges = static_cast<int>(a.integer("nudges"));
   options.play = a.number("play");
-  options.friction = std::tan(radians(a.number("friction_angle")));
+  options.friction = geom::portable::tan(radians(a.number("friction_angle")));
   options.walls = a.flag("walls");
   const int count = static_cast<int>(a.integer("count"));
   LayingObserver observer(session, count);

@@ -87,6 +87,7 @@ Value settle(Session& session, ModelObject& model, const Arguments& a) {
                      ": says how often callback is called; give one");
   }
   warn_if_nothing_acts(session, model, "settle");
+  warn_of_slivers(session, model);
   return stage(session, model, "settle", a, settle_result({}),
                [&](Simulation& simulation) {
                  const SettleResult result = simulation.settle(options);

@@ -84,6 +84,7 @@ Value run(Session& session, ModelObject& model, const Arguments& a) {
         throw InputError("stop() of " + stop->place(), describe(answer[0]), "true or false");
       return yes && *yes;
     };
+  warn_of_slivers(session, model);
   if (!a.has("duration") && !a.has("steps"))
     options.steps = std::numeric_limits<std::int64_t>::max(); // until stop says so
   return stage(session, model, "run", a, run_result({}),

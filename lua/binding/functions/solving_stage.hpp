@@ -1,17 +1,13 @@
 // A solving call as a numbered stage.
 #pragma once
 
+#include "lua/binding/functions/solving_warnings.hpp"
 #include "lua/binding/objects/model_object.hpp"
 #include "lua/binding/schema/schema.hpp"
 
 #include <functional>
 
 namespace cdem::script {
-
-std::string three_digits(double); // for messages
-
-// Where no load, moved support or the like acts. kind: of the stage.
-void warn_if_nothing_acts(Session&, const ModelObject&, const std::string& kind);
 
 // A stage as scripts see it: number, kind, hash, result.
 Value stage_row(const Stage&);

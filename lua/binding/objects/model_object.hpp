@@ -22,8 +22,11 @@ struct ModelObject final : Object {
   std::map<std::string, std::vector<SeriesEntry>> series; // by .pvd, in the order saved
   std::vector<std::shared_ptr<Reference>> after_stage;    // called with each stage that has ended
   std::shared_ptr<Reference> memory;                      // table model.memory
-  bool solving = false;                                   // a callback of a stage may look and not touch
-  mutable bool touched = false;                           // by the running call, which has asked require_idle
+  double told_open = 0;                                   // energy balance that the user was warned of
+  std::size_t told_escapes = 0;
+  std::string told_slivers;
+  bool solving = false;         // a callback of a stage may look and not touch
+  mutable bool touched = false; // by the running call, which has asked require_idle
 
   const char* class_name() const override { return "Model"; }
 

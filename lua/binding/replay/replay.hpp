@@ -4,7 +4,7 @@
 #include "lua/binding/replay/journal.hpp"
 #include "lua/binding/runtime/engine.hpp"
 
-#include "libcdem/step/keeper.hpp"
+#include "libcdem/step/checkpoint_writer.hpp"
 
 #include <chrono>
 #include <functional>
@@ -14,7 +14,7 @@ namespace cdem::script {
 
 struct Session;
 
-class Checkpoints final : public Keeper {
+class Checkpoints final : public CheckpointWriter {
 public:
   explicit Checkpoints(Session& session) : session_(session) {}
 

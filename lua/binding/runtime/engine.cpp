@@ -72,6 +72,9 @@ void Engine::run_file() {
   }
   in_script([&] { session.check_set_names(); });
   in_script([&] { session.checkpoints.end(); });
+  for (const auto& notes : session.notes)
+    for (const std::string& line : notes->unmet)
+      session.warn(line);
   if (!session.report.figures.empty() && session.report.warnings.size() < session.warnings.size())
     session.write_report(); // with the warnings that came after the last figure
 }
@@ -195,6 +198,8 @@ std::string Engine::model_summary() const {
   for (std::size_t i = 0; i < session.notes.size(); ++i) {
     const int number = static_cast<int>(i) + 1;
     out += "model " + std::to_string(number) + ": " + session.notes[i]->built + "\n";
+    for (const std::string& line : session.notes[i]->apart)
+      out += "  " + line + "\n";
     for (const std::string& line : session.notes[i]->conditions)
       out += "  " + line + "\n";
     for (const Stage& stage : session.stages)

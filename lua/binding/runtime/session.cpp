@@ -47,14 +47,27 @@ void Session::message(const std::string& line) const {
     std::printf("%s\n", line.c_str());
 }
 
-void Session::warn(const std::string& text) {
-  if (checkpoints.silent())
-    return; // it stands among the warnings of the checkpoint
-  const std::string place = where ? where() : std::string();
-  const std::string line = (place.empty() ? "" : place + ": ") + "warning: " + text;
-  if (std::find(warnings.begin(), warnings.end(), line) != warnings.end())
-    return;
+bool Session::take_warning(const std::string& line) {
+  // Told before, or among the warnings of the checkpoint.
+  if (checkpoints.silent() || std::find(warnings.begin(), warnings.end(), line) != warnings.end())
+    return false;
   warnings.push_back(line);
+  return true;
+}
+
+std::string Session::warning_line(const std::string& text) const {
+  const std::string place = where ? where() : std::string();
+  return (place.empty() ? "" : place + ": ") + "warning: " + text;
+}
+
+void Session::warned(const std::string& text) {
+  take_warning(warning_line(text));
+}
+
+void Session::warn(const std::string& text) {
+  const std::string line = warning_line(text);
+  if (!take_warning(line))
+    return;
   if (settings.observer)
     settings.observer->warning(line);
   else

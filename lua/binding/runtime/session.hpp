@@ -28,6 +28,8 @@ struct Stage {
 struct ModelNotes {
   std::string built;                   // bodies, blocks, tets, bonds, size
   std::vector<std::string> conditions; // one line each
+  std::vector<std::string> apart;      // contacts without an interface when the model was made, one line each
+  std::vector<std::string> unmet;      // the same that have not touched either, after the last solving call
 };
 
 struct Parameter {
@@ -60,7 +62,8 @@ struct Session {
 
   // To the observer; to standard output without one. In a check, nothing once a solving call was passed.
   void message(const std::string& line) const;
-  void warn(const std::string& text); // with the place in the script
+  void warn(const std::string& text);   // with the place in the script
+  void warned(const std::string& text); // the same of what the observer was told of already
 
   // report.json and report.md; not in a check. FileError when they cannot be written.
   void write_report();
@@ -68,6 +71,10 @@ struct Session {
   // Names given with --set that no cdem.parameter has declared: InputError naming the nearest. Called at the
   // first solving call, before hours are spent with a misspelt name, and when the script has ended.
   void check_set_names() const;
+
+private:
+  bool take_warning(const std::string& line);
+  std::string warning_line(const std::string& text) const;
 };
 
 } // namespace cdem::script

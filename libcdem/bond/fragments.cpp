@@ -1,0 +1,34 @@
+#include "libcdem/bond/fragments.hpp"
+
+#include "libgeom/core/disjoint_sets.hpp"
+
+namespace cdem {
+namespace {
+
+bool intact(std::uint8_t mode) {
+  return mode == static_cast<std::uint8_t>(BondMode::intact);
+}
+
+} // namespace
+
+std::vector<int> fragments_of_nodes(const Model& model, const State& state) {
+  geom::DisjointSets sets(model.node_position.size());
+  for (const geom::Tet& tet : model.tets)
+    for (int k = 1; k < 4; ++k)
+      sets.unite(tet[0], tet[k]);
+  for (std::size_t p = 0; p < model.points.size(); ++p)
+    if (intact(state.bond_mode[p]))
+      sets.unite(model.points[p].node_a[0], model.points[p].node_b[0]);
+  each_face_spring(model.mesh, [&](const MeshChunk& chunk, const FaceSpringPlace& at) {
+    if (!intact(state.faces[at.batch].mode[at.point][at.lane]))
+      return;
+    const FaceNodes nodes = face_nodes(model.mesh, chunk, at.batch, at.lane);
+    sets.unite(nodes.a[0], nodes.b[0]);
+  });
+  std::vector<int> pieces(model.node_position.size());
+  for (int node = 0; node < static_cast<int>(pieces.size()); ++node)
+    pieces[node] = sets.find(node);
+  return pieces;
+}
+
+} // namespace cdem

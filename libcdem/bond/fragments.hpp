@@ -1,0 +1,12 @@
+// Which nodes unbroken bonds hold together.
+#pragma once
+
+#include "libcdem/state/state.hpp"
+
+namespace cdem {
+
+// Of each node, the smallest node of its piece (n_nodes): union-find over the faces on which at least one bond is whole,
+// and over shared nodes.
+std::vector<int> fragments_of_nodes(const Model&, const State&);
+
+} // namespace cdem

@@ -1,0 +1,171 @@
+#include "libcdem/contact/broad_phase/active_surface.hpp"
+
+#include "libcdem/bond/fragments.hpp"
+#include "libcdem/contact/broad_phase/candidates.hpp"
+#include "libcdem/contact/geometry/positions.hpp"
+#include "libcdem/contact/response/contact_point.hpp"
+
+#include <algorithm>
+
+namespace cdem {
+namespace {
+
+// Of the usual height of a tet at the surface: the thinnest and the thickest skin of a block.
+constexpr double thinnest = 0.001, thickest = 0.1;
+// Steps that a block can go on at its pace before it leaves its skin, and what of the fastest block's pace the others
+// are trusted to get to.
+constexpr double steps_ahead = 250, pace_of_others = 0.25;
+// While a body shatters searches follow each other more closely than skins ask for: they need not be thicker than for
+// twice the steps between the last two.
+constexpr double least_steps_ahead = 20;
+// Searches that follow each other within fewer steps than this make skins twice as thick, those after more halve them.
+constexpr std::int64_t few_steps = 50, many_steps = 150;
+constexpr int most_doublings = 6;
+// Pairs of boxes that may be compared to find how far off the others are.
+constexpr std::size_t most_boxes_compared = 4000000;
+// Of the height of a tet: how deep a contact may get.
+constexpr double depth_ratio = 0.25;
+
+bool open(const State& state, int face) {
+  for (const auto& point : state.faces[face / lanes].mode)
+    if (point[face % lanes] == static_cast<std::uint8_t>(BondMode::intact))
+      return false;
+  return true;
+}
+
+double gap(const geom::Box& a, const geom::Box& b) {
+  return (a.min - b.max).cwiseMax(b.min - a.max).maxCoeff();
+}
+
+// m, of blocks whose pace is greater, a quarter of what parts their boxes from all others: their boxes with three skins
+// around them then meet none. 0 for the others, and for further ones when there are very many.
+std::vector<double> clearance_of_fast_bodies(const Model& model, const State& state, const ContactWork& work,
+                                             double pace) {
+  const ContactSurface& s = model.surface;
+  std::vector<double> clearance(model.blocks.size(), 0.0);
+  std::vector<int> fast;
+  for (int b = 0; b < static_cast<int>(clearance.size()); ++b)
+    if (work.pace[b] > pace)
+      fast.push_back(b);
+  fast.resize(std::min(fast.size(), most_boxes_compared / clearance.size()));
+  if (fast.empty())
+    return clearance;
+  std::vector<geom::Box> boxes(clearance.size());
+  for (const ContactTriangle& t : s.triangles)
+    for (const int node : t.nodes)
+      boxes[t.block].extend(place_of(model, state, node));
+  for (const int b : fast) {
+    double nearest = std::numeric_limits<double>::infinity();
+    for (int other = 0; other < static_cast<int>(boxes.size()); ++other)
+      if (other != b)
+        nearest = std::min(nearest, gap(boxes[b], boxes[other]));
+    clearance[b] = std::max(0.0, 0.25 * nearest);
+  }
+  return clearance;
+}
+
+// m, height of a tet at the surface of its block.
+double usual(const ContactWork& work, const ContactTriangle& t) {
+  return work.shallow[t.block] / shallow_ratio;
+}
+
+} // namespace
+
+void find_fragments(const Model& model, const State& state, ContactWork& work) {
+  const ContactSurface& s = model.surface;
+  const std::vector<int> fragments = fragments_of_nodes(model, state);
+  work.fragment.resize(s.triangles.size());
+  work.active.resize(s.triangles.size());
+  work.broken.assign(model.blocks.size(), 0);
+  for (std::size_t t = 0; t < s.triangles.size(); ++t) {
+    work.fragment[t] = fragments[s.triangles[t].nodes[0]];
+    const int face = s.triangles[t].face;
+    work.active[t] = static_cast<char>(face < 0 || open(state, face));
+    if (face >= 0 && work.active[t])
+      work.broken[s.triangles[t].block] = 1;
+  }
+}
+
+void choose_skins(const Model& model, const State& state, ContactWork& work) {
+  const double most = thickest * work.usual_height;
+  bool too_thin = false;
+  for (std::size_t b = 0; b < work.skin.size(); ++b)
+    too_thin = too_thin || (work.travelled[b] > work.skin[b] && work.skin[b] < most);
+  if (work.searches > 0 && work.steps_since_search < few_steps && too_thin)
+    work.skin_doublings = std::min(work.skin_doublings + 1, most_doublings);
+  else if (work.steps_since_search > many_steps)
+    work.skin_doublings = std::max(work.skin_doublings - 1, 0);
+  const bool shatters = work.fragments_due && work.searches > 0;
+  const double ahead =
+      shatters ? std::clamp(2. * static_cast<double>(work.steps_since_search), least_steps_ahead, steps_ahead)
+               : steps_ahead;
+  const std::vector<double> alone = clearance_of_fast_bodies(model, state, work, most / steps_ahead);
+  double fastest = 0;
+  for (std::size_t b = 0; b < work.skin.size(); ++b)
+    if (alone[b] <= most)
+      fastest = std::max(fastest, work.pace[b]);
+  const double least = std::max(thinnest * work.usual_height, pace_of_others * ahead * fastest) *
+                       static_cast<double>(1 << work.skin_doublings);
+  for (std::size_t b = 0; b < work.skin.size(); ++b)
+    work.skin[b] = std::min(std::max(least, ahead * work.pace[b]), std::max(most, alone[b]));
+}
+
+double depth_of(const ContactWork& work, const ContactTriangle& t) {
+  return depth_ratio * std::min(t.height, usual(work, t));
+}
+
+double far_at_first(const ContactWork& work, const ContactTriangle& t) {
+  return depth_of(work, t) + thickest * usual(work, t);
+}
+
+SearchMargin::SearchMargin(const Model& model, const State& state, const ContactWork& work)
+    : work_(work), whole_(work.broken), deepest_(model.blocks.size(), 0.0), at_least_(model.blocks.size()) {
+  if (!work.history_complete)
+    std::fill(whole_.begin(), whole_.end(), 1);
+  for (const Contact& c : state.contacts) {
+    const auto [a, b] = blocks_of(model, c);
+    deepest_[a] = std::max(deepest_[a], c.depth);
+    deepest_[b] = std::max(deepest_[b], c.depth);
+  }
+  for (std::size_t b = 0; b < at_least_.size(); ++b)
+    at_least_[b] = std::max({deepest_[b], 0.5 * edge_depth(work, static_cast<int>(b)),
+                             0.5 * meeting_ratio * model.blocks[b].size});
+}
+
+bool ActiveSurface::finite() const {
+  return std::all_of(boxes.begin(), boxes.end(),
+                     [](const geom::Box& box) { return box.min.allFinite() && box.max.allFinite(); });
+}
+
+ActiveSurface active_surface(const Model& model, const State& state, const ContactWork& work,
+                             const SearchMargin& margins, int threads) {
+  const ContactSurface& s = model.surface;
+  ActiveSurface part;
+  part.block_begin.push_back(0);
+  for (std::size_t b = 0; b + 1 < s.block_begin.size(); ++b) {
+    for (int t = s.block_begin[b]; t < s.block_begin[b + 1]; ++t)
+      if (work.active[t])
+        part.triangles.push_back(t);
+    part.block_begin.push_back(static_cast<int>(part.triangles.size()));
+  }
+  part.facets.resize(part.triangles.size());
+  part.boxes.resize(part.triangles.size());
+  part.block_boxes.resize(part.block_begin.size() - 1);
+  part.outlines.resize(part.block_boxes.size());
+  for_chunks(static_cast<std::int64_t>(part.block_boxes.size()), threads, [&](std::int64_t b) {
+    for (int i = part.block_begin[b]; i < part.block_begin[b + 1]; ++i) {
+      const ContactTriangle& triangle = s.triangles[part.triangles[i]];
+      Facet& facet = part.facets[i];
+      facet.x = corners_of(model, state, triangle.nodes);
+      facet.normal = unit_normal(facet.x);
+      part.boxes[i] = box_of(facet.x, margins.margin(triangle));
+      part.block_boxes[b].extend(part.boxes[i].min);
+      part.block_boxes[b].extend(part.boxes[i].max);
+      for (const geom::Vec3& corner : facet.x)
+        part.outlines[b].extend(corner);
+    }
+  });
+  return part;
+}
+
+} // namespace cdem

@@ -1,0 +1,62 @@
+// What of the contact surfaces a search steps_since_search at: the triangles that are outside or on broken faces, by block, in boxes
+// that hold all that may touch them before the next search.
+#pragma once
+
+#include "libcdem/contact/data/contact_work.hpp"
+#include "libcdem/contact/geometry/positions.hpp"
+#include "libcdem/state/state.hpp"
+
+namespace cdem {
+
+// Writes ContactWork::fragment, active and broken.
+void find_fragments(const Model&, const State&, ContactWork&);
+
+// Writes ContactWork::skin: thin for what hardly moves, so that little is near; thick for what flies by itself.
+void choose_skins(const Model&, const State&, ContactWork&);
+
+// m: a quarter of the tet's height, of those much higher than usual in their block a quarter of the usual.
+double depth_of(const ContactWork&, const ContactTriangle&);
+
+// m, around triangles that belong together: those that were further from each other than both at first may meet.
+double far_at_first(const ContactWork&, const ContactTriangle&);
+
+// Of two blocks together: how deep a contact may stand that the search knows of, m.
+class SearchMargin {
+public:
+  SearchMargin(const Model&, const State&, const ContactWork&);
+
+  double operator()(const ContactTriangle& t) const {
+    return std::max(whole_[t.block] ? depth_of(work_, t) : 0, at_least_[t.block]);
+  }
+  // m, no contact of the two blocks is deeper, of those known.
+  double known(int block_a, int block_b) const { return std::min(deepest_[block_a], deepest_[block_b]); }
+  // What a triangle's box has to hold around it for it to meet another before the next search.
+  double margin(const ContactTriangle& t) const { return work_.skin[t.block] + (*this)(t); }
+
+private:
+  const ContactWork& work_;
+  std::vector<char> whole_;     // per block: anything may stand in it, as where a stage begins or faces break
+  std::vector<double> deepest_; // m, per block, of the contacts that are known
+  std::vector<double> at_least_; // m, per block
+};
+
+// A triangle where it is now.
+struct Facet {
+  Corners x;         // m
+  geom::Vec3 normal; // unit
+};
+
+struct ActiveSurface {
+  std::vector<int> triangles;         // by block
+  std::vector<int> block_begin;       // (n_blocks + 1) into triangles
+  std::vector<Facet> facets;          // per triangle
+  std::vector<geom::Box> boxes;       // per triangle, with its margin
+  std::vector<geom::Box> block_boxes; // per block, with margins
+  std::vector<geom::Box> outlines;    // per block, without
+
+  bool finite() const;
+};
+ActiveSurface active_surface(const Model&, const State&, const ContactWork&, const SearchMargin&,
+                             int threads);
+
+} // namespace cdem

@@ -1,0 +1,154 @@
+#include "libcdem/contact/broad_phase/near_triangles.hpp"
+
+#include "libcdem/contact/broad_phase/box_lists.hpp"
+#include "libcdem/contact/response/contact_point.hpp"
+
+#include <algorithm>
+
+namespace cdem {
+namespace {
+
+bool beside(const Corners& x, const Facet& plane, double reach) {
+  const geom::Vec3 &foot = plane.x[0], &normal = plane.normal;
+  const geom::Vec3 height((x[0] - foot).dot(normal), (x[1] - foot).dot(normal), (x[2] - foot).dot(normal));
+  return height.minCoeff() > reach || height.maxCoeff() < -reach;
+}
+
+// Whether the plane of one of two triangles parts them by more than both margins.
+bool parted(const Model& model, const SearchMargin& margins, const ActiveSurface& active, int i, int j) {
+  const auto margin = [&](int k) { return margins.margin(model.surface.triangles[active.triangles[k]]); };
+  const Facet &one = active.facets[i], &other = active.facets[j];
+  const double reach = margin(i) + margin(j);
+  return beside(one.x, other, reach) || beside(other.x, one, reach);
+}
+
+// Of a block's triangles those whose boxes meet the region; it shrinks to what of it they hold.
+std::vector<int> inside(const ActiveSurface& active, int block, geom::Box& region) {
+  std::vector<int> list;
+  geom::Box box;
+  for (int i = active.block_begin[block]; i < active.block_begin[block + 1]; ++i)
+    if (!apart(active.boxes[i], region)) {
+      list.push_back(i);
+      box.extend(active.boxes[i].min);
+      box.extend(active.boxes[i].max);
+    }
+  region = {region.min.cwiseMax(box.min), region.max.cwiseMin(box.max)};
+  return list;
+}
+
+std::vector<geom::Box> boxes_of(const ActiveSurface& active, const std::vector<int>& places) {
+  std::vector<geom::Box> boxes;
+  boxes.reserve(places.size());
+  for (const int i : places)
+    boxes.push_back(active.boxes[i]);
+  return boxes;
+}
+
+// Those of one block's triangles that may get into another block, with what of it is near them.
+void look(const Model& model, const ContactWork& work, const ActiveSurface& active,
+          const std::vector<int>& of_one, int one, int other, Pairs& pairs) {
+  std::vector<int> sources;
+  geom::Box around;
+  for (const int i : of_one) {
+    const ContactTriangle& source = model.surface.triangles[active.triangles[i]];
+    bool gets_in = false;
+    for (int corner = 0; corner < 3 && !gets_in; ++corner)
+      gets_in =
+          may_get_into(work, active, source, weighted(active.facets[i].x, spring_weights(corner)), other);
+    if (!gets_in)
+      continue;
+    sources.push_back(i);
+    around.extend(active.boxes[i].min);
+    around.extend(active.boxes[i].max);
+  }
+  if (sources.empty())
+    return;
+  const double further = 2 * (work.skin[one] + work.skin[other]);
+  around = grown(around, further);
+  const std::vector<int> targets = inside(active, other, around);
+  each_meeting(boxes_of(active, sources), further, boxes_of(active, targets),
+               [&](std::size_t i, std::size_t j) { pairs.emplace_back(sources[i], targets[j]); });
+}
+
+} // namespace
+
+SharedPart shared_part(const ActiveSurface& active, int a, int b) {
+  SharedPart part;
+  part.block_a = a;
+  part.block_b = b;
+  geom::Box region{active.block_boxes[a].min.cwiseMax(active.block_boxes[b].min),
+                   active.block_boxes[a].max.cwiseMin(active.block_boxes[b].max)};
+  for (int round = 0; round < 3; ++round) { // what is left of one leaves less of the other
+    part.of_a = inside(active, a, region);
+    part.of_b = inside(active, b, region);
+  }
+  return part;
+}
+
+Pairs meeting(const Model& model, const SearchMargin& margins, const ActiveSurface& active,
+              const SharedPart& part) {
+  Pairs pairs;
+  each_meeting(boxes_of(active, part.of_a), 0, boxes_of(active, part.of_b),
+               [&](std::size_t i, std::size_t j) {
+                 if (!parted(model, margins, active, part.of_a[i], part.of_b[j]))
+                   pairs.emplace_back(part.of_a[i], part.of_b[j]);
+               });
+  return pairs;
+}
+
+Pairs looked_at(const Model& model, const ContactWork& work, const ActiveSurface& active,
+                const SharedPart& part) {
+  Pairs pairs;
+  look(model, work, active, part.of_a, part.block_a, part.block_b, pairs);
+  look(model, work, active, part.of_b, part.block_b, part.block_a, pairs);
+  return pairs;
+}
+
+bool may_get_into(const ContactWork& work, const ActiveSurface& active, const ContactTriangle& source,
+                  const geom::Vec3& x, int block) {
+  const double skins = work.skin[source.block] + work.skin[block];
+  return active.outlines[block].contains(
+      x, work.broken[block] ? skins + work.shallow[block] + 2 * depth_of(work, source) : skins);
+}
+
+NearWithin near_within(const Model& model, const ContactWork& work, const SearchMargin& margins,
+                       const ActiveSurface& active, int block) {
+  const ContactSurface& s = model.surface;
+  const int begin = active.block_begin[block];
+  std::vector<geom::Box> boxes(active.boxes.begin() + begin,
+                               active.boxes.begin() + active.block_begin[block + 1]);
+  const auto box_at_first = [&](int t) {
+    const geom::Triangle& n = s.triangles[t].nodes;
+    return box_of({model.node_position[n[0]], model.node_position[n[1]], model.node_position[n[2]]},
+                  far_at_first(work, s.triangles[t]));
+  };
+  const auto strangers = [&](int i, int j) {
+    const int a = active.triangles[i], b = active.triangles[j];
+    return work.fragment[a] != work.fragment[b] || apart(box_at_first(a), box_at_first(b));
+  };
+  NearWithin near;
+  std::vector<char> meets(boxes.size(), 0);
+  for (const auto& [i, j] : geom::touching_pairs(boxes)) {
+    const int a = begin + i, b = begin + j;
+    if (!strangers(a, b) || parted(model, margins, active, a, b))
+      continue;
+    near.meeting.emplace_back(a, b);
+    meets[i] = meets[j] = 1;
+  }
+  if (near.meeting.empty())
+    return near;
+  for (geom::Box& box : boxes)
+    box = grown(box, 2 * work.skin[block]);
+  for (const auto& [i, j] : geom::touching_pairs(boxes, meets)) {
+    const int a = begin + i, b = begin + j;
+    if (!strangers(a, b))
+      continue;
+    if (meets[i])
+      near.looked_at.emplace_back(a, b);
+    if (meets[j])
+      near.looked_at.emplace_back(b, a);
+  }
+  return near;
+}
+
+} // namespace cdem

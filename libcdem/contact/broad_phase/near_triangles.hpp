@@ -1,0 +1,40 @@
+// Which triangles of two blocks, or of one with itself, are near each other: by their boxes, and by their planes, as a box
+// says little of a large triangle that lies askew.
+//
+// Within the skins and the depth of contacts two triangles may meet. A source whose semi-springs may get into a block
+// needs to know of all its triangles that may become the nearest to them: within two more skins of each block.
+#pragma once
+
+#include "libcdem/contact/broad_phase/active_surface.hpp"
+
+namespace cdem {
+
+using Pairs = std::vector<std::pair<int, int>>; // of triangles, by their places in ActiveSurface
+
+// Of two blocks the triangles that reach into what their boxes share, by their places in ActiveSurface, ascending.
+struct SharedPart {
+  int block_a = 0, block_b = 0;
+  std::vector<int> of_a, of_b;
+};
+SharedPart shared_part(const ActiveSurface&, int block_a, int block_b);
+
+// Those that meet, (of a, of b).
+Pairs meeting(const Model&, const SearchMargin&, const ActiveSurface&, const SharedPart&);
+
+// (source, target), both ways.
+Pairs looked_at(const Model&, const ContactWork&, const ActiveSurface&, const SharedPart&);
+
+// Whether a semi-spring at x may get into a block before the next search. One that stands outside the box around the
+// block stands outside the block, and where the surface has no holes nothing but a skin counts there.
+bool may_get_into(const ContactWork&, const ActiveSurface&, const ContactTriangle& source,
+                  const geom::Vec3& x, int block);
+
+// Of one block: triangles of different fragments, and those of one that were far from each other at first.
+struct NearWithin {
+  Pairs meeting;   // each once
+  Pairs looked_at; // (source, target), both ways
+};
+NearWithin near_within(const Model&, const ContactWork&, const SearchMargin&, const ActiveSurface&,
+                       int block);
+
+} // namespace cdem

@@ -1,0 +1,81 @@
+// The nearest place of a fragment's surface to a semi-spring, triangle by triangle, and whether the spring is inside.
+#pragma once
+
+#include "libcdem/contact/geometry/positions.hpp"
+#include "libgeom/query/closest.hpp"
+
+#include <cmath>
+
+namespace cdem {
+
+// Of a distance, and of a tet's height: places nearer than that to each other are one, as on the edge that two triangles
+// share. Tets that a bond holds together have edges of their own, which part by as much as the bond gives.
+inline constexpr double same_place = 1e-6, same_place_at_least = 1e-9, bond_gives = 3e-4;
+
+// The nearest place of a fragment to a spring, so far. Of the triangles that share it the one that the spring stands
+// highest over or lowest under is the target; whether the spring is inside their normals tell together, each weighted
+// by the angle that its triangle fills there (Baerentzen and Aanaes 2005): one alone may be wrong at a sharp corner or
+// the mouth of a crack.
+struct Nearest {
+  int target = -1;
+  double distance2 = 0;
+  double height = 0; // of the spring over the target's plane, m: below 0 behind it
+  geom::PlaceOnTriangle at;
+  geom::Vec3 place = geom::Vec3::Zero();
+  geom::Vec3 outward = geom::Vec3::Zero(); // sum of the normals, weighted
+  geom::Vec3 from = geom::Vec3::Zero();    // m, the spring from the place
+
+  // A place within a triangle must be under that one, too: pushed out along its normal, what is over it would go further.
+  bool inside() const { return target >= 0 && outward.dot(from) < 0 && (!at.inside || height < 0); }
+};
+
+// rad, that the triangle fills around a place of it.
+inline double angle_at(const geom::PlaceOnTriangle& at, const Corners& x) {
+  for (int i = 0; i < 3; ++i)
+    if (at.weights[(i + 1) % 3] == 0 && at.weights[(i + 2) % 3] == 0) {
+      const geom::Vec3 a = x[(i + 1) % 3] - x[i], b = x[(i + 2) % 3] - x[i];
+      return std::atan2(a.cross(b).norm(), a.dot(b));
+    }
+  return at.inside ? 2 * M_PI : M_PI;
+}
+
+inline Nearest nearest_of(int target, const geom::Vec3& spring, const Corners& x, const geom::Vec3& normal) {
+  Nearest found;
+  found.target = target;
+  found.at = geom::nearest_on_triangle(spring, x[0], x[1], x[2]);
+  found.place = weighted(x, found.at.weights);
+  found.from = spring - found.place;
+  found.distance2 = found.from.squaredNorm();
+  found.height = found.from.dot(normal);
+  return found;
+}
+
+// size: m, of the tets there; bonded: bonds may part their edges.
+inline void take_nearer(Nearest& nearest, Nearest other, const Corners& x, const geom::Vec3& normal,
+                        double size, bool bonded) {
+  const double further = std::sqrt(std::max(nearest.distance2, other.distance2));
+  const double apart = further - std::sqrt(std::min(nearest.distance2, other.distance2));
+  double reach = same_place * further + (bonded ? bond_gives : same_place_at_least) * size;
+  // A small change of distance moves the nearest place far along an edge that runs across.
+  if (bonded && apart <= reach)
+    reach += std::sqrt(2 * further * reach);
+  // One of the two may have its place just off the edge. Within both they are the two sides of a crack.
+  const bool on_edges = !nearest.at.inside || !other.at.inside;
+  const bool one_place = nearest.target >= 0 && (on_edges || !bonded) &&
+                         (other.place - nearest.place).squaredNorm() <= reach * reach;
+  if (!one_place && nearest.target >= 0 && other.distance2 >= nearest.distance2)
+    return;
+  other.outward = angle_at(other.at, x) * normal;
+  if (one_place)
+    other.outward += nearest.outward;
+  // Places that bonds have parted count as one for the side that the spring is on, not for how deep it is.
+  const bool as_near = apart <= same_place * further + same_place_at_least * size;
+  const bool stays =
+      as_near ? std::abs(other.height) <= std::abs(nearest.height) : other.distance2 >= nearest.distance2;
+  if (one_place && stays)
+    nearest.outward = other.outward;
+  else
+    nearest = other;
+}
+
+} // namespace cdem

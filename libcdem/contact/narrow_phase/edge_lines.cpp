@@ -1,0 +1,180 @@
+#include "libcdem/contact/narrow_phase/edge_lines.hpp"
+
+#include "libcdem/contact/response/contact_point.hpp"
+
+#include <algorithm>
+
+namespace cdem {
+namespace {
+
+// Of the distance of two edges: further from an end of both no other edges of their lines are as near. Edges that act
+// enclose an angle with a sine of 0.05 or more.
+constexpr double reach_of_ends = 40;
+// Of a tet's height: distances that differ by less are one, as at a node that two edges share.
+constexpr double same_distance = 1e-12;
+
+} // namespace
+
+EdgeLines::EdgeLines(const Model& model, const State& state, const ContactWork& work)
+    : model_(model), surface_(model.surface), state_(state), work_(work),
+      contacts_(std::partition_point(state.contacts.begin(), state.contacts.end(),
+                                     [](const Contact& c) { return c.kind == Contact::spring; })) {}
+
+std::optional<EdgeTouch> EdgeLines::active(int e, int f, const NearestOfEdges& here) const {
+  auto touch = touch_of(model_, state_, work_.edges[e], work_.edges[f], here);
+  if (!touch || !(touch->depth > 0))
+    return std::nullopt;
+  const double distance = here.way.norm();
+  if (far_from_ends(e, here.at.s, distance) && far_from_ends(f, here.at.t, distance))
+    return touch;
+  const auto passed = [&](int a, int b, double ways) { // as the two would be evaluated themselves
+    const auto [source, target] = std::minmax(a, b);
+    const NearestOfEdges there = nearest(source, target);
+    if (!nearer(source, target, there, e, f, here))
+      return false;
+    const auto other = touch_of(model_, state_, work_.edges[source], work_.edges[target], there);
+    if (!other || ways * other->sense != touch->sense)
+      return false;
+    // Two that are others on both lines may be near without being passed there.
+    return a == e || b == f ||
+           (other->depth > 0 && goes_on(source, there.at.s, target) && goes_on(target, there.at.t, source));
+  };
+  if (!goes_on(e, here.at.s, f) || !goes_on(f, here.at.t, e) || any_of_line(e, [&](int a, double way_of_a) {
+        return any_of_line(f, [&](int b, double way_of_b) { return passed(a, b, way_of_a * way_of_b); });
+      }))
+    return std::nullopt;
+  return touch;
+}
+
+std::optional<Contact> EdgeLines::left_behind(int e, int f, const geom::Vec3& normal) const {
+  std::optional<Contact> most;
+  if (contacts_ == state_.contacts.end())
+    return most;
+  const std::vector<int> targets = with_those_at_ends(f);
+  double most_force = -1; // N
+  for (const int from : with_those_at_ends(e))
+    for (const int to : targets) {
+      const Contact* const old = contact_of(from, to);
+      if (!old)
+        continue;
+      const auto [source, target] = std::minmax(from, to);
+      const double side = from < to ? 1 : -1;
+      if (active(source, target, nearest(source, target)) ||
+          !takes_over(e, f, normal, from, to, side * old->normal))
+        continue;
+      const double force = law_of(model_, *old).kn * old->effective_penetration();
+      if (force <= most_force)
+        continue;
+      most_force = force;
+      most = *old;
+      most->normal *= side;
+      most->shear *= side;
+    }
+  return most;
+}
+
+bool EdgeLines::takes_over(int e, int f, const geom::Vec3& normal, int from, int to,
+                           const geom::Vec3& before) const {
+  const std::vector<int> targets = with_those_at_ends(to);
+  for (const int a : with_those_at_ends(from))
+    for (const int b : targets) {
+      if (a == b || (a == e && b == f) || contact_of(a, b))
+        continue;
+      // As the two would be evaluated themselves, and their normal as if a were the source.
+      const auto [source, target] = std::minmax(a, b);
+      const auto other = active(source, target, nearest(source, target));
+      const double side = a < b ? 1 : -1;
+      if (other && std::pair(-side * other->normal.dot(before), std::minmax({a, b})) <
+                       std::pair(-normal.dot(before), std::minmax({e, f})))
+        return false;
+    }
+  return true;
+}
+
+bool EdgeLines::at_last_end(int edge, double place) const {
+  if (place > drawn_in && place < 1 - drawn_in)
+    return false;
+  return work_.edges_beyond[work_.edge_continues[edge][place < 0.5 ? 0 : 1]].edge < 0;
+}
+
+bool EdgeLines::touched_around(int e, int f) const {
+  const auto touched = [&](int edge) {
+    if (work_.edge_touched[edge])
+      return true;
+    for (const int begin : work_.edge_ends[edge])
+      for (const int* other = &work_.edges_at[begin]; *other >= 0; ++other)
+        if (work_.edge_touched[*other])
+          return true;
+    return false;
+  };
+  return contacts_ != state_.contacts.end() && touched(e) && touched(f);
+}
+
+const Contact* EdgeLines::contact_of(int e, int f) const {
+  const ContactEdge &source = work_.edges[std::min(e, f)], &target = work_.edges[std::max(e, f)];
+  Contact like(Contact::edge, source.id());
+  like.fragment = source.triangles[1];
+  like.target = target.id();
+  const auto found = std::lower_bound(contacts_, state_.contacts.end(), like,
+                                      [](const Contact& a, const Contact& b) { return key(a) < key(b); });
+  return found != state_.contacts.end() && key(*found) == key(like) ? &*found : nullptr;
+}
+
+NearestOfEdges EdgeLines::nearest(int e, int f) const {
+  return nearest_of_edges(model_, state_, work_.edges[e], work_.edges[f]);
+}
+
+template <typename Does>
+bool EdgeLines::any_next(int edge, int end, const Does& does) const {
+  for (const EdgeBeyond* next = &work_.edges_beyond[work_.edge_continues[edge][end]]; next->edge >= 0; ++next)
+    if (does(next->edge, next->direction))
+      return true;
+  return false;
+}
+
+template <typename Does>
+bool EdgeLines::any_of_line(int edge, const Does& does) const {
+  return does(edge, 1.) || any_next(edge, 0, does) || any_next(edge, 1, does);
+}
+
+// The place is within the edge, or at an end of it where it goes on in one that touches the other edge as well.
+bool EdgeLines::goes_on(int edge, double place, int other) const {
+  return (place > 0 && place < 1) || any_next(edge, place < 0.5 ? 0 : 1, [&](int next, double) {
+           if (next == other)
+             return false;
+           const auto [source, target] = std::minmax(next, other);
+           const auto touch =
+               touch_of(model_, state_, work_.edges[source], work_.edges[target], nearest(source, target));
+           return touch && touch->depth > 0;
+         });
+}
+
+bool EdgeLines::far_from_ends(int edge, double place, double distance) const {
+  const auto& [a, b] = work_.edges[edge].nodes;
+  return std::min(place, 1 - place) * (place_of(model_, state_, b) - place_of(model_, state_, a)).norm() >
+         reach_of_ends * distance;
+}
+
+bool EdgeLines::nearer(int e, int f, const NearestOfEdges& here, int than_e, int than_f,
+                       const NearestOfEdges& than) const {
+  if (e == f)
+    return false;
+  const double distance = here.way.norm(), other = than.way.norm();
+  const int block = surface_.triangles[work_.edges[e].triangles[0]].block;
+  const double same = same_distance * surface_.usual_height[block];
+  if (std::abs(distance - other) > same)
+    return distance < other;
+  // What has stored something stays.
+  return std::tuple(!contact_of(e, f), e, f) < std::tuple(!contact_of(than_e, than_f), than_e, than_f);
+}
+
+std::vector<int> EdgeLines::with_those_at_ends(int edge) const {
+  std::vector<int> edges{edge};
+  for (const int begin : work_.edge_ends[edge])
+    for (const int* other = &work_.edges_at[begin]; *other >= 0; ++other)
+      if (*other != edge)
+        edges.push_back(*other);
+  return edges;
+}
+
+} // namespace cdem

@@ -1,0 +1,58 @@
+// Semi-edges as the lines that they make up: which pairs of them act, and which go on with what another has stored.
+//
+// Edges go on in each other over a node where they enclose less than 45 degrees. Where two such lines cross the nearest
+// places act, as a spring acts with the nearest place of a surface: within both edges, or at an end where the line goes
+// on. Edges of a line that cross another from opposite sides, in and out again, are two crossings.
+#pragma once
+
+#include "libcdem/contact/data/contact_work.hpp"
+#include "libcdem/contact/geometry/edge_touch.hpp"
+#include "libcdem/state/state.hpp"
+
+#include <optional>
+
+namespace cdem {
+
+class EdgeLines {
+public:
+  EdgeLines(const Model&, const State&, const ContactWork&);
+
+  // Two edges by their numbers, e < f. None where they do not touch, where one ends at their nearest places and its line
+  // does not go on, and where a pair of the same crossing is nearer: with one of the two edges, touching or not, or with
+  // two others that touch.
+  std::optional<EdgeTouch> active(int e, int f, const NearestOfEdges&) const;
+
+  // The contact that the two edges, or others which meet their ends, have just left behind, as if it were that of e and f:
+  // the one that presses the most of those that these two take over.
+  std::optional<Contact> left_behind(int e, int f, const geom::Vec3& normal) const;
+
+  // Whether any edge that meets an end of the one, or that edge itself, had a contact before the step, and of the other.
+  bool touched_around(int e, int f) const;
+
+  // Whether the place, in parts of the edge, is at an end of it where no other edge goes on.
+  bool at_last_end(int edge, double place) const;
+
+private:
+  const Contact* contact_of(int e, int f) const; // before the step
+  NearestOfEdges nearest(int e, int f) const;
+  // Calls does(next, way) for the edges in which one goes on over an end of it, until it returns true; way: 1 or -1, with
+  // or against their own direction. Returns whether it did.
+  template <typename Does>
+  bool any_next(int edge, int end, const Does& does) const;
+  template <typename Does>
+  bool any_of_line(int edge, const Does& does) const; // of the edge itself, too
+  bool goes_on(int edge, double place, int other) const;
+  bool far_from_ends(int edge, double place, double distance) const;
+  bool nearer(int e, int f, const NearestOfEdges&, int than_e, int than_f, const NearestOfEdges& than) const;
+  std::vector<int> with_those_at_ends(int edge) const;
+  // Of all new contacts around that of `from` and `to` the one of e and f has the normal most like the one before.
+  bool takes_over(int e, int f, const geom::Vec3& normal, int from, int to, const geom::Vec3& before) const;
+
+  const Model& model_;
+  const ContactSurface& surface_;
+  const State& state_;
+  const ContactWork& work_;
+  std::vector<Contact>::const_iterator contacts_; // the first of two edges before the step
+};
+
+} // namespace cdem

@@ -1,0 +1,66 @@
+// What sources, triangles with their three semi-springs or semi-edges, do to what is near them.
+#pragma once
+
+#include "libcdem/contact/broad_phase/active_surface.hpp"
+#include "libcdem/contact/data/contact_work.hpp"
+#include "libcdem/contact/geometry/nearest.hpp"
+#include "libcdem/contact/narrow_phase/edge_lines.hpp"
+#include "libcdem/contact/response/contact_law.hpp"
+#include "libcdem/state/state.hpp"
+
+namespace cdem {
+
+// Goes through rows of one kind, by ascending source. Adds their contacts, as they are after the step, with their forces
+// and sums to `out`. Rows and candidates go to sleep.
+class Evaluation {
+public:
+  Evaluation(const Model&, const State&, const ContactWork&, Contact::Kind, ContactChunk& out);
+
+  void springs(ContactRow&, ContactCandidate*); // candidates: of all rows
+  void edges(ContactRow&, ContactCandidate*);
+
+private:
+  // Of two blocks.
+  struct Law {
+    std::pair<int, int> bodies{-1, -1};
+    const Joint* joint = nullptr;
+    double tan_friction = 0;
+  };
+  const Law& law_between(int block_a, int block_b);
+  bool may_skip(const ContactRow&, int block) const;
+  void go_to(int source); // what stood at it before
+  const Contact* before(const Contact&) const;
+  double narrow_phase(ContactRow&, ContactCandidate*, bool all); // returns how deep the deepest is, m
+  using Springs = std::array<geom::Vec3, 3>;                     // where the three of a source are, m
+  // The nearest places of one fragment to them, of all targets that do not sleep.
+  void find_nearest(ContactRow&, ContactCandidate*, bool all, const Springs&, std::array<Nearest, 3>&);
+  Nearest nearest_on(int target, const geom::Vec3& spring, bool bonded);
+  // may_begin: even if it was no contact before. False where it is none.
+  bool add_contact(int source, int corner, const geom::Vec3& spring, int fragment, const Nearest&,
+                   bool may_begin);
+  void add_contact(int source, int target, const NearestOfEdges&, const EdgeTouch&, bool may_begin);
+  // Stores what the old one did before the step. Returns it, J: it is booked as lost with the old one, and is not.
+  double take_over(Contact&, const Contact& old, const ContactLaw&, const ContactMotion&) const;
+  // m/s2, that the forces on the two blocks give the contact's places, one towards the other; force: N, of this contact.
+  double turning_acceleration(const ContactArms&, int source_block, int target_block, double force) const;
+  // old: the contact before the step, null where there was none.
+  void finish(Contact&, const Contact* old, ContactMotion&, const ContactArms&, const ContactLaw&,
+              const ContactTriangle& from, const ContactTriangle& to);
+
+  // Where a triangle is now: of a few that follow each other it is worked out once.
+  const Facet& facet(int triangle);
+
+  const Model& model_;
+  const ContactSurface& surface_;
+  const State& state_;
+  const ContactWork& work_;
+  Contact::Kind kind_;
+  ContactChunk& out_;
+  EdgeLines lines_;
+  std::vector<Contact>::const_iterator old_; // the first contact of the row's source or a later one
+  Law law_;
+  std::array<Facet, 4> facets_; // by the last two bits of a triangle's number
+  std::array<int, 4> facet_of_{-1, -1, -1, -1};
+};
+
+} // namespace cdem

@@ -1,0 +1,126 @@
+// Semi-edges that act: their motion and law, and what they take over from others.
+#include "libcdem/contact/broad_phase/candidates.hpp"
+#include "libcdem/contact/broad_phase/search.hpp"
+#include "libcdem/contact/narrow_phase/evaluation.hpp"
+#include "libcdem/contact/response/contact_point.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace cdem {
+namespace {
+
+// How far, m, two edges may go, both together, before a pair that may not begin now can do so: because they are nearly
+// parallel, or because their nearest places stay at the last end of one of their lines.
+struct Hindrance {
+  double parallel = 0, last_end = 0;
+};
+
+Hindrance hindrance_of(const Model& model, const State& state, const ContactEdge& e, const ContactEdge& f,
+                       const geom::PlacesOnSegments& at, bool e_ends, bool f_ends) {
+  const geom::Vec3 a = place_of(model, state, e.nodes[1]) - place_of(model, state, e.nodes[0]),
+                   b = place_of(model, state, f.nodes[1]) - place_of(model, state, f.nodes[0]);
+  const double la = a.norm(), lb = b.norm(), sine = a.cross(b).norm() / (la * lb);
+  // An edge turns by at most twice the way of its ends over its length.
+  const double parallel = 0.4 * (parallel_edges - sine) * std::min(la, lb);
+  // The nearest places of two lines move by some times that over the sine between them.
+  const auto left = [&](bool ends, double place, double length) {
+    return ends ? (drawn_in - std::min(place, 1 - place)) * length * sine / 16 : 0.;
+  };
+  return {std::max(0., parallel), std::max({0., left(e_ends, at.s, la), left(f_ends, at.t, lb)})};
+}
+
+} // namespace
+
+void Evaluation::edges(ContactRow& row, ContactCandidate* candidates) {
+  const ContactEdge& e = work_.edges[row.source];
+  const ContactTriangle& from = surface_.triangles[e.triangles[0]];
+  const bool touched = work_.block_edges_touched[from.block] && work_.block_edges_touched[row.block];
+  if (may_skip(row, from.block) && !(row.hindered && touched))
+    return;
+  row.hindered = false;
+  go_to(e.id());
+  const double moved = work_.travelled[from.block] + work_.travelled[row.block];
+  float recheck_distance = std::numeric_limits<float>::infinity();
+  for (std::uint32_t i = row.begin; i < row.begin + row.count; ++i) {
+    ContactCandidate& candidate = candidates[i];
+    const auto target = static_cast<int>(candidate.target);
+    const bool hindered = candidate.springs != 0;
+    if (moved < candidate.recheck_distance &&
+        !(hindered && touched && lines_.touched_around(row.source, target))) {
+      recheck_distance = std::min(recheck_distance, candidate.recheck_distance);
+      row.hindered = row.hindered || hindered;
+      continue;
+    }
+    const ContactEdge& f = work_.edges[target];
+    const ContactTriangle& to = surface_.triangles[f.triangles[0]];
+    const NearestOfEdges nearest = nearest_of_edges(model_, state_, e, f);
+    const double distance = nearest.way.norm(), limit = edge_depth(work_, from, to);
+    const double apart = distance - std::max(limit, static_cast<double>(row.reach));
+    candidate.recheck_distance = rounded_down(moved + std::max(0.0, apart));
+    candidate.springs = 0;
+    // At the last end of a line contacts go on but do not begin.
+    const bool e_ends = lines_.at_last_end(row.source, nearest.at.s),
+               f_ends = lines_.at_last_end(target, nearest.at.t);
+    const bool may_begin = distance <= limit && !e_ends && !f_ends;
+    if (apart <= 0) {
+      const Hindrance hindrance = hindrance_of(model_, state_, e, f, nearest.at, e_ends, f_ends);
+      candidate.recheck_distance = rounded_down(moved + std::max(hindrance.parallel, hindrance.last_end));
+      candidate.springs = hindrance.last_end > hindrance.parallel ? 1 : 0;
+    }
+    recheck_distance = std::min(recheck_distance, candidate.recheck_distance);
+    row.hindered = row.hindered || candidate.springs != 0;
+    if (!may_begin && !(touched && lines_.touched_around(row.source, target)))
+      continue;
+    if (const auto touch = lines_.active(row.source, target, nearest))
+      add_contact(row.source, target, nearest, *touch, may_begin);
+  }
+  row.recheck_distance = recheck_distance;
+}
+
+void Evaluation::add_contact(int source, int target, const NearestOfEdges& nearest, const EdgeTouch& touch,
+                             bool may_begin) {
+  const ContactEdge &e = work_.edges[source], &f = work_.edges[target];
+  const ContactTriangle &from = surface_.triangles[e.triangles[0]], &to = surface_.triangles[f.triangles[0]];
+  Contact c(Contact::edge, e.id());
+  c.fragment = e.triangles[1];
+  c.target = f.id();
+  c.beside = f.triangles[1];
+  const auto spin_of = [&](const ContactEdge& edge) {
+    const auto [begin, end] = edge.nodes;
+    return spin(place_of(model_, state_, end) - place_of(model_, state_, begin),
+                velocity_of(state_, end) - velocity_of(state_, begin), touch.normal);
+  };
+  ContactMotion motion;
+  motion.normal = touch.normal;
+  motion.depth = touch.depth;
+  motion.turned = 0.5 * work_.step * (spin_of(e) + spin_of(f));
+  const Law& law = law_between(from.block, to.block);
+  const Contact* old = before(c);
+  std::optional<Contact> beyond;
+  if (!old) {
+    beyond = lines_.left_behind(source, target, touch.normal);
+    old = beyond ? &*beyond : nullptr;
+    if (!old && !may_begin)
+      return;
+  }
+  finish(c, old, motion, edge_arms(model_, state_, e, f, nearest.at),
+         edge_law(*law.joint, law.tan_friction, surface_, e.triangles, f.triangles), from, to);
+}
+
+double Evaluation::take_over(Contact& c, const Contact& old, const ContactLaw& law,
+                             const ContactMotion& motion) const {
+  const ContactLaw before = law_of(model_, old);
+  const double depth = std::max(0.0, motion.depth + motion.slid.dot(motion.normal)), // before the step
+      pressed = std::min(depth, old.effective_penetration() * std::sqrt(before.kn / law.kn));
+  c.reference_penetration = depth - pressed;
+  if (before.ks > 0)
+    c.shear *= std::sqrt(law.ks / before.ks);
+  // contact_forces counts the old contact as ended; what it gave back in the step this one gives.
+  const geom::Vec3 slid = work_.step * velocity_past(state_, arms_of(model_, state_, old));
+  const double given_back =
+      energy(old.effective_penetration(), old.shear.norm(), before) - end_loss(old, before, slid);
+  return energy(pressed, c.shear.norm(), law) - given_back;
+}
+
+} // namespace cdem

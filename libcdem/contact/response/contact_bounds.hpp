@@ -1,0 +1,31 @@
+// What contacts add to the bounds of the largest eigenvalue of stiffness over mass (Gershgorin), for the stable step.
+#pragma once
+
+#include "libcdem/contact/data/contact_work.hpp"
+#include "libcdem/state/state.hpp"
+
+namespace cdem {
+
+// s: `safety` times a bound of the stable step of all nodes and rigid bodies that contacts act on, as they are now;
+// Infinite without contacts.
+struct ContactStep {
+  const std::vector<double>& row_sums; // N/m, of elements and bonds (n_nodes)
+  bool damped = false;                 // stiffness damping acts
+  double safety = 1;
+};
+double contact_time_step(const Model&, const State&, const ContactWork&, const ContactStep&);
+
+// s, likewise, of rigid bodies before anything touches, if a fiftieth of their surface does: a step that lets no more
+// than a few contacts close at once. contact_time_step shortens it when more do. Infinite without rigid bodies.
+double rigid_time_step(const Model&, double safety);
+
+// m, from each rigid body's centroid to its furthest node; it keeps its shape.
+std::vector<double> reaches_of_rigid(const Model&, const State&);
+// s, in which no point of a rigid body goes further than a tenth of the usual height of the tets at any surface, moving
+// as it does now: a contact is found before it is too deep, and nothing passes through anything. Infinite at rest.
+double displacement_time_step(const Model&, const State&, const std::vector<double>& reaches);
+
+// Adds to the row sums what contacts may at most add at the surface, when all of it is pressed by its like, N/m.
+void add_contact_row_sums(const Model&, std::vector<double>& row_sums);
+
+} // namespace cdem

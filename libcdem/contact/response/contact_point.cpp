@@ -1,0 +1,134 @@
+#include "libcdem/contact/response/contact_point.hpp"
+
+#include "libcdem/contact/geometry/positions.hpp"
+#include "libcdem/model/build/contact_surface.hpp"
+
+namespace cdem {
+namespace {
+
+// Weights of a tet's corners that make up a place, which may lie a little outside.
+std::array<double, 4> in_tet(const Model& model, const State& state, const geom::Tet& nodes,
+                             const geom::Vec3& place) {
+  std::array<geom::Vec3, 4> x;
+  for (int i = 0; i < 4; ++i)
+    x[i] = place_of(model, state, nodes[i]);
+  const geom::Vec3 a = x[1] - x[0], b = x[2] - x[0], c = x[3] - x[0], p = place - x[0];
+  const double volume = a.dot(b.cross(c));
+  const double wa = p.dot(b.cross(c)) / volume, wb = a.dot(p.cross(c)) / volume,
+               wc = a.dot(b.cross(p)) / volume;
+  return {1 - wa - wb - wc, wa, wb, wc};
+}
+
+// area: m2; compliance: m/Pa, of both bodies.
+ContactLaw law_over(const Joint& joint, double tan_friction, double area, double compliance) {
+  const ContactStiffness stiffness = contact_stiffness(joint, compliance);
+  const double half = 0.5 * area; // both bodies bring theirs
+  const double e2 = joint.restitution * joint.restitution;
+  return {stiffness.normal * half * 0.5 * (1 + e2), stiffness.shear * half, tan_friction,
+          (1 - e2) / (1 + e2)};
+}
+
+void set_normal_weight(ContactArms& arms, int node, double weight) {
+  for (int i = 0; i < 4; ++i)
+    if (arms.target[i] == node)
+      arms.normal[i] = weight;
+}
+
+} // namespace
+
+std::pair<int, int> triangles_of(const Contact& c) {
+  return {c.source / 3, c.kind == Contact::spring ? c.target : c.target / 3};
+}
+
+ContactLaw law_of(const Model& model, const Contact& c) {
+  const ContactSurface& s = model.surface;
+  const auto [source, target] = triangles_of(c);
+  const ContactTriangle &from = s.triangles[source], &to = s.triangles[target];
+  const Joint& joint = *contact_joint(model, from.block, to.block);
+  const double tan_friction = std::tan(joint.friction_angle);
+  return c.kind == Contact::spring
+             ? spring_law(joint, tan_friction, from, to)
+             : edge_law(joint, tan_friction, s, {source, c.fragment}, {target, c.beside});
+}
+
+ContactLaw spring_law(const Joint& joint, double tan_friction, const ContactTriangle& from,
+                      const ContactTriangle& to) {
+  return law_over(joint, tan_friction, from.area / 3, from.compliance + to.compliance);
+}
+
+ContactLaw edge_law(const Joint& joint, double tan_friction, const ContactSurface& s,
+                    const std::array<int, 2>& from, const std::array<int, 2>& to) {
+  double area = 0, compliance = 0;
+  for (const std::array<int, 2>& edge : {from, to}) {
+    const ContactTriangle &one = s.triangles[edge[0]], &other = s.triangles[edge[1]];
+    area += 0.5 * (one.area + other.area) / 3;
+    compliance += 0.5 * (one.compliance + other.compliance);
+  }
+  return law_over(joint, tan_friction, area, compliance);
+}
+
+std::pair<int, int> blocks_of(const Model& model, const Contact& c) {
+  const auto [source, target] = triangles_of(c);
+  return {model.surface.triangles[source].block, model.surface.triangles[target].block};
+}
+
+geom::Vec3 spring_weights(int corner) {
+  geom::Vec3 w = geom::Vec3::Constant(drawn_in);
+  w[corner] = 1 - 2 * drawn_in;
+  return w;
+}
+
+ContactArms spring_arms(const Model& model, const State& state, const ContactTriangle& from, int corner,
+                        const ContactTriangle& to, const geom::Vec3& nearest) {
+  ContactArms arms;
+  const geom::Vec3 w = spring_weights(corner);
+  arms.source = from.nodes;
+  arms.target = model.tets[to.tet];
+  arms.on_source = {w[0], w[1], w[2]};
+  for (int i = 0; i < 3; ++i)
+    set_normal_weight(arms, to.nodes[i], nearest[i]);
+  arms.shear = in_tet(model, state, arms.target, weighted(corners_of(model, state, from.nodes), w));
+  return arms;
+}
+
+ContactArms edge_arms(const Model& model, const State& state, const ContactEdge& e, const ContactEdge& f,
+                      const geom::PlacesOnSegments& at) {
+  ContactArms arms;
+  arms.source = {e.nodes[0], e.nodes[1], e.nodes[0]};
+  arms.on_source = {1 - at.s, at.s, 0};
+  arms.target = model.tets[model.surface.triangles[f.triangles[0]].tet];
+  set_normal_weight(arms, f.nodes[0], 1 - at.t);
+  set_normal_weight(arms, f.nodes[1], at.t);
+  const geom::Vec3 place =
+      (1 - at.s) * place_of(model, state, e.nodes[0]) + at.s * place_of(model, state, e.nodes[1]);
+  arms.shear = in_tet(model, state, arms.target, place);
+  return arms;
+}
+
+ContactArms arms_of(const Model& model, const State& state, const Contact& c) {
+  const ContactSurface& s = model.surface;
+  if (c.kind == Contact::edge) {
+    const ContactEdge e = edge_between(s, c.source / 3, c.source % 3, c.fragment, 0),
+                      f = edge_between(s, c.target / 3, c.target % 3, std::numeric_limits<int>::max(), 0);
+    return edge_arms(
+        model, state, e, f,
+        geom::nearest_on_segments(place_of(model, state, e.nodes[0]), place_of(model, state, e.nodes[1]),
+                                  place_of(model, state, f.nodes[0]), place_of(model, state, f.nodes[1])));
+  }
+  const ContactTriangle &from = s.triangles[c.source / 3], &to = s.triangles[c.target];
+  const geom::Vec3 spring = weighted(corners_of(model, state, from.nodes), spring_weights(c.source % 3));
+  const Corners y = corners_of(model, state, to.nodes);
+  return spring_arms(model, state, from, c.source % 3, to,
+                     geom::nearest_on_triangle(spring, y[0], y[1], y[2]).weights);
+}
+
+geom::Vec3 velocity_past(const State& state, const ContactArms& arms) {
+  geom::Vec3 v = geom::Vec3::Zero();
+  for (int i = 0; i < 3; ++i)
+    v += arms.on_source[i] * velocity_of(state, arms.source[i]);
+  for (int i = 0; i < 4; ++i)
+    v -= arms.shear[i] * velocity_of(state, arms.target[i]);
+  return v;
+}
+
+} // namespace cdem

@@ -1,0 +1,94 @@
+#include "libcdem/results/overlap.hpp"
+
+#include "libcdem/model/names.hpp"
+#include "libcdem/state/places.hpp"
+#include "libgeom/polyhedron/common_part.hpp"
+#include "libgeom/query/box_pairs.hpp"
+
+#include <map>
+
+namespace cdem {
+namespace {
+
+// Of the smaller part's size: less deep ones touch.
+constexpr double depth_tolerance = 1e-9;
+
+// A block, or a tetrahedron of one that is not convex, as it stands now.
+struct ConvexPart {
+  int block = 0;
+  geom::Polyhedron shape;
+  std::vector<geom::Plane> planes;
+};
+
+geom::Polyhedron block_now(const Model& model, const State& state, const Block& block) {
+  geom::Polyhedron shape = block.shape;
+  for (std::size_t v = 0; v < shape.vertices.size(); ++v)
+    shape.vertices[v] = place_of(model, state, block.node_begin + static_cast<int>(v));
+  return shape;
+}
+
+geom::Polyhedron tet_now(const Model& model, const State& state, const geom::Tet& tet) {
+  geom::Polyhedron shape;
+  for (const int node : tet)
+    shape.vertices.push_back(place_of(model, state, node));
+  shape.faces = {{{0, 2, 1}}, {{0, 1, 3}}, {{1, 2, 3}}, {{0, 3, 2}}};
+  return shape;
+}
+
+std::vector<ConvexPart> convex_parts(const Model& model, const State& state) {
+  std::vector<ConvexPart> parts;
+  const auto add = [&](int block, geom::Polyhedron&& shape) {
+    parts.push_back({block, std::move(shape), {}});
+    parts.back().planes = geom::face_planes(parts.back().shape);
+  };
+  for (int b = 0; b < static_cast<int>(model.blocks.size()); ++b) {
+    const Block& block = model.blocks[b];
+    if (block.convex())
+      add(b, block_now(model, state, block));
+    else
+      for (int tet = block.tet_begin; tet < block.tet_end; ++tet)
+        add(b, tet_now(model, state, model.tets[tet]));
+  }
+  return parts;
+}
+
+} // namespace
+
+Overlap overlap(const Model& model, const State& state) {
+  const std::vector<ConvexPart> parts = convex_parts(model, state);
+  std::vector<geom::Box> boxes;
+  for (const ConvexPart& part : parts)
+    boxes.push_back(geom::bounding_box(part.shape));
+  std::map<std::pair<int, int>, geom::MassProperties> common; // of two blocks: volume and where
+  for (const auto& [i, j] : geom::touching_pairs(boxes)) {
+    const ConvexPart &a = parts[i], &b = parts[j];
+    if (a.block == b.block)
+      continue;
+    const double depth = depth_tolerance * std::min(model.blocks[a.block].size, model.blocks[b.block].size);
+    if (geom::apart(a.planes, b.shape, depth) || geom::apart(b.planes, a.shape, depth))
+      continue;
+    const auto shared = geom::common_part(a.shape, b.planes, depth);
+    if (!shared)
+      continue;
+    const geom::MassProperties part = geom::mass_properties(*shared);
+    geom::MassProperties& sum = common[std::minmax(a.block, b.block)];
+    sum.volume += part.volume;
+    sum.centroid += part.volume * part.centroid;
+  }
+  Overlap result;
+  for (const auto& [blocks, sum] : common) {
+    if (!(sum.volume > 0))
+      continue;
+    result.volume += sum.volume;
+    ++result.pairs;
+    if (sum.volume <= result.largest)
+      continue;
+    result.largest = sum.volume;
+    result.largest_a = block_name(model, blocks.first);
+    result.largest_b = block_name(model, blocks.second);
+    result.place = sum.centroid / sum.volume;
+  }
+  return result;
+}
+
+} // namespace cdem

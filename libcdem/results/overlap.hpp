@@ -1,0 +1,23 @@
+// Volume that two blocks occupy at once, as they stand now: what contact lets into each other.
+//
+// The common part of two convex bodies is convex: one cut by all the faces of the other. A mesh that is not convex is
+// taken tetrahedron by tetrahedron.
+#pragma once
+
+#include "libcdem/state/state.hpp"
+
+#include <string>
+
+namespace cdem {
+
+struct Overlap {
+  double volume = 0;                     // m3, of all pairs of blocks
+  std::int64_t pairs = 0;                // of blocks that have some in common
+  double largest = 0;                    // m3, of one pair
+  std::string largest_a, largest_b;      // its blocks, as a user knows them; empty without
+  geom::Vec3 place = geom::Vec3::Zero(); // m, of that pair
+};
+
+Overlap overlap(const Model&, const State&);
+
+} // namespace cdem

@@ -1,0 +1,61 @@
+#include "libcdem/step/contact_update.hpp"
+
+#include "libcdem/contact/broad_phase/search.hpp"
+#include "libcdem/contact/contact_forces.hpp"
+#include "libcdem/contact/response/contact_bounds.hpp"
+#include "libcdem/integrate/row_sums.hpp"
+#include "libcdem/step/record.hpp"
+
+#include <utility>
+
+namespace cdem {
+namespace {
+
+// Steps between looks at which bodies have met, where as many contacts act as before.
+constexpr std::int64_t meetings_every = 10;
+
+} // namespace
+
+ContactUpdate::ContactUpdate(const StageContext& context)
+    : rigid_reach_(reaches_of_rigid(context.model, context.state)) {
+  if (!context.model.surface.empty())
+    row_sums_ = all_row_sums(context.model);
+}
+
+void ContactUpdate::evaluate(const StageContext& context, ContactWork& work) {
+  const ContactSums sums = contact_forces(context.model, context.state, work, context.threads);
+  context.state.spent.friction += sums.friction;
+  context.state.spent.damping += sums.damping;
+  context.log.deepest_contact = std::max(context.log.deepest_contact, sums.depth);
+  context.log.deepest_over_height = std::max(context.log.deepest_over_height, sums.depth_over_height);
+  if (sums.deepest > deepest_.deepest)
+    deepest_ = sums;
+  const std::size_t contacts = context.state.contacts.size();
+  if (contacts != contacts_before_ || context.state.step % meetings_every == 0)
+    strike_out_met(context.model, context.state, context.log);
+  contacts_before_ = contacts;
+}
+
+double ContactUpdate::longest_step(const StageContext& context, const Workspace& work, double safety,
+                                   const StageStep& here) {
+  const ContactSums sums = std::exchange(deepest_, {});
+  if (sums.deepest > 1)
+    refuse_depth(context.model, context.state, sums.deepest_source, sums.deepest_target, here);
+  return std::min(
+      contact_time_step(context.model, context.state, work.contact, {row_sums_, work.damped, safety}),
+      displacement_time_step(context.model, context.state, rigid_reach_));
+}
+
+void ContactUpdate::start_anew(const Model& model, ContactWork& work) const {
+  if (model.surface.empty())
+    return;
+  ContactWork before = std::move(work);
+  work = {};
+  start_contact(model, work);
+  work.pace = std::move(before.pace); // how thick skins are changes no force
+  work.most_friction = before.most_friction;
+  work.restitution = before.restitution;
+  work.history_complete = true; // those of the step before
+}
+
+} // namespace cdem

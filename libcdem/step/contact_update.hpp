@@ -1,0 +1,31 @@
+// The contacts of a step: found and evaluated for where the nodes are before anything else of the step is, and again
+// where somebody looks between two steps.
+#pragma once
+
+#include "libcdem/step/soundness.hpp"
+#include "libcdem/step/stage_context.hpp"
+#include "libcdem/step/workspace.hpp"
+
+namespace cdem {
+
+class ContactUpdate {
+public:
+  explicit ContactUpdate(const StageContext&);
+
+  // The forces of contacts, and what they spend. Nothing is done where nothing has moved since.
+  void evaluate(const StageContext&, ContactWork&);
+  // The longest step that the contacts evaluated last leave, s, `safety` times the stable one; infinite without
+  // contacts. Throws SolutionError where one has gone too deep since the last call.
+  double longest_step(const StageContext&, const Workspace&, double safety, const StageStep&);
+
+  // Contacts are looked for anew from here on, as by a stage that goes on from here: which pairs are skipped is not saved.
+  void start_anew(const Model&, ContactWork&) const;
+
+private:
+  std::vector<double> row_sums_;    // N/m, of elements and bonds (n_nodes); empty without contacts
+  std::vector<double> rigid_reach_; // m, reaches_of_rigid
+  ContactSums deepest_;             // since the last call of longest_step
+  std::size_t contacts_before_ = 0;
+};
+
+} // namespace cdem

@@ -1,0 +1,33 @@
+// Pieces that leave the model: they fall off what they lie on, or fly out. Each is told of once, and the rest goes on.
+//
+// The distance of a piece is that of the mean of its nodes from the model's undeformed box. Beyond `told_beyond` it has
+// left. Beyond `held_beyond` it is held where it is, for good: nothing out there can meet it, and it would only get
+// faster. Pieces that a support holds or moves never leave, nor does the last piece of all: there must be something to
+// leave.
+#pragma once
+
+#include "libcdem/load/resolve.hpp"
+#include "libcdem/state/state.hpp"
+
+#include <limits>
+#include <string>
+#include <vector>
+
+namespace cdem {
+
+struct EscapeLimits { // m; infinite: nothing leaves
+  double told_beyond = std::numeric_limits<double>::infinity();
+  double held_beyond = std::numeric_limits<double>::infinity();
+};
+
+struct Escape {
+  std::string name;                      // of the piece, as a user knows it
+  geom::Vec3 place = geom::Vec3::Zero(); // m
+  double speed = 0;                      // m/s
+  bool held = false;                     // from now on
+};
+
+// Those that have left, or are held, since the last look; State::escaped says so from then on.
+std::vector<Escape> find_escapes(const Model&, State&, const ResolvedConditions&, const EscapeLimits&);
+
+} // namespace cdem

@@ -1,0 +1,30 @@
+// A place where a stage that runs can be left, and taken up again to the same bits as one that was never left.
+//
+// Every watch_every steps a stage synchronises everything and copies its state (Stage::keep_restart_point). From there it
+// can go on: the state is in last_good, and what the loop carries besides in the RestartPoint. A stage of several loops
+// (settle, critical_flow) can be left in each of them and where one begins.
+#pragma once
+
+#include "libcdem/parallel/node.hpp"
+#include "libgeom/core/types.hpp"
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace cdem {
+
+struct RestartPoint {
+  std::int64_t step = 0;                                           // within the stage; 0: its start
+  std::size_t breaks = 0;                                          // in the log so far
+  double wall_time = 0;                                            // s, of the stage so far
+  std::int64_t broken_tension_before = 0, broken_shear_before = 0; // when the stage began
+  std::vector<double> loop_state;                                  // numbers of the stage's own loop
+  std::vector<Node> previous_force;                                // N, of a relaxation (n_nodes)
+  // Those of the BondWork: what broken and softening springs lose is counted from the step before.
+  std::vector<geom::Vec3> spring_force, stretch; // N, m (n_points)
+  // Of a stage of several loops: the numbers of the procedure around them, and which loop runs, as it has written them.
+  std::string procedure_state;
+};
+
+} // namespace cdem

@@ -1,0 +1,34 @@
+// What a solving call hands to each of its loops.
+#pragma once
+
+#include "libcdem/load/conditions.hpp"
+#include "libcdem/results/log.hpp"
+#include "libcdem/state/state.hpp"
+#include "libcdem/step/checkpoint_writer.hpp"
+#include "libcdem/step/observer.hpp"
+#include "libcdem/step/restart_point.hpp"
+
+#include <functional>
+#include <optional>
+
+namespace cdem {
+
+struct StageContext {
+  const Model& model;
+  State& state;
+  const Conditions& conditions;
+  RunLog& log;
+  State& last_good; // copy of the state that last passed the watch
+  Observer& observer;
+  int threads = 1;
+  int number = 0;                                       // of the stage, from 1
+  CheckpointWriter* checkpoints = nullptr;              // may be null
+  std::optional<RestartPoint>* restart_point = nullptr; // written by the stage; null: it can be left nowhere
+  const RestartPoint* from = nullptr; // the stage goes on from here; the state is the one of there
+  std::function<std::string()> procedure_state{}; // as it is now; empty: a stage of one loop
+};
+
+// The stage can be left here, where none of its loops has begun a step: the state is kept, the RestartPoint written anew.
+void keep_start_of_loop(const StageContext&);
+
+} // namespace cdem

@@ -1,0 +1,86 @@
+// The loops of a step over chunks. What moves nodes is handed in: move(nodes, forces, sums) for a run of nodes once all
+// that reads where they are has done so; `forces` are those of elements and springs, the first node's first.
+//
+// Forces and motion of a chunk stand in one loop, since its forces are in a near cache then.
+#pragma once
+
+#include "libcdem/bond/spring_forces.hpp"
+#include "libcdem/step/forces.hpp"
+#include "libcdem/step/mesh_forces.hpp"
+
+namespace cdem {
+
+// Springs between blocks; each chunk of them writes its own forces only.
+inline void bond_forces(const Model& model, State& state, Workspace& work, int threads, bool breaking) {
+  for_chunks(static_cast<std::int64_t>(model.point_chunks.size()), threads, [&](std::int64_t c) {
+    spring_forces(model, state, work.bond, model.point_chunks[c], work.bond.sums[c], breaking);
+  });
+}
+
+// Elements, the bonds inside meshes, and the motion of the nodes that no other chunk touches: all of a block, the inner
+// ones of a chunk of a mesh. After bond_forces.
+template <class Move>
+void element_forces(const Model& model, State& state, Workspace& work, int threads, bool breaking,
+                    const Move& move) {
+  const auto meshes = static_cast<std::int64_t>(model.mesh.chunks.size());
+  const auto stars = static_cast<std::int64_t>(model.chunks.size()) - meshes;
+  for_chunks(stars + meshes, threads, [&](std::int64_t c) {
+    NodeSums sums;
+    if (c < stars) {
+      block_forces(model, state, work, model.chunks[c]);
+      move(model.chunks[c].nodes, work.force.data() + model.chunks[c].nodes.begin, sums);
+      work.node_sums[c] = sums;
+      return;
+    }
+    const MeshChunk& chunk = model.mesh.chunks[c - stars];
+    if (is_rigid(model, chunk))
+      return;
+    const Node* const force = mesh_forces(model, state, work, c - stars, breaking);
+    if (chunk.stars)
+      each_deformable_run(model, chunk,
+                          [&](Range nodes) { move(nodes, force + (nodes.begin - chunk.nodes.begin), sums); });
+    else
+      move(Range{chunk.nodes.begin, chunk.inner_end}, force, sums);
+    work.node_sums[c] = sums;
+  });
+}
+
+// Some node is touched by several chunks.
+inline bool has_shared_nodes(const Model& model) {
+  return std::any_of(model.mesh.chunks.begin(), model.mesh.chunks.end(), [](const MeshChunk& chunk) {
+    return !chunk.stars && chunk.inner_end < chunk.nodes.end;
+  });
+}
+
+// What all chunks left for the nodes that several of them touch, added in their order, and the motion of these. After
+// element_forces.
+template <class Move>
+void shared_node_forces(const Model& model, State& state, Workspace& work, int threads, const Move& move) {
+  const auto meshes = static_cast<std::int64_t>(model.mesh.chunks.size());
+  const auto stars = static_cast<std::int64_t>(model.chunks.size()) - meshes;
+  for_chunks(meshes, threads, [&](std::int64_t c) {
+    const MeshChunk& chunk = model.mesh.chunks[c];
+    if (chunk.stars || is_rigid(model, chunk))
+      return;
+    NodeSums sums = work.node_sums[stars + c];
+    ReadAhead ahead = shared_reads_of(model, state, work, c + 1);
+    ahead.spread(chunk.nodes.end - chunk.inner_end);
+    each_shared_force(model.mesh, work, chunk, ahead,
+                      [&](Range nodes, const Node* force) { move(nodes, force, sums); });
+    work.node_sums[stars + c] = sums;
+  });
+}
+
+// move_rigid(rigid body, sums): the nodes of rigid bodies move with them.
+template <class MoveRigid>
+void rigid_bodies(const Model& model, Workspace& work, int threads, const MoveRigid& move_rigid) {
+  for_chunks(static_cast<std::int64_t>(model.rigid.size()), threads, [&](std::int64_t body) {
+    NodeSums sums;
+    move_rigid(static_cast<int>(body), sums);
+    work.rigid_sums[body] = sums;
+  });
+}
+
+NodeSums sums_of(const Workspace&); // over all chunks and rigid bodies, in their order
+
+} // namespace cdem

@@ -1,0 +1,35 @@
+#include "libcdem/step/synchronised_view.hpp"
+
+namespace cdem {
+
+SynchronisedView::SynchronisedView(Stage& stage) : stage_(stage) {
+  stage.synchronise_contacts();
+  const State& state = stage.context_.state;
+  if (!state.faces.empty() && stage.work.strain_step > 0) {
+    strain_step_ = stage.work.strain_step;
+    contact_due_ = stage.work.contact.due;
+    pieces_due_ = stage.work.contact.fragments_due;
+    stress_ = state.stress;
+    viscous_stress_ = state.viscous_stress;
+    faces_ = state.faces;
+    face_slip_ = state.face_slip;
+    spent_ = state.spent;
+  }
+  stage.synchronise_stress();
+}
+
+SynchronisedView::~SynchronisedView() {
+  if (strain_step_ == 0)
+    return;
+  State& state = stage_.context_.state;
+  stage_.work.strain_step = strain_step_;
+  stage_.work.contact.due = contact_due_;
+  stage_.work.contact.fragments_due = pieces_due_;
+  state.stress = stress_; // copied: the step knows where these lie
+  state.viscous_stress = viscous_stress_;
+  state.faces = faces_;
+  state.face_slip = face_slip_;
+  state.spent = spent_;
+}
+
+} // namespace cdem

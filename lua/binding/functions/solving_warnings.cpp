@@ -1,0 +1,160 @@
+#include "lua/binding/functions/solving_warnings.hpp"
+
+#include "libcdem/state/ledger.hpp"
+#include "libcdem/step/errors.hpp"
+#include "lua/binding/functions/angles.hpp"
+
+#include <cmath>
+#include <cstdio>
+
+namespace cdem::script {
+
+namespace {
+
+constexpr double small_strain = 0.01;
+constexpr double small_turn = 1;        // degree
+constexpr double small_departure = 0.1; // of a face's size
+// An open energy balance is told of again when it has grown by this.
+constexpr double tell_again = 1.5;
+// Of an element's height: contacts deeper than this may well be what opens the balance.
+constexpr double deep_contact = 0.05;
+
+std::string of_stage(const Stage& stage) {
+  return "stage " + std::to_string(stage.number) + " (" + stage.kind + "): ";
+}
+
+// One line a stage, of what small strain cannot hold (results/deformation.hpp says why these limits).
+void warn_of_large_deformation(Session& session, const ModelObject& model, const Stage& stage) {
+  const Deformation d = model.simulation.deformation();
+  std::string found;
+  if (d.strain > small_strain)
+    found = "block " + std::to_string(d.strain_block) + " is strained by " + three_digits(100 * d.strain) +
+            " % (more than 1 %)";
+  if (degrees(d.turn) > small_turn)
+    found += (found.empty() ? "block " : ", block ") + std::to_string(d.turn_block) + " has turned by " +
+             three_digits(degrees(d.turn)) + " degrees (more than 1), a false strain of " +
+             three_digits(50 * d.turn * d.turn) + " %";
+  if (d.departure > small_departure)
+    found += (found.empty() ? "block " : ", block ") + std::to_string(d.departure_block) +
+             " has left a neighbour by " + three_digits(100 * d.departure) +
+             " % of their face's size, and meets nothing new";
+  if (!found.empty())
+    session.warn(of_stage(stage) + "beyond small strain: " + found);
+}
+
+// A relaxation that did not converge.
+bool stopped_short(const Value& result) {
+  const Table* const table = result.table();
+  if (!table)
+    return false;
+  const auto found = table->named.find("converged");
+  const bool* const converged = found == table->named.end() ? nullptr : found->second.get<bool>();
+  return converged && !*converged;
+}
+
+struct Cause {
+  std::string what, advice;
+};
+
+// The likeliest reason of an open balance, by what has happened in the model so far.
+Cause likely_cause(const ModelObject& model) {
+  const Simulation& simulation = model.simulation;
+  const ContactSummary contacts = simulation.contacts();
+  const Deformation d = simulation.deformation();
+  if (degrees(d.turn) > small_turn)
+    return {"blocks of small strain that turn", "leave element = \"small_strain\" out"};
+  if (contacts.deepest_over_height > deep_contact)
+    return {"contacts up to " + three_digits(contacts.deepest_over_height) +
+                " of an element's height deep, where faces and edges change over",
+            "take stiffer contacts, a smaller safety, or damping"};
+  if (contacts.deepest > 0)
+    return {"contacts that open and close or change over from face to face",
+            "take a smaller safety, softer contacts, or damping"};
+  if (!simulation.breaks().empty())
+    return {"bonds that break within a step", "take a smaller safety"};
+  return {"a time step too near the stable one", "take a smaller safety or time_step"};
+}
+
+std::string avoiding(const Slivers& s) {
+  return s.elements ? "take another mesh size there, a simpler solid, or element = \"rigid\""
+                    : "take element = \"rigid\", more relaxations or another seed of cdem.voronoi, or cuts "
+                      "that stay clear of corners";
+}
+
+std::string shown(const geom::Vec3& x) {
+  char text[64];
+  std::snprintf(text, sizeof text, "(%.6g, %.6g, %.6g)", x.x(), x.y(), x.z());
+  return text;
+}
+
+} // namespace
+
+std::string three_digits(double x) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.3g", x);
+  return text;
+}
+
+std::string shown_pair(const std::string& body_a, const std::string& body_b) {
+  return body_a == body_b ? "joint of \"" + body_a + "\""
+                          : "contact of \"" + body_a + "\" and \"" + body_b + "\"";
+}
+
+void warn_if_nothing_acts(Session& session, const ModelObject& model, const std::string& kind) {
+  if (!model.simulation.anything_acts())
+    session.warn(
+        kind + ": nothing acts on the model: no load, no support that moves it, no initial stress; it stays "
+               "as it is");
+}
+
+void warn_of_slivers(Session& session, ModelObject& model) {
+  if (session.checkpoints.replaying())
+    return;
+  std::string all;
+  for (const Slivers& s : model.simulation.slivers()) {
+    const std::string unit = s.elements ? "element" : "block";
+    all += (all.empty() ? "" : "; ") + std::to_string(s.count) + " of " + std::to_string(s.of) + " " + unit +
+           "s of \"" + s.body + "\" need a time step of " + three_digits(s.step) + " s; the others allow " +
+           three_digits(s.other_step) + " s. The worst is " + unit + " " + std::to_string(s.worst) + " at " +
+           shown(s.place) + " m, " + three_digits(s.height_over_size) + " of its size high: " + avoiding(s);
+  }
+  if (!all.empty() && all != model.told_slivers)
+    session.warn(all);
+  model.told_slivers = all;
+}
+
+void warn_after_stage(Session& session, ModelObject& model, const Stage& stage) {
+  warn_of_large_deformation(session, model, stage);
+  const auto& escapes = model.simulation.escapes();
+  for (; model.told_escapes < escapes.size(); ++model.told_escapes)
+    session.warned(escapes[model.told_escapes].text);
+  model.notes->unmet.clear();
+  for (const auto& [a, b] : model.simulation.unmet())
+    model.notes->unmet.push_back(
+        shown_pair(a, b) +
+        ": they had no interface and never touched, so that the law acted on nothing; look at "
+        "their places and names, or leave it out");
+}
+
+// The ledger has to close: what is stored and spent is the work of the loads. A relaxation that stopped short of its
+// balance is told of anyway.
+void check_energy(Session& session, ModelObject& model, const Stage& stage) {
+  if (stopped_short(stage.result))
+    return;
+  const EnergyLedger energy = model.simulation.energy();
+  const double open = energy.balance_error();
+  if (open <= open_balance || (open <= broken_balance && open < tell_again * model.told_open))
+    return;
+  model.told_open = open;
+  const double gained = energy.total() - energy.external;
+  const Cause cause = likely_cause(model);
+  const std::string found = of_stage(stage) + "the energy balance is open by " + three_digits(100 * open) +
+                            " % of the largest work of the loads (" + three_digits(std::abs(gained)) + " J " +
+                            (gained > 0 ? "gained" : "lost");
+  const std::string why = "); most likely from " + cause.what + ": " + cause.advice;
+  if (open > broken_balance)
+    throw SolutionError(found + why);
+  session.warn(found + ", more than 1 %" + why);
+}
+
+} // namespace cdem::script

@@ -1,0 +1,25 @@
+// What a solving call tells of, before it begins and after it has ended, and what ends it.
+#pragma once
+
+#include "lua/binding/objects/model_object.hpp"
+
+namespace cdem::script {
+
+std::string three_digits(double); // for messages
+
+// Where no load, moved support or the like acts. kind: of the stage.
+void warn_if_nothing_acts(Session&, const ModelObject&, const std::string& kind);
+
+// Flat or tiny elements that shorten the time step of a stage in real time; once, until others do.
+void warn_of_slivers(Session&, ModelObject&);
+
+// After a stage: what small strain cannot hold, what left the model, which laws acted on nothing so far.
+void warn_after_stage(Session&, ModelObject&, const Stage&);
+
+// After a stage: warns of an energy balance that is open by more than 1 %, and throws SolutionError from 10 %.
+void check_energy(Session&, ModelObject&, const Stage&);
+
+// "contact of "a" and "b"", or "joint of "a"" between its own blocks.
+std::string shown_pair(const std::string& body_a, const std::string& body_b);
+
+} // namespace cdem::script

@@ -1,0 +1,57 @@
+// The volume that blocks occupy at once, against boxes moved into each other by a known distance.
+#include "libcdem/results/overlap.hpp"
+#include "tests/libcdem/boxes.hpp"
+
+#include <catch2/catch.hpp>
+
+using namespace testing;
+using geom::Vec3;
+
+namespace {
+
+cdem::BodySpec block(const char* name, const Vec3& min, const Vec3& max) {
+  cdem::BodySpec body{name, {}, rock(), friction(30)};
+  body.shape.blocks = {geom::make_box(min, max)};
+  return body;
+}
+
+void move(System& s, int block, const Vec3& by) {
+  for (int n = s.model.blocks[block].node_begin; n < s.model.blocks[block].node_end; ++n)
+    s.state.displacement[n] = cdem::node(by);
+}
+
+} // namespace
+
+TEST_CASE("overlap of blocks is the volume of their common part", "[overlap]") {
+  System s(build({block("a", {0, 0, 0}, {1, 1, 1}), block("b", {2, 0, 0}, {3, 1, 1}),
+                  block("c", {5, 0, 0}, {6, 1, 1})}));
+  CHECK(cdem::overlap(s.model, s.state).volume == 0);
+  CHECK(cdem::overlap(s.model, s.state).pairs == 0);
+  move(s, 1, {-1.1, 0.5, 0.25}); // 0.1 x 0.5 x 0.75 in a
+  const cdem::Overlap one = cdem::overlap(s.model, s.state);
+  CHECK(one.volume == Approx(0.1 * 0.5 * 0.75));
+  CHECK(one.pairs == 1);
+  CHECK(one.largest_a == "\"a\"");
+  CHECK(one.largest_b == "\"b\"");
+  CHECK((one.place - Vec3(0.95, 0.75, 0.625)).norm() < 1e-12);
+  move(s, 2, {-5 - 0.999, 0, 0}); // a thousandth of a
+  const cdem::Overlap two = cdem::overlap(s.model, s.state);
+  CHECK(two.pairs == 2);
+  CHECK(two.volume == Approx(0.1 * 0.5 * 0.75 + 0.001));
+}
+
+TEST_CASE("overlap of a turned block with a mesh is that of their shapes", "[overlap]") {
+  cdem::BodySpec mesh{"mesh", {}, rock(), {}};
+  mesh.meshes = {geom::box_mesh({1, 1, 1}, {3, 2, 2})};
+  System s(build({block("b", {2, 0, 0}, {3, 1, 1}), mesh}));
+  // An edge of b, turned by 45 degrees about z, stands 0.1 m deep in the side x+ of the mesh.
+  const geom::Mat3 turn = rotation({0, 0, 1}, 45 * degree);
+  for (int n = s.model.blocks[0].node_begin; n < s.model.blocks[0].node_end; ++n) {
+    const Vec3& x = s.model.node_position[n];
+    const Vec3 to = turn * (x - Vec3(2.5, 0.5, 0.5)) + Vec3(0.9 + std::sqrt(0.5), 0.5, 0.5);
+    s.state.displacement[n] = cdem::node(to - x);
+  }
+  const cdem::Overlap found = cdem::overlap(s.model, s.state);
+  CHECK(found.pairs == 1);
+  CHECK(found.volume == Approx(0.1 * 0.1).epsilon(1e-9));
+}

@@ -1,0 +1,80 @@
+// Restitution of contacts: the speed after an impact over the speed before it, of rigid and deformable bodies.
+#include "libgeom/mesh/box_mesh.hpp"
+#include "tests/libcdem/system.hpp"
+
+#include <catch2/catch.hpp>
+#include <cmath>
+
+using namespace testing;
+using geom::Vec3;
+
+namespace {
+
+const double side = 0.4, gap = 1e-4; // m
+const double stiffness =
+    2e9; // Pa/m of the contact: the cube has E / side = 1e11, so waves in it keep nothing
+const double period = 2 * pi * std::sqrt(2700 * side / stiffness); // s, of the cube on its contact, at most
+
+cdem::Joint bouncy(double restitution) {
+  cdem::Joint joint;
+  joint.bonded = false;
+  joint.friction_angle = 30 * degree;
+  joint.normal_stiffness = stiffness;
+  joint.restitution = restitution;
+  return joint;
+}
+
+geom::TetMesh box(const Vec3& size, const std::array<int, 3>& divisions, const Vec3& at) {
+  geom::TetMesh mesh = geom::box_mesh(size, divisions);
+  for (Vec3& x : mesh.nodes)
+    x += at;
+  return mesh;
+}
+
+// A cube over a held floor, with its corners anywhere over the floor's triangles.
+cdem::Simulation cube_over_floor(const cdem::Joint& law, cdem::Element element, int divisions) {
+  cdem::ModelSpec spec;
+  spec.bodies = {
+      meshed("floor", box({1, 1, 0.2}, {3, 3, 1}, {0, 0, -0.2})),
+      meshed("cube", box({side, side, side}, {divisions, divisions, divisions}, {0.313, 0.278, gap}))};
+  spec.bodies[0].element = cdem::Element::rigid;
+  spec.bodies[1].element = element;
+  spec.default_contact = law;
+  cdem::Simulation s(spec, 1, std::make_shared<cdem::Observer>());
+  s.fix(fixed(cdem::Selection::of_body("floor")));
+  return s;
+}
+
+double mean_velocity(const cdem::Simulation& s) {
+  return s.mean("velocity.z", cdem::Selection::of_body("cube"));
+}
+
+} // namespace
+
+TEST_CASE("bodies bounce with the restitution of their contact, rigid and deformable, on any mesh",
+          "[contact]") {
+  for (const auto element : {cdem::Element::rigid, cdem::Element::finite_volume})
+    for (const double restitution : {0.3, 0.6, 0.9})
+      for (const int divisions : {1, 2, 3}) {
+        cdem::Simulation s = cube_over_floor(bouncy(restitution), element, divisions);
+        s.initial_velocity(cdem::Selection::of_body("cube"), {0, 0, -1});
+        cdem::RunOptions options;
+        options.duration = 2 * gap + period;
+        options.safety = 0.5;
+        s.run(options);
+        INFO(restitution << (element == cdem::Element::rigid ? " rigid " : " deformable ") << divisions);
+        CHECK(mean_velocity(s) == Approx(restitution).margin(0.02));
+        CHECK(s.energy().balance_error() < 1e-3);
+      }
+}
+
+TEST_CASE("a body comes to rest on a contact with restitution and presses with its weight", "[contact]") {
+  cdem::Simulation s = cube_over_floor(bouncy(0.3), cdem::Element::rigid, 2);
+  s.gravity(gravity());
+  cdem::RunOptions options;
+  options.duration = 100 * period;
+  options.safety = 0.5;
+  s.run(options);
+  CHECK(std::abs(mean_velocity(s)) < 1e-5);
+  CHECK(s.energy().balance_error() < 1e-2);
+}
