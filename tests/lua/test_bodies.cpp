@@ -21,24 +21,38 @@ const std::string head =
 } // namespace
 
 TEST_CASE("a mesh in two parts says so and is two units that move by themselves", "[lua]") {
-  const std::string text =
-      head +
-      "assert(pair.parts == 2 and tostring(pair):find('in 2 parts'))\n"
-      "local model = cdem.model{ bodies = { { shape = pair, material = rock, element = 'rigid', name = "
-      "'pair' } },\n"
-      "  contacts = { default = cdem.coulomb{ friction_angle = 30 } } }\n"
-      "assert(model:counts().blocks == 2)\n"
-      "model:initial_velocity{ on = cdem.select.units{ body = 'pair', numbers = {1} }, velocity = {0, 0, 1} "
-      "}\n"
-      "model:run{ duration = 0.1, time_step = 1e-3 }\n"
-      "close(model:mean('displacement.z', cdem.select.units{ body = 'pair', numbers = {1} }), 0.1, 1e-6)\n"
-      "close(model:mean('displacement.z', cdem.select.units{ body = 'pair', numbers = {2} }), 0, 1e-12)\n";
-  CHECK_THAT(printed_by(text), Contains("mesh of \"pair\" in 2 parts"));
+  const std::string text = head + "assert(pair.parts == 2 and tostring(pair):find('in 2 parts'))\n"
+                                  "local model = cdem.model{ bodies = { { shape = pair, material = rock, "
+                                  "element = 'rigid', name = 'pair' } },\n"
+                                  "  contacts = { default = cdem.coulomb{ friction_angle = 30 } } }\n"
+                                  "assert(model:counts().blocks == 2)\n";
   Script script(text);
   script.settings.check_only = true;
   CHECK(script.error() == "");
   CHECK_THAT(script.engine->model_summary(), Contains("mesh of \"pair\" in 2 parts, each moves by itself"));
+  CHECK_THAT(printed_by(text), Contains("mesh of \"pair\" in 2 parts: each moves by itself"));
   CHECK_THAT(error_of(text + "model:pile{ body = 'pair' }"), Contains("a mesh in several parts"));
+  CHECK(error_of(text +
+                 "local function unit(i) return cdem.select.units{ body = 'pair', numbers = {i} } end\n"
+                 "model:initial_velocity{ on = unit(1), velocity = {0, 0, 1} }\n"
+                 "model:run{ duration = 0.1, time_step = 1e-3 }\n"
+                 "close(model:mean('displacement.z', unit(1)), 0.1, 1e-6)\n"
+                 "close(model:mean('displacement.z', unit(2)), 0, 1e-12)") == "");
+}
+
+TEST_CASE("one part of a mesh turns rigid and back while the other deforms", "[lua]") {
+  CHECK(
+      error_of(
+          head +
+          "local model = cdem.model{ bodies = { { shape = pair, material = rock, name = 'pair' } } }\n"
+          "local first = cdem.select.units{ body = 'pair', numbers = {1} }\n"
+          "assert(model:make_rigid{ on = first } == 1)\n"
+          "model:initial_velocity{ angular_velocity = {0, 0, 1}, on = first }\n"
+          "model:run{ duration = 0.01 }\n"
+          "assert(model:max('velocity.magnitude', first) > 0.5)\n"
+          "assert(model:max('velocity.magnitude', cdem.select.units{ body = 'pair', numbers = {2} }) == 0)\n"
+          "assert(model:make_deformable{ on = 'all' } == 1)\nmodel:run{ steps = 10 }\n"
+          "assert(model:energy().balance_error < 1e-3)") == "");
 }
 
 TEST_CASE("a pile of units in loose parts falls part by part", "[lua]") {
