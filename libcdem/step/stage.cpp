@@ -23,13 +23,6 @@ static_assert(watch_every % release_every == 0, "as above");
 // Steps between looks at which units have left their place.
 constexpr std::int64_t look_every = 50;
 static_assert(watch_every % look_every == 0, "as above");
-// Chunks a thread must have before a further one is worth its two barriers a step: about half a millisecond of work.
-constexpr std::int64_t chunks_per_thread = 32;
-// The same where contacts are looked for, which is most of the work of a pile.
-constexpr std::int64_t touching_chunks_per_thread = 6;
-// A chunk of a continuous mesh counts as one for each so many tets.
-constexpr std::int64_t usual_chunk = 512;
-
 // What a step goes through from end to end.
 void ask_for_huge_pages_of(const Model& model, const State& state, const Workspace& work) {
   ask_for_huge_pages(state.displacement);
@@ -51,35 +44,11 @@ bool finite(const NodeSums& sums) {
 
 } // namespace
 
-int useful_threads(const Model& model, int threads) {
-  const auto meshes = static_cast<std::int64_t>(model.mesh.chunks.size());
-  std::int64_t chunks = static_cast<std::int64_t>(model.chunks.size()) - meshes;
-  for (const MeshChunk& chunk : model.mesh.chunks)
-    chunks += std::max<std::int64_t>(1, chunk.tets.size() / usual_chunk);
-  const std::int64_t each = model.surface.empty() ? chunks_per_thread : touching_chunks_per_thread;
-  return static_cast<int>(std::clamp<std::int64_t>(chunks / each, 1, threads));
-}
-
 double relative_residual(const NodeSums& sums) {
   const double reference = sums.applied2 > 0 ? sums.applied2 : sums.reaction2;
   if (reference > 0)
     return std::sqrt(sums.residual2 / reference);
   return sums.residual2 > 0 ? 1.0 : std::isnan(sums.residual2) ? sums.residual2 : 0.0;
-}
-
-void keep_start_of_loop(const StageContext& context) {
-  context.last_good = context.state;
-  if (!context.restart_point)
-    return;
-  RestartPoint point;
-  point.breaks = context.log.breaks.size();
-  point.broken_tension_before = context.log.broken_tension;
-  point.broken_shear_before = context.log.broken_shear;
-  if (context.procedure_state)
-    point.procedure_state = context.procedure_state();
-  *context.restart_point = std::move(point);
-  if (context.checkpoints)
-    context.checkpoints->marked();
 }
 
 Stage::Stage(const StageContext& context, std::string kind, double run_away)

@@ -380,3 +380,13 @@ TEST_CASE("a check prints what a script says before it solves, and nothing made 
   CHECK_THAT(outcome.out, Contains("the bar stands") && !Contains("top moved"));
   CHECK_THAT(cdem({"run", "bar/says.lua"}).out, Contains("top moved"));
 }
+
+TEST_CASE("cdem.log tells where the time of a stage's steps went") {
+  const Place cdem;
+  REQUIRE(cdem({"run", "bar/case.lua", "--output", "there"}).exit_code == 0);
+  std::string told;
+  for (const auto& line : lines_of(read_file(cdem.folder / "there/cdem.log")))
+    if (const auto at = line.find("time of the steps: "); at != std::string::npos)
+      told = line.substr(at);
+  CHECK_THAT(told, Contains("elements ") && Contains("bonds ") && Contains(" %"));
+}

@@ -1,0 +1,20 @@
+#include "libcdem/step/stage_context.hpp"
+
+namespace cdem {
+
+void keep_start_of_loop(const StageContext& context) {
+  context.last_good = context.state;
+  if (!context.restart_point)
+    return;
+  RestartPoint point;
+  point.breaks = context.log.breaks.size();
+  point.broken_tension_before = context.log.broken_tension;
+  point.broken_shear_before = context.log.broken_shear;
+  if (context.procedure_state)
+    point.procedure_state = context.procedure_state();
+  *context.restart_point = std::move(point);
+  if (context.checkpoints)
+    context.checkpoints->marked();
+}
+
+} // namespace cdem
