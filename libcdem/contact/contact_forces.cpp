@@ -3,6 +3,7 @@
 #include "libcdem/contact/broad_phase/search.hpp"
 #include "libcdem/contact/geometry/positions.hpp"
 #include "libcdem/contact/narrow_phase/evaluation.hpp"
+#include "libcdem/contact/response/block_motion.hpp"
 #include "libcdem/contact/response/contact_point.hpp"
 
 #include <algorithm>
@@ -156,8 +157,10 @@ ContactSums contact_forces(const Model& model, State& state, ContactWork& own, i
   own.chunks.resize(static_cast<std::size_t>(chunks_at_a_time * threads));
   clear_forces(own);
   mark_touched_edges(model.surface, state.contacts, own);
-  if (own.restitution)
+  if (own.restitution) {
     sum_block_forces(model, state.contacts, own);
+    find_block_motions(model, state, own, threads);
+  }
   own.now.clear();
   own.now.reserve(state.contacts.size() + state.contacts.size() / 8 + 64);
   for (std::int64_t first = 0; first < n; first += chunks_at_a_time * threads) {

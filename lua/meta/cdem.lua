@@ -307,6 +307,7 @@ local Material = {}
 ---@field thickness? number m
 ---@field normal_stiffness? number Pa/m
 ---@field shear_stiffness? number Pa/m
+---@field restitution number
 local Joint = {}
 
 ---Convex blocks, made by the builders; #assembly is the number of blocks.
@@ -1077,6 +1078,7 @@ function cdem.mohr_coulomb(options) end
 ---@field thickness? number m, > 0: equivalent thickness itself; wins over the ratio
 ---@field normal_stiffness? number Pa/m, > 0: instead of E/L
 ---@field shear_stiffness? number Pa/m, > 0: instead of G/L
+---@field restitution? number in [0.01, 1], default 1: coefficient of restitution of the contact of bodies that move far: speed after over speed before an impact, as far as the contact and not waves within the bodies decide it; 1: the contact loses nothing but by friction
 
 ---Contact that never was bonded: no tension, friction only (Han 2010 eq 9).
 ---@param options cdem.CoulombOptions

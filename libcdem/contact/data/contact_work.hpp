@@ -92,6 +92,13 @@ struct EdgeBeyond {
   double direction = 1; // 1 or -1: the line runs along the edge's own direction or against it
 };
 
+// Of a block as a whole.
+struct BlockMotion {
+  bool whole = false; // it has one
+  geom::Vec3 centroid = geom::Vec3::Zero(), velocity = geom::Vec3::Zero(),
+             spin = geom::Vec3::Zero(); // m, m/s, rad/s
+};
+
 struct TouchedNode {
   int node = 0, block = 0;
 };
@@ -134,7 +141,8 @@ struct ContactWork {
   double most_friction = std::numeric_limits<double>::infinity();
   bool restitution = false; // some contact law has one below 1, and the stage wants it
   std::vector<double>
-      block_forces;       // N, per block, of all springs that pressed on it before the step; with restitution
+      block_forces; // N, per block, of all springs that pressed on it before the step; with restitution
+  std::vector<BlockMotion> block_motion; // per block, of those that touched before the step; with restitution
   int skin_doublings = 0; // how often skins have been doubled, as searches followed each other closely
   std::int64_t steps_since_search = 0; // steps since the search
   std::int64_t searches = 0;

@@ -3,7 +3,6 @@
 #include "libcdem/contact/broad_phase/search.hpp"
 #include "libcdem/contact/response/contact_point.hpp"
 #include "libcdem/model/build/contact_surface.hpp"
-#include "libcdem/model/build/rigid_bodies.hpp"
 #include "libgeom/core/portable.hpp"
 
 #include <algorithm>
@@ -246,29 +245,23 @@ bool Evaluation::add_contact(int source, int corner, const geom::Vec3& spring, i
   return true;
 }
 
-double Evaluation::turning_acceleration(const ContactArms& arms, int source_block, int target_block,
-                                        double force) const {
-  const auto of = [&](int block, const int* nodes, const double* weights, int count) {
-    if (work_.last_displacement[block] == 0)
-      return 0.; // held: it does not turn round
-    const Block& b = model_.blocks[block];
-    if (b.rigid >= 0) {
-      const RigidBody& body = model_.rigid[b.rigid];
-      const std::array<double, 3>& c = state_.rigid[b.rigid].centroid;
-      geom::Vec3 arm(-c[0], -c[1], -c[2]);
-      for (int i = 0; i < count; ++i)
-        arm += weights[i] * place_of(model_, state_, nodes[i]);
-      return work_.block_forces[block] / body.mass +
-             force * (rigid_inverse_mass(body, arm.norm()) - 1 / body.mass);
-    }
-    double local = 0; // 1/kg
-    for (int i = 0; i < count; ++i)
-      local += weights[i] * weights[i] / model_.node_mass[nodes[i]];
-    const double mass = b.mass.volume * model_.bodies[b.body].material.density;
-    return work_.block_forces[block] / mass + force * local;
-  };
-  return of(source_block, arms.source.data(), arms.on_source.data(), 3) +
-         of(target_block, arms.target.data(), arms.normal.data(), 4);
+Evaluation::SideMotion Evaluation::motion_of_side(int block, const int* nodes, const double* weights,
+                                                  int count, double force) const {
+  geom::Vec3 place = geom::Vec3::Zero(), velocity = geom::Vec3::Zero();
+  double local = 0; // 1/kg
+  for (int i = 0; i < count; ++i) {
+    place += weights[i] * place_of(model_, state_, nodes[i]);
+    velocity += weights[i] * velocity_of(state_, nodes[i]);
+    local += weights[i] * weights[i] / model_.node_mass[nodes[i]];
+  }
+  if (work_.last_displacement[block] == 0)
+    return {velocity, 0}; // held: it does not turn round
+  const Block& b = model_.blocks[block];
+  const double whole = work_.block_forces[block] / (b.mass.volume * model_.bodies[b.body].material.density);
+  const BlockMotion& motion = work_.block_motion[block];
+  if (motion.whole)
+    return {motion.velocity + motion.spin.cross(place - motion.centroid), whole};
+  return {velocity, whole + (b.rigid >= 0 ? 0 : force * local)};
 }
 
 void Evaluation::finish(Contact& c, const Contact* old, ContactMotion& motion, const ContactArms& arms,
@@ -276,9 +269,11 @@ void Evaluation::finish(Contact& c, const Contact* old, ContactMotion& motion, c
   const geom::Vec3 velocity = velocity_past(state_, arms);
   motion.slid = work_.step * velocity;
   if (work_.restitution && law.damping_ratio > 0) {
-    motion.speed = -velocity.dot(motion.normal);
-    motion.turning_speed =
-        work_.step * turning_acceleration(arms, from.block, to.block, law.kn * std::max(0.0, motion.depth));
+    const double force = law.kn * std::max(0.0, motion.depth);
+    const SideMotion source = motion_of_side(from.block, arms.source.data(), arms.on_source.data(), 3, force),
+                     target = motion_of_side(to.block, arms.target.data(), arms.normal.data(), 4, force);
+    motion.speed = (target.velocity - source.velocity).dot(motion.normal);
+    motion.turning_speed = work_.step * (source.acceleration + target.acceleration);
   }
   ContactForce force;
   const bool own = old && key(*old) == key(c);

@@ -41,8 +41,14 @@ private:
   void add_contact(int source, int target, const NearestOfEdges&, const EdgeTouch&, bool may_begin);
   // Stores what the old one did before the step. Returns it, J: it is booked as lost with the old one, and is not.
   double take_over(Contact&, const Contact& old, const ContactLaw&, const ContactMotion&) const;
-  // m/s2, that the forces on the two blocks give the contact's places, one towards the other; force: N, of this contact.
-  double turning_acceleration(const ContactArms&, int source_block, int target_block, double force) const;
+  // Of one side of a contact: its velocity as restitution takes it, m/s, and what the forces on its block can change of it,
+  // m/s2. force: N, of this contact.
+  struct SideMotion {
+    geom::Vec3 velocity;
+    double acceleration = 0;
+  };
+  SideMotion motion_of_side(int block, const int* nodes, const double* weights, int count,
+                            double force) const;
   // old: the contact before the step, null where there was none.
   void finish(Contact&, const Contact* old, ContactMotion&, const ContactArms&, const ContactLaw&,
               const ContactTriangle& from, const ContactTriangle& to);

@@ -1,0 +1,13 @@
+// Motion of blocks as wholes, for the restitution of contacts: it asks whether two bodies approach, not what waves do at
+// their surfaces. Of each block the velocity of its centroid and the spin that have its momentum and angular momentum.
+#pragma once
+
+#include "libcdem/contact/data/contact_work.hpp"
+#include "libcdem/state/state.hpp"
+
+namespace cdem {
+
+// Writes ContactWork::block_motion. A block with broken faces has none: its fragments move by themselves.
+void find_block_motions(const Model&, const State&, ContactWork&, int threads);
+
+} // namespace cdem
