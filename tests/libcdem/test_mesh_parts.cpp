@@ -124,7 +124,7 @@ TEST_CASE("parts of one mesh that touch from the start rest on each other, at an
   }
 }
 
-TEST_CASE("two parts of a mesh that meet without a law say which is missing; a joint brings its friction",
+TEST_CASE("two parts of a mesh that meet without a law say which is missing, and a joint brings its friction",
           "[mesh_parts]") {
   const auto thrown_at_each_other = [](const cdem::Bonding& bonding) {
     const auto cube = [](double x) {

@@ -28,6 +28,17 @@ inline double spin(const geom::Vec3& along, const geom::Vec3& relative_velocity,
   return normal.cross(along).dot(relative_velocity) / along.squaredNorm();
 }
 
+// The same of a triangle, by all its edges: whichever is numbered first. velocity: m/s, of the corners.
+inline double spin(const Corners& x, const Corners& velocity, const geom::Vec3& normal) {
+  double turns = 0, square = 0;
+  for (int i = 0; i < 3; ++i) {
+    const geom::Vec3 along = x[(i + 1) % 3] - x[i], across = normal.cross(along);
+    turns += across.dot(velocity[(i + 1) % 3] - velocity[i]);
+    square += across.squaredNorm();
+  }
+  return square > 0 ? turns / square : 0;
+}
+
 inline bool has_bonds(const Model& model, int block) {
   const Bonding& bonding = model.bodies[model.blocks[block].body].bonding;
   return bonding.everywhere || bonding.between_regions || !bonding.regions.empty();

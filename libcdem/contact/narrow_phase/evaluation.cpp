@@ -233,12 +233,12 @@ bool Evaluation::add_contact(int source, int corner, const geom::Vec3& spring, i
   motion.depth = depth;
   motion.normal = nearest.at.inside || depth < 1e-9 * to.height ? y.normal : (nearest.place - spring) / depth;
   const Corners x = corners_of(model_, state_, from.nodes);
-  const geom::Triangle &n = from.nodes, &m = to.nodes;
-  const geom::Vec3 turn_from = velocity_of(state_, n[1]) - velocity_of(state_, n[0]),
-                   turn_to = velocity_of(state_, m[1]) - velocity_of(state_, m[0]);
+  const auto velocities = [&](const geom::Triangle& nodes) -> Corners {
+    return {velocity_of(state_, nodes[0]), velocity_of(state_, nodes[1]), velocity_of(state_, nodes[2])};
+  };
   motion.turned =
       0.5 * work_.step *
-      (spin(x[1] - x[0], turn_from, motion.normal) + spin(y.x[1] - y.x[0], turn_to, motion.normal));
+      (spin(x, velocities(from.nodes), motion.normal) + spin(y.x, velocities(to.nodes), motion.normal));
   const Law& law = law_between(from.block, to.block);
   finish(c, old, motion, spring_arms(model_, state_, from, corner, to, nearest.at.weights),
          spring_law(*law.joint, law.tan_friction, from, to), from, to);
