@@ -26,7 +26,7 @@ function scene.model()
     loose("heap", cdem.voronoi{ size = {length, width, height}, count = count, origin = {-length - 0.2, -width / 2, 0} }),
     loose("bricks", cdem.bricks{ size = {0.2, width, 0.4}, brick = {0.2, 0.4, 0.2}, origin = {-0.2, -width / 2, 0} }),
     stiff("ledge", cdem.box{ size = {1.6, width + 0.4, 0.3}, origin = {-1.6, -width / 2 - 0.2, -0.3} }),
-    stiff("floor", cdem.box{ size = {8, 8, 0.2}, origin = {-2, -4, -drop - 0.2} }),
+    stiff("floor", cdem.box{ size = {12, 14, 0.2}, origin = {-4, -7, -drop - 0.2} }),
     stiff("pusher", cdem.box{ size = {0.2, width + 0.2, 0.8 * height}, origin = {-length - 0.4, -width / 2 - 0.1, 0.02} }),
     stiff("unit_1", unit(0.5, -0.4, 20)),
     stiff("unit_2", unit(0.8, 0.4, 75)),

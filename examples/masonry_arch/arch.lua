@@ -21,7 +21,7 @@ function arch.model(t)
     end
     shapes[k] = cdem.convex_hull{ points = points }
   end
-  local ground = cdem.box{ size = {4.4, 2.4, 0.2}, origin = {-2.2, -1.05, -0.2} }
+  local ground = cdem.box{ size = {7, 4.3, 0.2}, origin = {-3.5, -2, -0.2} }
   local model = cdem.model{ bodies = {
     { shape = cdem.merge{ shapes = shapes }, material = stone, joint = dry, element = element, name = "arch" },
     { shape = ground, material = stone, element = "rigid", name = "ground" } }, contacts = { default = dry } }

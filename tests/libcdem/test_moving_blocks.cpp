@@ -253,3 +253,21 @@ TEST_CASE("blocks that may move far keep an initial stress, and close in on a ho
   CHECK(left > 0.5 * 2e6 / rock().youngs_modulus * 0.05);
   CHECK(right == Approx(-left).epsilon(1e-4));
 }
+
+TEST_CASE("blocks: two that meet face on at the default time step keep their energy", "[blocks][contact]") {
+  // Contacts of blocks are as stiff as their joints, far stiffer than the blocks: a step for the blocks alone would throw
+  // them apart with hundreds of times the energy they came with.
+  const auto cube = [](const char* name, double x) {
+    cdem::BodySpec body{name, {}, rock(), friction(30)};
+    body.shape.blocks = {geom::make_box({x, 0, 0}, {x + 0.4, 0.4, 0.4})};
+    return body;
+  };
+  cdem::Simulation s({{cube("a", 0), cube("b", 0.401)}, {{"a", "b", friction(30)}}}, 1, nullptr);
+  s.initial_velocity(cdem::Selection::of_body("a"), {0.5, 0, 0});
+  cdem::RunOptions options;
+  options.duration = 0.01;
+  s.run(options);
+  CHECK(s.contacts().deepest > 0);
+  CHECK(s.energy().balance_error() < 0.05);
+  CHECK(s.mean("velocity.x", cdem::Selection::of_body("b")) == Approx(0.5).epsilon(0.2));
+}

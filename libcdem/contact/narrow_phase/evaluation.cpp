@@ -249,19 +249,23 @@ bool Evaluation::add_contact(int source, int corner, const geom::Vec3& spring, i
 double Evaluation::turning_acceleration(const ContactArms& arms, int source_block, int target_block,
                                         double force) const {
   const auto of = [&](int block, const int* nodes, const double* weights, int count) {
+    if (work_.last_displacement[block] == 0)
+      return 0.; // held: it does not turn round
     const Block& b = model_.blocks[block];
     if (b.rigid >= 0) {
+      const RigidBody& body = model_.rigid[b.rigid];
       const std::array<double, 3>& c = state_.rigid[b.rigid].centroid;
       geom::Vec3 arm(-c[0], -c[1], -c[2]);
       for (int i = 0; i < count; ++i)
         arm += weights[i] * place_of(model_, state_, nodes[i]);
-      return work_.block_forces[block] * rigid_inverse_mass(model_.rigid[b.rigid], arm.norm());
+      return work_.block_forces[block] / body.mass +
+             force * (rigid_inverse_mass(body, arm.norm()) - 1 / body.mass);
     }
     double local = 0; // 1/kg
     for (int i = 0; i < count; ++i)
       local += weights[i] * weights[i] / model_.node_mass[nodes[i]];
-    return work_.block_forces[block] / (b.mass.volume * model_.bodies[b.body].material.density) +
-           force * local;
+    const double mass = b.mass.volume * model_.bodies[b.body].material.density;
+    return work_.block_forces[block] / mass + force * local;
   };
   return of(source_block, arms.source.data(), arms.on_source.data(), 3) +
          of(target_block, arms.target.data(), arms.normal.data(), 4);
@@ -282,8 +286,10 @@ void Evaluation::finish(Contact& c, const Contact* old, ContactMotion& motion, c
     c = *old; // nothing moved
   } else {
     c.normal = old ? old->normal : motion.normal;
-    if (old)
+    if (old) {
       c.shear = old->shear;
+      c.damping = old->damping;
+    }
     c.reference_penetration = own ? old->reference_penetration : first_reference_penetration(motion);
     if (old && !own)
       force.friction -= take_over(c, *old, law, motion);
