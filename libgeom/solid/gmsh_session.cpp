@@ -55,7 +55,10 @@ GmshSession::GmshSession()
   for (const char* name : {"GMSHPLUGINSHOME", "GMSH_HOME"})
     unsetenv(name);
   const Variable path("PATH"), python_path("PYTHONPATH"); // gmsh adds a folder to them, each time
-  gmsh::initialize(0, nullptr, false);                    // false: no options of the user's home
+  const Variable home("HOME");                            // FLTK keeps a file of its own there
+  const PrivateFolder no_home;
+  setenv("HOME", no_home.path().c_str(), 1);
+  gmsh::initialize(0, nullptr, false); // false: no options of the user's home
   for (const auto& [name, value] :
        {std::pair<const char*, double>{"General.Terminal", 0},
         {"General.NumThreads", 1},
@@ -76,12 +79,17 @@ GmshSession::~GmshSession() {
   std::cout.clear();
 }
 
-TemporaryFile::TemporaryFile(const std::string& ending)
-    : folder_((std::filesystem::temp_directory_path() / "cdem-XXXXXX").string()) {
-  if (!mkdtemp(folder_.data())) // only its owner may enter
-    throw std::runtime_error("cannot make a temporary folder " + folder_ + ": " + std::strerror(errno));
-  path_ = folder_ + "/file" + ending;
+PrivateFolder::PrivateFolder() : path_((std::filesystem::temp_directory_path() / "cdem-XXXXXX").string()) {
+  if (!mkdtemp(path_.data())) // mode 0700
+    throw std::runtime_error("cannot make a temporary folder " + path_ + ": " + std::strerror(errno));
 }
+
+PrivateFolder::~PrivateFolder() {
+  std::error_code ignored;
+  std::filesystem::remove_all(path_, ignored);
+}
+
+TemporaryFile::TemporaryFile(const std::string& ending) : path_(folder_.path() + "/file" + ending) {}
 
 TemporaryFile::TemporaryFile(const std::string& ending, const std::string& to_be_read)
     : TemporaryFile(ending) {
@@ -90,11 +98,6 @@ TemporaryFile::TemporaryFile(const std::string& ending, const std::string& to_be
   if (failed)
     throw std::runtime_error("cannot copy " + to_be_read + " to the temporary " + path_ + ": " +
                              failed.message());
-}
-
-TemporaryFile::~TemporaryFile() {
-  std::error_code ignored;
-  std::filesystem::remove_all(folder_, ignored);
 }
 
 Pieces load(const Solid& solid) {

@@ -44,20 +44,31 @@ auto in_session(const std::string& what, Body body) {
   }
 }
 
-// A file with a fixed name in a folder of its own that only this user can enter, deleted with it. gmsh also reads
-// FILE.opt beside each FILE it opens, a script that can run commands: what it opens must stand where no one else
-// can put such a file. Throws std::runtime_error when the system's temporary folder cannot be written.
+// A folder that only this user can enter, deleted with all it holds. Throws std::runtime_error when the system's
+// temporary folder cannot be written.
+class PrivateFolder {
+public:
+  PrivateFolder();
+  ~PrivateFolder();
+  PrivateFolder(const PrivateFolder&) = delete;
+  PrivateFolder& operator=(const PrivateFolder&) = delete;
+  const std::string& path() const { return path_; }
+
+private:
+  std::string path_;
+};
+
+// A file with a fixed name in a private folder. gmsh also reads FILE.opt beside each FILE it opens, a script that can
+// run commands: what it opens must stand where no one else can put such a file.
 class TemporaryFile {
 public:
   explicit TemporaryFile(const std::string& ending);                       // no file yet
   TemporaryFile(const std::string& ending, const std::string& to_be_read); // a copy
-  ~TemporaryFile();
-  TemporaryFile(const TemporaryFile&) = delete;
-  TemporaryFile& operator=(const TemporaryFile&) = delete;
   const std::string& path() const { return path_; }
 
 private:
-  std::string folder_, path_;
+  PrivateFolder folder_;
+  std::string path_;
 };
 
 // Reads a copy of the user's file: body(path of the copy). The copy, not the file, may be checked and then read:
