@@ -307,6 +307,7 @@ local Material = {}
 ---@field thickness? number m
 ---@field normal_stiffness? number Pa/m
 ---@field shear_stiffness? number Pa/m
+---@field restitution number
 local Joint = {}
 
 ---Convex blocks, made by the builders; #assembly is the number of blocks.
@@ -1077,6 +1078,7 @@ function cdem.mohr_coulomb(options) end
 ---@field thickness? number m, > 0: equivalent thickness itself; wins over the ratio
 ---@field normal_stiffness? number Pa/m, > 0: instead of E/L
 ---@field shear_stiffness? number Pa/m, > 0: instead of G/L
+---@field restitution? number in [0.01, 1], default 1: coefficient of restitution of the contact of bodies that move far: speed after over speed before an impact, as far as the contact and not waves within the bodies decide it; 1: the contact loses nothing but by friction
 
 ---Contact that never was bonded: no tension, friction only (Han 2010 eq 9).
 ---@param options cdem.CoulombOptions
@@ -1265,7 +1267,7 @@ function cdem.solid.sphere(options) end
 
 ---@class (exact) cdem.SolidReadOptions
 ---@field file string ends in .step, .stp or .stl
----@field scale? number > 0, default 1: 0.001 for an STL in millimetres
+---@field scale? number in [1e-06, 1e+06], default 1: 0.001 for an STL in millimetres
 
 ---A solid from a STEP file (in the file's units) or from a closed STL surface, whose triangles become its faces and bound the mesh size from above.
 ---@param options cdem.SolidReadOptions
@@ -1389,7 +1391,7 @@ function cdem.slope(options) end
 
 ---@class (exact) cdem.ReadMeshOptions
 ---@field file string
----@field scale? number > 0, default 1: 0.001 for a mesh in millimetres
+---@field scale? number in [1e-06, 1e+06], default 1: 0.001 for a mesh in millimetres
 
 ---Linear tetrahedra from a file: gmsh .msh, Medit .mesh, Nastran .bdf, I-deas .unv, legacy .vtk, or a .vtu written by cdem. What is wrong with them is said.
 ---@param options cdem.ReadMeshOptions
