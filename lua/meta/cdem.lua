@@ -1629,7 +1629,7 @@ function cdem.elapsed() end
 ---@field jobs? integer in [1, 1024]: cases at a time; as many as there are processors for when left out
 ---@field threads? integer in [1, 1024], default 1: of each case
 
----Runs a script with many settings, as processes side by side, each with a folder of its own in the output folder. All run the script, and the files that it requires by a name in quotes, as they are when the sweep begins; its folder swept/ keeps them. Where the script is stopped meanwhile `cdem resume` goes on: runs that have ended well stand, the others begin again. A run that fails is told of in a warning.
+---Runs a script with many settings, as processes side by side, each with a folder of its own in the output folder. All run the script, and the files that it requires by a name in quotes, as they are when the sweep begins; its folder swept/ keeps them. Where the script is stopped meanwhile `cdem resume` goes on: runs that have ended well stand, the others begin again. A run that fails is told of in a warning. Scripts that are swept may sweep others, three deep.
 ---@param options cdem.SweepOptions
 ---@return cdem.SweepResult[] # in the order given
 function cdem.sweep(options) end

@@ -64,3 +64,31 @@ TEST_CASE("a script of gmsh's is not read, whatever it is called") {
   }
   CHECK_FALSE(fs::exists(folder / "trace"));
 }
+
+TEST_CASE("two scripts that sweep each other end, in run and check") {
+  const TempFolder folder;
+  Start start;
+  start.folder = folder.path();
+  for (const std::string name : {"a", "b"})
+    write_file(folder / (name + ".lua"),
+               "local cdem = require 'cdem'\n"
+               "cdem.parameter{ name = 'x', default = 0 }\n"
+               "cdem.sweep{ script = '" +
+                   std::string(name == "a" ? "b" : "a") +
+                   ".lua', set = { { x = 1 }, { x = 2 } }, jobs = 2 }\nprint 'end'");
+  for (const std::string command : {"run", "check"}) {
+    INFO(command);
+    const Outcome outcome = run_cdem({command, "a.lua"}, start);
+    CHECK(outcome.exit_code == 0);
+    CHECK_THAT(outcome.out, Contains("end"));
+  }
+  std::string innermost;
+  std::size_t runs = 0;
+  for (const auto& entry : fs::recursive_directory_iterator(folder.path()))
+    if (entry.path().filename() == "cdem.log") {
+      ++runs;
+      innermost += read_file(entry.path());
+    }
+  CHECK(runs == 1 + 2 + 4); // a run that was refused at once leaves no folder
+  CHECK_THAT(innermost, Contains("3 sweeps stand within each other already"));
+}
