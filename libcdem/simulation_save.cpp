@@ -1,5 +1,6 @@
 // A Simulation as bytes, and back.
 #include "libcdem/checkpoint/model_archive.hpp"
+#include "libcdem/checkpoint/require_fits.hpp"
 #include "libcdem/simulation_impl.hpp"
 
 #include <fmt/format.h>
@@ -57,6 +58,7 @@ void Simulation::Impl::take(std::string_view saved, bool state_only) {
   if (!as_built)
     read(a, model_then);
   read(a, state_then);
+  require_fits(as_built ? model : model_then, state_then);
   archive(a, last_residual);
   if (!as_built) {
     model_then.mesh.named = std::move(model.mesh.named); // of the same meshes

@@ -49,6 +49,7 @@ void with_parent() {
 }
 
 void install() {
+  std::signal(SIGXFSZ, SIG_IGN); // a file above `ulimit -f` fails like a full disk, with a reason
   on_terminal.store(isatty(STDERR_FILENO) == 1);
   struct sigaction action {};
   action.sa_handler = handle;

@@ -12,6 +12,7 @@
 #include <regex>
 #include <sstream>
 #include <sys/file.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 namespace cdem::app {
@@ -41,9 +42,12 @@ bool is_last_state(const std::string& name) {
 
 // The file as seen from the folder; empty when it lies outside.
 fs::path place_below(const fs::path& file, const fs::path& folder) {
-  std::error_code none;
-  const fs::path inner = fs::weakly_canonical(fs::absolute(file), none),
-                 outer = fs::weakly_canonical(fs::absolute(folder), none);
+  const auto resolved = [](const fs::path& path) {
+    std::error_code error; // of a folder without permission
+    const fs::path place = fs::weakly_canonical(fs::absolute(path), error);
+    return error ? fs::absolute(path).lexically_normal() : place;
+  };
+  const fs::path inner = resolved(file), outer = resolved(folder);
   const auto [end, rest] = std::mismatch(outer.begin(), outer.end(), inner.begin(), inner.end());
   if (end != outer.end())
     return {};
@@ -264,6 +268,16 @@ void OutputFolder::take_away() {
       return;
 }
 
+// A log that was deleted can be written to all the same, and nobody will find what was.
+void OutputFolder::require_log_in_place() const {
+  struct stat written {
+  }, found{};
+  if (fstat(fileno(log_), &written) != 0 || stat(log_path_.c_str(), &found) != 0 ||
+      written.st_ino != found.st_ino || written.st_dev != found.st_dev)
+    throw FileError("output folder " + folder_.string() +
+                    " was deleted or moved while the run wrote to it: its results are lost or incomplete");
+}
+
 void OutputFolder::finish(ExitCode code, const std::string& error) {
   if (log_ == nullptr)
     return;
@@ -273,6 +287,7 @@ void OutputFolder::finish(ExitCode code, const std::string& error) {
   if (code == ExitCode::bad_input && !has_said_ && !made_something && !first_made_.empty())
     return take_away();
   if (code == ExitCode::success) {
+    require_log_in_place();
     begin_results();
     remove_last_states();
   }

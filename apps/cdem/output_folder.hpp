@@ -55,6 +55,7 @@ public:
   void finish(ExitCode, const std::string& error);
 
 private:
+  void require_log_in_place() const;
   void open_log(const std::filesystem::path&, const std::string& command);
   void go_on(const std::string& command);
   void write_to_log(const std::string& text);

@@ -5,13 +5,48 @@
 #include "apps/cdem/interrupt.hpp"
 #include "libcdem/parallel/instruction_set.hpp"
 
+#include "lua/binding/runtime/engine.hpp"
+
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <fcntl.h>
+#include <poll.h>
+#include <unistd.h>
+
 namespace cdem::app {
 
+namespace {
+
+// A file that is opened where stdin, stdout or stderr was closed would be taken for it.
+void open_standard_files() {
+  for (const int file : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
+    if (fcntl(file, F_GETFD) < 0)
+      open("/dev/null", O_RDWR);
+}
+
+// What was printed must have arrived; a reader that has seen enough (`cdem run ... | head`) is no failure.
+void require_stdout_written() {
+  if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0)
+    return;
+  const int reason = errno;
+  pollfd pipe{STDOUT_FILENO, POLLOUT, 0};
+  if (poll(&pipe, 1, 0) > 0 && (pipe.revents & POLLERR) != 0)
+    return;
+  throw script::FileError(std::string("standard output cannot be written: ") +
+                          (reason != 0 ? std::strerror(reason) : "is the disk full?"));
+}
+
+} // namespace
+
 int run_program(int argc, char** argv) {
+  open_standard_files();
   interrupt::install();
   try {
     (void)instruction_set(); // what the environment asks for is told of at once
-    return to_int(parse_command_line(argc, argv)());
+    const ExitCode code = parse_command_line(argc, argv)();
+    require_stdout_written();
+    return to_int(code);
   } catch (...) {
     const Failure failure = current_failure();
     print_failure(failure);

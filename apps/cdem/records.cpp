@@ -1,5 +1,7 @@
 #include "apps/cdem/records.hpp"
 
+#include <cerrno>
+#include <cstring>
 #include <fstream>
 #include <nlohmann/json.hpp>
 
@@ -50,7 +52,7 @@ void write_settings(const RunRecord& record, const std::filesystem::path& file) 
   std::ofstream out(file);
   out << settings.dump(2, ' ', false, json::error_handler_t::replace) << '\n';
   if (!out.flush())
-    throw FileError(file.string() + " cannot be written");
+    throw FileError(file.string() + " cannot be written: " + std::strerror(errno));
 }
 
 std::vector<Figure> read_report(const std::filesystem::path& file) {

@@ -1,5 +1,9 @@
 #include "apps/cdem/run_log.hpp"
 
+#include "lua/binding/runtime/engine.hpp"
+
+#include <cerrno>
+#include <cstring>
 #include <fstream>
 #include <set>
 #include <sstream>
@@ -31,7 +35,10 @@ std::string message_of(const std::string& line) {
 } // namespace
 
 bool is_run_log(const fs::path& log) {
+  errno = 0;
   std::ifstream in(log);
+  if (!in && errno == EACCES)
+    throw script::FileError(log.string() + " cannot be read: " + std::strerror(errno));
   std::string line;
   return std::getline(in, line) && starts_with(line, head);
 }

@@ -180,6 +180,12 @@ private:
 void check(const VoronoiOptions& o) {
   require_positive("size", o.size);
   require_finite("origin", o.origin);
+  constexpr double most = 1e4; // beyond it cells are slivers whose corners cannot be told apart
+  const double shortest = o.extruded ? o.size.head<2>().minCoeff() : o.size.minCoeff(),
+               longest = o.extruded ? o.size.head<2>().maxCoeff() : o.size.maxCoeff();
+  if (!(longest <= most * shortest))
+    throw InputError("size", text(o.size), "such that no side is more than 10000 times as long as another",
+                     o.extruded ? "" : "a thin plate can be extruded = true");
   if (o.count < 1)
     throw InputError("count", std::to_string(o.count), "a whole number >= 1");
   require_block_count("count", std::to_string(o.count), o.count, "use fewer blocks");

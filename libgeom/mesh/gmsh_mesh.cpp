@@ -109,16 +109,18 @@ namespace {
 
 // gmsh takes files that it does not know for scripts of its own, which can run commands: only formats it knows
 // by their ending may reach it, and .msh, which it knows by its first line.
-void require_mesh_format(const std::string& path) {
+std::string require_mesh_format(const std::string& path) {
   if (!std::filesystem::is_regular_file(path))
     throw InputError("file", '"' + path + '"', "an existing mesh file");
-  const std::string ending = std::filesystem::path(path).extension().string();
+  std::string ending = std::filesystem::path(path).extension().string();
   if (ending != ".msh" && ending != ".mesh" && ending != ".bdf" && ending != ".unv" && ending != ".vtk")
     throw InputError("file", '"' + path + '"', "a name that ends in .msh, .mesh, .bdf, .unv or .vtk");
-  if (ending != ".msh")
-    return;
+  return ending;
+}
+
+void require_first_line(const std::string& copy, const std::string& path) {
   std::string line;
-  std::getline(std::ifstream(path), line);
+  std::getline(std::ifstream(copy), line);
   if (line.rfind("$MeshFormat", 0) != 0 && line.rfind("$NOD", 0) != 0)
     throw InputError("file", '"' + path + '"', "a gmsh mesh", "its first line must be $MeshFormat");
 }
@@ -126,10 +128,14 @@ void require_mesh_format(const std::string& path) {
 } // namespace
 
 TetMesh read_mesh(const std::string& path) {
-  require_mesh_format(path);
+  const std::string ending = require_mesh_format(path);
   TetMesh mesh = in_session("reading " + path, [&] {
-    gmsh::merge(path);
-    return collect(path);
+    return with_copy(path, ending, [&](const std::string& copy) {
+      if (ending == ".msh")
+        require_first_line(copy, path);
+      gmsh::merge(copy);
+      return collect(path);
+    });
   });
   validate(mesh, path);
   return mesh;

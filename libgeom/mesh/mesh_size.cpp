@@ -42,18 +42,50 @@ double size_at(const MeshSize& sizes, const Vec3& x) {
   return size;
 }
 
+namespace {
+
+// The smallest and the largest size in a ball.
+std::pair<double, double> sizes_in(const MeshSize& sizes, const Vec3& centre, double radius) {
+  double low = sizes.size, high = sizes.size;
+  for (const Refinement& r : sizes.refinements) {
+    const double distance = distance_to(r, centre) - r.radius;
+    low = std::min(low, r.size + sizes.growth * std::max(0., distance - radius));
+    high = std::min(high, r.size + sizes.growth * std::max(0., distance + radius));
+  }
+  return {low, high};
+}
+
+} // namespace
+
+// The integral of 1 / h^3. A cell where h varies much is split into eight, so that no refinement falls between places
+// that are looked at, however small it is.
 double expected_tets(const MeshSize& sizes, const Box& box, double solid_volume) {
-  constexpr int n = 16;
-  double sum = 0;
-  for (int i = 0; i < n; ++i)
-    for (int j = 0; j < n; ++j)
-      for (int k = 0; k < n; ++k) {
-        const Vec3 share = (Vec3(i, j, k) + Vec3::Constant(0.5)) / n;
-        const double h = size_at(sizes, box.min + share.cwiseProduct(box.size()));
-        sum += 1 / (h * h * h);
+  constexpr double alike = 1.3;           // largest over smallest size in a cell that is left whole
+  constexpr std::size_t most_cells = 1e5; // the rest of the cells is taken as it is
+  std::vector<Box> cells{box};
+  const Vec3 whole = box.size();
+  double sum = 0; // of share / h^3, 1/m3
+  for (std::size_t i = 0; i < cells.size(); ++i) {
+    const Box cell = cells[i];
+    const auto [low, high] = sizes_in(sizes, cell.centre(), 0.5 * cell.size().norm());
+    if (high <= alike * low || cells.size() > most_cells) {
+      const double h = std::sqrt(low * high);
+      const Vec3 share = cell.size().cwiseQuotient(whole);
+      sum += share.x() * share.y() * share.z() / (h * h * h);
+      continue;
+    }
+    for (int corner = 0; corner < 8; ++corner) {
+      Box part;
+      for (int axis = 0; axis < 3; ++axis) {
+        const double middle = cell.centre()[axis];
+        const bool upper = (corner >> axis & 1) != 0;
+        part.min[axis] = upper ? middle : cell.min[axis];
+        part.max[axis] = upper ? cell.max[axis] : middle;
       }
-  return solid_volume * sum / (n * n * n) /
-         0.17; // the volume of a tet, h^3, in meshes made here; regular ones take 0.118
+      cells.push_back(part);
+    }
+  }
+  return solid_volume * sum / 0.17; // the volume of a tet, h^3, in meshes made here; regular ones take 0.118
 }
 
 } // namespace geom

@@ -4,6 +4,7 @@
 #include "libgeom/mesh/boundary.hpp"
 #include "libgeom/mesh/mesh_size.hpp"
 #include "libgeom/mesh/star_mesh.hpp"
+#include "libgeom/mesh/tet_mesh.hpp"
 #include "libgeom/solid/gmsh_session.hpp"
 
 #include <gmsh.h>
@@ -141,13 +142,18 @@ void require_size(const std::vector<Polyhedron>& blocks, double size) {
   MeshSize sizes;
   sizes.size = size;
   constexpr double nodes_per_tet = 0.25; // with those on the faces
+  double all = 0;
   for (const Polyhedron& block : blocks) {
     const double tets = expected_tets(sizes, bounding_box(block), mass_properties(block).volume);
     if (!(nodes_per_tet * tets <= max_zone_nodes))
       throw InputError("zone_size", text(size), "such that no block has more than 250000 tetrahedra",
                        "the block at " + text(mass_properties(block).centroid) + " m would have about " +
                            text(std::round(tets)));
+    all += tets;
   }
+  if (!(all <= max_tets))
+    throw InputError("zone_size", text(size), "such that there are at most 20 million tetrahedra",
+                     "this asks for about " + text(std::round(all * 1e-6)) + " million");
 }
 
 } // namespace

@@ -4,10 +4,14 @@
 
 #include <gmsh.h>
 
+#include <cerrno>
 #include <clocale>
+#include <cstdlib>
+#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <iostream>
+#include <optional>
 #include <sstream>
 
 #include <omp.h>
@@ -21,16 +25,46 @@ std::mutex& one_at_a_time() {
   return one;
 }
 
+// Puts an environment variable back as it was.
+class Variable {
+public:
+  explicit Variable(const char* name) : name_(name) {
+    if (const char* value = std::getenv(name))
+      value_ = value;
+  }
+  ~Variable() {
+    if (value_)
+      setenv(name_, value_->c_str(), 1);
+    else
+      unsetenv(name_);
+  }
+  Variable(const Variable&) = delete;
+  Variable& operator=(const Variable&) = delete;
+
+private:
+  const char* name_;
+  std::optional<std::string> value_;
+};
+
 } // namespace
 
 GmshSession::GmshSession()
     : lock_(one_at_a_time()), cout_(std::cout.rdbuf(nullptr)), locale_(std::setlocale(LC_ALL, nullptr)),
       threads_(omp_get_max_threads()) {
-  gmsh::initialize(0, nullptr, false);
-  for (const auto& [name, value] : {std::pair<const char*, double>{"General.Terminal", 0},
-                                    {"General.NumThreads", 1},
-                                    {"Geometry.OCCParallel", 0},
-                                    {"Geometry.OCCUnionUnify", 1}})
+  // gmsh loads libraries from the one folder and takes the other for its home.
+  for (const char* name : {"GMSHPLUGINSHOME", "GMSH_HOME"})
+    unsetenv(name);
+  const Variable path("PATH"), python_path("PYTHONPATH"); // gmsh adds a folder to them, each time
+  const Variable home("HOME");                            // FLTK keeps a file of its own there
+  const PrivateFolder no_home;
+  setenv("HOME", no_home.path().c_str(), 1);
+  gmsh::initialize(0, nullptr, false); // false: no options of the user's home
+  for (const auto& [name, value] :
+       {std::pair<const char*, double>{"General.Terminal", 0},
+        {"General.NumThreads", 1},
+        {"Geometry.OCCParallel", 0},
+        {"Geometry.OCCUnionUnify", 1},
+        {"Geometry.OCCImportLabels", 0}}) // for labels, the files that a STEP file names would be read too
     gmsh::option::setNumber(name, value);
 }
 
@@ -45,17 +79,25 @@ GmshSession::~GmshSession() {
   std::cout.clear();
 }
 
-TemporaryFile::TemporaryFile(const std::string& ending)
-    : path_((std::filesystem::temp_directory_path() / ("cdem-XXXXXX" + ending)).string()) {
-  const int file = mkstemps(path_.data(), static_cast<int>(ending.size()));
-  if (file < 0)
-    throw std::runtime_error("cannot write a temporary file " + path_);
-  close(file);
+PrivateFolder::PrivateFolder() : path_((std::filesystem::temp_directory_path() / "cdem-XXXXXX").string()) {
+  if (!mkdtemp(path_.data())) // mode 0700
+    throw std::runtime_error("cannot make a temporary folder " + path_ + ": " + std::strerror(errno));
 }
 
-TemporaryFile::~TemporaryFile() {
+PrivateFolder::~PrivateFolder() {
   std::error_code ignored;
-  std::filesystem::remove(path_, ignored);
+  std::filesystem::remove_all(path_, ignored);
+}
+
+TemporaryFile::TemporaryFile(const std::string& ending) : path_(folder_.path() + "/file" + ending) {}
+
+TemporaryFile::TemporaryFile(const std::string& ending, const std::string& to_be_read)
+    : TemporaryFile(ending) {
+  std::error_code failed;
+  std::filesystem::copy_file(to_be_read, path_, failed);
+  if (failed)
+    throw std::runtime_error("cannot copy " + to_be_read + " to the temporary " + path_ + ": " +
+                             failed.message());
 }
 
 Pieces load(const Solid& solid) {

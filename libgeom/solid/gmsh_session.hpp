@@ -44,18 +44,47 @@ auto in_session(const std::string& what, Body body) {
   }
 }
 
-// Throws std::runtime_error when the system's temporary folder cannot be written.
-class TemporaryFile {
+// A folder that only this user can enter, deleted with all it holds. Throws std::runtime_error when the system's
+// temporary folder cannot be written.
+class PrivateFolder {
 public:
-  explicit TemporaryFile(const std::string& ending);
-  ~TemporaryFile();
-  TemporaryFile(const TemporaryFile&) = delete;
-  TemporaryFile& operator=(const TemporaryFile&) = delete;
+  PrivateFolder();
+  ~PrivateFolder();
+  PrivateFolder(const PrivateFolder&) = delete;
+  PrivateFolder& operator=(const PrivateFolder&) = delete;
   const std::string& path() const { return path_; }
 
 private:
   std::string path_;
 };
+
+// A file with a fixed name in a private folder. gmsh also reads FILE.opt beside each FILE it opens, a script that can
+// run commands: what it opens must stand where no one else can put such a file.
+class TemporaryFile {
+public:
+  explicit TemporaryFile(const std::string& ending);                       // no file yet
+  TemporaryFile(const std::string& ending, const std::string& to_be_read); // a copy
+  const std::string& path() const { return path_; }
+
+private:
+  PrivateFolder folder_;
+  std::string path_;
+};
+
+// Reads a copy of the user's file: body(path of the copy). The copy, not the file, may be checked and then read:
+// no other process can change it in between. Failures of gmsh name the user's file.
+template <class Body>
+auto with_copy(const std::string& user_file, const std::string& ending, Body body) {
+  const TemporaryFile copy(ending, user_file);
+  try {
+    return body(copy.path());
+  } catch (std::string& message) {
+    for (auto at = message.find(copy.path()); at != std::string::npos;
+         at = message.find(copy.path(), at + user_file.size()))
+      message.replace(at, copy.path().size(), user_file);
+    throw;
+  }
+}
 
 // Inside a session only. `what` begins the messages.
 Pieces load(const Solid&);

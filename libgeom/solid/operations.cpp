@@ -171,7 +171,7 @@ Solid read_step(const std::string& path) {
   return in_session("reading " + path, [&] {
     gmsh::option::setString("Geometry.OCCTargetUnit", "M");
     Pieces pieces;
-    occ::importShapes(path, pieces, true, "step");
+    with_copy(path, ".step", [&](const std::string& copy) { occ::importShapes(copy, pieces, true, "step"); });
     for (const auto& [dim, tag] : pieces)
       if (dim < 3)
         throw InputError("file", '"' + path + '"', "a STEP file with a solid",

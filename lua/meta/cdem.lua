@@ -1267,7 +1267,7 @@ function cdem.solid.sphere(options) end
 
 ---@class (exact) cdem.SolidReadOptions
 ---@field file string ends in .step, .stp or .stl
----@field scale? number > 0, default 1: 0.001 for an STL in millimetres
+---@field scale? number in [1e-06, 1e+06], default 1: 0.001 for an STL in millimetres
 
 ---A solid from a STEP file (in the file's units) or from a closed STL surface, whose triangles become its faces and bound the mesh size from above.
 ---@param options cdem.SolidReadOptions
@@ -1391,7 +1391,7 @@ function cdem.slope(options) end
 
 ---@class (exact) cdem.ReadMeshOptions
 ---@field file string
----@field scale? number > 0, default 1: 0.001 for a mesh in millimetres
+---@field scale? number in [1e-06, 1e+06], default 1: 0.001 for a mesh in millimetres
 
 ---Linear tetrahedra from a file: gmsh .msh, Medit .mesh, Nastran .bdf, I-deas .unv, legacy .vtk, or a .vtu written by cdem. What is wrong with them is said.
 ---@param options cdem.ReadMeshOptions
@@ -1629,7 +1629,7 @@ function cdem.elapsed() end
 ---@field jobs? integer in [1, 1024]: cases at a time; as many as there are processors for when left out
 ---@field threads? integer in [1, 1024], default 1: of each case
 
----Runs a script with many settings, as processes side by side, each with a folder of its own in the output folder. All run the script, and the files that it requires by a name in quotes, as they are when the sweep begins; its folder swept/ keeps them. Where the script is stopped meanwhile `cdem resume` goes on: runs that have ended well stand, the others begin again. A run that fails is told of in a warning.
+---Runs a script with many settings, as processes side by side, each with a folder of its own in the output folder. All run the script, and the files that it requires by a name in quotes, as they are when the sweep begins; its folder swept/ keeps them. Where the script is stopped meanwhile `cdem resume` goes on: runs that have ended well stand, the others begin again. A run that fails is told of in a warning. Scripts that are swept may sweep others, three deep.
 ---@param options cdem.SweepOptions
 ---@return cdem.SweepResult[] # in the order given
 function cdem.sweep(options) end

@@ -1,9 +1,14 @@
+#include "apps/cdem/commands/script_run.hpp"
 #include "apps/cdem/output_folder.hpp"
 #include "apps/cdem/run_log.hpp"
 #include "lua/binding/runtime/engine.hpp"
+#include "lua/binding/runtime/files.hpp"
 #include "tests/apps/support/child.hpp"
 
 #include <catch2/catch.hpp>
+#include <cstdlib>
+#include <functional>
+#include <unistd.h>
 
 using namespace cdem::app;
 using Catch::Matchers::Contains;
@@ -29,6 +34,21 @@ struct Case {
     }
     output.finish(code, code == ExitCode::success ? "" : "case.lua:1: wrong");
   }
+};
+
+// root may do everything: as root, the rest of the test is somebody else's.
+class WithoutRoot {
+public:
+  WithoutRoot() {
+    if (geteuid() == 0)
+      REQUIRE(seteuid(65534) == 0);
+  }
+  ~WithoutRoot() {
+    if (getuid() == 0 && seteuid(0) != 0)
+      std::abort();
+  }
+  WithoutRoot(const WithoutRoot&) = delete;
+  WithoutRoot& operator=(const WithoutRoot&) = delete;
 };
 
 } // namespace
@@ -141,4 +161,43 @@ TEST_CASE("two runs at once cannot share a folder") {
   const Case c;
   OutputFolder first(c.results, c.script, "a run");
   CHECK_THROWS_WITH(OutputFolder(c.results, c.script, "another"), Contains("in use by another run"));
+}
+
+TEST_CASE("a folder or file without permission is named with the reason") {
+  TempFolder folder;
+  fs::permissions(folder.path(), fs::perms(0755));
+  const fs::path closed = folder / "closed", read_only = folder / "read_only",
+                 unreadable = folder / "unreadable";
+  write_file(closed / "out/cdem.log", run_log_head);
+  write_file(closed / "case.lua", "");
+  write_file(unreadable / "cdem.log", run_log_head);
+  write_file(folder / "case.lua", "");
+  fs::create_directories(read_only);
+  fs::permissions(unreadable / "cdem.log", fs::perms(0));
+  fs::permissions(read_only, fs::perms(0555));
+  fs::permissions(closed, fs::perms(0));
+  const WithoutRoot somebody;
+  const auto says = [](const std::function<void()>& act) -> std::string {
+    try {
+      act();
+    } catch (const FileError& error) {
+      return error.what();
+    } catch (const fs::filesystem_error& error) { // told of as a file error too
+      return error.what();
+    }
+    return "";
+  };
+  const auto denied = Contains("Permission denied");
+  CHECK_THAT(says([&] { info(closed / "out"); }), denied);
+  CHECK_THAT(says([&] { info(unreadable); }), denied);
+  CHECK_THAT(says([&] { resume({closed / "out"}); }), denied);
+  CHECK_THAT(says([&] { resume({unreadable}); }), denied);
+  CHECK_THAT(says([&] { require_script(closed / "case.lua"); }), denied);
+  for (const fs::path& place : {closed, closed / "out", read_only, read_only / "out", unreadable})
+    CHECK_THAT(says([&] { OutputFolder(place, folder / "case.lua", "a run"); }), denied);
+  const cdem::script::Files files(folder / "case.lua", read_only, {}, false);
+  CHECK_THAT(says([&] { files.to_read("closed/case.lua"); }), denied);
+  CHECK_THAT(says([&] { files.to_read("unreadable/cdem.log"); }), denied);
+  CHECK_THAT(says([&] { files.to_write("new/x"); }), denied);
+  CHECK_THAT(says([&] { cdem::script::write_file(read_only / "x", ""); }), denied);
 }

@@ -195,3 +195,38 @@ TEST_CASE("resume: a script that failed after it had solved is mended and goes o
     CHECK_FALSE(fs::exists(place.results / "checkpoint_1.cdem"));
   }
 }
+
+TEST_CASE("resume: a run goes on from whatever folder one stands in") {
+  // Functions of the script and of a file that it requires, in calls and stages before the stop.
+  std::string text = plate;
+  const std::string begins = "print \"begins\"\n";
+  text.replace(text.find(begins), begins.size(), "require 'parts.push' (model)\n" + begins);
+  std::string whole;
+  for (const auto& [stand, output] : std::vector<std::pair<std::string, std::string>>{
+           {"job", "out"}, {"", "job/out"}, {"elsewhere", "../job/out"}, {"job/out", "."}}) {
+    INFO(stand);
+    Place place;
+    write_file(place.folder / "job/case.lua", text);
+    write_file(place.folder / "job/parts/push.lua",
+               "return function(model)\n"
+               "  model:traction{ on = 'x+', stress = {1e3, 0, 0}, amplitude = function(t) return t end }\n"
+               "  model:run{ steps = 5, every = 1, callback = function() end }\nend");
+    fs::create_directories(place.folder / "elsewhere");
+    const auto figures = [&] { // the warnings behind them name the script as it was typed
+      const std::string report = read_file(place.folder / "job/out/report.json");
+      CHECK_THAT(report, Contains("\"warnings\""));
+      return report.substr(0, report.find("\"warnings\""));
+    };
+    place.start.folder = place.folder / "job";
+    if (whole.empty()) {
+      REQUIRE(place.cdem({"run", "case.lua", "--output", "out"}).exit_code == 0);
+      whole = figures();
+    }
+    REQUIRE(place.cdem({"run", "case.lua", "--output", "out"}, SIGINT, "begins").exit_code == 130);
+    place.start.folder = place.folder / stand;
+    const Outcome ended = place.cdem({"resume", output});
+    CHECK_THAT(ended.err, !Contains("error"));
+    CHECK(ended.exit_code == 0);
+    CHECK(figures() == whole);
+  }
+}

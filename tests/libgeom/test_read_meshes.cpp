@@ -8,6 +8,7 @@
 
 #include <catch2/catch.hpp>
 
+#include <cstdlib>
 #include <cstring>
 #include <fstream>
 
@@ -64,6 +65,25 @@ struct Stl {
 std::string msh(const std::string& third_node, const std::string& element) {
   return "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n4\n1 0 0 0\n2 1 0 0\n3 " + third_node +
          "\n4 0 0 1\n$EndNodes\n$Elements\n1\n1 " + element + "\n$EndElements\n";
+}
+
+// The same tet in every format that gmsh reads for us.
+std::vector<std::pair<std::string, std::string>> one_tet_files() {
+  return {
+      {"a.msh", msh("0 1 0", "4 2 0 1 1 2 3 4")},
+      {"a.mesh", "MeshVersionFormatted 2\nDimension 3\nVertices\n4\n0 0 0 1\n1 0 0 1\n0 1 0 1\n0 0 1 1\n"
+                 "Tetrahedra\n1\n1 2 3 4 1\nEnd\n"},
+      {"a.bdf", "GRID,1,,0.,0.,0.\nGRID,2,,1.,0.,0.\nGRID,3,,0.,1.,0.\nGRID,4,,0.,0.,1.\n"
+                "CTETRA,1,1,1,2,3,4\nENDDATA\n"},
+      {"a.unv",
+       "    -1\n  2411\n         1         1         1        11\n   0.0D+00   0.0D+00   0.0D+00\n"
+       "         2         1         1        11\n   1.0D+00   0.0D+00   0.0D+00\n"
+       "         3         1         1        11\n   0.0D+00   1.0D+00   0.0D+00\n"
+       "         4         1         1        11\n   0.0D+00   0.0D+00   1.0D+00\n    -1\n    -1\n  2412\n"
+       "         1       111         1         1         7         4\n"
+       "         1         2         3         4\n    -1\n"},
+      {"a.vtk", "# vtk DataFile Version 2.0\ntet\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 4 double\n"
+                "0 0 0\n1 0 0\n0 1 0\n0 0 1\nCELLS 1 5\n4 0 1 2 3\nCELL_TYPES 1\n10\n"}};
 }
 
 } // namespace
@@ -130,23 +150,9 @@ TEST_CASE("a gmsh file gives its tets, and what is wrong in one is named") {
   CHECK(read(msh("0 1 0", "4 2 0 1 1 2 3 4")).tets.size() == 1); // and reading goes on
 }
 
-TEST_CASE("Medit, Nastran, I-deas and VTK files give their tets") {
+TEST_CASE("gmsh, Medit, Nastran, I-deas and VTK files give their tets") {
   const TemporaryFolder folder;
-  const std::vector<std::pair<std::string, std::string>> files{
-      {"a.mesh", "MeshVersionFormatted 2\nDimension 3\nVertices\n4\n0 0 0 1\n1 0 0 1\n0 1 0 1\n0 0 1 1\n"
-                 "Tetrahedra\n1\n1 2 3 4 1\nEnd\n"},
-      {"a.bdf", "GRID,1,,0.,0.,0.\nGRID,2,,1.,0.,0.\nGRID,3,,0.,1.,0.\nGRID,4,,0.,0.,1.\n"
-                "CTETRA,1,1,1,2,3,4\nENDDATA\n"},
-      {"a.unv",
-       "    -1\n  2411\n         1         1         1        11\n   0.0D+00   0.0D+00   0.0D+00\n"
-       "         2         1         1        11\n   1.0D+00   0.0D+00   0.0D+00\n"
-       "         3         1         1        11\n   0.0D+00   1.0D+00   0.0D+00\n"
-       "         4         1         1        11\n   0.0D+00   0.0D+00   1.0D+00\n    -1\n    -1\n  2412\n"
-       "         1       111         1         1         7         4\n"
-       "         1         2         3         4\n    -1\n"},
-      {"a.vtk", "# vtk DataFile Version 2.0\ntet\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 4 double\n"
-                "0 0 0\n1 0 0\n0 1 0\n0 0 1\nCELLS 1 5\n4 0 1 2 3\nCELL_TYPES 1\n10\n"}};
-  for (const auto& [name, text] : files) {
+  for (const auto& [name, text] : one_tet_files()) {
     INFO(name);
     std::ofstream(folder / name) << text;
     const TetMesh mesh = read_mesh(folder / name);
@@ -171,4 +177,50 @@ TEST_CASE("a script of gmsh's passed off as a mesh runs nothing") {
   CHECK_THROWS_AS(read_step(step), InputError);
   CHECK_THROWS_AS(read_stl(stl), InputError);
   CHECK_FALSE(std::ifstream(trace).good());
+}
+
+TEST_CASE("gmsh reads no file but the one that is named: no options beside it, none of the home folder") {
+  const TemporaryFolder folder, home;
+  const std::string trace = folder / "trace";
+  const auto script = [&](const std::string& path) {
+    std::ofstream(path) << "SystemCall \"touch " << trace << "\";\n";
+  };
+  for (const std::string name : {".gmshrc", ".gmsh-options", ".gmsh-solver"})
+    script(home / name);
+  for (const char* variable : {"HOME", "GMSH_HOME", "GMSHPLUGINSHOME"})
+    setenv(variable, (home / "").c_str(), 1);
+  const std::string before = std::getenv("PATH");
+  for (const auto& [name, text] : one_tet_files()) {
+    INFO(name);
+    const std::filesystem::path path = folder / name, stem = std::filesystem::path(path).replace_extension();
+    std::ofstream(path) << text;
+    for (const char* ending : {".opt", ".geo", ".geo.opt"}) {
+      script(path.string() + ending);
+      script(stem.string() + ending);
+    }
+    CHECK(read_mesh(path).tets.size() == 1);
+    CHECK_FALSE(std::ifstream(trace).good());
+  }
+  const std::string step = folder / "box.step";
+  write_step(box({1, 1, 1}, {0, 0, 0}), step);
+  for (const char* other : {".opt", ".geo", ".geo.opt"})
+    script(step + other);
+  script(folder / "box.opt");
+  CHECK(mass_properties(read_step(step)).volume == Approx(1));
+  CHECK_FALSE(std::ifstream(trace).good());
+  CHECK(std::getenv("PATH") == before);
+}
+
+TEST_CASE("what is said about a file names the file, not the copy that was read") {
+  const TemporaryFolder folder;
+  for (const std::string name : {"a.mesh", "a.step"}) {
+    std::ofstream(folder / name) << "nonsense\n";
+    const std::string said = refusal([&] {
+      if (name == "a.step")
+        read_step(folder / name);
+      else
+        read_mesh(folder / name);
+    });
+    CHECK_THAT(said, Contains((folder / name)) && !Contains("cdem-XXXXXX") && !Contains("/file."));
+  }
 }

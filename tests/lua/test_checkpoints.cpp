@@ -1,8 +1,12 @@
 // A script that was stopped goes on as if it had not been: its own variables, what it writes and what it solves.
+#include "libcdem/checkpoint/file.hpp"
+#include "libcdem/state/contact.hpp"
 #include "libcdem/step/errors.hpp"
+#include "libgeom/core/random.hpp"
 #include "tests/lua/script.hpp"
 
 #include <catch2/catch.hpp>
+#include <cstring>
 
 using namespace cdem::script;
 using namespace cdem::script::test;
@@ -304,6 +308,80 @@ TEST_CASE("a saved state is where another script begins", "[checkpoint]") {
   CHECK_THAT(error_of(column() + "model:run{ steps = 20, every = 1, callback = function() "
                                  "model:save_state{ file = 'a.cdem' } end }"),
              Contains("not from a callback"));
+}
+
+// A whole state file, checksum and all, of a model that has broken bonds, faces of meshes and contacts, with other bytes
+// somewhere in it. Where they stand is the same in every run.
+TEST_CASE("a forged state ends in one line or is taken, and never crashes", "[checkpoint]") {
+  const std::string build =
+      "local cdem = require 'cdem'\n"
+      "local rock = cdem.elastic{ youngs_modulus = 1e7, poissons_ratio = 0.2, density = 2500 }\n"
+      "local joint = cdem.mohr_coulomb{ cohesion = 1e3, friction_angle = 30, tensile_strength = 1e3 }\n"
+      "local ground = cdem.box_mesh{ size = {2, 2, 1}, divisions = {2, 2, 1} }\n"
+      "local unit = cdem.voronoi{ size = {1, 1, 1}, count = 4, origin = {0.5, 0.5, 1.0} }\n"
+      "local model = cdem.model{ bodies = {\n"
+      "  { shape = ground, material = rock, joint = joint, bonds = 'all', name = 'ground' },\n"
+      "  { shape = unit, material = rock, joint = joint, name = 'unit' } },\n"
+      "  contacts = { default = cdem.coulomb{ friction_angle = 30 } } }\n"
+      "model:fix{ on = 'z-', axes = 'xyz' }\nmodel:gravity{ vector = {0, 0, -9.81} }\n";
+  Script first(build +
+               "model:initial_velocity{ on = 'unit', velocity = {0, 0, -2} }\nmodel:run{ steps = 300 }\n"
+               "model:save_state{ file = 'state.cdem' }\nprint(#model:breaks() > 0, "
+               "model:contacts().acting > 0)");
+  CHECK_THAT(first.printed(), Catch::Matchers::EndsWith("true\ttrue"));
+  const std::string whole = cdem::read_saved(first.settings.output / "state.cdem", cdem::SavedKind::state);
+  const std::string load =
+      build + "model:load_state{ file = 'state.cdem' }\nmodel:run{ steps = 3 }\nprint 'taken'";
+  int refused = 0, taken = 0;
+  const auto try_forged = [&](const std::string& content) {
+    Script script(load);
+    cdem::write_saved(script.folder / "state.cdem", cdem::SavedKind::state, content);
+    try {
+      script.run();
+      ++taken;
+    } catch (const ScriptError& error) {
+      CHECK(std::string(error.what()).find('\n') == std::string::npos);
+      ++refused;
+    } catch (const cdem::SolutionError&) {
+      ++taken;
+    }
+  };
+  // A field stands as its name, its length in bytes and its data.
+  for (const std::string name :
+       {"displacement", "velocity", "bond_offset", "bond_mode", "released", "initial_stress", "stress",
+        "faces", "face_slip", "contacts", "rigid", "escaped"}) {
+    INFO(name);
+    const std::uint64_t letters = name.size();
+    const std::string head = std::string(reinterpret_cast<const char*>(&letters), sizeof letters) + name;
+    const std::size_t length_at = whole.find(head) + head.size(), data_at = length_at + 8;
+    std::uint64_t bytes = 0;
+    std::memcpy(&bytes, &whole[length_at], sizeof bytes);
+    for (const std::int64_t more : {-88, -8, 8, 88}) { // entries of eight bytes and of a contact
+      const std::uint64_t other = bytes + static_cast<std::uint64_t>(more);
+      if (more < 0 && bytes < static_cast<std::uint64_t>(-more))
+        continue;
+      std::string forged = whole;
+      std::memcpy(&forged[length_at], &other, sizeof other);
+      if (more > 0)
+        forged.insert(data_at + bytes, static_cast<std::size_t>(more), '\1');
+      else
+        forged.erase(data_at + other, static_cast<std::size_t>(-more));
+      try_forged(forged);
+    }
+    const bool indices = name == "bond_mode" || name == "faces" || name == "contacts";
+    for (std::uint64_t i = 0; indices && i < 40; ++i) {
+      std::string forged = whole;
+      const auto draw = geom::philox({static_cast<std::uint32_t>(i), 0, 0, 0}, {7, 0});
+      const std::uint32_t values[] = {0xffffffffu, 0x7fffffffu, 0x80000000u, draw[2] % 4096u};
+      const std::size_t record = name == "contacts" ? sizeof(cdem::Contact) : 4, // its indices stand first
+          words = name == "contacts" ? 4 : 1,
+                        at = record * (draw[0] % (bytes / record)) + 4 * (draw[1] % words);
+      std::memcpy(&forged[data_at + at], &values[i % 4], 4);
+      try_forged(forged);
+    }
+  }
+  CHECK(refused > 100);
+  CHECK(taken > 0);
 }
 
 TEST_CASE("what to type to go on is quoted where a shell would part it", "[lua]") {

@@ -121,11 +121,29 @@ TEST_CASE("the metatables of our objects are out of reach", "[lua]") {
 }
 
 TEST_CASE("a file handle cannot pass for one of our objects", "[lua]") {
-  CHECK_THAT(error_of(column() +
-                      "local f = io.open('x', 'w')\n"
-                      "for k, v in pairs({ __name = 'cdem.Model' }) do getmetatable(f)[k] = v end\n"
-                      "model.counts(f)"),
-             Contains("call it with a colon on a cdem.Model"));
+  Script script(column() + "local f = io.open('x', 'w')\n"
+                           "for k, v in pairs({ __name = 'cdem.Model' }) do getmetatable(f)[k] = v end\n"
+                           "model.counts(f)");
+  script.settings.unsafe = true;
+  CHECK_THAT(script.error(), Contains("call it with a colon on a cdem.Model"));
+}
+
+TEST_CASE("no metatable is in a safe script's reach: no finaliser runs, at the end or before", "[lua]") {
+  const std::string file = "local value = io.open('x', 'w')\n";
+  const std::string values = GENERATE_COPY(
+      as<std::string>{}, file,
+      "local value = io.lines('case.lua')\nvalue = select(4, io.lines('case.lua'))\n", "local value = ''\n",
+      "local value = require 'cdem'\n", "local value = require('cdem').solid\n",
+      "local value = require('cdem').solid.box{ size = {1, 1, 1} }\n", column() + "local value = model\n",
+      column() + "local value = model.memory\n");
+  INFO(values);
+  CHECK(printed_by(values + "print(getmetatable(value))") == "false");
+  const std::string finaliser = "local function bad() print 'finaliser' while true do end end\n";
+  CHECK(printed_by(finaliser + values +
+                   "print(pcall(function() getmetatable(value).__gc = bad end))\n"
+                   "print(pcall(setmetatable, value, { __gc = bad }))\n"
+                   "value = nil\ncollectgarbage()")
+            .find("finaliser") == std::string::npos);
 }
 
 TEST_CASE("a script that takes more memory than allowed ends with a clear error", "[lua][.slow]") {

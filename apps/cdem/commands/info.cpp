@@ -192,7 +192,7 @@ ExitCode info(const fs::path& path) {
   std::error_code none;
   if (path.empty())
     about_program();
-  else if (!fs::exists(path, none))
+  else if (!is_there(path))
     throw script::FileError(path.string() + ": no such file or folder");
   else if (fs::is_directory(path, none))
     about_results(path);

@@ -1,5 +1,5 @@
 // cdem render: a picture of a .vtu file.
-#include "apps/cdem/commands/commands.hpp"
+#include "apps/cdem/commands/script_run.hpp"
 #include "libcdem/vtk/field_values.hpp"
 #include "libcdem/vtk/files.hpp"
 #include "libcdem/vtk/picture.hpp"
@@ -76,8 +76,7 @@ Snapshot without(const Snapshot& snapshot, const std::vector<std::string>& hidde
 } // namespace
 
 ExitCode render_picture(const RenderCommand& command) {
-  std::error_code none;
-  if (!fs::exists(command.file, none))
+  if (!is_there(command.file))
     throw script::FileError(command.file.string() + ": no such file");
   const Snapshot snapshot = read_vtu(command.file.string());
   const std::string colour = command.colour ? *command.colour : usual_field(snapshot);
@@ -88,6 +87,7 @@ ExitCode render_picture(const RenderCommand& command) {
     output += (colour.empty() ? std::string() : "-" + colour) + ".png";
   }
   const fs::path folder = output.has_parent_path() ? output.parent_path() : fs::path(".");
+  std::error_code none;
   if (!fs::is_directory(folder, none))
     throw script::FileError(output.string() + " cannot be written: there is no folder " + folder.string());
   if (access(folder.c_str(), W_OK) != 0)

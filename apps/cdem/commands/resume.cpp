@@ -10,7 +10,7 @@ namespace fs = std::filesystem;
 
 ExitCode resume(const ResumeCommand& command) {
   std::error_code none;
-  if (!fs::exists(command.folder, none))
+  if (!is_there(command.folder))
     throw script::FileError(command.folder.string() + ": no such folder");
   if (!fs::is_directory(command.folder, none))
     throw UsageError(command.folder.string() + " is not a folder; give the output folder of the run");

@@ -29,9 +29,17 @@ std::string similar_file(const fs::path& file) {
 
 } // namespace
 
+bool is_there(const fs::path& path) {
+  std::error_code error;
+  const bool found = fs::exists(path, error);
+  if (error)
+    throw script::FileError(path.string() + " cannot be read: " + error.message());
+  return found;
+}
+
 void require_script(const fs::path& script) {
   std::error_code none;
-  if (!fs::exists(script, none))
+  if (!is_there(script))
     throw script::FileError(script.string() + ": no such file" + similar_file(script));
   if (fs::is_directory(script, none)) {
     const fs::path inside = script / "case.lua";

@@ -8,6 +8,9 @@
 
 namespace cdem::app {
 
+// False where there is none; FileError where that cannot be known, say in a folder without permission.
+bool is_there(const std::filesystem::path&);
+
 // A script that is missing, a folder or unreadable: script::FileError, UsageError.
 void require_script(const std::filesystem::path&);
 

@@ -45,8 +45,8 @@ RefineOptions refine_options(const ModelObject& model, const Arguments& a) {
   RefineOptions options;
   options.tension_threshold = a.number("tension_threshold");
   options.shear_threshold = a.number("shear_threshold");
-  options.planes = static_cast<int>(a.integer("planes"));
-  options.max_depth = static_cast<int>(a.integer("max_depth"));
+  options.planes = a.count("planes");
+  options.max_depth = a.count("max_depth");
   options.criterion = a.text("criterion") == "griffith" ? Criterion::griffith : Criterion::mohr_coulomb;
   if (a.has("region"))
     options.region = one_selection(model, a.value("region"), "region");
@@ -105,7 +105,7 @@ Value grow_result(const GrowResult& result) {
 
 Value grow(Session& session, ModelObject& model, const Arguments& a) {
   GrowOptions options;
-  options.passes = static_cast<int>(a.integer("passes"));
+  options.passes = a.count("passes");
   options.break_ratio = a.number("break_ratio");
   options.tip_radius = a.optional_number("tip_radius");
   options.anchor_at_tip = a.flag("anchor_at_tip");
@@ -115,7 +115,7 @@ Value grow(Session& session, ModelObject& model, const Arguments& a) {
     options.may_break = may_break_of(a.text("may_break"));
   options.residual = a.number("residual");
   options.max_steps = a.integer("max_steps");
-  options.max_rounds = static_cast<int>(a.integer("max_rounds"));
+  options.max_rounds = a.count("max_rounds");
   options.refine = refine_options(model, a);
   if (const auto callback = a.function("callback"))
     options.callback = [&session, callback](const GrowPass& pass) {

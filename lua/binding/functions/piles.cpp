@@ -44,10 +44,10 @@ Value drop(Session&, Object*, const Arguments& a) {
   geom::DropOptions options;
   options.gap = a.optional_number("gap");
   options.region = plan_region(a);
-  options.layers = a.has("layers") ? static_cast<int>(a.integer("layers")) : 0;
+  options.layers = a.has("layers") ? a.count("layers") : 0;
   options.seed = static_cast<std::uint64_t>(a.integer("seed"));
   return std::make_shared<PileObject>(geom::drop_grid(
-      a.object<TetMeshObject>("unit")->mesh, static_cast<int>(a.integer("count")), ground_of(a), options));
+      a.object<TetMeshObject>("unit")->mesh, a.count("count"), ground_of(a), options));
 }
 
 std::string of_at_most(int number, int most) {
@@ -133,16 +133,16 @@ Value lay(Session& session, Object*, const Arguments& a) {
   geom::LayerOptions options;
   options.density = a.number("density");
   if (a.has("columns"))
-    options.columns = static_cast<int>(a.integer("columns"));
+    options.columns = a.count("columns");
   options.gap = a.optional_number("gap");
   options.region = plan_region(a);
   options.seed = static_cast<std::uint64_t>(a.integer("seed"));
-  options.attitudes = static_cast<int>(a.integer("attitudes"));
-  options.nudges = static_cast<int>(a.integer("nudges"));
+  options.attitudes = a.count("attitudes");
+  options.nudges = a.count("nudges");
   options.play = a.number("play");
   options.friction = geom::portable::tan(radians(a.number("friction_angle")));
   options.walls = a.flag("walls");
-  const int count = static_cast<int>(a.integer("count"));
+  const int count = a.count("count");
   LayingObserver observer(session, count);
   options.tell = [&](const geom::LayerProgress& now) { observer(now); };
   geom::Layer layer;

@@ -31,9 +31,9 @@ Value voronoi(Session&, Object*, const Arguments& a) {
   geom::VoronoiOptions options;
   options.size = a.vec3("size");
   options.origin = a.vec3("origin");
-  options.count = static_cast<int>(a.integer("count"));
+  options.count = a.count("count");
   options.seed = static_cast<std::uint64_t>(a.integer("seed"));
-  options.relaxations = static_cast<int>(a.integer("relaxations"));
+  options.relaxations = a.count("relaxations");
   options.extruded = a.flag("extruded");
   return made(geom::voronoi(options));
 }

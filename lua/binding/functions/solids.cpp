@@ -81,7 +81,7 @@ void bind_builders(Module& m) {
       "its "
       "faces and bound the mesh size from above.",
       {text("file").required().doc("ends in .step, .stp or .stl"),
-       number("scale").above(0).standard(1.0).doc("0.001 for an STL in millimetres")},
+       number("scale").within(1e-6, 1e6).standard(1.0).doc("0.001 for an STL in millimetres")},
       read_solid);
 }
 

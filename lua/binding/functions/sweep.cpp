@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <cctype>
 #include <chrono>
+#include <cstdlib>
 #include <sstream>
 #include <thread>
 
@@ -192,6 +193,27 @@ void keep(Session& session, const std::vector<Case>& cases, const std::vector<Jo
       fs::last_write_time(session.files.output() / cases[i].name / log_name, now);
 }
 
+// Sweeps that this process is a run of, one within the other. A safe script cannot change the environment.
+constexpr const char* depth_name = "CDEM_SWEEP_DEPTH";
+constexpr int most_depth = 3;
+
+int sweep_depth() {
+  static const int depth = [] {
+    const char* text = std::getenv(depth_name);
+    return text ? std::clamp(std::atoi(text), 0, most_depth) : 0;
+  }();
+  return depth;
+}
+
+// Two scripts that sweep each other would fill the machine.
+void begin_depth() {
+  if (sweep_depth() >= most_depth)
+    throw InputError(
+        "sweep: " + std::to_string(most_depth) +
+        " sweeps stand within each other already, and no more may; do two scripts sweep each other?");
+  setenv(depth_name, std::to_string(sweep_depth() + 1).c_str(), 1);
+}
+
 int jobs_at_a_time(const Arguments& a) {
   if (a.has("jobs"))
     return static_cast<int>(a.integer("jobs"));
@@ -206,6 +228,7 @@ Value sweep(Session& session, Object*, const Arguments& a) {
                      "a script that sweeps itself would never end");
   if (session.settings.program.empty())
     throw InputError("sweep: only from the cdem program, which it starts for each case");
+  begin_depth();
   session.check_set_names();
   const std::vector<Case> cases = read_cases(a);
   std::vector<Job> jobs = make_jobs(session, a, cases, script), rest;
@@ -284,7 +307,7 @@ void bind_sweep(Module& m) {
        "are when the sweep begins; its folder swept/ keeps them. Where the script is stopped meanwhile `cdem "
        "resume` goes on: runs that have ended well stand, the others begin again. A run that fails is told "
        "of in a "
-       "warning.",
+       "warning. Scripts that are swept may sweep others, three deep.",
        {text("script").required().doc("another .lua file beside this one"),
         list("set", plain("").type)
             .required()

@@ -167,7 +167,7 @@ void bind_tet_meshes(Module& m) {
                          "legacy .vtk, or a .vtu "
                          "written by cdem. What is wrong with them is said.",
                          {text("file").required(),
-                          number("scale").above(0).standard(1.0).doc("0.001 for a mesh in millimetres")},
+                          number("scale").within(1e-6, 1e6).standard(1.0).doc("0.001 for a mesh in millimetres")},
                          false,
                          "cdem.TetMesh",
                          "",

@@ -5,10 +5,13 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cerrno>
 #include <cstdio>
 #include <cstring>
+#include <fcntl.h>
 #include <fstream>
 #include <sstream>
+#include <unistd.h>
 
 namespace cdem::script {
 
@@ -98,8 +101,11 @@ fs::path Files::to_read(const std::string& name) const {
       refused = true;
       continue;
     }
-    if (fs::is_regular_file(path, error))
+    if (fs::is_regular_file(path, error)) {
+      if (faccessat(AT_FDCWD, path.c_str(), R_OK, AT_EACCESS) != 0)
+        throw FileError(path.string() + ": cannot be read: " + std::strerror(errno));
       return path;
+    }
   }
   if (refused &&
       (fs::path(name).is_absolute() || fs::path(name).lexically_normal().string().rfind("..", 0) == 0))
@@ -140,7 +146,7 @@ void write_file(const fs::path& path, const std::string& text) {
     out << text;
     out.close();
     if (!out)
-      throw FileError(path.string() + ": cannot be written (" + temporary.string() + ")");
+      throw FileError(path.string() + ": cannot be written: " + std::strerror(errno));
   }
   std::error_code error;
   fs::rename(temporary, path, error);

@@ -273,6 +273,8 @@ void set_unknown_name(lua_State* L) {
   lua_newtable(L);
   lua_pushcfunction(L, unknown_name);
   lua_setfield(L, -2, "__index");
+  lua_pushboolean(L, 0);
+  lua_setfield(L, -2, "__metatable");
   lua_setmetatable(L, -2);
 }
 

@@ -92,7 +92,22 @@ void keep_only(lua_State* L, const char* library, std::initializer_list<const ch
   lua_remove(L, -2);
 }
 
+// The metatable on top of the stack, out of a script's reach: a changed __gc of a file would run with hooks off, and
+// even while the interpreter ends.
+void lock_metatable(lua_State* L) {
+  lua_pushboolean(L, 0);
+  lua_setfield(L, -2, "__metatable");
+  lua_pop(L, 1);
+}
+
 void restrict_libraries(lua_State* L) {
+  luaL_getmetatable(L, LUA_FILEHANDLE);
+  lock_metatable(L);
+  lua_pushliteral(L, "");
+  lua_getmetatable(L, -1);
+  lock_metatable(L);
+  lua_pop(L, 1);
+
   lua_pushglobaltable(L);
   replace_with(L, "load", load_text);
   replace_with(L, "setmetatable", set_metatable);

@@ -1,6 +1,9 @@
 #include "lua/binding/schema/schema.hpp"
 
+#include "libgeom/core/error.hpp"
+
 #include <cassert>
+#include <cmath>
 
 namespace cdem::script {
 
@@ -121,8 +124,21 @@ std::string Type::words() const {
   return "a value";
 }
 
+namespace {
+
+void limit(Type& type, bool length) {
+  type.length = length;
+  type.largest = length ? largest_length : largest_quantity;
+  for (Type& item : type.items)
+    limit(item, length);
+}
+
+} // namespace
+
 Field& Field::unit(std::string text) {
   unit_text = std::move(text);
+  if (!unit_text.empty())
+    limit(type, unit_text == "m");
   return *this;
 }
 Field& Field::doc(std::string text) {
@@ -187,7 +203,9 @@ Field text(std::string name) {
   return with(std::move(name), of(Kind::text));
 }
 Field vec3(std::string name) {
-  return with(std::move(name), of(Kind::vec3));
+  Field field = with(std::move(name), of(Kind::vec3));
+  field.type.largest = largest_quantity;
+  return field;
 }
 Field place(std::string name) {
   return with(std::move(name), of(Kind::place));
@@ -273,6 +291,20 @@ bool Arguments::flag(const std::string& name) const {
   assert(x && "flags that are read have a default");
   return *x;
 }
+namespace {
+
+void require_int(const std::string& name, double x) {
+  constexpr double most = std::numeric_limits<int>::max();
+  if (!(std::abs(x) <= most))
+    throw geom::InputError(name, number_text(x), "at most " + number_text(most));
+}
+
+} // namespace
+
+int Arguments::count(const std::string& name) const {
+  require_int(name, static_cast<double>(integer(name)));
+  return static_cast<int>(integer(name));
+}
 std::int64_t Arguments::integer(const std::string& name) const {
   const std::int64_t* x = value(name).get<std::int64_t>();
   assert(x);
@@ -301,6 +333,8 @@ std::optional<geom::Vec3> Arguments::optional_vec3(const std::string& name) cons
 }
 std::array<int, 3> Arguments::ivec3(const std::string& name) const {
   const geom::Vec3 x = vec3(name);
+  for (int i = 0; i < 3; ++i)
+    require_int(name + "[" + std::to_string(i + 1) + "]", x[i]);
   return {static_cast<int>(x[0]), static_cast<int>(x[1]), static_cast<int>(x[2])};
 }
 const Values& Arguments::list(const std::string& name) const {

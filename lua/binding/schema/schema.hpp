@@ -38,13 +38,22 @@ struct Range {
   std::string text() const; // "> 0", "in (-1, 0.5)", "" when unlimited
 };
 
+// Limits beyond which nothing a model is made of lies. Without them the squares and products of geometry overflow, and
+// counts taken from lengths lose their meaning.
+inline constexpr double largest_quantity = 1e60; // in SI units, and components of directions
+inline constexpr double largest_length = 1e8;    // m
+inline constexpr double least_length = 1e-9;     // m, of what must be above zero
+
 struct Field;
 
 struct Type {
   Kind kind = Kind::number;
-  Range range{};                      // integer, number, and every component of vec3
-  bool whole = false;                 // vec3 of whole numbers
-  std::vector<std::string> choices{}; // choice
+  Range range{};      // integer, number, and every component of vec3
+  bool whole = false; // vec3 of whole numbers
+  double largest =
+      std::numeric_limits<double>::infinity(); // of a number's magnitude; what has a unit has a limit
+  bool length = false;                         // in m
+  std::vector<std::string> choices{};          // choice
   bool or_number = false; // function: a finite number in the range will do, for one that does not vary
   std::string
       name{}; // object: class, or "A|B" for either; function: its parameters, e.g. "(time: number): number"
@@ -112,6 +121,7 @@ public:
   const Value& value(const std::string& name) const; // nil when absent
   bool flag(const std::string& name) const;
   std::int64_t integer(const std::string& name) const;
+  int count(const std::string& name) const; // an integer that an int holds; InputError for a larger one
   double number(const std::string& name) const;
   std::optional<double> optional_number(const std::string& name) const;
   const std::string& text(const std::string& name) const;

@@ -44,13 +44,23 @@ double checked_number(const Value& given, const Type& type, const std::string& p
                      "look for a division by zero before this line");
   if (!type.range.holds(x))
     throw InputError(path, describe(given), type.range.text());
+  const std::string unit = type.length ? " m" : "";
+  if (type.length && type.range.low == 0 && type.range.low_open && x < least_length)
+    throw InputError(path, describe(given),
+                     "from " + number_text(least_length) + " to " + number_text(largest_length) + unit);
+  if (std::abs(x) > type.largest)
+    throw InputError(path, describe(given),
+                     "from " + number_text(-type.largest) + " to " + number_text(type.largest) + unit);
   return x;
 }
 
 std::int64_t checked_integer(const Value& given, const Type& type, const std::string& path) {
   const double x = checked_number(given, type, path);
-  if (x != std::floor(x) || std::abs(x) > 9.0e15)
+  if (x != std::floor(x))
     throw InputError(path, describe(given), "a whole number");
+  constexpr double most = 9e15; // numbers above have no last digit
+  if (std::abs(x) > most)
+    throw InputError(path, describe(given), "from " + number_text(-most) + " to " + number_text(most));
   return static_cast<std::int64_t>(x);
 }
 
@@ -109,6 +119,8 @@ Value checked_vec3(const Value& given, const Type& type, const std::string& path
     const std::string item = path + "[" + std::to_string(i + 1) + "]";
     Type component = number_type();
     component.range = type.range;
+    component.largest = type.largest;
+    component.length = type.length;
     if (type.whole)
       out.emplace_back(static_cast<double>(checked_integer(table->items[i], component, item)));
     else

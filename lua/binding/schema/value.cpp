@@ -94,8 +94,8 @@ std::string text_of(const Value& value, std::size_t limit) {
   }
   if (const auto object = value.object())
     return object->shown();
-  if (const auto reference = value.reference())
-    return limit > 0 ? "function" : "function " + reference->place();
+  if (value.reference())
+    return "function";
   return "nil";
 }
 

@@ -96,8 +96,9 @@ Value::Value(const std::array<double, n>& x) {
 std::string number_text(double x);
 // One line for messages: 12, 0.5, "text", {0.3, 0.3}, function, cdem.Material. Long tables are shortened.
 std::string describe(const Value&);
-// The whole value, unambiguous and in a fixed order: what a stage's arguments are hashed by. Functions stand
-// by the place they were written, objects by their class.
+// The whole value, unambiguous and in a fixed order: what a call's arguments are hashed by. Objects stand by
+// their class; functions by the word alone: where they were written depends on the folder one stands in, and a mended
+// script may have moved them.
 std::string canonical_text(const Value&);
 std::uint64_t fnv1a(const std::string& text);
 

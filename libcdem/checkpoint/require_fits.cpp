@@ -1,0 +1,94 @@
+#include "libcdem/checkpoint/require_fits.hpp"
+
+#include "libcdem/model/build/contact_surface.hpp"
+#include "libgeom/core/error.hpp"
+
+#include <algorithm>
+
+namespace cdem {
+namespace {
+
+[[noreturn]] void refuse(const std::string& field, const std::string& what) {
+  throw geom::InputError("the saved state does not fit its model: " + field + ": " + what +
+                         "; the file was changed, or written by another version of cdem");
+}
+
+void require_length(const std::string& field, std::size_t length, std::size_t wanted,
+                    bool may_be_empty = false) {
+  if (length != wanted && !(may_be_empty && length == 0))
+    refuse(field, std::to_string(length) + " entries where there must be " + std::to_string(wanted));
+}
+
+template <class Integer>
+void require_below(const std::string& field, Integer value, std::size_t end) {
+  if (value < 0 || static_cast<std::size_t>(value) >= end)
+    refuse(field, std::to_string(value) + " is out of range");
+}
+
+constexpr std::size_t modes = static_cast<std::size_t>(BondMode::contact) + 1,
+                      escapes = static_cast<std::size_t>(Escaped::held) + 1;
+
+void check_faces(const State& state) {
+  for (const FaceStateBatch& batch : state.faces) {
+    for (const auto& point : batch.mode)
+      for (const std::uint8_t mode : point)
+        require_below("faces.mode", mode, modes);
+    if (batch.slip < -1)
+      refuse("faces.slip", std::to_string(batch.slip) + " is out of range");
+    if (batch.slip >= 0)
+      require_below("faces.slip", batch.slip + lanes - 1, state.face_slip.size());
+  }
+}
+
+void check_contacts(const Model& model, const State& state) {
+  const std::size_t triangles = model.surface.triangles.size();
+  const auto triangle = [&](const char* field, std::int64_t t) {
+    require_below(std::string("contacts.") + field, t, triangles);
+  };
+  for (const Contact& c : state.contacts) {
+    triangle("source", c.source / 3);
+    if (c.kind == Contact::spring) {
+      triangle("target", c.target);
+      require_below("contacts.fragment", c.fragment, std::max(model.node_position.size(), triangles));
+    } else {
+      triangle("target", c.target < 0 ? c.target : c.target / 3);
+      triangle("fragment", c.fragment);
+      triangle("beside", c.beside);
+    }
+    const auto block = [&](std::int64_t t) {
+      return model.surface.triangles[static_cast<std::size_t>(t)].block;
+    };
+    if (!contact_joint(model, block(c.source / 3),
+                       block(c.kind == Contact::spring ? c.target : c.target / 3)))
+      refuse("contacts", "of two blocks that have no law of contact");
+  }
+}
+
+} // namespace
+
+void require_fits(const Model& model, const State& state) {
+  const std::size_t nodes = model.node_position.size(), points = model.points.size();
+  require_length("displacement", state.displacement.size(), nodes);
+  require_length("velocity", state.velocity.size(), nodes);
+  require_length("bond_offset", state.bond_offset.size(), points);
+  require_length("bond_mode", state.bond_mode.size(), points);
+  const State fresh = initial_state(model); // says which of the others the model has at all
+  require_length("bond_damage", state.bond_damage.size(), fresh.bond_damage.size());
+  require_length("bond_slip", state.bond_slip.size(), fresh.bond_slip.size());
+  require_length("released", state.released.size(), model.frames.size());
+  require_length("initial_stress", state.initial_stress.size(), model.blocks.size());
+  require_length("stress", state.stress.size(), model.mesh.batches.size());
+  require_length("viscous_stress", state.viscous_stress.size(), fresh.viscous_stress.size());
+  require_length("faces", state.faces.size(), model.mesh.faces.size());
+  require_length("rigid", state.rigid.size(), model.rigid.size());
+  require_length("rigid_offset", state.rigid_offset.size(), nodes, model.rigid.empty());
+  require_length("escaped", state.escaped.size(), nodes, true);
+  for (const std::uint8_t mode : state.bond_mode)
+    require_below("bond_mode", mode, modes);
+  for (const std::uint8_t escaped : state.escaped)
+    require_below("escaped", escaped, escapes);
+  check_faces(state);
+  check_contacts(model, state);
+}
+
+} // namespace cdem
