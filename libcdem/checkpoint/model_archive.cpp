@@ -63,10 +63,10 @@ void archive(A& a, geom::Box& x) {
 
 template <class A>
 void archive(A& a, Block& x) {
-  auto& [id, parent, generation, body, meshed, zoned, rigid, shape, mass, size, first_size, node_begin, node_end,
-         tet_begin, tet_end] = x;
-  archive_all(a, id, parent, generation, body, meshed, zoned, rigid, shape, mass, size, first_size, node_begin,
-              node_end, tet_begin, tet_end);
+  auto& [id, parent, generation, body, meshed, zoned, rigid, shape, mass, size, first_size, node_begin,
+         node_end, tet_begin, tet_end] = x;
+  archive_all(a, id, parent, generation, body, meshed, zoned, rigid, shape, mass, size, first_size,
+              node_begin, node_end, tet_begin, tet_end);
 }
 
 template <class A>

@@ -23,7 +23,8 @@ struct Workspace {
   std::vector<FaceSums> face_sums; // per mesh chunk
   double strain_step = 0;          // s, by which their stress stands behind the nodes
   bool damped = false;             // stiffness damping acts
-  bool hand_over_due = true;       // broken faces that are gone go to contact in this step; a stage does so at times
+  bool hand_over_due =
+      true; // broken faces that are gone go to contact in this step; a stage does so at times
   ContactWork contact;
   std::vector<NodeSums> node_sums;  // per chunk of blocks
   std::vector<NodeSums> rigid_sums; // per rigid body

@@ -76,8 +76,7 @@ Value film(Session& session, Object*, const Arguments& a) {
   std::vector<std::string> frames;
   for (const Value& frame : a.list("frames"))
     frames.push_back(session.files.to_read(*frame.get<std::string>()).string());
-  write_film(frames, a.count("frames_per_second"),
-             session.files.to_write(a.text("file")).string());
+  write_film(frames, a.count("frames_per_second"), session.files.to_write(a.text("file")).string());
   return {};
 }
 

@@ -46,8 +46,8 @@ Value drop(Session&, Object*, const Arguments& a) {
   options.region = plan_region(a);
   options.layers = a.has("layers") ? a.count("layers") : 0;
   options.seed = static_cast<std::uint64_t>(a.integer("seed"));
-  return std::make_shared<PileObject>(geom::drop_grid(
-      a.object<TetMeshObject>("unit")->mesh, a.count("count"), ground_of(a), options));
+  return std::make_shared<PileObject>(
+      geom::drop_grid(a.object<TetMeshObject>("unit")->mesh, a.count("count"), ground_of(a), options));
 }
 
 std::string of_at_most(int number, int most) {

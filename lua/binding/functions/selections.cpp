@@ -89,7 +89,8 @@ void bind_selections(Module& m) {
   whole_number.kind = Kind::integer;
   whole_number.range = {1, 1e7};
   m.functions.push_back({"select.units",
-                         "Some of a body's units: those of a pile, the parts of a mesh, or blocks, counted from 1 in their order.",
+                         "Some of a body's units: those of a pile, the parts of a mesh, or blocks, counted "
+                         "from 1 in their order.",
                          {text("body").required().doc("by name"), list("numbers", whole_number).required()},
                          false,
                          "cdem.Selection",

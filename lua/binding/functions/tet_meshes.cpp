@@ -166,8 +166,8 @@ void bind_tet_meshes(Module& m) {
                          "Linear tetrahedra from a file: gmsh .msh, Medit .mesh, Nastran .bdf, I-deas .unv, "
                          "legacy .vtk, or a .vtu "
                          "written by cdem. What is wrong with them is said.",
-                         {text("file").required(),
-                          number("scale").within(1e-6, 1e6).standard(1.0).doc("0.001 for a mesh in millimetres")},
+                         {text("file").required(), number("scale").within(1e-6, 1e6).standard(1.0).doc(
+                                                       "0.001 for a mesh in millimetres")},
                          false,
                          "cdem.TetMesh",
                          "",
