@@ -57,6 +57,7 @@ std::vector<ConvexPart> convex_parts(const Model& model, const State& state) {
 Overlap overlap(const Model& model, const State& state) {
   const std::vector<ConvexPart> parts = convex_parts(model, state);
   std::vector<geom::Box> boxes;
+  boxes.reserve(parts.size());
   for (const ConvexPart& part : parts)
     boxes.push_back(geom::bounding_box(part.shape));
   std::map<std::pair<int, int>, geom::MassProperties> common; // of two blocks: volume and where
