@@ -57,8 +57,9 @@ double arc_tangent(double t) {
   constexpr double rest[] = {0, 0x1.8ab6e3cf7afbdp-57, 0x1.a2b7f222f65e2p-56, 0x1.2419a87f2a458p-56,
                              0x1.1a62633145c07p-55};
   constexpr double c[] = {-1 / 3., 1 / 5., -1 / 7., 1 / 9., -1 / 11., 1 / 13., -1 / 15., 1 / 17.};
-  const int quarter = static_cast<int>(4 * t + 0.5);
-  const double at = 0.25 * quarter, d = quarter == 0 ? t : (t - at) / (1 + t * at), d2 = d * d;
+  const auto quarter = std::lround(4 * t);
+  const double at = 0.25 * static_cast<double>(quarter), d = quarter == 0 ? t : (t - at) / (1 + t * at),
+               d2 = d * d;
   return at_quarters[quarter] + (d + (d * (d2 * polynomial(c, d2)) + rest[quarter]));
 }
 
