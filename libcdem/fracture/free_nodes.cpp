@@ -26,6 +26,16 @@ struct NearStrength {
   std::vector<int> nodes;
 };
 
+// Pa2, of eight tets the largest sigma : sigma.
+double largest_norm2(const StressBatch& s) {
+  double norm2[lanes];
+  for (int lane = 0; lane < lanes; ++lane) {
+    const auto square = [&](int c) { return s.component[c][lane] * s.component[c][lane]; };
+    norm2[lane] = square(0) + square(1) + square(2) + 2 * (square(3) + square(4) + square(5));
+  }
+  return *std::max_element(norm2, norm2 + lanes);
+}
+
 class Carrier {
 public:
   Carrier(const Model& old, const State& from, Rebuilt& to) : old_(old), from_(from), to_(to) {}
@@ -173,6 +183,12 @@ std::optional<std::vector<char>> FreeingWatch::due(const Model& model, const Sta
       return matrix(mesh_stress(model, state, static_cast<int>(tet)));
     };
     for (std::int64_t t = chunk.tets.begin; t < chunk.tets.end; ++t) {
+      const std::int64_t place = t - chunk.tets.begin;
+      if (place % lanes == 0 &&
+          largest_norm2(state.stress[chunk.batches.begin + place / lanes]) < least * least) {
+        t += lanes - 1;
+        continue;
+      }
       const geom::Mat3 s = stress_of(t);
       if (s.squaredNorm() < least * least)
         continue;
