@@ -1,6 +1,6 @@
 // Freed faces of cohesive bodies: how their sides hold together, and the cohesive law once they crack.
 //
-// Holding, the traction is that of bond/face_jumps.hpp; here stands its penalty k (j + o), j the gap at three points of
+// Holding, the traction is that of element/face_jumps.hpp; here stands its penalty k (j + o), j the gap at three points of
 // the face, o = 0 but after a crack that did not go on. When the mean stress s of the two tets reaches the strength on a
 // plane with the normal m (fracture/working_plane.hpp) the face cracks: from then on it works on that plane, whatever its
 // own direction n, and the stress of the tets takes no part,

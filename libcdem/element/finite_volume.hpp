@@ -13,7 +13,7 @@
 // The paper prints no rotation of the stress and the geometry of the start: one slow turn then leaves 9 MPa of stress
 // in concrete. c_k / 6V is the gradient of the shape function, the same as the sum over face areas with one division.
 //
-// Of a tet beside freed faces of a cohesive body the strain, but not the spin, has the part (bond/face_jumps.hpp)
+// Of a tet beside freed faces of a cohesive body the strain, but not the spin, has the part (element/face_jumps.hpp)
 //   D += sum over these faces of sym(J) / 2V,  J = (mean jump of the velocity) (x) A n in the middle of the step
 #pragma once
 

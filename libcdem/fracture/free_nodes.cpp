@@ -270,7 +270,8 @@ void preload_faces(const Model& model, State& state, const std::vector<Node>& ne
         stars[mesh.original[at.a[corner] - mesh.first_node]].faces.push_back(
             {at.a[corner], at.b[corner], face, corner});
   });
-  for (const auto& [original, star] : stars) {
+  for (const auto& entry : stars) {
+    const Star& star = entry.second;
     const auto n = static_cast<Eigen::Index>(star.copies.size());
     if (n < 2)
       continue;

@@ -54,7 +54,7 @@ double strength_use(const geom::Mat3& stress, const RockStrength& rock) {
 std::optional<WorkingPlane> working_plane(const geom::Mat3& stress, const RockStrength& rock,
                                           const geom::Vec3& face) {
   const Eigen::SelfAdjointEigenSolver<geom::Mat3> solver(stress);
-  const Vec3 s = solver.eigenvalues();
+  const Vec3& s = solver.eigenvalues();
   const Uses u = uses(s, rock);
   if (!(std::max(u.tension, u.shear) >= 1))
     return std::nullopt;

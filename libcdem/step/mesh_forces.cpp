@@ -1,8 +1,8 @@
 #include "libcdem/step/mesh_forces.hpp"
 
 #include "libcdem/bond/cohesive_faces.hpp"
-#include "libcdem/bond/face_jumps.hpp"
 #include "libcdem/bond/spring_forces.hpp"
+#include "libcdem/element/face_jumps.hpp"
 #include "libcdem/element/finite_volume.hpp"
 #include "libcdem/parallel/simd.hpp"
 

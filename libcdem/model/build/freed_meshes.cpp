@@ -61,12 +61,11 @@ MeshSeed seed_of(const Model& old, int block, const std::vector<char>& freed) {
   seed.ordered = true;
   const int* const original = data.original.data() - data.first_node;
   const auto [least, most] = std::minmax_element(original + b.node_begin, original + b.node_end);
-  const int first = *least;
-  const auto count = static_cast<std::size_t>(*most - first + 1);
-  seed.mesh.nodes.resize(count, geom::Vec3::Zero());
+  const int first = *least, count = *most - first + 1;
+  seed.mesh.nodes.resize(static_cast<std::size_t>(count), geom::Vec3::Zero());
   const bool cohesive = old.bodies[b.body].bonding.is_cohesive();
   if (cohesive)
-    seed.freed.resize(count, 0);
+    seed.freed.resize(static_cast<std::size_t>(count), 0);
   for (int node = b.node_begin; node < b.node_end; ++node) {
     seed.mesh.nodes[original[node] - first] = old.node_position[node];
     if (cohesive && (freed[node] != 0 || data.freed[node - data.first_node] != 0))

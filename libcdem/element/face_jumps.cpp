@@ -1,4 +1,4 @@
-#include "libcdem/bond/face_jumps.hpp"
+#include "libcdem/element/face_jumps.hpp"
 
 #include "libcdem/parallel/simd.hpp"
 
