@@ -54,6 +54,7 @@ struct Simulation::Impl {
                                &restart_point,
                                entry ? &*entry : nullptr,
                                {},
+                               {},
                                &model};
     if (entry) {
       last_good = state;

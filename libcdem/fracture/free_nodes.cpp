@@ -38,7 +38,7 @@ double largest_norm2(const StressBatch& s) {
 
 class Carrier {
 public:
-  Carrier(const Model& old, const State& from, Rebuilt& to) : old_(old), from_(from), to_(to) {}
+  Carrier(const Model& old, const State& from, Freed& to) : old_(old), from_(from), to_(to) {}
 
   void operator()() {
     to_.state = initial_state(to_.model);
@@ -57,9 +57,6 @@ public:
     s.viscous_stress = from_.viscous_stress;
     s.face_slip = from_.face_slip;
     s.rigid = from_.rigid;
-    to_.old_block.resize(to_.model.blocks.size());
-    for (std::size_t b = 0; b < to_.old_block.size(); ++b)
-      to_.old_block[b] = static_cast<int>(b);
     carry_nodes();
     carry_faces();
     carry_contacts();
@@ -67,7 +64,8 @@ public:
 
 private:
   void carry_nodes() {
-    std::vector<int> before(to_.model.node_position.size());
+    std::vector<int>& before = to_.old_node;
+    before.resize(to_.model.node_position.size());
     const int first = old_.mesh.first_node;
     for (int node = 0; node < first; ++node)
       before[node] = node;
@@ -150,7 +148,7 @@ private:
 
   const Model& old_;
   const State& from_;
-  Rebuilt& to_;
+  Freed& to_;
 };
 
 } // namespace
@@ -225,22 +223,17 @@ std::optional<std::vector<char>> FreeingWatch::due(const Model& model, const Sta
   return nodes;
 }
 
-Rebuilt free_nodes(const Model& model, const State& state, const std::vector<char>& nodes) {
-  Rebuilt rebuilt;
-  rebuilt.model = with_freed_nodes(model, nodes);
-  Carrier(model, state, rebuilt)();
-  return rebuilt;
-}
-
-std::vector<char> freed_anew(const Model& old, const Model& now) {
-  std::vector<char> anew(now.node_position.size(), 0);
-  for (std::size_t t = static_cast<std::size_t>(old.mesh.first_tet); t < old.tets.size(); ++t)
-    for (int k = 0; k < 4; ++k) {
-      const int node = now.tets[t][k];
-      anew[node] = static_cast<char>(now.mesh.freed[node - now.mesh.first_node] != 0 &&
-                                     old.mesh.freed[old.tets[t][k] - old.mesh.first_node] == 0);
-    }
-  return anew;
+Freed free_nodes(const Model& model, const State& state, const std::vector<char>& nodes) {
+  Freed freed;
+  freed.model = with_freed_nodes(model, nodes);
+  Carrier(model, state, freed)();
+  freed.anew.resize(freed.old_node.size(), 0);
+  const auto first = static_cast<std::size_t>(model.mesh.first_node);
+  for (std::size_t i = first; i < freed.anew.size(); ++i)
+    freed.anew[i] =
+        static_cast<char>(freed.model.mesh.freed[i - first] != 0 &&
+                          model.mesh.freed[static_cast<std::size_t>(freed.old_node[i]) - first] == 0);
+  return freed;
 }
 
 void preload_faces(const Model& model, State& state, const std::vector<Node>& net_force,

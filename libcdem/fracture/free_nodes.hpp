@@ -5,7 +5,7 @@
 // crack finds its way open before it gets there.
 #pragma once
 
-#include "libcdem/fracture/rebuild.hpp"
+#include "libcdem/state/state.hpp"
 
 #include <optional>
 
@@ -28,11 +28,15 @@ private:
   std::vector<int> neighbours_; // per tet of the mesh and face of it: 4 tet + face on the other side, or -1
 };
 
-// The same model and state with these nodes freed (n_nodes). Of a state whose stress stands where its nodes are.
-Rebuilt free_nodes(const Model&, const State&, const std::vector<char>& nodes);
+struct Freed {
+  Model model;
+  State state;
+  std::vector<int> old_node; // per node, which it was before
+  std::vector<char> anew;    // per node, 1 for the copies of those that were not freed before
+};
 
-// Per node of the new model, 1 for the copies of those that `old` had not freed.
-std::vector<char> freed_anew(const Model& old, const Model& now);
+// The same model and state with these nodes freed (n_nodes). Of a state whose stress stands where its nodes are.
+Freed free_nodes(const Model&, const State&, const std::vector<char>& nodes);
 
 // Gives the faces between the copies of these nodes the forces with which all copies of a node have one acceleration, that
 // of all of them together, where the net forces (N, n_nodes) alone would pull them apart: differences of a potential that

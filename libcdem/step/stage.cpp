@@ -112,10 +112,11 @@ bool Stage::free_nodes() {
   const auto due = freeing_.due(model, state, context_.threads);
   if (due) {
     synchronise();
-    Rebuilt freed = cdem::free_nodes(model, state, *due);
-    const std::vector<char> anew = freed_anew(model, freed.model);
+    Freed freed = cdem::free_nodes(model, state, *due);
     *context_.changing = std::move(freed.model);
     state = std::move(freed.state);
+    if (context_.renumbered)
+      context_.renumbered(freed.old_node);
     Workspace before = std::move(work);
     work = Workspace(model, state, context_.conditions);
     work.damped = before.damped;
@@ -125,7 +126,7 @@ bool Stage::free_nodes() {
     contacts_.start_anew(model, work.contact);
     has_shared_nodes_ = has_shared_nodes(model);
     update_external(work.resolved, state.time);
-    preload_faces(model, state, net_forces(model, state, work), anew);
+    preload_faces(model, state, net_forces(model, state, work), freed.anew);
     context_.last_good = state;
   }
   times_.end(StepLine::cracks);

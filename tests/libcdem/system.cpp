@@ -141,6 +141,7 @@ cdem::RunResult System::run(const cdem::RunOptions& options) {
                     nullptr,
                     nullptr,
                     {},
+                    {},
                     &model},
                    options);
 }

@@ -78,7 +78,7 @@ void free_some(System& s, double part) {
     freed = static_cast<char>(uniform(draw) < part);
   for (std::size_t i = 0; i < nodes.size(); ++i)
     nodes[i] = of_original[s.model.mesh.original[i]];
-  cdem::Rebuilt rebuilt = cdem::free_nodes(s.model, s.state, nodes);
+  cdem::Freed rebuilt = cdem::free_nodes(s.model, s.state, nodes);
   s.adopt(std::move(rebuilt.model), std::move(rebuilt.state));
 }
 
