@@ -38,7 +38,13 @@ function beam.mesh(depth, size, coarse, thickness)
     {-mouth, -notch, -depth}, {mouth, -notch, -depth}, {0, notch, -depth},
     {-mouth, -notch, 2 * depth}, {mouth, -notch, 2 * depth}, {0, notch, 2 * depth} } }
   local whole = cdem.solid.box{ size = {2 * half, depth, thickness}, origin = {-half, 0, 0} }
-  local solid = cdem.solid.cut{ solid = whole, tools = { wedge:solid() } }
+  -- A small prism of the same concrete at the top gives the load a line of nodes.
+  local a = 0.6 * size
+  local prism = cdem.convex_hull{ points = {
+    {0, depth, 0}, {2 * a, depth, 0}, {a, depth - a, 0},
+    {0, depth, thickness}, {2 * a, depth, thickness}, {a, depth - a, thickness} } }
+  local solid = cdem.solid.fragments{ solids = { cdem.solid.cut{ solid = whole, tools = { wedge:solid() } },
+                                                 prism:solid() } }
   local best, quality = nil, 0
   for attempt = 0, 9 do
     local mesh = solid:mesh{ size = coarse * (1 - 0.01 * attempt), growth = 0.3, refine = {
@@ -58,9 +64,9 @@ function beam.bend(given)
   local half = beam.slenderness * depth / 2
   local mesh = beam.mesh(depth, given.size, given.coarse, thickness)
   local model = cdem.model{ bodies = { { name = "beam", shape = mesh, material = concrete(depth, given.damping), bond_type = "cohesive",
+                                         stiffness_ratio = given.stiffness_ratio,
                                          joint = joint(given.softening, given.energy) } } }
   local tiny = 1e-6 * depth
-  local strip = math.max(0.03 * depth, 0.6 * given.size) -- half of what the load presses on
   model:select{ name = "left", on = cdem.select.box{ min = {-half - tiny, -tiny, -tiny},
                                                      max = {-half + tiny, tiny, thickness + tiny} } }
   model:select{ name = "right", on = cdem.select.box{ min = {half - tiny, -tiny, -tiny},
@@ -68,8 +74,8 @@ function beam.bend(given)
   model:select{ name = "corners", on = function(x, y, z)
     return math.abs(math.abs(x) - half) < tiny and math.abs(y) < tiny and math.abs(z) < tiny
   end }
-  model:select{ name = "load", on = cdem.select.box{ min = {-strip, depth - tiny, -tiny},
-                                                     max = {strip, depth + tiny, thickness + tiny} } }
+  model:select{ name = "load", on = cdem.select.box{ min = {-tiny, depth - tiny, -tiny},
+                                                     max = {tiny, depth + tiny, thickness + tiny} } }
   model:fix{ on = "left", axes = "xy" }
   model:fix{ on = "right", axes = "y" }
   model:fix{ on = "corners", axes = "z" }
@@ -77,8 +83,8 @@ function beam.bend(given)
   local curve = { deflection = {0}, load = {0}, mouth = {0}, kinetic = {0}, elastic = {0}, breaking = {0}, time = {0} }
   local deflection, last = 0, 0
   local scale = beam.width / thickness
-  local mouth = {0.6 * given.size, 1e-3 * depth, thickness / 2}
-  -- Mean over the time since the last sample: a beam on fixed nodes rings with every face that fails.
+  local mouth = {0.04 * depth, 1e-3 * depth, thickness / 2}
+  -- Means over the time since the last sample, of what presses and what holds: a beam without much damping rings.
   local sum = { support = 0, press = 0, mouth = 0, n = 0 }
   local function listen()
     sum.support = sum.support + model:reaction("left")[2] + model:reaction("right")[2]
@@ -91,7 +97,8 @@ function beam.bend(given)
     local energy = model:energy()
     local n = #curve.load + 1
     curve.time[n] = model.time
-    curve.load[n], curve.pressed = sum.support / sum.n * scale, sum.press / sum.n * scale
+    curve.load[n] = (sum.support + sum.press) / 2 / sum.n * scale
+    curve.gap = math.max(curve.gap or 0, math.abs(sum.support - sum.press) / sum.n * scale)
     curve.mouth[n] = sum.mouth / sum.n
     sum = { support = 0, press = 0, mouth = 0, n = 0 }
     curve.kinetic[n], curve.elastic[n] = energy.kinetic * scale, (energy.elastic + energy.springs) * scale
@@ -101,7 +108,7 @@ function beam.bend(given)
   end
 
   -- Smooth start: the velocity grows with sin^2 over the first 0.4 of the time, in steps.
-  local duration = given.periods * beam.period(depth)
+  local duration = given.periods * beam.period(depth) -- s
   local ramp, steps = 0.4, 40
   local full = given.deflection / (duration * (1 - ramp / 2))
   local samples = given.samples or 120
