@@ -131,4 +131,15 @@ function beam.bend(given)
   return model, curve
 end
 
+-- Largest load of the mean over five samples, which takes out the ringing.
+function beam.peak(curve)
+  local top = 0
+  for k = 3, #curve.load - 2 do
+    local sum = 0
+    for j = k - 2, k + 2 do sum = sum + curve.load[j] end
+    top = math.max(top, sum / 5)
+  end
+  return top
+end
+
 return beam

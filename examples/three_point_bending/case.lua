@@ -92,9 +92,8 @@ for i, size in ipairs(sizes) do
     { name = "mouth_m", values = curve.mouth }, { name = "elastic_J", values = curve.elastic },
     { name = "crack_J", values = curve.breaking }, { name = "kinetic_J", values = curve.kinetic } } }
 
-  local largest, top = 0, 0
+  local largest, top = 0, beam.peak(curve)
   for k = 1, #curve.load do
-    if curve.load[k] > top then top = curve.load[k] end
     local off = math.abs(curve.load[k] - at(exact.deflection, exact_load, curve.deflection[k]))
     if off > largest then largest = off end
   end

@@ -139,10 +139,11 @@ function reference.influence(given)
       end
     end
   end
-  -- Stiff springs hold the support and the plane of symmetry, which is released by the openings' own equations.
+  -- A stiff spring holds the support. Springs of the stiffness E on the ligament keep the half beam from turning freely;
+  -- the equations below give their force back, but for the top node, which stays closed.
   local stiff = given.E * 1e6
   rows[number(nx + 1, 1) + 2][0] = rows[number(nx + 1, 1) + 2][0] + stiff
-  -- A soft spring at the top of the ligament takes out the rigid motion along x; the equations below undo it.
+  for j = first, ny do rows[number(1, j) + 1][0] = rows[number(1, j) + 1][0] + given.E end
   local top = number(1, ny + 1) + 1
   rows[top][0] = rows[top][0] + stiff
   factor(rows, n, band)
@@ -167,9 +168,8 @@ function reference.influence(given)
     return d
   end
   local load = unit(function(b) for i, w in pairs(weight) do b[number(i, ny + 1) + 2] = -w / sum / 2 end end)
-  local result = { area = {}, C = {}, c = {}, cd = {}, cm = {}, nodes = m, y = {},
+  local result = { spring = given.E / 2, area = {}, C = {}, c = {}, cd = {}, cm = {}, nodes = m, y = {},
                    dP = deflection(load), mP = 2 * load[number(1, 1) + 1] }
-  -- The top node is held by the spring, so the free nodes are those from the tip to the one below the top.
   for k = 1, m do
     result.y[k] = (first + k - 2) * h
     result.area[k] = (k == 1 and 0.5 or 1) * h
@@ -191,7 +191,8 @@ function reference.curve(given, factors)
   local ft, wc = given.strength, 2 * given.energy / given.strength
   local curve = { deflection = {0}, load = {0}, mouth = {0}, tip = {f.y[1]} }
   for k = 1, m do
-    -- Unknowns: q_1 .. q_m and P. Nodes 1 .. k-1 soften or are free; q_k = ft area; nodes above stay closed.
+    -- Unknowns: q_1 .. q_m, less what the springs carry, and P. Nodes 1 .. k-1 soften or are free; at node k, which
+    -- just begins, the force is ft area; it and those above are closed.
     local free = {}
     local q
     for _ = 1, 50 do
@@ -200,14 +201,12 @@ function reference.curve(given, factors)
         local row = {}
         for j = 1, m + 1 do row[j] = 0 end
         local right = 0
-        if i < k and free[i] then
-          row[i] = 1
-        elseif i < k then -- q / area = ft (1 - w / wc), w = C q + c P
-          local r = ft * f.area[i] / wc
+        if i < k then -- q / area = ft (1 - w / wc), w = C q + c P
+          local r = f.spring + (free[i] and 0 or ft * f.area[i] / wc)
           for j = 1, m do row[j] = r * f.C[j][i] end
           row[i] = row[i] + 1
           row[m + 1] = r * f.c[i]
-          right = ft * f.area[i]
+          right = free[i] and 0 or ft * f.area[i]
         else
           for j = 1, m do row[j] = f.C[j][i] end
           row[m + 1] = f.c[i]

@@ -41,7 +41,7 @@ for i, depth in ipairs(depths) do
                                   coarse = 0.14 * depth, thickness = width, softening = "linear", energy = G,
                                   deflection = 1.6 * at, periods = periods, damping = damping, samples = 40,
                                   stop_below = 0.85, safety = 0.8 }
-  nominal[i] = curve.peak * width / beam.width / (width * depth)
+  nominal[i] = beam.peak(curve) * width / beam.width / (width * depth)
   local name = string.format("_d_%g_mm", depth * 1e3)
   figures[#figures + 1] = { name = "nominal_strength_Pa" .. name, value = nominal[i], unit = "Pa", reference = wanted,
                             kind = "fe", source = "fictitious crack on the ligament" }
