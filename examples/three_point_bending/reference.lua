@@ -46,6 +46,33 @@ local function rectangle(a, b, E, nu)
   return K
 end
 
+-- The same of triangles of constant strain, the mean of both ways to cut the rectangle: what linear tetrahedra can do.
+local function triangles(a, b, E, nu)
+  local f = E / (1 - nu * nu)
+  local D = { {f, f * nu, 0}, {f * nu, f, 0}, {0, 0, f * (1 - nu) / 2} }
+  local corner = { {0, 0}, {a, 0}, {a, b}, {0, b} }
+  local K = {}
+  for i = 1, 8 do K[i] = {} for j = 1, 8 do K[i][j] = 0 end end
+  for _, nodes in ipairs{ {1, 2, 3}, {1, 3, 4}, {1, 2, 4}, {2, 3, 4} } do
+    local B, at = { {}, {}, {} }, {}
+    for i = 1, 3 do
+      local j, k = corner[nodes[i % 3 + 1]], corner[nodes[(i + 1) % 3 + 1]]
+      local dx, dy = (j[2] - k[2]) / (a * b), (k[1] - j[1]) / (a * b)
+      B[1][2 * i - 1], B[2][2 * i - 1], B[3][2 * i - 1] = dx, 0, dy
+      B[1][2 * i], B[2][2 * i], B[3][2 * i] = 0, dy, dx
+      at[2 * i - 1], at[2 * i] = 2 * nodes[i] - 1, 2 * nodes[i]
+    end
+    for i = 1, 6 do
+      local d = {}
+      for r = 1, 3 do d[r] = D[r][1] * B[1][i] + D[r][2] * B[2][i] + D[r][3] * B[3][i] end
+      for j = 1, 6 do
+        K[at[i]][at[j]] = K[at[i]][at[j]] + (d[1] * B[1][j] + d[2] * B[2][j] + d[3] * B[3][j]) * a * b / 4
+      end
+    end
+  end
+  return K
+end
+
 -- Places from 0 to `length`, steps growing from `first` to about `last`.
 local function graded(first, last, length)
   local x, step = {0}, first
@@ -110,21 +137,22 @@ local function dense(A, b)
   return b
 end
 
--- given: depth, length, notch, strip (half of the load's width), elements (through the ligament), E, nu.
+-- given: depth, length, notch, strip (half of the load's width), elements (through the ligament), E, nu, and with
+-- constant_strain = true triangles of constant strain, far from the notch as long as `coarse`.
 -- Influence factors of the half beam: opening of the ligament's nodes, deflection of the load, mouth.
 function reference.influence(given)
   local m = given.elements -- also through the notch
   local ny = math.floor(m * given.depth / (given.depth - given.notch) + 0.5)
   local h = given.depth / ny
   local first = ny - m + 1 -- row of the tip, from 1
-  local x = graded(h, given.depth / 10, given.length / 2)
+  local x = graded(h, given.coarse or given.depth / 10, given.length / 2)
   local nx = #x - 1
   local function number(i, j) return ((i - 1) * (ny + 1) + j - 1) * 2 end -- column i, row j
   local n, band = 2 * (nx + 1) * (ny + 1), 2 * (ny + 2) + 1
   local rows = {}
   for i = 1, n do rows[i] = {} for j = 0, band do rows[i][j] = 0 end end
   for i = 1, nx do
-    local K = rectangle(x[i + 1] - x[i], h, given.E, given.nu)
+    local K = (given.constant_strain and triangles or rectangle)(x[i + 1] - x[i], h, given.E, given.nu)
     for j = 1, ny do
       local at = { number(i, j), number(i + 1, j), number(i + 1, j + 1), number(i, j + 1) }
       local dof = {}
