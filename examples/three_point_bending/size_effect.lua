@@ -82,7 +82,7 @@ for i = 0, 40 do
   end
 end
 cdem.chart{ file = "size_effect.png", title = "Nominal strength P / (b d) over size", log_x = true, log_y = true,
-            x_label = "depth (m)", y_label = "nominal strength (Pa)", legend = "bottom_left", series = {
+            x_label = "depth (m)", y_label = "nominal strength (Pa)", legend = "top_right", series = {
   { name = "cdem", x = depths, y = nominal, style = "points", colour = {0.85, 0.33, 0.10} },
   { name = "Bazant's law through them", x = d, y = law, colour = {0.85, 0.33, 0.10} },
   { name = "fictitious crack", x = exact_d, y = exact_s, style = "dashed", colour = {0, 0, 0} },
