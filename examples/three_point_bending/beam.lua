@@ -57,15 +57,17 @@ function beam.mesh(depth, size, coarse, thickness)
 end
 
 -- given: depth, size, coarse, thickness (m), softening, energy (J/m2), deflection (m), periods (of the first mode that
--- the bending takes), damping, safety, watch (function(model, state) after each sample).
--- Returns the model and its curve: deflection (m), load (N, for the width of the test), mouth (m), and so on.
+-- the bending takes), damping, samples, safety, stiffness_ratio, stop_below (ends it at this part of the largest load)
+-- and watch (function(model, curve) after each sample).
+-- Returns the model and its curve: lists deflection (m), load (N, for the width of the test), mouth (m), elastic,
+-- breaking and kinetic (J, likewise); and worst_balance and gap, the largest difference of load and reactions (N).
 function beam.bend(given)
   local depth, thickness = given.depth, given.thickness
   local half = beam.slenderness * depth / 2
   local mesh = beam.mesh(depth, given.size, given.coarse, thickness)
-  local model = cdem.model{ bodies = { { name = "beam", shape = mesh, material = concrete(depth, given.damping), bond_type = "cohesive",
-                                         stiffness_ratio = given.stiffness_ratio,
-                                         joint = joint(given.softening, given.energy) } } }
+  local model = cdem.model{ bodies = { { name = "beam", shape = mesh, material = concrete(depth, given.damping),
+                                         joint = joint(given.softening, given.energy), bond_type = "cohesive",
+                                         stiffness_ratio = given.stiffness_ratio } } }
   local tiny = 1e-6 * depth
   model:select{ name = "left", on = cdem.select.box{ min = {-half - tiny, -tiny, -tiny},
                                                      max = {-half + tiny, tiny, thickness + tiny} } }

@@ -124,8 +124,8 @@ for i, size in ipairs(sizes) do
        reference = work(exact.deflection, exact_load, deflection), kind = "fe",
        source = "the same, area under the curve up to the last deflection" }
   add{ name = "crack_energy_over_G_ligament" .. name, value = curve.breaking[#curve.breaking] / (energy * ligament) }
-  add{ name = "largest_load_less_reactions_over_peak" .. name, value = curve.gap / peak, reference = 0, kind = "formula",
-       source = "balance of forces; inertia is what is left" }
+  add{ name = "largest_load_less_reactions_over_peak" .. name, value = curve.gap / peak, reference = 0,
+       kind = "formula", source = "balance of forces; inertia is what is left" }
   add{ name = "largest_kinetic_over_elastic" .. name, value = kinetic_share,
        source = "from the peak on; quasi-static is far below 1" }
   add{ name = "energy_balance_error" .. name, value = curve.worst_balance, reference = 0, kind = "formula",

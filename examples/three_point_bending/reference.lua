@@ -167,7 +167,7 @@ function reference.influence(given)
       end
     end
   end
-  -- A stiff spring holds the support. Springs of the stiffness E on the ligament keep the half beam from turning freely;
+  -- A stiff spring holds the support. Springs of the stiffness E on the ligament keep the half beam from turning;
   -- the equations below give their force back, but for the top node, which stays closed.
   local stiff = given.E * 1e6
   rows[number(nx + 1, 1) + 2][0] = rows[number(nx + 1, 1) + 2][0] + stiff
@@ -263,7 +263,7 @@ function reference.curve(given, factors)
   return curve
 end
 
--- Largest load, at its parabola through three points.
+-- Largest load and its deflection.
 function reference.peak(curve)
   local best = 1
   for i = 1, #curve.load do if curve.load[i] > curve.load[best] then best = i end end
