@@ -11,7 +11,7 @@ bool intact(std::uint8_t mode) {
 
 } // namespace
 
-std::vector<int> fragments_of_nodes(const Model& model, const State& state) {
+std::vector<int> fragments_of_nodes(const Model& model, const State& state, int whole_bonds) {
   geom::DisjointSets sets(model.node_position.size());
   for (const geom::Tet& tet : model.tets)
     for (int k = 1; k < 4; ++k)
@@ -20,7 +20,12 @@ std::vector<int> fragments_of_nodes(const Model& model, const State& state) {
     if (intact(state.bond_mode[p]))
       sets.unite(model.points[p].node_a[0], model.points[p].node_b[0]);
   each_face_spring(model.mesh, [&](const MeshChunk& chunk, const FaceSpringPlace& at) {
-    if (!intact(state.faces[at.batch].mode[at.point][at.lane]))
+    if (at.point != 0)
+      return; // once a face
+    int whole = 0;
+    for (const auto& point : state.faces[at.batch].mode)
+      whole += intact(point[at.lane]) ? 1 : 0;
+    if (whole < whole_bonds)
       return;
     const FaceNodes nodes = face_nodes(model.mesh, chunk, at.batch, at.lane);
     sets.unite(nodes.a[0], nodes.b[0]);
