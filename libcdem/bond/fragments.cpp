@@ -11,7 +11,14 @@ bool intact(std::uint8_t mode) {
 
 } // namespace
 
-std::vector<int> fragments_of_nodes(const Model& model, const State& state, int whole_bonds) {
+bool is_untouched(const State& state, std::int64_t batch, int lane) {
+  for (const auto& point : state.faces[batch].mode)
+    if (!intact(point[lane]))
+      return false;
+  return state.cohesive.empty() || state.cohesive[batch * lanes + lane].at() == FaceStage::holding;
+}
+
+std::vector<int> fragments_of_nodes(const Model& model, const State& state, Joins by) {
   geom::DisjointSets sets(model.node_position.size());
   for (const geom::Tet& tet : model.tets)
     for (int k = 1; k < 4; ++k)
@@ -22,10 +29,11 @@ std::vector<int> fragments_of_nodes(const Model& model, const State& state, int 
   each_face_spring(model.mesh, [&](const MeshChunk& chunk, const FaceSpringPlace& at) {
     if (at.point != 0)
       return; // once a face
-    int whole = 0;
-    for (const auto& point : state.faces[at.batch].mode)
-      whole += intact(point[at.lane]) ? 1 : 0;
-    if (whole < whole_bonds)
+    const auto& modes = state.faces[at.batch].mode;
+    const bool joins = by == Joins::untouched ? is_untouched(state, at.batch, at.lane)
+                                              : intact(modes[0][at.lane]) || intact(modes[1][at.lane]) ||
+                                                    intact(modes[2][at.lane]);
+    if (!joins)
       return;
     const FaceNodes nodes = face_nodes(model.mesh, chunk, at.batch, at.lane);
     sets.unite(nodes.a[0], nodes.b[0]);

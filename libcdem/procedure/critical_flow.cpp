@@ -116,8 +116,8 @@ private:
   void begin(Part);
   StageContext with_flow() const {
     const StageContext& c = without_flow_;
-    return {c.model,   c.state,  conditions_,   c.log,           c.last_good, c.observer,
-            c.threads, c.number, c.checkpoints, c.restart_point, c.from,      c.procedure_state};
+    return {c.model,  c.state,       conditions_,     c.log,  c.last_good,       c.observer, c.threads,
+            c.number, c.checkpoints, c.restart_point, c.from, c.procedure_state, c.changing};
   }
   void measure();
   void look();

@@ -17,10 +17,7 @@ char activity(const State& state, int face) {
   const int lane = face % lanes;
   if (handed_over(batch, lane))
     return 2;
-  for (const auto& point : batch.mode)
-    if (point[lane] != static_cast<std::uint8_t>(BondMode::intact))
-      return 1;
-  return 0;
+  return static_cast<char>(!is_untouched(state, face / lanes, lane));
 }
 
 // Numbers the movers by the first of their triangles, and gives every triangle its own.
@@ -128,7 +125,7 @@ void find_fragments(const Model& model, const State& state, ContactWork& work) {
   std::swap(before.look_at, work.look_at);
   std::swap(before.left, work.left);
   std::swap(before.past_others, work.past_others);
-  work.fragment_of_node = fragments_of_nodes(model, state, 3);
+  work.fragment_of_node = fragments_of_nodes(model, state, Joins::untouched);
   work.fragment.resize(s.triangles.size());
   work.active.resize(s.triangles.size());
   work.broken.assign(model.blocks.size(), 0);
