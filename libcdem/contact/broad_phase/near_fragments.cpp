@@ -68,7 +68,10 @@ private:
   }
   int mover(int place) const { return work_.movers.of_triangle[all_.active.triangles[place]]; }
   int fragment(int place) const { return work_.fragment[all_.active.triangles[place]]; }
-  double skins(int of) const { return work_.inner_skin[mover_] + work_.inner_skin[of]; }
+  // m. What a fragment does relative to itself is not watched: until it leaves its skin.
+  double skins(int of) const {
+    return of == mover_ ? 2 * work_.skin[of] : work_.inner_skin[mover_] + work_.inner_skin[of];
+  }
   // m, that the rounding of distances and what bonds give may take, of targets of a mover.
   double slack(int of) const {
     return 8 * (bonded(all_.model, work_, work_.movers.block[of], of) ? bond_gives : same_place_at_least) *
@@ -102,7 +105,8 @@ private:
     around_.clear();
     const double most = 8 * bond_gives * all_.tallest + drawn;
     const double reach =
-        std::max(work_.skin[mover_] + all_.skin, 3 * (work_.inner_skin[mover_] + all_.inner));
+        std::max({work_.skin[mover_] + all_.skin, 3 * (work_.inner_skin[mover_] + all_.inner),
+                  work_.movers.one_piece[mover_] ? 0 : 3 * skins(mover_)});
     grid_->each_near(x[k], reach + most, [&](int i) {
       const Solid& solid = all_.solids[i];
       if (solid.mover == mover_ && work_.movers.one_piece[mover_])

@@ -28,8 +28,10 @@ public:
   void add(const Pairs& pairs, std::size_t begin, std::size_t end, std::vector<Near>& out) {
     const int source = pairs[begin].first;
     const ContactTriangle &from = triangle(source), &first = triangle(pairs[begin].second);
-    const double skins = skin_[mover(source)] + skin_[mover(pairs[begin].second)];
-    bonded_ = bonded(model_, work_, first.block, mover(pairs[begin].second));
+    const int own = mover(source), other = mover(pairs[begin].second);
+    // What a mover does relative to itself is not watched: until it leaves its skin.
+    const double skins = own == other ? 2 * work_.skin[own] : skin_[own] + skin_[other];
+    bonded_ = bonded(model_, work_, first.block, other);
     double margin_of_targets = 0, one_place_of_targets = 0; // the largest
     for (std::size_t i = begin; i < end; ++i) {
       const ContactTriangle& to = triangle(pairs[i].second);

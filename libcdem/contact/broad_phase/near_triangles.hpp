@@ -25,7 +25,7 @@ Pairs meeting(const SearchMargin&, const ActiveSurface&, const SharedPart&);
 Pairs looked_at(const Model&, const ContactWork&, const ActiveSurface&, const SharedPart&);
 
 // Whether a semi-spring at x may get into a block before the next search. One that stands outside the box around the
-// block stands outside the block, and where the surface has no holes nothing but a skin counts there.
+// block stands outside the block, and nothing but a skin counts there.
 bool may_get_into(const ContactWork&, const ActiveSurface&, const ContactTriangle& source,
                   const geom::Vec3& x, int block);
 
