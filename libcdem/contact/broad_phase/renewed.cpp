@@ -18,7 +18,8 @@ Renewed movers_to_search(const Model& model, const ContactWork& work, bool all) 
   const auto blocks = static_cast<int>(model.blocks.size());
   for (int m = 0; m < work.movers.count(); ++m) {
     const int block = work.movers.block[m];
-    if (!all && m >= blocks && (work.changed[m] || work.left[m] < searched_with_others))
+    if (!all && m >= blocks &&
+        (work.changed[m] || work.search_of[m] == 0 || work.left[m] < searched_with_others))
       renewed.movers[m] = renewed.blocks[block] = 1;
   }
   return renewed;
