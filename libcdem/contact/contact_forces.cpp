@@ -1,8 +1,10 @@
 #include "libcdem/contact/contact_forces.hpp"
 
+#include "libcdem/contact/broad_phase/movers.hpp"
 #include "libcdem/contact/broad_phase/search.hpp"
 #include "libcdem/contact/geometry/positions.hpp"
 #include "libcdem/contact/narrow_phase/evaluation.hpp"
+#include "libcdem/contact/narrow_phase/rows_asleep.hpp"
 #include "libcdem/contact/response/block_motion.hpp"
 #include "libcdem/contact/response/contact_point.hpp"
 
@@ -15,26 +17,28 @@ namespace {
 // Chunks of rows a thread computes before what they found is added up: more than a few leave the cache.
 constexpr std::int64_t chunks_at_a_time = 16;
 
-// The furthest that a node of each block goes in a step of this length. True when one has left its skin.
+// The furthest that a nodeof each mover goes in a step of this length. True when one has left its skin.
 bool add_displacements(const Model& model, const State& state, ContactWork& work, int threads) {
-  const auto blocks = static_cast<std::int64_t>(model.blocks.size());
-  for_chunks(blocks, threads, [&](std::int64_t b) {
-    const Block& block = model.blocks[b];
-    if (!block.meshed)
-      return;
-    double speed2 = 0;
-    for (int node = block.node_begin; node < block.node_end; ++node)
-      speed2 = std::max(speed2, velocity_of(state, node).squaredNorm());
-    work.last_displacement[b] = std::sqrt(speed2) * work.step;
-    work.travelled[b] += work.last_displacement[b];
-  });
+  if (work.movers.count() == 0)
+    return true; // not searched yet
+  set_displacements(model, state, work, threads);
+  for (std::size_t m = 0; m < work.travelled.size(); ++m)
+    work.travelled[m] += work.last_displacement[m];
   if (work.step > 0)
-    work.pace = work.last_displacement;
+    work.last_step = work.step;
   ++work.steps_since_search;
   bool out = false;
-  for (std::size_t b = 0; b < model.blocks.size(); ++b)
-    out = out || work.travelled[b] > std::min(work.skin[b], work.undefined_pair_margin);
-  return out;
+  for (std::size_t m = 0; m < work.travelled.size(); ++m) {
+    const bool fragment = m >= model.blocks.size();
+    if (!fragment && work.broken[m])
+      continue;
+    if (work.travelled[m] > work.undefined_pair_margin || (!fragment && work.travelled[m] > work.skin[m]))
+      out = work.all_due = true;
+  }
+  if (work.travelled.size() == model.blocks.size())
+    return out;
+  set_drifts(model, state, work, threads);
+  return find_leavers(model, work) || out;
 }
 
 // What contacts stored and did not give back that act no more, J: those that opened gave it back, the other side of the
@@ -84,14 +88,13 @@ void add_forces(const std::vector<ContactForce>& forces, ContactWork& own) {
 }
 
 // Marks the edges that have a contact before the step.
-void mark_touched_edges(const ContactSurface& surface, const std::vector<Contact>& contacts,
-                        ContactWork& work) {
+void mark_touched_edges(const std::vector<Contact>& contacts, ContactWork& work) {
   std::fill(work.edge_touched.begin(), work.edge_touched.end(), 0);
-  std::fill(work.block_edges_touched.begin(), work.block_edges_touched.end(), 0);
+  work.mover_edges_touched.assign(work.movers.count(), 0);
   const auto mark = [&](int id) {
     for (int e = work.edge_begin[id / 3]; e < work.edge_begin[id / 3 + 1]; ++e)
       if (work.edges[e].id() == id)
-        work.edge_touched[e] = work.block_edges_touched[surface.triangles[id / 3].block] = 1;
+        work.edge_touched[e] = work.mover_edges_touched[work.movers.of_triangle[id / 3]] = 1;
   };
   for (auto c = contacts.rbegin(); c != contacts.rend() && c->kind == Contact::edge; ++c) {
     mark(static_cast<int>(c->source));
@@ -135,11 +138,14 @@ ContactSums contact_forces(const Model& model, State& state, ContactWork& own, i
   ContactSums sums;
   if (model.surface.empty() || !own.due)
     return sums;
-  const bool out_of_skin = add_displacements(model, state, own, threads), fragments_due = own.fragments_due,
-             known = own.history_complete;
+  own.all_due = own.all_due || own.looks_at_all;
+  const bool out_of_skin = add_displacements(model, state, own, threads) || own.looks_at_all,
+             fragments_due = own.fragments_due, known = own.history_complete, anew = own.anew;
   if ((fragments_due || out_of_skin) && !search_contacts(model, state, own, threads))
     return sums; // something is not a number: the stage's watch will say where
-  own.any_depth_begins = !known || (fragments_due && !state.face_slip.empty());
+  own.any_depth_begins = !known || (anew && !state.face_slip.empty());
+  if (!fragments_due)
+    std::fill(own.changed.begin(), own.changed.end(), 0);
   // Where a fragment has fallen apart, contacts go with the part they touch.
   if (fragments_due) {
     for (Contact& c : state.contacts)
@@ -156,11 +162,13 @@ ContactSums contact_forces(const Model& model, State& state, ContactWork& own, i
   const std::int64_t n_springs = chunks(springs), n = n_springs + chunks(edges);
   own.chunks.resize(static_cast<std::size_t>(chunks_at_a_time * threads));
   clear_forces(own);
-  mark_touched_edges(model.surface, state.contacts, own);
+  mark_touched_edges(state.contacts, own);
   if (own.restitution) {
     sum_block_forces(model, state.contacts, own);
     find_block_motions(model, state, own, threads);
   }
+  for (RowsAsleep& asleep : own.asleep)
+    find_awake(own, asleep);
   own.now.clear();
   own.now.reserve(state.contacts.size() + state.contacts.size() / 8 + 64);
   for (std::int64_t first = 0; first < n; first += chunks_at_a_time * threads) {
@@ -173,12 +181,20 @@ ContactSums contact_forces(const Model& model, State& state, ContactWork& own, i
       const bool edge = first + i >= n_springs;
       const Contact::Kind kind = edge ? Contact::edge : Contact::spring;
       const std::int64_t begin = (edge ? first + i - n_springs : first + i) * contact_rows_per_chunk;
-      const std::int64_t end = std::min(edge ? edges : springs, begin + contact_rows_per_chunk);
       ContactCandidate* const candidates = own.candidates[kind].data();
       Evaluation evaluation(model, state, own, kind, out);
-      for (std::int64_t r = begin; r < end; ++r)
-        edge ? evaluation.edges(own.rows[kind][r], candidates)
-             : evaluation.springs(own.rows[kind][r], candidates);
+      RowsAsleep& asleep = own.asleep[kind];
+      for (std::uint64_t bits = asleep.awake[begin / contact_rows_per_chunk]; bits != 0; bits &= bits - 1) {
+        const std::int64_t r = begin + __builtin_ctzll(bits);
+        ContactRow& row = own.rows[kind][r];
+        const bool hindered = row.hindered;
+        if (!hindered && !own.looks_at_all && sleeps_on(own, row, asleep.recheck_distance[r]))
+          continue;
+        edge ? evaluation.edges(row, candidates) : evaluation.springs(row, candidates);
+        fall_asleep(own, static_cast<int>(model.blocks.size()), row, asleep.recheck_distance[r]);
+        if (row.hindered != hindered)
+          asleep.hindered[begin / contact_rows_per_chunk] ^= bits & -bits;
+      }
     });
     for (std::int64_t i = 0; i < count; ++i) {
       add_sorted(own.chunks[i].contacts, own.now);

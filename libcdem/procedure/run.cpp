@@ -116,6 +116,7 @@ RunResult run(const StageContext& context, const RunOptions& options, const std:
                    (options.holds_what_left ? left_lengths : run_away_lengths) * context.model.length};
   stage.details = options.details;
   stage.work.contact.most_friction = options.most_friction;
+  stage.work.contact.looks_at_all = options.looks_at_all_contacts;
   stage.work.damped = !state.viscous_stress.empty();
   std::vector<double> viscous = viscous_forces(context.model);
   Stage::StepReport report;

@@ -52,8 +52,9 @@ void ContactUpdate::start_anew(const Model& model, ContactWork& work) const {
   ContactWork before = std::move(work);
   work = {};
   start_contact(model, work);
-  work.pace = std::move(before.pace); // how thick skins are changes no force
+  work.last_step = before.last_step; // how thick skins are changes no force
   work.most_friction = before.most_friction;
+  work.looks_at_all = before.looks_at_all;
   work.restitution = before.restitution;
   work.history_complete = true; // those of the step before
 }

@@ -46,6 +46,9 @@ struct RunOptions {
   bool damp_flight = true; // of rigid bodies that touch nothing too
   // Tangent: contacts with more friction have no more than this.
   double most_friction = std::numeric_limits<double>::infinity();
+  // Every pair that is near is looked at in every step, after a search of everything: what is skipped otherwise must not
+  // change a bit. For tests.
+  bool looks_at_all_contacts = false;
   std::int64_t callback_every = 0;
   std::function<void()> callback;
   std::function<void(Progress&)> details; // adds to what the progress line shows

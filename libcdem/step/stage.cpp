@@ -195,7 +195,7 @@ void Stage::keep_state() {
   require_neighbours(context_.model, context_.state, here());
   // Pieces are told apart anew when a face is handed over, and here: a run that goes on from a checkpoint does so too.
   if (!context_.state.face_slip.empty() || !context_.model.mesh.sides.empty())
-    work.contact.fragments_due = true;
+    work.contact.fragments_due = work.contact.anew = true;
   synchronise();
   look_for_escapes();
   context_.last_good = context_.state;

@@ -1,7 +1,8 @@
-// A cube with bonds on every face that hits a rigid floor and shatters: how fast it steps while it is whole, while its
-// bonds break, and once it is a heap of fragments that touch each other, and how much of that is contact search.
+// A cube with bonds on every face that hits a rigid floor and shatters: how fast it steps before, while its bonds break,
+// and after, once it is fragments that touch each other; where the time goes, and how far the energy balance is open.
 #include "libcdem/first_model.hpp"
 #include "libcdem/procedure/run.hpp"
+#include "libcdem/results/energy.hpp"
 #include "libgeom/mesh/box_mesh.hpp"
 #include "tests/bench/measure.hpp"
 
@@ -15,9 +16,10 @@ namespace {
 using namespace cdem;
 
 constexpr double side = 0.5, gap = 2e-3,
-                 speed = 8;         // m, m, m/s: some 30 MPa at the impact, six times the strength
-constexpr int ask_every = 20;       // steps
-constexpr double broken_part = 0.3; // of all bonds: the end of breaking, if time does not end it
+                 speed = 8;   // m, m, m/s: some 30 MPa at the impact, six times the strength
+constexpr int ask_every = 20; // steps
+// Of all bonds: the end of the first breaking, and that of breaking, if time does not end it.
+constexpr double first_part = 0.3, most_part = 0.97;
 
 Model build(int tets) {
   const int n = std::max(1, static_cast<int>(std::lround(std::cbrt(tets / 6.0))));
@@ -54,8 +56,8 @@ struct LastProgress : Observer {
 
 void shatter(const Settings& settings) {
   std::printf("\na cube of bonded tetrahedra that hits a floor and shatters; one thread\n%8s %8s | %8s %8s "
-              "%9s %10s\n",
-              "tets", "bonds", "", "steps", "broken", "steps/s");
+              "%9s %10s %8s\n",
+              "tets", "bonds", "", "steps", "broken", "steps/s", "contacts");
   for (const int size : settings.shatter) {
     const Model model = build(size);
     double bonds = 0;
@@ -75,6 +77,7 @@ void shatter(const Settings& settings) {
     conditions.fixes = {held};
     RunLog log;
     double whole = 0;
+    const double start = energy(model, state).total(); // J
     int stage = 0;
     const auto phase = [&](const char* name, double most_seconds, const auto& ends) {
       const std::size_t before = log.breaks.size();
@@ -88,14 +91,18 @@ void shatter(const Settings& settings) {
       const RunResult r = run({model, state, conditions, log, last_good, observer, 1, ++stage}, options);
       const double rate = static_cast<double>(r.steps) / watch.seconds();
       whole = whole > 0 ? whole : rate;
-      std::printf("%8zu %8.0f | %8s %8lld %9zu %10.1f  %.2f of whole; %s\n", model.tets.size(), bonds, name,
-                  static_cast<long long>(r.steps), log.breaks.size() - before, rate, rate / whole,
+      std::printf("%8zu %8.0f | %8s %8lld %9zu %10.1f %8zu  %.3f of whole, energy open by %.0e; %s\n",
+                  model.tets.size(), bonds, name, static_cast<long long>(r.steps), log.breaks.size() - before,
+                  rate, state.contacts.size(), rate / whole, energy(model, state).total() / start - 1,
                   observer.times.c_str());
       std::fflush(stdout);
     };
     phase("whole", 1e9, [&] { return !log.breaks.empty(); });
-    phase("breaks", 20 * settings.seconds,
-          [&] { return static_cast<double>(log.breaks.size()) > broken_part * bonds; });
+    const auto broken = [&](double part) {
+      return [&, part] { return static_cast<double>(log.breaks.size()) > part * bonds; };
+    };
+    phase("breaks", 20 * settings.seconds, broken(first_part));
+    phase("shatters", 20 * settings.seconds, broken(most_part));
     phase("after", 10 * settings.seconds, [] { return false; });
   }
 }

@@ -1,5 +1,5 @@
 // Semi-edges that broken faces bring: those of the pieces, as if they had never been one.
-#include "libcdem/contact/broad_phase/active_surface.hpp"
+#include "libcdem/contact/broad_phase/movers.hpp"
 #include "libcdem/contact/broad_phase/search.hpp"
 #include "libcdem/contact/geometry/semi_edges.hpp"
 #include "libgeom/mesh/box_mesh.hpp"

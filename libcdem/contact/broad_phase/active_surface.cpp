@@ -1,7 +1,7 @@
 #include "libcdem/contact/broad_phase/active_surface.hpp"
 
-#include "libcdem/bond/fragments.hpp"
 #include "libcdem/contact/broad_phase/candidates.hpp"
+#include "libcdem/contact/broad_phase/movers.hpp"
 #include "libcdem/contact/geometry/positions.hpp"
 #include "libcdem/contact/response/contact_point.hpp"
 
@@ -15,9 +15,8 @@ constexpr double thinnest = 0.001, thickest = 0.1;
 // Steps that a block can go on at its pace before it leaves its skin, and what of the fastest block's pace the others
 // are trusted to get to.
 constexpr double steps_ahead = 250, pace_of_others = 0.25;
-// While a body shatters searches follow each other more closely than skins ask for: they need not be thicker than for
-// twice the steps between the last two.
-constexpr double least_steps_ahead = 20;
+// The same of fragments, by themselves and relative to those around them, with which they mostly move.
+constexpr double steps_of_fragments = 150, steps_relative = 16;
 // Searches that follow each other within fewer steps than this make skins twice as thick, those after more halve them.
 constexpr std::int64_t few_steps = 50, many_steps = 150;
 constexpr int most_doublings = 6;
@@ -26,13 +25,6 @@ constexpr std::size_t most_boxes_compared = 4000000;
 // Of the height of a tet: how deep a contact may get.
 constexpr double depth_ratio = 0.25;
 
-bool open(const State& state, int face) {
-  for (const auto& point : state.faces[face / lanes].mode)
-    if (point[face % lanes] == static_cast<std::uint8_t>(BondMode::intact))
-      return false;
-  return true;
-}
-
 double gap(const geom::Box& a, const geom::Box& b) {
   return (a.min - b.max).cwiseMax(b.min - a.max).maxCoeff();
 }
@@ -40,12 +32,12 @@ double gap(const geom::Box& a, const geom::Box& b) {
 // m, of blocks whose pace is greater, a quarter of what parts their boxes from all others: their boxes with three skins
 // around them then meet none. 0 for the others, and for further ones when there are very many.
 std::vector<double> clearance_of_fast_bodies(const Model& model, const State& state, const ContactWork& work,
-                                             double pace) {
+                                             const std::vector<double>& paces, double pace) {
   const ContactSurface& s = model.surface;
   std::vector<double> clearance(model.blocks.size(), 0.0);
   std::vector<int> fast;
   for (int b = 0; b < static_cast<int>(clearance.size()); ++b)
-    if (work.pace[b] > pace)
+    if (paces[b] > pace && !work.broken[b])
       fast.push_back(b);
   fast.resize(std::min(fast.size(), most_boxes_compared / clearance.size()));
   if (fast.empty())
@@ -71,43 +63,59 @@ double usual(const ContactWork& work, const ContactTriangle& t) {
 
 } // namespace
 
-void find_fragments(const Model& model, const State& state, ContactWork& work) {
-  const ContactSurface& s = model.surface;
-  const std::vector<int> fragments = fragments_of_nodes(model, state);
-  work.fragment.resize(s.triangles.size());
-  work.active.resize(s.triangles.size());
-  work.broken.assign(model.blocks.size(), 0);
-  for (std::size_t t = 0; t < s.triangles.size(); ++t) {
-    work.fragment[t] = fragments[s.triangles[t].nodes[0]];
-    const int face = s.triangles[t].face;
-    work.active[t] = static_cast<char>(face < 0 || open(state, face));
-    if (face >= 0 && work.active[t])
-      work.broken[s.triangles[t].block] = 1;
-  }
-}
+namespace {
 
-void choose_skins(const Model& model, const State& state, ContactWork& work) {
+// pace: m in a step, per mover.
+void choose_skins_of_blocks(const Model& model, const State& state, const std::vector<double>& pace,
+                            ContactWork& work) {
+  const auto blocks = static_cast<int>(model.blocks.size());
   const double most = thickest * work.usual_height;
   bool too_thin = false;
-  for (std::size_t b = 0; b < work.skin.size(); ++b)
-    too_thin = too_thin || (work.travelled[b] > work.skin[b] && work.skin[b] < most);
+  for (int b = 0; b < blocks; ++b)
+    too_thin = too_thin || (!work.broken[b] && work.travelled[b] > work.skin[b] && work.skin[b] < most);
   if (work.searches > 0 && work.steps_since_search < few_steps && too_thin)
     work.skin_doublings = std::min(work.skin_doublings + 1, most_doublings);
   else if (work.steps_since_search > many_steps)
     work.skin_doublings = std::max(work.skin_doublings - 1, 0);
-  const bool shatters = work.fragments_due && work.searches > 0;
-  const double ahead =
-      shatters ? std::clamp(2. * static_cast<double>(work.steps_since_search), least_steps_ahead, steps_ahead)
-               : steps_ahead;
-  const std::vector<double> alone = clearance_of_fast_bodies(model, state, work, most / steps_ahead);
+  const std::vector<double> alone = clearance_of_fast_bodies(model, state, work, pace, most / steps_ahead);
   double fastest = 0;
-  for (std::size_t b = 0; b < work.skin.size(); ++b)
+  for (int b = 0; b < blocks; ++b)
     if (alone[b] <= most)
-      fastest = std::max(fastest, work.pace[b]);
-  const double least = std::max(thinnest * work.usual_height, pace_of_others * ahead * fastest) *
+      fastest = std::max(fastest, pace[b]);
+  const double least = std::max(thinnest * work.usual_height, pace_of_others * steps_ahead * fastest) *
                        static_cast<double>(1 << work.skin_doublings);
-  for (std::size_t b = 0; b < work.skin.size(); ++b)
-    work.skin[b] = std::min(std::max(least, ahead * work.pace[b]), std::max(most, alone[b]));
+  for (int b = 0; b < blocks; ++b)
+    work.skin[b] = std::min(std::max(least, steps_ahead * pace[b]), std::max(most, alone[b]));
+}
+
+} // namespace
+
+void choose_skins(const Model& model, const State& state, ContactWork& work,
+                  const std::vector<char>& searched, bool all) {
+  std::vector<double> pace = speeds_of_movers(model, state, work, 1); // m/s, then m in a step
+  for (double& of_mover : pace)
+    of_mover *= work.last_step;
+  if (all)
+    choose_skins_of_blocks(model, state, pace, work);
+  const auto blocks = static_cast<int>(model.blocks.size());
+  for (int b = 0; b < blocks; ++b)
+    if (work.broken[b])
+      work.skin[b] = 0; // the thickest of its fragments
+  double mean = 0;      // m in a step, of fragments
+  for (int m = blocks; m < work.movers.count(); ++m)
+    mean += pace[m] / (work.movers.count() - blocks);
+  for (int m = blocks; m < work.movers.count(); ++m) {
+    if (searched[m]) {
+      const auto within = [&](double steps) {
+        return std::clamp(steps * std::max(pace[m], mean), thinnest * work.usual_height,
+                          thickest * work.usual_height);
+      };
+      work.skin[m] = within(steps_of_fragments);
+      work.inner_skin[m] = within(steps_relative);
+    }
+    double& most = work.skin[work.movers.block[m]];
+    most = std::max(most, work.skin[m]);
+  }
 }
 
 double depth_of(const ContactWork& work, const ContactTriangle& t) {
@@ -119,7 +127,8 @@ double far_at_first(const ContactWork& work, const ContactTriangle& t) {
 }
 
 SearchMargin::SearchMargin(const Model& model, const State& state, const ContactWork& work)
-    : work_(work), whole_(work.broken), deepest_(model.blocks.size(), 0.0), at_least_(model.blocks.size()) {
+    : surface_(model.surface), work_(work), whole_(work.broken), deepest_(model.blocks.size(), 0.0),
+      at_least_(model.blocks.size()) {
   if (!work.history_complete)
     std::fill(whole_.begin(), whole_.end(), 1);
   for (const Contact& c : state.contacts) {
@@ -138,7 +147,7 @@ bool ActiveSurface::finite() const {
 }
 
 ActiveSurface active_surface(const Model& model, const State& state, const ContactWork& work,
-                             const SearchMargin& margins, int threads) {
+                             const SearchMargin& margins, const std::vector<char>& searched, int threads) {
   const ContactSurface& s = model.surface;
   ActiveSurface part;
   part.block_begin.push_back(0);
@@ -150,6 +159,8 @@ ActiveSurface active_surface(const Model& model, const State& state, const Conta
   }
   part.facets.resize(part.triangles.size());
   part.boxes.resize(part.triangles.size());
+  for (const int t : part.triangles)
+    part.searched.push_back(searched[work.movers.of_triangle[t]]);
   part.block_boxes.resize(part.block_begin.size() - 1);
   part.outlines.resize(part.block_boxes.size());
   for_chunks(static_cast<std::int64_t>(part.block_boxes.size()), threads, [&](std::int64_t b) {
@@ -158,7 +169,7 @@ ActiveSurface active_surface(const Model& model, const State& state, const Conta
       Facet& facet = part.facets[i];
       facet.x = corners_of(model, state, triangle.nodes);
       facet.normal = unit_normal(facet.x);
-      part.boxes[i] = box_of(facet.x, margins.margin(triangle));
+      part.boxes[i] = box_of(facet.x, margins.margin(part.triangles[i]));
       part.block_boxes[b].extend(part.boxes[i].min);
       part.block_boxes[b].extend(part.boxes[i].max);
       for (const geom::Vec3& corner : facet.x)

@@ -8,11 +8,9 @@
 
 namespace cdem {
 
-// Writes ContactWork::fragment, active and broken.
-void find_fragments(const Model&, const State&, ContactWork&);
-
-// Writes ContactWork::skin: thin for what hardly moves, so that little is near; thick for what flies by itself.
-void choose_skins(const Model&, const State&, ContactWork&);
+// Writes ContactWork::skin: thin for what hardly moves, so that little is near; thick for what flies by itself. Movers are
+// known; Of those that are searched (per mover); all: of all.
+void choose_skins(const Model&, const State&, ContactWork&, const std::vector<char>& searched, bool all);
 
 // m: a quarter of the tet's height, of those much higher than usual in their block a quarter of the usual.
 double depth_of(const ContactWork&, const ContactTriangle&);
@@ -31,9 +29,12 @@ public:
   // m, no contact of the two blocks is deeper, of those known.
   double known(int block_a, int block_b) const { return std::min(deepest_[block_a], deepest_[block_b]); }
   // What a triangle's box has to hold around it for it to meet another before the next search.
-  double margin(const ContactTriangle& t) const { return work_.skin[t.block] + (*this)(t); }
+  double margin(int triangle) const {
+    return work_.skin[work_.movers.of_triangle[triangle]] + (*this)(surface_.triangles[triangle]);
+  }
 
 private:
+  const ContactSurface& surface_;
   const ContactWork& work_;
   std::vector<char> whole_;     // per block: anything may stand in it, as where a stage begins or faces break
   std::vector<double> deepest_; // m, per block, of the contacts that are known
@@ -51,12 +52,14 @@ struct ActiveSurface {
   std::vector<int> block_begin;       // (n_blocks + 1) into triangles
   std::vector<Facet> facets;          // per triangle
   std::vector<geom::Box> boxes;       // per triangle, with its margin
+  std::vector<char> searched;         // per triangle: its mover is
   std::vector<geom::Box> block_boxes; // per block, with margins
   std::vector<geom::Box> outlines;    // per block, without
 
   bool finite() const;
 };
+// searched: per mover.
 ActiveSurface active_surface(const Model&, const State&, const ContactWork&, const SearchMargin&,
-                             int threads);
+                             const std::vector<char>& searched, int threads);
 
 } // namespace cdem

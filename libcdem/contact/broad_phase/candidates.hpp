@@ -25,9 +25,10 @@ struct Near {
   std::uint32_t springs : 3; // of a triangle: which of its semi-springs
 };
 
-// pairs: (source, target), of one or two blocks; they are sorted by source, fragment of the target and target.
+// pairs: (source, target), of one or two blocks; they are sorted by source, fragment of the target and target. skin: m, per
+// mover.
 std::vector<Near> near_springs(const Model&, const ContactWork&, const SearchMargin&, const ActiveSurface&,
-                               Pairs& pairs);
+                               Pairs& pairs, const std::vector<double>& skin);
 
 // Of two blocks. The edge with the lower number is the source.
 std::vector<Near> near_edges(const Model&, const State&, const ContactWork&, const SearchMargin&,
@@ -35,5 +36,8 @@ std::vector<Near> near_edges(const Model&, const State&, const ContactWork&, con
 // Of one block: edges of triangles that meet, by pairs that stand each once.
 std::vector<Near> near_edges_within(const Model&, const State&, const ContactWork&, const SearchMargin&,
                                     const ActiveSurface&, const Pairs& meeting);
+// Of one block that has broken: edges of which one is `searched` (per edge).
+std::vector<Near> near_edges_of_fragments(const Model&, const State&, const ContactWork&, const SearchMargin&,
+                                          int block, const std::vector<char>& searched);
 
 } // namespace cdem

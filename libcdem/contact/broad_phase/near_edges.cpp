@@ -25,7 +25,8 @@ Bar bar_of(const Model& model, const State& state, const ContactWork& work, cons
   const double length = (bar.x1 - bar.x0).norm();
   bar.along = (bar.x1 - bar.x0) / length;
   bar.into = into_faces(model, state, e, bar.x0, bar.x1);
-  bar.skin = work.skin[model.surface.triangles[e.triangles[0]].block];
+  for (const int t : e.triangles) // its two faces may be of two fragments that still hold together
+    bar.skin = std::max(bar.skin, work.skin[work.movers.of_triangle[t]]);
   bar.turns = 4 * bar.skin / length; // twice what its ends can make of it
   for (int i = 0; i < 2; ++i) {
     const Corners x = corners_of(model, state, model.surface.triangles[e.triangles[i]].nodes);
@@ -102,7 +103,9 @@ void add_near(const Model& model, const ContactWork& work, const SearchMargin& m
   const ContactTriangle &a = model.surface.triangles[one.triangle(k)],
                         &b = model.surface.triangles[other.triangle(l)];
   const double depth = std::max(edge_depth(work, a, b), margins.known(a.block, b.block));
-  if (apart(grown(one.boxes()[k], depth + work.skin[a.block] + work.skin[b.block]), other.boxes()[l]) ||
+  const auto skin = [&](int triangle) { return work.skin[work.movers.of_triangle[triangle]]; };
+  if (apart(grown(one.boxes()[k], depth + skin(one.triangle(k)) + skin(other.triangle(l))),
+            other.boxes()[l]) ||
       !may_touch(one[k], other[l], depth))
     return;
   const auto [first, second] = std::minmax(one.edges()[k], other.edges()[l]);
@@ -170,6 +173,34 @@ std::vector<Near> near_edges_within(const Model& model, const State& state, cons
     for (std::size_t k = k_begin; k < k_end; ++k)
       for (std::size_t l = l_begin; l < l_end; ++l)
         add_near(model, work, margins, bars, k, bars, l, out);
+  }
+  return out;
+}
+
+std::vector<Near> near_edges_of_fragments(const Model& model, const State& state, const ContactWork& work,
+                                          const SearchMargin& margins, int block,
+                                          const std::vector<char>& searched) {
+  const ContactSurface& s = model.surface;
+  const double depth = std::max(edge_depth(work, block), margins.known(block, block));
+  Bars bars(model, state, work);
+  geom::Box everywhere;
+  std::swap(everywhere.min, everywhere.max);
+  std::vector<geom::Box> boxes;
+  std::vector<char> wanted;
+  for (int t = s.block_begin[block]; t < s.block_begin[block + 1]; ++t)
+    bars.add(t, everywhere);
+  for (std::size_t k = 0; k < bars.edges().size(); ++k) {
+    boxes.push_back(
+        grown(bars.boxes()[k], 0.5 * depth + work.skin[work.movers.of_triangle[bars.triangle(k)]]));
+    wanted.push_back(searched[bars.edges()[k]]);
+  }
+  std::vector<Near> out;
+  if (std::count(wanted.begin(), wanted.end(), 0) == static_cast<std::ptrdiff_t>(wanted.size()))
+    return out;
+  for (const auto& [k, l] : geom::touching_pairs(boxes, wanted)) {
+    const int a = bars.triangle(k), b = bars.triangle(l);
+    if (work.fragment[a] != work.fragment[b] || apart_at_first(model, work, a, b))
+      add_near(model, work, margins, bars, k, bars, l, out);
   }
   return out;
 }

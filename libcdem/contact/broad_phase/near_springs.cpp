@@ -1,4 +1,5 @@
 #include "libcdem/contact/broad_phase/candidates.hpp"
+#include "libcdem/contact/broad_phase/movers.hpp"
 #include "libcdem/contact/broad_phase/search.hpp"
 #include "libcdem/contact/geometry/nearest.hpp"
 #include "libcdem/contact/response/contact_point.hpp"
@@ -20,18 +21,17 @@ double least_distance2(const geom::Vec3& x, const Corners& triangle) {
 class SpringsOfSource {
 public:
   SpringsOfSource(const Model& model, const ContactWork& work, const SearchMargin& margins,
-                  const ActiveSurface& active)
-      : s_(model.surface), model_(model), work_(work), margins_(margins), active_(active) {}
+                  const ActiveSurface& active, const std::vector<double>& skin)
+      : s_(model.surface), model_(model), work_(work), margins_(margins), active_(active), skin_(skin) {}
 
   // pairs [begin, end)
   void add(const Pairs& pairs, std::size_t begin, std::size_t end, std::vector<Near>& out) {
     const int source = pairs[begin].first;
     const ContactTriangle &from = triangle(source), &first = triangle(pairs[begin].second);
-    const double skins = work_.skin[from.block] + work_.skin[first.block];
-    // Where a surface has holes, as those of fragments that hang together by a corner, what is outside may be inside
-    // beyond an edge.
-    const double outside = skins + (work_.broken[first.block] ? work_.shallow[first.block] : 0);
-    bonded_ = has_bonds(model_, first.block);
+    const int own = mover(source), other = mover(pairs[begin].second);
+    // What a mover does relative to itself is not watched: until it leaves its skin.
+    const double skins = own == other ? 2 * work_.skin[own] : skin_[own] + skin_[other];
+    bonded_ = bonded(model_, work_, first.block, other);
     double margin_of_targets = 0, one_place_of_targets = 0; // the largest
     for (std::size_t i = begin; i < end; ++i) {
       const ContactTriangle& to = triangle(pairs[i].second);
@@ -39,9 +39,7 @@ public:
       one_place_of_targets = std::max(one_place_of_targets, one_place(to));
     }
     const double deepest = std::min(2 * depth_of(work_, from), margins_(from) + margin_of_targets);
-    find_nearest(pairs, begin, end,
-                 (1 + 8 * same_place) * (std::max(deepest + skins, outside) + 2 * skins) +
-                     8 * one_place_of_targets);
+    find_nearest(pairs, begin, end, (1 + 8 * same_place) * (deepest + 3 * skins) + 8 * one_place_of_targets);
     std::array<double, 3> need{};
     for (int corner = 0; corner < 3; ++corner) {
       const Nearest& found = nearest_[corner];
@@ -51,7 +49,7 @@ public:
       const ContactTriangle& to = triangle(found.target);
       const double d = std::sqrt(found.distance2);
       const double deep = std::min(2 * depth_limit(work_, from, to), margins_(from) + margins_(to));
-      if (d <= (found.inside() ? deep + skins : outside))
+      if (d <= (found.inside() ? deep + skins : skins))
         need[corner] = d + 2 * skins;
     }
     for (std::size_t i = begin; i < end; ++i) {
@@ -72,6 +70,7 @@ public:
 
 private:
   const ContactTriangle& triangle(int place) const { return s_.triangles[active_.triangles[place]]; }
+  int mover(int place) const { return work_.movers.of_triangle[active_.triangles[place]]; }
   // m, within which places count as one with the nearest.
   double one_place(const ContactTriangle& to) const {
     return (bonded_ ? bond_gives : same_place_at_least) * to.height;
@@ -109,6 +108,7 @@ private:
   const ContactWork& work_;
   const SearchMargin& margins_;
   const ActiveSurface& active_;
+  const std::vector<double>& skin_;             // m, per mover
   bool bonded_ = false;                         // the fragment
   std::array<Nearest, 3> nearest_;              // of each spring
   std::vector<std::array<double, 3>> distance_; // m, of each target from each spring
@@ -120,7 +120,7 @@ void sort_by_source(Pairs& pairs, const Piece& fragment) {
   const auto before = [&](const std::pair<int, int>& a, const std::pair<int, int>& b) {
     return std::tuple(a.first, fragment(a), a.second) < std::tuple(b.first, fragment(b), b.second);
   };
-  if (std::is_sorted(pairs.begin(), pairs.end(), before))
+  if (pairs.empty() || std::is_sorted(pairs.begin(), pairs.end(), before))
     return;
   int least = pairs.front().first, most = least;
   for (const auto& pair : pairs) {
@@ -148,13 +148,15 @@ void sort_by_source(Pairs& pairs, const Piece& fragment) {
 } // namespace
 
 std::vector<Near> near_springs(const Model& model, const ContactWork& work, const SearchMargin& margins,
-                               const ActiveSurface& active, Pairs& pairs) {
+                               const ActiveSurface& active, Pairs& pairs, const std::vector<double>& skin) {
   const auto fragment = [&](const std::pair<int, int>& p) {
     return work.fragment[active.triangles[p.second]];
   };
   sort_by_source(pairs, fragment);
   std::vector<Near> out;
-  SpringsOfSource springs(model, work, margins, active);
+  if (pairs.empty())
+    return out;
+  SpringsOfSource springs(model, work, margins, active, skin);
   for (std::size_t begin = 0, end = 0; begin < pairs.size(); begin = end) {
     while (end < pairs.size() && pairs[end].first == pairs[begin].first &&
            fragment(pairs[end]) == fragment(pairs[begin]))

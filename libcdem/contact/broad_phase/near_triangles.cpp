@@ -15,8 +15,8 @@ bool beside(const Corners& x, const Facet& plane, double reach) {
 }
 
 // Whether the plane of one of two triangles parts them by more than both margins.
-bool parted(const Model& model, const SearchMargin& margins, const ActiveSurface& active, int i, int j) {
-  const auto margin = [&](int k) { return margins.margin(model.surface.triangles[active.triangles[k]]); };
+bool parted(const SearchMargin& margins, const ActiveSurface& active, int i, int j) {
+  const auto margin = [&](int k) { return margins.margin(active.triangles[k]); };
   const Facet &one = active.facets[i], &other = active.facets[j];
   const double reach = margin(i) + margin(j);
   return beside(one.x, other, reach) || beside(other.x, one, reach);
@@ -65,7 +65,10 @@ void look(const Model& model, const ContactWork& work, const ActiveSurface& acti
     return;
   const double further = 2 * (work.skin[one] + work.skin[other]);
   around = grown(around, further);
-  const std::vector<int> targets = inside(active, other, around);
+  std::vector<int> targets = inside(active, other, around);
+  const auto known = [&](int i) { return !active.searched[i]; };
+  if (std::all_of(sources.begin(), sources.end(), known))
+    targets.erase(std::remove_if(targets.begin(), targets.end(), known), targets.end());
   each_meeting(boxes_of(active, sources), further, boxes_of(active, targets),
                [&](std::size_t i, std::size_t j) { pairs.emplace_back(sources[i], targets[j]); });
 }
@@ -85,12 +88,11 @@ SharedPart shared_part(const ActiveSurface& active, int a, int b) {
   return part;
 }
 
-Pairs meeting(const Model& model, const SearchMargin& margins, const ActiveSurface& active,
-              const SharedPart& part) {
+Pairs meeting(const SearchMargin& margins, const ActiveSurface& active, const SharedPart& part) {
   Pairs pairs;
   each_meeting(boxes_of(active, part.of_a), 0, boxes_of(active, part.of_b),
                [&](std::size_t i, std::size_t j) {
-                 if (!parted(model, margins, active, part.of_a[i], part.of_b[j]))
+                 if (!parted(margins, active, part.of_a[i], part.of_b[j]))
                    pairs.emplace_back(part.of_a[i], part.of_b[j]);
                });
   return pairs;
@@ -107,30 +109,33 @@ Pairs looked_at(const Model& model, const ContactWork& work, const ActiveSurface
 bool may_get_into(const ContactWork& work, const ActiveSurface& active, const ContactTriangle& source,
                   const geom::Vec3& x, int block) {
   const double skins = work.skin[source.block] + work.skin[block];
-  return active.outlines[block].contains(
-      x, work.broken[block] ? skins + work.shallow[block] + 2 * depth_of(work, source) : skins);
+  return active.outlines[block].contains(x, skins);
+}
+
+bool apart_at_first(const Model& model, const ContactWork& work, int triangle_a, int triangle_b) {
+  const auto box_at_first = [&](int t) {
+    const ContactTriangle& triangle = model.surface.triangles[t];
+    const geom::Triangle& n = triangle.nodes;
+    return box_of({model.node_position[n[0]], model.node_position[n[1]], model.node_position[n[2]]},
+                  far_at_first(work, triangle));
+  };
+  return apart(box_at_first(triangle_a), box_at_first(triangle_b));
 }
 
 NearWithin near_within(const Model& model, const ContactWork& work, const SearchMargin& margins,
                        const ActiveSurface& active, int block) {
-  const ContactSurface& s = model.surface;
   const int begin = active.block_begin[block];
   std::vector<geom::Box> boxes(active.boxes.begin() + begin,
                                active.boxes.begin() + active.block_begin[block + 1]);
-  const auto box_at_first = [&](int t) {
-    const geom::Triangle& n = s.triangles[t].nodes;
-    return box_of({model.node_position[n[0]], model.node_position[n[1]], model.node_position[n[2]]},
-                  far_at_first(work, s.triangles[t]));
-  };
   const auto strangers = [&](int i, int j) {
     const int a = active.triangles[i], b = active.triangles[j];
-    return work.fragment[a] != work.fragment[b] || apart(box_at_first(a), box_at_first(b));
+    return work.fragment[a] != work.fragment[b] || apart_at_first(model, work, a, b);
   };
   NearWithin near;
   std::vector<char> meets(boxes.size(), 0);
   for (const auto& [i, j] : geom::touching_pairs(boxes)) {
     const int a = begin + i, b = begin + j;
-    if (!strangers(a, b) || parted(model, margins, active, a, b))
+    if (!strangers(a, b) || parted(margins, active, a, b))
       continue;
     near.meeting.emplace_back(a, b);
     meets[i] = meets[j] = 1;

@@ -19,17 +19,20 @@ struct SharedPart {
 SharedPart shared_part(const ActiveSurface&, int block_a, int block_b);
 
 // Those that meet, (of a, of b).
-Pairs meeting(const Model&, const SearchMargin&, const ActiveSurface&, const SharedPart&);
+Pairs meeting(const SearchMargin&, const ActiveSurface&, const SharedPart&);
 
 // (source, target), both ways.
 Pairs looked_at(const Model&, const ContactWork&, const ActiveSurface&, const SharedPart&);
 
 // Whether a semi-spring at x may get into a block before the next search. One that stands outside the box around the
-// block stands outside the block, and where the surface has no holes nothing but a skin counts there.
+// block stands outside the block, and nothing but a skin counts there.
 bool may_get_into(const ContactWork&, const ActiveSurface&, const ContactTriangle& source,
                   const geom::Vec3& x, int block);
 
-// Of one block: triangles of different fragments, and those of one that were far from each other at first.
+// Whether two triangles of what hangs together were so far from each other at first that they may meet.
+bool apart_at_first(const Model&, const ContactWork&, int triangle_a, int triangle_b);
+
+// Of one block that has not broken: triangles of different fragments, and those of one that were far from each other at first.
 struct NearWithin {
   Pairs meeting;   // each once
   Pairs looked_at; // (source, target), both ways

@@ -3,6 +3,9 @@
 #include "libcdem/bond/release.hpp"
 
 #include "libcdem/contact/broad_phase/candidates.hpp"
+#include "libcdem/contact/broad_phase/movers.hpp"
+#include "libcdem/contact/broad_phase/near_fragments.hpp"
+#include "libcdem/contact/broad_phase/rows.hpp"
 #include "libcdem/contact/geometry/positions.hpp"
 #include "libcdem/contact/geometry/semi_edges.hpp"
 #include "libcdem/model/build/contact_surface.hpp"
@@ -17,54 +20,6 @@
 
 namespace cdem {
 namespace {
-
-// Rows by source with their targets by fragment (springs) or block (edges) and number.
-void make_rows(const Model& model, const ContactWork& work, const SearchMargin& margins,
-               const std::vector<std::vector<Near>>& parts, Contact::Kind kind, std::vector<ContactRow>& rows,
-               std::vector<ContactCandidate>& candidates) {
-  const ContactSurface& s = model.surface;
-  const std::size_t sources = kind == Contact::spring ? s.triangles.size() : work.edges.size();
-  std::vector<std::uint32_t> begin(sources + 1, 0);
-  for (const std::vector<Near>& part : parts)
-    for (const Near& near : part)
-      ++begin[near.source + 1];
-  for (std::size_t i = 1; i <= sources; ++i)
-    begin[i] += begin[i - 1];
-  const auto block = [&](std::uint32_t target) {
-    return s.triangles[kind == Contact::spring ? target : work.edges[target].triangles[0]].block;
-  };
-  const auto group = [&](std::uint32_t target) {
-    return kind == Contact::spring ? work.fragment[target] : block(target);
-  };
-  if (candidates.capacity() > 2 * static_cast<std::size_t>(begin.back()))
-    std::vector<ContactCandidate>().swap(candidates);
-  candidates.resize(begin.back());
-  std::vector<std::uint32_t> next(begin.begin(), begin.end() - 1);
-  for (const std::vector<Near>& part : parts)
-    for (const Near& near : part) {
-      ContactCandidate& candidate = candidates[next[near.source]++];
-      candidate.target = near.target;
-      candidate.springs = near.springs;
-      candidate.recheck_distance = 0;
-    }
-  rows.clear();
-  for (std::size_t i = 0; i < sources; ++i) {
-    std::sort(candidates.begin() + begin[i], candidates.begin() + begin[i + 1],
-              [&](const ContactCandidate& a, const ContactCandidate& b) {
-                return std::pair(group(a.target), +a.target) < std::pair(group(b.target), +b.target);
-              });
-    for (std::uint32_t first = begin[i], end = first; first < begin[i + 1]; first = end) {
-      while (end < begin[i + 1] && group(candidates[end].target) == group(candidates[first].target))
-        ++end;
-      const int other = block(candidates[first].target);
-      rows.push_back({static_cast<int>(i), other, first, end - first, 0, 0});
-      if (kind == Contact::edge) {
-        const int own = s.triangles[work.edges[i].triangles[0]].block;
-        rows.back().reach = static_cast<float>(margins.known(own, other) + work.skin[own] + work.skin[other]);
-      }
-    }
-  }
-}
 
 [[noreturn]] void refuse_meeting(const Model& model, int block_a, int block_b, const geom::Vec3& x) {
   const auto [first, second] = std::minmax(block_a, block_b);
@@ -140,33 +95,87 @@ void start_contact(const Model& model, ContactWork& work) {
   work.shallow = s.usual_height;
   for (double& height : work.shallow)
     height *= shallow_ratio;
-  for (std::vector<double>* of_blocks : {&work.travelled, &work.last_displacement, &work.pace, &work.skin})
-    of_blocks->assign(model.blocks.size(), 0.0);
+  for (std::vector<double>* of_movers : {&work.travelled, &work.last_displacement, &work.skin})
+    of_movers->assign(model.blocks.size(), 0.0);
   for (const auto& [bodies, law] : s.joint)
     work.restitution = work.restitution || model.joints[law].restitution < 1;
   work.force.assign(model.node_position.size(), Node{});
   work.stiffness.assign(model.node_position.size(), 0.0);
 }
 
+namespace {
+
+// Of two blocks of which only fragments of one are searched the others of that one.
+void leave_out_known(const ActiveSurface& active, const Renewed& renewed, SharedPart& part) {
+  if (renewed.all || (renewed.blocks[part.block_a] && renewed.blocks[part.block_b]))
+    return;
+  std::vector<int>& of_searched = renewed.blocks[part.block_a] ? part.of_a : part.of_b;
+  of_searched.erase(std::remove_if(of_searched.begin(), of_searched.end(),
+                                   [&](int place) { return !active.searched[place]; }),
+                    of_searched.end());
+}
+
+// Of two blocks of which only some fragments are searched.
+void leave_out_known(const ActiveSurface& active, const Renewed& renewed, Pairs& pairs,
+                     std::vector<Near>& edges) {
+  if (renewed.all)
+    return;
+  const auto known = [&](int place) { return !active.searched[place]; };
+  pairs.erase(std::remove_if(pairs.begin(), pairs.end(),
+                             [&](const auto& pair) { return known(pair.first) && known(pair.second); }),
+              pairs.end());
+  edges.erase(std::remove_if(edges.begin(), edges.end(),
+                             [&](const Near& near) {
+                               return !renewed.edges[near.source] && !renewed.edges[near.target];
+                             }),
+              edges.end());
+}
+
+// What was found of rows when they were last looked at counts no more.
+void let_all_wake(ContactWork& work) {
+  for (ContactRow& row : work.rows[Contact::spring])
+    row.reach = 0;
+  for (std::size_t kind = 0; kind < work.rows.size(); ++kind) {
+    for (ContactRow& row : work.rows[kind])
+      row.recheck_distance = row.allowed = 0;
+    std::fill(work.asleep[kind].recheck_distance.begin(), work.asleep[kind].recheck_distance.end(), 0.F);
+  }
+}
+
+} // namespace
+
 bool search_contacts(const Model& model, const State& state, ContactWork& work, int threads) {
   const ContactSurface& s = model.surface;
-  if (work.fragments_due) {
+  const bool fragments_due = work.fragments_due, fragments_only = !model.frames.empty();
+  std::vector<ContactEdge> edges_before;
+  if (fragments_due) {
+    std::swap(edges_before, work.edges);
     find_fragments(model, state, work);
     find_semi_edges(model, state, work);
+    set_displacements(model, state, work, threads);
   }
-  choose_skins(model, state, work);
+  Renewed renewed =
+      movers_to_search(model, work, work.all_due || work.searches == 0 || (fragments_due && fragments_only));
+  edges_to_search(work, edges_before, fragments_due, renewed);
+  choose_skins(model, state, work, renewed.movers, renewed.all);
   const SearchMargin margins(model, state, work);
-  const ActiveSurface active = active_surface(model, state, work, margins, threads);
+  const ActiveSurface active = active_surface(model, state, work, margins, renewed.movers, threads);
   if (!active.finite())
     return false;
   std::vector<char> has_surface;
   for (std::size_t b = 0; b + 1 < active.block_begin.size(); ++b)
     has_surface.push_back(static_cast<char>(active.block_begin[b] < active.block_begin[b + 1]));
-  const Pairs blocks = free_pairs(model, state, work, geom::touching_pairs(active.block_boxes, has_surface));
-  std::vector<int> alone; // blocks that may touch themselves
+  Pairs blocks = free_pairs(model, state, work, geom::touching_pairs(active.block_boxes, has_surface));
+  blocks.erase(std::remove_if(blocks.begin(), blocks.end(),
+                              [&](const auto& pair) {
+                                return !renewed.blocks[pair.first] && !renewed.blocks[pair.second];
+                              }),
+               blocks.end());
+  std::vector<int> alone, shattered; // blocks that may touch themselves
   for (int b = 0; b + 1 < static_cast<int>(s.block_begin.size()); ++b)
-    if (model.blocks[b].meshed && model.blocks[b].rigid < 0 && contact_joint(model, b, b))
-      alone.push_back(b);
+    if (model.blocks[b].meshed && model.blocks[b].rigid < 0 && renewed.blocks[b] &&
+        contact_joint(model, b, b))
+      (work.broken[b] ? shattered : alone).push_back(b);
   const auto n_pairs = static_cast<std::int64_t>(blocks.size());
   std::vector<std::vector<Near>> springs(blocks.size() + alone.size()), edges(springs.size());
   std::vector<double> may_go(springs.size(), std::numeric_limits<double>::infinity());
@@ -175,16 +184,17 @@ bool search_contacts(const Model& model, const State& state, ContactWork& work, 
     if (i >= n_pairs) {
       NearWithin near = near_within(model, work, margins, active, alone[i - n_pairs]);
       edges[i] = near_edges_within(model, state, work, margins, active, near.meeting);
-      springs[i] = near_springs(model, work, margins, active, near.looked_at);
+      springs[i] = near_springs(model, work, margins, active, near.looked_at, work.skin);
       return;
     }
     const auto [a, b] = blocks[i];
     if (!model.blocks[a].meshed || !model.blocks[b].meshed)
       return;
-    const SharedPart part = shared_part(active, a, b);
+    SharedPart part = shared_part(active, a, b);
+    leave_out_known(active, renewed, part);
     if (!contact_joint(model, a, b)) {
       try {
-        may_go[i] = require_apart(model, active, meeting(model, margins, active, part));
+        may_go[i] = require_apart(model, active, meeting(margins, active, part));
       } catch (const SolutionError& error) {
         wrong[i] = error.what();
       }
@@ -192,22 +202,38 @@ bool search_contacts(const Model& model, const State& state, ContactWork& work, 
     }
     edges[i] = near_edges(model, state, work, margins, active, part);
     Pairs pairs = looked_at(model, work, active, part);
-    springs[i] = near_springs(model, work, margins, active, pairs);
+    leave_out_known(active, renewed, pairs, edges[i]);
+    springs[i] = near_springs(model, work, margins, active, pairs, work.skin);
   });
   for (const std::string& message : wrong)
     if (!message.empty())
       throw SolutionError(message);
-  make_rows(model, work, margins, springs, Contact::spring, work.rows[Contact::spring],
-            work.candidates[Contact::spring]);
-  make_rows(model, work, margins, edges, Contact::edge, work.rows[Contact::edge],
-            work.candidates[Contact::edge]);
-  work.undefined_pair_margin = may_go.empty() ? std::numeric_limits<double>::infinity()
-                                              : *std::min_element(may_go.begin(), may_go.end());
-  std::fill(work.travelled.begin(), work.travelled.end(), 0.0);
-  work.fragments_due = false;
-  work.history_complete = true;
-  work.steps_since_search = 0;
+  Pairs near_movers;
+  for (const int block : shattered) {
+    edges.push_back(near_edges_of_fragments(model, state, work, margins, block, renewed.edges));
+    NearFragments near = near_fragments(model, state, work, margins, active, block, renewed.movers, threads);
+    for (std::vector<Near>& part : near.springs)
+      springs.push_back(std::move(part));
+    near_movers.insert(near_movers.end(), near.movers.begin(), near.movers.end());
+  }
+  make_rows(model, work, margins, springs, Contact::spring, renewed);
+  make_rows(model, work, margins, edges, Contact::edge, renewed);
+  const double margin = may_go.empty() ? std::numeric_limits<double>::infinity()
+                                       : *std::min_element(may_go.begin(), may_go.end());
+  work.undefined_pair_margin = renewed.all ? margin : std::min(work.undefined_pair_margin, margin);
+  for (int m = 0; m < work.movers.count(); ++m)
+    if (renewed.movers[m])
+      work.travelled[m] = 0;
+  begin_drifts(model, state, renewed.movers, work);
+  set_drifts(model, state, work, threads);
   ++work.searches;
+  keep_near_movers(model, near_movers, renewed.movers, work);
+  if (work.anew) // whatever is known, all is looked at
+    let_all_wake(work);
+  if (renewed.all)
+    work.steps_since_search = 0;
+  work.fragments_due = work.all_due = work.anew = false;
+  work.history_complete = true;
   return true;
 }
 

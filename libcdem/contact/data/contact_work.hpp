@@ -1,10 +1,11 @@
 // What contact needs beside Model and State and throws away with its stage: which triangles and edges are near enough
 // to look at, and the forces of the step.
 //
-// A search finds what can touch before a block has gone further than its skin; none of it changes a force. A pair found
-// near sleeps until its two blocks have moved as far as it was apart: `recheck_distance` is compared with the sum of the ways the
-// two have gone since the search. A row sleeps as long as all its pairs must. Lengths kept as floats are rounded to the
-// side on which more is looked at.
+// A mover is what moves by itself: a block, or a fragment of a block some of whose faces have broken. A search finds what
+// can touch before a mover has gone further than its skin; none of it changes a force. A pair found near sleeps until its
+// two movers have moved as far as it was apart: `recheck_distance` is compared with the sum of the ways the two have gone
+// since the search. A row sleeps as long as all its pairs must. Lengths kept as floats are rounded to the side on which
+// more is looked at.
 #pragma once
 
 #include "libcdem/model/contact_surface.hpp"
@@ -36,20 +37,39 @@ inline float rounded_down(double length) { // >= 0
   return static_cast<float>(length * (1 - 2e-7));
 }
 
-// The targets near one source (triangle or edge) of one fragment (springs) or block (edges), by number.
+// The targets near one source (triangle or edge) of one fragment (springs) or mover (edges), by number.
 struct ContactRow {
   int source = 0;
   int block = 0;                      // of its targets
+  int source_mover = 0, mover = 0;    // of the source, and of its targets
   std::uint32_t begin = 0, count = 0; // into candidates
   // m, what is further off may sleep. Of springs: contacts are at most that deep; 0: not looked at yet. Of edges: as deep
   // as any may get before the next search.
   float reach = 0;
   float recheck_distance = 0; // m, of its targets the least
   bool hindered = false;      // of edges: some sleep only as long as no contact stands on the edges around
-  // Per semi-spring, of what was found when all its targets were last looked at: until the two blocks have gone so far, m,
+  // Of two fragments, when it was last looked at: m, how far they may go until it is again, and the difference of their
+  // drifts and the sum of their swings then.
+  float allowed = 0, swings = 0;
+  std::array<float, 3> drifts{};
+  // Per semi-spring, of what was found when all its targets were last looked at: until the two movers have gone so far, m,
   // it touches nothing (target -1) or nothing but this triangle.
   std::array<float, 3> known_until{};
   std::array<int, 3> known_target{-1, -1, -1};
+};
+
+// What movers there are. Those of blocks come first and have the numbers of their blocks.
+struct Movers {
+  std::vector<int>
+      of_triangle; // of each triangle that takes part: its block, or its fragment where faces have broken
+  std::vector<int> block;       // per mover
+  std::vector<int> of_fragment; // by its smallest node; -1: none
+  std::vector<int> node_begin,
+      nodes; // per fragment, from the first after the blocks on: the nodes of its triangles
+  // Per mover: no bond holds its tets together, as where it is a single one. Of fragments.
+  std::vector<char> one_piece;
+
+  int count() const { return static_cast<int>(block.size()); }
 };
 
 // Where a contact acts: at a place of the source's triangle, and on the corners of the tet behind the target's. The
@@ -103,11 +123,35 @@ struct TouchedNode {
   int node = 0, block = 0;
 };
 
+// Of a fragment another one that may come near it before the two leave their skins.
+struct NearMover {
+  int fragment = 0; // by its smallest node
+  int search = 0;   // that found it
+  float may_go = 0; // m, relative to each other since then, before their rows are to be found anew
+  float swings = 0; // m, then
+  std::array<float, 3> drifts{};
+};
+
+// What tells of all rows which ones sleep, side by side: it is gone through in every step.
+struct RowsAsleep {
+  std::vector<float> recheck_distance;  // m, per row; 0 where more than that decides
+  std::vector<int> source_mover, mover; // per row
+  std::vector<std::uint64_t> hindered;  // per chunk of rows, a bit each: ContactRow::hindered
+  std::vector<std::uint64_t> awake;     // per chunk of rows, a bit each: it is looked at in this step
+};
+static_assert(contact_rows_per_chunk == 64, "a bit per row");
+
 struct ContactWork {
   std::array<std::vector<ContactRow>, 2> rows; // of springs, of edges
+  std::array<RowsAsleep, 2> asleep;
   std::array<std::vector<ContactCandidate>, 2> candidates;
-  std::vector<int> fragment;      // per triangle: what holds together, by its smallest node
-  std::vector<char> active;       // per triangle: it is outside, or its face has broken
+  // Per node, and per triangle: what hangs together, by its smallest node. Over faces without a broken bond only, so that
+  // the surface of what has broken is closed.
+  std::vector<int> fragment_of_node, fragment;
+  std::vector<char>
+      active; // per triangle: 1 outside, or its face has a broken bond; 2 its face is left to contact; else 0
+  Movers movers;
+  std::vector<char> changed;      // per mover: fragments were told apart for this look, and it is a new one
   std::vector<char> broken;       // per block: some of its faces have
   std::vector<ContactEdge> edges; // of surfaces as they are now, by id
   std::vector<int> edge_begin;    // (n_triangles + 1) into edges, by their first triangle
@@ -117,12 +161,24 @@ struct ContactWork {
   // Per edge and end: where the edges in which its line continues begin in edges_beyond.
   std::vector<std::array<int, 2>> edge_continues;
   std::vector<EdgeBeyond> edges_beyond; // by edge and end, each list closed by -1
-  // Per edge, and per block: it had a contact of edges before the step.
-  std::vector<char> edge_touched, block_edges_touched;
-  std::vector<double> travelled;         // m, per block, at most, since the search
-  std::vector<double> last_displacement; // m, per block, at most, in the last step
-  std::vector<double> pace;              // the same, of the last step in which anything moved
-  std::vector<double> skin;              // m, per block: how far it may go before the next search
+  // Per edge, and per mover: it had a contact of edges before the step.
+  std::vector<char> edge_touched, mover_edges_touched;
+  std::vector<double> travelled; // m, per mover, at most, since the search
+  // Of fragments, since their last search, per mover: what their nodes have gone in the mean, and how far one of them is
+  // from that, m. By where they were then (n_nodes).
+  std::vector<geom::Vec3> drift;
+  std::vector<double> swing;
+  std::vector<geom::Vec3> at_search;        // m
+  std::vector<std::vector<NearMover>> near; // per mover
+  // Per mover, of fragments: the last search of it; how far it may travel before the others near it are looked at; the
+  // part that is left of what it may go relative to the one that is worst off.
+  std::vector<int> search_of;
+  std::vector<double> look_at, left;     // m, 1
+  std::vector<double> past_others;       // m, how far it has gone past those around it
+  std::vector<double> last_displacement; // m, per mover, at most, in the last step
+  double last_step = 0;                  // s, the last one in which anything moved
+  std::vector<double> skin;              // m, per mover: how far it may go before the next search
+  std::vector<double> inner_skin;        // m, of fragments: how far relative to those near it
   double undefined_pair_margin =
       0;                   // m, that two blocks for which no contact is given may go before a search is due
   double usual_height = 0; // m, of a tet at any surface: of skins, which change no force
@@ -134,8 +190,13 @@ struct ContactWork {
   // State::contacts holds all there are, but for fragments. Not so where a stage begins: what stands in what then is
   // anybody's doing.
   bool history_complete = false;
-  bool any_depth_begins =
-      false;       // of this look: contacts begin however deep they are, as fragments were told apart anew
+  bool looks_at_all = false; // in every step, after a search of all movers: for tests of what is skipped
+  bool all_due = false;      // a search is due of all movers, not only of fragments that left their skins
+  // A search goes on from here as if nothing of fragments had been known, as that of a stage that goes on from here does.
+  bool anew = true;
+  // Of this look: contacts begin however deep they are, as it cannot be known which fragments are new. Otherwise those of
+  // movers that have changed do.
+  bool any_depth_begins = false;
   double step = 0; // s, since then
   // Tangent of the largest friction angle of any contact, for a stage that wants less than joints give.
   double most_friction = std::numeric_limits<double>::infinity();

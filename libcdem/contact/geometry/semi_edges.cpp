@@ -136,7 +136,6 @@ void find_lines(const Model& model, ContactWork& work) {
   work.edge_continues.resize(work.edges.size());
   work.edges_beyond.clear();
   work.edge_touched.assign(work.edges.size(), 0);
-  work.block_edges_touched.assign(model.blocks.size(), 0);
   for (int e = 0; e < static_cast<int>(work.edges.size()); ++e)
     for (int end = 0; end < 2; ++end) {
       const std::array<int, 2>& nodes = work.edges[e].nodes;

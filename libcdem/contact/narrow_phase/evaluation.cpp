@@ -22,12 +22,10 @@ Evaluation::Evaluation(const Model& model, const State& state, const ContactWork
       lines_(model, state, work), old_(state.contacts.end()) {}
 
 void Evaluation::springs(ContactRow& row, ContactCandidate* candidates) {
-  if (row.reach > 0 && may_skip(row, surface_.triangles[row.source].block))
-    return;
   go_to(3 * row.source);
   const std::size_t contacts = out_.contacts.size(), forces = out_.forces.size();
   const ContactSums sums = out_.sums;
-  const bool all = row.reach == 0;
+  const bool all = row.reach == 0 || work_.looks_at_all;
   const auto shallow = static_cast<float>(
       std::min(work_.shallow[surface_.triangles[row.source].block], work_.shallow[row.block]));
   row.reach = std::max(row.reach, shallow);
@@ -51,8 +49,12 @@ const Evaluation::Law& Evaluation::law_between(int block_a, int block_b) {
   return law_;
 }
 
-bool Evaluation::may_skip(const ContactRow& row, int block) const {
-  return work_.travelled[block] + work_.travelled[row.block] < row.recheck_distance;
+double Evaluation::moved(const ContactRow& row) const {
+  return work_.travelled[row.source_mover] + work_.travelled[row.mover];
+}
+
+double Evaluation::moved_in_step(const ContactRow& row) const {
+  return work_.last_displacement[row.source_mover] + work_.last_displacement[row.mover];
 }
 
 void Evaluation::go_to(int source) {
@@ -118,8 +120,8 @@ Nearest Evaluation::nearest_on(int target, const geom::Vec3& spring, bool bonded
 
 void Evaluation::find_nearest(ContactRow& row, ContactCandidate* candidates, bool all, const Springs& spring,
                               std::array<Nearest, 3>& nearest) {
-  const double moved = work_.travelled[surface_.triangles[row.source].block] + work_.travelled[row.block];
-  const bool bonded = has_bonds(model_, row.block);
+  const double moved = this->moved(row);
+  const bool bonded = cdem::bonded(model_, work_, row.block, row.mover);
   std::array<Distances, 3> distances;
   float recheck_distance = std::numeric_limits<float>::infinity();
   for (std::uint32_t i = row.begin; i < row.begin + row.count; ++i) {
@@ -158,14 +160,15 @@ void Evaluation::find_nearest(ContactRow& row, ContactCandidate* candidates, boo
     // Places nearer to each other than this may count as one.
     const double one_place = (bonded ? bond_gives : same_place_at_least) * d.tet + 4 * same_place * least;
     double until = 0;
-    if (nearest[corner].inside()) {
+    // The two sides of a face that its own springs still hold do nothing to each other, whichever side is inside.
+    if (nearest[corner].inside() || held_by_face(row.source, d.target)) {
       row.known_target[corner] = d.target;
       if (d.target == nearest[corner].target)
         until = 0.5 * (d.second * (1 - 4 * same_place) - least - one_place);
     } else {
-      // What is outside gets in through the surface. A broken one has holes: what is near it may be inside beyond an edge.
+      // What is outside gets in through the surface, which is closed.
       row.known_target[corner] = -1;
-      until = least - 4 * one_place - (work_.broken[row.block] ? work_.shallow[row.block] : 0);
+      until = least - 4 * one_place;
     }
     row.known_until[corner] = rounded_down(moved + std::max(0.0, until));
   }
@@ -177,42 +180,67 @@ double Evaluation::narrow_phase(ContactRow& row, ContactCandidate* candidates, b
   Springs spring;
   for (int corner = 0; corner < 3; ++corner)
     spring[corner] = weighted(x, spring_weights(corner));
-  const double moved = work_.travelled[source.block] + work_.travelled[row.block];
+  const double moved = this->moved(row), ways = moved_in_step(row);
   std::array<Nearest, 3> nearest;
+  float sleeps = std::numeric_limits<float>::infinity();
   if (all || moved >= *std::min_element(row.known_until.begin(), row.known_until.end())) {
     find_nearest(row, candidates, all, spring, nearest);
   } else {
-    const bool bonded = has_bonds(model_, row.block);
-    row.recheck_distance = std::numeric_limits<float>::infinity();
+    const bool bonded = cdem::bonded(model_, work_, row.block, row.mover);
+    row.recheck_distance = 0;
     for (int corner = 0; corner < 3; ++corner)
-      if (row.known_target[corner] < 0) {
-        row.recheck_distance = std::min(row.recheck_distance, row.known_until[corner]);
-      } else {
+      if (row.known_target[corner] >= 0 && !held_by_face(row.source, row.known_target[corner]))
         nearest[corner] = nearest_on(row.known_target[corner], spring[corner], bonded);
-        row.recheck_distance = 0;
-      }
   }
+  const bool any_depth =
+      work_.any_depth_begins || work_.changed[row.source_mover] || work_.changed[row.mover];
   double deepest2 = 0;
+  // A row sleeps as long as none of its springs has a contact, can begin one, or may have another target.
+  const auto sleep = [&](int corner) { sleeps = std::min(sleeps, row.known_until[corner]); };
   for (int corner = 0; corner < 3; ++corner) {
     const Nearest& found = nearest[corner];
-    if (!found.inside())
+    const int target = row.known_target[corner];
+    if (target < 0 || held_by_face(row.source, target)) {
+      sleep(corner);
+      if (!found.inside() || held_by_face(row.source, found.target))
+        continue;
+    } else if (!found.inside()) {
+      sleeps = 0;
       continue;
+    }
     // With some asleep, what is further in than a step can have brought it is not inside: nearer ones sleep.
-    const double ways = work_.last_displacement[source.block] + work_.last_displacement[row.block],
-                 reach = row.reach + ways;
-    if (!all && found.distance2 > reach * reach)
-      continue;
+    const double shallow = std::min(work_.shallow[source.block], work_.shallow[row.block]);
+    const auto sleep_without_contact = [&] { // too deep to begin, by the motion of the step too
+      sleeps =
+          std::min(sleeps, rounded_down(moved + std::max(0.0, 0.5 * (std::sqrt(found.distance2) - shallow))));
+      sleep(corner);
+    };
+    const double reach = row.reach + ways;
     const double covered = 2 * depth_limit(work_, source, surface_.triangles[found.target]);
-    if (found.distance2 > covered * covered)
-      continue; // beyond what the search covers: nearer ones may not be in the row
+    // Beyond what the search covers nearer ones may not be in the row.
+    if ((!all && found.distance2 > reach * reach) || found.distance2 > covered * covered) {
+      sleep_without_contact();
+      continue;
+    }
     // What is deep and was no contact before has come there by no motion, as at the mouth of a crack. Steps with some
     // asleep do not see it: it would begin where a search happens to be.
-    const double begins = std::min(work_.shallow[source.block], work_.shallow[row.block]) + ways;
-    const bool may_begin = work_.any_depth_begins || found.distance2 <= begins * begins;
-    if (add_contact(row.source, corner, spring[corner], work_.fragment[found.target], found, may_begin))
+    const double begins = shallow + ways;
+    const bool may_begin = any_depth || found.distance2 <= begins * begins;
+    if (add_contact(row.source, corner, spring[corner], work_.fragment[found.target], found, may_begin)) {
       deepest2 = std::max(deepest2, found.distance2);
+      sleeps = 0;
+    } else {
+      sleep_without_contact();
+    }
   }
+  row.recheck_distance = std::max(row.recheck_distance, sleeps);
   return std::sqrt(deepest2);
+}
+
+bool Evaluation::held_by_face(int source, int target) const {
+  const ContactTriangle& from = surface_.triangles[source];
+  return target >= 0 && from.mate == target &&
+         !handed_over(state_.faces[from.face / lanes], from.face % lanes);
 }
 
 bool Evaluation::add_contact(int source, int corner, const geom::Vec3& spring, int fragment,
@@ -220,7 +248,7 @@ bool Evaluation::add_contact(int source, int corner, const geom::Vec3& spring, i
   const ContactTriangle &from = surface_.triangles[source], &to = surface_.triangles[nearest.target];
   const double depth = std::sqrt(nearest.distance2);
   // The two sides of a face that has broken and not yet parted are held by its own springs.
-  if (from.mate == nearest.target && !handed_over(state_.faces[from.face / lanes], from.face % lanes))
+  if (held_by_face(source, nearest.target))
     return false;
   Contact c(Contact::spring, 3 * source + corner);
   c.fragment = fragment;

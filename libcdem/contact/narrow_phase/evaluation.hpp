@@ -2,6 +2,7 @@
 #pragma once
 
 #include "libcdem/contact/broad_phase/active_surface.hpp"
+#include "libcdem/contact/broad_phase/movers.hpp"
 #include "libcdem/contact/data/contact_work.hpp"
 #include "libcdem/contact/geometry/nearest.hpp"
 #include "libcdem/contact/narrow_phase/edge_lines.hpp"
@@ -27,7 +28,10 @@ private:
     double tan_friction = 0;
   };
   const Law& law_between(int block_a, int block_b);
-  bool may_skip(const ContactRow&, int block) const;
+  double moved(const ContactRow&) const;         // m, both movers together, since the search
+  double moved_in_step(const ContactRow&) const; // m
+  // The two are the sides of a broken face that its own springs still hold.
+  bool held_by_face(int source, int target) const;
   void go_to(int source); // what stood at it before
   const Contact* before(const Contact&) const;
   double narrow_phase(ContactRow&, ContactCandidate*, bool all); // returns how deep the deepest is, m

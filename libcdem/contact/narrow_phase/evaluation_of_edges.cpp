@@ -35,18 +35,19 @@ Hindrance hindrance_of(const Model& model, const State& state, const ContactEdge
 void Evaluation::edges(ContactRow& row, ContactCandidate* candidates) {
   const ContactEdge& e = work_.edges[row.source];
   const ContactTriangle& from = surface_.triangles[e.triangles[0]];
-  const bool touched = work_.block_edges_touched[from.block] && work_.block_edges_touched[row.block];
-  if (may_skip(row, from.block) && !(row.hindered && touched))
+  const bool touched = work_.mover_edges_touched[row.source_mover] && work_.mover_edges_touched[row.mover];
+  const double moved = this->moved(row);
+  const bool skips = !work_.looks_at_all;
+  if (skips && moved < row.recheck_distance && !(row.hindered && touched))
     return;
   row.hindered = false;
   go_to(e.id());
-  const double moved = work_.travelled[from.block] + work_.travelled[row.block];
   float recheck_distance = std::numeric_limits<float>::infinity();
   for (std::uint32_t i = row.begin; i < row.begin + row.count; ++i) {
     ContactCandidate& candidate = candidates[i];
     const auto target = static_cast<int>(candidate.target);
     const bool hindered = candidate.springs != 0;
-    if (moved < candidate.recheck_distance &&
+    if (skips && moved < candidate.recheck_distance &&
         !(hindered && touched && lines_.touched_around(row.source, target))) {
       recheck_distance = std::min(recheck_distance, candidate.recheck_distance);
       row.hindered = row.hindered || hindered;

@@ -1,0 +1,252 @@
+#include "libcdem/contact/broad_phase/movers.hpp"
+
+#include "libcdem/bond/fragments.hpp"
+#include "libcdem/state/places.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace cdem {
+namespace {
+
+// As ContactWork::active, of a triangle of this face.
+char activity(const State& state, int face) {
+  if (face < 0)
+    return 1;
+  const FaceStateBatch& batch = state.faces[face / lanes];
+  const int lane = face % lanes;
+  if (handed_over(batch, lane))
+    return 2;
+  return static_cast<char>(!is_untouched(state, face / lanes, lane));
+}
+
+// Numbers the movers by the first of their triangles, and gives every triangle its own.
+void number_movers(const Model& model, ContactWork& work) {
+  const ContactSurface& s = model.surface;
+  Movers& movers = work.movers;
+  movers.block.resize(model.blocks.size());
+  for (std::size_t b = 0; b < model.blocks.size(); ++b)
+    movers.block[b] = static_cast<int>(b);
+  movers.of_triangle.resize(s.triangles.size());
+  std::vector<int>& of_fragment = movers.of_fragment;
+  of_fragment.assign(model.node_position.size(), -1);
+  for (std::size_t t = 0; t < s.triangles.size(); ++t) {
+    const int block = s.triangles[t].block;
+    int& mover = movers.of_triangle[t];
+    mover = block;
+    if (!work.broken[block])
+      continue;
+    int& known = of_fragment[work.fragment[t]];
+    if (known < 0) {
+      known = movers.count();
+      movers.block.push_back(block);
+    }
+    mover = known;
+  }
+}
+
+void find_nodes(const Model& model, ContactWork& work) {
+  const ContactSurface& s = model.surface;
+  Movers& movers = work.movers;
+  const auto blocks = static_cast<int>(model.blocks.size());
+  std::vector<int> of_node(model.node_position.size(), -1);
+  for (std::size_t t = 0; t < s.triangles.size(); ++t)
+    if (work.active[t] && movers.of_triangle[t] >= blocks)
+      for (const int node : s.triangles[t].nodes)
+        of_node[node] = movers.of_triangle[t] - blocks;
+  movers.node_begin.assign(static_cast<std::size_t>(movers.count() - blocks) + 1, 0);
+  for (const int fragment : of_node)
+    if (fragment >= 0)
+      ++movers.node_begin[fragment + 1];
+  for (std::size_t i = 1; i < movers.node_begin.size(); ++i)
+    movers.node_begin[i] += movers.node_begin[i - 1];
+  movers.nodes.resize(movers.node_begin.back());
+  std::vector<int> next(movers.node_begin.begin(), movers.node_begin.end() - 1);
+  for (int node = 0; node < static_cast<int>(of_node.size()); ++node)
+    if (of_node[node] >= 0)
+      movers.nodes[next[of_node[node]]++] = node;
+}
+
+// A fragment is one piece when no bond is inside it.
+void find_pieces(const Model& model, ContactWork& work) {
+  const ContactSurface& s = model.surface;
+  work.movers.one_piece.assign(work.movers.count(), 1);
+  std::fill_n(work.movers.one_piece.begin(), model.blocks.size(), 0);
+  for (std::size_t t = 0; t < s.triangles.size(); ++t)
+    if (s.triangles[t].face >= 0 && work.fragment[t] == work.fragment[s.triangles[t].mate])
+      work.movers.one_piece[work.movers.of_triangle[t]] = 0;
+}
+
+// What was known of the movers before they were told apart anew goes on for those that are the same.
+void carry_over(const Model& model, ContactWork& before, ContactWork& work) {
+  work.changed.assign(work.movers.count(), 0);
+  std::vector<int> old(work.movers.count(), -1);
+  for (std::size_t t = 0; t < work.fragment.size(); ++t) {
+    const int mover = work.movers.of_triangle[t];
+    if (before.fragment.empty())
+      continue;
+    old[mover] = before.movers.of_triangle[t];
+    if (work.broken[model.surface.triangles[t].block] &&
+        (before.fragment[t] != work.fragment[t] || before.active[t] != work.active[t]))
+      work.changed[mover] = 1;
+  }
+  const auto carry = [&](auto ContactWork::*field) {
+    auto& now = work.*field;
+    auto& then = before.*field;
+    now.clear();
+    now.resize(work.movers.count());
+    for (int m = 0; m < work.movers.count(); ++m)
+      if (!work.changed[m] && old[m] >= 0 && old[m] < static_cast<int>(then.size()))
+        now[m] = std::move(then[old[m]]);
+  };
+  carry(&ContactWork::travelled);
+  carry(&ContactWork::skin);
+  carry(&ContactWork::inner_skin);
+  carry(&ContactWork::near);
+  carry(&ContactWork::search_of);
+  carry(&ContactWork::look_at);
+  carry(&ContactWork::left);
+  carry(&ContactWork::past_others);
+}
+
+} // namespace
+
+void find_fragments(const Model& model, const State& state, ContactWork& work) {
+  const ContactSurface& s = model.surface;
+  ContactWork before; // of the movers alone
+  std::swap(before.fragment, work.fragment);
+  std::swap(before.active, work.active);
+  std::swap(before.movers, work.movers);
+  std::swap(before.travelled, work.travelled);
+  std::swap(before.skin, work.skin);
+  std::swap(before.inner_skin, work.inner_skin);
+  std::swap(before.near, work.near);
+  std::swap(before.search_of, work.search_of);
+  std::swap(before.look_at, work.look_at);
+  std::swap(before.left, work.left);
+  std::swap(before.past_others, work.past_others);
+  work.fragment_of_node = fragments_of_nodes(model, state, Joins::untouched);
+  work.fragment.resize(s.triangles.size());
+  work.active.resize(s.triangles.size());
+  work.broken.assign(model.blocks.size(), 0);
+  for (std::size_t t = 0; t < s.triangles.size(); ++t) {
+    work.fragment[t] = work.fragment_of_node[s.triangles[t].nodes[0]];
+    work.active[t] = activity(state, s.triangles[t].face);
+    if (s.triangles[t].face >= 0 && work.active[t])
+      work.broken[s.triangles[t].block] = 1;
+  }
+  number_movers(model, work);
+  find_nodes(model, work);
+  find_pieces(model, work);
+  carry_over(model, before, work);
+}
+
+std::vector<double> speeds_of_movers(const Model& model, const State& state, const ContactWork& work,
+                                     int threads) {
+  const Movers& movers = work.movers;
+  const auto blocks = static_cast<std::int64_t>(model.blocks.size());
+  std::vector<double> speeds(movers.count(), 0.0);
+  for_chunks(movers.count(), threads, [&](std::int64_t m) {
+    double speed2 = 0;
+    if (m < blocks) {
+      const Block& block = model.blocks[m];
+      if (block.meshed)
+        for (int node = block.node_begin; node < block.node_end; ++node)
+          speed2 = std::max(speed2, velocity_of(state, node).squaredNorm());
+    } else {
+      for (int i = movers.node_begin[m - blocks]; i < movers.node_begin[m - blocks + 1]; ++i)
+        speed2 = std::max(speed2, velocity_of(state, movers.nodes[i]).squaredNorm());
+    }
+    speeds[m] = std::sqrt(speed2);
+  });
+  return speeds;
+}
+
+void set_displacements(const Model& model, const State& state, ContactWork& work, int threads) {
+  work.last_displacement = speeds_of_movers(model, state, work, threads);
+  for (double& way : work.last_displacement)
+    way *= work.step;
+}
+
+void set_drifts(const Model& model, const State& state, ContactWork& work, int threads) {
+  const Movers& movers = work.movers;
+  const auto blocks = static_cast<std::int64_t>(model.blocks.size());
+  work.drift.resize(movers.count());
+  work.swing.resize(movers.count());
+  for_chunks(movers.count() - blocks, threads, [&](std::int64_t fragment) {
+    const int begin = movers.node_begin[fragment], end = movers.node_begin[fragment + 1];
+    const auto gone = [&](int i) -> geom::Vec3 {
+      return vec(state.displacement[movers.nodes[i]]) - work.at_search[movers.nodes[i]];
+    };
+    geom::Vec3 mean = geom::Vec3::Zero();
+    for (int i = begin; i < end; ++i)
+      mean += gone(i);
+    mean /= end - begin;
+    double swing2 = 0;
+    for (int i = begin; i < end; ++i)
+      swing2 = std::max(swing2, (gone(i) - mean).squaredNorm());
+    work.drift[blocks + fragment] = mean;
+    work.swing[blocks + fragment] = std::sqrt(swing2);
+  });
+}
+
+void begin_drifts(const Model& model, const State& state, const std::vector<char>& searched,
+                  ContactWork& work) {
+  const Movers& movers = work.movers;
+  const auto blocks = static_cast<int>(model.blocks.size());
+  if (movers.count() > blocks)
+    work.at_search.resize(model.node_position.size(), geom::Vec3::Zero());
+  for (int m = blocks; m < movers.count(); ++m)
+    if (searched[m])
+      for (int i = movers.node_begin[m - blocks]; i < movers.node_begin[m - blocks + 1]; ++i)
+        work.at_search[movers.nodes[i]] = vec(state.displacement[movers.nodes[i]]);
+}
+
+double gone_since(const ContactWork& work, int a, int b, const std::array<float, 3>& drifts, float swings) {
+  constexpr double rounding = 1e-6; // of lengths kept as floats
+  const geom::Vec3 then(drifts[0], drifts[1], drifts[2]), now = work.drift[b] - work.drift[a];
+  return (now - then).norm() + work.swing[a] + work.swing[b] + swings + rounding * (now.norm() + then.norm());
+}
+
+namespace {
+
+// Looks at what is near one fragment, and forgets what is no longer.
+void look_around(ContactWork& work, int m) {
+  std::vector<NearMover>& near = work.near[m];
+  const auto stays = [&](const NearMover& other) {
+    const int k = work.movers.of_fragment[other.fragment];
+    return k >= 0 && other.search >= work.search_of[m] && other.search >= work.search_of[k];
+  };
+  near.erase(std::remove_if(near.begin(), near.end(), [&](const NearMover& other) { return !stays(other); }),
+             near.end());
+  geom::Vec3 past = geom::Vec3::Zero(); // m, the mean of what it has gone past those around it
+  for (const NearMover& other : near)
+    past += work.drift[m] - work.drift[work.movers.of_fragment[other.fragment]] +
+            geom::Vec3(other.drifts[0], other.drifts[1], other.drifts[2]);
+  work.past_others[m] = near.empty() ? 0 : past.norm() / static_cast<double>(near.size()) + work.swing[m];
+  double least = work.skin[m] - work.travelled[m];
+  for (const NearMover& other : near) {
+    const int k = work.movers.of_fragment[other.fragment];
+    const double may_go = std::max(0.0, other.may_go - gone_since(work, m, k, other.drifts, other.swings));
+    least = std::min(least, may_go);
+    work.look_at[k] = std::min(work.look_at[k], work.travelled[k] + 0.5 * may_go);
+    // One search is enough: of the one that goes past the others.
+    double& left = work.left[work.past_others[m] >= work.past_others[k] ? m : k];
+    left = std::min(left, may_go / other.may_go);
+  }
+  work.look_at[m] = work.travelled[m] + 0.5 * least;
+}
+
+} // namespace
+
+bool find_leavers(const Model& model, ContactWork& work) {
+  const auto blocks = static_cast<int>(model.blocks.size());
+  for (int m = blocks; m < work.movers.count(); ++m)
+    if (work.travelled[m] > work.skin[m])
+      work.left[m] = 0;
+    else if (work.travelled[m] >= work.look_at[m] && work.left[m] > 0)
+      look_around(work, m);
+  return std::find(work.left.begin() + blocks, work.left.end(), 0) != work.left.end();
+}
+
+} // namespace cdem

@@ -1,0 +1,37 @@
+// What moves by itself: a block, or a fragment of a block some of whose faces have broken; and how fast it does.
+#pragma once
+
+#include "libcdem/contact/data/contact_work.hpp"
+#include "libcdem/contact/geometry/positions.hpp"
+#include "libcdem/state/state.hpp"
+
+namespace cdem {
+
+// Writes ContactWork::fragment_of_node, fragment, active, broken, movers and changed, and carries travelled and skin over.
+void find_fragments(const Model&, const State&, ContactWork&);
+
+// m/s, per mover, of its fastest node; of a block that has broken the fastest of its nodes.
+std::vector<double> speeds_of_movers(const Model&, const State&, const ContactWork&, int threads);
+
+// Writes ContactWork::last_displacement, of the step that is as long as ContactWork::step.
+void set_displacements(const Model&, const State&, ContactWork&, int threads);
+
+// Writes ContactWork::drift and swing; begin_drifts: at_search, of those that are searched (per mover).
+void set_drifts(const Model&, const State&, ContactWork&, int threads);
+void begin_drifts(const Model&, const State&, const std::vector<char>& searched, ContactWork&);
+
+// m, at most, that places of two fragments have gone relative to each other since the difference of their drifts and the
+// sum of their swings were these.
+double gone_since(const ContactWork&, int mover_a, int mover_b, const std::array<float, 3>& drifts,
+                  float swings);
+
+// Writes ContactWork::look_at and left of the fragments that have travelled so far, 0 for those that have left their
+// skins. True when there is one.
+bool find_leavers(const Model&, ContactWork&);
+
+// Bonds hold a target's tets together, which part the edges of its triangles.
+inline bool bonded(const Model& model, const ContactWork& work, int block, int mover) {
+  return !work.movers.one_piece[mover] && has_bonds(model, block);
+}
+
+} // namespace cdem

@@ -1,0 +1,21 @@
+// Of a block that has broken: which triangles the semi-springs of one fragment may meet of another.
+//
+// Fragments fill space: where a body has just broken, some twenty of them meet at every node, and the boxes of their
+// triangles all overlap there. Their tetrahedra do not. A semi-spring is further from a tetrahedron than it stands
+// outside any of its four planes, which leaves few. They are found on a uniform grid of cells.
+#pragma once
+
+#include "libcdem/contact/broad_phase/candidates.hpp"
+
+namespace cdem {
+
+struct NearFragments {
+  std::vector<std::vector<Near>> springs; // within the inner skins and the depth of contacts, in parts
+  Pairs movers;                           // within the skins, of each pair the lower one first, sorted
+};
+
+// Only pairs of which the mover of one is `searched` (per mover).
+NearFragments near_fragments(const Model&, const State&, const ContactWork&, const SearchMargin&,
+                             const ActiveSurface&, int block, const std::vector<char>& searched, int threads);
+
+} // namespace cdem

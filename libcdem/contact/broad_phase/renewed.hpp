@@ -1,0 +1,28 @@
+// What a search renews: the fragments that are new or have moved out of their skins. Everything else stays as it was found.
+#pragma once
+
+#include "libcdem/contact/broad_phase/near_triangles.hpp"
+
+namespace cdem {
+
+// What a search renews. The rows of all others stay as they are.
+struct Renewed {
+  bool all = true;
+  std::vector<char> movers; // per mover
+  std::vector<char> blocks; // per block: one of its movers
+  std::vector<char> edges;  // per edge: of such a mover, or new
+  // Per edge as it was numbered before, its number now; -1: it is no more. Empty: as before.
+  std::vector<int> edge_now;
+};
+
+// Those that are new, and those that have left their skins or soon will; or all.
+Renewed movers_to_search(const Model&, const ContactWork&, bool all);
+// Writes Renewed::edges and edge_now. before: the edges by the numbers they had.
+void edges_to_search(const ContactWork&, const std::vector<ContactEdge>& before, bool fragments_due,
+                     Renewed&);
+
+// Writes ContactWork::near, search_of, left, look_at and past_others of the fragments that were searched, and of those near
+// them. pairs: of movers.
+void keep_near_movers(const Model&, const Pairs& pairs, const std::vector<char>& searched, ContactWork&);
+
+} // namespace cdem

@@ -1,0 +1,90 @@
+// A body that shatters: what is searched for and looked at only around what broke or moved changes no bit, and it can be
+// left and gone on with in the middle.
+#include "tests/libcdem/boxes.hpp"
+#include "tests/libcdem/going_on.hpp"
+
+#include "libcdem/first_model.hpp"
+#include "libcdem/results/energy.hpp"
+
+using namespace testing;
+
+namespace {
+
+cdem::ModelSpec cube_on_floor() {
+  cdem::Joint weak = rock_joint();
+  weak.tensile_strength = 5e6;
+  weak.cohesion = 8e6;
+  cdem::Bonding everywhere;
+  everywhere.everywhere = true;
+  const auto standing = [](const geom::Vec3& size, const std::array<int, 3>& cells, double z, double jitter) {
+    geom::TetMesh mesh = geom::box_mesh(size, cells, jitter);
+    for (geom::Vec3& x : mesh.nodes)
+      x += geom::Vec3(-0.5 * size.x(), -0.5 * size.y(), z);
+    return mesh;
+  };
+  cdem::ModelSpec spec;
+  spec.bodies = {meshed("cube", standing({0.2, 0.2, 0.2}, {3, 3, 3}, 1e-4, 0.15), everywhere, rock(), weak),
+                 meshed("floor", standing({0.6, 0.6, 0.1}, {3, 3, 1}, -0.1, 0), {}, rock())};
+  spec.bodies[1].element = cdem::Element::rigid;
+  spec.pairs = {{"cube", "cube", friction(30)}, {"cube", "floor", friction(30)}};
+  return spec;
+}
+
+constexpr double speed = 12; // m/s
+
+struct Outcome {
+  std::uint64_t hash = 0;
+  std::int64_t handed_over = 0;
+  std::size_t contacts = 0; // at most
+};
+
+Outcome shatter(int threads, bool looks_at_all, bool anew_every_200_steps = false) {
+  System s(cdem::first_model(cube_on_floor()));
+  s.threads = threads;
+  s.hold(body_of("floor"), "xyz");
+  for (int i = 0; i < static_cast<int>(s.state.velocity.size()); ++i)
+    if (block_of(s.model, i) == 0)
+      s.state.velocity[i] = node({1, 0, -speed});
+  cdem::RunOptions options;
+  options.steps = 1250;
+  options.looks_at_all_contacts = looks_at_all;
+  Outcome outcome;
+  options.callback_every = 50;
+  options.callback = [&] { outcome.contacts = std::max(outcome.contacts, s.state.contacts.size()); };
+  std::optional<cdem::RestartPoint> restart_point; // where a stage can be left
+  cdem::run({s.model, s.state, s.conditions, s.log, s.last_good, s.observer, s.threads, 1, nullptr,
+             anew_every_200_steps ? &restart_point : nullptr},
+            options);
+  outcome.hash = cdem::hash(s.state);
+  for (const cdem::FaceStateBatch& faces : s.state.faces)
+    outcome.handed_over += std::count(std::begin(faces.handed_over), std::end(faces.handed_over), 1);
+  return outcome;
+}
+
+} // namespace
+
+TEST_CASE("shattering: what is skipped changes no bit, nor do threads or a search anew",
+          "[contact][fracture]") {
+  const Outcome all = shatter(1, true);
+  CHECK(all.handed_over > 20);
+  CHECK(all.contacts > 100);
+  CHECK(shatter(1, false).hash == all.hash);
+  CHECK(shatter(2, false).hash == all.hash);
+  CHECK(shatter(4, false, true).hash == all.hash);
+}
+
+TEST_CASE("checkpoint: a body that shatters goes on to the same bits", "[checkpoint][fracture]") {
+  const auto build = [](int threads, std::shared_ptr<cdem::Observer> observer = nullptr) {
+    cdem::Simulation s(cube_on_floor(), threads, std::move(observer));
+    s.fix(fixed(cdem::Selection::of_body("floor")));
+    s.initial_velocity(cdem::Selection::of_body("cube"), {1, 0, -speed});
+    return s;
+  };
+  const auto solve = [](cdem::Simulation& s, int) {
+    cdem::RunOptions options;
+    options.steps = 900;
+    const cdem::RunResult r = s.run(options);
+    return Figures{static_cast<double>(r.steps), r.time, r.time_step};
+  };
+  check_going_on(build, solve, {20, 40});
+}
