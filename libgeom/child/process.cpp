@@ -148,7 +148,8 @@ std::string gigabytes(std::uint64_t bytes) {
 [[noreturn]] void tell_no_memory(const std::string& what, const ChildLimits& limits) {
   if (limits.memory == 0)
     throw std::bad_alloc();
-  throw InputError(what + ": needs more than the " + gigabytes(limits.memory) + " of memory that it may take");
+  throw InputError(what + ": needs more than the " + gigabytes(limits.memory) +
+                   " of memory that it may take");
 }
 
 [[noreturn]] void tell_end(const std::string& what, const ChildLimits& limits, int status) {

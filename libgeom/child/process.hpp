@@ -13,10 +13,10 @@
 namespace geom {
 
 struct ChildLimits {
-  std::uint64_t memory = 0; // bytes beyond what the process holds when the work begins; 0: no limit of its own
-  unsigned seconds = 0;     // of processor time; 0: no limit
-  std::string blame =
-      "the geometry kernel cannot do it"; // what a crash means for the user; follows "what: "
+  std::uint64_t memory =
+      0;                // bytes beyond what the process holds when the work begins; 0: no limit of its own
+  unsigned seconds = 0; // of processor time; 0: no limit
+  std::string blame = "the geometry kernel cannot do it"; // what a crash means for the user; follows "what: "
 };
 
 // The bytes that `work` returns. `what` begins the messages. Exceptions of the work arrive here as InputError,

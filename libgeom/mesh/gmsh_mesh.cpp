@@ -72,7 +72,8 @@ TetMesh mesh_solid(const Solid& solid, const MeshSize& sizes) {
     throw InputError("size", text(sizes.size), "such that there are at most 20 million tetrahedra",
                      "this asks for about " + text(std::round(expected * 1e-6)) + " million");
   ChildLimits limits;
-  limits.blame = "the solid cannot be meshed with this size; try another, and make sure that no faces nearly touch";
+  limits.blame =
+      "the solid cannot be meshed with this size; try another, and make sure that no faces nearly touch";
   TetMesh mesh = in_session("mesh", limits, [&] {
     // Delaunay (1), not HXT (10): HXT's mesh differs from run to run, even on one thread.
     for (const auto& [name, value] : {std::pair<const char*, double>{"Mesh.Algorithm", 6},

@@ -4,6 +4,7 @@
 
 #include <gmsh.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstdlib>
 #include <cstring>
@@ -71,7 +72,7 @@ TemporaryFile::TemporaryFile(const std::string& ending, const std::string& to_be
 }
 
 ChildLimits limits_of_file(const std::string& path) {
-  constexpr std::uint64_t least_memory = std::uint64_t{4} << 30, memory_per_byte = 100;
+  constexpr std::uint64_t least_memory = std::uint64_t{2} << 30, memory_per_byte = 100;
   constexpr std::uint64_t least_seconds = 60, bytes_per_second = 100'000, most_seconds = 100'000;
   std::error_code none;
   const std::uintmax_t size = std::filesystem::file_size(path, none);

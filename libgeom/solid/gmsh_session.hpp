@@ -11,6 +11,8 @@
 #include "libgeom/mesh/tet_mesh.hpp"
 #include "libgeom/solid/solid.hpp"
 
+#include <stdexcept>
+
 namespace geom {
 
 using Pieces = std::vector<std::pair<int, int>>; // (dimension, tag) in gmsh's model
@@ -55,6 +57,8 @@ auto in_session(const std::string& what, const ChildLimits& limits, Body body) {
       return out;
     } catch (const std::string& message) {
       throw InputError(what + ": the geometry kernel cannot do it: " + message);
+    } catch (const std::logic_error& error) { // of the standard library: a length or an index that cannot be
+      throw InputError(what + ": " + limits.blame + ": " + error.what());
     }
   });
   decltype(body()) result{};
