@@ -184,6 +184,7 @@ void OutputFolder::write_script() {
 }
 
 void OutputFolder::log(const std::string& text) {
+  const std::lock_guard<std::recursive_mutex> lock(one_at_a_time_);
   has_said_ = true;
   write_to_log(text);
 }
@@ -199,6 +200,7 @@ void OutputFolder::write_to_log(const std::string& text) {
 }
 
 void OutputFolder::begin_results() {
+  const std::lock_guard<std::recursive_mutex> lock(one_at_a_time_);
   if (begun_)
     return;
   begun_ = true;
@@ -214,6 +216,7 @@ void OutputFolder::begin_results() {
 }
 
 void OutputFolder::will_write(const fs::path& file) {
+  const std::lock_guard<std::recursive_mutex> lock(one_at_a_time_);
   begin_results();
   const std::string name = place_below(file, folder_).string();
   // --unsafe may write elsewhere; a line feed would break the list.
@@ -279,6 +282,7 @@ void OutputFolder::require_log_in_place() const {
 }
 
 void OutputFolder::finish(ExitCode code, const std::string& error) {
+  const std::lock_guard<std::recursive_mutex> lock(one_at_a_time_);
   if (log_ == nullptr)
     return;
   const bool made_something = std::any_of(written_.begin(), written_.end(), [&](const std::string& name) {

@@ -13,6 +13,7 @@
 #include <cstdio>
 #include <filesystem>
 #include <map>
+#include <mutex>
 #include <set>
 #include <string>
 #include <vector>
@@ -68,6 +69,8 @@ private:
   std::string script_text_;             // as it was at the start: the copy shows what ran
   std::set<std::string> written_;       // relative to the folder
   std::vector<LoggedFile> last_states_; // of the run that this one goes on from
+  // Of what is logged and listed: where the run does not come back, another thread closes the log.
+  mutable std::recursive_mutex one_at_a_time_;
   int lock_ = -1;
   std::FILE* log_ = nullptr;
   bool old_results_ = false, begun_ = false, has_said_ = false;

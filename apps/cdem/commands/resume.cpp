@@ -28,6 +28,7 @@ ExitCode resume(const ResumeCommand& command) {
     run_on.script = checkpoint.script;
   run_on.output = command.folder;
   run_on.threads = command.threads;
+  run_on.memory = command.memory;
   run_on.set = checkpoint.set;
   run_on.unsafe = command.unsafe;
   run_on.progress = command.progress;

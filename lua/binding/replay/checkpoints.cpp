@@ -204,6 +204,7 @@ void Checkpoints::write(bool stopping) {
   if (!may_write() || flags_.in_call || stages_ == 0)
     return;
   stopped_ = stopping;
+  const Doing saves(session_.settings.observer.get(), Activity::saving);
   if (!put(content(flags_.in_stage ? mark_ : journal_.size(), script_hash_)))
     return;
   if (stopping || !told_)
@@ -232,6 +233,7 @@ void Checkpoints::keep_unfinished() {
 void Checkpoints::fail() {
   if (!may_write() || !refused_.empty())
     return;
+  const Doing saves(session_.settings.observer.get(), Activity::saving);
   try {
     if (unfinished_.empty()) {
       if (failed_stage_ || (solved_ == 0 && !swept_ && !resumed_))
