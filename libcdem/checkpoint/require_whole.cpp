@@ -308,9 +308,9 @@ void check_chunks(const Model& model) {
   Follow chunk_nodes("chunks.nodes", 0), batches("chunks.batches", 0);
   for (const BlockChunk& chunk : model.chunks) {
     within("chunks.blocks", chunk.blocks, model.blocks.size());
-    require(chunk.blocks.size() > 0, "chunks.blocks", chunk.blocks.begin);
     chunk_nodes(chunk.nodes);
     if (chunk.nodes.begin < model.mesh.first_node) {
+      require(chunk.blocks.size() > 0, "chunks.blocks", chunk.blocks.begin);
       require(chunk.nodes.begin == model.blocks[chunk.blocks.begin].node_begin &&
                   chunk.nodes.end == model.blocks[chunk.blocks.end - 1].node_end,
               "chunks.nodes", chunk.nodes.begin);
@@ -321,7 +321,7 @@ void check_chunks(const Model& model) {
           for (const int node : corner)
             require(node >= chunk.nodes.begin && node < chunk.nodes.end, "batches.node", node);
     } else {
-      require(chunk.batches.size() == 0, "chunks.batches", chunk.batches.end);
+      require(chunk.batches.size() == 0 && chunk.blocks.size() == 0, "chunks.batches", chunk.batches.end);
     }
   }
   chunk_nodes.end_at(count(nodes));
