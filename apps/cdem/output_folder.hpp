@@ -39,6 +39,7 @@ public:
 
   const std::filesystem::path& path() const { return folder_; }
   bool begun() const { return begun_; }
+  std::uint64_t run() const { return run_; } // its number, which no other run has; one that goes on keeps it
 
   void log(const std::string& text); // with the seconds since the start in front of each line
 
@@ -72,6 +73,7 @@ private:
   // Of what is logged and listed: where the run does not come back, another thread closes the log.
   mutable std::recursive_mutex one_at_a_time_;
   int lock_ = -1;
+  std::uint64_t run_ = 0;
   std::FILE* log_ = nullptr;
   bool old_results_ = false, begun_ = false, has_said_ = false;
   std::filesystem::path first_made_; // outermost folder that was made for this run; empty: none

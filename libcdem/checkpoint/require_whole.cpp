@@ -339,9 +339,11 @@ void check_chunks(const Model& model) {
 void check_outer_faces(const Model& model) {
   for (const OuterFace& face : model.outer_faces) {
     below("outer_faces.block", face.block, model.blocks.size());
-    below("outer_faces.face", face.face,
-          std::max<std::size_t>(1, model.blocks[face.block].shape.faces.size()), -1);
+    const std::size_t faces = model.blocks[face.block].shape.faces.size();
+    below("outer_faces.face", face.face, faces, face.boundary < 0 ? 0 : -1);
     below("outer_faces.boundary", face.boundary, model.mesh.boundary.size(), -1);
+    require(face.boundary < 0 || model.mesh.boundary[face.boundary].block == face.block,
+            "outer_faces.boundary", face.boundary);
     for (const auto& [node, area] : face.node_area)
       below("outer_faces.node", node, model.node_position.size());
   }

@@ -59,6 +59,7 @@ void run_script(const RunCommand& command, int threads, OutputFolder& folder,
   settings.will_write = [&folder](const fs::path& file) { folder.will_write(file); };
   settings.program = program_path().string();
   settings.resume = command.resume;
+  settings.run = folder.run();
   settings.memory = limit_memory(command.memory);
   settings.checkpoint_minutes = command.checkpoint_minutes;
 

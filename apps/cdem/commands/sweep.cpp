@@ -162,7 +162,7 @@ ExitCode judge(const std::vector<SweptRun>& runs) {
 
 bool has_checkpoint(const SweptRun& run) {
   try {
-    script::newest_checkpoint(run.folder);
+    script::newest_checkpoint(run.folder, run_of_log(run.folder / run_log_name));
     return true;
   } catch (const script::FileError&) {
     return false;

@@ -40,6 +40,7 @@ struct EngineSettings {
   std::filesystem::path resume; // checkpoint to go on from; empty: from the start
   double checkpoint_minutes =
       0;                  // between checkpoints in solving calls; 0: only asked ones and those of a stop
+  std::uint64_t run = 0;  // number of the run, which its checkpoints keep
   std::size_t memory = 0; // bytes that this process may take; 0: no limit
 };
 
@@ -51,8 +52,9 @@ struct CheckpointInfo {
   bool unsafe = false;
   std::uint64_t serial = 0; // counts the checkpoints of a run
 };
-// The later of the two of an output folder that are whole. Throws FileError when there is none.
-CheckpointInfo newest_checkpoint(const std::filesystem::path& folder);
+// The later of the two of an output folder that are whole and of this run (0: of any). Throws FileError when there is
+// none.
+CheckpointInfo newest_checkpoint(const std::filesystem::path& folder, std::uint64_t run = 0);
 
 // One declared parameter of a script (cdem.parameter).
 struct ParameterInfo {
