@@ -340,7 +340,8 @@ void check_outer_faces(const Model& model) {
   for (const OuterFace& face : model.outer_faces) {
     below("outer_faces.block", face.block, model.blocks.size());
     const std::size_t faces = model.blocks[face.block].shape.faces.size();
-    below("outer_faces.face", face.face, faces, face.boundary < 0 ? 0 : -1);
+    const bool of_mesh = face.boundary >= 0 && !model.blocks[face.block].convex();
+    below("outer_faces.face", face.face, of_mesh ? 1 : faces, of_mesh ? -1 : 0);
     below("outer_faces.boundary", face.boundary, model.mesh.boundary.size(), -1);
     require(face.boundary < 0 || model.mesh.boundary[face.boundary].block == face.block,
             "outer_faces.boundary", face.boundary);
