@@ -153,3 +153,30 @@ TEST_CASE("runs of a sweep share what it may take") {
       logs += read_file(entry.path());
   CHECK_THAT(logs, Contains("more than 150 MiB"));
 }
+
+TEST_CASE("a picture for which memory is short is left out with a warning, and the report is written") {
+  const TempFolder folder;
+  write_file(folder / "case.lua",
+             module +
+                 "local rock = cdem.elastic{ youngs_modulus = 1e9, poissons_ratio = 0, density = 2000 }\n"
+                 "local model = cdem.model{ bodies = { { shape = cdem.box_mesh{ size = {1, 1, 1}, divisions "
+                 "= {2, 2, 2} "
+                 "}, material = rock } } }\n"
+                 "model:picture{ file = 'a.png', colour = 'displacement.x' }\n"
+                 "cdem.chart{ file = 'b.png', series = { { x = {0, 1}, y = {0, 1} } } }\n"
+                 "cdem.report{ { name = 'blocks', value = model:counts().blocks } }\n");
+  Start start;
+  start.folder = folder.path();
+  start.environment = {std::string("CDEM=") + CDEM_PROGRAM};
+  for (const std::string limit : {"ulimit -v 800000; exec $CDEM run case.lua --output out",
+                                  "exec $CDEM run case.lua --output out --memory 150M"}) {
+    const Outcome outcome = run_program({"/bin/sh", "-c", limit}, start);
+    INFO(limit << "\n" << outcome.out << outcome.err);
+    CHECK(outcome.exit_code == 0);
+    CHECK(lines_of(outcome.err).size() == 2);
+    CHECK_THAT(outcome.err, Contains("case.lua:4: warning: a.png is not drawn: it needs about ") &&
+                                Contains("case.lua:5: warning: b.png is not drawn: it needs about "));
+    CHECK_FALSE(fs::exists(folder / "out/a.png"));
+    CHECK_THAT(read_file(folder / "out/report.json"), Contains("blocks"));
+  }
+}

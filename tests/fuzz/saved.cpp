@@ -4,6 +4,8 @@
 #include "libcdem/checkpoint/archive.hpp"
 #include "libcdem/checkpoint/file.hpp"
 #include "libcdem/simulation.hpp"
+#include "libcdem/step/errors.hpp"
+#include "libcdem/vtk/file_error.hpp"
 #include "libgeom/assembly/builders.hpp"
 #include "libgeom/mesh/box_mesh.hpp"
 #include "lua/binding/replay/journal.hpp"
@@ -49,13 +51,14 @@ cdem::Simulation pile_of_two(const std::shared_ptr<Stopper>& observer) {
   cdem::ModelSpec spec;
   cdem::BodySpec ground, blocks;
   ground.name = "ground";
-  ground.shape = geom::box_mesh({1, 1, 0.4}, {2, 2, 1});
+  ground.meshes = {geom::box_mesh({1, 1, 0.4}, {2, 2, 1})};
   ground.material = rock();
   ground.joint = weak();
   ground.bonding.everywhere = true;
   blocks = ground;
   blocks.name = "blocks";
   blocks.bonding = {};
+  blocks.meshes.clear();
   blocks.element = cdem::Element::finite_volume;
   geom::Assembly halves = geom::grid({0.4, 0.4, 0.4}, {2, 1, 1});
   for (geom::Polyhedron& block : halves.blocks)

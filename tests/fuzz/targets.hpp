@@ -13,7 +13,10 @@ using Target = std::function<void(const std::string& bytes)>;
 
 const std::map<std::string, Target>& targets();
 
-// The bytes as a file of this process's own folder, which main.cpp makes; the same file each time.
+// One input. What the target refuses with an exception of ours is well; a message of several lines is not.
+void run(const Target&, const std::string& bytes);
+
+// The bytes as a file of this process's own folder; the same file each time.
 std::string as_file(const std::string& name, const std::string& bytes);
 
 // Numbers drawn from the bytes in order; 0 when they are used up.
