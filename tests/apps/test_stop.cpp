@@ -73,7 +73,7 @@ TEST_CASE("Ctrl-C ends sorting, closing and coroutines that never end") {
 }
 
 TEST_CASE("Ctrl-C ends builders: voronoi of 300,000, a mesh of millions of tetrahedra, joints") {
-  for (const std::string& text :
+  for (const std::string text :
        {"cdem.voronoi{ size = {1, 1, 1}, count = 300000 }",
         "cdem.solid.box{ size = {1, 1, 1} }:mesh{ size = 0.012 }",
         "cdem.cut_by_joints{ shape = cdem.grid{ size = {1, 1, 1}, divisions = {40, 40, 40} },\n"

@@ -389,3 +389,18 @@ TEST_CASE("what to type to go on is quoted where a shell would part it", "[lua]"
   CHECK(cdem::script::resume_command("my run", true) == "cdem resume 'my run' --unsafe");
   CHECK(cdem::script::resume_command("it's", false) == "cdem resume 'it'\\''s'");
 }
+
+TEST_CASE("resume: the journal of a script that reads without end is bounded", "[checkpoint]") {
+  cdem::script::Journal journal;
+  cdem::script::Event read;
+  read.name = "model:read";
+  read.value = std::string(std::size_t{8} << 20, 'x');
+  std::size_t largest = 0;
+  for (int i = 0; i < 100; ++i) {
+    journal.record(read);
+    largest = std::max(largest, journal.size());
+  }
+  CHECK(journal.full());
+  CHECK(largest <= cdem::script::Journal::most);
+  CHECK(journal.size() == 0); // nothing is kept that nobody can go on from
+}
