@@ -3,6 +3,7 @@
 #include "libcdem/state/contact.hpp"
 #include "libcdem/step/errors.hpp"
 #include "libgeom/core/random.hpp"
+#include "lua/binding/replay/journal.hpp"
 #include "tests/lua/script.hpp"
 
 #include <catch2/catch.hpp>
