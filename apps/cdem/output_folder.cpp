@@ -162,8 +162,8 @@ void OutputFolder::open_log(const fs::path& file, const std::string& command) {
     throw FileError(file.string() + " cannot be written: " + system_reason());
   log_path_ = file;
   run_ = new_number();
-  std::fprintf(log_, "%s%s\nstarted %s\n%s%016llx\n", run_log_head, command.c_str(), date_now().c_str(), run_log_run,
-               static_cast<unsigned long long>(run_));
+  std::fprintf(log_, "%s%s\nstarted %s\n%s%016llx\n", run_log_head, command.c_str(), date_now().c_str(),
+               run_log_run, static_cast<unsigned long long>(run_));
   std::fflush(log_);
 }
 

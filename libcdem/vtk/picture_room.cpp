@@ -38,8 +38,9 @@ void require(int resource, const char* option, std::uint64_t has, std::uint64_t 
     return;
   const std::uint64_t left = limit.rlim_cur > has ? limit.rlim_cur - has : 0;
   if (left < needs)
-    throw NoRoomForPicture("it needs about " + std::to_string(needs / mega) + " MB of memory and " + option + " leaves " +
-                           std::to_string(left / mega) + " MB; allow more, or draw fewer pixels");
+    throw NoRoomForPicture("it needs about " + std::to_string(needs / mega) + " MB of memory and " + option +
+                           " leaves " + std::to_string(left / mega) +
+                           " MB; allow more, or draw fewer pixels");
 }
 
 } // namespace

@@ -234,7 +234,8 @@ TEST_CASE("resume: a run goes on from whatever folder one stands in") {
 TEST_CASE("resume: a checkpoint of another run in the folder is refused") {
   Place one, other;
   for (Place* place : {&one, &other})
-    CHECK(place->cdem({"run", "plate/case.lua", "--output", "results/plate"}, SIGINT, "begins").exit_code == 130);
+    CHECK(place->cdem({"run", "plate/case.lua", "--output", "results/plate"}, SIGINT, "begins").exit_code ==
+          130);
   for (const std::string name : {"checkpoint_1.cdem", "checkpoint_2.cdem"}) {
     std::error_code none;
     fs::remove(one.results / name);

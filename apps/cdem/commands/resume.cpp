@@ -17,7 +17,8 @@ ExitCode resume(const ResumeCommand& command) {
   if (!is_run_log(command.folder / run_log_name))
     throw UsageError(command.folder.string() + " is not the output folder of a run: it has no " +
                      run_log_name);
-  const script::CheckpointInfo checkpoint = script::newest_checkpoint(command.folder, run_of_log(command.folder / run_log_name));
+  const script::CheckpointInfo checkpoint =
+      script::newest_checkpoint(command.folder, run_of_log(command.folder / run_log_name));
   if (checkpoint.unsafe && !command.unsafe)
     throw UsageError(command.folder.string() +
                      ": the run was started with --unsafe; if its script can be trusted say so again: " +

@@ -127,7 +127,8 @@ PictureOptions view_options(const Arguments& a) {
   return options;
 }
 
-void draw(Session& session, const std::string& file, const std::function<void(const std::string& path)>& body) {
+void draw(Session& session, const std::string& file,
+          const std::function<void(const std::string& path)>& body) {
   const std::string path = session.files.to_write(file).string();
   try {
     body(path);

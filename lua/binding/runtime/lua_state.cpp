@@ -196,8 +196,8 @@ void LuaState::throw_error(lua_State* L, int status) {
     throw Interrupted();
   if (status == LUA_ERRMEM)
     throw ScriptError(shown_name(session.settings.script) +
-                      ": the script's own tables and strings need more than " +
-                      memory_text(memory_limit) + "; keep less of them" +
+                      ": the script's own tables and strings need more than " + memory_text(memory_limit) +
+                      "; keep less of them" +
                       (memory_limit < most_memory ? ", or allow more with --memory" : ""));
   const auto kind = kinds_.find(message);
   if (kind != kinds_.end() && kind->second == ErrorKind::solution)
