@@ -163,7 +163,7 @@ TEST_CASE("a picture for which memory is short is left out with a warning, and t
                  "= {2, 2, 2} "
                  "}, material = rock } } }\n"
                  "model:picture{ file = 'a.png', colour = 'displacement.x' }\n"
-                 "cdem.chart{ file = 'b.png', series = { { x = {0, 1}, y = {0, 1} } } }\n"
+                 "cdem.chart{ file = 'b.png', series = { { name = 's', x = {0, 1}, y = {0, 1} } } }\n"
                  "cdem.report{ { name = 'blocks', value = model:counts().blocks } }\n");
   Start start;
   start.folder = folder.path();
