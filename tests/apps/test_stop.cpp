@@ -117,7 +117,7 @@ TEST_CASE("a limit of memory ends in one line") {
   for (const auto& [text, reason] : std::vector<std::pair<std::string, std::string>>{
            {"local t = {}\nfor i = 1, 1e9 do t[i] = i end",
             "case.lua: the script's own tables and strings need "
-            "more than 200 MiB"},
+            "more than 100 MiB"},
            {module + "cdem.voronoi{ size = {1, 1, 1}, count = 300000 }",
             "case.lua:2: cdem.voronoi: not enough memory"},
            {module + "cdem.grid{ size = {1, 1, 1}, divisions = {200, 200, 200} }",
@@ -125,7 +125,7 @@ TEST_CASE("a limit of memory ends in one line") {
            {module + "cdem.solid.box{ size = {1, 1, 1} }:mesh{ size = 0.013 }",
             "case.lua:2: solid:mesh: "}}) {
     write_file(folder / "case.lua", text);
-    const Outcome outcome = run_cdem({"check", "case.lua", "--memory", "200M"}, start);
+    const Outcome outcome = run_cdem({"check", "case.lua", "--memory", "100M"}, start);
     INFO(text << "\n" << outcome.err);
     CHECK(outcome.exit_code == 2);
     CHECK(lines_of(outcome.err).size() == 1);
