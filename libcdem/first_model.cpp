@@ -57,7 +57,8 @@ public:
   // without bonds has no joint: its parts need a law in contacts.
   void add_within_bodies() {
     for (int b = 0; b < count(); ++b)
-      if (!is_small(b) && parts_[b] > 1 && (are_blocks(b, b) || !frame_.bodies[b].bonding.none()))
+      if (!is_small(b) && (parts_[b] > 1 || frame_.bodies[b].bonding.is_cohesive()) &&
+          (are_blocks(b, b) || !frame_.bodies[b].bonding.none()))
         add_to(frame_.surface.joint, b, b, contact_of(b, b, spec_.bodies[b].joint));
   }
 

@@ -52,7 +52,10 @@ struct Simulation::Impl {
                                ++stage,
                                checkpoints,
                                &restart_point,
-                               entry ? &*entry : nullptr};
+                               entry ? &*entry : nullptr,
+                               {},
+                               {},
+                               &model};
     if (entry) {
       last_good = state;
       restart_point = entry;

@@ -15,13 +15,22 @@ local tension = cdem.parameter{ name = "tensile_strength", default = unit.tensil
 local cohesion = cdem.parameter{ name = "cohesion", default = unit.cohesion, range = {1, 1e9}, unit = "Pa" }
 local rate = cdem.parameter{ name = "pressure_rate", default = 5e6, range = {1, 1e12}, unit = "Pa/s" }
 local damping = cdem.parameter{ name = "local_damping", default = 0.1, range = {0, 0.9} }
-local beta = cdem.parameter{ name = "stiffness_ratio", default = 10.0, range = {0.1, 1000}, doc = "of the bonds, beta" }
+local bonds = cdem.parameter{ name = "bond_type", default = "springs", choices = {"springs", "cohesive"},
+                              doc = "springs on every face, as in the paper, or a continuous unit that cracks" }
+local toughness = cdem.parameter{ name = "fracture_energy", default = 0.0, range = {0, 1e6}, unit = "J/m2",
+                                  doc = "G_I of a cohesive unit, G_II ten times that; 0: brittle" }
+local beta = cdem.parameter{ name = "stiffness_ratio", default = bonds == "springs" and 10.0 or 1.0, range = {0.1, 1000},
+                             doc = "of the bonds, beta" }
 local draw = cdem.parameter{ name = "pictures", default = true, doc = "draw them" }
 
 local case = unit.cases[number]
 local concrete = cdem.elastic{ youngs_modulus = unit.youngs_modulus, poissons_ratio = unit.poissons_ratio,
                                density = unit.density }
-local joint = cdem.mohr_coulomb{ cohesion = cohesion, friction_angle = unit.friction_angle, tensile_strength = tension }
+local tough = toughness > 0
+local joint = cdem.mohr_coulomb{ cohesion = cohesion, friction_angle = unit.friction_angle, tensile_strength = tension,
+                                 softening = tough and "linear" or "none",
+                                 fracture_energy_1 = tough and toughness or nil,
+                                 fracture_energy_2 = tough and 10 * toughness or nil }
 -- The mesh is that of 5 t, scaled: another size has the same tetrahedra, and what differs is not the mesh.
 local solid = cdem.accropode{ mass = 5000, density = unit.density, shape = shape }
 local mesh = solid:mesh{ size = solid.height / fineness }
@@ -40,8 +49,8 @@ end
 
 local figures, energy_error, steps = {}, 0, 0
 for _, how in ipairs(mode == "both" and {"hold", "ramp"} or {mode}) do
-  local model = cdem.model{ bodies = { { shape = mesh, material = concrete, joint = joint, stiffness_ratio = beta,
-                                         name = "unit" } } }
+  local model = cdem.model{ bodies = { { shape = mesh, material = concrete, joint = joint, bond_type = bonds,
+                                         stiffness_ratio = beta, name = "unit" } } }
   model:fix{ on = case.held }
   local broken = model:critical_flow{ direction = case.flow, mode = how, held = case.held, pressure_rate = rate,
                                       local_damping = damping }

@@ -1,8 +1,8 @@
 #include "libcdem/bond/broken_faces.hpp"
 
+#include "libcdem/bond/face_frame.hpp"
 #include "libcdem/joint/coulomb_friction.hpp"
 #include "libcdem/joint/mohr_coulomb.hpp"
-#include "libcdem/state/places.hpp"
 
 #include <algorithm>
 #include <array>
@@ -13,51 +13,11 @@ namespace {
 
 using simd::Vec;
 
+using Frame = FaceFrame;
 using Plane2 = std::array<double, 2>;
 
 double length(const Plane2& v) {
   return std::sqrt(v[0] * v[0] + v[1] * v[1]);
-}
-
-// A face as a broken one sees itself.
-struct Frame {
-  std::array<geom::Vec3, 3> gap;
-  geom::Vec3 normal, along, across; // unit, the first edge in the plane
-};
-
-// place(node), moved(node): m.
-template <class Place, class Moved>
-Frame frame_of(const FaceNodes& at, const Place& place, const Moved& moved) {
-  geom::Vec3 d[3];
-  for (int k = 0; k < 3; ++k)
-    d[k] = moved(at.b[k]) - moved(at.a[k]);
-  const geom::Vec3 x0 = place(at.a[0]);
-  const geom::Vec3 e1 = place(at.a[1]) - x0, e2 = place(at.a[2]) - x0;
-  Frame f;
-  f.normal = (e1.cross(e2) + (e1 + d[1] - d[0]).cross(e2 + d[2] - d[0])).normalized();
-  const geom::Vec3 edge = e1 + 0.5 * (d[1] - d[0]);
-  f.along = (edge - edge.dot(f.normal) * f.normal).normalized();
-  f.across = f.normal.cross(f.along);
-  for (int k = 0; k < 3; ++k)
-    f.gap[k] = (d[0] + d[1] + d[2]) / 6 + 0.5 * d[k];
-  return f;
-}
-
-// Where the face is now (behind: 0 s) or was that long ago, by what its nodes have done since.
-Frame frame_of(const FaceBatch& batch, int lane, const FaceMotion& m, double behind) {
-  FaceNodes places; // of the chunk
-  for (int k = 0; k < 3; ++k) {
-    places.a[k] = batch.place_a[k][lane];
-    places.b[k] = batch.place_b[k][lane];
-  }
-  return frame_of(
-      places, [&](int i) { return geom::Vec3(vec(m.position[i]) - behind * vec(m.velocity[i])); },
-      [&](int i) { return geom::Vec3(vec(m.displacement[i]) - behind * vec(m.velocity[i])); });
-}
-
-Frame frame_of(const FaceNodes& nodes, const Node* position, const Node* displacement) {
-  return frame_of(
-      nodes, [&](int i) { return vec(position[i]); }, [&](int i) { return vec(displacement[i]); });
 }
 
 struct Response {
@@ -119,23 +79,11 @@ bool is_intact(std::uint8_t mode) {
   return mode == static_cast<std::uint8_t>(BondMode::intact);
 }
 
-// Parted, or slid away sideways, by these parts of the face's size at all its points.
-constexpr double parted = 1e-3, slid = 0.2;
-
-bool is_gone(const Frame& f, double size) {
-  const auto everywhere = [&](const auto& holds) { return holds(0) && holds(1) && holds(2); };
-  return everywhere([&](int point) { return f.gap[point].dot(f.normal) > parted * size; }) ||
-         everywhere([&](int point) {
-           const Plane2 gap = tangential(f, point);
-           return length(gap) > slid * size;
-         });
-}
-
 // One face some of whose springs are broken or may break now: replaces their force on side a.
 class OneFace {
 public:
   OneFace(const FaceBatch& batch, int lane, const FaceMotion& motion, const FaceLaw& law)
-      : batch_(batch), lane_(lane), motion_(motion), law_(law), now_(frame_of(batch, lane, motion, 0)) {}
+      : batch_(batch), lane_(lane), motion_(motion), law_(law), now_(face_frame(batch, lane, motion, 0)) {}
 
   // spring: the place of the face's first one. slips: of the model.
   void advance(bool breaking, std::int64_t spring, FaceStateBatch& state, FaceSlip* slips, Vec (&force)[3],
@@ -164,7 +112,7 @@ public:
 private:
   const Frame& before() {
     if (!has_before_)
-      before_ = frame_of(batch_, lane_, motion_, motion_.step);
+      before_ = face_frame(batch_, lane_, motion_, motion_.step);
     has_before_ = true;
     return before_;
   }
@@ -247,7 +195,7 @@ void one_by_one(const FaceBatch& batch, int faces, const FaceMotion& motion, con
 FaceSpring face_spring(const FaceBatch& batch, const FaceNodes& nodes, int point, int lane,
                        const Node* position, const Node* displacement, const FaceLaw& law,
                        const FaceStateBatch& state, const FaceSlip* slip) {
-  const Frame f = frame_of(nodes, position, displacement);
+  const Frame f = face_frame(nodes, position, displacement);
   FaceSpring spring;
   spring.gap = f.gap[point];
   spring.normal = f.normal;
@@ -266,7 +214,7 @@ void settle(const FaceBatch& batch, const FaceNodes& nodes, int point, int lane,
             const Node* displacement, const FaceLaw& law, FaceSlip& slip) {
   Plane2 s = {slip.value[point][0], slip.value[point][1]};
   const double kn = batch.kn[lane];
-  contact(kn, law.shear_ratio * kn, law.tan_friction, frame_of(nodes, position, displacement), point, s);
+  contact(kn, law.shear_ratio * kn, law.tan_friction, face_frame(nodes, position, displacement), point, s);
   slip.value[point][0] = s[0];
   slip.value[point][1] = s[1];
 }

@@ -27,8 +27,8 @@ void archive(A& a, Joint& x) {
 
 template <class A>
 void archive(A& a, Bonding& x) {
-  auto& [everywhere, between_regions, regions, stiffness_ratio, shear_ratio] = x;
-  archive_all(a, everywhere, between_regions, regions, stiffness_ratio, shear_ratio);
+  auto& [kind, everywhere, between_regions, regions, stiffness_ratio, shear_ratio] = x;
+  archive_all(a, kind, everywhere, between_regions, regions, stiffness_ratio, shear_ratio);
 }
 
 template <class A>
@@ -120,11 +120,17 @@ void archive(A& a, FaceBatch& x) {
 }
 
 template <class A>
+void archive(A& a, FaceSideBatch& x) {
+  auto& [tet, face, place, beyond] = x;
+  archive_all(a, tet, face, place, beyond);
+}
+
+template <class A>
 void archive(A& a, MeshChunk& x) {
-  auto& [block, blocks, stars, nodes, inner_end, others, tets, batches, face_batches, faces, partial,
-         share_begin] = x;
-  archive_all(a, block, blocks, stars, nodes, inner_end, others, tets, batches, face_batches, faces, partial,
-              share_begin);
+  auto& [block, blocks, stars, nodes, inner_end, others, tets, batches, face_batches, faces, side_batches,
+         partial, share_begin] = x;
+  archive_all(a, block, blocks, stars, nodes, inner_end, others, tets, batches, face_batches, faces,
+              side_batches, partial, share_begin);
 }
 
 template <class A>
@@ -141,11 +147,11 @@ void archive(A& a, FaceTets& x) {
 
 template <class A>
 void archive(A& a, MeshData& x) {
-  auto& [first_node, first_tet, batches, faces, face_tets, chunks, tet_slot, others, original, share_begin,
-         shares, boundary, named] = x;
+  auto& [first_node, first_tet, batches, faces, face_tets, sides, chunks, tet_slot, others, original, region,
+         freed, share_begin, shares, boundary, named] = x;
   static_cast<void>(named); // places for conditions, which come from the script
-  archive_all(a, first_node, first_tet, batches, faces, face_tets, chunks, tet_slot, others, original,
-              share_begin, shares, boundary);
+  archive_all(a, first_node, first_tet, batches, faces, face_tets, sides, chunks, tet_slot, others, original,
+              region, freed, share_begin, shares, boundary);
 }
 
 template <class A>

@@ -80,6 +80,7 @@ void require_fits(const Model& model, const State& state) {
   require_length("stress", state.stress.size(), model.mesh.batches.size());
   require_length("viscous_stress", state.viscous_stress.size(), fresh.viscous_stress.size());
   require_length("faces", state.faces.size(), model.mesh.faces.size());
+  require_length("cohesive", state.cohesive.size(), fresh.cohesive.size());
   require_length("rigid", state.rigid.size(), model.rigid.size());
   require_length("rigid_offset", state.rigid_offset.size(), nodes, model.rigid.empty());
   require_length("escaped", state.escaped.size(), nodes, true);
@@ -87,6 +88,9 @@ void require_fits(const Model& model, const State& state) {
     require_below("bond_mode", mode, modes);
   for (const std::uint8_t escaped : state.escaped)
     require_below("escaped", escaped, escapes);
+  for (const CohesiveFace& face : state.cohesive)
+    if (!(face.stage >= 0 && face.stage <= static_cast<double>(FaceStage::parted)))
+      refuse("cohesive", std::to_string(face.stage) + " is out of range");
   check_faces(state);
   check_contacts(model, state);
 }

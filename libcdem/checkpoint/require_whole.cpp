@@ -209,6 +209,35 @@ void check_mesh_chunk(const Model& model, const MeshChunk& chunk) {
     }
 }
 
+void check_sides(const Model& model, const MeshChunk& chunk) {
+  const MeshData& mesh = model.mesh;
+  const auto places = static_cast<std::size_t>(chunk.places());
+  for (std::int64_t i = chunk.side_batches.begin; i < chunk.side_batches.end; ++i) {
+    const FaceSideBatch& sides = mesh.sides[i];
+    all_below("mesh.sides.tet", sides.tet, static_cast<std::size_t>(chunk.tets.size()));
+    all_below("mesh.sides.face", sides.face, mesh.faces.size() * lanes, -1);
+    for (int corner = 0; corner < 3; ++corner) {
+      all_below("mesh.sides.place", sides.place[corner], places);
+      all_below("mesh.sides.place", sides.beyond[corner], places);
+    }
+  }
+}
+
+// Of cohesive bodies there is a region for each tet and a mark for each node.
+void check_cohesive(const Model& model) {
+  const MeshData& mesh = model.mesh;
+  for (const Block& block : model.blocks)
+    if (block.meshed && model.bodies[block.body].bonding.is_cohesive()) {
+      require(block.tet_end - mesh.first_tet <= count(mesh.region.size()), "mesh.region",
+              count(mesh.region.size()));
+      require(block.node_end - mesh.first_node <= count(mesh.freed.size()), "mesh.freed",
+              count(mesh.freed.size()));
+    }
+  require(mesh.region.size() <= mesh.tet_slot.size(), "mesh.region", count(mesh.region.size()));
+  require(mesh.freed.size() <= mesh.original.size(), "mesh.freed", count(mesh.freed.size()));
+  all_below("mesh.original", mesh.original, mesh.original.size());
+}
+
 void check_mesh(const Model& model) {
   const MeshData& mesh = model.mesh;
   const std::size_t nodes = model.node_position.size(), tets = model.tets.size();
@@ -233,13 +262,17 @@ void check_mesh(const Model& model) {
   }
   Follow chunk_nodes("mesh.chunks.nodes", mesh.first_node), chunk_tets("mesh.chunks.tets", mesh.first_tet),
       batches("mesh.chunks.batches", 0), face_batches("mesh.chunks.face_batches", 0),
-      others("mesh.chunks.others", 0), partial("mesh.chunks.partial", 0);
+      others("mesh.chunks.others", 0), sides("mesh.chunks.side_batches", 0),
+      partial("mesh.chunks.partial", 0);
   for (const MeshChunk& chunk : mesh.chunks) {
     chunk_nodes(chunk.nodes);
     chunk_tets(chunk.tets);
     batches(chunk.batches);
     face_batches(chunk.face_batches);
     others(chunk.others);
+    sides(chunk.side_batches);
+    within("mesh.chunks.side_batches", chunk.side_batches, mesh.sides.size());
+    check_sides(model, chunk);
     partial(chunk.partial);
     within("mesh.chunks.batches", chunk.batches, mesh.batches.size());
     within("mesh.chunks.face_batches", chunk.face_batches, mesh.faces.size());
@@ -255,6 +288,8 @@ void check_mesh(const Model& model) {
   batches.end_at(count(mesh.batches.size()));
   face_batches.end_at(count(mesh.faces.size()));
   others.end_at(count(mesh.others.size()));
+  sides.end_at(count(mesh.sides.size()));
+  check_cohesive(model);
   all_below("mesh.shares", mesh.shares,
             mesh.chunks.empty() ? 0 : static_cast<std::size_t>(mesh.chunks.back().partial.end));
   for (std::size_t i = 0; i < mesh.boundary.size(); ++i) {
@@ -354,8 +389,10 @@ void check_outer_faces(const Model& model) {
 
 void require_whole(const Model& model) {
   require(!model.bodies.empty() && !model.blocks.empty(), "blocks", 0);
-  for (const Body& body : model.bodies)
+  for (const Body& body : model.bodies) {
     require(body.element <= Element::rigid, "bodies.element", static_cast<int>(body.element));
+    require(body.bonding.kind <= BondKind::cohesive, "bodies.bonding", static_cast<int>(body.bonding.kind));
+  }
   check_pairs("pair_joint", model.pair_joint, model);
   require_length("node_mass", model.node_mass.size(), model.node_position.size());
   require_length("tet_block", model.tet_block.size(), model.tets.size());

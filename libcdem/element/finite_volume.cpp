@@ -75,8 +75,8 @@ CDEM_INLINE Vec corner_force(const Symmetric& s, const Vec& c) {
 }
 
 CDEM_INLINE double finite_volume_kernel(const MeshBatch* batches, std::int64_t count, int last_lanes,
-                                        const Node* position, const Node* velocity, double dt,
-                                        const TetStiffness& stiffness, const TetDamping& damping,
+                                        const Node* position, const Node* velocity, const JumpBatch* jumps,
+                                        double dt, const TetStiffness& stiffness, const TetDamping& damping,
                                         StressBatch* stress, Node* force, ReadAhead& ahead) {
   const double rate = dt > 0 ? damping.beta / dt : 0;
   Oct damped{};
@@ -111,9 +111,25 @@ CDEM_INLINE double finite_volume_kernel(const MeshBatch* batches, std::int64_t c
               zz = v1.z * a1.z + v2.z * a2.z + v3.z * a3.z;
 
     const Turn turn = turn_of({0.5 * (zy - yz), 0.5 * (xz - zx), 0.5 * (yx - xy)});
-    const Oct pressure = lambda * (xx + yy + zz), g = 0.5 * two_g;
-    const Symmetric increment{pressure + two_g * xx, pressure + two_g * yy, pressure + two_g * zz,
-                              g * (xy + yx),         g * (yz + zy),         g * (xz + zx)};
+    // Of the strain, those off the diagonal twice.
+    Symmetric strain{xx, yy, zz, xy + yx, yz + zy, xz + zx};
+    if (jumps) {
+      const JumpBatch& jump = jumps[i];
+      const Oct once = 3.0 / dot(m1, middle.c1), twice = 2.0 * once; // 1 / 2V
+      strain = {strain.xx + once * simd::load(jump.component[0]),
+                strain.yy + once * simd::load(jump.component[1]),
+                strain.zz + once * simd::load(jump.component[2]),
+                strain.xy + twice * simd::load(jump.component[3]),
+                strain.yz + twice * simd::load(jump.component[4]),
+                strain.xz + twice * simd::load(jump.component[5])};
+    }
+    const Oct pressure = lambda * (strain.xx + strain.yy + strain.zz), g = 0.5 * two_g;
+    const Symmetric increment{pressure + two_g * strain.xx,
+                              pressure + two_g * strain.yy,
+                              pressure + two_g * strain.zz,
+                              g * strain.xy,
+                              g * strain.yz,
+                              g * strain.xz};
     const Symmetric half_increment = scaled(0.5, increment);
     StressBatch& kept_stress = stress[i];
     Symmetric r = plus(turned(turn, plus(load(kept_stress), half_increment)), half_increment);
@@ -126,8 +142,8 @@ CDEM_INLINE double finite_volume_kernel(const MeshBatch* batches, std::int64_t c
         now = scaled(rate, increment);
         const Symmetric both = plus(before, now);
         const Oct half_volume = dot(m1, middle.c1) / 12;
-        damped += half_volume * (both.xx * xx + both.yy * yy + both.zz * zz + both.xy * (xy + yx) +
-                                 both.yz * (yz + zy) + both.xz * (xz + zx));
+        damped += half_volume * (both.xx * strain.xx + both.yy * strain.yy + both.zz * strain.zz +
+                                 both.xy * strain.xy + both.yz * strain.yz + both.xz * strain.xz);
         store(kept, now);
       }
       r = plus(r, now);
@@ -154,11 +170,11 @@ TetStiffness tet_stiffness(const Elastic& material) {
 }
 
 double finite_volume_forces(const MeshBatch* batches, std::int64_t count, int last_lanes,
-                            const Node* position, const Node* velocity, double dt,
+                            const Node* position, const Node* velocity, const JumpBatch* jumps, double dt,
                             const TetStiffness& stiffness, const TetDamping& damping, StressBatch* stress,
                             Node* force, ReadAhead& ahead) {
-  return simd::best<finite_volume_kernel>(batches, count, last_lanes, position, velocity, dt, stiffness,
-                                          damping, stress, force, ahead);
+  return simd::best<finite_volume_kernel>(batches, count, last_lanes, position, velocity, jumps, dt,
+                                          stiffness, damping, stress, force, ahead);
 }
 
 } // namespace cdem

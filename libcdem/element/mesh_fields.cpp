@@ -1,9 +1,11 @@
 #include "libcdem/element/mesh_fields.hpp"
 
-#include "libcdem/bond/face_bonds.hpp"
+#include "libcdem/bond/cohesive_faces.hpp"
 #include "libcdem/element/rigid_motion.hpp"
 #include "libcdem/element/small_strain.hpp"
 #include "libcdem/state/places.hpp"
+
+#include <map>
 
 namespace cdem {
 namespace {
@@ -72,6 +74,99 @@ private:
   std::vector<geom::Mat3> blocks_;
 };
 
+// J / 2 of face_jumps.hpp, summed over the freed faces of each tet of a mesh, m3/s; empty where there are none.
+std::vector<geom::Mat3> velocity_jumps(const Model& model, const State& state,
+                                       const std::vector<Node>& position) {
+  std::vector<geom::Mat3> jumps(
+      model.mesh.sides.empty() ? 0 : model.tets.size() - static_cast<std::size_t>(model.mesh.first_tet),
+      geom::Mat3::Zero());
+  each_side(model.mesh, [&](int tet, int face, const geom::Triangle& own, const geom::Triangle& beyond) {
+    if (state.cohesive[face].at() != FaceStage::holding)
+      return;
+    geom::Vec3 jump = geom::Vec3::Zero();
+    for (int i = 0; i < 3; ++i)
+      jump += (vec(state.velocity[beyond[i]]) - vec(state.velocity[own[i]])) / 3;
+    const geom::Vec3 x0 = vec(position[own[0]]);
+    const geom::Vec3 area = 0.5 * (vec(position[own[1]]) - x0).cross(vec(position[own[2]]) - x0);
+    jumps[tet - model.mesh.first_tet] += 0.5 * jump * area.transpose();
+  });
+  return jumps;
+}
+
+// A tet and what its strain depends on: sum of sym(u of the node (x) gradient), with the nodes beyond its freed faces.
+struct Reach {
+  double volume = 0;
+  std::vector<std::pair<int, geom::Vec3>> gradients; // 1/m
+  geom::Vec3& at(int node) {
+    for (auto& [known, gradient] : gradients)
+      if (known == node)
+        return gradient;
+    return gradients.emplace_back(node, geom::Vec3::Zero()).second;
+  }
+};
+
+// Block of the stiffness between two nodes of a tet, by the gradients there.
+geom::Mat3 stiffness_block(const Elastic& material, double volume, const geom::Vec3& p, const geom::Vec3& q) {
+  const double lambda = material.lame_lambda(), shear = material.shear_modulus();
+  return volume * (lambda * p * q.transpose() + shear * (q * p.transpose()) +
+                   shear * p.dot(q) * geom::Mat3::Identity());
+}
+
+std::array<geom::Vec3, 4> undeformed(const Model& model, int tet) {
+  std::array<geom::Vec3, 4> x;
+  for (int k = 0; k < 4; ++k)
+    x[k] = model.node_position[model.tets[tet][k]];
+  return x;
+}
+
+// Where faces are freed: the row sums of the tets with all that they reach to, in place of those of the tets alone where
+// they are larger. As faces crack the rows go from these to those.
+void raise_freed_rows(const Model& model, const TetsOfNodes& of, std::vector<double>& sums) {
+  std::map<int, Reach> reaches; // by tet
+  each_side(model.mesh, [&](int tet, int, const geom::Triangle& own, const geom::Triangle& beyond) {
+    Reach& reach = reaches[tet];
+    const std::array<geom::Vec3, 4> x = undeformed(model, tet);
+    if (reach.gradients.empty()) {
+      const TetGradients shape = tet_gradients(x);
+      reach.volume = shape.volume;
+      for (int k = 0; k < 4; ++k)
+        reach.at(model.tets[tet][k]) += shape.gradient[k];
+    }
+    const geom::Vec3 &x0 = model.node_position[own[0]], &x1 = model.node_position[own[1]],
+                     &x2 = model.node_position[own[2]];
+    const geom::Vec3 part = (x1 - x0).cross(x2 - x0) / (12 * reach.volume); // A n / 6V
+    for (int i = 0; i < 3; ++i) {
+      reach.at(own[i]) -= part;
+      reach.at(beyond[i]) += part;
+    }
+  });
+  std::map<int, std::vector<int>> reaching; // tets by node
+  for (const auto& [tet, reach] : reaches)
+    for (const auto& [node, gradient] : reach.gradients)
+      reaching[node].push_back(tet);
+  Row row;
+  for (const auto& [node, tets] : reaching) {
+    row.clear();
+    for (const int t : tets) {
+      Reach& reach = reaches[t];
+      const geom::Vec3 p = reach.at(node);
+      for (const auto& [other, q] : reach.gradients)
+        row.with(other) += stiffness_block(material_of(model, t), reach.volume, p, q);
+    }
+    const int i = node - model.mesh.first_node;
+    for (std::int64_t j = of.begin[i]; j < of.begin[i + 1]; ++j) {
+      const auto [t, a] = of.tets[j];
+      if (reaches.count(t) > 0)
+        continue;
+      const TetGradients shape = tet_gradients(undeformed(model, t));
+      for (int b = 0; b < 4; ++b)
+        row.with(model.tets[t][b]) +=
+            stiffness_block(material_of(model, t), shape.volume, shape.gradient[a], shape.gradient[b]);
+    }
+    sums[node] = std::max(sums[node], row.largest_sum());
+  }
+}
+
 } // namespace
 
 std::vector<Node> present_places(const Model& model, const State& state) {
@@ -120,13 +215,21 @@ double mesh_spring_energy(const Model& model, const State& state) {
   const std::vector<Node> position = present_places(model, state);
   double energy = 0;
   each_face_spring(model.mesh, [&](const MeshChunk& chunk, const FaceSpringPlace& at) {
-    const Body& body = model.bodies[model.blocks[chunk.block].body];
-    energy += face_spring(model.mesh.faces[at.batch], face_nodes(model.mesh, chunk, at.batch, at.lane),
-                          at.point, at.lane, position.data(), state.displacement.data(), face_law(body),
-                          state.faces[at.batch], slip_of(state, at.batch, at.lane))
-                  .energy;
+    energy += face_point_response(model, state, position, chunk, at).energy;
   });
   return energy;
+}
+
+FaceSpring face_point_response(const Model& model, const State& state, const std::vector<Node>& position,
+                               const MeshChunk& chunk, const FaceSpringPlace& at) {
+  const Body& body = model.bodies[model.blocks[chunk.block].body];
+  const FaceBatch& batch = model.mesh.faces[at.batch];
+  const FaceNodes nodes = face_nodes(model.mesh, chunk, at.batch, at.lane);
+  if (body.bonding.is_cohesive())
+    return cohesive_spring(batch, at.lane, face_frame(nodes, position.data(), state.displacement.data()),
+                           at.point, body.joint, state.cohesive[at.batch * lanes + at.lane]);
+  return face_spring(batch, nodes, at.point, at.lane, position.data(), state.displacement.data(),
+                     face_law(body), state.faces[at.batch], slip_of(state, at.batch, at.lane));
 }
 
 State moved_back(const Model& model, const State& state, double lag) {
@@ -139,6 +242,7 @@ State moved_back(const Model& model, const State& state, double lag) {
   if (model.mesh.empty() || lag == 0)
     return moved;
   const std::vector<Node> position = present_places(model, state);
+  const std::vector<geom::Mat3> jumps = velocity_jumps(model, state, position);
   for (int t = model.mesh.first_tet; t < static_cast<int>(model.tets.size()); ++t) {
     if (model.blocks[model.tet_block[t]].rigid >= 0)
       continue; // its stress stands still
@@ -146,6 +250,8 @@ State moved_back(const Model& model, const State& state, double lag) {
     geom::Mat3 gradient = geom::Mat3::Zero();
     for (int k = 0; k < 4; ++k)
       gradient += vec(state.velocity[model.tets[t][k]]) * shape.gradient[k].transpose();
+    if (!jumps.empty())
+      gradient += jumps[t - model.mesh.first_tet] / shape.volume;
     const Stress increment = elastic_stress(material_of(model, t), lag * gradient);
     const int slot = model.mesh.tet_slot[t - model.mesh.first_tet];
     for (int c = 0; c < 6; ++c)
@@ -163,25 +269,20 @@ void add_mesh_row_sums(const Model& model, std::vector<double>& sums) {
     row.clear();
     for (std::int64_t j = of.begin[i]; j < of.begin[i + 1]; ++j) {
       const auto [t, a] = of.tets[j];
-      std::array<geom::Vec3, 4> x;
-      for (int k = 0; k < 4; ++k)
-        x[k] = model.node_position[model.tets[t][k]];
-      const TetGradients shape = tet_gradients(x);
-      const Elastic& material = material_of(model, t);
-      const double lambda = material.lame_lambda(), shear = material.shear_modulus();
-      for (int b = 0; b < 4; ++b) {
-        const geom::Vec3 &p = shape.gradient[a], &q = shape.gradient[b];
+      const TetGradients shape = tet_gradients(undeformed(model, t));
+      for (int b = 0; b < 4; ++b)
         row.with(model.tets[t][b]) +=
-            shape.volume * (lambda * p * q.transpose() + shear * (q * p.transpose()) +
-                            shear * p.dot(q) * geom::Mat3::Identity());
-      }
+            stiffness_block(material_of(model, t), shape.volume, shape.gradient[a], shape.gradient[b]);
     }
     sums[static_cast<std::size_t>(model.mesh.first_node) + i] += row.largest_sum();
   }
+  if (!model.mesh.sides.empty())
+    raise_freed_rows(model, of, sums);
   each_face_spring(model.mesh, [&](const MeshChunk& chunk, const FaceSpringPlace& at) {
     const FaceBatch& batch = model.mesh.faces[at.batch];
     const int lane = at.lane;
-    const double ratio = model.bodies[model.blocks[chunk.block].body].bonding.shear_ratio;
+    const Bonding& bonding = model.bodies[model.blocks[chunk.block].body].bonding;
+    const double ratio = bonding.is_cohesive() ? 1 : bonding.shear_ratio;
     const FaceNodes nodes = face_nodes(model.mesh, chunk, at.batch, lane);
     const geom::Vec3 &x0 = model.node_position[nodes.a[0]], &x1 = model.node_position[nodes.a[1]],
                      &x2 = model.node_position[nodes.a[2]];

@@ -267,14 +267,15 @@ private:
     };
     const std::vector<int> pieces = fragments_of_nodes(r.model, r.state);
     for (Contact c : from_.contacts) {
-      const int source = triangle_now(static_cast<int>(c.source) / 3), target = triangle_now(c.target);
+      const auto [old_source, old_target] = triangles_of(c);
+      const int source = triangle_now(old_source), target = triangle_now(old_target);
       const bool edge = c.kind == Contact::edge;
       const int beside = edge ? triangle_now(c.beside) : c.beside;
       const int own_second = edge ? triangle_now(c.fragment) : 0;
       if (source < 0 || target < 0 || (edge && (beside < 0 || own_second < 0)))
         continue;
       c.source = static_cast<std::uint32_t>(3 * source + static_cast<int>(c.source) % 3) & 0x7fffffffu;
-      c.target = target;
+      c.target = edge ? 3 * target + c.target % 3 : target;
       c.beside = beside;
       c.fragment = edge ? own_second : pieces[r.model.surface.triangles[target].nodes[0]];
       r.state.contacts.push_back(c);

@@ -11,6 +11,7 @@
 #include "libcdem/joint/bond_mode.hpp"
 
 #include <algorithm>
+#include <limits>
 
 namespace cdem {
 
@@ -43,6 +44,14 @@ inline BondMode breaks(const SpringStrength& s, double normal, double shear) {
 // f, Pa, > 0 where the rock fails.
 inline double mohr_coulomb(double p1, double p3, double cohesion, double cos_friction, double tan_friction) {
   return (p1 - p3) / (2 * cos_friction) - (p1 + p3) * tan_friction / 2 - cohesion;
+}
+
+// How much of the strength a stress takes, 1 where the rock fails in shear: the radius of its Mohr circle over the
+// largest about the same centre that the rock bears. Infinite beyond the tip of the cone.
+inline double mohr_coulomb_use(double p1, double p3, double cohesion, double cos_friction,
+                               double sin_friction) {
+  const double most = cohesion * cos_friction + 0.5 * (p1 + p3) * sin_friction;
+  return most > 0 ? 0.5 * (p1 - p3) / most : std::numeric_limits<double>::infinity();
 }
 
 } // namespace cdem

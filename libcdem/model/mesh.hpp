@@ -2,7 +2,8 @@
 // the two sides of inner faces where a joint was asked for (Feng 2014 section 2).
 //
 // A copy of a node is a connected component of the tets around it through faces without bonds: where every face is
-// bonded each tet has its own four nodes, where none is the nodes are those of the mesh.
+// bonded each tet has its own four nodes, where none is the nodes are those of the mesh. In a cohesive body a face is
+// bonded in this sense once one of its nodes has been freed (fracture/free_nodes.hpp), and only freed nodes have copies.
 //
 // Tets stand in the order of a Hilbert curve and nodes in that of first touch. A chunk is a run of tets; it owns the
 // nodes it is the first to touch, those that no other chunk touches (inner) first, and lists the others it needs. It
@@ -36,6 +37,14 @@ struct alignas(32) FaceBatch {
   std::uint16_t place_a[3][lanes], place_b[3][lanes]; // of the nodes among those of the chunk
 };
 
+// One side of eight freed faces of cohesive bodies, seen from a tet of the chunk: corner i of its own against corner i
+// beyond the face, counter-clockwise seen from outside. Lanes past the last side repeat the first one with face = -1.
+struct alignas(64) FaceSideBatch {
+  std::int32_t tet[lanes];                         // batch * lanes + lane, from the chunk's first batch on
+  std::int32_t face[lanes];                        // batch * lanes + lane in MeshData::faces
+  std::uint16_t place[3][lanes], beyond[3][lanes]; // of the nodes among those of the chunk
+};
+
 struct MeshChunk {
   int block = 0; // the first of `blocks`; all are of one body
   Range blocks;  // whole convex blocks, or the one block that this is a part of
@@ -48,6 +57,7 @@ struct MeshChunk {
   Range batches;              // into MeshData::batches
   Range face_batches;         // into MeshData::faces
   int faces = 0;              // in them
+  Range side_batches;         // into MeshData::sides
   Range partial; // its slice of the partial forces: its own nodes but the inner ones, then the others
   std::int64_t share_begin = 0; // into MeshData::share_begin: its own nodes but the inner ones
 
@@ -71,11 +81,15 @@ struct MeshData {
       first_tet = 0; // of the model; those before belong to blocks with star meshes, all without meshes
   std::vector<MeshBatch> batches;
   std::vector<FaceBatch> faces;
-  std::vector<FaceTets> face_tets; // (faces.size() * lanes)
+  std::vector<FaceTets> face_tets;  // (faces.size() * lanes)
+  std::vector<FaceSideBatch> sides; // of cohesive bodies
   std::vector<MeshChunk> chunks;
   std::vector<int> tet_slot; // (n mesh tets) batch * lanes + lane
   std::vector<int> others;   // nodes of the model
   std::vector<int> original; // (n mesh nodes) one number for all copies of a node
+  // Empty without cohesive bodies.
+  std::vector<int> region; // (n mesh tets) of the mesh they come from
+  std::vector<char> freed; // (n mesh nodes) 1: faces around it may have parted
   // Which partial forces add up to that of a node that several chunks touch, in order: into `shares`.
   std::vector<int> share_begin, shares;
   std::vector<BoundaryTriangle> boundary;
@@ -105,6 +119,23 @@ inline FaceNodes face_nodes(const MeshData& mesh, const MeshChunk& chunk, std::i
     nodes.b[i] = mesh.node_at(chunk, mesh.faces[batch].place_b[i][lane]);
   }
   return nodes;
+}
+
+// visit(tet of the model, place of the face in MeshData::faces, its nodes, those beyond) for each side of each freed
+// face, by tet; the nodes counter-clockwise seen from outside the tet.
+template <class Visit>
+void each_side(const MeshData& mesh, const Visit& visit) {
+  for (const MeshChunk& chunk : mesh.chunks)
+    for (std::int64_t b = chunk.side_batches.begin; b < chunk.side_batches.end; ++b)
+      for (int lane = 0; lane < lanes && mesh.sides[b].face[lane] >= 0; ++lane) {
+        geom::Triangle own{}, beyond{};
+        for (int i = 0; i < 3; ++i) {
+          own[i] = mesh.node_at(chunk, mesh.sides[b].place[i][lane]);
+          beyond[i] = mesh.node_at(chunk, mesh.sides[b].beyond[i][lane]);
+        }
+        visit(static_cast<int>(chunk.tets.begin) + mesh.sides[b].tet[lane], mesh.sides[b].face[lane], own,
+              beyond);
+      }
 }
 
 // One spring of a bonded face.

@@ -98,6 +98,7 @@ public:
     };
     conditions_.flows.push_back(flow);
     resolved_ = resolve(model_, state_, conditions_);
+    without_flow_.renumbered = [this](const std::vector<int>& old_node) { renumber(old_node); };
     without_flow_.procedure_state = [this] {
       Writer a;
       archive(a, now_);
@@ -113,11 +114,12 @@ private:
     return static_cast<std::int64_t>(without_flow_.log.breaks.size() - now_.first_break);
   }
   void start();
+  void renumber(const std::vector<int>& old_node);
   void begin(Part);
   StageContext with_flow() const {
     const StageContext& c = without_flow_;
-    return {c.model,   c.state,  conditions_,   c.log,           c.last_good, c.observer,
-            c.threads, c.number, c.checkpoints, c.restart_point, c.from,      c.procedure_state};
+    return {c.model,  c.state,       conditions_,     c.log,  c.last_good,       c.observer,   c.threads,
+            c.number, c.checkpoints, c.restart_point, c.from, c.procedure_state, c.renumbered, c.changing};
   }
   void measure();
   void look();
@@ -133,6 +135,25 @@ private:
   bool ended_ = false;
   ProcedureState now_;
 };
+
+// Copies of a node share its force by their mass.
+void Search::renumber(const std::vector<int>& old_node) {
+  std::vector<double> mass(now_.start.size(), 0.0);
+  std::vector<geom::Vec3> force(now_.start.size(), geom::Vec3::Zero());
+  for (const auto& [node, f] : now_.pattern)
+    force[node] += f;
+  const std::vector<Node> start = std::move(now_.start);
+  now_.start.clear();
+  for (std::size_t i = 0; i < old_node.size(); ++i) {
+    now_.start.push_back(start[old_node[i]]);
+    mass[old_node[i]] += model_.node_mass[i];
+  }
+  now_.pattern.clear();
+  for (std::size_t i = 0; i < old_node.size(); ++i)
+    if (!force[old_node[i]].isZero(0))
+      now_.pattern.emplace_back(static_cast<int>(i),
+                                model_.node_mass[i] / mass[old_node[i]] * force[old_node[i]]);
+}
 
 void Search::start() {
   require_held(resolved_);

@@ -117,7 +117,7 @@ RunResult run(const StageContext& context, const RunOptions& options, const std:
   stage.details = options.details;
   stage.work.contact.most_friction = options.most_friction;
   stage.work.damped = !state.viscous_stress.empty();
-  const std::vector<double> viscous = viscous_forces(context.model);
+  std::vector<double> viscous = viscous_forces(context.model);
   Stage::StepReport report;
   Clock clock(state.time, stepping.time_step, options);
   if (from) {
@@ -141,6 +141,16 @@ RunResult run(const StageContext& context, const RunOptions& options, const std:
   while (stage.step < clock.steps() && !stopped) {
     if (stage.can_be_left())
       stage.keep_restart_point(clock.loop_state());
+    if (options.breaking && stage.free_nodes()) {
+      viscous = viscous_forces(context.model);
+      if (const double stable = options.safety * stable_time_step(context.model);
+          stable < stepping.time_step) {
+        stepping.time_step = stable;
+        clock.shorten(stage.step, stable);
+        set_goals();
+      }
+      stage.keep_restart_point(clock.loop_state());
+    }
     if (const double longest = stage.update_contacts(options.safety); longest < stepping.time_step) {
       stepping.time_step = longest;
       clock.shorten(stage.step, longest);

@@ -229,19 +229,18 @@ void add_face_springs(const Model& model, const State& state, BondFields& fields
   const std::vector<Node> position = present_places(model, state);
   each_face_spring(model.mesh, [&](const MeshChunk& chunk, const FaceSpringPlace& at) {
     const FaceBatch& batch = model.mesh.faces[at.batch];
-    const FaceLaw law = face_law(model.bodies[model.blocks[chunk.block].body]);
     const FaceNodes nodes = face_nodes(model.mesh, chunk, at.batch, at.lane);
-    const FaceSpring spring =
-        face_spring(batch, nodes, at.point, at.lane, position.data(), state.displacement.data(), law,
-                    state.faces[at.batch], slip_of(state, at.batch, at.lane));
+    const FaceSpring spring = face_point_response(model, state, position, chunk, at);
     geom::Vec3 moved = geom::Vec3::Zero();
     for (int k = 0; k < 3; ++k) {
       const Node &a = state.displacement[nodes.a[k]], &b = state.displacement[nodes.b[k]];
       moved += 0.5 * (k == at.point ? 2.0 / 3 : 1.0 / 6) * geom::Vec3(a.x + b.x, a.y + b.y, a.z + b.z);
     }
     const std::uint8_t mode = state.faces[at.batch].mode[at.point][at.lane];
-    fields.add(mode, broken(mode) ? 1 : 0, spring.gap, spring.normal, spring.force / batch.area[at.lane],
-               moved);
+    const double damage = state.cohesive.empty() || broken(mode)
+                              ? (broken(mode) ? 1 : 0)
+                              : state.cohesive[at.batch * lanes + at.lane].damage[at.point];
+    fields.add(mode, damage, spring.gap, spring.normal, spring.force / batch.area[at.lane], moved);
     bonds.points.push_back(face_point(model, chunk, at));
     if (at.point == 2) {
       const int last = static_cast<int>(bonds.points.size()) - 1;

@@ -74,6 +74,9 @@ State initial_state(const Model& model) {
   if (std::any_of(model.bodies.begin(), model.bodies.end(),
                   [](const Body& body) { return body.material.stiffness_damping > 0; }))
     state.viscous_stress = state.stress;
+  if (std::any_of(model.bodies.begin(), model.bodies.end(),
+                  [](const Body& body) { return body.bonding.is_cohesive(); }))
+    state.cohesive.resize(model.mesh.face_tets.size());
   FaceStateBatch whole{};
   whole.slip = -1;
   state.faces.assign(model.mesh.faces.size(), whole);
@@ -114,6 +117,7 @@ std::vector<StateField> fields(State& s) {
       field("viscous_stress", "Pa", FieldPlace::tet, "mesh_forces", s.viscous_stress, true),
       field("faces", "1", FieldPlace::face, "mesh_forces", s.faces, false),
       field("face_slip", "m", FieldPlace::face, "mesh_forces, record_face_breaks", s.face_slip, true),
+      field("cohesive", "record", FieldPlace::face, "begin_cracks, mesh_forces", s.cohesive, true),
       field("contacts", "record", FieldPlace::contact, "contact_forces", s.contacts, false),
       field("rigid", "record", FieldPlace::rigid_body, "move_rigid, set_rigid", s.rigid, true),
       field("rigid_offset", "m", FieldPlace::node, "set_rigid", s.rigid_offset, true),

@@ -4,6 +4,7 @@
 
 #include "libcdem/joint/bond_mode.hpp"
 #include "libcdem/model/model.hpp"
+#include "libcdem/state/cohesive_face.hpp"
 #include "libcdem/state/contact.hpp"
 #include "libcdem/state/face_state.hpp"
 #include "libcdem/state/ledger.hpp"
@@ -44,6 +45,8 @@ struct State {
   // m, of the batches of faces with a broken spring, eight faces each, in the order they broke; written by mesh_forces
   // and, where a spring has just broken, by record_face_breaks
   std::vector<FaceSlip> face_slip;
+  // (n face batches * lanes); written by begin_cracks, mesh_forces; empty without cohesive bodies
+  std::vector<CohesiveFace> cohesive;
 
   std::vector<Contact> contacts; // those that act, by kind, source and piece; written by contact_forces
   std::vector<RigidState> rigid; // (n rigid bodies); written by move_rigid, set_rigid

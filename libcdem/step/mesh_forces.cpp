@@ -1,6 +1,8 @@
 #include "libcdem/step/mesh_forces.hpp"
 
+#include "libcdem/bond/cohesive_faces.hpp"
 #include "libcdem/bond/spring_forces.hpp"
+#include "libcdem/element/face_jumps.hpp"
 #include "libcdem/element/finite_volume.hpp"
 #include "libcdem/parallel/simd.hpp"
 
@@ -10,6 +12,7 @@ namespace {
 // The nodes of a chunk side by side: they stay in a near cache while its tets and faces ask for them again and again.
 struct Near {
   std::vector<Node> position, displacement, velocity, force; // per place
+  std::vector<JumpBatch> jumps;                              // per batch of tets
 };
 
 struct NearArrays {
@@ -127,10 +130,19 @@ const Node* mesh_forces(const Model& model, State& state, Workspace& work, std::
     damping = {body.material.stiffness_damping, state.viscous_stress.data() + chunk.batches.begin};
   FaceSums& sums = work.face_sums[index];
   const StressOfRigid stress_of_rigid(model, state, chunk);
+  const FaceSides sides{model.mesh.sides.data() + chunk.side_batches.begin, chunk.side_batches.size(),
+                        state.cohesive.data()};
+  if (sides.count > 0) {
+    near.jumps.assign(static_cast<std::size_t>(chunk.batches.size()), {});
+    add_jumps(sides, at.position, at.velocity, work.strain_step, near.jumps.data());
+  }
+  StressBatch* const stress = state.stress.data() + chunk.batches.begin;
   sums.damping =
       finite_volume_forces(model.mesh.batches.data() + chunk.batches.begin, chunk.batches.size(), last_lanes,
-                           at.position, at.velocity, work.strain_step, tet_stiffness(body.material), damping,
-                           state.stress.data() + chunk.batches.begin, at.force, ahead);
+                           at.position, at.velocity, sides.count > 0 ? near.jumps.data() : nullptr,
+                           work.strain_step, tet_stiffness(body.material), damping, stress, at.force, ahead);
+  if (sides.count > 0)
+    add_side_forces(sides, at.position, stress, damping.viscous, at.force);
   sums.friction = sums.breaking = 0;
   sums.broken.clear();
   sums.astray = -1;
@@ -141,9 +153,14 @@ const Node* mesh_forces(const Model& model, State& state, Workspace& work, std::
     FaceLaw law = face_law(body);
     law.hands_over = model.surface.joint.count({number, number}) > 0;
     law.hand_over_due = work.hand_over_due;
-    face_bond_forces(model.mesh.faces.data() + chunk.face_batches.begin, chunk.face_batches.size(),
-                     chunk.faces, motion, law, breaking, state.faces.data() + chunk.face_batches.begin,
-                     state.face_slip.data(), at.force, sums, ahead);
+    const FaceBatch* const faces = model.mesh.faces.data() + chunk.face_batches.begin;
+    FaceStateBatch* const face_state = state.faces.data() + chunk.face_batches.begin;
+    if (body.bonding.is_cohesive())
+      cohesive_face_forces(faces, chunk.faces, motion, law, body.joint, breaking, face_state,
+                           state.cohesive.data() + chunk.face_batches.begin * lanes, at.force, sums);
+    else
+      face_bond_forces(faces, chunk.face_batches.size(), chunk.faces, motion, law, breaking, face_state,
+                       state.face_slip.data(), at.force, sums, ahead);
   }
   if (chunk.stars) {
     add_bond_forces(model, work.bond.force(), chunk.nodes, at.force);

@@ -80,14 +80,37 @@ std::int64_t record_face_breaks(const Model& model, State& state, Workspace& wor
       row.normal_traction = broken.normal_traction;
       row.shear_traction = broken.shear_traction;
       row.block_a = row.block_b = model.blocks[chunk.block].id;
-      std::copy(std::begin(broken.slip), std::end(broken.slip),
-                slip_of(state, at.batch, at.lane).value[at.point]);
+      if (!model.bodies[model.blocks[chunk.block].body].bonding.is_cohesive())
+        std::copy(std::begin(broken.slip), std::end(broken.slip),
+                  slip_of(state, at.batch, at.lane).value[at.point]);
       log.breaks.push_back(row);
       ++(broken.mode == BondMode::broken_tension ? log.broken_tension : log.broken_shear);
       ++count;
     }
   }
   return count;
+}
+
+std::int64_t record_begun_cracks(const Model& model, State& state, const BegunCracks& begun, RunLog& log,
+                                 int stage, std::int64_t step) {
+  state.spent.breaking += begun.breaking;
+  for (const BegunCracks::Break& broken : begun.broken) {
+    const MeshChunk& chunk = model.mesh.chunks[broken.chunk];
+    BreakRow row;
+    row.stage = stage;
+    row.step = step;
+    row.time = state.time;
+    row.mode = broken.mode;
+    row.place = face_point(model, chunk, broken.place);
+    row.normal = broken.normal;
+    row.area = model.mesh.faces[broken.place.batch].area[broken.place.lane];
+    row.normal_traction = broken.normal_traction;
+    row.shear_traction = broken.shear_traction;
+    row.block_a = row.block_b = model.blocks[chunk.block].id;
+    log.breaks.push_back(row);
+    ++(broken.mode == BondMode::broken_tension ? log.broken_tension : log.broken_shear);
+  }
+  return static_cast<std::int64_t>(begun.broken.size());
 }
 
 void record_history(const Model& model, const State& state, RunLog& log, int stage, double residual,

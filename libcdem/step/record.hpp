@@ -1,6 +1,7 @@
 // What a step leaves in the log and the ledger.
 #pragma once
 
+#include "libcdem/fracture/begin_cracks.hpp"
 #include "libcdem/results/log.hpp"
 #include "libcdem/step/workspace.hpp"
 
@@ -11,6 +12,10 @@ std::int64_t record_bond_breaks(const Model&, State&, const Workspace&, RunLog&,
                                 std::int64_t step);
 // The same of the bonded faces of meshes; contacts are told of those that are handed over to them.
 std::int64_t record_face_breaks(const Model&, State&, Workspace&, RunLog&, int stage, std::int64_t step);
+
+// The same of faces of cohesive bodies that broke as soon as they cracked.
+std::int64_t record_begun_cracks(const Model&, State&, const BegunCracks&, RunLog&, int stage,
+                                 std::int64_t step);
 
 // kinetic: J. Probes read stresses: they have to be caught up.
 void record_history(const Model&, const State&, RunLog&, int stage, double residual, double kinetic);

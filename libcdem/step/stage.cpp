@@ -54,6 +54,7 @@ double relative_residual(const NodeSums& sums) {
 Stage::Stage(const StageContext& context, std::string kind, double run_away)
     : work(context.model, context.state, context.conditions), context_(context),
       threads_(useful_threads(context.model, context.threads)), contacts_(context),
+      freeing_(context.changing ? FreeingWatch(context.model) : FreeingWatch()),
       has_shared_nodes_(has_shared_nodes(context.model)), kind_(std::move(kind)), run_away_(run_away),
       broken_tension_before_(context.log.broken_tension), broken_shear_before_(context.log.broken_shear),
       start_(std::chrono::steady_clock::now()),
@@ -84,6 +85,8 @@ Stage::~Stage() {
 }
 
 void Stage::keep_restart_point(std::vector<double> loop_state, const std::vector<Node>& previous_force) {
+  if (!context_.restart_point)
+    return;
   RestartPoint& point = **context_.restart_point;
   if (point.step == step)
     return;
@@ -99,6 +102,35 @@ void Stage::keep_restart_point(std::vector<double> loop_state, const std::vector
   contacts_.start_anew(context_.model, work.contact);
   if (context_.checkpoints)
     context_.checkpoints->marked();
+}
+
+bool Stage::free_nodes() {
+  if (freeing_.empty() || step % free_every != 0)
+    return false;
+  const Model& model = context_.model;
+  State& state = context_.state;
+  const auto due = freeing_.due(model, state, context_.threads);
+  if (due) {
+    synchronise();
+    Freed freed = cdem::free_nodes(model, state, *due);
+    *context_.changing = std::move(freed.model);
+    state = std::move(freed.state);
+    if (context_.renumbered)
+      context_.renumbered(freed.old_node);
+    Workspace before = std::move(work);
+    work = Workspace(model, state, context_.conditions);
+    work.damped = before.damped;
+    work.bond = std::move(before.bond);
+    work.contact = std::move(before.contact);
+    contacts_ = ContactUpdate(context_);
+    contacts_.start_anew(model, work.contact);
+    has_shared_nodes_ = has_shared_nodes(model);
+    update_external(work.resolved, state.time);
+    preload_faces(model, state, net_forces(model, state, work), freed.anew);
+    context_.last_good = state;
+  }
+  times_.end(StepLine::cracks);
+  return due.has_value();
 }
 
 double Stage::update_contacts(double safety) {
@@ -162,7 +194,7 @@ void Stage::keep_state() {
   require_sound(context_.model, context_.state, work, run_away_, here());
   require_neighbours(context_.model, context_.state, here());
   // Pieces are told apart anew when a face is handed over, and here: a run that goes on from a checkpoint does so too.
-  if (!context_.state.face_slip.empty())
+  if (!context_.state.face_slip.empty() || !context_.model.mesh.sides.empty())
     work.contact.fragments_due = true;
   synchronise();
   look_for_escapes();
@@ -210,6 +242,9 @@ void Stage::record_step(const StepReport& report) {
   EnergyLedger& spent = context_.state.spent;
   broken_in_step_ = record_bond_breaks(model, context_.state, work, context_.log, context_.number, step - 1);
   broken_in_step_ += record_face_breaks(model, context_.state, work, context_.log, context_.number, step - 1);
+  broken_in_step_ +=
+      record_begun_cracks(model, context_.state, begun_, context_.log, context_.number, step - 1);
+  begun_ = {};
   spent.external += report.sums.external;
   spent.external_peak = std::max(spent.external_peak, std::abs(spent.external));
   spent.damping += report.sums.damping;

@@ -2,8 +2,9 @@
 //
 //   keep_restart_point       where the stage can be left
 //   update_contacts          contacts for where the nodes are; the longest step that they leave
+//   free_nodes               of cohesive bodies, where faces near their strength: the model is another one then
 //   update_loads             loads at this time
-//   advance                  bond_forces; element_forces; shared_node_forces; rigid_bodies
+//   advance                  begin_cracks; bond_forces; element_forces; shared_node_forces; rigid_bodies
 //   end_step                 everything has moved on by the time step
 //   watch                    energies, breaks, soundness, histories, progress, stop
 //
@@ -11,6 +12,8 @@
 // synchronise brings them up, SynchronisedView for those who only look.
 #pragma once
 
+#include "libcdem/fracture/begin_cracks.hpp"
+#include "libcdem/fracture/free_nodes.hpp"
 #include "libcdem/parallel/thread_choice.hpp"
 #include "libcdem/step/contact_update.hpp"
 #include "libcdem/step/escape.hpp"
@@ -30,6 +33,9 @@ inline constexpr std::int64_t watch_every = 200;
 inline constexpr std::int64_t hand_over_every = 20;
 static_assert(watch_every % hand_over_every == 0,
               "a stage that goes on looks anew where it did when it was left");
+// Steps between looks at which faces of cohesive bodies near their strength: a wave crosses a tet in about as many.
+inline constexpr std::int64_t free_every = 10;
+static_assert(watch_every % free_every == 0, "as above");
 
 class Stage {
 public:
@@ -50,6 +56,10 @@ public:
   // carries from step to step.
   bool can_be_left() const { return context_.restart_point && step > 0 && step % watch_every == 0; }
   void keep_restart_point(std::vector<double> loop_state, const std::vector<Node>& previous_force = {});
+
+  // Frees the nodes whose time it is. True when it has: arrays by node are others now, the stable step is shorter, and the
+  // stage can be left here (keep_restart_point).
+  bool free_nodes();
 
   // Returns the longest step that contacts leave, s, `safety` times the stable one; infinite without contacts. Throws
   // SolutionError when something has gone too deep.
@@ -93,6 +103,8 @@ private:
   ThreadChoice threads_;
   ContactUpdate contacts_;
   StepTimes times_;
+  FreeingWatch freeing_;
+  BegunCracks begun_; // in this step
   bool has_shared_nodes_;
   std::string kind_;
   double run_away_;
@@ -108,6 +120,10 @@ NodeSums Stage::advance(bool breaking, const Move& move, const MoveRigid& move_r
   State& state = context_.state;
   work.hand_over_due = step % hand_over_every == 0;
   const int threads = context_.threads;
+  if (breaking && !model.mesh.sides.empty()) {
+    begun_ = begin_cracks(model, state, threads);
+    times_.end(StepLine::cracks);
+  }
   if (!model.point_chunks.empty()) {
     bond_forces(model, state, work, threads, breaking);
     times_.end(StepLine::bonds);

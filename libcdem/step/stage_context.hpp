@@ -26,6 +26,9 @@ struct StageContext {
   std::optional<RestartPoint>* restart_point = nullptr; // written by the stage; null: it can be left nowhere
   const RestartPoint* from = nullptr; // the stage goes on from here; the state is the one of there
   std::function<std::string()> procedure_state{}; // as it is now; empty: a stage of one loop
+  // Nodes have other numbers from now on: per node, which it was before. May be empty.
+  std::function<void(const std::vector<int>&)> renumbered{};
+  Model* changing = nullptr; // the model itself, where nodes of cohesive bodies may be freed; null: none are
 };
 
 // The stage can be left here, where none of its loops has begun a step: the state is kept, the RestartPoint written anew.

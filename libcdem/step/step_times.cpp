@@ -7,8 +7,9 @@
 namespace cdem {
 
 const char* name(StepLine line) {
-  constexpr const char* names[step_lines] = {"contact search", "contacts",     "loads", "bonds", "elements",
-                                             "shared nodes",   "rigid bodies", "watch", "others"};
+  constexpr const char* names[step_lines] = {"contact search", "contacts", "loads",        "cracks",
+                                             "bonds",          "elements", "shared nodes", "rigid bodies",
+                                             "watch",          "others"};
   return names[static_cast<std::size_t>(line)];
 }
 

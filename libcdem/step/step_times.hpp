@@ -14,6 +14,7 @@ enum class StepLine {
   contact_search, // contacts, in the steps that search anew
   contacts,       // in all others
   loads,
+  cracks,       // cohesive bodies: nodes freed, faces turned to their law
   bonds,        // springs between blocks
   elements,     // with bonds inside meshes, and the motion of the nodes of one chunk alone
   shared_nodes, // sums over chunks, and the motion of the nodes of several
@@ -21,7 +22,7 @@ enum class StepLine {
   watch,  // energies, breaks, soundness, histories
   others, // between two steps: callbacks, checkpoints, progress
 };
-constexpr std::size_t step_lines = 9;
+constexpr std::size_t step_lines = 10;
 const char* name(StepLine);
 
 class StepTimes {

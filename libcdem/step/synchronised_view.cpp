@@ -13,6 +13,7 @@ SynchronisedView::SynchronisedView(Stage& stage) : stage_(stage) {
     viscous_stress_ = state.viscous_stress;
     faces_ = state.faces;
     face_slip_ = state.face_slip;
+    cohesive_ = state.cohesive;
     spent_ = state.spent;
   }
   stage.synchronise_stress();
@@ -29,6 +30,7 @@ SynchronisedView::~SynchronisedView() {
   state.viscous_stress = viscous_stress_;
   state.faces = faces_;
   state.face_slip = face_slip_;
+  state.cohesive = cohesive_;
   state.spent = spent_;
 }
 

@@ -21,6 +21,7 @@ private:
   std::vector<StressBatch> stress_, viscous_stress_;
   std::vector<FaceStateBatch> faces_;
   std::vector<FaceSlip> face_slip_;
+  std::vector<CohesiveFace> cohesive_;
   EnergyLedger spent_;
 };
 

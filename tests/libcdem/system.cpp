@@ -129,7 +129,21 @@ cdem::RelaxResult System::relax(double residual, bool breaking) {
 }
 
 cdem::RunResult System::run(const cdem::RunOptions& options) {
-  return cdem::run({model, state, conditions, log, last_good, observer, threads, ++stage}, options);
+  return cdem::run({model,
+                    state,
+                    conditions,
+                    log,
+                    last_good,
+                    observer,
+                    threads,
+                    ++stage,
+                    nullptr,
+                    nullptr,
+                    nullptr,
+                    {},
+                    {},
+                    &model},
+                   options);
 }
 
 void System::hold(const cdem::Selection& on, const std::string& names) {

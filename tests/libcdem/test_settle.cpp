@@ -159,7 +159,10 @@ TEST_CASE("settle: with less friction a cube slides while it settles, and no lon
   plate.element = cdem::Element::rigid;
   const Vec3 start(0.7, 0.75, 0.5 + 0.5 * side);
   cdem::ModelSpec spec;
-  spec.bodies = {plate, meshed("cube", cube_at(start, Mat3::Identity()))};
+  // Without damping what slides with friction comes to rattle, by 0.1 mm, and creeps down for a while once it has stopped.
+  cdem::Elastic damped = rock();
+  damped.stiffness_damping = 1e-5;
+  spec.bodies = {plate, meshed("cube", cube_at(start, Mat3::Identity()), {}, damped)};
   spec.pairs = {{"plate", "cube", friction}};
   cdem::Simulation s(spec, 1, nullptr);
   cdem::Fix hold;

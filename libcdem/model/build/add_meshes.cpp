@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 
 namespace cdem {
@@ -23,27 +24,43 @@ struct SplitMesh {
   std::vector<int> original;   // per copy: node of the mesh
 };
 
-int chunk_size(const SplitMesh& split) {
+// That of a cohesive body does not change as nodes are freed.
+int chunk_size(const SplitMesh& split, const Bonding& bonding) {
   const auto tets = static_cast<int>(split.tets.size());
-  if (split.original.size() > split.tets.size())
+  if (!bonding.is_cohesive() && split.original.size() > split.tets.size())
     return tets_per_chunk;
   return std::clamp(tets / chunks_per_mesh / lanes * lanes, tets_per_chunk, most_tets_per_chunk);
 }
 
+// Which nodes of a mesh stay one whatever their faces, and which faces part the others.
+struct Splitting {
+  const geom::TetMesh& mesh;
+  const Bonding& bonding;
+  const std::vector<char>& freed;
+
+  bool whole(int node) const {
+    return bonding.none() || (bonding.is_cohesive() && (freed.empty() || freed[node] == 0));
+  }
+  bool parts(const geom::InnerFace& face) const {
+    return bonding.bonds(mesh.region[face.tets[0]], mesh.region[face.tets[1]]) &&
+           !(whole(face.nodes[0]) && whole(face.nodes[1]) && whole(face.nodes[2]));
+  }
+};
+
 SplitMesh split_nodes(const geom::TetMesh& mesh, const std::vector<geom::InnerFace>& inner,
-                      const Bonding& bonding) {
+                      const Splitting& splitting) {
   geom::DisjointSets sets(4 * mesh.tets.size()); // of corners, 4 tet + corner
-  if (bonding.none()) {
-    std::vector<int> first(mesh.nodes.size(), -1);
-    for (int i = 0; i < static_cast<int>(4 * mesh.tets.size()); ++i) {
-      int& corner = first[mesh.tets[i / 4][i % 4]];
-      if (corner < 0)
-        corner = i;
-      sets.unite(corner, i);
-    }
+  std::vector<int> first(mesh.nodes.size(), -1);
+  for (int i = 0; i < static_cast<int>(4 * mesh.tets.size()); ++i) {
+    const int node = mesh.tets[i / 4][i % 4];
+    if (!splitting.whole(node))
+      continue;
+    if (first[node] < 0)
+      first[node] = i;
+    sets.unite(first[node], i);
   }
   for (const geom::InnerFace& face : inner) {
-    if (bonding.none() || bonding.bonds(mesh.region[face.tets[0]], mesh.region[face.tets[1]]))
+    if (splitting.parts(face))
       continue;
     for (int i = 0; i < 3; ++i)
       sets.unite(4 * face.tets[0] + face.corners[0][i], 4 * face.tets[1] + face.corners[1][i]);
@@ -103,25 +120,42 @@ struct BondedFace {
   double kn = 0, area = 0; // of one spring
 };
 
+BondedFace bonded_face(const geom::TetMesh& mesh, const geom::InnerFace& face, const Body& body) {
+  const geom::Vec3 &x0 = mesh.nodes[face.nodes[0]], &x1 = mesh.nodes[face.nodes[1]],
+                   &x2 = mesh.nodes[face.nodes[2]];
+  const double area = 0.5 * (x1 - x0).cross(x2 - x0).norm();
+  const double d = 3 * (tet_volume(mesh, face.tets[0]) + tet_volume(mesh, face.tets[1])) / (4 * area);
+  return {face, body.bonding.stiffness_ratio * body.material.youngs_modulus * area / (3 * d), area / 3};
+}
+
 std::vector<BondedFace> bonded_faces(const geom::TetMesh& mesh, const std::vector<geom::InnerFace>& inner,
-                                     const Body& body) {
+                                     const Body& body, const Splitting& splitting) {
   std::vector<BondedFace> bonded;
-  for (const geom::InnerFace& face : inner) {
-    if (!body.bonding.bonds(mesh.region[face.tets[0]], mesh.region[face.tets[1]]))
-      continue;
-    const geom::Vec3 &x0 = mesh.nodes[face.nodes[0]], &x1 = mesh.nodes[face.nodes[1]],
-                     &x2 = mesh.nodes[face.nodes[2]];
-    const double area = 0.5 * (x1 - x0).cross(x2 - x0).norm();
-    const double d = 3 * (tet_volume(mesh, face.tets[0]) + tet_volume(mesh, face.tets[1])) / (4 * area);
-    bonded.push_back(
-        {face, body.bonding.stiffness_ratio * body.material.youngs_modulus * area / (3 * d), area / 3});
-  }
+  for (const geom::InnerFace& face : inner)
+    if (splitting.parts(face))
+      bonded.push_back(bonded_face(mesh, face, body));
   return bonded;
 }
 
+// Throws where a face that may crack would store more at its strength than its fracture energy.
+void require_fracture_energy(const geom::TetMesh& mesh, const std::vector<geom::InnerFace>& inner,
+                             const Body& body) {
+  if (!body.bonding.is_cohesive() || body.joint.softening == Softening::none)
+    return;
+  double least = std::numeric_limits<double>::infinity();
+  for (const geom::InnerFace& face : inner)
+    if (body.bonding.bonds(mesh.region[face.tets[0]], mesh.region[face.tets[1]])) {
+      const BondedFace f = bonded_face(mesh, face, body);
+      least = std::min(least, f.kn / f.area);
+    }
+  if (least < std::numeric_limits<double>::infinity())
+    validate(body.joint, least, least);
+}
+
 // Numbers the copies anew, chunk by chunk: first those that no other chunk touches. Returns for each chunk how many.
-std::vector<std::int64_t> inner_first(SplitMesh& split, const std::vector<BondedFace>& faces,
-                                      int chunk_tets) {
+// both_sides: the tets of side b ask for the nodes of side a too.
+std::vector<std::int64_t> inner_first(SplitMesh& split, const std::vector<BondedFace>& faces, int chunk_tets,
+                                      bool both_sides) {
   const std::size_t nodes = split.original.size();
   std::vector<int> owner(nodes, -1);
   std::vector<char> shared(nodes, 0);
@@ -135,8 +169,9 @@ std::vector<std::int64_t> inner_first(SplitMesh& split, const std::vector<Bonded
     for (const int node : split.tets[t])
       touch(node, t);
   for (const BondedFace& f : faces) // their forces are summed where the tet of side a is
-    for (const int corner : f.face.corners[1])
-      touch(split.tets[f.face.tets[1]][corner], f.face.tets[0]);
+    for (int side = 1; side >= (both_sides ? 0 : 1); --side)
+      for (const int corner : f.face.corners[side])
+        touch(split.tets[f.face.tets[side]][corner], f.face.tets[1 - side]);
 
   std::vector<int> order(nodes), number(nodes), original(nodes);
   std::iota(order.begin(), order.end(), 0);
@@ -248,10 +283,60 @@ void add_boundary(Model& model, const std::vector<geom::OuterFace>& outer, int b
   }
 }
 
+// One side of a freed face: `face` of BondedFaces seen from its tet, which has the number `place` in MeshData::faces.
+struct FaceSide {
+  int tet = 0, face = 0, side = 0;
+  std::int64_t place = 0;
+};
+
+// By tet. The faces stand in MeshData in their order, the last batch of each chunk in part.
+std::vector<FaceSide> face_sides(const std::vector<BondedFace>& faces, int chunk_tets,
+                                 std::int64_t first_batch) {
+  std::vector<FaceSide> sides;
+  std::int64_t place = first_batch * lanes;
+  for (int f = 0; f < static_cast<int>(faces.size()); ++f) {
+    if (f > 0 && faces[f].face.tets[0] / chunk_tets != faces[f - 1].face.tets[0] / chunk_tets)
+      place = (place + lanes - 1) / lanes * lanes;
+    for (int side = 0; side < 2; ++side)
+      sides.push_back({faces[f].face.tets[side], f, side, place});
+    ++place;
+  }
+  std::stable_sort(sides.begin(), sides.end(),
+                   [](const FaceSide& a, const FaceSide& b) { return a.tet < b.tet; });
+  return sides;
+}
+
+void add_sides(MeshData& data, const std::vector<BondedFace>& faces, const FaceSide* begin, std::size_t count,
+               Range chunk_tets, int first_tet, const std::vector<geom::Tet>& tets, Places& places) {
+  for (std::size_t first = 0; first < count; first += lanes) {
+    FaceSideBatch batch{};
+    for (int lane = 0; lane < lanes; ++lane) {
+      const bool used = first + lane < count;
+      const FaceSide& s = begin[used ? first + lane : first];
+      const geom::InnerFace& face = faces[s.face].face;
+      for (int i = 0; i < 3; ++i) {
+        // The face's corners go round as seen from outside the first tet.
+        const int corner = s.side == 0 ? i : 2 - i;
+        batch.place[i][lane] = places.of(tets[first_tet + s.tet][face.corners[s.side][corner]]);
+        batch.beyond[i][lane] =
+            places.of(tets[first_tet + face.tets[1 - s.side]][face.corners[1 - s.side][corner]]);
+      }
+      batch.tet[lane] = static_cast<std::int32_t>(first_tet + s.tet - chunk_tets.begin);
+      batch.face[lane] = used ? static_cast<std::int32_t>(s.place) : -1;
+    }
+    data.sides.push_back(batch);
+  }
+}
+
 void add_chunks(Model& model, const std::vector<BondedFace>& faces, const std::vector<std::int64_t>& inner,
                 int chunk_tets, int block, Places& places) {
   MeshData& data = model.mesh;
   const Block& b = model.blocks[block];
+  const std::vector<FaceSide> sides =
+      model.bodies[b.body].bonding.is_cohesive()
+          ? face_sides(faces, chunk_tets, static_cast<std::int64_t>(data.faces.size()))
+          : std::vector<FaceSide>{};
+  std::size_t side = 0;
   std::size_t face = 0;
   int node = b.node_begin;
   for (int begin = b.tet_begin; begin < b.tet_end; begin += chunk_tets) {
@@ -274,6 +359,14 @@ void add_chunks(Model& model, const std::vector<BondedFace>& faces, const std::v
     chunk.face_batches.begin = static_cast<std::int64_t>(data.faces.size());
     add_faces(data, own, b.tet_begin, model.tets, places);
     chunk.face_batches.end = static_cast<std::int64_t>(data.faces.size());
+
+    const std::size_t first_side = side;
+    while (side < sides.size() && b.tet_begin + sides[side].tet < chunk.tets.end)
+      ++side;
+    chunk.side_batches.begin = static_cast<std::int64_t>(data.sides.size());
+    add_sides(data, faces, sides.data() + first_side, side - first_side, chunk.tets, b.tet_begin, model.tets,
+              places);
+    chunk.side_batches.end = static_cast<std::int64_t>(data.sides.size());
 
     chunk.others.begin = static_cast<std::int64_t>(data.others.size());
     data.others.insert(data.others.end(), places.others().begin(), places.others().end());
@@ -304,6 +397,7 @@ void add_star_chunk(Model& model, Range blocks, Places& places) {
   add_tets(data, chunk.tets, model.tets, places);
   chunk.batches.end = static_cast<std::int64_t>(data.batches.size());
   chunk.face_batches.begin = chunk.face_batches.end = static_cast<std::int64_t>(data.faces.size());
+  chunk.side_batches.begin = chunk.side_batches.end = static_cast<std::int64_t>(data.sides.size());
   chunk.others.begin = chunk.others.end = static_cast<std::int64_t>(data.others.size());
   chunk.partial.begin = chunk.partial.end = data.chunks.empty() ? 0 : data.chunks.back().partial.end;
   data.chunks.push_back(chunk);
@@ -385,15 +479,21 @@ void add_convex_blocks(Model& model, const std::vector<geom::BlockMesh>& meshes)
 }
 
 void add_meshes(Model& model, std::vector<MeshSeed>&& seeds) {
+  const bool keeps_regions = std::any_of(model.bodies.begin(), model.bodies.end(),
+                                         [](const Body& body) { return body.bonding.is_cohesive(); });
   for (MeshSeed& seed : seeds) {
-    const geom::TetMesh mesh = geom::ordered(seed.mesh);
+    const geom::TetMesh mesh = seed.ordered ? std::move(seed.mesh) : geom::ordered(seed.mesh);
     seed.mesh = {};
     const std::vector<geom::InnerFace> inner = geom::inner_faces(mesh);
     const Body& body = model.bodies[seed.body];
-    const std::vector<BondedFace> bonded = bonded_faces(mesh, inner, body);
-    SplitMesh split = split_nodes(mesh, inner, body.bonding);
-    const int chunk_tets = chunk_size(split);
-    const std::vector<std::int64_t> inner_nodes = inner_first(split, bonded, chunk_tets);
+    if (!seed.ordered)
+      require_fracture_energy(mesh, inner, body);
+    const Splitting splitting{mesh, body.bonding, seed.freed};
+    const std::vector<BondedFace> bonded = bonded_faces(mesh, inner, body, splitting);
+    SplitMesh split = split_nodes(mesh, inner, splitting);
+    const int chunk_tets = chunk_size(split, body.bonding);
+    const std::vector<std::int64_t> inner_nodes =
+        inner_first(split, bonded, chunk_tets, body.bonding.is_cohesive());
 
     const int index = static_cast<int>(model.blocks.size());
     Block block;
@@ -408,6 +508,18 @@ void add_meshes(Model& model, std::vector<MeshSeed>&& seeds) {
     block.tet_end = block.tet_begin + static_cast<int>(mesh.tets.size());
     model.blocks.push_back(std::move(block));
     add_nodes(model, mesh, split, index);
+    if (keeps_regions) {
+      model.mesh.region.resize(static_cast<std::size_t>(model.blocks.back().tet_begin - model.mesh.first_tet),
+                               0);
+      model.mesh.region.insert(model.mesh.region.end(), mesh.region.begin(), mesh.region.end());
+      model.mesh.freed.resize(model.node_position.size() - static_cast<std::size_t>(model.mesh.first_node),
+                              0);
+      if (!seed.freed.empty())
+        for (std::size_t i = 0; i < split.original.size(); ++i)
+          model.mesh
+              .freed[static_cast<std::size_t>(model.blocks.back().node_begin - model.mesh.first_node) + i] =
+              seed.freed[split.original[i]];
+    }
     for (const auto& [name, faces] : mesh.named)
       for (const int face : faces)
         model.mesh.named[{seed.body, name}].push_back(static_cast<int>(model.mesh.boundary.size()) + face);

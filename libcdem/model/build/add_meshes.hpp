@@ -12,6 +12,8 @@ struct MeshSeed {
   std::int64_t id = 0; // of the block; 0: a new one
   int body = 0;
   geom::TetMesh mesh;
+  bool ordered = false;         // its tets and nodes stand in their order already
+  std::vector<char> freed = {}; // per node, of a cohesive body; empty: none
 };
 
 // Nodes and tets that are added from now on belong to MeshData.

@@ -42,6 +42,12 @@ void read_mesh(const Arguments& given, const std::string& path, std::vector<geom
   body.bonding.between_regions = bonds == "regions";
   for (const double region : given.numbers("bonded_regions"))
     body.bonding.regions.push_back(static_cast<int>(region) - 1);
+  if (given.text_or("bond_type", "springs") == "cohesive") {
+    if (bonds == "none")
+      throw InputError(path + ".bond_type: goes with a joint, which says what the body bears");
+    body.bonding.kind = BondKind::cohesive;
+    body.bonding.stiffness_ratio = 1;
+  }
   body.bonding.stiffness_ratio =
       given.optional_number("stiffness_ratio").value_or(body.bonding.stiffness_ratio);
   body.bonding.shear_ratio = given.optional_number("shear_ratio").value_or(body.bonding.shear_ratio);
@@ -60,7 +66,7 @@ std::optional<geom::Pile> pile_shape(const Arguments& given) {
 }
 
 void require_blocks(const Arguments& given, const std::string& path) {
-  for (const char* const only : {"bonds", "bonded_regions", "stiffness_ratio", "shear_ratio"})
+  for (const char* const only : {"bonds", "bonded_regions", "bond_type", "stiffness_ratio", "shear_ratio"})
     if (given.has(only))
       throw InputError(path + "." + only + ": only for a meshed body; an assembly's faces are all bonded");
   if (const auto material = given.object<MaterialObject>("material");
@@ -326,6 +332,11 @@ void bind_model(Module& m) {
                "different "
                "regions, or all of the bonded_regions"),
       list("bonded_regions", whole_number, 1).doc("numbers of regions, from 1, with bonds = \"listed\""),
+      choice("bond_type", {"springs", "cohesive"})
+          .doc(
+              "of a mesh with a joint: springs (Feng 2014) on every bonded face, or cohesive: continuous, "
+              "with shared nodes, until a face nears its strength, then the joint's softening or brittle law "
+              "on the plane that fails. springs by default"),
       number("stiffness_ratio")
           .above(0)
           .doc(

@@ -1,0 +1,291 @@
+#include "libcdem/bond/cohesive_faces.hpp"
+
+#include "libgeom/core/portable.hpp"
+
+#include <cmath>
+
+namespace cdem {
+namespace {
+
+using geom::Vec3;
+
+// Part of a preload that dies in a step, and what of a face's strength is too little to keep.
+constexpr double dying = 1.0 / 200, too_little = 1e-6;
+// A crack ends where less than this part of its strength is asked of it and less than that part of it is damaged.
+constexpr double unloaded = 0.97, hardly_damaged = 0.1;
+
+Vec3 vec(const CohesiveFace::Vector& v) {
+  return {v[0], v[1], v[2]};
+}
+CohesiveFace::Vector array(const Vec3& v) {
+  return {v[0], v[1], v[2]};
+}
+
+double penalty(const FaceBatch& batch, int lane) { // k, Pa/m
+  return batch.kn[lane] / batch.area[lane];
+}
+
+bool is_intact(std::uint8_t mode) {
+  return mode == static_cast<std::uint8_t>(BondMode::intact);
+}
+
+void add(Node* force, int place, const Vec3& f) {
+  force[place].x += f.x();
+  force[place].y += f.y();
+  force[place].z += f.z();
+}
+
+// What one point of a cracking face gives, per area.
+struct PointResponse {
+  Vec3 traction = Vec3::Zero(); // Pa, on side a, in the face's axes
+  SofteningResponse law;
+};
+
+PointResponse respond(const SofteningLaw& law, const CohesiveFace& face, int point, const Vec3& gap,
+                      bool grows) {
+  PointResponse r;
+  const Vec3 m = vec(face.plane);
+  r.law = softening_response(law, m, gap + vec(face.offset[point]), face.damage[point], vec(face.slip[point]),
+                             grows && law.softens());
+  r.traction = m[2] * r.law.traction + (1 - r.law.damage) * vec(face.rest[point]);
+  return r;
+}
+
+// One face in a step.
+class OneCohesiveFace {
+public:
+  OneCohesiveFace(const FaceBatch& batch, int lane, const FaceMotion& motion, const Joint& joint,
+                  CohesiveFace& face)
+      : batch_(batch), lane_(lane), motion_(motion), face_(face),
+        law_(cohesive_law(joint, penalty(batch, lane))), at_(places_of(batch, lane)),
+        now_(face_frame(batch, lane, motion, 0)), before_(face_frame(batch, lane, motion, motion.step)) {}
+
+  // spring: the place of the face's first point.
+  void crack(bool breaking, std::int64_t spring, bool to_contact, FaceStateBatch& state, Node* force,
+             FaceSums& sums) {
+    Vec3 pull[3];
+    bool without = true, open = true;
+    for (int point = 0; point < 3; ++point) {
+      pull[point] = advance(point, breaking, spring + point * lanes, state, sums, open);
+      without = without && face_.damage[point] >= 1;
+    }
+    const bool gone = to_contact && without && is_gone(now_, std::sqrt(3 * batch_.area[lane_]));
+    if (without && (open || gone))
+      part(pull, sums);
+    share(pull, force);
+  }
+
+  void hold(Node* force) const {
+    Vec3 pull[3];
+    for (int point = 0; point < 3; ++point)
+      pull[point] = batch_.kn[lane_] * (now_.gap[point] + now_.in_space(vec(face_.offset[point])));
+    share(pull, force);
+  }
+
+private:
+  // N, in space. What the point loses goes by the trapezoidal rule.
+  Vec3 advance(int point, bool breaking, std::int64_t spring, FaceStateBatch& state, FaceSums& sums,
+               bool& open) {
+    const double area = batch_.area[lane_];
+    const Vec3 gap = now_.in_axes(now_.gap[point]), gap0 = before_.in_axes(before_.gap[point]);
+    const Vec3 m = vec(face_.plane), offset = vec(face_.offset[point]);
+    const PointResponse r = respond(law_, face_, point, gap, breaking);
+    const SofteningLoss lost = softening_loss(law_, m, gap0 + offset, face_.damage[point],
+                                              vec(face_.slip[point]), gap + offset, r.law);
+    sums.friction += area * m[2] * lost.friction;
+    sums.breaking += area * (m[2] * lost.breaking + (1 - 0.5 * (face_.damage[point] + r.law.damage)) *
+                                                        vec(face_.rest[point]).dot(gap - gap0));
+    face_.damage[point] = r.law.damage;
+    face_.slip[point] = array(r.law.slip);
+    open = open && r.law.traction.isZero(0);
+    std::uint8_t& mode = state.mode[point][lane_];
+    if (r.law.damage >= 1 && is_intact(mode)) {
+      const BondMode how = r.law.mode == BondMode::intact ? BondMode::broken_tension : r.law.mode;
+      mode = static_cast<std::uint8_t>(how);
+      const Vec3 began = law_.kn * offset; // the gap was next to nothing then
+      sums.broken.push_back(
+          {spring, how, now_.in_space(m), began.dot(m), (began - began.dot(m) * m).norm(), {}});
+    }
+    return now_.in_space(area * r.traction);
+  }
+
+  // What it still carries is let go of, less the half step of work that it would have done.
+  void part(Vec3 (&pull)[3], FaceSums& sums) {
+    for (int point = 0; point < 3; ++point) {
+      const Vec3 m = vec(face_.plane);
+      const Vec3 stretch = now_.in_axes(now_.gap[point]) + vec(face_.offset[point]);
+      const SofteningResponse r =
+          softening_response(law_, m, stretch, face_.damage[point], vec(face_.slip[point]), false);
+      sums.breaking += batch_.area[lane_] * m[2] * softening_stored(law_, m, stretch, 1, r.contact) -
+                       0.5 * pull[point].dot(now_.gap[point] - before_.gap[point]);
+      pull[point] = Vec3::Zero();
+    }
+    face_.stage = static_cast<double>(FaceStage::parted);
+  }
+
+  void share(const Vec3 (&pull)[3], Node* force) const {
+    const Vec3 common = (pull[0] + pull[1] + pull[2]) / 6;
+    for (int corner = 0; corner < 3; ++corner) {
+      const Vec3 f = common + 0.5 * pull[corner];
+      add(force, at_.a[corner], f);
+      add(force, at_.b[corner], -f);
+    }
+  }
+
+  const FaceBatch& batch_;
+  int lane_;
+  const FaceMotion& motion_;
+  CohesiveFace& face_;
+  SofteningLaw law_;
+  FaceNodes at_;
+  FaceFrame now_, before_;
+};
+
+bool is_shifted(const CohesiveFace& face) {
+  return !(vec(face.offset[0]).isZero(0) && vec(face.offset[1]).isZero(0) && vec(face.offset[2]).isZero(0));
+}
+
+// Of a face that has never cracked: it needs no axes.
+void hold_together(const FaceBatch& batch, int lane, const FaceMotion& motion, Node* force) {
+  const FaceNodes at = places_of(batch, lane);
+  Vec3 d[3];
+  for (int k = 0; k < 3; ++k)
+    d[k] = vec(motion.displacement[at.b[k]]) - vec(motion.displacement[at.a[k]]);
+  // The weights of points and corners, 1/6 + 1/2 where they are one, applied twice: 1/4 + 1/4 where they are one.
+  const Vec3 common = 0.25 * (d[0] + d[1] + d[2]);
+  for (int corner = 0; corner < 3; ++corner) {
+    const Vec3 f = batch.kn[lane] * (common + 0.25 * d[corner]);
+    add(force, at.a[corner], f);
+    add(force, at.b[corner], -f);
+  }
+}
+
+void preload(const FaceBatch& batch, int lane, const FaceMotion& motion, const FaceLaw& law,
+             CohesiveFace& face, Node* force, FaceSums& sums) {
+  const double least = too_little * batch.area[lane] * std::max(law.tensile_strength, law.cohesion);
+  for (int corner = 0; corner < 3; ++corner) {
+    const Vec3 q = vec(face.preload[corner]);
+    if (q.isZero(0))
+      continue;
+    const int a = batch.place_a[corner][lane], b = batch.place_b[corner][lane];
+    const Vec3 left = motion.step > 0 ? Vec3((1 - dying) * q) : q;
+    sums.breaking += 0.5 * motion.step * (q + left).dot(vec(motion.velocity[b]) - vec(motion.velocity[a]));
+    face.preload[corner] = left.norm() > least ? array(left) : CohesiveFace::Vector{};
+    add(force, a, left);
+    add(force, b, -left);
+  }
+}
+
+} // namespace
+
+SofteningLaw cohesive_law(const Joint& joint, double k) {
+  return softening_law(joint, k, k);
+}
+
+double damage_of(const CohesiveFace& face) {
+  return std::max({face.damage[0], face.damage[1], face.damage[2]});
+}
+
+void cohesive_face_forces(const FaceBatch* batches, int faces, const FaceMotion& motion, const FaceLaw& law,
+                          const Joint& joint, bool breaking, FaceStateBatch* state, CohesiveFace* cohesive,
+                          Node* force, FaceSums& sums) {
+  const bool to_contact = law.hands_over && law.hand_over_due;
+  for (int i = 0; i < faces; ++i) {
+    CohesiveFace& face = cohesive[i];
+    const FaceBatch& batch = batches[i / lanes];
+    FaceStateBatch& modes = state[i / lanes];
+    const int lane = i % lanes;
+    if (face.at() == FaceStage::cracking)
+      OneCohesiveFace(batch, lane, motion, joint, face)
+          .crack(breaking, std::int64_t{i / lanes} * 3 * lanes + lane, to_contact, modes, force, sums);
+    else if (face.at() == FaceStage::holding && is_shifted(face))
+      OneCohesiveFace(batch, lane, motion, joint, face).hold(force);
+    else if (face.at() == FaceStage::holding)
+      hold_together(batch, lane, motion, force);
+    if (face.at() == FaceStage::parted) {
+      if (to_contact && !handed_over(modes, lane)) {
+        modes.handed_over[lane] = 1;
+        sums.hands_over = true;
+      }
+    } else {
+      preload(batch, lane, motion, law, face, force, sums);
+    }
+  }
+}
+
+FaceSpring cohesive_spring(const FaceBatch& batch, int lane, const FaceFrame& f, int point,
+                           const Joint& joint, const CohesiveFace& face) {
+  FaceSpring spring;
+  spring.gap = f.gap[point];
+  spring.normal = f.normal;
+  const Vec3 stretch = f.in_axes(f.gap[point]) + vec(face.offset[point]), m = vec(face.plane);
+  if (face.at() == FaceStage::holding) {
+    spring.force = batch.kn[lane] * f.in_space(stretch);
+    spring.energy = 0.5 * batch.kn[lane] * stretch.squaredNorm();
+  } else if (face.at() == FaceStage::cracking) {
+    const SofteningLaw law = cohesive_law(joint, penalty(batch, lane));
+    const PointResponse r = respond(law, face, point, f.in_axes(f.gap[point]), false);
+    spring.force = f.in_space(batch.area[lane] * r.traction);
+    spring.energy = batch.area[lane] * m[2] * softening_stored(law, m, stretch, r.law.damage, r.law.contact);
+  }
+  return spring;
+}
+
+namespace {
+
+double stored(const FaceBatch& batch, int lane, const FaceFrame& f, const Joint& joint,
+              const CohesiveFace& face) {
+  double energy = 0;
+  for (int point = 0; point < 3; ++point)
+    energy += cohesive_spring(batch, lane, f, point, joint, face).energy;
+  return energy;
+}
+
+} // namespace
+
+double begin_crack(const FaceBatch& batch, int lane, const FaceFrame& f, const Joint& joint,
+                   const geom::Mat3& stress, const geom::Vec3& m, BondMode mode, FaceStateBatch& state,
+                   CohesiveFace& face) {
+  const double k = penalty(batch, lane), before = stored(batch, lane, f, joint, face);
+  const Vec3 on_plane = f.in_axes(stress * m), on_face = f.in_axes(stress * f.normal);
+  face.stage = static_cast<double>(FaceStage::cracking);
+  face.plane = array(f.in_axes(m));
+  for (int point = 0; point < 3; ++point) {
+    const Vec3 gap = f.in_axes(f.gap[point]), held = gap + vec(face.offset[point]);
+    face.offset[point] = array(on_plane / k - gap);
+    face.rest[point] = array(on_face + k * held - face.plane[2] * on_plane);
+    if (joint.softening == Softening::none) {
+      face.damage[point] = 1;
+      state.mode[point][lane] = static_cast<std::uint8_t>(mode);
+    }
+  }
+  return before - stored(batch, lane, f, joint, face);
+}
+
+std::optional<double> end_crack(const FaceBatch& batch, int lane, const FaceFrame& f, const Joint& joint,
+                                const geom::Mat3& stress, CohesiveFace& face) {
+  if (damage_of(face) > hardly_damaged)
+    return std::nullopt;
+  const SofteningLaw law = cohesive_law(joint, penalty(batch, lane));
+  const Vec3 m = vec(face.plane);
+  for (int point = 0; point < 3; ++point) {
+    const Vec3 t = law.kn * (f.in_axes(f.gap[point]) + vec(face.offset[point]));
+    const double normal = t.dot(m), shear = (t - normal * m).norm(),
+                 left = unloaded * (1 - face.damage[point]);
+    if (normal > left * law.strength.tensile_strength ||
+        cohesive_load(shear, law.strength.tan_friction, normal) > left * law.strength.cohesion)
+      return std::nullopt;
+  }
+  const double before = stored(batch, lane, f, joint, face);
+  const Vec3 on_face = f.in_axes(stress * f.normal);
+  for (int point = 0; point < 3; ++point) {
+    const Vec3 gap = f.in_axes(f.gap[point]);
+    const Vec3 traction = respond(law, face, point, gap, false).traction;
+    face.offset[point] = array((traction - on_face) / law.kn - gap);
+    face.rest[point] = {};
+  }
+  face.stage = static_cast<double>(FaceStage::holding);
+  return before - stored(batch, lane, f, joint, face);
+}
+
+} // namespace cdem

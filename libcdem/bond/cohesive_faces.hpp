@@ -1,0 +1,52 @@
+// Freed faces of cohesive bodies: how their sides hold together, and the cohesive law once they crack.
+//
+// Holding, the traction is that of element/face_jumps.hpp; here stands its penalty k (j + o), j the gap at three points of
+// the face, o = 0 but after a crack that did not go on. When the mean stress s of the two tets reaches the strength on a
+// plane with the normal m (fracture/working_plane.hpp) the face cracks: from then on it works on that plane, whatever its
+// own direction n, and the stress of the tets takes no part,
+//   t = (m.n) law(j + w0) + (1 - D) r0
+// law: joint/softening.hpp with kn = ks = k on the plane m, D its damage; brittle: the contact that is left. w0 = s m / k - j
+// makes the law begin with the traction that stood there, s m; r0 is what the traction of the face was beyond (m.n) s m,
+// so that nothing jumps. A crack takes G times its area as m sees it, whatever the faces it follows: on the faces' own planes
+// a crack that has to zigzag would lock.
+//
+// The law begins as if its spring had been stretched all along: the s m . s m / 2k that it then stores is taken from what
+// breaking spends. A face that unloads before it is damaged to speak of goes back to holding, so that none of that is given
+// back. A face whose points have lost all strength and are open has parted: what meets there is left to contact.
+//
+// Preload: a node that has just been freed leaves each of its copies with the force that keeps its acceleration, on the
+// faces between them. It dies away over some hundred steps.
+#pragma once
+
+#include "libcdem/bond/face_frame.hpp"
+#include "libcdem/joint/softening.hpp"
+#include "libcdem/state/cohesive_face.hpp"
+
+#include <optional>
+
+namespace cdem {
+
+// The law of a cracked face of a body with this joint, whose penalty is k, Pa/m.
+SofteningLaw cohesive_law(const Joint&, double k);
+
+// As face_bond_forces, for the batches of a chunk of a cohesive body. cohesive: its first face first.
+void cohesive_face_forces(const FaceBatch*, int faces, const FaceMotion&, const FaceLaw&, const Joint&,
+                          bool breaking, FaceStateBatch*, CohesiveFace* cohesive, Node* force, FaceSums&);
+
+// As face_spring; the face stands as `f`.
+FaceSpring cohesive_spring(const FaceBatch&, int lane, const FaceFrame& f, int point, const Joint&,
+                           const CohesiveFace&);
+
+// Begins a crack on the plane with the unit normal m; stress: s above, Pa, in space. A brittle face breaks at once, in this
+// mode. Returns the energy that the face no longer stores, J (negative where it stores more).
+double begin_crack(const FaceBatch&, int lane, const FaceFrame& f, const Joint&, const geom::Mat3& stress,
+                   const geom::Vec3& m, BondMode, FaceStateBatch&, CohesiveFace&);
+
+// Goes back to holding where the face has unloaded and is hardly damaged. The same returned.
+std::optional<double> end_crack(const FaceBatch&, int lane, const FaceFrame& f, const Joint&,
+                                const geom::Mat3& stress, CohesiveFace&);
+
+// Largest damage of its points.
+double damage_of(const CohesiveFace&);
+
+} // namespace cdem

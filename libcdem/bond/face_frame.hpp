@@ -1,0 +1,75 @@
+// A face between two sides that have parted or may part: its own axes, the mean of both sides, and the gaps at its three
+// points, which are drawn in from its corners (weights 2/3, 1/6, 1/6).
+#pragma once
+
+#include "libcdem/bond/face_bonds.hpp"
+#include "libcdem/state/places.hpp"
+
+#include <array>
+
+namespace cdem {
+
+inline constexpr double point_weight(int point, int corner) {
+  return point == corner ? 2.0 / 3 : 1.0 / 6;
+}
+
+struct FaceFrame {
+  std::array<geom::Vec3, 3> gap;    // m, from a to b, in space
+  geom::Vec3 normal, along, across; // unit, the first edge in the plane
+  geom::Vec3 in_axes(const geom::Vec3& v) const { return {v.dot(along), v.dot(across), v.dot(normal)}; }
+  geom::Vec3 in_space(const geom::Vec3& v) const { return v[0] * along + v[1] * across + v[2] * normal; }
+};
+
+// place(node), moved(node): m.
+template <class Place, class Moved>
+FaceFrame face_frame(const FaceNodes& at, const Place& place, const Moved& moved) {
+  geom::Vec3 d[3];
+  for (int k = 0; k < 3; ++k)
+    d[k] = moved(at.b[k]) - moved(at.a[k]);
+  const geom::Vec3 x0 = place(at.a[0]);
+  const geom::Vec3 e1 = place(at.a[1]) - x0, e2 = place(at.a[2]) - x0;
+  FaceFrame f;
+  f.normal = (e1.cross(e2) + (e1 + d[1] - d[0]).cross(e2 + d[2] - d[0])).normalized();
+  const geom::Vec3 edge = e1 + 0.5 * (d[1] - d[0]);
+  f.along = (edge - edge.dot(f.normal) * f.normal).normalized();
+  f.across = f.normal.cross(f.along);
+  for (int k = 0; k < 3; ++k)
+    f.gap[k] = (d[0] + d[1] + d[2]) / 6 + 0.5 * d[k];
+  return f;
+}
+
+inline FaceNodes places_of(const FaceBatch& batch, int lane) { // of the chunk
+  FaceNodes places;
+  for (int k = 0; k < 3; ++k) {
+    places.a[k] = batch.place_a[k][lane];
+    places.b[k] = batch.place_b[k][lane];
+  }
+  return places;
+}
+
+// Where the face is now (behind: 0 s) or was that long ago, by what its nodes have done since.
+inline FaceFrame face_frame(const FaceBatch& batch, int lane, const FaceMotion& m, double behind) {
+  return face_frame(
+      places_of(batch, lane),
+      [&](int i) { return geom::Vec3(vec(m.position[i]) - behind * vec(m.velocity[i])); },
+      [&](int i) { return geom::Vec3(vec(m.displacement[i]) - behind * vec(m.velocity[i])); });
+}
+
+inline FaceFrame face_frame(const FaceNodes& nodes, const Node* position, const Node* displacement) {
+  return face_frame(
+      nodes, [&](int i) { return vec(position[i]); }, [&](int i) { return vec(displacement[i]); });
+}
+
+// Its sides have parted, or slid away sideways, by these parts of its size (m) at all its points.
+inline bool is_gone(const FaceFrame& f, double size) {
+  constexpr double parted = 1e-3, slid = 0.2;
+  bool apart = true, away = true;
+  for (const geom::Vec3& gap : f.gap) {
+    const geom::Vec3 g = f.in_axes(gap);
+    apart = apart && g[2] > parted * size;
+    away = away && g.head<2>().norm() > slid * size;
+  }
+  return apart || away;
+}
+
+} // namespace cdem

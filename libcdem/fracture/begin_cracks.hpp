@@ -1,0 +1,24 @@
+// Cracks in cohesive bodies begin and end: freed faces that reach their strength crack on the plane that fails
+// (fracture/working_plane.hpp, bond/cohesive_faces.hpp); those that unload before they are damaged to speak of hold again.
+// Once a step, before its forces; stress is that of the step before, the mean of both tets.
+#pragma once
+
+#include "libcdem/state/state.hpp"
+
+namespace cdem {
+
+struct BegunCracks {
+  struct Break {
+    std::int64_t chunk = 0;
+    FaceSpringPlace place;
+    BondMode mode = BondMode::intact;
+    geom::Vec3 normal = geom::Vec3::Zero();         // of the plane, unit
+    double normal_traction = 0, shear_traction = 0; // Pa, on the plane
+  };
+  std::vector<Break> broken; // of brittle faces, which break at once
+  double breaking = 0;       // J, of what the faces stored
+};
+
+BegunCracks begin_cracks(const Model&, State&, int threads);
+
+} // namespace cdem

@@ -1,0 +1,302 @@
+#include "libcdem/fracture/free_nodes.hpp"
+
+#include "libcdem/bond/fragments.hpp"
+#include "libcdem/contact/response/contact_point.hpp"
+#include "libcdem/element/small_strain.hpp"
+#include "libcdem/fracture/working_plane.hpp"
+#include "libcdem/model/build/freed_meshes.hpp"
+#include "libcdem/state/places.hpp"
+#include "libgeom/mesh/boundary.hpp"
+
+#include <Eigen/QR>
+#include <algorithm>
+#include <map>
+
+namespace cdem {
+namespace {
+
+bool has_cohesive_bodies(const Model& model) {
+  return std::any_of(model.bodies.begin(), model.bodies.end(),
+                     [](const Body& body) { return body.bonding.is_cohesive(); });
+}
+
+// Faces of one chunk that may part and use more of their strength than freed_at.
+struct NearStrength {
+  double most = 0;
+  std::vector<int> nodes;
+};
+
+// Pa2, of eight tets the largest sigma : sigma.
+double largest_norm2(const StressBatch& s) {
+  double norm2[lanes];
+  for (int lane = 0; lane < lanes; ++lane) {
+    const auto square = [&](int c) { return s.component[c][lane] * s.component[c][lane]; };
+    norm2[lane] = square(0) + square(1) + square(2) + 2 * (square(3) + square(4) + square(5));
+  }
+  return *std::max_element(norm2, norm2 + lanes);
+}
+
+class Carrier {
+public:
+  Carrier(const Model& old, const State& from, Freed& to) : old_(old), from_(from), to_(to) {}
+
+  void operator()() {
+    to_.state = initial_state(to_.model);
+    State& s = to_.state;
+    s.time = from_.time;
+    s.step = from_.step;
+    s.velocity_lag = from_.velocity_lag;
+    s.spent = from_.spent;
+    s.bond_offset = from_.bond_offset;
+    s.bond_mode = from_.bond_mode;
+    s.bond_damage = from_.bond_damage;
+    s.bond_slip = from_.bond_slip;
+    s.released = from_.released;
+    s.initial_stress = from_.initial_stress;
+    s.stress = from_.stress; // tets keep their places
+    s.viscous_stress = from_.viscous_stress;
+    s.face_slip = from_.face_slip;
+    s.rigid = from_.rigid;
+    carry_nodes();
+    carry_faces();
+    carry_contacts();
+  }
+
+private:
+  void carry_nodes() {
+    std::vector<int>& before = to_.old_node;
+    before.resize(to_.model.node_position.size());
+    const int first = old_.mesh.first_node;
+    for (int node = 0; node < first; ++node)
+      before[node] = node;
+    for (std::size_t t = static_cast<std::size_t>(old_.mesh.first_tet); t < old_.tets.size(); ++t)
+      for (int k = 0; k < 4; ++k)
+        before[to_.model.tets[t][k]] = old_.tets[t][k];
+    const auto carry = [&](const auto& from, auto& to) {
+      if (from.empty())
+        return;
+      to.resize(before.size());
+      for (std::size_t i = 0; i < before.size(); ++i)
+        to[i] = from[before[i]];
+    };
+    carry(from_.displacement, to_.state.displacement);
+    carry(from_.velocity, to_.state.velocity);
+    carry(from_.rigid_offset, to_.state.rigid_offset);
+    carry(from_.escaped, to_.state.escaped);
+  }
+
+  using Tets = std::pair<int, int>;
+  static Tets tets_at(const MeshData& mesh, std::int64_t face) {
+    return {mesh.face_tets[face].tet_a, mesh.face_tets[face].tet_b};
+  }
+
+  void carry_faces() {
+    std::map<Tets, std::int64_t> old_face;
+    each_face(old_.mesh, [&](const MeshChunk&, std::int64_t batch, int lane) {
+      old_face[tets_at(old_.mesh, batch * lanes + lane)] = batch * lanes + lane;
+    });
+    each_face(to_.model.mesh, [&](const MeshChunk&, std::int64_t batch, int lane) {
+      const std::int64_t now = batch * lanes + lane;
+      const auto found = old_face.find(tets_at(to_.model.mesh, now));
+      if (found == old_face.end())
+        return;
+      const std::int64_t was = found->second;
+      const FaceStateBatch& from = from_.faces[was / lanes];
+      FaceStateBatch& to = to_.state.faces[batch];
+      for (int point = 0; point < 3; ++point)
+        to.mode[point][lane] = from.mode[point][was % lanes];
+      to.handed_over[lane] = from.handed_over[was % lanes];
+      if (lane == was % lanes)
+        to.slip = from.slip; // of faces with springs, which keep their batches
+      to_.state.cohesive[now] = from_.cohesive[was];
+    });
+  }
+
+  // Outer triangles keep their numbers within their block; the sides of freed faces follow them.
+  void carry_contacts() {
+    if (from_.contacts.empty())
+      return;
+    const ContactSurface &was = old_.surface, &now = to_.model.surface;
+    std::map<std::pair<Tets, int>, int> inner; // of which side
+    for (int t = 0; t < static_cast<int>(now.triangles.size()); ++t)
+      if (now.triangles[t].face >= 0)
+        inner[{tets_at(to_.model.mesh, now.triangles[t].face), now.triangles[t].tet}] = t;
+    const auto triangle_now = [&](int t) {
+      const ContactTriangle& triangle = was.triangles[t];
+      if (triangle.face < 0)
+        return t - was.block_begin[triangle.block] + now.block_begin[triangle.block];
+      return inner.at({tets_at(old_.mesh, triangle.face), triangle.tet});
+    };
+    const std::vector<int> pieces = fragments_of_nodes(to_.model, to_.state);
+    for (Contact c : from_.contacts) {
+      const bool edge = c.kind == Contact::edge;
+      const auto [source, target] = triangles_of(c);
+      c.source =
+          static_cast<std::uint32_t>(3 * triangle_now(source) + static_cast<int>(c.source) % 3) & 0x7fffffffu;
+      c.target = edge ? 3 * triangle_now(target) + c.target % 3 : triangle_now(target);
+      if (edge) {
+        c.beside = triangle_now(c.beside);
+        c.fragment = triangle_now(c.fragment);
+      } else {
+        c.fragment = pieces[now.triangles[c.target].nodes[0]];
+      }
+      to_.state.contacts.push_back(c);
+    }
+    std::sort(to_.state.contacts.begin(), to_.state.contacts.end(),
+              [](const Contact& a, const Contact& b) { return key(a) < key(b); });
+  }
+
+  const Model& old_;
+  const State& from_;
+  Freed& to_;
+};
+
+} // namespace
+
+FreeingWatch::FreeingWatch(const Model& model) {
+  if (!has_cohesive_bodies(model))
+    return;
+  std::vector<geom::Tet> tets(model.tets.begin() + model.mesh.first_tet, model.tets.end());
+  std::size_t nodes = 0;
+  for (geom::Tet& tet : tets)
+    for (int& node : tet) {
+      node = model.mesh.original[node - model.mesh.first_node];
+      nodes = std::max(nodes, static_cast<std::size_t>(node) + 1);
+    }
+  neighbours_ = geom::face_neighbours(tets, nodes);
+}
+
+std::optional<std::vector<char>> FreeingWatch::due(const Model& model, const State& state,
+                                                   int threads) const {
+  const MeshData& mesh = model.mesh;
+  std::vector<NearStrength> found(mesh.chunks.size());
+  for_chunks(static_cast<std::int64_t>(mesh.chunks.size()), threads, [&](std::int64_t c) {
+    const MeshChunk& chunk = mesh.chunks[c];
+    const Body& body = model.bodies[model.blocks[chunk.block].body];
+    if (!body.bonding.is_cohesive() || is_rigid(model, chunk))
+      return;
+    const RockStrength rock = rock_strength(body.joint);
+    const double least = freed_at * rock.least_norm();
+    const auto stress_of = [&](std::int64_t tet) {
+      return matrix(mesh_stress(model, state, static_cast<int>(tet)));
+    };
+    for (std::int64_t t = chunk.tets.begin; t < chunk.tets.end; ++t) {
+      const std::int64_t place = t - chunk.tets.begin;
+      if (place % lanes == 0 &&
+          largest_norm2(state.stress[chunk.batches.begin + place / lanes]) < least * least) {
+        t += lanes - 1;
+        continue;
+      }
+      const geom::Mat3 s = stress_of(t);
+      if (s.squaredNorm() < least * least)
+        continue;
+      for (int face = 0; face < 4; ++face) {
+        const int beyond = neighbours_[4 * (t - mesh.first_tet) + face];
+        if (beyond < 0)
+          continue;
+        const std::int64_t other = mesh.first_tet + beyond / 4;
+        if (!body.bonding.bonds(mesh.region[t - mesh.first_tet], mesh.region[other - mesh.first_tet]))
+          continue;
+        bool freed = true;
+        for (const int corner : geom::tet_faces[face])
+          freed = freed && mesh.freed[model.tets[t][corner] - mesh.first_node] != 0;
+        if (freed)
+          continue;
+        const double use = strength_use(0.5 * (s + stress_of(other)), rock);
+        if (!(use >= freed_at))
+          continue;
+        found[c].most = std::max(found[c].most, use);
+        for (const int corner : geom::tet_faces[face])
+          found[c].nodes.push_back(model.tets[t][corner]);
+      }
+    }
+  });
+  double most = 0;
+  for (const NearStrength& of : found)
+    most = std::max(most, of.most);
+  if (most < due_at)
+    return std::nullopt;
+  std::vector<char> nodes(model.node_position.size(), 0);
+  for (const NearStrength& of : found)
+    for (const int node : of.nodes)
+      nodes[node] = 1;
+  return nodes;
+}
+
+Freed free_nodes(const Model& model, const State& state, const std::vector<char>& nodes) {
+  Freed freed;
+  freed.model = with_freed_nodes(model, nodes);
+  Carrier(model, state, freed)();
+  freed.anew.resize(freed.old_node.size(), 0);
+  const auto first = static_cast<std::size_t>(model.mesh.first_node);
+  for (std::size_t i = first; i < freed.anew.size(); ++i)
+    freed.anew[i] =
+        static_cast<char>(freed.model.mesh.freed[i - first] != 0 &&
+                          model.mesh.freed[static_cast<std::size_t>(freed.old_node[i]) - first] == 0);
+  return freed;
+}
+
+void preload_faces(const Model& model, State& state, const std::vector<Node>& net_force,
+                   const std::vector<char>& nodes) {
+  // Copies and the faces between them, by the node they are copies of.
+  struct Between {
+    int a, b;
+    std::int64_t face;
+    int corner;
+  };
+  struct Star {
+    std::vector<int> copies;
+    std::vector<Between> faces;
+  };
+  std::map<int, Star> stars;
+  const MeshData& mesh = model.mesh;
+  for (int node = mesh.first_node; node < static_cast<int>(nodes.size()); ++node)
+    if (nodes[node] != 0)
+      stars[mesh.original[node - mesh.first_node]].copies.push_back(node);
+  each_face(mesh, [&](const MeshChunk& chunk, std::int64_t batch, int lane) {
+    const std::int64_t face = batch * lanes + lane;
+    if (state.cohesive.empty() || state.cohesive[face].at() != FaceStage::holding)
+      return;
+    const FaceNodes at = face_nodes(mesh, chunk, batch, lane);
+    for (int corner = 0; corner < 3; ++corner)
+      if (nodes[at.a[corner]] != 0 && at.a[corner] != at.b[corner])
+        stars[mesh.original[at.a[corner] - mesh.first_node]].faces.push_back(
+            {at.a[corner], at.b[corner], face, corner});
+  });
+  for (const auto& entry : stars) {
+    const Star& star = entry.second;
+    const auto n = static_cast<Eigen::Index>(star.copies.size());
+    if (n < 2)
+      continue;
+    const auto place = [&](int node) {
+      return std::lower_bound(star.copies.begin(), star.copies.end(), node) - star.copies.begin();
+    };
+    geom::Vec3 total = geom::Vec3::Zero();
+    double mass = 0;
+    for (const int node : star.copies) {
+      total += vec(net_force[node]);
+      mass += model.node_mass[node];
+    }
+    Eigen::MatrixXd laplacian = Eigen::MatrixXd::Zero(n, n);
+    for (const Between& f : star.faces) {
+      const auto a = place(f.a), b = place(f.b);
+      laplacian(a, a) += 1;
+      laplacian(b, b) += 1;
+      laplacian(a, b) -= 1;
+      laplacian(b, a) -= 1;
+    }
+    Eigen::MatrixXd missing(n, 3); // N, of each copy to what its share of the mass asks for
+    for (Eigen::Index i = 0; i < n; ++i) {
+      const int node = star.copies[i];
+      missing.row(i) = (total * (model.node_mass[node] / mass) - vec(net_force[node])).transpose();
+    }
+    const Eigen::MatrixXd potential = laplacian.completeOrthogonalDecomposition().solve(missing);
+    for (const Between& f : star.faces) {
+      auto& q = state.cohesive[f.face].preload[f.corner];
+      for (int axis = 0; axis < 3; ++axis)
+        q[axis] += potential(place(f.a), axis) - potential(place(f.b), axis);
+    }
+  }
+}
+
+} // namespace cdem

@@ -1,0 +1,46 @@
+// Frees the nodes of cohesive bodies where a face nears its strength: each gets a copy for every tet around it that a face
+// which may break parts from the others, so that the faces between can open (element/face_jumps.hpp, cohesive_faces.hpp).
+// Nothing moves by it: stress stays, each copy takes place, velocity and its share of the mass, and its acceleration is
+// kept by a preload on the faces between the copies, which dies away. Faces are freed at half their strength, so that a
+// crack finds its way open before it gets there.
+#pragma once
+
+#include "libcdem/state/state.hpp"
+
+#include <optional>
+
+namespace cdem {
+
+// Part of its strength at which a face is freed, and from where on it is high time.
+inline constexpr double freed_at = 0.5, due_at = 0.7;
+
+class FreeingWatch {
+public:
+  FreeingWatch() = default; // frees nothing
+  explicit FreeingWatch(const Model&);
+  bool empty() const { return neighbours_.empty(); } // no body is cohesive
+
+  // Per node of the model, 1 for those of faces between tets whose mean stress uses more than `freed_at` of the strength
+  // and which are not freed yet; none unless one uses more than `due_at`. Stress: that of the state.
+  std::optional<std::vector<char>> due(const Model&, const State&, int threads) const;
+
+private:
+  std::vector<int> neighbours_; // per tet of the mesh and face of it: 4 tet + face on the other side, or -1
+};
+
+struct Freed {
+  Model model;
+  State state;
+  std::vector<int> old_node; // per node, which it was before
+  std::vector<char> anew;    // per node, 1 for the copies of those that were not freed before
+};
+
+// The same model and state with these nodes freed (n_nodes). Of a state whose stress stands where its nodes are.
+Freed free_nodes(const Model&, const State&, const std::vector<char>& nodes);
+
+// Gives the faces between the copies of these nodes the forces with which all copies of a node have one acceleration, that
+// of all of them together, where the net forces (N, n_nodes) alone would pull them apart: differences of a potential that
+// solves the graph Laplacian of the copies.
+void preload_faces(const Model&, State&, const std::vector<Node>& net_force, const std::vector<char>& nodes);
+
+} // namespace cdem

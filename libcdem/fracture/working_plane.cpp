@@ -1,0 +1,89 @@
+#include "libcdem/fracture/working_plane.hpp"
+
+#include "libcdem/joint/mohr_coulomb.hpp"
+#include "libgeom/core/portable.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+
+namespace cdem {
+namespace {
+
+using geom::Vec3;
+
+// Principal stresses nearer than this part of sigma_1 - sigma_3 count as equal.
+constexpr double equal_stress = 0.02;
+const double most_off = std::sqrt(0.5); // cos 45 degrees
+
+struct Uses {
+  double tension = 0, shear = 0;
+};
+
+// Principal stresses, ascending.
+Uses uses(const Vec3& s, const RockStrength& rock) {
+  return {s[2] / rock.tensile_strength,
+          mohr_coulomb_use(-s[0], -s[2], rock.cohesion, rock.cos_friction, rock.sin_friction)};
+}
+
+// What of v lies in the plane of two axes, as a unit vector; the first axis where that is nothing.
+Vec3 nearest_in(const Vec3& first, const Vec3& second, const Vec3& v) {
+  const Vec3 in = v.dot(first) * first + v.dot(second) * second;
+  return in.norm() > 1e-9 ? Vec3(in.normalized()) : first;
+}
+
+} // namespace
+
+double RockStrength::least_norm() const {
+  // (sigma_1 - sigma_3)/2 + (sigma_1 + sigma_3)/2 sin(phi) is at most so many times the norm.
+  return std::min(tensile_strength,
+                  cohesion * cos_friction / std::sqrt(0.5 * (1 + sin_friction * sin_friction)));
+}
+
+RockStrength rock_strength(const Joint& joint) {
+  return {joint.tensile_strength, joint.cohesion, geom::portable::cos(joint.friction_angle),
+          geom::portable::sin(joint.friction_angle)};
+}
+
+double strength_use(const geom::Mat3& stress, const RockStrength& rock) {
+  const Uses u =
+      uses(Eigen::SelfAdjointEigenSolver<geom::Mat3>(stress, Eigen::EigenvaluesOnly).eigenvalues(), rock);
+  return std::max(u.tension, u.shear);
+}
+
+std::optional<WorkingPlane> working_plane(const geom::Mat3& stress, const RockStrength& rock,
+                                          const geom::Vec3& face) {
+  const Eigen::SelfAdjointEigenSolver<geom::Mat3> solver(stress);
+  const Vec3& s = solver.eigenvalues();
+  const Uses u = uses(s, rock);
+  if (!(std::max(u.tension, u.shear) >= 1))
+    return std::nullopt;
+  const Vec3 axis3 = solver.eigenvectors().col(0), axis2 = solver.eigenvectors().col(1),
+             axis1 = solver.eigenvectors().col(2);
+  const double equal = equal_stress * (s[2] - s[0]);
+  const Vec3 free1 = s[2] - s[1] <= equal ? nearest_in(axis1, axis2, face) : axis1;
+  WorkingPlane plane;
+  if (u.tension >= u.shear) {
+    plane.normal = free1;
+    if (s[2] - s[0] <= equal_stress * std::abs(s[2])) // all-round
+      plane.normal = face;
+  } else {
+    plane.mode = BondMode::broken_shear;
+    const Vec3 free3 = s[1] - s[0] <= equal ? nearest_in(axis3, axis2, face) : axis3;
+    // cos and sin of 45 degrees + phi/2.
+    const double cosine = std::sqrt(0.5 * (1 - rock.sin_friction)),
+                 sine = std::sqrt(0.5 * (1 + rock.sin_friction));
+    for (const double side : {1.0, -1.0})
+      if (const Vec3 normal = cosine * free3 + side * sine * free1;
+          std::abs(normal.dot(face)) > std::abs(plane.normal.dot(face)))
+        plane.normal = normal;
+  }
+  const double along = plane.normal.dot(face);
+  if (std::abs(along) < most_off)
+    return std::nullopt;
+  if (along < 0)
+    plane.normal = -plane.normal;
+  return plane;
+}
+
+} // namespace cdem
