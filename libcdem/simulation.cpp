@@ -46,27 +46,27 @@ void Simulation::fix(const Fix& fix) {
     require_finite("displacement", *fix.displacement);
   if (fix.velocity)
     require_finite("velocity", *fix.velocity);
-  impl_->change_conditions([&](Conditions& c) { c.fixes.push_back(fix); });
+  impl_->add_condition([&](Conditions& c) { add_fix(c.fixes, fix); });
 }
 
 void Simulation::release(const Selection& on, std::array<bool, 3> axes) {
-  impl_->change_conditions([&](Conditions& c) {
+  impl_->add_condition([&](Conditions& c) {
     Fix release;
     release.on = on;
     release.axes = axes;
     release.release = true;
-    c.fixes.push_back(release);
+    add_fix(c.fixes, release);
   });
 }
 
 void Simulation::traction(const Traction& traction) {
   require_finite("stress", traction.stress);
-  impl_->change_conditions([&](Conditions& c) { c.tractions.push_back(traction); });
+  impl_->add_condition([&](Conditions& c) { c.tractions.push_back(traction); });
 }
 
 void Simulation::force(const PointForce& force) {
   require_finite("force", force.force);
-  impl_->change_conditions([&](Conditions& c) { c.forces.push_back(force); });
+  impl_->add_condition([&](Conditions& c) { c.forces.push_back(force); });
 }
 
 void Simulation::gravity(const Gravity& gravity) {

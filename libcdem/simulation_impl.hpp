@@ -81,14 +81,19 @@ struct Simulation::Impl {
   std::string saved() const;
   void take(std::string_view saved, bool state_only);
 
-  // Tries a changed set of conditions before it takes them, so that a condition that selects nothing changes nothing.
-  template <class Change>
-  void change_conditions(const Change& change) {
-    Conditions changed = conditions;
-    change(changed);
-    if (!replaying)
-      resolve(model, state, changed);
-    conditions = std::move(changed);
+  // Takes one more condition, tried first, so that one that selects nothing changes nothing. It is tried alone: the
+  // others were tried before, and thousands of calls take a time that grows with their number. Only what holds rigid
+  // bodies must fit together.
+  template <class Add>
+  void add_condition(const Add& add) {
+    if (!replaying) {
+      Conditions tried;
+      if (!model.rigid.empty())
+        tried.fixes = conditions.fixes;
+      add(tried);
+      resolve(model, state, tried);
+    }
+    add(conditions);
   }
 
   double stored_energy() const {

@@ -1,6 +1,7 @@
 // A Simulation as bytes, and back.
 #include "libcdem/checkpoint/model_archive.hpp"
 #include "libcdem/checkpoint/require_fits.hpp"
+#include "libcdem/checkpoint/require_whole.hpp"
 #include "libcdem/simulation_impl.hpp"
 
 #include <fmt/format.h>
@@ -55,8 +56,10 @@ void Simulation::Impl::take(std::string_view saved, bool state_only) {
     throw geom::InputError("the model has been cut or changed since it was built; load a state before that");
   Model model_then;
   State state_then;
-  if (!as_built)
+  if (!as_built) {
     read(a, model_then);
+    require_whole(model_then);
+  }
   read(a, state_then);
   require_fits(as_built ? model : model_then, state_then);
   archive(a, last_residual);
@@ -70,11 +73,16 @@ void Simulation::Impl::take(std::string_view saved, bool state_only) {
   if (state_only)
     return;
   archive(a, stage);
+  if (stage < 0)
+    Reader::refuse();
   read(a, log);
+  require_whole(model, log);
   bool midway = false;
   archive(a, midway);
-  if (midway)
+  if (midway) {
     archive(a, from.emplace());
+    require_whole(model, log, *from);
+  }
 }
 
 std::string Simulation::save() const {

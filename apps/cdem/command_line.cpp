@@ -3,6 +3,7 @@
 #include "apps/cdem/build_info.hpp"
 #include "apps/cdem/commands/commands.hpp"
 #include "apps/cdem/failure.hpp"
+#include "apps/cdem/memory.hpp"
 #include "apps/cdem/option_values.hpp"
 #include "lua/binding/schema/nearest.hpp"
 
@@ -17,9 +18,9 @@ constexpr int most_threads = 1024;
 
 // Everything that can be typed, as typed.
 struct Typed {
-  std::string file, output, threads, jobs, colour, deformation = "0", view = "front", up = "y",
-                                                   size = "1600x1200", range, hidden, colour_map = "auto",
-                                                   title, topic, checkpoint_every = "10", sources;
+  std::string file, output, threads, memory, jobs, colour,
+      deformation = "0", view = "front", up = "y", size = "1600x1200", range, hidden, colour_map = "auto",
+      title, topic, checkpoint_every = "10", sources;
   std::vector<std::string> set;
   bool unsafe = false, quiet = false, machine = false, version = false, manual = false;
   bool no_edges = false, no_broken_bonds = false, no_colour_bar = false, no_legend = false, no_axes = false;
@@ -178,6 +179,12 @@ private:
   void add_threads(CLI::App* command, const std::string& text) {
     command->add_option("--threads", typed_.threads, text)->option_text("N");
   }
+  void add_memory(CLI::App* command) {
+    command
+        ->add_option("--memory", typed_.memory,
+                     "the most it may take, as in 12G or 800M (nine tenths of the machine's)")
+        ->option_text("SIZE");
+  }
   void add_output(CLI::App* command, const std::string& form, const std::string& text) {
     command->add_option("--output,-o", typed_.output, text)->option_text(form);
   }
@@ -187,6 +194,7 @@ private:
     add_script_options(command);
     add_output(command, "DIR", "folder for results and log (results/<case>)");
     add_threads(command, "threads (every core); results are the same bits for any number");
+    add_memory(command);
     add_set(command, "NAME=VALUE", "value of a parameter of the script; may be repeated");
     add_checkpoint_every(command);
     command->add_flag("--quiet,-q", typed_.quiet, "print nothing but warnings and errors");
@@ -219,6 +227,7 @@ private:
     command->add_option("FOLDER", typed_.file, "its output folder")->option_text(" ");
     add_unsafe(command);
     add_threads(command, "threads (every core); results are the same bits for any number");
+    add_memory(command);
     add_checkpoint_every(command);
     command->add_flag("--quiet,-q", typed_.quiet, "print nothing but warnings and errors");
     finish(
@@ -237,6 +246,7 @@ private:
         app_.add_subcommand("check", "build and validate what a script describes, without solving");
     add_script_options(command);
     add_threads(command, "threads (every core)");
+    add_memory(command);
     add_set(command, "NAME=VALUE", "value of a parameter of the script; may be repeated");
     finish(
         command, "  cdem check case.lua --set pressure=24e6\n",
@@ -251,6 +261,7 @@ private:
     add_set(command, "NAME=A,B,...", "values of a parameter of the script; may be repeated");
     command->add_option("--jobs,-j", typed_.jobs, "runs side by side (one a core)")->option_text("N");
     add_threads(command, "threads of each run (the cores shared among the jobs)");
+    add_memory(command);
     add_output(command, "DIR", "folder for the runs and sweep.csv (results/<case>-sweep)");
     command->add_flag("--quiet,-q", typed_.quiet, "print nothing but warnings and errors");
     finish(command, "  cdem sweep case.lua --set pressure=20e6,25e6,30e6 --set cohesion=5e6,8e6 --jobs 2\n",
@@ -304,6 +315,7 @@ private:
   void add_repl() {
     auto* command = app_.add_subcommand("repl", "type Lua with the cdem module at hand");
     add_threads(command, "threads (every core)");
+    add_memory(command);
     command->add_flag("--unsafe", typed_.unsafe, "all of Lua and any file");
     finish(command,
            "  cdem repl\n  echo 'print(cdem.grid{ size = {1, 1, 1}, divisions = {2, 2, 2} })' | cdem repl\n");
@@ -363,6 +375,8 @@ private:
     return typed_.threads.empty() ? 0 : whole_number("--threads", typed_.threads, 1, most_threads);
   }
 
+  std::size_t memory() const { return typed_.memory.empty() ? 0 : memory_value("--memory", typed_.memory); }
+
   Action action() {
     const auto chosen = app_.get_subcommands();
     refuse_extras(chosen.empty() ? nullptr : chosen.front());
@@ -381,7 +395,7 @@ private:
       return resume_action();
     if (command == "check") {
       require_file("FILE.lua", command);
-      return [c = CheckCommand{typed_.file, threads(), settings_of(typed_.set), typed_.unsafe}] {
+      return [c = CheckCommand{typed_.file, threads(), settings_of(typed_.set), typed_.unsafe, memory()}] {
         return check(c);
       };
     }
@@ -392,7 +406,7 @@ private:
     if (command == "info")
       return [file = typed_.file] { return info(file); };
     if (command == "repl")
-      return [c = ReplCommand{threads(), typed_.unsafe}] { return repl(c); };
+      return [c = ReplCommand{threads(), typed_.unsafe, memory()}] { return repl(c); };
     return print_annotations;
   }
 
@@ -413,6 +427,7 @@ private:
     c.sources = typed_.sources;
     c.output = typed_.output;
     c.threads = threads();
+    c.memory = memory();
     c.set = settings_of(typed_.set);
     c.unsafe = typed_.unsafe;
     c.progress = progress_style();
@@ -440,6 +455,7 @@ private:
     ResumeCommand c;
     c.folder = typed_.file;
     c.threads = threads();
+    c.memory = memory();
     c.unsafe = typed_.unsafe;
     c.progress = progress_style();
     c.checkpoint_minutes = checkpoint_minutes();
@@ -457,6 +473,7 @@ private:
     c.settings = combinations_of(typed_.set);
     c.jobs = typed_.jobs.empty() ? 0 : whole_number("--jobs", typed_.jobs, 1, most_threads);
     c.threads = threads();
+    c.memory = memory();
     c.unsafe = typed_.unsafe;
     c.quiet = typed_.quiet;
     c.line = line_;

@@ -1,15 +1,37 @@
-// Ctrl-C and SIGTERM: the first asks the run to stop at the next whole step, a second one ends the program at
-// once.
+// Ctrl-C and SIGTERM. The first asks the run to stop at the next whole step; a second one ends the program at once.
+//
+// Not all that a script calls can look whether it shall stop: patterns of strings, table.move, a builder. So a thread
+// waits beside the run, and where the first signal has not been taken after some time, it closes the log and ends the
+// program. A stage (it comes to a step) and the saving of what was solved are waited for, however long they take.
 #pragma once
 
 #include "apps/cdem/exit_code.hpp"
+#include "libcdem/step/observer.hpp"
+
+#include <functional>
+#include <string>
 
 namespace cdem::app::interrupt {
 
-void install();       // handlers of SIGINT and SIGTERM
-bool requested();     // a signal has come
+void install();       // handlers of SIGINT and SIGTERM, and the thread that waits
+bool requested();     // a signal has come; does not return once the waiting thread ends the program
 void with_parent();   // SIGTERM comes when the program that started this one ends, as by kill -9
 void clear();         // forget it (the next line of the repl)
 ExitCode exit_code(); // interrupted or terminated
+
+Activity doing(Activity); // what the run is about from now on; gives back what it was before
+void finished();          // the run has come to its end by itself: nothing is waited for any more
+
+// What the waiting thread does before it ends the program, innermost first: `line` is what the user will be told.
+class WhenStuck {
+public:
+  explicit WhenStuck(std::function<void(ExitCode, std::string& line)>);
+  ~WhenStuck();
+  WhenStuck(const WhenStuck&) = delete;
+  WhenStuck& operator=(const WhenStuck&) = delete;
+};
+
+// Ends the program after what WhenStuck says, from any thread: for a failure that cannot be thrown.
+[[noreturn]] void end_now(ExitCode, std::string line);
 
 } // namespace cdem::app::interrupt

@@ -9,6 +9,7 @@
 #include <ctime>
 #include <fcntl.h>
 #include <fstream>
+#include <random>
 #include <regex>
 #include <sstream>
 #include <sys/file.h>
@@ -32,6 +33,11 @@ std::string date_now() {
   char text[64];
   std::strftime(text, sizeof text, "%Y-%m-%d %H:%M:%S %z", &local);
   return text;
+}
+
+std::uint64_t new_number() {
+  std::random_device draw;
+  return (std::uint64_t{draw()} << 32 | draw()) | 1; // 0 is no number
 }
 
 // What a run that was stopped or failed leaves of its models (script::Engine::model_saved_after_failure).
@@ -155,12 +161,15 @@ void OutputFolder::open_log(const fs::path& file, const std::string& command) {
   if (log_ == nullptr)
     throw FileError(file.string() + " cannot be written: " + system_reason());
   log_path_ = file;
-  std::fprintf(log_, "%s%s\nstarted %s\n", run_log_head, command.c_str(), date_now().c_str());
+  run_ = new_number();
+  std::fprintf(log_, "%s%s\nstarted %s\n%s%016llx\n", run_log_head, command.c_str(), date_now().c_str(),
+               run_log_run, static_cast<unsigned long long>(run_));
   std::fflush(log_);
 }
 
 void OutputFolder::go_on(const std::string& command) {
   log_path_ = folder_ / run_log_name;
+  run_ = run_of_log(log_path_);
   for (const auto& listed : files_of_run_log(log_path_)) {
     written_.insert(listed.name);
     if (is_last_state(listed.name) && is_unchanged(folder_ / listed.name, listed))
@@ -184,6 +193,7 @@ void OutputFolder::write_script() {
 }
 
 void OutputFolder::log(const std::string& text) {
+  const std::lock_guard<std::recursive_mutex> lock(one_at_a_time_);
   has_said_ = true;
   write_to_log(text);
 }
@@ -199,6 +209,7 @@ void OutputFolder::write_to_log(const std::string& text) {
 }
 
 void OutputFolder::begin_results() {
+  const std::lock_guard<std::recursive_mutex> lock(one_at_a_time_);
   if (begun_)
     return;
   begun_ = true;
@@ -214,6 +225,7 @@ void OutputFolder::begin_results() {
 }
 
 void OutputFolder::will_write(const fs::path& file) {
+  const std::lock_guard<std::recursive_mutex> lock(one_at_a_time_);
   begin_results();
   const std::string name = place_below(file, folder_).string();
   // --unsafe may write elsewhere; a line feed would break the list.
@@ -279,6 +291,7 @@ void OutputFolder::require_log_in_place() const {
 }
 
 void OutputFolder::finish(ExitCode code, const std::string& error) {
+  const std::lock_guard<std::recursive_mutex> lock(one_at_a_time_);
   if (log_ == nullptr)
     return;
   const bool made_something = std::any_of(written_.begin(), written_.end(), [&](const std::string& name) {

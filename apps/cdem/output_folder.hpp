@@ -13,6 +13,7 @@
 #include <cstdio>
 #include <filesystem>
 #include <map>
+#include <mutex>
 #include <set>
 #include <string>
 #include <vector>
@@ -38,6 +39,7 @@ public:
 
   const std::filesystem::path& path() const { return folder_; }
   bool begun() const { return begun_; }
+  std::uint64_t run() const { return run_; } // its number, which no other run has; one that goes on keeps it
 
   void log(const std::string& text); // with the seconds since the start in front of each line
 
@@ -68,7 +70,10 @@ private:
   std::string script_text_;             // as it was at the start: the copy shows what ran
   std::set<std::string> written_;       // relative to the folder
   std::vector<LoggedFile> last_states_; // of the run that this one goes on from
+  // Of what is logged and listed: where the run does not come back, another thread closes the log.
+  mutable std::recursive_mutex one_at_a_time_;
   int lock_ = -1;
+  std::uint64_t run_ = 0;
   std::FILE* log_ = nullptr;
   bool old_results_ = false, begun_ = false, has_said_ = false;
   std::filesystem::path first_made_; // outermost folder that was made for this run; empty: none

@@ -10,6 +10,7 @@
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
+#include <exception>
 #include <fcntl.h>
 #include <poll.h>
 #include <unistd.h>
@@ -37,18 +38,27 @@ void require_stdout_written() {
                           (reason != 0 ? std::strerror(reason) : "is the disk full?"));
 }
 
+// What is thrown in a parallel loop cannot leave it and ends the program here: memory that is short, as a rule.
+[[noreturn]] void end_by_exception() {
+  const Failure failure = std::current_exception() ? current_failure() : Failure();
+  interrupt::end_now(failure.code, failure.line.empty() ? "internal error, please report it" : failure.line);
+}
+
 } // namespace
 
 int run_program(int argc, char** argv) {
   open_standard_files();
   interrupt::install();
+  std::set_terminate(end_by_exception);
   try {
     (void)instruction_set(); // what the environment asks for is told of at once
     const ExitCode code = parse_command_line(argc, argv)();
     require_stdout_written();
+    interrupt::finished();
     return to_int(code);
   } catch (...) {
     const Failure failure = current_failure();
+    interrupt::finished();
     print_failure(failure);
     return to_int(failure.code);
   }

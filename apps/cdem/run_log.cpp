@@ -3,6 +3,7 @@
 #include "lua/binding/runtime/engine.hpp"
 
 #include <cerrno>
+#include <cstdlib>
 #include <cstring>
 #include <fstream>
 #include <set>
@@ -41,6 +42,15 @@ bool is_run_log(const fs::path& log) {
     throw script::FileError(log.string() + " cannot be read: " + std::strerror(errno));
   std::string line;
   return std::getline(in, line) && starts_with(line, head);
+}
+
+std::uint64_t run_of_log(const fs::path& log) {
+  const std::string start = run_log_run;
+  std::ifstream in(log);
+  for (std::string line; std::getline(in, line);)
+    if (starts_with(line, start))
+      return std::strtoull(line.c_str() + start.size(), nullptr, 16);
+  return 0;
 }
 
 std::vector<LoggedFile> files_of_run_log(const fs::path& log) {

@@ -2,6 +2,7 @@
 //
 //     cdem log 1: cdem 0.1.0 (Release, GNU 12.2.0), cdem run examples/uniaxial_compression/case.lua
 //     started 2025-01-31 12:00:00 +0100
+//     run 8f14e45fceea167a                           a number that its checkpoints have too
 //     [     0.012] writes case.lua
 //     file 1234 1769857200000000000 case.lua         size in bytes, stamp of its last change, name
 //     ended with exit code 0, 2025-01-31 12:00:40 +0100
@@ -23,9 +24,13 @@ constexpr const char* run_log_name = "cdem.log";
 constexpr const char* run_log_head = "cdem log 1: ";
 constexpr const char* run_log_resumed = "resumed ";
 constexpr const char* run_log_writes = "writes ";
+constexpr const char* run_log_run = "run "; // a number that no other run has; its checkpoints have it too
 constexpr const char* run_log_end = "ended with exit code ";
 
 bool is_run_log(const std::filesystem::path&);
+
+// The number of its run; 0: it says none.
+std::uint64_t run_of_log(const std::filesystem::path&);
 
 struct LoggedFile {
   std::string name; // relative to the folder

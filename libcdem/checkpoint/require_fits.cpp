@@ -88,6 +88,9 @@ void require_fits(const Model& model, const State& state) {
     require_below("bond_mode", mode, modes);
   for (const std::uint8_t escaped : state.escaped)
     require_below("escaped", escaped, escapes);
+  for (const CohesiveFace& face : state.cohesive)
+    if (!(face.stage >= 0 && face.stage <= static_cast<double>(FaceStage::parted)))
+      refuse("cohesive", std::to_string(face.stage) + " is out of range");
   check_faces(state);
   check_contacts(model, state);
 }

@@ -21,6 +21,9 @@ struct Fix {
   std::optional<geom::Vec3> velocity; // m/s, in real-time stepping; zero when not given
 };
 
+// Adds a fix. Earlier ones that it overrules altogether are dropped: a script may hold a place anew in every stage.
+void add_fix(std::vector<Fix>& fixes, const Fix& fix);
+
 struct Traction {
   Selection on;
   geom::Vec3 stress = geom::Vec3::Zero(); // Pa, force over undeformed area, not following the surface

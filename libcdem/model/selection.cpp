@@ -131,6 +131,12 @@ Selection Selection::side(const std::string& name) {
   return s;
 }
 
+bool selects_same(const Selection& a, const Selection& b) {
+  return a.kind == b.kind && a.kind != Selection::Kind::predicate && a.axis == b.axis && a.upper == b.upper &&
+         a.plane.normal == b.plane.normal && a.plane.offset == b.plane.offset && a.box.min == b.box.min &&
+         a.box.max == b.box.max && a.body == b.body && a.faces == b.faces && a.units == b.units;
+}
+
 Selection Selection::on_plane(const geom::Plane& plane) {
   Selection s;
   s.kind = Kind::plane;

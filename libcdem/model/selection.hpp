@@ -35,6 +35,9 @@ struct Selection {
   static Selection where(std::function<bool(const geom::Vec3&)> predicate, std::string text);
 };
 
+// Both select the same of every model. Two functions are never known to.
+bool selects_same(const Selection&, const Selection&);
+
 struct Model;
 
 // All of the following throw geom::InputError for units or named faces that the model does not have.

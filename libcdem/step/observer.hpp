@@ -30,6 +30,10 @@ struct Progress {
   std::string times; // "elements 71 %, bonds 20 %", of the last: where the time of its steps went
 };
 
+// What the thread that runs a script is about, for who waits for it to stop: a stage comes to a step, what is saved
+// comes to its end, and anything else may take for ever.
+enum class Activity { script, stage, saving };
+
 class Observer {
 public:
   virtual ~Observer() = default;
@@ -44,6 +48,25 @@ public:
                        std::int64_t /*warnings*/) {}
   // Polled every few steps: true ends the stage cleanly by throwing Interrupted.
   virtual bool stop_requested() { return false; }
+  // Gives back what it was about before.
+  virtual Activity doing(Activity) { return Activity::script; }
+};
+
+// Tells an observer, which may be null, for as long as it lives.
+class Doing {
+public:
+  Doing(Observer* observer, Activity now)
+      : observer_(observer), before_(observer ? observer->doing(now) : Activity::script) {}
+  ~Doing() {
+    if (observer_)
+      observer_->doing(before_);
+  }
+  Doing(const Doing&) = delete;
+  Doing& operator=(const Doing&) = delete;
+
+private:
+  Observer* observer_;
+  Activity before_;
 };
 
 } // namespace cdem

@@ -3,6 +3,7 @@
 #include "libcdem/vtk/offscreen.hpp"
 
 #include "libcdem/vtk/picture.hpp"
+#include "libcdem/vtk/picture_room.hpp"
 
 #include "libcdem/vtk/atomic_file.hpp"
 #include "libgeom/core/error.hpp"
@@ -178,6 +179,7 @@ void draw_png(const std::array<int, 2>& size, const std::vector<vtkRenderer*>& l
               const std::string& png_path) {
   constexpr int n = supersampling;
   const int width = size[0], height = size[1];
+  require_room_for_picture(size);
   window().Initialize();
   window().MakeCurrent();
   vtkNew<vtkUnsignedCharArray> fine;

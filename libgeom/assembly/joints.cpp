@@ -5,6 +5,7 @@
 #include "libgeom/core/error.hpp"
 #include "libgeom/core/portable.hpp"
 #include "libgeom/core/random.hpp"
+#include "libgeom/core/stop.hpp"
 #include "libgeom/polyhedron/cut.hpp"
 
 #include <algorithm>
@@ -148,8 +149,10 @@ Assembly cut_by_joints(const Assembly& assembly, const std::vector<JointSet>& se
   const double block_size = std::cbrt(volume / static_cast<double>(assembly.blocks.size()));
   Assembly result = assembly;
   for (std::size_t s = 0; s < sets.size(); ++s)
-    for (const Plane& plane : planes_of(sets[s], s, seed, box))
+    for (const Plane& plane : planes_of(sets[s], s, seed, box)) {
+      throw_if_stopped();
       result = cut_clear(std::move(result), plane, std::min(sets[s].spacing, block_size));
+    }
   return result;
 }
 

@@ -1,6 +1,7 @@
 #include "libgeom/assembly/voronoi_cells.hpp"
 
 #include "libgeom/core/error.hpp"
+#include "libgeom/core/stop.hpp"
 
 #include <voro++/voro++.hh>
 
@@ -39,6 +40,8 @@ std::vector<VoronoiCell> voronoi_cells(const Vec3& box, const std::vector<Vec3>&
     if (place[i][0] < 0 || !container.compute_cell(raw, place[i][0], place[i][1]))
       throw InputError("voronoi: seed " + std::to_string(i) +
                        " coincides with another one or lies outside of the box");
+    if (cells.size() % 1000 == 0)
+      throw_if_stopped();
     VoronoiCell cell;
     raw.vertices(x.x(), x.y(), x.z(), coordinates);
     for (std::size_t k = 0; k + 2 < coordinates.size(); k += 3)

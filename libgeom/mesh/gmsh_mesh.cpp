@@ -71,7 +71,10 @@ TetMesh mesh_solid(const Solid& solid, const MeshSize& sizes) {
   if (!(expected <= max_tets))
     throw InputError("size", text(sizes.size), "such that there are at most 20 million tetrahedra",
                      "this asks for about " + text(std::round(expected * 1e-6)) + " million");
-  TetMesh mesh = in_session("mesh", [&] {
+  ChildLimits limits;
+  limits.blame =
+      "the solid cannot be meshed with this size; try another, and make sure that no faces nearly touch";
+  TetMesh mesh = in_session("mesh", limits, [&] {
     // Delaunay (1), not HXT (10): HXT's mesh differs from run to run, even on one thread.
     for (const auto& [name, value] : {std::pair<const char*, double>{"Mesh.Algorithm", 6},
                                       {"Mesh.Algorithm3D", 1},
@@ -129,7 +132,7 @@ void require_first_line(const std::string& copy, const std::string& path) {
 
 TetMesh read_mesh(const std::string& path) {
   const std::string ending = require_mesh_format(path);
-  TetMesh mesh = in_session("reading " + path, [&] {
+  TetMesh mesh = in_session("reading " + path, limits_of_file(path), [&] {
     return with_copy(path, ending, [&](const std::string& copy) {
       if (ending == ".msh")
         require_first_line(copy, path);

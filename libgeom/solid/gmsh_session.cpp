@@ -4,60 +4,37 @@
 
 #include <gmsh.h>
 
+#include <algorithm>
 #include <cerrno>
-#include <clocale>
 #include <cstdlib>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
-#include <iostream>
-#include <optional>
 #include <sstream>
-
-#include <omp.h>
-#include <unistd.h>
 
 namespace geom {
 namespace {
 
-std::mutex& one_at_a_time() {
-  static std::mutex one;
-  return one;
+// Of the session in this process, which is a child that makes one only.
+std::string& session_folder() {
+  static std::string path;
+  return path;
 }
 
-// Puts an environment variable back as it was.
-class Variable {
-public:
-  explicit Variable(const char* name) : name_(name) {
-    if (const char* value = std::getenv(name))
-      value_ = value;
-  }
-  ~Variable() {
-    if (value_)
-      setenv(name_, value_->c_str(), 1);
-    else
-      unsetenv(name_);
-  }
-  Variable(const Variable&) = delete;
-  Variable& operator=(const Variable&) = delete;
-
-private:
-  const char* name_;
-  std::optional<std::string> value_;
-};
+std::string next_file(const std::string& ending) {
+  static int count = 0;
+  return session_folder() + "/file" + std::to_string(++count) + ending;
+}
 
 } // namespace
 
-GmshSession::GmshSession()
-    : lock_(one_at_a_time()), cout_(std::cout.rdbuf(nullptr)), locale_(std::setlocale(LC_ALL, nullptr)),
-      threads_(omp_get_max_threads()) {
+void start_gmsh(const PrivateFolder& folder) {
+  session_folder() = folder.path();
   // gmsh loads libraries from the one folder and takes the other for its home.
   for (const char* name : {"GMSHPLUGINSHOME", "GMSH_HOME"})
     unsetenv(name);
-  const Variable path("PATH"), python_path("PYTHONPATH"); // gmsh adds a folder to them, each time
-  const Variable home("HOME");                            // FLTK keeps a file of its own there
-  const PrivateFolder no_home;
-  setenv("HOME", no_home.path().c_str(), 1);
+  for (const char* name : {"HOME", "TMPDIR"})
+    setenv(name, folder.path().c_str(), 1);
   gmsh::initialize(0, nullptr, false); // false: no options of the user's home
   for (const auto& [name, value] :
        {std::pair<const char*, double>{"General.Terminal", 0},
@@ -66,17 +43,6 @@ GmshSession::GmshSession()
         {"Geometry.OCCUnionUnify", 1},
         {"Geometry.OCCImportLabels", 0}}) // for labels, the files that a STEP file names would be read too
     gmsh::option::setNumber(name, value);
-}
-
-GmshSession::~GmshSession() {
-  try {
-    gmsh::finalize();
-  } catch (...) { // nothing is left to be done about it
-  }
-  omp_set_num_threads(threads_);
-  std::setlocale(LC_ALL, locale_.c_str());
-  std::cout.rdbuf(cout_);
-  std::cout.clear();
 }
 
 PrivateFolder::PrivateFolder() : path_((std::filesystem::temp_directory_path() / "cdem-XXXXXX").string()) {
@@ -89,7 +55,12 @@ PrivateFolder::~PrivateFolder() {
   std::filesystem::remove_all(path_, ignored);
 }
 
-TemporaryFile::TemporaryFile(const std::string& ending) : path_(folder_.path() + "/file" + ending) {}
+TemporaryFile::TemporaryFile(const std::string& ending) : path_(next_file(ending)) {}
+
+TemporaryFile::~TemporaryFile() {
+  std::error_code ignored;
+  std::filesystem::remove(path_, ignored);
+}
 
 TemporaryFile::TemporaryFile(const std::string& ending, const std::string& to_be_read)
     : TemporaryFile(ending) {
@@ -98,6 +69,73 @@ TemporaryFile::TemporaryFile(const std::string& ending, const std::string& to_be
   if (failed)
     throw std::runtime_error("cannot copy " + to_be_read + " to the temporary " + path_ + ": " +
                              failed.message());
+}
+
+ChildLimits limits_of_file(const std::string& path) {
+  constexpr std::uint64_t least_memory = std::uint64_t{2} << 30, memory_per_byte = 100;
+  constexpr std::uint64_t least_seconds = 60, bytes_per_second = 100'000, most_seconds = 100'000;
+  std::error_code none;
+  const std::uintmax_t size = std::filesystem::file_size(path, none);
+  ChildLimits limits;
+  limits.blame = "the file is damaged, or not what its name says";
+  if (none)
+    return limits; // the reader says why it cannot be read
+  limits.memory = least_memory + memory_per_byte * size;
+  limits.seconds = static_cast<unsigned>(std::min(least_seconds + size / bytes_per_second, most_seconds));
+  return limits;
+}
+
+void pack(std::string& out, const MassProperties& x) {
+  pack(out, x.volume);
+  pack(out, x.centroid);
+  pack(out, x.inertia);
+}
+
+void unpack(Unpacker& in, MassProperties& x) {
+  unpack(in, x.volume);
+  unpack(in, x.centroid);
+  unpack(in, x.inertia);
+}
+
+void pack(std::string& out, const TetMesh& x) {
+  pack(out, x.nodes);
+  pack(out, x.tets);
+  pack(out, x.region);
+}
+
+void unpack(Unpacker& in, TetMesh& x) {
+  unpack(in, x.nodes);
+  unpack(in, x.tets);
+  unpack(in, x.region);
+  if (x.region.size() != x.tets.size())
+    Unpacker::refuse();
+}
+
+void pack(std::string& out, const BlockMesh& x) {
+  pack(out, x.nodes);
+  pack(out, x.tets);
+  pack(out, x.fans);
+  pack(out, x.fan_tets);
+}
+
+void unpack(Unpacker& in, BlockMesh& x) {
+  unpack(in, x.nodes);
+  unpack(in, x.tets);
+  unpack(in, x.fans);
+  unpack(in, x.fan_tets);
+}
+
+void pack(std::string& out, const Solid& x) {
+  pack(out, x.brep());
+  pack(out, x.regions());
+}
+
+void unpack(Unpacker& in, Solid& x) {
+  std::string brep;
+  int regions = 0;
+  unpack(in, brep);
+  unpack(in, regions);
+  x = Solid(std::move(brep), regions);
 }
 
 Pieces load(const Solid& solid) {

@@ -1,48 +1,31 @@
-// What the wrappers of gmsh share: one operation at a time, failures as our own errors, solids in and out.
-// gmsh is one global thing per process that stays "busy" after an error: every operation therefore starts it,
-// works and shuts it down, so that a failure leaves nothing behind. It throws std::string.
+// What the wrappers of gmsh share: each operation in a child process, failures as our own errors, solids in and out.
+// gmsh is one global thing per process that stays "busy" after an error, throws std::string, changes the locale and the
+// number of threads, and both it and OpenCASCADE can crash on damaged files and odd shapes: neither ever runs in this
+// process.
 #pragma once
 
+#include "libgeom/child/bytes.hpp"
+#include "libgeom/child/process.hpp"
 #include "libgeom/core/error.hpp"
+#include "libgeom/mesh/block_mesh.hpp"
+#include "libgeom/mesh/tet_mesh.hpp"
 #include "libgeom/solid/solid.hpp"
 
-#include <mutex>
-#include <streambuf>
+#include <stdexcept>
 
 namespace geom {
 
 using Pieces = std::vector<std::pair<int, int>>; // (dimension, tag) in gmsh's model
 
-// Holds gmsh for one operation; what it or OpenCASCADE says on std::cout is dropped, and what gmsh changes of
-// the process, the number of OpenMP threads and the locale, is put back.
-class GmshSession {
-public:
-  GmshSession();
-  ~GmshSession();
-  GmshSession(const GmshSession&) = delete;
-  GmshSession& operator=(const GmshSession&) = delete;
-
-private:
-  std::lock_guard<std::mutex> lock_;
-  std::streambuf* cout_;
-  std::string locale_;
-  int threads_;
-};
-
-// Runs body in a session; every failure of gmsh arrives as an InputError that says what was being done.
-template <class Body>
-auto in_session(const std::string& what, Body body) {
-  try {
-    const GmshSession session;
-    return body();
-  } catch (const std::string& message) {
-    throw InputError(what + ": the geometry kernel cannot do it: " + message);
-  } catch (const std::exception&) {
-    throw;
-  } catch (...) { // OpenCASCADE's failures are no std::exception
-    throw InputError(what + ": the geometry kernel cannot do it");
-  }
-}
+// Of a session, what its child hands back.
+void pack(std::string& out, const MassProperties&);
+void unpack(Unpacker&, MassProperties&);
+void pack(std::string& out, const TetMesh&); // without names of faces
+void unpack(Unpacker&, TetMesh&);
+void pack(std::string& out, const BlockMesh&);
+void unpack(Unpacker&, BlockMesh&);
+void pack(std::string& out, const Solid&);
+void unpack(Unpacker&, Solid&);
 
 // A folder that only this user can enter, deleted with all it holds. Throws std::runtime_error when the system's
 // temporary folder cannot be written.
@@ -58,16 +41,52 @@ private:
   std::string path_;
 };
 
-// A file with a fixed name in a private folder. gmsh also reads FILE.opt beside each FILE it opens, a script that can
+// Starts gmsh in a child, with `folder` as its home and for TemporaryFile. The parent deletes the folder, so that a
+// crash leaves none.
+void start_gmsh(const PrivateFolder& folder);
+
+// Runs body in a child with gmsh started; every failure of gmsh arrives as an InputError that says what was being done.
+template <class Body>
+auto in_session(const std::string& what, const ChildLimits& limits, Body body) {
+  const PrivateFolder folder;
+  const std::string bytes = run_in_child(what, limits, [&] {
+    try {
+      start_gmsh(folder);
+      std::string out;
+      pack(out, body());
+      return out;
+    } catch (const std::string& message) {
+      throw InputError(what + ": the geometry kernel cannot do it: " + message);
+    } catch (const std::logic_error& error) { // of the standard library: a length or an index that cannot be
+      throw InputError(what + ": " + limits.blame + ": " + error.what());
+    }
+  });
+  decltype(body()) result{};
+  Unpacker in(bytes);
+  unpack(in, result);
+  in.end();
+  return result;
+}
+template <class Body>
+auto in_session(const std::string& what, Body body) {
+  return in_session(what, ChildLimits(), body);
+}
+
+// For a file that somebody else made: memory and time grow with its size.
+ChildLimits limits_of_file(const std::string& path);
+
+// Inside a session: a file in its private folder, deleted at the end. gmsh also reads FILE.opt beside each FILE it opens, a script that can
 // run commands: what it opens must stand where no one else can put such a file.
 class TemporaryFile {
 public:
   explicit TemporaryFile(const std::string& ending);                       // no file yet
   TemporaryFile(const std::string& ending, const std::string& to_be_read); // a copy
+  ~TemporaryFile();
+  TemporaryFile(const TemporaryFile&) = delete;
+  TemporaryFile& operator=(const TemporaryFile&) = delete;
   const std::string& path() const { return path_; }
 
 private:
-  PrivateFolder folder_;
   std::string path_;
 };
 

@@ -14,6 +14,7 @@ namespace geom {
 
 class Solid {
 public:
+  Solid() : Solid("", 0) {} // nothing
   Solid(std::string brep, int regions);
 
   const std::string& brep() const { return *brep_; }

@@ -230,3 +230,20 @@ TEST_CASE("resume: a run goes on from whatever folder one stands in") {
     CHECK(figures() == whole);
   }
 }
+
+TEST_CASE("resume: a checkpoint of another run in the folder is refused") {
+  Place one, other;
+  for (Place* place : {&one, &other})
+    CHECK(place->cdem({"run", "plate/case.lua", "--output", "results/plate"}, SIGINT, "begins").exit_code ==
+          130);
+  for (const std::string name : {"checkpoint_1.cdem", "checkpoint_2.cdem"}) {
+    std::error_code none;
+    fs::remove(one.results / name);
+    fs::copy_file(other.results / name, one.results / name, none);
+  }
+  const Outcome refused = one.cdem({"resume", "results/plate"});
+  CHECK(refused.exit_code == 4);
+  CHECK_THAT(refused.err, Contains("of another run than the log beside it"));
+  CHECK(lines_of(refused.err).size() == 1);
+  CHECK(other.cdem({"resume", "results/plate"}).exit_code == 0);
+}

@@ -5,6 +5,8 @@
 
 #include <catch2/catch.hpp>
 
+#include <chrono>
+
 using namespace testing;
 using geom::Vec3;
 
@@ -140,4 +142,39 @@ TEST_CASE("a support with a given velocity moves with it and a later release win
   const double v = s.max("velocity.z").value;
   s.run(options);
   CHECK(s.max("velocity.z").value == Approx(v).epsilon(1e-9));
+}
+
+TEST_CASE("a fix that overrules earlier ones of the same place leaves none of them") {
+  std::vector<cdem::Fix> fixes;
+  const auto fix = [](const cdem::Selection& on, std::array<bool, 3> axes) {
+    cdem::Fix f;
+    f.on = on;
+    f.axes = axes;
+    return f;
+  };
+  const cdem::Selection left = cdem::Selection::side("x-"), right = cdem::Selection::side("x+");
+  for (int i = 0; i < 1000; ++i)
+    cdem::add_fix(fixes, fix(left, {true, false, false}));
+  CHECK(fixes.size() == 1);
+  cdem::add_fix(fixes, fix(right, {true, true, true}));
+  cdem::add_fix(fixes, fix(left, {false, true, false})); // another axis: both count
+  CHECK(fixes.size() == 3);
+  cdem::add_fix(fixes, fix(left, {true, true, false}));
+  CHECK(fixes.size() == 2);
+  const cdem::Selection function = cdem::Selection::where([](const geom::Vec3&) { return true; }, "f");
+  cdem::add_fix(fixes, fix(function, {true, true, true}));
+  cdem::add_fix(fixes, fix(function, {true, true, true})); // who knows whether it says the same again
+  CHECK(fixes.size() == 4);
+}
+
+TEST_CASE("thousands of fixes of different places take a time that grows with their number") {
+  const auto seconds = [](int calls) {
+    cdem::Simulation s({{body("rock", geom::grid({1, 1, 1}, {4, 4, 4}), rock(), rock_joint())}}, 1, nullptr);
+    const auto begin = std::chrono::steady_clock::now();
+    for (int i = 0; i < calls; ++i)
+      s.fix(fixed(cdem::Selection::in_box({{-1, -1, -1}, {0.5, 0.5, 0.5 + 1e-5 * i}})));
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  };
+  const double few = seconds(500);
+  CHECK(seconds(4000) < 24 * few); // eight times as many; their square would be 64
 }

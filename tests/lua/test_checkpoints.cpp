@@ -3,6 +3,7 @@
 #include "libcdem/state/contact.hpp"
 #include "libcdem/step/errors.hpp"
 #include "libgeom/core/random.hpp"
+#include "lua/binding/replay/journal.hpp"
 #include "tests/lua/script.hpp"
 
 #include <catch2/catch.hpp>
@@ -388,4 +389,19 @@ TEST_CASE("what to type to go on is quoted where a shell would part it", "[lua]"
   CHECK(cdem::script::resume_command("results/plate-a=1,b=2", false) == "cdem resume results/plate-a=1,b=2");
   CHECK(cdem::script::resume_command("my run", true) == "cdem resume 'my run' --unsafe");
   CHECK(cdem::script::resume_command("it's", false) == "cdem resume 'it'\\''s'");
+}
+
+TEST_CASE("resume: the journal of a script that reads without end is bounded", "[checkpoint]") {
+  cdem::script::Journal journal;
+  cdem::script::Event read;
+  read.name = "model:read";
+  read.value = std::string(std::size_t{8} << 20, 'x');
+  std::size_t largest = 0;
+  for (int i = 0; i < 100; ++i) {
+    journal.record(read);
+    largest = std::max(largest, journal.size());
+  }
+  CHECK(journal.full());
+  CHECK(largest <= cdem::script::Journal::most);
+  CHECK(journal.size() == 0); // nothing is kept that nobody can go on from
 }

@@ -1,5 +1,6 @@
 // cdem check: builds and validates what the script describes, without solving and without writing anything.
 #include "apps/cdem/commands/script_run.hpp"
+#include "apps/cdem/memory.hpp"
 
 #include <cstdio>
 
@@ -29,6 +30,7 @@ ExitCode check(const CheckCommand& command) {
   settings.set = command.set;
   settings.unsafe = command.unsafe;
   settings.check_only = true;
+  settings.memory = limit_memory(command.memory);
   const auto observer = std::make_shared<RunObserver>(ProgressStyle::plain, nullptr);
   settings.observer = observer;
   settings.program = program_path().string();

@@ -23,6 +23,7 @@ struct RunCommand {
   Settings set;
   bool unsafe = false;
   ProgressStyle progress = ProgressStyle::automatic;
+  std::size_t memory = 0;         // bytes; 0: most of the machine's
   double checkpoint_minutes = 10; // between checkpoints of a long stage; 0: none
   std::filesystem::path resume;   // checkpoint to go on from; empty: from the start
   std::string line;               // the command line, for the log
@@ -33,6 +34,7 @@ struct ResumeCommand {
   std::filesystem::path folder; // the output folder of the run
   int threads = 0;
   ProgressStyle progress = ProgressStyle::automatic;
+  std::size_t memory = 0;
   double checkpoint_minutes = 10;
   bool unsafe = false; // the user's word, never the file's
   std::string line;
@@ -46,6 +48,7 @@ struct CheckCommand {
   int threads = 0;
   Settings set;
   bool unsafe = false;
+  std::size_t memory = 0;
 };
 ExitCode check(const CheckCommand&);
 
@@ -72,6 +75,7 @@ struct SweepCommand {
   int jobs = 0;                   // side by side; 0: one a core
   int threads = 0;                // of each run; 0: the cores shared among the jobs
   bool unsafe = false, quiet = false;
+  std::size_t memory = 0; // bytes of all runs together; 0: most of the machine's
   std::string line;
 };
 ExitCode sweep(const SweepCommand&);
@@ -79,6 +83,7 @@ ExitCode sweep(const SweepCommand&);
 struct ReplCommand {
   int threads = 0;
   bool unsafe = false;
+  std::size_t memory = 0;
 };
 ExitCode repl(const ReplCommand&);
 

@@ -5,6 +5,7 @@
 #include "apps/cdem/commands/script_run.hpp"
 #include "apps/cdem/failure.hpp"
 #include "apps/cdem/interrupt.hpp"
+#include "apps/cdem/memory.hpp"
 
 #include <cstdio>
 #include <cstdlib>
@@ -198,6 +199,7 @@ ExitCode repl(const ReplCommand& command) {
   settings.unsafe = command.unsafe;
   const auto observer = std::make_shared<RunObserver>(ProgressStyle::automatic, nullptr);
   settings.observer = observer;
+  settings.memory = limit_memory(command.memory);
   settings.program = program_path().string();
   script::Engine engine(settings);
   return isatty(STDIN_FILENO) == 1 ? interactive(engine, *observer) : from_pipe(engine);

@@ -17,7 +17,8 @@ ExitCode resume(const ResumeCommand& command) {
   if (!is_run_log(command.folder / run_log_name))
     throw UsageError(command.folder.string() + " is not the output folder of a run: it has no " +
                      run_log_name);
-  const script::CheckpointInfo checkpoint = script::newest_checkpoint(command.folder);
+  const script::CheckpointInfo checkpoint =
+      script::newest_checkpoint(command.folder, run_of_log(command.folder / run_log_name));
   if (checkpoint.unsafe && !command.unsafe)
     throw UsageError(command.folder.string() +
                      ": the run was started with --unsafe; if its script can be trusted say so again: " +
@@ -28,6 +29,7 @@ ExitCode resume(const ResumeCommand& command) {
     run_on.script = checkpoint.script;
   run_on.output = command.folder;
   run_on.threads = command.threads;
+  run_on.memory = command.memory;
   run_on.set = checkpoint.set;
   run_on.unsafe = command.unsafe;
   run_on.progress = command.progress;

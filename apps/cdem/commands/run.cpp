@@ -4,6 +4,7 @@
 #include "apps/cdem/commands/script_run.hpp"
 #include "apps/cdem/failure.hpp"
 #include "apps/cdem/interrupt.hpp"
+#include "apps/cdem/memory.hpp"
 #include "apps/cdem/records.hpp"
 #include "lua/binding/runtime/sources.hpp"
 
@@ -58,12 +59,21 @@ void run_script(const RunCommand& command, int threads, OutputFolder& folder,
   settings.will_write = [&folder](const fs::path& file) { folder.will_write(file); };
   settings.program = program_path().string();
   settings.resume = command.resume;
+  settings.run = folder.run();
+  settings.memory = limit_memory(command.memory);
   settings.checkpoint_minutes = command.checkpoint_minutes;
 
   script::Engine engine(settings);
+  const interrupt::WhenStuck stuck([&engine](ExitCode code, std::string& line) {
+    if (code != ExitCode::interrupted && code != ExitCode::terminated)
+      return; // a failure of another thread, while the script goes on
+    if (const std::string place = engine.leave_stuck_script(); !place.empty())
+      line += " while busy at " + place;
+  });
   try {
     engine.run_file();
   } catch (...) {
+    const Doing saves(observer.get(), Activity::saving);
     save_last_states(engine, *observer);
     record_if_possible(command, threads, engine, folder);
     throw;
@@ -89,6 +99,8 @@ ExitCode run(const RunCommand& command) {
                       command.resume.empty() ? OutputFolder::Start::anew : OutputFolder::Start::goes_on,
                       source);
   const auto observer = std::make_shared<RunObserver>(command.progress, &folder);
+  const interrupt::WhenStuck stuck(
+      [&folder](ExitCode code, std::string& line) { folder.finish(code, line); });
   try {
     run_script(command, threads, folder, observer);
   } catch (...) {

@@ -4,6 +4,7 @@
 #include "apps/cdem/commands/script_run.hpp"
 #include "apps/cdem/failure.hpp"
 #include "apps/cdem/interrupt.hpp"
+#include "apps/cdem/memory.hpp"
 #include "apps/cdem/progress/sweep_view.hpp"
 #include "apps/cdem/records.hpp"
 #include "apps/cdem/run_log.hpp"
@@ -49,10 +50,19 @@ std::string shown(const Settings& set) {
 }
 
 std::vector<std::string> run_arguments(const SweepCommand& command, const SweptRun& run, int threads,
-                                       const fs::path& sources) {
-  std::vector<std::string> words = {
-      program_path().string(), "run",      command.script.string(), "--machine-progress", "--threads",
-      std::to_string(threads), "--output", run.folder.string(),     "--sources",          sources.string()};
+                                       std::size_t memory, const fs::path& sources) {
+  std::vector<std::string> words = {program_path().string(),
+                                    "run",
+                                    command.script.string(),
+                                    "--machine-progress",
+                                    "--threads",
+                                    std::to_string(threads),
+                                    "--output",
+                                    run.folder.string(),
+                                    "--sources",
+                                    sources.string(),
+                                    "--memory",
+                                    std::to_string(memory)};
   if (command.unsafe)
     words.push_back("--unsafe");
   for (const auto& [name, value] : run.set) {
@@ -152,7 +162,7 @@ ExitCode judge(const std::vector<SweptRun>& runs) {
 
 bool has_checkpoint(const SweptRun& run) {
   try {
-    script::newest_checkpoint(run.folder);
+    script::newest_checkpoint(run.folder, run_of_log(run.folder / run_log_name));
     return true;
   } catch (const script::FileError&) {
     return false;
@@ -194,6 +204,8 @@ ExitCode sweep(const SweepCommand& command) {
   const int jobs =
       std::min(command.jobs > 0 ? command.jobs : cores, static_cast<int>(command.settings.size()));
   const int threads = command.threads > 0 ? command.threads : std::max(1, cores / jobs);
+  const std::size_t memory =
+      std::max(least_memory, limit_memory(command.memory) / static_cast<std::size_t>(jobs));
   const fs::path root = command.output.empty()
                             ? fs::path("results") / (case_name(command.script, {}) + "-sweep")
                             : command.output;
@@ -209,7 +221,7 @@ ExitCode sweep(const SweepCommand& command) {
   });
   std::vector<script::Job> processes(runs.size());
   for (std::size_t i = 0; i < runs.size(); ++i) {
-    processes[i].command = run_arguments(command, runs[i], threads, root / script::sources_folder);
+    processes[i].command = run_arguments(command, runs[i], threads, memory, root / script::sources_folder);
     processes[i].console = runs[i].console;
     std::error_code none;
     fs::remove(runs[i].console, none); // of a sweep that was killed; once it is there the run has started
@@ -243,7 +255,9 @@ ExitCode sweep(const SweepCommand& command) {
     }
     return interrupt::requested();
   };
+  interrupt::doing(Activity::stage); // the runs save what they have when they are stopped
   script::run_jobs(processes, jobs, stop, ended);
+  interrupt::doing(Activity::saving);
   view.clear();
   for (auto& run : runs) {
     std::error_code none;

@@ -129,6 +129,10 @@ bool RunObserver::stop_requested() {
   return interrupt::requested();
 }
 
+Activity RunObserver::doing(Activity now) {
+  return interrupt::doing(now);
+}
+
 void RunObserver::clear_line() {
   if (!line_shown_)
     return;

@@ -31,6 +31,7 @@ public:
   void warning(const std::string&) override; // on stderr, of a quiet run too
   void goes_on(std::int64_t broken_tension, std::int64_t broken_shear, std::int64_t warnings) override;
   bool stop_requested() override;
+  Activity doing(Activity) override;
 
   // Takes the live line off the screen; before anything else prints.
   void clear_line();

@@ -75,7 +75,7 @@ Value chart_of_lists(Session& session, Object*, const Arguments& a) {
     all.push_back(std::move(series));
   }
   if (!session.settings.check_only)
-    chart(all, options, session.files.to_write(a.text("file")).string());
+    draw(session, a.text("file"), [&](const std::string& path) { chart(all, options, path); });
   return {};
 }
 
@@ -114,7 +114,7 @@ Value chart_of_histories(Session& session, ModelObject& model, const Arguments& 
   add("y", false);
   add("right", true);
   if (!session.settings.check_only)
-    chart(all, options, session.files.to_write(a.text("file")).string());
+    draw(session, a.text("file"), [&](const std::string& path) { chart(all, options, path); });
   return {};
 }
 

@@ -65,7 +65,7 @@ Value picture(Session& session, ModelObject& model, const Arguments& a) {
   const Snapshot shown = without_bodies(model.simulation.snapshot(model.title(session)), hidden);
   if (shown.tets.empty())
     throw geom::InputError("hidden: holds every body; leave one to draw");
-  render(shown, options, session.files.to_write(a.text("file")).string());
+  draw(session, a.text("file"), [&](const std::string& path) { render(shown, options, path); });
   return {};
 }
 

@@ -1,6 +1,8 @@
 #include "lua/binding/functions/picture_fields.hpp"
 
+#include "libcdem/vtk/picture_room.hpp"
 #include "libgeom/core/error.hpp"
+#include "lua/binding/runtime/session.hpp"
 
 #include <cmath>
 
@@ -123,6 +125,16 @@ PictureOptions view_options(const Arguments& a) {
     options.polylines.push_back(line);
   }
   return options;
+}
+
+void draw(Session& session, const std::string& file,
+          const std::function<void(const std::string& path)>& body) {
+  const std::string path = session.files.to_write(file).string();
+  try {
+    body(path);
+  } catch (const NoRoomForPicture& error) {
+    session.warn(file + " is not drawn: " + error.what());
+  }
 }
 
 void require_ending(const std::string& file, const std::string& ending) {

@@ -5,7 +5,11 @@
 
 #include "libcdem/vtk/picture.hpp"
 
+#include <functional>
+
 namespace cdem::script {
+
+struct Session;
 
 Field size_field();   // "size": {width, height} in pixels
 Field colour_field(); // "colour": {red, green, blue}
@@ -18,6 +22,10 @@ std::optional<std::array<double, 2>> limits_of(const Arguments&,
 // What every picture takes: file, colour, where to look from, and what is written around the body.
 std::vector<Field> view_fields(const std::string& colour_doc);
 PictureOptions view_options(const Arguments&);
+
+// Draws a file of the output folder with the body. Where the memory for it is short the script goes on with a warning:
+// a report must not be lost for a picture.
+void draw(Session&, const std::string& file, const std::function<void(const std::string& path)>& body);
 
 // Throws geom::InputError when a file name has another ending.
 void require_ending(const std::string& file, const std::string& ending);

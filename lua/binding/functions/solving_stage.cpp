@@ -54,6 +54,7 @@ Value stage(Session& session, ModelObject& model, const char* kind, const Argume
   Value result = empty;
   try {
     Solving solving(model);
+    const Doing solves(session.settings.observer.get(), Activity::stage);
     if (session.settings.check_only)
       try_callbacks(callbacks, tried);
     else

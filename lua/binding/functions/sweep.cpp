@@ -148,6 +148,20 @@ bool has_ended(const Session& session, const fs::path& folder) {
   return session.checkpoints.is_of_stopped_run(log) && last_line(log).rfind("ended with exit code 0", 0) == 0;
 }
 
+int jobs_at_a_time(const Arguments& a) {
+  if (a.has("jobs"))
+    return static_cast<int>(a.integer("jobs"));
+  const auto processors = static_cast<std::int64_t>(std::thread::hardware_concurrency());
+  return static_cast<int>(std::max<std::int64_t>(1, processors / a.integer("threads")));
+}
+
+// The runs that go side by side share what this one may take.
+std::size_t memory_of_each(const Session& session, const Arguments& a, const std::vector<Case>& cases) {
+  constexpr std::size_t least = std::size_t{64} << 20; // that --memory takes
+  const std::size_t together = std::min(static_cast<std::size_t>(jobs_at_a_time(a)), cases.size());
+  return std::max(least, session.settings.memory / std::max<std::size_t>(1, together));
+}
+
 std::vector<Job> make_jobs(const Session& session, const Arguments& a, const std::vector<Case>& cases,
                            const fs::path& script) {
   std::vector<Job> jobs;
@@ -168,6 +182,8 @@ std::vector<Job> make_jobs(const Session& session, const Arguments& a, const std
                           std::to_string(a.integer("threads")), "--sources",
                           (session.files.output() / sources_folder).string()});
     }
+    if (session.settings.memory > 0)
+      job.command.insert(job.command.end(), {"--memory", std::to_string(memory_of_each(session, a, cases))});
     if (session.settings.unsafe)
       job.command.emplace_back("--unsafe");
     jobs.push_back(std::move(job));
@@ -212,13 +228,6 @@ void begin_depth() {
         "sweep: " + std::to_string(most_depth) +
         " sweeps stand within each other already, and no more may; do two scripts sweep each other?");
   setenv(depth_name, std::to_string(sweep_depth() + 1).c_str(), 1);
-}
-
-int jobs_at_a_time(const Arguments& a) {
-  if (a.has("jobs"))
-    return static_cast<int>(a.integer("jobs"));
-  const auto processors = static_cast<std::int64_t>(std::thread::hardware_concurrency());
-  return static_cast<int>(std::max<std::int64_t>(1, processors / a.integer("threads")));
 }
 
 Value sweep(Session& session, Object*, const Arguments& a) {
@@ -275,6 +284,7 @@ Value sweep(Session& session, Object*, const Arguments& a) {
       warn_of_failure(session, cases, index, job, script);
   };
   const auto stop = [&] { return observer && observer->stop_requested(); };
+  const Doing solves(observer.get(), Activity::stage); // the runs save what they have when they are stopped
   if (!run_jobs(rest, jobs_at_a_time(a), stop, tell)) {
     session.message("runs that have ended stand; to go on: " + session.checkpoints.command());
     throw Interrupted();

@@ -15,6 +15,7 @@ namespace fs = std::filesystem;
 namespace {
 
 struct Head {
+  std::uint64_t run = 0;
   std::uint64_t serial = 0;
   std::string script, version;
   std::uint64_t script_hash = 0; // 0: of a script that failed and may be mended
@@ -24,8 +25,8 @@ struct Head {
 
 template <class A>
 void archive(A& a, Head& head) {
-  auto& [serial, script, version, script_hash, set, unsafe] = head;
-  archive_all(a, serial, script, version, script_hash, set, unsafe);
+  auto& [run, serial, script, version, script_hash, set, unsafe] = head;
+  archive_all(a, run, serial, script, version, script_hash, set, unsafe);
 }
 
 Head read_head(const std::string& content) {
@@ -47,7 +48,7 @@ void archive(A& a, Checkpoints::SavedModel& model) {
   archive_all(a, number, saved, series);
 }
 
-CheckpointInfo newest_checkpoint(const fs::path& folder) {
+CheckpointInfo newest_checkpoint(const fs::path& folder, std::uint64_t run) {
   CheckpointInfo newest;
   std::string wrong;
   for (const std::uint64_t turn : {1, 2}) {
@@ -57,7 +58,9 @@ CheckpointInfo newest_checkpoint(const fs::path& folder) {
       continue;
     try {
       const Head head = read_head(read_saved(file, SavedKind::checkpoint));
-      if (newest.file.empty() || head.serial > newest.serial)
+      if (run != 0 && head.run != run)
+        wrong = file.string() + ": of another run than the log beside it; nothing can go on from it here";
+      else if (newest.file.empty() || head.serial > newest.serial)
         newest = {file, head.script, head.set, head.unsafe, head.serial};
     } catch (const FileError& bad) {
       wrong = bad.what();
@@ -151,6 +154,7 @@ bool Checkpoints::wanted() {
 
 std::string Checkpoints::content(std::size_t journal_size, std::uint64_t script_hash) const {
   Head head;
+  head.run = session_.settings.run;
   head.serial = serial_ + 1;
   head.script = fs::absolute(session_.settings.script).lexically_normal().string();
   head.version = CDEM_VERSION;
@@ -204,6 +208,7 @@ void Checkpoints::write(bool stopping) {
   if (!may_write() || flags_.in_call || stages_ == 0)
     return;
   stopped_ = stopping;
+  const Doing saves(session_.settings.observer.get(), Activity::saving);
   if (!put(content(flags_.in_stage ? mark_ : journal_.size(), script_hash_)))
     return;
   if (stopping || !told_)
@@ -232,6 +237,7 @@ void Checkpoints::keep_unfinished() {
 void Checkpoints::fail() {
   if (!may_write() || !refused_.empty())
     return;
+  const Doing saves(session_.settings.observer.get(), Activity::saving);
   try {
     if (unfinished_.empty()) {
       if (failed_stage_ || (solved_ == 0 && !swept_ && !resumed_))

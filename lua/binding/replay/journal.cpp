@@ -40,7 +40,11 @@ void write(Writer& a, const Value& value) {
   }
 }
 
-Value read(Reader& a) {
+constexpr int most_nested = 200; // tables within tables, as many as Lua's own parser allows
+
+Value read(Reader& a, int nested = 0) {
+  if (nested > most_nested)
+    Reader::refuse();
   Tag tag = Tag::nil;
   archive(a, tag);
   std::int64_t integer = 0;
@@ -70,10 +74,10 @@ Value read(Reader& a) {
   }
   Table table;
   for (std::size_t n = archive_size(a, 0); n > 0; --n)
-    table.items.push_back(read(a));
+    table.items.push_back(read(a, nested + 1));
   for (std::size_t n = archive_size(a, 0); n > 0; --n) {
     archive(a, text);
-    table.named[text] = read(a);
+    table.named[text] = read(a, nested + 1);
   }
   return table;
 }

@@ -56,7 +56,8 @@ const std::string require_name = "require ";
 void throw_if_failed(const Event& event) {
   if (event.outcome == Outcome::value || event.outcome == Outcome::object)
     return;
-  const std::string& text = *event.value.get<std::string>();
+  const auto* const said = event.value.get<std::string>();
+  const std::string text = said ? *said : "failed as when its checkpoint was written";
   if (event.outcome == Outcome::solution_error)
     throw SolutionError(text);
   if (event.outcome == Outcome::script_error)
@@ -231,7 +232,7 @@ Value Checkpoints::stage(const std::string& kind, std::uint64_t hash, const Call
     in_replayed_callback_ = true;
     const Event called = take();
     const auto callback = callbacks.find(called.name);
-    if (callback == callbacks.end())
+    if (callback == callbacks.end() || !callback->second || !called.value.table())
       went_another_way("model:" + kind, called);
     try {
       const With listening(*this, {false, false, true});

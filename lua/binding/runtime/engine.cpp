@@ -9,7 +9,9 @@
 
 #include <algorithm>
 #include <cctype>
+#include <chrono>
 #include <lua.hpp>
+#include <thread>
 
 namespace cdem::script {
 
@@ -207,6 +209,18 @@ std::string Engine::model_summary() const {
         out += "  stage " + std::to_string(stage.number) + ": " + stage.kind + "\n";
   }
   return out;
+}
+
+std::string Engine::leave_stuck_script() {
+  LuaState& lua = impl_->lua;
+  impl_->session.checkpoints.stop();
+  const Bound* const running = lua.running;
+  const unsigned looks = lua.looks;
+  std::this_thread::sleep_for(std::chrono::milliseconds(50));
+  if (lua.looks != looks) // it runs on: what it stands in cannot be read
+    return running ? running->shown : "";
+  const std::string place = lua.where(lua.main);
+  return place + (running ? (place.empty() ? "" : ", ") + running->shown : "");
 }
 
 bool Engine::model_saved_after_failure() {

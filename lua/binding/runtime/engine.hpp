@@ -39,7 +39,9 @@ struct EngineSettings {
   std::string program;          // path of the cdem program, for sweeps
   std::filesystem::path resume; // checkpoint to go on from; empty: from the start
   double checkpoint_minutes =
-      0; // between checkpoints in solving calls; 0: only asked ones and those of a stop
+      0;                  // between checkpoints in solving calls; 0: only asked ones and those of a stop
+  std::uint64_t run = 0;  // number of the run, which its checkpoints keep
+  std::size_t memory = 0; // bytes that this process may take; 0: no limit
 };
 
 // What a run needs to know of a checkpoint before it goes on from it.
@@ -50,8 +52,9 @@ struct CheckpointInfo {
   bool unsafe = false;
   std::uint64_t serial = 0; // counts the checkpoints of a run
 };
-// The later of the two of an output folder that are whole. Throws FileError when there is none.
-CheckpointInfo newest_checkpoint(const std::filesystem::path& folder);
+// The later of the two of an output folder that are whole and of this run (0: of any). Throws FileError when there is
+// none.
+CheckpointInfo newest_checkpoint(const std::filesystem::path& folder, std::uint64_t run = 0);
 
 // One declared parameter of a script (cdem.parameter).
 struct ParameterInfo {
@@ -75,6 +78,9 @@ public:
 
   std::vector<ParameterInfo> parameters() const;
   std::string model_summary() const; // for `cdem check`: bodies, blocks, tets, bonds, box, conditions, stages
+  // For another thread, while that of the script does not come back from one call: writes a checkpoint if the call is
+  // no half-done one of a model, and says where the script stands ("case.lua:12, cdem.voronoi"; "" when unknown).
+  std::string leave_stuck_script();
   // Writes last_good.vtu of every model that failed; true when something was written.
   bool model_saved_after_failure();
 

@@ -79,9 +79,14 @@ int call_bound(lua_State* L) {
     struct Current { // callbacks run on the coroutine that made the call
       LuaState& state;
       lua_State* caller;
-      ~Current() { state.current = caller; }
-    } current{state, state.current};
+      const Bound* outer;
+      ~Current() {
+        state.current = caller;
+        state.running = outer;
+      }
+    } current{state, state.current, state.running};
     state.current = L;
+    state.running = &bound;
     std::shared_ptr<Object> self;
     if (bound.owner)
       self = read_self(L, bound);

@@ -3,8 +3,10 @@
 
 #include "libcdem/step/errors.hpp"
 #include "libgeom/core/error.hpp"
+#include "libgeom/core/stop.hpp"
 #include "lua/binding/schema/schema.hpp"
 
+#include <algorithm>
 #include <cstdlib>
 #include <cstring>
 #include <lua.hpp>
@@ -22,7 +24,7 @@ void* allocate(void* user, void* block, std::size_t old_size, std::size_t new_si
     state.memory -= held;
     return nullptr;
   }
-  if (new_size > held && state.memory - held + new_size > LuaState::memory_limit)
+  if (new_size > held && state.memory - held + new_size > state.memory_limit)
     return nullptr;
   void* moved = std::realloc(block, new_size);
   if (moved)
@@ -30,19 +32,10 @@ void* allocate(void* user, void* block, std::size_t old_size, std::size_t new_si
   return moved;
 }
 
-bool stop_wanted(LuaState& state) {
-  const auto& observer = state.session.settings.observer;
-  if (observer && observer->stop_requested()) {
-    if (!state.interrupted)
-      state.session.checkpoints.stop();
-    state.interrupted = true;
-  }
-  return state.interrupted;
-}
-
 void hook(lua_State* L, lua_Debug*) {
   LuaState& state = LuaState::of(L);
-  if (stop_wanted(state))
+  ++state.looks;
+  if (state.stop_wanted())
     luaL_error(L, "%s: stopped by the user", state.where(L).c_str());
 }
 
@@ -88,6 +81,8 @@ void guard_memory(lua_State* L) {
 
 LuaState::LuaState(Session& given)
     : session(given), alive(std::make_shared<LuaState*>(this)), thread_(std::this_thread::get_id()) {
+  if (session.settings.memory > 0)
+    memory_limit = std::min(most_memory, session.settings.memory);
   main = lua_newstate(allocate, this);
   if (!main)
     throw std::bad_alloc();
@@ -104,14 +99,26 @@ LuaState::LuaState(Session& given)
   };
   session.collect_garbage = [this] { lua_gc(current, LUA_GCCOLLECT); };
   open_libraries(main, session.settings.unsafe);
+  geom::set_stop_check([this] { return stop_wanted(); });
 }
 
 LuaState::~LuaState() {
   *alive = nullptr;
+  geom::set_stop_check({});
   session.where = nullptr;
   session.new_memory = nullptr;
   session.collect_garbage = nullptr;
   lua_close(main);
+}
+
+bool LuaState::stop_wanted() {
+  const auto& observer = session.settings.observer;
+  if (observer && observer->stop_requested()) {
+    if (!interrupted)
+      session.checkpoints.stop();
+    interrupted = true;
+  }
+  return interrupted;
 }
 
 LuaState& LuaState::of(lua_State* L) {
@@ -151,6 +158,9 @@ std::string LuaState::message_of_current_exception(lua_State* L, const std::stri
   } catch (const Interrupted& error) {
     interrupted = true;
     return (place.empty() ? "" : place + ": ") + error.what();
+  } catch (const geom::Stopped& error) {
+    interrupted = true;
+    return (place.empty() ? "" : place + ": ") + error.what();
   } catch (const ScriptError& error) {
     return error.what(); // from a callback: has its own place
   } catch (const SolutionError& error) {
@@ -160,7 +170,7 @@ std::string LuaState::message_of_current_exception(lua_State* L, const std::stri
     kind = ErrorKind::file;
     message = front + error.what();
   } catch (const std::bad_alloc&) {
-    message = front + "not enough memory; use fewer blocks or fewer rows";
+    message = front + "not enough memory; use fewer blocks or fewer rows, or allow more with --memory";
   } catch (const std::exception& error) {
     message = front + after_name(shown, error.what());
   }
@@ -168,6 +178,15 @@ std::string LuaState::message_of_current_exception(lua_State* L, const std::stri
     kinds_[message] = kind;
   return message;
 }
+
+namespace {
+
+std::string memory_text(std::size_t bytes) {
+  const bool whole = (bytes >> 30) << 30 == bytes;
+  return whole ? std::to_string(bytes >> 30) + " GiB" : std::to_string(bytes >> 20) + " MiB";
+}
+
+} // namespace
 
 void LuaState::throw_error(lua_State* L, int status) {
   const char* text = lua_tostring(L, -1);
@@ -177,7 +196,9 @@ void LuaState::throw_error(lua_State* L, int status) {
     throw Interrupted();
   if (status == LUA_ERRMEM)
     throw ScriptError(shown_name(session.settings.script) +
-                      ": the script's own tables and strings need more than 4 GiB; keep less of them");
+                      ": the script's own tables and strings need more than " + memory_text(memory_limit) +
+                      "; keep less of them" +
+                      (memory_limit < most_memory ? ", or allow more with --memory" : ""));
   const auto kind = kinds_.find(message);
   if (kind != kinds_.end() && kind->second == ErrorKind::solution)
     throw SolutionError(message);
@@ -194,6 +215,7 @@ void LuaState::call(lua_State* L, int arguments, int results) {
   lua_insert(L, handler);
   lua_State* const caller = current;
   current = L;
+  const Doing callback(session.settings.observer.get(), Activity::script);
   const int status = lua_pcall(L, arguments, results, handler);
   current = caller;
   lua_remove(L, handler);

@@ -4,6 +4,7 @@
 #include "lua/binding/runtime/module.hpp"
 #include "lua/binding/runtime/session.hpp"
 
+#include <atomic>
 #include <deque>
 #include <exception>
 #include <map>
@@ -47,12 +48,18 @@ public:
   lua_State* main = nullptr;
   lua_State* current = nullptr; // the coroutine a bound function was called from
   Session& session;
+  bool
+  stop_wanted(); // the user has asked to stop; the first time, a checkpoint is written where that is possible
   bool interrupted = false; // from now on every hook and every protected call ends
   std::deque<Bound> bound;
   std::map<const void*, const Class*> metatables; // of our objects; a script cannot forge one
   std::shared_ptr<LuaState*> alive; // emptied at the end, for references that outlive the interpreter
   std::size_t memory = 0;           // bytes held by Lua
-  static constexpr std::size_t memory_limit = std::size_t{4} << 30;
+  static constexpr std::size_t most_memory = std::size_t{4} << 30;
+  std::size_t memory_limit = most_memory;
+  // For who waits for the script from another thread: looks so far, and the function of ours that runs.
+  std::atomic<unsigned> looks{0};
+  std::atomic<const Bound*> running{nullptr};
   static constexpr int hook_interval = 10000; // instructions between looks at stop_requested
 
 private:

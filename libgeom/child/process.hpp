@@ -1,0 +1,28 @@
+// Work in a child process: a copy of this one (fork) that does the work, hands its result back as bytes over a pipe and
+// ends. What crashes, aborts or runs out of bounds there ends the child only, and is one InputError here.
+//
+// A helper program would have to be found, started (0.3 s for the libraries of gmsh) and be told all arguments as bytes;
+// a copy knows them. Only the calling thread lives on in a copy, so the work must not wait for another thread: it runs
+// with one OpenMP thread.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <string>
+
+namespace geom {
+
+struct ChildLimits {
+  std::uint64_t memory =
+      0;                // bytes beyond what the process holds when the work begins; 0: no limit of its own
+  unsigned seconds = 0; // of processor time; 0: no limit
+  std::string blame = "the geometry kernel cannot do it"; // what a crash means for the user; follows "what: "
+};
+
+// The bytes that `work` returns. `what` begins the messages. Exceptions of the work arrive here as InputError,
+// std::bad_alloc or std::runtime_error with the same text; a crash or a limit as InputError. Throws Stopped when the
+// user asks to stop meanwhile (core/stop.hpp): the child is ended then.
+std::string run_in_child(const std::string& what, const ChildLimits& limits,
+                         const std::function<std::string()>& work);
+
+} // namespace geom

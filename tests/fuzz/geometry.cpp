@@ -1,0 +1,47 @@
+// Files of shapes. gmsh and OpenCASCADE read theirs in a child process: a crash of the child is an InputError.
+#include "tests/fuzz/targets.hpp"
+
+#include "libgeom/core/error.hpp"
+#include "libgeom/mesh/read_mesh.hpp"
+#include "libgeom/solid/gmsh_session.hpp"
+#include "libgeom/solid/read_stl.hpp"
+
+#include <array>
+#include <stdexcept>
+
+namespace fuzz {
+
+void read_stl(const std::string& bytes) {
+  geom::read_stl(as_file("part.stl", bytes));
+}
+
+void read_mesh(const std::string& bytes) {
+  static const std::array<const char*, 5> endings = {".msh", ".mesh", ".bdf", ".unv", ".vtk"};
+  if (bytes.empty())
+    return;
+  const std::size_t which = static_cast<unsigned char>(bytes[0]) % endings.size();
+  geom::read_mesh(as_file(std::string("part") + endings[which], bytes.substr(1)));
+}
+
+void read_step(const std::string& bytes) {
+  geom::read_step(as_file("part.step", bytes));
+}
+
+void child_answer(const std::string& bytes) {
+  const auto unpacked = [&](auto value) {
+    try {
+      geom::Unpacker in(bytes);
+      unpack(in, value);
+      in.end();
+    } catch (const std::runtime_error&) { // refused
+    }
+    return value;
+  };
+  geom::validate(unpacked(geom::TetMesh()), "child");
+  unpacked(geom::BlockMesh());
+  unpacked(geom::Solid());
+  unpacked(std::vector<geom::BlockMesh>());
+  unpacked(geom::MassProperties());
+}
+
+} // namespace fuzz
