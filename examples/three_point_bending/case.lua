@@ -76,10 +76,10 @@ for i, size in ipairs(sizes) do
   local finest = i == #sizes
   local model, curve = beam.bend{ depth = depth, size = size, coarse = coarse, thickness = beam.width,
                                   softening = "linear", energy = energy, deflection = deflection, periods = periods,
-                                  damping = damping, samples = 40, safety = 0.8, watch = function(model, curve)
+                                  damping = damping, samples = 40, safety = 0.8, watch = function(bent)
     samples = samples + 1
     if samples == 40 + 24 and finest then
-      model:picture{ file = "cracking.png", colour = "stress.xx", deformation = 200, size = {1600, 0},
+      bent:picture{ file = "cracking.png", colour = "stress.xx", deformation = 200, size = {1600, 0},
                      range = {-beam.strength, beam.strength}, title = "Past the peak" }
     end
   end }

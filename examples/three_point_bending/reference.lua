@@ -242,8 +242,8 @@ function reference.curve(given, factors)
         A[i], b[i] = row, right
       end
       local last = {}
-      for j = 1, m + 1 do last[j] = 0 end
-      last[k], A[m + 1], b[m + 1] = 1, last, ft * f.area[k]
+      for j = 1, m + 1 do last[j] = j == k and 1 or 0 end
+      A[m + 1], b[m + 1] = last, ft * f.area[k]
       q = dense(A, b)
       local changed = false
       for i = 1, k - 1 do
