@@ -143,7 +143,7 @@ ContactSums contact_forces(const Model& model, State& state, ContactWork& own, i
              fragments_due = own.fragments_due, known = own.history_complete, anew = own.anew;
   if ((fragments_due || out_of_skin) && !search_contacts(model, state, own, threads))
     return sums; // something is not a number: the stage's watch will say where
-  own.any_depth_begins = !known || (anew && !state.face_slip.empty());
+  own.any_depth_begins = !known || (anew && (!state.face_slip.empty() || !model.mesh.sides.empty()));
   if (!fragments_due)
     std::fill(own.changed.begin(), own.changed.end(), 0);
   // Where a fragment has fallen apart, contacts go with the part they touch.
