@@ -119,7 +119,7 @@ TEST_CASE("meshed bodies that do not fit are refused", "[lua]") {
   CHECK_THAT(
       refused("joint = cdem.mohr_coulomb{ cohesion = 5e6, friction_angle = 35, tensile_strength = 2e6, "
               "softening = 'linear', fracture_energy_1 = 100, fracture_energy_2 = 400 }"),
-      Contains("softening") && Contains("only bonds between convex blocks soften"));
+      Contains("softening") && Contains("bond_type = \"cohesive\" softens"));
   CHECK_THAT(error_of(head + "cdem.model{ bodies = { { shape = cdem.box{ size = {1, 1, 1} }, material = "
                              "concrete, bonds = 'all' } } }"),
              Contains("bodies[1].bonds: only for a meshed body"));

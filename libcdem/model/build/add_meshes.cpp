@@ -1,11 +1,13 @@
 #include "libcdem/model/build/add_meshes.hpp"
 
 #include "libgeom/core/disjoint_sets.hpp"
+#include "libgeom/core/error.hpp"
 #include "libgeom/mesh/boundary.hpp"
 #include "libgeom/mesh/order.hpp"
 
 #include <algorithm>
 #include <cmath>
+#include <fmt/format.h>
 #include <limits>
 #include <numeric>
 
@@ -148,8 +150,18 @@ void require_fracture_energy(const geom::TetMesh& mesh, const std::vector<geom::
       const BondedFace f = bonded_face(mesh, face, body);
       least = std::min(least, f.kn / f.area);
     }
-  if (least < std::numeric_limits<double>::infinity())
-    validate(body.joint, least, least);
+  const auto require = [&](const char* field, double energy, double strength) {
+    const double stored = strength * strength / (2 * least);
+    if (energy < stored)
+      throw geom::InputError(
+          field, fmt::format("{:g}", energy),
+          fmt::format(
+              "at least {:.3g} J/m2, what the largest face of the mesh stores at its strength of {:g} Pa",
+              1.005 * stored, strength),
+          "raise it, make the mesh of body \"" + body.name + "\" finer, or its stiffness_ratio larger");
+  };
+  require("fracture_energy_1", body.joint.fracture_energy_1, body.joint.tensile_strength);
+  require("fracture_energy_2", body.joint.fracture_energy_2, body.joint.cohesion);
 }
 
 // Numbers the copies anew, chunk by chunk: first those that no other chunk touches. Returns for each chunk how many.

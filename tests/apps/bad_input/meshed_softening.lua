@@ -1,5 +1,5 @@
 -- exit code: 2
--- says: only bonds between convex blocks soften
+-- says: bond_type = "cohesive" softens
 
 local cdem = require "cdem"
 local concrete = cdem.elastic{ youngs_modulus = 30e9, poissons_ratio = 0.2, density = 2500 }
