@@ -166,8 +166,8 @@ FreeingWatch::FreeingWatch(const Model& model) {
   neighbours_ = geom::face_neighbours(tets, nodes);
 }
 
-std::optional<std::vector<char>> FreeingWatch::due(const Model& model, const State& state,
-                                                   int threads) const {
+std::optional<std::vector<char>> FreeingWatch::due(const Model& model, const State& state, int threads,
+                                                   double from) const {
   const MeshData& mesh = model.mesh;
   std::vector<NearStrength> found(mesh.chunks.size());
   for_chunks(static_cast<std::int64_t>(mesh.chunks.size()), threads, [&](std::int64_t c) {
@@ -214,7 +214,7 @@ std::optional<std::vector<char>> FreeingWatch::due(const Model& model, const Sta
   double most = 0;
   for (const NearStrength& of : found)
     most = std::max(most, of.most);
-  if (most < due_at)
+  if (most < from)
     return std::nullopt;
   std::vector<char> nodes(model.node_position.size(), 0);
   for (const NearStrength& of : found)

@@ -21,8 +21,8 @@ public:
   bool empty() const { return neighbours_.empty(); } // no body is cohesive
 
   // Per node of the model, 1 for those of faces between tets whose mean stress uses more than `freed_at` of the strength
-  // and which are not freed yet; none unless one uses more than `due_at`. Stress: that of the state.
-  std::optional<std::vector<char>> due(const Model&, const State&, int threads) const;
+  // and which are not freed yet; none unless one uses more than `from`. Stress: that of the state.
+  std::optional<std::vector<char>> due(const Model&, const State&, int threads, double from = due_at) const;
 
 private:
   std::vector<int> neighbours_; // per tet of the mesh and face of it: 4 tet + face on the other side, or -1

@@ -1,6 +1,7 @@
 #include "libcdem/procedure/relax.hpp"
 
 #include "libcdem/contact/response/contact_bounds.hpp"
+#include "libcdem/fracture/free_nodes.hpp"
 #include "libcdem/integrate/move_held_nodes.hpp"
 #include "libcdem/integrate/move_rigid.hpp"
 #include "libcdem/integrate/row_sums.hpp"
@@ -94,6 +95,17 @@ struct AtRest {
   }
 };
 
+// Nodes are freed in real time only: what a relaxation loads beyond its strength stays whole in it.
+void tell_of_strength(const StageContext& context) {
+  constexpr double all = 1;
+  const FreeingWatch watch(context.model);
+  if (watch.empty() || !watch.due(context.model, context.state, context.threads, all))
+    return;
+  context.observer.warning("warning: a cohesive body is loaded beyond its strength where it is still whole, "
+                           "and relax does not crack it: go on "
+                           "with model:run, or look at a smaller load");
+}
+
 } // namespace
 
 std::vector<double> fictitious_masses(const Model& model) {
@@ -182,7 +194,10 @@ RelaxResult relax(const StageContext& context, const RelaxOptions& options, cons
       }
     }
   }
-  return {stage.finish(report), settled >= settled_steps};
+  const RelaxResult result{stage.finish(report), settled >= settled_steps};
+  if (options.breaking)
+    tell_of_strength(context);
+  return result;
 }
 
 } // namespace cdem

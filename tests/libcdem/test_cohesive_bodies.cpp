@@ -345,6 +345,28 @@ TEST_CASE(
   check_going_on(build_bar, solve, {3, 15, 20});
 }
 
+TEST_CASE("cohesive bodies: a relaxation beyond the strength is told of", "[cohesive][errors]") {
+  struct Hearing final : cdem::Observer {
+    std::vector<std::string> warnings;
+    void warning(const std::string& text) override { warnings.push_back(text); }
+  };
+  const double part = GENERATE(0.6, 1.2);
+  const auto hearing = std::make_shared<Hearing>();
+  cdem::ModelSpec spec;
+  spec.bodies = {concrete_body(unstructured({0.6, 0.25, 0.25}, 0.12))};
+  cdem::Simulation s(spec, 1, hearing);
+  s.fix(fixed(cdem::Selection::side("x-"), "x"));
+  s.fix(fixed(at_place(Vec3::Zero()), "yz"));
+  s.fix(fixed(at_place({0, 0.25, 0}), "z"));
+  s.traction(traction(cdem::Selection::side("x+"), {part * tension, 0, 0}));
+  cdem::RelaxOptions options;
+  CHECK(s.relax(options).converged);
+  CHECK(s.counts().broken_tension == 0);
+  CHECK(hearing->warnings.size() == (part > 1 ? 1 : 0));
+  if (!hearing->warnings.empty())
+    CHECK_THAT(hearing->warnings[0], Catch::Contains("go on with model:run"));
+}
+
 TEST_CASE("cohesive bodies: wrong input is refused", "[cohesive][input]") {
   const auto refused = [](const auto& change, const char* says) {
     cdem::BodySpec body = concrete_body(unstructured({0.6, 0.25, 0.25}, 0.12));
