@@ -1,7 +1,7 @@
 // Freed faces of cohesive bodies: how their sides hold together, and the cohesive law once they crack.
 //
-// Holding, the traction is that of element/face_jumps.hpp; here stands its penalty k (j + o), j the gap at three points of
-// the face, o = 0 but after a crack that did not go on. When the mean stress s of the two tets reaches the strength on a
+// A face that holds has the traction of element/face_jumps.hpp; its penalty k (j + o) is computed here, with j the gap at
+// three points of the face and o = 0 unless a crack began there and did not go on. When the mean stress s of the two tets reaches the strength on a
 // plane with the normal m (fracture/working_plane.hpp) the face cracks: from then on it works on that plane, whatever its
 // own direction n, and the stress of the tets takes no part,
 //   t = (m.n) law(j + w0) + (1 - D) r0

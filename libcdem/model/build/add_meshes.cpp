@@ -1,14 +1,10 @@
 #include "libcdem/model/build/add_meshes.hpp"
 
-#include "libgeom/core/disjoint_sets.hpp"
-#include "libgeom/core/error.hpp"
-#include "libgeom/mesh/boundary.hpp"
+#include "libcdem/model/build/split_mesh.hpp"
 #include "libgeom/mesh/order.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <fmt/format.h>
-#include <limits>
 #include <numeric>
 
 namespace cdem {
@@ -20,75 +16,12 @@ constexpr int tets_per_chunk = 512, most_tets_per_chunk = 2048;
 // Below the most, a mesh makes so many chunks, which threads share among them.
 constexpr int chunks_per_mesh = 64;
 
-// A mesh whose nodes are split along its bonded faces, in its own numbers.
-struct SplitMesh {
-  std::vector<geom::Tet> tets; // over copies of nodes, numbered by first touch
-  std::vector<int> original;   // per copy: node of the mesh
-};
-
 // That of a cohesive body does not change as nodes are freed.
 int chunk_size(const SplitMesh& split, const Bonding& bonding) {
   const auto tets = static_cast<int>(split.tets.size());
   if (!bonding.is_cohesive() && split.original.size() > split.tets.size())
     return tets_per_chunk;
   return std::clamp(tets / chunks_per_mesh / lanes * lanes, tets_per_chunk, most_tets_per_chunk);
-}
-
-// Which nodes of a mesh stay one whatever their faces, and which faces part the others.
-struct Splitting {
-  const geom::TetMesh& mesh;
-  const Bonding& bonding;
-  const std::vector<char>& freed;
-
-  bool whole(int node) const {
-    return bonding.none() || (bonding.is_cohesive() && (freed.empty() || freed[node] == 0));
-  }
-  bool parts(const geom::InnerFace& face) const {
-    return bonding.bonds(mesh.region[face.tets[0]], mesh.region[face.tets[1]]) &&
-           !(whole(face.nodes[0]) && whole(face.nodes[1]) && whole(face.nodes[2]));
-  }
-};
-
-SplitMesh split_nodes(const geom::TetMesh& mesh, const std::vector<geom::InnerFace>& inner,
-                      const Splitting& splitting) {
-  geom::DisjointSets sets(4 * mesh.tets.size()); // of corners, 4 tet + corner
-  std::vector<int> first(mesh.nodes.size(), -1);
-  for (int i = 0; i < static_cast<int>(4 * mesh.tets.size()); ++i) {
-    const int node = mesh.tets[i / 4][i % 4];
-    if (!splitting.whole(node))
-      continue;
-    if (first[node] < 0)
-      first[node] = i;
-    sets.unite(first[node], i);
-  }
-  for (const geom::InnerFace& face : inner) {
-    if (splitting.parts(face))
-      continue;
-    for (int i = 0; i < 3; ++i)
-      sets.unite(4 * face.tets[0] + face.corners[0][i], 4 * face.tets[1] + face.corners[1][i]);
-  }
-  SplitMesh split;
-  split.tets.reserve(mesh.tets.size());
-  std::vector<int> copy(4 * mesh.tets.size(), -1);
-  for (int t = 0; t < static_cast<int>(mesh.tets.size()); ++t) {
-    geom::Tet tet{};
-    for (int corner = 0; corner < 4; ++corner) {
-      int& node = copy[sets.find(4 * t + corner)];
-      if (node < 0) {
-        node = static_cast<int>(split.original.size());
-        split.original.push_back(mesh.tets[t][corner]);
-      }
-      tet[corner] = node;
-    }
-    split.tets.push_back(tet);
-  }
-  return split;
-}
-
-double tet_volume(const geom::TetMesh& mesh, int t) {
-  const geom::Tet& n = mesh.tets[t];
-  const auto& x = mesh.nodes;
-  return (x[n[1]] - x[n[0]]).dot((x[n[2]] - x[n[0]]).cross(x[n[3]] - x[n[0]])) / 6;
 }
 
 // Gives the nodes a chunk touches their places: its own first, the others as they come.
@@ -116,92 +49,6 @@ private:
   std::vector<int> place_, others_;
   Range own_;
 };
-
-struct BondedFace {
-  geom::InnerFace face;
-  double kn = 0, area = 0; // of one spring
-};
-
-BondedFace bonded_face(const geom::TetMesh& mesh, const geom::InnerFace& face, const Body& body) {
-  const geom::Vec3 &x0 = mesh.nodes[face.nodes[0]], &x1 = mesh.nodes[face.nodes[1]],
-                   &x2 = mesh.nodes[face.nodes[2]];
-  const double area = 0.5 * (x1 - x0).cross(x2 - x0).norm();
-  const double d = 3 * (tet_volume(mesh, face.tets[0]) + tet_volume(mesh, face.tets[1])) / (4 * area);
-  return {face, body.bonding.stiffness_ratio * body.material.youngs_modulus * area / (3 * d), area / 3};
-}
-
-std::vector<BondedFace> bonded_faces(const geom::TetMesh& mesh, const std::vector<geom::InnerFace>& inner,
-                                     const Body& body, const Splitting& splitting) {
-  std::vector<BondedFace> bonded;
-  for (const geom::InnerFace& face : inner)
-    if (splitting.parts(face))
-      bonded.push_back(bonded_face(mesh, face, body));
-  return bonded;
-}
-
-// Throws where a face that may crack would store more at its strength than its fracture energy.
-void require_fracture_energy(const geom::TetMesh& mesh, const std::vector<geom::InnerFace>& inner,
-                             const Body& body) {
-  if (!body.bonding.is_cohesive() || body.joint.softening == Softening::none)
-    return;
-  double least = std::numeric_limits<double>::infinity();
-  for (const geom::InnerFace& face : inner)
-    if (body.bonding.bonds(mesh.region[face.tets[0]], mesh.region[face.tets[1]])) {
-      const BondedFace f = bonded_face(mesh, face, body);
-      least = std::min(least, f.kn / f.area);
-    }
-  const auto require = [&](const char* field, double energy, double strength) {
-    const double stored = strength * strength / (2 * least);
-    if (energy < stored)
-      throw geom::InputError(
-          field, fmt::format("{:g}", energy),
-          fmt::format(
-              "at least {:.3g} J/m2, what the largest face of the mesh stores at its strength of {:g} Pa",
-              1.005 * stored, strength),
-          "raise it, make the mesh of body \"" + body.name + "\" finer, or its stiffness_ratio larger");
-  };
-  require("fracture_energy_1", body.joint.fracture_energy_1, body.joint.tensile_strength);
-  require("fracture_energy_2", body.joint.fracture_energy_2, body.joint.cohesion);
-}
-
-// Numbers the copies anew, chunk by chunk: first those that no other chunk touches. Returns for each chunk how many.
-// both_sides: the tets of side b ask for the nodes of side a too.
-std::vector<std::int64_t> inner_first(SplitMesh& split, const std::vector<BondedFace>& faces, int chunk_tets,
-                                      bool both_sides) {
-  const std::size_t nodes = split.original.size();
-  std::vector<int> owner(nodes, -1);
-  std::vector<char> shared(nodes, 0);
-  const auto touch = [&](int node, int tet) {
-    const int chunk = tet / chunk_tets;
-    if (owner[node] < 0)
-      owner[node] = chunk;
-    shared[node] |= static_cast<char>(owner[node] != chunk);
-  };
-  for (int t = 0; t < static_cast<int>(split.tets.size()); ++t)
-    for (const int node : split.tets[t])
-      touch(node, t);
-  for (const BondedFace& f : faces) // their forces are summed where the tet of side a is
-    for (int side = 1; side >= (both_sides ? 0 : 1); --side)
-      for (const int corner : f.face.corners[side])
-        touch(split.tets[f.face.tets[side]][corner], f.face.tets[1 - side]);
-
-  std::vector<int> order(nodes), number(nodes), original(nodes);
-  std::iota(order.begin(), order.end(), 0);
-  std::stable_sort(order.begin(), order.end(), [&](int a, int b) {
-    return owner[a] != owner[b] ? owner[a] < owner[b] : shared[a] < shared[b];
-  });
-  std::vector<std::int64_t> inner((split.tets.size() + chunk_tets - 1) / chunk_tets);
-  for (std::size_t i = 0; i < nodes; ++i) {
-    number[order[i]] = static_cast<int>(i);
-    original[i] = split.original[order[i]];
-    inner[owner[order[i]]] += shared[order[i]] ? 0 : 1;
-  }
-  split.original = std::move(original);
-  for (geom::Tet& tet : split.tets)
-    for (int& node : tet)
-      node = number[node];
-  return inner;
-}
 
 void add_faces(MeshData& data, const std::vector<BondedFace>& faces, int first_tet,
                const std::vector<geom::Tet>& tets, Places& places) {

@@ -1,0 +1,52 @@
+// A mesh on its way into the model, in its own numbers: its nodes are split where faces may part, and numbered by the chunk
+// that is the first to touch them.
+#pragma once
+
+#include "libcdem/model/model.hpp"
+#include "libgeom/mesh/boundary.hpp"
+#include "libgeom/mesh/tet_mesh.hpp"
+
+namespace cdem {
+
+// A mesh whose nodes are split along its bonded faces, in its own numbers.
+struct SplitMesh {
+  std::vector<geom::Tet> tets; // over copies of nodes, numbered by first touch
+  std::vector<int> original;   // per copy: node of the mesh
+};
+
+// Which nodes of a mesh stay one whatever their faces, and which faces part the others.
+struct Splitting {
+  const geom::TetMesh& mesh;
+  const Bonding& bonding;
+  const std::vector<char>& freed;
+
+  bool whole(int node) const {
+    return bonding.none() || (bonding.is_cohesive() && (freed.empty() || freed[node] == 0));
+  }
+  bool parts(const geom::InnerFace& face) const {
+    return bonding.bonds(mesh.region[face.tets[0]], mesh.region[face.tets[1]]) &&
+           !(whole(face.nodes[0]) && whole(face.nodes[1]) && whole(face.nodes[2]));
+  }
+};
+
+SplitMesh split_nodes(const geom::TetMesh&, const std::vector<geom::InnerFace>&, const Splitting&);
+
+struct BondedFace {
+  geom::InnerFace face;
+  double kn = 0, area = 0; // of one spring
+};
+
+std::vector<BondedFace> bonded_faces(const geom::TetMesh&, const std::vector<geom::InnerFace>&, const Body&,
+                                     const Splitting&);
+
+// Throws geom::InputError where a face that may crack would store more at its strength than its fracture energy.
+void require_fracture_energy(const geom::TetMesh&, const std::vector<geom::InnerFace>&, const Body&);
+
+// Numbers the copies anew, chunk by chunk: first those that no other chunk touches. Returns for each chunk how many.
+// both_sides: the tets of side b ask for the nodes of side a too.
+std::vector<std::int64_t> inner_first(SplitMesh&, const std::vector<BondedFace>&, int chunk_tets,
+                                      bool both_sides);
+
+double tet_volume(const geom::TetMesh&, int tet); // m3
+
+} // namespace cdem
