@@ -1512,7 +1512,7 @@ function cdem.select.where(predicate) end
 ---@field bonds? "none"|"all"|"regions"|"listed" of a mesh, which inner faces carry the joint: all (default with a joint), those between different regions, or all of the bonded_regions
 ---@field bonded_regions? integer[] numbers of regions, from 1, with bonds = "listed"
 ---@field bond_type? "springs"|"cohesive" of a mesh with a joint: springs (Feng 2014) on every bonded face, or cohesive: continuous, with shared nodes, until a face nears its strength, then the joint's softening or brittle law on the plane that fails. springs by default
----@field stiffness_ratio? number > 0: of a mesh, beta in Kn = beta E A / (3 d); 10 by default. A body bonded everywhere keeps about E / (1 + 1/beta)
+---@field stiffness_ratio? number > 0: of a mesh, beta in Kn = beta E A / (3 d); 10 by default. A body bonded everywhere keeps about E / (1 + 1/beta). Of a cohesive body the penalty of freed faces, 1 by default; it keeps all of E
 ---@field shear_ratio? number > 0: of a mesh, Ks / Kn; 1 by default
 
 ---@class (exact) cdem.ModelOptions

@@ -341,7 +341,8 @@ void bind_model(Module& m) {
           .above(0)
           .doc(
               "of a mesh, beta in Kn = beta E A / (3 d); 10 by default. A body bonded everywhere keeps about "
-              "E / (1 + 1/beta)"),
+              "E / (1 + 1/beta). Of a cohesive body the penalty of freed faces, 1 by default; it keeps all "
+              "of E"),
       number("shear_ratio").above(0).doc("of a mesh, Ks / Kn; 1 by default")};
   m.functions.push_back(
       {"model",
