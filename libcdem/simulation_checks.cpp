@@ -61,7 +61,20 @@ void check(const RelaxOptions& o) {
     throw geom::InputError("max_steps", std::to_string(o.max_steps), "an integer > 0");
 }
 
+void check(const MassScaling& s) {
+  if (!(s.step >= 0) || !std::isfinite(s.step))
+    throw geom::InputError("mass_scaling.step", number(s.step), "a finite number > 0 s");
+  if (s.factor != 0 && (!(s.factor >= 1) || !std::isfinite(s.factor)))
+    throw geom::InputError("mass_scaling.factor", number(s.factor), "a finite number >= 1",
+                           "it is the time step over the one that the true masses allow");
+  if (s.step > 0 && s.factor > 0)
+    throw geom::InputError("mass_scaling: give step (s) or factor, not both");
+}
+
 void check(const RunOptions& o) {
+  check(o.mass_scaling);
+  if (o.mass_scaling.on() && o.time_step > 0)
+    throw geom::InputError("mass_scaling: names the time step itself; leave time_step out");
   const bool by_time = o.duration != 0;
   if (!std::isfinite(o.duration) || o.duration < 0)
     throw geom::InputError("duration", number(o.duration), "a finite number > 0 s");
@@ -101,6 +114,7 @@ void check(const Flow& flow) {
 
 void check(const CriticalFlowOptions& o) {
   check(o.flow);
+  check(o.mass_scaling);
   const auto require = [](const char* field, double value, double low, double high, const char* allowed) {
     if (!(value > low && value < high))
       throw geom::InputError(field, number(value), allowed);

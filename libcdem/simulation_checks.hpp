@@ -9,6 +9,7 @@ std::string number(double x); // as messages print it
 void require_finite(const char* field, const geom::Vec3&);
 void validate_meshed(const BodySpec&); // a body of meshes
 void check(const RelaxOptions&);
+void check(const MassScaling&);
 void check(const RunOptions&);
 void check(const SettleOptions&);
 void check(const Flow&);

@@ -83,6 +83,10 @@ void require_fits(const Model& model, const State& state) {
   require_length("cohesive", state.cohesive.size(), fresh.cohesive.size());
   require_length("rigid", state.rigid.size(), model.rigid.size());
   require_length("rigid_offset", state.rigid_offset.size(), nodes, model.rigid.empty());
+  require_length("moving_mass", state.moving_mass.size(), nodes, true);
+  for (const double mass : state.moving_mass)
+    if (!(mass > 0))
+      refuse("moving_mass", std::to_string(mass) + " is out of range");
   require_length("escaped", state.escaped.size(), nodes, true);
   for (const std::uint8_t mode : state.bond_mode)
     require_below("bond_mode", mode, modes);

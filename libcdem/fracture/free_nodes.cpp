@@ -250,6 +250,7 @@ void preload_faces(const Model& model, State& state, const std::vector<Node>& ne
   };
   std::map<int, Star> stars;
   const MeshData& mesh = model.mesh;
+  const std::vector<double>& masses = moving_mass(model, state);
   for (int node = mesh.first_node; node < static_cast<int>(nodes.size()); ++node)
     if (nodes[node] != 0)
       stars[mesh.original[node - mesh.first_node]].copies.push_back(node);
@@ -275,7 +276,7 @@ void preload_faces(const Model& model, State& state, const std::vector<Node>& ne
     double mass = 0;
     for (const int node : star.copies) {
       total += vec(net_force[node]);
-      mass += model.node_mass[node];
+      mass += masses[node];
     }
     Eigen::MatrixXd laplacian = Eigen::MatrixXd::Zero(n, n);
     for (const Between& f : star.faces) {
@@ -288,7 +289,7 @@ void preload_faces(const Model& model, State& state, const std::vector<Node>& ne
     Eigen::MatrixXd missing(n, 3); // N, of each copy to what its share of the mass asks for
     for (Eigen::Index i = 0; i < n; ++i) {
       const int node = star.copies[i];
-      missing.row(i) = (total * (model.node_mass[node] / mass) - vec(net_force[node])).transpose();
+      missing.row(i) = (total * (masses[node] / mass) - vec(net_force[node])).transpose();
     }
     const Eigen::MatrixXd potential = laplacian.completeOrthogonalDecomposition().solve(missing);
     for (const Between& f : star.faces) {

@@ -26,6 +26,10 @@ void add_rigid_states(const Model& model, State& state) {
 
 } // namespace
 
+const std::vector<double>& moving_mass(const Model& model, const State& state) {
+  return state.moving_mass.empty() ? model.node_mass : state.moving_mass;
+}
+
 FaceSlip& slip_of(State& state, std::int64_t batch, int lane) {
   std::int32_t& first = state.faces[batch].slip;
   if (first < 0) {
@@ -121,6 +125,7 @@ std::vector<StateField> fields(State& s) {
       field("contacts", "record", FieldPlace::contact, "contact_forces", s.contacts, false),
       field("rigid", "record", FieldPlace::rigid_body, "move_rigid, set_rigid", s.rigid, true),
       field("rigid_offset", "m", FieldPlace::node, "set_rigid", s.rigid_offset, true),
+      field("moving_mass", "kg", FieldPlace::node, "run", s.moving_mass, true),
       field("escaped", "1", FieldPlace::node, "find_escapes", s.escaped, false),
       {"spent", "J", FieldPlace::model,
        "record_bond_breaks, record_face_breaks, ContactUpdate, record_step, relax", &s.spent, sizeof s.spent,

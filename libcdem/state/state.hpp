@@ -54,11 +54,16 @@ struct State {
   // without rigid bodies; written by set_rigid
   std::vector<Node> rigid_offset;
 
+  // kg, what moves in a stage whose masses are scaled (n_nodes); empty: Model::node_mass; written by run
+  std::vector<double> moving_mass;
+
   // Escaped (n_nodes); empty until something has left the model; written by find_escapes
   std::vector<std::uint8_t> escaped;
 
   EnergyLedger spent; // J, the summed entries only (damping, friction, ... external); the stored ones stay 0
 };
+
+const std::vector<double>& moving_mass(const Model&, const State&); // kg (n_nodes)
 
 // The slip of a face's broken springs; zero slip is made room for when there is none yet.
 FaceSlip& slip_of(State&, std::int64_t batch, int lane);

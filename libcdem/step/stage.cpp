@@ -115,6 +115,8 @@ bool Stage::free_nodes() {
     Freed freed = cdem::free_nodes(model, state, *due);
     *context_.changing = std::move(freed.model);
     state = std::move(freed.state);
+    if (scale_masses)
+      scale_masses();
     if (context_.renumbered)
       context_.renumbered(freed.old_node);
     Workspace before = std::move(work);

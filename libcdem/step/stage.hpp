@@ -49,6 +49,7 @@ public:
   std::int64_t step = 0;                  // within the stage
   std::function<void(Progress&)> details; // adds to what the progress line shows; may be empty
   // Ends with a SolutionError where broken faces no longer stand for the pieces' contact.
+  std::function<void()> scale_masses;     // after nodes have been freed; may be empty
   bool follows_fragments = false;
   EscapeLimits escapes; // where pieces have left the model
 

@@ -280,7 +280,7 @@ Evaluation::SideMotion Evaluation::motion_of_side(int block, const int* nodes, c
   for (int i = 0; i < count; ++i) {
     place += weights[i] * place_of(model_, state_, nodes[i]);
     velocity += weights[i] * velocity_of(state_, nodes[i]);
-    local += weights[i] * weights[i] / model_.node_mass[nodes[i]];
+    local += weights[i] * weights[i] / moving_mass(model_, state_)[nodes[i]];
   }
   if (work_.last_displacement[block] == 0)
     return {velocity, 0}; // held: it does not turn round

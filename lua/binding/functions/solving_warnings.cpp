@@ -76,7 +76,7 @@ Cause likely_cause(const ModelObject& model) {
 }
 
 std::string avoiding(const Slivers& s) {
-  return s.elements ? "take another mesh size there, a simpler solid, or element = \"rigid\""
+  return s.elements ? "take another mesh size there, a simpler solid, element = \"rigid\", or mass_scaling where all is slow"
                     : "take element = \"rigid\", more relaxations or another seed of cdem.voronoi, or cuts "
                       "that stay clear of corners";
 }
