@@ -15,6 +15,7 @@
 #include "libcdem/results/fields.hpp"
 #include "libcdem/results/log.hpp"
 #include "libcdem/results/overlap.hpp"
+#include "libcdem/results/process_zone.hpp"
 #include "libcdem/results/slivers.hpp"
 #include "libcdem/results/snapshot.hpp"
 #include "libcdem/results/unit.hpp"
@@ -43,7 +44,8 @@ struct BodySpec {
   std::vector<geom::TetMesh> meshes = {};
   Bonding bonding = {};
   Element element = Element::finite_volume; // small_strain: of blocks only
-  double zone_size = 0; // m, edge length of the tets inside each convex block; 0: its star mesh
+  double zone_size = 0;        // m, edge length of the tets inside each convex block; 0: its star mesh
+  RegionLaws region_laws = {}; // of meshes
 };
 
 struct PairSpec {
@@ -128,11 +130,12 @@ public:
   int stage() const;               // solving calls so far
   std::int64_t steps() const;      // steps of all stages
   EnergyLedger energy() const;
-  std::uint64_t state_hash() const;     // of every State field, bit for bit
-  geom::Box box() const;                // undeformed
-  Deformation deformation() const;      // how far from small strain
-  std::vector<Slivers> slivers() const; // results/slivers.hpp
-  Overlap overlap() const;              // results/overlap.hpp
+  std::uint64_t state_hash() const;               // of every State field, bit for bit
+  geom::Box box() const;                          // undeformed
+  Deformation deformation() const;                // how far from small strain
+  std::vector<Slivers> slivers() const;           // results/slivers.hpp
+  std::vector<ProcessZone> process_zones() const; // results/process_zone.hpp
+  Overlap overlap() const;                        // results/overlap.hpp
   // Pairs of bodies, by name, for which a law was given and that had neither interface nor contact so far; twice the same
   // body: its own blocks.
   std::vector<std::array<std::string, 2>> unmet() const;

@@ -22,6 +22,10 @@ ContactSummary Simulation::contacts() const {
           impl_->log.deepest_over_height};
 }
 
+std::vector<ProcessZone> Simulation::process_zones() const {
+  return cdem::process_zones(impl_->model);
+}
+
 std::vector<Slivers> Simulation::slivers() const {
   return find_slivers(impl_->model);
 }

@@ -188,7 +188,8 @@ void one_by_one(const FaceBatch& batch, int faces, const FaceMotion& motion, con
     const bool whole =
         is_intact(state.mode[0][lane]) && is_intact(state.mode[1][lane]) && is_intact(state.mode[2][lane]);
     if (!whole || breaking)
-      OneFace(batch, lane, motion, law).advance(breaking, first_spring + lane, state, slips, force, sums);
+      OneFace(batch, lane, motion, at_lane(law, lane))
+          .advance(breaking, first_spring + lane, state, slips, force, sums);
   }
 }
 

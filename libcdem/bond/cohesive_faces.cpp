@@ -187,8 +187,9 @@ double damage_of(const CohesiveFace& face) {
 }
 
 void cohesive_face_forces(const FaceBatch* batches, int faces, const FaceMotion& motion, const FaceLaw& law,
-                          const Joint& joint, bool breaking, FaceStateBatch* state, CohesiveFace* cohesive,
-                          Node* force, FaceSums& sums) {
+                          const FaceJoints& joints, bool breaking, FaceStateBatch* state,
+                          CohesiveFace* cohesive, Node* force, FaceSums& sums) {
+  Joint room;
   const bool to_contact = law.hands_over && law.hand_over_due;
   for (int i = 0; i < faces; ++i) {
     CohesiveFace& face = cohesive[i];
@@ -196,10 +197,10 @@ void cohesive_face_forces(const FaceBatch* batches, int faces, const FaceMotion&
     FaceStateBatch& modes = state[i / lanes];
     const int lane = i % lanes;
     if (face.at() == FaceStage::cracking)
-      OneCohesiveFace(batch, lane, motion, joint, face)
+      OneCohesiveFace(batch, lane, motion, joints.of(i, room), face)
           .crack(breaking, std::int64_t{i / lanes} * 3 * lanes + lane, to_contact, modes, force, sums);
     else if (face.at() == FaceStage::holding && is_shifted(face))
-      OneCohesiveFace(batch, lane, motion, joint, face).hold(force);
+      OneCohesiveFace(batch, lane, motion, joints.of(i, room), face).hold(force);
     else if (face.at() == FaceStage::holding)
       hold_together(batch, lane, motion, force);
     if (face.at() == FaceStage::parted) {

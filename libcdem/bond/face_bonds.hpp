@@ -25,10 +25,13 @@ struct FaceLaw {
   double tensile_strength = 0; // T, Pa
   double cohesion = 0;         // C, Pa
   double tan_friction = 0;
+  const FaceStrengthBatch* own = nullptr; // of the first batch, where faces have strengths of their own
   bool hands_over = false;    // broken faces that part or slide away go to the contact of the surface
   bool hand_over_due = false; // in this step
 };
 FaceLaw face_law(const Body&);
+FaceLaw face_law(const Model&, const MeshChunk&, std::int64_t batch, int lane); // of one face
+FaceLaw at_lane(const FaceLaw&, int lane); // of one face of the first batch
 
 struct FaceBreak {
   std::int64_t spring = 0; // place as above, of the range's first batch on

@@ -64,7 +64,7 @@ SofteningResponse damaged_response(const SofteningLaw& law, const BondPoint& poi
 }
 
 SofteningLaw law_of(const Model& model, const Interface& interface) {
-  return softening_law(model.joints[interface.joint], interface.kn, interface.ks);
+  return softening_law(joint_of(model, interface), interface.kn, interface.ks);
 }
 
 // One spring at the jump j of its two sides, in undeformed directions. softens: some joint of the model does; a model of

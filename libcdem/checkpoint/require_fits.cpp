@@ -81,6 +81,10 @@ void require_fits(const Model& model, const State& state) {
   require_length("viscous_stress", state.viscous_stress.size(), fresh.viscous_stress.size());
   require_length("faces", state.faces.size(), model.mesh.faces.size());
   require_length("cohesive", state.cohesive.size(), fresh.cohesive.size());
+  require_length("rate_factor", state.rate_factor.size(), fresh.rate_factor.size());
+  for (const double factor : state.rate_factor)
+    if (!(factor >= 1))
+      refuse("rate_factor", std::to_string(factor) + " is out of range");
   require_length("rigid", state.rigid.size(), model.rigid.size());
   require_length("rigid_offset", state.rigid_offset.size(), nodes, model.rigid.empty());
   require_length("moving_mass", state.moving_mass.size(), nodes, true);

@@ -4,12 +4,14 @@
 #include "libcdem/contact/response/contact_point.hpp"
 #include "libcdem/element/small_strain.hpp"
 #include "libcdem/fracture/working_plane.hpp"
+#include "libcdem/model/build/face_strength.hpp"
 #include "libcdem/model/build/freed_meshes.hpp"
 #include "libcdem/state/places.hpp"
 #include "libgeom/mesh/boundary.hpp"
 
 #include <Eigen/QR>
 #include <algorithm>
+#include <limits>
 #include <map>
 
 namespace cdem {
@@ -34,6 +36,13 @@ double largest_norm2(const StressBatch& s) {
     norm2[lane] = square(0) + square(1) + square(2) + 2 * (square(3) + square(4) + square(5));
   }
   return *std::max_element(norm2, norm2 + lanes);
+}
+
+RockStrength own_strength(const Body& body, const FaceStrength& own) {
+  RockStrength rock = rock_strength(body.joint_of(own.joint));
+  rock.tensile_strength = own.tensile_strength;
+  rock.cohesion = own.cohesion;
+  return rock;
 }
 
 class Carrier {
@@ -109,6 +118,8 @@ private:
       if (lane == was % lanes)
         to.slip = from.slip; // of faces with springs, which keep their batches
       to_.state.cohesive[now] = from_.cohesive[was];
+      if (!from_.rate_factor.empty())
+        to_.state.rate_factor[now] = from_.rate_factor[was];
     });
   }
 
@@ -156,14 +167,30 @@ private:
 FreeingWatch::FreeingWatch(const Model& model) {
   if (!has_cohesive_bodies(model))
     return;
-  std::vector<geom::Tet> tets(model.tets.begin() + model.mesh.first_tet, model.tets.end());
-  std::size_t nodes = 0;
-  for (geom::Tet& tet : tets)
-    for (int& node : tet) {
-      node = model.mesh.original[node - model.mesh.first_node];
-      nodes = std::max(nodes, static_cast<std::size_t>(node) + 1);
-    }
-  neighbours_ = geom::face_neighbours(tets, nodes);
+  neighbours_ = mesh_neighbours(model);
+  if (!has_own_strengths(model))
+    return;
+  const int first = model.mesh.first_tet;
+  own_.resize(neighbours_.size());
+  for (std::size_t i = 0; i < own_.size(); ++i) {
+    if (neighbours_[i] < 0)
+      continue;
+    const int tet = static_cast<int>(i / 4), beyond = neighbours_[i] / 4;
+    std::array<geom::Vec3, 3> corners;
+    for (int k = 0; k < 3; ++k)
+      corners[k] = model.node_position[model.tets[first + tet][geom::tet_faces[i % 4][k]]];
+    const Body& body = model.bodies[model.blocks[model.tet_block[first + tet]].body];
+    const double volumes = tet_volume(model, first + tet) + tet_volume(model, first + beyond);
+    own_[i] = own_strength(
+        body, face_strength(body, model.mesh.region[tet], model.mesh.region[beyond], corners, volumes));
+  }
+  for (const MeshChunk& chunk : model.mesh.chunks) {
+    double least = std::numeric_limits<double>::infinity();
+    for (std::int64_t i = 4 * (chunk.tets.begin - first); i < 4 * (chunk.tets.end - first); ++i)
+      if (neighbours_[i] >= 0)
+        least = std::min(least, own_[i].least_norm());
+    least_.push_back(least);
+  }
 }
 
 std::optional<std::vector<char>> FreeingWatch::due(const Model& model, const State& state, int threads,
@@ -175,8 +202,12 @@ std::optional<std::vector<char>> FreeingWatch::due(const Model& model, const Sta
     const Body& body = model.bodies[model.blocks[chunk.block].body];
     if (!body.bonding.is_cohesive() || is_rigid(model, chunk))
       return;
-    const RockStrength rock = rock_strength(body.joint);
-    const double least = freed_at * rock.least_norm();
+    const RockStrength of_body = rock_strength(body.joint);
+    const auto rock_of = [&](std::int64_t face) -> const RockStrength& { // of the mesh, as in neighbours_
+      return own_.empty() ? of_body : own_[static_cast<std::size_t>(face)];
+    };
+    const double least =
+        freed_at * (own_.empty() ? of_body.least_norm() : least_[static_cast<std::size_t>(c)]);
     const auto stress_of = [&](std::int64_t tet) {
       return matrix(mesh_stress(model, state, static_cast<int>(tet)));
     };
@@ -202,7 +233,8 @@ std::optional<std::vector<char>> FreeingWatch::due(const Model& model, const Sta
           freed = freed && mesh.freed[model.tets[t][corner] - mesh.first_node] != 0;
         if (freed)
           continue;
-        const double use = strength_use(0.5 * (s + stress_of(other)), rock);
+        const double use =
+            strength_use(0.5 * (s + stress_of(other)), rock_of(4 * (t - mesh.first_tet) + face));
         if (!(use >= freed_at))
           continue;
         found[c].most = std::max(found[c].most, use);

@@ -178,6 +178,7 @@ private:
       t.joint = before->joint;
       t.thickness = before->thickness;
       t.origin = before->origin;
+      t.strength = before->strength; // parts of a face are no stronger and no weaker than it was
       t.may_break = may_break_now(may_break_, t.origin, model.blocks[a], model.blocks[b], before->may_break);
       return t;
     }

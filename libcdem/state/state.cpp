@@ -81,6 +81,9 @@ State initial_state(const Model& model) {
   if (std::any_of(model.bodies.begin(), model.bodies.end(),
                   [](const Body& body) { return body.bonding.is_cohesive(); }))
     state.cohesive.resize(model.mesh.face_tets.size());
+  if (std::any_of(model.bodies.begin(), model.bodies.end(),
+                  [](const Body& body) { return body.has_rate_effect(); }))
+    state.rate_factor.assign(model.mesh.face_tets.size(), 1.0);
   FaceStateBatch whole{};
   whole.slip = -1;
   state.faces.assign(model.mesh.faces.size(), whole);
@@ -122,6 +125,7 @@ std::vector<StateField> fields(State& s) {
       field("faces", "1", FieldPlace::face, "mesh_forces", s.faces, false),
       field("face_slip", "m", FieldPlace::face, "mesh_forces, record_face_breaks", s.face_slip, true),
       field("cohesive", "record", FieldPlace::face, "begin_cracks, mesh_forces", s.cohesive, true),
+      field("rate_factor", "1", FieldPlace::face, "begin_cracks", s.rate_factor, true),
       field("contacts", "record", FieldPlace::contact, "contact_forces", s.contacts, false),
       field("rigid", "record", FieldPlace::rigid_body, "move_rigid, set_rigid", s.rigid, true),
       field("rigid_offset", "m", FieldPlace::node, "set_rigid", s.rigid_offset, true),

@@ -47,6 +47,9 @@ struct State {
   std::vector<FaceSlip> face_slip;
   // (n face batches * lanes); written by begin_cracks, mesh_forces; empty without cohesive bodies
   std::vector<CohesiveFace> cohesive;
+  // DIF at which each face began to crack (joint/rate_effect.hpp), as long; empty where no joint has a rate effect;
+  // written by begin_cracks
+  std::vector<double> rate_factor;
 
   std::vector<Contact> contacts; // those that act, by kind, source and piece; written by contact_forces
   std::vector<RigidState> rigid; // (n rigid bodies); written by move_rigid, set_rigid

@@ -42,6 +42,16 @@ void read_mesh(const Arguments& given, const std::string& path, std::vector<geom
   body.bonding.between_regions = bonds == "regions";
   for (const double region : given.numbers("bonded_regions"))
     body.bonding.regions.push_back(static_cast<int>(region) - 1);
+  std::size_t row = 0;
+  for (const Value& law : given.list("region_joints")) {
+    ++row;
+    if (bonds == "none")
+      throw InputError(path + ".region_joints: goes with a joint, which the other faces have");
+    const Values& items = law.table()->items;
+    const auto region = [&](int i) { return static_cast<int>(items[i].number()) - 1; };
+    body.region_laws.regions.emplace_back(std::minmax({region(0), region(1)}));
+    body.region_laws.joints.push_back(static_cast<const JointObject&>(*items[2].object()).joint);
+  }
   if (given.text_or("bond_type", "springs") == "cohesive") {
     if (bonds == "none")
       throw InputError(path + ".bond_type: goes with a joint, which says what the body bears");
@@ -66,7 +76,8 @@ std::optional<geom::Pile> pile_shape(const Arguments& given) {
 }
 
 void require_blocks(const Arguments& given, const std::string& path) {
-  for (const char* const only : {"bonds", "bonded_regions", "bond_type", "stiffness_ratio", "shear_ratio"})
+  for (const char* const only :
+       {"bonds", "bonded_regions", "bond_type", "region_joints", "stiffness_ratio", "shear_ratio"})
     if (given.has(only))
       throw InputError(path + "." + only + ": only for a meshed body; an assembly's faces are all bonded");
   if (const auto material = given.object<MaterialObject>("material");
@@ -226,7 +237,19 @@ Value make_model(Session& session, Object*, const Arguments& a) {
   session.models.push_back(model);
   session.notes.push_back(model->notes);
   note_pairs_apart(session, *model, spec);
+  note_process_zones(session, *model);
   return model;
+}
+
+Value process_zones(Session&, ModelObject& model, const Arguments&) {
+  Values rows;
+  for (const ProcessZone& zone : model.simulation.process_zones())
+    rows.emplace_back(Table{{"of", zone.of},
+                            {"length", zone.length},
+                            {"face_size", zone.face_size},
+                            {"largest_face_size", zone.largest_face_size},
+                            {"faces_in_zone", zone.faces_in_zone()}});
+  return Table::list(std::move(rows));
 }
 
 Value select(Session&, ModelObject& model, const Arguments& a) {
@@ -337,6 +360,10 @@ void bind_model(Module& m) {
               "of a mesh with a joint: springs (Feng 2014) on every bonded face, or cohesive: continuous, "
               "with shared nodes, until a face nears its strength, then the joint's softening or brittle law "
               "on the plane that fails. springs by default"),
+      list("region_joints", tuple_type({whole_number, whole_number, object_type("Joint")}), 1)
+          .doc("of a mesh: {region, region, joint} gives the faces between two regions, or with the same "
+               "number "
+               "twice those inside one, a joint of their own; numbers from 1. All others have `joint`"),
       number("stiffness_ratio")
           .above(0)
           .doc(
@@ -369,6 +396,14 @@ void bind_model(Module& m) {
         integer("intact").required(), integer("broken_tension").required(),
         integer("broken_shear").required(), integer("contacts").required(),
         integer("damaged").required().doc("of the intact ones: have begun to soften")}});
+  m.records.push_back(
+      {"ProcessZone",
+       "The process zone of a law that softens beside the faces that carry it; medians over the faces.",
+       {text("of").required().doc("body, regions or pair of bodies"),
+        number("length").unit("m").required().doc("E' G_I / T^2, E' = E / (1 - nu^2)"),
+        number("face_size").unit("m").required().doc("edge of an equilateral triangle of the face's area"),
+        number("largest_face_size").unit("m").required().doc("that leaves three faces in the cohesive zone"),
+        number("faces_in_zone").required().doc("faces in the cohesive zone, 0.88 of the length")}});
   Class model{"Model", "Made by cdem.model."};
   model.properties = model_properties();
   model.text = [](const Object& self) {
@@ -395,6 +430,13 @@ void bind_model(Module& m) {
                     "cdem.Counts",
                     "",
                     method<ModelObject>(counts)},
+                   {"process_zones",
+                    "Whether faces resolve the process zone E' G_I / T^2 of what softens, by body and pair.",
+                    {},
+                    true,
+                    "cdem.ProcessZone[]",
+                    "",
+                    method<ModelObject>(process_zones)},
                    {"box",
                     "Smallest axis-aligned box around the undeformed model.",
                     {},
