@@ -118,8 +118,9 @@ TEST_CASE("slivers of a breakable mesh are told of with their step, in a check t
   const std::string text =
       opening + "local rock = cdem.elastic{ youngs_modulus = 30e9, poissons_ratio = 0.2, density = 2400 }\n" +
       "local law = cdem.mohr_coulomb{ cohesion = 6e6, friction_angle = 30, tensile_strength = 3e6 }\n" +
-      "local blocks = cdem.blocks{ cdem.box{ size = {1, 1, 1} }, cdem.box{ corner = {0, 0, 1}, size = {1, 1, 0.02} } }\n" +
-      "local model = cdem.model{ bodies = { { shape = blocks:solid():mesh{ size = 0.5 }, material = rock, joint = law, "
+      "local box = cdem.solid.box\nlocal solid = cdem.solid.fragments{ solids = { box{ size = {1, 1, 1} }, "
+      "box{ size = {1, 1, 0.02}, origin = {0, 0, 1} } } }\n"
+      "local model = cdem.model{ bodies = { { shape = solid:mesh{ size = 0.5 }, material = rock, joint = law, "
       "bond_type = '" +
       type + "', name = 'slab' } } }\nmodel:gravity{ vector = {0, 0, -9.81} }\nmodel:run{ steps = 1 }";
   const auto told = lines_of(text, "need a time step of", GENERATE(false, true));
