@@ -47,6 +47,10 @@ public:
     return strength_ ? strength_[face / lanes].cohesion[face % lanes] : joint_->cohesion;
   }
 
+  double tan_friction(std::int64_t face, double otherwise) const {
+    return strength_ ? strength_[face / lanes].tan_friction[face % lanes] : otherwise;
+  }
+
   static void raise(Joint& joint, double factor) {
     joint.tensile_strength *= factor;
     joint.cohesion *= factor;

@@ -81,7 +81,7 @@ std::vector<geom::Mat3> velocity_jumps(const Model& model, const State& state,
       model.mesh.sides.empty() ? 0 : model.tets.size() - static_cast<std::size_t>(model.mesh.first_tet),
       geom::Mat3::Zero());
   each_side(model.mesh, [&](int tet, int face, const geom::Triangle& own, const geom::Triangle& beyond) {
-    if (state.cohesive[face].at() != FaceStage::holding)
+    if (!holds(state.faces[face / lanes].stage[face % lanes]))
       return;
     geom::Vec3 jump = geom::Vec3::Zero();
     for (int i = 0; i < 3; ++i)
@@ -228,10 +228,9 @@ FaceSpring face_point_response(const Model& model, const State& state, const std
   if (body.bonding.is_cohesive()) {
     Joint room;
     const std::int64_t face = at.batch * lanes + at.lane;
+    const Joint& joint = FaceJoints(model, state, chunk).of(face - chunk.face_batches.begin * lanes, room);
     return cohesive_spring(batch, at.lane, face_frame(nodes, position.data(), state.displacement.data()),
-                           at.point,
-                           FaceJoints(model, state, chunk).of(face - chunk.face_batches.begin * lanes, room),
-                           state.cohesive[face]);
+                           at.point, joint, state.faces[at.batch], state.cohesive[face]);
   }
   return face_spring(batch, nodes, at.point, at.lane, position.data(), state.displacement.data(),
                      face_law(model, chunk, at.batch, at.lane), state.faces[at.batch],

@@ -2,44 +2,55 @@
 
 #include "libcdem/bond/cohesive_faces.hpp"
 #include "libcdem/element/small_strain.hpp"
-#include "libcdem/fracture/working_plane.hpp"
+#include "libcdem/fracture/own_rocks.hpp"
+#include "libcdem/parallel/simd.hpp"
 #include "libcdem/state/places.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace cdem {
 namespace {
 
-FaceFrame frame_of(const Model& model, const State& state, const FaceNodes& nodes) {
-  return face_frame(
-      nodes, [&](int node) { return place_of(model, state, node); },
-      [&](int node) { return vec(state.displacement[node]); });
+// Steps between two looks at the same eight faces: a wave needs more to cross a freed tet.
+constexpr std::int64_t look_every = 4;
+
+// Eight faces side by side.
+struct FaceStress {
+  double component[6][lanes]; // Pa, in the order of Stress: the mean of both tets
+  bool may_fail[lanes];
+};
+
+CDEM_INLINE void stress_kernel(const StressBatch* stress, const std::int32_t (&slot_a)[lanes],
+                               const std::int32_t (&slot_b)[lanes], const double (&left)[lanes],
+                               const std::vector<UseBound>& bounds, FaceStress& to) {
+  using simd::Oct;
+  Oct s[6];
+  for (int c = 0; c < 6; ++c) {
+    for (int lane = 0; lane < lanes; ++lane)
+      s[c][lane] = stress[slot_a[lane] / lanes].component[c][slot_a[lane] % lanes] +
+                   stress[slot_b[lane] / lanes].component[c][slot_b[lane] % lanes];
+    s[c] *= 0.5;
+    simd::store(to.component[c], s[c]);
+  }
+  const Oct part = simd::load(left);
+  for (Oct& c : s)
+    c /= part;
+  for (bool& may_fail : to.may_fail)
+    may_fail = false;
+  for (const UseBound& bound : bounds) {
+    const Oct beyond = bound.beyond(s);
+    for (int lane = 0; lane < lanes; ++lane)
+      to.may_fail[lane] = to.may_fail[lane] || beyond[lane] > 0;
+  }
 }
 
-// What the faces of a chunk bear.
-class Rocks {
-public:
-  Rocks(const Body& body, const FaceJoints& joints, int faces) : joints_(joints) {
-    for (int law = -1; law < static_cast<int>(body.region_laws.joints.size()); ++law)
-      of_law_.push_back(rock_strength(body.joint_of(law)));
-    least_ = of_law_[0].least_norm();
-    if (joints.own())
-      for (int face = 0; face < faces; ++face)
-        least_ = std::min(least_, of(face).least_norm());
-  }
-  RockStrength of(int face) const {
-    RockStrength rock = of_law_[static_cast<std::size_t>(joints_.law(face) + 1)];
-    rock.tensile_strength = joints_.tensile_strength(face);
-    rock.cohesion = joints_.cohesion(face);
-    return rock;
-  }
-  double least_norm() const { return least_; } // Pa
-
-private:
-  const FaceJoints& joints_;
-  std::vector<RockStrength> of_law_; // that of the body first
-  double least_ = 0;
-};
+geom::Mat3 stress_in(const FaceStress& of, int lane) {
+  Stress s{};
+  for (int c = 0; c < 6; ++c)
+    s[c] = of.component[c][lane];
+  return matrix(s);
+}
 
 // 1/s, sqrt(d : d) of the rate of deformation d, in the mean of the two tets.
 double strain_rate(const Model& model, const State& state, const FaceTets& tets) {
@@ -52,63 +63,121 @@ double strain_rate(const Model& model, const State& state, const FaceTets& tets)
   return 0.5 * sum;
 }
 
-BegunCracks of_chunk(const Model& model, State& state, std::int64_t index) {
-  BegunCracks begun;
-  const MeshChunk& chunk = model.mesh.chunks[index];
-  const FaceJoints joints(model, state, chunk);
-  const Rocks rocks(model.bodies[model.blocks[chunk.block].body], joints, chunk.faces);
-  const double least2 = rocks.least_norm() * rocks.least_norm();
-  Joint room;
-  for (int i = 0; i < chunk.faces; ++i) {
-    const std::int64_t face = chunk.face_batches.begin * lanes + i, batch = face / lanes;
-    const int lane = static_cast<int>(face % lanes);
-    CohesiveFace& cohesive = state.cohesive[face];
-    const bool cracks = cohesive.at() == FaceStage::cracking;
-    const double left = 1 - damage_of(cohesive); // of its strength
-    if (cohesive.at() == FaceStage::parted || left <= 0)
-      continue;
-    const FaceTets& tets = model.mesh.face_tets[face];
-    const geom::Mat3 stress =
-        0.5 * (matrix(mesh_stress(model, state, tets.tet_a)) + matrix(mesh_stress(model, state, tets.tet_b)));
-    if (!cracks && stress.squaredNorm() < least2 * left * left)
-      continue;
-    const FaceBatch& at = model.mesh.faces[batch];
-    const FaceFrame frame = frame_of(model, state, face_nodes(model.mesh, chunk, batch, lane));
-    if (cracks) {
-      begun.breaking += end_crack(at, lane, frame, joints.of(i, room), stress, cohesive).value_or(0);
-      continue;
-    }
-    RockStrength rock = rocks.of(i);
-    auto plane = working_plane(stress / left, rock, frame.normal);
-    if (!plane)
-      continue;
-    if (!state.rate_factor.empty()) {
-      const double factor =
-          dynamic_increase_factor(joints.before_rate(i).rate, strain_rate(model, state, tets));
-      rock.tensile_strength *= factor;
-      rock.cohesion *= factor;
-      plane = working_plane(stress / left, rock, frame.normal);
-      if (!plane)
+class ChunkCracks {
+public:
+  ChunkCracks(const Model& model, State& state, std::int64_t index)
+      : model_(model), state_(state), index_(index), chunk_(model.mesh.chunks[index]),
+        body_(model.bodies[model.blocks[chunk_.block].body]), joints_(model, state, chunk_), rocks_(body_) {
+    if (!joints_.own())
+      rocks_.take(-1, rock_strength(body_.joint));
+    else
+      for (int face = 0; face < chunk_.faces; ++face)
+        rocks_.take(joints_.law(face), rock(face));
+  }
+
+  BegunCracks operator()() {
+    const std::vector<UseBound> bounds = rocks_.bounds(1);
+    for (int first = 0; first < chunk_.faces; first += lanes) {
+      const std::int64_t batch = chunk_.face_batches.begin + first / lanes;
+      const int faces = std::min(lanes, chunk_.faces - first);
+      if ((state_.step + batch) % look_every != 0 || all_parted(batch, faces))
         continue;
-      state.rate_factor[face] = factor;
+      std::int32_t slot_a[lanes], slot_b[lanes];
+      double left[lanes];
+      for (int lane = 0; lane < lanes; ++lane) {
+        const FaceTets& tets = model_.mesh.face_tets[batch * lanes + (lane < faces ? lane : 0)];
+        slot_a[lane] = model_.mesh.tet_slot[tets.tet_a - model_.mesh.first_tet];
+        slot_b[lane] = model_.mesh.tet_slot[tets.tet_b - model_.mesh.first_tet];
+        left[lane] = lane < faces ? strength_left(batch, lane) : 1;
+      }
+      FaceStress stress;
+      simd::best<stress_kernel>(state_.stress.data(), slot_a, slot_b, left, bounds, stress);
+      for (int lane = 0; lane < faces; ++lane)
+        one_face(batch, lane, stress);
     }
-    const Joint& joint = joints.of(i, room);
-    begun.breaking +=
-        begin_crack(at, lane, frame, joint, stress, plane->normal, plane->mode, state.faces[batch], cohesive);
+    return std::move(begun_);
+  }
+
+private:
+  bool all_parted(std::int64_t batch, int faces) const {
+    const auto& stage = state_.faces[batch].stage;
+    return std::all_of(stage, stage + faces, [](FaceStage s) { return s == FaceStage::parted; });
+  }
+
+  FaceFrame frame(std::int64_t batch, int lane) const {
+    return face_frame(
+        face_nodes(model_.mesh, chunk_, batch, lane),
+        [&](int node) { return place_of(model_, state_, node); },
+        [&](int node) { return vec(state_.displacement[node]); });
+  }
+
+  void one_face(std::int64_t batch, int lane, const FaceStress& of_batch) {
+    FaceStateBatch& face = state_.faces[batch];
+    CohesiveFace& cohesive = state_.cohesive[batch * lanes + lane];
+    const FaceBatch& at = model_.mesh.faces[batch];
+    if (face.stage[lane] == FaceStage::cracking && may_end(cohesive))
+      begun_.breaking += end_crack(at, lane, frame(batch, lane), joints_.of(place(batch, lane), room_),
+                                   stress_in(of_batch, lane), face, cohesive)
+                             .value_or(0);
+    else if (holds(face.stage[lane]) && of_batch.may_fail[lane])
+      begin(batch, lane, stress_in(of_batch, lane), strength_left(batch, lane));
+  }
+
+  // Among the faces of the chunk.
+  int place(std::int64_t batch, int lane) const {
+    return static_cast<int>(batch - chunk_.face_batches.begin) * lanes + lane;
+  }
+  RockStrength rock(int face) const {
+    return rocks_.of(joints_.law(face), joints_.tensile_strength(face), joints_.cohesion(face));
+  }
+
+  // Of 1: a crack that did not go on took the rest. At least what may_end leaves.
+  double strength_left(std::int64_t batch, int lane) const {
+    return state_.faces[batch].stage[lane] == FaceStage::resumed
+               ? 1 - damage_of(state_.cohesive[batch * lanes + lane])
+               : 1;
+  }
+
+  void begin(std::int64_t batch, int lane, const geom::Mat3& stress, double left) {
+    const FaceFrame at = frame(batch, lane);
+    const int face = place(batch, lane);
+    auto plane = working_plane(stress / left, rock(face), at.normal);
+    if (plane && !state_.rate_factor.empty()) {
+      const double factor =
+          dynamic_increase_factor(joints_.before_rate(face).rate,
+                                  strain_rate(model_, state_, model_.mesh.face_tets[batch * lanes + lane]));
+      plane = working_plane(stress / (left * factor), rock(face), at.normal);
+      if (plane)
+        state_.rate_factor[batch * lanes + lane] = factor;
+    }
+    if (!plane)
+      return;
+    const Joint& joint = joints_.of(face, room_);
+    begun_.breaking += begin_crack(model_.mesh.faces[batch], lane, at, joint, stress, plane->normal,
+                                   plane->mode, state_.faces[batch], state_.cohesive[batch * lanes + lane]);
     if (joint.softening != Softening::none)
-      continue;
+      return;
     const geom::Vec3 traction = stress * plane->normal;
     const double normal = traction.dot(plane->normal);
     for (int point = 0; point < 3; ++point)
-      begun.broken.push_back({index,
-                              {batch, point, lane},
-                              plane->mode,
-                              plane->normal,
-                              normal,
-                              (traction - normal * plane->normal).norm()});
+      begun_.broken.push_back({index_,
+                               {batch, point, lane},
+                               plane->mode,
+                               plane->normal,
+                               normal,
+                               (traction - normal * plane->normal).norm()});
   }
-  return begun;
-}
+
+  const Model& model_;
+  State& state_;
+  std::int64_t index_;
+  const MeshChunk& chunk_;
+  const Body& body_;
+  FaceJoints joints_;
+  OwnRocks rocks_;
+  Joint room_;
+  BegunCracks begun_;
+};
 
 } // namespace
 
@@ -117,7 +186,7 @@ BegunCracks begin_cracks(const Model& model, State& state, int threads) {
   for_chunks(static_cast<std::int64_t>(of_chunks.size()), threads, [&](std::int64_t c) {
     const MeshChunk& chunk = model.mesh.chunks[c];
     if (chunk.side_batches.size() > 0 && !is_rigid(model, chunk))
-      of_chunks[c] = of_chunk(model, state, c);
+      of_chunks[c] = ChunkCracks(model, state, c)();
   });
   BegunCracks all;
   for (const BegunCracks& some : of_chunks) {

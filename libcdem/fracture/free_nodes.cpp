@@ -3,15 +3,15 @@
 #include "libcdem/bond/fragments.hpp"
 #include "libcdem/contact/response/contact_point.hpp"
 #include "libcdem/element/small_strain.hpp"
-#include "libcdem/fracture/working_plane.hpp"
+#include "libcdem/fracture/own_rocks.hpp"
 #include "libcdem/model/build/face_strength.hpp"
 #include "libcdem/model/build/freed_meshes.hpp"
+#include "libcdem/parallel/simd.hpp"
 #include "libcdem/state/places.hpp"
 #include "libgeom/mesh/boundary.hpp"
 
 #include <Eigen/QR>
 #include <algorithm>
-#include <limits>
 #include <map>
 
 namespace cdem {
@@ -28,21 +28,21 @@ struct NearStrength {
   std::vector<int> nodes;
 };
 
-// Pa2, of eight tets the largest sigma : sigma.
-double largest_norm2(const StressBatch& s) {
-  double norm2[lanes];
-  for (int lane = 0; lane < lanes; ++lane) {
-    const auto square = [&](int c) { return s.component[c][lane] * s.component[c][lane]; };
-    norm2[lane] = square(0) + square(1) + square(2) + 2 * (square(3) + square(4) + square(5));
-  }
-  return *std::max_element(norm2, norm2 + lanes);
+// Whether some of eight tets may use so much of their strength.
+CDEM_INLINE void any_beyond_kernel(const StressBatch& stress, const UseBound& bound, bool& any) {
+  simd::Oct s[6];
+  for (int c = 0; c < 6; ++c)
+    s[c] = simd::load(stress.component[c]);
+  const simd::Oct beyond = bound.beyond(s);
+  any = false;
+  for (int lane = 0; lane < lanes; ++lane)
+    any = any || beyond[lane] > 0;
 }
 
-RockStrength own_strength(const Body& body, const FaceStrength& own) {
-  RockStrength rock = rock_strength(body.joint_of(own.joint));
-  rock.tensile_strength = own.tensile_strength;
-  rock.cohesion = own.cohesion;
-  return rock;
+bool may_use(const std::vector<UseBound>& bounds, const geom::Mat3& s) {
+  const double components[6] = {s(0, 0), s(1, 1), s(2, 2), s(0, 1), s(1, 2), s(0, 2)};
+  return std::any_of(bounds.begin(), bounds.end(),
+                     [&](const UseBound& bound) { return bound.beyond(components) > 0; });
 }
 
 class Carrier {
@@ -115,6 +115,8 @@ private:
       for (int point = 0; point < 3; ++point)
         to.mode[point][lane] = from.mode[point][was % lanes];
       to.handed_over[lane] = from.handed_over[was % lanes];
+      to.stage[lane] = from.stage[was % lanes];
+      to.preloaded[lane] = from.preloaded[was % lanes];
       if (lane == was % lanes)
         to.slip = from.slip; // of faces with springs, which keep their batches
       to_.state.cohesive[now] = from_.cohesive[was];
@@ -170,26 +172,30 @@ FreeingWatch::FreeingWatch(const Model& model) {
   neighbours_ = mesh_neighbours(model);
   if (!has_own_strengths(model))
     return;
-  const int first = model.mesh.first_tet;
+  const MeshData& mesh = model.mesh;
   own_.resize(neighbours_.size());
-  for (std::size_t i = 0; i < own_.size(); ++i) {
-    if (neighbours_[i] < 0)
+  bounds_.resize(mesh.chunks.size());
+  for (std::size_t c = 0; c < mesh.chunks.size(); ++c) {
+    const MeshChunk& chunk = mesh.chunks[c];
+    const Body& body = model.bodies[model.blocks[chunk.block].body];
+    if (!body.bonding.is_cohesive())
       continue;
-    const int tet = static_cast<int>(i / 4), beyond = neighbours_[i] / 4;
-    std::array<geom::Vec3, 3> corners;
-    for (int k = 0; k < 3; ++k)
-      corners[k] = model.node_position[model.tets[first + tet][geom::tet_faces[i % 4][k]]];
-    const Body& body = model.bodies[model.blocks[model.tet_block[first + tet]].body];
-    const double volumes = tet_volume(model, first + tet) + tet_volume(model, first + beyond);
-    own_[i] = own_strength(
-        body, face_strength(body, model.mesh.region[tet], model.mesh.region[beyond], corners, volumes));
-  }
-  for (const MeshChunk& chunk : model.mesh.chunks) {
-    double least = std::numeric_limits<double>::infinity();
-    for (std::int64_t i = 4 * (chunk.tets.begin - first); i < 4 * (chunk.tets.end - first); ++i)
-      if (neighbours_[i] >= 0)
-        least = std::min(least, own_[i].least_norm());
-    least_.push_back(least);
+    OwnRocks rocks(body);
+    for (auto i = static_cast<std::size_t>(4 * (chunk.tets.begin - mesh.first_tet));
+         i < static_cast<std::size_t>(4 * (chunk.tets.end - mesh.first_tet)); ++i) {
+      if (neighbours_[i] < 0)
+        continue;
+      const int tet = static_cast<int>(i / 4), beyond = neighbours_[i] / 4;
+      std::array<geom::Vec3, 3> corners;
+      for (int k = 0; k < 3; ++k)
+        corners[k] = model.node_position[model.tets[mesh.first_tet + tet][geom::tet_faces[i % 4][k]]];
+      const FaceStrength face =
+          face_strength(body, mesh.region[tet], mesh.region[beyond], corners,
+                        tet_volume(model, mesh.first_tet + tet) + tet_volume(model, mesh.first_tet + beyond));
+      own_[i] = rocks.of(face.joint, face.tensile_strength, face.cohesion);
+      rocks.take(face.joint, own_[i]);
+    }
+    bounds_[c] = rocks.bounds(freed_at);
   }
 }
 
@@ -206,20 +212,26 @@ std::optional<std::vector<char>> FreeingWatch::due(const Model& model, const Sta
     const auto rock_of = [&](std::int64_t face) -> const RockStrength& { // of the mesh, as in neighbours_
       return own_.empty() ? of_body : own_[static_cast<std::size_t>(face)];
     };
-    const double least =
-        freed_at * (own_.empty() ? of_body.least_norm() : least_[static_cast<std::size_t>(c)]);
+    // Of convex sets: the mean of two stresses below them is below them.
+    const std::vector<UseBound> bounds = own_.empty() ? std::vector<UseBound>{UseBound(of_body, freed_at)}
+                                                      : bounds_[static_cast<std::size_t>(c)];
     const auto stress_of = [&](std::int64_t tet) {
       return matrix(mesh_stress(model, state, static_cast<int>(tet)));
     };
     for (std::int64_t t = chunk.tets.begin; t < chunk.tets.end; ++t) {
       const std::int64_t place = t - chunk.tets.begin;
-      if (place % lanes == 0 &&
-          largest_norm2(state.stress[chunk.batches.begin + place / lanes]) < least * least) {
-        t += lanes - 1;
-        continue;
+      if (place % lanes == 0) {
+        bool any = false;
+        for (const UseBound& bound : bounds)
+          if (!any)
+            simd::best<any_beyond_kernel>(state.stress[chunk.batches.begin + place / lanes], bound, any);
+        if (!any) {
+          t += lanes - 1;
+          continue;
+        }
       }
       const geom::Mat3 s = stress_of(t);
-      if (s.squaredNorm() < least * least)
+      if (!may_use(bounds, s))
         continue;
       for (int face = 0; face < 4; ++face) {
         const int beyond = neighbours_[4 * (t - mesh.first_tet) + face];
@@ -233,8 +245,9 @@ std::optional<std::vector<char>> FreeingWatch::due(const Model& model, const Sta
           freed = freed && mesh.freed[model.tets[t][corner] - mesh.first_node] != 0;
         if (freed)
           continue;
+        const geom::Mat3 mean = 0.5 * (s + stress_of(other));
         const double use =
-            strength_use(0.5 * (s + stress_of(other)), rock_of(4 * (t - mesh.first_tet) + face));
+            may_use(bounds, mean) ? strength_use(mean, rock_of(4 * (t - mesh.first_tet) + face)) : 0;
         if (!(use >= freed_at))
           continue;
         found[c].most = std::max(found[c].most, use);
@@ -288,7 +301,7 @@ void preload_faces(const Model& model, State& state, const std::vector<Node>& ne
       stars[mesh.original[node - mesh.first_node]].copies.push_back(node);
   each_face(mesh, [&](const MeshChunk& chunk, std::int64_t batch, int lane) {
     const std::int64_t face = batch * lanes + lane;
-    if (state.cohesive.empty() || state.cohesive[face].at() != FaceStage::holding)
+    if (state.cohesive.empty() || !holds(state.faces[batch].stage[lane]))
       return;
     const FaceNodes at = face_nodes(mesh, chunk, batch, lane);
     for (int corner = 0; corner < 3; ++corner)
@@ -325,6 +338,7 @@ void preload_faces(const Model& model, State& state, const std::vector<Node>& ne
     }
     const Eigen::MatrixXd potential = laplacian.completeOrthogonalDecomposition().solve(missing);
     for (const Between& f : star.faces) {
+      state.faces[f.face / lanes].preloaded[f.face % lanes] = 1;
       auto& q = state.cohesive[f.face].preload[f.corner];
       for (int axis = 0; axis < 3; ++axis)
         q[axis] += potential(place(f.a), axis) - potential(place(f.b), axis);

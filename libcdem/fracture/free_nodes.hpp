@@ -28,7 +28,7 @@ public:
 private:
   std::vector<int> neighbours_;   // per tet of the mesh and face of it: 4 tet + face on the other side, or -1
   std::vector<RockStrength> own_; // of the same; empty: all are as their body's joint says
-  std::vector<double> least_;     // Pa, least_norm of those of each chunk
+  std::vector<std::vector<UseBound>> bounds_; // of the faces of each chunk; empty likewise
 };
 
 struct Freed {

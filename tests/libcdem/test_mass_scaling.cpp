@@ -110,8 +110,9 @@ TEST_CASE("mass scaling: a body that moves keeps its balance of energy through s
   }
 }
 
-TEST_CASE("mass scaling: a factor is over the step of the true masses, and the step is kept where nodes are freed",
-          "[mass_scaling][cohesive]") {
+TEST_CASE(
+    "mass scaling: a factor is over the step of the true masses, and the step is kept where nodes are freed",
+    "[mass_scaling][cohesive]") {
   const Vec3 size(0.6, 0.25, 0.25);
   const auto peak = [&](double factor) {
     System s(build({meshed("bar", unstructured(size, 0.12), cohesive(), concrete(),

@@ -12,7 +12,8 @@ namespace {
 constexpr double length = 30e9 / (1 - 0.04) * 100 / 9e12; // m, of concrete with concrete_joint
 
 cdem::BodySpec bar(double edge, cdem::Softening softening = cdem::Softening::linear) {
-  return meshed("bar", unstructured({0.6, 0.25, 0.25}, edge), cohesive(), concrete(), concrete_joint(softening));
+  return meshed("bar", unstructured({0.6, 0.25, 0.25}, edge), cohesive(), concrete(),
+                concrete_joint(softening));
 }
 
 } // namespace

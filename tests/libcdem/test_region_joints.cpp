@@ -93,7 +93,11 @@ TEST_CASE("region joints: wrong input is refused", "[regions][input]") {
     spec.bodies = {body};
     CHECK_THROWS_WITH(cdem::Simulation(spec, 1, nullptr), Catch::Contains(says));
   };
-  refused([](auto& b) { b.region_laws.regions[0] = {0, 2}; }, "region_joints[1] = 3: must be regions of the mesh");
+  refused(
+      [](auto& b) {
+        b.region_laws.regions[0] = {0, 2};
+      },
+      "region_joints[1] = 3: must be regions of the mesh");
   refused([](auto& b) { b.region_laws.regions[0] = {-1, 1}; }, "region_joints[1] = 0");
   refused(
       [](auto& b) {

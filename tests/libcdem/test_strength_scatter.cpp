@@ -1,11 +1,11 @@
 // Strength that scatters: Weibull's distribution and its size effect, the same draws whatever the numbering.
-#include "libcdem/joint/strength_scatter.hpp"
-#include "libcdem/fracture/free_nodes.hpp"
 #include "libcdem/element/small_strain.hpp"
+#include "libcdem/fracture/free_nodes.hpp"
 #include "libcdem/fracture/rebuild.hpp"
-#include "libgeom/polyhedron/cut.hpp"
+#include "libcdem/joint/strength_scatter.hpp"
 #include "libgeom/assembly/builders.hpp"
 #include "libgeom/core/random.hpp"
+#include "libgeom/polyhedron/cut.hpp"
 #include "tests/libcdem/cohesive_bars.hpp"
 #include "tests/libcdem/going_on.hpp"
 
@@ -81,7 +81,8 @@ TEST_CASE("strength scatter: mean, variance and distribution of the factor are W
   for (std::uint64_t i = 0; i < n; ++i)
     factors.push_back(cdem::scatter_factor(scatter(m), volume, geom::uniform(7, i, 0)));
   const Moments found = moments(factors);
-  const double g1 = std::tgamma(1 + 1 / m), g2 = std::tgamma(1 + 2 / m), size = std::pow(1e-3 / volume, 1 / m);
+  const double g1 = std::tgamma(1 + 1 / m), g2 = std::tgamma(1 + 2 / m),
+               size = std::pow(1e-3 / volume, 1 / m);
   const double variance = size * size * (g2 / (g1 * g1) - 1);
   CHECK(found.mean == Approx(size).margin(4 * std::sqrt(variance / n)));
   CHECK(found.variance == Approx(variance).epsilon(0.05));
@@ -109,7 +110,8 @@ TEST_CASE("strength scatter: the weakest face of a body is weaker by V^(-1/m), w
     Vec3 size;
     double edge;
   };
-  const auto bar = GENERATE(Bar{{0.2, 0.1, 0.1}, 0.05}, Bar{{0.2, 0.1, 0.1}, 0.08}, Bar{{0.4, 0.2, 0.2}, 0.1});
+  const auto bar =
+      GENERATE(Bar{{0.2, 0.1, 0.1}, 0.05}, Bar{{0.2, 0.1, 0.1}, 0.08}, Bar{{0.4, 0.2, 0.2}, 0.1});
   constexpr double m = 6;
   constexpr int n = 200;
   const geom::TetMesh mesh = unstructured(bar.size, bar.edge);
@@ -128,7 +130,8 @@ TEST_CASE("strength scatter: the weakest face of a body is weaker by V^(-1/m), w
   CHECK(std::sqrt(found.variance) / found.mean == Approx(spread).epsilon(0.2));
 }
 
-TEST_CASE("strength scatter: draws follow the seed and the place of a face, not its number", "[scatter][mesh]") {
+TEST_CASE("strength scatter: draws follow the seed and the place of a face, not its number",
+          "[scatter][mesh]") {
   const geom::TetMesh mesh = unstructured({0.3, 0.2, 0.2}, 0.1);
   const auto strengths = [&](const geom::TetMesh& of, std::uint64_t seed) {
     return face_strengths(build({meshed("bar", of, springs(), concrete(), scattered(8, seed))}));
@@ -159,7 +162,8 @@ TEST_CASE("strength scatter: freeing nodes changes no face's strength, cohesion 
   std::map<std::pair<int, int>, double> before;
   const auto each = [&](const auto& visit) {
     cdem::each_face(s.model.mesh, [&](const cdem::MeshChunk&, std::int64_t batch, int lane) {
-      const cdem::FaceTets& tets = s.model.mesh.face_tets[static_cast<std::size_t>(batch * cdem::lanes + lane)];
+      const cdem::FaceTets& tets =
+          s.model.mesh.face_tets[static_cast<std::size_t>(batch * cdem::lanes + lane)];
       const cdem::FaceStrengthBatch& own = s.model.mesh.strength[static_cast<std::size_t>(batch)];
       CHECK(own.cohesion[lane] / own.tensile_strength[lane] == Approx(2).epsilon(1e-12));
       visit(std::pair(tets.tet_a, tets.tet_b), own.tensile_strength[lane]);
@@ -187,9 +191,8 @@ TEST_CASE("strength scatter: a row of blocks parts at its weakest face, at that 
   cdem::Joint joint = scattered(5, GENERATE(1, 2, 3));
   joint.scatter.reference_volume = 0.1 * 0.1 * 0.1 / 3;
   System s(build({body("row", geom::grid({0.8, 0.1, 0.1}, {8, 1, 1}), concrete(), joint)}));
-  const auto weakest =
-      std::min_element(s.model.interfaces.begin(), s.model.interfaces.end(),
-                       [](const auto& a, const auto& b) { return a.strength < b.strength; });
+  const auto weakest = std::min_element(s.model.interfaces.begin(), s.model.interfaces.end(),
+                                        [](const auto& a, const auto& b) { return a.strength < b.strength; });
   lead_apart(s.conditions.fixes, 0.02);
   cdem::RunOptions options;
   options.steps = 1 << 30;
@@ -214,7 +217,8 @@ TEST_CASE("strength scatter: interfaces that a cut divides keep their strength, 
     for (const auto* part : {&*parts.below, &*parts.above})
       cut.push_back({b, part->shape, part->parent_face, false});
   }
-  const cdem::Rebuilt after = cdem::rebuild(before, cdem::initial_state(before), cut, {}, cdem::MayBreak::all);
+  const cdem::Rebuilt after =
+      cdem::rebuild(before, cdem::initial_state(before), cut, {}, cdem::MayBreak::all);
   int kept = 0, fresh = 0;
   for (const cdem::Interface& i : after.model.interfaces) {
     const bool is_cut = i.origin == cdem::InterfaceOrigin::cut;
@@ -248,8 +252,9 @@ TEST_CASE("strength scatter: with next to no scatter a cohesive bar bears what i
   CHECK(peak(wide) < 0.95 * without);
 }
 
-TEST_CASE("strength scatter: the same bits for every number of threads, and when left in the middle of cracking",
-          "[scatter][cohesive][resume]") {
+TEST_CASE(
+    "strength scatter: the same bits for every number of threads, and when left in the middle of cracking",
+    "[scatter][cohesive][resume]") {
   const auto build_bar = [](int threads, std::shared_ptr<cdem::Observer> observer) {
     cdem::ModelSpec spec;
     spec.bodies = {meshed("bar", unstructured({0.6, 0.25, 0.25}, 0.12), cohesive(), concrete(),
