@@ -30,19 +30,32 @@ cdem::BodySpec halves(cdem::BondKind kind, std::pair<int, int> regions) {
   return body;
 }
 
-// Pulls along z until something breaks, and somewhat further.
-System pulled(const cdem::BodySpec& body) {
+// Pulls along z until something breaks, and somewhat further. peak: mean traction at the end, Pa.
+System pulled(const cdem::BodySpec& body, double& peak) {
   System s(build({body}));
   for (const double end : {-1.0, 1.0}) {
     cdem::Fix lead = fixed(cdem::Selection::side(end < 0 ? "z-" : "z+"), "z");
     lead.velocity = 0.01 * end * Vec3::UnitZ();
     s.conditions.fixes.push_back(lead);
   }
+  // All of it moves as it does at this rate: no wave runs through.
+  const double rate = 0.02 / (2 * half), nu = concrete().poissons_ratio;
+  for (std::size_t i = 0; i < s.state.velocity.size(); ++i) {
+    const Vec3 x = s.model.node_position[i] - Vec3(side / 2, side / 2, half);
+    s.state.velocity[i] = node(rate * Vec3(-nu * x.x(), -nu * x.y(), x.z()));
+  }
   cdem::RunOptions options;
   options.steps = 1 << 30;
   options.callback_every = 10;
+  options.callback = [&] {
+    const std::vector<Vec3> forces = s.net_forces();
+    double sum = 0;
+    for (std::size_t i = 0; i < forces.size(); ++i)
+      if (s.model.node_position[i].z() > 2 * half - 1e-9)
+        sum -= forces[i].z();
+    peak = std::max(peak, sum / area);
+  };
   options.stop = [&] { return s.log.breaks.size() > 5; };
-  options.local_damping = 0.3;
   s.run(options);
   return s;
 }
@@ -51,17 +64,19 @@ System pulled(const cdem::BodySpec& body) {
 
 TEST_CASE("region joints: a weak face between two regions breaks there, at its own strength", "[regions]") {
   const cdem::BondKind kind = GENERATE(cdem::BondKind::springs, cdem::BondKind::cohesive);
-  const System s = pulled(halves(kind, {0, 1}));
+  double peak = 0;
+  const System s = pulled(halves(kind, {0, 1}), peak);
   REQUIRE(s.log.broken_tension > 0);
-  for (const cdem::BreakRow& row : s.log.breaks) {
+  for (const cdem::BreakRow& row : s.log.breaks)
     CHECK(row.place.z() == Approx(half));
-    CHECK(row.normal_traction == Approx(weak).epsilon(0.05));
-  }
+  INFO((kind == cdem::BondKind::springs ? "springs" : "cohesive"));
+  CHECK(peak == Approx(weak).epsilon(0.03));
 }
 
 TEST_CASE("region joints: a weak region breaks inside", "[regions]") {
   const cdem::BondKind kind = GENERATE(cdem::BondKind::springs, cdem::BondKind::cohesive);
-  const System s = pulled(halves(kind, {1, 1}));
+  double peak = 0;
+  const System s = pulled(halves(kind, {1, 1}), peak);
   REQUIRE_FALSE(s.log.breaks.empty());
   for (const cdem::BreakRow& row : s.log.breaks)
     CHECK(row.place.z() > half + 1e-6);
@@ -112,7 +127,7 @@ TEST_CASE("region joints: wrong input is refused", "[regions][input]") {
         b.region_laws.regions[0] = {1, 1};
       },
       "regions whose faces are bonded");
-  refused([](auto& b) { b.region_laws.joints[0].bonded = false; }, "region_joints[1]");
+  refused([](auto& b) { b.region_laws.joints[0] = friction(30); }, "region_joints[1] = a contact");
   refused([](auto& b) { b.region_laws.joints[0].tensile_strength = 0; }, "tensile_strength");
   refused([](auto& b) { b.region_laws.joints[0].fracture_energy_1 = 1e-4; }, "fracture_energy_1");
   refused([](auto& b) { b.bonding.kind = cdem::BondKind::springs; }, "bond_type");
