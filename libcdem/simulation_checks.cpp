@@ -20,7 +20,7 @@ void require_finite(const char* field, const geom::Vec3& v) {
 void require_no_rate_effect(const Joint& joint, const std::string& between) {
   if (joint.rate.on())
     throw geom::InputError("rate_effect", "of a joint between " + between,
-                           "that of a mesh with bond_type = \"cohesive\"",
+                           "that of a mesh with bonds = \"cohesive\"",
                            "the springs of other bonds know no strain rate of the rock");
 }
 
@@ -32,13 +32,13 @@ void validate_mesh_joint(const BodySpec& body, const Joint& joint, const std::st
     return;
   if (!b.is_cohesive() && joint.softening != Softening::none)
     throw geom::InputError("softening", "on the faces of a mesh with springs", "none there",
-                           "bond_type = \"cohesive\" softens");
+                           "bonds = \"cohesive\" softens");
   if (!b.is_cohesive())
     require_no_rate_effect(joint, "springs of the mesh of body \"" + body.name + "\"");
   if (b.is_cohesive() && !(joint.bonded && joint.tensile_strength > 0 && joint.cohesion > 0))
     throw geom::InputError(field +
                            ": a cohesive body needs a tensile_strength and a cohesion > 0 Pa, below which it "
-                           "is continuous (body \"" +
+                           "is continuous; bonds = \"springs\" takes any joint (body \"" +
                            body.name + "\")");
   const Joint standard;
   if (joint.thickness || joint.normal_stiffness || joint.shear_stiffness ||
@@ -75,7 +75,7 @@ void validate_region_law(const BodySpec& body, std::size_t row) {
     throw geom::InputError(field, value, "given once", "another row has the same regions");
   if (!body.bonding.bonds(a, b))
     throw geom::InputError(field, value, "regions whose faces are bonded",
-                           "bonds = \"all\" bonds every face of the mesh");
+                           "bonded_faces = \"all\" bonds every face of the mesh");
   if (!regions_meet(body, a, b))
     throw geom::InputError(field, value, "regions that share faces", "these two do not touch");
   const Joint& joint = body.region_laws.joints[row];

@@ -65,9 +65,10 @@ double strain_rate(const Model& model, const State& state, const FaceTets& tets)
 
 class ChunkCracks {
 public:
-  ChunkCracks(const Model& model, State& state, std::int64_t index)
-      : model_(model), state_(state), index_(index), chunk_(model.mesh.chunks[index]),
-        body_(model.bodies[model.blocks[chunk_.block].body]), joints_(model, state, chunk_), rocks_(body_) {
+  ChunkCracks(const Model& model, State& state, std::int64_t index, bool in_real_time)
+      : model_(model), state_(state), index_(index), in_real_time_(in_real_time),
+        chunk_(model.mesh.chunks[index]), body_(model.bodies[model.blocks[chunk_.block].body]),
+        joints_(model, state, chunk_), rocks_(body_) {
     if (!joints_.own())
       rocks_.take(-1, rock_strength(body_.joint));
     else
@@ -144,8 +145,10 @@ private:
     auto plane = working_plane(stress / left, rock(face), at.normal);
     if (plane && !state_.rate_factor.empty()) {
       const double factor =
-          dynamic_increase_factor(joints_.before_rate(face).rate,
-                                  strain_rate(model_, state_, model_.mesh.face_tets[batch * lanes + lane]));
+          in_real_time_ ? dynamic_increase_factor(
+                              joints_.before_rate(face).rate,
+                              strain_rate(model_, state_, model_.mesh.face_tets[batch * lanes + lane]))
+                        : 1;
       plane = working_plane(stress / (left * factor), rock(face), at.normal);
       if (plane)
         state_.rate_factor[batch * lanes + lane] = factor;
@@ -171,6 +174,7 @@ private:
   const Model& model_;
   State& state_;
   std::int64_t index_;
+  bool in_real_time_;
   const MeshChunk& chunk_;
   const Body& body_;
   FaceJoints joints_;
@@ -181,12 +185,12 @@ private:
 
 } // namespace
 
-BegunCracks begin_cracks(const Model& model, State& state, int threads) {
+BegunCracks begin_cracks(const Model& model, State& state, int threads, bool in_real_time) {
   std::vector<BegunCracks> of_chunks(model.mesh.chunks.size());
   for_chunks(static_cast<std::int64_t>(of_chunks.size()), threads, [&](std::int64_t c) {
     const MeshChunk& chunk = model.mesh.chunks[c];
     if (chunk.side_batches.size() > 0 && !is_rigid(model, chunk))
-      of_chunks[c] = ChunkCracks(model, state, c)();
+      of_chunks[c] = ChunkCracks(model, state, c, in_real_time)();
   });
   BegunCracks all;
   for (const BegunCracks& some : of_chunks) {

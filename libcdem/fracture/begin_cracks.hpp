@@ -19,6 +19,7 @@ struct BegunCracks {
   double breaking = 0;       // J, of what the faces stored
 };
 
-BegunCracks begin_cracks(const Model&, State&, int threads);
+// in_real_time: strengths follow the rate of strain where a joint says so; in a relaxation there is none.
+BegunCracks begin_cracks(const Model&, State&, int threads, bool in_real_time);
 
 } // namespace cdem

@@ -131,7 +131,7 @@ TEST_CASE("region joints: wrong input is refused", "[regions][input]") {
   refused([](auto& b) { b.region_laws.joints[0] = friction(30); }, "region_joints[1] = a contact");
   refused([](auto& b) { b.region_laws.joints[0].tensile_strength = 0; }, "tensile_strength");
   refused([](auto& b) { b.region_laws.joints[0].fracture_energy_1 = 1e-4; }, "fracture_energy_1");
-  refused([](auto& b) { b.bonding.kind = cdem::BondKind::springs; }, "bond_type");
+  refused([](auto& b) { b.bonding.kind = cdem::BondKind::springs; }, "bonds");
   refused(
       [](auto& b) {
         for (std::size_t t = 0; t < b.meshes[0].tets.size(); ++t)

@@ -22,7 +22,7 @@ std::string bar(const std::string& body = "", const std::string& joint = "",
          joint + " } end\n" +
          "local solid = cdem.grid{ size = {0.6, 0.2, 0.2}, divisions = {2, 1, 1} }:solid()\n" +
          "local model = cdem.model{ bodies = { { shape = solid:mesh{ size = " + size +
-         " }, material = concrete, joint = law(3e6), bond_type = 'cohesive', name = 'bar'" + body +
+         " }, material = concrete, joint = law(3e6), bonds = 'cohesive', name = 'bar'" + body +
          " } } }\n" + "model:fix{ on = 'x-', axes = 'x', velocity = {-0.1, 0, 0} }\n" +
          "model:fix{ on = 'x+', axes = 'x', velocity = {0.1, 0, 0} }\n";
 }
@@ -135,7 +135,7 @@ TEST_CASE("slivers of a breakable mesh are told of with their step, in a check t
       "box{ size = {1, 1, 0.02}, origin = {0, 0, 1} } } }\n"
       "local model = cdem.model{ bodies = { { shape = solid:mesh{ size = 0.5 }, material = rock, joint = "
       "law, "
-      "bond_type = '" +
+      "bonds = '" +
       type + "', name = 'slab' } } }\nmodel:gravity{ vector = {0, 0, -9.81} }\nmodel:run{ steps = 1 }";
   const auto told = lines_of(text, "need a time step of", GENERATE(false, true));
   REQUIRE(told.size() == 1);
