@@ -16,13 +16,13 @@ public:
   }
   // law: into the body's region_laws; -1: the body's joint. Pa.
   RockStrength of(int law, double tensile_strength, double cohesion) const {
-    RockStrength rock = of_law_[static_cast<std::size_t>(law + 1)];
+    RockStrength rock = of_law_[law + 1];
     rock.tensile_strength = tensile_strength;
     rock.cohesion = cohesion;
     return rock;
   }
   void take(int law, const RockStrength& rock) {
-    RockStrength& weakest = weakest_[static_cast<std::size_t>(law + 1)];
+    RockStrength& weakest = weakest_[law + 1];
     const bool first = weakest.tensile_strength == 0;
     const RockStrength before = weakest;
     weakest = rock;

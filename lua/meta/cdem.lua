@@ -73,6 +73,14 @@ local cdem = {}
 ---@field contacts integer
 ---@field damaged integer of the intact ones: have begun to soften
 
+---The process zone of a law that softens beside the faces that carry it; medians over the faces.
+---@class (exact) cdem.ProcessZone
+---@field of string body, regions or pair of bodies
+---@field length number m: E' G_I / T^2, E' = E / (1 - nu^2)
+---@field face_size number m: edge of an equilateral triangle of the face's area
+---@field largest_face_size number m: that leaves three faces in the cohesive zone
+---@field faces_in_zone number faces in the cohesive zone, 0.88 of the length
+
 ---What a relaxation came to.
 ---@class (exact) cdem.RelaxResult
 ---@field converged boolean
@@ -83,6 +91,12 @@ local cdem = {}
 ---@field wall_time number s
 
 ---What real-time stepping came to.
+---@class (exact) cdem.RunResultMass_scaling
+---@field added_mass number share of the mass of all that deforms, at the end
+---@field body? string the one with the largest share added; nil when nothing was
+---@field body_added_mass number that share
+---@field kinetic_energy number share: over elastic and spring energy, mean over the stage
+
 ---@class (exact) cdem.RunResult
 ---@field steps integer
 ---@field time number s: of the model
@@ -90,6 +104,7 @@ local cdem = {}
 ---@field broken_tension integer bonds, in this stage
 ---@field broken_shear integer bonds, in this stage
 ---@field wall_time number s
+---@field mass_scaling? cdem.RunResultMass_scaling of a stage with mass_scaling
 
 ---A solving call.
 ---@class (exact) cdem.Stage
@@ -182,6 +197,12 @@ local cdem = {}
 ---@field broken integer bonds so far
 
 ---What the search for the critical flow came to.
+---@class (exact) cdem.CriticalFlowResultMass_scaling
+---@field added_mass number share of the mass of all that deforms, at the end
+---@field body? string the one with the largest share added; nil when nothing was
+---@field body_added_mass number that share
+---@field kinetic_energy number share: over elastic and spring energy, mean over the stage
+
 ---@class (exact) cdem.CriticalFlowResult
 ---@field reason "fragment"|"compliance"|"limit" a piece came off; the compliance grew; or max_velocity was reached
 ---@field velocity number m/s
@@ -202,6 +223,7 @@ local cdem = {}
 ---@field broken_shear integer
 ---@field steps integer
 ---@field curve cdem.CriticalFlowSample[] every 100 steps
+---@field mass_scaling? cdem.CriticalFlowResultMass_scaling of a stage with mass_scaling
 
 ---Where a field is largest or smallest.
 ---@class (exact) cdem.Extreme
@@ -572,6 +594,10 @@ function Model:select(options) end
 ---@return cdem.Counts
 function Model:counts() end
 
+---Whether faces resolve the process zone E' G_I / T^2 of what softens, by body and pair.
+---@return cdem.ProcessZone[]
+function Model:process_zones() end
+
 ---Smallest axis-aligned box around the undeformed model.
 ---@return cdem.Box
 function Model:box() end
@@ -687,11 +713,16 @@ function Model:unbond(options) end
 ---@return cdem.RelaxResult
 function Model:relax(options) end
 
+---@class (exact) cdem.ModelRunOptionsMass_scaling
+---@field step? number s, > 0: the time step
+---@field factor? number instead: over the step that the true masses allow, at least 1
+
 ---@class (exact) cdem.ModelRunOptions
 ---@field duration? number s, > 0
 ---@field steps? integer >= 1: instead of duration
 ---@field safety? number in (0, 1], default 0.9: time step over the stable one, at most 1; rigid bodies that touch take 0.5 at most
 ---@field time_step? number s, > 0: instead of safety; at most the stable one, half of it for rigid bodies that may touch
+---@field mass_scaling? cdem.ModelRunOptionsMass_scaling for quasi-static stages: nodes that need a shorter time step get more inertia, not more weight; instead of time_step
 ---@field breaking? boolean default true: bonds may break
 ---@field local_damping? number in [0, 1), default 0: force against the motion as a fraction of the out-of-balance force (Cundall)
 ---@field every? integer >= 1: steps between calls, 100 by default
@@ -791,6 +822,10 @@ function Model:grow(options) end
 ---@param options cdem.ModelFlowOptions
 function Model:flow(options) end
 
+---@class (exact) cdem.ModelCriticalFlowOptionsMass_scaling
+---@field step? number s, > 0: the time step
+---@field factor? number instead: over the step that the true masses allow, at least 1
+
 ---@class (exact) cdem.ModelCriticalFlowOptions
 ---@field direction number[] of the flow; made a unit vector
 ---@field on? cdem.Place default "all": outer faces that may take it: one place
@@ -804,6 +839,7 @@ function Model:flow(options) end
 ---@field compliance_ratio? number > 1, default 10: to the unbroken, static one: what counts as broken
 ---@field max_velocity? number m/s, > 1, default 100: gives up there
 ---@field safety? number in [0, 1], default 0.9: time step over the stable one
+---@field mass_scaling? cdem.ModelCriticalFlowOptionsMass_scaling for quasi-static stages: nodes that need a shorter time step get more inertia, not more weight; instead of time_step
 ---@field local_damping? number in [0, 1), default 0.1: above 0.2 it acts as added mass
 
 ---Raises a flow from 1 m/s until a held solid breaks: a piece of it comes off, or it has become compliant.
@@ -1055,6 +1091,18 @@ function cdem.parameter(options) end
 ---@return cdem.Material
 function cdem.elastic(options) end
 
+---@class (exact) cdem.MohrCoulombOptionsWeibull
+---@field modulus number in [2, 1000]: m
+---@field reference_volume number m3, > 0: the volume whose mean strength the joint gives
+---@field seed integer >= 0
+
+---@class (exact) cdem.MohrCoulombOptionsRate_effect
+---@field reference_rate number 1/s, > 0: of the strengths given
+---@field exponent number in [0, 1]
+---@field change_rate? number 1/s, > 0: beyond it exponent_above holds
+---@field exponent_above? number in [0, 1]
+---@field fracture_energy? boolean default false: fracture energies are raised too
+
 ---@class (exact) cdem.MohrCoulombOptions
 ---@field cohesion number Pa, >= 0
 ---@field friction_angle number deg, in [0, 90)
@@ -1062,6 +1110,8 @@ function cdem.elastic(options) end
 ---@field softening? "none"|"linear"|"exponential" default "none": how the strength falls once it is reached; none: brittle. It needs both fracture energies, and tensile_strength at most cohesion / tan(friction angle)
 ---@field fracture_energy_1? number J/m2, > 0: G_I, work per crack area that opening to separation takes, elastic part included
 ---@field fracture_energy_2? number J/m2, > 0: G_II, the same for slip, beyond the work of friction
+---@field weibull? cdem.MohrCoulombOptionsWeibull strength that scatters from face to face after Weibull: tensile strength and cohesion of a face are multiplied by one draw, in the mean (reference_volume / volume of the face)^(1/m); fracture energies and friction stay. A draw depends on the seed and on where the face lies
+---@field rate_effect? cdem.MohrCoulombOptionsRate_effect strength raised by the rate of strain at which a face of a cohesive body begins to crack, (rate / reference_rate)^exponent; fib Model Code 2010 for concrete in tension: 1e-6, 0.018, 10, 1/3
 ---@field thickness_ratio? number > 0, default 0.02: equivalent thickness of the joint over the block size (cube root of its volume), which sets the stiffness E/L and G/L
 ---@field thickness? number m, > 0: equivalent thickness itself; wins over the ratio
 ---@field normal_stiffness? number Pa/m, > 0: instead of E/L
@@ -1512,6 +1562,7 @@ function cdem.select.where(predicate) end
 ---@field bonds? "cohesive"|"springs"|"none"|"all"|"regions"|"listed" of a mesh with a joint, what holds its tetrahedra together. cohesive, the default: the body is continuous, with shared nodes, until a face nears its strength, and then follows the joint's softening or brittle law on the plane that fails. springs: three on every bonded face (Feng 2014), which soften the body and break at 0.6 to 0.9 of its strength. (all, regions and listed of older scripts mean springs)
 ---@field bonded_faces? "all"|"regions" of a mesh with a joint, the inner faces that may break: all, the default, or those between different regions
 ---@field bonded_regions? integer[] of a mesh with a joint, instead of bonded_faces: numbers of regions, from 1, whose faces may break
+---@field region_joints? [integer, integer, cdem.Joint][] of a mesh: {region, region, joint} gives the faces between two regions, or with the same number twice those inside one, a joint of their own; numbers from 1. All others have `joint`
 ---@field stiffness_ratio? number > 0: of a mesh, beta in Kn = beta E A / (3 d). Of springs 10 by default: a body bonded everywhere keeps about E / (1 + 1/beta). Of a cohesive body the penalty of freed faces, 1 by default; it keeps all of E
 ---@field shear_ratio? number > 0: of a mesh, Ks / Kn; 1 by default
 

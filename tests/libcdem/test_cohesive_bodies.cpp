@@ -18,7 +18,7 @@ using geom::Vec3;
 
 namespace {
 
-constexpr double tension = 3e6, cohesion = 6e6, energy_1 = 100, energy_2 = 1000;
+constexpr double tension = 3e6, cohesion = 6e6, energy_1 = 100; // as in concrete_joint
 
 cdem::BodySpec concrete_body(geom::TetMesh mesh, cdem::Softening softening = cdem::Softening::linear,
                              double friction = 30) {
