@@ -93,8 +93,10 @@ private:
     const SofteningLoss lost = softening_loss(law_, m, gap0 + offset, face_.damage[point],
                                               vec(face_.slip[point]), gap + offset, r.law);
     sums.friction += area * m[2] * lost.friction;
-    sums.breaking += area * (m[2] * lost.breaking + (1 - 0.5 * (face_.damage[point] + r.law.damage)) *
-                                                        vec(face_.rest[point]).dot(gap - gap0));
+    const double taken = area * (m[2] * lost.breaking + (1 - 0.5 * (face_.damage[point] + r.law.damage)) *
+                                                            vec(face_.rest[point]).dot(gap - gap0));
+    sums.breaking += taken;
+    sums.crack.add(taken, shear_share(law_, m, gap + offset));
     face_.damage[point] = r.law.damage;
     face_.slip[point] = array(r.law.slip);
     open = open && r.law.traction.isZero(0);
