@@ -128,7 +128,7 @@ std::vector<StateField> fields(State& s) {
       field("rigid", "record", FieldPlace::rigid_body, "move_rigid, set_rigid", s.rigid, true),
       field("rigid_offset", "m", FieldPlace::node, "set_rigid", s.rigid_offset, true),
       field("escaped", "1", FieldPlace::node, "find_escapes", s.escaped, false),
-      field("crack_energy", "J", FieldPlace::model,
+      field("crack_energy", "J", FieldPlace::body,
             "record_bond_breaks, record_face_breaks, record_begun_cracks", s.crack_energy, true),
       {"spent", "J", FieldPlace::model,
        "record_bond_breaks, record_face_breaks, ContactUpdate, record_step, relax", &s.spent, sizeof s.spent,
