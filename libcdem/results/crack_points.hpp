@@ -43,7 +43,7 @@ inline CrackPoint crack_point(const Model& model, const State& state, const Mesh
     p.damage = 1;
   if (model.bodies[p.body].bonding.is_cohesive()) {
     const CohesiveFace& face = state.cohesive[at.batch * lanes + at.lane];
-    if (face.at() != FaceStage::holding)
+    if (!holds(state.faces[at.batch].stage[at.lane]))
       p.projection = face.plane[2];
     if (p.mode == BondMode::intact)
       p.damage = face.damage[at.point];

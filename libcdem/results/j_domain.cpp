@@ -93,7 +93,7 @@ public:
       if (!varies(place))
         return;
       const bool cohesive = model_.bodies[front_.body].bonding.is_cohesive();
-      if (cohesive && state_.cohesive[batch * lanes + lane].at() == FaceStage::holding)
+      if (cohesive && holds(state_.faces[batch].stage[lane]))
         return;
       for (int point = 0; point < 3; ++point) {
         const FaceSpringPlace at{batch, point, lane};

@@ -120,8 +120,11 @@ Value j_integral(Session&, ModelObject& model, const Arguments& a) {
                      "it is where the crack would go on");
   front.growth = square.normalized();
   std::vector<JDomain> domains;
-  for (const double outer : a.numbers("radii"))
+  for (const double outer : a.numbers("radii")) {
+    if (!(outer > 0))
+      throw InputError("radii", describe(a.value("radii")), "above 0");
     domains.push_back({a.number("inner") * outer, outer, 0});
+  }
   const std::string body = a.text_or("body", "");
   const JIntegral found = model.simulation.j_integral(body, front, domains);
   Values rows;
