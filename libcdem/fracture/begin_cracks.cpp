@@ -41,12 +41,6 @@ CDEM_INLINE void stress_kernel(const StressBatch* stress, const std::int32_t (&s
     to.may_fail[lane] = beyond[lane] > 0;
 }
 
-// As that of joint/softening.hpp, where kn = ks.
-double shear_share(const geom::Vec3& traction, const geom::Vec3& normal) {
-  const double pull = traction.dot(normal);
-  return pull > 0 ? 1 - pull * pull / traction.squaredNorm() : 1;
-}
-
 geom::Mat3 stress_in(const FaceStress& of, int lane) {
   Stress s{};
   for (int c = 0; c < 6; ++c)
@@ -102,16 +96,11 @@ private:
     FaceStateBatch& face = state_.faces[batch];
     CohesiveFace& cohesive = state_.cohesive[batch * lanes + lane];
     const FaceBatch& at = model_.mesh.faces[batch];
-    if (face.stage[lane] == FaceStage::cracking && may_end(cohesive)) {
-      const FaceFrame stands = frame(batch, lane);
-      const geom::Mat3 stress = stress_in(of_batch, lane);
-      const auto taken = end_crack(at, lane, stands, joint_, stress, face, cohesive);
-      if (!taken)
-        return;
-      const geom::Vec3 plane = stands.in_space({cohesive.plane[0], cohesive.plane[1], cohesive.plane[2]});
-      begun_.breaking += *taken;
-      crack_.add(*taken, shear_share(stress * plane, plane));
-    } else if (holds(face.stage[lane]) && of_batch.may_fail[lane])
+    if (face.stage[lane] == FaceStage::cracking && may_end(cohesive))
+      begun_.breaking +=
+          end_crack(at, lane, frame(batch, lane), joint_, stress_in(of_batch, lane), face, cohesive)
+              .value_or(0);
+    else if (holds(face.stage[lane]) && of_batch.may_fail[lane])
       begin(batch, lane, stress_in(of_batch, lane), strength_left(batch, lane));
   }
 
@@ -129,13 +118,11 @@ private:
       return;
     const double taken = begin_crack(model_.mesh.faces[batch], lane, at, joint_, stress, plane->normal,
                                      plane->mode, state_.faces[batch], state_.cohesive[batch * lanes + lane]);
-    const geom::Vec3 traction = stress * plane->normal;
     begun_.breaking += taken;
-    if (joint_.softening != Softening::none) {
-      crack_.add(taken, shear_share(traction, plane->normal));
+    if (joint_.softening != Softening::none)
       return;
-    }
     crack_.add(taken, plane->mode == BondMode::broken_shear ? 1 : 0);
+    const geom::Vec3 traction = stress * plane->normal;
     const double normal = traction.dot(plane->normal);
     for (int point = 0; point < 3; ++point)
       begun_.broken.push_back({index_,

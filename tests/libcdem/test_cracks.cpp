@@ -151,6 +151,7 @@ TEST_CASE("cracks: a cohesive plane has its section and its fracture energy", "[
   const cdem::Cracks damaged = cdem::cracks(half_way.model, half_way.state).all();
   CHECK(damaged.broken() == 0);
   CHECK(damaged.damaged > 0.1 * side * side);
+  CHECK(damaged.energy.tension > 0);
   const System s = halves_led_apart(cdem::BondKind::cohesive, joint, 0.02);
   const cdem::Cracks all = cdem::cracks(s.model, s.state).all();
   CHECK(all.tension == Approx(side * side));

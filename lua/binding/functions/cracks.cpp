@@ -15,8 +15,8 @@ namespace {
 using geom::InputError;
 using geom::Vec3;
 
-// Of `reach` left out, over the usual distance of broken points: about twice the edge of a tetrahedron.
-constexpr double usual_reach = 3;
+// Of `reach` left out, over the usual distance of broken points: about the edge of a tetrahedron.
+constexpr double usual_reach = 1.5;
 // Of `window` left out, over the time that the crack has run.
 constexpr double usual_window = 0.1;
 
@@ -213,7 +213,7 @@ void bind_tip(Class& model) {
                  "Along a face of a body it follows what shows there"),
         number("width").above(0).unit("m").required().doc("how far from the path a broken point may lie"),
         number("reach").above(0).unit("m").doc(
-            "points nearer than this hang together; twice the edge of a tetrahedron when left out"),
+            "points nearer than this hang together; about the edge of a tetrahedron when left out"),
         number("window").above(0).unit("s").doc(
             "over which the speed is fitted; several times what the crack takes for one element. A tenth of "
             "the time it ran when left out"),

@@ -38,6 +38,7 @@ Value save_fragments(Session& session, ModelObject& model, const Arguments& a) {
   std::vector<std::pair<std::string, std::vector<double>>> columns;
   const auto add = [&](const std::string& name, const auto& get) {
     std::vector<double> values;
+    values.reserve(list.size());
     for (const FragmentMotion& f : list)
       values.push_back(get(f));
     columns.emplace_back(name, std::move(values));
