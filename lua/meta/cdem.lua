@@ -986,7 +986,7 @@ function Model:record_cracks(options) end
 ---@field direction? number[] of that straight path
 ---@field path? number[][] m: instead of point and direction: its corners, undeformed, the first where the crack starts. Along a face of a body it follows what shows there
 ---@field width number m, > 0: how far from the path a broken point may lie
----@field reach? number m, > 0: points nearer than this hang together; twice the edge of a tetrahedron when left out
+---@field reach? number m, > 0: points nearer than this hang together; about the edge of a tetrahedron when left out
 ---@field window? number s, > 0: over which the speed is fitted; several times what the crack takes for one element. A tenth of the time it ran when left out
 ---@field body? string whose Rayleigh speed is told; the only one when left out
 
