@@ -41,7 +41,7 @@ local function fall(height)
   local joint = cdem.mohr_coulomb{ cohesion = 2 * tension, friction_angle = 35, tensile_strength = tension }
   local model = cdem.model{
     bodies = { { shape = floor, material = concrete, element = "rigid", name = "floor" },
-               { shape = mesh, material = concrete, joint = joint, name = "unit" } },
+               { shape = mesh, material = concrete, joint = joint, bonds = "springs", name = "unit" } },
     contacts = { { "floor", "unit", rough }, { "unit", "unit", rough } },
   }
   model:fix{ on = "floor" }

@@ -387,7 +387,7 @@ TEST_CASE("cohesive bodies: wrong input is refused", "[cohesive][input]") {
   };
   refused([](auto& body) { body.joint.fracture_energy_1 = 1e-3; }, "fracture_energy_1");
   refused([](auto& body) { body.joint.softening = cdem::Softening::none; }, "fracture_energy_1");
-  refused([](auto& body) { body.bonding.kind = cdem::BondKind::springs; }, "bond_type");
+  refused([](auto& body) { body.bonding.kind = cdem::BondKind::springs; }, "bonds = ");
   refused(
       [](auto& body) {
         body.joint = concrete_joint(cdem::Softening::none);
