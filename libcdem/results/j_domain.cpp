@@ -17,7 +17,7 @@ namespace {
 using geom::Vec3;
 
 // Cosine of what counts as parallel; its complement of what counts as square.
-constexpr double parallel = 0.999, square = 0.05;
+constexpr double parallel = 0.999, square = 0.1;
 // Part of the stress that may not come from the displacements; of the stored energy that may be kinetic.
 constexpr double unexplained = 0.05, moving = 0.01;
 // Traction on crack faces over the mean stress in the domain.
