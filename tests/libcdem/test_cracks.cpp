@@ -190,6 +190,28 @@ TEST_CASE("cracks: histories sample what the state says, and only grow", "[crack
   }
 }
 
+TEST_CASE("cracks: a saved model has its cracks and histories again", "[cracks][checkpoint]") {
+  const cdem::Joint joint = softening_joint(cdem::Softening::linear);
+  cdem::Simulation s = two_slabs(joint);
+  s.record_cracks("crack", "lower");
+  lead(s, {0, 0, 4e-5}, 8);
+  cdem::Simulation again = two_slabs(joint);
+  again.restore(s.save());
+  CHECK(again.probe_names() == s.probe_names());
+  for (const std::string& quantity : cdem::crack_quantities())
+    CHECK(cdem::crack_quantity(again.cracks().all(), quantity) ==
+          cdem::crack_quantity(s.cracks().all(), quantity));
+  CHECK(again.cracks().all().energy.tension > 0);
+  CHECK(again.history().back().probes == s.history().back().probes);
+}
+
+TEST_CASE("cracks: a notch made by hand is none", "[cracks]") {
+  cdem::Simulation s = two_slabs(softening_joint(cdem::Softening::linear));
+  CHECK(s.unbond(cdem::Selection::everything()) > 0);
+  CHECK(s.cracks().all().area() == 0);
+  CHECK(s.crack_surface(true, "").bonds.triangles.empty());
+}
+
 TEST_CASE("cracks: the surface has the area, the opening and the times of what broke", "[cracks][snapshot]") {
   const System s = halves_led_apart(cdem::BondKind::springs, halves_joint(), 0.01);
   const cdem::Snapshot cut = cdem::crack_surface(s.model, s.state, s.log.breaks, false, "two halves");
