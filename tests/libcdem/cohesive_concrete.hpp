@@ -48,8 +48,7 @@ inline geom::TetMesh unstructured(const geom::Vec3& size, double edge) {
   return mesh;
 }
 
-inline cdem::BodySpec concrete_body(geom::TetMesh mesh,
-                                    cdem::Softening softening = cdem::Softening::linear,
+inline cdem::BodySpec concrete_body(geom::TetMesh mesh, cdem::Softening softening = cdem::Softening::linear,
                                     double friction = 30) {
   return meshed("concrete", std::move(mesh), cohesive(), concrete(), concrete_joint(softening, friction));
 }

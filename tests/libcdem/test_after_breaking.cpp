@@ -24,15 +24,16 @@ geom::TetMesh bar(double length, double width, double edge) {
   turn.col(0) = axis.unitOrthogonal();
   turn.col(1) = axis.cross(turn.col(0));
   turn.col(2) = axis;
-  return placed(placed(unstructured({length, width, width}, edge), Mat3::Identity(),
-                       -0.5 * Vec3(length, width, width)),
-                turn * rotation({1, 0, 0}, 30 * degree), {1, 2, 3});
+  return placed(
+      placed(unstructured({length, width, width}, edge), Mat3::Identity(), -0.5 * Vec3(length, width, width)),
+      turn * rotation({1, 0, 0}, 30 * degree), {1, 2, 3});
 }
 
 // A ring about z, of square section, its mid-line of this radius.
 geom::TetMesh ring(double radius, double width, int cells_around, int cells_across) {
   const double length = 2 * pi * radius;
-  geom::TetMesh mesh = geom::box_mesh({length, width, width}, {cells_around, cells_across, cells_across}, 0.1);
+  geom::TetMesh mesh =
+      geom::box_mesh({length, width, width}, {cells_around, cells_across, cells_across}, 0.1);
   const int row = cells_around + 1;
   std::vector<Vec3> nodes;
   for (std::size_t i = 0; i < mesh.nodes.size(); ++i) {
@@ -41,11 +42,9 @@ geom::TetMesh ring(double radius, double width, int cells_around, int cells_acro
     if (static_cast<int>(i) % row < cells_around)
       nodes.emplace_back(r * std::cos(angle), -r * std::sin(angle), x.z() - 0.5 * width);
   }
-  for (auto& tet : mesh.tets) {
+  for (auto& tet : mesh.tets)
     for (auto& n : tet)
       n = n / row * cells_around + (n % row) % cells_around; // where the ends meet
-    std::swap(tet[0], tet[1]);                               // the map mirrors
-  }
   mesh.nodes = std::move(nodes);
   return mesh;
 }
@@ -68,20 +67,16 @@ void go_on(System& s, double duration) {
   s.run(options);
 }
 
-// Rate at which it bursts, rad/s: the spin grows by 1 % in each `period`, far slower than the body rings, until the first
-// bonds break. Angular momentum over inertia, as if nothing had stretched.
-double burst(System& s, const Vec3& about, double rate, double period) {
-  const double first = momentum(s, Places::present).angular.dot(about);
-  const Vec3 centre = centroid(s, 0);
-  const double moving = (momentum(s, Places::present).linear.cross(-centre)).norm();
-  REQUIRE(moving < 1e-9 * first);
-  const double began = rate;
-  while (s.log.broken_tension + s.log.broken_shear == 0) {
-    REQUIRE(rate < 40 * began);
+// Rate at which it bursts, rad/s: the spin grows in small steps, each far shorter than the body takes to ring, fast up to
+// 0.95 of the expected rate and then ten times slower, as the crack takes time to open, until the first bonds break.
+double burst(System& s, double expected) {
+  double rate = 0.1 * expected;
+  while (s.log.broken_tension + s.log.broken_shear == 0 && rate < 1.5 * expected) {
+    const double growth = rate < 0.95 * expected ? 1.01 : 1.001;
     for (cdem::Node& v : s.state.velocity)
-      v = node(1.01 * vec(v));
-    rate *= 1.01;
-    go_on(s, period);
+      v = node(growth * vec(v));
+    rate *= growth;
+    go_on(s, 5e-5);
   }
   return rate;
 }
@@ -109,7 +104,7 @@ TEST_CASE("after breaking: a bar that spins bursts in the middle where rho w^2 L
   const double length = 1, width = 0.1;
   const double expected = std::sqrt(8 * tension / (concrete().density * length * length));
   System s = spinning(bar(length, width, edge), axis, 0.1 * expected);
-  const double rate = burst(s, axis, 0.1 * expected, 5e-5);
+  const double rate = burst(s, expected);
   INFO("edge " << edge << ", burst at " << rate / expected);
   CHECK(rate == Approx(expected).epsilon(0.03));
   check_free_motion_keeps_all(s, 5e-3);
@@ -117,21 +112,22 @@ TEST_CASE("after breaking: a bar that spins bursts in the middle where rho w^2 L
   CHECK(s.log.broken_tension > 10 * s.log.broken_shear);
 }
 
-TEST_CASE("after breaking: a thin ring bursts where rho v^2 is its strength", "[cohesive][breaking][energy]") {
+TEST_CASE("after breaking: a thin ring bursts where rho v^2 is its strength",
+          "[cohesive][breaking][energy]") {
   const double radius = 0.5, width = 0.06;
   // The mean hoop stress: rho w^2 (b^3 - a^3) / (3 (b - a)) = rho w^2 (R^2 + width^2 / 12).
-  const double expected =
-      std::sqrt(tension / (concrete().density * (radius * radius + width * width / 12)));
+  const double expected = std::sqrt(tension / (concrete().density * (radius * radius + width * width / 12)));
   const Vec3 about = skew.col(2);
   System s = spinning(placed(ring(radius, width, 64, 2), skew, {1, 2, 3}), about, 0.1 * expected);
-  const double rate = burst(s, about, 0.1 * expected, 5e-5);
+  const double rate = burst(s, expected);
   INFO("burst at " << rate / expected);
   CHECK(rate == Approx(expected).epsilon(0.03));
   check_free_motion_keeps_all(s, 5e-3);
   CHECK(pieces(s) >= 2);
 }
 
-TEST_CASE("after breaking: a body that bursts in free flight goes on to the same bits", "[cohesive][checkpoint]") {
+TEST_CASE("after breaking: a body that bursts in free flight goes on to the same bits",
+          "[cohesive][checkpoint]") {
   const auto build_bar = [](int threads, std::shared_ptr<cdem::Observer> observer) {
     cdem::ModelSpec spec;
     spec.bodies = {concrete_body(bar(1, 0.12, 0.09))};
@@ -162,16 +158,17 @@ TEST_CASE("after breaking: a body breaks on a floor, its pieces land and come to
   joint.cohesion = 60e3;
   joint.fracture_energy_1 = 9;
   joint.fracture_energy_2 = 90;
-  const double size = 0.3, speed = 2;
+  const double size = 0.3, speed = 0.7;
   geom::TetMesh cube =
-      placed(placed(unstructured({size, size, size}, 0.12), Mat3::Identity(), Vec3::Constant(-0.5 * size)), skew,
-             {0, 0, 0});
+      placed(placed(unstructured({size, size, size}, 0.15), Mat3::Identity(), Vec3::Constant(-0.5 * size)),
+             skew, {0, 0, 0});
   double lowest = 0;
   for (const Vec3& x : cube.nodes)
     lowest = std::min(lowest, x.z());
   cube = placed(std::move(cube), Mat3::Identity(), {0, 0, 1e-3 - lowest});
   cdem::Joint rough = friction(35);
   rough.restitution = 0.5;
+  rough.normal_stiffness = rough.shear_stiffness = 1e9;
   const Vec3 ground(4, 4, 0.2);
   std::vector<cdem::BodySpec> bodies = {
       meshed("cube", std::move(cube), cohesive(), soft, joint),
@@ -181,36 +178,42 @@ TEST_CASE("after breaking: a body breaks on a floor, its pieces land and come to
   s.hold(body_of("floor"), "xyz");
   s.conditions.gravity = gravity();
   double mass = 0;
-  std::vector<int> nodes;
   for (int i = 0; i < static_cast<int>(s.state.velocity.size()); ++i)
     if (block_of(s.model, i) == 0) {
-      s.state.velocity[i] = node({0.5, 0, -speed});
+      s.state.velocity[i] = node({0.2, 0, -speed});
       mass += s.model.node_mass[i];
     }
-  const double before = 0.5 * mass * (speed * speed + 0.25);
+  const double before = 0.5 * mass * (speed * speed + 0.04);
   double deepest = 0;
-  cdem::RunOptions options;
-  options.duration = 0.3;
-  options.callback_every = 20;
   const auto lowest_node = [&] {
     double z = 1;
-    for (std::size_t i = 0; i < s.state.displacement.size(); ++i)
-      if (block_of(s.model, static_cast<int>(i)) == 0)
+    for (int i = 0; i < static_cast<int>(s.state.displacement.size()); ++i)
+      if (block_of(s.model, i) == 0)
         z = std::min(z, s.model.node_position[i].z() + s.state.displacement[i].z);
     return z;
   };
+  cdem::RunOptions options;
+  options.duration = 0.3;
+  options.callback_every = 20;
   options.callback = [&] { deepest = std::min(deepest, lowest_node()); };
   s.run(options);
-  WARN("pieces " << pieces(s) << " broken " << s.log.broken_tension << " " << s.log.broken_shear << " balance "
-                 << balance(s) << " deepest " << deepest << " breaking "
-                 << cdem::energy(s.model, s.state).breaking / before << " steps ");
-  options.duration = 1.7;
+  const auto off = [&] {
+    const cdem::EnergyLedger e = cdem::energy(s.model, s.state);
+    return (e.total() - e.external - before) / (before + e.external_peak);
+  };
+  const double off_in_flight = off();
+  const int flying = pieces(s);
+  options.duration = 0.6;
+  options.local_damping = 0.5; // so that it does not take seconds
   s.run(options);
-  const cdem::EnergyLedger e = cdem::energy(s.model, s.state);
-  WARN("pieces " << pieces(s) << " balance " << balance(s) << " deepest " << deepest << " kinetic "
-                 << e.kinetic / before << " lowest " << lowest_node());
-  CHECK(pieces(s) > 1);
-  CHECK(balance(s) < 1e-2);
-  CHECK(deepest > -0.01 * size);
-  CHECK(e.kinetic < 1e-3 * before);
+  const double kinetic = cdem::energy(s.model, s.state).kinetic;
+  INFO("pieces " << flying << " and " << pieces(s) << ", energy off by " << off_in_flight << " and " << off()
+                 << ", deepest " << deepest << ", kinetic " << kinetic / before << ", lowest "
+                 << lowest_node());
+  CHECK(flying > 2);
+  CHECK(std::abs(off_in_flight) < 1e-2);
+  CHECK(std::abs(off()) < 1e-2);
+  CHECK(deepest > -0.03 * size);
+  CHECK(lowest_node() > -0.005 * size);
+  CHECK(kinetic < 1e-4 * before);
 }
