@@ -72,7 +72,7 @@ void go_on(System& s, double duration) {
 double burst(System& s, double expected) {
   double rate = 0.1 * expected;
   while (s.log.broken_tension + s.log.broken_shear == 0 && rate < 1.5 * expected) {
-    const double growth = rate < 0.95 * expected ? 1.01 : 1.001;
+    const double growth = rate < 0.95 * expected ? 1.02 : 1.001;
     for (cdem::Node& v : s.state.velocity)
       v = node(growth * vec(v));
     rate *= growth;
@@ -118,7 +118,7 @@ TEST_CASE("after breaking: a thin ring bursts where rho v^2 is its strength",
   // The mean hoop stress: rho w^2 (b^3 - a^3) / (3 (b - a)) = rho w^2 (R^2 + width^2 / 12).
   const double expected = std::sqrt(tension / (concrete().density * (radius * radius + width * width / 12)));
   const Vec3 about = skew.col(2);
-  System s = spinning(placed(ring(radius, width, 64, 2), skew, {1, 2, 3}), about, 0.1 * expected);
+  System s = spinning(placed(ring(radius, width, 48, 2), skew, {1, 2, 3}), about, 0.1 * expected);
   const double rate = burst(s, expected);
   INFO("burst at " << rate / expected);
   CHECK(rate == Approx(expected).epsilon(0.03));
@@ -130,7 +130,7 @@ TEST_CASE("after breaking: a body that bursts in free flight goes on to the same
           "[cohesive][checkpoint]") {
   const auto build_bar = [](int threads, std::shared_ptr<cdem::Observer> observer) {
     cdem::ModelSpec spec;
-    spec.bodies = {concrete_body(bar(1, 0.12, 0.09))};
+    spec.bodies = {concrete_body(bar(1, 0.14, 0.14))};
     spec.pairs = {{"concrete", "concrete", friction(30)}};
     cdem::Simulation s(spec, threads, std::move(observer));
     s.initial_velocity(body_of("concrete"), {3, 0, -5}, 110 * axis);
@@ -145,7 +145,7 @@ TEST_CASE("after breaking: a body that bursts in free flight goes on to the same
     CHECK(s.fragments().size() > 1);
     return Figures{s.time(), s.energy().breaking};
   };
-  check_going_on(build_bar, solve, {3, 20, 35});
+  check_going_on(build_bar, solve, {12, 20});
 }
 
 TEST_CASE("after breaking: a body breaks on a floor, its pieces land and come to rest on it",

@@ -99,7 +99,7 @@ TEST_CASE("cohesive bodies: uniform stress stays uniform whichever nodes are fre
   System s(build({concrete_body(placed(unstructured({0.6, 0.25, 0.25}, 0.1), some_turn(), {1, 2, 3}))}));
   strain(s, gradient);
   free_some(s, part);
-  CHECK(s.model.mesh.sides.size() > 0);
+  CHECK_FALSE(s.model.mesh.sides.empty());
   const Mat3 stress = hooke(concrete(), gradient);
   // Each outer triangle carries a third of its traction at each corner, whatever copy that is.
   std::vector<Vec3> left = s.net_forces();
