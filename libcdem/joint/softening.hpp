@@ -66,13 +66,13 @@ struct SofteningLaw {
   bool softens() const { return curve != Softening::none; }
 };
 
-// The joint has passed validate(joint, kn, ks).
-inline SofteningLaw softening_law(const Joint& joint, double kn, double ks) {
+// The joint has passed validate(joint, kn, ks). tan_friction: of its friction angle.
+inline SofteningLaw softening_law(const Joint& joint, double tan_friction, double kn, double ks) {
   SofteningLaw law;
   law.curve = joint.softening;
   law.kn = kn;
   law.ks = ks;
-  law.strength = {joint.cohesion, geom::portable::tan(joint.friction_angle), joint.tensile_strength};
+  law.strength = {joint.cohesion, tan_friction, joint.tensile_strength};
   if (!law.softens())
     return law;
   // At the least fracture energy the length is zero; a floor far below the elastic stretch keeps the
@@ -84,6 +84,10 @@ inline SofteningLaw softening_law(const Joint& joint, double kn, double ks) {
   law.opening = length(joint.fracture_energy_1, joint.tensile_strength, kn);
   law.slip = length(joint.fracture_energy_2, joint.cohesion, ks);
   return law;
+}
+
+inline SofteningLaw softening_law(const Joint& joint, double kn, double ks) {
+  return softening_law(joint, geom::portable::tan(joint.friction_angle), kn, ks);
 }
 
 struct DamageDrive {
