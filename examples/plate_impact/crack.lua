@@ -5,28 +5,32 @@ local crack = {}
 
 function crack.thickness(size) return 0.8 * size end
 
--- A layer of tetrahedra, one or two through the thickness, the notch a thin wedge. Places of smaller ones, drawn by chance,
--- keep them from standing in rows, along which a crack would run. A thin mesh comes with slivers now and then: the first
--- draw that has none is taken.
-function crack.plate(length, height, notch, size, seed)
+-- A layer of tetrahedra, one or two through the thickness, the notch a thin wedge. Left alone the mesher sets them in
+-- rows; irregular: places of smaller ones, drawn by chance, break the rows. A thin mesh comes with slivers now and then:
+-- the first of some that has none is taken.
+function crack.plate(length, height, notch, size, irregular)
   local t, half = crack.thickness(size), 2.5e-4
   local wedge = cdem.convex_hull{ points = {
     {-1e-3, height / 2 - half, -t}, {-1e-3, height / 2 + half, -t}, {notch, height / 2, -t},
     {-1e-3, height / 2 - half, 2 * t}, {-1e-3, height / 2 + half, 2 * t}, {notch, height / 2, 2 * t} } }
   local solid = cdem.solid.cut{ solid = cdem.solid.box{ size = {length, height, t} }, tools = { wedge:solid() } }
-  local state = seed
+  local state = 1
   local function draw(low, high) -- Park and Miller's
     state = state * 48271 % 2147483647
     return low + (high - low) * state / 2147483647
   end
   local best, quality = nil, -1
-  for _ = 1, 6 do
-    local refine = { { box = { min = {notch - 3e-3, 0, 0}, max = {length, height, t} }, size = size } }
-    for _ = 1, 80 do
-      refine[#refine + 1] = { at = { draw(notch - 3e-3, length), draw(0, height), t / 2 }, size = 0.7 * size,
-                              radius = size }
+  for attempt = 0, 5 do
+    local asked = { size = size * (1 - 0.01 * attempt) }
+    if irregular then
+      asked = { size = 2 * size, growth = 0.15,
+                refine = { { box = { min = {notch - 3e-3, 0, 0}, max = {length, height, t} }, size = size } } }
+      for _ = 1, 80 do
+        asked.refine[#asked.refine + 1] = { at = { draw(notch - 3e-3, length), draw(0, height), t / 2 },
+                                            size = 0.7 * size, radius = size }
+      end
     end
-    local mesh = solid:mesh{ size = 2 * size, growth = 0.15, refine = refine }
+    local mesh = solid:mesh(asked)
     local found = mesh:quality().min_radius_ratio
     if found > quality then best, quality = mesh, found end
     if found > 0.1 then break end
@@ -69,18 +73,25 @@ function crack.path(breaks, notch, duration, samples)
   return path
 end
 
--- Where two branches have come 3 edges away from the middle of the plate, each on its side: the later of the two first
--- such faces, the angle between the two ways there, and the place where these meet.
-function crack.branch(breaks, height, size)
-  local sides = {}
+-- Where the crack has parted: at the smallest x at which broken faces lie `apart` above and below each other, from which
+-- on both go on for as much again; when the later of the two reached it.
+function crack.branch(breaks, notch, length, apart)
+  local bins = {}
   for _, b in ipairs(breaks) do
-    local off = b.place[2] - height / 2
-    local side = off > 0 and "above" or "below"
-    if math.abs(off) > 3 * size and not sides[side] then sides[side] = b end
+    local i = math.floor((b.place[1] - notch) / apart)
+    if i >= 0 then
+      local bin = bins[i] or { low = b, high = b }
+      if b.place[2] < bin.low.place[2] then bin.low = b end
+      if b.place[2] > bin.high.place[2] then bin.high = b end
+      bins[i] = bin
+    end
   end
-  if not (sides.above and sides.below) then return nil end
-  local later = sides.above.time > sides.below.time and sides.above or sides.below
-  return { x = math.min(sides.above.place[1], sides.below.place[1]), time = later.time }
+  local function parted(i) return bins[i] and bins[i].high.place[2] - bins[i].low.place[2] > apart end
+  for i = 0, math.floor((length - notch) / apart) do
+    if parted(i) and parted(i + 1) then
+      return { x = notch + i * apart, time = math.max(bins[i].low.time, bins[i].high.time) }
+    end
+  end
 end
 
 return crack
