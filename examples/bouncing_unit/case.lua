@@ -14,7 +14,7 @@ local from = cdem.parameter{ name = "height", default = 0.0, range = {0, 1000}, 
                              doc = "of the first fall; 0: one that a flat bar would survive" }
 local falls = cdem.parameter{ name = "falls", default = 40, range = {1, 1000}, doc = "at most, if it does not break" }
 local toughness = cdem.parameter{ name = "fracture_energy", default = 0.0, range = {0, 1e6}, unit = "J/m2",
-                                  doc = "G_I of a unit that is continuous until it cracks, G_II ten times that; 0: springs, brittle" }
+                                  doc = "G_I of a unit that is continuous until it cracks; 0: springs, brittle" }
 local after = cdem.parameter{ name = "after", default = 0.03, range = {0, 10}, unit = "s", doc = "how long the pieces fly on" }
 
 local g = 9.81
@@ -108,7 +108,7 @@ if breaks_at then
     flown = math.max(flown, last:energy().balance_error)
     last:picture{ file = frame == frames and "broken.png" or string.format("flying_%d.png", frame), view = "iso", up = "z",
                   colour = "velocity.magnitude", deformation = 1, plain = {"floor"}, broken_bonds = not tough,
-                  title = string.format("%.2g s after a fall of %.2g m", last.time, breaks_at) }
+                  title = string.format("A fall of %.2g m: %.2g s after the touch", breaks_at, last.time) }
   end
   last:save{ file = "broken.vtu" }
   for _, piece in ipairs(last:fragments()) do
