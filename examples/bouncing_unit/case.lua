@@ -49,7 +49,7 @@ local function fall(height)
   local model = cdem.model{
     bodies = { { shape = floor, material = concrete, element = "rigid", name = "floor" },
                { shape = mesh, material = concrete, joint = joint, name = "unit",
-                 bond_type = tough and "cohesive" or "springs" } },
+                 bonds = tough and "cohesive" or "springs" } },
     contacts = { { "floor", "unit", rough }, { "unit", "unit", rough } },
   }
   model:fix{ on = "floor" }

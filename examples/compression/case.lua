@@ -27,7 +27,7 @@ local joint = cdem.mohr_coulomb{ cohesion = cohesion, friction_angle = phi, tens
 local function crush(size, draw)
   local mesh = cdem.solid.box{ size = {width, width, height} }:mesh{ size = size }
   local model = cdem.model{ bodies = { { name = "prism", shape = mesh, material = concrete, joint = joint,
-                                         bond_type = "cohesive" } },
+                                         bonds = "cohesive" } },
                             contacts = { { "prism", "prism", cdem.coulomb{ friction_angle = phi } } } }
   local axes = ends == "held" and "xyz" or "z"
   model:fix{ on = "z-", axes = axes }

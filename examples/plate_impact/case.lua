@@ -22,7 +22,7 @@ local joint = cdem.mohr_coulomb{ cohesion = 3 * strength, friction_angle = 30, t
                                  softening = "linear", fracture_energy_1 = energy, fracture_energy_2 = 10 * energy }
 local mesh = crack.plate(length, height, notch, size, irregular)
 local model = cdem.model{ bodies = { { name = "plate", shape = mesh, material = glass, joint = joint,
-                                       bond_type = "cohesive" } } }
+                                       bonds = "cohesive" } } }
 model:fix{ on = "all", axes = "z" } -- plane strain
 model:traction{ on = "y+", stress = {0, stress, 0} }
 model:traction{ on = "y-", stress = {0, -stress, 0} }

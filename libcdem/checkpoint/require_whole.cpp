@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <limits>
 
 namespace cdem {
 namespace {
@@ -434,6 +435,8 @@ void require_whole(const Model& model, const RunLog& log, const RestartPoint& po
   };
   require(point.step >= 0, "restart.step", point.step);
   require(point.breaks <= log.breaks.size(), "restart.breaks", count(point.breaks));
+  if (!(point.contact_step >= 0 && point.contact_step < std::numeric_limits<double>::infinity()))
+    refuse("restart.contact_step", std::to_string(point.contact_step) + " is out of range");
   length("restart.previous_force", point.previous_force.size(), model.node_position.size());
   length("restart.spring_force", point.spring_force.size(), model.points.size());
   length("restart.stretch", point.stretch.size(), model.points.size());

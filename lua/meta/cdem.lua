@@ -327,7 +327,7 @@ function Assembly:box() end
 ---@return cdem.Block[]
 function Assembly:blocks() end
 
----The blocks as one solid with a region for each, in their order; its mesh{} shares nodes on the faces between them. As the shape of a body with bonds = "regions" such a mesh breaks along the faces of the blocks, with bonds = "all" anywhere.
+---The blocks as one solid with a region for each, in their order; its mesh{} shares nodes on the faces between them. As the shape of a body with bonded_faces = "regions" such a mesh breaks along the faces of the blocks, with bonds = "all" anywhere.
 ---@return cdem.Solid
 function Assembly:solid() end
 
@@ -1509,10 +1509,10 @@ function cdem.select.where(predicate) end
 ---@field name? string for selections and contacts; body_1, body_2 ... by default
 ---@field element? "small_strain"|"finite_volume"|"rigid" how its tetrahedra deform: finite_volume (Feng 2014) for any motion, the default; small_strain (Han 2010) of an assembly whose blocks hardly turn and keep the neighbours they begin with; rigid: keeps its shape until model:make_deformable
 ---@field zone_size? number m, > 0: of an assembly: each block gets tetrahedra of about this edge length inside, so that it bends and shows where it is stressed; without it a few about its centroid. Joints between blocks stay as they are
----@field bonds? "none"|"all"|"regions"|"listed" of a mesh, which inner faces carry the joint: all (default with a joint), those between different regions, or all of the bonded_regions
----@field bonded_regions? integer[] numbers of regions, from 1, with bonds = "listed"
----@field bond_type? "springs"|"cohesive" of a mesh with a joint: springs (Feng 2014) on every bonded face, or cohesive: continuous, with shared nodes, until a face nears its strength, then the joint's softening or brittle law on the plane that fails. springs by default
----@field stiffness_ratio? number > 0: of a mesh, beta in Kn = beta E A / (3 d); 10 by default. A body bonded everywhere keeps about E / (1 + 1/beta). Of a cohesive body the penalty of freed faces, 1 by default; it keeps all of E
+---@field bonds? "cohesive"|"springs"|"none"|"all"|"regions"|"listed" of a mesh with a joint, what holds its tetrahedra together. cohesive, the default: the body is continuous, with shared nodes, until a face nears its strength, and then follows the joint's softening or brittle law on the plane that fails. springs: three on every bonded face (Feng 2014), which soften the body and break at 0.6 to 0.9 of its strength. (all, regions and listed of older scripts mean springs)
+---@field bonded_faces? "all"|"regions" of a mesh with a joint, the inner faces that may break: all, the default, or those between different regions
+---@field bonded_regions? integer[] of a mesh with a joint, instead of bonded_faces: numbers of regions, from 1, whose faces may break
+---@field stiffness_ratio? number > 0: of a mesh, beta in Kn = beta E A / (3 d). Of springs 10 by default: a body bonded everywhere keeps about E / (1 + 1/beta). Of a cohesive body the penalty of freed faces, 1 by default; it keeps all of E
 ---@field shear_ratio? number > 0: of a mesh, Ks / Kn; 1 by default
 
 ---@class (exact) cdem.ModelOptions
