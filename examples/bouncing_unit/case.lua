@@ -2,7 +2,7 @@
 -- just above the floor with the velocity of its fall so far; the gap left counts as part of the height.
 --
 --   ./cdem run examples/bouncing_unit/case.lua [--set fineness=8] [--set mass=9000] [--set tensile_strength=1.5e6]
---   ./cdem run examples/bouncing_unit/case.lua --set fracture_energy=100 --set height=1 --set falls=1 --set after=0.3
+--   ./cdem run examples/bouncing_unit/case.lua --set fracture_energy=100 --set height=2 --set falls=1 --set fineness=5
 local cdem = require "cdem"
 
 local mass = cdem.parameter{ name = "mass", default = 5000.0, range = {1, 1e6}, unit = "kg" }
@@ -15,7 +15,7 @@ local from = cdem.parameter{ name = "height", default = 0.0, range = {0, 1000}, 
 local falls = cdem.parameter{ name = "falls", default = 40, range = {1, 1000}, doc = "at most, if it does not break" }
 local toughness = cdem.parameter{ name = "fracture_energy", default = 0.0, range = {0, 1e6}, unit = "J/m2",
                                   doc = "G_I of a unit that is continuous until it cracks; 0: springs, brittle" }
-local after = cdem.parameter{ name = "after", default = 0.03, range = {0, 10}, unit = "s", doc = "how long the pieces fly on" }
+local after = cdem.parameter{ name = "after", default = 0.06, range = {0, 10}, unit = "s", doc = "how long the pieces fly on" }
 
 local g = 9.81
 local concrete = cdem.elastic{ youngs_modulus = 30e9, poissons_ratio = 0.2, density = 2500, stiffness_damping = 1e-6 }
