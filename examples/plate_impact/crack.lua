@@ -33,7 +33,7 @@ function crack.plate(length, height, notch, size, irregular)
     local mesh = solid:mesh(asked)
     local found = mesh:quality().min_radius_ratio
     if found > quality then best, quality = mesh, found end
-    if found > (irregular and 0.1 or 0.25) then break end
+    if found > 0.1 then break end
   end
   return best
 end
