@@ -95,6 +95,7 @@ void require_fits(const Model& model, const State& state) {
     if (!(mass > 0))
       refuse("moving_mass", std::to_string(mass) + " is out of range");
   require_length("escaped", state.escaped.size(), nodes, true);
+  require_length("crack_energy", state.crack_energy.size(), model.bodies.size() + 1, true);
   for (const std::uint8_t mode : state.bond_mode)
     require_below("bond_mode", mode, modes);
   for (const std::uint8_t escaped : state.escaped)

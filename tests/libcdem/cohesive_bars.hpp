@@ -1,50 +1,9 @@
-// Bars of concrete that may crack anywhere, of unstructured tetrahedra.
+// Bars of concrete that may crack anywhere, drawn apart.
 #pragma once
 
-#include "libgeom/mesh/zone_mesh.hpp"
-#include "tests/libcdem/boxes.hpp"
+#include "tests/libcdem/cohesive_concrete.hpp"
 
 namespace testing {
-
-inline cdem::Elastic concrete() {
-  cdem::Elastic m;
-  m.youngs_modulus = 30e9;
-  m.poissons_ratio = 0.2;
-  m.density = 2400;
-  return m;
-}
-
-// T = 3 MPa, c = 6 MPa, 30 degrees; G_I = 100, G_II = 1000 J/m2 where it softens.
-inline cdem::Joint concrete_joint(cdem::Softening softening, double friction = 30) {
-  cdem::Joint joint;
-  joint.tensile_strength = 3e6;
-  joint.cohesion = 6e6;
-  joint.friction_angle = friction * degree;
-  joint.softening = softening;
-  if (softening != cdem::Softening::none) {
-    joint.fracture_energy_1 = 100;
-    joint.fracture_energy_2 = 1000;
-  }
-  return joint;
-}
-
-inline cdem::Bonding cohesive() {
-  cdem::Bonding bonding;
-  bonding.kind = cdem::BondKind::cohesive;
-  bonding.everywhere = true;
-  bonding.stiffness_ratio = 1;
-  return bonding;
-}
-
-// A box of Delaunay tetrahedra of about this edge length, its corner at the origin.
-inline geom::TetMesh unstructured(const geom::Vec3& size, double edge) {
-  const geom::BlockMesh zones = geom::zone_meshes({geom::make_box(geom::Vec3::Zero(), size)}, edge)[0];
-  geom::TetMesh mesh;
-  mesh.nodes = zones.nodes;
-  mesh.tets = zones.tets;
-  mesh.region.assign(mesh.tets.size(), 0);
-  return mesh;
-}
 
 // The ends along x move apart, each at half of `speed` (m/s).
 template <class Fixes>

@@ -3,7 +3,7 @@
 #include "libcdem/fracture/free_nodes.hpp"
 #include "libcdem/fracture/working_plane.hpp"
 #include "libcdem/results/energy.hpp"
-#include "tests/libcdem/cohesive_bars.hpp"
+#include "tests/libcdem/cohesive_concrete.hpp"
 #include "tests/libcdem/going_on.hpp"
 #include "tests/libcdem/two_halves.hpp"
 
@@ -17,13 +17,6 @@ using geom::Mat3;
 using geom::Vec3;
 
 namespace {
-
-constexpr double tension = 3e6, cohesion = 6e6, energy_1 = 100; // as in concrete_joint
-
-cdem::BodySpec concrete_body(geom::TetMesh mesh, cdem::Softening softening = cdem::Softening::linear,
-                             double friction = 30) {
-  return meshed("concrete", std::move(mesh), cohesive(), concrete(), concrete_joint(softening, friction));
-}
 
 Mat3 some_turn() {
   return rotation({1, -2, 0.5}, 70 * degree);
@@ -49,10 +42,6 @@ void strain(System& s, const Mat3& gradient) {
   for (int t = 0; t < static_cast<int>(s.model.tets.size()); ++t)
     set_mesh_stress(s.model, s.state, t,
                     {stress(0, 0), stress(1, 1), stress(2, 2), stress(0, 1), stress(1, 2), stress(0, 2)});
-}
-
-double balance(const System& s) {
-  return cdem::energy(s.model, s.state).balance_error();
 }
 
 // Both ends along `axis` are led apart (closed in, < 0) by this speed, m/s; the largest mean traction there, Pa.
@@ -110,7 +99,7 @@ TEST_CASE("cohesive bodies: uniform stress stays uniform whichever nodes are fre
   System s(build({concrete_body(placed(unstructured({0.6, 0.25, 0.25}, 0.1), some_turn(), {1, 2, 3}))}));
   strain(s, gradient);
   free_some(s, part);
-  CHECK(s.model.mesh.sides.size() > 0);
+  CHECK_FALSE(s.model.mesh.sides.empty());
   const Mat3 stress = hooke(concrete(), gradient);
   // Each outer triangle carries a third of its traction at each corner, whatever copy that is.
   std::vector<Vec3> left = s.net_forces();
