@@ -277,7 +277,7 @@ RelaxResult Simulation::relax(const RelaxOptions& options) {
 
 RunResult Simulation::run(const RunOptions& options) {
   check(options);
-  const RunResult result =
+  RunResult result =
       impl_->run_stage([&](const StageContext& context) { return cdem::run(context, options); });
   impl_->last_residual = impl_->log.history.back().residual;
   return result;

@@ -26,7 +26,7 @@ double plane_modulus(const Elastic& m) {
 }
 
 std::string in_words(const Body& body, int law) {
-  const std::string name = "\"" + body.name + "\"";
+  std::string name = "\"" + body.name + "\"";
   if (law < 0)
     return name;
   const auto [a, b] = body.region_laws.regions[law];
