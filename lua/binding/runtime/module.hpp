@@ -92,6 +92,7 @@ void bind_fracture(Module&);
 void bind_flow(Module&);
 void bind_measures(Module&);
 void bind_cracks(Module&);
+void bind_j_integral(Module&);
 void bind_fragments(Module&);
 void bind_units(Module&);
 void bind_output(Module&);
