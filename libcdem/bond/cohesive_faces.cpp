@@ -106,8 +106,14 @@ private:
       lost = softening_loss(law_, m, gap0 + offset, face_.damage[point], vec(face_.slip[point]), gap + offset,
                             r.law);
     sums.friction += area * m[2] * lost.friction;
-    sums.breaking += area * (m[2] * lost.breaking + (1 - 0.5 * (face_.damage[point] + r.law.damage)) *
-                                                        vec(face_.rest[point]).dot(gap - gap0));
+    const double taken = area * (m[2] * lost.breaking + (1 - 0.5 * (face_.damage[point] + r.law.damage)) *
+                                                            vec(face_.rest[point]).dot(gap - gap0));
+    sums.breaking += taken;
+    // What the law stored when it began, and the body never did, is given back as damage grows.
+    const double begun = 0.5 * area * m[2] * law_.kn * offset.squaredNorm();
+    if (taken != 0)
+      sums.crack.add(taken - (r.law.damage - face_.damage[point]) * begun,
+                     shear_share(law_, m, gap + offset));
     face_.damage[point] = r.law.damage;
     face_.slip[point] = array(r.law.slip);
     open = open && r.law.traction.isZero(0);

@@ -87,6 +87,7 @@ void require_fits(const Model& model, const State& state) {
   require_length("rigid", state.rigid.size(), model.rigid.size());
   require_length("rigid_offset", state.rigid_offset.size(), nodes, model.rigid.empty());
   require_length("escaped", state.escaped.size(), nodes, true);
+  require_length("crack_energy", state.crack_energy.size(), model.bodies.size() + 1, true);
   for (const std::uint8_t mode : state.bond_mode)
     require_below("bond_mode", mode, modes);
   for (const std::uint8_t escaped : state.escaped)

@@ -1,5 +1,6 @@
 #include "libcdem/checkpoint/require_whole.hpp"
 
+#include "libcdem/results/cracks.hpp"
 #include "libcdem/state/state.hpp"
 #include "libgeom/core/error.hpp"
 
@@ -410,6 +411,12 @@ void require_whole(const Model& model, const RunLog& log) {
   for (const BreakRow& row : log.breaks)
     require(row.mode == BondMode::broken_tension || row.mode == BondMode::broken_shear, "breaks.mode",
             static_cast<int>(row.mode));
+  for (const Probe& probe : log.probes)
+    if (!probe.crack.empty()) {
+      const auto& known = crack_quantities();
+      require(std::find(known.begin(), known.end(), probe.crack) != known.end(), "probes.crack", 0);
+      require(probe.body >= -1 && probe.body < count(model.bodies.size()), "probes.body", probe.body);
+    }
   for (const HistoryRow& row : log.history)
     require(row.probes.size() <= log.probes.size(), "history.probes", count(row.probes.size()));
   for (const Watch& watch : log.watches) {

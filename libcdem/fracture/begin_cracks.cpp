@@ -74,6 +74,8 @@ public:
       for (int lane = 0; lane < faces; ++lane)
         one_face(batch, lane, stress);
     }
+    if (crack_.tension != 0 || crack_.shear != 0)
+      begun_.energies.emplace_back(index_, crack_);
     return std::move(begun_);
   }
 
@@ -114,10 +116,12 @@ private:
     const auto plane = working_plane(stress / left, rock_, at.normal);
     if (!plane)
       return;
-    begun_.breaking += begin_crack(model_.mesh.faces[batch], lane, at, joint_, stress, plane->normal,
-                                   plane->mode, state_.faces[batch], state_.cohesive[batch * lanes + lane]);
+    const double taken = begin_crack(model_.mesh.faces[batch], lane, at, joint_, stress, plane->normal,
+                                     plane->mode, state_.faces[batch], state_.cohesive[batch * lanes + lane]);
+    begun_.breaking += taken;
     if (joint_.softening != Softening::none)
       return;
+    crack_.add(taken, plane->mode == BondMode::broken_shear ? 1 : 0);
     const geom::Vec3 traction = stress * plane->normal;
     const double normal = traction.dot(plane->normal);
     for (int point = 0; point < 3; ++point)
@@ -136,6 +140,7 @@ private:
   const Joint& joint_;
   RockStrength rock_;
   BegunCracks begun_;
+  CrackEnergy crack_; // J, of the chunk
 };
 
 } // namespace
@@ -150,6 +155,7 @@ BegunCracks begin_cracks(const Model& model, State& state, int threads) {
   BegunCracks all;
   for (const BegunCracks& some : of_chunks) {
     all.breaking += some.breaking;
+    all.energies.insert(all.energies.end(), some.energies.begin(), some.energies.end());
     all.broken.insert(all.broken.end(), some.broken.begin(), some.broken.end());
   }
   return all;

@@ -54,6 +54,7 @@ public:
     s.step = from_.step;
     s.velocity_lag = from_.velocity_lag;
     s.spent = from_.spent;
+    s.crack_energy = from_.crack_energy;
     s.bond_offset = from_.bond_offset;
     s.bond_mode = from_.bond_mode;
     s.bond_damage = from_.bond_damage;

@@ -144,6 +144,7 @@ const Node* mesh_forces(const Model& model, State& state, Workspace& work, std::
   if (sides.count > 0)
     add_side_forces(sides, at.position, stress, damping.viscous, at.force);
   sums.friction = sums.breaking = 0;
+  sums.crack = {};
   sums.broken.clear();
   sums.astray = -1;
   sums.hands_over = false;

@@ -181,7 +181,8 @@ void Stage::synchronise_stress() {
         mesh_forces(context_.model, context_.state, work, c, false);
     });
   // Broken faces slide to where the nodes are too; the next step finds nothing left to do.
-  if (work.strain_step > 0)
+  if (work.strain_step > 0) {
+    record_crack_energy(context_.model, context_.state, work);
     for (const FaceSums& sums : work.face_sums) {
       context_.state.spent.friction += sums.friction;
       context_.state.spent.breaking += sums.breaking;
@@ -189,6 +190,7 @@ void Stage::synchronise_stress() {
       if (sums.hands_over) // what is handed over now is looked for where things stand now
         work.contact.fragments_due = work.contact.due = true;
     }
+  }
   work.strain_step = 0;
 }
 
