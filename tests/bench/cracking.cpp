@@ -65,8 +65,8 @@ Model between_plates(geom::TetMesh mesh, double bottom, double top, double wide,
 }
 
 geom::TetMesh meshed(const geom::Solid& solid, double volume, int tets) {
-  geom::MeshSize size; // tets of edge a fill some a^3 / 9
-  size.size = std::cbrt(9 * volume / tets);
+  geom::MeshSize size; // tets of edge a fill some a^3 / 5
+  size.size = std::cbrt(5 * volume / tets);
   return geom::mesh_solid(solid, size);
 }
 
