@@ -11,8 +11,12 @@
 #include "libcdem/procedure/critical_flow_options.hpp"
 #include "libcdem/procedure/grow_options.hpp"
 #include "libcdem/procedure/settle_options.hpp"
+#include "libcdem/results/crack_tip.hpp"
+#include "libcdem/results/cracks.hpp"
 #include "libcdem/results/deformation.hpp"
 #include "libcdem/results/fields.hpp"
+#include "libcdem/results/fragment_motions.hpp"
+#include "libcdem/results/j_integral.hpp"
 #include "libcdem/results/log.hpp"
 #include "libcdem/results/overlap.hpp"
 #include "libcdem/results/slivers.hpp"
@@ -140,7 +144,8 @@ public:
   // There is something that could move the model: a load, a support that moves it, an initial stress or velocity, or
   // a state that is deformed already.
   bool anything_acts() const;
-  std::vector<Fragment> fragments() const; // largest first
+  std::vector<Fragment> fragments() const;              // largest first
+  std::vector<FragmentMotion> fragment_motions() const; // the same, with their motion
 
   // Fields by name with a component: "displacement.x|y|z|magnitude", "velocity.*" at nodes; "stress.xx".., "von_mises",
   // "principal_stress.1..3" (tension positive, 1 the largest) as block averages. Unknown name: geom::InputError that
@@ -176,6 +181,15 @@ public:
   const std::vector<BreakRow>& breaks() const;
   // Spring points that the observer was told of as broken when stages ended: in tension, in shear.
   std::array<std::int64_t, 2> told_broken() const;
+
+  // Cracks: area and energy, tip and speed along a path, the surface, the energy release rate.
+  CracksByBody cracks() const;
+  // Samples crack_quantities() of a body, or of all where it is empty, into the history as columns name_area ...
+  void record_cracks(const std::string& name, const std::string& body);
+  Snapshot crack_surface(bool damaged, const std::string& title) const;
+  // JFront::body is taken from `body`; empty: the only one there is.
+  JIntegral j_integral(const std::string& body, JFront, const std::vector<JDomain>&) const;
+  const Elastic& material(const std::string& body) const;
 
   // One sample every 10 steps and at the end of each stage; thinned by halves beyond 20000 rows.
   const std::vector<HistoryRow>& history() const;

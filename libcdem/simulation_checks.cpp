@@ -28,11 +28,11 @@ void validate_meshed(const BodySpec& body) {
     throw geom::InputError("shear_ratio", number(b.shear_ratio), "in (0, 100]", "1 is usual");
   if (!b.none() && !b.is_cohesive() && body.joint.softening != Softening::none)
     throw geom::InputError("softening", "on the faces of a mesh with springs", "none there",
-                           "bond_type = \"cohesive\" softens");
+                           "bonds = \"cohesive\" softens");
   if (b.is_cohesive() && !(body.joint.bonded && body.joint.tensile_strength > 0 && body.joint.cohesion > 0))
     throw geom::InputError(
         "joint: a cohesive body needs a tensile_strength and a cohesion > 0 Pa, below which it "
-        "is continuous (body \"" +
+        "is continuous; bonds = \"springs\" takes any joint (body \"" +
         body.name + "\")");
   const Joint standard;
   if (!b.none() && (body.joint.thickness || body.joint.normal_stiffness || body.joint.shear_stiffness ||

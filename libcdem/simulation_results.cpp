@@ -55,7 +55,10 @@ ModelCounts Simulation::counts() const {
     ++*by_mode[mode];
   each_face_spring(m.mesh, [&](const MeshChunk&, const FaceSpringPlace& at) {
     ++c.bonds;
-    ++*by_mode[impl_->state.faces[at.batch].mode[at.point][at.lane]];
+    const std::uint8_t mode = impl_->state.faces[at.batch].mode[at.point][at.lane];
+    ++*by_mode[mode];
+    if (!impl_->state.cohesive.empty())
+      c.damaged += mode == 0 && impl_->state.cohesive[at.batch * lanes + at.lane].damage[at.point] > 0;
   });
   for (std::size_t p = 0; p < impl_->state.bond_damage.size(); ++p)
     c.damaged += impl_->state.bond_damage[p] > 0 && impl_->state.bond_mode[p] == 0;

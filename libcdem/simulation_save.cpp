@@ -11,9 +11,9 @@ namespace cdem {
 template <class A>
 void archive(A& a, RestartPoint& restart_point) {
   auto& [step, breaks, wall_time, tension_before, shear_before, loop_state, previous_force, spring_force,
-         stretch, procedure_state] = restart_point;
+         stretch, contact_step, procedure_state] = restart_point;
   archive_all(a, step, breaks, wall_time, tension_before, shear_before, loop_state, previous_force,
-              spring_force, stretch, procedure_state);
+              spring_force, stretch, contact_step, procedure_state);
 }
 
 std::string Simulation::Impl::saved() const {

@@ -15,7 +15,7 @@ local tension = cdem.parameter{ name = "tensile_strength", default = unit.tensil
 local cohesion = cdem.parameter{ name = "cohesion", default = unit.cohesion, range = {1, 1e9}, unit = "Pa" }
 local rate = cdem.parameter{ name = "pressure_rate", default = 5e6, range = {1, 1e12}, unit = "Pa/s" }
 local damping = cdem.parameter{ name = "local_damping", default = 0.1, range = {0, 0.9} }
-local bonds = cdem.parameter{ name = "bond_type", default = "springs", choices = {"springs", "cohesive"},
+local bonds = cdem.parameter{ name = "bonds", default = "springs", choices = {"springs", "cohesive"},
                               doc = "springs on every face, as in the paper, or a continuous unit that cracks" }
 local toughness = cdem.parameter{ name = "fracture_energy", default = 0.0, range = {0, 1e6}, unit = "J/m2",
                                   doc = "G_I of a cohesive unit, G_II ten times that; 0: brittle" }
@@ -49,7 +49,7 @@ end
 
 local figures, energy_error, steps = {}, 0, 0
 for _, how in ipairs(mode == "both" and {"hold", "ramp"} or {mode}) do
-  local model = cdem.model{ bodies = { { shape = mesh, material = concrete, joint = joint, bond_type = bonds,
+  local model = cdem.model{ bodies = { { shape = mesh, material = concrete, joint = joint, bonds = bonds,
                                          stiffness_ratio = beta, name = "unit" } } }
   model:fix{ on = case.held }
   local broken = model:critical_flow{ direction = case.flow, mode = how, held = case.held, pressure_rate = rate,

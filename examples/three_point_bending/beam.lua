@@ -66,7 +66,7 @@ function beam.bend(given)
   local half = beam.slenderness * depth / 2
   local mesh = beam.mesh(depth, given.size, given.coarse, thickness)
   local model = cdem.model{ bodies = { { name = "beam", shape = mesh, material = concrete(depth, given.damping),
-                                         joint = joint(given.softening, given.energy), bond_type = "cohesive",
+                                         joint = joint(given.softening, given.energy), bonds = "cohesive",
                                          stiffness_ratio = given.stiffness_ratio } } }
   local tiny = 1e-6 * depth
   model:select{ name = "left", on = cdem.select.box{ min = {-half - tiny, -tiny, -tiny},

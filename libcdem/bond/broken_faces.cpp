@@ -139,7 +139,9 @@ private:
     mode = static_cast<std::uint8_t>(now);
     const Response& r = response_[point] = contact(kn(), ks(), law_.tan_friction, now_, point, slip);
     // The work of the step with the force it ends with, less what is stored.
-    sums.breaking += bonded.energy - r.energy + 0.5 * (r.force - bonded.force).dot(moved(point));
+    const double taken = bonded.energy - r.energy + 0.5 * (r.force - bonded.force).dot(moved(point));
+    sums.breaking += taken;
+    sums.crack.add(taken, now == BondMode::broken_shear ? 1 : 0);
     sums.broken.push_back(
         {spring, now, now_.normal, kn() * bonded.opening / area, shear / area, {slip[0], slip[1]}});
     return true;

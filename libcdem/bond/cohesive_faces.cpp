@@ -1,5 +1,6 @@
 #include "libcdem/bond/cohesive_faces.hpp"
 
+#include "libcdem/parallel/simd.hpp"
 #include "libgeom/core/portable.hpp"
 
 #include <cmath>
@@ -29,6 +30,16 @@ bool is_intact(std::uint8_t mode) {
   return mode == static_cast<std::uint8_t>(BondMode::intact);
 }
 
+// The law of cracked faces of a chunk, but for the lengths that hang on the penalty of each.
+struct ChunkLaw {
+  const Joint& joint;
+  double tan_friction;
+  SofteningLaw at(const FaceBatch& batch, int lane) const {
+    const double k = penalty(batch, lane);
+    return softening_law(joint, tan_friction, k, k);
+  }
+};
+
 void add(Node* force, int place, const Vec3& f) {
   force[place].x += f.x();
   force[place].y += f.y();
@@ -51,54 +62,62 @@ PointResponse respond(const SofteningLaw& law, const CohesiveFace& face, int poi
   return r;
 }
 
-// One face in a step.
-class OneCohesiveFace {
+// What the three points of a face pull with (N, in space), shared out to its corners.
+void share(const FaceNodes& at, const Vec3 (&pull)[3], Node* force) {
+  const Vec3 common = (pull[0] + pull[1] + pull[2]) / 6;
+  for (int corner = 0; corner < 3; ++corner) {
+    const Vec3 f = common + 0.5 * pull[corner];
+    add(force, at.a[corner], f);
+    add(force, at.b[corner], -f);
+  }
+}
+
+// A face that cracks, in a step.
+class CrackingFace {
 public:
-  OneCohesiveFace(const FaceBatch& batch, int lane, const FaceMotion& motion, const Joint& joint,
-                  CohesiveFace& face)
-      : batch_(batch), lane_(lane), motion_(motion), face_(face),
-        law_(cohesive_law(joint, penalty(batch, lane))), at_(places_of(batch, lane)),
+  CrackingFace(const FaceBatch& batch, int lane, const FaceMotion& motion, const ChunkLaw& law,
+               FaceStateBatch& state, CohesiveFace& face)
+      : batch_(batch), lane_(lane), state_(state), face_(face), law_(law.at(batch, lane)),
         now_(face_frame(batch, lane, motion, 0)), before_(face_frame(batch, lane, motion, motion.step)) {}
 
   // spring: the place of the face's first point.
-  void crack(bool breaking, std::int64_t spring, bool to_contact, FaceStateBatch& state, Node* force,
-             FaceSums& sums) {
+  void advance(bool breaking, std::int64_t spring, bool to_contact, Node* force, FaceSums& sums) {
     Vec3 pull[3];
     bool without = true, open = true;
     for (int point = 0; point < 3; ++point) {
-      pull[point] = advance(point, breaking, spring + point * lanes, state, sums, open);
+      pull[point] = advance_point(point, breaking, spring + point * lanes, sums, open);
       without = without && face_.damage[point] >= 1;
     }
     const bool gone = to_contact && without && is_gone(now_, std::sqrt(3 * batch_.area[lane_]));
     if (without && (open || gone))
       part(pull, sums);
-    share(pull, force);
-  }
-
-  void hold(Node* force) const {
-    Vec3 pull[3];
-    for (int point = 0; point < 3; ++point)
-      pull[point] = batch_.kn[lane_] * (now_.gap[point] + now_.in_space(vec(face_.offset[point])));
-    share(pull, force);
+    share(places_of(batch_, lane_), pull, force);
   }
 
 private:
   // N, in space. What the point loses goes by the trapezoidal rule.
-  Vec3 advance(int point, bool breaking, std::int64_t spring, FaceStateBatch& state, FaceSums& sums,
-               bool& open) {
+  Vec3 advance_point(int point, bool breaking, std::int64_t spring, FaceSums& sums, bool& open) {
     const double area = batch_.area[lane_];
     const Vec3 gap = now_.in_axes(now_.gap[point]), gap0 = before_.in_axes(before_.gap[point]);
     const Vec3 m = vec(face_.plane), offset = vec(face_.offset[point]);
     const PointResponse r = respond(law_, face_, point, gap, breaking);
-    const SofteningLoss lost = softening_loss(law_, m, gap0 + offset, face_.damage[point],
-                                              vec(face_.slip[point]), gap + offset, r.law);
+    SofteningLoss lost; // nothing while it is whole
+    if (r.law.damage > 0)
+      lost = softening_loss(law_, m, gap0 + offset, face_.damage[point], vec(face_.slip[point]), gap + offset,
+                            r.law);
     sums.friction += area * m[2] * lost.friction;
-    sums.breaking += area * (m[2] * lost.breaking + (1 - 0.5 * (face_.damage[point] + r.law.damage)) *
-                                                        vec(face_.rest[point]).dot(gap - gap0));
+    const double taken = area * (m[2] * lost.breaking + (1 - 0.5 * (face_.damage[point] + r.law.damage)) *
+                                                            vec(face_.rest[point]).dot(gap - gap0));
+    sums.breaking += taken;
+    // What the law stored when it began, and the body never did, is given back as damage grows.
+    const double begun = 0.5 * area * m[2] * law_.kn * offset.squaredNorm();
+    if (taken != 0)
+      sums.crack.add(taken - (r.law.damage - face_.damage[point]) * begun,
+                     shear_share(law_, m, gap + offset));
     face_.damage[point] = r.law.damage;
     face_.slip[point] = array(r.law.slip);
     open = open && r.law.traction.isZero(0);
-    std::uint8_t& mode = state.mode[point][lane_];
+    std::uint8_t& mode = state_.mode[point][lane_];
     if (r.law.damage >= 1 && is_intact(mode)) {
       const BondMode how = r.law.mode == BondMode::intact ? BondMode::broken_tension : r.law.mode;
       mode = static_cast<std::uint8_t>(how);
@@ -120,48 +139,60 @@ private:
                        0.5 * pull[point].dot(now_.gap[point] - before_.gap[point]);
       pull[point] = Vec3::Zero();
     }
-    face_.stage = static_cast<double>(FaceStage::parted);
-  }
-
-  void share(const Vec3 (&pull)[3], Node* force) const {
-    const Vec3 common = (pull[0] + pull[1] + pull[2]) / 6;
-    for (int corner = 0; corner < 3; ++corner) {
-      const Vec3 f = common + 0.5 * pull[corner];
-      add(force, at_.a[corner], f);
-      add(force, at_.b[corner], -f);
-    }
+    state_.stage[lane_] = FaceStage::parted;
   }
 
   const FaceBatch& batch_;
   int lane_;
-  const FaceMotion& motion_;
+  FaceStateBatch& state_;
   CohesiveFace& face_;
   SofteningLaw law_;
-  FaceNodes at_;
   FaceFrame now_, before_;
 };
 
-bool is_shifted(const CohesiveFace& face) {
-  return !(vec(face.offset[0]).isZero(0) && vec(face.offset[1]).isZero(0) && vec(face.offset[2]).isZero(0));
+void hold_resumed(const FaceBatch& batch, int lane, const FaceMotion& motion, const CohesiveFace& face,
+                  Node* force) {
+  const FaceFrame now = face_frame(batch, lane, motion, 0);
+  Vec3 pull[3];
+  for (int point = 0; point < 3; ++point)
+    pull[point] = batch.kn[lane] * (now.gap[point] + now.in_space(vec(face.offset[point])));
+  share(places_of(batch, lane), pull, force);
 }
 
-// Of a face that has never cracked: it needs no axes.
-void hold_together(const FaceBatch& batch, int lane, const FaceMotion& motion, Node* force) {
-  const FaceNodes at = places_of(batch, lane);
-  Vec3 d[3];
-  for (int k = 0; k < 3; ++k)
-    d[k] = vec(motion.displacement[at.b[k]]) - vec(motion.displacement[at.a[k]]);
-  // The weights of points and corners, 1/6 + 1/2 where they are one, applied twice: 1/4 + 1/4 where they are one.
-  const Vec3 common = 0.25 * (d[0] + d[1] + d[2]);
-  for (int corner = 0; corner < 3; ++corner) {
-    const Vec3 f = batch.kn[lane] * (common + 0.25 * d[corner]);
-    add(force, at.a[corner], f);
-    add(force, at.b[corner], -f);
+// The faces that have never cracked, eight side by side: they need no axes.
+CDEM_INLINE void holding_kernel(const FaceBatch* batches, int faces, const Node* displacement,
+                                const FaceStateBatch* state, Node* force) {
+  using simd::Oct;
+  using simd::Vec;
+  for (int i = 0; i * lanes < faces; ++i) {
+    const FaceBatch& batch = batches[i];
+    Oct k = simd::load(batch.kn);
+    bool any = false;
+    for (int lane = 0; lane < lanes; ++lane) {
+      const bool holds = i * lanes + lane < faces && state[i].stage[lane] == FaceStage::holding;
+      k[lane] = holds ? k[lane] : 0;
+      any = any || holds;
+    }
+    if (!any)
+      continue;
+    Vec d[3];
+    for (int corner = 0; corner < 3; ++corner)
+      d[corner] = simd::minus(simd::gather(displacement, batch.place_b[corner]),
+                              simd::gather(displacement, batch.place_a[corner]));
+    // The weights of points and corners, 1/6 + 1/2 where they are one, applied twice: 1/4 + 1/4 where they are one.
+    const Vec sum = simd::plus(simd::plus(d[0], d[1]), d[2]);
+    const Oct quarter = 0.25 * k;
+    for (int corner = 0; corner < 3; ++corner) {
+      const Vec f = simd::scaled(quarter, simd::plus(sum, d[corner]));
+      simd::scatter_add(force, batch.place_a[corner], f);
+      simd::scatter_add(force, batch.place_b[corner], {-f.x, -f.y, -f.z});
+    }
   }
 }
 
 void preload(const FaceBatch& batch, int lane, const FaceMotion& motion, const FaceLaw& law,
-             CohesiveFace& face, Node* force, FaceSums& sums) {
+             FaceStateBatch& state, CohesiveFace& face, Node* force, FaceSums& sums) {
+  bool remains = false;
   const double least = too_little * batch.area[lane] * std::max(law.tensile_strength, law.cohesion);
   for (int corner = 0; corner < 3; ++corner) {
     const Vec3 q = vec(face.preload[corner]);
@@ -171,9 +202,11 @@ void preload(const FaceBatch& batch, int lane, const FaceMotion& motion, const F
     const Vec3 left = motion.step > 0 ? Vec3((1 - dying) * q) : q;
     sums.breaking += 0.5 * motion.step * (q + left).dot(vec(motion.velocity[b]) - vec(motion.velocity[a]));
     face.preload[corner] = left.norm() > least ? array(left) : CohesiveFace::Vector{};
+    remains = remains || left.norm() > least;
     add(force, a, left);
     add(force, b, -left);
   }
+  state.preloaded[lane] = remains ? 1 : 0;
 }
 
 } // namespace
@@ -190,39 +223,38 @@ void cohesive_face_forces(const FaceBatch* batches, int faces, const FaceMotion&
                           const Joint& joint, bool breaking, FaceStateBatch* state, CohesiveFace* cohesive,
                           Node* force, FaceSums& sums) {
   const bool to_contact = law.hands_over && law.hand_over_due;
+  const ChunkLaw cracked{joint, law.tan_friction};
+  simd::best<holding_kernel>(batches, faces, motion.displacement, state, force);
   for (int i = 0; i < faces; ++i) {
-    CohesiveFace& face = cohesive[i];
     const FaceBatch& batch = batches[i / lanes];
-    FaceStateBatch& modes = state[i / lanes];
+    FaceStateBatch& at = state[i / lanes];
     const int lane = i % lanes;
-    if (face.at() == FaceStage::cracking)
-      OneCohesiveFace(batch, lane, motion, joint, face)
-          .crack(breaking, std::int64_t{i / lanes} * 3 * lanes + lane, to_contact, modes, force, sums);
-    else if (face.at() == FaceStage::holding && is_shifted(face))
-      OneCohesiveFace(batch, lane, motion, joint, face).hold(force);
-    else if (face.at() == FaceStage::holding)
-      hold_together(batch, lane, motion, force);
-    if (face.at() == FaceStage::parted) {
-      if (to_contact && !handed_over(modes, lane)) {
-        modes.handed_over[lane] = 1;
+    if (at.stage[lane] == FaceStage::cracking)
+      CrackingFace(batch, lane, motion, cracked, at, cohesive[i])
+          .advance(breaking, std::int64_t{i / lanes} * 3 * lanes + lane, to_contact, force, sums);
+    else if (at.stage[lane] == FaceStage::resumed)
+      hold_resumed(batch, lane, motion, cohesive[i], force);
+    if (at.stage[lane] == FaceStage::parted) {
+      if (to_contact && !handed_over(at, lane)) {
+        at.handed_over[lane] = 1;
         sums.hands_over = true;
       }
-    } else {
-      preload(batch, lane, motion, law, face, force, sums);
+    } else if (at.preloaded[lane] != 0) {
+      preload(batch, lane, motion, law, at, cohesive[i], force, sums);
     }
   }
 }
 
 FaceSpring cohesive_spring(const FaceBatch& batch, int lane, const FaceFrame& f, int point,
-                           const Joint& joint, const CohesiveFace& face) {
+                           const Joint& joint, const FaceStateBatch& state, const CohesiveFace& face) {
   FaceSpring spring;
   spring.gap = f.gap[point];
   spring.normal = f.normal;
   const Vec3 stretch = f.in_axes(f.gap[point]) + vec(face.offset[point]), m = vec(face.plane);
-  if (face.at() == FaceStage::holding) {
+  if (holds(state.stage[lane])) {
     spring.force = batch.kn[lane] * f.in_space(stretch);
     spring.energy = 0.5 * batch.kn[lane] * stretch.squaredNorm();
-  } else if (face.at() == FaceStage::cracking) {
+  } else if (state.stage[lane] == FaceStage::cracking) {
     const SofteningLaw law = cohesive_law(joint, penalty(batch, lane));
     const PointResponse r = respond(law, face, point, f.in_axes(f.gap[point]), false);
     spring.force = f.in_space(batch.area[lane] * r.traction);
@@ -234,10 +266,10 @@ FaceSpring cohesive_spring(const FaceBatch& batch, int lane, const FaceFrame& f,
 namespace {
 
 double stored(const FaceBatch& batch, int lane, const FaceFrame& f, const Joint& joint,
-              const CohesiveFace& face) {
+              const FaceStateBatch& state, const CohesiveFace& face) {
   double energy = 0;
   for (int point = 0; point < 3; ++point)
-    energy += cohesive_spring(batch, lane, f, point, joint, face).energy;
+    energy += cohesive_spring(batch, lane, f, point, joint, state, face).energy;
   return energy;
 }
 
@@ -246,9 +278,9 @@ double stored(const FaceBatch& batch, int lane, const FaceFrame& f, const Joint&
 double begin_crack(const FaceBatch& batch, int lane, const FaceFrame& f, const Joint& joint,
                    const geom::Mat3& stress, const geom::Vec3& m, BondMode mode, FaceStateBatch& state,
                    CohesiveFace& face) {
-  const double k = penalty(batch, lane), before = stored(batch, lane, f, joint, face);
+  const double k = penalty(batch, lane), before = stored(batch, lane, f, joint, state, face);
   const Vec3 on_plane = f.in_axes(stress * m), on_face = f.in_axes(stress * f.normal);
-  face.stage = static_cast<double>(FaceStage::cracking);
+  state.stage[lane] = FaceStage::cracking;
   face.plane = array(f.in_axes(m));
   for (int point = 0; point < 3; ++point) {
     const Vec3 gap = f.in_axes(f.gap[point]), held = gap + vec(face.offset[point]);
@@ -259,13 +291,15 @@ double begin_crack(const FaceBatch& batch, int lane, const FaceFrame& f, const J
       state.mode[point][lane] = static_cast<std::uint8_t>(mode);
     }
   }
-  return before - stored(batch, lane, f, joint, face);
+  return before - stored(batch, lane, f, joint, state, face);
+}
+
+bool may_end(const CohesiveFace& face) {
+  return damage_of(face) <= hardly_damaged;
 }
 
 std::optional<double> end_crack(const FaceBatch& batch, int lane, const FaceFrame& f, const Joint& joint,
-                                const geom::Mat3& stress, CohesiveFace& face) {
-  if (damage_of(face) > hardly_damaged)
-    return std::nullopt;
+                                const geom::Mat3& stress, FaceStateBatch& state, CohesiveFace& face) {
   const SofteningLaw law = cohesive_law(joint, penalty(batch, lane));
   const Vec3 m = vec(face.plane);
   for (int point = 0; point < 3; ++point) {
@@ -276,7 +310,7 @@ std::optional<double> end_crack(const FaceBatch& batch, int lane, const FaceFram
         cohesive_load(shear, law.strength.tan_friction, normal) > left * law.strength.cohesion)
       return std::nullopt;
   }
-  const double before = stored(batch, lane, f, joint, face);
+  const double before = stored(batch, lane, f, joint, state, face);
   const Vec3 on_face = f.in_axes(stress * f.normal);
   for (int point = 0; point < 3; ++point) {
     const Vec3 gap = f.in_axes(f.gap[point]);
@@ -284,8 +318,8 @@ std::optional<double> end_crack(const FaceBatch& batch, int lane, const FaceFram
     face.offset[point] = array((traction - on_face) / law.kn - gap);
     face.rest[point] = {};
   }
-  face.stage = static_cast<double>(FaceStage::holding);
-  return before - stored(batch, lane, f, joint, face);
+  state.stage[lane] = FaceStage::resumed;
+  return before - stored(batch, lane, f, joint, state, face);
 }
 
 } // namespace cdem

@@ -35,16 +35,19 @@ void cohesive_face_forces(const FaceBatch*, int faces, const FaceMotion&, const 
 
 // As face_spring; the face stands as `f`.
 FaceSpring cohesive_spring(const FaceBatch&, int lane, const FaceFrame& f, int point, const Joint&,
-                           const CohesiveFace&);
+                           const FaceStateBatch&, const CohesiveFace&);
 
 // Begins a crack on the plane with the unit normal m; stress: s above, Pa, in space. A brittle face breaks at once, in this
 // mode. Returns the energy that the face no longer stores, J (negative where it stores more).
 double begin_crack(const FaceBatch&, int lane, const FaceFrame& f, const Joint&, const geom::Mat3& stress,
                    const geom::Vec3& m, BondMode, FaceStateBatch&, CohesiveFace&);
 
-// Goes back to holding where the face has unloaded and is hardly damaged. The same returned.
+// Hardly damaged yet: it goes back to holding once it has unloaded.
+bool may_end(const CohesiveFace&);
+
+// Goes back to holding where a face that may end has unloaded. The same returned.
 std::optional<double> end_crack(const FaceBatch&, int lane, const FaceFrame& f, const Joint&,
-                                const geom::Mat3& stress, CohesiveFace&);
+                                const geom::Mat3& stress, FaceStateBatch&, CohesiveFace&);
 
 // Largest damage of its points.
 double damage_of(const CohesiveFace&);

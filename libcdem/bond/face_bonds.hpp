@@ -14,6 +14,7 @@
 #include "libcdem/joint/bond_mode.hpp"
 #include "libcdem/model/model.hpp"
 #include "libcdem/parallel/read_ahead.hpp"
+#include "libcdem/state/crack_energy.hpp"
 #include "libcdem/state/face_state.hpp"
 
 #include <vector>
@@ -41,6 +42,7 @@ struct FaceBreak {
 struct FaceSums {
   double friction = 0; // J, this step
   double breaking = 0; // J, this step
+  CrackEnergy crack;   // J, this step: what of `breaking` went into cracks
   double damping = 0;  // J, this step, of the tetrahedra of the same chunk
   std::vector<FaceBreak> broken;
   // A face, batch * lanes + lane from the range's first batch on, that is closed and has slid further than it is long;

@@ -15,7 +15,7 @@ bool is_untouched(const State& state, std::int64_t batch, int lane) {
   for (const auto& point : state.faces[batch].mode)
     if (!intact(point[lane]))
       return false;
-  return state.cohesive.empty() || state.cohesive[batch * lanes + lane].at() == FaceStage::holding;
+  return holds(state.faces[batch].stage[lane]);
 }
 
 std::vector<int> fragments_of_nodes(const Model& model, const State& state, Joins by) {

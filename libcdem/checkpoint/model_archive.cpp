@@ -197,8 +197,8 @@ void archive(A& a, HistoryRow& x) {
 
 template <class A>
 void archive(A& a, Probe& x) {
-  auto& [name, field, place] = x;
-  archive_all(a, name, field, place);
+  auto& [name, field, place, crack, body] = x;
+  archive_all(a, name, field, place, crack, body);
 }
 
 template <class A>

@@ -33,6 +33,9 @@ void check_faces(const State& state) {
     for (const auto& point : batch.mode)
       for (const std::uint8_t mode : point)
         require_below("faces.mode", mode, modes);
+    for (const FaceStage stage : batch.stage)
+      require_below("faces.stage", static_cast<std::size_t>(stage),
+                    static_cast<std::size_t>(FaceStage::parted) + 1);
     if (batch.slip < -1)
       refuse("faces.slip", std::to_string(batch.slip) + " is out of range");
     if (batch.slip >= 0)
@@ -84,13 +87,11 @@ void require_fits(const Model& model, const State& state) {
   require_length("rigid", state.rigid.size(), model.rigid.size());
   require_length("rigid_offset", state.rigid_offset.size(), nodes, model.rigid.empty());
   require_length("escaped", state.escaped.size(), nodes, true);
+  require_length("crack_energy", state.crack_energy.size(), model.bodies.size() + 1, true);
   for (const std::uint8_t mode : state.bond_mode)
     require_below("bond_mode", mode, modes);
   for (const std::uint8_t escaped : state.escaped)
     require_below("escaped", escaped, escapes);
-  for (const CohesiveFace& face : state.cohesive)
-    if (!(face.stage >= 0 && face.stage <= static_cast<double>(FaceStage::parted)))
-      refuse("cohesive", std::to_string(face.stage) + " is out of range");
   check_faces(state);
   check_contacts(model, state);
 }

@@ -1,10 +1,12 @@
 #include "libcdem/checkpoint/require_whole.hpp"
 
+#include "libcdem/results/cracks.hpp"
 #include "libcdem/state/state.hpp"
 #include "libgeom/core/error.hpp"
 
 #include <algorithm>
 #include <cstdint>
+#include <limits>
 
 namespace cdem {
 namespace {
@@ -409,6 +411,12 @@ void require_whole(const Model& model, const RunLog& log) {
   for (const BreakRow& row : log.breaks)
     require(row.mode == BondMode::broken_tension || row.mode == BondMode::broken_shear, "breaks.mode",
             static_cast<int>(row.mode));
+  for (const Probe& probe : log.probes)
+    if (!probe.crack.empty()) {
+      const auto& known = crack_quantities();
+      require(std::find(known.begin(), known.end(), probe.crack) != known.end(), "probes.crack", 0);
+      require(probe.body >= -1 && probe.body < count(model.bodies.size()), "probes.body", probe.body);
+    }
   for (const HistoryRow& row : log.history)
     require(row.probes.size() <= log.probes.size(), "history.probes", count(row.probes.size()));
   for (const Watch& watch : log.watches) {
@@ -434,6 +442,8 @@ void require_whole(const Model& model, const RunLog& log, const RestartPoint& po
   };
   require(point.step >= 0, "restart.step", point.step);
   require(point.breaks <= log.breaks.size(), "restart.breaks", count(point.breaks));
+  if (!(point.contact_step >= 0 && point.contact_step < std::numeric_limits<double>::infinity()))
+    refuse("restart.contact_step", std::to_string(point.contact_step) + " is out of range");
   length("restart.previous_force", point.previous_force.size(), model.node_position.size());
   length("restart.spring_force", point.spring_force.size(), model.points.size());
   length("restart.stretch", point.stretch.size(), model.points.size());

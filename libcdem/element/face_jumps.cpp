@@ -9,11 +9,14 @@ using simd::Oct;
 using simd::Vec;
 
 // 1: the sides hold together, 0: they crack or have parted, or the lane is empty.
-CDEM_INLINE Oct holding(const FaceSideBatch& batch, const CohesiveFace* faces) {
-  Oct holds{};
-  for (int lane = 0; lane < lanes; ++lane)
-    holds[lane] = batch.face[lane] >= 0 && faces[batch.face[lane]].at() == FaceStage::holding ? 1 : 0;
-  return holds;
+CDEM_INLINE Oct holding(const FaceSideBatch& batch, const FaceStateBatch* faces) {
+  Oct together{};
+  for (int lane = 0; lane < lanes; ++lane) {
+    const auto face = static_cast<std::uint32_t>(batch.face[lane]);
+    const bool is_one = batch.face[lane] >= 0;
+    together[lane] = is_one && holds(faces[face / lanes].stage[face % lanes]) ? 1 : 0;
+  }
+  return together;
 }
 
 // A n of the corners at x0, x1, x2.

@@ -10,7 +10,7 @@
 #pragma once
 
 #include "libcdem/element/finite_volume.hpp"
-#include "libcdem/state/cohesive_face.hpp"
+#include "libcdem/state/face_state.hpp"
 
 namespace cdem {
 
@@ -19,7 +19,7 @@ namespace cdem {
 struct FaceSides {
   const FaceSideBatch* batches = nullptr;
   std::int64_t count = 0;
-  const CohesiveFace* faces = nullptr; // of the model
+  const FaceStateBatch* faces = nullptr; // of the model
 };
 
 // jumps: of the chunk's batches, all of them zero before. dt: s.

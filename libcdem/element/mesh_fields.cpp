@@ -81,7 +81,7 @@ std::vector<geom::Mat3> velocity_jumps(const Model& model, const State& state,
       model.mesh.sides.empty() ? 0 : model.tets.size() - static_cast<std::size_t>(model.mesh.first_tet),
       geom::Mat3::Zero());
   each_side(model.mesh, [&](int tet, int face, const geom::Triangle& own, const geom::Triangle& beyond) {
-    if (state.cohesive[face].at() != FaceStage::holding)
+    if (!holds(state.faces[face / lanes].stage[face % lanes]))
       return;
     geom::Vec3 jump = geom::Vec3::Zero();
     for (int i = 0; i < 3; ++i)
@@ -227,7 +227,8 @@ FaceSpring face_point_response(const Model& model, const State& state, const std
   const FaceNodes nodes = face_nodes(model.mesh, chunk, at.batch, at.lane);
   if (body.bonding.is_cohesive())
     return cohesive_spring(batch, at.lane, face_frame(nodes, position.data(), state.displacement.data()),
-                           at.point, body.joint, state.cohesive[at.batch * lanes + at.lane]);
+                           at.point, body.joint, state.faces[at.batch],
+                           state.cohesive[at.batch * lanes + at.lane]);
   return face_spring(batch, nodes, at.point, at.lane, position.data(), state.displacement.data(),
                      face_law(body), state.faces[at.batch], slip_of(state, at.batch, at.lane));
 }

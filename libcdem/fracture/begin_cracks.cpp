@@ -3,63 +3,145 @@
 #include "libcdem/bond/cohesive_faces.hpp"
 #include "libcdem/element/small_strain.hpp"
 #include "libcdem/fracture/working_plane.hpp"
+#include "libcdem/parallel/simd.hpp"
 #include "libcdem/state/places.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace cdem {
 namespace {
 
-FaceFrame frame_of(const Model& model, const State& state, const FaceNodes& nodes) {
-  return face_frame(
-      nodes, [&](int node) { return place_of(model, state, node); },
-      [&](int node) { return vec(state.displacement[node]); });
+// Steps between two looks at the same eight faces: a wave needs more to cross a freed tet.
+constexpr std::int64_t look_every = 4;
+
+// Eight faces side by side.
+struct FaceStress {
+  double component[6][lanes]; // Pa, in the order of Stress: the mean of both tets
+  bool may_fail[lanes];
+};
+
+CDEM_INLINE void stress_kernel(const StressBatch* stress, const std::int32_t (&slot_a)[lanes],
+                               const std::int32_t (&slot_b)[lanes], const double (&left)[lanes],
+                               const UseBound& bound, FaceStress& to) {
+  using simd::Oct;
+  Oct s[6];
+  for (int c = 0; c < 6; ++c) {
+    for (int lane = 0; lane < lanes; ++lane)
+      s[c][lane] = stress[slot_a[lane] / lanes].component[c][slot_a[lane] % lanes] +
+                   stress[slot_b[lane] / lanes].component[c][slot_b[lane] % lanes];
+    s[c] *= 0.5;
+    simd::store(to.component[c], s[c]);
+  }
+  const Oct part = simd::load(left);
+  for (Oct& c : s)
+    c /= part;
+  const Oct beyond = bound.beyond(s);
+  for (int lane = 0; lane < lanes; ++lane)
+    to.may_fail[lane] = beyond[lane] > 0;
 }
 
-BegunCracks of_chunk(const Model& model, State& state, std::int64_t index) {
-  BegunCracks begun;
-  const MeshChunk& chunk = model.mesh.chunks[index];
-  const Joint& joint = model.bodies[model.blocks[chunk.block].body].joint;
-  const RockStrength rock = rock_strength(joint);
-  const double least2 = rock.least_norm() * rock.least_norm();
-  for (int i = 0; i < chunk.faces; ++i) {
-    const std::int64_t face = chunk.face_batches.begin * lanes + i, batch = face / lanes;
-    const int lane = static_cast<int>(face % lanes);
-    CohesiveFace& cohesive = state.cohesive[face];
-    const bool cracks = cohesive.at() == FaceStage::cracking;
-    const double left = 1 - damage_of(cohesive); // of its strength
-    if (cohesive.at() == FaceStage::parted || left <= 0)
-      continue;
-    const FaceTets& tets = model.mesh.face_tets[face];
-    const geom::Mat3 stress =
-        0.5 * (matrix(mesh_stress(model, state, tets.tet_a)) + matrix(mesh_stress(model, state, tets.tet_b)));
-    if (!cracks && stress.squaredNorm() < least2 * left * left)
-      continue;
-    const FaceBatch& at = model.mesh.faces[batch];
-    const FaceFrame frame = frame_of(model, state, face_nodes(model.mesh, chunk, batch, lane));
-    if (cracks) {
-      begun.breaking += end_crack(at, lane, frame, joint, stress, cohesive).value_or(0);
-      continue;
+geom::Mat3 stress_in(const FaceStress& of, int lane) {
+  Stress s{};
+  for (int c = 0; c < 6; ++c)
+    s[c] = of.component[c][lane];
+  return matrix(s);
+}
+
+class ChunkCracks {
+public:
+  ChunkCracks(const Model& model, State& state, std::int64_t index)
+      : model_(model), state_(state), index_(index), chunk_(model.mesh.chunks[index]),
+        joint_(model.bodies[model.blocks[chunk_.block].body].joint), rock_(rock_strength(joint_)) {}
+
+  BegunCracks operator()() {
+    const UseBound bound(rock_, 1);
+    for (int first = 0; first < chunk_.faces; first += lanes) {
+      const std::int64_t batch = chunk_.face_batches.begin + first / lanes;
+      const int faces = std::min(lanes, chunk_.faces - first);
+      if ((state_.step + batch) % look_every != 0 || all_parted(batch, faces))
+        continue;
+      std::int32_t slot_a[lanes], slot_b[lanes];
+      double left[lanes];
+      for (int lane = 0; lane < lanes; ++lane) {
+        const FaceTets& tets = model_.mesh.face_tets[batch * lanes + (lane < faces ? lane : 0)];
+        slot_a[lane] = model_.mesh.tet_slot[tets.tet_a - model_.mesh.first_tet];
+        slot_b[lane] = model_.mesh.tet_slot[tets.tet_b - model_.mesh.first_tet];
+        left[lane] = lane < faces ? strength_left(batch, lane) : 1;
+      }
+      FaceStress stress;
+      simd::best<stress_kernel>(state_.stress.data(), slot_a, slot_b, left, bound, stress);
+      for (int lane = 0; lane < faces; ++lane)
+        one_face(batch, lane, stress);
     }
-    const auto plane = working_plane(stress / left, rock, frame.normal);
+    if (crack_.tension != 0 || crack_.shear != 0)
+      begun_.energies.emplace_back(index_, crack_);
+    return std::move(begun_);
+  }
+
+private:
+  bool all_parted(std::int64_t batch, int faces) const {
+    const auto& stage = state_.faces[batch].stage;
+    return std::all_of(stage, stage + faces, [](FaceStage s) { return s == FaceStage::parted; });
+  }
+
+  FaceFrame frame(std::int64_t batch, int lane) const {
+    return face_frame(
+        face_nodes(model_.mesh, chunk_, batch, lane),
+        [&](int node) { return place_of(model_, state_, node); },
+        [&](int node) { return vec(state_.displacement[node]); });
+  }
+
+  void one_face(std::int64_t batch, int lane, const FaceStress& of_batch) {
+    FaceStateBatch& face = state_.faces[batch];
+    CohesiveFace& cohesive = state_.cohesive[batch * lanes + lane];
+    const FaceBatch& at = model_.mesh.faces[batch];
+    if (face.stage[lane] == FaceStage::cracking && may_end(cohesive))
+      begun_.breaking +=
+          end_crack(at, lane, frame(batch, lane), joint_, stress_in(of_batch, lane), face, cohesive)
+              .value_or(0);
+    else if (holds(face.stage[lane]) && of_batch.may_fail[lane])
+      begin(batch, lane, stress_in(of_batch, lane), strength_left(batch, lane));
+  }
+
+  // Of 1: a crack that did not go on took the rest. At least what may_end leaves.
+  double strength_left(std::int64_t batch, int lane) const {
+    return state_.faces[batch].stage[lane] == FaceStage::resumed
+               ? 1 - damage_of(state_.cohesive[batch * lanes + lane])
+               : 1;
+  }
+
+  void begin(std::int64_t batch, int lane, const geom::Mat3& stress, double left) {
+    const FaceFrame at = frame(batch, lane);
+    const auto plane = working_plane(stress / left, rock_, at.normal);
     if (!plane)
-      continue;
-    begun.breaking +=
-        begin_crack(at, lane, frame, joint, stress, plane->normal, plane->mode, state.faces[batch], cohesive);
-    if (joint.softening != Softening::none)
-      continue;
+      return;
+    const double taken = begin_crack(model_.mesh.faces[batch], lane, at, joint_, stress, plane->normal,
+                                     plane->mode, state_.faces[batch], state_.cohesive[batch * lanes + lane]);
+    begun_.breaking += taken;
+    if (joint_.softening != Softening::none)
+      return;
+    crack_.add(taken, plane->mode == BondMode::broken_shear ? 1 : 0);
     const geom::Vec3 traction = stress * plane->normal;
     const double normal = traction.dot(plane->normal);
     for (int point = 0; point < 3; ++point)
-      begun.broken.push_back({index,
-                              {batch, point, lane},
-                              plane->mode,
-                              plane->normal,
-                              normal,
-                              (traction - normal * plane->normal).norm()});
+      begun_.broken.push_back({index_,
+                               {batch, point, lane},
+                               plane->mode,
+                               plane->normal,
+                               normal,
+                               (traction - normal * plane->normal).norm()});
   }
-  return begun;
-}
+
+  const Model& model_;
+  State& state_;
+  std::int64_t index_;
+  const MeshChunk& chunk_;
+  const Joint& joint_;
+  RockStrength rock_;
+  BegunCracks begun_;
+  CrackEnergy crack_; // J, of the chunk
+};
 
 } // namespace
 
@@ -68,11 +150,12 @@ BegunCracks begin_cracks(const Model& model, State& state, int threads) {
   for_chunks(static_cast<std::int64_t>(of_chunks.size()), threads, [&](std::int64_t c) {
     const MeshChunk& chunk = model.mesh.chunks[c];
     if (chunk.side_batches.size() > 0 && !is_rigid(model, chunk))
-      of_chunks[c] = of_chunk(model, state, c);
+      of_chunks[c] = ChunkCracks(model, state, c)();
   });
   BegunCracks all;
   for (const BegunCracks& some : of_chunks) {
     all.breaking += some.breaking;
+    all.energies.insert(all.energies.end(), some.energies.begin(), some.energies.end());
     all.broken.insert(all.broken.end(), some.broken.begin(), some.broken.end());
   }
   return all;

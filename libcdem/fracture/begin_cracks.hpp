@@ -17,6 +17,8 @@ struct BegunCracks {
   };
   std::vector<Break> broken; // of brittle faces, which break at once
   double breaking = 0;       // J, of what the faces stored
+  // J, by chunk, ascending: what of `breaking` brittle faces took.
+  std::vector<std::pair<std::int64_t, CrackEnergy>> energies;
 };
 
 BegunCracks begin_cracks(const Model&, State&, int threads);

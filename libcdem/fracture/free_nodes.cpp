@@ -5,6 +5,7 @@
 #include "libcdem/element/small_strain.hpp"
 #include "libcdem/fracture/working_plane.hpp"
 #include "libcdem/model/build/freed_meshes.hpp"
+#include "libcdem/parallel/simd.hpp"
 #include "libcdem/state/places.hpp"
 #include "libgeom/mesh/boundary.hpp"
 
@@ -26,14 +27,20 @@ struct NearStrength {
   std::vector<int> nodes;
 };
 
-// Pa2, of eight tets the largest sigma : sigma.
-double largest_norm2(const StressBatch& s) {
-  double norm2[lanes];
-  for (int lane = 0; lane < lanes; ++lane) {
-    const auto square = [&](int c) { return s.component[c][lane] * s.component[c][lane]; };
-    norm2[lane] = square(0) + square(1) + square(2) + 2 * (square(3) + square(4) + square(5));
-  }
-  return *std::max_element(norm2, norm2 + lanes);
+// Whether some of eight tets may use so much of their strength.
+CDEM_INLINE void any_beyond_kernel(const StressBatch& stress, const UseBound& bound, bool& any) {
+  simd::Oct s[6];
+  for (int c = 0; c < 6; ++c)
+    s[c] = simd::load(stress.component[c]);
+  const simd::Oct beyond = bound.beyond(s);
+  any = false;
+  for (int lane = 0; lane < lanes; ++lane)
+    any = any || beyond[lane] > 0;
+}
+
+bool may_use(const UseBound& bound, const geom::Mat3& s) {
+  const double components[6] = {s(0, 0), s(1, 1), s(2, 2), s(0, 1), s(1, 2), s(0, 2)};
+  return bound.beyond(components) > 0;
 }
 
 class Carrier {
@@ -47,6 +54,7 @@ public:
     s.step = from_.step;
     s.velocity_lag = from_.velocity_lag;
     s.spent = from_.spent;
+    s.crack_energy = from_.crack_energy;
     s.bond_offset = from_.bond_offset;
     s.bond_mode = from_.bond_mode;
     s.bond_damage = from_.bond_damage;
@@ -106,6 +114,8 @@ private:
       for (int point = 0; point < 3; ++point)
         to.mode[point][lane] = from.mode[point][was % lanes];
       to.handed_over[lane] = from.handed_over[was % lanes];
+      to.stage[lane] = from.stage[was % lanes];
+      to.preloaded[lane] = from.preloaded[was % lanes];
       if (lane == was % lanes)
         to.slip = from.slip; // of faces with springs, which keep their batches
       to_.state.cohesive[now] = from_.cohesive[was];
@@ -176,19 +186,22 @@ std::optional<std::vector<char>> FreeingWatch::due(const Model& model, const Sta
     if (!body.bonding.is_cohesive() || is_rigid(model, chunk))
       return;
     const RockStrength rock = rock_strength(body.joint);
-    const double least = freed_at * rock.least_norm();
+    const UseBound bound(rock, freed_at); // of convex sets: the mean of two stresses below it is below it
     const auto stress_of = [&](std::int64_t tet) {
       return matrix(mesh_stress(model, state, static_cast<int>(tet)));
     };
     for (std::int64_t t = chunk.tets.begin; t < chunk.tets.end; ++t) {
       const std::int64_t place = t - chunk.tets.begin;
-      if (place % lanes == 0 &&
-          largest_norm2(state.stress[chunk.batches.begin + place / lanes]) < least * least) {
-        t += lanes - 1;
-        continue;
+      if (place % lanes == 0) {
+        bool any = false;
+        simd::best<any_beyond_kernel>(state.stress[chunk.batches.begin + place / lanes], bound, any);
+        if (!any) {
+          t += lanes - 1;
+          continue;
+        }
       }
       const geom::Mat3 s = stress_of(t);
-      if (s.squaredNorm() < least * least)
+      if (!may_use(bound, s))
         continue;
       for (int face = 0; face < 4; ++face) {
         const int beyond = neighbours_[4 * (t - mesh.first_tet) + face];
@@ -202,7 +215,8 @@ std::optional<std::vector<char>> FreeingWatch::due(const Model& model, const Sta
           freed = freed && mesh.freed[model.tets[t][corner] - mesh.first_node] != 0;
         if (freed)
           continue;
-        const double use = strength_use(0.5 * (s + stress_of(other)), rock);
+        const geom::Mat3 mean = 0.5 * (s + stress_of(other));
+        const double use = may_use(bound, mean) ? strength_use(mean, rock) : 0;
         if (!(use >= freed_at))
           continue;
         found[c].most = std::max(found[c].most, use);
@@ -255,7 +269,7 @@ void preload_faces(const Model& model, State& state, const std::vector<Node>& ne
       stars[mesh.original[node - mesh.first_node]].copies.push_back(node);
   each_face(mesh, [&](const MeshChunk& chunk, std::int64_t batch, int lane) {
     const std::int64_t face = batch * lanes + lane;
-    if (state.cohesive.empty() || state.cohesive[face].at() != FaceStage::holding)
+    if (state.cohesive.empty() || !holds(state.faces[batch].stage[lane]))
       return;
     const FaceNodes at = face_nodes(mesh, chunk, batch, lane);
     for (int corner = 0; corner < 3; ++corner)
@@ -292,6 +306,7 @@ void preload_faces(const Model& model, State& state, const std::vector<Node>& ne
     }
     const Eigen::MatrixXd potential = laplacian.completeOrthogonalDecomposition().solve(missing);
     for (const Between& f : star.faces) {
+      state.faces[f.face / lanes].preloaded[f.face % lanes] = 1;
       auto& q = state.cohesive[f.face].preload[f.corner];
       for (int axis = 0; axis < 3; ++axis)
         q[axis] += potential(place(f.a), axis) - potential(place(f.b), axis);

@@ -130,6 +130,7 @@ public:
     result.state.step = from_.step;
     result.state.velocity_lag = from_.velocity_lag;
     result.state.spent = from_.spent;
+    result.state.crack_energy = from_.crack_energy;
     for (const Successor& s : successors_)
       result.old_block.push_back(s.old_block);
     carry_blocks(result);

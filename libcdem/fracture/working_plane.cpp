@@ -34,16 +34,14 @@ Vec3 nearest_in(const Vec3& first, const Vec3& second, const Vec3& v) {
 
 } // namespace
 
-double RockStrength::least_norm() const {
-  // (sigma_1 - sigma_3)/2 + (sigma_1 + sigma_3)/2 sin(phi) is at most so many times the norm.
-  return std::min(tensile_strength,
-                  cohesion * cos_friction / std::sqrt(0.5 * (1 + sin_friction * sin_friction)));
-}
-
 RockStrength rock_strength(const Joint& joint) {
   return {joint.tensile_strength, joint.cohesion, geom::portable::cos(joint.friction_angle),
           geom::portable::sin(joint.friction_angle)};
 }
+
+UseBound::UseBound(const RockStrength& rock, double u)
+    : tensile_(u * rock.tensile_strength), shear_(u * rock.cohesion * rock.cos_friction),
+      slope_(u * rock.sin_friction), reach2_(1 + slope_ * slope_ / 3) {}
 
 double strength_use(const geom::Mat3& stress, const RockStrength& rock) {
   const Uses u =

@@ -18,11 +18,38 @@ namespace cdem {
 struct RockStrength {
   double tensile_strength = 0, cohesion = 0; // Pa
   double cos_friction = 1, sin_friction = 0;
-
-  // Pa: a stress whose norm sqrt(s : s) is below uses less than 1 of the strength.
-  double least_norm() const;
 };
 RockStrength rock_strength(const Joint&);
+
+// Whether a stress may use as much of the strength as u, told without its principal values: of a mean stress p and a
+// deviator s, q^2 = s : s / 2, whatever the Lode angle,
+//   sigma_1 <= p + 2 q / sqrt(3)
+//   (sigma_1 - sigma_3)/2 + u sin(phi) (sigma_1 + sigma_3)/2 <= u sin(phi) p + q sqrt(1 + (u sin(phi))^2 / 3)
+class UseBound {
+public:
+  UseBound(const RockStrength&, double u);
+  // Pa2, > 0 where it may. s: Pa, in the order of Stress, one number each or several side by side.
+  template <class T>
+  T beyond(const T (&s)[6]) const {
+    const T p = (s[0] + s[1] + s[2]) / 3, x = s[0] - p, y = s[1] - p, z = s[2] - p;
+    return beyond(p, T(0.5 * (x * x + y * y + z * z) + s[3] * s[3] + s[4] * s[4] + s[5] * s[5]));
+  }
+
+private:
+  template <class T>
+  T beyond(const T& p, const T& q2) const {
+    const T open = excess<T>(tensile_ - p, 4.0 / 3 * q2),
+            slide = excess<T>(shear_ - slope_ * p, reach2_ * q2);
+    return open > slide ? open : slide;
+  }
+
+  // missing: what the mean stress leaves to the deviator.
+  template <class T>
+  static T excess(const T& missing, const T& reach2) {
+    return missing > 0 ? reach2 - missing * missing : T{} + 1;
+  }
+  double tensile_, shear_, slope_, reach2_;
+};
 
 double strength_use(const geom::Mat3& stress, const RockStrength&);
 

@@ -66,13 +66,13 @@ struct SofteningLaw {
   bool softens() const { return curve != Softening::none; }
 };
 
-// The joint has passed validate(joint, kn, ks).
-inline SofteningLaw softening_law(const Joint& joint, double kn, double ks) {
+// The joint has passed validate(joint, kn, ks). tan_friction: of its friction angle.
+inline SofteningLaw softening_law(const Joint& joint, double tan_friction, double kn, double ks) {
   SofteningLaw law;
   law.curve = joint.softening;
   law.kn = kn;
   law.ks = ks;
-  law.strength = {joint.cohesion, geom::portable::tan(joint.friction_angle), joint.tensile_strength};
+  law.strength = {joint.cohesion, tan_friction, joint.tensile_strength};
   if (!law.softens())
     return law;
   // At the least fracture energy the length is zero; a floor far below the elastic stretch keeps the
@@ -84,6 +84,10 @@ inline SofteningLaw softening_law(const Joint& joint, double kn, double ks) {
   law.opening = length(joint.fracture_energy_1, joint.tensile_strength, kn);
   law.slip = length(joint.fracture_energy_2, joint.cohesion, ks);
   return law;
+}
+
+inline SofteningLaw softening_law(const Joint& joint, double kn, double ks) {
+  return softening_law(joint, geom::portable::tan(joint.friction_angle), kn, ks);
 }
 
 struct DamageDrive {
@@ -152,6 +156,15 @@ inline double softening_stored(const SofteningLaw& law, const geom::Vec3& normal
 struct SofteningLoss {
   double friction = 0, breaking = 0; // J/m2
 };
+
+// Part of what damage takes at this stretch that shear has, by kn <e_n>^2 : ks |e_s|^2; 1 where it is closed.
+inline double shear_share(const SofteningLaw& law, const geom::Vec3& normal, const geom::Vec3& stretch) {
+  const double open = stretch.dot(normal);
+  if (!(open > 0))
+    return 1;
+  const double opening = law.kn * open * open, slip = law.ks * (stretch - open * normal).squaredNorm();
+  return opening + slip > 0 ? slip / (opening + slip) : 0;
+}
 
 // What a step from stretch0 (with damage0 and slip0) to stretch1 lost: work by the trapezoidal rule less the
 // change of what is stored. Friction is the work of t_c over the growth of D slip, the spring's whole

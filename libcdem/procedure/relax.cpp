@@ -1,7 +1,6 @@
 #include "libcdem/procedure/relax.hpp"
 
 #include "libcdem/contact/response/contact_bounds.hpp"
-#include "libcdem/fracture/free_nodes.hpp"
 #include "libcdem/integrate/move_held_nodes.hpp"
 #include "libcdem/integrate/move_rigid.hpp"
 #include "libcdem/integrate/row_sums.hpp"
@@ -23,7 +22,6 @@ constexpr double smoothing = 0.05;
 constexpr double most_damping = 1.8;
 // Supports with a given displacement get there in this many steps.
 constexpr int support_steps = 200;
-static_assert(support_steps <= watch_every, "a relaxation that goes on does not move its supports any more");
 // The residual must stay under its goal this long: a body that swings through its balance is under it for a moment.
 constexpr int settled_steps = 10;
 // Without loads the residual is measured against the reactions. Moved supports that have torn their part off, and a free
@@ -42,9 +40,13 @@ void aim_supports(const State& state, ResolvedConditions& r, int steps) {
   }
 }
 
-void stop_supports(ResolvedConditions& r) {
-  for (HeldNode& h : r.held)
-    h.prescribed = {};
+// In the steps that are left to them; then they stand.
+void lead_supports(const State& state, ResolvedConditions& r, std::int64_t step) {
+  if (r.has_target && step < support_steps)
+    aim_supports(state, r, support_steps - static_cast<int>(step));
+  else
+    for (HeldNode& h : r.held)
+      h.prescribed = {};
 }
 
 // Squared norm of the initial stress's forces on free components, N2.
@@ -95,17 +97,6 @@ struct AtRest {
   }
 };
 
-// Nodes are freed in real time only: what a relaxation loads beyond its strength stays whole in it.
-void tell_of_strength(const StageContext& context) {
-  constexpr double all = 1;
-  const FreeingWatch watch(context.model);
-  if (watch.empty() || !watch.due(context.model, context.state, context.threads, all))
-    return;
-  context.observer.warning("warning: a cohesive body is loaded beyond its strength where it is still whole, "
-                           "and relax does not crack it: go on "
-                           "with model:run, or look at a smaller load");
-}
-
 } // namespace
 
 std::vector<double> fictitious_masses(const Model& model) {
@@ -121,26 +112,26 @@ RelaxResult relax(const StageContext& context, const RelaxOptions& options, cons
   Stage stage(context, kind, context.model.length);
   require_held(context.model, stage.work.resolved);
   stage.work.contact.restitution = false; // its steps are no times
-  const std::vector<double> mass = fictitious_masses(context.model);
+  std::vector<double> mass = fictitious_masses(context.model);
   const RestartPoint* const from = context.from;
   std::vector<Node> previous_force(mass.size()); // N, of the step before
   update_external(stage.work.resolved, state.time);
   if (from) {
     previous_force = from->previous_force;
-    stop_supports(stage.work.resolved);
   } else {
     const double moving = energy(context.model, state).total();
     stop(state);
     std::fill(state.viscous_stress.begin(), state.viscous_stress.end(), StressBatch{});
     state.velocity_lag = 0;
     state.spent.fictitious += moving - energy(context.model, state).total();
-    aim_supports(state, stage.work.resolved, support_steps);
   }
+  lead_supports(state, stage.work.resolved, stage.step);
   const int moving_steps = stage.work.resolved.has_target ? support_steps : 0;
 
   Stage::StepReport report;
   report.goals.residual_goal = options.residual;
   report.goals.max_steps = options.max_steps;
+  bool forces_known = stage.step > 0; // of the step before
   double lambda = 0, damping = 0, largest_reaction2 = initial_stress_forces2(stage.work.resolved);
   int settled = 0;
   if (from) {
@@ -149,16 +140,23 @@ RelaxResult relax(const StageContext& context, const RelaxOptions& options, cons
     largest_reaction2 = from->loop_state.at(2);
     settled = static_cast<int>(from->loop_state.at(3));
     report.sums.kinetic = from->loop_state.at(4);
+    forces_known = from->loop_state.at(5) != 0;
   }
   {
     const AtRest at_rest{stage, state, context.last_good, report.sums};
     while (stage.step < options.max_steps && settled < settled_steps) {
-      if (stage.can_be_left())
-        stage.keep_restart_point(
-            {lambda, damping, largest_reaction2, static_cast<double>(settled), report.sums.kinetic},
-            previous_force);
-      if (stage.step == moving_steps)
-        stop_supports(stage.work.resolved);
+      const bool freed = options.breaking && stage.free_nodes();
+      if (freed) {
+        mass = fictitious_masses(context.model);
+        previous_force.assign(mass.size(), {});
+        forces_known = false;
+      }
+      if (freed || stage.can_be_left())
+        stage.keep_restart_point({lambda, damping, largest_reaction2, static_cast<double>(settled),
+                                  report.sums.kinetic, forces_known ? 1.0 : 0.0},
+                                 previous_force);
+      if (freed || stage.step == moving_steps)
+        lead_supports(state, stage.work.resolved, stage.step);
       stage.update_contacts();
       const auto move = [&](Range range, const Node* force, NodeSums& sums) {
         const auto nodes = [&](Range part) {
@@ -180,11 +178,12 @@ RelaxResult relax(const StageContext& context, const RelaxOptions& options, cons
       report.residual = relative_residual(report.sums);
       stage.watch(report);
 
-      if (report.sums.inertia > 0) {
+      if (report.sums.inertia > 0 && (forces_known || stage.step <= 1)) {
         const double quotient = std::max(0.0, report.sums.stiffness / report.sums.inertia);
         lambda += (stage.step < 3 ? 1.0 : smoothing) * (quotient - lambda);
         damping = std::min(2 * std::sqrt(lambda), most_damping);
       }
+      forces_known = true;
       const bool balanced =
           report.residual <= options.residual && stage.broken_in_step() == 0 && stage.step > moving_steps;
       settled = balanced ? settled + 1 : 0;
@@ -194,10 +193,7 @@ RelaxResult relax(const StageContext& context, const RelaxOptions& options, cons
       }
     }
   }
-  const RelaxResult result{stage.finish(report), settled >= settled_steps};
-  if (options.breaking)
-    tell_of_strength(context);
-  return result;
+  return {stage.finish(report), settled >= settled_steps};
 }
 
 } // namespace cdem

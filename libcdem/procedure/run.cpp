@@ -140,9 +140,8 @@ RunResult run(const StageContext& context, const RunOptions& options, const std:
 
   bool stopped = false;
   while (stage.step < clock.steps() && !stopped) {
-    if (stage.can_be_left())
-      stage.keep_restart_point(clock.loop_state());
-    if (options.breaking && stage.free_nodes()) {
+    const bool freed = options.breaking && stage.free_nodes();
+    if (freed) {
       viscous = viscous_forces(context.model);
       if (const double stable = options.safety * stable_time_step(context.model);
           stable < stepping.time_step) {
@@ -150,8 +149,9 @@ RunResult run(const StageContext& context, const RunOptions& options, const std:
         clock.shorten(stage.step, stable);
         set_goals();
       }
-      stage.keep_restart_point(clock.loop_state());
     }
+    if (freed || stage.can_be_left())
+      stage.keep_restart_point(clock.loop_state());
     if (const double longest = stage.update_contacts(options.safety); longest < stepping.time_step) {
       stepping.time_step = longest;
       clock.shorten(stage.step, longest);

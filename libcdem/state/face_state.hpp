@@ -1,4 +1,4 @@
-// How the springs of the bonded faces of meshes stand (bond/face_bonds.hpp).
+// How the faces of meshes stand that may break (bond/face_bonds.hpp, bond/cohesive_faces.hpp).
 #pragma once
 
 #include "libcdem/parallel/node.hpp"
@@ -7,10 +7,24 @@
 
 namespace cdem {
 
+// A freed face of a cohesive body.
+enum class FaceStage : std::uint8_t {
+  holding,  // its sides hold together
+  resumed,  // they do so again after a crack that did not go on
+  cracking, // a cohesive law acts on its working plane
+  parted    // it carries nothing
+};
+
+inline bool holds(FaceStage stage) {
+  return stage <= FaceStage::resumed;
+}
+
 // Of the three springs of eight faces; a spring's place in the whole is (batch * 3 + point) * lanes + lane.
 struct FaceStateBatch {
   std::uint8_t mode[3][lanes];     // BondMode
   std::uint8_t handed_over[lanes]; // 1: the springs carry nothing any more
+  FaceStage stage[lanes];          // of cohesive bodies; holding in others
+  std::uint8_t preloaded[lanes];   // 1: CohesiveFace::preload has not died away
   std::int32_t slip; // of the first lane in State::face_slip; -1: no spring of the batch is broken
 };
 

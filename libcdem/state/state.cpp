@@ -54,6 +54,12 @@ void set_mesh_stress(const Model& model, State& state, int tet, const Stress& st
     state.stress[slot / lanes].component[c][slot % lanes] = stress[c];
 }
 
+CrackEnergy& crack_energy_of(const Model& model, State& state, int body) {
+  if (state.crack_energy.empty())
+    state.crack_energy.resize(model.bodies.size() + 1);
+  return state.crack_energy[body];
+}
+
 State initial_state(const Model& model) {
   State state;
   state.displacement.resize(model.node_position.size());
@@ -122,6 +128,8 @@ std::vector<StateField> fields(State& s) {
       field("rigid", "record", FieldPlace::rigid_body, "move_rigid, set_rigid", s.rigid, true),
       field("rigid_offset", "m", FieldPlace::node, "set_rigid", s.rigid_offset, true),
       field("escaped", "1", FieldPlace::node, "find_escapes", s.escaped, false),
+      field("crack_energy", "J", FieldPlace::body,
+            "record_bond_breaks, record_face_breaks, record_begun_cracks", s.crack_energy, true),
       {"spent", "J", FieldPlace::model,
        "record_bond_breaks, record_face_breaks, ContactUpdate, record_step, relax", &s.spent, sizeof s.spent,
        true},

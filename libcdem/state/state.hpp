@@ -6,6 +6,7 @@
 #include "libcdem/model/model.hpp"
 #include "libcdem/state/cohesive_face.hpp"
 #include "libcdem/state/contact.hpp"
+#include "libcdem/state/crack_energy.hpp"
 #include "libcdem/state/face_state.hpp"
 #include "libcdem/state/ledger.hpp"
 #include "libcdem/state/rigid_state.hpp"
@@ -57,6 +58,10 @@ struct State {
   // Escaped (n_nodes); empty until something has left the model; written by find_escapes
   std::vector<std::uint8_t> escaped;
 
+  // J, of each body, and last of the joints between bodies (n_bodies + 1); empty until something has broken; written by
+  // record_bond_breaks, record_face_breaks, record_begun_cracks
+  std::vector<CrackEnergy> crack_energy;
+
   EnergyLedger spent; // J, the summed entries only (damping, friction, ... external); the stored ones stay 0
 };
 
@@ -69,12 +74,15 @@ const FaceSlip* slip_of(const State&, std::int64_t batch, int lane); // null whe
 Stress mesh_stress(const Model&, const State&, int tet);
 void set_mesh_stress(const Model&, State&, int tet, const Stress&);
 
+// Where the crack energy of a body goes; body: its number, n_bodies for the joints between bodies.
+CrackEnergy& crack_energy_of(const Model&, State&, int body);
+
 // A State at rest for the model: no displacement, contacts where the joint is not bonded.
 State initial_state(const Model&);
 
 // What an entry of the array belongs to. bond: a spring of an interface; frame: an interface that may turn; face, tet:
-// of a mesh, eight side by side.
-enum class FieldPlace { model, node, bond, frame, block, tet, face, contact, rigid_body };
+// of a mesh, eight side by side. body: of each, and one more for the joints between them.
+enum class FieldPlace { model, node, bond, frame, block, tet, face, contact, rigid_body, body };
 
 struct StateField {
   const char* name;

@@ -52,7 +52,7 @@ void ContactUpdate::start_anew(const Model& model, ContactWork& work) const {
   ContactWork before = std::move(work);
   work = {};
   start_contact(model, work);
-  work.last_step = before.last_step; // how thick skins are changes no force
+  work.last_step = before.last_step;
   work.most_friction = before.most_friction;
   work.looks_at_all = before.looks_at_all;
   work.restitution = before.restitution;

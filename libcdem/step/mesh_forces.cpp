@@ -131,7 +131,7 @@ const Node* mesh_forces(const Model& model, State& state, Workspace& work, std::
   FaceSums& sums = work.face_sums[index];
   const StressOfRigid stress_of_rigid(model, state, chunk);
   const FaceSides sides{model.mesh.sides.data() + chunk.side_batches.begin, chunk.side_batches.size(),
-                        state.cohesive.data()};
+                        state.faces.data()};
   if (sides.count > 0) {
     near.jumps.assign(static_cast<std::size_t>(chunk.batches.size()), {});
     add_jumps(sides, at.position, at.velocity, work.strain_step, near.jumps.data());
@@ -144,6 +144,7 @@ const Node* mesh_forces(const Model& model, State& state, Workspace& work, std::
   if (sides.count > 0)
     add_side_forces(sides, at.position, stress, damping.viscous, at.force);
   sums.friction = sums.breaking = 0;
+  sums.crack = {};
   sums.broken.clear();
   sums.astray = -1;
   sums.hands_over = false;

@@ -23,6 +23,7 @@ struct RestartPoint {
   std::vector<Node> previous_force;                                // N, of a relaxation (n_nodes)
   // Those of the BondWork: what broken and softening springs lose is counted from the step before.
   std::vector<geom::Vec3> spring_force, stretch; // N, m (n_points)
+  double contact_step = 0; // s, the last time step: how thick the skins of the search are goes with it
   // Of a stage of several loops: the numbers of the procedure around them, and which loop runs, as it has written them.
   std::string procedure_state;
 };

@@ -73,6 +73,7 @@ Stage::Stage(const StageContext& context, std::string kind, double run_away)
     broken_shear_before_ = from->broken_shear_before;
     work.bond.spring_force = from->spring_force;
     work.bond.stretch = from->stretch;
+    work.contact.last_step = from->contact_step;
     start_ -= std::chrono::duration_cast<std::chrono::steady_clock::duration>(
         std::chrono::duration<double>(from->wall_time));
   } else {
@@ -97,6 +98,7 @@ void Stage::keep_restart_point(std::vector<double> loop_state, const std::vector
   point.previous_force = previous_force;
   point.spring_force = work.bond.spring_force;
   point.stretch = work.bond.stretch;
+  point.contact_step = work.contact.last_step;
   if (context_.procedure_state)
     point.procedure_state = context_.procedure_state();
   contacts_.start_anew(context_.model, work.contact);
@@ -111,7 +113,7 @@ bool Stage::free_nodes() {
   State& state = context_.state;
   const auto due = freeing_.due(model, state, context_.threads);
   if (due) {
-    synchronise();
+    synchronise_to_leave();
     Freed freed = cdem::free_nodes(model, state, *due);
     *context_.changing = std::move(freed.model);
     state = std::move(freed.state);
@@ -179,7 +181,8 @@ void Stage::synchronise_stress() {
         mesh_forces(context_.model, context_.state, work, c, false);
     });
   // Broken faces slide to where the nodes are too; the next step finds nothing left to do.
-  if (work.strain_step > 0)
+  if (work.strain_step > 0) {
+    record_crack_energy(context_.model, context_.state, work);
     for (const FaceSums& sums : work.face_sums) {
       context_.state.spent.friction += sums.friction;
       context_.state.spent.breaking += sums.breaking;
@@ -187,16 +190,21 @@ void Stage::synchronise_stress() {
       if (sums.hands_over) // what is handed over now is looked for where things stand now
         work.contact.fragments_due = work.contact.due = true;
     }
+  }
   work.strain_step = 0;
+}
+
+// Pieces are told apart anew when a face is handed over, and here: a run that goes on from a checkpoint does so too.
+void Stage::synchronise_to_leave() {
+  if (!context_.state.face_slip.empty() || !context_.model.mesh.sides.empty())
+    work.contact.fragments_due = work.contact.anew = true;
+  synchronise();
 }
 
 void Stage::keep_state() {
   require_sound(context_.model, context_.state, work, run_away_, here());
   require_neighbours(context_.model, context_.state, here());
-  // Pieces are told apart anew when a face is handed over, and here: a run that goes on from a checkpoint does so too.
-  if (!context_.state.face_slip.empty() || !context_.model.mesh.sides.empty())
-    work.contact.fragments_due = work.contact.anew = true;
-  synchronise();
+  synchronise_to_leave();
   look_for_escapes();
   context_.last_good = context_.state;
 }

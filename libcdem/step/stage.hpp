@@ -86,6 +86,7 @@ public:
 
 private:
   friend class SynchronisedView;
+  void synchronise_to_leave(); // where a run may go on
   void synchronise_contacts();
   void synchronise_stress();
 

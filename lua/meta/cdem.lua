@@ -257,6 +257,90 @@ local cdem = {}
 ---@field block_a integer id
 ---@field block_b integer id
 
+---How much has cracked, and what it took.
+---@class (exact) cdem.CrackSum
+---@field area number m2: of all cracks: the three below together
+---@field tension_area number m2: broken in tension
+---@field shear_area number m2: broken in shear
+---@field damaged_area number m2: damage times area of what softens and is not broken
+---@field projected_area number m2: area as the planes that failed see it: a cohesive crack takes its fracture energy on this one
+---@field energy number J: taken by breaking and damage
+---@field tension_energy number J
+---@field shear_energy number J
+
+---How much has cracked, of the model and of each body.
+---@class (exact) cdem.CracksBetween
+---@field area number m2: of all cracks: the three below together
+---@field tension_area number m2: broken in tension
+---@field shear_area number m2: broken in shear
+---@field damaged_area number m2: damage times area of what softens and is not broken
+---@field projected_area number m2: area as the planes that failed see it: a cohesive crack takes its fracture energy on this one
+---@field energy number J: taken by breaking and damage
+---@field tension_energy number J
+---@field shear_energy number J
+
+---@class (exact) cdem.Cracks
+---@field area number m2: of all cracks: the three below together
+---@field tension_area number m2: broken in tension
+---@field shear_area number m2: broken in shear
+---@field damaged_area number m2: damage times area of what softens and is not broken
+---@field projected_area number m2: area as the planes that failed see it: a cohesive crack takes its fracture energy on this one
+---@field energy number J: taken by breaking and damage
+---@field tension_energy number J
+---@field shear_energy number J
+---@field bodies any a cdem.CrackSum for each body, by its name
+---@field between cdem.CracksBetween in joints between two bodies
+
+---The tip of a crack along a path: lists with an entry for each step at which it moved on.
+---@class (exact) cdem.CrackTipTip
+---@field position number m
+---@field place number[] m
+
+---@class (exact) cdem.CrackTip
+---@field time number[] s
+---@field position number[] m: along the path
+---@field speed number[] m/s: least-squares slope over the window; nan where no time passes, as in a relaxation
+---@field place number[][] m: of the broken point, undeformed
+---@field stage number[]
+---@field step number[] within the stage
+---@field tip? cdem.CrackTipTip the last of them; nil where nothing broke at the start of the path
+---@field fastest number m/s: largest speed; 0 where there is none
+---@field rayleigh_speed? number m/s: of the body, which no crack in tension can exceed
+---@field reach number m
+---@field window number s
+
+---Energy release rate at a crack front.
+---@class (exact) cdem.JIntegralDomains
+---@field inner number m
+---@field outer number m
+---@field j number J/m2
+
+---@class (exact) cdem.JIntegral
+---@field j number J/m2: mean over the domains
+---@field spread number largest less smallest of the domains, over the mean
+---@field thickness number m: length of the front
+---@field domains cdem.JIntegralDomains[]
+---@field k_plane_stress? number Pa m^0.5: sqrt(E j); nil where j < 0
+---@field k_plane_strain? number Pa m^0.5: sqrt(E j / (1 - nu^2)); nil where j < 0
+
+---A piece of a model that unbroken bonds hold together, as it is and as it moves.
+---@class (exact) cdem.FragmentMotion
+---@field volume number m3
+---@field centroid number[] m: undeformed
+---@field tets integer
+---@field held boolean some node of it is held
+---@field body? string nil where parts of several bodies hang together
+---@field diameter number m: of the sphere with its volume
+---@field mass number kg
+---@field centre number[] m: of mass, now
+---@field velocity number[] m/s: of the centre
+---@field momentum number[] N s
+---@field angular_momentum number[] N m s: about its own centre
+---@field kinetic_energy number J: the three below together
+---@field translation_energy number J
+---@field rotation_energy number J: of the rigid spin with its angular momentum
+---@field rest_energy number J: vibration
+
 ---How densely units lie on a slope, away from the edge of the pile by about one unit.
 ---@class (exact) cdem.PileMeasures
 ---@field porosity number between the slope and the mean top of the pile
@@ -327,7 +411,7 @@ function Assembly:box() end
 ---@return cdem.Block[]
 function Assembly:blocks() end
 
----The blocks as one solid with a region for each, in their order; its mesh{} shares nodes on the faces between them. As the shape of a body with bonds = "regions" such a mesh breaks along the faces of the blocks, with bonds = "all" anywhere.
+---The blocks as one solid with a region for each, in their order; its mesh{} shares nodes on the faces between them. As the shape of a body with bonded_faces = "regions" such a mesh breaks along the faces of the blocks, with bonds = "all" anywhere.
 ---@return cdem.Solid
 function Assembly:solid() end
 
@@ -811,10 +895,6 @@ function Model:flow(options) end
 ---@return cdem.CriticalFlowResult
 function Model:critical_flow(options) end
 
----Pieces that unbroken bonds hold together.
----@return cdem.Fragment[] # largest first
-function Model:fragments() end
-
 ---Largest value of a field.
 ---@param field string e.g. "displacement.x", "stress.yy"; model:fields() has all
 ---@param on? cdem.Place where: one place; the whole model when left out. Stresses are those of blocks: on a side, of those that have a face there; elsewhere of those whose centroid is there
@@ -889,6 +969,56 @@ function Model:history() end
 ---@param options cdem.ModelProbeOptions
 function Model:probe(options) end
 
+---Area of all cracks and the energy they took, of the model and of each body.
+---@return cdem.Cracks
+function Model:cracks() end
+
+---@class (exact) cdem.ModelRecordCracksOptions
+---@field name? string default "crack"
+---@field body? string by name; the whole model when left out
+
+---Samples the area and energy of cracks into the history, as columns <name>_area, <name>_tension_area, <name>_shear_area, <name>_damaged_area, <name>_projected_area, <name>_energy, <name>_tension_energy and <name>_shear_energy (as in cdem.CrackSum).
+---@param options? cdem.ModelRecordCracksOptions
+function Model:record_cracks(options) end
+
+---@class (exact) cdem.ModelCrackTipOptions
+---@field point? number[] m: where the crack starts, undeformed; the path runs on to the end of the model
+---@field direction? number[] of that straight path
+---@field path? number[][] m: instead of point and direction: its corners, undeformed, the first where the crack starts. Along a face of a body it follows what shows there
+---@field width number m, > 0: how far from the path a broken point may lie
+---@field reach? number m, > 0: points nearer than this hang together; about the edge of a tetrahedron when left out
+---@field window? number s, > 0: over which the speed is fitted; several times what the crack takes for one element. A tenth of the time it ran when left out
+---@field body? string whose Rayleigh speed is told; the only one when left out
+
+---Where the tip of a crack was along a path, and how fast it ran, from the bonds that broke. The tip is the farthest broken point that hangs together with the start of the path; a microcrack ahead counts once the crack has met it.
+---@param options cdem.ModelCrackTipOptions
+---@return cdem.CrackTip
+function Model:crack_tip(options) end
+
+---@class (exact) cdem.ModelJIntegralOptions
+---@field point number[] m: anywhere on the front, undeformed
+---@field front number[] direction of the front, through the thickness
+---@field growth number[] where the crack would go on, square to the front
+---@field radii number[] m: outer radii of the domains, about the front; several show whether they agree
+---@field inner? number in [0, 1), default 0.5: inner radius over the outer one; a blunt notch must lie within it
+---@field body? string with the crack; the only one when left out
+
+---Energy release rate at a straight crack front or notch of a meshed body, the mean over its thickness (J integral over domains of tetrahedra). The body must be at rest at small strain, the crack faces free, flat and parallel to the growth, without supports, loads, contacts and bonds in the domain; anything else is refused.
+---@param options cdem.ModelJIntegralOptions
+---@return cdem.JIntegral
+function Model:j_integral(options) end
+
+---Pieces that unbroken bonds hold together, with their size and motion.
+---@return cdem.FragmentMotion[] # largest first
+function Model:fragments() end
+
+---@class (exact) cdem.ModelSaveFragmentsOptions
+---@field file string ends in .csv; in the output folder
+
+---Writes a row for each fragment, the largest first: number of its body from 1 (0: parts of several), tets, held, volume, diameter, mass, centre, momentum, angular momentum, energies.
+---@param options cdem.ModelSaveFragmentsOptions
+function Model:save_fragments(options) end
+
 ---@class (exact) cdem.ModelPileOptions
 ---@field body string name of a meshed body
 
@@ -937,6 +1067,15 @@ function Model:highest_units(options) end
 ---Writes the model for ParaView: blocks to the file, bonds beside it (result.vtu, result_bonds.vtu).
 ---@param options cdem.ModelSaveOptions
 function Model:save(options) end
+
+---@class (exact) cdem.ModelSaveCracksOptions
+---@field file string ends in .vtp; in the output folder
+---@field damaged? boolean default false: faces that soften and have not broken too (mode 0)
+---@field series? string ends in .pvd: a time series this file is added to
+
+---Writes broken faces for ParaView as a surface, midway between their sides: displacement at corners; mode (1 tension, 2 shear), damage, opening, slip, time of the last break (nan where it is not known) and body (its number from 0; -1 between two) of faces.
+---@param options cdem.ModelSaveCracksOptions
+function Model:save_cracks(options) end
 
 ---@class (exact) cdem.ModelPictureOptionsCamera
 ---@field position number[] m
@@ -1022,6 +1161,25 @@ function Model:load_state(options) end
 ---Line chart of histories.
 ---@param options cdem.ModelChartOptions
 function Model:chart(options) end
+
+---@class (exact) cdem.ModelChartFragmentsOptions
+---@field file string ends in .png; in the output folder
+---@field title? string _{...} and ^{...} set sub- and superscripts
+---@field x_label? string ending in an SI unit, "opening (m)", the axis is shown with the prefix that suits: mm
+---@field y_label? string
+---@field right_label? string of the axis on the right
+---@field log_x? boolean default true
+---@field log_y? boolean default false
+---@field log_right? boolean default false
+---@field x_range? number[]
+---@field y_range? number[]
+---@field right_range? number[]
+---@field legend? "auto"|"top_left"|"top_right"|"bottom_left"|"bottom_right"|"none" default "auto"
+---@field size? number[] default {1600, 1200}: {width, height} in pixels; height 0: as high as it needs to be
+
+---Chart of the fragments by size: the part of the mass in fragments up to each diameter, that of the sphere with their volume.
+---@param options cdem.ModelChartFragmentsOptions
+function Model:chart_fragments(options) end
 
 ---Units that have left their place, in order: grows while the model runs.
 ---@class cdem.Watch
@@ -1509,10 +1667,10 @@ function cdem.select.where(predicate) end
 ---@field name? string for selections and contacts; body_1, body_2 ... by default
 ---@field element? "small_strain"|"finite_volume"|"rigid" how its tetrahedra deform: finite_volume (Feng 2014) for any motion, the default; small_strain (Han 2010) of an assembly whose blocks hardly turn and keep the neighbours they begin with; rigid: keeps its shape until model:make_deformable
 ---@field zone_size? number m, > 0: of an assembly: each block gets tetrahedra of about this edge length inside, so that it bends and shows where it is stressed; without it a few about its centroid. Joints between blocks stay as they are
----@field bonds? "none"|"all"|"regions"|"listed" of a mesh, which inner faces carry the joint: all (default with a joint), those between different regions, or all of the bonded_regions
----@field bonded_regions? integer[] numbers of regions, from 1, with bonds = "listed"
----@field bond_type? "springs"|"cohesive" of a mesh with a joint: springs (Feng 2014) on every bonded face, or cohesive: continuous, with shared nodes, until a face nears its strength, then the joint's softening or brittle law on the plane that fails. springs by default
----@field stiffness_ratio? number > 0: of a mesh, beta in Kn = beta E A / (3 d); 10 by default. A body bonded everywhere keeps about E / (1 + 1/beta). Of a cohesive body the penalty of freed faces, 1 by default; it keeps all of E
+---@field bonds? "cohesive"|"springs"|"none"|"all"|"regions"|"listed" of a mesh with a joint, what holds its tetrahedra together. cohesive, the default: the body is continuous, with shared nodes, until a face nears its strength, and then follows the joint's softening or brittle law on the plane that fails. springs: three on every bonded face (Feng 2014), which soften the body and break at 0.6 to 0.9 of its strength. (all, regions and listed of older scripts mean springs)
+---@field bonded_faces? "all"|"regions" of a mesh with a joint, the inner faces that may break: all, the default, or those between different regions
+---@field bonded_regions? integer[] of a mesh with a joint, instead of bonded_faces: numbers of regions, from 1, whose faces may break
+---@field stiffness_ratio? number > 0: of a mesh, beta in Kn = beta E A / (3 d). Of springs 10 by default: a body bonded everywhere keeps about E / (1 + 1/beta). Of a cohesive body the penalty of freed faces, 1 by default; it keeps all of E
 ---@field shear_ratio? number > 0: of a mesh, Ks / Kn; 1 by default
 
 ---@class (exact) cdem.ModelOptions
@@ -1535,6 +1693,11 @@ function cdem.flow_pressure(velocity, water_density) end
 ---@param water_density? number kg/m3, > 0, default 1025: sea water by default
 ---@return number
 function cdem.flow_velocity(pressure, water_density) end
+
+---Speed of waves along the free surface of a material, m/s: the exact root of Rayleigh's equation. A crack in tension cannot run faster.
+---@param material cdem.Material
+---@return number
+function cdem.rayleigh_speed(material) end
 
 ---@class (exact) cdem.FilmOptions
 ---@field file string ends in .ogv; in the output folder

@@ -107,8 +107,8 @@ TEST_CASE("an assembly becomes one mesh whose regions are its blocks", "[lua]") 
             "local mesh = solid:mesh{ size = 0.4 }\nassert(mesh.parts == 1)\nclose(mesh:volume(), 1, 1e-6)\n"
             "local blocks, regions = cells:blocks(), solid:regions()\n"
             "for i = 1, 6 do close(regions[i], blocks[i].volume, 1e-6) end\n"
-            "local function model(bonds)\n  return cdem.model{ bodies = { { shape = mesh, material = rock, "
-            "joint = bond, bonds = bonds } } }:counts()\nend\n"
+            "local function model(faces)\n  return cdem.model{ bodies = { { shape = mesh, material = rock, "
+            "joint = bond, bonds = 'springs', bonded_faces = faces } } }:counts()\nend\n"
             "local along, all = model('regions'), model('all')\n"
             "assert(along.bonds > 0 and all.bonds > 2 * along.bonds and along.tets == all.tets)") == "");
   // Two blocks that do not touch: two parts, each of which moves by itself.

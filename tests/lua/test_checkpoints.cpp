@@ -321,7 +321,7 @@ TEST_CASE("a forged state ends in one line or is taken, and never crashes", "[ch
       "local ground = cdem.box_mesh{ size = {2, 2, 1}, divisions = {2, 2, 1} }\n"
       "local unit = cdem.voronoi{ size = {1, 1, 1}, count = 4, origin = {0.5, 0.5, 1.0} }\n"
       "local model = cdem.model{ bodies = {\n"
-      "  { shape = ground, material = rock, joint = joint, bonds = 'all', name = 'ground' },\n"
+      "  { shape = ground, material = rock, joint = joint, bonds = 'springs', name = 'ground' },\n"
       "  { shape = unit, material = rock, joint = joint, name = 'unit' } },\n"
       "  contacts = { default = cdem.coulomb{ friction_angle = 30 } } }\n"
       "model:fix{ on = 'z-', axes = 'xyz' }\nmodel:gravity{ vector = {0, 0, -9.81} }\n";

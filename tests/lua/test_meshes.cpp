@@ -29,20 +29,24 @@ const std::string tower =
 
 TEST_CASE("a meshed body has bonds where its joint is asked for", "[lua]") {
   // 8 cells of 6 tets, 48 outer faces: (4 * 48 - 48) / 2 = 72 inner ones with three bonds each.
-  CHECK(error_of(head + "local c = model_of{}:counts()\n"
-                        "assert(c.blocks == 1 and c.tets == 48 and c.nodes == 27 and c.bonds == 0)\n"
-                        "c = model_of{ joint = bond }:counts()\n"
-                        "assert(c.tets == 48 and c.nodes == 192 and c.bonds == 216 and c.intact == 216)\n"
-                        "c = model_of{ joint = cdem.coulomb{ friction_angle = 35 } }:counts()\n"
-                        "assert(c.bonds == 216 and c.contacts == 216)") == "");
+  CHECK(error_of(head +
+                 "local c = model_of{}:counts()\n"
+                 "assert(c.blocks == 1 and c.tets == 48 and c.nodes == 27 and c.bonds == 0)\n"
+                 "c = model_of{ joint = bond }:counts()\n"
+                 "assert(c.tets == 48 and c.nodes == 27 and c.bonds == 0)\n"
+                 "c = model_of{ joint = bond, bonds = 'springs' }:counts()\n"
+                 "assert(c.tets == 48 and c.nodes == 192 and c.bonds == 216 and c.intact == 216)\n"
+                 "c = model_of{ joint = cdem.coulomb{ friction_angle = 35 }, bonds = 'springs' }:counts()\n"
+                 "assert(c.bonds == 216 and c.contacts == 216)") == "");
 }
 
 TEST_CASE("bonds between regions alone let a body part there alone", "[lua]") {
   CHECK(error_of(tower + "local whole = model_of{ shape = tower }:counts()\n"
-                         "local model = model_of{ shape = tower, joint = bond, bonds = 'regions' }\n"
+                         "local model = model_of{ shape = tower, joint = bond, bonds = 'springs', "
+                         "bonded_faces = 'regions' }\n"
                          "local c = model:counts()\n"
                          "assert(c.nodes > whole.nodes and c.bonds > 0 and c.tets == whole.tets)\n"
-                         "local listed = model_of{ shape = tower, joint = bond, bonds = 'listed', "
+                         "local listed = model_of{ shape = tower, joint = bond, bonds = 'springs', "
                          "bonded_regions = {2} }:counts()\n"
                          "assert(listed.bonds > c.bonds and listed.nodes > c.nodes)\n"
                          "model:fix{ on = 'z-' }\n"
@@ -105,23 +109,27 @@ TEST_CASE("meshed bodies that do not fit are refused", "[lua]") {
   const auto refused = [](const std::string& body) { return error_of(head + "model_of{ " + body + " }"); };
   CHECK_THAT(refused("element = 'small_strain'"),
              Contains("bodies[1].element = \"small_strain\": must be finite_volume or rigid for a mesh"));
-  CHECK_THAT(refused("bonds = 'all'"), Contains("bodies[1].joint: missing; bonds = \"all\""));
+  CHECK_THAT(refused("bonds = 'springs'"), Contains("bodies[1].joint: missing; bonds = \"springs\""));
   CHECK_THAT(refused("joint = bond, bonds = 'none'"), Contains("bodies[1].bonds = \"none\""));
   CHECK_THAT(refused("joint = bond, bonds = 'some'"), Contains("bonds = \"some\": must be one of"));
-  CHECK_THAT(refused("joint = bond, bonds = 'listed'"), Contains("bodies[1].bonded_regions: goes with"));
-  CHECK_THAT(refused("joint = bond, bonded_regions = {1}"), Contains("bodies[1].bonded_regions: goes with"));
+  CHECK_THAT(refused("joint = bond, bonds = 'listed'"), Contains("bodies[1].bonded_regions: missing"));
+  CHECK_THAT(refused("bonded_regions = {1}"), Contains("bodies[1].bonded_regions: goes with a joint"));
+  CHECK_THAT(refused("bonded_faces = 'regions'"), Contains("bodies[1].bonded_faces: goes with a joint"));
+  CHECK_THAT(refused("joint = bond, bonded_faces = 'regions', bonded_regions = {1}"), Contains("not both"));
+  CHECK_THAT(refused("joint = cdem.coulomb{ friction_angle = 35 }"),
+             Contains("needs a tensile_strength and a cohesion") && Contains("springs"));
   for (const std::string region : {"0", "2", "-1"})
-    CHECK_THAT(refused("joint = bond, bonds = 'listed', bonded_regions = {" + region + "}"),
+    CHECK_THAT(refused("joint = bond, bonded_regions = {" + region + "}"),
                Contains("= " + region + ": must be a region of the mesh (1 to 1)"));
   CHECK_THAT(refused("joint = bond, stiffness_ratio = 0"), Contains("stiffness_ratio = 0: must be > 0"));
   CHECK_THAT(refused("joint = bond, stiffness_ratio = 1e5"), Contains("stiffness_ratio = 100000: must be"));
   CHECK_THAT(refused("joint = bond, shear_ratio = -1"), Contains("shear_ratio = -1: must be > 0"));
-  CHECK_THAT(
-      refused("joint = cdem.mohr_coulomb{ cohesion = 5e6, friction_angle = 35, tensile_strength = 2e6, "
-              "softening = 'linear', fracture_energy_1 = 100, fracture_energy_2 = 400 }"),
-      Contains("softening") && Contains("bond_type = \"cohesive\" softens"));
+  CHECK_THAT(refused("bonds = 'springs', joint = cdem.mohr_coulomb{ cohesion = 5e6, friction_angle = 35, "
+                     "tensile_strength = 2e6, "
+                     "softening = 'linear', fracture_energy_1 = 100, fracture_energy_2 = 400 }"),
+             Contains("softening") && Contains("bonds = \"cohesive\" softens"));
   CHECK_THAT(error_of(head + "cdem.model{ bodies = { { shape = cdem.box{ size = {1, 1, 1} }, material = "
-                             "concrete, bonds = 'all' } } }"),
+                             "concrete, bonds = 'springs' } } }"),
              Contains("bodies[1].bonds: only for a meshed body"));
 }
 

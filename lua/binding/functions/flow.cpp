@@ -59,10 +59,6 @@ Value rows(const std::vector<Fragment>& fragments) {
   return Table::list(std::move(out));
 }
 
-Value pieces(Session&, ModelObject& model, const Arguments&) {
-  return rows(model.simulation.fragments());
-}
-
 const char* third(double fraction) {
   return fraction < 1.0 / 3 ? "root" : fraction < 2.0 / 3 ? "waist" : "top";
 }
@@ -243,9 +239,6 @@ void bind_flow(Module& m) {
       "Raises a flow from 1 m/s until a held solid breaks: a piece of it comes off, or it has become "
       "compliant.",
       search, "cdem.CriticalFlowResult", "", critical_flow);
-  add("fragments", "Pieces that unbroken bonds hold together.", {}, "cdem.Fragment[]", "largest first",
-      pieces);
-  model.methods.back().in_order = true;
 }
 
 } // namespace cdem::script

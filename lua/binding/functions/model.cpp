@@ -19,32 +19,50 @@ namespace {
 
 using geom::InputError;
 
-// A meshed body: its joint stands on all inner faces unless `bonds` says which.
-void read_mesh(const Arguments& given, const std::string& path, std::vector<geom::TetMesh> meshes,
-               BodySpec& body) {
+// Which faces of a mesh its joint stands on.
+void read_bonded_faces(const Arguments& given, const std::string& path, const std::string& which,
+                       Bonding& bonding) {
+  if (given.has("bonded_regions") && which == "regions")
+    throw InputError(path + ".bonded_regions: these regions or bonded_faces = \"regions\", not both");
+  for (const double region : given.numbers("bonded_regions"))
+    bonding.regions.push_back(static_cast<int>(region) - 1);
+  bonding.between_regions = which == "regions";
+  bonding.everywhere = which == "all" && bonding.regions.empty();
+}
+
+// A meshed body: with a joint it may break.
+void read_mesh(Session& session, const Arguments& given, const std::string& path,
+               std::vector<geom::TetMesh> meshes, BodySpec& body) {
   const std::string element = given.text_or("element", "finite_volume");
   if (element == "small_strain")
     throw InputError(path + ".element", "\"small_strain\"", "finite_volume or rigid for a mesh",
                      "small_strain is for assemblies of convex blocks");
   body.element = element == "rigid" ? Element::rigid : Element::finite_volume;
-  const std::string bonds = given.text_or("bonds", given.has("joint") ? "all" : "none");
+  body.meshes = std::move(meshes);
+  std::string bonds = given.text_or("bonds", given.has("joint") ? "cohesive" : "none"),
+              faces = given.text_or("bonded_faces", "all");
+  if (bonds == "all" || bonds == "regions" || bonds == "listed") { // as older scripts wrote it
+    if (bonds == "listed" && !given.has("bonded_regions"))
+      throw InputError(path + ".bonded_regions: missing; bonds = \"listed\" needs to know which");
+    faces = bonds == "regions" ? bonds : "all";
+    session.warn(path + ".bonds = \"" + bonds +
+                 "\" says which faces are bonded, as of old; write bonds = \"springs\"" +
+                 (faces == "regions" ? ", bonded_faces = \"regions\"" : "") +
+                 ". The next version refuses it");
+    bonds = "springs";
+  }
   if (bonds != "none" && !given.has("joint"))
     throw InputError(path + ".joint: missing; bonds = \"" + bonds +
                      "\" needs to know what holds the faces, cdem.mohr_coulomb{...}");
   if (bonds == "none" && given.has("joint"))
-    throw InputError(path + ".bonds", "\"none\"", "all, regions or listed with a joint",
-                     "leave the joint out");
-  if ((bonds == "listed") != given.has("bonded_regions"))
-    throw InputError(path +
-                     ".bonded_regions: goes with bonds = \"listed\", the regions whose faces are bonded");
-  body.meshes = std::move(meshes);
-  body.bonding.everywhere = bonds == "all";
-  body.bonding.between_regions = bonds == "regions";
-  for (const double region : given.numbers("bonded_regions"))
-    body.bonding.regions.push_back(static_cast<int>(region) - 1);
-  if (given.text_or("bond_type", "springs") == "cohesive") {
-    if (bonds == "none")
-      throw InputError(path + ".bond_type: goes with a joint, which says what the body bears");
+    throw InputError(path + ".bonds", "\"none\"", "cohesive or springs with a joint", "leave the joint out");
+  if (bonds == "none")
+    for (const char* const only : {"bonded_faces", "bonded_regions"})
+      if (given.has(only))
+        throw InputError(path + "." + only + ": goes with a joint, which says what the faces bear");
+  if (bonds != "none")
+    read_bonded_faces(given, path, faces, body.bonding);
+  if (bonds == "cohesive") {
     body.bonding.kind = BondKind::cohesive;
     body.bonding.stiffness_ratio = 1;
   }
@@ -66,7 +84,7 @@ std::optional<geom::Pile> pile_shape(const Arguments& given) {
 }
 
 void require_blocks(const Arguments& given, const std::string& path) {
-  for (const char* const only : {"bonds", "bonded_regions", "bond_type", "stiffness_ratio", "shear_ratio"})
+  for (const char* const only : {"bonds", "bonded_faces", "bonded_regions", "stiffness_ratio", "shear_ratio"})
     if (given.has(only))
       throw InputError(path + "." + only + ": only for a meshed body; an assembly's faces are all bonded");
   if (const auto material = given.object<MaterialObject>("material");
@@ -107,7 +125,7 @@ std::vector<std::string> read_bodies(Session& session, const Arguments& a, Model
       if (given.has("zone_size"))
         throw InputError(
             path + ".zone_size: only for an assembly of blocks; a mesh has the size that it was made with");
-      read_mesh(given, path, std::move(units), body);
+      read_mesh(session, given, path, std::move(units), body);
       if (mesh && !mesh->coarse.empty() && body.element != Element::rigid)
         session.warn(path + ": " + mesh->coarse);
       if (const int parts = geom::count_parts(pile->unit); parts == 1)
@@ -327,22 +345,29 @@ void bind_model(Module& m) {
                "shows where it is stressed; without it a few about its centroid. Joints between blocks stay "
                "as they "
                "are"),
-      choice("bonds", {"none", "all", "regions", "listed"})
-          .doc("of a mesh, which inner faces carry the joint: all (default with a joint), those between "
+      choice("bonds", {"cohesive", "springs", "none", "all", "regions", "listed"})
+          .doc("of a mesh with a joint, what holds its tetrahedra together. cohesive, the default: the body "
+               "is "
+               "continuous, with shared nodes, until a face nears its strength, and then follows the joint's "
+               "softening or "
+               "brittle law on the plane that fails. springs: three on every bonded face (Feng 2014), which "
+               "soften the "
+               "body and break at 0.6 to 0.9 of its strength. (all, regions and listed of older scripts mean "
+               "springs)"),
+      choice("bonded_faces", {"all", "regions"})
+          .doc("of a mesh with a joint, the inner faces that may break: all, the default, or those between "
                "different "
-               "regions, or all of the bonded_regions"),
-      list("bonded_regions", whole_number, 1).doc("numbers of regions, from 1, with bonds = \"listed\""),
-      choice("bond_type", {"springs", "cohesive"})
-          .doc(
-              "of a mesh with a joint: springs (Feng 2014) on every bonded face, or cohesive: continuous, "
-              "with shared nodes, until a face nears its strength, then the joint's softening or brittle law "
-              "on the plane that fails. springs by default"),
+               "regions"),
+      list("bonded_regions", whole_number, 1)
+          .doc("of a mesh with a joint, instead of bonded_faces: numbers of regions, from 1, whose faces may "
+               "break"),
       number("stiffness_ratio")
           .above(0)
-          .doc(
-              "of a mesh, beta in Kn = beta E A / (3 d); 10 by default. A body bonded everywhere keeps about "
-              "E / (1 + 1/beta). Of a cohesive body the penalty of freed faces, 1 by default; it keeps all "
-              "of E"),
+          .doc("of a mesh, beta in Kn = beta E A / (3 d). Of springs 10 by default: a body bonded everywhere "
+               "keeps "
+               "about "
+               "E / (1 + 1/beta). Of a cohesive body the penalty of freed faces, 1 by default; it keeps all "
+               "of E"),
       number("shear_ratio").above(0).doc("of a mesh, Ks / Kn; 1 by default")};
   m.functions.push_back(
       {"model",

@@ -282,7 +282,7 @@ void bind_shapes(Module& m) {
       {"solid",
        "The blocks as one solid with a region for each, in their order; its mesh{} shares nodes on the faces "
        "between "
-       "them. As the shape of a body with bonds = \"regions\" such a mesh breaks along the faces of the "
+       "them. As the shape of a body with bonded_faces = \"regions\" such a mesh breaks along the faces of the "
        "blocks, with "
        "bonds = \"all\" anywhere.",
        {},

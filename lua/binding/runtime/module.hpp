@@ -91,6 +91,8 @@ void bind_settling(Module&);
 void bind_fracture(Module&);
 void bind_flow(Module&);
 void bind_measures(Module&);
+void bind_cracks(Module&);
+void bind_fragments(Module&);
 void bind_units(Module&);
 void bind_output(Module&);
 void bind_checkpoints(Module&);

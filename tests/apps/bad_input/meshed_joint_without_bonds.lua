@@ -1,5 +1,5 @@
 -- exit code: 2
--- says: bonds = "none": must be all, regions or listed with a joint
+-- says: bonds = "none": must be cohesive or springs with a joint
 
 local cdem = require "cdem"
 local concrete = cdem.elastic{ youngs_modulus = 30e9, poissons_ratio = 0.2, density = 2500 }

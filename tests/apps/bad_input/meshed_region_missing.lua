@@ -6,4 +6,4 @@ local concrete = cdem.elastic{ youngs_modulus = 30e9, poissons_ratio = 0.2, dens
 local bond = cdem.mohr_coulomb{ cohesion = 5e6, friction_angle = 35, tensile_strength = 2e6 }
 local mesh = cdem.box_mesh{ size = {1, 1, 1}, divisions = {2, 2, 2} }
 cdem.model{ bodies = { -- wrong
-  { shape = mesh, material = concrete, joint = bond, bonds = "listed", bonded_regions = {3} } } }
+  { shape = mesh, material = concrete, joint = bond, bonded_regions = {3} } } }

@@ -6,4 +6,4 @@ local concrete = cdem.elastic{ youngs_modulus = 30e9, poissons_ratio = 0.2, dens
 local mesh = cdem.box_mesh{ size = {1, 1, 1}, divisions = {2, 2, 2} }
 local brittle = cdem.mohr_coulomb{ cohesion = 5e6, friction_angle = 35, tensile_strength = 2e6, softening = "linear",
                                    fracture_energy_1 = 1, fracture_energy_2 = 400 }
-cdem.model{ bodies = { { shape = mesh, material = concrete, joint = brittle, bond_type = "cohesive" } } } -- wrong
+cdem.model{ bodies = { { shape = mesh, material = concrete, joint = brittle } } } -- wrong
