@@ -179,8 +179,8 @@ private:
 } // namespace
 
 void one_by_one(const FaceBatch& batch, int faces, const FaceMotion& motion, const FaceLaw& law,
-                bool breaking, std::int64_t first_spring, FaceStateBatch& state, FaceSlip* slips,
-                Vec (&force)[3], FaceSums& sums) {
+                bool breaking, unsigned may_break, std::int64_t first_spring, FaceStateBatch& state,
+                FaceSlip* slips, Vec (&force)[3], FaceSums& sums) {
   for (int lane = 0; lane < faces; ++lane) {
     if (handed_over(state, lane)) {
       for (Vec& f : force)
@@ -189,7 +189,7 @@ void one_by_one(const FaceBatch& batch, int faces, const FaceMotion& motion, con
     }
     const bool whole =
         is_intact(state.mode[0][lane]) && is_intact(state.mode[1][lane]) && is_intact(state.mode[2][lane]);
-    if (!whole || breaking)
+    if (!whole || (may_break >> lane & 1u) != 0)
       OneFace(batch, lane, motion, at_lane(law, lane))
           .advance(breaking, first_spring + lane, state, slips, force, sums);
   }

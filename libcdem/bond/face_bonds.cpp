@@ -80,10 +80,10 @@ CDEM_INLINE bool under_load(const FaceBatch& batch, const Gaps& gaps, const Face
   return any(over);
 }
 
-// Some spring of the batch may be at its strength. Judged without roots: the length of the normal from the face's area,
+// The faces of the batch of which some spring may be at its strength, a bit each. Judged without roots: the length of the normal from the face's area,
 // a unit vector to 1e-4 while strains stay under some per cent, and with a margin above that.
-CDEM_INLINE bool near_strength(const FaceBatch& batch, const Gaps& gaps, const Vec& normal,
-                               const FaceLaw& law, const Strengths& s) {
+CDEM_INLINE unsigned near_strength(const FaceBatch& batch, const Gaps& gaps, const Vec& normal,
+                                   const FaceLaw& law, const Strengths& s) {
   const Oct area = simd::load(batch.area), kn = simd::load(batch.kn);
   const Oct guess = 1.0 / (12.0 * area);
   const Oct n2 = dot(normal, normal);
@@ -100,7 +100,11 @@ CDEM_INLINE bool near_strength(const FaceBatch& batch, const Gaps& gaps, const V
     const Oct left = shear_strength(cohesion, tan_friction, fn);
     near |= (fn >= tension) | (shear2 >= left * left) | (left <= Oct{});
   }
-  return any(near);
+  unsigned bits = 0;
+  if (any(near))
+    for (int lane = 0; lane < lanes; ++lane)
+      bits |= static_cast<unsigned>(near[lane] != 0) << lane;
+  return bits;
 }
 
 // Batches by which reading runs ahead.
@@ -120,9 +124,9 @@ CDEM_INLINE void face_bond_kernel(const FaceBatch* batches, std::int64_t count, 
     const Gaps gaps = gaps_of(batch.place_a, batch.place_b, motion.displacement);
     const Oct kn = simd::load(batch.kn), ks = law.shear_ratio * kn;
     Vec force[3] = {scaled(ks, gaps.point[0]), scaled(ks, gaps.point[1]), scaled(ks, gaps.point[2])};
-    bool one_by_one_too = !all_intact(state[i]);
+    unsigned may_break = 0;
     const Strengths strengths = strengths_of(law, i);
-    const bool looks = breaking && !one_by_one_too && under_load(batch, gaps, law, strengths);
+    const bool looks = breaking && under_load(batch, gaps, law, strengths);
     if (directed || looks) {
       const Vec normal = normal_of(batch.place_a, gaps.corner, motion.position);
       if (directed) {
@@ -131,16 +135,16 @@ CDEM_INLINE void face_bond_kernel(const FaceBatch* batches, std::int64_t count, 
           force[point] = plus(force[point], scaled(difference * dot(gaps.point[point], normal), normal));
       }
       if (looks)
-        one_by_one_too = near_strength(batch, gaps, normal, law, strengths);
+        may_break = near_strength(batch, gaps, normal, law, strengths);
     }
-    if (one_by_one_too) {
+    if (may_break != 0 || !all_intact(state[i])) {
       // What is handed on by reference does not stay in registers.
       Vec changed[3] = {force[0], force[1], force[2]};
       FaceLaw here = law;
       if (law.own)
         here.own = law.own + i;
       one_by_one(batch, static_cast<int>(std::min<std::int64_t>(lanes, faces - i * lanes)), motion, here,
-                 breaking, i * 3 * lanes, state[i], slips, changed, sums);
+                 breaking, may_break, i * 3 * lanes, state[i], slips, changed, sums);
       for (int point = 0; point < 3; ++point)
         force[point] = changed[point];
     }

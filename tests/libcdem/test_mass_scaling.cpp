@@ -3,7 +3,7 @@
 #include "libcdem/integrate/row_sums.hpp"
 #include "libcdem/procedure/run.hpp"
 #include "libcdem/results/energy.hpp"
-#include "tests/libcdem/cohesive_bars.hpp"
+#include "tests/libcdem/cohesive_concrete.hpp"
 #include "tests/libcdem/going_on.hpp"
 
 #include <numeric>

@@ -1,7 +1,7 @@
 // The process zone E' G_I / T^2 beside the faces of meshes and blocks.
 #include "libcdem/results/process_zone.hpp"
 #include "libgeom/assembly/builders.hpp"
-#include "tests/libcdem/cohesive_bars.hpp"
+#include "tests/libcdem/cohesive_concrete.hpp"
 
 #include <catch2/catch.hpp>
 

@@ -1,7 +1,7 @@
 // Strength raised by the rate of strain: the two powers, and faces of a cohesive body that crack by it.
 #include "libcdem/joint/rate_effect.hpp"
 #include "libgeom/assembly/builders.hpp"
-#include "tests/libcdem/cohesive_bars.hpp"
+#include "tests/libcdem/cohesive_concrete.hpp"
 
 #include <catch2/catch.hpp>
 

@@ -1,5 +1,5 @@
 // Faces inside a region of a mesh, or between two, with a joint of their own.
-#include "tests/libcdem/cohesive_bars.hpp"
+#include "tests/libcdem/cohesive_concrete.hpp"
 #include "tests/libcdem/two_halves.hpp"
 
 #include <catch2/catch.hpp>

@@ -6,7 +6,7 @@
 #include "libgeom/assembly/builders.hpp"
 #include "libgeom/core/random.hpp"
 #include "libgeom/polyhedron/cut.hpp"
-#include "tests/libcdem/cohesive_bars.hpp"
+#include "tests/libcdem/cohesive_concrete.hpp"
 #include "tests/libcdem/going_on.hpp"
 
 #include <map>
