@@ -1,10 +1,10 @@
--- A coarse plate under twice the benchmark's tension: the crack starts when the waves of both sides have met at the notch,
--- runs slower than Rayleigh's waves, and the ledger closes.
+-- A coarse plate: the crack starts when the waves of both sides have met at the notch, runs slower than
+-- Rayleigh's waves, and the ledger closes.
 local cdem = require "cdem"
 local expect = require "expect"
 
 local results = cdem.sweep{ script = "../../examples/plate_impact/case.lua",
-                            set = { { size = 2.5e-3, stress = 2e6, duration = 30e-6, pictures = false } } }
+                            set = { { size = 2.5e-3, duration = 36e-6, pictures = false } } }
 if results[1].exit_code ~= 0 then error("the example ended with exit code " .. results[1].exit_code) end
 local figures = results[1].figures
 expect.near(figures, "rayleigh_speed_m_per_s", 2125, 1e-3)
