@@ -126,7 +126,7 @@ TEST_CASE(
     options.callback_every = 5;
     options.callback = [&] { most = std::max(most, end_traction(s, size.y() * size.z())); };
     const cdem::RunResult result = s.run(options);
-    CHECK(s.model.mesh.sides.size() > 0);
+    CHECK_FALSE(s.model.mesh.sides.empty());
     if (factor > 0) {
       CHECK(result.time_step == Approx(0.9 * factor * stable).epsilon(1e-12));
       CHECK(result.scaled.body == "bar");
