@@ -11,6 +11,7 @@ enum class Softening { none, linear, exponential }; // none: brittle, as in Han 
 
 struct Joint {
   bool bonded = true;          // false: a contact from the start (tension free, friction only)
+  bool glued = false;          // bonded and never breaks: the face of a construction cut, no joint
   double cohesion = 0;         // c0, Pa, >= 0
   double friction_angle = 0;   // phi, rad, in [0, pi/2)
   double tensile_strength = 0; // sigma_t, Pa, >= 0
@@ -32,6 +33,11 @@ struct Joint {
   // e, in (0, 1]: speed after over speed before an impact, as far as the contact decides it. 1: it loses nothing.
   double restitution = 1;
 };
+
+// L over the block size of glued faces: a quarter of a joint's usual give. Stiffer ones would only cost steps.
+inline constexpr double glued_thickness_ratio = 0.005;
+
+Joint glued_joint();
 
 // Throws geom::InputError naming the field, its value and the allowed range. Angles are printed in degrees.
 void validate(const Joint&);

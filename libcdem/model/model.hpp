@@ -26,6 +26,9 @@ struct Body {
   Bonding bonding = {};                    // of a meshed body: which of its faces carry that joint
   Element element = Element::small_strain; // that it starts as; single blocks may turn rigid and back
   double zone_size = 0; // m, edge length of the tets inside its convex blocks; 0: their star meshes
+  // Index into Model::joints of the law on faces that a joint set or cut of this name made; others have `joint`.
+  std::map<std::string, int> set_joint = {};
+  int glued_joint = -1; // the same for glued faces; -1: it has none
 };
 
 // A part of a body with nodes of its own: a convex block with its star mesh or with zones, or a connected part of a
