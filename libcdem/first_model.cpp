@@ -65,6 +65,7 @@ public:
   // The law of all pairs that have none. A body of small strain meets none that moves far; require_separate says so.
   void add_default(const Joint& joint) {
     validate(joint);
+    require_no_rate_effect(joint, "bodies (contacts.default)");
     for (int a = 0; a < count(); ++a)
       for (int b = a; b < count(); ++b) {
         const auto& given = is_small(a) || are_blocks(a, b) ? frame_.pair_joint : frame_.surface.joint;
@@ -188,10 +189,12 @@ Model first_model(const ModelSpec& spec) {
     const bool meshed = !body.meshes.empty();
     if (meshed)
       validate_meshed(body);
+    else
+      require_no_rate_effect(body.joint, "blocks of body \"" + body.name + "\"");
     require_zones(body);
     const int index = static_cast<int>(frame.bodies.size());
     frame.bodies.push_back(
-        {body.name, body.material, body.joint, body.bonding, body.element, body.zone_size});
+        {body.name, body.material, body.joint, body.bonding, body.element, body.zone_size, body.region_laws});
     const std::size_t before = meshes.size();
     for (const geom::TetMesh& mesh : body.meshes)
       for (geom::TetMesh& part : geom::parts(mesh))
@@ -210,6 +213,7 @@ Model first_model(const ModelSpec& spec) {
   PairLaws laws(frame, spec, parts);
   for (const PairSpec& pair : spec.pairs) {
     validate(pair.joint);
+    require_no_rate_effect(pair.joint, "\"" + pair.body_a + "\" and \"" + pair.body_b + "\"");
     laws.add(body_index(frame, pair.body_a), body_index(frame, pair.body_b), pair.joint, "contacts",
              "{\"" + pair.body_a + "\", \"" + pair.body_b + "\"}");
   }

@@ -232,8 +232,7 @@ std::int64_t Simulation::unbond(const Selection& on, bool whole_faces) {
     s.state.faces[at.batch].mode[point][at.lane] = static_cast<std::uint8_t>(BondMode::contact);
     cdem::settle(s.model.mesh.faces[at.batch], face_nodes(s.model.mesh, chunk, at.batch, at.lane), point,
                  at.lane, position.data(), s.state.displacement.data(),
-                 face_law(s.model.bodies[s.model.blocks[chunk.block].body]),
-                 slip_of(s.state, at.batch, at.lane));
+                 face_law(s.model, chunk, at.batch, at.lane), slip_of(s.state, at.batch, at.lane));
     ++count;
   });
   if (count == 0)
@@ -254,7 +253,7 @@ RelaxResult Simulation::relax(const RelaxOptions& options) {
 
 RunResult Simulation::run(const RunOptions& options) {
   check(options);
-  const RunResult result =
+  RunResult result =
       impl_->run_stage([&](const StageContext& context) { return cdem::run(context, options); });
   impl_->last_residual = impl_->log.history.back().residual;
   return result;

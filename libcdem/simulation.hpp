@@ -12,10 +12,15 @@
 #include "libcdem/procedure/critical_flow_options.hpp"
 #include "libcdem/procedure/grow_options.hpp"
 #include "libcdem/procedure/settle_options.hpp"
+#include "libcdem/results/crack_tip.hpp"
+#include "libcdem/results/cracks.hpp"
 #include "libcdem/results/deformation.hpp"
 #include "libcdem/results/fields.hpp"
+#include "libcdem/results/fragment_motions.hpp"
+#include "libcdem/results/j_integral.hpp"
 #include "libcdem/results/log.hpp"
 #include "libcdem/results/overlap.hpp"
+#include "libcdem/results/process_zone.hpp"
 #include "libcdem/results/slivers.hpp"
 #include "libcdem/results/snapshot.hpp"
 #include "libcdem/results/unbalance.hpp"
@@ -46,7 +51,8 @@ struct BodySpec {
   std::vector<geom::TetMesh> meshes = {};
   Bonding bonding = {};
   Element element = Element::finite_volume; // small_strain: of blocks only
-  double zone_size = 0; // m, edge length of the tets inside each convex block; 0: its star mesh
+  double zone_size = 0;        // m, edge length of the tets inside each convex block; 0: its star mesh
+  RegionLaws region_laws = {}; // of meshes
   // Of blocks: laws on faces by the joint set or cut that made them; `joint` holds the others.
   std::map<std::string, Joint> set_joints = {};
 };
@@ -136,11 +142,12 @@ public:
   int stage() const;                                               // solving calls so far
   std::int64_t steps() const;                                      // steps of all stages
   EnergyLedger energy() const;
-  std::uint64_t state_hash() const;     // of every State field, bit for bit
-  geom::Box box() const;                // undeformed
-  Deformation deformation() const;      // how far from small strain
-  std::vector<Slivers> slivers() const; // results/slivers.hpp
-  Overlap overlap() const;              // results/overlap.hpp
+  std::uint64_t state_hash() const;               // of every State field, bit for bit
+  geom::Box box() const;                          // undeformed
+  Deformation deformation() const;                // how far from small strain
+  std::vector<Slivers> slivers() const;           // results/slivers.hpp
+  std::vector<ProcessZone> process_zones() const; // results/process_zone.hpp
+  Overlap overlap() const;                        // results/overlap.hpp
   // Pairs of bodies, by name, for which a law was given and that had neither interface nor contact so far; twice the same
   // body: its own blocks.
   std::vector<std::array<std::string, 2>> unmet() const;
@@ -149,7 +156,8 @@ public:
   // a state that is deformed already.
   bool anything_acts() const;
   bool has_gravity() const;
-  std::vector<Fragment> fragments() const; // largest first
+  std::vector<Fragment> fragments() const;              // largest first
+  std::vector<FragmentMotion> fragment_motions() const; // the same, with their motion
 
   // Fields by name with a component: "displacement.x|y|z|magnitude", "velocity.*" at nodes; "stress.xx".., "von_mises",
   // "principal_stress.1..3" (tension positive, 1 the largest) as block averages. Unknown name: geom::InputError that
@@ -185,6 +193,15 @@ public:
   const std::vector<BreakRow>& breaks() const;
   // Spring points that the observer was told of as broken when stages ended: in tension, in shear.
   std::array<std::int64_t, 2> told_broken() const;
+
+  // Cracks: area and energy, tip and speed along a path, the surface, the energy release rate.
+  CracksByBody cracks() const;
+  // Samples crack_quantities() of a body, or of all where it is empty, into the history as columns name_area ...
+  void record_cracks(const std::string& name, const std::string& body);
+  Snapshot crack_surface(bool damaged, const std::string& title) const;
+  // JFront::body is taken from `body`; empty: the only one there is.
+  JIntegral j_integral(const std::string& body, JFront, const std::vector<JDomain>&) const;
+  const Elastic& material(const std::string& body) const;
 
   // One sample every 10 steps and at the end of each stage; thinned by halves beyond 20000 rows.
   const std::vector<HistoryRow>& history() const;

@@ -1,6 +1,7 @@
 #include "libcdem/simulation_checks.hpp"
 
 #include "libgeom/core/error.hpp"
+#include "libgeom/mesh/boundary.hpp"
 
 #include <cmath>
 #include <fmt/format.h>
@@ -16,6 +17,76 @@ void require_finite(const char* field, const geom::Vec3& v) {
     throw geom::InputError(field, fmt::format("({:g}, {:g}, {:g})", v.x(), v.y(), v.z()), "finite");
 }
 
+void require_no_rate_effect(const Joint& joint, const std::string& between) {
+  if (joint.rate.on())
+    throw geom::InputError("rate_effect", "of a joint between " + between,
+                           "that of a mesh with bonds = \"cohesive\"",
+                           "the springs of other bonds know no strain rate of the rock");
+}
+
+namespace {
+
+void validate_mesh_joint(const BodySpec& body, const Joint& joint, const std::string& field) {
+  const Bonding& b = body.bonding;
+  if (b.none())
+    return;
+  if (!b.is_cohesive() && joint.softening != Softening::none)
+    throw geom::InputError("softening", "on the faces of a mesh with springs", "none there",
+                           "bonds = \"cohesive\" softens");
+  if (!b.is_cohesive())
+    require_no_rate_effect(joint, "springs of the mesh of body \"" + body.name + "\"");
+  if (b.is_cohesive() && !(joint.bonded && joint.tensile_strength > 0 && joint.cohesion > 0))
+    throw geom::InputError(field +
+                           ": a cohesive body needs a tensile_strength and a cohesion > 0 Pa, below which it "
+                           "is continuous; bonds = \"springs\" takes any joint (body \"" +
+                           body.name + "\")");
+  const Joint standard;
+  if (joint.thickness || joint.normal_stiffness || joint.shear_stiffness ||
+      joint.thickness_ratio != standard.thickness_ratio)
+    throw geom::InputError(field +
+                           ": its thickness and stiffnesses are for convex blocks; the bonds of a mesh take "
+                           "stiffness_ratio and shear_ratio of body \"" +
+                           body.name + "\"");
+}
+
+// Some two tets of these regions share a face.
+bool regions_meet(const BodySpec& body, int region_a, int region_b) {
+  for (const geom::TetMesh& mesh : body.meshes)
+    for (const geom::InnerFace& face : geom::inner_faces(mesh))
+      if (std::minmax(mesh.region[face.tets[0]], mesh.region[face.tets[1]]) ==
+          std::minmax(region_a, region_b))
+        return true;
+  return false;
+}
+
+void validate_region_law(const BodySpec& body, std::size_t row) {
+  const auto [a, b] = body.region_laws.regions[row];
+  const std::string field = "region_joints[" + std::to_string(row + 1) + "]";
+  int regions = 0;
+  for (const geom::TetMesh& mesh : body.meshes)
+    regions = std::max(regions, *std::max_element(mesh.region.begin(), mesh.region.end()) + 1);
+  for (const int region : {a, b})
+    if (region < 0 || region >= regions)
+      throw geom::InputError(field, std::to_string(region + 1),
+                             "regions of the mesh of body \"" + body.name + "\" (1 to " +
+                                 std::to_string(regions) + ")");
+  const std::string value = "{" + std::to_string(a + 1) + ", " + std::to_string(b + 1) + "}";
+  if (body.region_laws.between(a, b) != static_cast<int>(row))
+    throw geom::InputError(field, value, "given once", "another row has the same regions");
+  if (!body.bonding.bonds(a, b))
+    throw geom::InputError(field, value, "regions whose faces are bonded",
+                           "bonded_faces = \"all\" bonds every face of the mesh");
+  if (!regions_meet(body, a, b))
+    throw geom::InputError(field, value, "regions that share faces", "these two do not touch");
+  const Joint& joint = body.region_laws.joints[row];
+  validate(joint);
+  if (!joint.bonded)
+    throw geom::InputError(field, "a contact", "cdem.mohr_coulomb{...}", "the faces of a mesh are bonded");
+  validate_mesh_joint(body, joint, field);
+}
+
+} // namespace
+
 void validate_meshed(const BodySpec& body) {
   const Bonding& b = body.bonding;
   if (body.element == Element::small_strain)
@@ -26,21 +97,9 @@ void validate_meshed(const BodySpec& body) {
                            "10 keeps about 0.91 of Young's modulus");
   if (!(b.shear_ratio > 0 && b.shear_ratio <= 100))
     throw geom::InputError("shear_ratio", number(b.shear_ratio), "in (0, 100]", "1 is usual");
-  if (!b.none() && !b.is_cohesive() && body.joint.softening != Softening::none)
-    throw geom::InputError("softening", "on the faces of a mesh with springs", "none there",
-                           "bonds = \"cohesive\" softens");
-  if (b.is_cohesive() && !(body.joint.bonded && body.joint.tensile_strength > 0 && body.joint.cohesion > 0))
-    throw geom::InputError(
-        "joint: a cohesive body needs a tensile_strength and a cohesion > 0 Pa, below which it "
-        "is continuous; bonds = \"springs\" takes any joint (body \"" +
-        body.name + "\")");
-  const Joint standard;
-  if (!b.none() && (body.joint.thickness || body.joint.normal_stiffness || body.joint.shear_stiffness ||
-                    body.joint.thickness_ratio != standard.thickness_ratio))
-    throw geom::InputError(
-        "joint: its thickness and stiffnesses are for convex blocks; the bonds of a mesh take "
-        "stiffness_ratio and shear_ratio of body \"" +
-        body.name + "\"");
+  validate_mesh_joint(body, body.joint, "joint");
+  for (std::size_t i = 0; i < body.region_laws.joints.size(); ++i)
+    validate_region_law(body, i);
   if (!body.shape.blocks.empty())
     throw geom::InputError("shape", "blocks and meshes in one body", "one of them", "make two bodies");
   for (std::size_t i = 0; i < body.meshes.size(); ++i) {
@@ -61,7 +120,20 @@ void check(const RelaxOptions& o) {
     throw geom::InputError("max_steps", std::to_string(o.max_steps), "an integer > 0");
 }
 
+void check(const MassScaling& s) {
+  if (!(s.step >= 0) || !std::isfinite(s.step))
+    throw geom::InputError("mass_scaling.step", number(s.step), "a finite number > 0 s");
+  if (s.factor != 0 && (!(s.factor >= 1) || !std::isfinite(s.factor)))
+    throw geom::InputError("mass_scaling.factor", number(s.factor), "a finite number >= 1",
+                           "it is the time step over the one that the true masses allow");
+  if (s.step > 0 && s.factor > 0)
+    throw geom::InputError("mass_scaling: give step (s) or factor, not both");
+}
+
 void check(const RunOptions& o) {
+  check(o.mass_scaling);
+  if (o.mass_scaling.on() && o.time_step > 0)
+    throw geom::InputError("mass_scaling: names the time step itself; leave time_step out");
   const bool by_time = o.duration != 0;
   if (!std::isfinite(o.duration) || o.duration < 0)
     throw geom::InputError("duration", number(o.duration), "a finite number > 0 s");
@@ -101,6 +173,7 @@ void check(const Flow& flow) {
 
 void check(const CriticalFlowOptions& o) {
   check(o.flow);
+  check(o.mass_scaling);
   const auto require = [](const char* field, double value, double low, double high, const char* allowed) {
     if (!(value > low && value < high))
       throw geom::InputError(field, number(value), allowed);

@@ -22,6 +22,10 @@ ContactSummary Simulation::contacts() const {
           impl_->log.deepest_over_height};
 }
 
+std::vector<ProcessZone> Simulation::process_zones() const {
+  return cdem::process_zones(impl_->model);
+}
+
 std::vector<Slivers> Simulation::slivers() const {
   return find_slivers(impl_->model);
 }
@@ -55,7 +59,10 @@ ModelCounts Simulation::counts() const {
     ++*by_mode[mode];
   each_face_spring(m.mesh, [&](const MeshChunk&, const FaceSpringPlace& at) {
     ++c.bonds;
-    ++*by_mode[impl_->state.faces[at.batch].mode[at.point][at.lane]];
+    const std::uint8_t mode = impl_->state.faces[at.batch].mode[at.point][at.lane];
+    ++*by_mode[mode];
+    if (!impl_->state.cohesive.empty())
+      c.damaged += mode == 0 && impl_->state.cohesive[at.batch * lanes + at.lane].damage[at.point] > 0;
   });
   for (std::size_t p = 0; p < impl_->state.bond_damage.size(); ++p)
     c.damaged += impl_->state.bond_damage[p] > 0 && impl_->state.bond_mode[p] == 0;

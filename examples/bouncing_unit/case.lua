@@ -2,6 +2,7 @@
 -- just above the floor with the velocity of its fall so far; the gap left counts as part of the height.
 --
 --   ./cdem run examples/bouncing_unit/case.lua [--set fineness=8] [--set mass=9000] [--set tensile_strength=1.5e6]
+--   ./cdem run examples/bouncing_unit/case.lua --set fracture_energy=100 --set height=2 --set falls=1 --set fineness=5
 local cdem = require "cdem"
 
 local mass = cdem.parameter{ name = "mass", default = 5000.0, range = {1, 1e6}, unit = "kg" }
@@ -12,6 +13,9 @@ local growth = cdem.parameter{ name = "growth", default = 1.5, range = {1.01, 4}
 local from = cdem.parameter{ name = "height", default = 0.0, range = {0, 1000}, unit = "m",
                              doc = "of the first fall; 0: one that a flat bar would survive" }
 local falls = cdem.parameter{ name = "falls", default = 40, range = {1, 1000}, doc = "at most, if it does not break" }
+local toughness = cdem.parameter{ name = "fracture_energy", default = 0.0, range = {0, 1e6}, unit = "J/m2",
+                                  doc = "G_I of a unit that is continuous until it cracks; 0: springs, brittle" }
+local after = cdem.parameter{ name = "after", default = 0.06, range = {0, 10}, unit = "s", doc = "how long the pieces fly on" }
 
 local g = 9.81
 local concrete = cdem.elastic{ youngs_modulus = 30e9, poissons_ratio = 0.2, density = 2500, stiffness_damping = 1e-6 }
@@ -24,6 +28,10 @@ unit = unit:translate{ shift = {0, 0, gap - unit:box().min[3]} }
 local mesh = unit:mesh{ size = H / fineness }
 local floor = cdem.solid.box{ size = {2 * H, 2 * H, 0.2 * H}, origin = {-H, -H, -0.2 * H} }:mesh{ size = 0.2 * H }
 local rough = cdem.coulomb{ friction_angle = 35 }
+local tough = toughness > 0
+local joint = cdem.mohr_coulomb{ cohesion = 2 * tension, friction_angle = 35, tensile_strength = tension,
+                                 softening = tough and "linear" or "none", fracture_energy_1 = tough and toughness or nil,
+                                 fracture_energy_2 = tough and 10 * toughness or nil }
 
 -- The velocity at a time, from the kinetic energy of a fall that does not turn the unit.
 local function velocity_at(model, time)
@@ -38,10 +46,10 @@ end
 
 -- Lets it fall; returns what came of it and the model.
 local function fall(height)
-  local joint = cdem.mohr_coulomb{ cohesion = 2 * tension, friction_angle = 35, tensile_strength = tension }
   local model = cdem.model{
     bodies = { { shape = floor, material = concrete, element = "rigid", name = "floor" },
-               { shape = mesh, material = concrete, joint = joint, bonds = "springs", name = "unit" } },
+               { shape = mesh, material = concrete, joint = joint, name = "unit",
+                 bonds = tough and "cohesive" or "springs" } },
     contacts = { { "floor", "unit", rough }, { "unit", "unit", rough } },
   }
   model:fix{ on = "floor" }
@@ -93,11 +101,19 @@ cdem.chart{ file = "drops.png", title = "An armour unit dropped on a floor", x_l
                        { name = "second piece", x = column("velocity"), y = column("second"), style = "both" } } }
 
 local breaks_at = drops[#drops].broken and drops[#drops].height or nil
+local pieces, frames, flown = {}, 4, 0
 if breaks_at then
-  last:run{ duration = 0.03 }
+  for frame = 1, after > 0 and frames or 0 do
+    last:run{ duration = after / frames }
+    flown = math.max(flown, last:energy().balance_error)
+    last:picture{ file = frame == frames and "broken.png" or string.format("flying_%d.png", frame), view = "iso", up = "z",
+                  colour = "velocity.magnitude", deformation = 1, plain = {"floor"}, broken_bonds = not tough,
+                  title = string.format("A fall of %.2g m: %.2g s after the touch", breaks_at, last.time) }
+  end
   last:save{ file = "broken.vtu" }
-  last:picture{ file = "broken.png", view = "iso", up = "z", colour = "velocity.magnitude", deformation = 1, plain = {"floor"},
-                title = string.format("Broken by a fall of %.2g m", breaks_at) }
+  for _, piece in ipairs(last:fragments()) do
+    if not piece.held and piece.volume > 0.01 * mesh:volume() then pieces[#pieces + 1] = piece.volume end
+  end
 end
 local first_piece
 for _, drop in ipairs(drops) do
@@ -106,7 +122,8 @@ for _, drop in ipairs(drops) do
     break
   end
 end
-local energy_error, penetration, off = 0, 0, 0
+local energy_error, penetration, off = flown, 0, 0
+if breaks_at then penetration = last:contacts().deepest / H end
 for _, drop in ipairs(drops) do
   energy_error = math.max(energy_error, drop.energy_error)
   penetration = math.max(penetration, drop.penetration)
@@ -120,6 +137,7 @@ cdem.report{
   { name = "first_fall_bonds_broken", value = drops[1].bonds },
   { name = "first_fall_largest_piece", value = drops[1].largest },
   { name = "first_fall_rebound", value = drops[1].rebound },
+  { name = "pieces_above_a_hundredth", value = pieces[1] and #pieces },
   { name = "touch_velocity_error", value = off, reference = 0, kind = "formula", source = "sqrt(2 g h)",
     tolerance_absolute = 1e-3 },
   { name = "max_penetration_over_height", value = penetration, reference = 0, kind = "formula",

@@ -10,7 +10,7 @@ BondWork::BondWork(const Model& model, const State& state)
       turned_force(model.frames.empty() ? 0 : model.points.size(), geom::Vec3::Zero()),
       stretch(state.bond_damage.size(), geom::Vec3::Zero()), sums(model.point_chunks.size()) {
   for (const Interface& interface : model.interfaces) {
-    const Joint& joint = model.joints[interface.joint];
+    const Joint joint = joint_of(model, interface);
     strength.push_back({joint.cohesion, geom::portable::tan(joint.friction_angle), joint.tensile_strength});
     if (!state.bond_damage.empty())
       softening.push_back(softening_law(joint, interface.kn, interface.ks));

@@ -13,11 +13,18 @@ struct BreakEvent {
   double normal_traction = 0, shear_traction = 0; // Pa, at breaking
 };
 
+// What breaking or damage has taken from a spring of an interface.
+struct CrackLoss {
+  int interface = 0;
+  CrackEnergy energy;
+};
+
 // Sums of one chunk of springs.
 struct SpringSums {
   double friction = 0;            // J, this step
   double breaking = 0;            // J, this step
   std::vector<BreakEvent> broken; // this step
+  std::vector<CrackLoss> losses;  // this step: the parts of `breaking`
 };
 
 struct BondWork {

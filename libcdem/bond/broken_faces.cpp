@@ -139,7 +139,9 @@ private:
     mode = static_cast<std::uint8_t>(now);
     const Response& r = response_[point] = contact(kn(), ks(), law_.tan_friction, now_, point, slip);
     // The work of the step with the force it ends with, less what is stored.
-    sums.breaking += bonded.energy - r.energy + 0.5 * (r.force - bonded.force).dot(moved(point));
+    const double taken = bonded.energy - r.energy + 0.5 * (r.force - bonded.force).dot(moved(point));
+    sums.breaking += taken;
+    sums.crack.add(taken, now == BondMode::broken_shear ? 1 : 0);
     sums.broken.push_back(
         {spring, now, now_.normal, kn() * bonded.opening / area, shear / area, {slip[0], slip[1]}});
     return true;
@@ -177,8 +179,8 @@ private:
 } // namespace
 
 void one_by_one(const FaceBatch& batch, int faces, const FaceMotion& motion, const FaceLaw& law,
-                bool breaking, std::int64_t first_spring, FaceStateBatch& state, FaceSlip* slips,
-                Vec (&force)[3], FaceSums& sums) {
+                bool breaking, unsigned may_break, std::int64_t first_spring, FaceStateBatch& state,
+                FaceSlip* slips, Vec (&force)[3], FaceSums& sums) {
   for (int lane = 0; lane < faces; ++lane) {
     if (handed_over(state, lane)) {
       for (Vec& f : force)
@@ -187,8 +189,9 @@ void one_by_one(const FaceBatch& batch, int faces, const FaceMotion& motion, con
     }
     const bool whole =
         is_intact(state.mode[0][lane]) && is_intact(state.mode[1][lane]) && is_intact(state.mode[2][lane]);
-    if (!whole || breaking)
-      OneFace(batch, lane, motion, law).advance(breaking, first_spring + lane, state, slips, force, sums);
+    if (!whole || (may_break >> lane & 1u) != 0)
+      OneFace(batch, lane, motion, at_lane(law, lane))
+          .advance(breaking, first_spring + lane, state, slips, force, sums);
   }
 }
 

@@ -12,8 +12,10 @@
 namespace cdem {
 
 // Of the first `faces` faces of a batch, whose first spring has the place `first_spring`; replaces the force that the
-// three points have on side a, N, wherever it is not that of an intact spring.
+// three points have on side a, N, wherever it is not that of an intact spring. may_break: the faces, a bit each, of which
+// an intact spring may break now; the other faces without a broken spring are left as they are.
 void one_by_one(const FaceBatch&, int faces, const FaceMotion&, const FaceLaw&, bool breaking,
-                std::int64_t first_spring, FaceStateBatch&, FaceSlip*, simd::Vec (&force)[3], FaceSums&);
+                unsigned may_break, std::int64_t first_spring, FaceStateBatch&, FaceSlip*,
+                simd::Vec (&force)[3], FaceSums&);
 
 } // namespace cdem

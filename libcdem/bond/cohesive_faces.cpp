@@ -30,13 +30,15 @@ bool is_intact(std::uint8_t mode) {
   return mode == static_cast<std::uint8_t>(BondMode::intact);
 }
 
-// The law of cracked faces of a chunk, but for the lengths that hang on the penalty of each.
+// The laws of cracked faces of a chunk, but for the lengths that hang on the penalty of each.
 struct ChunkLaw {
-  const Joint& joint;
-  double tan_friction;
-  SofteningLaw at(const FaceBatch& batch, int lane) const {
-    const double k = penalty(batch, lane);
-    return softening_law(joint, tan_friction, k, k);
+  const FaceJoints& joints;
+  double tan_friction; // of faces without a strength of their own
+  // face: from the chunk's first on.
+  SofteningLaw at(const FaceBatch& batch, int face) const {
+    Joint room;
+    const double k = penalty(batch, face % lanes);
+    return softening_law(joints.of(face, room), joints.tan_friction(face, tan_friction), k, k);
   }
 };
 
@@ -75,9 +77,9 @@ void share(const FaceNodes& at, const Vec3 (&pull)[3], Node* force) {
 // A face that cracks, in a step.
 class CrackingFace {
 public:
-  CrackingFace(const FaceBatch& batch, int lane, const FaceMotion& motion, const ChunkLaw& law,
+  CrackingFace(const FaceBatch& batch, int lane, const FaceMotion& motion, const SofteningLaw& law,
                FaceStateBatch& state, CohesiveFace& face)
-      : batch_(batch), lane_(lane), state_(state), face_(face), law_(law.at(batch, lane)),
+      : batch_(batch), lane_(lane), state_(state), face_(face), law_(law),
         now_(face_frame(batch, lane, motion, 0)), before_(face_frame(batch, lane, motion, motion.step)) {}
 
   // spring: the place of the face's first point.
@@ -106,8 +108,14 @@ private:
       lost = softening_loss(law_, m, gap0 + offset, face_.damage[point], vec(face_.slip[point]), gap + offset,
                             r.law);
     sums.friction += area * m[2] * lost.friction;
-    sums.breaking += area * (m[2] * lost.breaking + (1 - 0.5 * (face_.damage[point] + r.law.damage)) *
-                                                        vec(face_.rest[point]).dot(gap - gap0));
+    const double taken = area * (m[2] * lost.breaking + (1 - 0.5 * (face_.damage[point] + r.law.damage)) *
+                                                            vec(face_.rest[point]).dot(gap - gap0));
+    sums.breaking += taken;
+    // What the law stored when it began, and the body never did, is given back as damage grows.
+    const double begun = 0.5 * area * m[2] * law_.kn * offset.squaredNorm();
+    if (taken != 0)
+      sums.crack.add(taken - (r.law.damage - face_.damage[point]) * begun,
+                     shear_share(law_, m, gap + offset));
     face_.damage[point] = r.law.damage;
     face_.slip[point] = array(r.law.slip);
     open = open && r.law.traction.isZero(0);
@@ -214,17 +222,17 @@ double damage_of(const CohesiveFace& face) {
 }
 
 void cohesive_face_forces(const FaceBatch* batches, int faces, const FaceMotion& motion, const FaceLaw& law,
-                          const Joint& joint, bool breaking, FaceStateBatch* state, CohesiveFace* cohesive,
-                          Node* force, FaceSums& sums) {
+                          const FaceJoints& joints, bool breaking, FaceStateBatch* state,
+                          CohesiveFace* cohesive, Node* force, FaceSums& sums) {
   const bool to_contact = law.hands_over && law.hand_over_due;
-  const ChunkLaw cracked{joint, law.tan_friction};
+  const ChunkLaw cracked{joints, law.tan_friction};
   simd::best<holding_kernel>(batches, faces, motion.displacement, state, force);
   for (int i = 0; i < faces; ++i) {
     const FaceBatch& batch = batches[i / lanes];
     FaceStateBatch& at = state[i / lanes];
     const int lane = i % lanes;
     if (at.stage[lane] == FaceStage::cracking)
-      CrackingFace(batch, lane, motion, cracked, at, cohesive[i])
+      CrackingFace(batch, lane, motion, cracked.at(batch, i), at, cohesive[i])
           .advance(breaking, std::int64_t{i / lanes} * 3 * lanes + lane, to_contact, force, sums);
     else if (at.stage[lane] == FaceStage::resumed)
       hold_resumed(batch, lane, motion, cohesive[i], force);

@@ -19,6 +19,7 @@
 #pragma once
 
 #include "libcdem/bond/face_frame.hpp"
+#include "libcdem/bond/face_joints.hpp"
 #include "libcdem/joint/softening.hpp"
 #include "libcdem/state/cohesive_face.hpp"
 
@@ -30,7 +31,7 @@ namespace cdem {
 SofteningLaw cohesive_law(const Joint&, double k);
 
 // As face_bond_forces, for the batches of a chunk of a cohesive body. cohesive: its first face first.
-void cohesive_face_forces(const FaceBatch*, int faces, const FaceMotion&, const FaceLaw&, const Joint&,
+void cohesive_face_forces(const FaceBatch*, int faces, const FaceMotion&, const FaceLaw&, const FaceJoints&,
                           bool breaking, FaceStateBatch*, CohesiveFace* cohesive, Node* force, FaceSums&);
 
 // As face_spring; the face stands as `f`.

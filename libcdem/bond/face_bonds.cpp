@@ -50,43 +50,61 @@ CDEM_INLINE bool any(const Mask& mask) {
   return (four[0] | four[1] | four[2] | four[3]) != 0;
 }
 
+// Of the faces of a batch.
+struct Strengths {
+  Oct tension, cohesion, tan_friction;
+};
+
+CDEM_INLINE Strengths strengths_of(const FaceLaw& law, std::int64_t batch) {
+  if (!law.own)
+    return {Oct{} + law.tensile_strength, Oct{} + law.cohesion, Oct{} + law.tan_friction};
+  const FaceStrengthBatch& own = law.own[batch];
+  return {simd::load(own.tensile_strength), simd::load(own.cohesion), simd::load(own.tan_friction)};
+}
+
 // Of what a spring bears: below that none breaks, whatever the rounding. one_by_one decides.
 constexpr double margin = 0.98;
 
 // Some spring of the batch carries a force that would break it in the worst of all directions, which is
 // F = A min(T, C cos(phi)): a look that needs no normal.
-CDEM_INLINE bool under_load(const FaceBatch& batch, const Gaps& gaps, const FaceLaw& law) {
-  const double worst =
-      std::min(law.tensile_strength, law.cohesion / std::sqrt(1 + law.tan_friction * law.tan_friction)) /
-      std::max(1.0, law.shear_ratio);
-  const Oct most = (margin * worst) * simd::load(batch.area), kn = simd::load(batch.kn);
-  const Oct kn2 = kn * kn, most2 = most * most;
+CDEM_INLINE bool under_load(const FaceBatch& batch, const Gaps& gaps, const FaceLaw& law,
+                            const Strengths& s) {
+  const double part = margin / std::max(1.0, law.shear_ratio);
+  const Oct area = part * simd::load(batch.area), kn = simd::load(batch.kn), kn2 = kn * kn;
+  const Oct tension2 = s.tension * s.tension,
+            shear2 = s.cohesion * s.cohesion / (1.0 + s.tan_friction * s.tan_friction);
+  const Oct most2 = (tension2 < shear2 ? tension2 : shear2) * area * area;
   Mask over{};
   for (const Vec& gap : gaps.point)
     over |= kn2 * dot(gap, gap) >= most2;
   return any(over);
 }
 
-// Some spring of the batch may be at its strength. Judged without roots: the length of the normal from the face's area,
+// The faces of the batch of which some spring may be at its strength, a bit each. Judged without roots: the length of the normal from the face's area,
 // a unit vector to 1e-4 while strains stay under some per cent, and with a margin above that.
-CDEM_INLINE bool near_strength(const FaceBatch& batch, const Gaps& gaps, const Vec& normal,
-                               const FaceLaw& law) {
+CDEM_INLINE unsigned near_strength(const FaceBatch& batch, const Gaps& gaps, const Vec& normal,
+                                   const FaceLaw& law, const Strengths& s) {
   const Oct area = simd::load(batch.area), kn = simd::load(batch.kn);
   const Oct guess = 1.0 / (12.0 * area);
   const Oct n2 = dot(normal, normal);
   const Oct once = guess * (1.5 - 0.5 * n2 * guess * guess);
   const Oct inverse = once * (1.5 - 0.5 * n2 * once * once); // 1 / |n|, by Newton
-  const Oct tension = (margin * law.tensile_strength) * area, cohesion = (margin * law.cohesion) * area;
+  const Oct tension = (margin * s.tension) * area, cohesion = (margin * s.cohesion) * area,
+            tan_friction = margin * s.tan_friction;
   Mask near{};
   for (const Vec& gap : gaps.point) {
     const Oct gn = dot(gap, normal) * inverse;
     const Oct g2 = dot(gap, gap);
     const Oct fn = kn * gn;
     const Oct shear2 = (law.shear_ratio * law.shear_ratio) * kn * kn * (g2 - gn * gn);
-    const Oct left = shear_strength(cohesion, margin * law.tan_friction, fn);
+    const Oct left = shear_strength(cohesion, tan_friction, fn);
     near |= (fn >= tension) | (shear2 >= left * left) | (left <= Oct{});
   }
-  return any(near);
+  unsigned bits = 0;
+  if (any(near))
+    for (int lane = 0; lane < lanes; ++lane)
+      bits |= static_cast<unsigned>(near[lane] != 0) << lane;
+  return bits;
 }
 
 // Batches by which reading runs ahead.
@@ -106,8 +124,9 @@ CDEM_INLINE void face_bond_kernel(const FaceBatch* batches, std::int64_t count, 
     const Gaps gaps = gaps_of(batch.place_a, batch.place_b, motion.displacement);
     const Oct kn = simd::load(batch.kn), ks = law.shear_ratio * kn;
     Vec force[3] = {scaled(ks, gaps.point[0]), scaled(ks, gaps.point[1]), scaled(ks, gaps.point[2])};
-    bool one_by_one_too = !all_intact(state[i]);
-    const bool looks = breaking && !one_by_one_too && under_load(batch, gaps, law);
+    unsigned may_break = 0;
+    const Strengths strengths = strengths_of(law, i);
+    const bool looks = breaking && under_load(batch, gaps, law, strengths);
     if (directed || looks) {
       const Vec normal = normal_of(batch.place_a, gaps.corner, motion.position);
       if (directed) {
@@ -116,13 +135,16 @@ CDEM_INLINE void face_bond_kernel(const FaceBatch* batches, std::int64_t count, 
           force[point] = plus(force[point], scaled(difference * dot(gaps.point[point], normal), normal));
       }
       if (looks)
-        one_by_one_too = near_strength(batch, gaps, normal, law);
+        may_break = near_strength(batch, gaps, normal, law, strengths);
     }
-    if (one_by_one_too) {
+    if (may_break != 0 || !all_intact(state[i])) {
       // What is handed on by reference does not stay in registers.
       Vec changed[3] = {force[0], force[1], force[2]};
-      one_by_one(batch, static_cast<int>(std::min<std::int64_t>(lanes, faces - i * lanes)), motion, law,
-                 breaking, i * 3 * lanes, state[i], slips, changed, sums);
+      FaceLaw here = law;
+      if (law.own)
+        here.own = law.own + i;
+      one_by_one(batch, static_cast<int>(std::min<std::int64_t>(lanes, faces - i * lanes)), motion, here,
+                 breaking, may_break, i * 3 * lanes, state[i], slips, changed, sums);
       for (int point = 0; point < 3; ++point)
         force[point] = changed[point];
     }
@@ -141,6 +163,24 @@ CDEM_INLINE void face_bond_kernel(const FaceBatch* batches, std::int64_t count, 
 FaceLaw face_law(const Body& body) {
   return {body.bonding.shear_ratio, body.joint.tensile_strength, body.joint.cohesion,
           geom::portable::tan(body.joint.friction_angle)};
+}
+
+FaceLaw at_lane(const FaceLaw& law, int lane) {
+  FaceLaw one = law;
+  if (law.own) {
+    one.tensile_strength = law.own->tensile_strength[lane];
+    one.cohesion = law.own->cohesion[lane];
+    one.tan_friction = law.own->tan_friction[lane];
+  }
+  one.own = nullptr;
+  return one;
+}
+
+FaceLaw face_law(const Model& model, const MeshChunk& chunk, std::int64_t batch, int lane) {
+  FaceLaw law = face_law(model.bodies[model.blocks[chunk.block].body]);
+  if (!model.mesh.strength.empty())
+    law.own = model.mesh.strength.data() + batch;
+  return at_lane(law, lane);
 }
 
 void face_bond_forces(const FaceBatch* batches, std::int64_t count, int faces, const FaceMotion& motion,

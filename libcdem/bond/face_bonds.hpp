@@ -14,6 +14,7 @@
 #include "libcdem/joint/bond_mode.hpp"
 #include "libcdem/model/model.hpp"
 #include "libcdem/parallel/read_ahead.hpp"
+#include "libcdem/state/crack_energy.hpp"
 #include "libcdem/state/face_state.hpp"
 
 #include <vector>
@@ -25,10 +26,13 @@ struct FaceLaw {
   double tensile_strength = 0; // T, Pa
   double cohesion = 0;         // C, Pa
   double tan_friction = 0;
+  const FaceStrengthBatch* own = nullptr; // of the first batch, where faces have strengths of their own
   bool hands_over = false;    // broken faces that part or slide away go to the contact of the surface
   bool hand_over_due = false; // in this step
 };
 FaceLaw face_law(const Body&);
+FaceLaw face_law(const Model&, const MeshChunk&, std::int64_t batch, int lane); // of one face
+FaceLaw at_lane(const FaceLaw&, int lane); // of one face of the first batch
 
 struct FaceBreak {
   std::int64_t spring = 0; // place as above, of the range's first batch on
@@ -41,6 +45,7 @@ struct FaceBreak {
 struct FaceSums {
   double friction = 0; // J, this step
   double breaking = 0; // J, this step
+  CrackEnergy crack;   // J, this step: what of `breaking` went into cracks
   double damping = 0;  // J, this step, of the tetrahedra of the same chunk
   std::vector<FaceBreak> broken;
   // A face, batch * lanes + lane from the range's first batch on, that is closed and has slid further than it is long;

@@ -41,6 +41,10 @@ void softening_spring(const BondPoint& point, State& state, BondWork& work, std:
       softening_loss(law, point.normal, before, damage, state.bond_slip[p], stretch, r);
   sums.friction += point.area * loss.friction;
   sums.breaking += point.area * loss.breaking;
+  if (r.damage > damage) {
+    sums.losses.push_back({point.interface, {}});
+    sums.losses.back().energy.add(point.area * loss.breaking, shear_share(law, point.normal, stretch));
+  }
   damage = r.damage;
   state.bond_slip[p] = r.slip;
   if (r.mode != BondMode::intact) {
@@ -64,7 +68,7 @@ SofteningResponse damaged_response(const SofteningLaw& law, const BondPoint& poi
 }
 
 SofteningLaw law_of(const Model& model, const Interface& interface) {
-  return softening_law(model.joints[interface.joint], interface.kn, interface.ks);
+  return softening_law(joint_of(model, interface), interface.kn, interface.ks);
 }
 
 // One spring at the jump j of its two sides, in undeformed directions. softens: some joint of the model does; a model of
@@ -109,10 +113,15 @@ CDEM_INLINE void update_spring(const BondPoint& point, const Interface& interfac
   const geom::Vec3 normal_before = before.dot(n) * n, normal_after = r.traction.dot(n) * n;
   const double lost =
       point.area * lost_energy(interface.ks, before - normal_before, r.traction - normal_after, shear);
-  if (broke)
-    sums.breaking += lost + point.area * lost_energy(interface.kn, normal_before, normal_after, open * n);
-  else
+  if (!broke) {
     sums.friction += lost;
+    return;
+  }
+  const double taken = lost + point.area * lost_energy(interface.kn, normal_before, normal_after, open * n);
+  sums.breaking += taken;
+  sums.losses.push_back({point.interface, {}});
+  sums.losses.back().energy.add(
+      taken, state.bond_mode[p] == static_cast<std::uint8_t>(BondMode::broken_shear) ? 1 : 0);
 }
 
 template <bool softens>
@@ -120,6 +129,7 @@ void forces_of_springs(const Model& model, State& state, BondWork& work, Range r
                        bool breaking) {
   sums.friction = sums.breaking = 0;
   sums.broken.clear();
+  sums.losses.clear();
   const Node* u = state.displacement.data();
   const bool any_turns = !model.frames.empty();
   int turned_interface = -1; // whose rotation it is

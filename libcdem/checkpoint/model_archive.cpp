@@ -18,11 +18,29 @@ void archive(A& a, Elastic& x) {
 }
 
 template <class A>
+void archive(A& a, StrengthScatter& x) {
+  auto& [modulus, reference_volume, seed] = x;
+  archive_all(a, modulus, reference_volume, seed);
+}
+
+template <class A>
+void archive(A& a, RateEffect& x) {
+  auto& [reference_rate, exponent, change_rate, exponent_above, fracture_energy] = x;
+  archive_all(a, reference_rate, exponent, change_rate, exponent_above, fracture_energy);
+}
+
+template <class A>
 void archive(A& a, Joint& x) {
   auto& [bonded, glued, cohesion, friction_angle, tensile_strength, softening, g1, g2, thickness_ratio,
-         thickness, kn, ks, restitution] = x;
+         thickness, kn, ks, restitution, scatter, rate] = x;
   archive_all(a, bonded, glued, cohesion, friction_angle, tensile_strength, softening, g1, g2,
-              thickness_ratio, thickness, kn, ks, restitution);
+              thickness_ratio, thickness, kn, ks, restitution, scatter, rate);
+}
+
+template <class A>
+void archive(A& a, RegionLaws& x) {
+  auto& [joints, regions] = x;
+  archive_all(a, joints, regions);
 }
 
 template <class A>
@@ -33,8 +51,8 @@ void archive(A& a, Bonding& x) {
 
 template <class A>
 void archive(A& a, Body& x) {
-  auto& [name, material, joint, bonding, element, zone_size, set_joint, glued_joint] = x;
-  archive_all(a, name, material, joint, bonding, element, zone_size, set_joint, glued_joint);
+  auto& [name, material, joint, bonding, element, zone_size, region_laws, set_joint, glued_joint] = x;
+  archive_all(a, name, material, joint, bonding, element, zone_size, region_laws, set_joint, glued_joint);
 }
 
 template <class A>
@@ -71,10 +89,10 @@ void archive(A& a, Block& x) {
 
 template <class A>
 void archive(A& a, Interface& x) {
-  auto& [id, block_a, face_a, block_b, face_b, normal, joint, thickness, kn, ks, origin, may_break,
+  auto& [id, block_a, face_a, block_b, face_b, normal, joint, thickness, kn, ks, origin, may_break, strength,
          point_begin, point_end, frame, triangle_begin, triangle_end] = x;
   archive_all(a, id, block_a, face_a, block_b, face_b, normal, joint, thickness, kn, ks, origin, may_break,
-              point_begin, point_end, frame, triangle_begin, triangle_end);
+              strength, point_begin, point_end, frame, triangle_begin, triangle_end);
 }
 
 template <class A>
@@ -120,6 +138,12 @@ void archive(A& a, FaceBatch& x) {
 }
 
 template <class A>
+void archive(A& a, FaceStrengthBatch& x) {
+  auto& [tensile_strength, cohesion, tan_friction, joint] = x;
+  archive_all(a, tensile_strength, cohesion, tan_friction, joint);
+}
+
+template <class A>
 void archive(A& a, FaceSideBatch& x) {
   auto& [tet, face, place, beyond] = x;
   archive_all(a, tet, face, place, beyond);
@@ -147,11 +171,11 @@ void archive(A& a, FaceTets& x) {
 
 template <class A>
 void archive(A& a, MeshData& x) {
-  auto& [first_node, first_tet, batches, faces, face_tets, sides, chunks, tet_slot, others, original, region,
-         freed, share_begin, shares, boundary, named] = x;
+  auto& [first_node, first_tet, batches, faces, face_tets, strength, sides, chunks, tet_slot, others,
+         original, region, freed, share_begin, shares, boundary, named] = x;
   static_cast<void>(named); // places for conditions, which come from the script
-  archive_all(a, first_node, first_tet, batches, faces, face_tets, sides, chunks, tet_slot, others, original,
-              region, freed, share_begin, shares, boundary);
+  archive_all(a, first_node, first_tet, batches, faces, face_tets, strength, sides, chunks, tet_slot, others,
+              original, region, freed, share_begin, shares, boundary);
 }
 
 template <class A>
@@ -197,8 +221,8 @@ void archive(A& a, HistoryRow& x) {
 
 template <class A>
 void archive(A& a, Probe& x) {
-  auto& [name, field, place] = x;
-  archive_all(a, name, field, place);
+  auto& [name, field, place, crack, body] = x;
+  archive_all(a, name, field, place, crack, body);
 }
 
 template <class A>

@@ -85,9 +85,18 @@ void require_fits(const Model& model, const State& state) {
   require_length("viscous_stress", state.viscous_stress.size(), fresh.viscous_stress.size());
   require_length("faces", state.faces.size(), model.mesh.faces.size());
   require_length("cohesive", state.cohesive.size(), fresh.cohesive.size());
+  require_length("rate_factor", state.rate_factor.size(), fresh.rate_factor.size());
+  for (const double factor : state.rate_factor)
+    if (!(factor >= 1))
+      refuse("rate_factor", std::to_string(factor) + " is out of range");
   require_length("rigid", state.rigid.size(), model.rigid.size());
   require_length("rigid_offset", state.rigid_offset.size(), nodes, model.rigid.empty());
+  require_length("moving_mass", state.moving_mass.size(), nodes, true);
+  for (const double mass : state.moving_mass)
+    if (!(mass > 0))
+      refuse("moving_mass", std::to_string(mass) + " is out of range");
   require_length("escaped", state.escaped.size(), nodes, true);
+  require_length("crack_energy", state.crack_energy.size(), model.bodies.size() + 1, true);
   for (const std::uint8_t mode : state.bond_mode)
     require_below("bond_mode", mode, modes);
   for (const std::uint8_t escaped : state.escaped)

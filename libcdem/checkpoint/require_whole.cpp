@@ -1,5 +1,6 @@
 #include "libcdem/checkpoint/require_whole.hpp"
 
+#include "libcdem/results/cracks.hpp"
 #include "libcdem/state/state.hpp"
 #include "libgeom/core/error.hpp"
 
@@ -203,6 +204,10 @@ void check_mesh_chunk(const Model& model, const MeshChunk& chunk) {
   for (std::int64_t i = chunk.batches.begin; i < chunk.batches.end; ++i)
     for (const auto& corner : mesh.batches[i].place)
       all_below("mesh.batches.place", corner, places);
+  const auto laws = model.bodies[model.blocks[chunk.block].body].region_laws.joints.size();
+  for (std::int64_t i = chunk.face_batches.begin; i < chunk.face_batches.end && !mesh.strength.empty(); ++i)
+    for (const int law : mesh.strength[static_cast<std::size_t>(i)].joint)
+      below("mesh.strength.joint", law, laws, -1);
   for (std::int64_t i = chunk.face_batches.begin; i < chunk.face_batches.end; ++i)
     for (int corner = 0; corner < 3; ++corner) {
       all_below("mesh.faces.place", mesh.faces[i].place_a[corner], places);
@@ -247,6 +252,7 @@ void check_mesh(const Model& model) {
   const std::size_t own_tets = tets - static_cast<std::size_t>(mesh.first_tet);
   const std::size_t slots = mesh.batches.size() * lanes, faces = mesh.faces.size() * lanes;
   require_length("mesh.face_tets", mesh.face_tets.size(), faces);
+  require_length("mesh.strength", mesh.strength.size(), mesh.strength.empty() ? 0 : mesh.faces.size());
   for (const FaceTets& face : mesh.face_tets) {
     below("mesh.face_tets", face.tet_a, tets, -1);
     below("mesh.face_tets", face.tet_b, tets, -1);
@@ -393,6 +399,7 @@ void require_whole(const Model& model) {
   for (const Body& body : model.bodies) {
     require(body.element <= Element::rigid, "bodies.element", static_cast<int>(body.element));
     require(body.bonding.kind <= BondKind::cohesive, "bodies.bonding", static_cast<int>(body.bonding.kind));
+    require_length("bodies.region_laws", body.region_laws.regions.size(), body.region_laws.joints.size());
   }
   for (const Body& body : model.bodies) {
     below("bodies.glued_joint", body.glued_joint, model.joints.size(), -1);
@@ -415,6 +422,12 @@ void require_whole(const Model& model, const RunLog& log) {
   for (const BreakRow& row : log.breaks)
     require(row.mode == BondMode::broken_tension || row.mode == BondMode::broken_shear, "breaks.mode",
             static_cast<int>(row.mode));
+  for (const Probe& probe : log.probes)
+    if (!probe.crack.empty()) {
+      const auto& known = crack_quantities();
+      require(std::find(known.begin(), known.end(), probe.crack) != known.end(), "probes.crack", 0);
+      require(probe.body >= -1 && probe.body < count(model.bodies.size()), "probes.body", probe.body);
+    }
   for (const HistoryRow& row : log.history)
     require(row.probes.size() <= log.probes.size(), "history.probes", count(row.probes.size()));
   for (const Watch& watch : log.watches) {

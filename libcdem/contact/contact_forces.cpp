@@ -27,17 +27,16 @@ bool add_displacements(const Model& model, const State& state, ContactWork& work
   if (work.step > 0)
     work.last_step = work.step;
   ++work.steps_since_search;
+  set_drifts(model, state, work, threads);
   bool out = false;
-  for (std::size_t m = 0; m < work.travelled.size(); ++m) {
-    const bool fragment = m >= model.blocks.size();
+  for (int m = 0; m < work.movers.count(); ++m) {
+    const bool fragment = m >= static_cast<int>(model.blocks.size());
     if (!fragment && work.broken[m])
       continue;
-    if (work.travelled[m] > work.undefined_pair_margin || (!fragment && work.travelled[m] > work.skin[m]))
+    const double gone = gone_at_most(model, work, m);
+    if (gone > work.undefined_pair_margin || (!fragment && gone > work.skin[m]))
       out = work.all_due = true;
   }
-  if (work.travelled.size() == model.blocks.size())
-    return out;
-  set_drifts(model, state, work, threads);
   return find_leavers(model, work) || out;
 }
 

@@ -224,12 +224,16 @@ FaceSpring face_point_response(const Model& model, const State& state, const std
   const Body& body = model.bodies[model.blocks[chunk.block].body];
   const FaceBatch& batch = model.mesh.faces[at.batch];
   const FaceNodes nodes = face_nodes(model.mesh, chunk, at.batch, at.lane);
-  if (body.bonding.is_cohesive())
+  if (body.bonding.is_cohesive()) {
+    Joint room;
+    const std::int64_t face = at.batch * lanes + at.lane;
+    const Joint& joint = FaceJoints(model, state, chunk).of(face - chunk.face_batches.begin * lanes, room);
     return cohesive_spring(batch, at.lane, face_frame(nodes, position.data(), state.displacement.data()),
-                           at.point, body.joint, state.faces[at.batch],
-                           state.cohesive[at.batch * lanes + at.lane]);
+                           at.point, joint, state.faces[at.batch], state.cohesive[face]);
+  }
   return face_spring(batch, nodes, at.point, at.lane, position.data(), state.displacement.data(),
-                     face_law(body), state.faces[at.batch], slip_of(state, at.batch, at.lane));
+                     face_law(model, chunk, at.batch, at.lane), state.faces[at.batch],
+                     slip_of(state, at.batch, at.lane));
 }
 
 State moved_back(const Model& model, const State& state, double lag) {

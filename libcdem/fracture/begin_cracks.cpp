@@ -2,7 +2,7 @@
 
 #include "libcdem/bond/cohesive_faces.hpp"
 #include "libcdem/element/small_strain.hpp"
-#include "libcdem/fracture/working_plane.hpp"
+#include "libcdem/fracture/own_rocks.hpp"
 #include "libcdem/parallel/simd.hpp"
 #include "libcdem/state/places.hpp"
 
@@ -23,7 +23,7 @@ struct FaceStress {
 
 CDEM_INLINE void stress_kernel(const StressBatch* stress, const std::int32_t (&slot_a)[lanes],
                                const std::int32_t (&slot_b)[lanes], const double (&left)[lanes],
-                               const UseBound& bound, FaceStress& to) {
+                               const std::vector<UseBound>& bounds, FaceStress& to) {
   using simd::Oct;
   Oct s[6];
   for (int c = 0; c < 6; ++c) {
@@ -36,9 +36,13 @@ CDEM_INLINE void stress_kernel(const StressBatch* stress, const std::int32_t (&s
   const Oct part = simd::load(left);
   for (Oct& c : s)
     c /= part;
-  const Oct beyond = bound.beyond(s);
-  for (int lane = 0; lane < lanes; ++lane)
-    to.may_fail[lane] = beyond[lane] > 0;
+  for (bool& may_fail : to.may_fail)
+    may_fail = false;
+  for (const UseBound& bound : bounds) {
+    const Oct beyond = bound.beyond(s);
+    for (int lane = 0; lane < lanes; ++lane)
+      to.may_fail[lane] = to.may_fail[lane] || beyond[lane] > 0;
+  }
 }
 
 geom::Mat3 stress_in(const FaceStress& of, int lane) {
@@ -48,14 +52,32 @@ geom::Mat3 stress_in(const FaceStress& of, int lane) {
   return matrix(s);
 }
 
+// 1/s, sqrt(d : d) of the rate of deformation d, in the mean of the two tets.
+double strain_rate(const Model& model, const State& state, const FaceTets& tets) {
+  double sum = 0;
+  for (const int tet : {tets.tet_a, tets.tet_b}) {
+    const geom::Mat3 f = geom::Mat3::Identity() + displacement_gradient(model, state.displacement, tet);
+    const geom::Mat3 rate = displacement_gradient(model, state.velocity, tet) * f.inverse();
+    sum += 0.5 * (rate + rate.transpose()).norm();
+  }
+  return 0.5 * sum;
+}
+
 class ChunkCracks {
 public:
-  ChunkCracks(const Model& model, State& state, std::int64_t index)
-      : model_(model), state_(state), index_(index), chunk_(model.mesh.chunks[index]),
-        joint_(model.bodies[model.blocks[chunk_.block].body].joint), rock_(rock_strength(joint_)) {}
+  ChunkCracks(const Model& model, State& state, std::int64_t index, bool in_real_time)
+      : model_(model), state_(state), index_(index), in_real_time_(in_real_time),
+        chunk_(model.mesh.chunks[index]), body_(model.bodies[model.blocks[chunk_.block].body]),
+        joints_(model, state, chunk_), rocks_(body_) {
+    if (!joints_.own())
+      rocks_.take(-1, rock_strength(body_.joint));
+    else
+      for (int face = 0; face < chunk_.faces; ++face)
+        rocks_.take(joints_.law(face), rock(face));
+  }
 
   BegunCracks operator()() {
-    const UseBound bound(rock_, 1);
+    const std::vector<UseBound> bounds = rocks_.bounds(1);
     for (int first = 0; first < chunk_.faces; first += lanes) {
       const std::int64_t batch = chunk_.face_batches.begin + first / lanes;
       const int faces = std::min(lanes, chunk_.faces - first);
@@ -70,10 +92,12 @@ public:
         left[lane] = lane < faces ? strength_left(batch, lane) : 1;
       }
       FaceStress stress;
-      simd::best<stress_kernel>(state_.stress.data(), slot_a, slot_b, left, bound, stress);
+      simd::best<stress_kernel>(state_.stress.data(), slot_a, slot_b, left, bounds, stress);
       for (int lane = 0; lane < faces; ++lane)
         one_face(batch, lane, stress);
     }
+    if (crack_.tension != 0 || crack_.shear != 0)
+      begun_.energies.emplace_back(index_, crack_);
     return std::move(begun_);
   }
 
@@ -95,11 +119,19 @@ private:
     CohesiveFace& cohesive = state_.cohesive[batch * lanes + lane];
     const FaceBatch& at = model_.mesh.faces[batch];
     if (face.stage[lane] == FaceStage::cracking && may_end(cohesive))
-      begun_.breaking +=
-          end_crack(at, lane, frame(batch, lane), joint_, stress_in(of_batch, lane), face, cohesive)
-              .value_or(0);
+      begun_.breaking += end_crack(at, lane, frame(batch, lane), joints_.of(place(batch, lane), room_),
+                                   stress_in(of_batch, lane), face, cohesive)
+                             .value_or(0);
     else if (holds(face.stage[lane]) && of_batch.may_fail[lane])
       begin(batch, lane, stress_in(of_batch, lane), strength_left(batch, lane));
+  }
+
+  // Among the faces of the chunk.
+  int place(std::int64_t batch, int lane) const {
+    return static_cast<int>(batch - chunk_.face_batches.begin) * lanes + lane;
+  }
+  RockStrength rock(int face) const {
+    return rocks_.of(joints_.law(face), joints_.tensile_strength(face), joints_.cohesion(face));
   }
 
   // Of 1: a crack that did not go on took the rest. At least what may_end leaves.
@@ -111,13 +143,27 @@ private:
 
   void begin(std::int64_t batch, int lane, const geom::Mat3& stress, double left) {
     const FaceFrame at = frame(batch, lane);
-    const auto plane = working_plane(stress / left, rock_, at.normal);
+    const int face = place(batch, lane);
+    auto plane = working_plane(stress / left, rock(face), at.normal);
+    if (plane && !state_.rate_factor.empty()) {
+      const double factor =
+          in_real_time_ ? dynamic_increase_factor(
+                              joints_.before_rate(face).rate,
+                              strain_rate(model_, state_, model_.mesh.face_tets[batch * lanes + lane]))
+                        : 1;
+      plane = working_plane(stress / (left * factor), rock(face), at.normal);
+      if (plane)
+        state_.rate_factor[batch * lanes + lane] = factor;
+    }
     if (!plane)
       return;
-    begun_.breaking += begin_crack(model_.mesh.faces[batch], lane, at, joint_, stress, plane->normal,
-                                   plane->mode, state_.faces[batch], state_.cohesive[batch * lanes + lane]);
-    if (joint_.softening != Softening::none)
+    const Joint& joint = joints_.of(face, room_);
+    const double taken = begin_crack(model_.mesh.faces[batch], lane, at, joint, stress, plane->normal,
+                                     plane->mode, state_.faces[batch], state_.cohesive[batch * lanes + lane]);
+    begun_.breaking += taken;
+    if (joint.softening != Softening::none)
       return;
+    crack_.add(taken, plane->mode == BondMode::broken_shear ? 1 : 0);
     const geom::Vec3 traction = stress * plane->normal;
     const double normal = traction.dot(plane->normal);
     for (int point = 0; point < 3; ++point)
@@ -132,24 +178,29 @@ private:
   const Model& model_;
   State& state_;
   std::int64_t index_;
+  bool in_real_time_;
   const MeshChunk& chunk_;
-  const Joint& joint_;
-  RockStrength rock_;
+  const Body& body_;
+  FaceJoints joints_;
+  OwnRocks rocks_;
+  Joint room_;
   BegunCracks begun_;
+  CrackEnergy crack_; // J, of the chunk
 };
 
 } // namespace
 
-BegunCracks begin_cracks(const Model& model, State& state, int threads) {
+BegunCracks begin_cracks(const Model& model, State& state, int threads, bool in_real_time) {
   std::vector<BegunCracks> of_chunks(model.mesh.chunks.size());
   for_chunks(static_cast<std::int64_t>(of_chunks.size()), threads, [&](std::int64_t c) {
     const MeshChunk& chunk = model.mesh.chunks[c];
     if (chunk.side_batches.size() > 0 && !is_rigid(model, chunk))
-      of_chunks[c] = ChunkCracks(model, state, c)();
+      of_chunks[c] = ChunkCracks(model, state, c, in_real_time)();
   });
   BegunCracks all;
   for (const BegunCracks& some : of_chunks) {
     all.breaking += some.breaking;
+    all.energies.insert(all.energies.end(), some.energies.begin(), some.energies.end());
     all.broken.insert(all.broken.end(), some.broken.begin(), some.broken.end());
   }
   return all;

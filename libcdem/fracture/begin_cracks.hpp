@@ -17,8 +17,11 @@ struct BegunCracks {
   };
   std::vector<Break> broken; // of brittle faces, which break at once
   double breaking = 0;       // J, of what the faces stored
+  // J, by chunk, ascending: what of `breaking` brittle faces took.
+  std::vector<std::pair<std::int64_t, CrackEnergy>> energies;
 };
 
-BegunCracks begin_cracks(const Model&, State&, int threads);
+// in_real_time: strengths follow the rate of strain where a joint says so; in a relaxation there is none.
+BegunCracks begin_cracks(const Model&, State&, int threads, bool in_real_time);
 
 } // namespace cdem

@@ -10,7 +10,7 @@ namespace cdem {
 namespace {
 
 SpringStrength strength_of(const Model& model, const Interface& interface) {
-  const Joint& joint = model.joints[interface.joint];
+  const Joint joint = joint_of(model, interface);
   return {joint.cohesion, geom::portable::tan(joint.friction_angle), joint.tensile_strength};
 }
 

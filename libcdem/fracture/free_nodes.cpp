@@ -3,7 +3,8 @@
 #include "libcdem/bond/fragments.hpp"
 #include "libcdem/contact/response/contact_point.hpp"
 #include "libcdem/element/small_strain.hpp"
-#include "libcdem/fracture/working_plane.hpp"
+#include "libcdem/fracture/own_rocks.hpp"
+#include "libcdem/model/build/face_strength.hpp"
 #include "libcdem/model/build/freed_meshes.hpp"
 #include "libcdem/parallel/simd.hpp"
 #include "libcdem/state/places.hpp"
@@ -38,9 +39,10 @@ CDEM_INLINE void any_beyond_kernel(const StressBatch& stress, const UseBound& bo
     any = any || beyond[lane] > 0;
 }
 
-bool may_use(const UseBound& bound, const geom::Mat3& s) {
+bool may_use(const std::vector<UseBound>& bounds, const geom::Mat3& s) {
   const double components[6] = {s(0, 0), s(1, 1), s(2, 2), s(0, 1), s(1, 2), s(0, 2)};
-  return bound.beyond(components) > 0;
+  return std::any_of(bounds.begin(), bounds.end(),
+                     [&](const UseBound& bound) { return bound.beyond(components) > 0; });
 }
 
 class Carrier {
@@ -54,6 +56,7 @@ public:
     s.step = from_.step;
     s.velocity_lag = from_.velocity_lag;
     s.spent = from_.spent;
+    s.crack_energy = from_.crack_energy;
     s.bond_offset = from_.bond_offset;
     s.bond_mode = from_.bond_mode;
     s.bond_damage = from_.bond_damage;
@@ -119,6 +122,8 @@ private:
       if (lane == was % lanes)
         to.slip = from.slip; // of faces with springs, which keep their batches
       to_.state.cohesive[now] = from_.cohesive[was];
+      if (!from_.rate_factor.empty())
+        to_.state.rate_factor[now] = from_.rate_factor[was];
     });
   }
 
@@ -166,14 +171,34 @@ private:
 FreeingWatch::FreeingWatch(const Model& model) {
   if (!has_cohesive_bodies(model))
     return;
-  std::vector<geom::Tet> tets(model.tets.begin() + model.mesh.first_tet, model.tets.end());
-  std::size_t nodes = 0;
-  for (geom::Tet& tet : tets)
-    for (int& node : tet) {
-      node = model.mesh.original[node - model.mesh.first_node];
-      nodes = std::max(nodes, static_cast<std::size_t>(node) + 1);
+  neighbours_ = mesh_neighbours(model);
+  if (!has_own_strengths(model))
+    return;
+  const MeshData& mesh = model.mesh;
+  own_.resize(neighbours_.size());
+  bounds_.resize(mesh.chunks.size());
+  for (std::size_t c = 0; c < mesh.chunks.size(); ++c) {
+    const MeshChunk& chunk = mesh.chunks[c];
+    const Body& body = model.bodies[model.blocks[chunk.block].body];
+    if (!body.bonding.is_cohesive())
+      continue;
+    OwnRocks rocks(body);
+    for (auto i = static_cast<std::size_t>(4 * (chunk.tets.begin - mesh.first_tet));
+         i < static_cast<std::size_t>(4 * (chunk.tets.end - mesh.first_tet)); ++i) {
+      if (neighbours_[i] < 0)
+        continue;
+      const int tet = static_cast<int>(i / 4), beyond = neighbours_[i] / 4;
+      std::array<geom::Vec3, 3> corners;
+      for (int k = 0; k < 3; ++k)
+        corners[k] = model.node_position[model.tets[mesh.first_tet + tet][geom::tet_faces[i % 4][k]]];
+      const FaceStrength face =
+          face_strength(body, mesh.region[tet], mesh.region[beyond], corners,
+                        tet_volume(model, mesh.first_tet + tet) + tet_volume(model, mesh.first_tet + beyond));
+      own_[i] = rocks.of(face.joint, face.tensile_strength, face.cohesion);
+      rocks.take(face.joint, own_[i]);
     }
-  neighbours_ = geom::face_neighbours(tets, nodes);
+    bounds_[c] = rocks.bounds(freed_at);
+  }
 }
 
 std::optional<std::vector<char>> FreeingWatch::due(const Model& model, const State& state, int threads,
@@ -185,8 +210,13 @@ std::optional<std::vector<char>> FreeingWatch::due(const Model& model, const Sta
     const Body& body = model.bodies[model.blocks[chunk.block].body];
     if (!body.bonding.is_cohesive() || is_rigid(model, chunk))
       return;
-    const RockStrength rock = rock_strength(body.joint);
-    const UseBound bound(rock, freed_at); // of convex sets: the mean of two stresses below it is below it
+    const RockStrength of_body = rock_strength(body.joint);
+    const auto rock_of = [&](std::int64_t face) -> const RockStrength& { // of the mesh, as in neighbours_
+      return own_.empty() ? of_body : own_[static_cast<std::size_t>(face)];
+    };
+    // Of convex sets: the mean of two stresses below them is below them.
+    const std::vector<UseBound> bounds = own_.empty() ? std::vector<UseBound>{UseBound(of_body, freed_at)}
+                                                      : bounds_[static_cast<std::size_t>(c)];
     const auto stress_of = [&](std::int64_t tet) {
       return matrix(mesh_stress(model, state, static_cast<int>(tet)));
     };
@@ -194,14 +224,16 @@ std::optional<std::vector<char>> FreeingWatch::due(const Model& model, const Sta
       const std::int64_t place = t - chunk.tets.begin;
       if (place % lanes == 0) {
         bool any = false;
-        simd::best<any_beyond_kernel>(state.stress[chunk.batches.begin + place / lanes], bound, any);
+        for (const UseBound& bound : bounds)
+          if (!any)
+            simd::best<any_beyond_kernel>(state.stress[chunk.batches.begin + place / lanes], bound, any);
         if (!any) {
           t += lanes - 1;
           continue;
         }
       }
       const geom::Mat3 s = stress_of(t);
-      if (!may_use(bound, s))
+      if (!may_use(bounds, s))
         continue;
       for (int face = 0; face < 4; ++face) {
         const int beyond = neighbours_[4 * (t - mesh.first_tet) + face];
@@ -216,7 +248,8 @@ std::optional<std::vector<char>> FreeingWatch::due(const Model& model, const Sta
         if (freed)
           continue;
         const geom::Mat3 mean = 0.5 * (s + stress_of(other));
-        const double use = may_use(bound, mean) ? strength_use(mean, rock) : 0;
+        const double use =
+            may_use(bounds, mean) ? strength_use(mean, rock_of(4 * (t - mesh.first_tet) + face)) : 0;
         if (!(use >= freed_at))
           continue;
         found[c].most = std::max(found[c].most, use);
@@ -264,6 +297,7 @@ void preload_faces(const Model& model, State& state, const std::vector<Node>& ne
   };
   std::map<int, Star> stars;
   const MeshData& mesh = model.mesh;
+  const std::vector<double>& masses = moving_mass(model, state);
   for (int node = mesh.first_node; node < static_cast<int>(nodes.size()); ++node)
     if (nodes[node] != 0)
       stars[mesh.original[node - mesh.first_node]].copies.push_back(node);
@@ -289,7 +323,7 @@ void preload_faces(const Model& model, State& state, const std::vector<Node>& ne
     double mass = 0;
     for (const int node : star.copies) {
       total += vec(net_force[node]);
-      mass += model.node_mass[node];
+      mass += masses[node];
     }
     Eigen::MatrixXd laplacian = Eigen::MatrixXd::Zero(n, n);
     for (const Between& f : star.faces) {
@@ -302,7 +336,7 @@ void preload_faces(const Model& model, State& state, const std::vector<Node>& ne
     Eigen::MatrixXd missing(n, 3); // N, of each copy to what its share of the mass asks for
     for (Eigen::Index i = 0; i < n; ++i) {
       const int node = star.copies[i];
-      missing.row(i) = (total * (model.node_mass[node] / mass) - vec(net_force[node])).transpose();
+      missing.row(i) = (total * (masses[node] / mass) - vec(net_force[node])).transpose();
     }
     const Eigen::MatrixXd potential = laplacian.completeOrthogonalDecomposition().solve(missing);
     for (const Between& f : star.faces) {

@@ -5,6 +5,7 @@
 // crack finds its way open before it gets there.
 #pragma once
 
+#include "libcdem/fracture/working_plane.hpp"
 #include "libcdem/state/state.hpp"
 
 #include <optional>
@@ -25,7 +26,9 @@ public:
   std::optional<std::vector<char>> due(const Model&, const State&, int threads, double from = due_at) const;
 
 private:
-  std::vector<int> neighbours_; // per tet of the mesh and face of it: 4 tet + face on the other side, or -1
+  std::vector<int> neighbours_;   // per tet of the mesh and face of it: 4 tet + face on the other side, or -1
+  std::vector<RockStrength> own_; // of the same; empty: all are as their body's joint says
+  std::vector<std::vector<UseBound>> bounds_; // of the faces of each chunk; empty likewise
 };
 
 struct Freed {

@@ -120,6 +120,7 @@ public:
     result.state.step = from_.step;
     result.state.velocity_lag = from_.velocity_lag;
     result.state.spent = from_.spent;
+    result.state.crack_energy = from_.crack_energy;
     for (const Successor& s : successors_)
       result.old_block.push_back(s.old_block);
     carry_blocks(result);
@@ -168,6 +169,7 @@ private:
       t.joint = before->joint;
       t.thickness = before->thickness;
       t.origin = before->origin;
+      t.strength = before->strength; // parts of a face are no stronger and no weaker than it was
       t.may_break = !model.joints[t.joint].glued &&
                     may_break_now(may_break_, t.origin, model.blocks[a], model.blocks[b], before->may_break);
       return t;

@@ -2,6 +2,9 @@
 // (Han 2010 eq 8) with a tension and a Mohr-Coulomb limit (eqs 10-11), beyond which they break or soften.
 #pragma once
 
+#include "libcdem/joint/rate_effect.hpp"
+#include "libcdem/joint/strength_scatter.hpp"
+
 #include <optional>
 
 namespace cdem {
@@ -32,6 +35,9 @@ struct Joint {
 
   // e, in (0, 1]: speed after over speed before an impact, as far as the contact decides it. 1: it loses nothing.
   double restitution = 1;
+
+  StrengthScatter scatter = {}; // of sigma_t and c0 together, from face to face; the energies stay
+  RateEffect rate = {};         // of cohesive bodies
 };
 
 // L over the block size of glued faces: a quarter of a joint's usual give. Stiffer ones would only cost steps.

@@ -24,7 +24,7 @@ struct SpringStrength {
 
 // c - t_n tan(phi): negative beyond the tip of the cone. T: one number or several side by side.
 template <class T>
-T shear_strength(const T& cohesion, double tan_friction, const T& normal) {
+T shear_strength(const T& cohesion, const T& tan_friction, const T& normal) {
   return cohesion - tan_friction * normal;
 }
 

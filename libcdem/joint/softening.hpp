@@ -157,6 +157,15 @@ struct SofteningLoss {
   double friction = 0, breaking = 0; // J/m2
 };
 
+// Part of what damage takes at this stretch that shear has, by kn <e_n>^2 : ks |e_s|^2; 1 where it is closed.
+inline double shear_share(const SofteningLaw& law, const geom::Vec3& normal, const geom::Vec3& stretch) {
+  const double open = stretch.dot(normal);
+  if (!(open > 0))
+    return 1;
+  const double opening = law.kn * open * open, slip = law.ks * (stretch - open * normal).squaredNorm();
+  return opening + slip > 0 ? slip / (opening + slip) : 0;
+}
+
 // What a step from stretch0 (with damage0 and slip0) to stretch1 lost: work by the trapezoidal rule less the
 // change of what is stored. Friction is the work of t_c over the growth of D slip, the spring's whole
 // inelastic slip (closed, t_s = ks (e_s - D slip)); the rest, dD (kn <e_n>^2 + ks slip^2) / 2, is what the

@@ -75,13 +75,15 @@ void add_to_block(const Model& model, State& state, const Block& block, const In
   }
 }
 
-// How much of what holds a point its traction takes; 1: it breaks, opens or slides.
-double use_of(const Joint& joint, bool intact, double normal, double shear) {
+// How much of what holds a point its traction takes; 1: it breaks, opens or slides. strength: of the interface over that
+// of its joint.
+double use_of(const Joint& joint, double strength, bool intact, double normal, double shear) {
   const double infinite = std::numeric_limits<double>::infinity();
   const auto over = [&](double load, double strength) {
     return load <= 0 ? 0 : strength > 0 ? load / strength : infinite;
   };
-  const double cohesion = intact ? joint.cohesion : 0, tension = intact ? joint.tensile_strength : 0;
+  const double cohesion = intact ? strength * joint.cohesion : 0,
+               tension = intact ? strength * joint.tensile_strength : 0;
   return std::max(over(normal, tension),
                   over(shear, shear_strength(cohesion, geom::portable::tan(joint.friction_angle), normal)));
 }
@@ -152,7 +154,7 @@ BeyondStrength beyond_strength(const Model& model, const State& state) {
     const bool intact = state.bond_mode[p] == static_cast<std::uint8_t>(BondMode::intact);
     if (intact && !interface.may_break)
       continue;
-    const double use = use_of(model.joints[interface.joint], intact, normal, shear);
+    const double use = use_of(model.joints[interface.joint], interface.strength, intact, normal, shear);
     if (use > 1 + rounding)
       ++found.points;
     if (use > found.largest_use) {

@@ -37,6 +37,13 @@ struct alignas(32) FaceBatch {
   std::uint16_t place_a[3][lanes], place_b[3][lanes]; // of the nodes among those of the chunk
 };
 
+// Of eight bonded faces whose strength is their own (model/build/face_strength.hpp).
+struct alignas(64) FaceStrengthBatch {
+  double tensile_strength[lanes], cohesion[lanes]; // Pa
+  double tan_friction[lanes];
+  std::int32_t joint[lanes]; // into the body's region_laws; -1: the body's joint
+};
+
 // One side of eight freed faces of cohesive bodies, seen from a tet of the chunk: corner i of its own against corner i
 // beyond the face, counter-clockwise seen from outside. Lanes past the last side repeat the first one with face = -1.
 struct alignas(64) FaceSideBatch {
@@ -81,8 +88,9 @@ struct MeshData {
       first_tet = 0; // of the model; those before belong to blocks with star meshes, all without meshes
   std::vector<MeshBatch> batches;
   std::vector<FaceBatch> faces;
-  std::vector<FaceTets> face_tets;  // (faces.size() * lanes)
-  std::vector<FaceSideBatch> sides; // of cohesive bodies
+  std::vector<FaceTets> face_tets;         // (faces.size() * lanes)
+  std::vector<FaceStrengthBatch> strength; // (faces.size()); empty: all faces are as their body's joint says
+  std::vector<FaceSideBatch> sides;        // of cohesive bodies
   std::vector<MeshChunk> chunks;
   std::vector<int> tet_slot; // (n mesh tets) batch * lanes + lane
   std::vector<int> others;   // nodes of the model

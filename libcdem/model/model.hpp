@@ -7,6 +7,7 @@
 #include "libcdem/model/contact_surface.hpp"
 #include "libcdem/model/element.hpp"
 #include "libcdem/model/mesh.hpp"
+#include "libcdem/model/region_laws.hpp"
 #include "libcdem/parallel/chunks.hpp"
 #include "libcdem/parallel/node.hpp"
 #include "libgeom/polyhedron/polyhedron.hpp"
@@ -25,10 +26,17 @@ struct Body {
   Joint joint; // between its own blocks; its strength is that of the blocks themselves when they are cut
   Bonding bonding = {};                    // of a meshed body: which of its faces carry that joint
   Element element = Element::small_strain; // that it starts as; single blocks may turn rigid and back
-  double zone_size = 0; // m, edge length of the tets inside its convex blocks; 0: their star meshes
+  double zone_size = 0;        // m, edge length of the tets inside its convex blocks; 0: their star meshes
+  RegionLaws region_laws = {}; // of a meshed body
   // Index into Model::joints of the law on faces that a joint set or cut of this name made; others have `joint`.
   std::map<std::string, int> set_joint = {};
   int glued_joint = -1; // the same for glued faces; -1: it has none
+
+  bool has_rate_effect() const {
+    return joint.rate.on() || std::any_of(region_laws.joints.begin(), region_laws.joints.end(),
+                                          [](const Joint& own) { return own.rate.on(); });
+  }
+  const Joint& joint_of(int law) const { return law < 0 ? joint : region_laws.joints[law]; }
 };
 
 // A part of a body with nodes of its own: a convex block with its star mesh or with zones, or a connected part of a
@@ -67,6 +75,7 @@ struct Interface {
   double kn = 0, ks = 0;                                // Pa/m
   InterfaceOrigin origin = InterfaceOrigin::original;
   bool may_break = true;
+  double strength = 1; // tension and cohesion over those of the joint (joint/strength_scatter.hpp)
   int point_begin = 0, point_end = 0;
   int frame = -1; // into Model::frames; -1: both blocks are of small strain, the interface does not turn
   int triangle_begin = 0, triangle_end = 0;
@@ -201,6 +210,13 @@ void each_boundary_triangle(const Model& model, int block, const Visit& visit) {
   for (auto i = first; i != all.end() && i->block == block; ++i)
     visit(static_cast<int>(i - all.begin()), *i);
 }
+
+// The interface's own strength in it.
+Joint joint_of(const Model&, const Interface&);
+
+// For face f of tet t of the mesh, at 4 t + f (t from MeshData::first_tet on): the same number of that face in the tet
+// on its other side, or -1 outside. Freed faces count like the others.
+std::vector<int> mesh_neighbours(const Model&);
 
 int block_of(const Model&, int node);       // index into Model::blocks
 double node_volume(const Model&, int node); // m3

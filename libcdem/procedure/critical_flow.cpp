@@ -220,6 +220,7 @@ CriticalFlowResult Search::raise() {
   RunOptions stepping;
   stepping.steps = std::numeric_limits<std::int64_t>::max();
   stepping.safety = options_.safety;
+  stepping.mass_scaling = options_.mass_scaling;
   stepping.local_damping = options_.local_damping;
   stepping.follows_fragments = false; // crumbs may go where they like until it ends
   stepping.callback_every = steps_per_look;
@@ -238,6 +239,8 @@ CriticalFlowResult Search::raise() {
   result.broken_tension = ran.broken_tension;
   result.broken_shear = ran.broken_shear;
   result.steps = ran.steps;
+  result.time_step = ran.time_step;
+  result.scaled = ran.scaled;
   const BrokenArea all = broken_area(without_flow_.log, now_.first_break, false);
   result.broken_area = all.area;
   result.place = all.centroid;

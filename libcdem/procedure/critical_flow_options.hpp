@@ -3,6 +3,7 @@
 
 #include "libcdem/load/conditions.hpp"
 #include "libcdem/results/fragment.hpp"
+#include "libcdem/step/options.hpp"
 
 #include <optional>
 #include <vector>
@@ -19,6 +20,7 @@ struct CriticalFlowOptions {
   double compliance_ratio = 10;   // > 1
   double max_velocity = 100;      // m/s: the search gives up
   double safety = 0.9;            // as in RunOptions
+  MassScaling mass_scaling;       // as in RunOptions
   double local_damping = 0.1;     // as in RunOptions; above 0.2 it acts as added mass
 };
 
@@ -44,6 +46,8 @@ struct CriticalFlowResult {
   geom::Vec3 first_break_place = geom::Vec3::Zero();         // m, undeformed
   std::int64_t broken_tension = 0, broken_shear = 0;
   std::int64_t steps = 0;
+  double time_step = 0; // s, at the end
+  ScaledMasses scaled;  // with mass_scaling
   std::vector<CriticalFlowSample> curve; // every 100 steps
 };
 

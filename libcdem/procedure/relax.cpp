@@ -112,6 +112,7 @@ RelaxResult relax(const StageContext& context, const RelaxOptions& options, cons
   Stage stage(context, kind, context.model.length);
   require_held(context.model, stage.work.resolved);
   stage.work.contact.restitution = false; // its steps are no times
+  stage.in_real_time = false;
   std::vector<double> mass = fictitious_masses(context.model);
   const RestartPoint* const from = context.from;
   std::vector<Node> previous_force(mass.size()); // N, of the step before

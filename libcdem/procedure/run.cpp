@@ -4,6 +4,7 @@
 #include "libcdem/integrate/move_held_nodes.hpp"
 #include "libcdem/integrate/move_rigid.hpp"
 #include "libcdem/integrate/row_sums.hpp"
+#include "libcdem/procedure/scaled_stage.hpp"
 #include "libcdem/step/synchronised_view.hpp"
 #include "libgeom/core/error.hpp"
 
@@ -32,6 +33,10 @@ std::vector<double> viscous_forces(const Model& model) {
 
 double choose_time_step(const Model& model, const RunOptions& options) {
   const double stable = stable_time_step(model), infinite = std::numeric_limits<double>::infinity();
+  require_scalable(model, options);
+  if (options.mass_scaling.on()) // the masses follow the step
+    return options.mass_scaling.step > 0 ? options.mass_scaling.step
+                                         : options.mass_scaling.factor * options.safety * stable;
   // Rigid bodies have a stable step only where they may touch.
   const double touching = model.surface.empty() ? infinite
                                                 : std::min(rigid_time_step(model, options.safety),
@@ -111,6 +116,7 @@ RunResult run(const StageContext& context, const RunOptions& options, const std:
   const RestartPoint* const from = context.from;
   Stepping stepping{choose_time_step(context.model, options), 0, options.local_damping, options.damp_flight};
   Stage stage(context, kind, run_away_lengths * context.model.length);
+  ScaledStage scaled(context, options.mass_scaling.on() ? stepping.time_step : 0, options.safety);
   stage.follows_fragments = options.follows_fragments;
   stage.escapes = {left_lengths * context.model.length,
                    (options.holds_what_left ? left_lengths : run_away_lengths) * context.model.length};
@@ -123,6 +129,7 @@ RunResult run(const StageContext& context, const RunOptions& options, const std:
   Clock clock(state.time, stepping.time_step, options);
   if (from) {
     clock = Clock(from->loop_state);
+    scaled.take(from->loop_state);
     stepping.time_step = clock.time_step();
   }
   const auto set_goals = [&] {
@@ -136,6 +143,13 @@ RunResult run(const StageContext& context, const RunOptions& options, const std:
     }
   };
   set_goals();
+  const auto loop_state = [&] {
+    std::vector<double> numbers = clock.loop_state();
+    scaled.add_to(numbers);
+    return numbers;
+  };
+  if (scaled.on())
+    stage.scale_masses = [&] { scaled.scale(); };
   const std::int64_t ask_every = options.callback_every > 0 ? options.callback_every : 100;
 
   bool stopped = false;
@@ -144,14 +158,14 @@ RunResult run(const StageContext& context, const RunOptions& options, const std:
     if (freed) {
       viscous = viscous_forces(context.model);
       if (const double stable = options.safety * stable_time_step(context.model);
-          stable < stepping.time_step) {
+          stable < stepping.time_step && !scaled.on()) {
         stepping.time_step = stable;
         clock.shorten(stage.step, stable);
         set_goals();
       }
     }
     if (freed || stage.can_be_left())
-      stage.keep_restart_point(clock.loop_state());
+      stage.keep_restart_point(loop_state());
     if (const double longest = stage.update_contacts(options.safety); longest < stepping.time_step) {
       stepping.time_step = longest;
       clock.shorten(stage.step, longest);
@@ -162,7 +176,7 @@ RunResult run(const StageContext& context, const RunOptions& options, const std:
     stepping.kick = state.velocity_lag + 0.5 * stepping.time_step;
     const auto move = [&](Range range, const Node* force, NodeSums& sums) {
       const auto nodes = [&](Range part) {
-        MovingNodes moving = moving_nodes(state, stage.work.acting(), context.model.node_mass, part,
+        MovingNodes moving = moving_nodes(state, stage.work.acting(), moving_mass(context.model, state), part,
                                           force + (part.begin - range.begin));
         moving.viscous = viscous.empty() ? nullptr : viscous.data() + part.begin;
         return moving;
@@ -181,6 +195,8 @@ RunResult run(const StageContext& context, const RunOptions& options, const std:
     state.time = clock.time_at(stage.step);
     state.velocity_lag = 0.5 * stepping.time_step;
     stage.watch(report);
+    if (scaled.on() && stage.step % watch_every == 0)
+      scaled.sample();
     if (stage.step % ask_every == 0) {
       std::optional<SynchronisedView> view; // what they read is of one moment
       if (options.callback || options.stop)
@@ -190,7 +206,13 @@ RunResult run(const StageContext& context, const RunOptions& options, const std:
       stopped = options.stop && options.stop() && report.residual <= options.stop_residual;
     }
   }
-  return {stage.finish(report), state.time, stepping.time_step};
+  RunResult result{stage.finish(report), state.time, stepping.time_step, {}};
+  if (scaled.on()) {
+    if (stage.step % watch_every != 0)
+      scaled.sample();
+    result.scaled = scaled.report();
+  }
+  return result;
 }
 
 } // namespace cdem

@@ -27,12 +27,13 @@ double elastic_energy(const Model& model, const State& state) {
 }
 
 double kinetic_energy(const Model& model, const State& state) {
+  const std::vector<double>& mass = moving_mass(model, state);
   double kinetic = 0;
   for (int i = 0; i < static_cast<int>(state.velocity.size()); ++i) {
     if (model.blocks[block_of(model, i)].rigid >= 0)
       continue;
     const Node& v = state.velocity[i];
-    kinetic += 0.5 * model.node_mass[i] * (v.x * v.x + v.y * v.y + v.z * v.z);
+    kinetic += 0.5 * mass[i] * (v.x * v.x + v.y * v.y + v.z * v.z);
   }
   for (std::size_t i = 0; i < model.rigid.size(); ++i)
     kinetic += kinetic_energy(model.rigid[i], state.rigid[i], state.velocity_lag);

@@ -39,6 +39,9 @@ struct HistoryRow {
 struct Probe {
   std::string name, field;
   geom::Vec3 place; // m, undeformed
+  // Of cracks (results/cracks.hpp): the quantity, and of which body; -1: of all. Empty: the field at the place.
+  std::string crack = {};
+  int body = -1;
 };
 
 // A piece that has left the model (step/escape.hpp).

@@ -26,6 +26,10 @@ void add_rigid_states(const Model& model, State& state) {
 
 } // namespace
 
+const std::vector<double>& moving_mass(const Model& model, const State& state) {
+  return state.moving_mass.empty() ? model.node_mass : state.moving_mass;
+}
+
 FaceSlip& slip_of(State& state, std::int64_t batch, int lane) {
   std::int32_t& first = state.faces[batch].slip;
   if (first < 0) {
@@ -69,6 +73,12 @@ Node shown_displacement(const State& state, int node) {
   return u;
 }
 
+CrackEnergy& crack_energy_of(const Model& model, State& state, int body) {
+  if (state.crack_energy.empty())
+    state.crack_energy.resize(model.bodies.size() + 1);
+  return state.crack_energy[body];
+}
+
 State initial_state(const Model& model) {
   State state;
   state.displacement.resize(model.node_position.size());
@@ -92,6 +102,9 @@ State initial_state(const Model& model) {
   if (std::any_of(model.bodies.begin(), model.bodies.end(),
                   [](const Body& body) { return body.bonding.is_cohesive(); }))
     state.cohesive.resize(model.mesh.face_tets.size());
+  if (std::any_of(model.bodies.begin(), model.bodies.end(),
+                  [](const Body& body) { return body.has_rate_effect(); }))
+    state.rate_factor.assign(model.mesh.face_tets.size(), 1.0);
   FaceStateBatch whole{};
   whole.slip = -1;
   state.faces.assign(model.mesh.faces.size(), whole);
@@ -137,12 +150,16 @@ std::vector<StateField> fields(State& s) {
       field("faces", "1", FieldPlace::face, "mesh_forces", s.faces, false),
       field("face_slip", "m", FieldPlace::face, "mesh_forces, record_face_breaks", s.face_slip, true),
       field("cohesive", "record", FieldPlace::face, "begin_cracks, mesh_forces", s.cohesive, true),
+      field("rate_factor", "1", FieldPlace::face, "begin_cracks", s.rate_factor, true),
       field("contacts", "record", FieldPlace::contact, "contact_forces", s.contacts, false),
       field("rigid", "record", FieldPlace::rigid_body, "move_rigid, set_rigid", s.rigid, true),
       field("rigid_offset", "m", FieldPlace::node, "set_rigid", s.rigid_offset, true),
       shown(
           field("displacement_zero", "m", FieldPlace::node, "reset_displacement", s.displacement_zero, true)),
+      field("moving_mass", "kg", FieldPlace::node, "run", s.moving_mass, true),
       field("escaped", "1", FieldPlace::node, "find_escapes", s.escaped, false),
+      field("crack_energy", "J", FieldPlace::body,
+            "record_bond_breaks, record_face_breaks, record_begun_cracks", s.crack_energy, true),
       {"spent", "J", FieldPlace::model,
        "record_bond_breaks, record_face_breaks, ContactUpdate, record_step, relax", &s.spent, sizeof s.spent,
        true},

@@ -6,6 +6,7 @@
 #include "libcdem/model/model.hpp"
 #include "libcdem/state/cohesive_face.hpp"
 #include "libcdem/state/contact.hpp"
+#include "libcdem/state/crack_energy.hpp"
 #include "libcdem/state/face_state.hpp"
 #include "libcdem/state/ledger.hpp"
 #include "libcdem/state/rigid_state.hpp"
@@ -48,6 +49,9 @@ struct State {
   std::vector<FaceSlip> face_slip;
   // (n face batches * lanes); written by begin_cracks, mesh_forces; empty without cohesive bodies
   std::vector<CohesiveFace> cohesive;
+  // DIF at which each face began to crack (joint/rate_effect.hpp), as long; empty where no joint has a rate effect;
+  // written by begin_cracks
+  std::vector<double> rate_factor;
 
   std::vector<Contact> contacts; // those that act, by kind, source and piece; written by contact_forces
   std::vector<RigidState> rigid; // (n rigid bodies); written by move_rigid, set_rigid
@@ -55,12 +59,18 @@ struct State {
   // without rigid bodies; written by set_rigid
   std::vector<Node> rigid_offset;
 
+  // kg, what moves in a stage whose masses are scaled (n_nodes); empty: Model::node_mass; written by run
+  std::vector<double> moving_mass;
+
   // Escaped (n_nodes); empty until something has left the model; written by find_escapes
   std::vector<std::uint8_t> escaped;
 
   // m, what results take from the displacement: what it was when it was last set to zero (n_nodes); empty until then.
   // Mechanics never sees it; written by reset_displacement
   std::vector<Node> displacement_zero;
+  // J, of each body, and last of the joints between bodies (n_bodies + 1); empty until something has broken; written by
+  // record_bond_breaks, record_face_breaks, record_begun_cracks
+  std::vector<CrackEnergy> crack_energy;
 
   EnergyLedger spent; // J, the summed entries only (damping, friction, ... external); the stored ones stay 0
 };
@@ -69,6 +79,7 @@ std::size_t small_strain_tets(const Model&); // the first so many tets of a mode
 
 // Displacement since it was last set to zero, m.
 Node shown_displacement(const State&, int node);
+const std::vector<double>& moving_mass(const Model&, const State&); // kg (n_nodes)
 
 // The slip of a face's broken springs; zero slip is made room for when there is none yet.
 FaceSlip& slip_of(State&, std::int64_t batch, int lane);
@@ -79,12 +90,15 @@ const FaceSlip* slip_of(const State&, std::int64_t batch, int lane); // null whe
 Stress mesh_stress(const Model&, const State&, int tet);
 void set_mesh_stress(const Model&, State&, int tet, const Stress&);
 
+// Where the crack energy of a body goes; body: its number, n_bodies for the joints between bodies.
+CrackEnergy& crack_energy_of(const Model&, State&, int body);
+
 // A State at rest for the model: no displacement, contacts where the joint is not bonded.
 State initial_state(const Model&);
 
 // What an entry of the array belongs to. bond: a spring of an interface; frame: an interface that may turn; face, tet:
-// of a mesh, eight side by side.
-enum class FieldPlace { model, node, bond, frame, block, tet, face, contact, rigid_body };
+// of a mesh, eight side by side. body: of each, and one more for the joints between them.
+enum class FieldPlace { model, node, bond, frame, block, tet, face, contact, rigid_body, body };
 
 struct StateField {
   const char* name;

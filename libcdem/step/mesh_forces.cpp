@@ -144,6 +144,7 @@ const Node* mesh_forces(const Model& model, State& state, Workspace& work, std::
   if (sides.count > 0)
     add_side_forces(sides, at.position, stress, damping.viscous, at.force);
   sums.friction = sums.breaking = 0;
+  sums.crack = {};
   sums.broken.clear();
   sums.astray = -1;
   sums.hands_over = false;
@@ -153,11 +154,14 @@ const Node* mesh_forces(const Model& model, State& state, Workspace& work, std::
     FaceLaw law = face_law(body);
     law.hands_over = model.surface.joint.count({number, number}) > 0;
     law.hand_over_due = work.hand_over_due;
+    if (!model.mesh.strength.empty())
+      law.own = model.mesh.strength.data() + chunk.face_batches.begin;
     const FaceBatch* const faces = model.mesh.faces.data() + chunk.face_batches.begin;
     FaceStateBatch* const face_state = state.faces.data() + chunk.face_batches.begin;
     if (body.bonding.is_cohesive())
-      cohesive_face_forces(faces, chunk.faces, motion, law, body.joint, breaking, face_state,
-                           state.cohesive.data() + chunk.face_batches.begin * lanes, at.force, sums);
+      cohesive_face_forces(faces, chunk.faces, motion, law, FaceJoints(model, state, chunk), breaking,
+                           face_state, state.cohesive.data() + chunk.face_batches.begin * lanes, at.force,
+                           sums);
     else
       face_bond_forces(faces, chunk.face_batches.size(), chunk.faces, motion, law, breaking, face_state,
                        state.face_slip.data(), at.force, sums, ahead);

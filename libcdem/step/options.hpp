@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <functional>
 #include <limits>
+#include <string>
 
 namespace cdem {
 
@@ -31,12 +32,29 @@ struct RelaxResult : StageResult {
   bool converged = false;
 };
 
+// Masses raised where the time step demands it (integrate/mass_scaling.hpp): at most one of the two is given.
+struct MassScaling {
+  double step = 0;   // s, the time step
+  double factor = 0; // over `safety` times the stable step of the true masses, >= 1
+
+  bool on() const { return step > 0 || factor > 0; }
+};
+
+// What it came to.
+struct ScaledMasses {
+  double added_share = 0;   // mass added, over that of all that deforms, at the end
+  std::string body;         // the one with the largest share of its own mass added; empty: none
+  double body_share = 0;    // that share
+  double kinetic_share = 0; // kinetic over elastic and spring energy, mean over the stage
+};
+
 // Explicit stepping with the real masses.
 struct RunOptions {
   double duration = 0; // s; 0 when `steps` is given
   std::int64_t steps = 0;
   double safety = 0.9;  // time step over the stable one, in (0, 1]; of rigid bodies that touch 0.5 at most
   double time_step = 0; // s; 0 = safety x stable; refused above the stable one, half of it for rigid bodies
+  MassScaling mass_scaling;
   bool breaking = true;
   bool follows_fragments =
       true; // ends with a SolutionError where broken faces no longer stand for the pieces' contact
@@ -60,6 +78,7 @@ struct RunOptions {
 struct RunResult : StageResult {
   double time = 0;      // s, model time reached
   double time_step = 0; // s
+  ScaledMasses scaled;  // with mass_scaling
 };
 
 } // namespace cdem

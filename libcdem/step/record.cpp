@@ -3,10 +3,12 @@
 #include "libcdem/bond/spring_forces.hpp"
 #include "libcdem/contact/response/contact_point.hpp"
 #include "libcdem/model/build/add_meshes.hpp"
+#include "libcdem/results/cracks.hpp"
 #include "libcdem/results/fields.hpp"
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 namespace cdem {
 
@@ -32,6 +34,11 @@ std::int64_t record_bond_breaks(const Model& model, State& state, const Workspac
   for (const SpringSums& sums : work.bond.sums) {
     spent.friction += sums.friction;
     spent.breaking += sums.breaking;
+    for (const CrackLoss& loss : sums.losses) {
+      const Interface& interface = model.interfaces[loss.interface];
+      const int a = model.blocks[interface.block_a].body, b = model.blocks[interface.block_b].body;
+      crack_energy_of(model, state, a == b ? a : static_cast<int>(model.bodies.size())) += loss.energy;
+    }
     for (const BreakEvent& event : sums.broken) {
       const BondPoint& point = model.points[event.point];
       const Interface& interface = model.interfaces[point.interface];
@@ -55,9 +62,18 @@ std::int64_t record_bond_breaks(const Model& model, State& state, const Workspac
   return count;
 }
 
+void record_crack_energy(const Model& model, State& state, const Workspace& work) {
+  for (std::size_t c = 0; c < work.face_sums.size(); ++c) {
+    const CrackEnergy& crack = work.face_sums[c].crack;
+    if (crack.tension != 0 || crack.shear != 0)
+      crack_energy_of(model, state, model.blocks[model.mesh.chunks[c].block].body) += crack;
+  }
+}
+
 std::int64_t record_face_breaks(const Model& model, State& state, Workspace& work, RunLog& log, int stage,
                                 std::int64_t step) {
   std::int64_t count = 0;
+  record_crack_energy(model, state, work);
   for (std::size_t c = 0; c < work.face_sums.size(); ++c) {
     const FaceSums& sums = work.face_sums[c];
     const MeshChunk& chunk = model.mesh.chunks[c];
@@ -94,6 +110,8 @@ std::int64_t record_face_breaks(const Model& model, State& state, Workspace& wor
 std::int64_t record_begun_cracks(const Model& model, State& state, const BegunCracks& begun, RunLog& log,
                                  int stage, std::int64_t step) {
   state.spent.breaking += begun.breaking;
+  for (const auto& [chunk, energy] : begun.energies)
+    crack_energy_of(model, state, model.blocks[model.mesh.chunks[chunk].block].body) += energy;
   for (const BegunCracks::Break& broken : begun.broken) {
     const MeshChunk& chunk = model.mesh.chunks[broken.chunk];
     BreakRow row;
@@ -124,8 +142,17 @@ void record_history(const Model& model, const State& state, RunLog& log, int sta
   row.external = state.spent.external;
   row.broken_tension = log.broken_tension;
   row.broken_shear = log.broken_shear;
-  for (const Probe& probe : log.probes)
-    row.probes.push_back(value_at(model, state, probe.field, probe.place));
+  std::optional<CracksByBody> cracked; // looked at once, and only where somebody asks
+  for (const Probe& probe : log.probes) {
+    if (probe.crack.empty()) {
+      row.probes.push_back(value_at(model, state, probe.field, probe.place));
+      continue;
+    }
+    if (!cracked)
+      cracked = cracks(model, state);
+    row.probes.push_back(
+        crack_quantity(probe.body < 0 ? cracked->all() : cracked->bodies[probe.body], probe.crack));
+  }
   log.add(std::move(row));
 }
 

@@ -117,6 +117,8 @@ bool Stage::free_nodes() {
     Freed freed = cdem::free_nodes(model, state, *due);
     *context_.changing = std::move(freed.model);
     state = std::move(freed.state);
+    if (scale_masses)
+      scale_masses();
     if (context_.renumbered)
       context_.renumbered(freed.old_node);
     Workspace before = std::move(work);
@@ -181,7 +183,8 @@ void Stage::synchronise_stress() {
         mesh_forces(context_.model, context_.state, work, c, false);
     });
   // Broken faces slide to where the nodes are too; the next step finds nothing left to do.
-  if (work.strain_step > 0)
+  if (work.strain_step > 0) {
+    record_crack_energy(context_.model, context_.state, work);
     for (const FaceSums& sums : work.face_sums) {
       context_.state.spent.friction += sums.friction;
       context_.state.spent.breaking += sums.breaking;
@@ -189,6 +192,7 @@ void Stage::synchronise_stress() {
       if (sums.hands_over) // what is handed over now is looked for where things stand now
         work.contact.fragments_due = work.contact.due = true;
     }
+  }
   work.strain_step = 0;
 }
 

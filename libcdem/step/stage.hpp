@@ -49,6 +49,8 @@ public:
   std::int64_t step = 0;                  // within the stage
   std::function<void(Progress&)> details; // adds to what the progress line shows; may be empty
   // Ends with a SolutionError where broken faces no longer stand for the pieces' contact.
+  bool in_real_time = true;           // velocities are per second: strength may depend on the rate
+  std::function<void()> scale_masses; // after nodes have been freed; may be empty
   bool follows_fragments = false;
   EscapeLimits escapes; // where pieces have left the model
 
@@ -122,7 +124,7 @@ NodeSums Stage::advance(bool breaking, const Move& move, const MoveRigid& move_r
   work.hand_over_due = step % hand_over_every == 0;
   const int threads = context_.threads;
   if (breaking && !model.mesh.sides.empty()) {
-    begun_ = begin_cracks(model, state, threads);
+    begun_ = begin_cracks(model, state, threads, in_real_time);
     times_.end(StepLine::cracks);
   }
   if (!model.point_chunks.empty()) {

@@ -14,6 +14,7 @@ SynchronisedView::SynchronisedView(Stage& stage) : stage_(stage) {
     faces_ = state.faces;
     face_slip_ = state.face_slip;
     cohesive_ = state.cohesive;
+    crack_energy_ = state.crack_energy;
     spent_ = state.spent;
   }
   stage.synchronise_stress();
@@ -31,6 +32,7 @@ SynchronisedView::~SynchronisedView() {
   state.faces = faces_;
   state.face_slip = face_slip_;
   state.cohesive = cohesive_;
+  state.crack_energy = crack_energy_;
   state.spent = spent_;
 }
 

@@ -22,6 +22,7 @@ private:
   std::vector<FaceStateBatch> faces_;
   std::vector<FaceSlip> face_slip_;
   std::vector<CohesiveFace> cohesive_;
+  std::vector<CrackEnergy> crack_energy_;
   EnergyLedger spent_;
 };
 

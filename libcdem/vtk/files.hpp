@@ -20,6 +20,10 @@ void write_vtu(const Snapshot&, const std::string& path);
 void write_bonds(const Snapshot&, const std::string& path);
 std::string bonds_path(const std::string& vtu_path); // "out/plate.vtu" -> "out/plate_bonds.vtu"
 
+// The triangles of the bonds alone as a surface (.vtp), as results/crack_surface makes them. Throws as write_vtu, of a
+// name that does not end in .vtp.
+void write_surface(const Snapshot&, const std::string& path);
+
 struct SeriesEntry {
   double time = 0;  // s
   std::string file; // as seen from the folder of the .pvd

@@ -14,10 +14,12 @@
 #include <vtkNew.h>
 #include <vtkPointData.h>
 #include <vtkPoints.h>
+#include <vtkPolyData.h>
 #include <vtkSmartPointer.h>
 #include <vtkStringArray.h>
 #include <vtkTypeInt64Array.h>
 #include <vtkUnstructuredGrid.h>
+#include <vtkXMLPolyDataWriter.h>
 #include <vtkXMLUnstructuredGridWriter.h>
 
 #include <cassert>
@@ -63,16 +65,17 @@ void add_fields(vtkFieldData* data, const std::vector<SnapshotField>& fields, st
   }
 }
 
-template <std::size_t N>
-vtkSmartPointer<vtkUnstructuredGrid> to_grid(const std::vector<geom::Vec3>& points,
-                                             const std::vector<std::array<int, N>>& cells, int type) {
-  auto grid = vtkSmartPointer<vtkUnstructuredGrid>::New();
-  vtkNew<vtkPoints> out;
+vtkSmartPointer<vtkPoints> to_points(const std::vector<geom::Vec3>& points) {
+  auto out = vtkSmartPointer<vtkPoints>::New();
   out->SetDataTypeToDouble();
   out->SetNumberOfPoints(static_cast<vtkIdType>(points.size()));
   for (std::size_t i = 0; i < points.size(); ++i)
     out->SetPoint(static_cast<vtkIdType>(i), points[i].data());
-  grid->SetPoints(out);
+  return out;
+}
+
+template <std::size_t N>
+vtkSmartPointer<vtkCellArray> to_cells(const std::vector<std::array<int, N>>& cells) {
   vtkNew<vtkIdTypeArray> offsets, corners;
   offsets->SetNumberOfValues(static_cast<vtkIdType>(cells.size()) + 1);
   corners->SetNumberOfValues(static_cast<vtkIdType>(N * cells.size()));
@@ -81,13 +84,21 @@ vtkSmartPointer<vtkUnstructuredGrid> to_grid(const std::vector<geom::Vec3>& poin
   for (std::size_t i = 0; i < cells.size(); ++i)
     for (std::size_t c = 0; c < N; ++c)
       corners->SetValue(static_cast<vtkIdType>(N * i + c), cells[i][c]);
-  vtkNew<vtkCellArray> array;
+  auto array = vtkSmartPointer<vtkCellArray>::New();
   array->SetData(offsets, corners);
-  grid->SetCells(type, array);
+  return array;
+}
+
+template <std::size_t N>
+vtkSmartPointer<vtkUnstructuredGrid> to_grid(const std::vector<geom::Vec3>& points,
+                                             const std::vector<std::array<int, N>>& cells, int type) {
+  auto grid = vtkSmartPointer<vtkUnstructuredGrid>::New();
+  grid->SetPoints(to_points(points));
+  grid->SetCells(type, to_cells(cells));
   return grid;
 }
 
-void add_texts(vtkUnstructuredGrid* grid, const char* name, const std::vector<std::string>& texts) {
+void add_texts(vtkDataSet* grid, const char* name, const std::vector<std::string>& texts) {
   vtkNew<vtkStringArray> array;
   array->SetName(name);
   for (const std::string& text : texts)
@@ -95,7 +106,7 @@ void add_texts(vtkUnstructuredGrid* grid, const char* name, const std::vector<st
   grid->GetFieldData()->AddArray(array);
 }
 
-void add_header(vtkUnstructuredGrid* grid, const Snapshot& snapshot) {
+void add_header(vtkDataSet* grid, const Snapshot& snapshot) {
   vtkNew<vtkDoubleArray> time;
   time->SetName(time_name);
   time->InsertNextValue(snapshot.time);
@@ -109,11 +120,12 @@ void add_header(vtkUnstructuredGrid* grid, const Snapshot& snapshot) {
     add_texts(grid, bodies_name, snapshot.body_names);
 }
 
-void write_grid(vtkUnstructuredGrid* grid, const std::string& path) {
-  require_extension(path, ".vtu");
+template <class Writer>
+void write_with(vtkDataSet* grid, const std::string& path, const std::string& extension) {
+  require_extension(path, extension);
   AtomicFile file(path);
   const Quiet quiet;
-  vtkNew<vtkXMLUnstructuredGridWriter> writer;
+  vtkNew<Writer> writer;
   writer->SetFileName(file.temporary().c_str());
   writer->SetInputData(grid);
   writer->SetDataModeToAppended();
@@ -123,6 +135,10 @@ void write_grid(vtkUnstructuredGrid* grid, const std::string& path) {
   if (writer->Write() != 1 || writer->GetErrorCode() != 0 || !add_checksum(file.temporary()))
     file.refuse();
   file.commit();
+}
+
+void write_grid(vtkUnstructuredGrid* grid, const std::string& path) {
+  write_with<vtkXMLUnstructuredGridWriter>(grid, path, ".vtu");
 }
 
 std::string xml_text(const std::string& text) {
@@ -164,6 +180,17 @@ void write_bonds(const Snapshot& snapshot, const std::string& path) {
   add_fields(grid->GetCellData(), bonds.triangle_fields, bonds.triangles.size());
   add_header(grid, snapshot);
   write_grid(grid, path);
+}
+
+void write_surface(const Snapshot& snapshot, const std::string& path) {
+  const BondSnapshot& bonds = snapshot.bonds;
+  vtkNew<vtkPolyData> surface;
+  surface->SetPoints(to_points(bonds.points));
+  surface->SetPolys(to_cells(bonds.triangles));
+  add_fields(surface->GetPointData(), bonds.point_fields, bonds.points.size());
+  add_fields(surface->GetCellData(), bonds.triangle_fields, bonds.triangles.size());
+  add_header(surface, snapshot);
+  write_with<vtkXMLPolyDataWriter>(surface, path, ".vtp");
 }
 
 std::string bonds_path(const std::string& vtu_path) {

@@ -80,6 +80,21 @@ double exp(double x) {
   return std::ldexp(1 + (r + (((r1 - r) - r2) + r * r * polynomial(c, r))), static_cast<int>(k));
 }
 
+// ln(x) for x > 0 from ln((1 + s) / (1 - s)) = 2 (s + s^3/3 + ...).
+double log(double x) {
+  int exponent = 0;
+  double m = std::frexp(x, &exponent); // exact
+  if (m < 0.70710678118654752) {
+    m *= 2;
+    --exponent;
+  }
+  const double s = (m - 1) / (m + 1), s2 = s * s; // s2 < 0.0295
+  double sum = 0;
+  for (int k = 23; k >= 1; k -= 2)
+    sum = sum * s2 + 1.0 / k;
+  return exponent * 0.69314718055994531 + 2 * s * sum;
+}
+
 double sin(double angle) {
   const Reduced a = reduced(angle);
   const double s = (a.quarter & 1) != 0 ? cosine(a.rest) : sine(a.rest);

@@ -1,4 +1,4 @@
-// exp, sin, cos, tan, atan2 and acos with the same bits on every processor.
+// exp, log, sin, cos, tan, atan2 and acos with the same bits on every processor.
 //
 // The C library picks a version of its own by what the processor has, and versions with and without fused operations
 // differ in the last digit. These use additions, multiplications, divisions and square roots alone, which every
@@ -9,6 +9,7 @@
 namespace geom::portable {
 
 double exp(double);
+double log(double);       // of what is > 0
 double sin(double angle); // rad
 double cos(double angle); // rad
 double tan(double angle); // rad

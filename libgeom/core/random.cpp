@@ -3,6 +3,8 @@
 // 241, 1988; relative error 1e-16).
 #include "libgeom/core/random.hpp"
 
+#include "libgeom/core/portable.hpp"
+
 #include <cassert>
 #include <cmath>
 
@@ -21,22 +23,6 @@ std::uint64_t bits53(std::uint32_t low, std::uint32_t high) {
 }
 
 constexpr double to_unit = 1.0 / 9007199254740992.0; // 2^-53
-
-// ln(x) for x > 0 from ln((1 + s) / (1 - s)) = 2 (s + s^3/3 + ...): the C library's may differ in the last
-// bit.
-double portable_log(double x) {
-  int exponent = 0;
-  double m = std::frexp(x, &exponent); // exact
-  if (m < 0.70710678118654752) {
-    m *= 2;
-    --exponent;
-  }
-  const double s = (m - 1) / (m + 1), s2 = s * s; // s2 < 0.0295
-  double sum = 0;
-  for (int k = 23; k >= 1; k -= 2)
-    sum = sum * s2 + 1.0 / k;
-  return exponent * 0.69314718055994531 + 2 * s * sum;
-}
 
 double polynomial(const std::array<double, 8>& c, double x) {
   double sum = 0;
@@ -76,7 +62,7 @@ double normal_quantile(double p) {
                        5.2264952788528545610e3},
                       r);
   }
-  const double r = std::sqrt(-portable_log(q < 0 ? p : 1 - p)); // sqrt is correctly rounded everywhere
+  const double r = std::sqrt(-portable::log(q < 0 ? p : 1 - p)); // sqrt is correctly rounded everywhere
   double tail;
   if (r <= 5)
     tail = polynomial({1.42343711074968357734e0, 4.63033784615654529590e0, 5.76949722146069140550e0,

@@ -73,6 +73,14 @@ local cdem = {}
 ---@field contacts integer
 ---@field damaged integer of the intact ones: have begun to soften
 
+---The process zone of a law that softens beside the faces that carry it; medians over the faces.
+---@class (exact) cdem.ProcessZone
+---@field of string body, regions or pair of bodies
+---@field length number m: E' G_I / T^2, E' = E / (1 - nu^2)
+---@field face_size number m: edge of an equilateral triangle of the face's area
+---@field largest_face_size number m: that leaves three faces in the cohesive zone
+---@field faces_in_zone number faces in the cohesive zone, 0.88 of the length
+
 ---What a relaxation came to.
 ---@class (exact) cdem.RelaxResult
 ---@field converged boolean
@@ -83,6 +91,12 @@ local cdem = {}
 ---@field wall_time number s
 
 ---What real-time stepping came to.
+---@class (exact) cdem.RunResultMass_scaling
+---@field added_mass number share of the mass of all that deforms, at the end
+---@field body? string the one with the largest share added; nil when nothing was
+---@field body_added_mass number that share
+---@field kinetic_energy number share: over elastic and spring energy, mean over the stage
+
 ---@class (exact) cdem.RunResult
 ---@field steps integer
 ---@field time number s: of the model
@@ -90,6 +104,7 @@ local cdem = {}
 ---@field broken_tension integer bonds, in this stage
 ---@field broken_shear integer bonds, in this stage
 ---@field wall_time number s
+---@field mass_scaling? cdem.RunResultMass_scaling of a stage with mass_scaling
 
 ---A solving call.
 ---@class (exact) cdem.Stage
@@ -182,6 +197,12 @@ local cdem = {}
 ---@field broken integer bonds so far
 
 ---What the search for the critical flow came to.
+---@class (exact) cdem.CriticalFlowResultMass_scaling
+---@field added_mass number share of the mass of all that deforms, at the end
+---@field body? string the one with the largest share added; nil when nothing was
+---@field body_added_mass number that share
+---@field kinetic_energy number share: over elastic and spring energy, mean over the stage
+
 ---@class (exact) cdem.CriticalFlowResult
 ---@field reason "fragment"|"compliance"|"limit" a piece came off; the compliance grew; or max_velocity was reached
 ---@field velocity number m/s
@@ -202,6 +223,7 @@ local cdem = {}
 ---@field broken_shear integer
 ---@field steps integer
 ---@field curve cdem.CriticalFlowSample[] every 100 steps
+---@field mass_scaling? cdem.CriticalFlowResultMass_scaling of a stage with mass_scaling
 
 ---Where a field is largest or smallest.
 ---@class (exact) cdem.Extreme
@@ -256,6 +278,90 @@ local cdem = {}
 ---@field shear_traction number Pa: when it broke
 ---@field block_a integer id
 ---@field block_b integer id
+
+---How much has cracked, and what it took.
+---@class (exact) cdem.CrackSum
+---@field area number m2: of all cracks: the three below together
+---@field tension_area number m2: broken in tension
+---@field shear_area number m2: broken in shear
+---@field damaged_area number m2: damage times area of what softens and is not broken
+---@field projected_area number m2: area as the planes that failed see it: a cohesive crack takes its fracture energy on this one
+---@field energy number J: taken by breaking and damage
+---@field tension_energy number J
+---@field shear_energy number J
+
+---How much has cracked, of the model and of each body.
+---@class (exact) cdem.CracksBetween
+---@field area number m2: of all cracks: the three below together
+---@field tension_area number m2: broken in tension
+---@field shear_area number m2: broken in shear
+---@field damaged_area number m2: damage times area of what softens and is not broken
+---@field projected_area number m2: area as the planes that failed see it: a cohesive crack takes its fracture energy on this one
+---@field energy number J: taken by breaking and damage
+---@field tension_energy number J
+---@field shear_energy number J
+
+---@class (exact) cdem.Cracks
+---@field area number m2: of all cracks: the three below together
+---@field tension_area number m2: broken in tension
+---@field shear_area number m2: broken in shear
+---@field damaged_area number m2: damage times area of what softens and is not broken
+---@field projected_area number m2: area as the planes that failed see it: a cohesive crack takes its fracture energy on this one
+---@field energy number J: taken by breaking and damage
+---@field tension_energy number J
+---@field shear_energy number J
+---@field bodies any a cdem.CrackSum for each body, by its name
+---@field between cdem.CracksBetween in joints between two bodies
+
+---The tip of a crack along a path: lists with an entry for each step at which it moved on.
+---@class (exact) cdem.CrackTipTip
+---@field position number m
+---@field place number[] m
+
+---@class (exact) cdem.CrackTip
+---@field time number[] s
+---@field position number[] m: along the path
+---@field speed number[] m/s: least-squares slope over the window; nan where no time passes, as in a relaxation
+---@field place number[][] m: of the broken point, undeformed
+---@field stage number[]
+---@field step number[] within the stage
+---@field tip? cdem.CrackTipTip the last of them; nil where nothing broke at the start of the path
+---@field fastest number m/s: largest speed; 0 where there is none
+---@field rayleigh_speed? number m/s: of the body, which no crack in tension can exceed
+---@field reach number m
+---@field window number s
+
+---Energy release rate at a crack front.
+---@class (exact) cdem.JIntegralDomains
+---@field inner number m
+---@field outer number m
+---@field j number J/m2
+
+---@class (exact) cdem.JIntegral
+---@field j number J/m2: mean over the domains
+---@field spread number largest less smallest of the domains, over the mean
+---@field thickness number m: length of the front
+---@field domains cdem.JIntegralDomains[]
+---@field k_plane_stress? number Pa m^0.5: sqrt(E j); nil where j < 0
+---@field k_plane_strain? number Pa m^0.5: sqrt(E j / (1 - nu^2)); nil where j < 0
+
+---A piece of a model that unbroken bonds hold together, as it is and as it moves.
+---@class (exact) cdem.FragmentMotion
+---@field volume number m3
+---@field centroid number[] m: undeformed
+---@field tets integer
+---@field held boolean some node of it is held
+---@field body? string nil where parts of several bodies hang together
+---@field diameter number m: of the sphere with its volume
+---@field mass number kg
+---@field centre number[] m: of mass, now
+---@field velocity number[] m/s: of the centre
+---@field momentum number[] N s
+---@field angular_momentum number[] N m s: about its own centre
+---@field kinetic_energy number J: the three below together
+---@field translation_energy number J
+---@field rotation_energy number J: of the rigid spin with its angular momentum
+---@field rest_energy number J: vibration
 
 ---How densely units lie on a slope, away from the edge of the pile by about one unit.
 ---@class (exact) cdem.PileMeasures
@@ -572,6 +678,10 @@ function Model:select(options) end
 ---@return cdem.Counts
 function Model:counts() end
 
+---Whether faces resolve the process zone E' G_I / T^2 of what softens, by body and pair.
+---@return cdem.ProcessZone[]
+function Model:process_zones() end
+
 ---Smallest axis-aligned box around the undeformed model.
 ---@return cdem.Box
 function Model:box() end
@@ -687,11 +797,16 @@ function Model:unbond(options) end
 ---@return cdem.RelaxResult
 function Model:relax(options) end
 
+---@class (exact) cdem.ModelRunOptionsMass_scaling
+---@field step? number s, > 0: the time step
+---@field factor? number instead: over the step that the true masses allow, at least 1
+
 ---@class (exact) cdem.ModelRunOptions
 ---@field duration? number s, > 0
 ---@field steps? integer >= 1: instead of duration
 ---@field safety? number in (0, 1], default 0.9: time step over the stable one, at most 1; rigid bodies that touch take 0.5 at most
 ---@field time_step? number s, > 0: instead of safety; at most the stable one, half of it for rigid bodies that may touch
+---@field mass_scaling? cdem.ModelRunOptionsMass_scaling for quasi-static stages: nodes that need a shorter time step get more inertia, not more weight; instead of time_step
 ---@field breaking? boolean default true: bonds may break
 ---@field local_damping? number in [0, 1), default 0: force against the motion as a fraction of the out-of-balance force (Cundall)
 ---@field every? integer >= 1: steps between calls, 100 by default
@@ -791,6 +906,10 @@ function Model:grow(options) end
 ---@param options cdem.ModelFlowOptions
 function Model:flow(options) end
 
+---@class (exact) cdem.ModelCriticalFlowOptionsMass_scaling
+---@field step? number s, > 0: the time step
+---@field factor? number instead: over the step that the true masses allow, at least 1
+
 ---@class (exact) cdem.ModelCriticalFlowOptions
 ---@field direction number[] of the flow; made a unit vector
 ---@field on? cdem.Place default "all": outer faces that may take it: one place
@@ -804,16 +923,13 @@ function Model:flow(options) end
 ---@field compliance_ratio? number > 1, default 10: to the unbroken, static one: what counts as broken
 ---@field max_velocity? number m/s, > 1, default 100: gives up there
 ---@field safety? number in [0, 1], default 0.9: time step over the stable one
+---@field mass_scaling? cdem.ModelCriticalFlowOptionsMass_scaling for quasi-static stages: nodes that need a shorter time step get more inertia, not more weight; instead of time_step
 ---@field local_damping? number in [0, 1), default 0.1: above 0.2 it acts as added mass
 
 ---Raises a flow from 1 m/s until a held solid breaks: a piece of it comes off, or it has become compliant.
 ---@param options cdem.ModelCriticalFlowOptions
 ---@return cdem.CriticalFlowResult
 function Model:critical_flow(options) end
-
----Pieces that unbroken bonds hold together.
----@return cdem.Fragment[] # largest first
-function Model:fragments() end
 
 ---Largest value of a field.
 ---@param field string e.g. "displacement.x", "stress.yy"; model:fields() has all
@@ -889,6 +1005,56 @@ function Model:history() end
 ---@param options cdem.ModelProbeOptions
 function Model:probe(options) end
 
+---Area of all cracks and the energy they took, of the model and of each body.
+---@return cdem.Cracks
+function Model:cracks() end
+
+---@class (exact) cdem.ModelRecordCracksOptions
+---@field name? string default "crack"
+---@field body? string by name; the whole model when left out
+
+---Samples the area and energy of cracks into the history, as columns <name>_area, <name>_tension_area, <name>_shear_area, <name>_damaged_area, <name>_projected_area, <name>_energy, <name>_tension_energy and <name>_shear_energy (as in cdem.CrackSum).
+---@param options? cdem.ModelRecordCracksOptions
+function Model:record_cracks(options) end
+
+---@class (exact) cdem.ModelCrackTipOptions
+---@field point? number[] m: where the crack starts, undeformed; the path runs on to the end of the model
+---@field direction? number[] of that straight path
+---@field path? number[][] m: instead of point and direction: its corners, undeformed, the first where the crack starts. Along a face of a body it follows what shows there
+---@field width number m, > 0: how far from the path a broken point may lie
+---@field reach? number m, > 0: points nearer than this hang together; about the edge of a tetrahedron when left out
+---@field window? number s, > 0: over which the speed is fitted; several times what the crack takes for one element. A tenth of the time it ran when left out
+---@field body? string whose Rayleigh speed is told; the only one when left out
+
+---Where the tip of a crack was along a path, and how fast it ran, from the bonds that broke. The tip is the farthest broken point that hangs together with the start of the path; a microcrack ahead counts once the crack has met it.
+---@param options cdem.ModelCrackTipOptions
+---@return cdem.CrackTip
+function Model:crack_tip(options) end
+
+---@class (exact) cdem.ModelJIntegralOptions
+---@field point number[] m: anywhere on the front, undeformed
+---@field front number[] direction of the front, through the thickness
+---@field growth number[] where the crack would go on, square to the front
+---@field radii number[] m: outer radii of the domains, about the front; several show whether they agree
+---@field inner? number in [0, 1), default 0.5: inner radius over the outer one; a blunt notch must lie within it
+---@field body? string with the crack; the only one when left out
+
+---Energy release rate at a straight crack front or notch of a meshed body, the mean over its thickness (J integral over domains of tetrahedra). The body must be at rest at small strain, the crack faces free, flat and parallel to the growth, without supports, loads, contacts and bonds in the domain; anything else is refused.
+---@param options cdem.ModelJIntegralOptions
+---@return cdem.JIntegral
+function Model:j_integral(options) end
+
+---Pieces that unbroken bonds hold together, with their size and motion.
+---@return cdem.FragmentMotion[] # largest first
+function Model:fragments() end
+
+---@class (exact) cdem.ModelSaveFragmentsOptions
+---@field file string ends in .csv; in the output folder
+
+---Writes a row for each fragment, the largest first: number of its body from 1 (0: parts of several), tets, held, volume, diameter, mass, centre, momentum, angular momentum, energies.
+---@param options cdem.ModelSaveFragmentsOptions
+function Model:save_fragments(options) end
+
 ---@class (exact) cdem.ModelPileOptions
 ---@field body string name of a meshed body
 
@@ -937,6 +1103,15 @@ function Model:highest_units(options) end
 ---Writes the model for ParaView: blocks to the file, bonds beside it (result.vtu, result_bonds.vtu).
 ---@param options cdem.ModelSaveOptions
 function Model:save(options) end
+
+---@class (exact) cdem.ModelSaveCracksOptions
+---@field file string ends in .vtp; in the output folder
+---@field damaged? boolean default false: faces that soften and have not broken too (mode 0)
+---@field series? string ends in .pvd: a time series this file is added to
+
+---Writes broken faces for ParaView as a surface, midway between their sides: displacement at corners; mode (1 tension, 2 shear), damage, opening, slip, time of the last break (nan where it is not known) and body (its number from 0; -1 between two) of faces.
+---@param options cdem.ModelSaveCracksOptions
+function Model:save_cracks(options) end
 
 ---@class (exact) cdem.ModelPictureOptionsCamera
 ---@field position number[] m
@@ -1023,6 +1198,25 @@ function Model:load_state(options) end
 ---@param options cdem.ModelChartOptions
 function Model:chart(options) end
 
+---@class (exact) cdem.ModelChartFragmentsOptions
+---@field file string ends in .png; in the output folder
+---@field title? string _{...} and ^{...} set sub- and superscripts
+---@field x_label? string ending in an SI unit, "opening (m)", the axis is shown with the prefix that suits: mm
+---@field y_label? string
+---@field right_label? string of the axis on the right
+---@field log_x? boolean default true
+---@field log_y? boolean default false
+---@field log_right? boolean default false
+---@field x_range? number[]
+---@field y_range? number[]
+---@field right_range? number[]
+---@field legend? "auto"|"top_left"|"top_right"|"bottom_left"|"bottom_right"|"none" default "auto"
+---@field size? number[] default {1600, 1200}: {width, height} in pixels; height 0: as high as it needs to be
+
+---Chart of the fragments by size: the part of the mass in fragments up to each diameter, that of the sphere with their volume.
+---@param options cdem.ModelChartFragmentsOptions
+function Model:chart_fragments(options) end
+
 ---Units that have left their place, in order: grows while the model runs.
 ---@class cdem.Watch
 ---@field [integer] cdem.Departure
@@ -1055,6 +1249,18 @@ function cdem.parameter(options) end
 ---@return cdem.Material
 function cdem.elastic(options) end
 
+---@class (exact) cdem.MohrCoulombOptionsWeibull
+---@field modulus number in [2, 1000]: m
+---@field reference_volume number m3, > 0: the volume whose mean strength the joint gives
+---@field seed integer >= 0
+
+---@class (exact) cdem.MohrCoulombOptionsRate_effect
+---@field reference_rate number 1/s, > 0: of the strengths given
+---@field exponent number in [0, 1]
+---@field change_rate? number 1/s, > 0: beyond it exponent_above holds
+---@field exponent_above? number in [0, 1]
+---@field fracture_energy? boolean default false: fracture energies are raised too
+
 ---@class (exact) cdem.MohrCoulombOptions
 ---@field cohesion number Pa, >= 0
 ---@field friction_angle number deg, in [0, 90)
@@ -1062,6 +1268,8 @@ function cdem.elastic(options) end
 ---@field softening? "none"|"linear"|"exponential" default "none": how the strength falls once it is reached; none: brittle. It needs both fracture energies, and tensile_strength at most cohesion / tan(friction angle)
 ---@field fracture_energy_1? number J/m2, > 0: G_I, work per crack area that opening to separation takes, elastic part included
 ---@field fracture_energy_2? number J/m2, > 0: G_II, the same for slip, beyond the work of friction
+---@field weibull? cdem.MohrCoulombOptionsWeibull strength that scatters from face to face after Weibull: tensile strength and cohesion of a face are multiplied by one draw, in the mean (reference_volume / volume of the face)^(1/m); fracture energies and friction stay. A draw depends on the seed and on where the face lies
+---@field rate_effect? cdem.MohrCoulombOptionsRate_effect strength raised by the rate of strain at which a face of a cohesive body begins to crack, (rate / reference_rate)^exponent; fib Model Code 2010 for concrete in tension: 1e-6, 0.018, 10, 1/3
 ---@field thickness_ratio? number > 0, default 0.02: equivalent thickness of the joint over the block size (cube root of its volume), which sets the stiffness E/L and G/L
 ---@field thickness? number m, > 0: equivalent thickness itself; wins over the ratio
 ---@field normal_stiffness? number Pa/m, > 0: instead of E/L
@@ -1512,6 +1720,7 @@ function cdem.select.where(predicate) end
 ---@field bonds? "cohesive"|"springs"|"none"|"all"|"regions"|"listed" of a mesh with a joint, what holds its tetrahedra together. cohesive, the default: the body is continuous, with shared nodes, until a face nears its strength, and then follows the joint's softening or brittle law on the plane that fails. springs: three on every bonded face (Feng 2014), which soften the body and break at 0.6 to 0.9 of its strength. (all, regions and listed of older scripts mean springs)
 ---@field bonded_faces? "all"|"regions" of a mesh with a joint, the inner faces that may break: all, the default, or those between different regions
 ---@field bonded_regions? integer[] of a mesh with a joint, instead of bonded_faces: numbers of regions, from 1, whose faces may break
+---@field region_joints? [integer, integer, cdem.Joint][] of a mesh: {region, region, joint} gives the faces between two regions, or with the same number twice those inside one, a joint of their own; numbers from 1. All others have `joint`
 ---@field stiffness_ratio? number > 0: of a mesh, beta in Kn = beta E A / (3 d). Of springs 10 by default: a body bonded everywhere keeps about E / (1 + 1/beta). Of a cohesive body the penalty of freed faces, 1 by default; it keeps all of E
 ---@field shear_ratio? number > 0: of a mesh, Ks / Kn; 1 by default
 
@@ -1535,6 +1744,11 @@ function cdem.flow_pressure(velocity, water_density) end
 ---@param water_density? number kg/m3, > 0, default 1025: sea water by default
 ---@return number
 function cdem.flow_velocity(pressure, water_density) end
+
+---Speed of waves along the free surface of a material, m/s: the exact root of Rayleigh's equation. A crack in tension cannot run faster.
+---@param material cdem.Material
+---@return number
+function cdem.rayleigh_speed(material) end
 
 ---@class (exact) cdem.FilmOptions
 ---@field file string ends in .ogv; in the output folder

@@ -51,10 +51,11 @@ std::vector<int> numbers(const char* option, const std::string& text) {
 
 constexpr const char* help =
     R"(Usage: cdem bench [--sizes 100,10000,100000] [--tets 10000,105000] [--bodies 1000,10000]
-                  [--body-divisions 1] [--settle 1000] [--shatter 6000] [--threads 1,2] [--seconds 1]
+                  [--body-divisions 1] [--settle 1000] [--shatter 6000] [--discs 6000] [--prisms 5000]
+                  [--threads 1,2] [--seconds 1]
 
-Steps plates of bonded blocks, meshed cubes, continuous and with every face bonded, and lattices of cubes that touch,
-and prints rates beside the bare element kernels and a copy of memory.
+Steps plates of bonded blocks, meshed cubes, continuous and with every face bonded, lattices of cubes that touch,
+and discs and prisms that crack, and prints rates beside the bare element kernels and a copy of memory.
   --sizes    blocks in the plates; 0: none
   --tets     tetrahedra in the cubes, e.g. 10000,105000,1000000; 0: none
   --bodies   cubes that touch, e.g. 1000,10000,100000; 0: none
@@ -62,6 +63,8 @@ and prints rates beside the bare element kernels and a copy of memory.
   --settle   armour units laid on a slope that come to rest, e.g. 1000, with the most threads given; none by
              default
   --shatter  tetrahedra in a cube that hits a floor and breaks everywhere, e.g. 6000; none by default
+  --discs    tetrahedra in a disc that splits between two plates; 0: none
+  --prisms   tetrahedra in a prism that is crushed between two plates, e.g. 5000,50000; 0: none
   --threads  thread counts to compare
   --seconds  stepping time per figure, at least
 )";
@@ -78,10 +81,11 @@ int main(int argc, char** argv) {
     }
     if (i + 1 == argc ||
         (option != "--sizes" && option != "--tets" && option != "--bodies" && option != "--body-divisions" &&
-         option != "--settle" && option != "--shatter" && option != "--threads" && option != "--seconds")) {
+         option != "--settle" && option != "--shatter" && option != "--discs" && option != "--prisms" &&
+         option != "--threads" && option != "--seconds")) {
       std::fprintf(stderr,
                    "cdem bench: error: %s: must be --sizes, --tets, --bodies, --body-divisions, --settle, "
-                   "--shatter, --threads or --seconds with a value\n%s",
+                   "--shatter, --discs, --prisms, --threads or --seconds with a value\n%s",
                    option.c_str(), help);
       return 2;
     }
@@ -98,6 +102,10 @@ int main(int argc, char** argv) {
       settings.units = numbers("--settle", value);
     else if (option == "--shatter")
       settings.shatter = numbers("--shatter", value);
+    else if (option == "--discs")
+      settings.discs = numbers("--discs", value);
+    else if (option == "--prisms")
+      settings.prisms = numbers("--prisms", value);
     else if (option == "--threads")
       settings.threads = numbers("--threads", value);
     else
@@ -119,5 +127,7 @@ int main(int argc, char** argv) {
     bench::piles(settings);
   if (!settings.shatter.empty())
     bench::shatter(settings);
+  if (!settings.discs.empty() || !settings.prisms.empty())
+    bench::cracking(settings);
   return 0;
 }

@@ -12,6 +12,8 @@ struct Settings {
   int body_divisions = 1;                     // cells along an edge of one of them
   std::vector<int> units{};                   // that fall and settle
   std::vector<int> shatter{};                 // tetrahedra of cubes that shatter
+  std::vector<int> discs{6000};               // tetrahedra of discs that split
+  std::vector<int> prisms{5000};              // tetrahedra of prisms that are crushed
   std::vector<int> threads{1, 2};
   double seconds = 1; // of stepping per figure, at least
 };
@@ -24,5 +26,6 @@ void meshes(const Settings&); // meshed cubes, continuous and bonded: full step 
 void contacts(const Settings&); // cubes that touch: search and full step
 void piles(const Settings&);    // armour units that settle on a slope
 void shatter(const Settings&);  // a bonded cube that breaks while it runs
+void cracking(const Settings&); // discs and prisms that crack between plates
 
 } // namespace bench

@@ -3,8 +3,7 @@
 #include "libcdem/fracture/free_nodes.hpp"
 #include "libcdem/fracture/working_plane.hpp"
 #include "libcdem/results/energy.hpp"
-#include "libgeom/mesh/zone_mesh.hpp"
-#include "tests/libcdem/boxes.hpp"
+#include "tests/libcdem/cohesive_concrete.hpp"
 #include "tests/libcdem/going_on.hpp"
 #include "tests/libcdem/two_halves.hpp"
 
@@ -18,52 +17,6 @@ using geom::Mat3;
 using geom::Vec3;
 
 namespace {
-
-constexpr double tension = 3e6, cohesion = 6e6, energy_1 = 100, energy_2 = 1000;
-
-cdem::Elastic concrete() {
-  cdem::Elastic m;
-  m.youngs_modulus = 30e9;
-  m.poissons_ratio = 0.2;
-  m.density = 2400;
-  return m;
-}
-
-cdem::Joint concrete_joint(cdem::Softening softening, double friction = 30) {
-  cdem::Joint joint;
-  joint.tensile_strength = tension;
-  joint.cohesion = cohesion;
-  joint.friction_angle = friction * degree;
-  joint.softening = softening;
-  if (softening != cdem::Softening::none) {
-    joint.fracture_energy_1 = energy_1;
-    joint.fracture_energy_2 = energy_2;
-  }
-  return joint;
-}
-
-cdem::Bonding cohesive() {
-  cdem::Bonding bonding;
-  bonding.kind = cdem::BondKind::cohesive;
-  bonding.everywhere = true;
-  bonding.stiffness_ratio = 1;
-  return bonding;
-}
-
-// A box of Delaunay tetrahedra of about this edge length, its corner at the origin.
-geom::TetMesh unstructured(const Vec3& size, double edge) {
-  const geom::BlockMesh zones = geom::zone_meshes({geom::make_box(Vec3::Zero(), size)}, edge)[0];
-  geom::TetMesh mesh;
-  mesh.nodes = zones.nodes;
-  mesh.tets = zones.tets;
-  mesh.region.assign(mesh.tets.size(), 0);
-  return mesh;
-}
-
-cdem::BodySpec concrete_body(geom::TetMesh mesh, cdem::Softening softening = cdem::Softening::linear,
-                             double friction = 30) {
-  return meshed("concrete", std::move(mesh), cohesive(), concrete(), concrete_joint(softening, friction));
-}
 
 Mat3 some_turn() {
   return rotation({1, -2, 0.5}, 70 * degree);
@@ -89,10 +42,6 @@ void strain(System& s, const Mat3& gradient) {
   for (int t = 0; t < static_cast<int>(s.model.tets.size()); ++t)
     set_mesh_stress(s.model, s.state, t,
                     {stress(0, 0), stress(1, 1), stress(2, 2), stress(0, 1), stress(1, 2), stress(0, 2)});
-}
-
-double balance(const System& s) {
-  return cdem::energy(s.model, s.state).balance_error();
 }
 
 // Both ends along `axis` are led apart (closed in, < 0) by this speed, m/s; the largest mean traction there, Pa.
@@ -150,7 +99,7 @@ TEST_CASE("cohesive bodies: uniform stress stays uniform whichever nodes are fre
   System s(build({concrete_body(placed(unstructured({0.6, 0.25, 0.25}, 0.1), some_turn(), {1, 2, 3}))}));
   strain(s, gradient);
   free_some(s, part);
-  CHECK(s.model.mesh.sides.size() > 0);
+  CHECK_FALSE(s.model.mesh.sides.empty());
   const Mat3 stress = hooke(concrete(), gradient);
   // Each outer triangle carries a third of its traction at each corner, whatever copy that is.
   std::vector<Vec3> left = s.net_forces();

@@ -146,6 +146,8 @@ void about_script(const fs::path& file) {
   std::puts(parameters.empty() ? "no parameters" : "parameters (--set name=value)");
   if (!parameters.empty())
     std::fputs(parameter_table(parameters).c_str(), stdout);
+  if (const std::string models = engine.model_summary(); !models.empty())
+    std::printf("\n%s", models.c_str());
 }
 
 void about_results(const fs::path& folder) {

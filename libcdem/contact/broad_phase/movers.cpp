@@ -77,6 +77,27 @@ void find_pieces(const Model& model, ContactWork& work) {
       work.movers.one_piece[work.movers.of_triangle[t]] = 0;
 }
 
+// Such a fragment is convex, and its four triangles are its surface.
+void find_single_tets(const Model& model, ContactWork& work) {
+  const ContactSurface& s = model.surface;
+  Movers& movers = work.movers;
+  constexpr std::array<int, 4> none{-1, -1, -1, -1};
+  movers.triangles_of_tet.assign(movers.count(), none);
+  std::vector<int> tets(model.node_position.size(), 0); // per fragment
+  for (const geom::Tet& tet : model.tets)
+    ++tets[work.fragment_of_node[tet[0]]];
+  for (int t = 0; t < static_cast<int>(s.triangles.size()); ++t) {
+    const int mover = movers.of_triangle[t];
+    if (mover < static_cast<int>(model.blocks.size()) || !work.active[t] || tets[work.fragment[t]] != 1)
+      continue;
+    std::array<int, 4>& triangles = movers.triangles_of_tet[mover];
+    *std::find(triangles.begin(), triangles.end(), -1) = t;
+  }
+  for (std::array<int, 4>& triangles : movers.triangles_of_tet)
+    if (triangles[3] < 0)
+      triangles = none;
+}
+
 // What was known of the movers before they were told apart anew goes on for those that are the same.
 void carry_over(const Model& model, ContactWork& before, ContactWork& work) {
   work.changed.assign(work.movers.count(), 0);
@@ -138,6 +159,7 @@ void find_fragments(const Model& model, const State& state, ContactWork& work) {
   number_movers(model, work);
   find_nodes(model, work);
   find_pieces(model, work);
+  find_single_tets(model, work);
   carry_over(model, before, work);
 }
 
@@ -211,7 +233,7 @@ double gone_since(const ContactWork& work, int a, int b, const std::array<float,
 namespace {
 
 // Looks at what is near one fragment, and forgets what is no longer.
-void look_around(ContactWork& work, int m) {
+void look_around(const Model& model, ContactWork& work, int m) {
   std::vector<NearMover>& near = work.near[m];
   const auto stays = [&](const NearMover& other) {
     const int k = work.movers.of_fragment[other.fragment];
@@ -224,7 +246,7 @@ void look_around(ContactWork& work, int m) {
     past += work.drift[m] - work.drift[work.movers.of_fragment[other.fragment]] +
             geom::Vec3(other.drifts[0], other.drifts[1], other.drifts[2]);
   work.past_others[m] = near.empty() ? 0 : past.norm() / static_cast<double>(near.size()) + work.swing[m];
-  double least = work.skin[m] - work.travelled[m];
+  double least = work.skin[m] - gone_at_most(model, work, m);
   for (const NearMover& other : near) {
     const int k = work.movers.of_fragment[other.fragment];
     const double may_go = std::max(0.0, other.may_go - gone_since(work, m, k, other.drifts, other.swings));
@@ -242,10 +264,10 @@ void look_around(ContactWork& work, int m) {
 bool find_leavers(const Model& model, ContactWork& work) {
   const auto blocks = static_cast<int>(model.blocks.size());
   for (int m = blocks; m < work.movers.count(); ++m)
-    if (work.travelled[m] > work.skin[m])
+    if (gone_at_most(model, work, m) > work.skin[m])
       work.left[m] = 0;
     else if (work.travelled[m] >= work.look_at[m] && work.left[m] > 0)
-      look_around(work, m);
+      look_around(model, work, m);
   return std::find(work.left.begin() + blocks, work.left.end(), 0) != work.left.end();
 }
 

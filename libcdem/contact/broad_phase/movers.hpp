@@ -20,12 +20,19 @@ void set_displacements(const Model&, const State&, ContactWork&, int threads);
 void set_drifts(const Model&, const State&, ContactWork&, int threads);
 void begin_drifts(const Model&, const State&, const std::vector<char>& searched, ContactWork&);
 
+// m, at most, that a node of a mover is from where it was at its search. Of a fragment less than what it has travelled: a
+// piece that trembles stays where it is.
+inline double gone_at_most(const Model& model, const ContactWork& work, int mover) {
+  return mover < static_cast<int>(model.blocks.size()) ? work.travelled[mover]
+                                                       : work.drift[mover].norm() + work.swing[mover];
+}
+
 // m, at most, that places of two fragments have gone relative to each other since the difference of their drifts and the
 // sum of their swings were these.
 double gone_since(const ContactWork&, int mover_a, int mover_b, const std::array<float, 3>& drifts,
                   float swings);
 
-// Writes ContactWork::look_at and left of the fragments that have travelled so far, 0 for those that have left their
+// Writes ContactWork::look_at and left of the fragments that have travelled so far; left: 0 for those that have left their
 // skins. True when there is one.
 bool find_leavers(const Model&, ContactWork&);
 

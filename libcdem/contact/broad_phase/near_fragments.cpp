@@ -30,19 +30,25 @@ struct Surroundings {
 // What one tetrahedron's semi-springs are near. Those at one of its corners ask for what is near that corner together.
 class NearSolid {
 public:
-  explicit NearSolid(const Surroundings& all) : all_(all), work_(all.work) {}
+  explicit NearSolid(const Surroundings& all)
+      : all_(all), work_(all.work), seen_(all.solids.size(), -1), met_(all.work.movers.count(), -1) {}
 
   void add(const State& state, const Solid& own, Pairs& movers) {
     mover_ = own.mover;
     grid_ = all_.is_searched[mover_] ? &all_.all : &all_.searched;
     near_.clear();
-    for (std::vector<int>& targets : targets_)
-      targets.clear();
+    ++own_;
+    for (int i = 0; i < 4; ++i) {
+      targets_[i].clear();
+      tets_[i].clear();
+    }
     const std::array<Vec3, 4> x = corners_of_tet(all_.model, state, own.tet);
     for (int k = 0; k < 4; ++k)
       add_corner(own, k, x);
-    for (int i = 0; i < 4; ++i)
+    for (int i = 0; i < 4; ++i) {
       keep(own.triangles[i], targets_[i]);
+      keep_tets(own.triangles[i], tets_[i]);
+    }
     for (const int other : near_)
       movers.emplace_back(std::min(mover_, other), std::max(mover_, other));
   }
@@ -59,7 +65,10 @@ public:
     for (const std::size_t i : order)
       sorted.insert(sorted.end(), pairs_.begin() + static_cast<std::ptrdiff_t>(sources_[i].begin),
                     pairs_.begin() + static_cast<std::ptrdiff_t>(sources_[i + 1].begin));
-    return near_springs(all_.model, work_, all_.margins, all_.active, sorted, work_.inner_skin);
+    std::vector<Near> found =
+        near_springs(all_.model, work_, all_.margins, all_.active, sorted, work_.inner_skin);
+    found.insert(found.end(), of_tets_.begin(), of_tets_.end());
+    return found;
   }
 
 private:
@@ -92,8 +101,7 @@ private:
         find_around(x, k);
       asked = true;
       if (!around_.empty())
-        add_spring(own.triangles[i], weighted(all_.active.facets[own.triangles[i]].x, spring_weights(corner)),
-                   targets_[i]);
+        add_spring(own.triangles[i], corner, targets_[i], tets_[i]);
     }
   }
 
@@ -107,7 +115,11 @@ private:
     const double reach =
         std::max({work_.skin[mover_] + all_.skin, 3 * (work_.inner_skin[mover_] + all_.inner),
                   work_.movers.one_piece[mover_] ? 0 : 3 * skins(mover_)});
+    ++asked_;
     grid_->each_near(x[k], reach + most, [&](int i) {
+      if (seen_[i] == asked_)
+        return;
+      seen_[i] = asked_;
       const Solid& solid = all_.solids[i];
       if (solid.mover == mover_ && work_.movers.one_piece[mover_])
         return;
@@ -115,31 +127,53 @@ private:
       if (outside >
           std::max(work_.skin[mover_] + work_.skin[solid.mover], 3 * skins(solid.mover) + slack(solid.mover)))
         return;
-      if (std::find(around_.begin(), around_.end(), i) != around_.end())
-        return;
-      around_.push_back(i);
-      if (solid.mover != mover_ && std::find(near_.begin(), near_.end(), solid.mover) == near_.end())
+      around_.push_back({solid.mover, i, outside});
+      if (solid.mover != mover_ && met_[solid.mover] != own_) {
+        met_[solid.mover] = own_;
         near_.push_back(solid.mover);
+      }
     });
-    std::sort(around_.begin(), around_.end(), [&](int a, int b) {
-      return std::pair(all_.solids[a].mover, a) < std::pair(all_.solids[b].mover, b);
+    std::sort(around_.begin(), around_.end(), [](const Around& a, const Around& b) {
+      return std::pair(a.mover, a.solid) < std::pair(b.mover, b.solid);
     });
   }
 
-  void add_spring(int source, const Vec3& spring, std::vector<int>& targets) {
+  // A mover that is a single tet, and which of a triangle's semi-springs may come near it.
+  struct NearTet {
+    int mover;
+    std::uint32_t springs;
+  };
+
+  void add_spring(int source, int corner, std::vector<int>& targets, std::vector<NearTet>& tets) {
+    const Vec3 spring = weighted(all_.active.facets[source].x, spring_weights(corner));
     for (std::size_t begin = 0, end = 0; begin < around_.size(); begin = end) {
-      const int of = all_.solids[around_[begin]].mover;
+      const int of = around_[begin].mover;
+      const double near = skins(of);
       double least = std::numeric_limits<double>::infinity();
-      for (; end < around_.size() && all_.solids[around_[end]].mover == of; ++end)
-        if (of != mover_ || may_meet_any(source, around_[end]))
-          least = std::min(least, all_.solids[around_[end]].outside(spring));
-      if (least > skins(of))
+      for (; end < around_.size() && around_[end].mover == of; ++end) {
+        if (around_[end].outside > near)
+          continue;
+        const int solid = around_[end].solid;
+        const double outside = all_.solids[solid].outside(spring);
+        if (outside < least && outside <= near && (of != mover_ || may_meet_any(source, solid)))
+          least = outside;
+      }
+      if (least > near)
         continue;
+      if (of != mover_ && is_tet(of)) {
+        const auto known =
+            std::find_if(tets.begin(), tets.end(), [&](const NearTet& t) { return t.mover == of; });
+        if (known == tets.end())
+          tets.push_back({of, 1u << corner});
+        else
+          known->springs |= 1u << corner;
+        continue;
+      }
       const double nearest = least > 0 ? 0 : least_distance(spring, begin, end);
       if (of != mover_ && nearest <= skins(of)) {
         for (std::size_t i = begin; i < end; ++i)
-          if (all_.solids[around_[i]].outside(spring) <= 3 * skins(of) + slack(of))
-            add_triangles(source, around_[i], targets);
+          if (all_.solids[around_[i].solid].outside(spring) <= 3 * skins(of) + slack(of))
+            add_triangles(source, around_[i].solid, targets);
         continue;
       }
       // Inside a fragment by more than the skins: all that are not much further than the nearest.
@@ -155,7 +189,7 @@ private:
   double least_distance(const Vec3& x, std::size_t begin, std::size_t end) const {
     double least2 = std::numeric_limits<double>::infinity();
     for (std::size_t i = begin; i < end; ++i)
-      for (const int target : all_.solids[around_[i]].triangles)
+      for (const int target : all_.solids[around_[i].solid].triangles)
         if (target >= 0) {
           const Corners& y = all_.active.facets[target].x;
           const auto at = geom::nearest_on_triangle(x, y[0], y[1], y[2]);
@@ -193,13 +227,36 @@ private:
       pairs_.emplace_back(source, target);
   }
 
+  bool is_tet(int mover) const { return work_.movers.triangles_of_tet[mover][0] >= 0; }
+
+  // All triangles of such tets: the narrow phase tells by their planes whether they are any.
+  void keep_tets(int source, const std::vector<NearTet>& tets) {
+    for (const NearTet& tet : tets)
+      for (const int target : work_.movers.triangles_of_tet[tet.mover]) {
+        Near near;
+        near.source = all_.active.triangles[source];
+        near.target = static_cast<std::uint32_t>(target) & last_contact_triangle;
+        near.springs = tet.springs & 7u;
+        of_tets_.push_back(near);
+      }
+  }
+
   const Surroundings& all_;
   const ContactWork& work_;
   const SolidGrid* grid_ = nullptr;
   int mover_ = 0;
-  std::vector<int> around_;                 // solids, by mover
-  std::vector<int> near_;                   // movers
-  std::array<std::vector<int>, 4> targets_; // of each triangle of the tetrahedron
+  struct Around { // a tetrahedron
+    int mover, solid;
+    double outside; // m, at least, that all semi-springs at the corner stand outside it
+  };
+  std::vector<Around> around_;               // by mover
+  std::vector<int> near_;                    // movers
+  std::array<std::vector<int>, 4> targets_;  // of each triangle of the tetrahedron
+  std::array<std::vector<NearTet>, 4> tets_; // the same, of movers that are single tets
+  std::vector<Near> of_tets_;
+  std::vector<int> seen_; // per solid: the last question that met it
+  std::vector<int> met_;  // per mover: the last tetrahedron added that met it
+  int asked_ = 0, own_ = 0;
   Pairs pairs_;
   struct Source {
     int place;

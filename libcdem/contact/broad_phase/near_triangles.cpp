@@ -112,14 +112,34 @@ bool may_get_into(const ContactWork& work, const ActiveSurface& active, const Co
   return active.outlines[block].contains(x, skins);
 }
 
+namespace {
+
+geom::Box box_at_first(const Model& model, const ContactWork& work, int t) {
+  const ContactTriangle& triangle = model.surface.triangles[t];
+  const geom::Triangle& n = triangle.nodes;
+  return box_of({model.node_position[n[0]], model.node_position[n[1]], model.node_position[n[2]]},
+                far_at_first(work, triangle));
+}
+
+} // namespace
+
+void find_boxes_at_first(const Model& model, ContactWork& work) {
+  const ContactSurface& s = model.surface;
+  work.boxed.resize(model.blocks.size(), 0);
+  for (std::size_t b = 0; b < work.broken.size(); ++b) {
+    if (!work.broken[b] || work.boxed[b])
+      continue;
+    work.boxed[b] = 1;
+    work.boxes_at_first.resize(s.triangles.size());
+    for (int t = s.block_begin[b]; t < s.block_begin[b + 1]; ++t)
+      work.boxes_at_first[t] = box_at_first(model, work, t);
+  }
+}
+
 bool apart_at_first(const Model& model, const ContactWork& work, int triangle_a, int triangle_b) {
-  const auto box_at_first = [&](int t) {
-    const ContactTriangle& triangle = model.surface.triangles[t];
-    const geom::Triangle& n = triangle.nodes;
-    return box_of({model.node_position[n[0]], model.node_position[n[1]], model.node_position[n[2]]},
-                  far_at_first(work, triangle));
-  };
-  return apart(box_at_first(triangle_a), box_at_first(triangle_b));
+  if (work.boxed[model.surface.triangles[triangle_a].block])
+    return apart(work.boxes_at_first[triangle_a], work.boxes_at_first[triangle_b]);
+  return apart(box_at_first(model, work, triangle_a), box_at_first(model, work, triangle_b));
 }
 
 NearWithin near_within(const Model& model, const ContactWork& work, const SearchMargin& margins,

@@ -29,6 +29,9 @@ Pairs looked_at(const Model&, const ContactWork&, const ActiveSurface&, const Sh
 bool may_get_into(const ContactWork&, const ActiveSurface&, const ContactTriangle& source,
                   const geom::Vec3& x, int block);
 
+// Writes ContactWork::boxes_at_first and boxed.
+void find_boxes_at_first(const Model&, ContactWork&);
+
 // Whether two triangles of what hangs together were so far from each other at first that they may meet.
 bool apart_at_first(const Model&, const ContactWork&, int triangle_a, int triangle_b);
 

@@ -1,12 +1,14 @@
 #include "libcdem/contact/broad_phase/renewed.hpp"
 
+#include "libcdem/contact/broad_phase/movers.hpp"
+
 #include <algorithm>
 
 namespace cdem {
 namespace {
 
 // Of its skin: a fragment that has less left is searched with the first that leaves its own.
-constexpr double searched_with_others = 0.4;
+constexpr double searched_with_others = 0.6;
 
 } // namespace
 
@@ -18,8 +20,11 @@ Renewed movers_to_search(const Model& model, const ContactWork& work, bool all) 
   const auto blocks = static_cast<int>(model.blocks.size());
   for (int m = 0; m < work.movers.count(); ++m) {
     const int block = work.movers.block[m];
-    if (!all && m >= blocks &&
-        (work.changed[m] || work.search_of[m] == 0 || work.left[m] < searched_with_others))
+    const auto soon_due = [&] {
+      return work.left[m] < searched_with_others ||
+             gone_at_most(model, work, m) > (1 - searched_with_others) * work.skin[m];
+    };
+    if (!all && m >= blocks && (work.changed[m] || work.search_of[m] == 0 || soon_due()))
       renewed.movers[m] = renewed.blocks[block] = 1;
   }
   return renewed;

@@ -90,6 +90,12 @@ private:
     const int source = source_now(row);
     if (is_renewed(source))
       return false;
+    if (kind_ == Contact::spring) { // all its targets are of one fragment
+      const ContactCandidate* const first = candidates.data() + row.begin;
+      if (!is_renewed(static_cast<int>(first->target)))
+        kept_.assign(first, first + row.count);
+      return !kept_.empty();
+    }
     for (std::uint32_t i = row.begin; i < row.begin + row.count; ++i) {
       ContactCandidate candidate = candidates[i];
       if (renumbered()) {

@@ -151,6 +151,7 @@ bool search_contacts(const Model& model, const State& state, ContactWork& work, 
   if (fragments_due) {
     std::swap(edges_before, work.edges);
     find_fragments(model, state, work);
+    find_boxes_at_first(model, work);
     find_semi_edges(model, state, work);
     set_displacements(model, state, work, threads);
   }

@@ -48,6 +48,7 @@ struct ContactRow {
   float reach = 0;
   float recheck_distance = 0; // m, of its targets the least
   bool hindered = false;      // of edges: some sleep only as long as no contact stands on the edges around
+  std::uint8_t plane = 0;     // of springs and a single tet: which of its planes parted them best, from 0
   // Of two fragments, when it was last looked at: m, how far they may go until it is again, and the difference of their
   // drifts and the sum of their swings then.
   float allowed = 0, swings = 0;
@@ -68,6 +69,9 @@ struct Movers {
       nodes; // per fragment, from the first after the blocks on: the nodes of its triangles
   // Per mover: no bond holds its tets together, as where it is a single one. Of fragments.
   std::vector<char> one_piece;
+  // Per mover, of fragments that are a single tet: its triangles, by number; of all others -1. A semi-spring outside one of
+  // their planes is outside the tet, by as much at least: that is looked at before anything else.
+  std::vector<std::array<int, 4>> triangles_of_tet;
 
   int count() const { return static_cast<int>(block.size()); }
 };
@@ -150,6 +154,10 @@ struct ContactWork {
   std::vector<int> fragment_of_node, fragment;
   std::vector<char>
       active; // per triangle: 1 outside, or its face has a broken bond; 2 its face is left to contact; else 0
+  // Per triangle of blocks that have broken, m, undeformed: what may meet it of what it hangs together with does not meet
+  // this box; empty before any has.
+  std::vector<geom::Box> boxes_at_first;
+  std::vector<char> boxed; // per block: it has such boxes
   Movers movers;
   std::vector<char> changed;      // per mover: fragments were told apart for this look, and it is a new one
   std::vector<char> broken;       // per block: some of its faces have

@@ -118,6 +118,40 @@ Nearest Evaluation::nearest_on(int target, const geom::Vec3& spring, bool bonded
   return nearest;
 }
 
+// A plane of the tet that has all of them on its outer side is enough. The one that parted them best is tried first.
+bool Evaluation::stand_outside(ContactRow& row, const Springs& spring) {
+  const std::array<int, 4>& planes = work_.movers.triangles_of_tet[row.mover];
+  if (planes[0] < 0 || work_.looks_at_all)
+    return false;
+  const auto outside = [&](int plane) { // m, of each
+    const Facet& y = facet(planes[plane]);
+    return geom::Vec3((spring[0] - y.x[0]).dot(y.normal), (spring[1] - y.x[0]).dot(y.normal),
+                      (spring[2] - y.x[0]).dot(y.normal));
+  };
+  geom::Vec3 most = outside(row.plane);
+  double least = most.minCoeff();
+  const double height = surface_.triangles[planes[row.plane]].height;
+  if (least < shallow_ratio * height) {
+    double best = least;
+    for (int plane = 0; plane < 4; ++plane) {
+      const geom::Vec3 here = outside(plane);
+      most = most.cwiseMax(here);
+      if (here.minCoeff() > best) {
+        best = here.minCoeff();
+        row.plane = static_cast<std::uint8_t>(plane);
+      }
+    }
+    least = most.minCoeff();
+  }
+  const double until = least - 4 * (same_place_at_least * height + 4 * same_place * least);
+  if (until <= 0)
+    return false;
+  row.known_target = {-1, -1, -1};
+  row.known_until.fill(rounded_down(moved(row) + until));
+  row.recheck_distance = row.known_until[0];
+  return true;
+}
+
 void Evaluation::find_nearest(ContactRow& row, ContactCandidate* candidates, bool all, const Springs& spring,
                               std::array<Nearest, 3>& nearest) {
   const double moved = this->moved(row);
@@ -184,6 +218,8 @@ double Evaluation::narrow_phase(ContactRow& row, ContactCandidate* candidates, b
   std::array<Nearest, 3> nearest;
   float sleeps = std::numeric_limits<float>::infinity();
   if (all || moved >= *std::min_element(row.known_until.begin(), row.known_until.end())) {
+    if (stand_outside(row, spring))
+      return 0;
     find_nearest(row, candidates, all, spring, nearest);
   } else {
     const bool bonded = cdem::bonded(model_, work_, row.block, row.mover);
@@ -280,7 +316,7 @@ Evaluation::SideMotion Evaluation::motion_of_side(int block, const int* nodes, c
   for (int i = 0; i < count; ++i) {
     place += weights[i] * place_of(model_, state_, nodes[i]);
     velocity += weights[i] * velocity_of(state_, nodes[i]);
-    local += weights[i] * weights[i] / model_.node_mass[nodes[i]];
+    local += weights[i] * weights[i] / moving_mass(model_, state_)[nodes[i]];
   }
   if (work_.last_displacement[block] == 0)
     return {velocity, 0}; // held: it does not turn round

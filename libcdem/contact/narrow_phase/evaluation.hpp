@@ -36,6 +36,8 @@ private:
   const Contact* before(const Contact&) const;
   double narrow_phase(ContactRow&, ContactCandidate*, bool all); // returns how deep the deepest is, m
   using Springs = std::array<geom::Vec3, 3>;                     // where the three of a source are, m
+  // All of them stand outside a fragment that is a single tet, and so they touch nothing until they have moved.
+  bool stand_outside(ContactRow&, const Springs&);
   // The nearest places of one fragment to them, of all targets that do not sleep.
   void find_nearest(ContactRow&, ContactCandidate*, bool all, const Springs&, std::array<Nearest, 3>&);
   Nearest nearest_on(int target, const geom::Vec3& spring, bool bonded);

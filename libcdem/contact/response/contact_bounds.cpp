@@ -28,6 +28,27 @@ std::vector<double> given_stiffness(const Model& model) {
   return stiffest;
 }
 
+struct ClosingStiffness {
+  std::vector<double> elements, contact; // N/m (n_nodes); contact: 0 where an interface holds the face
+};
+
+ClosingStiffness closing_stiffness(const Model& model) {
+  const std::vector<double> given = given_stiffness(model);
+  std::vector<double> contact(model.node_mass.size(), 0.0);
+  for (const ContactTriangle& t : model.surface.triangles)
+    if (t.face < 0 && model.blocks[t.block].rigid < 0)
+      for (const int node : t.nodes)
+        contact[node] += 2 * t.area / 3 * given[model.blocks[t.block].body];
+  std::vector<double> elements = stiffness_row_sums(model);
+  add_mesh_row_sums(model, elements);
+  std::vector<double> springs(model.node_mass.size(), 0.0);
+  add_spring_row_sums(model, springs);
+  for (std::size_t i = 0; i < contact.size(); ++i)
+    if (!(contact[i] > springs[i]))
+      contact[i] = 0;
+  return {std::move(elements), std::move(contact)};
+}
+
 double for_rigid(double safety) {
   return std::min(safety, most_of_rigid);
 }
@@ -41,7 +62,7 @@ double contact_time_step(const Model& model, const State& state, const ContactWo
   for (const auto& [node, block] : own.touched) {
     const int body = model.blocks[block].rigid;
     if (body < 0) {
-      const double mass = model.node_mass[node];
+      const double mass = moving_mass(model, state)[node];
       const double beta = step.damped ? model.bodies[model.blocks[block].body].material.stiffness_damping : 0;
       least =
           std::min(least, step.safety * stable_time_step((step.row_sums[node] + own.stiffness[node]) / mass,
@@ -77,25 +98,23 @@ double rigid_time_step(const Model& model, double safety) {
 }
 
 double closing_time_step(const Model& model, double safety) {
-  const std::vector<double> given = given_stiffness(model);
-  std::vector<double> contact(model.node_mass.size(), 0.0);
-  for (const ContactTriangle& t : model.surface.triangles)
-    if (t.face < 0 && model.blocks[t.block].rigid < 0)
-      for (const int node : t.nodes)
-        contact[node] += 2 * t.area / 3 * given[model.blocks[t.block].body];
-  std::vector<double> elements = stiffness_row_sums(model);
-  add_mesh_row_sums(model, elements);
-  // Where an interface holds a face no contact does.
-  std::vector<double> springs(model.node_mass.size(), 0.0);
-  add_spring_row_sums(model, springs);
+  const ClosingStiffness k = closing_stiffness(model);
   double least = std::numeric_limits<double>::infinity();
-  for (std::size_t i = 0; i < contact.size(); ++i)
-    if (contact[i] > springs[i]) {
+  for (std::size_t i = 0; i < k.contact.size(); ++i)
+    if (k.contact[i] > 0) {
       const double mass = model.node_mass[i];
-      least = std::min(least, stable_time_step((elements[i] + contact[i]) / mass,
-                                               damping_of(model, static_cast<int>(i)) * elements[i] / mass));
+      least = std::min(least, stable_time_step((k.elements[i] + k.contact[i]) / mass,
+                                               damping_of(model, static_cast<int>(i)) * k.elements[i] / mass));
     }
   return safety * least;
+}
+
+std::vector<double> closing_row_sums(const Model& model) {
+  ClosingStiffness k = closing_stiffness(model);
+  for (std::size_t i = 0; i < k.contact.size(); ++i)
+    if (k.contact[i] > 0)
+      k.contact[i] += k.elements[i];
+  return k.contact;
 }
 
 std::vector<double> reaches_of_rigid(const Model& model, const State& state) {

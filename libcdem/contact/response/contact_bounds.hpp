@@ -24,6 +24,9 @@ double rigid_time_step(const Model&, double safety);
 // the next one only. Contacts as stiff as their tets are no stiffer than what the step is for. Infinite without.
 double closing_time_step(const Model&, double safety);
 
+// N/m (n_nodes), of elements and such contacts where there are some, else 0.
+std::vector<double> closing_row_sums(const Model&);
+
 // m, from each rigid body's centroid to its furthest node; it keeps its shape.
 std::vector<double> reaches_of_rigid(const Model&, const State&);
 // s, in which no point of a rigid body goes further than a tenth of the usual height of the tets at any surface, moving

@@ -50,6 +50,20 @@ private:
   Range own_;
 };
 
+void add_strengths(MeshData& data, const std::vector<BondedFace>& faces) {
+  for (std::size_t begin = 0; begin < faces.size(); begin += lanes) {
+    FaceStrengthBatch batch{};
+    for (int lane = 0; lane < lanes; ++lane) {
+      const FaceStrength& own = faces[begin + lane < faces.size() ? begin + lane : begin].strength;
+      batch.tensile_strength[lane] = own.tensile_strength;
+      batch.cohesion[lane] = own.cohesion;
+      batch.tan_friction[lane] = own.tan_friction;
+      batch.joint[lane] = own.joint;
+    }
+    data.strength.push_back(batch);
+  }
+}
+
 void add_faces(MeshData& data, const std::vector<BondedFace>& faces, int first_tet,
                const std::vector<geom::Tet>& tets, Places& places) {
   for (std::size_t begin = 0; begin < faces.size(); begin += lanes) {
@@ -217,6 +231,8 @@ void add_chunks(Model& model, const std::vector<BondedFace>& faces, const std::v
     chunk.faces = static_cast<int>(own.size());
     chunk.face_batches.begin = static_cast<std::int64_t>(data.faces.size());
     add_faces(data, own, b.tet_begin, model.tets, places);
+    if (has_own_strengths(model))
+      add_strengths(data, own);
     chunk.face_batches.end = static_cast<std::int64_t>(data.faces.size());
 
     const std::size_t first_side = side;
@@ -348,7 +364,8 @@ void add_meshes(Model& model, std::vector<MeshSeed>&& seeds) {
     if (!seed.ordered)
       require_fracture_energy(mesh, inner, body);
     const Splitting splitting{mesh, body.bonding, seed.freed};
-    const std::vector<BondedFace> bonded = bonded_faces(mesh, inner, body, splitting);
+    const std::vector<BondedFace> bonded =
+        bonded_faces(mesh, inner, body, splitting, has_own_strengths(model));
     SplitMesh split = split_nodes(mesh, inner, splitting);
     const int chunk_tets = chunk_size(split, body.bonding);
     const std::vector<std::int64_t> inner_nodes =

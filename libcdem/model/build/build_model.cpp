@@ -1,5 +1,7 @@
 #include "libcdem/model/build/build_model.hpp"
 
+#include "libcdem/model/build/face_strength.hpp"
+
 #include "libcdem/model/build/contact_surface.hpp"
 #include "libcdem/model/build/rigid_bodies.hpp"
 #include "libgeom/assembly/assembly.hpp"
@@ -181,7 +183,7 @@ void add_frame(Model& model, Interface& interface) {
 void set_stiffness(const Model& model, Interface& interface) {
   const Elastic& a = model.bodies[model.blocks[interface.block_a].body].material;
   const Elastic& b = model.bodies[model.blocks[interface.block_b].body].material;
-  const Joint& joint = model.joints[interface.joint];
+  const Joint joint = joint_of(model, interface);
   const auto series = [&](double p, double q) { return 2 / (interface.thickness * (1 / p + 1 / q)); };
   interface.kn = joint.normal_stiffness.value_or(series(a.youngs_modulus, b.youngs_modulus));
   interface.ks = joint.shear_stiffness.value_or(series(a.shear_modulus(), b.shear_modulus()));
@@ -215,6 +217,12 @@ void add_interface(Model& model, const geom::SharedFace& pair, const InterfaceRu
   interface.thickness = traits.thickness;
   interface.origin = traits.origin;
   interface.may_break = traits.may_break;
+  double area = 0;
+  for (const geom::OverlapPoint& p : faces.points)
+    area += p.area;
+  const double apart = (b.mass.centroid - a.mass.centroid).dot(interface.normal);
+  interface.strength = traits.strength.value_or(
+      interface_strength(model.joints[interface.joint], a.mass.centroid, b.mass.centroid, area * apart / 3));
   set_stiffness(model, interface);
 
   interface.point_begin = static_cast<int>(model.points.size());

@@ -5,6 +5,7 @@
 #include "libgeom/mesh/block_mesh.hpp"
 
 #include <functional>
+#include <optional>
 
 namespace cdem {
 
@@ -25,6 +26,7 @@ struct InterfaceTraits {
   double thickness = 0; // L, m
   InterfaceOrigin origin = InterfaceOrigin::original;
   bool may_break = true;
+  std::optional<double> strength = {}; // over that of the joint; none: a new draw where it scatters
 };
 using InterfaceRule =
     std::function<InterfaceTraits(const Model&, int block_a, int face_a, int block_b, int face_b)>;

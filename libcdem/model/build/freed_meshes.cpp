@@ -34,6 +34,7 @@ Model without_meshes(const Model& old, std::size_t first) {
     const MeshChunk& head = data.chunks[chunks];
     cut(data.batches, static_cast<std::size_t>(head.batches.begin));
     cut(data.faces, static_cast<std::size_t>(head.face_batches.begin));
+    cut(data.strength, static_cast<std::size_t>(head.face_batches.begin));
     cut(data.sides, static_cast<std::size_t>(head.side_batches.begin));
     cut(data.others, static_cast<std::size_t>(head.others.begin));
   }

@@ -5,18 +5,26 @@
 
 #include <algorithm>
 #include <fmt/format.h>
-#include <limits>
 #include <numeric>
 
 namespace cdem {
 namespace {
 
+std::array<geom::Vec3, 3> corners_of(const geom::TetMesh& mesh, const geom::InnerFace& face) {
+  return {mesh.nodes[face.nodes[0]], mesh.nodes[face.nodes[1]], mesh.nodes[face.nodes[2]]};
+}
+
+FaceStrength strength_of(const geom::TetMesh& mesh, const geom::InnerFace& face, const Body& body) {
+  const auto [a, b] = face.tets;
+  return face_strength(body, mesh.region[a], mesh.region[b], corners_of(mesh, face),
+                       tet_volume(mesh, a) + tet_volume(mesh, b));
+}
+
 BondedFace bonded_face(const geom::TetMesh& mesh, const geom::InnerFace& face, const Body& body) {
-  const geom::Vec3 &x0 = mesh.nodes[face.nodes[0]], &x1 = mesh.nodes[face.nodes[1]],
-                   &x2 = mesh.nodes[face.nodes[2]];
+  const auto [x0, x1, x2] = corners_of(mesh, face);
   const double area = 0.5 * (x1 - x0).cross(x2 - x0).norm();
   const double d = 3 * (tet_volume(mesh, face.tets[0]) + tet_volume(mesh, face.tets[1])) / (4 * area);
-  return {face, body.bonding.stiffness_ratio * body.material.youngs_modulus * area / (3 * d), area / 3};
+  return {face, body.bonding.stiffness_ratio * body.material.youngs_modulus * area / (3 * d), area / 3, {}};
 }
 
 } // namespace
@@ -64,26 +72,22 @@ SplitMesh split_nodes(const geom::TetMesh& mesh, const std::vector<geom::InnerFa
 }
 
 std::vector<BondedFace> bonded_faces(const geom::TetMesh& mesh, const std::vector<geom::InnerFace>& inner,
-                                     const Body& body, const Splitting& splitting) {
+                                     const Body& body, const Splitting& splitting, bool with_strength) {
   std::vector<BondedFace> bonded;
   for (const geom::InnerFace& face : inner)
-    if (splitting.parts(face))
+    if (splitting.parts(face)) {
       bonded.push_back(bonded_face(mesh, face, body));
+      if (with_strength)
+        bonded.back().strength = strength_of(mesh, face, body);
+    }
   return bonded;
 }
 
 void require_fracture_energy(const geom::TetMesh& mesh, const std::vector<geom::InnerFace>& inner,
                              const Body& body) {
-  if (!body.bonding.is_cohesive() || body.joint.softening == Softening::none)
+  if (!body.bonding.is_cohesive())
     return;
-  double least = std::numeric_limits<double>::infinity();
-  for (const geom::InnerFace& face : inner)
-    if (body.bonding.bonds(mesh.region[face.tets[0]], mesh.region[face.tets[1]])) {
-      const BondedFace f = bonded_face(mesh, face, body);
-      least = std::min(least, f.kn / f.area);
-    }
-  const auto require = [&](const char* field, double energy, double strength) {
-    const double stored = strength * strength / (2 * least);
+  const auto require = [&](const char* field, double energy, double strength, double stored) {
     if (energy < stored)
       throw geom::InputError(
           field, fmt::format("{:g}", energy),
@@ -92,8 +96,32 @@ void require_fracture_energy(const geom::TetMesh& mesh, const std::vector<geom::
               1.005 * stored, strength),
           "raise it, make the mesh of body \"" + body.name + "\" finer, or its stiffness_ratio larger");
   };
-  require("fracture_energy_1", body.joint.fracture_energy_1, body.joint.tensile_strength);
-  require("fracture_energy_2", body.joint.fracture_energy_2, body.joint.cohesion);
+  struct Most {
+    double stored = 0, strength = 0;
+    void take(double s, double k) {
+      if (s * s / (2 * k) > stored) {
+        stored = s * s / (2 * k);
+        strength = s;
+      }
+    }
+  };
+  for (int law = -1; law < static_cast<int>(body.region_laws.joints.size()); ++law) {
+    const Joint& joint = body.joint_of(law);
+    if (joint.softening == Softening::none)
+      continue;
+    Most opening, slip;
+    for (const geom::InnerFace& face : inner) {
+      const int a = mesh.region[face.tets[0]], b = mesh.region[face.tets[1]];
+      if (!body.bonding.bonds(a, b) || body.region_laws.between(a, b) != law)
+        continue;
+      const BondedFace f = bonded_face(mesh, face, body);
+      const FaceStrength own = strength_of(mesh, face, body);
+      opening.take(own.tensile_strength, f.kn / f.area);
+      slip.take(own.cohesion, f.kn / f.area);
+    }
+    require("fracture_energy_1", joint.fracture_energy_1, opening.strength, opening.stored);
+    require("fracture_energy_2", joint.fracture_energy_2, slip.strength, slip.stored);
+  }
 }
 
 std::vector<std::int64_t> inner_first(SplitMesh& split, const std::vector<BondedFace>& faces, int chunk_tets,

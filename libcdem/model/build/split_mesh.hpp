@@ -2,7 +2,7 @@
 // that is the first to touch them.
 #pragma once
 
-#include "libcdem/model/model.hpp"
+#include "libcdem/model/build/face_strength.hpp"
 #include "libgeom/mesh/boundary.hpp"
 #include "libgeom/mesh/tet_mesh.hpp"
 
@@ -34,10 +34,11 @@ SplitMesh split_nodes(const geom::TetMesh&, const std::vector<geom::InnerFace>&,
 struct BondedFace {
   geom::InnerFace face;
   double kn = 0, area = 0; // of one spring
+  FaceStrength strength;   // where some have their own
 };
 
 std::vector<BondedFace> bonded_faces(const geom::TetMesh&, const std::vector<geom::InnerFace>&, const Body&,
-                                     const Splitting&);
+                                     const Splitting&, bool with_strength);
 
 // Throws geom::InputError where a face that may crack would store more at its strength than its fracture energy.
 void require_fracture_energy(const geom::TetMesh&, const std::vector<geom::InnerFace>&, const Body&);

@@ -53,6 +53,36 @@ void validate_softening(const Joint& j) {
           "the tip of the Mohr-Coulomb cone");
 }
 
+void validate_scatter(const Joint& j) {
+  const StrengthScatter& s = j.scatter;
+  if (s.modulus == 0)
+    return;
+  require(s.modulus >= 2 && s.modulus <= 1000, "weibull.modulus", s.modulus, "in [2, 1000]",
+          "concrete and rock have about 5 to 25");
+  require(positive(s.reference_volume), "weibull.reference_volume", s.reference_volume,
+          "a finite number > 0 m3", "the volume whose mean strength the joint gives");
+  if (!j.bonded)
+    throw geom::InputError("weibull", "of a contact", "of a joint that is bonded",
+                           "a contact has no strength to scatter");
+}
+
+void validate_rate_effect(const Joint& j) {
+  const RateEffect& r = j.rate;
+  if (r.reference_rate == 0)
+    return;
+  require(positive(r.reference_rate), "rate_effect.reference_rate", r.reference_rate,
+          "a finite number > 0 1/s", "the rate of strain at which the strengths were measured");
+  require(r.exponent >= 0 && r.exponent <= 1, "rate_effect.exponent", r.exponent, "in [0, 1]",
+          "0.018 for concrete in tension (fib Model Code 2010)");
+  require(r.change_rate > r.reference_rate, "rate_effect.change_rate", r.change_rate,
+          "above reference_rate, 1/s", "the rate from which exponent_above holds");
+  require(r.exponent_above >= 0 && r.exponent_above <= 1, "rate_effect.exponent_above", r.exponent_above,
+          "in [0, 1]", "1/3 for concrete in tension (fib Model Code 2010)");
+  if (!j.bonded)
+    throw geom::InputError("rate_effect", "of a contact", "of a joint that is bonded",
+                           "a contact has no strength to raise");
+}
+
 // Three digits, rounded up so that the printed value is itself allowed.
 std::string at_least(double x) {
   const double digit = std::pow(10.0, std::floor(std::log10(x)) - 2);
@@ -107,6 +137,8 @@ void validate(const Joint& j) {
   require(positive(j.restitution) && j.restitution <= 1, "restitution", j.restitution, "in (0, 1]",
           "it is the speed after an impact over the speed before it");
   validate_softening(j);
+  validate_scatter(j);
+  validate_rate_effect(j);
 }
 
 void validate(const Joint& j, double normal_stiffness, double shear_stiffness) {

@@ -118,6 +118,35 @@ Value chart_of_histories(Session& session, ModelObject& model, const Arguments& 
   return {};
 }
 
+// Steps at the diameters of the fragments.
+Value chart_of_fragments(Session& session, ModelObject& model, const Arguments& a) {
+  require_ending(a.text("file"), ".png");
+  ChartOptions options = chart_options(a);
+  if (options.x_label.empty())
+    options.x_label = "diameter (m)";
+  if (options.y_label.empty())
+    options.y_label = "mass passing (%)";
+  if (!options.y_range)
+    options.y_range = {{0, 100}};
+  const std::vector<PassingRow> rows = mass_passing(model.simulation.fragment_motions());
+  Series series;
+  series.name = std::to_string(rows.size()) + (rows.size() == 1 ? " fragment" : " fragments");
+  series.style = rows.size() == 1 ? "points" : "line";
+  double passing = 0;
+  for (const PassingRow& row : rows) {
+    if (rows.size() > 1) {
+      series.x.push_back(row.diameter);
+      series.y.push_back(100 * passing);
+    }
+    passing = row.passing;
+    series.x.push_back(row.diameter);
+    series.y.push_back(100 * passing);
+  }
+  if (!session.settings.check_only)
+    draw(session, a.text("file"), [&](const std::string& path) { chart({series}, options, path); });
+  return {};
+}
+
 } // namespace
 
 void bind_charts(Module& m) {
@@ -140,6 +169,16 @@ void bind_charts(Module& m) {
        text("x").standard("step").doc("history along the x axis")});
   m.the_class("Model").methods.push_back({"chart", "Line chart of histories.", histories, false, "", "",
                                           method<ModelObject>(chart_of_histories)});
+
+  std::vector<Field> fragments = chart_fields();
+  for (Field& field : fragments)
+    if (field.name == "log_x")
+      field = flag("log_x").standard(true);
+  m.the_class("Model").methods.push_back({"chart_fragments",
+                                          "Chart of the fragments by size: the part of the mass in fragments "
+                                          "up to each diameter, that of the sphere "
+                                          "with their volume.",
+                                          fragments, false, "", "", method<ModelObject>(chart_of_fragments)});
 }
 
 } // namespace cdem::script

@@ -1,4 +1,5 @@
 // Flow on outer faces, pieces, and the search for the flow that breaks a solid (Feng 2014 section 3).
+#include "lua/binding/functions/mass_scaling.hpp"
 #include "lua/binding/functions/selections.hpp"
 #include "lua/binding/functions/solving_stage.hpp"
 #include "lua/binding/runtime/module.hpp"
@@ -59,10 +60,6 @@ Value rows(const std::vector<Fragment>& fragments) {
   return Table::list(std::move(out));
 }
 
-Value pieces(Session&, ModelObject& model, const Arguments&) {
-  return rows(model.simulation.fragments());
-}
-
 const char* third(double fraction) {
   return fraction < 1.0 / 3 ? "root" : fraction < 2.0 / 3 ? "waist" : "top";
 }
@@ -120,6 +117,7 @@ Value critical_flow(Session& session, ModelObject& model, const Arguments& a) {
   options.max_velocity = a.number("max_velocity");
   options.safety = a.number("safety");
   options.local_damping = a.number("local_damping");
+  options.mass_scaling = mass_scaling_of(a);
   const std::string held = a.text_or("held", "");
   if (!held.empty())
     options.held = Selection::side(held);
@@ -131,7 +129,9 @@ Value critical_flow(Session& session, ModelObject& model, const Arguments& a) {
           "critical_flow: nothing broke off up to max_velocity = " + number_text(options.max_velocity) +
           (simulation.counts().bonds > 0 ? " m/s; raise it"
                                          : " m/s: the model has no bonds; give its bodies a joint"));
-    return result_of(result, simulation.box(), held);
+    Value row = result_of(result, simulation.box(), held);
+    add_mass_scaling(session, "critical_flow", options.mass_scaling, result.time_step, result.scaled, row);
+    return row;
   });
 }
 
@@ -183,7 +183,8 @@ void bind_records(Module& m) {
         number("first_break_velocity").unit("m/s").doc("when the first bond broke; nil when none did"),
         number("first_break_pressure").unit("Pa"), vec3("first_break_place").unit("m").doc("undeformed"),
         integer("broken_tension").required(), integer("broken_shear").required(), integer("steps").required(),
-        list("curve", object_type("CriticalFlowSample"), 0).required().doc("every 100 steps")}});
+        list("curve", object_type("CriticalFlowSample"), 0).required().doc("every 100 steps"),
+        mass_scaling_result_field()}});
 }
 
 } // namespace
@@ -237,15 +238,13 @@ void bind_flow(Module& m) {
             .doc("to the unbroken, static one: what counts as broken"),
         number("max_velocity").above(1).standard(100.0).unit("m/s").doc("gives up there"),
         number("safety").within(0, 1).standard(0.9).doc("time step over the stable one"),
+        mass_scaling_field(),
         number("local_damping").from(0, 1).standard(0.1).doc("above 0.2 it acts as added mass")})
     search.push_back(field);
   add("critical_flow",
       "Raises a flow from 1 m/s until a held solid breaks: a piece of it comes off, or it has become "
       "compliant.",
       search, "cdem.CriticalFlowResult", "", critical_flow);
-  add("fragments", "Pieces that unbroken bonds hold together.", {}, "cdem.Fragment[]", "largest first",
-      pieces);
-  model.methods.back().in_order = true;
 }
 
 } // namespace cdem::script

@@ -4,6 +4,8 @@
 #include "lua/binding/runtime/module.hpp"
 #include "lua/binding/runtime/session.hpp"
 
+#include "libgeom/core/error.hpp"
+
 #include <cmath>
 
 namespace cdem::script {
@@ -94,6 +96,48 @@ void read_softening(const Arguments& a, Joint& joint) {
   joint.fracture_energy_2 = a.optional_number("fracture_energy_2").value_or(0);
 }
 
+std::vector<Field> strength_fields() {
+  return {
+      record("weibull", {number("modulus").within(2, 1000).required().doc("m"),
+                         number("reference_volume")
+                             .above(0)
+                             .unit("m3")
+                             .required()
+                             .doc("the volume whose mean strength the joint gives"),
+                         integer("seed").at_least(0).required()})
+          .doc("strength that scatters from face to face after Weibull: tensile strength and cohesion of a "
+               "face are multiplied by one draw, in the mean (reference_volume / volume of the face)^(1/m); "
+               "fracture energies and friction stay. A draw depends on the seed and on where the face lies"),
+      record("rate_effect",
+             {number("reference_rate").above(0).unit("1/s").required().doc("of the strengths given"),
+              number("exponent").within(0, 1).required(),
+              number("change_rate").above(0).unit("1/s").doc("beyond it exponent_above holds"),
+              number("exponent_above").within(0, 1),
+              flag("fracture_energy").standard(false).doc("fracture energies are raised too")})
+          .doc("strength raised by the rate of strain at which a face of a cohesive body begins to crack, "
+               "(rate / reference_rate)^exponent; fib Model Code 2010 for concrete in tension: 1e-6, 0.018, "
+               "10, 1/3")};
+}
+
+void read_strength(const Arguments& a, Joint& joint) {
+  if (const auto weibull = a.record("weibull"))
+    joint.scatter = {weibull->number("modulus"), weibull->number("reference_volume"),
+                     static_cast<std::uint64_t>(weibull->integer("seed"))};
+  const auto rate = a.record("rate_effect");
+  if (!rate)
+    return;
+  joint.rate.reference_rate = rate->number("reference_rate");
+  joint.rate.exponent = rate->number("exponent");
+  joint.rate.fracture_energy = rate->flag("fracture_energy");
+  if (rate->has("change_rate") != rate->has("exponent_above"))
+    throw geom::InputError("rate_effect: change_rate and exponent_above go together: from that rate on the "
+                           "strength grows with that exponent");
+  if (rate->has("change_rate")) {
+    joint.rate.change_rate = rate->number("change_rate");
+    joint.rate.exponent_above = rate->number("exponent_above");
+  }
+}
+
 std::string softening_name(const Joint& joint) {
   switch (joint.softening) {
   case Softening::none:
@@ -116,6 +160,7 @@ Value mohr_coulomb(Session& session, Object*, const Arguments& a) {
   warn_of_unit(session, a, "tensile_strength");
   warn_of_angle(session, a, "cdem.mohr_coulomb");
   read_softening(a, object->joint);
+  read_strength(a, object->joint);
   read_stiffness(a, object->joint);
   validate(object->joint);
   return object;
@@ -187,6 +232,8 @@ void bind_materials(Module& m) {
                             number("tensile_strength").at_least(0).unit("Pa").required()};
   std::vector<Field> loose{number("friction_angle").from(0, 90).unit("deg").required()};
   for (const Field& f : softening_fields())
+    bonded.push_back(f);
+  for (const Field& f : strength_fields())
     bonded.push_back(f);
   for (const Field& f : stiffness_fields()) {
     bonded.push_back(f);
@@ -271,7 +318,8 @@ void bind_materials(Module& m) {
                 ? std::string()
                 : ", " + softening_name(j) + " softening, G_I " + number_text(j.fracture_energy_1) +
                       " J/m2, G_II " + number_text(j.fracture_energy_2) + " J/m2") +
-           ")";
+           (j.scatter.on() ? ", Weibull modulus " + number_text(j.scatter.modulus) : std::string()) +
+           (j.rate.on() ? ", rate effect" : "") + ")";
   };
   m.classes.push_back(joint);
 }

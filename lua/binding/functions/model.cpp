@@ -62,6 +62,16 @@ void read_mesh(Session& session, const Arguments& given, const std::string& path
         throw InputError(path + "." + only + ": goes with a joint, which says what the faces bear");
   if (bonds != "none")
     read_bonded_faces(given, path, faces, body.bonding);
+  std::size_t row = 0;
+  for (const Value& law : given.list("region_joints")) {
+    ++row;
+    if (bonds == "none")
+      throw InputError(path + ".region_joints: goes with a joint, which the other faces have");
+    const Values& items = law.table()->items;
+    const auto region = [&](int i) { return static_cast<int>(items[i].number()) - 1; };
+    body.region_laws.regions.emplace_back(std::minmax({region(0), region(1)}));
+    body.region_laws.joints.push_back(static_cast<const JointObject&>(*items[2].object()).joint);
+  }
   if (bonds == "cohesive") {
     body.bonding.kind = BondKind::cohesive;
     body.bonding.stiffness_ratio = 1;
@@ -84,7 +94,8 @@ std::optional<geom::Pile> pile_shape(const Arguments& given) {
 }
 
 void require_blocks(const Arguments& given, const std::string& path) {
-  for (const char* const only : {"bonds", "bonded_faces", "bonded_regions", "stiffness_ratio", "shear_ratio"})
+  for (const char* const only :
+       {"bonds", "bonded_faces", "bonded_regions", "region_joints", "stiffness_ratio", "shear_ratio"})
     if (given.has(only))
       throw InputError(path + "." + only + ": only for a meshed body; an assembly's faces are all bonded");
   if (const auto material = given.object<MaterialObject>("material");
@@ -249,7 +260,19 @@ Value make_model(Session& session, Object*, const Arguments& a) {
   session.models.push_back(model);
   session.notes.push_back(model->notes);
   note_pairs_apart(session, *model, spec);
+  note_process_zones(session, *model);
   return model;
+}
+
+Value process_zones(Session&, ModelObject& model, const Arguments&) {
+  Values rows;
+  for (const ProcessZone& zone : model.simulation.process_zones())
+    rows.emplace_back(Table{{"of", zone.of},
+                            {"length", zone.length},
+                            {"face_size", zone.face_size},
+                            {"largest_face_size", zone.largest_face_size},
+                            {"faces_in_zone", zone.faces_in_zone()}});
+  return Table::list(std::move(rows));
 }
 
 Value select(Session&, ModelObject& model, const Arguments& a) {
@@ -370,6 +393,10 @@ void bind_model(Module& m) {
       list("bonded_regions", whole_number, 1)
           .doc("of a mesh with a joint, instead of bonded_faces: numbers of regions, from 1, whose faces may "
                "break"),
+      list("region_joints", tuple_type({whole_number, whole_number, object_type("Joint")}), 1)
+          .doc("of a mesh: {region, region, joint} gives the faces between two regions, or with the same "
+               "number "
+               "twice those inside one, a joint of their own; numbers from 1. All others have `joint`"),
       number("stiffness_ratio")
           .above(0)
           .doc("of a mesh, beta in Kn = beta E A / (3 d). Of springs 10 by default: a body bonded everywhere "
@@ -403,6 +430,14 @@ void bind_model(Module& m) {
         integer("intact").required(), integer("broken_tension").required(),
         integer("broken_shear").required(), integer("contacts").required(),
         integer("damaged").required().doc("of the intact ones: have begun to soften")}});
+  m.records.push_back(
+      {"ProcessZone",
+       "The process zone of a law that softens beside the faces that carry it; medians over the faces.",
+       {text("of").required().doc("body, regions or pair of bodies"),
+        number("length").unit("m").required().doc("E' G_I / T^2, E' = E / (1 - nu^2)"),
+        number("face_size").unit("m").required().doc("edge of an equilateral triangle of the face's area"),
+        number("largest_face_size").unit("m").required().doc("that leaves three faces in the cohesive zone"),
+        number("faces_in_zone").required().doc("faces in the cohesive zone, 0.88 of the length")}});
   Class model{"Model", "Made by cdem.model."};
   model.properties = model_properties();
   model.text = [](const Object& self) {
@@ -429,6 +464,13 @@ void bind_model(Module& m) {
                     "cdem.Counts",
                     "",
                     method<ModelObject>(counts)},
+                   {"process_zones",
+                    "Whether faces resolve the process zone E' G_I / T^2 of what softens, by body and pair.",
+                    {},
+                    true,
+                    "cdem.ProcessZone[]",
+                    "",
+                    method<ModelObject>(process_zones)},
                    {"box",
                     "Smallest axis-aligned box around the undeformed model.",
                     {},

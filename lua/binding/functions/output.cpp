@@ -16,6 +16,19 @@ namespace {
 
 namespace fs = std::filesystem;
 
+void add_to_series(Session& session, ModelObject& model, const std::string& name, const fs::path& path,
+                   const Snapshot& snapshot) {
+  const fs::path series = session.files.to_write(name);
+  auto& entries = model.series[series.string()];
+  const std::string file = path.lexically_relative(series.parent_path()).generic_string();
+  const auto same = [&](const SeriesEntry& e) { return e.file == file; };
+  entries.erase(std::remove_if(entries.begin(), entries.end(), same), entries.end());
+  // Relaxations have no time: the steps so far keep their moments in order.
+  const double moment = snapshot.time > 0 ? snapshot.time : static_cast<double>(snapshot.step);
+  entries.push_back({moment, file});
+  write_pvd(series.string(), entries);
+}
+
 Value save(Session& session, ModelObject& model, const Arguments& a) {
   require_ending(a.text("file"), ".vtu");
   if (a.has("series"))
@@ -26,17 +39,22 @@ Value save(Session& session, ModelObject& model, const Arguments& a) {
   const fs::path path = session.files.to_write(a.text("file"));
   write_vtu(snapshot, path.string());
   write_bonds(snapshot, session.files.to_write(bonds_path(a.text("file"))).string());
-  if (a.has("series")) {
-    const fs::path series = session.files.to_write(a.text("series"));
-    auto& entries = model.series[series.string()];
-    const std::string file = path.lexically_relative(series.parent_path()).generic_string();
-    const auto same = [&](const SeriesEntry& e) { return e.file == file; };
-    entries.erase(std::remove_if(entries.begin(), entries.end(), same), entries.end());
-    // Relaxations have no time: the steps so far keep their moments in order.
-    const double moment = snapshot.time > 0 ? snapshot.time : static_cast<double>(snapshot.step);
-    entries.push_back({moment, file});
-    write_pvd(series.string(), entries);
-  }
+  if (a.has("series"))
+    add_to_series(session, model, a.text("series"), path, snapshot);
+  return {};
+}
+
+Value save_cracks(Session& session, ModelObject& model, const Arguments& a) {
+  require_ending(a.text("file"), ".vtp");
+  if (a.has("series"))
+    require_ending(a.text("series"), ".pvd");
+  if (session.settings.check_only)
+    return {};
+  const Snapshot surface = model.simulation.crack_surface(a.flag("damaged"), model.title(session));
+  const fs::path path = session.files.to_write(a.text("file"));
+  write_surface(surface, path.string());
+  if (a.has("series"))
+    add_to_series(session, model, a.text("series"), path, surface);
   return {};
 }
 
@@ -111,6 +129,20 @@ void bind_output(Module& m) {
        "",
        "",
        method<ModelObject>(save)});
+  model.methods.push_back(
+      {"save_cracks",
+       "Writes broken faces for ParaView as a surface, midway between their sides: displacement at corners; "
+       "mode "
+       "(1 tension, 2 shear), damage, opening, slip, time of the last break (nan where it is not known) and "
+       "body "
+       "(its number from 0; -1 between two) of faces.",
+       {text("file").required().doc("ends in .vtp; in the output folder"),
+        flag("damaged").standard(false).doc("faces that soften and have not broken too (mode 0)"),
+        text("series").doc("ends in .pvd: a time series this file is added to")},
+       false,
+       "",
+       "",
+       method<ModelObject>(save_cracks)});
   model.methods.push_back({"picture", "Draws the model, without a display.", picture_declaration(), false, "",
                            "", method<ModelObject>(picture)});
   m.functions.push_back({"film",

@@ -1,4 +1,5 @@
 // Solving calls: numbered stages, hashed by their arguments. In a check they return typed, empty results.
+#include "lua/binding/functions/mass_scaling.hpp"
 #include "lua/binding/functions/solving_stage.hpp"
 #include "lua/binding/runtime/module.hpp"
 
@@ -72,6 +73,7 @@ Value run(Session& session, ModelObject& model, const Arguments& a) {
     throw InputError("duration: missing; give duration (s), steps, or stop = function() ... end");
   options.safety = a.number("safety");
   options.time_step = a.optional_number("time_step").value_or(0);
+  options.mass_scaling = mass_scaling_of(a);
   options.breaking = a.flag("breaking");
   options.local_damping = a.number("local_damping");
   options.callback_every = callback_interval(a);
@@ -88,7 +90,12 @@ Value run(Session& session, ModelObject& model, const Arguments& a) {
   if (!a.has("duration") && !a.has("steps"))
     options.steps = std::numeric_limits<std::int64_t>::max(); // until stop says so
   return stage(session, model, "run", a, run_result({}),
-               [&](Simulation& simulation) { return run_result(simulation.run(options)); },
+               [&](Simulation& simulation) {
+                 const RunResult ran = simulation.run(options);
+                 Value result = run_result(ran);
+                 add_mass_scaling(session, "run", options.mass_scaling, ran.time_step, ran.scaled, result);
+                 return result;
+               },
                {{"callback", a.function("callback")}, {"stop", a.function("stop")}});
 }
 
@@ -130,7 +137,7 @@ void bind_results(Module& m) {
                         number("time_step").unit("s").required(),
                         integer("broken_tension").required().doc("bonds, in this stage"),
                         integer("broken_shear").required().doc("bonds, in this stage"),
-                        number("wall_time").unit("s").required()}});
+                        number("wall_time").unit("s").required(), mass_scaling_result_field()}});
   m.records.push_back({"Stage",
                        "A solving call.",
                        {integer("number").required().doc("over all models"), text("kind").required(),
@@ -166,7 +173,7 @@ void bind_solving(Module& m) {
            .above(0)
            .unit("s")
            .doc("instead of safety; at most the stable one, half of it for rigid bodies that may touch"),
-       breaking(),
+       mass_scaling_field(), breaking(),
        number("local_damping")
            .from(0, 1)
            .standard(0.0)

@@ -76,7 +76,8 @@ Cause likely_cause(const ModelObject& model) {
 }
 
 std::string avoiding(const Slivers& s) {
-  return s.elements ? "take another mesh size there, a simpler solid, or element = \"rigid\""
+  return s.elements ? "take another mesh size there, a simpler solid, element = \"rigid\", or mass_scaling "
+                      "where all is slow"
                     : "take element = \"rigid\", more relaxations or another seed of cdem.voronoi, or cuts "
                       "that stay clear of corners";
 }
@@ -121,6 +122,24 @@ void warn_of_slivers(Session& session, ModelObject& model) {
   if (!all.empty() && all != model.told_slivers)
     session.warn(all);
   model.told_slivers = all;
+}
+
+void note_process_zones(Session& session, ModelObject& model) {
+  std::string coarse;
+  for (const ProcessZone& zone : model.simulation.process_zones()) {
+    const std::string found = "process zone E' G_I / T^2 of " + zone.of + ": " + three_digits(zone.length) +
+                              " m; faces of " + three_digits(zone.face_size) + " m";
+    model.notes->process_zones.push_back(found + ", " + three_digits(zone.faces_in_zone()) +
+                                         " in the cohesive zone; at most " +
+                                         three_digits(zone.largest_face_size) + " m serves");
+    if (!zone.resolved())
+      coarse += (coarse.empty() ? "" : "; ") + found + " leave " + three_digits(zone.faces_in_zone()) +
+                " in its cohesive zone, fewer than " + three_digits(least_faces_in_zone) +
+                ": strength and energy will depend on the mesh; take faces of at most " +
+                three_digits(zone.largest_face_size) + " m, or a larger fracture_energy_1";
+  }
+  if (!coarse.empty())
+    session.warn(coarse);
 }
 
 void warn_after_stage(Session& session, ModelObject& model, const Stage& stage) {

@@ -13,6 +13,9 @@ void warn_if_nothing_acts(Session&, const ModelObject&, const std::string& kind)
 // Flat or tiny elements that shorten the time step of a stage in real time; once, until others do.
 void warn_of_slivers(Session&, ModelObject&);
 
+// When a model is made: the process zones of what softens, with a warning where faces are too large for them.
+void note_process_zones(Session&, ModelObject&);
+
 // After a stage: what small strain cannot hold, what left the model, which laws acted on nothing so far.
 void warn_after_stage(Session&, ModelObject&, const Stage&);
 

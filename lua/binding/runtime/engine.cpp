@@ -200,6 +200,8 @@ std::string Engine::model_summary() const {
   for (std::size_t i = 0; i < session.notes.size(); ++i) {
     const int number = static_cast<int>(i) + 1;
     out += "model " + std::to_string(number) + ": " + session.notes[i]->built + "\n";
+    for (const std::string& line : session.notes[i]->process_zones)
+      out += "  " + line + "\n";
     for (const std::string& line : session.notes[i]->apart)
       out += "  " + line + "\n";
     for (const std::string& line : session.notes[i]->conditions)

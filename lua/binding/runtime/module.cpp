@@ -31,6 +31,9 @@ const Module& module() {
     bind_fracture(m);
     bind_flow(m);
     bind_measures(m);
+    bind_cracks(m);
+    bind_j_integral(m);
+    bind_fragments(m);
     bind_units(m);
     bind_output(m);
     bind_checkpoints(m);

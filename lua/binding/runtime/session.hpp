@@ -26,10 +26,11 @@ struct Stage {
 
 // What is said about a model even after the script has let go of it.
 struct ModelNotes {
-  std::string built;                   // bodies, blocks, tets, bonds, size
-  std::vector<std::string> conditions; // one line each
-  std::vector<std::string> apart;      // contacts without an interface when the model was made, one line each
-  std::vector<std::string> unmet;      // the same that have not touched either, after the last solving call
+  std::string built;                      // bodies, blocks, tets, bonds, size
+  std::vector<std::string> process_zones; // one line each
+  std::vector<std::string> conditions;    // one line each
+  std::vector<std::string> apart; // contacts without an interface when the model was made, one line each
+  std::vector<std::string> unmet; // the same that have not touched either, after the last solving call
 };
 
 struct Parameter {

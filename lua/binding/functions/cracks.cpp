@@ -1,0 +1,216 @@
+// Results of fracture: area and energy of cracks, their tip and speed.
+#include "lua/binding/objects/model_object.hpp"
+#include "lua/binding/runtime/module.hpp"
+
+#include "libcdem/material/wave_speeds.hpp"
+#include "libgeom/core/error.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace cdem::script {
+
+namespace {
+
+using geom::InputError;
+using geom::Vec3;
+
+// Of `reach` left out, over the usual distance of broken points: about the edge of a tetrahedron.
+constexpr double usual_reach = 1.5;
+// Of `window` left out, over the time that the crack has run.
+constexpr double usual_window = 0.1;
+
+Table row_of(const Cracks& some) {
+  Table row;
+  for (const std::string& quantity : crack_quantities())
+    row.named[quantity] = crack_quantity(some, quantity);
+  return row;
+}
+
+Value cracks(Session&, ModelObject& model, const Arguments&) {
+  const CracksByBody found = model.simulation.cracks();
+  Table row = row_of(found.all()), bodies;
+  for (std::size_t b = 0; b < found.bodies.size(); ++b)
+    bodies.named[model.body_names[b]] = row_of(found.bodies[b]);
+  row.named["bodies"] = std::move(bodies);
+  row.named["between"] = row_of(found.between);
+  return row;
+}
+
+Value record_cracks(Session&, ModelObject& model, const Arguments& a) {
+  model.require_idle("record_cracks");
+  const std::string& name = a.text("name");
+  if (name.empty() || name.find_first_of(",\n\"") != std::string::npos)
+    throw InputError("name", describe(a.value("name")),
+                     "a word: it begins the names of columns of history.csv");
+  model.simulation.record_cracks(name, a.text_or("body", ""));
+  return {};
+}
+
+std::vector<Vec3> corners_of(const ModelObject& model, const Arguments& a) {
+  std::vector<Vec3> corners;
+  for (const Value& corner : a.list("path"))
+    corners.push_back(to_vec3(corner));
+  const bool line = a.has("point") || a.has("direction");
+  if (corners.empty() != line || a.has("point") != a.has("direction"))
+    throw InputError("path: give either path, a list of places, or point and direction");
+  if (line) {
+    const Vec3 direction = a.vec3("direction");
+    if (!(direction.norm() > 0))
+      throw InputError("direction", describe(a.value("direction")), "longer than zero");
+    corners = {a.vec3("point"),
+               a.vec3("point") + model.simulation.box().size().norm() * direction.normalized()};
+  }
+  for (std::size_t i = 1; i < corners.size(); ++i)
+    if (corners[i] == corners[i - 1])
+      throw InputError("path[" + std::to_string(i + 1) + "]: the same place as path[" + std::to_string(i) +
+                       "]; leave one out");
+  return corners;
+}
+
+// Of the body named, or of the only one; nil where there are several.
+Value rayleigh_of(const ModelObject& model, const Arguments& a) {
+  if (a.has("body"))
+    return rayleigh_speed(model.simulation.material(a.text("body")));
+  return model.body_names.size() == 1 ? Value(rayleigh_speed(model.simulation.material(model.body_names[0])))
+                                      : Value();
+}
+
+Value crack_tip(Session&, ModelObject& model, const Arguments& a) {
+  const auto& breaks = model.simulation.breaks();
+  CrackPath path{corners_of(model, a), a.number("width"), 0};
+  const double distance = usual_distance(breaks, path.corners, path.width);
+  path.reach = a.optional_number("reach").value_or(distance > 0 ? usual_reach * distance : path.width);
+  std::vector<CrackTipRow> rows = cdem::crack_tip(breaks, path);
+  const double ran = rows.empty() ? 0 : rows.back().time - rows.front().time;
+  const double window = a.optional_number("window").value_or(usual_window * ran);
+  if (window > 0)
+    add_speeds(rows, window);
+  Table lists[6]; // stage, step, time, position, speed, place
+  double fastest = 0;
+  for (const CrackTipRow& row : rows) {
+    lists[0].items.emplace_back(row.stage);
+    lists[1].items.emplace_back(row.step);
+    lists[2].items.emplace_back(row.time);
+    lists[3].items.emplace_back(row.position);
+    lists[4].items.emplace_back(row.speed);
+    lists[5].items.emplace_back(row.place);
+    fastest = std::fmax(fastest, row.speed);
+  }
+  Table result{{"reach", path.reach}, {"window", window}, {"fastest", fastest}};
+  static const char* const names[] = {"stage", "step", "time", "position", "speed", "place"};
+  for (int i = 0; i < 6; ++i)
+    result.named[names[i]] = std::move(lists[i]);
+  if (!rows.empty())
+    result.named["tip"] = Table{{"position", rows.back().position}, {"place", rows.back().place}};
+  result.named["rayleigh_speed"] = rayleigh_of(model, a);
+  return result;
+}
+
+std::vector<Field> crack_fields() {
+  return {
+      number("area").unit("m2").required().doc("of all cracks: the three below together"),
+      number("tension_area").unit("m2").required().doc("broken in tension"),
+      number("shear_area").unit("m2").required().doc("broken in shear"),
+      number("damaged_area").unit("m2").required().doc("damage times area of what softens and is not broken"),
+      number("projected_area")
+          .unit("m2")
+          .required()
+          .doc("area as the planes that failed see it: a cohesive crack takes its fracture energy on this "
+               "one"),
+      number("energy").unit("J").required().doc("taken by breaking and damage"),
+      number("tension_energy").unit("J").required(),
+      number("shear_energy").unit("J").required()};
+}
+
+void bind_records(Module& m) {
+  std::vector<Field> all = crack_fields();
+  m.records.push_back({"CrackSum", "How much has cracked, and what it took.", all});
+  all.push_back(plain("bodies").required().doc("a cdem.CrackSum for each body, by its name"));
+  all.push_back(record("between", crack_fields()).required().doc("in joints between two bodies"));
+  m.records.push_back({"Cracks", "How much has cracked, of the model and of each body.", all});
+  m.records.push_back(
+      {"CrackTip",
+       "The tip of a crack along a path: lists with an entry for each step at which it moved on.",
+       {list("time", number_type(), 0).unit("s").required(),
+        list("position", number_type(), 0).unit("m").required().doc("along the path"),
+        list("speed", number_type(), 0)
+            .unit("m/s")
+            .required()
+            .doc("least-squares slope over the window; nan where no time passes, as in a relaxation"),
+        list("place", vec3_type(), 0).unit("m").required().doc("of the broken point, undeformed"),
+        list("stage", number_type(), 0).required(),
+        list("step", number_type(), 0).required().doc("within the stage"),
+        record("tip", {number("position").unit("m").required(), vec3("place").unit("m").required()})
+            .doc("the last of them; nil where nothing broke at the start of the path"),
+        number("fastest").unit("m/s").required().doc("largest speed; 0 where there is none"),
+        number("rayleigh_speed").unit("m/s").doc("of the body, which no crack in tension can exceed"),
+        number("reach").unit("m").required(), number("window").unit("s").required()}});
+}
+
+void bind_tip(Class& model) {
+  model.methods.push_back(
+      {"crack_tip",
+       "Where the tip of a crack was along a path, and how fast it ran, from the bonds that broke. The tip "
+       "is "
+       "the farthest broken point that hangs together with the start of the path; a microcrack ahead counts "
+       "once the crack has met it.",
+       {vec3("point").unit("m").doc(
+            "where the crack starts, undeformed; the path runs on to the end of the model"),
+        vec3("direction").doc("of that straight path"),
+        list("path", vec3_type(), 2)
+            .unit("m")
+            .doc("instead of point and direction: its corners, undeformed, the first where the crack starts. "
+                 "Along a face of a body it follows what shows there"),
+        number("width").above(0).unit("m").required().doc("how far from the path a broken point may lie"),
+        number("reach").above(0).unit("m").doc(
+            "points nearer than this hang together; about the edge of a tetrahedron when left out"),
+        number("window").above(0).unit("s").doc(
+            "over which the speed is fitted; several times what the crack takes for one element. A tenth of "
+            "the time it ran when left out"),
+        text("body").doc("whose Rayleigh speed is told; the only one when left out")},
+       false,
+       "cdem.CrackTip",
+       "",
+       method<ModelObject>(crack_tip)});
+}
+
+} // namespace
+
+void bind_cracks(Module& m) {
+  bind_records(m);
+  m.functions.push_back(
+      {"rayleigh_speed",
+       "Speed of waves along the free surface of a material, m/s: the exact root of Rayleigh's "
+       "equation. A crack in tension cannot run faster.",
+       {object("material", "Material").required()},
+       true,
+       "number",
+       "",
+       [](Session&, Object*, const Arguments& a) -> Value {
+         return rayleigh_speed(a.object<MaterialObject>("material")->elastic);
+       }});
+  Class& model = m.the_class("Model");
+  model.methods.push_back({"cracks",
+                           "Area of all cracks and the energy they took, of the model and of each body.",
+                           {},
+                           true,
+                           "cdem.Cracks",
+                           "",
+                           method<ModelObject>(cracks)});
+  model.methods.push_back(
+      {"record_cracks",
+       "Samples the area and energy of cracks into the history, as columns <name>_area, <name>_tension_area, "
+       "<name>_shear_area, <name>_damaged_area, <name>_projected_area, <name>_energy, <name>_tension_energy "
+       "and "
+       "<name>_shear_energy (as in cdem.CrackSum).",
+       {text("name").standard(std::string("crack")),
+        text("body").doc("by name; the whole model when left out")},
+       false,
+       "",
+       "",
+       method<ModelObject>(record_cracks)});
+  bind_tip(model);
+}
+
+} // namespace cdem::script

@@ -1,0 +1,37 @@
+// A model that breaks while it runs, in phases: how fast each steps beside the first, in which it is whole.
+#pragma once
+
+#include "libcdem/procedure/run.hpp"
+#include "tests/bench/measure.hpp"
+
+#include <functional>
+#include <string>
+
+namespace bench {
+
+// The columns of a phase.
+void print_head_of_phases(const char* title);
+
+class Phases {
+public:
+  static constexpr int ask_every = 20; // steps
+
+  // label: of the rows.
+  Phases(std::string label, cdem::Model model);
+
+  cdem::Model model;
+  cdem::State state;
+  cdem::Conditions conditions;
+  cdem::RunLog log;
+
+  // Runs until ends(), asked every few steps, or for so many seconds of processor time, and prints a row.
+  void run(const char* name, double most_seconds, const std::function<bool()>& ends);
+
+private:
+  std::string label_;
+  cdem::State last_good_;
+  double start_ = 0, whole_ = 0; // J; steps a second
+  int stage_ = 0;
+};
+
+} // namespace bench
