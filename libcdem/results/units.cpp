@@ -109,7 +109,7 @@ geom::Vec3 centroid_displacement(const Model& model, const State& state, int b) 
 }
 
 geom::Vec3 shown_centroid_displacement(const Model& model, const State& state, int b) {
-  const geom::Vec3 moved = centroid_displacement(model, state, b);
+  geom::Vec3 moved = centroid_displacement(model, state, b);
   if (state.displacement_zero.empty())
     return moved;
   return moved - at_centroid(model, state.displacement_zero, model.blocks[b]);
