@@ -131,6 +131,43 @@ void require_zones(const BodySpec& body) {
                            "leave element = \"small_strain\" out");
 }
 
+// Laws of the body's joint sets and named cuts, and that of its glued faces.
+void add_set_joints(Model& frame, int index, const BodySpec& body) {
+  const auto add = [&](const Joint& joint) {
+    validate(joint);
+    frame.joints.push_back(joint);
+    return static_cast<int>(frame.joints.size()) - 1;
+  };
+  Body& made = frame.bodies[index];
+  std::map<std::string, bool> glued; // by name, all faces
+  bool any_glued = false;
+  for (const geom::Polyhedron& block : body.shape.blocks)
+    for (const geom::PolyhedronFace& face : block.faces) {
+      any_glued = any_glued || face.glued;
+      if (!face.cut.empty())
+        glued[face.cut] = glued.emplace(face.cut, true).first->second && face.glued;
+    }
+  for (const auto& [name, joint] : body.set_joints) {
+    const auto found = glued.find(name);
+    if (found == glued.end()) {
+      std::string names;
+      for (const auto& known : glued)
+        names += (names.empty() ? "\"" : ", \"") + known.first + "\"";
+      throw geom::InputError("joints of body \"" + body.name + "\"", "\"" + name + "\"",
+                             names.empty() ? "the name of a joint set or cut; none of its cuts has a name"
+                                           : "the name of a joint set or cut of its shape (" + names + ")",
+                             names.empty() ? "give the set or cut a name = \"" + name + "\"" : "");
+    }
+    if (found->second)
+      throw geom::InputError("joints of body \"" + body.name + "\"", "\"" + name + "\"",
+                             "a cut that is not glued",
+                             "leave glued = true out of the cut, or the law out here");
+    made.set_joint[name] = add(joint);
+  }
+  if (any_glued)
+    made.glued_joint = add(glued_joint());
+}
+
 } // namespace
 
 Model first_model(const ModelSpec& spec) {
@@ -165,6 +202,7 @@ Model first_model(const ModelSpec& spec) {
     parts.push_back(body.shape.blocks.size() + meshes.size() - before);
     frame.pair_joint[{index, index}] = static_cast<int>(frame.joints.size());
     frame.joints.push_back(body.joint);
+    add_set_joints(frame, index, body);
     for (const geom::Polyhedron& block : body.shape.blocks) {
       BlockSeed seed;
       seed.body = index;

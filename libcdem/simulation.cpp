@@ -117,50 +117,26 @@ void Simulation::clear_loads() {
   impl_->conditions.gravity.reset();
 }
 
-void Simulation::initial_stress(const Selection& on, const std::array<double, 6>& stress) {
+BeyondStrength Simulation::initial_stress(const InitialStress& field) {
   Impl& s = *impl_;
-  for (const double component : stress)
-    if (!std::isfinite(component))
-      throw geom::InputError("stress", number(component), "six finite numbers (xx yy zz xy yz xz), Pa");
   const double before = s.stored_energy();
-  std::vector<char> selected(s.model.blocks.size(), 0);
-  for (std::size_t b = 0; b < selected.size(); ++b)
-    if (selects_block(s.model, on, static_cast<int>(b))) {
-      selected[b] = 1;
-      const Block& block = s.model.blocks[b];
-      if (!block.convex() && !s.model.bodies[block.body].bonding.none())
-        throw geom::InputError("on", on.text, "blocks, or meshes without bonds",
-                               "the bonded faces of a mesh cannot be given an initial stress");
-      if (!block.meshed) {
-        for (int c = 0; c < 6; ++c)
-          s.state.initial_stress[b][c] += stress[c];
-        continue;
-      }
-      // Kept by each tet, in the directions of now; of a rigid block in those it was made rigid in.
-      const geom::Mat3 turn = block.rigid < 0 ? geom::Mat3::Identity() : rotation(s.state.rigid[block.rigid]);
-      const Stress own = turned(turn.transpose(), stress);
-      for (int tet = block.tet_begin; tet < block.tet_end; ++tet) {
-        Stress sum = mesh_stress(s.model, s.state, tet);
-        for (int c = 0; c < 6; ++c)
-          sum[c] += own[c];
-        set_mesh_stress(s.model, s.state, tet, sum);
-      }
-    }
-  if (std::find(selected.begin(), selected.end(), 1) == selected.end())
-    throw geom::InputError("on", on.text, "a place that holds block centroids",
-                           "nothing of the model lies there");
-  const geom::Mat3 sigma = matrix(stress);
-  for (std::size_t p = 0; p < s.model.points.size(); ++p) {
-    const Interface& interface = s.model.interfaces[s.model.points[p].interface];
-    if (!selected[interface.block_a] || !selected[interface.block_b])
-      continue;
-    const geom::Mat3 turn = interface_rotation(s.model, s.state.displacement.data(), interface);
-    const geom::Vec3 t = turn.transpose() * sigma * turn * interface.normal;
-    const double normal = t.dot(interface.normal);
-    s.state.bond_offset[p] -=
-        normal / interface.kn * interface.normal + (t - normal * interface.normal) / interface.ks;
-  }
+  State changed = s.state;
+  add_initial_stress(s.model, changed, field);
+  s.state = std::move(changed);
   s.state.spent.cutting += before - s.stored_energy();
+  return beyond_strength(s.model, s.state);
+}
+
+void Simulation::initial_stress(const Selection& on, const std::array<double, 6>& stress) {
+  InitialStress field;
+  field.on = on;
+  field.stress = stress;
+  initial_stress(field);
+}
+
+void Simulation::reset_displacement() {
+  impl_->state.displacement_zero = impl_->state.displacement;
+  impl_->last_good = impl_->state;
 }
 
 void Simulation::initial_velocity(const Selection& on, const geom::Vec3& velocity,
@@ -316,6 +292,10 @@ GrowResult Simulation::grow(const GrowOptions& options) {
 
 Deformation Simulation::deformation() const {
   return largest_deformation(impl_->model, impl_->state);
+}
+
+bool Simulation::has_gravity() const {
+  return impl_->conditions.gravity.has_value();
 }
 
 bool Simulation::anything_acts() const {

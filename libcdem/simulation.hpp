@@ -5,6 +5,7 @@
 #include "libcdem/fracture/options.hpp"
 #include "libcdem/joint/joint.hpp"
 #include "libcdem/load/conditions.hpp"
+#include "libcdem/load/initial_stress.hpp"
 #include "libcdem/material/elastic.hpp"
 #include "libcdem/model/bonding.hpp"
 #include "libcdem/model/element.hpp"
@@ -22,6 +23,7 @@
 #include "libcdem/results/process_zone.hpp"
 #include "libcdem/results/slivers.hpp"
 #include "libcdem/results/snapshot.hpp"
+#include "libcdem/results/unbalance.hpp"
 #include "libcdem/results/unit.hpp"
 #include "libcdem/state/ledger.hpp"
 #include "libcdem/step/checkpoint_writer.hpp"
@@ -32,6 +34,7 @@
 #include "libgeom/mesh/surface.hpp"
 
 #include <array>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -50,6 +53,8 @@ struct BodySpec {
   Element element = Element::finite_volume; // small_strain: of blocks only
   double zone_size = 0;        // m, edge length of the tets inside each convex block; 0: its star mesh
   RegionLaws region_laws = {}; // of meshes
+  // Of blocks: laws on faces by the joint set or cut that made them; `joint` holds the others.
+  std::map<std::string, Joint> set_joints = {};
 };
 
 struct PairSpec {
@@ -94,9 +99,11 @@ public:
   void gravity(const Gravity&);
   bool flow(const Flow&); // true when it meets faces that an earlier one meets: their pressures add up
   void clear_loads();     // tractions, forces, gravity and flows
-  // Stress present before anything moves, Pa, tension positive (xx yy zz xy yz xz), constant over the selected blocks;
-  // interfaces between two selected blocks start with its traction.
-  void initial_stress(const Selection&, const std::array<double, 6>&);
+  // Stress present before anything moves (load/initial_stress.hpp). Returns what it loads beyond its strength.
+  BeyondStrength initial_stress(const InitialStress&);
+  void initial_stress(const Selection&, const std::array<double, 6>&); // Pa, the same in all selected blocks
+  // Results count the displacement from here on; mechanics goes on as before.
+  void reset_displacement();
   // The motion of a rigid body, given to all that is selected: v + w x (x - about), m/s and rad/s; about: m, where it
   // is now, the centroid of what is selected unless given. A rigid body takes it as a whole.
   void initial_velocity(const Selection&, const geom::Vec3& velocity,
@@ -128,11 +135,12 @@ public:
   // Results.
   ModelCounts counts() const;
   ContactSummary contacts() const;
-  double time() const;             // s
-  double residual() const;         // out-of-balance force norm over applied force norm
-  double stable_time_step() const; // s
-  int stage() const;               // solving calls so far
-  std::int64_t steps() const;      // steps of all stages
+  double time() const;     // s
+  double residual() const; // out-of-balance force norm over applied force norm
+  Unbalance unbalance(std::optional<double> reference = {}) const; // results/unbalance.hpp
+  double stable_time_step() const;                                 // s
+  int stage() const;                                               // solving calls so far
+  std::int64_t steps() const;                                      // steps of all stages
   EnergyLedger energy() const;
   std::uint64_t state_hash() const;               // of every State field, bit for bit
   geom::Box box() const;                          // undeformed
@@ -147,6 +155,7 @@ public:
   // There is something that could move the model: a load, a support that moves it, an initial stress or velocity, or
   // a state that is deformed already.
   bool anything_acts() const;
+  bool has_gravity() const;
   std::vector<Fragment> fragments() const;              // largest first
   std::vector<FragmentMotion> fragment_motions() const; // the same, with their motion
 

@@ -117,6 +117,14 @@ double Simulation::at(const std::string& field, const geom::Vec3& place) const {
   return value_at(impl_->model, impl_->state, field, place);
 }
 
+Unbalance Simulation::unbalance(std::optional<double> reference) const {
+  const Impl& s = *impl_;
+  Workspace work(s.model, s.state, s.conditions);
+  update_external(work.resolved, s.state.time);
+  return cdem::unbalance(s.model, work.resolved, net_forces(s.model, s.state, work), s.conditions.gravity,
+                         reference);
+}
+
 geom::Vec3 Simulation::reaction(const Selection& on) const {
   const Impl& s = *impl_;
   const std::vector<int> nodes = selected_nodes(s.model, on);
@@ -141,7 +149,7 @@ std::vector<Simulation::BlockRow> Simulation::blocks() const {
   for (int b = 0; b < static_cast<int>(s.model.blocks.size()); ++b) {
     const Block& block = s.model.blocks[b];
     rows.push_back({block.id, block.parent, block.generation, s.model.bodies[block.body].name,
-                    block.mass.centroid, centroid_displacement(s.model, s.state, b), block.mass.volume,
+                    block.mass.centroid, shown_centroid_displacement(s.model, s.state, b), block.mass.volume,
                     block_stress(s.model, s.state, b)});
   }
   return rows;

@@ -31,10 +31,10 @@ void archive(A& a, RateEffect& x) {
 
 template <class A>
 void archive(A& a, Joint& x) {
-  auto& [bonded, cohesion, friction_angle, tensile_strength, softening, g1, g2, thickness_ratio, thickness,
-         kn, ks, restitution, scatter, rate] = x;
-  archive_all(a, bonded, cohesion, friction_angle, tensile_strength, softening, g1, g2, thickness_ratio,
-              thickness, kn, ks, restitution, scatter, rate);
+  auto& [bonded, glued, cohesion, friction_angle, tensile_strength, softening, g1, g2, thickness_ratio,
+         thickness, kn, ks, restitution, scatter, rate] = x;
+  archive_all(a, bonded, glued, cohesion, friction_angle, tensile_strength, softening, g1, g2,
+              thickness_ratio, thickness, kn, ks, restitution, scatter, rate);
 }
 
 template <class A>
@@ -51,14 +51,14 @@ void archive(A& a, Bonding& x) {
 
 template <class A>
 void archive(A& a, Body& x) {
-  auto& [name, material, joint, bonding, element, zone_size, region_laws] = x;
-  archive_all(a, name, material, joint, bonding, element, zone_size, region_laws);
+  auto& [name, material, joint, bonding, element, zone_size, region_laws, set_joint, glued_joint] = x;
+  archive_all(a, name, material, joint, bonding, element, zone_size, region_laws, set_joint, glued_joint);
 }
 
 template <class A>
 void archive(A& a, geom::PolyhedronFace& x) {
-  auto& [loop] = x;
-  archive(a, loop);
+  auto& [loop, cut, glued] = x;
+  archive_all(a, loop, cut, glued);
 }
 
 template <class A>

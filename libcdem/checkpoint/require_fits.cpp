@@ -79,7 +79,8 @@ void require_fits(const Model& model, const State& state) {
   require_length("bond_damage", state.bond_damage.size(), fresh.bond_damage.size());
   require_length("bond_slip", state.bond_slip.size(), fresh.bond_slip.size());
   require_length("released", state.released.size(), model.frames.size());
-  require_length("initial_stress", state.initial_stress.size(), model.blocks.size());
+  require_length("initial_stress", state.initial_stress.size(), small_strain_tets(model));
+  require_length("displacement_zero", state.displacement_zero.size(), nodes, true);
   require_length("stress", state.stress.size(), model.mesh.batches.size());
   require_length("viscous_stress", state.viscous_stress.size(), fresh.viscous_stress.size());
   require_length("faces", state.faces.size(), model.mesh.faces.size());

@@ -401,6 +401,11 @@ void require_whole(const Model& model) {
     require(body.bonding.kind <= BondKind::cohesive, "bodies.bonding", static_cast<int>(body.bonding.kind));
     require_length("bodies.region_laws", body.region_laws.regions.size(), body.region_laws.joints.size());
   }
+  for (const Body& body : model.bodies) {
+    below("bodies.glued_joint", body.glued_joint, model.joints.size(), -1);
+    for (const auto& [name, joint] : body.set_joint)
+      below("bodies.set_joint", joint, model.joints.size());
+  }
   check_pairs("pair_joint", model.pair_joint, model);
   require_length("node_mass", model.node_mass.size(), model.node_position.size());
   require_length("tet_block", model.tet_block.size(), model.tets.size());

@@ -14,6 +14,22 @@ TetGradients geometry(const Model& model, int tet) {
   return tet_gradients({x[t[0]], x[t[1]], x[t[2]], x[t[3]]});
 }
 
+// Volume mean over a block of small strain. It is the common one, to the last bit, where all tets have the same.
+Stress mean_initial_stress(const Model& model, const State& state, const Block& block) {
+  const Stress& first = state.initial_stress[block.tet_begin];
+  Stress sum{};
+  double volume = 0;
+  for (int tet = block.tet_begin; tet < block.tet_end; ++tet) {
+    const double v = tet_volume(model, tet);
+    volume += v;
+    for (int c = 0; c < 6; ++c)
+      sum[c] += v * (state.initial_stress[tet][c] - first[c]);
+  }
+  for (int c = 0; c < 6; ++c)
+    sum[c] = first[c] + sum[c] / volume;
+  return sum;
+}
+
 } // namespace
 
 TetGradients tet_gradients(const std::array<geom::Vec3, 4>& x) {
@@ -91,8 +107,9 @@ Stress block_stress(const Model& model, const State& state, int block) {
   }
   // Linear elasticity: the mean stress is the stress of the mean gradient.
   Stress stress = elastic_stress(model.bodies[b.body].material, block_gradient(model, state.displacement, b));
+  const Stress initial = mean_initial_stress(model, state, b);
   for (int c = 0; c < 6; ++c)
-    stress[c] += state.initial_stress[block][c];
+    stress[c] += initial[c];
   return stress;
 }
 
@@ -107,18 +124,15 @@ geom::Mat3 block_rotation(const Model& model, const State& state, int block) {
   return rotation_in(geom::Mat3::Identity() + block_gradient(model, state.displacement, model.blocks[block]));
 }
 
-void add_uniform_stress_forces(const Model& model, const Block& block, const Stress& stress,
-                               std::vector<Node>& force) {
+void add_stress_forces(const Model& model, int tet, const Stress& stress, std::vector<Node>& force) {
   const geom::Mat3 sigma = matrix(stress);
-  for (int tet = block.tet_begin; tet < block.tet_end; ++tet) {
-    const TetGradients g = geometry(model, tet);
-    for (int k = 0; k < 4; ++k) {
-      const geom::Vec3 f = -g.volume * (sigma * g.gradient[k]);
-      Node& node = force[model.tets[tet][k]];
-      node.x += f.x();
-      node.y += f.y();
-      node.z += f.z();
-    }
+  const TetGradients g = geometry(model, tet);
+  for (int k = 0; k < 4; ++k) {
+    const geom::Vec3 f = -g.volume * (sigma * g.gradient[k]);
+    Node& node = force[model.tets[tet][k]];
+    node.x += f.x();
+    node.y += f.y();
+    node.z += f.z();
   }
 }
 

@@ -181,10 +181,9 @@ std::vector<Node> present_places(const Model& model, const State& state) {
 Stress tet_stress(const Model& model, const State& state, int tet) {
   Stress stress{};
   if (tet < model.mesh.first_tet || model.mesh.empty()) {
-    const int block = model.tet_block[tet];
     stress = elastic_stress(material_of(model, tet), displacement_gradient(model, state.displacement, tet));
     for (int c = 0; c < 6; ++c)
-      stress[c] += state.initial_stress[block][c];
+      stress[c] += state.initial_stress[tet][c];
     return stress;
   }
   stress = mesh_stress(model, state, tet);

@@ -10,8 +10,8 @@ namespace cdem {
 void add_small_strain_forces(const TetBatch* batches, std::int64_t count, const Node* displacement,
                              Node* force);
 
-// Nodal forces of a stress that is constant over the block.
-void add_uniform_stress_forces(const Model&, const Block&, const Stress&, std::vector<Node>& force);
+// Nodal forces of a stress in a tet.
+void add_stress_forces(const Model&, int tet, const Stress&, std::vector<Node>& force);
 
 // Volume and gradients of the shape functions of a tet at given places.
 struct TetGradients {

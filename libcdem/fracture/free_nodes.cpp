@@ -91,6 +91,7 @@ private:
     };
     carry(from_.displacement, to_.state.displacement);
     carry(from_.velocity, to_.state.velocity);
+    carry(from_.displacement_zero, to_.state.displacement_zero);
     carry(from_.rigid_offset, to_.state.rigid_offset);
     carry(from_.escaped, to_.state.escaped);
   }

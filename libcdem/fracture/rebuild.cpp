@@ -4,6 +4,7 @@
 #include "libcdem/bond/interface_frame.hpp"
 #include "libcdem/bond/spring_forces.hpp"
 #include "libcdem/contact/response/contact_point.hpp"
+#include "libcdem/element/mesh_fields.hpp"
 #include "libcdem/element/small_strain.hpp"
 #include "libgeom/polyhedron/cut.hpp"
 
@@ -48,39 +49,6 @@ Node blend(const std::vector<Node>& values, const geom::Tet& tet, const Eigen::V
   return n;
 }
 
-// Displacement and velocity at a place of an old block: of the tet that holds it best.
-void carry_node(const Model& old, const State& from, const Block& block, const geom::Vec3& place,
-                Node& displacement, Node& velocity) {
-  int best = block.tet_begin;
-  Eigen::Vector4d best_weights = Eigen::Vector4d::Constant(-1e30);
-  for (int tet = block.tet_begin; tet < block.tet_end; ++tet) {
-    const Eigen::Vector4d w = weights(old, tet, place);
-    if (w.minCoeff() > best_weights.minCoeff()) {
-      best = tet;
-      best_weights = w;
-    }
-  }
-  displacement = blend(from.displacement, old.tets[best], best_weights);
-  velocity = blend(from.velocity, old.tets[best], best_weights);
-}
-
-// Stress of an old block at a place: mean over the tets that hold it, so that mirror images stay mirror images.
-geom::Mat3 stress_at(const Model& old, const State& from, int block, const geom::Vec3& place) {
-  const Block& b = old.blocks[block];
-  geom::Mat3 sum = geom::Mat3::Zero();
-  int count = 0;
-  for (int tet = b.tet_begin; tet < b.tet_end; ++tet)
-    if (weights(old, tet, place).minCoeff() >= inside) {
-      sum += matrix(b.meshed ? mesh_stress(old, from, tet)
-                             : elastic_stress(old.bodies[b.body].material,
-                                              displacement_gradient(old, from.displacement, tet)));
-      ++count;
-    }
-  if (count == 0)
-    return matrix(block_stress(old, from, block));
-  return sum / count + matrix(from.initial_stress[block]);
-}
-
 // The tet of an old block that holds a place best.
 int tet_at(const Model& old, const Block& block, const geom::Vec3& place) {
   int best = block.tet_begin;
@@ -91,6 +59,28 @@ int tet_at(const Model& old, const Block& block, const geom::Vec3& place) {
       best_weight = w;
     }
   return best;
+}
+
+// Nodal values at a place of an old block: of the tet that holds it best.
+Node at_place(const Model& old, const std::vector<Node>& values, const Block& block,
+              const geom::Vec3& place) {
+  const int tet = tet_at(old, block, place);
+  return blend(values, old.tets[tet], weights(old, tet, place));
+}
+
+// Stress of an old block at a place: mean over the tets that hold it, so that mirror images stay mirror images.
+geom::Mat3 stress_at(const Model& old, const State& from, int block, const geom::Vec3& place) {
+  const Block& b = old.blocks[block];
+  geom::Mat3 sum = geom::Mat3::Zero();
+  int count = 0;
+  for (int tet = b.tet_begin; tet < b.tet_end; ++tet)
+    if (weights(old, tet, place).minCoeff() >= inside) {
+      sum += matrix(b.meshed ? mesh_stress(old, from, tet) : tet_stress(old, from, tet));
+      ++count;
+    }
+  if (count == 0)
+    return matrix(block_stress(old, from, block));
+  return sum / count;
 }
 
 int nearest_point(const Model& old, const Interface& interface, const geom::Vec3& place) {
@@ -180,7 +170,8 @@ private:
       t.thickness = before->thickness;
       t.origin = before->origin;
       t.strength = before->strength; // parts of a face are no stronger and no weaker than it was
-      t.may_break = may_break_now(may_break_, t.origin, model.blocks[a], model.blocks[b], before->may_break);
+      t.may_break = !model.joints[t.joint].glued &&
+                    may_break_now(may_break_, t.origin, model.blocks[a], model.blocks[b], before->may_break);
       return t;
     }
     t = default_traits(model, a, fa, b, fb);
@@ -191,7 +182,8 @@ private:
       const Joint& joint = model.joints[t.joint];
       t.thickness = joint.thickness.value_or(joint.thickness_ratio * model.blocks[a].first_size);
     }
-    t.may_break = may_break_now(may_break_, t.origin, model.blocks[a], model.blocks[b], true);
+    t.may_break = !model.joints[t.joint].glued &&
+                  may_break_now(may_break_, t.origin, model.blocks[a], model.blocks[b], true);
     return t;
   }
 
@@ -199,30 +191,44 @@ private:
     for (std::size_t b = 0; b < r.model.blocks.size(); ++b) {
       const Block& now = r.model.blocks[b];
       const Block& before = old_.blocks[successors_[b].old_block];
-      r.state.initial_stress[b] = from_.initial_stress[successors_[b].old_block];
       if (!from_.escaped.empty()) {
         r.state.escaped.resize(r.model.node_position.size(), 0);
         std::fill(r.state.escaped.begin() + now.node_begin, r.state.escaped.begin() + now.node_end,
                   from_.escaped[before.node_begin]);
       }
+      if (!from_.displacement_zero.empty())
+        carry_zero(r, b);
       for (int node = now.node_begin; node < now.node_end; ++node) {
         if (successors_[b].whole) {
           const int same = before.node_begin + (node - now.node_begin);
           r.state.displacement[node] = from_.displacement[same];
           r.state.velocity[node] = from_.velocity[same];
         } else {
-          carry_node(old_, from_, before, r.model.node_position[node], r.state.displacement[node],
-                     r.state.velocity[node]);
+          const geom::Vec3& place = r.model.node_position[node];
+          const int tet = tet_at(old_, before, place);
+          const Eigen::Vector4d w = weights(old_, tet, place);
+          r.state.displacement[node] = blend(from_.displacement, old_.tets[tet], w);
+          r.state.velocity[node] = blend(from_.velocity, old_.tets[tet], w);
         }
       }
-      if (!now.meshed)
-        continue;
       for (int tet = now.tet_begin; tet < now.tet_end; ++tet) {
         const int source = successors_[b].whole ? before.tet_begin + (tet - now.tet_begin)
                                                 : tet_at(old_, before, centre_of(r.model, tet));
-        set_mesh_stress(r.model, r.state, tet, mesh_stress(old_, from_, source));
+        if (now.meshed)
+          set_mesh_stress(r.model, r.state, tet, mesh_stress(old_, from_, source));
+        else
+          r.state.initial_stress[tet] = from_.initial_stress[source];
       }
     }
+  }
+
+  void carry_zero(Rebuilt& r, std::size_t b) const {
+    const Block &now = r.model.blocks[b], &before = old_.blocks[successors_[b].old_block];
+    r.state.displacement_zero.resize(r.model.node_position.size());
+    for (int node = now.node_begin; node < now.node_end; ++node)
+      r.state.displacement_zero[node] =
+          successors_[b].whole ? from_.displacement_zero[before.node_begin + (node - now.node_begin)]
+                               : at_place(old_, from_.displacement_zero, before, r.model.node_position[node]);
   }
 
   static geom::Vec3 centre_of(const Model& model, int tet) {

@@ -31,8 +31,9 @@ MeanField mean_field(const Model& model, const State& state, const geom::Vec3& c
     const double w = geom::portable::exp(-exponent) * tet_volume(model, tet);
     const geom::Mat3 gradient = displacement_gradient(model, state.displacement, tet);
     sum.gradient += w * gradient;
-    sum.stress += w * (matrix(elastic_stress(model.bodies[model.blocks[block].body].material, gradient)) +
-                       matrix(state.initial_stress[block]));
+    sum.stress += w * matrix(elastic_stress(model.bodies[model.blocks[block].body].material, gradient));
+    if (tet < static_cast<int>(state.initial_stress.size()))
+      sum.stress += w * matrix(state.initial_stress[tet]);
     weights += w;
   }
   sum.gradient /= weights;

@@ -14,6 +14,7 @@ enum class Softening { none, linear, exponential }; // none: brittle, as in Han 
 
 struct Joint {
   bool bonded = true;          // false: a contact from the start (tension free, friction only)
+  bool glued = false;          // bonded and never breaks: the face of a construction cut, no joint
   double cohesion = 0;         // c0, Pa, >= 0
   double friction_angle = 0;   // phi, rad, in [0, pi/2)
   double tensile_strength = 0; // sigma_t, Pa, >= 0
@@ -38,6 +39,11 @@ struct Joint {
   StrengthScatter scatter = {}; // of sigma_t and c0 together, from face to face; the energies stay
   RateEffect rate = {};         // of cohesive bodies
 };
+
+// L over the block size of glued faces: a quarter of a joint's usual give. Stiffer ones would only cost steps.
+inline constexpr double glued_thickness_ratio = 0.005;
+
+Joint glued_joint();
 
 // Throws geom::InputError naming the field, its value and the allowed range. Angles are printed in degrees.
 void validate(const Joint&);

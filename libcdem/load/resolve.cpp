@@ -188,10 +188,10 @@ ResolvedConditions resolve(const Model& model, const State& state, const Conditi
   if (!r.varying.empty())
     r.constant = r.external;
   refresh_flows(model, state, r);
-  for (std::size_t b = 0; b < model.blocks.size(); ++b)
-    if (state.initial_stress[b] != Stress{}) {
+  for (std::size_t tet = 0; tet < state.initial_stress.size(); ++tet)
+    if (state.initial_stress[tet] != Stress{}) {
       r.internal.resize(n);
-      add_uniform_stress_forces(model, model.blocks[b], state.initial_stress[b], r.internal);
+      add_stress_forces(model, static_cast<int>(tet), state.initial_stress[tet], r.internal);
     }
   return r;
 }

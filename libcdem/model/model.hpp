@@ -28,6 +28,9 @@ struct Body {
   Element element = Element::small_strain; // that it starts as; single blocks may turn rigid and back
   double zone_size = 0;        // m, edge length of the tets inside its convex blocks; 0: their star meshes
   RegionLaws region_laws = {}; // of a meshed body
+  // Index into Model::joints of the law on faces that a joint set or cut of this name made; others have `joint`.
+  std::map<std::string, int> set_joint = {};
+  int glued_joint = -1; // the same for glued faces; -1: it has none
 
   bool has_rate_effect() const {
     return joint.rate.on() || std::any_of(region_laws.joints.begin(), region_laws.joints.end(),

@@ -48,6 +48,17 @@ void refuse_softening(const Model& model) {
   }
 }
 
+// The same for the laws of joint sets.
+void refuse_softening_sets(const Model& model) {
+  for (const Body& body : model.bodies)
+    for (const auto& [name, joint] : body.set_joint)
+      if (model.joints[joint].softening != Softening::none)
+        throw geom::InputError(
+            fmt::format("joints of body \"{}\": \"{}\" softens, and grow breaks whole faces at their "
+                        "strength; leave softening out, or load in small increments with relax",
+                        body.name, name));
+}
+
 double worst_ratio(const std::vector<FaceLoad>& loads) {
   double worst = 0;
   for (const FaceLoad& load : loads)
@@ -246,6 +257,7 @@ const char* name(GrowState state) {
 GrowResult grow(const GrowContext& context, const GrowOptions& options) {
   check(options);
   refuse_softening(context.model);
+  refuse_softening_sets(context.model);
   return Driver(context, options)();
 }
 

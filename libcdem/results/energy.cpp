@@ -20,7 +20,7 @@ double elastic_energy(const Model& model, const State& state) {
     const geom::Mat3 h = displacement_gradient(model, state.displacement, tet);
     const geom::Mat3 strain = 0.5 * (h + h.transpose());
     const Stress elastic = elastic_stress(model.bodies[model.blocks[block].body].material, h);
-    const geom::Mat3 work = 0.5 * matrix(elastic) + matrix(state.initial_stress[block]);
+    const geom::Mat3 work = 0.5 * matrix(elastic) + matrix(state.initial_stress[tet]);
     energy += tet_volume(model, tet) * work.cwiseProduct(strain).sum();
   }
   return energy;

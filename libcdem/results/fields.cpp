@@ -53,8 +53,8 @@ double vector_component(const Node& n, const std::string& component) {
   return std::sqrt(n.x * n.x + n.y * n.y + n.z * n.z);
 }
 
-const std::vector<Node>& nodal_vectors(const State& state, const std::string& field) {
-  return field[0] == 'd' ? state.displacement : state.velocity;
+Node nodal_vector(const State& state, const std::string& field, int node) {
+  return field[0] == 'd' ? shown_displacement(state, node) : state.velocity[node];
 }
 
 std::string component_of(const std::string& field) {
@@ -62,7 +62,7 @@ std::string component_of(const std::string& field) {
 }
 
 double node_value(const State& state, const std::string& field, int node) {
-  return vector_component(nodal_vectors(state, field)[node], component_of(field));
+  return vector_component(nodal_vector(state, field, node), component_of(field));
 }
 
 // Where a field of stress has one value: a convex block (its volume mean), or a tet of a mesh.
@@ -223,7 +223,7 @@ double value_at(const Model& model, const State& state, const std::string& field
       const double weight[] = {w0, w[0], w[1], w[2]};
       Node value;
       for (int k = 0; k < 4; ++k) {
-        const Node& n = nodal_vectors(state, field)[tet[k]];
+        const Node n = nodal_vector(state, field, tet[k]);
         value.x += weight[k] * n.x;
         value.y += weight[k] * n.y;
         value.z += weight[k] * n.z;

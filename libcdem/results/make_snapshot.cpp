@@ -6,6 +6,7 @@
 #include "libcdem/element/mesh_fields.hpp"
 #include "libcdem/model/build/add_meshes.hpp"
 #include "libcdem/results/fields.hpp"
+#include "libcdem/state/places.hpp"
 
 #include <map>
 
@@ -19,6 +20,14 @@ SnapshotField scalar(std::string name, std::string unit, std::size_t size, bool 
   field.values.reserve(size);
   field.integer = integer;
   return field;
+}
+
+// Displacements since they were last set to zero, m.
+std::vector<Node> shown_displacements(const State& state) {
+  std::vector<Node> u(state.displacement.size());
+  for (std::size_t i = 0; i < u.size(); ++i)
+    u[i] = shown_displacement(state, static_cast<int>(i));
+  return u;
 }
 
 SnapshotField vectors(std::string name, std::string unit, const std::vector<Node>& nodes) {
@@ -208,15 +217,22 @@ struct BondFields {
   }
 };
 
-void add_springs(const Model& model, const State& state, BondFields& fields) {
+// Where a spring's point has moved, m: the mean of its two sides. u(node): displacement.
+template <class Displacement>
+geom::Vec3 point_movement(const BondPoint& point, const Displacement& u) {
+  geom::Vec3 moved = geom::Vec3::Zero();
+  for (int k = 0; k < 3; ++k)
+    moved +=
+        0.5 * (point.weight_a[k] * vec(u(point.node_a[k])) + point.weight_b[k] * vec(u(point.node_b[k])));
+  return moved;
+}
+
+void add_springs(const Model& model, const State& state, BondFields& fields, BondSnapshot& bonds) {
   for (std::size_t p = 0; p < model.points.size(); ++p) {
     const BondPoint& point = model.points[p];
-    geom::Vec3 moved = geom::Vec3::Zero();
-    for (int k = 0; k < 3; ++k) {
-      const Node &a = state.displacement[point.node_a[k]], &b = state.displacement[point.node_b[k]];
-      moved += 0.5 * (point.weight_a[k] * geom::Vec3(a.x, a.y, a.z) +
-                      point.weight_b[k] * geom::Vec3(b.x, b.y, b.z));
-    }
+    const geom::Vec3 moved = point_movement(point, [&](int node) { return shown_displacement(state, node); });
+    if (!state.displacement_zero.empty())
+      bonds.points[p] += point_movement(point, [&](int node) { return state.displacement_zero[node]; });
     fields.add(state.bond_mode[p], damage_of(state, p),
                local_jump(model, state.displacement, static_cast<int>(p)), point.normal,
                traction(model, state, static_cast<int>(p)), moved);
@@ -231,17 +247,21 @@ void add_face_springs(const Model& model, const State& state, BondFields& fields
     const FaceBatch& batch = model.mesh.faces[at.batch];
     const FaceNodes nodes = face_nodes(model.mesh, chunk, at.batch, at.lane);
     const FaceSpring spring = face_point_response(model, state, position, chunk, at);
-    geom::Vec3 moved = geom::Vec3::Zero();
+    geom::Vec3 moved = geom::Vec3::Zero(), before = geom::Vec3::Zero();
     for (int k = 0; k < 3; ++k) {
-      const Node &a = state.displacement[nodes.a[k]], &b = state.displacement[nodes.b[k]];
-      moved += 0.5 * (k == at.point ? 2.0 / 3 : 1.0 / 6) * geom::Vec3(a.x + b.x, a.y + b.y, a.z + b.z);
+      const Node a = shown_displacement(state, nodes.a[k]), b = shown_displacement(state, nodes.b[k]);
+      const double weight = 0.5 * (k == at.point ? 2.0 / 3 : 1.0 / 6);
+      moved += weight * geom::Vec3(a.x + b.x, a.y + b.y, a.z + b.z);
+      if (!state.displacement_zero.empty())
+        before +=
+            weight * (vec(state.displacement_zero[nodes.a[k]]) + vec(state.displacement_zero[nodes.b[k]]));
     }
     const std::uint8_t mode = state.faces[at.batch].mode[at.point][at.lane];
     const double damage = state.cohesive.empty() || broken(mode)
                               ? (broken(mode) ? 1 : 0)
                               : state.cohesive[at.batch * lanes + at.lane].damage[at.point];
     fields.add(mode, damage, spring.gap, spring.normal, spring.force / batch.area[at.lane], moved);
-    bonds.points.push_back(face_point(model, chunk, at));
+    bonds.points.push_back(face_point(model, chunk, at) + before);
     if (at.point == 2) {
       const int last = static_cast<int>(bonds.points.size()) - 1;
       bonds.triangles.push_back({last - 2, last - 1, last});
@@ -253,7 +273,7 @@ void add_bonds(const Model& model, const State& state, BondSnapshot& bonds) {
   bonds.points = model.point_position;
   bonds.triangles = model.bond_triangles;
   BondFields fields(model.points.size() + 3 * model.mesh.face_tets.size());
-  add_springs(model, state, fields);
+  add_springs(model, state, fields, bonds);
   add_face_springs(model, state, fields, bonds);
 
   SnapshotField interface_id = scalar("interface_id", "", bonds.triangles.size(), true);
@@ -281,8 +301,10 @@ Snapshot make_snapshot(const Model& model, const State& state, const std::string
   for (const Body& body : model.bodies)
     snapshot.body_names.push_back(body.name);
   snapshot.points = model.node_position;
+  for (std::size_t i = 0; i < state.displacement_zero.size(); ++i)
+    snapshot.points[i] += vec(state.displacement_zero[i]);
   snapshot.tets = model.tets;
-  snapshot.point_fields = {vectors("displacement", "m", state.displacement),
+  snapshot.point_fields = {vectors("displacement", "m", shown_displacements(state)),
                            vectors("velocity", "m/s", state.velocity)};
   add_cells(model, state, snapshot);
   add_surface(model, snapshot);

@@ -20,7 +20,7 @@ struct SnapshotField {
 
 // Interfaces between blocks as triangles over the spring points (undeformed places).
 struct BondSnapshot {
-  std::vector<geom::Vec3> points;        // m, undeformed
+  std::vector<geom::Vec3> points;        // m, where displacement counts from, undeformed by default
   std::vector<geom::Triangle> triangles; // over points
   // "mode", "damage", "opening" m, "slip" m, "traction" Pa, "displacement" m.
   std::vector<SnapshotField> point_fields;
@@ -30,9 +30,10 @@ struct BondSnapshot {
 struct Snapshot {
   double time = 0; // s, or pseudo-time
   std::int64_t step = 0;
-  std::string title;                       // e.g. "uniaxial_compression, stage 3 (relax)"
-  std::vector<std::string> body_names;     // by their numbers in cell field "body"; empty: not known
-  std::vector<geom::Vec3> points;          // m, undeformed; blocks do not share points
+  std::string title;                   // e.g. "uniaxial_compression, stage 3 (relax)"
+  std::vector<std::string> body_names; // by their numbers in cell field "body"; empty: not known
+  std::vector<geom::Vec3>
+      points; // m, where displacement counts from, undeformed by default; blocks do not share points
   std::vector<geom::Tet> tets;             // over points
   std::vector<SnapshotField> point_fields; // "displacement" m, "velocity" m/s, ...
   // Per tet: "stress" Pa (6), "principal_stress" Pa (3), "block_id", ...

@@ -81,22 +81,38 @@ std::vector<int> touching(const Model& model, const State& state, const std::str
   return count;
 }
 
-geom::Vec3 mean_displacement(const Model& model, const State& state, int b) {
-  const Block& block = model.blocks[b];
+namespace {
+
+// Mean of a vector of the nodes of a block, weighted by mass.
+geom::Vec3 mean_of_nodes(const Model& model, const std::vector<Node>& values, const Block& block) {
   geom::Vec3 moment = geom::Vec3::Zero();
   double mass = 0;
   for (int node = block.node_begin; node < block.node_end; ++node) {
-    moment += model.node_mass[node] * vec(state.displacement[node]);
+    moment += model.node_mass[node] * vec(values[node]);
     mass += model.node_mass[node];
   }
   return moment / mass;
 }
 
+geom::Vec3 at_centroid(const Model& model, const std::vector<Node>& values, const Block& block) {
+  return block.meshed ? mean_of_nodes(model, values, block) : vec(values[block.centroid_node()]);
+}
+
+} // namespace
+
+geom::Vec3 mean_displacement(const Model& model, const State& state, int b) {
+  return mean_of_nodes(model, state.displacement, model.blocks[b]);
+}
+
 geom::Vec3 centroid_displacement(const Model& model, const State& state, int b) {
-  const Block& block = model.blocks[b];
-  if (!block.meshed)
-    return vec(state.displacement[block.centroid_node()]);
-  return mean_displacement(model, state, b);
+  return at_centroid(model, state.displacement, model.blocks[b]);
+}
+
+geom::Vec3 shown_centroid_displacement(const Model& model, const State& state, int b) {
+  geom::Vec3 moved = centroid_displacement(model, state, b);
+  if (state.displacement_zero.empty())
+    return moved;
+  return moved - at_centroid(model, state.displacement_zero, model.blocks[b]);
 }
 
 } // namespace cdem

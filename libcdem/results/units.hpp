@@ -14,6 +14,8 @@ std::vector<geom::Surface> surfaces_of(const Model&, const State&, const std::st
 std::vector<int> touching(const Model&, const State&, const std::string& body);
 
 geom::Vec3 centroid_displacement(const Model&, const State&, int block); // m
+geom::Vec3 shown_centroid_displacement(const Model&, const State&,
+                                       int block);                   // m, since it was last set to zero
 geom::Vec3 mean_displacement(const Model&, const State&, int block); // m, of all its nodes, weighted by mass
 
 } // namespace cdem

@@ -58,6 +58,21 @@ void set_mesh_stress(const Model& model, State& state, int tet, const Stress& st
     state.stress[slot / lanes].component[c][slot % lanes] = stress[c];
 }
 
+std::size_t small_strain_tets(const Model& model) {
+  return model.mesh.empty() ? model.tets.size() : static_cast<std::size_t>(model.mesh.first_tet);
+}
+
+Node shown_displacement(const State& state, int node) {
+  Node u = state.displacement[node];
+  if (!state.displacement_zero.empty()) {
+    const Node& zero = state.displacement_zero[node];
+    u.x -= zero.x;
+    u.y -= zero.y;
+    u.z -= zero.z;
+  }
+  return u;
+}
+
 CrackEnergy& crack_energy_of(const Model& model, State& state, int body) {
   if (state.crack_energy.empty())
     state.crack_energy.resize(model.bodies.size() + 1);
@@ -79,7 +94,7 @@ State initial_state(const Model& model) {
   state.bond_damage.assign(softens ? model.points.size() : 0, 0.0);
   state.bond_slip.assign(softens ? model.points.size() : 0, geom::Vec3::Zero());
   state.released.assign(model.frames.size(), 0);
-  state.initial_stress.assign(model.blocks.size(), Stress{});
+  state.initial_stress.assign(small_strain_tets(model), Stress{});
   state.stress.assign(model.mesh.batches.size(), StressBatch{});
   if (std::any_of(model.bodies.begin(), model.bodies.end(),
                   [](const Body& body) { return body.material.stiffness_damping > 0; }))
@@ -113,6 +128,10 @@ std::vector<StateField> fields(State& s) {
     return StateField{name,     unit,  place, writer, array.data(), array.size() * sizeof(array[0]),
                       floating, resize};
   };
+  const auto shown = [](StateField field) {
+    field.shown_only = true;
+    return field;
+  };
   return {
       {"time", "s", FieldPlace::model, "run", &s.time, sizeof s.time, true},
       {"step", "1", FieldPlace::model, "end_step", &s.step, sizeof s.step, false},
@@ -125,7 +144,7 @@ std::vector<StateField> fields(State& s) {
       field("bond_damage", "1", FieldPlace::bond, "spring_forces", s.bond_damage, true),
       field("bond_slip", "m", FieldPlace::bond, "spring_forces", s.bond_slip, true),
       field("released", "1", FieldPlace::frame, "release_interfaces", s.released, false),
-      field("initial_stress", "Pa", FieldPlace::block, "initial_stress", s.initial_stress, true),
+      field("initial_stress", "Pa", FieldPlace::tet, "initial_stress", s.initial_stress, true),
       field("stress", "Pa", FieldPlace::tet, "mesh_forces", s.stress, true),
       field("viscous_stress", "Pa", FieldPlace::tet, "mesh_forces", s.viscous_stress, true),
       field("faces", "1", FieldPlace::face, "mesh_forces", s.faces, false),
@@ -135,6 +154,8 @@ std::vector<StateField> fields(State& s) {
       field("contacts", "record", FieldPlace::contact, "contact_forces", s.contacts, false),
       field("rigid", "record", FieldPlace::rigid_body, "move_rigid, set_rigid", s.rigid, true),
       field("rigid_offset", "m", FieldPlace::node, "set_rigid", s.rigid_offset, true),
+      shown(
+          field("displacement_zero", "m", FieldPlace::node, "reset_displacement", s.displacement_zero, true)),
       field("moving_mass", "kg", FieldPlace::node, "run", s.moving_mass, true),
       field("escaped", "1", FieldPlace::node, "find_escapes", s.escaped, false),
       field("crack_energy", "J", FieldPlace::body,
@@ -148,6 +169,8 @@ std::vector<StateField> fields(State& s) {
 std::uint64_t hash(const State& state) {
   std::uint64_t h = 14695981039346656037ull;
   for (const StateField& field : fields(const_cast<State&>(state))) {
+    if (field.shown_only)
+      continue;
     const auto* byte = static_cast<const unsigned char*>(field.data);
     for (std::size_t i = 0; i < field.bytes; ++i)
       h = (h ^ byte[i]) * 1099511628211ull;

@@ -37,7 +37,8 @@ struct State {
       bond_slip; // m, slip of the damaged part, added to bond_offset at separation (n_points)
   // 1: the interface has parted or slid away and is left to contact (n frames); written by release_interfaces
   std::vector<std::uint8_t> released;
-  std::vector<Stress> initial_stress; // Pa (n_blocks); written by initial_stress
+  std::vector<Stress>
+      initial_stress; // Pa, of blocks of small strain (n small_strain_tets); written by initial_stress
   // Of meshed bodies.
   std::vector<StressBatch> stress; // Pa (n mesh batches); written by mesh_forces
   // Pa, of the strain rate, beside it; as long, or empty where no material has stiffness damping.
@@ -64,6 +65,9 @@ struct State {
   // Escaped (n_nodes); empty until something has left the model; written by find_escapes
   std::vector<std::uint8_t> escaped;
 
+  // m, what results take from the displacement: what it was when it was last set to zero (n_nodes); empty until then.
+  // Mechanics never sees it; written by reset_displacement
+  std::vector<Node> displacement_zero;
   // J, of each body, and last of the joints between bodies (n_bodies + 1); empty until something has broken; written by
   // record_bond_breaks, record_face_breaks, record_begun_cracks
   std::vector<CrackEnergy> crack_energy;
@@ -71,6 +75,10 @@ struct State {
   EnergyLedger spent; // J, the summed entries only (damping, friction, ... external); the stored ones stay 0
 };
 
+std::size_t small_strain_tets(const Model&); // the first so many tets of a model
+
+// Displacement since it was last set to zero, m.
+Node shown_displacement(const State&, int node);
 const std::vector<double>& moving_mass(const Model&, const State&); // kg (n_nodes)
 
 // The slip of a face's broken springs; zero slip is made room for when there is none yet.
@@ -102,6 +110,7 @@ struct StateField {
   bool floating;     // made of doubles: watched for NaN
   // Of an array: makes it so many bytes long; false when that is no whole number of entries. Null for the others.
   std::function<bool(std::size_t bytes)> resize = {};
+  bool shown_only = false; // says how results are shown, nothing about mechanics: no part of the hash
 };
 
 // Every field, in a fixed order.

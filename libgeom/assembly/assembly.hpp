@@ -11,6 +11,9 @@ struct Assembly {
 
 Box bounding_box(const Assembly&);
 
+std::vector<std::string>
+cut_names(const Assembly&); // of joint sets and cuts that made faces; sorted, each once
+
 struct SharedFace {
   int block_a, face_a; // block_a < block_b
   int block_b, face_b;

@@ -38,6 +38,7 @@ struct JointSet {
   double spacing_scatter = 0;   // standard deviation over the mean, < 0.5
   double dip_scatter = 0;       // rad, standard deviation
   double direction_scatter = 0; // rad, standard deviation
+  std::string name = {};        // of the faces that the set makes (PolyhedronFace::cut)
 };
 // Cuts every block by the planes of every set in turn; seeded scatter.
 Assembly cut_by_joints(const Assembly&, const std::vector<JointSet>&, std::uint64_t seed = 1);

@@ -29,6 +29,14 @@ bool reaches_into(const Polyhedron& block, const Box& box) {
   return true;
 }
 
+void mark_cut_face(Part& part, const PlaneCutOptions& options) {
+  for (std::size_t f = 0; f < part.shape.faces.size(); ++f)
+    if (part.parent_face[f] == cut_face) {
+      part.shape.faces[f].cut = options.name;
+      part.shape.faces[f].glued = options.glued;
+    }
+}
+
 } // namespace
 
 Assembly cut_by_plane(Assembly assembly, const Plane& given, const PlaneCutOptions& options) {
@@ -54,9 +62,12 @@ Assembly cut_by_plane(Assembly assembly, const Plane& given, const PlaneCutOptio
     }
     Cut halves = cut(block, options.clearance > 0 ? shifted_clear_of_vertices(block, plane, options.clearance)
                                                   : plane);
-    for (std::optional<Part>* part : {&halves.below, &halves.above})
-      if (*part)
-        result.blocks.push_back(std::move((*part)->shape));
+    for (std::optional<Part>* part : {&halves.below, &halves.above}) {
+      if (!*part)
+        continue;
+      mark_cut_face(**part, options);
+      result.blocks.push_back(std::move((*part)->shape));
+    }
   }
   return result;
 }

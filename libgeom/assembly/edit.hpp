@@ -14,6 +14,9 @@ struct PlaneCutOptions {
   // Only blocks that reach into this box, by more than 1e-6 of their size, are cut: a notch or a load line that
   // no block boundary meets.
   std::optional<Box> crossing{};
+  std::string
+      name{}; // of the faces that the cut makes; a plane along a face that is there leaves that one as it is
+  bool glued = false; // the faces are no joint
 };
 
 // Splits every block that the plane crosses; the two parts take its place, the lower one first. The normal

@@ -125,13 +125,14 @@ std::optional<Plane> shifted_as_a_whole(const Assembly& assembly, const Plane& p
 }
 
 // scale: the spacing or a block's size, m.
-Assembly cut_clear(Assembly assembly, const Plane& plane, double scale) {
+Assembly cut_clear(Assembly assembly, const Plane& plane, double scale, const std::string& name) {
+  PlaneCutOptions cut;
+  cut.name = name;
   for (double clearance : clearances)
     if (const auto shifted = shifted_as_a_whole(assembly, plane, clearance * scale, longest_shift * scale))
-      return cut_by_plane(std::move(assembly), *shifted);
-  PlaneCutOptions by_block;
-  by_block.clearance = clearances.back() * scale;
-  return cut_by_plane(std::move(assembly), plane, by_block);
+      return cut_by_plane(std::move(assembly), *shifted, cut);
+  cut.clearance = clearances.back() * scale; // block by block
+  return cut_by_plane(std::move(assembly), plane, cut);
 }
 
 } // namespace
@@ -151,7 +152,7 @@ Assembly cut_by_joints(const Assembly& assembly, const std::vector<JointSet>& se
   for (std::size_t s = 0; s < sets.size(); ++s)
     for (const Plane& plane : planes_of(sets[s], s, seed, box)) {
       throw_if_stopped();
-      result = cut_clear(std::move(result), plane, std::min(sets[s].spacing, block_size));
+      result = cut_clear(std::move(result), plane, std::min(sets[s].spacing, block_size), sets[s].name);
     }
   return result;
 }

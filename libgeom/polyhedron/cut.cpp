@@ -161,6 +161,8 @@ Cut cut(const Polyhedron& p, const Plane& plane, double tolerance) {
     } else if (!has(loop, sign, 1)) { // eq 19b
       below = p.faces[f];
     } else { // eq 19c
+      above.cut = below.cut = p.faces[f].cut;
+      above.glued = below.glued = p.faces[f].glued;
       for (std::size_t i = 0; i < loop.size(); ++i) {
         const int a = loop[i], b = loop[(i + 1) % loop.size()];
         if (sign[a] >= 0)

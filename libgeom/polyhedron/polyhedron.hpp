@@ -3,10 +3,14 @@
 
 #include "libgeom/core/types.hpp"
 
+#include <string>
+
 namespace geom {
 
 struct PolyhedronFace {
   std::vector<int> loop; // vertex indices, counter-clockwise seen from outside
+  std::string cut = {}; // name of the joint set or cut that made the face; empty: none, or one without a name
+  bool glued = false;   // made by a construction cut: no joint
 };
 
 struct Polyhedron {

@@ -81,6 +81,14 @@ local cdem = {}
 ---@field largest_face_size number m: that leaves three faces in the cohesive zone
 ---@field faces_in_zone number faces in the cohesive zone, 0.88 of the length
 
+---How far from balance a model is.
+---@class (exact) cdem.Unbalance
+---@field largest number net force of a free node over the reference, the largest
+---@field mean number the mean over all free nodes
+---@field force number N: net force where the ratio is largest
+---@field block integer its id, there
+---@field place number[] m
+
 ---What a relaxation came to.
 ---@class (exact) cdem.RelaxResult
 ---@field converged boolean
@@ -400,9 +408,10 @@ local cdem = {}
 ---@field p_wave_modulus number Pa: lambda + 2 G
 local Material = {}
 
----Made by cdem.mohr_coulomb or cdem.coulomb.
+---Made by cdem.mohr_coulomb, cdem.coulomb or cdem.glued.
 ---@class cdem.Joint
 ---@field bonded boolean
+---@field glued boolean
 ---@field cohesion number Pa
 ---@field friction_angle number deg
 ---@field tensile_strength number Pa
@@ -428,6 +437,10 @@ function Assembly:volume() end
 ---Smallest axis-aligned box that holds all blocks.
 ---@return cdem.Box
 function Assembly:box() end
+
+---Names of the joint sets and cuts that made faces of the blocks, in the order of the alphabet.
+---@return string[]
+function Assembly:joint_sets() end
 
 ---One table per block.
 ---@return cdem.Block[]
@@ -734,14 +747,6 @@ function Model:gravity(options) end
 ---Takes away tractions, forces, gravity and flows.
 function Model:clear_loads() end
 
----@class (exact) cdem.ModelInitialStressOptions
----@field on? cdem.Place default "all": where: one place
----@field stress number[] Pa: {xx, yy, zz, xy, yz, xz}, tension positive
-
----Stress present before anything moves, the same in all blocks of a place; interfaces between them start with its traction.
----@param options cdem.ModelInitialStressOptions
-function Model:initial_stress(options) end
-
 ---@class (exact) cdem.ModelInitialVelocityOptions
 ---@field on? cdem.Place default "all": where: a place or a list of places, each by itself
 ---@field velocity? number[] m/s: v
@@ -784,6 +789,38 @@ function Model:make_deformable(options) end
 ---@param options cdem.ModelUnbondOptions
 ---@return integer # how many
 function Model:unbond(options) end
+
+---@class (exact) cdem.ModelInitialStressOptions
+---@field on? cdem.Place default "all": where: one place
+---@field stress? number[] Pa: {xx, yy, zz, xy, yz, xz}, tension positive
+---@field gradient? number Pa/m, >= 0: weight per volume, density times 9.81
+---@field k0? any horizontal over vertical stress, one number or {kx, ky}; needed with gradient
+---@field surface? number m: z where depth begins, the top of the model when left out; above it there is none
+
+---Stress present before anything moves: the same everywhere, growing with depth, or the sum of both. The vertical stress at depth d below the surface is -gradient d, the horizontal one k0 times that. Interfaces between two blocks that are both selected start with its traction.
+---@param options? cdem.ModelInitialStressOptions
+---@return integer # joint points that this loads beyond their strength; a warning tells of them
+function Model:initial_stress(options) end
+
+---@class (exact) cdem.ModelGravityStressOptions
+---@field residual? number in (0, 1), default 1e-06: goal: out-of-balance force norm over applied force norm
+---@field max_steps? integer >= 1, default 500000: gives up with converged = false
+
+---Stress of the model's own weight: relaxes under gravity and what else acts, without breaking bonds, and then sets the displacement to zero.
+---@param options? cdem.ModelGravityStressOptions
+---@return cdem.RelaxResult
+function Model:gravity_stress(options) end
+
+---Results show the displacement from here on: fields, measures, files and pictures, which draw the model where it stands now. Stress, joints and supports go on as before; opening and slip of joints, and the displacement of fix{}, still count from the beginning.
+function Model:reset_displacement() end
+
+---@class (exact) cdem.ModelUnbalanceOptions
+---@field reference? number N, > 0: force to compare with instead of the weights
+
+---How far from balance the model is as it stands: the net forces of its free nodes over the weight of their blocks. 0 in balance; 1 where a node feels a force like the weight of its whole block.
+---@param options? cdem.ModelUnbalanceOptions
+---@return cdem.Unbalance
+function Model:unbalance(options) end
 
 ---@class (exact) cdem.ModelRelaxOptions
 ---@field residual? number in (0, 1), default 1e-06: goal: out-of-balance force norm over applied force norm
@@ -1293,6 +1330,17 @@ function cdem.mohr_coulomb(options) end
 ---@return cdem.Joint
 function cdem.coulomb(options) end
 
+---@class (exact) cdem.GluedOptions
+---@field thickness_ratio? number > 0, default 0.005: equivalent thickness of the joint over the block size (cube root of its volume), which sets the stiffness E/L and G/L
+---@field thickness? number m, > 0: equivalent thickness itself; wins over the ratio
+---@field normal_stiffness? number Pa/m, > 0: instead of E/L
+---@field shear_stiffness? number Pa/m, > 0: instead of G/L
+
+---Bond that never breaks, of faces that are no joint, such as those of an excavation outline. It is four times as stiff as a joint by default.
+---@param options? cdem.GluedOptions
+---@return cdem.Joint
+function cdem.glued(options) end
+
 ---@class (exact) cdem.GridOptions
 ---@field size number[] m, > 0: of the whole
 ---@field divisions number[] >= 1: boxes along x, y and z
@@ -1343,6 +1391,7 @@ function cdem.bricks(options) end
 ---@field spacing_scatter? number in [0, 0.5), default 0: standard deviation over the mean
 ---@field dip_scatter? number deg, in [0, 90], default 0: standard deviation
 ---@field direction_scatter? number deg, in [0, 360], default 0: standard deviation
+---@field name? string of the set, for its law: a body's joints = { name = joint }
 
 ---@class (exact) cdem.CutByJointsOptions
 ---@field shape cdem.Assembly
@@ -1385,6 +1434,8 @@ function cdem.blocks(options) end
 ---@field inside? cdem.CutByPlaneOptionsInside only blocks whose centroid lies in this box
 ---@field crossing? cdem.CutByPlaneOptionsCrossing only blocks that reach into this box: the notch or the load line to be cut
 ---@field clearance? number m, >= 0, default 0: where a vertex of a block is nearer than this, the plane is shifted for that block
+---@field name? string of the cut, for its law: a body's joints = { name = joint }
+---@field glued? boolean default false: a construction cut, such as an excavation outline: no joint; its faces hold the rock together, stiff and unbreakable, whatever the body's joint. Where it runs along a joint that is there already, the joint stays
 
 ---Splits every block that a plane crosses.
 ---@param options cdem.CutByPlaneOptions
@@ -1714,6 +1765,7 @@ function cdem.select.where(predicate) end
 ---@field shape cdem.Assembly|cdem.TetMesh|cdem.Pile blocks, a mesh of tetrahedra, or a pile of them
 ---@field material cdem.Material
 ---@field joint? cdem.Joint between the body's own blocks; needed when there are several, or when they are cut. Of a mesh: on inner faces, which can break then
+---@field joints? table<string, cdem.Joint> of an assembly: laws by the name of the joint set or cut that made the faces, { bedding = joint, fault = joint }; `joint` holds all others
 ---@field name? string for selections and contacts; body_1, body_2 ... by default
 ---@field element? "small_strain"|"finite_volume"|"rigid" how its tetrahedra deform: finite_volume (Feng 2014) for any motion, the default; small_strain (Han 2010) of an assembly whose blocks hardly turn and keep the neighbours they begin with; rigid: keeps its shape until model:make_deformable
 ---@field zone_size? number m, > 0: of an assembly: each block gets tetrahedra of about this edge length inside, so that it bends and shows where it is stressed; without it a few about its centroid. Joints between blocks stay as they are

@@ -233,7 +233,7 @@ geom::Mat3 tet_stress(const System& s, int tet) {
     return cdem::matrix(cdem::tet_stress(s.model, s.state, tet));
   return hooke(s.model.bodies[s.model.blocks[block].body].material,
                cdem::displacement_gradient(s.model, s.state.displacement, tet)) +
-         cdem::matrix(s.state.initial_stress[block]);
+         cdem::matrix(s.state.initial_stress[tet]);
 }
 
 double stress_error(const System& s, const geom::Mat3& expected) {

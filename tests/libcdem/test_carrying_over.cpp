@@ -64,7 +64,8 @@ TEST_CASE("blocks that are not cut keep id, displacement, velocity and stress bi
     CHECK(same_bits(&s.model.node_position[now.node_begin], &old.node_position[before.node_begin], nodes));
     CHECK(same_bits(&s.state.displacement[now.node_begin], &from.displacement[before.node_begin], nodes));
     CHECK(same_bits(&s.state.velocity[now.node_begin], &from.velocity[before.node_begin], nodes));
-    CHECK(s.state.initial_stress[b] == from.initial_stress[found->second]);
+    for (int tet = now.tet_begin; tet < now.tet_end; ++tet)
+      CHECK(s.state.initial_stress[tet] == from.initial_stress[before.tet_begin + tet - now.tet_begin]);
     CHECK(now.generation == before.generation);
     CHECK(now.parent == before.parent);
   }

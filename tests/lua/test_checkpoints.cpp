@@ -350,7 +350,7 @@ TEST_CASE("a forged state ends in one line or is taken, and never crashes", "[ch
   // A field stands as its name, its length in bytes and its data.
   for (const std::string name :
        {"displacement", "velocity", "bond_offset", "bond_mode", "released", "initial_stress", "stress",
-        "faces", "face_slip", "contacts", "rigid", "escaped"}) {
+        "faces", "face_slip", "contacts", "rigid", "displacement_zero", "escaped"}) {
     INFO(name);
     const std::uint64_t letters = name.size();
     const std::string head = std::string(reinterpret_cast<const char*>(&letters), sizeof letters) + name;

@@ -157,8 +157,9 @@ TEST_CASE("cutting, growing and removing refuse a model with meshed bodies", "[l
     CHECK_THAT(error_of(held + "model:" + call), Contains("the model has meshed bodies"));
   }
   CHECK_THAT(
-      error_of(head + "model_of{ joint = bond }:initial_stress{ on = 'all', stress = {1e5, 0, 0, 0, 0, 0} }"),
-      Contains("bonded faces of a mesh"));
+      error_of(head + "model_of{ joint = bond, bonds = 'springs' }:initial_stress{ on = 'all', stress = {1e5, 0, 0, 0, 0, "
+                      "0} }"),
+      Contains("the springs of a mesh"));
 }
 
 // To 1e-5: the faces are taken as the load strains them, by 1.7e-6.

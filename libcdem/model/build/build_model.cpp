@@ -344,7 +344,23 @@ geom::BlockMesh zones_of(const Model& model, int block) {
   return mesh;
 }
 
-InterfaceTraits default_traits(const Model& model, int block_a, int, int block_b, int) {
+namespace {
+
+// Of two blocks of one body, the law of the joint set or cut that made the faces; -1: none of its own. Where both sides
+// have one, as when another joint runs along a face, that of the first counts; a face is glued on both sides or not at
+// all.
+int joint_of_cut(const Body& body, const geom::PolyhedronFace& a, const geom::PolyhedronFace& b) {
+  if (a.glued && b.glued)
+    return body.glued_joint;
+  for (const geom::PolyhedronFace* face : {&a, &b})
+    if (const auto found = body.set_joint.find(face->cut); !face->glued && found != body.set_joint.end())
+      return found->second;
+  return -1;
+}
+
+} // namespace
+
+InterfaceTraits default_traits(const Model& model, int block_a, int face_a, int block_b, int face_b) {
   const Block& a = model.blocks[block_a];
   const Block& b = model.blocks[block_b];
   const auto pair = std::minmax(a.body, b.body);
@@ -356,8 +372,13 @@ InterfaceTraits default_traits(const Model& model, int block_a, int, int block_b
         model.bodies[pair.second].name + "\", joint} or default = joint to contacts");
   InterfaceTraits traits;
   traits.joint = found->second;
+  if (a.body == b.body)
+    if (const int own = joint_of_cut(model.bodies[a.body], a.shape.faces[face_a], b.shape.faces[face_b]);
+        own >= 0)
+      traits.joint = own;
   const Joint& joint = model.joints[traits.joint];
   traits.thickness = joint.thickness.value_or(joint.thickness_ratio * 0.5 * (a.first_size + b.first_size));
+  traits.may_break = !joint.glued;
   return traits;
 }
 

@@ -39,7 +39,8 @@ Model build_model(const Model& frame, std::vector<BlockSeed> blocks, const Inter
 // The zones of a block, to build it again.
 geom::BlockMesh zones_of(const Model&, int block);
 
-// The rule of a first model: the body's own joint, or that of the pair of bodies; L from the joint.
+// The rule of a first model: within a body the law of the joint set or cut that made the faces, or else the body's own
+// joint; between bodies that of the pair; L from the joint. Glued faces never break.
 InterfaceTraits default_traits(const Model&, int block_a, int face_a, int block_b, int face_b);
 
 } // namespace cdem

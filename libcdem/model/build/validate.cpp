@@ -112,6 +112,13 @@ void validate(const Elastic& m) {
           "a finite number >= 0 s");
 }
 
+Joint glued_joint() {
+  Joint joint;
+  joint.glued = true;
+  joint.thickness_ratio = glued_thickness_ratio;
+  return joint;
+}
+
 void validate(const Joint& j) {
   require(not_negative(j.cohesion), "cohesion", j.cohesion, "a finite number >= 0 Pa");
   const double angle = j.friction_angle / degree;

@@ -115,19 +115,6 @@ Value clear_loads(Session&, ModelObject& model, const Arguments&) {
   return {};
 }
 
-Value initial_stress(Session&, ModelObject& model, const Arguments& a) {
-  model.require_idle("initial_stress");
-  const std::vector<double> given = a.numbers("stress");
-  if (given.size() != 6)
-    throw InputError("stress", describe(a.value("stress")), "six numbers {xx, yy, zz, xy, yz, xz}");
-  std::array<double, 6> stress{};
-  std::copy(given.begin(), given.end(), stress.begin());
-  const Selection on = one_selection(model, a.value("on"), "on");
-  model.simulation.initial_stress(on, stress);
-  note(model, "initial stress " + describe(a.value("stress")) + " Pa in " + shown(on));
-  return {};
-}
-
 Value initial_velocity(Session&, ModelObject& model, const Arguments& a) {
   model.require_idle("initial_velocity");
   if (!a.has("velocity") && !a.has("angular_velocity"))
@@ -239,16 +226,6 @@ void bind_conditions(Module& m) {
   again();
   add("clear_loads", "Takes away tractions, forces, gravity and flows.", {}, clear_loads);
   again();
-  add("initial_stress",
-      "Stress present before anything moves, the same in all blocks of a place; interfaces between them "
-      "start with its "
-      "traction.",
-      {place("on").standard("all").doc("where: one place"),
-       list("stress", number_type(), 6)
-           .unit("Pa")
-           .required()
-           .doc("{xx, yy, zz, xy, yz, xz}, tension positive")},
-      initial_stress);
   add("initial_velocity",
       "The motion of a rigid body, v + w x (x - about), as velocities before the first real-time step; of "
       "blocks, meshes "

@@ -177,6 +177,14 @@ Value coulomb(Session& session, Object*, const Arguments& a) {
   return object;
 }
 
+Value glued(Session&, Object*, const Arguments& a) {
+  auto object = std::make_shared<JointObject>();
+  object->joint = glued_joint();
+  read_stiffness(a, object->joint);
+  validate(object->joint);
+  return object;
+}
+
 template <class Get>
 Property material_property(std::string name, std::string unit, std::string doc, Get get) {
   return {std::move(name), "number", std::move(unit), std::move(doc),
@@ -249,6 +257,14 @@ void bind_materials(Module& m) {
                          "Contact that never was bonded: no tension, friction only (Han 2010 eq 9).", loose,
                          false, "cdem.Joint", "", coulomb});
 
+  std::vector<Field> stiff = stiffness_fields();
+  stiff[0].standard(glued_thickness_ratio);
+  m.functions.push_back(
+      {"glued",
+       "Bond that never breaks, of faces that are no joint, such as those of an excavation outline. It "
+       "is four times as stiff as a joint by default.",
+       stiff, false, "cdem.Joint", "", glued});
+
   Class material{"Material", "Made by cdem.elastic."};
   material.properties = {
       material_property("youngs_modulus", "Pa", "", [](const Elastic& e) { return e.youngs_modulus; }),
@@ -268,9 +284,10 @@ void bind_materials(Module& m) {
   };
   m.classes.push_back(material);
 
-  Class joint{"Joint", "Made by cdem.mohr_coulomb or cdem.coulomb."};
+  Class joint{"Joint", "Made by cdem.mohr_coulomb, cdem.coulomb or cdem.glued."};
   joint.properties = {
       joint_property("bonded", "boolean", "", [](const Joint& j) { return Value(j.bonded); }),
+      joint_property("glued", "boolean", "", [](const Joint& j) { return Value(j.glued); }),
       joint_property("cohesion", "number", "Pa", [](const Joint& j) { return Value(j.cohesion); }),
       joint_property("friction_angle", "number", "deg",
                      [](const Joint& j) { return Value(degrees(j.friction_angle)); }),
@@ -291,6 +308,8 @@ void bind_materials(Module& m) {
       joint_property("restitution", "number", "", [](const Joint& j) { return Value(j.restitution); })};
   joint.text = [](const Object& self) {
     const Joint& j = static_cast<const JointObject&>(self).joint;
+    if (j.glued)
+      return std::string("cdem.Joint (glued, never breaks)");
     return std::string(j.bonded ? "cdem.Joint (bonded, c " + number_text(j.cohesion) +
                                       " Pa, tensile strength " + number_text(j.tensile_strength) + " Pa, "
                                 : std::string("cdem.Joint (contact, ")) +

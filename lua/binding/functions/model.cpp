@@ -133,6 +133,8 @@ std::vector<std::string> read_bodies(Session& session, const Arguments& a, Model
         units = {mesh->mesh};
       else
         units = geom::meshes(*pile);
+      if (given.has("joints"))
+        throw InputError(path + ".joints: only for an assembly of blocks; a mesh has no joint sets");
       if (given.has("zone_size"))
         throw InputError(
             path + ".zone_size: only for an assembly of blocks; a mesh has the size that it was made with");
@@ -153,6 +155,9 @@ std::vector<std::string> read_bodies(Session& session, const Arguments& a, Model
                                                                 : Element::small_strain;
     body.shape = given.object<AssemblyObject>("shape")->assembly;
     body.zone_size = given.optional_number("zone_size").value_or(0);
+    if (const Table* joints = given.value("joints").table())
+      for (const auto& [name, joint] : joints->named)
+        body.set_joints[name] = static_cast<const JointObject&>(*joint.object()).joint;
     if (!given.has("joint") && body.shape.blocks.size() > 1)
       throw InputError(path + ".joint: missing; the body has " + std::to_string(body.shape.blocks.size()) +
                        " blocks: say what holds them together, cdem.mohr_coulomb{...} or cdem.coulomb{...}");
@@ -353,6 +358,10 @@ void bind_model(Module& m) {
           .doc("between the body's own blocks; needed when there are several, or when they are cut. Of a "
                "mesh: on "
                "inner faces, which can break then"),
+      named("joints", object_type("Joint"))
+          .doc("of an assembly: laws by the name of the joint set or cut that made the faces, { bedding = "
+               "joint, fault = "
+               "joint }; `joint` holds all others"),
       text("name").doc("for selections and contacts; body_1, body_2 ... by default"),
       choice("element", {"small_strain", "finite_volume", "rigid"})
           .doc(

@@ -57,6 +57,7 @@ Value cut_by_joints(Session&, Object*, const Arguments& a) {
     set.spacing_scatter = given.number("spacing_scatter");
     set.dip_scatter = radians(given.number("dip_scatter"));
     set.direction_scatter = radians(given.number("direction_scatter"));
+    set.name = given.text_or("name", "");
     sets.push_back(set);
   }
   return made(geom::cut_by_joints(a.object<AssemblyObject>("shape")->assembly, sets,
@@ -107,6 +108,8 @@ Value cut_by_plane(Session&, Object*, const Arguments& a) {
   options.inside = optional_box(a, "inside");
   options.crossing = optional_box(a, "crossing");
   options.clearance = a.number("clearance");
+  options.name = a.text_or("name", "");
+  options.glued = a.flag("glued");
   return made(geom::cut_by_plane(a.object<AssemblyObject>("shape")->assembly,
                                  geom::Plane::through(a.vec3("point"), normal), options));
 }
@@ -192,7 +195,8 @@ void bind_builders(Module& m) {
       number("spacing").above(0).unit("m").required().doc("mean, along the normal"),
       number("spacing_scatter").from(0, 0.5).standard(0.0).doc("standard deviation over the mean"),
       number("dip_scatter").within(0, 90).unit("deg").standard(0.0).doc("standard deviation"),
-      number("direction_scatter").within(0, 360).unit("deg").standard(0.0).doc("standard deviation")};
+      number("direction_scatter").within(0, 360).unit("deg").standard(0.0).doc("standard deviation"),
+      text("name").doc("of the set, for its law: a body's joints = { name = joint }")};
   add("cut_by_joints", "Cuts every block by the planes of joint sets, one set after the other.",
       {object("shape", "Assembly").required(), list("sets", record_type(set)).required(), seed_field()},
       cut_by_joints);
@@ -226,7 +230,12 @@ void bind_edits(Module& m) {
            .at_least(0)
            .unit("m")
            .standard(0.0)
-           .doc("where a vertex of a block is nearer than this, the plane is shifted for that block")},
+           .doc("where a vertex of a block is nearer than this, the plane is shifted for that block"),
+       text("name").doc("of the cut, for its law: a body's joints = { name = joint }"),
+       flag("glued").standard(false).doc("a construction cut, such as an excavation outline: no joint; its "
+                                         "faces hold the rock together, stiff and "
+                                         "unbreakable, whatever the body's joint. Where it runs along a "
+                                         "joint that is there already, the joint stays")},
       cut_by_plane);
   add("keep", "The blocks whose centroid lies in a box.", {shape, box_field("inside").required()}, keep);
   add("translate", "Moves blocks.", {shape, vec3("shift").unit("m").required()}, translate);
@@ -278,11 +287,24 @@ void bind_shapes(Module& m) {
          const geom::Box box = geom::bounding_box(self.assembly);
          return Table{{"min", box.min}, {"max", box.max}};
        })},
+      {"joint_sets",
+       "Names of the joint sets and cuts that made faces of the blocks, in the order of the alphabet.",
+       {},
+       true,
+       "string[]",
+       "",
+       method<AssemblyObject>([](Session&, AssemblyObject& self, const Arguments&) {
+         Values names;
+         for (const std::string& name : geom::cut_names(self.assembly))
+           names.emplace_back(name);
+         return Table::list(std::move(names));
+       })},
       {"blocks", "One table per block.", {}, true, "cdem.Block[]", "", method<AssemblyObject>(blocks)},
       {"solid",
        "The blocks as one solid with a region for each, in their order; its mesh{} shares nodes on the faces "
        "between "
-       "them. As the shape of a body with bonded_faces = \"regions\" such a mesh breaks along the faces of the "
+       "them. As the shape of a body with bonded_faces = \"regions\" such a mesh breaks along the faces of "
+       "the "
        "blocks, with "
        "bonds = \"all\" anywhere.",
        {},

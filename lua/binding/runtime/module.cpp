@@ -25,6 +25,7 @@ const Module& module() {
     bind_selections(m);
     bind_model(m);
     bind_conditions(m);
+    bind_in_situ(m);
     bind_solving(m);
     bind_settling(m);
     bind_fracture(m);

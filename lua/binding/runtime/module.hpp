@@ -86,6 +86,7 @@ void bind_piles(Module&);
 void bind_selections(Module&);
 void bind_model(Module&);
 void bind_conditions(Module&);
+void bind_in_situ(Module&);
 void bind_solving(Module&);
 void bind_settling(Module&);
 void bind_fracture(Module&);

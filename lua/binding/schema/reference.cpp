@@ -33,6 +33,8 @@ std::string type_text(const Type& type) {
     return (type.or_number ? "number or function " : "function ") + type.name;
   case Kind::object:
     return with_or(type.name, " or ");
+  case Kind::named:
+    return "{ name = " + type_text(type.items[0]) + ", ... }";
   case Kind::tuple: {
     std::string out;
     for (const Type& item : type.items)

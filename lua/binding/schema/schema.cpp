@@ -48,6 +48,8 @@ std::string Type::lua_type() const {
     const std::string list = (compound ? "(" + item + ")" : item) + "[]";
     return fields.empty() ? list : list + "|" + record_type(fields).lua_type();
   }
+  case Kind::named:
+    return "table<string, " + items[0].lua_type() + ">";
   case Kind::function:
     return (or_number ? "number|fun" : "fun") + name;
   case Kind::object:
@@ -103,6 +105,8 @@ std::string Type::words() const {
   }
   case Kind::record:
     return "a table with named values";
+  case Kind::named:
+    return "{ name = " + items[0].words() + ", ... }";
   case Kind::function:
     return or_number ? "a number or a function" : "a function";
   case Kind::object:
@@ -212,6 +216,11 @@ Field place(std::string name) {
 }
 Field scalar(std::string name) {
   return with(std::move(name), of(Kind::scalar));
+}
+Field named(std::string name, Type item) {
+  Type type = of(Kind::named);
+  type.items = {std::move(item)};
+  return with(std::move(name), std::move(type));
 }
 Field plain(std::string name) {
   return with(std::move(name), of(Kind::plain));

@@ -19,6 +19,7 @@ enum class Kind {
   list,     // items of one type
   tuple,    // items of given types, in order
   record,   // table with its own fields
+  named,    // table of items of one type under names of the user's
   function, // Lua function
   object,   // something made by the module
   place,    // where: side, name, selection, predicate, or a list of these
@@ -57,7 +58,7 @@ struct Type {
   bool or_number = false; // function: a finite number in the range will do, for one that does not vary
   std::string
       name{}; // object: class, or "A|B" for either; function: its parameters, e.g. "(time: number): number"
-  std::vector<Type> items{};   // list: one; tuple: one per place
+  std::vector<Type> items{};   // list, named: one; tuple: one per place
   std::size_t min_items = 0;   // list
   std::vector<Field> fields{}; // record; list: values with a name beside its items
 
@@ -100,6 +101,7 @@ Field scalar(std::string name);
 Field plain(std::string name);
 Field record(std::string name, std::vector<Field> fields);
 Field list(std::string name, Type item, std::size_t min_items = 1);
+Field named(std::string name, Type item); // { any_name = item, ... }, one at least
 
 // Types for the items of a list.
 Type number_type();

@@ -159,6 +159,16 @@ Value checked_list(const Value& given, const Type& type, const std::string& path
   return Value(std::move(*named));
 }
 
+Value checked_named(const Value& given, const Type& type, const std::string& path) {
+  const Table* table = given.table();
+  if (!table || !table->items.empty() || !table->odd_keys.empty() || table->named.empty())
+    wrong_type(path, given, type);
+  Table out;
+  for (const auto& [name, item] : table->named)
+    out.named[name] = check_value(item, type.items[0], path + "." + name);
+  return Value(std::move(out));
+}
+
 Value checked_tuple(const Value& given, const Type& type, const std::string& path) {
   const Table* table = given.table();
   if (!table || table->items.size() != type.items.size())
@@ -221,6 +231,8 @@ Value check_value(const Value& given, const Type& type, const std::string& path)
     return checked_tuple(given, type, path);
   case Kind::record:
     return Value(*checked_record(given, type.fields, path));
+  case Kind::named:
+    return checked_named(given, type, path);
   case Kind::place:
     return checked_place(given, type, path);
   case Kind::plain:

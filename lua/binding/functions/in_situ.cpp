@@ -1,0 +1,179 @@
+// The state of rock before work begins: initial stress, gravity, how far from balance, displacement set to zero.
+#include "lua/binding/functions/selections.hpp"
+#include "lua/binding/functions/solving_stage.hpp"
+#include "lua/binding/runtime/module.hpp"
+
+#include "libgeom/core/error.hpp"
+
+#include <cmath>
+
+namespace cdem::script {
+
+namespace {
+
+using geom::InputError;
+
+// Pa/m; less than half of the weight of snow: a unit is wrong.
+constexpr double lightest = 1e3;
+
+double ratio_of(const Value& given, const Value& one) {
+  if (!one.is_number() || !(one.number() >= 0) || !std::isfinite(one.number()))
+    throw InputError("k0", describe(given), "a finite number >= 0, or two of them {kx, ky}");
+  return one.number();
+}
+
+std::array<double, 2> k0_of(const Value& given) {
+  const Table* const two = given.table();
+  if (!two)
+    return {ratio_of(given, given), ratio_of(given, given)};
+  if (two->items.size() != 2 || !two->named.empty())
+    throw InputError("k0", describe(given), "a finite number >= 0, or two of them {kx, ky}");
+  return {ratio_of(given, two->items[0]), ratio_of(given, two->items[1])};
+}
+
+InitialStress field_of(Session& session, ModelObject& model, const Arguments& a) {
+  if (!a.has("stress") && !a.has("gradient"))
+    throw InputError("give stress = {xx, yy, zz, xy, yz, xz} (Pa), gradient (Pa/m) with k0, or both");
+  for (const char* const only : {"k0", "surface"})
+    if (a.has(only) && !a.has("gradient"))
+      throw InputError(std::string(only) + ": goes with gradient, the weight of the rock per volume (Pa/m)");
+  if (a.has("gradient") && !a.has("k0"))
+    throw InputError(
+        "k0: missing; with gradient it says how much of the vertical stress acts horizontally, one number or "
+        "{kx, ky}; nu / (1 - nu) is that of rock under its weight alone");
+  InitialStress field;
+  field.on = one_selection(model, a.value("on"), "on");
+  if (a.has("stress")) {
+    const std::vector<double> given = a.numbers("stress");
+    if (given.size() != 6)
+      throw InputError("stress", describe(a.value("stress")), "six numbers {xx, yy, zz, xy, yz, xz}");
+    std::copy(given.begin(), given.end(), field.stress.begin());
+  }
+  if (a.has("gradient")) {
+    field.gradient = a.number("gradient");
+    field.k0 = k0_of(a.value("k0"));
+    field.surface = a.optional_number("surface");
+    if (field.gradient > 0 && field.gradient < lightest)
+      session.warn("initial_stress: gradient = " + describe(a.value("gradient")) +
+                   ": no rock is as light; it is in Pa per metre of depth, rock has 2e4 to 3e4");
+  }
+  return field;
+}
+
+Value initial_stress(Session& session, ModelObject& model, const Arguments& a) {
+  model.require_idle("initial_stress");
+  const InitialStress field = field_of(session, model, a);
+  const BeyondStrength beyond = model.simulation.initial_stress(field);
+  std::string line = "initial stress";
+  if (a.has("stress"))
+    line += " " + describe(a.value("stress")) + " Pa";
+  if (a.has("gradient"))
+    line += (a.has("stress") ? " and " : " ") + describe(a.value("gradient")) +
+            " Pa per metre below z = " + number_text(field.surface.value_or(model.simulation.box().max.z())) +
+            " m, K0 " + describe(a.value("k0"));
+  model.notes->conditions.push_back(line + " in " + field.on.text);
+  if (beyond.points > 0)
+    session.warn("initial_stress: " + std::to_string(beyond.points) +
+                 (beyond.points == 1 ? " joint point is" : " joint points are") +
+                 " loaded beyond what the joint bears, " +
+                 (std::isfinite(beyond.largest_use)
+                      ? "at most " + three_digits(beyond.largest_use) + " times its strength"
+                      : std::string("some of them without any strength")) +
+                 ", worst at " + describe(Value(beyond.place)) +
+                 " m: they break or slide at once; change k0 or stress, or raise the joint's strength");
+  return beyond.points;
+}
+
+Value gravity_stress(Session& session, ModelObject& model, const Arguments& a) {
+  RelaxOptions options;
+  options.breaking = false;
+  options.residual = a.number("residual");
+  options.max_steps = a.integer("max_steps");
+  const auto result_of = [](const RelaxResult& r) {
+    return Table{{"converged", r.converged},       {"steps", r.steps},
+                 {"residual", r.residual},         {"broken_tension", r.broken_tension},
+                 {"broken_shear", r.broken_shear}, {"wall_time", r.wall_time}};
+  };
+  if (!model.simulation.has_gravity())
+    throw InputError("gravity_stress: no gravity acts; call model:gravity{ vector = {0, 0, -9.81} } first");
+  return stage(session, model, "gravity_stress", a, result_of({}), [&](Simulation& simulation) {
+    const RelaxResult result = simulation.relax(options);
+    if (!result.converged)
+      session.warn("gravity_stress: not converged after " + std::to_string(result.steps) +
+                   " steps, residual " + three_digits(result.residual) + " above " +
+                   number_text(options.residual) +
+                   "; raise max_steps, or look whether something moves freely");
+    simulation.reset_displacement();
+    return Value(result_of(result));
+  });
+}
+
+Value reset_displacement(Session&, ModelObject& model, const Arguments&) {
+  model.require_idle("reset_displacement");
+  model.simulation.reset_displacement();
+  model.notes->conditions.push_back("displacement set to zero");
+  return {};
+}
+
+Value unbalance(Session&, ModelObject& model, const Arguments& a) {
+  const Unbalance u = model.simulation.unbalance(a.optional_number("reference"));
+  return Table{
+      {"largest", u.largest}, {"mean", u.mean}, {"force", u.force}, {"block", u.block}, {"place", u.place}};
+}
+
+} // namespace
+
+void bind_in_situ(Module& m) {
+  m.records.push_back(
+      {"Unbalance",
+       "How far from balance a model is.",
+       {number("largest").required().doc("net force of a free node over the reference, the largest"),
+        number("mean").required().doc("the mean over all free nodes"),
+        number("force").unit("N").required().doc("net force where the ratio is largest"),
+        integer("block").required().doc("its id, there"), vec3("place").unit("m").required()}});
+  Class& model = m.the_class("Model");
+  const auto add = [&](std::string name, std::string doc, std::vector<Field> fields, auto body,
+                       std::string returns = "", std::string returns_doc = "") {
+    model.methods.push_back({std::move(name), std::move(doc), std::move(fields), false, std::move(returns),
+                             std::move(returns_doc), method<ModelObject>(body)});
+  };
+  add("initial_stress",
+      "Stress present before anything moves: the same everywhere, growing with depth, or the sum of both. "
+      "The vertical "
+      "stress at depth d below the surface is -gradient d, the horizontal one k0 times that. Interfaces "
+      "between two "
+      "blocks that are both selected start with its traction.",
+      {place("on").standard("all").doc("where: one place"),
+       list("stress", number_type(), 6).unit("Pa").doc("{xx, yy, zz, xy, yz, xz}, tension positive"),
+       number("gradient").at_least(0).unit("Pa/m").doc("weight per volume, density times 9.81"),
+       plain("k0").doc("horizontal over vertical stress, one number or {kx, ky}; needed with gradient"),
+       number("surface").unit("m").doc(
+           "z where depth begins, the top of the model when left out; above it there is none")},
+      initial_stress, "integer",
+      "joint points that this loads beyond their strength; a warning tells of them");
+  add("gravity_stress",
+      "Stress of the model's own weight: relaxes under gravity and what else acts, without breaking bonds, "
+      "and then sets "
+      "the displacement to zero.",
+      {number("residual")
+           .between(0, 1)
+           .standard(1e-6)
+           .doc("goal: out-of-balance force norm over applied force norm"),
+       integer("max_steps").at_least(1).standard(500000).doc("gives up with converged = false")},
+      gravity_stress, "cdem.RelaxResult");
+  add("reset_displacement",
+      "Results show the displacement from here on: fields, measures, files and pictures, which draw the "
+      "model where it "
+      "stands now. Stress, joints and supports go on as before; opening and slip of joints, and the "
+      "displacement of fix{}, "
+      "still count from the beginning.",
+      {}, reset_displacement);
+  add("unbalance",
+      "How far from balance the model is as it stands: the net forces of its free nodes over the weight of "
+      "their blocks. "
+      "0 in balance; 1 where a node feels a force like the weight of its whole block.",
+      {number("reference").above(0).unit("N").doc("force to compare with instead of the weights")}, unbalance,
+      "cdem.Unbalance");
+}
+
+} // namespace cdem::script

@@ -1,0 +1,114 @@
+// Laws by joint set and named cut, and glued cuts.
+#include "libcdem/fracture/rebuild.hpp"
+#include "libgeom/assembly/builders.hpp"
+#include "libgeom/assembly/edit.hpp"
+#include "libgeom/core/error.hpp"
+#include "tests/libcdem/system.hpp"
+
+#include <catch2/catch.hpp>
+
+using namespace testing;
+using Catch::Matchers::Contains;
+
+namespace {
+
+cdem::Joint with_strength(double tensile_strength) {
+  cdem::Joint joint = rock_joint();
+  joint.tensile_strength = tensile_strength;
+  joint.cohesion = 100e6;
+  return joint;
+}
+
+geom::Assembly cut_at(const geom::Assembly& a, double x, const std::string& name, bool glued = false) {
+  geom::PlaneCutOptions options;
+  options.name = name;
+  options.glued = glued;
+  return geom::cut_by_plane(a, geom::Plane::through({x, 0, 0}, {1, 0, 0}), options);
+}
+
+// A bar of 3 m along x, cut at 1 m by "weak" and at 2 m by "strong" or by a glued cut; `joint` itself holds nothing.
+cdem::ModelSpec bar(bool glued, cdem::Element element) {
+  cdem::BodySpec body;
+  body.name = "bar";
+  body.shape = cut_at(cut_at(geom::grid({3, 1, 1}, {1, 1, 1}), 1, "weak"), 2, glued ? "" : "strong", glued);
+  body.material = rock();
+  body.joint = with_strength(0);
+  body.set_joints["weak"] = with_strength(1e6);
+  if (!glued)
+    body.set_joints["strong"] = with_strength(30e6);
+  body.element = element;
+  cdem::ModelSpec spec;
+  spec.bodies = {body};
+  return spec;
+}
+
+} // namespace
+
+TEST_CASE("each joint set breaks at its own strength, and a glued cut never", "[joint_sets]") {
+  const bool glued = GENERATE(false, true);
+  const auto element = GENERATE(cdem::Element::small_strain, cdem::Element::finite_volume);
+  cdem::Simulation s(bar(glued, element), 1, nullptr);
+  s.fix(fixed(cdem::Selection::side("x-")));
+  const auto broken_under = [&](double stress) {
+    s.clear_loads();
+    s.traction(traction(cdem::Selection::side("x+"), {stress, 0, 0}));
+    cdem::RelaxOptions options;
+    options.max_steps = 500; // what has come loose finds no balance, and leaves its neighbour
+    s.relax(options);
+    return s.counts().broken_tension;
+  };
+  CHECK(broken_under(0.9e6) == 0);
+  CHECK(s.max("stress.xx").value == Approx(0.9e6).epsilon(0.2)); // it carries the load
+  const std::int64_t points = s.counts().bonds;
+  CHECK(broken_under(2e6) == points / 2);
+  CHECK(s.counts().intact == points / 2);
+}
+
+TEST_CASE("a glued cut is stiff: a bar gives by its own length and 0.5 % of a block", "[joint_sets]") {
+  cdem::BodySpec body;
+  body.name = "bar";
+  body.shape = cut_at(geom::grid({2, 1, 1}, {1, 1, 1}), 1, "", true);
+  body.material = rock();
+  body.material.poissons_ratio = 0;
+  body.joint = with_strength(0);
+  body.element = cdem::Element::small_strain;
+  cdem::ModelSpec spec;
+  spec.bodies = {body};
+  cdem::Simulation s(spec, 1, nullptr);
+  s.fix(fixed(cdem::Selection::side("x-")));
+  s.traction(traction(cdem::Selection::side("x+"), {1e8, 0, 0}));
+  REQUIRE(s.relax({}).converged);
+  CHECK(s.counts().broken_tension == 0);
+  CHECK(s.mean("displacement.x", cdem::Selection::side("x+")) ==
+        Approx(1e8 / rock().youngs_modulus * (2 + cdem::glued_thickness_ratio)).epsilon(1e-4));
+}
+
+TEST_CASE("laws of joint sets stay with their faces when blocks are taken out", "[joint_sets]") {
+  System s(build(bar(false, cdem::Element::small_strain).bodies));
+  const auto strength_at = [](const cdem::Model& m, double x) {
+    for (const cdem::Interface& i : m.interfaces)
+      if (std::abs(m.point_position[i.point_begin].x() - x) < 1e-9)
+        return m.joints[i.joint].tensile_strength;
+    return -1.0;
+  };
+  CHECK(strength_at(s.model, 1) == 1e6);
+  CHECK(strength_at(s.model, 2) == 30e6);
+  const cdem::Rebuilt left = cdem::rebuild(
+      s.model, s.state, {cdem::whole_block(s.model, 1), cdem::whole_block(s.model, 2)}, {}, cdem::MayBreak::all);
+  CHECK(strength_at(left.model, 2) == 30e6);
+}
+
+TEST_CASE("names of joint sets that no face has are refused with those there are", "[joint_sets]") {
+  cdem::ModelSpec spec = bar(false, cdem::Element::small_strain);
+  spec.bodies[0].set_joints["faults"] = rock_joint();
+  CHECK_THROWS_WITH(cdem::Simulation(spec, 1, nullptr),
+                    Contains("joints of body \"bar\" = \"faults\": must be the name of a joint set or cut of its shape "
+                             "(\"strong\", \"weak\")"));
+  cdem::ModelSpec plain = bar(false, cdem::Element::small_strain);
+  plain.bodies[0].shape = geom::grid({3, 1, 1}, {3, 1, 1});
+  CHECK_THROWS_WITH(cdem::Simulation(plain, 1, nullptr), Contains("none of its cuts has a name"));
+  cdem::ModelSpec held = bar(false, cdem::Element::small_strain);
+  held.bodies[0].shape = cut_at(held.bodies[0].shape, 0.5, "outline", true);
+  held.bodies[0].set_joints["outline"] = rock_joint();
+  CHECK_THROWS_WITH(cdem::Simulation(held, 1, nullptr), Contains("a cut that is not glued"));
+}

@@ -1,0 +1,98 @@
+// Rock engineering in scripts: laws of joint sets, glued cuts, stress with depth, displacement set to zero.
+#include "tests/lua/script.hpp"
+
+#include <catch2/catch.hpp>
+
+using namespace cdem::script;
+using namespace cdem::script::test;
+using Catch::Matchers::Contains;
+using Catch::Matchers::Equals;
+
+namespace {
+
+const std::string head =
+    "local cdem = require 'cdem'\n"
+    "local rock = cdem.elastic{ youngs_modulus = 30e9, poissons_ratio = 0.25, density = 2500 }\n"
+    "local weak = cdem.coulomb{ friction_angle = 30 }\n"
+    "local strong = cdem.mohr_coulomb{ cohesion = 1e6, friction_angle = 30, tensile_strength = 1e6 }\n"
+    "local rocks = cdem.cut_by_joints{ shape = cdem.box{ size = {2, 2, 2} }, sets = {\n"
+    "  { name = 'bedding', dip = 0, dip_direction = 0, spacing = 1 } } }\n"
+    "rocks = cdem.cut_by_plane{ shape = rocks, point = {1, 1, 1}, normal = {1, 0, 0}, name = 'outline', "
+    "glued = true }\n";
+
+std::string model(const std::string& more = ", joints = { bedding = weak }") {
+  return head +
+         "local m = cdem.model{ bodies = { { name = 'rock', shape = rocks, material = rock, joint = strong" +
+         more + " } } }\n";
+}
+
+// Smooth walls and floor, weight.
+const std::string walls =
+    "m:fix{ on = { 'x-', 'x+' }, axes = 'x' }\nm:fix{ on = { 'y-', 'y+' }, axes = 'y' }\n"
+    "m:fix{ on = 'z-', axes = 'z' }\nm:gravity{ vector = {0, 0, -10} }\n";
+
+} // namespace
+
+TEST_CASE("a body has a law for each joint set, and glued cuts", "[lua][rock]") {
+  CHECK_THAT(error_of(model() + "local names = rocks:joint_sets()\nassert(#names == 2 and names[1] == "
+                                "'bedding' and names[2] == 'outline')\n"
+                                "local c = m:counts()\nassert(c.interfaces == 4)\n"
+                                "assert(c.contacts == c.bonds / 2 and c.intact == c.bonds / 2)"),
+             Equals(""));
+  CHECK_THAT(error_of(head +
+                      "local g = cdem.glued{}\nassert(g.bonded and g.glued and g.thickness_ratio == 0.005)\n"
+                      "assert(tostring(g) == 'cdem.Joint (glued, never breaks)')"),
+             Equals(""));
+}
+
+TEST_CASE("names of joint sets that there are not are refused", "[lua][rock]") {
+  CHECK_THAT(error_of(model(", joints = { beding = weak }")),
+             Contains("\"beding\"") && Contains("\"bedding\""));
+  CHECK_THAT(error_of(model(", joints = { bedding = rock }")), Contains("joints.bedding"));
+  CHECK_THAT(error_of(model(", joints = { outline = weak }")), Contains("a cut that is not glued"));
+}
+
+TEST_CASE("stress with depth is in balance, and a K0 that joints cannot bear is told of", "[lua][rock]") {
+  CHECK_THAT(error_of(model() + walls +
+                      "assert(m:unbalance{}.largest > 0.1)\n"
+                      "assert(m:initial_stress{ gradient = 25000, k0 = {0.5, 1} } == 0)\n"
+                      "assert(m:unbalance{}.largest < 0.05)\n"
+                      "assert(math.abs(m:at('stress.zz', {0.5, 1, 0.5}) + 1.5 * 25000) < 1)\n"
+                      "assert(math.abs(m:at('stress.xx', {0.5, 1, 0.5}) + 0.75 * 25000) < 1)"),
+             Equals(""));
+  CHECK_THAT(
+      Script(
+          head +
+          "local dipping = cdem.cut_by_plane{ shape = cdem.box{ size = {1, 1, 1} }, point = {0.5, 0.5, 0.4}, "
+          "normal = {1, 0, 1}, name = 'fault' }\n"
+          "local m = cdem.model{ bodies = { { shape = dipping, material = rock, joint = strong, joints = { "
+          "fault = "
+          "weak } } } }\nm:initial_stress{ gradient = 25000, k0 = 0 }")
+          .printed(),
+      Contains("loaded beyond what the joint bears, at most 1.73 times its strength"));
+}
+
+TEST_CASE("initial_stress says what it lacks", "[lua][rock]") {
+  CHECK_THAT(error_of(model() + "m:initial_stress{}"), Contains("give stress"));
+  CHECK_THAT(error_of(model() + "m:initial_stress{ gradient = 25e3 }"), Contains("k0: missing"));
+  CHECK_THAT(error_of(model() + "m:initial_stress{ gradient = 25e3, k0 = {1, 2, 3} }"), Contains("{kx, ky}"));
+  CHECK_THAT(error_of(model() + "m:initial_stress{ gradient = 25e3, k0 = -1 }"),
+             Contains("a finite number >= 0"));
+  CHECK_THAT(error_of(model() + "m:initial_stress{ stress = {0, 0, 0, 0, 0, 0}, surface = 2 }"),
+             Contains("surface: goes with gradient"));
+  CHECK_THAT(Script(model() + "m:initial_stress{ gradient = 25, k0 = 1 }").printed(),
+             Contains("no rock is as light"));
+}
+
+TEST_CASE("gravity_stress leaves the stress of the weight and no displacement", "[lua][rock]") {
+  CHECK_THAT(error_of(model() + "m:gravity_stress{}"), Contains("no gravity acts"));
+  CHECK_THAT(error_of(model() + walls +
+                      "local r = m:gravity_stress{}\nassert(r.converged and r.broken_tension == 0)\n"
+                      "assert(m:max('displacement.magnitude') == 0)\n"
+                      "assert(math.abs(m:reaction('z-')[3] / (2500 * 10 * 8) - 1) < 1e-4)\n"
+                      "local before = m.state_hash\nm:reset_displacement()\nassert(m.state_hash == before)\n"
+                      "assert(m:unbalance{}.largest < 1e-3)\n"
+                      "m:remove{ on = cdem.select.box{ min = {-1, -1, 1}, max = {1, 3, 3} } }\n"
+                      "m:relax{ breaking = false }\nassert(m:max('displacement.z') > 0)"),
+             Equals(""));
+}
