@@ -61,7 +61,8 @@ TEST_CASE("stress with depth is in balance with gravity from the start", "[in_si
     CHECK(s.at("stress.yy", {0.05, 0.05, z}) == Approx(1.5 * vertical).epsilon(1e-9));
   }
   REQUIRE(s.relax({}).converged);
-  const double settlement = weight_per_volume() * 0.5 * 0.5 / rock().youngs_modulus; // m, order of what it spares
+  const double settlement =
+      weight_per_volume() * 0.5 * 0.5 / rock().youngs_modulus; // m, order of what it spares
   CHECK(s.max("displacement.magnitude").value < 1e-6 * settlement);
 }
 

@@ -93,17 +93,19 @@ TEST_CASE("laws of joint sets stay with their faces when blocks are taken out", 
   };
   CHECK(strength_at(s.model, 1) == 1e6);
   CHECK(strength_at(s.model, 2) == 30e6);
-  const cdem::Rebuilt left = cdem::rebuild(
-      s.model, s.state, {cdem::whole_block(s.model, 1), cdem::whole_block(s.model, 2)}, {}, cdem::MayBreak::all);
+  const cdem::Rebuilt left =
+      cdem::rebuild(s.model, s.state, {cdem::whole_block(s.model, 1), cdem::whole_block(s.model, 2)}, {},
+                    cdem::MayBreak::all);
   CHECK(strength_at(left.model, 2) == 30e6);
 }
 
 TEST_CASE("names of joint sets that no face has are refused with those there are", "[joint_sets]") {
   cdem::ModelSpec spec = bar(false, cdem::Element::small_strain);
   spec.bodies[0].set_joints["faults"] = rock_joint();
-  CHECK_THROWS_WITH(cdem::Simulation(spec, 1, nullptr),
-                    Contains("joints of body \"bar\" = \"faults\": must be the name of a joint set or cut of its shape "
-                             "(\"strong\", \"weak\")"));
+  CHECK_THROWS_WITH(
+      cdem::Simulation(spec, 1, nullptr),
+      Contains("joints of body \"bar\" = \"faults\": must be the name of a joint set or cut of its shape "
+               "(\"strong\", \"weak\")"));
   cdem::ModelSpec plain = bar(false, cdem::Element::small_strain);
   plain.bodies[0].shape = geom::grid({3, 1, 1}, {3, 1, 1});
   CHECK_THROWS_WITH(cdem::Simulation(plain, 1, nullptr), Contains("none of its cuts has a name"));

@@ -156,10 +156,10 @@ TEST_CASE("cutting, growing and removing refuse a model with meshed bodies", "[l
     INFO(call);
     CHECK_THAT(error_of(held + "model:" + call), Contains("the model has meshed bodies"));
   }
-  CHECK_THAT(
-      error_of(head + "model_of{ joint = bond, bonds = 'springs' }:initial_stress{ on = 'all', stress = {1e5, 0, 0, 0, 0, "
-                      "0} }"),
-      Contains("the springs of a mesh"));
+  CHECK_THAT(error_of(head + "model_of{ joint = bond, bonds = 'springs' }:initial_stress{ on = 'all', stress "
+                             "= {1e5, 0, 0, 0, 0, "
+                             "0} }"),
+             Contains("the springs of a mesh"));
 }
 
 // To 1e-5: the faces are taken as the load strains them, by 1.7e-6.
