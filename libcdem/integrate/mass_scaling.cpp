@@ -14,8 +14,7 @@ std::vector<double> scaled_masses(const Model& model, const std::vector<double>&
     if (block.rigid >= 0)
       continue;
     for (int i = block.node_begin; i < block.node_end; ++i)
-      masses[i] =
-          std::max(masses[i], least_mass(row_sums[i], block.meshed ? damping_of(model, i) : 0, step));
+      masses[i] = std::max(masses[i], least_mass(row_sums[i], block.meshed ? damping_of(model, i) : 0, step));
   }
   return masses;
 }

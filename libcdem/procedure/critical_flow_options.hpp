@@ -46,8 +46,8 @@ struct CriticalFlowResult {
   geom::Vec3 first_break_place = geom::Vec3::Zero();         // m, undeformed
   std::int64_t broken_tension = 0, broken_shear = 0;
   std::int64_t steps = 0;
-  double time_step = 0; // s, at the end
-  ScaledMasses scaled;  // with mass_scaling
+  double time_step = 0;                  // s, at the end
+  ScaledMasses scaled;                   // with mass_scaling
   std::vector<CriticalFlowSample> curve; // every 100 steps
 };
 

@@ -3,8 +3,8 @@
 // ledger's `fictitious`.
 #pragma once
 
-#include "libcdem/step/stage_context.hpp"
 #include "libcdem/step/options.hpp"
+#include "libcdem/step/stage_context.hpp"
 
 namespace cdem {
 

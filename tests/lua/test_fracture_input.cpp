@@ -22,8 +22,8 @@ std::string bar(const std::string& body = "", const std::string& joint = "",
          joint + " } end\n" +
          "local solid = cdem.grid{ size = {0.6, 0.2, 0.2}, divisions = {2, 1, 1} }:solid()\n" +
          "local model = cdem.model{ bodies = { { shape = solid:mesh{ size = " + size +
-         " }, material = concrete, joint = law(3e6), bonds = 'cohesive', name = 'bar'" + body +
-         " } } }\n" + "model:fix{ on = 'x-', axes = 'x', velocity = {-0.1, 0, 0} }\n" +
+         " }, material = concrete, joint = law(3e6), bonds = 'cohesive', name = 'bar'" + body + " } } }\n" +
+         "model:fix{ on = 'x-', axes = 'x', velocity = {-0.1, 0, 0} }\n" +
          "model:fix{ on = 'x+', axes = 'x', velocity = {0.1, 0, 0} }\n";
 }
 

@@ -103,8 +103,9 @@ double closing_time_step(const Model& model, double safety) {
   for (std::size_t i = 0; i < k.contact.size(); ++i)
     if (k.contact[i] > 0) {
       const double mass = model.node_mass[i];
-      least = std::min(least, stable_time_step((k.elements[i] + k.contact[i]) / mass,
-                                               damping_of(model, static_cast<int>(i)) * k.elements[i] / mass));
+      least =
+          std::min(least, stable_time_step((k.elements[i] + k.contact[i]) / mass,
+                                           damping_of(model, static_cast<int>(i)) * k.elements[i] / mass));
     }
   return safety * least;
 }

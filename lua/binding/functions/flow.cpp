@@ -171,8 +171,10 @@ void bind_records(Module& m) {
        {choice("reason", {"fragment", "compliance", "limit"})
             .required()
             .doc("a piece came off; the compliance grew; or max_velocity was reached"),
-        number("velocity").unit("m/s").required(), number("pressure").unit("Pa").required(),
-        number("time").unit("s").required(), number("period").unit("s").required().doc("of the first mode"),
+        number("velocity").unit("m/s").required(),
+        number("pressure").unit("Pa").required(),
+        number("time").unit("s").required(),
+        number("period").unit("s").required().doc("of the first mode"),
         number("compliance").unit("m/Pa").required().doc("of the unbroken solid at rest"),
         list("fragments", object_type("Fragment"), 0).required().doc("largest first"),
         number("broken_area").unit("m2").required(),
@@ -181,8 +183,11 @@ void bind_records(Module& m) {
         number("height_fraction").doc("along the held side's normal, from that side on"),
         choice("part", {"root", "waist", "top"}).doc("third of that height"),
         number("first_break_velocity").unit("m/s").doc("when the first bond broke; nil when none did"),
-        number("first_break_pressure").unit("Pa"), vec3("first_break_place").unit("m").doc("undeformed"),
-        integer("broken_tension").required(), integer("broken_shear").required(), integer("steps").required(),
+        number("first_break_pressure").unit("Pa"),
+        vec3("first_break_place").unit("m").doc("undeformed"),
+        integer("broken_tension").required(),
+        integer("broken_shear").required(),
+        integer("steps").required(),
         list("curve", object_type("CriticalFlowSample"), 0).required().doc("every 100 steps"),
         mass_scaling_result_field()}});
 }
