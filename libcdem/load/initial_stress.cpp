@@ -79,8 +79,8 @@ void add_to_block(const Model& model, State& state, const Block& block, const In
 // of its joint.
 double use_of(const Joint& joint, double strength, bool intact, double normal, double shear) {
   const double infinite = std::numeric_limits<double>::infinity();
-  const auto over = [&](double load, double strength) {
-    return load <= 0 ? 0 : strength > 0 ? load / strength : infinite;
+  const auto over = [&](double load, double borne) {
+    return load <= 0 ? 0 : borne > 0 ? load / borne : infinite;
   };
   const double cohesion = intact ? strength * joint.cohesion : 0,
                tension = intact ? strength * joint.tensile_strength : 0;

@@ -128,9 +128,9 @@ std::vector<StateField> fields(State& s) {
     return StateField{name,     unit,  place, writer, array.data(), array.size() * sizeof(array[0]),
                       floating, resize};
   };
-  const auto shown = [](StateField field) {
-    field.shown_only = true;
-    return field;
+  const auto shown = [](StateField of_results) {
+    of_results.shown_only = true;
+    return of_results;
   };
   return {
       {"time", "s", FieldPlace::model, "run", &s.time, sizeof s.time, true},

@@ -251,7 +251,7 @@ TEST_CASE("contact: edges beside the nodes of two bent ridges press the more the
   const auto roof = [](const std::array<Vec3, 3>& ridge, const Vec3& across, const Vec3& down) {
     geom::TetMesh mesh = geom::box_mesh({2, 2, 1}, {2, 2, 1});
     for (Vec3& x : mesh.nodes) {
-      const double side = std::lround(x.y()) - 1.0;
+      const double side = std::round(x.y()) - 1.0;
       x = ridge[std::lround(x.x())] + side * across + (x.z() > 0.5 ? 0.6 * std::abs(side) : 1.0) * down;
     }
     return mesh;
