@@ -38,7 +38,8 @@ struct ChunkLaw {
   SofteningLaw at(const FaceBatch& batch, int face) const {
     Joint room;
     const double k = penalty(batch, face % lanes);
-    return softening_law(joints.of(face, room), joints.tan_friction(face, tan_friction), k, k);
+    return softening_law(joints.of(face, room), joints.tan_friction(face, tan_friction), k, k,
+                         SofteningBegins::at_strength);
   }
 };
 
@@ -214,7 +215,7 @@ void preload(const FaceBatch& batch, int lane, const FaceMotion& motion, const F
 } // namespace
 
 SofteningLaw cohesive_law(const Joint& joint, double k) {
-  return softening_law(joint, k, k);
+  return softening_law(joint, geom::portable::tan(joint.friction_angle), k, k, SofteningBegins::at_strength);
 }
 
 double damage_of(const CohesiveFace& face) {
