@@ -285,11 +285,14 @@ double begin_crack(const FaceBatch& batch, int lane, const FaceFrame& f, const J
   const Vec3 on_plane = f.in_axes(stress * m), on_face = f.in_axes(stress * f.normal);
   state.stage[lane] = FaceStage::cracking;
   face.plane = array(f.in_axes(m));
+  const SofteningLaw law = cohesive_law(joint, k);
   for (int point = 0; point < 3; ++point) {
-    const Vec3 gap = f.in_axes(f.gap[point]), held = gap + vec(face.offset[point]);
+    const Vec3 gap = f.in_axes(f.gap[point]), pulls = on_face + k * (gap + vec(face.offset[point]));
     face.offset[point] = array(on_plane / k - gap);
-    face.rest[point] = array(on_face + k * held - face.plane[2] * on_plane);
-    if (joint.softening == Softening::none) {
+    face.rest[point] = {};
+    if (law.softens()) { // it may be damaged by a crack that ended
+      face.rest[point] = array((pulls - respond(law, face, point, gap, false).traction) / (1 - face.damage[point]));
+    } else {
       face.damage[point] = 1;
       state.mode[point][lane] = static_cast<std::uint8_t>(mode);
     }

@@ -124,7 +124,7 @@ NodeSums Stage::advance(bool breaking, const Move& move, const MoveRigid& move_r
   work.hand_over_due = step % hand_over_every == 0;
   const int threads = context_.threads;
   if (breaking && !model.mesh.sides.empty()) {
-    begun_ = begin_cracks(model, state, threads, in_real_time);
+    begun_ = begin_cracks(model, state, work.strain_step, threads, in_real_time);
     times_.end(StepLine::cracks);
   }
   if (!model.point_chunks.empty()) {
