@@ -103,8 +103,8 @@ TEST_CASE("cohesive loading: under lateral pressure a prism bears what Mohr and 
   INFO("pressure " << pressure << ", peak " << peak / strength << ", balance " << s.energy().balance_error());
   CHECK(peak == Approx(strength).epsilon(0.07));
   CHECK(s.counts().damaged > 0);
-  // Open by about 1 % once bands slide under pressure; 1e-3 is wanted (theory, section 22).
-  CHECK(s.energy().balance_error() < 2e-2);
+  // 1e-3 is wanted: at the higher pressure all cracks within microseconds (theory, section 22).
+  CHECK(s.energy().balance_error() < (pressure < 10e6 ? 1e-3 : 5e-3));
 }
 
 TEST_CASE("cohesive loading: a bar torn in two carries pressure again when it is closed",
@@ -130,7 +130,7 @@ TEST_CASE("cohesive loading: a bar torn in two carries pressure again when it is
   } else { // as if the tets on both sides of the contact were there twice: a sixth of the height each
     CHECK(stiffness == Approx(1 / (1 + 2 / 6.0)).epsilon(0.02));
   }
-  CHECK(machine.s->energy().balance_error() < 1e-2);
+  CHECK(machine.s->energy().balance_error() < 1e-3);
 }
 
 TEST_CASE("cohesive loading: unloading and loading again follow the secant and take nothing",
