@@ -68,6 +68,7 @@ public:
   ChunkCracks(const Model& model, State& state, std::int64_t index, double moved_for, bool in_real_time)
       : model_(model), state_(state), index_(index), moved_for_(moved_for), in_real_time_(in_real_time),
         chunk_(model.mesh.chunks[index]), body_(model.bodies[model.blocks[chunk_.block].body]),
+        least_cosine_(body_.bonding.everywhere ? among_all_faces : among_a_border),
         joints_(model, state, chunk_), rocks_(body_) {
     if (!joints_.own())
       rocks_.take(-1, rock_strength(body_.joint));
@@ -146,14 +147,14 @@ private:
   void begin(std::int64_t batch, int lane, const geom::Mat3& stress, double left) {
     const FaceFrame at = frame(batch, lane);
     const int face = place(batch, lane);
-    auto plane = working_plane(stress / left, rock(face), at.normal);
+    auto plane = working_plane(stress / left, rock(face), at.normal, least_cosine_);
     if (plane && !state_.rate_factor.empty()) {
       const double factor =
           in_real_time_ ? dynamic_increase_factor(
                               joints_.before_rate(face).rate,
                               strain_rate(model_, state_, model_.mesh.face_tets[batch * lanes + lane]))
                         : 1;
-      plane = working_plane(stress / (left * factor), rock(face), at.normal);
+      plane = working_plane(stress / (left * factor), rock(face), at.normal, least_cosine_);
       if (plane)
         state_.rate_factor[batch * lanes + lane] = factor;
     }
@@ -184,6 +185,7 @@ private:
   bool in_real_time_;
   const MeshChunk& chunk_;
   const Body& body_;
+  double least_cosine_; // between a face and the plane that fails
   FaceJoints joints_;
   OwnRocks rocks_;
   Joint room_;

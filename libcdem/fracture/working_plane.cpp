@@ -14,7 +14,6 @@ using geom::Vec3;
 
 // Principal stresses nearer than this part of sigma_1 - sigma_3 count as equal.
 constexpr double equal_stress = 0.02;
-const double most_off = std::sqrt(0.5); // cos 45 degrees
 
 struct Uses {
   double tension = 0, shear = 0;
@@ -50,7 +49,7 @@ double strength_use(const geom::Mat3& stress, const RockStrength& rock) {
 }
 
 std::optional<WorkingPlane> working_plane(const geom::Mat3& stress, const RockStrength& rock,
-                                          const geom::Vec3& face) {
+                                          const geom::Vec3& face, double least_cosine) {
   const Eigen::SelfAdjointEigenSolver<geom::Mat3> solver(stress);
   const Vec3& s = solver.eigenvalues();
   const Uses u = uses(s, rock);
@@ -77,7 +76,7 @@ std::optional<WorkingPlane> working_plane(const geom::Mat3& stress, const RockSt
         plane.normal = normal;
   }
   const double along = plane.normal.dot(face);
-  if (std::abs(along) < most_off)
+  if (std::abs(along) < least_cosine)
     return std::nullopt;
   if (along < 0)
     plane.normal = -plane.normal;

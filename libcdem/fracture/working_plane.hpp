@@ -58,9 +58,13 @@ struct WorkingPlane {
   BondMode mode = BondMode::broken_tension;
 };
 
+// How far a face may stand off the plane that fails, as the least cosine between their normals. Where every face may crack,
+// a crack finds faces within 45 degrees. Where only those of a border may, a ragged border has no others than its own.
+inline constexpr double among_all_faces = 0.70710678118654752, among_a_border = 0.1;
+
 // The plane on which a face with the unit normal `face` works from now on; none while the stress is below the strength, or
-// the planes it fails on stand more than 45 degrees off the face.
-std::optional<WorkingPlane> working_plane(const geom::Mat3& stress, const RockStrength&,
-                                          const geom::Vec3& face);
+// the planes it fails on stand further off the face.
+std::optional<WorkingPlane> working_plane(const geom::Mat3& stress, const RockStrength&, const geom::Vec3& face,
+                                          double least_cosine = among_all_faces);
 
 } // namespace cdem

@@ -260,6 +260,31 @@ TEST_CASE("cohesive bodies: a plane between two regions parts at its strength, h
   CHECK(peak == Approx(tension).epsilon(0.01));
 }
 
+TEST_CASE("cohesive bodies: a ragged border between two regions parts",
+          "[cohesive][mesh][energy]") {
+  const double edge = GENERATE(0.1, 0.07);
+  const double width = 0.25;
+  geom::TetMesh mesh = unstructured({1, width, width}, edge);
+  for (std::size_t t = 0; t < mesh.tets.size(); ++t) {
+    double x = 0;
+    for (const int node : mesh.tets[t])
+      x += 0.25 * mesh.nodes[node].x();
+    mesh.region[t] = x > 0.5;
+  }
+  cdem::BodySpec body = concrete_body(mesh, cdem::Softening::linear, 20);
+  body.bonding.everywhere = false;
+  body.bonding.between_regions = true;
+  System s(build({body}));
+  const double peak = pull(s, 0, 0.05, 0.006, width * width);
+  const double dissipated = s.state.spent.breaking / (energy_1 * width * width);
+  INFO("edge " << edge << ", peak " << peak / tension << ", dissipated over G A " << dissipated << ", balance "
+               << balance(s) << ", broken " << s.log.broken_tension << " " << s.log.broken_shear);
+  CHECK(peak < 1.2 * tension);
+  CHECK(dissipated > 0.9);
+  CHECK(dissipated < 1.3);
+  CHECK(balance(s) < 1e-3);
+}
+
 TEST_CASE("cohesive bodies: a free body with freed nodes spins on with its energy",
           "[cohesive][mesh][energy]") {
   System s(build({concrete_body(unstructured({0.4, 0.25, 0.25}, 0.12))}));
