@@ -4,6 +4,7 @@
 #include "lua/binding/functions/angles.hpp"
 #include "lua/binding/objects/objects.hpp"
 #include "lua/binding/runtime/module.hpp"
+#include "lua/binding/runtime/session.hpp"
 
 #include "libgeom/core/error.hpp"
 #include "libgeom/core/portable.hpp"
@@ -73,14 +74,14 @@ struct InWords {
   std::string operator()(const ResidualStrength& law) const {
     std::string text = "residual c " + number_text(law.cohesion) + " Pa, tension " +
                        number_text(law.tension) + " Pa, friction angle " +
-                       number_text(degrees(geom::portable::atan2(law.friction, 1))) + " deg";
+                       three_digits(degrees(geom::portable::atan2(law.friction, 1))) + " deg";
     if (law.dilation > 0)
-      text += ", dilation " + number_text(degrees(geom::portable::atan2(law.dilation, 1))) + " deg";
+      text += ", dilation " + three_digits(degrees(geom::portable::atan2(law.dilation, 1))) + " deg";
     return text;
   }
   std::string operator()(const BartonBandis& law) const {
     return "Barton-Bandis, JRC " + number_text(law.jrc) + ", JCS " + number_text(law.jcs) + " Pa, phi_r " +
-           number_text(degrees(law.residual_angle)) + " deg" +
+           three_digits(degrees(law.residual_angle)) + " deg" +
            (law.peak_slip > 0 ? ", peak at " + number_text(law.peak_slip) + " m" : "");
   }
   std::string operator()(const JointTable& law) const {
