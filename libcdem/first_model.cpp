@@ -4,6 +4,7 @@
 #include "libcdem/model/build/build_model.hpp"
 #include "libcdem/simulation_checks.hpp"
 #include "libgeom/core/error.hpp"
+#include "libgeom/core/portable.hpp"
 #include "libgeom/mesh/parts.hpp"
 
 #include <cmath>
@@ -45,6 +46,10 @@ public:
       if (is_small(a))
         return;
     }
+    if (has_law(joint.law) && !are_blocks(a, b))
+      throw geom::InputError(
+          field, value, "a law of meshes, cdem.coulomb{ friction_angle = ... }",
+          "dilation, residual strength, Barton-Bandis and tables are laws of interfaces between blocks");
     if (joint.bonded && !(are_blocks(a, b) && a != b))
       throw geom::InputError(
           field, value, "cdem.coulomb{ friction_angle = ... } between meshes",
@@ -60,6 +65,17 @@ public:
       if (!is_small(b) && (parts_[b] > 1 || frame_.bodies[b].bonding.is_cohesive()) &&
           (are_blocks(b, b) || !frame_.bodies[b].bonding.none()))
         add_to(frame_.surface.joint, b, b, contact_of(b, b, spec_.bodies[b].joint));
+  }
+
+  // Blocks held by a joint set leave the contact that this set's law has.
+  void add_left_by_sets() {
+    for (int b = 0; b < count(); ++b)
+      if (!is_small(b))
+        for (const auto& [name, joint] : frame_.bodies[b].set_joint) {
+          const Joint left = contact_of(b, b, frame_.joints[joint]);
+          frame_.surface.left_by[joint] = static_cast<int>(frame_.joints.size());
+          frame_.joints.push_back(left);
+        }
   }
 
   // The law of all pairs that have none. A body of small strain meets none that moves far; require_separate says so.
@@ -99,7 +115,8 @@ private:
       return joint;
     Joint contact;
     contact.bonded = false;
-    contact.friction_angle = joint.friction_angle;
+    contact.friction_angle =
+        has_law(joint.law) ? geom::portable::atan2(friction_left(joint), 1) : joint.friction_angle;
     if (!are_blocks(a, b))
       return contact;
     const Elastic &one = spec_.bodies[a].material, &other = spec_.bodies[b].material;
@@ -218,6 +235,7 @@ Model first_model(const ModelSpec& spec) {
              "{\"" + pair.body_a + "\", \"" + pair.body_b + "\"}");
   }
   laws.add_within_bodies();
+  laws.add_left_by_sets();
   if (spec.default_contact)
     laws.add_default(*spec.default_contact);
   Model model = build_model(frame, std::move(seeds), default_traits, std::move(meshes));

@@ -134,6 +134,13 @@ void Simulation::initial_stress(const Selection& on, const std::array<double, 6>
   initial_stress(field);
 }
 
+WaterInJoints Simulation::water(const Water& water) {
+  State changed = impl_->state;
+  const WaterInJoints sum = set_water(impl_->model, changed, water);
+  impl_->state = std::move(changed);
+  return sum;
+}
+
 void Simulation::reset_displacement() {
   impl_->state.displacement_zero = impl_->state.displacement;
   impl_->last_good = impl_->state;
@@ -294,6 +301,10 @@ Deformation Simulation::deformation() const {
   return largest_deformation(impl_->model, impl_->state);
 }
 
+bool Simulation::has_buoyancy() const {
+  return impl_->conditions.gravity && impl_->conditions.gravity->water_density > 0;
+}
+
 bool Simulation::has_gravity() const {
   return impl_->conditions.gravity.has_value();
 }
@@ -303,6 +314,8 @@ bool Simulation::anything_acts() const {
   if (!c.tractions.empty() || !c.forces.empty() || c.gravity || !c.flows.empty())
     return true;
   const State& s = impl_->state;
+  if (!s.water_pressure.empty())
+    return true;
   const auto moves = [](const Fix& fix) { return fix.displacement || fix.velocity; };
   const auto is_nonzero = [](const Node& n) { return n.x != 0 || n.y != 0 || n.z != 0; };
   const auto is_stressed = [](const Stress& stress) {

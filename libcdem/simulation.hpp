@@ -6,6 +6,7 @@
 #include "libcdem/joint/joint.hpp"
 #include "libcdem/load/conditions.hpp"
 #include "libcdem/load/initial_stress.hpp"
+#include "libcdem/load/water.hpp"
 #include "libcdem/material/elastic.hpp"
 #include "libcdem/model/bonding.hpp"
 #include "libcdem/model/element.hpp"
@@ -18,6 +19,7 @@
 #include "libcdem/results/fields.hpp"
 #include "libcdem/results/fragment_motions.hpp"
 #include "libcdem/results/j_integral.hpp"
+#include "libcdem/results/joints.hpp"
 #include "libcdem/results/log.hpp"
 #include "libcdem/results/overlap.hpp"
 #include "libcdem/results/process_zone.hpp"
@@ -102,6 +104,7 @@ public:
   // Stress present before anything moves (load/initial_stress.hpp). Returns what it loads beyond its strength.
   BeyondStrength initial_stress(const InitialStress&);
   void initial_stress(const Selection&, const std::array<double, 6>&); // Pa, the same in all selected blocks
+  WaterInJoints water(const Water&);                                   // load/water.hpp
   // Results count the displacement from here on; mechanics goes on as before.
   void reset_displacement();
   // The motion of a rigid body, given to all that is selected: v + w x (x - about), m/s and rad/s; about: m, where it
@@ -156,6 +159,7 @@ public:
   // a state that is deformed already.
   bool anything_acts() const;
   bool has_gravity() const;
+  bool has_buoyancy() const; // gravity with a water_density
   std::vector<Fragment> fragments() const;              // largest first
   std::vector<FragmentMotion> fragment_motions() const; // the same, with their motion
 
@@ -193,6 +197,11 @@ public:
   const std::vector<BreakRow>& breaks() const;
   // Spring points that the observer was told of as broken when stages ended: in tension, in shear.
   std::array<std::int64_t, 2> told_broken() const;
+
+  // Joints between blocks: sums by set, points, surface (results/joints.hpp).
+  std::vector<JointSum> joints(const JointChoice&) const;
+  std::vector<std::pair<std::string, JointPoint>> joint_points(const JointChoice&) const;
+  Snapshot joint_surface(const JointChoice&, const std::string& title) const;
 
   // Cracks: area and energy, tip and speed along a path, the surface, the energy release rate.
   CracksByBody cracks() const;

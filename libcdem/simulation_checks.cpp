@@ -33,6 +33,10 @@ void validate_mesh_joint(const BodySpec& body, const Joint& joint, const std::st
   if (!b.is_cohesive() && joint.softening != Softening::none)
     throw geom::InputError("softening", "on the faces of a mesh with springs", "none there",
                            "bonds = \"cohesive\" softens");
+  if (has_law(joint.law))
+    throw geom::InputError(field, "a joint with dilation, residual strength or another law of interfaces",
+                           "cdem.mohr_coulomb or cdem.coulomb without them on the faces of a mesh",
+                           "cdem.blocks{ mesh = ... } makes blocks of the tetrahedra");
   if (!b.is_cohesive())
     require_no_rate_effect(joint, "springs of the mesh of body \"" + body.name + "\"");
   if (b.is_cohesive() && !(joint.bonded && joint.tensile_strength > 0 && joint.cohesion > 0))

@@ -1,4 +1,4 @@
-// What a Simulation tells of its cracks and pieces.
+// What a Simulation tells of its cracks, joints and pieces.
 #include "libcdem/results/crack_surface.hpp"
 #include "libcdem/simulation_impl.hpp"
 
@@ -23,6 +23,18 @@ void Simulation::record_cracks(const std::string& name, const std::string& body)
 
 Snapshot Simulation::crack_surface(bool damaged, const std::string& title) const {
   return cdem::crack_surface(impl_->model, impl_->state, impl_->log.breaks, damaged, title);
+}
+
+std::vector<JointSum> Simulation::joints(const JointChoice& choice) const {
+  return joint_sums(impl_->model, impl_->state, choice);
+}
+
+std::vector<std::pair<std::string, JointPoint>> Simulation::joint_points(const JointChoice& choice) const {
+  return cdem::joint_points(impl_->model, impl_->state, choice);
+}
+
+Snapshot Simulation::joint_surface(const JointChoice& choice, const std::string& title) const {
+  return cdem::joint_surface(impl_->model, impl_->state, choice, title);
 }
 
 JIntegral Simulation::j_integral(const std::string& body, JFront front,

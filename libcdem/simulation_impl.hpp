@@ -2,6 +2,7 @@
 #pragma once
 
 #include "libcdem/bond/spring_forces.hpp"
+#include "libcdem/bond/water_work.hpp"
 #include "libcdem/element/mesh_fields.hpp"
 #include "libcdem/fracture/rebuild.hpp"
 #include "libcdem/results/energy.hpp"
@@ -137,10 +138,11 @@ struct Simulation::Impl {
   // A change of topology between stages: the ledger counts what it does to the stored and the kinetic energy. Smaller
   // tets carry less of the mass at their corners, so that a block that spins has less of it once it is cut.
   void adopt(Rebuilt&& rebuilt) {
-    const double before = cdem::energy(model, state).total();
+    const double before = cdem::energy(model, state).total(), water = water_work(model, state);
     model = std::move(rebuilt.model);
     state = std::move(rebuilt.state);
     state.spent.cutting += before - cdem::energy(model, state).total();
+    state.spent.external += water - water_work(model, state);
     last_good = state;
   }
 };

@@ -1,19 +1,31 @@
 #include "libcdem/bond/bond_work.hpp"
 #include "libgeom/core/portable.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace cdem {
 
+InterfaceLaw law_of_interface(const Model& model, const Interface& interface) {
+  const Joint& joint = model.joints[interface.joint];
+  if (!has_law(joint.law))
+    return {};
+  return {&joint.law, {interface.kn, interface.ks, geom::portable::tan(joint.friction_angle)}};
+}
+
 BondWork::BondWork(const Model& model, const State& state)
     : spring_force(model.points.size(), geom::Vec3::Zero()),
-      turned_force(model.frames.empty() ? 0 : model.points.size(), geom::Vec3::Zero()),
-      stretch(state.bond_damage.size(), geom::Vec3::Zero()), sums(model.point_chunks.size()) {
+      acting_force(model.frames.empty() && state.water_pressure.empty() ? 0 : model.points.size(),
+                   geom::Vec3::Zero()),
+      stretch(std::max(state.bond_damage.size(), state.joint_history.size()), geom::Vec3::Zero()),
+      sums(model.point_chunks.size()) {
   for (const Interface& interface : model.interfaces) {
     const Joint joint = joint_of(model, interface);
     strength.push_back({joint.cohesion, geom::portable::tan(joint.friction_angle), joint.tensile_strength});
     if (!state.bond_damage.empty())
       softening.push_back(softening_law(joint, interface.kn, interface.ks));
+    if (!state.joint_history.empty())
+      laws.push_back(law_of_interface(model, interface));
   }
 }
 

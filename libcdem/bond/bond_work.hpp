@@ -27,17 +27,28 @@ struct SpringSums {
   std::vector<CrackLoss> losses;  // this step: the parts of `breaking`
 };
 
+// The law of an interface that has one (joint/joint_law.hpp), in its spring.
+struct InterfaceLaw {
+  const JointLaw* law = nullptr; // of Model::joints; null: none
+  JointSpring spring;
+};
+
+InterfaceLaw law_of_interface(const Model&, const Interface&);
+
 struct BondWork {
   BondWork(const Model&, const State&);
 
-  std::vector<geom::Vec3> spring_force; // N, on side a (n_points); written by spring_forces
-  // N, the same where interfaces have turned to (n_points); empty where none can turn.
-  std::vector<geom::Vec3> turned_force;
-  const std::vector<geom::Vec3>& force() const { return turned_force.empty() ? spring_force : turned_force; }
+  // N, on side a: what the springs themselves bear, without water (n_points); written by spring_forces
+  std::vector<geom::Vec3> spring_force;
+  // N, the same less what water pushes the faces apart with, where interfaces have turned to (n_points); empty where
+  // none can turn and no joint holds water.
+  std::vector<geom::Vec3> acting_force;
+  const std::vector<geom::Vec3>& force() const { return acting_force.empty() ? spring_force : acting_force; }
   std::vector<SpringStrength> strength; // per interface
   // Both empty in a model without softening joints.
   std::vector<SofteningLaw> softening; // per interface
-  // m, of each spring in the step before (n_points); written by spring_forces
+  std::vector<InterfaceLaw> laws;      // per interface; empty in a model without laws
+  // m, of each spring in the step before (n_points; empty without softening joints and laws); written by spring_forces
   std::vector<geom::Vec3> stretch;
   std::vector<SpringSums> sums; // per chunk of springs
 };

@@ -2,6 +2,7 @@
 
 #include "libcdem/bond/interface_frame.hpp"
 #include "libcdem/bond/spring_forces.hpp"
+#include "libcdem/bond/water_work.hpp"
 
 #include <algorithm>
 
@@ -10,6 +11,7 @@ namespace {
 
 constexpr double parted = 1e-3, slid = 0.02; // of the interface's size
 constexpr double opened = 0.02;              // rad
+constexpr double drained = 0.05;             // of the interface's size
 
 bool any_intact(const State& state, const Interface& interface) {
   for (int p = interface.point_begin; p < interface.point_end; ++p)
@@ -40,6 +42,30 @@ double stored_in(const Model& model, const State& state, const Interface& interf
   return energy;
 }
 
+bool has_drained(const Model& model, const State& state, const Interface& interface) {
+  for (int p = interface.point_begin; p < interface.point_end; ++p)
+    if (jump(model.points[p], state.displacement).norm() <= drained * model.frames[interface.frame].size)
+      return false;
+  return true;
+}
+
+bool any_water(const State& state, const Interface& interface) {
+  return std::any_of(state.water_pressure.begin() + interface.point_begin,
+                     state.water_pressure.begin() + interface.point_end, [](double p) { return p > 0; });
+}
+
+// Returns what the water had done, J.
+double drain(const Model& model, State& state) {
+  double work = 0;
+  for (const Interface& interface : model.interfaces)
+    if (released(state, interface) && any_water(state, interface) && has_drained(model, state, interface)) {
+      work += water_work(model, state, interface);
+      std::fill(state.water_pressure.begin() + interface.point_begin,
+                state.water_pressure.begin() + interface.point_end, 0.0);
+    }
+  return work;
+}
+
 } // namespace
 
 Released release_interfaces(const Model& model, State& state, int threads) {
@@ -60,6 +86,8 @@ Released release_interfaces(const Model& model, State& state, int threads) {
       state.released[interface.frame] = 1;
       ++sum.interfaces;
     }
+  if (!state.water_pressure.empty())
+    sum.water = drain(model, state);
   return sum;
 }
 

@@ -3,6 +3,9 @@
 //   1. its faces have parted at every point (by 1e-3 of the interface's size), or
 //   2. they have slid, at every point (by 0.02 of it), or
 //   3. they have opened like a hinge (by more than 0.02 rad).
+// Water in them goes on pushing the faces apart until, at every point, they have moved by 0.05 of the size against each
+// other: then it is gone.
+//
 // Beyond these the springs no longer stand for what touches: forces act at the places that lay on each other once.
 #pragma once
 
@@ -13,9 +16,10 @@ namespace cdem {
 struct Released {
   std::int64_t interfaces = 0;
   double stored = 0; // J, that their springs held and hold no more
+  double water = 0;  // J, that water that is gone had done by opening them
 };
 
-// Writes State::released.
+// Writes State::released, and State::water_pressure where water is gone.
 Released release_interfaces(const Model&, State&, int threads);
 
 // Blocks that an interface still holds together, pairs of Model::blocks with the smaller first, ascending: contact

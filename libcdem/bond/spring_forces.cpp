@@ -20,11 +20,6 @@ bool is_intact(std::uint8_t mode) {
   return mode == static_cast<std::uint8_t>(BondMode::intact);
 }
 
-double stored(const Interface& interface, const geom::Vec3& traction, const geom::Vec3& normal) {
-  const double tn = traction.dot(normal);
-  return 0.5 * (tn * tn / interface.kn + (traction.squaredNorm() - tn * tn) / interface.ks); // J/m2
-}
-
 // A bond that softens, up to its separation; a contact from the next step on.
 void softening_spring(const BondPoint& point, State& state, BondWork& work, std::int64_t p,
                       const geom::Vec3& stretch, SpringSums& sums, bool grows) {
@@ -57,23 +52,40 @@ void softening_spring(const BondPoint& point, State& state, BondWork& work, std:
   }
 }
 
-bool damaged(const State& state, int p) {
-  return !state.bond_damage.empty() && is_intact(state.bond_mode[p]) && state.bond_damage[p] > 0;
+// A spring whose joint has a law, broken or never bonded; broke: just now. What it loses is the work of its own traction
+// by the trapezoidal rule less the change of what it stores.
+void law_spring(const BondPoint& point, State& state, BondWork& work, std::int64_t p,
+                const geom::Vec3& jump_now, bool broke, SpringSums& sums) {
+  const InterfaceLaw& own = work.laws[point.interface];
+  JointHistory& history = state.joint_history[p];
+  geom::Vec3& offset = state.bond_offset[p];
+  const geom::Vec3 traction_before = work.spring_force[p] / point.area, stretch_before = work.stretch[p],
+                   jump_before = stretch_before + offset;
+  const double stored_before =
+      broke ? stored_in_spring(own.spring.kn, own.spring.ks, point.normal, traction_before)
+            : joint_stored(*own.law, own.spring, point.normal, stretch_before, history.parted);
+  const JointResponse r = joint_response(*own.law, own.spring, point.normal, jump_now, offset, history);
+  const geom::Vec3 stretch = jump_now - r.offset;
+  const double lost =
+      0.5 * (traction_before + r.traction).dot(jump_now - jump_before) -
+      (joint_stored(*own.law, own.spring, point.normal, stretch, r.history.parted) - stored_before);
+  offset = r.offset;
+  history = r.history;
+  work.stretch[p] = stretch;
+  work.spring_force[p] = point.area * r.traction;
+  if (!broke) {
+    sums.friction += point.area * lost;
+    return;
+  }
+  sums.breaking += point.area * lost;
+  sums.losses.push_back({point.interface, {}});
+  sums.losses.back().energy.add(
+      point.area * lost, state.bond_mode[p] == static_cast<std::uint8_t>(BondMode::broken_shear) ? 1 : 0);
 }
 
-// The present response of a damaged bond, nothing advanced.
-SofteningResponse damaged_response(const SofteningLaw& law, const BondPoint& point, const State& state, int p,
-                                   const geom::Vec3& stretch) {
-  return softening_response(law, point.normal, stretch, state.bond_damage[p], state.bond_slip[p], false);
-}
-
-SofteningLaw law_of(const Model& model, const Interface& interface) {
-  return softening_law(joint_of(model, interface), interface.kn, interface.ks);
-}
-
-// One spring at the jump j of its two sides, in undeformed directions. softens: some joint of the model does; a model of
-// brittle bonds pays nothing for the others.
-template <bool softens>
+// One spring at the jump j of its two sides, in undeformed directions. special: some joint of the model softens or has a
+// law; a model of plain brittle bonds pays nothing for the others.
+template <bool special>
 CDEM_INLINE void update_spring(const BondPoint& point, const Interface& interface, State& state,
                                BondWork& work, std::int64_t p, const geom::Vec3& j, SpringSums& sums,
                                bool breaking) {
@@ -84,8 +96,8 @@ CDEM_INLINE void update_spring(const BondPoint& point, const Interface& interfac
   const geom::Vec3 shear = stretch - open * n;
   bool broke = false;
   if (is_intact(state.bond_mode[p])) {
-    if constexpr (softens)
-      if (work.softening[point.interface].softens()) {
+    if constexpr (special)
+      if (!work.softening.empty() && work.softening[point.interface].softens()) {
         softening_spring(point, state, work, p, stretch, sums, breaking && interface.may_break);
         return;
       }
@@ -100,9 +112,17 @@ CDEM_INLINE void update_spring(const BondPoint& point, const Interface& interfac
     }
     if (!broke) {
       work.spring_force[p] = point.kn_area * open * n + point.ks_area * shear;
+      if constexpr (special)
+        if (!work.laws.empty())
+          work.stretch[p] = stretch;
       return;
     }
   }
+  if constexpr (special)
+    if (!work.laws.empty() && work.laws[point.interface].law) {
+      law_spring(point, state, work, p, j, broke, sums);
+      return;
+    }
   // Contact: the spring was never bonded or has broken, at the latest just now.
   const SpringResponse r =
       contact_response(interface.kn, interface.ks, strength.tan_friction, n, j, state.bond_offset[p]);
@@ -124,37 +144,49 @@ CDEM_INLINE void update_spring(const BondPoint& point, const Interface& interfac
       taken, state.bond_mode[p] == static_cast<std::uint8_t>(BondMode::broken_shear) ? 1 : 0);
 }
 
-template <bool softens>
+// N, what water does to side a: it pushes the faces apart.
+geom::Vec3 water_force(const State& state, const BondPoint& point, std::int64_t p) {
+  if (state.water_pressure.empty())
+    return geom::Vec3::Zero();
+  return -state.water_pressure[p] * point.area * point.normal;
+}
+
+template <bool special>
 void forces_of_springs(const Model& model, State& state, BondWork& work, Range range, SpringSums& sums,
                        bool breaking) {
   sums.friction = sums.breaking = 0;
   sums.broken.clear();
   sums.losses.clear();
   const Node* u = state.displacement.data();
-  const bool any_turns = !model.frames.empty();
+  const bool acts_otherwise = !work.acting_force.empty();
   int turned_interface = -1; // whose rotation it is
   geom::Mat3 rotation = geom::Mat3::Identity();
   for (std::int64_t p = range.begin; p < range.end; ++p) {
     const BondPoint& point = model.points[p];
     const Interface& interface = model.interfaces[point.interface];
     if (interface.frame < 0) {
-      update_spring<softens>(point, interface, state, work, p, jump_at(point, u), sums, breaking);
-      if (any_turns)
-        work.turned_force[p] = work.spring_force[p];
+      update_spring<special>(point, interface, state, work, p, jump_at(point, u), sums, breaking);
+      if (acts_otherwise)
+        work.acting_force[p] = work.spring_force[p] + water_force(state, point, p);
       continue;
     }
     if (released(state, interface)) {
       work.spring_force[p].setZero();
-      work.turned_force[p].setZero();
-      continue;
+      work.acting_force[p].setZero();
+      if (state.water_pressure.empty() || !(state.water_pressure[p] > 0))
+        continue;
     }
     if (point.interface != turned_interface) {
       rotation = interface_rotation(model, u, interface);
       turned_interface = point.interface;
     }
-    update_spring<softens>(point, interface, state, work, p, rotation.transpose() * jump_at(point, u), sums,
+    if (released(state, interface)) {
+      work.acting_force[p] = rotation * water_force(state, point, p);
+      continue;
+    }
+    update_spring<special>(point, interface, state, work, p, rotation.transpose() * jump_at(point, u), sums,
                            breaking);
-    work.turned_force[p] = rotation * work.spring_force[p];
+    work.acting_force[p] = rotation * (work.spring_force[p] + water_force(state, point, p));
   }
 }
 
@@ -170,7 +202,7 @@ bool released(const State& state, const Interface& interface) {
 
 void spring_forces(const Model& model, State& state, BondWork& work, Range range, SpringSums& sums,
                    bool breaking) {
-  if (state.bond_damage.empty())
+  if (state.bond_damage.empty() && state.joint_history.empty())
     forces_of_springs<false>(model, state, work, range, sums, breaking);
   else
     forces_of_springs<true>(model, state, work, range, sums, breaking);
@@ -197,51 +229,6 @@ void start_spring_forces(const Model& model, const State& state, BondWork& work)
     work.spring_force[p] = model.points[p].area * traction(model, state, p);
   for (std::size_t p = 0; p < work.stretch.size(); ++p)
     work.stretch[p] = local_jump(model, state.displacement, static_cast<int>(p)) - state.bond_offset[p];
-}
-
-geom::Vec3 traction(const Model& model, const State& state, int p) {
-  const BondPoint& point = model.points[p];
-  const Interface& interface = model.interfaces[point.interface];
-  if (released(state, interface))
-    return geom::Vec3::Zero();
-  const geom::Vec3 gap = local_jump(model, state.displacement, p), stretch = gap - state.bond_offset[p];
-  const double open = stretch.dot(point.normal);
-  if (!is_intact(state.bond_mode[p]))
-    return contact_response(interface.kn, interface.ks,
-                            geom::portable::tan(model.joints[interface.joint].friction_angle), point.normal,
-                            gap, state.bond_offset[p])
-        .traction;
-  if (damaged(state, p))
-    return damaged_response(law_of(model, interface), point, state, p, stretch).traction;
-  return interface.kn * open * point.normal + interface.ks * (stretch - open * point.normal);
-}
-
-void settle(const Model& model, State& state, int p) {
-  const BondPoint& point = model.points[p];
-  const Interface& interface = model.interfaces[point.interface];
-  state.bond_offset[p] =
-      contact_response(interface.kn, interface.ks,
-                       geom::portable::tan(model.joints[interface.joint].friction_angle), point.normal,
-                       local_jump(model, state.displacement, p), state.bond_offset[p])
-          .offset;
-}
-
-double spring_energy(const Model& model, const State& state, int p) {
-  const BondPoint& point = model.points[p];
-  const Interface& interface = model.interfaces[point.interface];
-  if (!damaged(state, p))
-    return point.area * stored(interface, traction(model, state, p), point.normal);
-  const SofteningLaw law = law_of(model, interface);
-  const geom::Vec3 stretch = local_jump(model, state.displacement, p) - state.bond_offset[p];
-  return point.area * softening_stored(law, point.normal, stretch, state.bond_damage[p],
-                                       damaged_response(law, point, state, p, stretch).contact);
-}
-
-double spring_energy(const Model& model, const State& state) {
-  double energy = 0;
-  for (int p = 0; p < static_cast<int>(model.points.size()); ++p)
-    energy += spring_energy(model, state, p);
-  return energy;
 }
 
 void add_spring_row_sums(const Model& model, std::vector<double>& sums) {

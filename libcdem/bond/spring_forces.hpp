@@ -6,8 +6,8 @@
 
 namespace cdem {
 
-// Reads displacement; writes spring_force, turned_force and stretch of BondWork, the sums and, where a spring breaks,
-// slips, opens or softens, bond_mode, bond_offset, bond_damage and bond_slip.
+// Reads displacement; writes spring_force, acting_force and stretch of BondWork, the sums and, where a spring breaks,
+// slips, opens or softens, bond_mode, bond_offset, bond_damage, bond_slip and joint_history.
 void spring_forces(const Model&, State&, BondWork&, Range points, SpringSums&, bool breaking);
 
 // Adds what bonds do to nodes, force[0] the first of them, N; bond_force: BondWork::force().
@@ -25,6 +25,9 @@ bool released(const State&, const Interface&);
 
 // Traction that a spring carries at the present state in the interface's undeformed directions, Pa: positive normal part is tension.
 geom::Vec3 traction(const Model&, const State&, int point);
+
+// The spring carries so much more (Pa, undeformed directions) where its sides stand now: its offset gives way.
+void add_traction(const Model&, State&, int point, const geom::Vec3& more);
 
 // Lets a spring that has just become a contact slide to where friction holds it.
 void settle(const Model&, State&, int point);

@@ -29,12 +29,34 @@ void archive(A& a, RateEffect& x) {
   archive_all(a, reference_rate, exponent, change_rate, exponent_above, fracture_energy);
 }
 
+// By the number of the law in the list, then its own members.
+template <class A, std::size_t i = 0>
+void archive_law(A& a, JointLaw& x, std::size_t which) {
+  if constexpr (i < std::variant_size_v<JointLaw>) {
+    if (i != which)
+      return archive_law<A, i + 1>(a, x, which);
+    if constexpr (A::reading)
+      x.template emplace<i>();
+    if constexpr (i > 0)
+      std::get<i>(x).each_member([&](auto& member) { archive(a, member); });
+  } else {
+    Reader::refuse();
+  }
+}
+
+template <class A>
+void archive(A& a, JointLaw& x) {
+  auto which = static_cast<std::uint8_t>(x.index());
+  archive(a, which);
+  archive_law(a, x, which);
+}
+
 template <class A>
 void archive(A& a, Joint& x) {
   auto& [bonded, glued, cohesion, friction_angle, tensile_strength, softening, g1, g2, thickness_ratio,
-         thickness, kn, ks, restitution, scatter, rate] = x;
+         thickness, kn, ks, restitution, scatter, rate, law] = x;
   archive_all(a, bonded, glued, cohesion, friction_angle, tensile_strength, softening, g1, g2,
-              thickness_ratio, thickness, kn, ks, restitution, scatter, rate);
+              thickness_ratio, thickness, kn, ks, restitution, scatter, rate, law);
 }
 
 template <class A>
@@ -191,9 +213,15 @@ void archive(A& a, ContactEdge& x) {
 }
 
 template <class A>
+void archive(A& a, BlockPairLaw& x) {
+  auto& [blocks, joint] = x;
+  archive_all(a, blocks, joint);
+}
+
+template <class A>
 void archive(A& a, ContactSurface& x) {
-  auto& [triangles, edges, block_begin, usual_height, original, joint] = x;
-  archive_all(a, triangles, edges, block_begin, usual_height, original, joint);
+  auto& [triangles, edges, block_begin, usual_height, original, joint, left_by, pairs] = x;
+  archive_all(a, triangles, edges, block_begin, usual_height, original, joint, left_by, pairs);
 }
 
 template <class A>

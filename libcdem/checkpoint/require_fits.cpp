@@ -78,6 +78,14 @@ void require_fits(const Model& model, const State& state) {
   const State fresh = initial_state(model); // says which of the others the model has at all
   require_length("bond_damage", state.bond_damage.size(), fresh.bond_damage.size());
   require_length("bond_slip", state.bond_slip.size(), fresh.bond_slip.size());
+  require_length("joint_history", state.joint_history.size(), fresh.joint_history.size());
+  for (const JointHistory& history : state.joint_history)
+    if (!(history.path >= 0 && history.parted >= 0))
+      refuse("joint_history", std::to_string(std::min(history.path, history.parted)) + " is out of range");
+  require_length("water_pressure", state.water_pressure.size(), points, true);
+  for (const double pressure : state.water_pressure)
+    if (!(pressure >= 0))
+      refuse("water_pressure", std::to_string(pressure) + " is out of range");
   require_length("released", state.released.size(), model.frames.size());
   require_length("initial_stress", state.initial_stress.size(), small_strain_tets(model));
   require_length("displacement_zero", state.displacement_zero.size(), nodes, true);

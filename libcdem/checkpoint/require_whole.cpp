@@ -316,6 +316,14 @@ void check_surface(const Model& model) {
   const ContactSurface& surface = model.surface;
   const std::size_t triangles = surface.triangles.size(), nodes = model.node_position.size();
   check_pairs("surface.joint", surface.joint, model);
+  for (const auto& [joint, left] : surface.left_by) {
+    below("surface.left_by", joint, model.joints.size());
+    below("surface.left_by", left, model.joints.size());
+  }
+  for (const BlockPairLaw& pair : surface.pairs) {
+    all_below("surface.pairs", pair.blocks, model.blocks.size());
+    below("surface.pairs", pair.joint, model.joints.size());
+  }
   if (surface.empty()) {
     require_length("surface.edges", surface.edges.size(), 0);
     return;
@@ -407,6 +415,8 @@ void require_whole(const Model& model) {
       below("bodies.set_joint", joint, model.joints.size());
   }
   check_pairs("pair_joint", model.pair_joint, model);
+  for (const Joint& joint : model.joints) // a table without rows is read beyond its end
+    with_law(joint.law, [](const auto& law) { law.validate(); });
   require_length("node_mass", model.node_mass.size(), model.node_position.size());
   require_length("tet_block", model.tet_block.size(), model.tets.size());
   all_below("tet_block", model.tet_block, model.blocks.size());

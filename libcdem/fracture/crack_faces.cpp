@@ -1,6 +1,5 @@
 #include "libcdem/fracture/crack_faces.hpp"
 
-#include "libcdem/bond/interface_frame.hpp"
 #include "libcdem/bond/spring_forces.hpp"
 #include "libgeom/core/portable.hpp"
 
@@ -71,7 +70,6 @@ std::vector<FaceLoad> worst_faces(const std::vector<FaceLoad>& loads, double bre
 
 CrackFace break_face(const Model& model, State& state, RunLog& log, int stage, const FaceLoad& load) {
   const Interface& interface = model.interfaces[load.interface];
-  const double tan_friction = strength_of(model, interface).tan_friction;
   const double before = spring_energy(model, state);
   CrackFace face;
   face.interface = interface.id;
@@ -85,9 +83,7 @@ CrackFace break_face(const Model& model, State& state, RunLog& log, int stage, c
     const geom::Vec3 t = traction(model, state, p);
     state.bond_mode[p] = static_cast<std::uint8_t>(load.ratio.mode);
     // The offset moves with the stress drop at once, so that the next step does not count it as sliding.
-    state.bond_offset[p] = contact_response(interface.kn, interface.ks, tan_friction, point.normal,
-                                            local_jump(model, state.displacement, p), state.bond_offset[p])
-                               .offset;
+    settle(model, state, p);
 
     BreakRow row;
     row.stage = stage;

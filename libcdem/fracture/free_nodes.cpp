@@ -61,6 +61,8 @@ public:
     s.bond_mode = from_.bond_mode;
     s.bond_damage = from_.bond_damage;
     s.bond_slip = from_.bond_slip;
+    s.joint_history = from_.joint_history;
+    s.water_pressure = from_.water_pressure;
     s.released = from_.released;
     s.initial_stress = from_.initial_stress;
     s.stress = from_.stress; // tets keep their places

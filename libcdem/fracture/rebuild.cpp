@@ -309,6 +309,10 @@ private:
           r.state.bond_damage[p] = from_.bond_damage[source];
           r.state.bond_slip[p] = from_.bond_slip[source];
         }
+        if (!from_.joint_history.empty())
+          r.state.joint_history[p] = from_.joint_history[source];
+        if (!from_.water_pressure.empty())
+          r.state.water_pressure[p] = from_.water_pressure[source];
       } else if (now.origin == InterfaceOrigin::cut) {
         preload(r, now, p);
       }

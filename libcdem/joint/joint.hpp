@@ -2,6 +2,7 @@
 // (Han 2010 eq 8) with a tension and a Mohr-Coulomb limit (eqs 10-11), beyond which they break or soften.
 #pragma once
 
+#include "libcdem/joint/joint_law.hpp"
 #include "libcdem/joint/rate_effect.hpp"
 #include "libcdem/joint/strength_scatter.hpp"
 
@@ -38,6 +39,10 @@ struct Joint {
 
   StrengthScatter scatter = {}; // of sigma_t and c0 together, from face to face; the energies stay
   RateEffect rate = {};         // of cohesive bodies
+
+  // Between blocks: how a spring that is broken or never was bonded bears pressure and shear; with a law other than
+  // ResidualStrength it was never bonded.
+  JointLaw law = {};
 };
 
 // L over the block size of glued faces: a quarter of a joint's usual give. Stiffer ones would only cost steps.
@@ -45,11 +50,14 @@ inline constexpr double glued_thickness_ratio = 0.005;
 
 Joint glued_joint();
 
+// tan(phi) of the contact that is left once two blocks have parted.
+double friction_left(const Joint&);
+
 // Throws geom::InputError naming the field, its value and the allowed range. Angles are printed in degrees.
 void validate(const Joint&);
 
-// The same for the fracture energies of a softening joint, once the stiffness of its springs is known (kn,
-// ks, Pa/m).
+// The same for the fracture energies of a softening joint and for laws, once the stiffness of its springs is known (kn, ks,
+// Pa/m).
 void validate(const Joint&, double normal_stiffness, double shear_stiffness);
 
 } // namespace cdem

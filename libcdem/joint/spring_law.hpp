@@ -47,6 +47,12 @@ inline SpringResponse contact_response(double kn, double ks, double tan_friction
   return r;
 }
 
+// J/m2, that a spring of these stiffnesses stores under a traction.
+inline double stored_in_spring(double kn, double ks, const geom::Vec3& normal, const geom::Vec3& traction) {
+  const double tn = traction.dot(normal);
+  return 0.5 * (tn * tn / kn + (traction.squaredNorm() - tn * tn) / ks);
+}
+
 // Energy a spring lost over a step in which its traction went from t0 to t1 while its stretch would have become
 // `trial` with the offset held: work of the motion by the trapezoidal rule (which is what central differences do) less
 // the change of what is stored, J/m2. k: the stiffness in the direction of these vectors.

@@ -77,11 +77,14 @@ void add_to_block(const Model& model, State& state, const Block& block, const In
 
 // How much of what holds a point its traction takes; 1: it breaks, opens or slides. strength: of the interface over that
 // of its joint.
-double use_of(const Joint& joint, double strength, bool intact, double normal, double shear) {
+double use_of(const Joint& joint, const InterfaceLaw& own, double path, double strength, bool intact,
+              double normal, double shear) {
   const double infinite = std::numeric_limits<double>::infinity();
   const auto over = [&](double load, double borne) {
     return load <= 0 ? 0 : borne > 0 ? load / borne : infinite;
   };
+  if (own.law && !intact)
+    return over(shear, joint_strength(*own.law, own.spring, -normal, path));
   const double cohesion = intact ? strength * joint.cohesion : 0,
                tension = intact ? strength * joint.tensile_strength : 0;
   return std::max(over(normal, tension),
@@ -122,9 +125,7 @@ void add_initial_stress(const Model& model, State& state, const InitialStress& f
     const geom::Mat3 sigma = matrix(stress_at(field, top, model.point_position[p]));
     const geom::Mat3 turn = interface_rotation(model, state.displacement.data(), interface);
     const geom::Vec3 t = turn.transpose() * sigma * turn * interface.normal;
-    const double normal = t.dot(interface.normal);
-    state.bond_offset[p] -=
-        normal / interface.kn * interface.normal + (t - normal * interface.normal) / interface.ks;
+    add_traction(model, state, static_cast<int>(p), t);
   }
 }
 
@@ -140,7 +141,10 @@ BeyondStrength beyond_strength(const Model& model, const State& state) {
     // As if it held: a contact beyond its strength has already let go in traction().
     const geom::Vec3 stretch = local_jump(model, state.displacement, p) - state.bond_offset[p];
     const double open = stretch.dot(point.normal);
-    tractions.push_back({interface.kn * open, interface.ks * (stretch - open * point.normal).norm()});
+    const double normal = state.joint_history.empty() || open > 0
+                              ? interface.kn * open
+                              : traction(model, state, p).dot(point.normal);
+    tractions.push_back({normal, interface.ks * (stretch - open * point.normal).norm()});
     if (released(state, interface))
       tractions.back() = {0, 0};
     largest = std::max({largest, std::abs(tractions.back().normal), tractions.back().shear});
@@ -154,7 +158,9 @@ BeyondStrength beyond_strength(const Model& model, const State& state) {
     const bool intact = state.bond_mode[p] == static_cast<std::uint8_t>(BondMode::intact);
     if (intact && !interface.may_break)
       continue;
-    const double use = use_of(model.joints[interface.joint], interface.strength, intact, normal, shear);
+    const double path = state.joint_history.empty() ? 0 : state.joint_history[p].path;
+    const double use = use_of(model.joints[interface.joint], law_of_interface(model, interface), path,
+                              interface.strength, intact, normal, shear);
     if (use > 1 + rounding)
       ++found.points;
     if (use > found.largest_use) {

@@ -35,6 +35,12 @@ struct ContactEdge {
   int id() const { return 3 * triangles[0] + corner; }
 };
 
+// Two blocks that an interface with a law of its own holds: what they have once they have parted.
+struct BlockPairLaw {
+  std::array<int, 2> blocks{}; // the smaller first
+  int joint = 0;               // index into Model::joints
+};
+
 struct ContactSurface {
   std::vector<ContactTriangle> triangles; // by block, outer ones first
   std::vector<ContactEdge> edges;         // between outer ones, by id
@@ -43,6 +49,10 @@ struct ContactSurface {
   std::vector<int> original;              // (n_nodes) one number for all copies of a node
   // Bodies (smaller first) -> index into Model::joints, the law of their contact.
   std::map<std::pair<int, int>, int> joint;
+  // Law of an interface -> the law of the contact that it leaves, where that is not the one of its bodies (indices into
+  // Model::joints).
+  std::map<int, int> left_by;
+  std::vector<BlockPairLaw> pairs; // by blocks
 
   bool empty() const { return triangles.empty(); }
 };

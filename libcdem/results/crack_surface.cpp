@@ -4,6 +4,7 @@
 #include "libcdem/bond/spring_forces.hpp"
 #include "libcdem/element/mesh_fields.hpp"
 #include "libcdem/model/build/add_meshes.hpp"
+#include "libcdem/results/bond_surface.hpp"
 #include "libcdem/results/crack_points.hpp"
 #include "libcdem/state/places.hpp"
 
@@ -65,19 +66,14 @@ struct CrackedBond {
 
 class Surface {
 public:
-  explicit Surface(bool damaged) : damaged_(damaged) {
-    const auto field = [](const char* name, const char* unit, int components = 1, bool integer = false) {
-      SnapshotField f;
-      f.name = name;
-      f.unit = unit;
-      f.components = components;
-      f.integer = integer;
-      return f;
-    };
-    faces.point_fields = {field("displacement", "m", 3)};
-    faces.triangle_fields = {field("mode", "", 1, true), field("damage", "1"), field("opening", "m"),
-                             field("slip", "m"),         field("time", "s"),   field("body", "", 1, true)};
-  }
+  explicit Surface(bool damaged)
+      : surface({{"mode", "", true},
+                 {"damage", "1"},
+                 {"opening", "m"},
+                 {"slip", "m"},
+                 {"time", "s"},
+                 {"body", "", true}}),
+        damaged_(damaged) {}
 
   bool shows(const CrackedBond (&bonds)[3]) const {
     int broken = 0;
@@ -90,14 +86,7 @@ public:
   }
 
   // number: of its body, or -1. corners: place and displacement, m.
-  void add(const CrackedBond (&bonds)[3], int number, const std::array<std::pair<Vec3, Vec3>, 3>& corners) {
-    const int first = static_cast<int>(faces.points.size());
-    faces.triangles.push_back({first, first + 1, first + 2});
-    for (const auto& [place, moved] : corners) {
-      faces.points.push_back(place);
-      auto& values = faces.point_fields[0].values;
-      values.insert(values.end(), moved.data(), moved.data() + 3);
-    }
+  void add(const CrackedBond (&bonds)[3], int number, const BondSurface::Corners& corners) {
     int mode = 0;
     double damage = 0, opening = 0, slip = 0, time = unknown;
     for (const CrackedBond& bond : bonds) {
@@ -110,27 +99,17 @@ public:
       slip += (bond.gap - open * bond.normal).norm() / 3;
       time = std::fmax(time, bond.time);
     }
-    const double row[] = {static_cast<double>(mode),  damage, opening, slip, time,
-                          static_cast<double>(number)};
-    for (std::size_t i = 0; i < faces.triangle_fields.size(); ++i)
-      faces.triangle_fields[i].values.push_back(row[i]);
+    surface.add(corners,
+                {static_cast<double>(mode), damage, opening, slip, time, static_cast<double>(number)});
   }
 
-  BondSnapshot faces;
+  BondSurface surface;
 
 private:
   bool damaged_;
 };
 
 void add_interfaces(const Model& model, const State& state, const BreakTimes& times, Surface& surface) {
-  const auto middle = [&](int p) {
-    const BondPoint& point = model.points[p];
-    Vec3 moved = Vec3::Zero();
-    for (int k = 0; k < 3; ++k)
-      moved += 0.5 * (point.weight_a[k] * vec(state.displacement[point.node_a[k]]) +
-                      point.weight_b[k] * vec(state.displacement[point.node_b[k]]));
-    return std::pair{model.point_position[p], moved};
-  };
   for (const geom::Triangle& triangle : model.bond_triangles) {
     CrackedBond bonds[3];
     for (int i = 0; i < 3; ++i) {
@@ -146,7 +125,7 @@ void add_interfaces(const Model& model, const State& state, const BreakTimes& ti
         bonds[i].time = times.at(model.point_position[triangle[i]]);
     const int body = bonds[0].crack.body;
     surface.add(bonds, body < static_cast<int>(model.bodies.size()) ? body : -1,
-                {middle(triangle[0]), middle(triangle[1]), middle(triangle[2])});
+                spring_corners(model, state, triangle));
   }
 }
 
@@ -169,7 +148,7 @@ void add_faces(const Model& model, const State& state, const BreakTimes& times, 
         bonds[point].time = times.at(face_point(model, chunk, at));
     }
     const FaceNodes nodes = face_nodes(model.mesh, chunk, batch, lane);
-    std::array<std::pair<Vec3, Vec3>, 3> corners;
+    BondSurface::Corners corners;
     for (int i = 0; i < 3; ++i)
       corners[i] = {model.node_position[nodes.a[i]],
                     0.5 * (vec(state.displacement[nodes.a[i]]) + vec(state.displacement[nodes.b[i]]))};
@@ -181,17 +160,12 @@ void add_faces(const Model& model, const State& state, const BreakTimes& times, 
 
 Snapshot crack_surface(const Model& model, const State& state, const std::vector<BreakRow>& breaks,
                        bool damaged, const std::string& title) {
-  Snapshot snapshot;
-  snapshot.time = state.time;
-  snapshot.step = state.step;
-  snapshot.title = title;
-  for (const Body& body : model.bodies)
-    snapshot.body_names.push_back(body.name);
+  Snapshot snapshot = snapshot_of(model, state, title);
   const BreakTimes times(breaks, model.tolerance);
   Surface surface(damaged);
   add_interfaces(model, state, times, surface);
   add_faces(model, state, times, surface);
-  snapshot.bonds = std::move(surface.faces);
+  snapshot.bonds = std::move(surface.surface.faces);
   return snapshot;
 }
 

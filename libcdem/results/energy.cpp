@@ -1,10 +1,14 @@
 #include "libcdem/results/energy.hpp"
 
 #include "libcdem/bond/spring_forces.hpp"
+#include "libcdem/bond/water_work.hpp"
 #include "libcdem/contact/contact_forces.hpp"
 #include "libcdem/element/mesh_fields.hpp"
 #include "libcdem/element/rigid_motion.hpp"
 #include "libcdem/element/small_strain.hpp"
+
+#include <algorithm>
+#include <cmath>
 
 namespace cdem {
 
@@ -66,6 +70,8 @@ EnergyLedger energy(const Model& model, const State& state) {
   ledger.springs = spring_energy(model, moved) + mesh_spring_energy(model, moved) +
                    contact_energy(model, state, state.velocity_lag);
   ledger.kinetic = kinetic_energy(model, state);
+  ledger.external += water_work(model, moved);
+  ledger.external_peak = std::max(ledger.external_peak, std::abs(ledger.external));
   return ledger;
 }
 

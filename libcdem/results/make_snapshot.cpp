@@ -6,6 +6,7 @@
 #include "libcdem/element/mesh_fields.hpp"
 #include "libcdem/model/build/add_meshes.hpp"
 #include "libcdem/results/fields.hpp"
+#include "libcdem/results/joints.hpp"
 #include "libcdem/state/places.hpp"
 
 #include <map>
@@ -67,6 +68,18 @@ std::vector<double> block_damage(const Model& model, const State& state) {
   for (std::size_t b = 0; b < lost.size(); ++b)
     lost[b] = bonded[b] > 0 ? lost[b] / bonded[b] : 0;
   return lost;
+}
+
+// Largest slip (m) and utilisation of the joints around each block.
+std::vector<std::array<double, 2>> block_joints(const Model& model, const State& state) {
+  std::vector<std::array<double, 2>> largest(model.blocks.size(), {0, 0});
+  for (int p = 0; p < static_cast<int>(model.points.size()); ++p) {
+    const Interface& interface = model.interfaces[model.points[p].interface];
+    const JointPoint point = joint_point(model, state, p);
+    for (const int block : {interface.block_a, interface.block_b})
+      largest[block] = {std::max(largest[block][0], point.slip), std::max(largest[block][1], point.use)};
+  }
+  return largest;
 }
 
 // Broken part of the bonds around each tet of a mesh.
@@ -131,6 +144,20 @@ void add_cells(const Model& model, const State& state, Snapshot& snapshot) {
   snapshot.cell_fields = {std::move(stress), std::move(principal_stress), std::move(mises), std::move(id),
                           std::move(parent), std::move(generation),       std::move(body),  std::move(unit),
                           std::move(damage)};
+}
+
+void add_joint_cells(const Model& model, const State& state, Snapshot& snapshot) {
+  if (model.interfaces.empty())
+    return;
+  SnapshotField slip = scalar("joint_slip", "m", model.tets.size()),
+                use = scalar("joint_utilisation", "1", model.tets.size());
+  const auto joints = block_joints(model, state);
+  for (const int block : model.tet_block) {
+    slip.values.push_back(joints[block][0]);
+    use.values.push_back(joints[block][1]);
+  }
+  snapshot.cell_fields.push_back(std::move(slip));
+  snapshot.cell_fields.push_back(std::move(use));
 }
 
 // Edges at which the surface of a mesh turns by more than this are drawn: cos of 30 degrees.
@@ -307,6 +334,7 @@ Snapshot make_snapshot(const Model& model, const State& state, const std::string
   snapshot.point_fields = {vectors("displacement", "m", shown_displacements(state)),
                            vectors("velocity", "m/s", state.velocity)};
   add_cells(model, state, snapshot);
+  add_joint_cells(model, state, snapshot);
   add_surface(model, snapshot);
   add_mesh_surface(model, state, snapshot);
   add_bonds(model, state, snapshot.bonds);

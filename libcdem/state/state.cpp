@@ -93,6 +93,9 @@ State initial_state(const Model& model) {
                                    [](const Joint& joint) { return joint.softening != Softening::none; });
   state.bond_damage.assign(softens ? model.points.size() : 0, 0.0);
   state.bond_slip.assign(softens ? model.points.size() : 0, geom::Vec3::Zero());
+  const bool laws = std::any_of(model.joints.begin(), model.joints.end(),
+                                [](const Joint& joint) { return has_law(joint.law); });
+  state.joint_history.assign(laws ? model.points.size() : 0, JointHistory{});
   state.released.assign(model.frames.size(), 0);
   state.initial_stress.assign(small_strain_tets(model), Stress{});
   state.stress.assign(model.mesh.batches.size(), StressBatch{});
@@ -143,6 +146,8 @@ std::vector<StateField> fields(State& s) {
       field("bond_mode", "1", FieldPlace::bond, "spring_forces", s.bond_mode, false),
       field("bond_damage", "1", FieldPlace::bond, "spring_forces", s.bond_damage, true),
       field("bond_slip", "m", FieldPlace::bond, "spring_forces", s.bond_slip, true),
+      field("joint_history", "m", FieldPlace::bond, "spring_forces", s.joint_history, true),
+      field("water_pressure", "Pa", FieldPlace::bond, "set_water", s.water_pressure, true),
       field("released", "1", FieldPlace::frame, "release_interfaces", s.released, false),
       field("initial_stress", "Pa", FieldPlace::tet, "initial_stress", s.initial_stress, true),
       field("stress", "Pa", FieldPlace::tet, "mesh_forces", s.stress, true),

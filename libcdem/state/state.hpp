@@ -3,6 +3,7 @@
 #pragma once
 
 #include "libcdem/joint/bond_mode.hpp"
+#include "libcdem/joint/joint_spring.hpp"
 #include "libcdem/model/model.hpp"
 #include "libcdem/state/cohesive_face.hpp"
 #include "libcdem/state/contact.hpp"
@@ -35,6 +36,10 @@ struct State {
   std::vector<double> bond_damage; // D, 0 whole .. 1 separated (n_points)
   std::vector<geom::Vec3>
       bond_slip; // m, slip of the damaged part, added to bond_offset at separation (n_points)
+  // Of springs whose joint has a law (joint/joint_law.hpp), written by spring_forces; empty where no joint has one.
+  std::vector<JointHistory> joint_history; // (n_points)
+  // Pa, of the water in joints, >= 0 (n_points); empty until there is some; written by set_water
+  std::vector<double> water_pressure;
   // 1: the interface has parted or slid away and is left to contact (n frames); written by release_interfaces
   std::vector<std::uint8_t> released;
   std::vector<Stress>

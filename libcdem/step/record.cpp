@@ -1,6 +1,7 @@
 #include "libcdem/step/record.hpp"
 
 #include "libcdem/bond/spring_forces.hpp"
+#include "libcdem/bond/water_work.hpp"
 #include "libcdem/contact/response/contact_point.hpp"
 #include "libcdem/model/build/add_meshes.hpp"
 #include "libcdem/results/cracks.hpp"
@@ -139,7 +140,7 @@ void record_history(const Model& model, const State& state, RunLog& log, int sta
   row.time = state.time;
   row.residual = residual;
   row.kinetic = kinetic;
-  row.external = state.spent.external;
+  row.external = state.spent.external + water_work(model, state);
   row.broken_tension = log.broken_tension;
   row.broken_shear = log.broken_shear;
   std::optional<CracksByBody> cracked; // looked at once, and only where somebody asks

@@ -263,6 +263,7 @@ void Stage::release_parted_blocks() {
     return;
   const Released released = release_interfaces(context_.model, context_.state, context_.threads);
   context_.state.spent.breaking += released.stored;
+  context_.state.spent.external += released.water;
   work.contact.fragments_due = work.contact.fragments_due || released.interfaces > 0;
 }
 

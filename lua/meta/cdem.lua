@@ -89,6 +89,13 @@ local cdem = {}
 ---@field block integer its id, there
 ---@field place number[] m
 
+---All the water in the joints of a model.
+---@class (exact) cdem.WaterInJoints
+---@field points integer of joints, under pressure
+---@field area number m2
+---@field largest number Pa: pressure
+---@field force number N: sum of pressure times area
+
 ---What a relaxation came to.
 ---@class (exact) cdem.RelaxResult
 ---@field converged boolean
@@ -353,6 +360,37 @@ local cdem = {}
 ---@field k_plane_stress? number Pa m^0.5: sqrt(E j); nil where j < 0
 ---@field k_plane_strain? number Pa m^0.5: sqrt(E j / (1 - nu^2)); nil where j < 0
 
+---What the joints of one set bear and how they have moved.
+---@class (exact) cdem.JointSum
+---@field set string its name; "": joints of no set
+---@field interfaces integer pairs of faces that springs hold
+---@field parted integer pairs that are left to contact; no other value counts them
+---@field area number m2
+---@field open_area number m2: of faces that are apart
+---@field broken_area number m2
+---@field normal_traction number Pa: mean over the area, tension positive; effective
+---@field shear_traction number Pa: mean of its size
+---@field water_pressure number Pa: mean
+---@field utilisation number traction over strength, 1 where it slides; mean over the area that is not apart
+---@field largest_utilisation number
+---@field slip number m: size of the shear displacement since the beginning, mean
+---@field largest_slip number m
+---@field opening number m: below 0: closed under pressure; mean
+---@field largest_opening number m
+
+---The points of joints: lists with an entry for each.
+---@class (exact) cdem.JointPoints
+---@field set string[]
+---@field place number[][] m: undeformed
+---@field area number[] m2
+---@field mode string[] "bonded", "broken_tension", "broken_shear" or "contact"
+---@field normal_traction number[] Pa: tension positive; effective
+---@field shear_traction number[] Pa
+---@field water_pressure number[] Pa
+---@field utilisation number[]
+---@field opening number[] m
+---@field slip number[] m
+
 ---A piece of a model that unbroken bonds hold together, as it is and as it moves.
 ---@class (exact) cdem.FragmentMotion
 ---@field volume number m3
@@ -408,7 +446,7 @@ local cdem = {}
 ---@field p_wave_modulus number Pa: lambda + 2 G
 local Material = {}
 
----Made by cdem.mohr_coulomb, cdem.coulomb or cdem.glued.
+---Made by cdem.mohr_coulomb, cdem.coulomb, cdem.barton_bandis, cdem.joint_table or cdem.glued.
 ---@class cdem.Joint
 ---@field bonded boolean
 ---@field glued boolean
@@ -822,6 +860,19 @@ function Model:reset_displacement() end
 ---@return cdem.Unbalance
 function Model:unbalance(options) end
 
+---@class (exact) cdem.ModelWaterOptions
+---@field level? number m: z of the water table: weight times the depth below it
+---@field pressure? number|fun(x: number, y: number, z: number): number Pa, >= 0: instead: the same everywhere, or at each place; 0 takes the water away
+---@field table? [number, number][] instead: rows {z (m), pressure (Pa)}, upwards; straight between them, constant beyond
+---@field joints? string[] names of joint sets and cuts that hold it; all joints when left out, glued cuts never
+---@field on? cdem.Place default "all": where: one place; joints elsewhere keep what they have
+---@field weight? number N/m3, > 0, default 9810: of the water
+
+---Water in the joints between blocks. Its pressure pushes the two faces of a joint apart, open or closed, and the joint's law bears the rest, the effective stress. It is taken at the undeformed places, once, and stays until it is set again; call it between stages to raise or lower the water.
+---@param options? cdem.ModelWaterOptions
+---@return cdem.WaterInJoints
+function Model:water(options) end
+
 ---@class (exact) cdem.ModelRelaxOptions
 ---@field residual? number in (0, 1), default 1e-06: goal: out-of-balance force norm over applied force norm
 ---@field breaking? boolean default true: bonds may break
@@ -1081,6 +1132,24 @@ function Model:crack_tip(options) end
 ---@return cdem.JIntegral
 function Model:j_integral(options) end
 
+---@class (exact) cdem.ModelJointsOptions
+---@field sets? string[] names of joint sets and cuts; all joints when left out
+---@field on? cdem.Place default "all": where: one place
+
+---What joints between blocks bear and how they have moved: a row for each joint set and named cut, and one, at the end, for joints of no set.
+---@param options? cdem.ModelJointsOptions
+---@return cdem.JointSum[]
+function Model:joints(options) end
+
+---@class (exact) cdem.ModelJointPointsOptions
+---@field sets? string[] names of joint sets and cuts; all joints when left out
+---@field on? cdem.Place default "all": where: one place
+
+---The same point by point, of joints that springs still hold.
+---@param options? cdem.ModelJointPointsOptions
+---@return cdem.JointPoints
+function Model:joint_points(options) end
+
 ---Pieces that unbroken bonds hold together, with their size and motion.
 ---@return cdem.FragmentMotion[] # largest first
 function Model:fragments() end
@@ -1149,6 +1218,16 @@ function Model:save(options) end
 ---Writes broken faces for ParaView as a surface, midway between their sides: displacement at corners; mode (1 tension, 2 shear), damage, opening, slip, time of the last break (nan where it is not known) and body (its number from 0; -1 between two) of faces.
 ---@param options cdem.ModelSaveCracksOptions
 function Model:save_cracks(options) end
+
+---@class (exact) cdem.ModelSaveJointsOptions
+---@field file string ends in .vtp; in the output folder
+---@field series? string ends in .pvd: a time series this file is added to
+---@field sets? string[] names of joint sets and cuts; all joints when left out
+---@field on? cdem.Place default "all": where: one place
+
+---Writes joints between blocks for ParaView as a surface: displacement at corners; set (number in the alphabetical order of all sets, from 1; 0: none), mode (0 bonded, 1 broken in tension, 2 in shear, 3 contact), normal_traction, shear_traction, water_pressure, utilisation, opening, slip and parted (1: left to contact) of faces.
+---@param options cdem.ModelSaveJointsOptions
+function Model:save_joints(options) end
 
 ---@class (exact) cdem.ModelPictureOptionsCamera
 ---@field position number[] m
@@ -1302,6 +1381,11 @@ function cdem.elastic(options) end
 ---@field cohesion number Pa, >= 0
 ---@field friction_angle number deg, in [0, 90)
 ---@field tensile_strength number Pa, >= 0
+---@field residual_cohesion? number Pa, >= 0: between blocks: cohesion of a broken joint whose faces press; at most cohesion
+---@field residual_tension? number Pa, >= 0: between blocks: pull of a broken joint, however far it opens; at most tensile_strength
+---@field residual_friction_angle? number deg, in [0, 90): between blocks: friction once the joint has slipped; at most friction_angle, which it is when left out
+---@field dilation_angle? number deg, in [0, 90): between blocks: slip opens the joint at this angle; at most the residual friction angle
+---@field dilation_limit? number m, >= 0: slip at which dilation ends; without it it does not end
 ---@field softening? "none"|"linear"|"exponential" default "none": how the strength falls once it is reached; none: brittle. It needs both fracture energies, and tensile_strength at most cohesion / tan(friction angle)
 ---@field fracture_energy_1? number J/m2, > 0: G_I, work per crack area that opening to separation takes, elastic part included
 ---@field fracture_energy_2? number J/m2, > 0: G_II, the same for slip, beyond the work of friction
@@ -1312,13 +1396,16 @@ function cdem.elastic(options) end
 ---@field normal_stiffness? number Pa/m, > 0: instead of E/L
 ---@field shear_stiffness? number Pa/m, > 0: instead of G/L
 
----Bond between block faces: breaks in tension above the tensile strength and in shear above cohesion + normal pressure x tan(friction angle); then it is a contact with the same friction angle (Han 2010 eqs 8-11). With softening it loses its strength along a curve whose area is the fracture energy.
+---Bond between block faces: breaks in tension above the tensile strength and in shear above cohesion + normal pressure x tan(friction angle); then it is a contact with the same friction angle, or with what residual strength it has (Han 2010 eqs 8-11). With softening it loses its strength along a curve whose area is the fracture energy.
 ---@param options cdem.MohrCoulombOptions
 ---@return cdem.Joint
 function cdem.mohr_coulomb(options) end
 
 ---@class (exact) cdem.CoulombOptions
 ---@field friction_angle number deg, in [0, 90)
+---@field residual_friction_angle? number deg, in [0, 90): between blocks: friction once the joint has slipped; at most friction_angle, which it is when left out
+---@field dilation_angle? number deg, in [0, 90): between blocks: slip opens the joint at this angle; at most the residual friction angle
+---@field dilation_limit? number m, >= 0: slip at which dilation ends; without it it does not end
 ---@field thickness_ratio? number > 0, default 0.02: equivalent thickness of the joint over the block size (cube root of its volume), which sets the stiffness E/L and G/L
 ---@field thickness? number m, > 0: equivalent thickness itself; wins over the ratio
 ---@field normal_stiffness? number Pa/m, > 0: instead of E/L
@@ -1340,6 +1427,38 @@ function cdem.coulomb(options) end
 ---@param options? cdem.GluedOptions
 ---@return cdem.Joint
 function cdem.glued(options) end
+
+---@class (exact) cdem.BartonBandisOptions
+---@field jrc number in [0, 20]: joint roughness coefficient
+---@field jcs number Pa, > 0: strength of the joint walls
+---@field residual_friction_angle number deg, in [0, 70): phi_r
+---@field initial_stiffness number Pa/m, > 0: slope of the hyperbola where it begins; normal_stiffness, or E/L, is the steepest it becomes
+---@field maximum_closure number m, > 0
+---@field length? number m, > 0: of the joint: jrc and jcs are those of samples and are scaled to it, and it gives the slip at the peak, length / 500 (JRC / length)^0.33
+---@field sample_length? number m, > 0, default 0.1: of the samples
+---@field peak_slip? number m, > 0: slip at the peak; wins over that of the length
+---@field thickness_ratio? number > 0, default 0.02: equivalent thickness of the joint over the block size (cube root of its volume), which sets the stiffness E/L and G/L
+---@field thickness? number m, > 0: equivalent thickness itself; wins over the ratio
+---@field normal_stiffness? number Pa/m, > 0: instead of E/L
+---@field shear_stiffness? number Pa/m, > 0: instead of G/L
+
+---Rough joint between blocks that never was bonded (Barton and Choubey 1977, Bandis et al. 1983): it closes on a hyperbola and slips above pressure x tan(residual angle + JRC log10(JCS / pressure)). With a length, or peak_slip, the roughness is mobilised and worn with slip, and the joint dilates.
+---@param options cdem.BartonBandisOptions
+---@return cdem.Joint
+function cdem.barton_bandis(options) end
+
+---@class (exact) cdem.JointTableOptions
+---@field normal? [number, number][] rows {closure (m), pressure (Pa)} that rise, one of them {0, 0}; rows below it are {-opening, -pull}, up to the opening at which the joint parts. Without rows it is linear
+---@field shear [number, number][] rows {pressure (Pa), strength (Pa)}, the first {0, strength without pressure}
+---@field thickness_ratio? number > 0, default 0.02: equivalent thickness of the joint over the block size (cube root of its volume), which sets the stiffness E/L and G/L
+---@field thickness? number m, > 0: equivalent thickness itself; wins over the ratio
+---@field normal_stiffness? number Pa/m, > 0: instead of E/L
+---@field shear_stiffness? number Pa/m, > 0: instead of G/L
+
+---Joint between blocks that never was bonded, by tables: straight between rows, straight on beyond the last.
+---@param options cdem.JointTableOptions
+---@return cdem.Joint
+function cdem.joint_table(options) end
 
 ---@class (exact) cdem.GridOptions
 ---@field size number[] m, > 0: of the whole

@@ -31,6 +31,17 @@ cdem::Simulation plate(const std::shared_ptr<cdem::Observer>& observer) {
   return s;
 }
 
+// Two blocks beside the rest, with a joint by tables that holds water.
+cdem::BodySpec with_table() {
+  cdem::JointTable law;
+  law.closing = {{-1e-4, -1e4}, {0, 0}, {1e-3, 1e6}};
+  law.shear = {{0, 1e4}, {1e6, 8e5}};
+  cdem::Joint joint;
+  joint.bonded = false;
+  joint.law = law;
+  return {"table", geom::grid({0.4, 0.2, 0.2}, {2, 1, 1}, {2, 0, 0}), rock(), joint};
+}
+
 // A bonded mesh, convex blocks that move far and a rigid body, one above the other.
 cdem::Simulation pile(const std::shared_ptr<cdem::Observer>& observer) {
   cdem::Joint law;
@@ -49,7 +60,13 @@ cdem::Simulation pile(const std::shared_ptr<cdem::Observer>& observer) {
     for (geom::Vec3& x : block.vertices)
       x += geom::Vec3(0.25, 0.25, 0.4);
   cdem::ModelSpec spec;
-  spec.bodies = {meshed("ground", ground), {"blocks", blocks, rock(), weak_joint()}, meshed("hard", hard)};
+  spec.bodies = {
+      meshed("ground", ground), {"blocks", blocks, rock(), weak_joint()}, meshed("hard", hard), with_table()};
+  cdem::ResidualStrength residual;
+  residual.friction = std::tan(20 * degree);
+  residual.cohesion = 1e5;
+  spec.bodies[1].joint.law = residual;
+  spec.default_contact = law;
   spec.bodies[0].bonding.everywhere = true;
   spec.bodies[1].element = cdem::Element::finite_volume;
   spec.pairs = {
@@ -57,6 +74,10 @@ cdem::Simulation pile(const std::shared_ptr<cdem::Observer>& observer) {
   cdem::Simulation s(spec, 1, observer);
   s.fix(fixed(cdem::Selection::side("z-")));
   s.gravity(gravity({1, 0, -9}));
+  cdem::Water water;
+  water.on = cdem::Selection::of_body("table");
+  water.pressure = [](const geom::Vec3&) { return 1e4; };
+  s.water(water);
   return s;
 }
 

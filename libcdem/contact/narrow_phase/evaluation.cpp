@@ -41,10 +41,12 @@ void Evaluation::springs(ContactRow& row, ContactCandidate* candidates) {
 }
 
 const Evaluation::Law& Evaluation::law_between(int block_a, int block_b) {
-  const std::pair bodies(model_.blocks[block_a].body, model_.blocks[block_b].body);
-  if (law_.bodies != bodies) {
+  const std::pair between = surface_.pairs.empty()
+                                ? std::pair(model_.blocks[block_a].body, model_.blocks[block_b].body)
+                                : std::pair(block_a, block_b);
+  if (law_.between != between) {
     const Joint* const joint = contact_joint(model_, block_a, block_b);
-    law_ = {bodies, joint, std::min(geom::portable::tan(joint->friction_angle), work_.most_friction)};
+    law_ = {between, joint, std::min(geom::portable::tan(joint->friction_angle), work_.most_friction)};
   }
   return law_;
 }

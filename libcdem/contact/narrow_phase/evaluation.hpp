@@ -21,9 +21,9 @@ public:
   void edges(ContactRow&, ContactCandidate*);
 
 private:
-  // Of two blocks.
+  // Of two blocks. between: their bodies; the blocks themselves where some have a law of their own.
   struct Law {
-    std::pair<int, int> bodies{-1, -1};
+    std::pair<int, int> between{-1, -1};
     const Joint* joint = nullptr;
     double tan_friction = 0;
   };

@@ -390,6 +390,7 @@ Model build_model(const Model& frame, std::vector<BlockSeed> seeds, const Interf
   model.pair_joint = frame.pair_joint;
   model.next_id = frame.next_id;
   model.surface.joint = frame.surface.joint;
+  model.surface.left_by = frame.surface.left_by;
 
   std::vector<geom::Polyhedron> shapes;
   std::vector<geom::BlockMesh> block_meshes;

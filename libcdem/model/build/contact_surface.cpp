@@ -93,10 +93,27 @@ void add_edges(Model& model, int begin, int end) {
   s.edges.insert(s.edges.end(), found.begin(), found.end());
 }
 
+// The blocks whose interface leaves them another contact than their bodies have.
+std::vector<BlockPairLaw> pair_laws(const Model& model) {
+  std::vector<BlockPairLaw> pairs;
+  for (const Interface& interface : model.interfaces)
+    if (const auto left = model.surface.left_by.find(interface.joint);
+        interface.frame >= 0 && left != model.surface.left_by.end())
+      pairs.push_back({{interface.block_a, interface.block_b}, left->second});
+  // Of two interfaces between the same blocks the first counts.
+  std::stable_sort(pairs.begin(), pairs.end(),
+                   [](const BlockPairLaw& a, const BlockPairLaw& b) { return a.blocks < b.blocks; });
+  pairs.erase(std::unique(pairs.begin(), pairs.end(),
+                          [](const BlockPairLaw& a, const BlockPairLaw& b) { return a.blocks == b.blocks; }),
+              pairs.end());
+  return pairs;
+}
+
 } // namespace
 
 void build_surface(Model& model) {
   ContactSurface& s = model.surface;
+  s.pairs = pair_laws(model);
   s.triangles.clear();
   s.edges.clear();
   s.block_begin.clear();
@@ -150,6 +167,14 @@ ContactStiffness contact_stiffness(const Joint& joint, double compliance) {
 }
 
 const Joint* contact_joint(const Model& model, int block_a, int block_b) {
+  if (const auto& pairs = model.surface.pairs; !pairs.empty()) {
+    const std::array<int, 2> blocks{std::min(block_a, block_b), std::max(block_a, block_b)};
+    const auto own =
+        std::lower_bound(pairs.begin(), pairs.end(), blocks,
+                         [](const BlockPairLaw& pair, const auto& wanted) { return pair.blocks < wanted; });
+    if (own != pairs.end() && own->blocks == blocks)
+      return &model.joints[own->joint];
+  }
   const auto found =
       model.surface.joint.find(std::minmax(model.blocks[block_a].body, model.blocks[block_b].body));
   return found == model.surface.joint.end() ? nullptr : &model.joints[found->second];

@@ -83,6 +83,28 @@ void validate_rate_effect(const Joint& j) {
                            "a contact has no strength to raise");
 }
 
+void validate_law(const Joint& j) {
+  if (!has_law(j.law))
+    return;
+  with_law(j.law, [](const auto& law) { law.validate(); });
+  if (j.softening != Softening::none)
+    throw geom::InputError("softening", "with residual strength or dilation", "none there",
+                           "a joint that softens goes on with its friction alone");
+  const auto* const residual = std::get_if<ResidualStrength>(&j.law);
+  if (!residual)
+    return;
+  const double peak = geom::portable::tan(j.friction_angle);
+  require(residual->friction <= peak * (1 + 1e-12), "residual_friction_angle",
+          std::atan(residual->friction) / degree, "in [0, friction_angle] degrees",
+          "the residual is not above the peak");
+  require(residual->cohesion <= j.cohesion, "residual_cohesion", residual->cohesion,
+          fmt::format("in [0, {:g}] Pa, at most the cohesion", j.cohesion).c_str(),
+          "the residual is not above the peak");
+  require(residual->tension <= j.tensile_strength, "residual_tension", residual->tension,
+          fmt::format("in [0, {:g}] Pa, at most the tensile strength", j.tensile_strength).c_str(),
+          "the residual is not above the peak");
+}
+
 // Three digits, rounded up so that the printed value is itself allowed.
 std::string at_least(double x) {
   const double digit = std::pow(10.0, std::floor(std::log10(x)) - 2);
@@ -139,9 +161,17 @@ void validate(const Joint& j) {
   validate_softening(j);
   validate_scatter(j);
   validate_rate_effect(j);
+  validate_law(j);
+}
+
+double friction_left(const Joint& j) {
+  const JointSpring spring{0, 0, geom::portable::tan(j.friction_angle)};
+  return has_law(j.law) ? with_law(j.law, [&](const auto& law) { return law.friction_left(spring); })
+                        : spring.tan_friction;
 }
 
 void validate(const Joint& j, double normal_stiffness, double shear_stiffness) {
+  with_law(j.law, [&](const auto& law) { law.validate({normal_stiffness, shear_stiffness, 0}); });
   if (j.softening == Softening::none)
     return;
   validate_softening(j);

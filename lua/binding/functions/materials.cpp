@@ -1,5 +1,6 @@
 // Materials and joints.
 #include "lua/binding/functions/angles.hpp"
+#include "lua/binding/functions/joint_laws.hpp"
 #include "lua/binding/objects/objects.hpp"
 #include "lua/binding/runtime/module.hpp"
 #include "lua/binding/runtime/session.hpp"
@@ -50,25 +51,6 @@ Value elastic(Session& session, Object*, const Arguments& a) {
     session.warn("cdem.elastic: density = " + describe(a.value("density")) +
                  ": lighter than any solid; it is in kg/m3, rock has 2000 to 3000");
   return object;
-}
-
-std::vector<Field> stiffness_fields() {
-  return {number("thickness_ratio")
-              .above(0)
-              .standard(0.02)
-              .doc("equivalent thickness of the joint over the block size (cube root of its volume), which "
-                   "sets the "
-                   "stiffness E/L and G/L"),
-          number("thickness").above(0).unit("m").doc("equivalent thickness itself; wins over the ratio"),
-          number("normal_stiffness").above(0).unit("Pa/m").doc("instead of E/L"),
-          number("shear_stiffness").above(0).unit("Pa/m").doc("instead of G/L")};
-}
-
-void read_stiffness(const Arguments& a, Joint& joint) {
-  joint.thickness_ratio = a.number("thickness_ratio");
-  joint.thickness = a.optional_number("thickness");
-  joint.normal_stiffness = a.optional_number("normal_stiffness");
-  joint.shear_stiffness = a.optional_number("shear_stiffness");
 }
 
 std::vector<Field> softening_fields() {
@@ -161,7 +143,8 @@ Value mohr_coulomb(Session& session, Object*, const Arguments& a) {
   warn_of_angle(session, a, "cdem.mohr_coulomb");
   read_softening(a, object->joint);
   read_strength(a, object->joint);
-  read_stiffness(a, object->joint);
+  read_residual_strength(a, object->joint);
+  read_joint_stiffness(a, object->joint);
   validate(object->joint);
   return object;
 }
@@ -171,8 +154,9 @@ Value coulomb(Session& session, Object*, const Arguments& a) {
   object->joint.bonded = false;
   object->joint.friction_angle = radians(a.number("friction_angle"));
   object->joint.restitution = a.number("restitution");
+  read_residual_strength(a, object->joint);
   warn_of_angle(session, a, "cdem.coulomb");
-  read_stiffness(a, object->joint);
+  read_joint_stiffness(a, object->joint);
   validate(object->joint);
   return object;
 }
@@ -180,7 +164,7 @@ Value coulomb(Session& session, Object*, const Arguments& a) {
 Value glued(Session&, Object*, const Arguments& a) {
   auto object = std::make_shared<JointObject>();
   object->joint = glued_joint();
-  read_stiffness(a, object->joint);
+  read_joint_stiffness(a, object->joint);
   validate(object->joint);
   return object;
 }
@@ -231,11 +215,17 @@ void bind_materials(Module& m) {
                             number("friction_angle").from(0, 90).unit("deg").required(),
                             number("tensile_strength").at_least(0).unit("Pa").required()};
   std::vector<Field> loose{number("friction_angle").from(0, 90).unit("deg").required()};
+  for (const Field& f : residual_strength_fields())
+    bonded.push_back(f);
+  for (const Field& f : dilation_fields()) {
+    bonded.push_back(f);
+    loose.push_back(f);
+  }
   for (const Field& f : softening_fields())
     bonded.push_back(f);
   for (const Field& f : strength_fields())
     bonded.push_back(f);
-  for (const Field& f : stiffness_fields()) {
+  for (const Field& f : joint_stiffness_fields()) {
     bonded.push_back(f);
     loose.push_back(f);
   }
@@ -250,14 +240,15 @@ void bind_materials(Module& m) {
       {"mohr_coulomb",
        "Bond between block faces: breaks in tension above the tensile strength and in shear "
        "above cohesion + normal pressure x tan(friction angle); then it is a contact with the same "
-       "friction angle (Han 2010 eqs 8-11). With softening it loses its strength along a curve whose "
-       "area is the fracture energy.",
+       "friction angle, or with what residual strength it has (Han 2010 eqs 8-11). With softening it loses "
+       "its "
+       "strength along a curve whose area is the fracture energy.",
        bonded, false, "cdem.Joint", "", mohr_coulomb});
   m.functions.push_back({"coulomb",
                          "Contact that never was bonded: no tension, friction only (Han 2010 eq 9).", loose,
                          false, "cdem.Joint", "", coulomb});
 
-  std::vector<Field> stiff = stiffness_fields();
+  std::vector<Field> stiff = joint_stiffness_fields();
   stiff[0].standard(glued_thickness_ratio);
   m.functions.push_back(
       {"glued",
@@ -284,7 +275,8 @@ void bind_materials(Module& m) {
   };
   m.classes.push_back(material);
 
-  Class joint{"Joint", "Made by cdem.mohr_coulomb, cdem.coulomb or cdem.glued."};
+  Class joint{"Joint",
+              "Made by cdem.mohr_coulomb, cdem.coulomb, cdem.barton_bandis, cdem.joint_table or cdem.glued."};
   joint.properties = {
       joint_property("bonded", "boolean", "", [](const Joint& j) { return Value(j.bonded); }),
       joint_property("glued", "boolean", "", [](const Joint& j) { return Value(j.glued); }),
@@ -319,7 +311,7 @@ void bind_materials(Module& m) {
                 : ", " + softening_name(j) + " softening, G_I " + number_text(j.fracture_energy_1) +
                       " J/m2, G_II " + number_text(j.fracture_energy_2) + " J/m2") +
            (j.scatter.on() ? ", Weibull modulus " + number_text(j.scatter.modulus) : std::string()) +
-           (j.rate.on() ? ", rate effect" : "") + ")";
+           (j.rate.on() ? ", rate effect" : "") + (has_law(j.law) ? ", " + law_text(j) : "") + ")";
   };
   m.classes.push_back(joint);
 }

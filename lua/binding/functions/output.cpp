@@ -1,4 +1,5 @@
 // Files of a model: ParaView, pictures, films.
+#include "lua/binding/functions/joint_choice.hpp"
 #include "lua/binding/functions/picture_fields.hpp"
 #include "lua/binding/objects/model_object.hpp"
 #include "lua/binding/runtime/module.hpp"
@@ -44,18 +45,32 @@ Value save(Session& session, ModelObject& model, const Arguments& a) {
   return {};
 }
 
-Value save_cracks(Session& session, ModelObject& model, const Arguments& a) {
+// make: returns the Snapshot whose bonds are written.
+template <class Make>
+Value save_surface(Session& session, ModelObject& model, const Arguments& a, const Make& make) {
   require_ending(a.text("file"), ".vtp");
   if (a.has("series"))
     require_ending(a.text("series"), ".pvd");
   if (session.settings.check_only)
     return {};
-  const Snapshot surface = model.simulation.crack_surface(a.flag("damaged"), model.title(session));
+  const Snapshot surface = make();
   const fs::path path = session.files.to_write(a.text("file"));
   write_surface(surface, path.string());
   if (a.has("series"))
     add_to_series(session, model, a.text("series"), path, surface);
   return {};
+}
+
+Value save_cracks(Session& session, ModelObject& model, const Arguments& a) {
+  return save_surface(session, model, a, [&] {
+    return model.simulation.crack_surface(a.flag("damaged"), model.title(session));
+  });
+}
+
+Value save_joints(Session& session, ModelObject& model, const Arguments& a) {
+  const JointChoice choice = joint_choice(model, a);
+  return save_surface(session, model, a,
+                      [&] { return model.simulation.joint_surface(choice, model.title(session)); });
 }
 
 PictureOptions picture_options(const Arguments& a) {
@@ -143,6 +158,18 @@ void bind_output(Module& m) {
        "",
        "",
        method<ModelObject>(save_cracks)});
+  std::vector<Field> joint_file{text("file").required().doc("ends in .vtp; in the output folder"),
+                                text("series").doc("ends in .pvd: a time series this file is added to")};
+  for (const Field& field : joint_choice_fields())
+    joint_file.push_back(field);
+  model.methods.push_back(
+      {"save_joints",
+       "Writes joints between blocks for ParaView as a surface: displacement at corners; set (number in the "
+       "alphabetical order of all sets, from 1; 0: none), mode (0 bonded, 1 broken in tension, 2 in shear, 3 "
+       "contact), "
+       "normal_traction, shear_traction, water_pressure, utilisation, opening, slip and parted (1: left to "
+       "contact) of faces.",
+       joint_file, false, "", "", method<ModelObject>(save_joints)});
   model.methods.push_back({"picture", "Draws the model, without a display.", picture_declaration(), false, "",
                            "", method<ModelObject>(picture)});
   m.functions.push_back({"film",

@@ -17,6 +17,7 @@ const Module& module() {
     Module m;
     bind_parameters(m);
     bind_materials(m);
+    bind_joint_laws(m);
     bind_shapes(m);
     bind_solids(m);
     bind_armour_units(m);
@@ -26,6 +27,7 @@ const Module& module() {
     bind_model(m);
     bind_conditions(m);
     bind_in_situ(m);
+    bind_water(m);
     bind_solving(m);
     bind_settling(m);
     bind_fracture(m);
@@ -33,6 +35,7 @@ const Module& module() {
     bind_measures(m);
     bind_cracks(m);
     bind_j_integral(m);
+    bind_joints(m);
     bind_fragments(m);
     bind_units(m);
     bind_output(m);

@@ -77,6 +77,7 @@ auto method(Body body) {
 // Shares in the module, one per file.
 void bind_parameters(Module&);
 void bind_materials(Module&);
+void bind_joint_laws(Module&);
 void bind_shapes(Module&);
 void bind_solids(Module&);
 void bind_solid_class(Module&); // by bind_solids
@@ -87,6 +88,7 @@ void bind_selections(Module&);
 void bind_model(Module&);
 void bind_conditions(Module&);
 void bind_in_situ(Module&);
+void bind_water(Module&);
 void bind_solving(Module&);
 void bind_settling(Module&);
 void bind_fracture(Module&);
@@ -94,6 +96,7 @@ void bind_flow(Module&);
 void bind_measures(Module&);
 void bind_cracks(Module&);
 void bind_j_integral(Module&);
+void bind_joints(Module&);
 void bind_fragments(Module&);
 void bind_units(Module&);
 void bind_output(Module&);

@@ -1,0 +1,179 @@
+// Laws of joints between blocks beyond linear springs, Mohr-Coulomb and its softening: the list of them, and the response of
+// a spring that is broken or never was bonded. joint/joint_spring.hpp says what a law is; to add one, write it in a header
+// of its own, put it into the list, and declare its fields in lua/binding/functions/joint_laws.cpp.
+//
+// With the stretch e = j - o the spring is closed by -e_n and sheared by e_s. Shear beyond the strength slips by x along
+// the trial,
+//
+//   k_s (|e_s| - x) = strength(p(x), path + x),    p(x) the pressure after the rise of the slip x
+//
+// o_s follows the slip, o_n the rise. Faces that are apart carry nothing, and o_s follows them.
+#pragma once
+
+#include "libcdem/joint/barton_bandis.hpp"
+#include "libcdem/joint/joint_table.hpp"
+#include "libcdem/joint/residual_strength.hpp"
+
+#include <variant>
+
+namespace cdem {
+
+// The first: none, the spring is that of joint/spring_law.hpp.
+using JointLaw = std::variant<std::monostate, ResidualStrength, BartonBandis, JointTable>;
+
+inline bool has_law(const JointLaw& law) {
+  return law.index() != 0;
+}
+
+// visit(law) of the law there is; nothing where there is none.
+template <class Visit>
+auto with_law(const JointLaw& law, const Visit& visit) {
+  using Result = decltype(visit(std::declval<const ResidualStrength&>()));
+  return std::visit(
+      [&](const auto& own) -> Result {
+        if constexpr (std::is_same_v<std::decay_t<decltype(own)>, std::monostate>)
+          return Result();
+        else
+          return visit(own);
+      },
+      law);
+}
+
+struct JointResponse {
+  geom::Vec3 traction = geom::Vec3::Zero(); // Pa, pulls a towards b when along the normal
+  geom::Vec3 offset = geom::Vec3::Zero();   // m, new o
+  JointHistory history;
+};
+
+namespace joint_law {
+
+// Traction at this opening of the faces, Pa, pressure positive.
+template <class Law>
+double pressure_at(const Law& law, const JointSpring& spring, double open, double parted) {
+  return open > 0 ? -law.pull(spring, open, parted) : law.pressure(spring, -open);
+}
+
+// m, dilation after the slip has gone from `before` to `after`.
+template <class Law>
+double dilation_after(const Law& law, const JointSpring& spring, const JointHistory& h, double pressure,
+                      double before, double after) {
+  if (after >= before)
+    return h.dilation + law.rise(spring, pressure, h.path, before, after);
+  return h.dilation * after / before;
+}
+
+constexpr int most_trials = 60;
+constexpr double close_enough = 1e-12; // of the trial
+
+// The zero of f, which is above 0 at `low` and not above it at `high`, near to `first` (false position, Illinois).
+template <class F>
+double zero_of(const F& f, double low, double high, double f_low, double first, double tolerance) {
+  double f_high = 0, x = first;
+  bool high_known = false;
+  int side = 0;
+  for (int i = 0; i < most_trials; ++i) {
+    const double y = f(x);
+    if (std::abs(y) <= tolerance)
+      return x;
+    if (y > 0) {
+      low = x;
+      f_low = y;
+      if (side == 1)
+        f_high *= 0.5;
+      side = 1;
+    } else {
+      high = x;
+      f_high = y;
+      high_known = true;
+      if (side == -1)
+        f_low *= 0.5;
+      side = -1;
+    }
+    if (!high_known) {
+      f_high = f(high);
+      high_known = true;
+    }
+    const double next = f_high == f_low ? low : low + (high - low) * f_low / (f_low - f_high);
+    x = next > low && next < high ? next : 0.5 * (low + high);
+  }
+  return x;
+}
+
+template <class Law>
+JointResponse response(const Law& law, const JointSpring& spring, const geom::Vec3& normal,
+                       const geom::Vec3& jump, const geom::Vec3& offset, const JointHistory& history) {
+  JointResponse r{geom::Vec3::Zero(), offset, history};
+  const geom::Vec3 stretch = jump - offset;
+  const double open = stretch.dot(normal);
+  const geom::Vec3 shear = stretch - open * normal;
+  if (open > 0) {
+    r.history.parted = std::max(history.parted, open);
+    if (!(law.pull(spring, open, r.history.parted) > 0)) {
+      r.offset += shear;
+      r.history.slip += shear;
+      return r;
+    }
+  }
+  const double pressure = pressure_at(law, spring, open, r.history.parted), length = shear.norm(),
+               trial = spring.ks * length;
+  const double strength = law.strength(spring, pressure, history.path);
+  if (!(trial > strength)) {
+    r.traction = -pressure * normal + spring.ks * shear;
+    return r;
+  }
+  const geom::Vec3 along = shear / length;
+  const double before = history.slip.norm();
+  const auto rise_by = [&](double x) {
+    return dilation_after(law, spring, history, pressure, before, (history.slip + x * along).norm()) -
+           history.dilation;
+  };
+  const auto pressure_after = [&](double x) {
+    return pressure_at(law, spring, open - rise_by(x), r.history.parted);
+  };
+  const auto beyond = [&](double x) {
+    return spring.ks * (length - x) - law.strength(spring, pressure_after(x), history.path + x);
+  };
+  const double slip =
+      zero_of(beyond, 0, length, trial - strength, (trial - strength) / spring.ks, close_enough * trial);
+  const double rise = rise_by(slip);
+  r.history.slip += slip * along;
+  r.history.path += slip;
+  r.history.dilation += rise;
+  r.offset += slip * along + rise * normal;
+  r.traction = -pressure_after(slip) * normal + spring.ks * (length - slip) * along;
+  return r;
+}
+
+template <class Law>
+double stored(const Law& law, const JointSpring& spring, const geom::Vec3& normal, const geom::Vec3& stretch,
+              double parted) {
+  const double open = stretch.dot(normal);
+  const geom::Vec3 shear = stretch - open * normal;
+  if (open > 0 && !(law.pull(spring, open, parted) > 0))
+    return 0;
+  return 0.5 * spring.ks * shear.squaredNorm() +
+         (open > 0 ? law.stored_pull(spring, open, parted) : law.stored(spring, -open));
+}
+
+} // namespace joint_law
+
+// Of a spring whose joint has a law, broken or never bonded.
+inline JointResponse joint_response(const JointLaw& law, const JointSpring& spring, const geom::Vec3& normal,
+                                    const geom::Vec3& jump, const geom::Vec3& offset,
+                                    const JointHistory& history) {
+  return with_law(
+      law, [&](const auto& own) { return joint_law::response(own, spring, normal, jump, offset, history); });
+}
+
+// J/m2, stretch: with the offset of the response.
+inline double joint_stored(const JointLaw& law, const JointSpring& spring, const geom::Vec3& normal,
+                           const geom::Vec3& stretch, double parted) {
+  return with_law(law,
+                  [&](const auto& own) { return joint_law::stored(own, spring, normal, stretch, parted); });
+}
+
+inline double joint_strength(const JointLaw& law, const JointSpring& spring, double pressure, double path) {
+  return with_law(law, [&](const auto& own) { return own.strength(spring, pressure, path); });
+}
+
+} // namespace cdem

@@ -1,0 +1,215 @@
+// Laws of joints between blocks: residual strength and dilation, Barton-Bandis, tables. A new law has its entry here.
+#include "lua/binding/functions/joint_laws.hpp"
+
+#include "lua/binding/functions/angles.hpp"
+#include "lua/binding/objects/objects.hpp"
+#include "lua/binding/functions/solving_warnings.hpp"
+#include "lua/binding/runtime/module.hpp"
+#include "lua/binding/runtime/session.hpp"
+
+#include "libgeom/core/error.hpp"
+#include "libgeom/core/portable.hpp"
+
+namespace cdem::script {
+
+namespace {
+
+using geom::InputError;
+
+// Softer than any rock wall: a unit is wrong.
+constexpr double weakest_wall = 1e5; // Pa
+
+double tangent(double degrees) {
+  return geom::portable::tan(radians(degrees));
+}
+
+JointTable::Rows rows_of(const Arguments& a, const std::string& name) {
+  JointTable::Rows rows;
+  for (const Value& row : a.list(name))
+    rows.push_back({row.table()->items[0].number(), row.table()->items[1].number()});
+  return rows;
+}
+
+Value finished(Joint&& joint) {
+  validate(joint);
+  auto object = std::make_shared<JointObject>();
+  object->joint = std::move(joint);
+  return object;
+}
+
+Value barton_bandis(Session& session, Object*, const Arguments& a) {
+  BartonBandis law;
+  law.jrc = a.number("jrc");
+  law.jcs = a.number("jcs");
+  law.residual_angle = radians(a.number("residual_friction_angle"));
+  law.initial_stiffness = a.number("initial_stiffness");
+  law.maximum_closure = a.number("maximum_closure");
+  if (law.jcs < weakest_wall)
+    session.warn("cdem.barton_bandis: jcs = " + describe(a.value("jcs")) +
+                 ": no joint wall is as weak; it is in Pa, rock has 1e7 to 3e8");
+  if (const auto length = a.optional_number("length"))
+    scale_to_length(law, *length, a.number("sample_length"));
+  law.peak_slip = a.optional_number("peak_slip").value_or(law.peak_slip);
+  Joint joint;
+  joint.bonded = false;
+  joint.friction_angle = law.residual_angle;
+  joint.law = law;
+  read_joint_stiffness(a, joint);
+  return finished(std::move(joint));
+}
+
+Value joint_table(Session&, Object*, const Arguments& a) {
+  JointTable law;
+  law.closing = rows_of(a, "normal");
+  law.shear = rows_of(a, "shear");
+  Joint joint;
+  joint.bonded = false;
+  joint.law = law;
+  read_joint_stiffness(a, joint);
+  validate(joint);
+  joint.friction_angle = geom::portable::atan2(law.friction_left({}), 1);
+  return finished(std::move(joint));
+}
+
+struct InWords {
+  std::string operator()(const ResidualStrength& law) const {
+    std::string text = "residual c " + number_text(law.cohesion) + " Pa, tension " +
+                       number_text(law.tension) + " Pa, friction angle " +
+                       three_digits(degrees(geom::portable::atan2(law.friction, 1))) + " deg";
+    if (law.dilation > 0)
+      text += ", dilation " + three_digits(degrees(geom::portable::atan2(law.dilation, 1))) + " deg";
+    return text;
+  }
+  std::string operator()(const BartonBandis& law) const {
+    return "Barton-Bandis, JRC " + number_text(law.jrc) + ", JCS " + number_text(law.jcs) + " Pa, phi_r " +
+           three_digits(degrees(law.residual_angle)) + " deg" +
+           (law.peak_slip > 0 ? ", peak at " + number_text(law.peak_slip) + " m" : "");
+  }
+  std::string operator()(const JointTable& law) const {
+    return "tables of " + std::to_string(law.closing.size()) + " and " + std::to_string(law.shear.size()) +
+           " rows";
+  }
+};
+
+} // namespace
+
+std::string law_text(const Joint& joint) {
+  return with_law(joint.law, InWords());
+}
+
+std::vector<Field> dilation_fields() {
+  return {number("residual_friction_angle")
+              .from(0, 90)
+              .unit("deg")
+              .doc("between blocks: friction once the joint has slipped; at most friction_angle, which it is "
+                   "when left out"),
+          number("dilation_angle")
+              .from(0, 90)
+              .unit("deg")
+              .doc("between blocks: slip opens the joint at this angle; at most the residual friction angle"),
+          number("dilation_limit")
+              .at_least(0)
+              .unit("m")
+              .doc("slip at which dilation ends; without it it does not end")};
+}
+
+std::vector<Field> residual_strength_fields() {
+  return {number("residual_cohesion")
+              .at_least(0)
+              .unit("Pa")
+              .doc("between blocks: cohesion of a broken joint whose faces press; at most cohesion"),
+          number("residual_tension")
+              .at_least(0)
+              .unit("Pa")
+              .doc("between blocks: pull of a broken joint, however far it opens; at most tensile_strength")};
+}
+
+void read_residual_strength(const Arguments& a, Joint& joint) {
+  static const char* const names[] = {"residual_friction_angle", "dilation_angle", "dilation_limit",
+                                      "residual_cohesion", "residual_tension"};
+  bool any = false;
+  for (const char* name : names)
+    any = any || (a.has(name) && a.value(name).is_number());
+  if (!any)
+    return;
+  if (a.has("dilation_limit") && !a.has("dilation_angle"))
+    throw InputError("dilation_limit: goes with dilation_angle, the angle up to it");
+  ResidualStrength law;
+  law.friction = geom::portable::tan(joint.friction_angle);
+  if (const auto angle = a.optional_number("residual_friction_angle"))
+    law.friction = tangent(*angle);
+  if (const auto angle = a.optional_number("dilation_angle"))
+    law.dilation = tangent(*angle);
+  law.dilation_limit = a.optional_number("dilation_limit").value_or(law.dilation_limit);
+  if (joint.bonded) {
+    law.cohesion = a.optional_number("residual_cohesion").value_or(0);
+    law.tension = a.optional_number("residual_tension").value_or(0);
+  }
+  joint.law = law;
+}
+
+std::vector<Field> joint_stiffness_fields() {
+  return {number("thickness_ratio")
+              .above(0)
+              .standard(0.02)
+              .doc("equivalent thickness of the joint over the block size (cube root of its volume), which "
+                   "sets the "
+                   "stiffness E/L and G/L"),
+          number("thickness").above(0).unit("m").doc("equivalent thickness itself; wins over the ratio"),
+          number("normal_stiffness").above(0).unit("Pa/m").doc("instead of E/L"),
+          number("shear_stiffness").above(0).unit("Pa/m").doc("instead of G/L")};
+}
+
+void read_joint_stiffness(const Arguments& a, Joint& joint) {
+  joint.thickness_ratio = a.number("thickness_ratio");
+  joint.thickness = a.optional_number("thickness");
+  joint.normal_stiffness = a.optional_number("normal_stiffness");
+  joint.shear_stiffness = a.optional_number("shear_stiffness");
+}
+
+void bind_joint_laws(Module& m) {
+  const auto with_stiffness = [](std::vector<Field> fields) {
+    for (const Field& f : joint_stiffness_fields())
+      fields.push_back(f);
+    return fields;
+  };
+  m.functions.push_back(
+      {"barton_bandis",
+       "Rough joint between blocks that never was bonded (Barton and Choubey 1977, Bandis et al. 1983): it "
+       "closes on a hyperbola and "
+       "slips above pressure x tan(residual angle + JRC log10(JCS / pressure)). With a length, or peak_slip, "
+       "the roughness is "
+       "mobilised and worn with slip, and the joint dilates.",
+       with_stiffness(
+           {number("jrc").within(0, 20).required().doc("joint roughness coefficient"),
+            number("jcs").above(0).unit("Pa").required().doc("strength of the joint walls"),
+            number("residual_friction_angle").from(0, 70).unit("deg").required().doc("phi_r"),
+            number("initial_stiffness")
+                .above(0)
+                .unit("Pa/m")
+                .required()
+                .doc("slope of the hyperbola where it begins; normal_stiffness, or E/L, is the steepest it "
+                     "becomes"),
+            number("maximum_closure").above(0).unit("m").required(),
+            number("length").above(0).unit("m").doc(
+                "of the joint: jrc and jcs are those of samples and are scaled to it, and it gives the slip "
+                "at the peak, length / 500 (JRC / length)^0.33"),
+            number("sample_length").above(0).unit("m").standard(0.1).doc("of the samples"),
+            number("peak_slip").above(0).unit("m").doc("slip at the peak; wins over that of the length")}),
+       false, "cdem.Joint", "", barton_bandis});
+  m.functions.push_back(
+      {"joint_table",
+       "Joint between blocks that never was bonded, by tables: straight between rows, straight on beyond the "
+       "last.",
+       with_stiffness(
+           {list("normal", tuple_type({number_type(), number_type()}), 0)
+                .doc("rows {closure (m), pressure (Pa)} that rise, one of them {0, 0}; rows below it are "
+                     "{-opening, -pull}, "
+                     "up to the opening at which the joint parts. Without rows it is linear"),
+            list("shear", tuple_type({number_type(), number_type()}), 2)
+                .required()
+                .doc("rows {pressure (Pa), strength (Pa)}, the first {0, strength without pressure}")}),
+       false, "cdem.Joint", "", joint_table});
+}
+
+} // namespace cdem::script

@@ -1,0 +1,22 @@
+// Fields of cdem.mohr_coulomb and cdem.coulomb for residual strength and dilation.
+#pragma once
+
+#include "lua/binding/schema/schema.hpp"
+
+#include "libcdem/joint/joint.hpp"
+
+namespace cdem::script {
+
+std::vector<Field> dilation_fields();          // of both
+std::vector<Field> residual_strength_fields(); // of a bond only
+
+// Gives the joint its law where some of them are given; the peak stands in it.
+void read_residual_strength(const Arguments&, Joint&);
+
+std::vector<Field> joint_stiffness_fields();
+void read_joint_stiffness(const Arguments&, Joint&);
+
+// "Barton-Bandis, JRC 10, ..."; "" for a joint without a law.
+std::string law_text(const Joint&);
+
+} // namespace cdem::script

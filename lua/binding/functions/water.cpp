@@ -1,0 +1,108 @@
+// Water in joints.
+#include "lua/binding/functions/selections.hpp"
+#include "lua/binding/objects/model_object.hpp"
+#include "lua/binding/runtime/module.hpp"
+
+#include "libgeom/core/error.hpp"
+
+#include <cmath>
+
+namespace cdem::script {
+
+namespace {
+
+using geom::InputError;
+
+std::function<double(const geom::Vec3&)> pressure_of(const Arguments& a) {
+  if (const Value& given = a.value("pressure"); given.is_number())
+    return [p = given.number()](const geom::Vec3&) { return p; };
+  const auto function = a.function("pressure");
+  return [function](const geom::Vec3& x) {
+    const Values answer = function->call({x.x(), x.y(), x.z()});
+    if (answer.empty() || !answer[0].is_number() || !(answer[0].number() >= 0) ||
+        !std::isfinite(answer[0].number()))
+      throw InputError("pressure" + describe(Value(x)) + " of " + function->place(),
+                       answer.empty() ? "nothing" : describe(answer[0]), "a finite number >= 0 Pa");
+    return answer[0].number();
+  };
+}
+
+Water water_of(const ModelObject& model, const Arguments& a, std::string& line) {
+  Water water;
+  water.on = one_selection(model, a.value("on"), "on");
+  water.weight = a.number("weight");
+  for (const Value& set : a.list("joints"))
+    water.sets.push_back(*set.get<std::string>());
+  if (static_cast<int>(a.has("level")) + static_cast<int>(a.has("pressure")) +
+          static_cast<int>(a.has("table")) !=
+      1)
+    throw InputError("give one of level = z of the water (m), pressure = a number (Pa) or function(x, y, z), "
+                     "and table = rows {z, pressure}");
+  line = "water in joints";
+  if (a.has("level")) {
+    water.level = a.number("level");
+    line += " up to z = " + describe(a.value("level")) + " m";
+  } else if (a.has("table")) {
+    std::vector<std::array<double, 2>> rows;
+    for (const Value& row : a.list("table"))
+      rows.push_back({row.table()->items[0].number(), row.table()->items[1].number()});
+    water.pressure = pressure_over_height(std::move(rows));
+    line += " after a table";
+  } else {
+    water.pressure = pressure_of(a);
+    line += a.value("pressure").is_number() ? " at " + describe(a.value("pressure")) + " Pa"
+                                            : std::string(" after a function");
+  }
+  for (const std::string& set : water.sets)
+    line += (&set == water.sets.data() ? " in \"" : ", \"") + set + "\"";
+  line += ", " + water.on.text;
+  return water;
+}
+
+Value water(Session& session, ModelObject& model, const Arguments& a) {
+  model.require_idle("water");
+  std::string line;
+  const WaterInJoints sum = model.simulation.water(water_of(model, a, line));
+  model.notes->conditions.push_back(line);
+  if (sum.points > 0 && model.simulation.has_buoyancy())
+    session.warn(
+        "water: gravity has a water_density too, whose buoyancy holds for blocks that water surrounds; "
+        "where joints carry the pressure it counts twice: leave water_density out");
+  return Table{{"points", sum.points}, {"area", sum.area}, {"largest", sum.largest}, {"force", sum.force}};
+}
+
+} // namespace
+
+void bind_water(Module& m) {
+  m.records.push_back(
+      {"WaterInJoints",
+       "All the water in the joints of a model.",
+       {integer("points").required().doc("of joints, under pressure"), number("area").unit("m2").required(),
+        number("largest").unit("Pa").required().doc("pressure"),
+        number("force").unit("N").required().doc("sum of pressure times area")}});
+  Class& model = m.the_class("Model");
+  model.methods.push_back(
+      {"water",
+       "Water in the joints between blocks. Its pressure pushes the two faces of a joint apart, open or "
+       "closed, and the "
+       "joint's law bears the rest, the effective stress. It is taken at the undeformed places, once, and "
+       "stays until it is "
+       "set again; call it between stages to raise or lower the water.",
+       {number("level").unit("m").doc("z of the water table: weight times the depth below it"),
+        number_or_function("pressure", "(x: number, y: number, z: number): number")
+            .at_least(0)
+            .unit("Pa")
+            .doc("instead: the same everywhere, or at each place; 0 takes the water away"),
+        list("table", tuple_type({number_type(), number_type()}), 2)
+            .doc("instead: rows {z (m), pressure (Pa)}, upwards; straight between them, constant beyond"),
+        list("joints", text_type(), 1)
+            .doc("names of joint sets and cuts that hold it; all joints when left out, glued cuts never"),
+        place("on").standard("all").doc("where: one place; joints elsewhere keep what they have"),
+        number("weight").above(0).unit("N/m3").standard(9810.0).doc("of the water")},
+       false,
+       "cdem.WaterInJoints",
+       "",
+       method<ModelObject>(water)});
+}
+
+} // namespace cdem::script
