@@ -189,6 +189,7 @@ void Stage::synchronise_stress() {
       context_.state.spent.friction += sums.friction;
       context_.state.spent.breaking += sums.breaking;
       context_.state.spent.damping += sums.damping;
+      context_.state.spent.plastic += sums.plastic;
       if (sums.hands_over) // what is handed over now is looked for where things stand now
         work.contact.fragments_due = work.contact.due = true;
     }
