@@ -83,6 +83,7 @@ struct Plastically {
   PlasticTets tets;
   TetStiffness stiffness;
   const PlasticBound* bounds; // two of each law
+  const RockLimit* peaks;     // of each law
   int count;                  // of them
 
   CDEM_INLINE void operator()(std::int64_t batch, const StressBatch& before, const Oct& six_volume,
@@ -91,19 +92,20 @@ struct Plastically {
     const Oct p = third * (r.xx + r.yy + r.zz), x = r.xx - p, y = r.yy - p, z = r.zz - p;
     const Oct j2 = 0.5 * (x * x + y * y + z * z) + r.xy * r.xy + r.yz * r.yz + r.xz * r.xz;
     const Oct zero{};
-    bool any = false;
+    unsigned near = 0; // a bit for each tet that may be beyond
     for (int i = 0; i < count; ++i) {
       const PlasticBound& b = bounds[i];
       const Oct shear = b.strength - b.slope * p, tension = b.tensile - p;
       const auto beyond = (shear <= zero) | (b.reach * j2 >= shear * shear) | (tension <= zero) |
                           ((4 * third) * j2 >= tension * tension);
       for (int lane = 0; lane < lanes; ++lane)
-        any = any || beyond[lane] != 0;
+        near |= beyond[lane] != 0 ? 1u << lane : 0u;
     }
-    if (any)
-      yield(batch, before, six_volume, r);
+    if (near != 0)
+      yield(near, batch, before, six_volume, r);
   }
-  void yield(std::int64_t batch, const StressBatch& before, const Oct& six_volume, Symmetric& r) const;
+  void yield(unsigned near, std::int64_t batch, const StressBatch& before, const Oct& six_volume,
+             Symmetric& r) const;
 };
 
 CDEM_INLINE Oct* component_of(Symmetric& s, int c) {
@@ -111,19 +113,22 @@ CDEM_INLINE Oct* component_of(Symmetric& s, int c) {
   return all[c];
 }
 
-void Plastically::yield(std::int64_t batch, const StressBatch& before, const Oct& six_volume,
+void Plastically::yield(unsigned near, std::int64_t batch, const StressBatch& before, const Oct& six_volume,
                         Symmetric& r) const {
   const std::int8_t* const law = tets.law + batch * lanes;
   for (int lane = 0; lane < lanes; ++lane) {
-    if (law[lane] < 0)
+    if (law[lane] < 0 || (near >> lane & 1u) == 0)
       continue;
     double from[6], stress[6];
     for (int c = 0; c < 6; ++c) {
       from[c] = before.component[c][lane];
       stress[c] = (*component_of(r, c))[lane];
     }
-    const double density = plastic_step(tets.laws->laws[law[lane]], stiffness.lambda, 0.5 * stiffness.two_g,
-                                        from, stress, tets.strain[batch].strain[lane]);
+    double& strain = tets.strain[batch].strain[lane];
+    const Plasticity& rock = tets.laws->laws[law[lane]];
+    const bool softens = rock.softening_strain > 0 && strain > 0;
+    const double density = plastic_step(softens ? limit_at(rock, strain) : peaks[law[lane]], stiffness.lambda,
+                                        0.5 * stiffness.two_g, from, stress, strain);
     *tets.work += density * six_volume[lane] / 6;
     for (int c = 0; c < 6; ++c)
       (*component_of(r, c))[lane] = stress[c];
@@ -250,13 +255,17 @@ double finite_volume_forces(const MeshBatch* batches, std::int64_t count, int la
                             const PlasticTets& plastic, StressBatch* stress, Node* force, ReadAhead& ahead) {
   if (plastic.laws && dt > 0) {
     thread_local std::vector<PlasticBound> bound;
+    thread_local std::vector<RockLimit> peaks;
     bound.clear();
+    peaks.clear();
+    for (const Plasticity& law : plastic.laws->laws)
+      peaks.push_back(limit_at(law, 0));
     for (const Plasticity& law : plastic.laws->laws)
       for (const PlasticBound& one : bounds(law))
         bound.push_back(one);
     return simd::best<plastic_kernel>(
         batches, count, last_lanes, position, velocity, jumps, dt, stiffness, damping, stress, force, ahead,
-        Plastically{plastic, stiffness, bound.data(), static_cast<int>(bound.size())});
+        Plastically{plastic, stiffness, bound.data(), peaks.data(), static_cast<int>(bound.size())});
   }
   return simd::best<finite_volume_kernel>(batches, count, last_lanes, position, velocity, jumps, dt,
                                           stiffness, damping, stress, force, ahead);

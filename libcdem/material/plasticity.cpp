@@ -20,6 +20,7 @@ using Three = std::array<double, 3>;
 
 struct Plane {
   Three a{}, b{}; // gradients of f and of the flow
+  Three back{};   // C b
   double limit = 0;
 };
 
@@ -92,6 +93,8 @@ public:
     tensile_ = std::min(rock.tensile_strength, tip);
     planes_ = {shear_plane(0, 2, rock), tension_plane(0, tensile_), shear_plane(0, 1, rock),
                shear_plane(1, 2, rock), tension_plane(1, tensile_), tension_plane(2, tensile_)};
+    for (Plane& plane : planes_)
+      plane.back = hooke(plane.b, lambda, shear);
     tolerance_ = rounding * (std::abs(trial[0]) + std::abs(trial[2]) + rock.cohesion + tensile_);
   }
 
@@ -106,20 +109,20 @@ public:
     for (int i = 0; i < n; ++i) {
       const Plane& p = planes_[active[i]];
       for (int j = 0; j < n; ++j)
-        m[i][j] = dot(p.a, hooke(planes_[active[j]].b, lambda_, shear_));
+        m[i][j] = dot(p.a, planes_[active[j]].back);
       load[i] = dot(p.a, trial_) - p.limit;
     }
     if (!solve(n, m, load))
       return false;
-    Three strain{};
+    Three strain{}, s = trial_;
     for (int i = 0; i < n; ++i) {
       if (load[i] * shear_ < -tolerance_)
         return false;
-      for (int k = 0; k < 3; ++k)
+      for (int k = 0; k < 3; ++k) {
         strain[k] += load[i] * planes_[active[i]].b[k];
+        s[k] -= load[i] * planes_[active[i]].back[k];
+      }
     }
-    const Three back = hooke(strain, lambda_, shear_);
-    const Three s{trial_[0] - back[0], trial_[1] - back[1], trial_[2] - back[2]};
     if (!holds(s))
       return false;
     result = {s, strain, n};
@@ -168,10 +171,14 @@ PlasticReturn return_to_limit(const Three& trial, double lambda, double shear, c
   result.stress = trial;
   if (returning.holds(trial))
     return result;
-  constexpr int n = 6;
-  for (int i = 0; i < n; ++i)
-    if (returning.to(&i, 1, result))
+  // The usual ones first. Of single planes only those of s1 and s3, and of s1, can be: the others are violated less.
+  for (const int one : {0, 1})
+    if (returning.to(&one, 1, result))
       return result;
+  for (const auto& two : {std::array{0, 1}, std::array{0, 2}, std::array{0, 3}, std::array{1, 4}})
+    if (returning.to(two.data(), 2, result))
+      return result;
+  constexpr int n = 6;
   for (int i = 0; i < n; ++i)
     for (int j = i + 1; j < n; ++j)
       if (const int two[] = {i, j}; returning.to(two, 2, result))
@@ -184,13 +191,13 @@ PlasticReturn return_to_limit(const Three& trial, double lambda, double shear, c
   return returning.to_tip();
 }
 
-double plastic_step(const Plasticity& rock, double lambda, double shear, const double (&before)[6],
+double plastic_step(const RockLimit& rock, double lambda, double shear, const double (&before)[6],
                     double (&stress)[6], double& plastic_strain) {
   geom::Mat3 trial;
   trial << stress[0], stress[3], stress[5], stress[3], stress[1], stress[4], stress[5], stress[4], stress[2];
   const Eigen::SelfAdjointEigenSolver<geom::Mat3> solver(trial);
   const geom::Vec3& s = solver.eigenvalues(); // ascending
-  const PlasticReturn r = return_to_limit({s[2], s[1], s[0]}, lambda, shear, limit_at(rock, plastic_strain));
+  const PlasticReturn r = return_to_limit({s[2], s[1], s[0]}, lambda, shear, rock);
   if (r.planes == 0)
     return 0;
   const geom::Mat3& axes = solver.eigenvectors();

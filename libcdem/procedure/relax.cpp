@@ -85,7 +85,7 @@ class Stability {
 public:
   Stability(const Model& model, const State& state, const std::vector<double>& mass,
             std::int64_t moving_steps)
-      : model_(model), state_(state), watch_(slowest_period(model, mass), moving_steps),
+      : model_(model), state_(state), watch_(slowest_period(model, mass), model.length, moving_steps),
         displacement_(state.displacement) {}
 
   void look(std::int64_t step, double residual) {

@@ -10,6 +10,7 @@ constexpr double makes_motion = 1.5; // times the displacement of half the steps
 constexpr double stored_part = 0.2;  // of the work
 constexpr double stays_out = 0.5;    // of the residual of the third quarter, in the last one
 constexpr double periods = 4;
+constexpr double far = 0.01; // of the model's length
 // Fewer looks have no quarters.
 constexpr std::size_t least_looks = 4;
 
@@ -36,7 +37,7 @@ void StabilityWatch::add(const StabilityLook& look) {
 
 bool StabilityWatch::runs_away() const {
   const std::size_t n = looks_.size();
-  if (n < least_looks || static_cast<double>(looks_.back().step - waiting_) < periods * period_)
+  if (n < least_looks)
     return false;
   const std::size_t at_c = n - 1, at_a = (n - 1) / 2, at_b = (at_a + at_c) / 2;
   const StabilityLook &a = looks_[at_a], &b = looks_[at_b], &c = looks_[at_c];
@@ -47,6 +48,8 @@ bool StabilityWatch::runs_away() const {
       sum += looks_[i].residual;
     return sum / static_cast<double>(last - first);
   };
+  if (static_cast<double>(c.step - waiting_) < periods * period_ && c.path - a.path < far * length_)
+    return false;
   const double last_quarter = static_cast<double>(c.step - b.step),
                third_quarter = static_cast<double>(b.step - a.step);
   return (c.path - b.path) / last_quarter >= keeps_speed * (b.path - a.path) / third_quarter &&

@@ -8,7 +8,8 @@
 //   D_c >= 1.5 D_a                    and this motion makes the displacement, not the first settlement;
 //   S_c - S_a <= 0.2 (W_c - W_a)      the work of the loads is not stored: nothing holds against the motion,
 //   mean R of (b, c] >= 0.5 mean R of (a, b]     the forces out of balance do not die away,
-//   n >= 4 T                          the slowest wave has crossed the model and come back, several times.
+//   n >= 4 T  or  D_c - D_a >= L / 100     the slowest wave has crossed the model and come back, several times; or it has
+//                                          moved further than rock and soil do before they fail.
 //
 // The last line is needed: in the first tenth of its first swing an elastic body does all the others. T is the period of
 // a rod as long as the model L, held at one end, with the masses m of the relaxation (kg, for a unit step), volume V:
@@ -36,7 +37,9 @@ struct StabilityLook {
 class StabilityWatch {
 public:
   // waiting_steps: looks before that step are not added (supports that are moved have arrived).
-  StabilityWatch(double period, std::int64_t waiting_steps) : period_(period), waiting_(waiting_steps) {}
+  // length: L, m.
+  StabilityWatch(double period, double length, std::int64_t waiting_steps)
+      : period_(period), length_(length), waiting_(waiting_steps) {}
 
   void add(const StabilityLook&);
   bool failing() const { return suspicious_ >= 3; }
@@ -50,7 +53,7 @@ public:
 private:
   bool runs_away() const;
 
-  double period_;
+  double period_, length_;
   std::int64_t waiting_;
   int suspicious_ = 0; // looks in a row
   std::vector<StabilityLook> looks_;

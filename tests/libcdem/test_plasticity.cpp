@@ -235,7 +235,7 @@ TEST_CASE("strength falls linearly over the plastic strain", "[plasticity]") {
 
 TEST_CASE("a turned stress returns to the turned one, with the same work", "[plasticity]") {
   std::mt19937 random(11);
-  const Plasticity rock = soil(25, 5);
+  const cdem::RockLimit rock = cdem::limit_at(soil(25, 5), 0);
   for (int i = 0; i < 50; ++i) {
     const Mat3 q = rotation(Vec3::Random().normalized(), 1.0 + i);
     const Three t = random_trial(random, 4e5);

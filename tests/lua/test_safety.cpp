@@ -34,7 +34,7 @@ TEST_CASE("a relaxation answers, and the script goes on", "[lua][safety]") {
                        "m:picture{ file = 'failing.png' }\nm:save{ file = 'failing.vtu' }\n"
                        "m = incline(35)\nr = m:relax{ residual = 1e-5 }\nassert(r.verdict == 'stable')\n"
                        "m = incline(20)\nr = m:relax{ max_steps = 20, trial = 'short' }\n"
-                       "assert(r.verdict == 'undecided' and r.trial == 'short')\ncdem.report{}");
+                       "assert(r.verdict == 'undecided' and r.trial == 'short')\ncdem.report{ { name = 'a', value = 1 } }");
   script.run();
   CHECK(script.wrote("failing.png"));
   CHECK(script.wrote("failing.vtu"));
