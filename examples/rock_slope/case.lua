@@ -7,7 +7,8 @@ local cdem = require "cdem"
 local spacing = cdem.parameter{ name = "spacing", default = 4, range = {1, 10}, unit = "m", doc = "of all joint sets" }
 local phi = cdem.parameter{ name = "friction_angle", default = 40, range = {5, 70}, unit = "degrees", doc = "of the joints" }
 local runout = cdem.parameter{ name = "runout", default = 6, range = {0, 60}, unit = "s", doc = "of the slide; 0: none" }
-local dip, face, height, g = 35, 65, 20, 9.81 -- degrees, degrees, m, m/s2
+local tolerance = cdem.parameter{ name = "tolerance", default = 0.02, range = {0.001, 0.5}, doc = "of the factor of safety" }
+local dip, face, g = 35, 65, 9.81 -- degrees, degrees, m/s2
 
 -- Ground of 60 x 8 x 32 m. The excavation's outline is glued: it is no joint.
 local tangent = math.tan(math.rad(face))
@@ -40,8 +41,8 @@ cdem.log("after the excavation the slope is " .. excavated.verdict)
 local function draw(m, name, title)
   m:picture{ file = name, up = "z", colour = "displacement.magnitude", deformation = 1, broken_bonds = false, title = title }
 end
-local safety = cdem.factor_of_safety{ model = model, reduce = {"joints"}, lower = 0.8, upper = 2, tolerance = 0.02,
-                                      picture = "mechanism.png" }
+local safety = cdem.factor_of_safety{ model = model, reduce = {"joints"}, lower = 0.8, upper = 2, tolerance = tolerance,
+                                      residual = 1e-4, picture = "mechanism.png" }
 local figures = { { name = "factor_of_safety", value = safety.factor, kind = "formula", tolerance = 0.03,
                     reference = math.tan(math.rad(phi)) / math.tan(math.rad(dip)), source = "tan(phi) / tan(dip)" } }
 
