@@ -7,6 +7,7 @@
 #include "libgeom/core/portable.hpp"
 #include "libgeom/mesh/parts.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <set>
 
@@ -148,6 +149,28 @@ void require_zones(const BodySpec& body) {
                            "leave element = \"small_strain\" out");
 }
 
+void require_plasticity(const BodySpec& body) {
+  if (body.plasticity.empty())
+    return;
+  for (const Plasticity& law : body.plasticity.laws)
+    validate(law);
+  if (body.element == Element::small_strain)
+    throw geom::InputError("plasticity", "of a body of small strain", "of a body that moves far",
+                           "leave element = \"small_strain\" out");
+  if (body.bonding.is_cohesive())
+    throw geom::InputError("plasticity", "of a mesh with cohesive faces",
+                           "of a mesh without a joint, or of blocks",
+                           "leave the joint out, or the plasticity");
+  for (const auto& [region, law] : body.plasticity.regions) {
+    bool there = false;
+    for (const geom::TetMesh& mesh : body.meshes)
+      there = there || std::find(mesh.region.begin(), mesh.region.end(), region) != mesh.region.end();
+    if (!there)
+      throw geom::InputError("region_plasticity", std::to_string(region + 1),
+                             "the number of a region of its mesh");
+  }
+}
+
 // Laws of the body's joint sets and named cuts, and that of its glued faces.
 void add_set_joints(Model& frame, int index, const BodySpec& body) {
   const auto add = [&](const Joint& joint) {
@@ -209,9 +232,11 @@ Model first_model(const ModelSpec& spec) {
     else
       require_no_rate_effect(body.joint, "blocks of body \"" + body.name + "\"");
     require_zones(body);
+    require_plasticity(body);
     const int index = static_cast<int>(frame.bodies.size());
     frame.bodies.push_back(
         {body.name, body.material, body.joint, body.bonding, body.element, body.zone_size, body.region_laws});
+    frame.bodies.back().plasticity = body.plasticity;
     const std::size_t before = meshes.size();
     for (const geom::TetMesh& mesh : body.meshes)
       for (geom::TetMesh& part : geom::parts(mesh))

@@ -37,9 +37,28 @@ Simulation::Simulation(const ModelSpec& spec, int threads, std::shared_ptr<Obser
   impl_->log.unmet = pairs_without_interface(spec, impl_->model);
 }
 
+Simulation::Simulation(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
 Simulation::~Simulation() = default;
 Simulation::Simulation(Simulation&&) noexcept = default;
 Simulation& Simulation::operator=(Simulation&&) noexcept = default;
+
+Simulation Simulation::copy() const {
+  auto other = std::make_unique<Impl>();
+  other->model = impl_->model;
+  other->state = impl_->state;
+  other->last_good = impl_->state;
+  other->conditions = impl_->conditions;
+  other->log.unmet = impl_->log.unmet;
+  other->observer = impl_->observer;
+  other->threads = impl_->threads;
+  other->last_residual = impl_->last_residual;
+  other->built = impl_->built;
+  return Simulation(std::move(other));
+}
+
+void Simulation::reduce_strength(double factor, const StrengthKinds& kinds) {
+  cdem::reduce_strength(impl_->model, factor, kinds);
+}
 
 void Simulation::fix(const Fix& fix) {
   if (fix.displacement)

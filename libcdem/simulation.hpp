@@ -12,6 +12,7 @@
 #include "libcdem/model/element.hpp"
 #include "libcdem/procedure/critical_flow_options.hpp"
 #include "libcdem/procedure/grow_options.hpp"
+#include "libcdem/procedure/reduce_strength.hpp"
 #include "libcdem/procedure/settle_options.hpp"
 #include "libcdem/results/crack_tip.hpp"
 #include "libcdem/results/cracks.hpp"
@@ -57,6 +58,7 @@ struct BodySpec {
   RegionLaws region_laws = {}; // of meshes
   // Of blocks: laws on faces by the joint set or cut that made them; `joint` holds the others.
   std::map<std::string, Joint> set_joints = {};
+  PlasticLaws plasticity = {}; // of a body that moves far; empty: elastic
 };
 
 struct PairSpec {
@@ -92,6 +94,8 @@ public:
   ~Simulation();
   Simulation(Simulation&&) noexcept;
   Simulation& operator=(Simulation&&) noexcept;
+  // Another one in the same state with the same conditions, at its stage 0, without histories. Not in a stage.
+  Simulation copy() const;
 
   // Conditions; each throws geom::InputError when it selects nothing or a value cannot be used.
   void fix(const Fix&);
@@ -121,6 +125,9 @@ public:
   // Bonds whose point is selected are broken from now on (a notch); returns how many. whole_faces: only those of
   // interfaces that are selected with all their points, so that faces which meet the notch at its tip stay bonded.
   std::int64_t unbond(const Selection&, bool whole_faces = false);
+
+  // Divides strengths by a factor (procedure/reduce_strength.hpp).
+  void reduce_strength(double factor, const StrengthKinds&);
 
   // Watches the units (blocks) of a meshed body from now on, in every stage (results/watch.hpp). Returns the watch's
   // number, from 0; a resumed script that makes it again gets the one that was saved.
@@ -238,6 +245,7 @@ public:
 
 private:
   struct Impl;
+  explicit Simulation(std::unique_ptr<Impl>);
   std::unique_ptr<Impl> impl_;
 };
 

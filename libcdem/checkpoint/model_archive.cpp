@@ -18,6 +18,20 @@ void archive(A& a, Elastic& x) {
 }
 
 template <class A>
+void archive(A& a, Plasticity& x) {
+  auto& [cohesion, friction_angle, dilation_angle, tensile_strength, residual_cohesion,
+         residual_friction_angle, residual_tensile_strength, softening_strain] = x;
+  archive_all(a, cohesion, friction_angle, dilation_angle, tensile_strength, residual_cohesion,
+              residual_friction_angle, residual_tensile_strength, softening_strain);
+}
+
+template <class A>
+void archive(A& a, PlasticLaws& x) {
+  auto& [laws, regions, others] = x;
+  archive_all(a, laws, regions, others);
+}
+
+template <class A>
 void archive(A& a, StrengthScatter& x) {
   auto& [modulus, reference_volume, seed] = x;
   archive_all(a, modulus, reference_volume, seed);
@@ -73,8 +87,10 @@ void archive(A& a, Bonding& x) {
 
 template <class A>
 void archive(A& a, Body& x) {
-  auto& [name, material, joint, bonding, element, zone_size, region_laws, set_joint, glued_joint] = x;
-  archive_all(a, name, material, joint, bonding, element, zone_size, region_laws, set_joint, glued_joint);
+  auto& [name, material, joint, bonding, element, zone_size, region_laws, set_joint, glued_joint,
+         plasticity] = x;
+  archive_all(a, name, material, joint, bonding, element, zone_size, region_laws, set_joint, glued_joint,
+              plasticity);
 }
 
 template <class A>
@@ -194,10 +210,10 @@ void archive(A& a, FaceTets& x) {
 template <class A>
 void archive(A& a, MeshData& x) {
   auto& [first_node, first_tet, batches, faces, face_tets, strength, sides, chunks, tet_slot, others,
-         original, region, freed, share_begin, shares, boundary, named] = x;
+         original, region, freed, plastic_law, share_begin, shares, boundary, named] = x;
   static_cast<void>(named); // places for conditions, which come from the script
   archive_all(a, first_node, first_tet, batches, faces, face_tets, strength, sides, chunks, tet_slot, others,
-              original, region, freed, share_begin, shares, boundary);
+              original, region, freed, plastic_law, share_begin, shares, boundary);
 }
 
 template <class A>

@@ -91,6 +91,11 @@ void require_fits(const Model& model, const State& state) {
   require_length("displacement_zero", state.displacement_zero.size(), nodes, true);
   require_length("stress", state.stress.size(), model.mesh.batches.size());
   require_length("viscous_stress", state.viscous_stress.size(), fresh.viscous_stress.size());
+  require_length("plastic_strain", state.plastic_strain.size(), fresh.plastic_strain.size());
+  for (const PlasticStrainBatch& batch : state.plastic_strain)
+    for (const double strain : batch.strain)
+      if (!(strain >= 0))
+        refuse("plastic_strain", std::to_string(strain) + " is out of range");
   require_length("faces", state.faces.size(), model.mesh.faces.size());
   require_length("cohesive", state.cohesive.size(), fresh.cohesive.size());
   require_length("rate_factor", state.rate_factor.size(), fresh.rate_factor.size());

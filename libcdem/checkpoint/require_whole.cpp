@@ -229,6 +229,24 @@ void check_sides(const Model& model, const MeshChunk& chunk) {
   }
 }
 
+// Of plastic bodies each tet has a law of its body.
+void check_plastic(const Model& model) {
+  const MeshData& mesh = model.mesh;
+  const auto is_plastic = [](const Body& body) { return !body.plasticity.empty(); };
+  const bool any = std::any_of(model.bodies.begin(), model.bodies.end(), is_plastic);
+  require_length("mesh.plastic_law", mesh.plastic_law.size(), any ? mesh.batches.size() * lanes : 0);
+  std::int64_t tets = 0; // with a law: no other lane may have one
+  for (int tet = mesh.first_tet; any && tet < static_cast<int>(model.tets.size()); ++tet) {
+    const std::int8_t law = mesh.plastic_law[mesh.tet_slot[tet - mesh.first_tet]];
+    below("mesh.plastic_law", law,
+          model.bodies[model.blocks[model.tet_block[tet]].body].plasticity.laws.size(), -1);
+    tets += law >= 0 ? 1 : 0;
+  }
+  require(std::count_if(mesh.plastic_law.begin(), mesh.plastic_law.end(),
+                        [](std::int8_t law) { return law >= 0; }) == tets,
+          "mesh.plastic_law", tets);
+}
+
 // Of cohesive bodies there is a region for each tet and a mark for each node.
 void check_cohesive(const Model& model) {
   const MeshData& mesh = model.mesh;
@@ -297,6 +315,7 @@ void check_mesh(const Model& model) {
   others.end_at(count(mesh.others.size()));
   sides.end_at(count(mesh.sides.size()));
   check_cohesive(model);
+  check_plastic(model);
   all_below("mesh.shares", mesh.shares,
             mesh.chunks.empty() ? 0 : static_cast<std::size_t>(mesh.chunks.back().partial.end));
   for (std::size_t i = 0; i < mesh.boundary.size(); ++i) {
@@ -413,6 +432,11 @@ void require_whole(const Model& model) {
     below("bodies.glued_joint", body.glued_joint, model.joints.size(), -1);
     for (const auto& [name, joint] : body.set_joint)
       below("bodies.set_joint", joint, model.joints.size());
+  }
+  for (const Body& body : model.bodies) {
+    below("bodies.plasticity", body.plasticity.others, body.plasticity.laws.size(), -1);
+    for (const auto& [region, law] : body.plasticity.regions)
+      below("bodies.plasticity", law, body.plasticity.laws.size());
   }
   check_pairs("pair_joint", model.pair_joint, model);
   for (const Joint& joint : model.joints) // a table without rows is read beyond its end

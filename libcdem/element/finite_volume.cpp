@@ -74,10 +74,72 @@ CDEM_INLINE Vec corner_force(const Symmetric& s, const Vec& c) {
           sixth * (s.xz * c.x + s.yz * c.y + s.zz * c.z)};
 }
 
-CDEM_INLINE double finite_volume_kernel(const MeshBatch* batches, std::int64_t count, int last_lanes,
-                                        const Node* position, const Node* velocity, const JumpBatch* jumps,
-                                        double dt, const TetStiffness& stiffness, const TetDamping& damping,
-                                        StressBatch* stress, Node* force, ReadAhead& ahead) {
+struct Elastically {
+  CDEM_INLINE void operator()(std::int64_t, const StressBatch&, const Oct&, Symmetric&) const {}
+};
+
+// Near the limit tets go one by one.
+struct Plastically {
+  PlasticTets tets;
+  TetStiffness stiffness;
+  const PlasticBound* bounds; // two of each law
+  const RockLimit* peaks;     // of each law
+  int count;                  // of them
+
+  CDEM_INLINE void operator()(std::int64_t batch, const StressBatch& before, const Oct& six_volume,
+                              Symmetric& r) const {
+    constexpr double third = 1.0 / 3;
+    const Oct p = third * (r.xx + r.yy + r.zz), x = r.xx - p, y = r.yy - p, z = r.zz - p;
+    const Oct j2 = 0.5 * (x * x + y * y + z * z) + r.xy * r.xy + r.yz * r.yz + r.xz * r.xz;
+    const Oct zero{};
+    unsigned near = 0; // a bit for each tet that may be beyond
+    for (int i = 0; i < count; ++i) {
+      const PlasticBound& b = bounds[i];
+      const Oct shear = b.strength - b.slope * p, tension = b.tensile - p;
+      const auto beyond = (shear <= zero) | (b.reach * j2 >= shear * shear) | (tension <= zero) |
+                          ((4 * third) * j2 >= tension * tension);
+      for (int lane = 0; lane < lanes; ++lane)
+        near |= beyond[lane] != 0 ? 1u << lane : 0u;
+    }
+    if (near != 0)
+      yield(near, batch, before, six_volume, r);
+  }
+  void yield(unsigned near, std::int64_t batch, const StressBatch& before, const Oct& six_volume,
+             Symmetric& r) const;
+};
+
+CDEM_INLINE Oct* component_of(Symmetric& s, int c) {
+  Oct* const all[6] = {&s.xx, &s.yy, &s.zz, &s.xy, &s.yz, &s.xz};
+  return all[c];
+}
+
+void Plastically::yield(unsigned near, std::int64_t batch, const StressBatch& before, const Oct& six_volume,
+                        Symmetric& r) const {
+  const std::int8_t* const law = tets.law + batch * lanes;
+  for (int lane = 0; lane < lanes; ++lane) {
+    if (law[lane] < 0 || (near >> lane & 1u) == 0)
+      continue;
+    double from[6], stress[6];
+    for (int c = 0; c < 6; ++c) {
+      from[c] = before.component[c][lane];
+      stress[c] = (*component_of(r, c))[lane];
+    }
+    double& strain = tets.strain[batch].strain[lane];
+    const Plasticity& rock = tets.laws->laws[law[lane]];
+    const bool softens = rock.softening_strain > 0 && strain > 0;
+    const double density = plastic_step(softens ? limit_at(rock, strain) : peaks[law[lane]], stiffness.lambda,
+                                        0.5 * stiffness.two_g, from, stress, strain);
+    *tets.work += density * six_volume[lane] / 6;
+    for (int c = 0; c < 6; ++c)
+      (*component_of(r, c))[lane] = stress[c];
+  }
+}
+
+template <class Yield>
+CDEM_INLINE double tets_kernel(const MeshBatch* batches, std::int64_t count, int last_lanes,
+                               const Node* position, const Node* velocity, const JumpBatch* jumps, double dt,
+                               const TetStiffness& stiffness, const TetDamping& damping, StressBatch* stress,
+                               Node* force, ReadAhead& ahead, const Yield& yield) {
   const double rate = dt > 0 ? damping.beta / dt : 0;
   Oct damped{};
   const Oct half_dt = Oct{} + 0.5 * dt;
@@ -133,6 +195,7 @@ CDEM_INLINE double finite_volume_kernel(const MeshBatch* batches, std::int64_t c
     const Symmetric half_increment = scaled(0.5, increment);
     StressBatch& kept_stress = stress[i];
     Symmetric r = plus(turned(turn, plus(load(kept_stress), half_increment)), half_increment);
+    yield(i, kept_stress, dot(m1, middle.c1), r);
     store(kept_stress, r);
     if (damping.viscous) {
       StressBatch& kept = damping.viscous[i];
@@ -163,6 +226,23 @@ CDEM_INLINE double finite_volume_kernel(const MeshBatch* batches, std::int64_t c
   return sum;
 }
 
+CDEM_INLINE double finite_volume_kernel(const MeshBatch* batches, std::int64_t count, int last_lanes,
+                                        const Node* position, const Node* velocity, const JumpBatch* jumps,
+                                        double dt, const TetStiffness& stiffness, const TetDamping& damping,
+                                        StressBatch* stress, Node* force, ReadAhead& ahead) {
+  return tets_kernel(batches, count, last_lanes, position, velocity, jumps, dt, stiffness, damping, stress,
+                     force, ahead, Elastically{});
+}
+
+CDEM_INLINE double plastic_kernel(const MeshBatch* batches, std::int64_t count, int last_lanes,
+                                  const Node* position, const Node* velocity, const JumpBatch* jumps,
+                                  double dt, const TetStiffness& stiffness, const TetDamping& damping,
+                                  StressBatch* stress, Node* force, ReadAhead& ahead,
+                                  const Plastically& plastically) {
+  return tets_kernel(batches, count, last_lanes, position, velocity, jumps, dt, stiffness, damping, stress,
+                     force, ahead, plastically);
+}
+
 } // namespace
 
 TetStiffness tet_stiffness(const Elastic& material) {
@@ -171,8 +251,22 @@ TetStiffness tet_stiffness(const Elastic& material) {
 
 double finite_volume_forces(const MeshBatch* batches, std::int64_t count, int last_lanes,
                             const Node* position, const Node* velocity, const JumpBatch* jumps, double dt,
-                            const TetStiffness& stiffness, const TetDamping& damping, StressBatch* stress,
-                            Node* force, ReadAhead& ahead) {
+                            const TetStiffness& stiffness, const TetDamping& damping,
+                            const PlasticTets& plastic, StressBatch* stress, Node* force, ReadAhead& ahead) {
+  if (plastic.laws && dt > 0) {
+    thread_local std::vector<PlasticBound> bound;
+    thread_local std::vector<RockLimit> peaks;
+    bound.clear();
+    peaks.clear();
+    for (const Plasticity& law : plastic.laws->laws)
+      peaks.push_back(limit_at(law, 0));
+    for (const Plasticity& law : plastic.laws->laws)
+      for (const PlasticBound& one : bounds(law))
+        bound.push_back(one);
+    return simd::best<plastic_kernel>(
+        batches, count, last_lanes, position, velocity, jumps, dt, stiffness, damping, stress, force, ahead,
+        Plastically{plastic, stiffness, bound.data(), peaks.data(), static_cast<int>(bound.size())});
+  }
   return simd::best<finite_volume_kernel>(batches, count, last_lanes, position, velocity, jumps, dt,
                                           stiffness, damping, stress, force, ahead);
 }

@@ -18,6 +18,7 @@
 #pragma once
 
 #include "libcdem/material/elastic.hpp"
+#include "libcdem/material/plasticity.hpp"
 #include "libcdem/model/mesh.hpp"
 #include "libcdem/parallel/read_ahead.hpp"
 #include "libcdem/state/stress_batch.hpp"
@@ -35,6 +36,15 @@ struct TetDamping {
   StressBatch* viscous = nullptr; // Pa, of the last step; none: no damping
 };
 
+// Plasticity of a run of batches (material/plasticity.hpp): the stress that Hooke's law leads to is returned to the limit
+// before the forces are made of it. Where no tet of a batch comes near its limit this costs a comparison.
+struct PlasticTets {
+  const PlasticLaws* laws = nullptr;    // null: elastic
+  const std::int8_t* law = nullptr;     // into laws, batch * lanes + lane; -1: elastic
+  PlasticStrainBatch* strain = nullptr; // advanced
+  double* work = nullptr;               // J, plastic work of this step is added
+};
+
 // Symmetric part of dt J above, summed over the freed faces of eight tets, m3: xx yy zz xy yz xz.
 struct alignas(64) JumpBatch {
   double component[6][lanes];
@@ -46,7 +56,7 @@ struct alignas(64) JumpBatch {
 // of what is to be read ahead with each batch. jumps: null where no face is freed.
 double finite_volume_forces(const MeshBatch* batches, std::int64_t count, int last_lanes,
                             const Node* position, const Node* velocity, const JumpBatch* jumps, double dt,
-                            const TetStiffness&, const TetDamping&, StressBatch* stress, Node* force,
-                            ReadAhead&);
+                            const TetStiffness&, const TetDamping&, const PlasticTets&, StressBatch* stress,
+                            Node* force, ReadAhead&);
 
 } // namespace cdem

@@ -214,9 +214,11 @@ private:
       for (int tet = now.tet_begin; tet < now.tet_end; ++tet) {
         const int source = successors_[b].whole ? before.tet_begin + (tet - now.tet_begin)
                                                 : tet_at(old_, before, centre_of(r.model, tet));
-        if (now.meshed)
+        if (now.meshed) {
           set_mesh_stress(r.model, r.state, tet, mesh_stress(old_, from_, source));
-        else
+          if (!from_.plastic_strain.empty())
+            plastic_strain_of(r.model, r.state, tet) = plastic_strain_of(old_, from_, source);
+        } else
           r.state.initial_stress[tet] = from_.initial_stress[source];
       }
     }

@@ -98,6 +98,8 @@ struct MeshData {
   // Empty without cohesive bodies.
   std::vector<int> region; // (n mesh tets) of the mesh they come from
   std::vector<char> freed; // (n mesh nodes) 1: faces around it may have parted
+  // Into the body's PlasticLaws, batch * lanes + lane; -1: elastic. Empty without plastic bodies.
+  std::vector<std::int8_t> plastic_law;
   // Which partial forces add up to that of a node that several chunks touch, in order: into `shares`.
   std::vector<int> share_begin, shares;
   std::vector<BoundaryTriangle> boundary;

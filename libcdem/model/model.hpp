@@ -3,6 +3,7 @@
 
 #include "libcdem/joint/joint.hpp"
 #include "libcdem/material/elastic.hpp"
+#include "libcdem/material/plasticity.hpp"
 #include "libcdem/model/bonding.hpp"
 #include "libcdem/model/contact_surface.hpp"
 #include "libcdem/model/element.hpp"
@@ -30,7 +31,8 @@ struct Body {
   RegionLaws region_laws = {}; // of a meshed body
   // Index into Model::joints of the law on faces that a joint set or cut of this name made; others have `joint`.
   std::map<std::string, int> set_joint = {};
-  int glued_joint = -1; // the same for glued faces; -1: it has none
+  int glued_joint = -1;        // the same for glued faces; -1: it has none
+  PlasticLaws plasticity = {}; // of a body that moves far; empty: it is elastic
 
   bool has_rate_effect() const {
     return joint.rate.on() || std::any_of(region_laws.joints.begin(), region_laws.joints.end(),

@@ -4,7 +4,9 @@
 #include "libcdem/integrate/move_held_nodes.hpp"
 #include "libcdem/integrate/move_rigid.hpp"
 #include "libcdem/integrate/row_sums.hpp"
+#include "libcdem/procedure/stability.hpp"
 #include "libcdem/results/energy.hpp"
+#include "libcdem/step/errors.hpp"
 #include "libcdem/step/synchronised_view.hpp"
 #include "libgeom/core/error.hpp"
 
@@ -78,6 +80,50 @@ void require_held(const Model& model, const ResolvedConditions& r) {
     }
 }
 
+// Looks every watch_every steps, where the state has just been caught up.
+class Stability {
+public:
+  Stability(const Model& model, const State& state, const std::vector<double>& mass,
+            std::int64_t moving_steps)
+      : model_(model), state_(state), watch_(slowest_period(model, mass), model.length, moving_steps),
+        displacement_(state.displacement) {}
+
+  void look(std::int64_t step, double residual) {
+    const EnergyLedger ledger = energy(model_, state_);
+    fastest_ = fastest(displacement_, state_.displacement);
+    displacement_ = state_.displacement;
+    path_ += fastest_.displacement;
+    watch_.add({step, path_, residual, ledger.external, ledger.elastic + ledger.springs});
+  }
+  void renumbered() { displacement_ = state_.displacement; }
+  const StabilityWatch& watch() const { return watch_; }
+  void describe(RelaxResult& result) const {
+    result.moving = fastest_.displacement;
+    result.moving_block = model_.blocks[block_of(model_, fastest_.node)].id;
+    result.moving_place = model_.node_position[fastest_.node];
+  }
+
+  void add_to(std::vector<double>& loop_state) const {
+    loop_state.insert(loop_state.end(), {path_, static_cast<double>(fastest_.node), fastest_.displacement});
+    watch_.add_to(loop_state);
+  }
+  void take(const std::vector<double>& loop_state, std::size_t from) {
+    path_ = loop_state.at(from);
+    const double node = loop_state.at(from + 1);
+    const bool there = node >= 0 && node < static_cast<double>(displacement_.size());
+    fastest_ = {there ? static_cast<int>(node) : 0, loop_state.at(from + 2)};
+    watch_.take(loop_state, from + 3);
+  }
+
+private:
+  const Model& model_;
+  const State& state_;
+  StabilityWatch watch_;
+  std::vector<Node> displacement_; // m, at the last look (n_nodes)
+  double path_ = 0;                // m, of the fastest node
+  Fastest fastest_;
+};
+
 void stop(State& state) {
   std::fill(state.velocity.begin(), state.velocity.end(), Node{});
   for (RigidState& rigid : state.rigid)
@@ -129,7 +175,12 @@ RelaxResult relax(const StageContext& context, const RelaxOptions& options, cons
   lead_supports(state, stage.work.resolved, stage.step);
   const int moving_steps = stage.work.resolved.has_target ? support_steps : 0;
 
+  // Without supports nothing could hold the model: a mistake, that ends with an error.
+  const bool judges = !stage.work.resolved.held.empty();
+  Stability stability(context.model, state, mass, moving_steps);
+  bool failing = false;
   Stage::StepReport report;
+  report.goals.note = options.note;
   report.goals.residual_goal = options.residual;
   report.goals.max_steps = options.max_steps;
   bool forces_known = stage.step > 0; // of the step before
@@ -142,59 +193,90 @@ RelaxResult relax(const StageContext& context, const RelaxOptions& options, cons
     settled = static_cast<int>(from->loop_state.at(3));
     report.sums.kinetic = from->loop_state.at(4);
     forces_known = from->loop_state.at(5) != 0;
+    stability.take(from->loop_state, 6);
   }
+  const auto loop_state = [&] {
+    std::vector<double> numbers{lambda,
+                                damping,
+                                largest_reaction2,
+                                static_cast<double>(settled),
+                                report.sums.kinetic,
+                                forces_known ? 1.0 : 0.0};
+    stability.add_to(numbers);
+    return numbers;
+  };
+  RelaxResult result;
+  const auto step = [&] {
+    const bool freed = options.breaking && stage.free_nodes();
+    if (freed) {
+      mass = fictitious_masses(context.model);
+      previous_force.assign(mass.size(), {});
+      forces_known = false;
+      stability.renumbered();
+    }
+    if (freed || stage.can_be_left())
+      stage.keep_restart_point(loop_state(), previous_force);
+    if (freed || stage.step == moving_steps)
+      lead_supports(state, stage.work.resolved, stage.step);
+    stage.update_contacts();
+    const auto move = [&](Range range, const Node* force, NodeSums& sums) {
+      const auto nodes = [&](Range part) {
+        return moving_nodes(state, stage.work.acting(), mass, part, force + (part.begin - range.begin));
+      };
+      each_node(
+          stage.work.resolved, range,
+          [&](Range part) { relax_nodes(nodes(part), damping, previous_force.data() + part.begin, sums); },
+          [&](const HeldNode& h) {
+            relax_held_node(nodes({h.node, h.node + 1}), h, damping, previous_force[h.node], sums);
+          });
+    };
+    report.sums = stage.advance(options.breaking, move, [&](int rigid, NodeSums& sums) {
+      hold_rigid(context.model, state, stage.work.acting(), rigid, sums);
+    });
+    stage.end_step(1); // velocities are lengths per step
+    largest_reaction2 = std::max(largest_reaction2, report.sums.reaction2);
+    report.sums.reaction2 = std::max(report.sums.reaction2, reaction_floor2 * largest_reaction2);
+    report.residual = relative_residual(report.sums);
+    stage.watch(report);
+    if (judges && stage.step % watch_every == 0) {
+      stability.look(stage.step, report.residual);
+      failing = stability.watch().failing();
+    }
+
+    if (report.sums.inertia > 0 && (forces_known || stage.step <= 1)) {
+      const double quotient = std::max(0.0, report.sums.stiffness / report.sums.inertia);
+      lambda += (stage.step < 3 ? 1.0 : smoothing) * (quotient - lambda);
+      damping = std::min(2 * std::sqrt(lambda), most_damping);
+    }
+    forces_known = true;
+    const bool balanced =
+        report.residual <= options.residual && stage.broken_in_step() == 0 && stage.step > moving_steps;
+    settled = balanced ? settled + 1 : 0;
+    if (options.callback && options.callback_every > 0 && stage.step % options.callback_every == 0) {
+      const SynchronisedView view(stage); // what it reads is of one moment
+      options.callback();
+    }
+  };
   {
     const AtRest at_rest{stage, state, context.last_good, report.sums};
-    while (stage.step < options.max_steps && settled < settled_steps) {
-      const bool freed = options.breaking && stage.free_nodes();
-      if (freed) {
-        mass = fictitious_masses(context.model);
-        previous_force.assign(mass.size(), {});
-        forces_known = false;
-      }
-      if (freed || stage.can_be_left())
-        stage.keep_restart_point({lambda, damping, largest_reaction2, static_cast<double>(settled),
-                                  report.sums.kinetic, forces_known ? 1.0 : 0.0},
-                                 previous_force);
-      if (freed || stage.step == moving_steps)
-        lead_supports(state, stage.work.resolved, stage.step);
-      stage.update_contacts();
-      const auto move = [&](Range range, const Node* force, NodeSums& sums) {
-        const auto nodes = [&](Range part) {
-          return moving_nodes(state, stage.work.acting(), mass, part, force + (part.begin - range.begin));
-        };
-        each_node(
-            stage.work.resolved, range,
-            [&](Range part) { relax_nodes(nodes(part), damping, previous_force.data() + part.begin, sums); },
-            [&](const HeldNode& h) {
-              relax_held_node(nodes({h.node, h.node + 1}), h, damping, previous_force[h.node], sums);
-            });
-      };
-      report.sums = stage.advance(options.breaking, move, [&](int rigid, NodeSums& sums) {
-        hold_rigid(context.model, state, stage.work.acting(), rigid, sums);
-      });
-      stage.end_step(1); // velocities are lengths per step
-      largest_reaction2 = std::max(largest_reaction2, report.sums.reaction2);
-      report.sums.reaction2 = std::max(report.sums.reaction2, reaction_floor2 * largest_reaction2);
-      report.residual = relative_residual(report.sums);
-      stage.watch(report);
-
-      if (report.sums.inertia > 0 && (forces_known || stage.step <= 1)) {
-        const double quotient = std::max(0.0, report.sums.stiffness / report.sums.inertia);
-        lambda += (stage.step < 3 ? 1.0 : smoothing) * (quotient - lambda);
-        damping = std::min(2 * std::sqrt(lambda), most_damping);
-      }
-      forces_known = true;
-      const bool balanced =
-          report.residual <= options.residual && stage.broken_in_step() == 0 && stage.step > moving_steps;
-      settled = balanced ? settled + 1 : 0;
-      if (options.callback && options.callback_every > 0 && stage.step % options.callback_every == 0) {
-        const SynchronisedView view(stage); // what it reads is of one moment
-        options.callback();
-      }
+    try {
+      while (stage.step < options.max_steps && settled < settled_steps &&
+             !(failing && options.stop_on_failure))
+        step();
+    } catch (const SolutionError&) {
+      if (!options.stop_on_failure || !stability.watch().suspicious())
+        throw;
+      // It ran too far between two looks: what is kept is the last one.
+      state = context.last_good;
+      stage.work.strain_step = 0;
+      failing = true;
     }
   }
-  return {stage.finish(report), settled >= settled_steps};
+  static_cast<StageResult&>(result) = stage.finish(report);
+  result.converged = settled >= settled_steps;
+  result.verdict = result.converged ? Verdict::stable : failing ? Verdict::failing : Verdict::undecided;
+  stability.describe(result);
+  return result;
 }
 
 } // namespace cdem

@@ -13,6 +13,7 @@ struct EnergyLedger {
   double friction = 0;
   // Stored in a spring when it broke and no longer stored after; damage of softening bonds.
   double breaking = 0;
+  double plastic = 0;    // plastic work of blocks that yield
   double cutting = 0;    // stored and kinetic energy lost when blocks are cut or removed
   double fictitious = 0; // kinetic energy thrown away when a relaxation ends or its masses are rebuilt
   // given
@@ -20,7 +21,7 @@ struct EnergyLedger {
   double external_peak = 0; // largest |external| so far
 
   double total() const {
-    return elastic + springs + kinetic + damping + friction + breaking + cutting + fictitious;
+    return elastic + springs + kinetic + damping + friction + breaking + plastic + cutting + fictitious;
   }
   // |total - external| over the largest external work; 0 before anything happened.
   double balance_error() const;

@@ -58,6 +58,15 @@ void set_mesh_stress(const Model& model, State& state, int tet, const Stress& st
     state.stress[slot / lanes].component[c][slot % lanes] = stress[c];
 }
 
+double& plastic_strain_of(const Model& model, State& state, int tet) {
+  const int slot = model.mesh.tet_slot[tet - model.mesh.first_tet];
+  return state.plastic_strain[slot / lanes].strain[slot % lanes];
+}
+
+double plastic_strain_of(const Model& model, const State& state, int tet) {
+  return plastic_strain_of(model, const_cast<State&>(state), tet);
+}
+
 std::size_t small_strain_tets(const Model& model) {
   return model.mesh.empty() ? model.tets.size() : static_cast<std::size_t>(model.mesh.first_tet);
 }
@@ -102,6 +111,8 @@ State initial_state(const Model& model) {
   if (std::any_of(model.bodies.begin(), model.bodies.end(),
                   [](const Body& body) { return body.material.stiffness_damping > 0; }))
     state.viscous_stress = state.stress;
+  if (!model.mesh.plastic_law.empty())
+    state.plastic_strain.assign(model.mesh.batches.size(), PlasticStrainBatch{});
   if (std::any_of(model.bodies.begin(), model.bodies.end(),
                   [](const Body& body) { return body.bonding.is_cohesive(); }))
     state.cohesive.resize(model.mesh.face_tets.size());
@@ -152,6 +163,7 @@ std::vector<StateField> fields(State& s) {
       field("initial_stress", "Pa", FieldPlace::tet, "initial_stress", s.initial_stress, true),
       field("stress", "Pa", FieldPlace::tet, "mesh_forces", s.stress, true),
       field("viscous_stress", "Pa", FieldPlace::tet, "mesh_forces", s.viscous_stress, true),
+      field("plastic_strain", "1", FieldPlace::tet, "mesh_forces", s.plastic_strain, true),
       field("faces", "1", FieldPlace::face, "mesh_forces", s.faces, false),
       field("face_slip", "m", FieldPlace::face, "mesh_forces, record_face_breaks", s.face_slip, true),
       field("cohesive", "record", FieldPlace::face, "begin_cracks, mesh_forces", s.cohesive, true),

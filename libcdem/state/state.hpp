@@ -48,6 +48,8 @@ struct State {
   std::vector<StressBatch> stress; // Pa (n mesh batches); written by mesh_forces
   // Pa, of the strain rate, beside it; as long, or empty where no material has stiffness damping.
   std::vector<StressBatch> viscous_stress;
+  // Equivalent plastic strain (material/plasticity.hpp), as long; empty without plastic bodies; written by mesh_forces
+  std::vector<PlasticStrainBatch> plastic_strain;
   std::vector<FaceStateBatch> faces; // (n face batches); written by mesh_forces
   // m, of the batches of faces with a broken spring, eight faces each, in the order they broke; written by mesh_forces
   // and, where a spring has just broken, by record_face_breaks
@@ -94,6 +96,10 @@ const FaceSlip* slip_of(const State&, std::int64_t batch, int lane); // null whe
 // directions it was made rigid in.
 Stress mesh_stress(const Model&, const State&, int tet);
 void set_mesh_stress(const Model&, State&, int tet, const Stress&);
+
+// Equivalent plastic strain of a tet of a mesh (its number in the model).
+double& plastic_strain_of(const Model&, State&, int tet);
+double plastic_strain_of(const Model&, const State&, int tet);
 
 // Where the crack energy of a body goes; body: its number, n_bodies for the joints between bodies.
 CrackEnergy& crack_energy_of(const Model&, State&, int body);

@@ -13,4 +13,8 @@ struct alignas(64) StressBatch {
   double component[6][lanes]; // Pa, in the order of Stress
 };
 
+struct alignas(64) PlasticStrainBatch {
+  double strain[lanes];
+};
+
 } // namespace cdem

@@ -4,6 +4,7 @@
 #include "libcdem/bond/spring_forces.hpp"
 #include "libcdem/element/face_jumps.hpp"
 #include "libcdem/element/finite_volume.hpp"
+#include "libcdem/element/nodal_averages.hpp"
 #include "libcdem/parallel/simd.hpp"
 
 namespace cdem {
@@ -129,18 +130,30 @@ const Node* mesh_forces(const Model& model, State& state, Workspace& work, std::
   if (work.damped && body.material.stiffness_damping > 0)
     damping = {body.material.stiffness_damping, state.viscous_stress.data() + chunk.batches.begin};
   FaceSums& sums = work.face_sums[index];
+  sums.plastic = 0;
+  PlasticTets plastic;
+  if (!body.plasticity.empty())
+    plastic = {&body.plasticity, model.mesh.plastic_law.data() + chunk.batches.begin * lanes,
+               state.plastic_strain.data() + chunk.batches.begin, &sums.plastic};
   const StressOfRigid stress_of_rigid(model, state, chunk);
   const FaceSides sides{model.mesh.sides.data() + chunk.side_batches.begin, chunk.side_batches.size(),
                         state.faces.data()};
-  if (sides.count > 0) {
+  const bool changes_strain = sides.count > 0 || plastic.laws;
+  if (changes_strain)
     near.jumps.assign(static_cast<std::size_t>(chunk.batches.size()), {});
+  if (sides.count > 0)
     add_jumps(sides, at.position, at.velocity, work.strain_step, near.jumps.data());
-  }
+  const AveragedTets averaged{model.mesh.batches.data() + chunk.batches.begin, chunk.batches.size(),
+                              last_lanes, chunk.places(), at.position};
+  if (plastic.laws)
+    add_volume_averages(averaged, at.velocity, work.strain_step, near.jumps.data());
   StressBatch* const stress = state.stress.data() + chunk.batches.begin;
-  sums.damping =
-      finite_volume_forces(model.mesh.batches.data() + chunk.batches.begin, chunk.batches.size(), last_lanes,
-                           at.position, at.velocity, sides.count > 0 ? near.jumps.data() : nullptr,
-                           work.strain_step, tet_stiffness(body.material), damping, stress, at.force, ahead);
+  sums.damping = finite_volume_forces(
+      model.mesh.batches.data() + chunk.batches.begin, chunk.batches.size(), last_lanes, at.position,
+      at.velocity, changes_strain ? near.jumps.data() : nullptr, work.strain_step,
+      tet_stiffness(body.material), damping, plastic, stress, at.force, ahead);
+  if (plastic.laws)
+    add_pressure_averages(averaged, stress, at.force);
   if (sides.count > 0)
     add_side_forces(sides, at.position, stress, damping.viscous, at.force);
   sums.friction = sums.breaking = 0;

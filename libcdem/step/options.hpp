@@ -1,6 +1,8 @@
 // What the solving calls take and give back.
 #pragma once
 
+#include "libgeom/core/types.hpp"
+
 #include <cstdint>
 #include <functional>
 #include <limits>
@@ -24,12 +26,23 @@ struct RelaxOptions {
   double residual = 1e-6;          // goal: out-of-balance force norm over applied force norm, in (0, 1)
   bool breaking = true;            // bonds may break
   std::int64_t max_steps = 500000; // gives up with converged = false, > 0
+  bool stop_on_failure = false;    // ends where the model is failing (procedure/stability.hpp)
+  std::string note;                // what the progress shows of it, "F = 1.25"
   std::int64_t callback_every = 0; // steps between calls of `callback`; 0 never
   std::function<void()> callback;
 };
 
+enum class Verdict : std::uint8_t { stable, failing, undecided };
+const char* name(Verdict); // "stable", ...
+
 struct RelaxResult : StageResult {
   bool converged = false;
+  // stable: converged. failing: runs away (procedure/stability.hpp). undecided: max_steps came before either.
+  Verdict verdict = Verdict::undecided;
+  // Largest displacement between the last two looks, 200 steps apart: m, its block (an id) and where (undeformed, m).
+  double moving = 0;
+  std::int64_t moving_block = 0;
+  geom::Vec3 moving_place = geom::Vec3::Zero();
 };
 
 // Masses raised where the time step demands it (integrate/mass_scaling.hpp): at most one of the two is given.

@@ -81,6 +81,7 @@ std::int64_t record_face_breaks(const Model& model, State& state, Workspace& wor
     state.spent.friction += sums.friction;
     state.spent.breaking += sums.breaking;
     state.spent.damping += sums.damping;
+    state.spent.plastic += sums.plastic;
     work.contact.fragments_due = work.contact.fragments_due || sums.hands_over;
     for (const FaceBreak& broken : sums.broken) {
       const FaceSpringPlace at{chunk.face_batches.begin + broken.spring / (3 * lanes),

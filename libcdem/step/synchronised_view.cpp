@@ -11,6 +11,7 @@ SynchronisedView::SynchronisedView(Stage& stage) : stage_(stage) {
     pieces_due_ = stage.work.contact.fragments_due;
     stress_ = state.stress;
     viscous_stress_ = state.viscous_stress;
+    plastic_strain_ = state.plastic_strain;
     faces_ = state.faces;
     face_slip_ = state.face_slip;
     cohesive_ = state.cohesive;
@@ -30,6 +31,7 @@ SynchronisedView::~SynchronisedView() {
   stage_.work.contact.fragments_due = pieces_due_;
   state.stress = stress_; // copied: the step knows where these lie
   state.viscous_stress = viscous_stress_;
+  state.plastic_strain = plastic_strain_;
   state.faces = faces_;
   state.face_slip = face_slip_;
   state.cohesive = cohesive_;

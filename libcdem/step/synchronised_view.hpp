@@ -19,6 +19,7 @@ private:
   double strain_step_ = 0; // s; 0: nothing to put back
   bool contact_due_ = false, pieces_due_ = false;
   std::vector<StressBatch> stress_, viscous_stress_;
+  std::vector<PlasticStrainBatch> plastic_strain_;
   std::vector<FaceStateBatch> faces_;
   std::vector<FaceSlip> face_slip_;
   std::vector<CohesiveFace> cohesive_;

@@ -311,6 +311,21 @@ void add_shares(Model& model) {
   each([&](int node, int place) { data.shares[next[node]++] = place; });
 }
 
+// Of the last block that has been added: its tets' laws. regions: of its tets; empty: of one region.
+void add_plastic_laws(Model& model, int block, const std::vector<int>& regions) {
+  const Block& b = model.blocks[block];
+  const PlasticLaws& laws = model.bodies[b.body].plasticity;
+  if (laws.empty())
+    return;
+  for (int tet = b.tet_begin; tet < b.tet_end; ++tet) {
+    const auto slot = static_cast<std::size_t>(model.mesh.tet_slot[tet - model.mesh.first_tet]);
+    if (model.mesh.plastic_law.size() <= slot)
+      model.mesh.plastic_law.resize(slot + 1, -1);
+    model.mesh.plastic_law[slot] =
+        static_cast<std::int8_t>(regions.empty() ? laws.others : laws.of_region(regions[tet - b.tet_begin]));
+  }
+}
+
 } // namespace
 
 geom::Vec3 face_point(const Model& model, const MeshChunk& chunk, const FaceSpringPlace& at) {
@@ -343,6 +358,8 @@ void add_convex_blocks(Model& model, const std::vector<geom::BlockMesh>& meshes)
     add_star_chunk(model, {begin, end}, places);
     begin = end;
   }
+  for (int b = first; b < n_blocks; ++b)
+    add_plastic_laws(model, b, {});
   for (int b = first; b < n_blocks; ++b)
     for (int f = 0; f < static_cast<int>(meshes[b].fans.size()); ++f)
       for (std::size_t i = 0; i < meshes[b].fans[f].size(); ++i) {
@@ -402,7 +419,10 @@ void add_meshes(Model& model, std::vector<MeshSeed>&& seeds) {
     add_boundary(model, geom::outer_faces(mesh), index);
     Places places(model.node_position.size());
     add_chunks(model, bonded, inner_nodes, chunk_tets, index, places);
+    add_plastic_laws(model, index, mesh.region);
   }
+  if (!model.mesh.plastic_law.empty())
+    model.mesh.plastic_law.resize(model.mesh.batches.size() * lanes, -1);
   add_shares(model);
 }
 

@@ -169,6 +169,39 @@ Value glued(Session&, Object*, const Arguments& a) {
   return object;
 }
 
+Value plastic(Session& session, Object*, const Arguments& a) {
+  auto object = std::make_shared<PlasticityObject>();
+  Plasticity& rock = object->plasticity;
+  rock.cohesion = a.number("cohesion");
+  rock.friction_angle = radians(a.number("friction_angle"));
+  rock.dilation_angle = radians(a.number("dilation_angle"));
+  rock.tensile_strength = a.number("tensile_strength");
+  rock.softening_strain = a.optional_number("softening_strain").value_or(0);
+  rock.residual_cohesion = a.optional_number("residual_cohesion").value_or(rock.cohesion);
+  rock.residual_tensile_strength =
+      a.optional_number("residual_tensile_strength").value_or(rock.tensile_strength);
+  rock.residual_friction_angle =
+      a.has("residual_friction_angle") ? radians(a.number("residual_friction_angle")) : rock.friction_angle;
+  warn_of_unit(session, a, "cohesion");
+  warn_of_unit(session, a, "tensile_strength");
+  warn_of_angle(session, a, "cdem.plastic");
+  const bool softens =
+      a.has("residual_cohesion") || a.has("residual_tensile_strength") || a.has("residual_friction_angle");
+  if (softens != a.has("softening_strain"))
+    throw geom::InputError(
+        "softening_strain: goes together with residual_cohesion, residual_friction_angle or "
+        "residual_tensile_strength: over that plastic strain the strength falls to them");
+  validate(rock);
+  return object;
+}
+
+template <class Get>
+Property plastic_property(std::string name, std::string unit, Get get) {
+  return {std::move(name), "number", std::move(unit), "", [get](Session&, Object& self) -> Value {
+            return get(static_cast<PlasticityObject&>(self).plasticity);
+          }};
+}
+
 template <class Get>
 Property material_property(std::string name, std::string unit, std::string doc, Get get) {
   return {std::move(name), "number", std::move(unit), std::move(doc),
@@ -210,6 +243,44 @@ void bind_materials(Module& m) {
        "cdem.Material",
        "",
        elastic});
+
+  m.functions.push_back(
+      {"plastic",
+       "Mohr-Coulomb plasticity with tension cut-off, dilation and softening, of the tetrahedra of blocks "
+       "and meshes "
+       "(docs/theory.md, section 25).",
+       {number("cohesion").at_least(0).unit("Pa").required(),
+        number("friction_angle").from(0, 90).unit("deg").required(),
+        number("tensile_strength")
+            .at_least(0)
+            .unit("Pa")
+            .required()
+            .doc("what is beyond the tip of the cone, cohesion / tan(friction_angle), does not act"),
+        number("dilation_angle").from(0, 90).standard(0.0).unit("deg").doc("at most friction_angle"),
+        number("residual_cohesion")
+            .at_least(0)
+            .unit("Pa")
+            .doc("at softening_strain; the peak's when left out"),
+        number("residual_friction_angle").from(0, 90).unit("deg"),
+        number("residual_tensile_strength").at_least(0).unit("Pa"),
+        number("softening_strain")
+            .above(0)
+            .doc("equivalent plastic strain at which the residual strength is reached, linearly; without "
+                 "fracture "
+                 "energy, so that what it dissipates depends on the size of the elements")},
+       false,
+       "cdem.Plasticity",
+       "",
+       plastic});
+  Class plasticity{"Plasticity", "Made by cdem.plastic."};
+  plasticity.properties = {
+      plastic_property("cohesion", "Pa", [](const Plasticity& p) { return p.cohesion; }),
+      plastic_property("friction_angle", "deg",
+                       [](const Plasticity& p) { return degrees(p.friction_angle); }),
+      plastic_property("dilation_angle", "deg",
+                       [](const Plasticity& p) { return degrees(p.dilation_angle); }),
+      plastic_property("tensile_strength", "Pa", [](const Plasticity& p) { return p.tensile_strength; })};
+  m.classes.push_back(plasticity);
 
   std::vector<Field> bonded{number("cohesion").at_least(0).unit("Pa").required(),
                             number("friction_angle").from(0, 90).unit("deg").required(),

@@ -51,12 +51,19 @@ Value fields(Session&, ModelObject&, const Arguments&) {
 
 Value energy(Session&, ModelObject& model, const Arguments&) {
   const EnergyLedger e = model.simulation.energy();
-  return Table{{"elastic", e.elastic},   {"springs", e.springs},
-               {"kinetic", e.kinetic},   {"damping", e.damping},
-               {"friction", e.friction}, {"breaking", e.breaking},
-               {"cutting", e.cutting},   {"fictitious", e.fictitious},
-               {"external", e.external}, {"external_peak", e.external_peak},
-               {"total", e.total()},     {"balance_error", e.balance_error()}};
+  return Table{{"elastic", e.elastic},
+               {"springs", e.springs},
+               {"kinetic", e.kinetic},
+               {"damping", e.damping},
+               {"friction", e.friction},
+               {"breaking", e.breaking},
+               {"plastic", e.plastic},
+               {"cutting", e.cutting},
+               {"fictitious", e.fictitious},
+               {"external", e.external},
+               {"external_peak", e.external_peak},
+               {"total", e.total()},
+               {"balance_error", e.balance_error()}};
 }
 
 Value overlap(Session&, ModelObject& model, const Arguments&) {
@@ -134,6 +141,7 @@ void bind_rows(Module& m) {
             "of the real masses, or of a relaxation's fictitious ones"),
         number("damping").unit("J").required(), number("friction").unit("J").required(),
         number("breaking").unit("J").required().doc("lost by bonds that broke or softened"),
+        number("plastic").unit("J").required().doc("plastic work of blocks that yield"),
         number("cutting").unit("J").required().doc("lost when blocks were cut or removed"),
         number("fictitious").unit("J").required().doc("kinetic energy a relaxation threw away at its end"),
         number("external").unit("J").required().doc("work of loads, gravity and moving supports"),

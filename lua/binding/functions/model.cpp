@@ -106,6 +106,25 @@ void require_blocks(const Arguments& given, const std::string& path) {
         ".material: stiffness_damping is for bodies that move far; one of small strain takes viscosity");
 }
 
+void read_plasticity(const Arguments& given, const std::string& path, BodySpec& body) {
+  const auto add = [&](const Value& law) {
+    body.plasticity.laws.push_back(static_cast<const PlasticityObject&>(*law.object()).plasticity);
+    if (body.plasticity.laws.size() > 100)
+      throw InputError(path + ".region_plasticity", std::to_string(body.plasticity.laws.size()) + " laws",
+                       "at most 99");
+    return static_cast<int>(body.plasticity.laws.size()) - 1;
+  };
+  if (given.has("plasticity"))
+    body.plasticity.others = add(given.value("plasticity"));
+  if (given.has("region_plasticity") && body.meshes.empty())
+    throw InputError(path + ".region_plasticity: only for a meshed body; an assembly has no regions, give it "
+                            "plasticity = cdem.plastic{...}");
+  for (const Value& row : given.list("region_plasticity")) {
+    const Values& items = row.table()->items;
+    body.plasticity.regions.emplace_back(static_cast<int>(items[0].number()) - 1, add(items[1]));
+  }
+}
+
 // The meshes of bodies that do not hang together: the body, and how many parts it is in.
 using PartCounts = std::vector<std::pair<std::string, int>>;
 
@@ -139,6 +158,7 @@ std::vector<std::string> read_bodies(Session& session, const Arguments& a, Model
         throw InputError(
             path + ".zone_size: only for an assembly of blocks; a mesh has the size that it was made with");
       read_mesh(session, given, path, std::move(units), body);
+      read_plasticity(given, path, body);
       if (mesh && !mesh->coarse.empty() && body.element != Element::rigid)
         session.warn(path + ": " + mesh->coarse);
       if (const int parts = geom::count_parts(pile->unit); parts == 1)
@@ -155,6 +175,7 @@ std::vector<std::string> read_bodies(Session& session, const Arguments& a, Model
                                                                 : Element::small_strain;
     body.shape = given.object<AssemblyObject>("shape")->assembly;
     body.zone_size = given.optional_number("zone_size").value_or(0);
+    read_plasticity(given, path, body);
     if (const Table* joints = given.value("joints").table())
       for (const auto& [name, joint] : joints->named)
         body.set_joints[name] = static_cast<const JointObject&>(*joint.object()).joint;
@@ -397,6 +418,11 @@ void bind_model(Module& m) {
           .doc("of a mesh: {region, region, joint} gives the faces between two regions, or with the same "
                "number "
                "twice those inside one, a joint of their own; numbers from 1. All others have `joint`"),
+      object("plasticity", "Plasticity")
+          .doc("of a body that moves far: its tetrahedra yield by this law, cdem.plastic{...}"),
+      list("region_plasticity", tuple_type({whole_number, object_type("Plasticity")}), 1)
+          .doc("of a mesh: {region, law} gives a region a law of its own; numbers from 1. All others have "
+               "`plasticity`, or are elastic without it"),
       number("stiffness_ratio")
           .above(0)
           .doc("of a mesh, beta in Kn = beta E A / (3 d). Of springs 10 by default: a body bonded everywhere "

@@ -3,6 +3,7 @@
 #include "lua/binding/functions/solving_stage.hpp"
 #include "lua/binding/runtime/module.hpp"
 
+#include "libcdem/step/stage.hpp"
 #include "libgeom/core/error.hpp"
 
 namespace cdem::script {
@@ -27,10 +28,36 @@ std::int64_t callback_interval(const Arguments& a) {
   return 0;
 }
 
-Value relax_result(const RelaxResult& r) {
-  return Table{{"converged", r.converged},       {"steps", r.steps},
-               {"residual", r.residual},         {"broken_tension", r.broken_tension},
-               {"broken_shear", r.broken_shear}, {"wall_time", r.wall_time}};
+Value relax_result(const RelaxResult& r, const std::string& trial) {
+  Table table{
+      {"converged", r.converged}, {"verdict", name(r.verdict)},         {"steps", r.steps},
+      {"residual", r.residual},   {"broken_tension", r.broken_tension}, {"broken_shear", r.broken_shear},
+      {"wall_time", r.wall_time}};
+  if (r.moving > 0)
+    table.named.insert(
+        {{"moving", r.moving}, {"moving_block", r.moving_block}, {"moving_place", r.moving_place}});
+  if (!trial.empty())
+    table.named["trial"] = trial;
+  return table;
+}
+
+// What moves, for messages.
+std::string moving_text(const RelaxResult& r) {
+  return "block " + std::to_string(r.moving_block) + " at " + describe(Value(r.moving_place)) + " m moved " +
+         three_digits(r.moving) + " m in the last " + std::to_string(watch_every) + " steps";
+}
+
+void tell_verdict(Session& session, const RelaxOptions& options, const RelaxResult& r) {
+  const std::string found = "relax" + (options.note.empty() ? "" : ", " + options.note) + ": " +
+                            name(r.verdict) + " after " + std::to_string(r.steps) +
+                            (r.steps == 1 ? " step" : " steps") + ", residual " + three_digits(r.residual);
+  if (r.verdict == Verdict::undecided)
+    session.warn(found + " above " + number_text(options.residual) +
+                 ": not converged; raise max_steps, or look whether something moves freely");
+  else if (r.verdict == Verdict::failing && options.note.empty())
+    session.warn(found + ": it runs away, " + moving_text(r) + "; result.verdict tells the script");
+  else
+    session.message(found);
 }
 
 Value relax(Session& session, ModelObject& model, const Arguments& a) {
@@ -40,16 +67,14 @@ Value relax(Session& session, ModelObject& model, const Arguments& a) {
   options.max_steps = a.integer("max_steps");
   options.callback_every = callback_interval(a);
   options.callback = callback_of(session, a);
+  options.stop_on_failure = a.flag("stop_on_failure");
+  options.note = a.text_or("trial", "");
   warn_if_nothing_acts(session, model, "relax");
-  return stage(session, model, "relax", a, relax_result({}),
+  return stage(session, model, "relax", a, relax_result({}, options.note),
                [&](Simulation& simulation) {
                  const RelaxResult result = simulation.relax(options);
-                 if (!result.converged)
-                   session.warn("relax: not converged after " + std::to_string(result.steps) +
-                                (result.steps == 1 ? " step" : " steps") + ", residual " +
-                                three_digits(result.residual) + " above " + number_text(options.residual) +
-                                "; raise max_steps, or look whether something moves freely");
-                 return relax_result(result);
+                 tell_verdict(session, options, result);
+                 return relax_result(result, options.note);
                },
                {{"callback", a.function("callback")}});
 }
@@ -127,10 +152,18 @@ void bind_results(Module& m) {
   m.records.push_back(
       {"RelaxResult",
        "What a relaxation came to.",
-       {flag("converged").required(), integer("steps").required(), number("residual").required(),
+       {flag("converged").required(),
+        choice("verdict", {"stable", "failing", "undecided"})
+            .required()
+            .doc("stable: converged; failing: it runs away; undecided: max_steps came before either"),
+        integer("steps").required(), number("residual").required(),
         integer("broken_tension").required().doc("bonds, in this stage"),
         integer("broken_shear").required().doc("bonds, in this stage"),
-        number("wall_time").unit("s").required()}});
+        number("wall_time").unit("s").required(),
+        number("moving").unit("m").doc(
+            "what the fastest node moved in the last 200 steps that were looked at"),
+        integer("moving_block").doc("its block"),
+        vec3("moving_place").unit("m").doc("where it was, undeformed"), text("trial").doc("as given")}});
   m.records.push_back({"RunResult",
                        "What real-time stepping came to.",
                        {integer("steps").required(), number("time").unit("s").required().doc("of the model"),
@@ -155,12 +188,22 @@ void bind_solving(Module& m) {
                              std::move(returns_doc), method<ModelObject>(body)});
   };
   add("relax",
-      "Dynamic relaxation to static balance, with fictitious masses and adaptive damping (Han 2010 eq 12).",
+      "Dynamic relaxation to static balance, with fictitious masses and adaptive damping (Han 2010 eq 12). "
+      "The verdict tells a model that stands from one that runs away (docs/theory.md, section 25).",
       {number("residual")
            .between(0, 1)
            .standard(1e-6)
            .doc("goal: out-of-balance force norm over applied force norm"),
-       breaking(), integer("max_steps").at_least(1).standard(500000).doc("gives up with converged = false"),
+       breaking(),
+       integer("max_steps").at_least(1).standard(500000).doc("gives up with converged = false, undecided"),
+       flag("stop_on_failure")
+           .standard(true)
+           .doc("ends where the model runs away, with the verdict \"failing\"; false: goes on, for a fall "
+                "that "
+                "something may catch"),
+       text("trial").doc(
+           "name of a trial, \"F = 1.2\", for progress, log and report; that it fails is then an "
+           "answer and no warning"),
        every(), callback()},
       "cdem.RelaxResult", "", relax);
   add("run", "Explicit stepping in real time with the real masses.",

@@ -19,6 +19,11 @@ struct JointObject final : Object {
   const char* class_name() const override { return "Joint"; }
 };
 
+struct PlasticityObject final : Object {
+  Plasticity plasticity;
+  const char* class_name() const override { return "Plasticity"; }
+};
+
 struct AssemblyObject final : Object {
   geom::Assembly assembly;
   const char* class_name() const override { return "Assembly"; }

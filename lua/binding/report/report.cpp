@@ -145,6 +145,16 @@ std::string Report::json() const {
   Json all;
   all["case"] = case_name;
   all["figures"] = list;
+  if (!relaxations.empty()) {
+    Json verdicts = Json::array();
+    for (const Table& row : relaxations) {
+      Json entry;
+      for (const auto& [name, value] : row.named)
+        entry[name] = to_json(value);
+      verdicts.push_back(entry);
+    }
+    all["relaxations"] = verdicts;
+  }
   all["warnings"] = warnings;
   return all.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
@@ -159,6 +169,16 @@ std::string Report::markdown() const {
            cell(shown(f.reference)) + " | " + difference(f) + " | " + cell(f.kind) + " | " +
            tolerance_text(f) + " | " + (judged ? (*judged ? "yes" : "**no**") : "-") + " | " +
            cell(f.source) + " |\n";
+  }
+  if (!relaxations.empty())
+    out += "\n| stage | model | trial | verdict | steps | residual |\n|---:|---:|---|---|---:|---:|\n";
+  for (const Table& row : relaxations) {
+    const auto entry = [&](const char* name) {
+      const auto found = row.named.find(name);
+      return cell(shown(found == row.named.end() ? Value() : found->second));
+    };
+    out += "| " + entry("stage") + " | " + entry("model") + " | " + entry("trial") + " | " +
+           entry("verdict") + " | " + entry("steps") + " | " + entry("residual") + " |\n";
   }
   if (!warnings.empty())
     out += "\nWarnings of the run:\n\n";

@@ -27,6 +27,8 @@ struct Report {
   std::vector<Figure> figures; // a figure reported again takes the place of the earlier one
 
   std::vector<std::string> warnings; // of the run so far
+  // Relaxations so far, tables of stage, model, verdict, steps, residual and, where it has one, trial.
+  std::vector<Table> relaxations;
 
   void add(const Figure&);
   std::string json() const;

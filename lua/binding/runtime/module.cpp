@@ -29,6 +29,7 @@ const Module& module() {
     bind_in_situ(m);
     bind_water(m);
     bind_solving(m);
+    bind_stability(m);
     bind_settling(m);
     bind_fracture(m);
     bind_flow(m);

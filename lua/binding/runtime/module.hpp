@@ -90,6 +90,7 @@ void bind_conditions(Module&);
 void bind_in_situ(Module&);
 void bind_water(Module&);
 void bind_solving(Module&);
+void bind_stability(Module&);
 void bind_settling(Module&);
 void bind_fracture(Module&);
 void bind_flow(Module&);

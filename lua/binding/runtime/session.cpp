@@ -78,6 +78,15 @@ void Session::write_report() {
   if (settings.check_only)
     return;
   report.warnings = warnings;
+  report.relaxations.clear();
+  for (const Stage& stage : stages)
+    if (const Table* result = stage.result.table(); result && stage.kind == "relax") {
+      Table row{{"stage", stage.number}, {"model", stage.model}};
+      for (const char* const kept : {"verdict", "steps", "residual", "trial"})
+        if (const auto found = result->named.find(kept); found != result->named.end())
+          row.named.insert(*found);
+      report.relaxations.push_back(std::move(row));
+    }
   write_file(files.to_write("report.json"), report.json());
   write_file(files.to_write("report.md"), report.markdown());
 }

@@ -1,0 +1,57 @@
+-- A rock slope on bedding that dips out of the face: stress in place, an excavation, the factor of safety by strength
+-- reduction, and where the slide comes to rest. Plane sliding has F = tan(phi) / tan(dip).
+--
+--   ./cdem run examples/rock_slope/case.lua [--set spacing=2] [--set friction_angle=38]
+local cdem = require "cdem"
+
+local spacing = cdem.parameter{ name = "spacing", default = 4, range = {1, 10}, unit = "m", doc = "of all joint sets" }
+local phi = cdem.parameter{ name = "friction_angle", default = 40, range = {5, 70}, unit = "degrees", doc = "of the joints" }
+local runout = cdem.parameter{ name = "runout", default = 6, range = {0, 60}, unit = "s", doc = "of the slide; 0: none" }
+local tolerance = cdem.parameter{ name = "tolerance", default = 0.02, range = {0.001, 0.5}, doc = "of the factor of safety" }
+local dip, face, g = 35, 65, 9.81 -- degrees, degrees, m/s2
+
+-- Ground of 60 x 8 x 32 m. The excavation's outline is glued: it is no joint.
+local tangent = math.tan(math.rad(face))
+local ground = cdem.box{ size = {60, 8, 32} }
+ground = cdem.cut_by_plane{ shape = ground, point = {40, 0, 12}, normal = {tangent, 0, 1}, name = "face", glued = true }
+ground = cdem.cut_by_plane{ shape = ground, point = {40, 0, 12}, normal = {0, 0, 1}, name = "floor", glued = true }
+ground = cdem.cut_by_joints{ shape = ground, sets = {
+  { name = "bedding", dip = dip, dip_direction = 90, spacing = spacing },
+  { name = "cross", dip = 70, dip_direction = 270, spacing = spacing, spacing_scatter = 0.2 },
+  { name = "side", dip = 90, dip_direction = 0, spacing = spacing } } }
+
+local rock = cdem.elastic{ youngs_modulus = 5e9, poissons_ratio = 0.25, density = 2600 }
+local joint = cdem.coulomb{ friction_angle = phi }
+local model = cdem.model{ bodies = { { name = "ground", shape = ground, material = rock, joint = joint } } }
+model:fix{ on = {"x-", "x+"}, axes = "x" }
+model:fix{ on = {"y-", "y+"}, axes = "y" }
+model:fix{ on = "z-" }
+model:gravity{ vector = {0, 0, -g} }
+
+-- Before the excavation: weight, and half of it sideways.
+model:initial_stress{ gradient = rock.density * g, k0 = 0.5 }
+model:relax{ residual = 1e-4 }
+model:reset_displacement()
+
+-- The excavation, 20 m deep. What lies in front of the face and above the floor goes.
+model:remove{ on = cdem.select.where(function(x, _, z) return z > 12 and z - 12 > -tangent * (x - 40) end) }
+local excavated = model:relax{ residual = 1e-4 }
+cdem.log("after the excavation the slope is " .. excavated.verdict)
+
+local function draw(m, name, title)
+  m:picture{ file = name, up = "z", colour = "displacement.magnitude", deformation = 1, broken_bonds = false, title = title }
+end
+local safety = cdem.factor_of_safety{ model = model, reduce = {"joints"}, lower = 0.8, upper = 2, tolerance = tolerance,
+                                      residual = 1e-4, picture = "mechanism.png" }
+local figures = { { name = "factor_of_safety", value = safety.factor, kind = "formula", tolerance = 0.03,
+                    reference = math.tan(math.rad(phi)) / math.tan(math.rad(dip)), source = "tan(phi) / tan(dip)" } }
+
+-- The slide runs out: at the strength that fails.
+if runout > 0 then
+  local slide = safety.failing
+  slide:run{ duration = runout, local_damping = 0.05 }
+  draw(slide, "runout.png", "at rest")
+  figures[#figures + 1] = { name = "runout_m", value = slide:max("displacement.x"), unit = "m" }
+end
+figures[#figures + 1] = { name = "wall_time_s", value = cdem.elapsed(), unit = "s" }
+cdem.report(figures)

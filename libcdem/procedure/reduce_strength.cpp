@@ -1,0 +1,70 @@
+#include "libcdem/procedure/reduce_strength.hpp"
+
+#include "libcdem/joint/strength_reduction.hpp"
+#include "libgeom/core/error.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+
+namespace cdem {
+namespace {
+
+bool any_joint_has_strength(const Model& model) {
+  const auto has = [](const Joint& joint) { return has_strength(joint); };
+  const auto acts = [&](const Interface& interface) { return has(model.joints[interface.joint]); };
+  const auto meets = [&](const auto& law) { return has(model.joints[law.second]); };
+  const auto bonded = [&](const Body& body) {
+    return !body.bonding.none() && (has(body.joint) || std::any_of(body.region_laws.joints.begin(),
+                                                                   body.region_laws.joints.end(), has));
+  };
+  return std::any_of(model.interfaces.begin(), model.interfaces.end(), acts) ||
+         std::any_of(model.surface.joint.begin(), model.surface.joint.end(), meets) ||
+         std::any_of(model.bodies.begin(), model.bodies.end(), bonded);
+}
+
+void reduce_joints(Model& model, double factor) {
+  if (!any_joint_has_strength(model))
+    throw geom::InputError("reduce: the joints of the model have no strength to reduce: no cohesion, no "
+                           "friction, no tensile strength, or all are glued; give them some, or leave "
+                           "\"joints\" out");
+  for (Joint& joint : model.joints)
+    joint = reduced(joint, factor);
+  for (Body& body : model.bodies) {
+    body.joint = reduced(body.joint, factor);
+    for (Joint& joint : body.region_laws.joints)
+      joint = reduced(joint, factor);
+  }
+  for (FaceStrengthBatch& strength : model.mesh.strength)
+    for (int lane = 0; lane < lanes; ++lane) {
+      strength.cohesion[lane] /= factor;
+      strength.tensile_strength[lane] /= factor;
+      strength.tan_friction[lane] /= factor;
+    }
+}
+
+void reduce_blocks(Model& model, double factor) {
+  bool any = false;
+  for (Body& body : model.bodies)
+    for (Plasticity& law : body.plasticity.laws) {
+      any = any || has_strength(law);
+      law = reduced(law, factor);
+    }
+  if (!any)
+    throw geom::InputError(
+        "reduce: no body of the model has a plasticity whose strength could be reduced; give "
+        "bodies plasticity = cdem.plastic{...}, or leave \"blocks\" out");
+}
+
+} // namespace
+
+void reduce_strength(Model& model, double factor, const StrengthKinds& kinds) {
+  if (!(factor > 0) || !std::isfinite(factor))
+    throw geom::InputError("factor", fmt::format("{:g}", factor), "a finite number > 0");
+  if (kinds.joints)
+    reduce_joints(model, factor);
+  if (kinds.blocks)
+    reduce_blocks(model, factor);
+}
+
+} // namespace cdem

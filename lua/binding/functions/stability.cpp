@@ -1,0 +1,162 @@
+// Does it stand, and by how much: copies of a model, reduced strengths, the factor of safety (lua/cdem/safety.lua).
+#include "lua/binding/objects/model_object.hpp"
+#include "lua/binding/runtime/module.hpp"
+
+#include "libgeom/core/error.hpp"
+
+namespace cdem::script {
+
+namespace {
+
+using geom::InputError;
+
+StrengthKinds kinds_of(const Arguments& a) {
+  StrengthKinds kinds;
+  for (const Value& kind : a.list("reduce"))
+    (*kind.get<std::string>() == "joints" ? kinds.joints : kinds.blocks) = true;
+  return kinds;
+}
+
+Value copy(Session& session, ModelObject& model, const Arguments&) {
+  model.require_idle("copy");
+  session.collect_garbage();
+  auto other = std::make_shared<ModelObject>(model.simulation.copy());
+  other->body_names = model.body_names;
+  other->piles = model.piles;
+  other->unjointed = model.unjointed;
+  other->places = model.places;
+  other->number = static_cast<int>(session.models.size()) + 1;
+  if (session.checkpoints.keeps())
+    other->simulation.set_checkpoint_writer(&session.checkpoints);
+  other->simulation.set_replaying(session.checkpoints.replaying());
+  other->memory = session.new_memory(model.memory->copy());
+  other->notes->built = "copy of model " + std::to_string(model.number) + ": " + model.notes->built;
+  other->notes->conditions = model.notes->conditions;
+  session.models.push_back(other);
+  session.notes.push_back(other->notes);
+  return other;
+}
+
+Value reduce_strength(Session&, ModelObject& model, const Arguments& a) {
+  model.require_idle("reduce_strength");
+  model.simulation.reduce_strength(a.number("factor"), kinds_of(a));
+  model.notes->conditions.push_back("strength of " + describe(a.value("reduce")) + " divided by " +
+                                    describe(a.value("factor")));
+  return {};
+}
+
+// Gives the checked arguments back; the search itself is lua/cdem/safety.lua.
+Value factor_of_safety(Session&, Object*, const Arguments& a) {
+  if (a.has("model") == a.has("builder"))
+    throw InputError(
+        "model, builder: give one of them: a model, whose state as it is each trial starts from, "
+        "or builder = function() ... return model end");
+  const double lower = a.number("lower"), upper = a.number("upper"), tolerance = a.number("tolerance");
+  if (!(upper > lower))
+    throw InputError("upper", describe(a.value("upper")), "above lower = " + describe(a.value("lower")));
+  if (!(tolerance < upper - lower))
+    throw InputError("tolerance", describe(a.value("tolerance")),
+                     "below upper - lower = " + number_text(upper - lower));
+  if (const auto model = a.object<ModelObject>("model")) {
+    model->require_idle("factor_of_safety");
+    Simulation tried =
+        model->simulation.copy(); // tells of strengths that there are not before anything is solved
+    tried.reduce_strength(1, kinds_of(a));
+  }
+  Table given;
+  for (const char* const name : {"model", "builder", "reduce", "lower", "upper", "tolerance", "residual",
+                                 "max_steps", "picture", "figure"})
+    if (a.has(name))
+      given.named[name] = a.value(name);
+  return given;
+}
+
+Field reduce() {
+  Type kind;
+  kind.kind = Kind::choice;
+  kind.choices = {"joints", "blocks"};
+  return list("reduce", kind)
+      .required()
+      .doc("strengths that are divided: joints (cohesion, tan(phi) and tensile "
+           "strength of joints, bonds and contacts), blocks (those of plasticity)");
+}
+
+void bind_records(Module& m) {
+  m.records.push_back(
+      {"SafetyTrial",
+       "One trial of a search for the factor of safety.",
+       {number("factor").required(), choice("verdict", {"stable", "failing", "undecided"}).required(),
+        integer("steps").required(), number("residual").required()}});
+  m.records.push_back(
+      {"FactorOfSafety",
+       "What the search for the factor of safety came to.",
+       {number("factor").required().doc("middle of the bracket"),
+        number("lower").required().doc("largest factor at which the model is stable"),
+        number("upper").required().doc("smallest one at which it is not"),
+        object("stable", "Model").required().doc("at lower, in its new balance"),
+        object("failing", "Model")
+            .required()
+            .doc("at upper, as it was when it was found to run away; its displacement is the mechanism"),
+        list("trials", object_type("SafetyTrial"), 0).required().doc("in the order they were made")}});
+}
+
+} // namespace
+
+void bind_stability(Module& m) {
+  bind_records(m);
+  Class& model = m.the_class("Model");
+  model.methods.push_back(
+      {"copy",
+       "Another model in the same state, with the same conditions and without histories and "
+       "probes; what "
+       "becomes of one does not touch the other.",
+       {},
+       true,
+       "cdem.Model",
+       "",
+       method<ModelObject>(copy)});
+  model.methods.push_back({"reduce_strength",
+                           "Divides strengths by a factor: cohesion, tan(phi) and tensile strength. "
+                           "Stiffness, fracture energies and "
+                           "the state "
+                           "stay; glued faces never break. A second call acts on top of the first.",
+                           {number("factor").above(0).required(), reduce()},
+                           false,
+                           "",
+                           "",
+                           method<ModelObject>(reduce_strength)});
+  m.functions.push_back(
+      {"factor_of_safety",
+       "The factor of safety by strength reduction: the number that the strengths can be divided by before "
+       "the "
+       "model fails, "
+       "by bisection. Each trial starts from the same state, with its displacement set to zero, and is "
+       "relaxed; "
+       "the verdict of "
+       "model:relax says whether it stands. Trials show in the progress, in the log and in report.json, "
+       "which "
+       "gets the figures "
+       "factor_of_safety, factor_of_safety_lower and factor_of_safety_upper too.",
+       {object("model", "Model").doc("each trial starts from its state as it is; it stays as it is"),
+        function("builder", "(): cdem.Model")
+            .doc("instead: makes the model of a trial, called anew for each"),
+        reduce(), number("lower").above(0).standard(0.5).doc("a factor at which the model stands"),
+        number("upper").above(0).standard(4.0).doc("a factor at which it fails"),
+        number("tolerance").above(0).standard(0.02).doc("width of the bracket that is left"),
+        number("residual")
+            .between(0, 1)
+            .standard(1e-5)
+            .doc("goal of each relaxation; smaller for models of many blocks of which few slide"),
+        integer("max_steps")
+            .at_least(1)
+            .standard(200000)
+            .doc("of each relaxation; a trial that is undecided then counts as failing, with a warning"),
+        text("picture").doc("file (.png) of the mechanism: displacement of the failing side"),
+        text("figure").standard("factor_of_safety").doc("name of the figure in the report")},
+       false,
+       "cdem.FactorOfSafety",
+       "",
+       factor_of_safety});
+}
+
+} // namespace cdem::script

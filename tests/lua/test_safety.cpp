@@ -1,0 +1,123 @@
+// The verdict of a relaxation and the factor of safety in scripts.
+#include "tests/lua/script.hpp"
+
+#include <catch2/catch.hpp>
+
+using namespace cdem::script;
+using namespace cdem::script::test;
+using Catch::Matchers::Contains;
+using Catch::Matchers::Equals;
+
+namespace {
+
+// A block on an incline of 25 degrees that leans with gravity: F = tan(phi) / tan(25).
+const std::string head =
+    "local cdem = require 'cdem'\n"
+    "local stone = cdem.elastic{ youngs_modulus = 1e9, poissons_ratio = 0.2, density = 2500 }\n"
+    "local function incline(phi)\n"
+    "  local m = cdem.model{ bodies = {\n"
+    "    { name = 'base', shape = cdem.box{ size = {3, 1, 0.5}, origin = {-1, 0, -0.5} }, material = stone "
+    "},\n"
+    "    { name = 'block', shape = cdem.box{ size = {1, 1, 0.5} }, material = stone } },\n"
+    "    contacts = { { 'base', 'block', cdem.coulomb{ friction_angle = phi } } } }\n"
+    "  m:fix{ on = 'base' }\n"
+    "  local a = math.rad(25)\n"
+    "  m:gravity{ vector = {9.81 * math.sin(a), 0, -9.81 * math.cos(a)} }\n"
+    "  return m\nend\n"
+    "local exact = math.tan(math.rad(35)) / math.tan(math.rad(25))\n";
+
+} // namespace
+
+TEST_CASE("a relaxation answers, and the script goes on", "[lua][safety]") {
+  Script script(head + "local m = incline(20)\nlocal r = m:relax{}\n"
+                       "assert(r.verdict == 'failing' and not r.converged and r.moving > 0)\n"
+                       "m:picture{ file = 'failing.png' }\nm:save{ file = 'failing.vtu' }\n"
+                       "m = incline(35)\nr = m:relax{ residual = 1e-5 }\nassert(r.verdict == 'stable')\n"
+                       "m = incline(20)\nr = m:relax{ max_steps = 20, trial = 'short' }\n"
+                       "assert(r.verdict == 'undecided' and r.trial == 'short')\ncdem.report{ { name = 'a', value = 1 } }");
+  script.run();
+  CHECK(script.wrote("failing.png"));
+  CHECK(script.wrote("failing.vtu"));
+  const std::string report = script.read("report.json");
+  CHECK_THAT(report, Contains("\"relaxations\"") && Contains("\"verdict\": \"failing\"") &&
+                         Contains("\"trial\": \"short\""));
+}
+
+TEST_CASE("the factor of safety of a block on an incline is tan(phi) / tan(a)", "[lua][safety]") {
+  const std::string search = "reduce = {'joints'}, lower = 0.9, upper = 2, tolerance = 0.02, residual = 1e-5";
+  Script script(
+      head +
+      "local m = incline(35)\nm:relax{ residual = 1e-5 }\nlocal before = m.state_hash\n"
+      "local f = cdem.factor_of_safety{ model = m, picture = 'mechanism.png', " +
+      search +
+      " }\n"
+      "assert(m.state_hash == before)\n"
+      "assert(f.lower < exact + 0.01 and f.upper > exact - 0.01, f.lower .. ' ' .. f.upper)\n"
+      "assert(f.upper - f.lower <= 0.02 and f.factor == 0.5 * (f.lower + f.upper))\n"
+      "assert(#f.trials >= 7 and f.trials[1].factor == 0.9 and f.trials[1].verdict == 'stable')\n"
+      "assert(f.failing:max('displacement.magnitude') > 10 * f.stable:max('displacement.magnitude'))\n"
+      "local g = cdem.factor_of_safety{ builder = function() return incline(35) end, " +
+      search + " }\nassert(math.abs(g.factor - f.factor) <= 0.02)");
+  script.run();
+  CHECK(script.wrote("mechanism.png"));
+  CHECK_THAT(script.read("report.json"),
+             Contains("factor_of_safety_upper") && Contains("\"trial\": \"F = 0.9\""));
+}
+
+TEST_CASE("a factor of safety says what it lacks", "[lua][safety]") {
+  const auto search = [](const std::string& more) {
+    return error_of(head + "local m = incline(35)\ncdem.factor_of_safety{ " + more + " }");
+  };
+  CHECK_THAT(search("reduce = {'joints'}"), Contains("model, builder: give one of them"));
+  CHECK_THAT(search("model = m"), Contains("reduce: missing"));
+  CHECK_THAT(search("model = m, reduce = {'joint'}"), Contains("reduce[1]") && Contains("joints"));
+  CHECK_THAT(search("model = m, reduce = {'blocks'}"), Contains("no body of the model has a plasticity"));
+  CHECK_THAT(search("model = m, reduce = {'joints'}, lower = 2, upper = 1"),
+             Contains("upper = 1: must be above lower = 2"));
+  CHECK_THAT(search("model = m, reduce = {'joints'}, lower = 1, upper = 1.1, tolerance = 0.2"),
+             Contains("tolerance = 0.2"));
+  CHECK_THAT(search("model = m, reduce = {'joints'}, lower = 1.8, upper = 3"),
+             Contains("case.lua:") && Contains("lower = 1.8: the model is failing there already"));
+  CHECK_THAT(search("model = m, reduce = {'joints'}, lower = 0.5, upper = 1.2"),
+             Contains("upper = 1.2: the model is stable there still"));
+  CHECK_THAT(search("model = incline(0), reduce = {'joints'}"), Contains("no strength to reduce"));
+}
+
+TEST_CASE("a script with a factor of safety can be checked", "[lua][safety]") {
+  Script script(head +
+                "local m = incline(35)\n"
+                "local f = cdem.factor_of_safety{ model = m, reduce = {'joints'}, picture = 'a.png' }\n"
+                "f.failing:picture{ file = 'b.png' }\nassert(#f.trials == 0)");
+  script.settings.check_only = true;
+  CHECK(script.error() == "");
+}
+
+TEST_CASE("a copy of a model goes its own way", "[lua][safety]") {
+  CHECK_THAT(error_of(head + "local m = incline(35)\nm:relax{ residual = 1e-5 }\nlocal c = m:copy()\n"
+                             "assert(c.state_hash == m.state_hash)\n"
+                             "c:reduce_strength{ factor = 2, reduce = {'joints'} }\n"
+                             "assert(c:relax{ trial = 'half' }.verdict == 'failing')\n"
+                             "assert(m:relax{ residual = 1e-5 }.verdict == 'stable')"),
+             Equals(""));
+}
+
+TEST_CASE("plasticity of blocks and of regions", "[lua][safety]") {
+  const std::string soil = head + "local soil = cdem.plastic{ cohesion = 1e4, friction_angle = 20, "
+                                  "tensile_strength = 1e3 }\n";
+  CHECK_THAT(error_of(soil +
+                      "assert(soil.friction_angle == 20 and soil.dilation_angle == 0)\n"
+                      "cdem.model{ bodies = { { shape = cdem.box{ size = {1, 1, 1} }, material = stone, "
+                      "plasticity = soil } } }"),
+             Equals(""));
+  CHECK_THAT(error_of(soil +
+                      "cdem.model{ bodies = { { shape = cdem.box{ size = {1, 1, 1} }, material = stone, "
+                      "plasticity = soil, element = 'small_strain' } } }"),
+             Contains("plasticity") && Contains("moves far"));
+  CHECK_THAT(error_of(soil +
+                      "cdem.model{ bodies = { { shape = cdem.box_mesh{ size = {1, 1, 1}, divisions = {1, 1, "
+                      "1} }, material = stone, region_plasticity = { { 2, soil } } } } }"),
+             Contains("region_plasticity = 2"));
+  CHECK_THAT(error_of(head + "cdem.plastic{ cohesion = 1e4, friction_angle = 20, tensile_strength = 0, "
+                             "residual_cohesion = 0 }"),
+             Contains("softening_strain: goes together"));
+}
