@@ -97,6 +97,9 @@ public:
   void traction(const Traction&);
   void force(const PointForce&);
   void gravity(const Gravity&);
+  // Each takes the place of a fix of the same place: what this holds stays as a load (State::support_force).
+  void quiet(const Quiet&);
+  void free_field(const FreeField&);
   bool flow(const Flow&); // true when it meets faces that an earlier one meets: their pressures add up
   void clear_loads();     // tractions, forces, gravity and flows
   // Stress present before anything moves (load/initial_stress.hpp). Returns what it loads beyond its strength.

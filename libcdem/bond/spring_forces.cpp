@@ -124,14 +124,31 @@ CDEM_INLINE void update_spring(const BondPoint& point, const Interface& interfac
       taken, state.bond_mode[p] == static_cast<std::uint8_t>(BondMode::broken_shear) ? 1 : 0);
 }
 
+// Stiffness damping of a spring that holds or presses, beside its own force; rate: m/s, of its stretch in undeformed
+// directions. A contact takes no tension from it, and none at all while it slides or is open.
+geom::Vec3 viscous_force(const BondPoint& point, const Interface& interface, std::uint8_t mode,
+                         const geom::Vec3& spring, const geom::Vec3& rate, double beta) {
+  const double opening = rate.dot(point.normal);
+  double normal = beta * interface.kn * point.area * opening;
+  geom::Vec3 shear = beta * interface.ks * point.area * (rate - opening * point.normal);
+  if (!is_intact(mode)) {
+    const double pressing = spring.dot(point.normal);
+    if (pressing >= 0)
+      return geom::Vec3::Zero();
+    normal = std::min(normal, -pressing);
+  }
+  return normal * point.normal + shear;
+}
+
 template <bool softens>
 void forces_of_springs(const Model& model, State& state, BondWork& work, Range range, SpringSums& sums,
                        bool breaking) {
-  sums.friction = sums.breaking = 0;
+  sums.friction = sums.breaking = sums.damping = 0;
   sums.broken.clear();
   sums.losses.clear();
   const Node* u = state.displacement.data();
   const bool any_turns = !model.frames.empty();
+  const bool damped = !work.damping.empty() && work.damping_step > 0;
   int turned_interface = -1; // whose rotation it is
   geom::Mat3 rotation = geom::Mat3::Identity();
   for (std::int64_t p = range.begin; p < range.end; ++p) {
@@ -152,9 +169,19 @@ void forces_of_springs(const Model& model, State& state, BondWork& work, Range r
       rotation = interface_rotation(model, u, interface);
       turned_interface = point.interface;
     }
+    const geom::Vec3 offset_before = state.bond_offset[p];
     update_spring<softens>(point, interface, state, work, p, rotation.transpose() * jump_at(point, u), sums,
                            breaking);
     work.turned_force[p] = rotation * work.spring_force[p];
+    if (!damped || work.damping[point.interface] == 0)
+      continue;
+    const geom::Vec3 rate = rotation.transpose() * jump_at(point, state.velocity.data());
+    const bool slid = state.bond_offset[p] != offset_before;
+    const geom::Vec3 viscous = slid ? geom::Vec3(geom::Vec3::Zero())
+                                    : viscous_force(point, interface, state.bond_mode[p], work.spring_force[p],
+                                                    rate, work.damping[point.interface]);
+    work.turned_force[p] += rotation * viscous;
+    sums.damping += viscous.dot(rate) * work.damping_step;
   }
 }
 

@@ -32,9 +32,9 @@ void archive(A& a, RateEffect& x) {
 template <class A>
 void archive(A& a, Joint& x) {
   auto& [bonded, glued, cohesion, friction_angle, tensile_strength, softening, g1, g2, thickness_ratio,
-         thickness, kn, ks, restitution, scatter, rate] = x;
+         thickness, kn, ks, stiffness_damping, restitution, scatter, rate] = x;
   archive_all(a, bonded, glued, cohesion, friction_angle, tensile_strength, softening, g1, g2,
-              thickness_ratio, thickness, kn, ks, restitution, scatter, rate);
+              thickness_ratio, thickness, kn, ks, stiffness_damping, restitution, scatter, rate);
 }
 
 template <class A>

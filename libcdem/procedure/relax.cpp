@@ -78,6 +78,13 @@ void require_held(const Model& model, const ResolvedConditions& r) {
     }
 }
 
+// Dashpots carry nothing at rest.
+void require_no_quiet(const Conditions& conditions) {
+  if (!conditions.quiets.empty() || !conditions.free_fields.empty())
+    throw geom::InputError("relax: quiet boundaries and free fields hold nothing in a relaxation; find the static "
+                           "balance with model:fix there, then call model:quiet and model:free_field");
+}
+
 void stop(State& state) {
   std::fill(state.velocity.begin(), state.velocity.end(), Node{});
   for (RigidState& rigid : state.rigid)
@@ -109,6 +116,7 @@ std::vector<double> fictitious_masses(const Model& model) {
 
 RelaxResult relax(const StageContext& context, const RelaxOptions& options, const std::string& kind) {
   State& state = context.state;
+  require_no_quiet(context.conditions);
   Stage stage(context, kind, context.model.length);
   require_held(context.model, stage.work.resolved);
   stage.work.contact.restitution = false; // its steps are no times

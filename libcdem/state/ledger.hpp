@@ -10,6 +10,7 @@ struct EnergyLedger {
   double kinetic = 0; // real masses, or the fictitious ones of a relaxation
   // spent
   double damping = 0;
+  double radiated = 0; // by the dashpots of quiet boundaries and free fields
   double friction = 0;
   // Stored in a spring when it broke and no longer stored after; damage of softening bonds.
   double breaking = 0;
@@ -20,7 +21,7 @@ struct EnergyLedger {
   double external_peak = 0; // largest |external| so far
 
   double total() const {
-    return elastic + springs + kinetic + damping + friction + breaking + cutting + fictitious;
+    return elastic + springs + kinetic + damping + radiated + friction + breaking + cutting + fictitious;
   }
   // |total - external| over the largest external work; 0 before anything happened.
   double balance_error() const;

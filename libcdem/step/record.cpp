@@ -34,6 +34,7 @@ std::int64_t record_bond_breaks(const Model& model, State& state, const Workspac
   for (const SpringSums& sums : work.bond.sums) {
     spent.friction += sums.friction;
     spent.breaking += sums.breaking;
+    spent.damping += sums.damping;
     for (const CrackLoss& loss : sums.losses) {
       const Interface& interface = model.interfaces[loss.interface];
       const int a = model.blocks[interface.block_a].body, b = model.blocks[interface.block_b].body;

@@ -1,6 +1,7 @@
 #include "libcdem/step/stage.hpp"
 
 #include "libcdem/bond/release.hpp"
+#include "libcdem/integrate/move_columns.hpp"
 #include "libcdem/parallel/huge_pages.hpp"
 #include "libcdem/parallel/instruction_set.hpp"
 #include "libcdem/step/errors.hpp"
@@ -147,7 +148,9 @@ double Stage::update_contacts(double safety) {
   return longest;
 }
 
-void Stage::update_loads(double time) {
+void Stage::update_loads(double time, const Stepping& stepping) {
+  advance_columns(work.resolved, context_.state, {time, stepping.time_step, stepping.kick});
+  update_supports(work.resolved, time + 0.5 * stepping.time_step);
   update_external(work.resolved, time);
   times_.end(StepLine::loads);
 }
@@ -258,6 +261,7 @@ void Stage::record_step(const StepReport& report) {
   spent.external += report.sums.external;
   spent.external_peak = std::max(spent.external_peak, std::abs(spent.external));
   spent.damping += report.sums.damping;
+  spent.radiated += report.sums.radiated;
 }
 
 void Stage::release_parted_blocks() {

@@ -66,7 +66,8 @@ public:
   // Returns the longest step that contacts leave, s, `safety` times the stable one; infinite without contacts. Throws
   // SolutionError when something has gone too deep.
   double update_contacts(double safety = 1);
-  void update_loads(double time); // s
+  // Of the step from `time` (s) on: loads, supports that vary, free fields.
+  void update_loads(double time, const Stepping&);
   // All forces where the nodes are, and move(nodes, forces, sums), move_rigid(rigid body, sums) (step_loops.hpp).
   // Returns the sums over all chunks, added in order.
   template <class Move, class MoveRigid>

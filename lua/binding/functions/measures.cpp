@@ -53,6 +53,7 @@ Value energy(Session&, ModelObject& model, const Arguments&) {
   const EnergyLedger e = model.simulation.energy();
   return Table{{"elastic", e.elastic},   {"springs", e.springs},
                {"kinetic", e.kinetic},   {"damping", e.damping},
+               {"radiated", e.radiated},
                {"friction", e.friction}, {"breaking", e.breaking},
                {"cutting", e.cutting},   {"fictitious", e.fictitious},
                {"external", e.external}, {"external_peak", e.external_peak},
@@ -132,7 +133,9 @@ void bind_rows(Module& m) {
         number("springs").unit("J").required().doc("stored in bonds and contacts"),
         number("kinetic").unit("J").required().doc(
             "of the real masses, or of a relaxation's fictitious ones"),
-        number("damping").unit("J").required(), number("friction").unit("J").required(),
+        number("damping").unit("J").required(),
+        number("radiated").unit("J").required().doc("left through quiet boundaries and free fields"),
+        number("friction").unit("J").required(),
         number("breaking").unit("J").required().doc("lost by bonds that broke or softened"),
         number("cutting").unit("J").required().doc("lost when blocks were cut or removed"),
         number("fictitious").unit("J").required().doc("kinetic energy a relaxation threw away at its end"),

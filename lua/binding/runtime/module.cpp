@@ -30,6 +30,7 @@ const Module& module() {
     bind_settling(m);
     bind_fracture(m);
     bind_flow(m);
+    bind_waves(m);
     bind_measures(m);
     bind_cracks(m);
     bind_j_integral(m);

@@ -91,6 +91,7 @@ void bind_solving(Module&);
 void bind_settling(Module&);
 void bind_fracture(Module&);
 void bind_flow(Module&);
+void bind_waves(Module&);
 void bind_measures(Module&);
 void bind_cracks(Module&);
 void bind_j_integral(Module&);
