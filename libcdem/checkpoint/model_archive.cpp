@@ -221,8 +221,8 @@ void archive(A& a, HistoryRow& x) {
 
 template <class A>
 void archive(A& a, Probe& x) {
-  auto& [name, field, place, crack, body] = x;
-  archive_all(a, name, field, place, crack, body);
+  auto& [name, field, place, crack, body, on] = x;
+  archive_all(a, name, field, place, crack, body, on);
 }
 
 template <class A>

@@ -69,6 +69,7 @@ public:
     s.rigid = from_.rigid;
     s.column_displacement = from_.column_displacement;
     s.column_velocity = from_.column_velocity;
+    s.bolts = from_.bolts;
     carry_nodes();
     carry_faces();
     carry_contacts();

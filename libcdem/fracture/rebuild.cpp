@@ -122,6 +122,7 @@ public:
     result.state.spent = from_.spent;
     result.state.column_displacement = from_.column_displacement;
     result.state.column_velocity = from_.column_velocity;
+    result.state.bolts = from_.bolts;
     result.state.crack_energy = from_.crack_energy;
     for (const Successor& s : successors_)
       result.old_block.push_back(s.old_block);

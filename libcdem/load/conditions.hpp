@@ -1,6 +1,7 @@
 // Supports and loads as the user states them. They refer to places, not to nodes, so they survive cutting.
 #pragma once
 
+#include "libcdem/bolt/bolt.hpp"
 #include "libcdem/model/selection.hpp"
 
 #include <array>
@@ -85,6 +86,7 @@ struct Conditions {
   std::vector<Flow> flows;
   std::vector<Quiet> quiets;
   std::vector<FreeField> free_fields;
+  std::vector<Bolt> bolts;
 
   bool load() const { return !tractions.empty() || !forces.empty() || gravity || !flows.empty(); }
 };

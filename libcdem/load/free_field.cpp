@@ -13,7 +13,8 @@ namespace {
 constexpr double least_spacing = 0.5; // of levels, over their mean: closer ones make the levels even
 
 struct SideFace {
-  double z = 0, area = 0;
+  double z = 0, area = 0; // of the centroid, m; m2
+  double low = std::numeric_limits<double>::infinity(), high = -std::numeric_limits<double>::infinity(); // m
   const Elastic* material = nullptr;
 };
 
@@ -48,8 +49,8 @@ ColumnLayer layer_of(const std::vector<SideFace>& faces, double low, double high
     layer.stiffness_damping += weight * m.stiffness_damping;
   };
   for (const SideFace& face : faces)
-    if (face.z >= low && face.z < high)
-      add(face, face.area);
+    if (const double part = std::min(high, face.high) - std::max(low, face.low); part > 0)
+      add(face, face.area * part / (face.high - face.low));
   if (area == 0) {
     const double middle = 0.5 * (low + high);
     add(*std::min_element(faces.begin(), faces.end(),
@@ -105,10 +106,13 @@ Column free_field_column(const Model& model, const Conditions& conditions, const
   double area = 0;
   for (const int f : faces) {
     const OuterFace& face = model.outer_faces[f];
-    SideFace s{0, 0, &model.bodies[model.blocks[face.block].body].material};
+    SideFace s;
+    s.material = &model.bodies[model.blocks[face.block].body].material;
     each_face_node(model, face, [&](int node, double share) {
       s.z += share * model.node_position[node].z();
       s.area += share;
+      s.low = std::min(s.low, model.node_position[node].z());
+      s.high = std::max(s.high, model.node_position[node].z());
       heights.push_back(model.node_position[node].z());
     });
     s.z /= s.area;
@@ -141,9 +145,17 @@ Column free_field_column(const Model& model, const Conditions& conditions, const
     each_face_node(model, face, [&](int node, double share) {
       const double z = model.node_position[node].z();
       const int level = layer_at(z);
-      column.shares.push_back({node, share, layer_at(side[i].z), level,
-                               std::clamp((z - column.z[level]) / column.layers[level].height, 0.0, 1.0),
-                               impedance});
+      const double height = column.layers[level].height,
+                   above = std::clamp((z - column.z[level]) / height, 0.0, 1.0);
+      const auto take = [&](int layer, double part) {
+        column.shares.push_back({node, part, layer, level, above, impedance});
+      };
+      if (side[i].high - side[i].low < 1.5 * height) {
+        take(layer_at(side[i].z), share);
+      } else { // a face of many nodes: what a node stands for lies half above and half below it
+        take(layer_at(std::max(side[i].low + 1e-6 * height, z - 0.25 * height)), 0.5 * share);
+        take(layer_at(std::min(side[i].high - 1e-6 * height, z + 0.25 * height)), 0.5 * share);
+      }
     });
   }
   set_foot(column, conditions);

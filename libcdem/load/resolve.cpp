@@ -220,7 +220,7 @@ ResolvedConditions resolve(const Model& model, const State& state, const Conditi
   ResolvedConditions r;
   const std::size_t n = model.node_position.size();
   HeldNodes held;
-  if (conditions.load() || !conditions.quiets.empty() || !conditions.free_fields.empty() ||
+  if (conditions.load() || !conditions.bolts.empty() || !conditions.quiets.empty() || !conditions.free_fields.empty() ||
       !state.support_force.empty())
     r.external.resize(n);
   std::copy(state.support_force.begin(), state.support_force.end(), r.external.begin());
@@ -241,6 +241,12 @@ ResolvedConditions resolve(const Model& model, const State& state, const Conditi
     add_gravity(model, *conditions.gravity, r);
   for (const Flow& flow : conditions.flows)
     add_flow(model, flow, r);
+  if (!conditions.bolts.empty()) {
+    r.bolts = resolve_bolts(model, state, conditions.bolts);
+    r.bolt_load = r.varying.size();
+    r.varying.push_back({{}, [](double) { return 1; }});
+    bolt_forces(r.bolts, state, r.varying.back().forces);
+  }
   if (!r.varying.empty())
     r.constant = r.external;
   refresh_flows(model, state, r);

@@ -1,6 +1,7 @@
 // Conditions turned into numbers on nodes: done at the start of a stage and after every change of topology.
 #pragma once
 
+#include "libcdem/load/bolts.hpp"
 #include "libcdem/load/conditions.hpp"
 #include "libcdem/load/free_field_column.hpp"
 #include "libcdem/state/state.hpp"
@@ -44,6 +45,8 @@ struct ResolvedConditions {
   std::vector<VaryingHold> varying_holds;
   std::vector<geom::Mat3> dashpots; // N s/m, force per velocity of a node (load/quiet.hpp)
   std::vector<Column> columns;      // of free fields
+  std::vector<ResolvedBolt> bolts;
+  std::size_t bolt_load = 0; // their forces on the rock in `varying`
   std::vector<std::optional<geom::Vec3>> rigid; // m/s, of the rigid bodies that are held (n rigid bodies)
   std::vector<Node> constant; // N, loads that do not vary (n_nodes); empty where none varies
   std::vector<Node> external; // N, all loads at the present time (n_nodes); empty without loads

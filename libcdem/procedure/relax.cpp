@@ -106,8 +106,9 @@ struct AtRest {
 
 } // namespace
 
-std::vector<double> fictitious_masses(const Model& model) {
+std::vector<double> fictitious_masses(const Model& model, const std::vector<ResolvedBolt>& bolts) {
   std::vector<double> masses = all_row_sums(model);
+  add_bolt_row_sums(bolts, masses);
   add_contact_row_sums(model, masses);
   for (double& mass : masses)
     mass /= 4 * step_safety * step_safety;
@@ -121,7 +122,7 @@ RelaxResult relax(const StageContext& context, const RelaxOptions& options, cons
   require_held(context.model, stage.work.resolved);
   stage.work.contact.restitution = false; // its steps are no times
   stage.in_real_time = false;
-  std::vector<double> mass = fictitious_masses(context.model);
+  std::vector<double> mass = fictitious_masses(context.model, stage.work.resolved.bolts);
   const RestartPoint* const from = context.from;
   std::vector<Node> previous_force(mass.size()); // N, of the step before
   update_external(stage.work.resolved, state.time);
@@ -156,7 +157,7 @@ RelaxResult relax(const StageContext& context, const RelaxOptions& options, cons
     while (stage.step < options.max_steps && settled < settled_steps) {
       const bool freed = options.breaking && stage.free_nodes();
       if (freed) {
-        mass = fictitious_masses(context.model);
+        mass = fictitious_masses(context.model, stage.work.resolved.bolts);
         previous_force.assign(mass.size(), {});
         forces_known = false;
       }
@@ -167,6 +168,7 @@ RelaxResult relax(const StageContext& context, const RelaxOptions& options, cons
       if (freed || stage.step == moving_steps)
         lead_supports(state, stage.work.resolved, stage.step);
       stage.update_contacts();
+      stage.update_loads_at_rest();
       const auto move = [&](Range range, const Node* force, NodeSums& sums) {
         const auto nodes = [&](Range part) {
           return moving_nodes(state, stage.work.acting(), mass, part, force + (part.begin - range.begin));

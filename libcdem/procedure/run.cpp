@@ -32,8 +32,11 @@ std::vector<double> viscous_forces(const Model& model) {
   return viscous;
 }
 
-double choose_time_step(const Model& model, const RunOptions& options) {
-  const double stable = stable_time_step(model), infinite = std::numeric_limits<double>::infinity();
+double choose_time_step(const StageContext& context, const RunOptions& options) {
+  const Model& model = context.model;
+  const double stable =
+                   stable_time_step(model, resolve_bolts(model, context.state, context.conditions.bolts)),
+               infinite = std::numeric_limits<double>::infinity();
   require_scalable(model, options);
   if (options.mass_scaling.on()) // the masses follow the step
     return options.mass_scaling.step > 0 ? options.mass_scaling.step
@@ -107,8 +110,9 @@ private:
 
 } // namespace
 
-double stable_time_step(const Model& model) {
-  const std::vector<double> sums = all_row_sums(model);
+double stable_time_step(const Model& model, const std::vector<ResolvedBolt>& bolts) {
+  std::vector<double> sums = all_row_sums(model);
+  add_bolt_row_sums(bolts, sums);
   double least = std::numeric_limits<double>::infinity();
   for (int i = 0; i < static_cast<int>(sums.size()); ++i)
     if (const Block& block = model.blocks[block_of(model, i)]; block.rigid < 0) {
@@ -122,7 +126,7 @@ double stable_time_step(const Model& model) {
 RunResult run(const StageContext& context, const RunOptions& options, const std::string& kind) {
   State& state = context.state;
   const RestartPoint* const from = context.from;
-  Stepping stepping{choose_time_step(context.model, options), 0, options.local_damping, options.damp_flight};
+  Stepping stepping{choose_time_step(context, options), 0, options.local_damping, options.damp_flight};
   Stage stage(context, kind, run_away_lengths * context.model.length);
   ScaledStage scaled(context, options.mass_scaling.on() ? stepping.time_step : 0, options.safety);
   stage.follows_fragments = options.follows_fragments;
@@ -166,7 +170,7 @@ RunResult run(const StageContext& context, const RunOptions& options, const std:
     const bool freed = options.breaking && stage.free_nodes();
     if (freed) {
       viscous = viscous_forces(context.model);
-      if (const double stable = options.safety * stable_time_step(context.model);
+      if (const double stable = options.safety * stable_time_step(context.model, stage.work.resolved.bolts);
           stable < stepping.time_step && !scaled.on()) {
         stepping.time_step = stable;
         clock.shorten(stage.step, stable);

@@ -151,8 +151,22 @@ double Stage::update_contacts(double safety) {
 void Stage::update_loads(double time, const Stepping& stepping) {
   advance_columns(work.resolved, context_.state, {time, stepping.time_step, stepping.kick});
   update_supports(work.resolved, time + 0.5 * stepping.time_step);
+  advance_bolts();
   update_external(work.resolved, time);
   times_.end(StepLine::loads);
+}
+
+void Stage::update_loads_at_rest() {
+  if (work.resolved.bolts.empty())
+    return;
+  advance_bolts();
+  update_external(work.resolved, context_.state.time);
+  times_.end(StepLine::loads);
+}
+
+void Stage::advance_bolts() {
+  if (ResolvedConditions& r = work.resolved; !r.bolts.empty())
+    cdem::advance_bolts(r.bolts, context_.state, r.varying[r.bolt_load].forces);
 }
 
 void Stage::end_step(double time_step) {
@@ -304,8 +318,8 @@ void Stage::sample(const StepReport& report) {
   std::optional<SynchronisedView> view;
   if (!context_.log.probes.empty())
     view.emplace(*this);
-  record_history(context_.model, context_.state, context_.log, context_.number, report.residual,
-                 report.sums.kinetic);
+  record_history(context_.model, context_.state, context_.conditions, context_.log, context_.number,
+                 report.residual, report.sums.kinetic);
 }
 
 void Stage::report(const StepReport& report, bool last) {

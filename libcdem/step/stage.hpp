@@ -68,6 +68,7 @@ public:
   double update_contacts(double safety = 1);
   // Of the step from `time` (s) on: loads, supports that vary, free fields.
   void update_loads(double time, const Stepping&);
+  void update_loads_at_rest(); // in a relaxation: of what follows the rock
   // All forces where the nodes are, and move(nodes, forces, sums), move_rigid(rigid body, sums) (step_loops.hpp).
   // Returns the sums over all chunks, added in order.
   template <class Move, class MoveRigid>
@@ -93,6 +94,7 @@ private:
   void synchronise_contacts();
   void synchronise_stress();
 
+  void advance_bolts();
   double wall_time() const; // s
   StageStep here() const { return {context_.number, kind_, step}; }
   void record_step(const StepReport&); // energies and breaks

@@ -29,6 +29,7 @@ const Module& module() {
     bind_solving(m);
     bind_settling(m);
     bind_fracture(m);
+    bind_bolts(m);
     bind_flow(m);
     bind_waves(m);
     bind_measures(m);

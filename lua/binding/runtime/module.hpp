@@ -90,6 +90,7 @@ void bind_in_situ(Module&);
 void bind_solving(Module&);
 void bind_settling(Module&);
 void bind_fracture(Module&);
+void bind_bolts(Module&);
 void bind_flow(Module&);
 void bind_waves(Module&);
 void bind_measures(Module&);
