@@ -65,7 +65,12 @@ void Simulation::fix(const Fix& fix) {
     require_finite("displacement", *fix.displacement);
   if (fix.velocity)
     require_finite("velocity", *fix.velocity);
-  impl_->add_condition([&](Conditions& c) { add_fix(c.fixes, fix); });
+  impl_->add_condition([&](Conditions& c) {
+    add_fix(c.fixes, fix);
+    const auto same = [&](const auto& boundary) { return selects_same(boundary.on, fix.on); };
+    c.quiets.erase(std::remove_if(c.quiets.begin(), c.quiets.end(), same), c.quiets.end());
+    c.free_fields.erase(std::remove_if(c.free_fields.begin(), c.free_fields.end(), same), c.free_fields.end());
+  });
 }
 
 void Simulation::release(const Selection& on, std::array<bool, 3> axes) {
@@ -92,6 +97,8 @@ void Simulation::gravity(const Gravity& gravity) {
   require_finite("vector", gravity.acceleration);
   if (!std::isfinite(gravity.water_density) || gravity.water_density < 0)
     throw geom::InputError("water_density", number(gravity.water_density), "a finite number >= 0 kg/m3");
+  if (gravity.turning && gravity.amplitude)
+    throw geom::InputError("amplitude: goes with a constant vector; let the function that turns it scale it too");
   impl_->conditions.gravity = gravity;
 }
 
@@ -330,7 +337,7 @@ bool Simulation::has_gravity() const {
 
 bool Simulation::anything_acts() const {
   const Conditions& c = impl_->conditions;
-  if (!c.tractions.empty() || !c.forces.empty() || c.gravity || !c.flows.empty())
+  if (c.load() || !c.quiets.empty())
     return true;
   const State& s = impl_->state;
   if (!s.water_pressure.empty())

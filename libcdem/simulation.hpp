@@ -103,6 +103,9 @@ public:
   void traction(const Traction&);
   void force(const PointForce&);
   void gravity(const Gravity&);
+  // Each takes the place of a fix of the same place: what this holds stays as a load (State::support_force).
+  void quiet(const Quiet&);
+  void free_field(const FreeField&);
   bool flow(const Flow&); // true when it meets faces that an earlier one meets: their pressures add up
   void clear_loads();     // tractions, forces, gravity and flows
   // Stress present before anything moves (load/initial_stress.hpp). Returns what it loads beyond its strength.
@@ -212,6 +215,21 @@ public:
 
   // Cracks: area and energy, tip and speed along a path, the surface, the energy release rate.
   CracksByBody cracks() const;
+  // Samples the force of the supports on a side or body, and the momentum of a body, into the history as columns name_x,
+  // name_y, name_z.
+  void record_reaction(const std::string& name, const std::string& on);
+  void record_momentum(const std::string& name, const std::string& body);
+  // Sets a bolt into the rock as it stands now (load/bolts.hpp).
+  void bolt(const Bolt&);
+  struct BoltRow {
+    int bolt = 0, node = 0;                // from 1, from the collar on
+    geom::Vec3 place = geom::Vec3::Zero(); // m, undeformed
+    double tension = 0;                    // N, mean of the segments at the node; of the plate at a collar with one
+    double grout = 0;                      // N, on the rock, towards the far end
+    double slip = 0;                       // m, of the bolt past the grout
+    double yielded = 0;                    // strain of the next segment that stays
+  };
+  std::vector<BoltRow> bolts() const;
   // Samples crack_quantities() of a body, or of all where it is empty, into the history as columns name_area ...
   void record_cracks(const std::string& name, const std::string& body);
   Snapshot crack_surface(bool damaged, const std::string& title) const;

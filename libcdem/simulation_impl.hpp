@@ -97,6 +97,8 @@ struct Simulation::Impl {
     add(conditions);
   }
 
+  void add_boundary(const Selection& on, const std::function<void(Conditions&)>& add); // of waves
+
   double stored_energy() const {
     return elastic_energy(model, state) + spring_energy(model, state) + mesh_spring_energy(model, state);
   }

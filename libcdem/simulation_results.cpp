@@ -1,5 +1,6 @@
 // What a Simulation tells of itself.
 #include "libcdem/simulation_impl.hpp"
+#include "libcdem/step/support_forces.hpp"
 
 #include "libcdem/element/small_strain.hpp"
 #include "libcdem/model/names.hpp"
@@ -127,20 +128,7 @@ Unbalance Simulation::unbalance(std::optional<double> reference) const {
 
 geom::Vec3 Simulation::reaction(const Selection& on) const {
   const Impl& s = *impl_;
-  const std::vector<int> nodes = selected_nodes(s.model, on);
-  if (nodes.empty())
-    throw geom::InputError("on", on.text, "a place that holds nodes", "nothing of the model lies there");
-  Workspace work(s.model, s.state, s.conditions);
-  update_external(work.resolved, s.state.time);
-  const std::vector<Node> force = net_forces(s.model, s.state, work);
-  geom::Vec3 sum = geom::Vec3::Zero();
-  for (const HeldNode& h : work.resolved.held) {
-    if (!std::binary_search(nodes.begin(), nodes.end(), h.node))
-      continue;
-    const Node& f = force[h.node];
-    sum -= geom::Vec3((1 - h.free.x) * f.x, (1 - h.free.y) * f.y, (1 - h.free.z) * f.z);
-  }
-  return sum;
+  return SupportForces(s.model, s.state, s.conditions).reaction(on);
 }
 
 std::vector<Simulation::BlockRow> Simulation::blocks() const {

@@ -22,6 +22,10 @@ BondWork::BondWork(const Model& model, const State& state)
   for (const Interface& interface : model.interfaces) {
     const Joint joint = joint_of(model, interface);
     strength.push_back({joint.cohesion, geom::portable::tan(joint.friction_angle), joint.tensile_strength});
+    if (joint.stiffness_damping > 0)
+      damping.resize(model.interfaces.size());
+    if (!damping.empty())
+      damping[strength.size() - 1] = joint.stiffness_damping;
     if (!state.bond_damage.empty())
       softening.push_back(softening_law(joint, interface.kn, interface.ks));
     if (!state.joint_history.empty())

@@ -151,14 +151,31 @@ geom::Vec3 water_force(const State& state, const BondPoint& point, std::int64_t 
   return -state.water_pressure[p] * point.area * point.normal;
 }
 
+// Stiffness damping of a spring that holds or presses, beside its own force; rate: m/s, of its stretch in undeformed
+// directions. A contact takes no tension from it, and none at all while it slides or is open.
+geom::Vec3 viscous_force(const BondPoint& point, const Interface& interface, std::uint8_t mode,
+                         const geom::Vec3& spring, const geom::Vec3& rate, double beta) {
+  const double opening = rate.dot(point.normal);
+  double normal = beta * interface.kn * point.area * opening;
+  geom::Vec3 shear = beta * interface.ks * point.area * (rate - opening * point.normal);
+  if (!is_intact(mode)) {
+    const double pressing = spring.dot(point.normal);
+    if (pressing >= 0)
+      return geom::Vec3::Zero();
+    normal = std::min(normal, -pressing);
+  }
+  return normal * point.normal + shear;
+}
+
 template <bool special>
 void forces_of_springs(const Model& model, State& state, BondWork& work, Range range, SpringSums& sums,
                        bool breaking) {
-  sums.friction = sums.breaking = 0;
+  sums.friction = sums.breaking = sums.damping = 0;
   sums.broken.clear();
   sums.losses.clear();
   const Node* u = state.displacement.data();
   const bool acts_otherwise = !work.acting_force.empty();
+  const bool damped = !work.damping.empty() && work.damping_step > 0;
   int turned_interface = -1; // whose rotation it is
   geom::Mat3 rotation = geom::Mat3::Identity();
   for (std::int64_t p = range.begin; p < range.end; ++p) {
@@ -184,9 +201,19 @@ void forces_of_springs(const Model& model, State& state, BondWork& work, Range r
       work.acting_force[p] = rotation * water_force(state, point, p);
       continue;
     }
+    const geom::Vec3 offset_before = state.bond_offset[p];
     update_spring<special>(point, interface, state, work, p, rotation.transpose() * jump_at(point, u), sums,
                            breaking);
     work.acting_force[p] = rotation * (work.spring_force[p] + water_force(state, point, p));
+    if (!damped || work.damping[point.interface] == 0)
+      continue;
+    const geom::Vec3 rate = rotation.transpose() * jump_at(point, state.velocity.data());
+    const bool slid = state.bond_offset[p] != offset_before;
+    const geom::Vec3 viscous = slid ? geom::Vec3(geom::Vec3::Zero())
+                                    : viscous_force(point, interface, state.bond_mode[p], work.spring_force[p],
+                                                    rate, work.damping[point.interface]);
+    work.acting_force[p] += rotation * viscous;
+    sums.damping += viscous.dot(rate) * work.damping_step;
   }
 }
 

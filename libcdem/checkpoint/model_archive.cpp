@@ -68,9 +68,9 @@ void archive(A& a, JointLaw& x) {
 template <class A>
 void archive(A& a, Joint& x) {
   auto& [bonded, glued, cohesion, friction_angle, tensile_strength, softening, g1, g2, thickness_ratio,
-         thickness, kn, ks, restitution, scatter, rate, law] = x;
+         thickness, kn, ks, stiffness_damping, restitution, scatter, rate, law] = x;
   archive_all(a, bonded, glued, cohesion, friction_angle, tensile_strength, softening, g1, g2,
-              thickness_ratio, thickness, kn, ks, restitution, scatter, rate, law);
+              thickness_ratio, thickness, kn, ks, stiffness_damping, restitution, scatter, rate, law);
 }
 
 template <class A>
@@ -265,8 +265,8 @@ void archive(A& a, HistoryRow& x) {
 
 template <class A>
 void archive(A& a, Probe& x) {
-  auto& [name, field, place, crack, body] = x;
-  archive_all(a, name, field, place, crack, body);
+  auto& [name, field, place, crack, body, on] = x;
+  archive_all(a, name, field, place, crack, body, on);
 }
 
 template <class A>

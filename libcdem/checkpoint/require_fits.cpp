@@ -104,6 +104,8 @@ void require_fits(const Model& model, const State& state) {
       refuse("rate_factor", std::to_string(factor) + " is out of range");
   require_length("rigid", state.rigid.size(), model.rigid.size());
   require_length("rigid_offset", state.rigid_offset.size(), nodes, model.rigid.empty());
+  require_length("support_force", state.support_force.size(), nodes, true);
+  require_length("column_velocity", state.column_velocity.size(), state.column_displacement.size());
   require_length("moving_mass", state.moving_mass.size(), nodes, true);
   for (const double mass : state.moving_mass)
     if (!(mass > 0))

@@ -419,6 +419,16 @@ void check_outer_faces(const Model& model) {
   }
 }
 
+bool is_support_quantity(const Model& model, const Probe& probe) {
+  const bool axis = probe.crack.size() > 2 && probe.crack.find_first_of("xyz", probe.crack.size() - 1) != std::string::npos;
+  const std::string quantity = axis ? probe.crack.substr(0, probe.crack.size() - 2) : "";
+  const auto named = [&](const Body& body) { return body.name == probe.on; };
+  const bool side = probe.on.size() == 2 && probe.on[0] >= 'x' && probe.on[0] <= 'z' &&
+                    (probe.on[1] == '-' || probe.on[1] == '+');
+  const bool body = std::any_of(model.bodies.begin(), model.bodies.end(), named);
+  return (quantity == "reaction" && (side || body)) || (quantity == "momentum" && body && probe.body >= 0);
+}
+
 } // namespace
 
 void require_whole(const Model& model) {
@@ -457,9 +467,11 @@ void require_whole(const Model& model, const RunLog& log) {
     require(row.mode == BondMode::broken_tension || row.mode == BondMode::broken_shear, "breaks.mode",
             static_cast<int>(row.mode));
   for (const Probe& probe : log.probes)
-    if (!probe.crack.empty()) {
+    if (!probe.crack.empty() || !probe.on.empty()) {
       const auto& known = crack_quantities();
-      require(std::find(known.begin(), known.end(), probe.crack) != known.end(), "probes.crack", 0);
+      require(probe.on.empty() ? std::find(known.begin(), known.end(), probe.crack) != known.end()
+                               : is_support_quantity(model, probe),
+              "probes.crack", 0);
       require(probe.body >= -1 && probe.body < count(model.bodies.size()), "probes.body", probe.body);
     }
   for (const HistoryRow& row : log.history)

@@ -69,6 +69,9 @@ public:
     s.viscous_stress = from_.viscous_stress;
     s.face_slip = from_.face_slip;
     s.rigid = from_.rigid;
+    s.column_displacement = from_.column_displacement;
+    s.column_velocity = from_.column_velocity;
+    s.bolts = from_.bolts;
     carry_nodes();
     carry_faces();
     carry_contacts();
@@ -94,6 +97,12 @@ private:
     carry(from_.displacement, to_.state.displacement);
     carry(from_.velocity, to_.state.velocity);
     carry(from_.displacement_zero, to_.state.displacement_zero);
+    carry(from_.support_force, to_.state.support_force);
+    for (std::size_t i = 0; i < to_.state.support_force.size(); ++i) { // shared by the copies of a node
+      const double share = to_.model.node_mass[i] / old_.node_mass[before[i]];
+      Node& force = to_.state.support_force[i];
+      force = {share * force.x, share * force.y, share * force.z, 0};
+    }
     carry(from_.rigid_offset, to_.state.rigid_offset);
     carry(from_.escaped, to_.state.escaped);
   }

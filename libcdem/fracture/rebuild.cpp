@@ -120,10 +120,14 @@ public:
     result.state.step = from_.step;
     result.state.velocity_lag = from_.velocity_lag;
     result.state.spent = from_.spent;
+    result.state.column_displacement = from_.column_displacement;
+    result.state.column_velocity = from_.column_velocity;
+    result.state.bolts = from_.bolts;
     result.state.crack_energy = from_.crack_energy;
     for (const Successor& s : successors_)
       result.old_block.push_back(s.old_block);
     carry_blocks(result);
+    carry_support(result);
     carry_rigid(result);
     for (const Interface& interface : result.model.interfaces)
       carry_interface(result, interface);
@@ -231,6 +235,40 @@ private:
       r.state.displacement_zero[node] =
           successors_[b].whole ? from_.displacement_zero[before.node_begin + (node - now.node_begin)]
                                : at_place(old_, from_.displacement_zero, before, r.model.node_position[node]);
+  }
+
+  // Forces on the nodes of a cut block go to the nearest nodes of its parts, in equal shares.
+  void carry_support(Rebuilt& r) const {
+    if (from_.support_force.empty())
+      return;
+    r.state.support_force.resize(r.model.node_position.size());
+    std::map<int, std::vector<int>> parts; // of a cut block
+    for (std::size_t b = 0; b < r.model.blocks.size(); ++b) {
+      const Block &now = r.model.blocks[b], &before = old_.blocks[successors_[b].old_block];
+      if (successors_[b].whole)
+        std::copy_n(from_.support_force.begin() + before.node_begin, before.node_end - before.node_begin,
+                    r.state.support_force.begin() + now.node_begin);
+      else
+        for (int node = now.node_begin; node < now.node_end; ++node)
+          parts[successors_[b].old_block].push_back(node);
+    }
+    for (const auto& [block, nodes] : parts)
+      for (int old = old_.blocks[block].node_begin; old < old_.blocks[block].node_end; ++old) {
+        const Node& force = from_.support_force[old];
+        if (force.x == 0 && force.y == 0 && force.z == 0)
+          continue;
+        const auto away = [&](int node) { return (r.model.node_position[node] - old_.node_position[old]).norm(); };
+        double least = away(nodes.front());
+        for (const int node : nodes)
+          least = std::min(least, away(node));
+        const auto near = [&](int node) { return away(node) <= least + old_.tolerance; };
+        const double share = 1 / static_cast<double>(std::count_if(nodes.begin(), nodes.end(), near));
+        for (const int node : nodes)
+          if (near(node)) {
+            Node& sum = r.state.support_force[node];
+            sum = {sum.x + share * force.x, sum.y + share * force.y, sum.z + share * force.z, 0};
+          }
+      }
   }
 
   static geom::Vec3 centre_of(const Model& model, int tet) {

@@ -16,6 +16,7 @@ struct NodeSums {
   double kinetic = 0;   // J
   double external = 0;  // J, this step
   double damping = 0;   // J, this step
+  double radiated = 0;  // J, this step, by dashpots
 };
 
 // What acts on nodes beside the stress of elements.

@@ -20,7 +20,13 @@ double stable_time_step(double frequency2, double rate) {
 }
 
 double damping_of(const Model& model, int node) {
-  return model.bodies[model.blocks[block_of(model, node)].body].material.stiffness_damping;
+  double beta = model.bodies[model.blocks[block_of(model, node)].body].material.stiffness_damping;
+  if (!model.bond_begin.empty())
+    for (std::int64_t i = model.bond_begin[node]; i < model.bond_begin[node + 1]; ++i) {
+      const Interface& interface = model.interfaces[model.points[model.bonds_on_nodes[i].point].interface];
+      beta = std::max(beta, model.joints[interface.joint].stiffness_damping);
+    }
+  return beta;
 }
 
 } // namespace cdem

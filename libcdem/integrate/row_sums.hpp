@@ -12,6 +12,6 @@ std::vector<double> all_row_sums(const Model&); // N/m (n_nodes), of each node t
 // s; frequency2: 1/s2, row sum of |K| over mass; rate: 1/s, the same of what is damped, times beta.
 double stable_time_step(double frequency2, double rate);
 
-double damping_of(const Model&, int node); // s, beta of its material
+double damping_of(const Model&, int node); // s, the largest beta of its material and the joints at it
 
 } // namespace cdem

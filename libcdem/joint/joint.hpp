@@ -34,6 +34,10 @@ struct Joint {
   std::optional<double> normal_stiffness; // kn, Pa/m, > 0
   std::optional<double> shear_stiffness;  // ks, Pa/m, > 0
 
+  // beta of Rayleigh damping, s, >= 0: between blocks that move far, springs that hold or press carry beta k times the
+  // rate of their stretch beside their force.
+  double stiffness_damping = 0;
+
   // e, in (0, 1]: speed after over speed before an impact, as far as the contact decides it. 1: it loses nothing.
   double restitution = 1;
 

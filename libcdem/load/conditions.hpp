@@ -1,6 +1,7 @@
 // Supports and loads as the user states them. They refer to places, not to nodes, so they survive cutting.
 #pragma once
 
+#include "libcdem/bolt/bolt.hpp"
 #include "libcdem/model/selection.hpp"
 
 #include <array>
@@ -19,6 +20,7 @@ struct Fix {
   // m, total value; a relaxation moves there in its first steps and holds it
   std::optional<geom::Vec3> displacement;
   std::optional<geom::Vec3> velocity; // m/s, in real-time stepping; zero when not given
+  Amplitude amplitude;                // of the velocity
 };
 
 // Adds a fix. Earlier ones that it overrules altogether are dropped: a script may hold a place anew in every stage.
@@ -40,6 +42,22 @@ struct Gravity {
   geom::Vec3 acceleration = geom::Vec3::Zero(); // m/s2
   double water_density = 0;                     // kg/m3; takes from the weight, never from the inertia
   Amplitude amplitude;
+  // m/s2, in place of the acceleration; evaluated as an amplitude is. Empty: it keeps its direction.
+  std::function<geom::Vec3(double time)> turning;
+};
+
+// Dashpots on outer faces that let waves out (load/quiet.hpp), and a plane wave that enters through them.
+struct Quiet {
+  Selection on;
+  geom::Vec3 velocity = geom::Vec3::Zero(); // m/s, particle velocity of the entering wave alone
+  geom::Vec3 stress = geom::Vec3::Zero();   // Pa, traction of the entering wave alone on these faces
+  Amplitude amplitude;
+};
+
+// Dashpots on a vertical side of the model towards a column of rock that moves as if the model were not there
+// (load/free_field.hpp).
+struct FreeField {
+  Selection on; // one of x-, x+, y-, y+
 };
 
 // Pressure of a steady stream on what faces it (Feng 2014 eqs 19-20): traction alpha F along the flow, alpha = d . n
@@ -66,6 +84,9 @@ struct Conditions {
   std::vector<PointForce> forces;
   std::optional<Gravity> gravity;
   std::vector<Flow> flows;
+  std::vector<Quiet> quiets;
+  std::vector<FreeField> free_fields;
+  std::vector<Bolt> bolts;
 
   bool load() const { return !tractions.empty() || !forces.empty() || gravity || !flows.empty(); }
 };

@@ -2,6 +2,7 @@
 
 #include "libcdem/element/small_strain.hpp"
 #include "libcdem/load/flow.hpp"
+#include "libcdem/load/free_field.hpp"
 #include "libgeom/core/error.hpp"
 
 #include <cmath>
@@ -31,16 +32,26 @@ void add(Node& node, const geom::Vec3& v) {
 // Every node named by a fix, free or not.
 using HeldNodes = std::map<int, HeldNode>;
 
+HeldNode free_node(int node) {
+  return {node, {1, 1, 1, 0}, {}, {nan, nan, nan, 0}};
+}
+
 void hold(const Model& model, const Fix& fix, HeldNodes& held, ResolvedConditions& r) {
   const std::vector<int> nodes = selected_nodes(model, fix.on);
   if (nodes.empty())
     selects_nothing("nodes", fix.on);
+  int varying = -1;
+  if (fix.velocity && fix.amplitude && !fix.release) {
+    varying = static_cast<int>(r.varying_holds.size());
+    r.varying_holds.push_back({*fix.velocity, fix.amplitude, {}});
+  }
   for (const int node : nodes) {
-    HeldNode& h = held.try_emplace(node, HeldNode{node, {1, 1, 1, 0}, {}, {nan, nan, nan, 0}}).first->second;
+    HeldNode& h = held.try_emplace(node, free_node(node)).first->second;
     for (int axis = 0; axis < 3; ++axis) {
       if (!fix.axes[axis])
         continue;
       component(h.free, axis) = fix.release ? 1 : 0;
+      h.varying[axis] = varying;
       component(h.prescribed, axis) = fix.velocity && !fix.release ? (*fix.velocity)[axis] : 0;
       component(h.target, axis) = fix.displacement && !fix.release ? (*fix.displacement)[axis] : nan;
       r.has_target = r.has_target || fix.displacement;
@@ -67,7 +78,8 @@ bool is_held(const HeldNode& h) {
 }
 
 // The velocity that the held nodes of a rigid body give it; its other nodes are held with them.
-std::optional<geom::Vec3> hold_rigid(const Model& model, const Block& block, HeldNodes& held) {
+std::optional<geom::Vec3> hold_rigid(const Model& model, const Block& block, int rigid, HeldNodes& held,
+                                     ResolvedConditions& r) {
   const HeldNode* first = nullptr;
   for (auto h = held.lower_bound(block.node_begin); h != held.end() && h->first < block.node_end; ++h) {
     const HeldNode& node = h->second;
@@ -81,14 +93,19 @@ std::optional<geom::Vec3> hold_rigid(const Model& model, const Block& block, Hel
     const Node& v = node.prescribed;
     if (!first)
       first = &node;
-    else if (v.x != first->prescribed.x || v.y != first->prescribed.y || v.z != first->prescribed.z)
+    else if (v.x != first->prescribed.x || v.y != first->prescribed.y || v.z != first->prescribed.z ||
+             node.varying != first->varying || node.varying[0] != node.varying[1] ||
+             node.varying[0] != node.varying[2])
       cannot_hold(model, block, "with several velocities", "give it one");
   }
   if (!first)
     return {};
   const Node v = first->prescribed;
+  if (first->varying[0] >= 0)
+    r.varying_holds[static_cast<std::size_t>(first->varying[0])].rigid.push_back(rigid);
+  const std::array<int, 3> varying = first->varying;
   for (int node = block.node_begin; node < block.node_end; ++node)
-    held.insert_or_assign(node, HeldNode{node, {}, v, {nan, nan, nan, 0}});
+    held.insert_or_assign(node, HeldNode{node, {}, v, {nan, nan, nan, 0}, varying});
   return geom::Vec3(v.x, v.y, v.z);
 }
 
@@ -120,11 +137,11 @@ Pattern force_pattern(const Model& model, const PointForce& force) {
   return pattern;
 }
 
-Pattern gravity_pattern(const Model& model, const Gravity& gravity) {
+Pattern gravity_pattern(const Model& model, const Gravity& gravity, const geom::Vec3& acceleration) {
   Pattern pattern;
   for (int node = 0; node < static_cast<int>(model.node_position.size()); ++node)
     pattern.emplace_back(node, (model.node_mass[node] - gravity.water_density * node_volume(model, node)) *
-                                   gravity.acceleration);
+                                   acceleration);
   return pattern;
 }
 
@@ -134,6 +151,43 @@ void load(ResolvedConditions& r, Pattern&& pattern, const Amplitude& amplitude) 
   else
     for (const auto& [node, force] : pattern)
       add(r.external[node], force);
+}
+
+// One that turns: a load along each axis.
+void add_gravity(const Model& model, const Gravity& gravity, ResolvedConditions& r) {
+  if (!gravity.turning) {
+    load(r, gravity_pattern(model, gravity, gravity.acceleration), gravity.amplitude);
+    return;
+  }
+  for (int axis = 0; axis < 3; ++axis)
+    load(r, gravity_pattern(model, gravity, geom::Vec3::Unit(axis)),
+         [axis, turning = gravity.turning](double time) { return turning(time)[axis]; });
+}
+
+// Dashpots of quiet boundaries and free fields, and what enters through them.
+void add_boundaries(const Model& model, const Conditions& conditions, HeldNodes& held, ResolvedConditions& r) {
+  Dashpots dashpots;
+  for (const Quiet& quiet : conditions.quiets) {
+    const std::vector<int> faces = add_dashpots(model, quiet.on, "quiet", dashpots);
+    if (!quiet.velocity.isZero(0) || !quiet.stress.isZero(0))
+      load(r, entering_wave(model, faces, quiet), quiet.amplitude);
+  }
+  for (const FreeField& field : conditions.free_fields) {
+    const std::vector<int> faces = add_dashpots(model, field.on, "free_field", dashpots);
+    Column column = free_field_column(model, conditions, field, faces);
+    column.first = column_levels(r);
+    column.load = r.varying.size();
+    VaryingLoad side;
+    for (const ColumnShare& share : column.shares)
+      side.forces.emplace_back(share.node, geom::Vec3::Zero());
+    side.amplitude = [](double) { return 1; };
+    r.varying.push_back(std::move(side));
+    r.columns.push_back(std::move(column));
+  }
+  for (const auto& [node, dashpot] : dashpots) {
+    held.try_emplace(node, free_node(node)).first->second.dashpot = static_cast<int>(r.dashpots.size());
+    r.dashpots.push_back(dashpot);
+  }
 }
 
 void add_flow(const Model& model, const Flow& flow, ResolvedConditions& r) {
@@ -166,25 +220,33 @@ ResolvedConditions resolve(const Model& model, const State& state, const Conditi
   ResolvedConditions r;
   const std::size_t n = model.node_position.size();
   HeldNodes held;
+  if (conditions.load() || !conditions.bolts.empty() || !conditions.quiets.empty() || !conditions.free_fields.empty() ||
+      !state.support_force.empty())
+    r.external.resize(n);
+  std::copy(state.support_force.begin(), state.support_force.end(), r.external.begin());
   for (const Fix& fix : conditions.fixes)
     hold(model, fix, held, r);
+  add_boundaries(model, conditions, held, r);
   hold_escaped(state, held);
-  for (const RigidBody& body : model.rigid)
-    r.rigid.push_back(hold_rigid(model, model.blocks[body.block], held));
+  for (int i = 0; i < static_cast<int>(model.rigid.size()); ++i)
+    r.rigid.push_back(hold_rigid(model, model.blocks[model.rigid[i].block], i, held, r));
   for (const auto& [node, h] : held)
-    if (is_held(h))
+    if (is_held(h) || h.dashpot >= 0)
       r.held.push_back(h);
-  if (!conditions.tractions.empty() || !conditions.forces.empty() || conditions.gravity ||
-      !conditions.flows.empty())
-    r.external.resize(n);
   for (const Traction& traction : conditions.tractions)
     load(r, traction_pattern(model, traction), traction.amplitude);
   for (const PointForce& force : conditions.forces)
     load(r, force_pattern(model, force), force.amplitude);
   if (conditions.gravity)
-    load(r, gravity_pattern(model, *conditions.gravity), conditions.gravity->amplitude);
+    add_gravity(model, *conditions.gravity, r);
   for (const Flow& flow : conditions.flows)
     add_flow(model, flow, r);
+  if (!conditions.bolts.empty()) {
+    r.bolts = resolve_bolts(model, state, conditions.bolts);
+    r.bolt_load = r.varying.size();
+    r.varying.push_back({{}, [](double) { return 1; }});
+    bolt_forces(r.bolts, state, r.varying.back().forces);
+  }
   if (!r.varying.empty())
     r.constant = r.external;
   refresh_flows(model, state, r);
@@ -194,6 +256,21 @@ ResolvedConditions resolve(const Model& model, const State& state, const Conditi
       add_stress_forces(model, static_cast<int>(tet), state.initial_stress[tet], r.internal);
     }
   return r;
+}
+
+void update_supports(ResolvedConditions& r, double time) {
+  if (r.varying_holds.empty())
+    return;
+  std::vector<double> factors;
+  for (const VaryingHold& hold : r.varying_holds) {
+    factors.push_back(hold.amplitude(time));
+    for (const int rigid : hold.rigid)
+      r.rigid[rigid] = factors.back() * hold.velocity;
+  }
+  for (HeldNode& h : r.held)
+    for (int axis = 0; axis < 3; ++axis)
+      if (const int varying = h.varying[axis]; varying >= 0)
+        component(h.prescribed, axis) = factors[varying] * r.varying_holds[varying].velocity[axis];
 }
 
 void update_external(ResolvedConditions& r, double time) {

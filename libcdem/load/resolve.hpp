@@ -1,7 +1,9 @@
 // Conditions turned into numbers on nodes: done at the start of a stage and after every change of topology.
 #pragma once
 
+#include "libcdem/load/bolts.hpp"
 #include "libcdem/load/conditions.hpp"
+#include "libcdem/load/free_field_column.hpp"
 #include "libcdem/state/state.hpp"
 
 namespace cdem {
@@ -26,10 +28,25 @@ struct HeldNode {
   Node free;       // 1 where a component is free, 0 where it is held
   Node prescribed; // m/s, velocity of the held components
   Node target;     // m, displacement the held components are to reach in a relaxation; NaN: none
+  std::array<int, 3> varying{-1, -1, -1}; // into ResolvedConditions::varying_holds; -1: the velocity is constant
+  int dashpot = -1;                       // into ResolvedConditions::dashpots; -1: none
+};
+
+// The velocity of supports that varies in time.
+struct VaryingHold {
+  geom::Vec3 velocity = geom::Vec3::Zero(); // m/s at amplitude 1
+  Amplitude amplitude;
+  std::vector<int> rigid; // rigid bodies that move with it
 };
 
 struct ResolvedConditions {
-  std::vector<HeldNode> held;                   // by number; all those of rigid bodies that are held
+  // By number: nodes of which a component is held or on which a dashpot acts; all those of rigid bodies that are held.
+  std::vector<HeldNode> held;
+  std::vector<VaryingHold> varying_holds;
+  std::vector<geom::Mat3> dashpots; // N s/m, force per velocity of a node (load/quiet.hpp)
+  std::vector<Column> columns;      // of free fields
+  std::vector<ResolvedBolt> bolts;
+  std::size_t bolt_load = 0; // their forces on the rock in `varying`
   std::vector<std::optional<geom::Vec3>> rigid; // m/s, of the rigid bodies that are held (n rigid bodies)
   std::vector<Node> constant; // N, loads that do not vary (n_nodes); empty where none varies
   std::vector<Node> external; // N, all loads at the present time (n_nodes); empty without loads
@@ -64,5 +81,8 @@ void refresh_flows(const Model&, const State&, ResolvedConditions&);
 
 // external at `time`; does nothing when no load varies.
 void update_external(ResolvedConditions&, double time);
+
+// Velocities of supports at `time`: the middle of the step they move in.
+void update_supports(ResolvedConditions&, double time);
 
 } // namespace cdem

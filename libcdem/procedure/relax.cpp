@@ -124,6 +124,13 @@ private:
   Fastest fastest_;
 };
 
+// Dashpots carry nothing at rest.
+void require_no_quiet(const Conditions& conditions) {
+  if (!conditions.quiets.empty() || !conditions.free_fields.empty())
+    throw geom::InputError("relax: quiet boundaries and free fields hold nothing in a relaxation; find the static "
+                           "balance with model:fix there, then call model:quiet and model:free_field");
+}
+
 void stop(State& state) {
   std::fill(state.velocity.begin(), state.velocity.end(), Node{});
   for (RigidState& rigid : state.rigid)
@@ -145,8 +152,9 @@ struct AtRest {
 
 } // namespace
 
-std::vector<double> fictitious_masses(const Model& model) {
+std::vector<double> fictitious_masses(const Model& model, const std::vector<ResolvedBolt>& bolts) {
   std::vector<double> masses = all_row_sums(model);
+  add_bolt_row_sums(bolts, masses);
   add_contact_row_sums(model, masses);
   for (double& mass : masses)
     mass /= 4 * step_safety * step_safety;
@@ -155,11 +163,12 @@ std::vector<double> fictitious_masses(const Model& model) {
 
 RelaxResult relax(const StageContext& context, const RelaxOptions& options, const std::string& kind) {
   State& state = context.state;
+  require_no_quiet(context.conditions);
   Stage stage(context, kind, context.model.length);
   require_held(context.model, stage.work.resolved);
   stage.work.contact.restitution = false; // its steps are no times
   stage.in_real_time = false;
-  std::vector<double> mass = fictitious_masses(context.model);
+  std::vector<double> mass = fictitious_masses(context.model, stage.work.resolved.bolts);
   const RestartPoint* const from = context.from;
   std::vector<Node> previous_force(mass.size()); // N, of the step before
   update_external(stage.work.resolved, state.time);
@@ -209,7 +218,7 @@ RelaxResult relax(const StageContext& context, const RelaxOptions& options, cons
   const auto step = [&] {
     const bool freed = options.breaking && stage.free_nodes();
     if (freed) {
-      mass = fictitious_masses(context.model);
+      mass = fictitious_masses(context.model, stage.work.resolved.bolts);
       previous_force.assign(mass.size(), {});
       forces_known = false;
       stability.renumbered();
@@ -219,6 +228,7 @@ RelaxResult relax(const StageContext& context, const RelaxOptions& options, cons
     if (freed || stage.step == moving_steps)
       lead_supports(state, stage.work.resolved, stage.step);
     stage.update_contacts();
+    stage.update_loads_at_rest();
     const auto move = [&](Range range, const Node* force, NodeSums& sums) {
       const auto nodes = [&](Range part) {
         return moving_nodes(state, stage.work.acting(), mass, part, force + (part.begin - range.begin));

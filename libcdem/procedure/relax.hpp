@@ -14,6 +14,6 @@ namespace cdem {
 RelaxResult relax(const StageContext&, const RelaxOptions&, const std::string& kind = "relax");
 
 // kg for a unit step, per node.
-std::vector<double> fictitious_masses(const Model&);
+std::vector<double> fictitious_masses(const Model&, const std::vector<ResolvedBolt>& = {});
 
 } // namespace cdem

@@ -1,6 +1,7 @@
 #include "libcdem/procedure/run.hpp"
 
 #include "libcdem/contact/response/contact_bounds.hpp"
+#include "libcdem/integrate/move_columns.hpp"
 #include "libcdem/integrate/move_held_nodes.hpp"
 #include "libcdem/integrate/move_rigid.hpp"
 #include "libcdem/integrate/row_sums.hpp"
@@ -31,8 +32,11 @@ std::vector<double> viscous_forces(const Model& model) {
   return viscous;
 }
 
-double choose_time_step(const Model& model, const RunOptions& options) {
-  const double stable = stable_time_step(model), infinite = std::numeric_limits<double>::infinity();
+double choose_time_step(const StageContext& context, const RunOptions& options) {
+  const Model& model = context.model;
+  const double stable =
+                   stable_time_step(model, resolve_bolts(model, context.state, context.conditions.bolts)),
+               infinite = std::numeric_limits<double>::infinity();
   require_scalable(model, options);
   if (options.mass_scaling.on()) // the masses follow the step
     return options.mass_scaling.step > 0 ? options.mass_scaling.step
@@ -57,6 +61,13 @@ double choose_time_step(const Model& model, const RunOptions& options) {
         fmt::format("at most {:.4g} s, half the stable step of rigid bodies that touch", most),
         "leave it out to use the usual one");
   return options.time_step > 0 ? options.time_step : usual;
+}
+
+void require_columns_stable(const ResolvedConditions& r, double time_step) {
+  if (const double stable = column_time_step(r); time_step > stable)
+    throw geom::InputError("time_step", fmt::format("{:.4g}", time_step),
+                           fmt::format("at most {:.4g} s, the stable step of the free field's columns", stable),
+                           "name a time_step below it");
 }
 
 // The time of each step of a run whose step may get shorter on the way, as contacts close.
@@ -99,8 +110,9 @@ private:
 
 } // namespace
 
-double stable_time_step(const Model& model) {
-  const std::vector<double> sums = all_row_sums(model);
+double stable_time_step(const Model& model, const std::vector<ResolvedBolt>& bolts) {
+  std::vector<double> sums = all_row_sums(model);
+  add_bolt_row_sums(bolts, sums);
   double least = std::numeric_limits<double>::infinity();
   for (int i = 0; i < static_cast<int>(sums.size()); ++i)
     if (const Block& block = model.blocks[block_of(model, i)]; block.rigid < 0) {
@@ -114,7 +126,7 @@ double stable_time_step(const Model& model) {
 RunResult run(const StageContext& context, const RunOptions& options, const std::string& kind) {
   State& state = context.state;
   const RestartPoint* const from = context.from;
-  Stepping stepping{choose_time_step(context.model, options), 0, options.local_damping, options.damp_flight};
+  Stepping stepping{choose_time_step(context, options), 0, options.local_damping, options.damp_flight};
   Stage stage(context, kind, run_away_lengths * context.model.length);
   ScaledStage scaled(context, options.mass_scaling.on() ? stepping.time_step : 0, options.safety);
   stage.follows_fragments = options.follows_fragments;
@@ -125,6 +137,7 @@ RunResult run(const StageContext& context, const RunOptions& options, const std:
   stage.work.contact.looks_at_all = options.looks_at_all_contacts;
   stage.work.damped = !state.viscous_stress.empty();
   std::vector<double> viscous = viscous_forces(context.model);
+  require_columns_stable(stage.work.resolved, stepping.time_step);
   Stage::StepReport report;
   Clock clock(state.time, stepping.time_step, options);
   if (from) {
@@ -157,7 +170,7 @@ RunResult run(const StageContext& context, const RunOptions& options, const std:
     const bool freed = options.breaking && stage.free_nodes();
     if (freed) {
       viscous = viscous_forces(context.model);
-      if (const double stable = options.safety * stable_time_step(context.model);
+      if (const double stable = options.safety * stable_time_step(context.model, stage.work.resolved.bolts);
           stable < stepping.time_step && !scaled.on()) {
         stepping.time_step = stable;
         clock.shorten(stage.step, stable);
@@ -171,9 +184,10 @@ RunResult run(const StageContext& context, const RunOptions& options, const std:
       clock.shorten(stage.step, longest);
       set_goals();
     }
-    stage.update_loads(state.time);
     // Velocities that stand at the time of the displacements, at the start or after a relaxation, take half a step.
     stepping.kick = state.velocity_lag + 0.5 * stepping.time_step;
+    stage.update_loads(state.time, stepping);
+    stage.work.bond.damping_step = stepping.time_step;
     const auto move = [&](Range range, const Node* force, NodeSums& sums) {
       const auto nodes = [&](Range part) {
         MovingNodes moving = moving_nodes(state, stage.work.acting(), moving_mass(context.model, state), part,
@@ -184,7 +198,11 @@ RunResult run(const StageContext& context, const RunOptions& options, const std:
       each_node(
           stage.work.resolved, range, [&](Range part) { step_nodes(nodes(part), stepping, sums); },
           [&](const HeldNode& h) {
-            step_held_node(nodes({h.node, h.node + 1}), h, stepping, sums);
+            const MovingNodes node = nodes({h.node, h.node + 1});
+            if (h.dashpot < 0)
+              step_held_node(node, h, stepping, sums);
+            else
+              step_dashpot_node(node, h, stage.work.resolved.dashpots[h.dashpot], stepping, sums);
           });
     };
     report.sums = stage.advance(options.breaking, move, [&](int rigid, NodeSums& sums) {

@@ -12,6 +12,6 @@ namespace cdem {
 RunResult run(const StageContext&, const RunOptions&, const std::string& kind = "run");
 
 // s; infinite when all blocks are rigid, whose nodes have no stiffness.
-double stable_time_step(const Model&);
+double stable_time_step(const Model&, const std::vector<ResolvedBolt>& = {});
 
 } // namespace cdem

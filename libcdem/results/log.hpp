@@ -42,6 +42,8 @@ struct Probe {
   // Of cracks (results/cracks.hpp): the quantity, and of which body; -1: of all. Empty: the field at the place.
   std::string crack = {};
   int body = -1;
+  // Of a support or a body: "reaction.x", "momentum.z" stand in `crack`, and this says where: a side or a body.
+  std::string on = {};
 };
 
 // A piece that has left the model (step/escape.hpp).

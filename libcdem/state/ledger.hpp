@@ -7,13 +7,16 @@ struct EnergyLedger {
   // stored
   double elastic = 0; // blocks, sum V sigma : eps / 2
   double springs = 0; // bonds and contacts, sum F^2 / 2K
+  double bolts = 0;   // steel and grout, sum F^2 / 2K
   double kinetic = 0; // real masses, or the fictitious ones of a relaxation
   // spent
   double damping = 0;
+  double radiated = 0; // by the dashpots of quiet boundaries and free fields
   double friction = 0;
   // Stored in a spring when it broke and no longer stored after; damage of softening bonds.
   double breaking = 0;
   double plastic = 0;    // plastic work of blocks that yield
+  double yielding = 0;   // of the steel of bolts
   double cutting = 0;    // stored and kinetic energy lost when blocks are cut or removed
   double fictitious = 0; // kinetic energy thrown away when a relaxation ends or its masses are rebuilt
   // given
@@ -21,7 +24,8 @@ struct EnergyLedger {
   double external_peak = 0; // largest |external| so far
 
   double total() const {
-    return elastic + springs + kinetic + damping + friction + breaking + plastic + cutting + fictitious;
+    return elastic + springs + bolts + kinetic + damping + radiated + friction + breaking + plastic + yielding +
+           cutting + fictitious;
   }
   // |total - external| over the largest external work; 0 before anything happened.
   double balance_error() const;

@@ -2,6 +2,7 @@
 // drives the hash, the carrying over at cuts, the watch for NaN and checkpoints.
 #pragma once
 
+#include "libcdem/bolt/bolt.hpp"
 #include "libcdem/joint/bond_mode.hpp"
 #include "libcdem/joint/joint_spring.hpp"
 #include "libcdem/model/model.hpp"
@@ -71,6 +72,15 @@ struct State {
 
   // Escaped (n_nodes); empty until something has left the model; written by find_escapes
   std::vector<std::uint8_t> escaped;
+
+  // N, forces of supports that quiet boundaries have taken the place of (n_nodes); empty without; written by quiet,
+  // free_field
+  std::vector<Node> support_force;
+  // m, m/s, motion of the columns of free fields, level by level from the foot, one column after the other; empty
+  // without; written by advance_columns
+  std::vector<Node> column_displacement, column_velocity;
+
+  std::vector<BoltNode> bolts; // nodes of all bolts, in the order they were set; written by set_bolt, advance_bolts
 
   // m, what results take from the displacement: what it was when it was last set to zero (n_nodes); empty until then.
   // Mechanics never sees it; written by reset_displacement

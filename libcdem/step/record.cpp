@@ -1,5 +1,7 @@
 #include "libcdem/step/record.hpp"
 
+#include "libcdem/step/support_forces.hpp"
+
 #include "libcdem/bond/spring_forces.hpp"
 #include "libcdem/bond/water_work.hpp"
 #include "libcdem/contact/response/contact_point.hpp"
@@ -35,6 +37,7 @@ std::int64_t record_bond_breaks(const Model& model, State& state, const Workspac
   for (const SpringSums& sums : work.bond.sums) {
     spent.friction += sums.friction;
     spent.breaking += sums.breaking;
+    spent.damping += sums.damping;
     for (const CrackLoss& loss : sums.losses) {
       const Interface& interface = model.interfaces[loss.interface];
       const int a = model.blocks[interface.block_a].body, b = model.blocks[interface.block_b].body;
@@ -133,8 +136,8 @@ std::int64_t record_begun_cracks(const Model& model, State& state, const BegunCr
   return static_cast<std::int64_t>(begun.broken.size());
 }
 
-void record_history(const Model& model, const State& state, RunLog& log, int stage, double residual,
-                    double kinetic) {
+void record_history(const Model& model, const State& state, const Conditions& conditions, RunLog& log, int stage,
+                    double residual, double kinetic) {
   HistoryRow row;
   row.stage = stage;
   row.step = state.step;
@@ -145,7 +148,19 @@ void record_history(const Model& model, const State& state, RunLog& log, int sta
   row.broken_tension = log.broken_tension;
   row.broken_shear = log.broken_shear;
   std::optional<CracksByBody> cracked; // looked at once, and only where somebody asks
+  std::optional<SupportForces> supports;
   for (const Probe& probe : log.probes) {
+    if (!probe.on.empty()) {
+      const int axis = probe.crack.back() - 'x';
+      if (is_momentum(probe)) {
+        row.probes.push_back(momentum_of(model, state, probe.body)[axis]);
+        continue;
+      }
+      if (!supports)
+        supports.emplace(model, state, conditions);
+      row.probes.push_back(supports->reaction(place_of_support(model, probe.on))[axis]);
+      continue;
+    }
     if (probe.crack.empty()) {
       row.probes.push_back(value_at(model, state, probe.field, probe.place));
       continue;

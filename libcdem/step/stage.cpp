@@ -1,6 +1,7 @@
 #include "libcdem/step/stage.hpp"
 
 #include "libcdem/bond/release.hpp"
+#include "libcdem/integrate/move_columns.hpp"
 #include "libcdem/parallel/huge_pages.hpp"
 #include "libcdem/parallel/instruction_set.hpp"
 #include "libcdem/step/errors.hpp"
@@ -147,9 +148,25 @@ double Stage::update_contacts(double safety) {
   return longest;
 }
 
-void Stage::update_loads(double time) {
+void Stage::update_loads(double time, const Stepping& stepping) {
+  advance_columns(work.resolved, context_.state, {time, stepping.time_step, stepping.kick});
+  update_supports(work.resolved, time + 0.5 * stepping.time_step);
+  advance_bolts();
   update_external(work.resolved, time);
   times_.end(StepLine::loads);
+}
+
+void Stage::update_loads_at_rest() {
+  if (work.resolved.bolts.empty())
+    return;
+  advance_bolts();
+  update_external(work.resolved, context_.state.time);
+  times_.end(StepLine::loads);
+}
+
+void Stage::advance_bolts() {
+  if (ResolvedConditions& r = work.resolved; !r.bolts.empty())
+    cdem::advance_bolts(r.bolts, context_.state, r.varying[r.bolt_load].forces);
 }
 
 void Stage::end_step(double time_step) {
@@ -256,6 +273,7 @@ void Stage::record_step(const StepReport& report) {
   spent.external += report.sums.external;
   spent.external_peak = std::max(spent.external_peak, std::abs(spent.external));
   spent.damping += report.sums.damping;
+  spent.radiated += report.sums.radiated;
 }
 
 void Stage::release_parted_blocks() {
@@ -299,8 +317,8 @@ void Stage::sample(const StepReport& report) {
   std::optional<SynchronisedView> view;
   if (!context_.log.probes.empty())
     view.emplace(*this);
-  record_history(context_.model, context_.state, context_.log, context_.number, report.residual,
-                 report.sums.kinetic);
+  record_history(context_.model, context_.state, context_.conditions, context_.log, context_.number,
+                 report.residual, report.sums.kinetic);
 }
 
 void Stage::report(const StepReport& report, bool last) {

@@ -66,7 +66,9 @@ public:
   // Returns the longest step that contacts leave, s, `safety` times the stable one; infinite without contacts. Throws
   // SolutionError when something has gone too deep.
   double update_contacts(double safety = 1);
-  void update_loads(double time); // s
+  // Of the step from `time` (s) on: loads, supports that vary, free fields.
+  void update_loads(double time, const Stepping&);
+  void update_loads_at_rest(); // in a relaxation: of what follows the rock
   // All forces where the nodes are, and move(nodes, forces, sums), move_rigid(rigid body, sums) (step_loops.hpp).
   // Returns the sums over all chunks, added in order.
   template <class Move, class MoveRigid>
@@ -92,6 +94,7 @@ private:
   void synchronise_contacts();
   std::int64_t synchronise_stress(RunLog&); // returns how many springs broke, of which the log is told
 
+  void advance_bolts();
   double wall_time() const; // s
   StageStep here() const { return {context_.number, kind_, step}; }
   void record_step(const StepReport&); // energies and breaks

@@ -13,6 +13,7 @@ NodeSums sums_of(const Workspace& work) {
     sum.kinetic += s.kinetic;
     sum.external += s.external;
     sum.damping += s.damping;
+    sum.radiated += s.radiated;
   };
   for (const NodeSums& s : work.node_sums)
     add(s);

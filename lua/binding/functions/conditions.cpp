@@ -1,11 +1,10 @@
 // Supports, loads and initial states of a model.
+#include "lua/binding/functions/over_time.hpp"
 #include "lua/binding/functions/selections.hpp"
 #include "lua/binding/objects/model_object.hpp"
 #include "lua/binding/runtime/module.hpp"
 
 #include "libgeom/core/error.hpp"
-
-#include <cmath>
 
 namespace cdem::script {
 
@@ -18,22 +17,6 @@ std::array<bool, 3> axes_of(const std::string& text) {
           text.find('z') != std::string::npos};
 }
 
-// The factor over time. Asked once at time 0, so that a slip in it is an error of the line that gave it.
-Amplitude amplitude_of(const Arguments& a) {
-  const auto function = a.function("amplitude");
-  if (!function)
-    return {};
-  Amplitude amplitude = [function](double time) {
-    const Values answer = function->call({time});
-    if (answer.empty() || !answer[0].is_number() || !std::isfinite(answer[0].number()))
-      throw InputError("amplitude(" + number_text(time) + ") of " + function->place(),
-                       answer.empty() ? "nothing" : describe(answer[0]), "a finite number");
-    return answer[0].number();
-  };
-  amplitude(0);
-  return amplitude;
-}
-
 void note(ModelObject& model, const std::string& line) {
   model.notes->conditions.push_back(line);
 }
@@ -44,18 +27,23 @@ std::string shown(const Selection& s) {
 
 Value fix(Session&, ModelObject& model, const Arguments& a) {
   model.require_idle("fix");
+  const Amplitude amplitude = amplitude_of(a);
+  if (amplitude && !a.has("velocity"))
+    throw InputError("amplitude: goes with velocity, which it multiplies");
   for (const Selection& on : selections(model, a.value("on"), "on")) {
     Fix fix;
     fix.on = on;
     fix.axes = axes_of(a.text("axes"));
     fix.displacement = a.optional_vec3("displacement");
     fix.velocity = a.optional_vec3("velocity");
+    fix.amplitude = amplitude;
     if (fix.displacement && fix.velocity)
       throw InputError("displacement and velocity: give one of them");
     model.simulation.fix(fix);
     note(model, "fix " + shown(on) + " in " + a.text("axes") +
                     (fix.displacement ? " at displacement " + describe(a.value("displacement")) + " m" : "") +
-                    (fix.velocity ? " moving at " + describe(a.value("velocity")) + " m/s" : ""));
+                    (fix.velocity ? " moving at " + describe(a.value("velocity")) + " m/s" : "") +
+                    (fix.amplitude ? " times its amplitude" : ""));
   }
   return {};
 }
@@ -97,7 +85,10 @@ Value force(Session&, ModelObject& model, const Arguments& a) {
 Value gravity(Session&, ModelObject& model, const Arguments& a) {
   model.require_idle("gravity");
   Gravity gravity;
-  gravity.acceleration = a.vec3("vector");
+  if (a.value("vector").reference())
+    gravity.turning = vector_over_time(a.function("vector"), "vector");
+  else
+    gravity.acceleration = a.vec3("vector");
   gravity.water_density = a.number("water_density");
   gravity.amplitude = amplitude_of(a);
   model.simulation.gravity(gravity);
@@ -183,11 +174,6 @@ Field one_place() {
 Field axes() {
   return choice("axes", {"x", "y", "z", "xy", "xz", "yz", "xyz"}).standard("xyz").doc("components held");
 }
-Field amplitude() {
-  return function("amplitude", "(time: number): number")
-      .doc("factor over time (s); a relaxation asks once at its start; 1 when left out");
-}
-
 } // namespace
 
 void bind_conditions(Module& m) {
@@ -201,27 +187,31 @@ void bind_conditions(Module& m) {
   add("fix", "Holds nodes, or moves them as told. A later call wins over an earlier one where they meet.",
       {on(), axes(),
        vec3("displacement").unit("m").doc("total value to be held; a relaxation moves there first"),
-       vec3("velocity").unit("m/s").doc("in real-time stepping; zero when left out")},
+       vec3("velocity").unit("m/s").doc("in real-time stepping; zero when left out"),
+       amplitude_field()},
       fix);
   again();
   add("release", "Undoes fixes.", {on(), axes().doc("components set free")}, release);
   again();
   add("traction", "Force per undeformed area on outer faces.",
       {on(), vec3("stress").unit("Pa").required().doc("force over area, not following the surface"),
-       amplitude()},
+       amplitude_field()},
       traction);
   again();
   add("force", "A total force, shared among the nodes of a place.",
-      {one_place(), vec3("force").unit("N").required().doc("total"), amplitude()}, force);
+      {one_place(), vec3("force").unit("N").required().doc("total"), amplitude_field()}, force);
   again();
   add("gravity", "Weight of all blocks; one at a time, the last call counts.",
-      {vec3("vector").unit("m/s2").required().doc("acceleration, e.g. {0, 0, -9.81}"),
+      {vec3_or_function("vector", "(time: number): number[]")
+           .unit("m/s2")
+           .required()
+           .doc("acceleration, e.g. {0, 0, -9.81}, or a function of time (s) that gives it"),
        number("water_density")
            .at_least(0)
            .standard(0.0)
            .unit("kg/m3")
            .doc("buoyancy: takes from the weight, never from the inertia"),
-       amplitude()},
+       amplitude_field()},
       gravity);
   again();
   add("clear_loads", "Takes away tractions, forces, gravity and flows.", {}, clear_loads);

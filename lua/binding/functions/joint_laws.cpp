@@ -157,7 +157,12 @@ std::vector<Field> joint_stiffness_fields() {
                    "stiffness E/L and G/L"),
           number("thickness").above(0).unit("m").doc("equivalent thickness itself; wins over the ratio"),
           number("normal_stiffness").above(0).unit("Pa/m").doc("instead of E/L"),
-          number("shear_stiffness").above(0).unit("Pa/m").doc("instead of G/L")};
+          number("shear_stiffness").above(0).unit("Pa/m").doc("instead of G/L"),
+          number("stiffness_damping")
+              .at_least(0)
+              .standard(0.0)
+              .unit("s")
+              .doc("beta of Rayleigh damping, of joints between blocks that move far in real-time stepping")};
 }
 
 void read_joint_stiffness(const Arguments& a, Joint& joint) {
@@ -165,6 +170,7 @@ void read_joint_stiffness(const Arguments& a, Joint& joint) {
   joint.thickness = a.optional_number("thickness");
   joint.normal_stiffness = a.optional_number("normal_stiffness");
   joint.shear_stiffness = a.optional_number("shear_stiffness");
+  joint.stiffness_damping = a.number("stiffness_damping");
 }
 
 void bind_joint_laws(Module& m) {

@@ -36,6 +36,25 @@ void warn_of_angle(Session& session, const Arguments& a, const char* function) {
                  ": no rock is as smooth; it is in degrees, rock has 20 to 50");
 }
 
+// Rayleigh's alpha and beta for a fraction of critical damping at one frequency, where the sum of the two, alpha / 2w +
+// beta w / 2, is least.
+void read_damping(const Arguments& a, Elastic& elastic) {
+  const auto damping = a.record("damping");
+  if (!damping)
+    return;
+  for (const char* const own : {"viscosity", "stiffness_damping"})
+    if (a.number(own) != 0)
+      throw geom::InputError(std::string(own) + ": damping = { fraction, frequency } sets it; give one of the two");
+  const double fraction = damping->number("fraction"),
+               w = 2 * 3.14159265358979323846 * damping->number("frequency");
+  const std::string& of = damping->text("of");
+  const double share = of == "both" ? 1 : 2;
+  if (of != "stiffness")
+    elastic.viscosity = share * fraction * w * elastic.density;
+  if (of != "mass")
+    elastic.stiffness_damping = share * fraction / w;
+}
+
 Value elastic(Session& session, Object*, const Arguments& a) {
   auto object = std::make_shared<MaterialObject>();
   object->elastic.youngs_modulus = a.number("youngs_modulus");
@@ -43,6 +62,7 @@ Value elastic(Session& session, Object*, const Arguments& a) {
   object->elastic.density = a.number("density");
   object->elastic.viscosity = a.number("viscosity");
   object->elastic.stiffness_damping = a.number("stiffness_damping");
+  read_damping(a, object->elastic);
   validate(object->elastic);
   if (object->elastic.youngs_modulus < softest || object->elastic.youngs_modulus > stiffest)
     session.warn("cdem.elastic: youngs_modulus = " + describe(a.value("youngs_modulus")) +
@@ -238,7 +258,17 @@ void bind_materials(Module& m) {
             .unit("s")
             .doc("beta of Rayleigh damping, of meshes in real-time stepping: a vibration of angular "
                  "frequency w has "
-                 "beta w / 2 of critical damping, motion as a rigid body none")},
+                 "beta w / 2 of critical damping, motion as a rigid body none"),
+        record("damping",
+               {number("fraction").between(0, 1).required().doc("of critical damping at the frequency"),
+                number("frequency").above(0).unit("Hz").required(),
+                choice("of", {"both", "mass", "stiffness"})
+                    .standard("both")
+                    .doc("half of it each, and more at other frequencies; or all by viscosity (falls with the "
+                         "frequency, holds back motion as a rigid body); or all by stiffness_damping (grows with "
+                         "the frequency, shortens the stable step)")})
+            .doc("Rayleigh damping by the fraction of critical damping, in place of viscosity and "
+                 "stiffness_damping")},
        false,
        "cdem.Material",
        "",
@@ -368,6 +398,8 @@ void bind_materials(Module& m) {
                      [](const Joint& j) { return optional(j.normal_stiffness); }),
       joint_property("shear_stiffness", "number?", "Pa/m",
                      [](const Joint& j) { return optional(j.shear_stiffness); }),
+      joint_property("stiffness_damping", "number", "s",
+                     [](const Joint& j) { return Value(j.stiffness_damping); }),
       joint_property("restitution", "number", "", [](const Joint& j) { return Value(j.restitution); })};
   joint.text = [](const Object& self) {
     const Joint& j = static_cast<const JointObject&>(self).joint;

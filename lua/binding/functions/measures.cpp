@@ -53,11 +53,14 @@ Value energy(Session&, ModelObject& model, const Arguments&) {
   const EnergyLedger e = model.simulation.energy();
   return Table{{"elastic", e.elastic},
                {"springs", e.springs},
+               {"bolts", e.bolts},
                {"kinetic", e.kinetic},
                {"damping", e.damping},
+               {"radiated", e.radiated},
                {"friction", e.friction},
                {"breaking", e.breaking},
                {"plastic", e.plastic},
+               {"yielding", e.yielding},
                {"cutting", e.cutting},
                {"fictitious", e.fictitious},
                {"external", e.external},
@@ -112,6 +115,13 @@ Value history(Session&, ModelObject& model, const Arguments&) {
   return table;
 }
 
+std::string column_name(const Arguments& a) {
+  const std::string& name = a.text("name");
+  if (name.empty() || name.find_first_of(",\n\"") != std::string::npos)
+    throw InputError("name", describe(a.value("name")), "a word: it begins the names of columns of history.csv");
+  return name;
+}
+
 Value probe(Session&, ModelObject& model, const Arguments& a) {
   model.require_idle("probe");
   std::vector<std::string> taken = model.simulation.probe_names();
@@ -127,6 +137,17 @@ Value probe(Session&, ModelObject& model, const Arguments& a) {
   return {};
 }
 
+Value record_reaction(Session&, ModelObject& model, const Arguments& a) {
+  model.require_idle("record_reaction");
+  model.simulation.record_reaction(column_name(a), a.text("on"));
+  return {};
+}
+Value record_momentum(Session&, ModelObject& model, const Arguments& a) {
+  model.require_idle("record_momentum");
+  model.simulation.record_momentum(column_name(a), a.text("body"));
+  return {};
+}
+
 void bind_rows(Module& m) {
   m.records.push_back({"Extreme",
                        "Where a field is largest or smallest.",
@@ -137,11 +158,15 @@ void bind_rows(Module& m) {
        "Energy ledger, J: what is stored, what was spent, what was given.",
        {number("elastic").unit("J").required().doc("stored in the blocks"),
         number("springs").unit("J").required().doc("stored in bonds and contacts"),
+        number("bolts").unit("J").required().doc("stored in bolts and their grout"),
         number("kinetic").unit("J").required().doc(
             "of the real masses, or of a relaxation's fictitious ones"),
-        number("damping").unit("J").required(), number("friction").unit("J").required(),
+        number("damping").unit("J").required(),
+        number("radiated").unit("J").required().doc("left through quiet boundaries and free fields"),
+        number("friction").unit("J").required(),
         number("breaking").unit("J").required().doc("lost by bonds that broke or softened"),
         number("plastic").unit("J").required().doc("plastic work of blocks that yield"),
+        number("yielding").unit("J").required().doc("lost by the steel of bolts that yielded"),
         number("cutting").unit("J").required().doc("lost when blocks were cut or removed"),
         number("fictitious").unit("J").required().doc("kinetic energy a relaxation threw away at its end"),
         number("external").unit("J").required().doc("work of loads, gravity and moving supports"),
@@ -214,6 +239,14 @@ void bind_measures(Module& m) {
       {text("name").required().doc("of the column"), field,
        vec3("at").unit("m").required().doc("undeformed place")},
       "", "", probe, false);
+  add("record_reaction",
+      "Samples the force of the supports on a side or a body into the history (N), as columns <name>_x, <name>_y and "
+      "<name>_z. Each sample costs some steps.",
+      {text("name").required(), text("on").required().doc("\"x-\" .. \"z+\", or a body by name")}, "", "",
+      record_reaction, false);
+  add("record_momentum",
+      "Samples the momentum of a body into the history (N s), as columns <name>_x, <name>_y and <name>_z.",
+      {text("name").required(), text("body").required().doc("by name")}, "", "", record_momentum, false);
 }
 
 } // namespace cdem::script

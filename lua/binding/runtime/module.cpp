@@ -32,7 +32,9 @@ const Module& module() {
     bind_stability(m);
     bind_settling(m);
     bind_fracture(m);
+    bind_bolts(m);
     bind_flow(m);
+    bind_waves(m);
     bind_measures(m);
     bind_cracks(m);
     bind_j_integral(m);

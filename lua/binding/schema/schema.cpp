@@ -51,7 +51,7 @@ std::string Type::lua_type() const {
   case Kind::named:
     return "table<string, " + items[0].lua_type() + ">";
   case Kind::function:
-    return (or_number ? "number|fun" : "fun") + name;
+    return (or_number ? "number|fun" : or_vec3 ? "number[]|fun" : or_record ? "cdem.Record|number[][]|fun" : "fun") + name;
   case Kind::object:
     return "cdem." + with_or(name, "|cdem.");
   case Kind::place:
@@ -108,7 +108,10 @@ std::string Type::words() const {
   case Kind::named:
     return "{ name = " + items[0].words() + ", ... }";
   case Kind::function:
-    return or_number ? "a number or a function" : "a function";
+    return or_number   ? "a number or a function"
+           : or_vec3   ? "three numbers {x, y, z} or a function"
+           : or_record ? "a function of time, a cdem.Record, or a list { {time, value}, ... }"
+                       : "a function";
   case Kind::object:
     return "a cdem." + with_or(name, " or a cdem.");
   case Kind::place:
@@ -247,6 +250,18 @@ Field ivec3(std::string name) {
 Field number_or_function(std::string name, std::string signature) {
   Field field = function(std::move(name), std::move(signature));
   field.type.or_number = true;
+  return field;
+}
+
+Field function_or_record(std::string name, std::string signature) {
+  Field field = function(std::move(name), std::move(signature));
+  field.type.or_record = true;
+  return field;
+}
+
+Field vec3_or_function(std::string name, std::string signature) {
+  Field field = function(std::move(name), std::move(signature));
+  field.type.or_vec3 = true;
   return field;
 }
 

@@ -56,6 +56,8 @@ struct Type {
   bool length = false;                         // in m
   std::vector<std::string> choices{};          // choice
   bool or_number = false; // function: a finite number in the range will do, for one that does not vary
+  bool or_vec3 = false;   // function: three finite numbers will do
+  bool or_record = false; // function: a table over time will do, a cdem.Record or a list of {time, value}
   std::string
       name{}; // object: class, or "A|B" for either; function: its parameters, e.g. "(time: number): number"
   std::vector<Type> items{};   // list, named: one; tuple: one per place
@@ -97,6 +99,8 @@ Field object(std::string name, std::string class_name);
 Field place(std::string name);
 Field function(std::string name, std::string signature);
 Field number_or_function(std::string name, std::string signature);
+Field function_or_record(std::string name, std::string signature);
+Field vec3_or_function(std::string name, std::string signature);
 Field scalar(std::string name);
 Field plain(std::string name);
 Field record(std::string name, std::vector<Field> fields);

@@ -215,6 +215,31 @@ Value checked_plain(const Value& given, const Type& type, const std::string& pat
   return given;
 }
 
+// A cdem.Record as it is; a list of {time, value} as one that holds its first and last values.
+Value checked_over_time(const Value& given, const std::string& path) {
+  if (given.table()->items.empty()) {
+    std::vector<Field> fields{list("times", number_type(), 2).required(), list("values", number_type(), 2).required(),
+                              choice("outside", {"hold", "zero"}).standard("hold")};
+    Table of_times = *given.table();
+    for (auto entry = of_times.named.begin(); entry != of_times.named.end();) {
+      const auto same = [&](const Field& field) { return field.name == entry->first; };
+      const bool known = std::any_of(fields.begin(), fields.end(), same);
+      // what else cdem.record tells stands beside them
+      entry = !known && of_times.named.count("times") > 0 ? of_times.named.erase(entry) : std::next(entry);
+    }
+    return Value(*checked_record(Value(std::move(of_times)), fields, path));
+  }
+  Values times, values;
+  const Value pairs = checked_list(given, list_type(tuple_type({number_type(), number_type()}), 2), path);
+  for (const Value& pair : pairs.table()->items) {
+    times.push_back(pair.table()->items[0]);
+    values.push_back(pair.table()->items[1]);
+  }
+  return Table{{"times", Table::list(std::move(times))},
+               {"values", Table::list(std::move(values))},
+               {"outside", "hold"}};
+}
+
 } // namespace
 
 Value check_value(const Value& given, const Type& type, const std::string& path) {
@@ -248,6 +273,10 @@ Value check_value(const Value& given, const Type& type, const std::string& path)
   case Kind::function: {
     if (type.or_number && given.is_number())
       return checked_number(given, type, path);
+    if (type.or_vec3 && given.table())
+      return checked_vec3(given, type, path);
+    if (type.or_record && given.table())
+      return checked_over_time(given, path);
     if (!given.reference())
       wrong_type(path, given, type);
     return given;

@@ -1,0 +1,58 @@
+#include "libcdem/step/support_forces.hpp"
+
+#include "libcdem/element/rigid_motion.hpp"
+#include "libcdem/state/places.hpp"
+#include "libcdem/step/forces.hpp"
+#include "libgeom/core/error.hpp"
+
+#include <algorithm>
+
+namespace cdem {
+
+SupportForces::SupportForces(const Model& model, const State& state, const Conditions& conditions)
+    : model_(model), work_(model, state, conditions) {
+  update_external(work_.resolved, state.time);
+  net_ = net_forces(model, state, work_);
+}
+
+geom::Vec3 SupportForces::reaction(const Selection& on) const {
+  const std::vector<int> nodes = selected_nodes(model_, on);
+  if (nodes.empty())
+    throw geom::InputError("on", on.text, "a place that holds nodes", "nothing of the model lies there");
+  geom::Vec3 sum = geom::Vec3::Zero();
+  for (const HeldNode& h : work_.resolved.held) {
+    if (!std::binary_search(nodes.begin(), nodes.end(), h.node))
+      continue;
+    const Node& f = net_[h.node];
+    sum -= geom::Vec3((1 - h.free.x) * f.x, (1 - h.free.y) * f.y, (1 - h.free.z) * f.z);
+  }
+  return sum;
+}
+
+geom::Vec3 momentum_of(const Model& model, const State& state, int body) {
+  geom::Vec3 sum = geom::Vec3::Zero();
+  for (const Block& block : model.blocks) {
+    if (block.body != body)
+      continue;
+    if (block.rigid >= 0) {
+      sum += model.rigid[block.rigid].mass * vec(state.rigid[block.rigid].velocity);
+      continue;
+    }
+    for (int node = block.node_begin; node < block.node_end; ++node)
+      sum += model.node_mass[node] * vec(state.velocity[node]);
+  }
+  return sum;
+}
+
+bool is_momentum(const Probe& probe) {
+  return probe.crack.rfind("momentum", 0) == 0;
+}
+
+Selection place_of_support(const Model& model, const std::string& on) {
+  for (const Body& body : model.bodies)
+    if (body.name == on)
+      return Selection::of_body(on);
+  return Selection::side(on);
+}
+
+} // namespace cdem

@@ -1,0 +1,157 @@
+// Bolts and cables in scripts.
+#include "lua/binding/objects/model_object.hpp"
+#include "lua/binding/runtime/module.hpp"
+
+#include "libgeom/core/error.hpp"
+
+#include <cmath>
+
+namespace cdem::script {
+
+namespace {
+
+using geom::InputError;
+using geom::Vec3;
+
+constexpr double degree = 3.14159265358979323846 / 180;
+
+Bolt steel_of(const Arguments& a) {
+  Bolt bolt;
+  bolt.segments = a.count("segments");
+  bolt.area = a.number("area");
+  bolt.youngs_modulus = a.number("youngs_modulus");
+  if (const auto yield = a.optional_number("yield_stress"))
+    bolt.yield_force = *yield * bolt.area;
+  bolt.grout_stiffness = a.number("grout_stiffness");
+  if (const auto strength = a.optional_number("grout_strength"))
+    bolt.grout_strength = *strength;
+  bolt.pretension = a.number("pretension");
+  bolt.free_length = a.number("free_length");
+  bolt.plate = a.flag("plate");
+  return bolt;
+}
+
+// Fans of bolts from a line: each at `angles` in the plane across the axis, at each of the places along it.
+std::vector<std::pair<Vec3, Vec3>> ends_of(const Arguments& pattern) {
+  const std::string& axis = pattern.text("axis");
+  const int along = axis[0] - 'x', across = (along + 1) % 3, up = (along + 2) % 3;
+  // Angles from the horizontal, counter-clockwise seen against the axis; of an axis along y, x is the horizontal.
+  const int horizontal = along == 1 ? 0 : across, vertical = along == 1 ? 2 : up;
+  const double radius = pattern.number("radius"), length = pattern.number("length");
+  std::vector<std::pair<Vec3, Vec3>> ends;
+  for (const double place : pattern.numbers("at"))
+    for (const double angle : pattern.numbers("angles")) {
+      Vec3 direction = Vec3::Zero();
+      direction[horizontal] = std::cos(angle * degree);
+      direction[vertical] = std::sin(angle * degree);
+      Vec3 centre = pattern.vec3("centre");
+      centre[along] = place;
+      ends.emplace_back(centre + radius * direction, centre + (radius + length) * direction);
+    }
+  return ends;
+}
+
+Value bolts(Session&, ModelObject& model, const Arguments& a) {
+  model.require_idle("bolts");
+  if (a.has("pattern") == a.has("from") || a.has("from") != a.has("to"))
+    throw InputError("give from and to, or pattern");
+  std::vector<std::pair<Vec3, Vec3>> ends;
+  if (const auto pattern = a.record("pattern"))
+    ends = ends_of(*pattern);
+  else
+    ends.emplace_back(a.vec3("from"), a.vec3("to"));
+  Bolt bolt = steel_of(a);
+  for (std::size_t i = 0; i < ends.size(); ++i) {
+    std::tie(bolt.from, bolt.to) = ends[i];
+    try {
+      model.simulation.bolt(bolt);
+    } catch (const InputError& e) {
+      throw InputError("bolt " + std::to_string(i + 1) + " of " + std::to_string(ends.size()) + ": " + e.what());
+    }
+  }
+  model.notes->conditions.push_back(std::to_string(ends.size()) + (ends.size() == 1 ? " bolt" : " bolts") + " set");
+  return static_cast<std::int64_t>(ends.size());
+}
+
+Value bolt_forces(Session&, ModelObject& model, const Arguments&) {
+  Values rows;
+  for (const auto& row : model.simulation.bolts())
+    rows.emplace_back(Table{{"bolt", row.bolt},
+                            {"node", row.node},
+                            {"place", row.place},
+                            {"tension", row.tension},
+                            {"grout", row.grout},
+                            {"slip", row.slip},
+                            {"yielded", row.yielded}});
+  return Table::list(std::move(rows));
+}
+
+Value save_bolts(Session& session, ModelObject& model, const Arguments& a) {
+  std::vector<std::pair<std::string, std::vector<double>>> columns;
+  for (const char* const name : {"bolt", "node", "x", "y", "z", "tension", "grout", "slip", "yielded"})
+    columns.emplace_back(name, std::vector<double>());
+  for (const auto& row : model.simulation.bolts()) {
+    const double values[] = {static_cast<double>(row.bolt), static_cast<double>(row.node), row.place.x(),
+                             row.place.y(), row.place.z(), row.tension, row.grout, row.slip, row.yielded};
+    for (std::size_t c = 0; c < columns.size(); ++c)
+      columns[c].second.push_back(values[c]);
+  }
+  if (columns.front().second.empty())
+    throw InputError("save_bolts: the model has no bolts; model:bolts sets some");
+  if (!session.settings.check_only)
+    write_file(session.files.to_write(a.text("file")), csv(columns));
+  return {};
+}
+
+} // namespace
+
+void bind_bolts(Module& m) {
+  m.records.push_back({"BoltState",
+                       "A node of a bolt.",
+                       {integer("bolt").required().doc("from 1, in the order they were set"),
+                        integer("node").required().doc("from 1, from the collar on"),
+                        vec3("place").unit("m").required().doc("undeformed"),
+                        number("tension").unit("N").required().doc("at a collar with a plate that of the plate"),
+                        number("grout").unit("N").required().doc("on the rock, towards the far end; a plate pushes "
+                                                                 "that way"),
+                        number("slip").unit("m").required().doc("of the bolt past the grout"),
+                        number("yielded").required().doc("strain of the next segment that stays")}});
+  Class& model = m.the_class("Model");
+  const auto add = [&](std::string name, std::string doc, std::vector<Field> fields, std::string returns,
+                       std::string returns_doc, auto body) {
+    model.methods.push_back({std::move(name), std::move(doc), std::move(fields), false, std::move(returns),
+                             std::move(returns_doc), method<ModelObject>(body)});
+  };
+  add("bolts",
+      "Sets grouted bolts or cables into the rock as it stands now: steel that yields, grout that slips, along the axis "
+      "only. Both ends of each must lie in the rock.",
+      {vec3("from").unit("m").doc("of one bolt: the collar"), vec3("to").unit("m").doc("its far end"),
+       record("pattern", {vec3("centre").unit("m").required().doc("a point of the axis they fan out from"),
+                          choice("axis", {"x", "y", "z"}).standard("y"),
+                          number("radius").above(0).unit("m").required().doc("from the axis to the collars"),
+                          number("length").above(0).unit("m").required(),
+                          list("angles", number_type()).required().doc(
+                              "degrees from the horizontal (x; y where the axis is x), 90 is up (z)"),
+                          list("at", number_type()).required().doc("places along the axis, m")})
+           .doc("fans of bolts, instead of from and to"),
+       number("area").above(0).unit("m2").required().doc("of the steel"),
+       number("youngs_modulus").above(0).standard(200e9).unit("Pa").doc("of the steel"),
+       number("yield_stress").above(0).unit("Pa").doc("of the steel; it does not yield when left out"),
+       number("grout_stiffness")
+           .above(0)
+           .standard(1e9)
+           .unit("N/m2")
+           .doc("force per length of bolt and displacement past the rock"),
+       number("grout_strength").above(0).unit("N/m").doc("force per length; it does not slip when left out"),
+       number("pretension").at_least(0).standard(0.0).unit("N").doc("of the plate once the bolt is tight"),
+       flag("plate").standard(false).doc("the collar is fast to the rock"),
+       number("free_length").at_least(0).standard(0.0).unit("m").doc("without grout, from the collar on"),
+       integer("segments").within(1, 1000).standard(10)},
+      "integer", "how many", bolts);
+  model.methods.back().replay = Replay::again;
+  add("bolt_forces", "Forces along the bolts, one table per node.", {}, "cdem.BoltState[]", "", bolt_forces);
+  add("save_bolts", "Writes them as .csv: bolt, node, x, y, z, tension, grout, slip, yielded.",
+      {text("file").standard("bolts.csv").doc("in the output folder")}, "", "", save_bolts);
+}
+
+} // namespace cdem::script

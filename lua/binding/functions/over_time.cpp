@@ -1,0 +1,68 @@
+#include "lua/binding/functions/over_time.hpp"
+
+#include "libcdem/load/time_table.hpp"
+#include "libgeom/core/error.hpp"
+
+#include <cmath>
+
+namespace cdem::script {
+
+namespace {
+
+using geom::InputError;
+
+Amplitude of_table(const Arguments& given) {
+  TimeTable table{given.numbers("times"), given.numbers("values"), given.text("outside") == "zero"};
+  try {
+    validate(table);
+  } catch (const InputError& e) {
+    throw InputError(std::string("amplitude: ") + e.what());
+  }
+  return [table = std::move(table)](double time) { return table.at(time); };
+}
+
+} // namespace
+
+Field amplitude_field() {
+  return function_or_record("amplitude", "(time: number): number")
+      .doc("factor over time (s): a cdem.record, a list { {time, value}, ... } with straight lines between and its "
+           "first and last value outside, or a function, called once a step; a relaxation asks once at its start; 1 "
+           "when left out");
+}
+
+Amplitude amplitude_of(const Arguments& a) {
+  if (const auto table = a.value("amplitude").table() ? a.record("amplitude") : std::nullopt)
+    return of_table(*table);
+  const auto function = a.function("amplitude");
+  if (!function)
+    return {};
+  Amplitude amplitude = [function](double time) {
+    const Values answer = function->call({time});
+    if (answer.empty() || !answer[0].is_number() || !std::isfinite(answer[0].number()))
+      throw InputError("amplitude(" + number_text(time) + ") of " + function->place(),
+                       answer.empty() ? "nothing" : describe(answer[0]), "a finite number");
+    return answer[0].number();
+  };
+  amplitude(0); // so that a slip in it is an error of the line that gave it
+  return amplitude;
+}
+
+std::function<geom::Vec3(double)> vector_over_time(const std::shared_ptr<Reference>& function,
+                                                   const std::string& field) {
+  const auto vector = [function, field](double time) {
+    const Values answer = function->call({time});
+    const Table* const three = answer.empty() ? nullptr : answer[0].table();
+    geom::Vec3 v(std::nan(""), 0, 0);
+    if (three && three->items.size() == 3)
+      for (int axis = 0; axis < 3; ++axis)
+        v[axis] = three->items[axis].is_number() ? three->items[axis].number() : std::nan("");
+    if (!v.allFinite())
+      throw InputError(field + "(" + number_text(time) + ") of " + function->place(),
+                       answer.empty() ? "nothing" : describe(answer[0]), "three finite numbers {x, y, z}");
+    return v;
+  };
+  vector(0);
+  return vector;
+}
+
+} // namespace cdem::script

@@ -1,0 +1,17 @@
+// What a script gives for a factor over time: a table, or a function of its own.
+#pragma once
+
+#include "lua/binding/schema/schema.hpp"
+
+#include "libcdem/load/conditions.hpp"
+
+namespace cdem::script {
+
+// "amplitude": factor over time (s), 1 when left out.
+Field amplitude_field();
+Amplitude amplitude_of(const Arguments&);
+
+// A vector that a function of time gives, asked once at time 0 so that a slip in it is an error of the line that gave it.
+std::function<geom::Vec3(double)> vector_over_time(const std::shared_ptr<Reference>&, const std::string& field);
+
+} // namespace cdem::script
