@@ -7,7 +7,7 @@ namespace {
 
 constexpr double keeps_speed = 0.8;  // of the third quarter, in the last one
 constexpr double makes_motion = 1.5; // times the displacement of half the steps ago
-constexpr double stored_part = 0.2;  // of the work
+constexpr double stored_part = 0.1;  // of the work
 constexpr double stays_out = 0.5;    // of the residual of the third quarter, in the last one
 constexpr double periods = 4;
 constexpr double far = 0.01; // of the model's length
@@ -41,6 +41,9 @@ bool StabilityWatch::runs_away() const {
     return false;
   const std::size_t at_c = n - 1, at_a = (n - 1) / 2, at_b = (at_a + at_c) / 2;
   const StabilityLook &a = looks_[at_a], &b = looks_[at_b], &c = looks_[at_c];
+  for (std::size_t i = at_a + 1; i <= at_c; ++i)
+    if (looks_[i].work <= looks_[i - 1].work)
+      return false;
   // Means over as many looks, or one less.
   const auto mean_residual = [&](std::size_t first, std::size_t last) {
     double sum = 0;
@@ -53,8 +56,7 @@ bool StabilityWatch::runs_away() const {
   const double last_quarter = static_cast<double>(c.step - b.step),
                third_quarter = static_cast<double>(b.step - a.step);
   return (c.path - b.path) / last_quarter >= keeps_speed * (b.path - a.path) / third_quarter &&
-         c.path >= makes_motion * a.path && c.work > a.work &&
-         c.stored - a.stored <= stored_part * (c.work - a.work) &&
+         c.path >= makes_motion * a.path && c.stored - a.stored <= stored_part * (c.work - a.work) &&
          mean_residual(at_b, at_c) >= stays_out * mean_residual(at_a, at_b);
 }
 

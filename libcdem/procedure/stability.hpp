@@ -6,7 +6,8 @@
 //
 //   D_c - D_b >= 0.8 (D_b - D_a)      it does not slow down,
 //   D_c >= 1.5 D_a                    and this motion makes the displacement, not the first settlement;
-//   S_c - S_a <= 0.2 (W_c - W_a)      the work of the loads is not stored: nothing holds against the motion,
+//   W grows from look to look from a to c, and S_c - S_a <= 0.1 (W_c - W_a)     the loads drive it on, and their work is
+//                                     not stored: nothing holds against the motion,
 //   mean R of (b, c] >= 0.5 mean R of (a, b]     the forces out of balance do not die away,
 //   n >= 4 T  or  D_c - D_a >= L / 100     the slowest wave has crossed the model and come back, several times; or it has
 //                                          moved further than rock and soil do before they fail.
@@ -16,8 +17,8 @@
 //
 //   T = 4 L / c,   c^2 = E' V / sum m,   1/E' = mean of 1/E + sum of A / kn over the interfaces / 3 V
 //
-// A slender column bends up to 1.5 L/w times as slowly (w its width): four periods T and the stored fifth leave room for
-// L/w up to some 25.
+// A slender column bends up to 1.5 L/w times as slowly (w its width): four periods T and the stored tenth leave room for
+// L/w up to some 28.
 #pragma once
 
 #include "libcdem/model/model.hpp"

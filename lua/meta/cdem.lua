@@ -99,11 +99,16 @@ local cdem = {}
 ---What a relaxation came to.
 ---@class (exact) cdem.RelaxResult
 ---@field converged boolean
+---@field verdict "stable"|"failing"|"undecided" stable: converged; failing: it runs away; undecided: max_steps came before either
 ---@field steps integer
 ---@field residual number
 ---@field broken_tension integer bonds, in this stage
 ---@field broken_shear integer bonds, in this stage
 ---@field wall_time number s
+---@field moving? number m: what the fastest node moved in the last 200 steps that were looked at
+---@field moving_block? integer its block
+---@field moving_place? number[] m: where it was, undeformed
+---@field trial? string as given
 
 ---What real-time stepping came to.
 ---@class (exact) cdem.RunResultMass_scaling
@@ -127,6 +132,22 @@ local cdem = {}
 ---@field kind string
 ---@field hash string of its arguments
 ---@field result any
+
+---One trial of a search for the factor of safety.
+---@class (exact) cdem.SafetyTrial
+---@field factor number
+---@field verdict "stable"|"failing"|"undecided"
+---@field steps integer
+---@field residual number
+
+---What the search for the factor of safety came to.
+---@class (exact) cdem.FactorOfSafety
+---@field factor number middle of the bracket
+---@field lower number largest factor at which the model is stable
+---@field upper number smallest one at which it is not
+---@field stable cdem.Model at lower, in its new balance
+---@field failing cdem.Model at upper, as it was when it was found to run away; its displacement is the mechanism
+---@field trials cdem.SafetyTrial[] in the order they were made
 
 ---A unit that has left its place.
 ---@class (exact) cdem.Departure
@@ -254,6 +275,7 @@ local cdem = {}
 ---@field damping number J
 ---@field friction number J
 ---@field breaking number J: lost by bonds that broke or softened
+---@field plastic number J: plastic work of blocks that yield
 ---@field cutting number J: lost when blocks were cut or removed
 ---@field fictitious number J: kinetic energy a relaxation threw away at its end
 ---@field external number J: work of loads, gravity and moving supports
@@ -434,6 +456,14 @@ local cdem = {}
 ---@field exit_code integer 0 when it succeeded
 ---@field seconds number s: wall clock; 0 for a run that had ended before its sweep was stopped
 ---@field figures any values of its report by name; empty when it failed, and in a check
+
+---Made by cdem.plastic.
+---@class cdem.Plasticity
+---@field cohesion number Pa
+---@field friction_angle number deg
+---@field dilation_angle number deg
+---@field tensile_strength number Pa
+local Plasticity = {}
 
 ---Made by cdem.elastic.
 ---@class cdem.Material
@@ -876,11 +906,13 @@ function Model:water(options) end
 ---@class (exact) cdem.ModelRelaxOptions
 ---@field residual? number in (0, 1), default 1e-06: goal: out-of-balance force norm over applied force norm
 ---@field breaking? boolean default true: bonds may break
----@field max_steps? integer >= 1, default 500000: gives up with converged = false
+---@field max_steps? integer >= 1, default 500000: gives up with converged = false, undecided
+---@field stop_on_failure? boolean default true: ends where the model runs away, with the verdict "failing"; false: goes on, for a fall that something may catch
+---@field trial? string name of a trial, "F = 1.2", for progress, log and report; that it fails is then an answer and no warning
 ---@field every? integer >= 1: steps between calls, 100 by default
 ---@field callback? fun() called every so many steps; may read the model and write files
 
----Dynamic relaxation to static balance, with fictitious masses and adaptive damping (Han 2010 eq 12).
+---Dynamic relaxation to static balance, with fictitious masses and adaptive damping (Han 2010 eq 12). The verdict tells a model that stands from one that runs away (docs/theory.md, section 25).
 ---@param options? cdem.ModelRelaxOptions
 ---@return cdem.RelaxResult
 function Model:relax(options) end
@@ -913,6 +945,18 @@ function Model:after_stage(callback) end
 ---The model's solving calls so far.
 ---@return cdem.Stage[]
 function Model:stages() end
+
+---Another model in the same state, with the same conditions and without histories and probes; what becomes of one does not touch the other.
+---@return cdem.Model
+function Model:copy() end
+
+---@class (exact) cdem.ModelReduceStrengthOptions
+---@field factor number > 0
+---@field reduce ("joints"|"blocks")[] strengths that are divided: joints (cohesion, tan(phi) and tensile strength of joints, bonds and contacts), blocks (those of plasticity)
+
+---Divides strengths by a factor: cohesion, tan(phi) and tensile strength. Stiffness, fracture energies and the state stay; glued faces never break. A second call acts on top of the first.
+---@param options cdem.ModelReduceStrengthOptions
+function Model:reduce_strength(options) end
 
 ---@class (exact) cdem.ModelWatchOptions
 ---@field bodies string name of a body of meshes
@@ -1364,6 +1408,21 @@ function cdem.parameter(options) end
 ---@param options cdem.ElasticOptions
 ---@return cdem.Material
 function cdem.elastic(options) end
+
+---@class (exact) cdem.PlasticOptions
+---@field cohesion number Pa, >= 0
+---@field friction_angle number deg, in [0, 90)
+---@field tensile_strength number Pa, >= 0: what is beyond the tip of the cone, cohesion / tan(friction_angle), does not act
+---@field dilation_angle? number deg, in [0, 90), default 0: at most friction_angle
+---@field residual_cohesion? number Pa, >= 0: at softening_strain; the peak's when left out
+---@field residual_friction_angle? number deg, in [0, 90)
+---@field residual_tensile_strength? number Pa, >= 0
+---@field softening_strain? number > 0: equivalent plastic strain at which the residual strength is reached, linearly; without fracture energy, so that what it dissipates depends on the size of the elements
+
+---Mohr-Coulomb plasticity with tension cut-off, dilation and softening, of the tetrahedra of blocks and meshes (docs/theory.md, section 25).
+---@param options cdem.PlasticOptions
+---@return cdem.Plasticity
+function cdem.plastic(options) end
 
 ---@class (exact) cdem.MohrCoulombOptionsWeibull
 ---@field modulus number in [2, 1000]: m
@@ -1892,6 +1951,8 @@ function cdem.select.where(predicate) end
 ---@field bonded_faces? "all"|"regions" of a mesh with a joint, the inner faces that may break: all, the default, or those between different regions
 ---@field bonded_regions? integer[] of a mesh with a joint, instead of bonded_faces: numbers of regions, from 1, whose faces may break
 ---@field region_joints? [integer, integer, cdem.Joint][] of a mesh: {region, region, joint} gives the faces between two regions, or with the same number twice those inside one, a joint of their own; numbers from 1. All others have `joint`
+---@field plasticity? cdem.Plasticity of a body that moves far: its tetrahedra yield by this law, cdem.plastic{...}
+---@field region_plasticity? [integer, cdem.Plasticity][] of a mesh: {region, law} gives a region a law of its own; numbers from 1. All others have `plasticity`, or are elastic without it
 ---@field stiffness_ratio? number > 0: of a mesh, beta in Kn = beta E A / (3 d). Of springs 10 by default: a body bonded everywhere keeps about E / (1 + 1/beta). Of a cohesive body the penalty of freed faces, 1 by default; it keeps all of E
 ---@field shear_ratio? number > 0: of a mesh, Ks / Kn; 1 by default
 
@@ -1903,6 +1964,23 @@ function cdem.select.where(predicate) end
 ---@param options cdem.ModelOptions
 ---@return cdem.Model
 function cdem.model(options) end
+
+---@class (exact) cdem.FactorOfSafetyOptions
+---@field model? cdem.Model each trial starts from its state as it is; it stays as it is
+---@field builder? fun(): cdem.Model instead: makes the model of a trial, called anew for each
+---@field reduce ("joints"|"blocks")[] strengths that are divided: joints (cohesion, tan(phi) and tensile strength of joints, bonds and contacts), blocks (those of plasticity)
+---@field lower? number > 0, default 0.5: a factor at which the model stands
+---@field upper? number > 0, default 4: a factor at which it fails
+---@field tolerance? number > 0, default 0.02: width of the bracket that is left
+---@field residual? number in (0, 1), default 1e-05: goal of each relaxation; smaller for models of many blocks of which few slide
+---@field max_steps? integer >= 1, default 200000: of each relaxation; a trial that is undecided then counts as failing, with a warning
+---@field picture? string file (.png) of the mechanism: displacement of the failing side
+---@field figure? string default "factor_of_safety": name of the figure in the report
+
+---The factor of safety by strength reduction: the number that the strengths can be divided by before the model fails, by bisection. Each trial starts from the same state, with its displacement set to zero, and is relaxed; the verdict of model:relax says whether it stands. Trials show in the progress, in the log and in report.json, which gets the figures factor_of_safety, factor_of_safety_lower and factor_of_safety_upper too.
+---@param options cdem.FactorOfSafetyOptions
+---@return cdem.FactorOfSafety
+function cdem.factor_of_safety(options) end
 
 ---Pressure of a stream, rho V^2 / 2 (Feng 2014 eq 20), Pa.
 ---@param velocity number m/s, >= 0

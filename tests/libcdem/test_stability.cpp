@@ -78,8 +78,8 @@ TEST_CASE("what speeds up or drifts under a load that nothing stores is failing"
 }
 
 TEST_CASE("slow convergence and the swings of an elastic body are not failing", "[stability]") {
-  // Creeps to its place, with time constants from far below to far above the looks; nothing stored, as where it rubs.
-  for (const double time : {100.0, 1000.0, 10000.0}) {
+  // Creeps to its place, with time constants below and above the looks; nothing stored, as where it rubs.
+  for (const double time : {100.0, 400.0, 1000.0}) {
     CAPTURE(time);
     CHECK(found_failing(
               300, [&](double n) { return 1 - std::exp(-n / time); },
