@@ -143,7 +143,8 @@ Column free_field_column(const Model& model, const Conditions& conditions, const
   }
   const auto layer_at = [&](double z) {
     const auto above = std::upper_bound(column.z.begin(), column.z.end(), z) - column.z.begin();
-    return static_cast<int>(std::clamp<std::ptrdiff_t>(above - 1, 0, static_cast<std::ptrdiff_t>(column.layers.size()) - 1));
+    return static_cast<int>(
+        std::clamp<std::ptrdiff_t>(above - 1, 0, static_cast<std::ptrdiff_t>(column.layers.size()) - 1));
   };
   for (std::size_t i = 0; i < faces.size(); ++i) {
     const OuterFace& face = model.outer_faces[faces[i]];

@@ -51,14 +51,21 @@ Value fields(Session&, ModelObject&, const Arguments&) {
 
 Value energy(Session&, ModelObject& model, const Arguments&) {
   const EnergyLedger e = model.simulation.energy();
-  return Table{{"elastic", e.elastic},   {"springs", e.springs},
-               {"kinetic", e.kinetic},   {"damping", e.damping},
-               {"radiated", e.radiated}, {"bolts", e.bolts},
+  return Table{{"elastic", e.elastic},
+               {"springs", e.springs},
+               {"kinetic", e.kinetic},
+               {"damping", e.damping},
+               {"radiated", e.radiated},
+               {"bolts", e.bolts},
                {"yielding", e.yielding},
-               {"friction", e.friction}, {"breaking", e.breaking},
-               {"cutting", e.cutting},   {"fictitious", e.fictitious},
-               {"external", e.external}, {"external_peak", e.external_peak},
-               {"total", e.total()},     {"balance_error", e.balance_error()}};
+               {"friction", e.friction},
+               {"breaking", e.breaking},
+               {"cutting", e.cutting},
+               {"fictitious", e.fictitious},
+               {"external", e.external},
+               {"external_peak", e.external_peak},
+               {"total", e.total()},
+               {"balance_error", e.balance_error()}};
 }
 
 Value overlap(Session&, ModelObject& model, const Arguments&) {
@@ -110,7 +117,8 @@ Value history(Session&, ModelObject& model, const Arguments&) {
 std::string column_name(const Arguments& a) {
   const std::string& name = a.text("name");
   if (name.empty() || name.find_first_of(",\n\"") != std::string::npos)
-    throw InputError("name", describe(a.value("name")), "a word: it begins the names of columns of history.csv");
+    throw InputError("name", describe(a.value("name")),
+                     "a word: it begins the names of columns of history.csv");
   return name;
 }
 
@@ -231,7 +239,8 @@ void bind_measures(Module& m) {
        vec3("at").unit("m").required().doc("undeformed place")},
       "", "", probe, false);
   add("record_reaction",
-      "Samples the force of the supports on a side or a body into the history (N), as columns <name>_x, <name>_y and "
+      "Samples the force of the supports on a side or a body into the history (N), as columns <name>_x, "
+      "<name>_y and "
       "<name>_z. Each sample costs some steps.",
       {text("name").required(), text("on").required().doc("\"x-\" .. \"z+\", or a body by name")}, "", "",
       record_reaction, false);

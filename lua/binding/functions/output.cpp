@@ -71,8 +71,8 @@ PictureOptions picture_options(const Arguments& a) {
 
 // Bolts over the blocks, coloured by the tension in four steps up to the largest.
 void add_bolts(const Simulation& simulation, PictureOptions& options) {
-  constexpr std::array<Colour, 4> colours{Colour{0.55, 0.55, 0.6}, {0.16, 0.5, 0.73}, {0.95, 0.65, 0.1},
-                                          {0.8, 0.1, 0.1}};
+  constexpr std::array<Colour, 4> colours{
+      Colour{0.55, 0.55, 0.6}, {0.16, 0.5, 0.73}, {0.95, 0.65, 0.1}, {0.8, 0.1, 0.1}};
   const std::vector<Simulation::BoltRow> rows = simulation.bolts();
   double most = 0;
   for (const auto& row : rows)
@@ -141,7 +141,8 @@ std::vector<Field> picture_declaration() {
   fields.push_back(number("opacity").within(0.05, 1).standard(1.0).doc(
       "of the blocks; below 1 broken interfaces inside show through"));
   fields.push_back(flag("edges").standard(true).doc("outlines of the blocks"));
-  fields.push_back(flag("bolts").standard(true).doc("bolts, drawn over the blocks and coloured by their tension"));
+  fields.push_back(
+      flag("bolts").standard(true).doc("bolts, drawn over the blocks and coloured by their tension"));
   fields.push_back(flag("broken_bonds").standard(true).doc("broken interfaces, coloured by how they broke"));
   return fields;
 }
