@@ -69,7 +69,8 @@ void Simulation::fix(const Fix& fix) {
     add_fix(c.fixes, fix);
     const auto same = [&](const auto& boundary) { return selects_same(boundary.on, fix.on); };
     c.quiets.erase(std::remove_if(c.quiets.begin(), c.quiets.end(), same), c.quiets.end());
-    c.free_fields.erase(std::remove_if(c.free_fields.begin(), c.free_fields.end(), same), c.free_fields.end());
+    c.free_fields.erase(std::remove_if(c.free_fields.begin(), c.free_fields.end(), same),
+                        c.free_fields.end());
   });
 }
 
@@ -98,7 +99,8 @@ void Simulation::gravity(const Gravity& gravity) {
   if (!std::isfinite(gravity.water_density) || gravity.water_density < 0)
     throw geom::InputError("water_density", number(gravity.water_density), "a finite number >= 0 kg/m3");
   if (gravity.turning && gravity.amplitude)
-    throw geom::InputError("amplitude: goes with a constant vector; let the function that turns it scale it too");
+    throw geom::InputError(
+        "amplitude: goes with a constant vector; let the function that turns it scale it too");
   impl_->conditions.gravity = gravity;
 }
 

@@ -57,9 +57,7 @@ void Simulation::quiet(const Quiet& quiet) {
   require_finite("velocity", quiet.velocity);
   require_finite("stress", quiet.stress);
   impl_->add_boundary(quiet.on, [&](Conditions& c) {
-    const auto same = [&](const Quiet& other) {
-      return selects_same(other.on, quiet.on);
-    };
+    const auto same = [&](const Quiet& other) { return selects_same(other.on, quiet.on); };
     c.quiets.erase(std::remove_if(c.quiets.begin(), c.quiets.end(), same), c.quiets.end());
     c.quiets.push_back(quiet);
   });
@@ -67,9 +65,7 @@ void Simulation::quiet(const Quiet& quiet) {
 
 void Simulation::free_field(const FreeField& field) {
   impl_->add_boundary(field.on, [&](Conditions& c) {
-    const auto same = [&](const FreeField& other) {
-      return selects_same(other.on, field.on);
-    };
+    const auto same = [&](const FreeField& other) { return selects_same(other.on, field.on); };
     if (std::none_of(c.free_fields.begin(), c.free_fields.end(), same))
       c.free_fields.push_back(field);
   });
@@ -121,7 +117,8 @@ void add_probes(RunLog& log, const std::string& name, const char* quantity, int 
                                "the history has \"" + column + "\"");
   }
   for (const char* const axis : {"x", "y", "z"})
-    log.probes.push_back({name + "_" + axis, "", geom::Vec3::Zero(), std::string(quantity) + "." + axis, body, on});
+    log.probes.push_back(
+        {name + "_" + axis, "", geom::Vec3::Zero(), std::string(quantity) + "." + axis, body, on});
 }
 
 } // namespace

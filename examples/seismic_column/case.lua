@@ -58,7 +58,8 @@ cdem.chart{ file = "amplification.png", x_label = "frequency (Hz)", y_label = "s
 cdem.chart{ file = "motion.png", x_label = "time (s)", y_label = "velocity (m/s)",
             series = { { x = history.time, y = history.surface, name = "surface" },
                        { x = outcrop.times, y = outcrop.values, name = "outcrop" } } }
-model:picture{ file = "model.png", colour = "body" }
+model:picture{ file = "model.png", colour = "displacement.x", deformation = 100,
+               camera = { position = {20, -50, 22}, focal_point = {2, 1, 8}, up = {0, 0, 1}, view_angle = 28 } }
 local energy = model:energy()
 cdem.report{
   { name = "first_peak", value = first, reference = transfer.peak(H, soil, rock), kind = "formula",

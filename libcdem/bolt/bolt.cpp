@@ -22,8 +22,7 @@ void validate(const Bolt& b) {
     throw geom::InputError("to", fmt::format("({:g}, {:g}, {:g})", b.to.x(), b.to.y(), b.to.z()),
                            "another place than `from`");
   require(b.segments >= 1 && b.segments <= 1000, "segments", b.segments, "from 1 to 1000");
-  require(finite(b.area), "area", b.area, "a finite number > 0 m2",
-          "a bar of 25 mm has 4.9e-4");
+  require(finite(b.area), "area", b.area, "a finite number > 0 m2", "a bar of 25 mm has 4.9e-4");
   require(finite(b.youngs_modulus), "youngs_modulus", b.youngs_modulus, "a finite number > 0 Pa");
   require(positive(b.yield_force), "yield_force", b.yield_force, "> 0 N");
   require(finite(b.grout_stiffness), "grout_stiffness", b.grout_stiffness, "a finite number > 0 N/m per m");

@@ -8,6 +8,8 @@ namespace cdem {
 namespace {
 
 constexpr int most_iterations = 100;
+// Of the stiffness, above the limits: the balance is always one.
+constexpr double hardening = 1e-6;
 // Of a node that nothing holds, over the steel's stiffness: it goes with its neighbours.
 constexpr double barely = 1e-9;
 

@@ -4,7 +4,7 @@
 //   g_i + N_i - N_{i-1} = 0,   g_i = k_i (u_i - a_i - s_i), |g_i| <= F_i,   N_i = (EA / l)(a_{i+1} - a_i - e_i), |N_i| <= N_y
 //
 // u: of the rock, a: of the steel, s: slip of the grout, e: stretch of the steel that stays; both perfectly plastic. The
-// forces of the nodes above their limits grow by `hardening` of their stiffness, so that the balance is always one.
+// balance is found by Newton's method on the convex energy of the chain.
 #pragma once
 
 #include "libcdem/bolt/bolt.hpp"
@@ -12,8 +12,6 @@
 #include <vector>
 
 namespace cdem {
-
-inline constexpr double hardening = 1e-6;
 
 // One bolt's numbers, node by node; the last segment entries are unused.
 struct BoltChain {

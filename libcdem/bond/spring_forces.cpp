@@ -209,9 +209,10 @@ void forces_of_springs(const Model& model, State& state, BondWork& work, Range r
       continue;
     const geom::Vec3 rate = rotation.transpose() * jump_at(point, state.velocity.data());
     const bool slid = state.bond_offset[p] != offset_before;
-    const geom::Vec3 viscous = slid ? geom::Vec3(geom::Vec3::Zero())
-                                    : viscous_force(point, interface, state.bond_mode[p], work.spring_force[p],
-                                                    rate, work.damping[point.interface]);
+    const geom::Vec3 viscous = slid
+                                   ? geom::Vec3(geom::Vec3::Zero())
+                                   : viscous_force(point, interface, state.bond_mode[p], work.spring_force[p],
+                                                   rate, work.damping[point.interface]);
     work.acting_force[p] += rotation * viscous;
     sums.damping += viscous.dot(rate) * work.damping_step;
   }

@@ -420,7 +420,8 @@ void check_outer_faces(const Model& model) {
 }
 
 bool is_support_quantity(const Model& model, const Probe& probe) {
-  const bool axis = probe.crack.size() > 2 && probe.crack.find_first_of("xyz", probe.crack.size() - 1) != std::string::npos;
+  const bool axis =
+      probe.crack.size() > 2 && probe.crack.find_first_of("xyz", probe.crack.size() - 1) != std::string::npos;
   const std::string quantity = axis ? probe.crack.substr(0, probe.crack.size() - 2) : "";
   const auto named = [&](const Body& body) { return body.name == probe.on; };
   const bool side = probe.on.size() == 2 && probe.on[0] >= 'x' && probe.on[0] <= 'z' &&

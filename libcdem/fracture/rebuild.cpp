@@ -257,7 +257,9 @@ private:
         const Node& force = from_.support_force[old];
         if (force.x == 0 && force.y == 0 && force.z == 0)
           continue;
-        const auto away = [&](int node) { return (r.model.node_position[node] - old_.node_position[old]).norm(); };
+        const auto away = [&](int node) {
+          return (r.model.node_position[node] - old_.node_position[old]).norm();
+        };
         double least = away(nodes.front());
         for (const int node : nodes)
           least = std::min(least, away(node));

@@ -32,8 +32,9 @@ void advance_columns(ResolvedConditions& r, State& state, const ColumnStep& step
   if (r.columns.empty())
     return;
   if (state.column_displacement.size() != column_levels(r))
-    throw geom::InputError("free_field: the state that was saved has columns of other heights; the sides of the "
-                           "model have changed since free_field was called");
+    throw geom::InputError(
+        "free_field: the state that was saved has columns of other heights; the sides of the "
+        "model have changed since free_field was called");
   for (const Column& column : r.columns) {
     Node* const u = state.column_displacement.data() + column.first;
     Node* const v = state.column_velocity.data() + column.first;
@@ -42,8 +43,8 @@ void advance_columns(ResolvedConditions& r, State& state, const ColumnStep& step
     std::vector<double> rate(levels, 0.0); // kg/m2/s, mass damping
     for (std::size_t i = 0; i < column.layers.size(); ++i) {
       const ColumnLayer& layer = column.layers[i];
-      strain[i] = (vec(u[i + 1]) - vec(u[i]) + layer.stiffness_damping * (vec(v[i + 1]) - vec(v[i]))) /
-                  layer.height;
+      strain[i] =
+          (vec(u[i + 1]) - vec(u[i]) + layer.stiffness_damping * (vec(v[i + 1]) - vec(v[i]))) / layer.height;
       const geom::Vec3 stress = geom::Vec3(layer.shear, layer.shear, layer.p_modulus).cwiseProduct(strain[i]);
       force[i] += stress;
       force[i + 1] -= stress;

@@ -73,8 +73,8 @@ void step_held_node(const MovingNodes& node, const HeldNode& h, const Stepping& 
   step(f.z, m, node.viscous, s, {h.free.z, h.prescribed.z, load.z}, v.z, u.z, sums);
 }
 
-void step_dashpot_node(const MovingNodes& node, const HeldNode& h, const geom::Mat3& dashpot, const Stepping& s,
-                       NodeSums& sums) {
+void step_dashpot_node(const MovingNodes& node, const HeldNode& h, const geom::Mat3& dashpot,
+                       const Stepping& s, NodeSums& sums) {
   const auto [net, applied] = held_node_forces(node);
   const geom::Vec3 force = vec(net), load = vec(applied), before = vec(*node.velocity),
                    prescribed = vec(h.prescribed);

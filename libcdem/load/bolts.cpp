@@ -38,7 +38,7 @@ ResolvedBolt resolve_bolt(const Model& model, const Bolt& bolt) {
     r.chain.grout.push_back(!r.at.back().inside ? 0
                             : plate             ? plate_stiffness * r.chain.steel
                                                 : bolt.grout_stiffness * grouted);
-    r.chain.strength.push_back(plate ? std::numeric_limits<double>::infinity()
+    r.chain.strength.push_back(plate         ? std::numeric_limits<double>::infinity()
                                : grouted > 0 ? bolt.grout_strength * grouted
                                              : 0);
   }
@@ -54,8 +54,7 @@ RockPlace rock_place(const Model& model, const geom::Vec3& place) {
     const auto& x = model.node_position;
     bool near = true;
     for (int axis = 0; axis < 3 && near; ++axis) {
-      const auto [low, high] =
-          std::minmax({x[t[0]][axis], x[t[1]][axis], x[t[2]][axis], x[t[3]][axis]});
+      const auto [low, high] = std::minmax({x[t[0]][axis], x[t[1]][axis], x[t[2]][axis], x[t[3]][axis]});
       near = place[axis] >= low - model.tolerance && place[axis] <= high + model.tolerance;
     }
     if (!near)
@@ -70,7 +69,8 @@ RockPlace rock_place(const Model& model, const geom::Vec3& place) {
   return found;
 }
 
-std::vector<ResolvedBolt> resolve_bolts(const Model& model, const State& state, const std::vector<Bolt>& bolts) {
+std::vector<ResolvedBolt> resolve_bolts(const Model& model, const State& state,
+                                        const std::vector<Bolt>& bolts) {
   std::vector<ResolvedBolt> resolved;
   std::size_t first = 0;
   for (const Bolt& bolt : bolts) {
@@ -79,9 +79,10 @@ std::vector<ResolvedBolt> resolve_bolts(const Model& model, const State& state, 
     first += resolved.back().at.size();
   }
   if (!bolts.empty() && first != state.bolts.size())
-    throw geom::InputError(fmt::format("bolts: the state has {} nodes of bolts, the script set {}; it was saved by "
-                                       "a script with other bolts",
-                                       state.bolts.size(), first));
+    throw geom::InputError(
+        fmt::format("bolts: the state has {} nodes of bolts, the script set {}; it was saved by "
+                    "a script with other bolts",
+                    state.bolts.size(), first));
   return resolved;
 }
 
@@ -90,10 +91,11 @@ void set_bolt(const Model& model, State& state, const Bolt& bolt) {
   ResolvedBolt r = resolve_bolt(model, bolt);
   const auto require_inside = [&](const RockPlace& at, const char* end, const geom::Vec3& x) {
     if (!at.inside)
-      throw geom::InputError(end, fmt::format("({:g}, {:g}, {:g})", x.x(), x.y(), x.z()),
-                             "a place in the rock, or on its surface",
-                             "this end of the bolt hangs in the air; move it, or set the bolt before the rock "
-                             "around it is taken out");
+      throw geom::InputError(
+          end, fmt::format("({:g}, {:g}, {:g})", x.x(), x.y(), x.z()),
+          "a place in the rock, or on its surface",
+          "this end of the bolt hangs in the air; move it, or set the bolt before the rock "
+          "around it is taken out");
   };
   require_inside(r.at.front(), "from", bolt.from);
   require_inside(r.at.back(), "to", bolt.to);
@@ -138,8 +140,8 @@ void bolt_forces(const std::vector<ResolvedBolt>& bolts, const State& state,
     for (std::size_t i = 0; i < bolt.at.size(); ++i)
       if (bolt.at[i].inside)
         for (int k = 0; k < 4; ++k)
-          forces.emplace_back(bolt.at[i].nodes[k], -state.bolts[bolt.first + i].grout * bolt.at[i].weights[k] *
-                                                       bolt.direction);
+          forces.emplace_back(bolt.at[i].nodes[k],
+                              -state.bolts[bolt.first + i].grout * bolt.at[i].weights[k] * bolt.direction);
 }
 
 void advance_bolts(const std::vector<ResolvedBolt>& bolts, State& state,

@@ -123,7 +123,13 @@ Column free_field_column(const Model& model, const Conditions& conditions, const
   const double bottom = *low, top = *high;
   column.z = levels_of(std::move(heights), model.tolerance);
   if (column.z.empty()) {
-    const double edge = std::sqrt(2 * area / static_cast<double>(faces.size()));
+    // A triangle has half of a square on its edge, a node of a face of many the whole of it.
+    double squares = 0;
+    for (const int f : faces)
+      squares += model.outer_faces[f].boundary >= 0
+                     ? 0.5
+                     : static_cast<double>(model.outer_faces[f].node_area.size());
+    const double edge = std::sqrt(area / squares);
     const int layers = std::max(1, static_cast<int>((top - bottom) / edge));
     for (int i = 0; i <= layers; ++i)
       column.z.push_back(i == layers ? top : bottom + (top - bottom) * i / layers);
@@ -137,7 +143,8 @@ Column free_field_column(const Model& model, const Conditions& conditions, const
   }
   const auto layer_at = [&](double z) {
     const auto above = std::upper_bound(column.z.begin(), column.z.end(), z) - column.z.begin();
-    return static_cast<int>(std::clamp<std::ptrdiff_t>(above - 1, 0, static_cast<std::ptrdiff_t>(column.layers.size()) - 1));
+    return static_cast<int>(
+        std::clamp<std::ptrdiff_t>(above - 1, 0, static_cast<std::ptrdiff_t>(column.layers.size()) - 1));
   };
   for (std::size_t i = 0; i < faces.size(); ++i) {
     const OuterFace& face = model.outer_faces[faces[i]];

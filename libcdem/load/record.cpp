@@ -40,10 +40,10 @@ void require_no_gaps(const TimeTable& table, double longest) {
   const double median = sorted[sorted.size() / 2], most = longest > 0 ? longest : usual_gap * median;
   for (std::size_t i = 0; i < steps.size(); ++i)
     if (steps[i] > most)
-      throw geom::InputError(
-          fmt::format("a gap from {:g} to {:g} s (points {} and {}), its usual step is {:g} s; fill the missing "
-                      "samples, or say longest_step = {:g} where straight lines across gaps will do",
-                      table.time[i], table.time[i + 1], i + 1, i + 2, median, steps[i]));
+      throw geom::InputError(fmt::format(
+          "a gap from {:g} to {:g} s (points {} and {}), its usual step is {:g} s; fill the missing "
+          "samples, or say longest_step = {:g} where straight lines across gaps will do",
+          table.time[i], table.time[i + 1], i + 1, i + 2, median, steps[i]));
 }
 
 VelocityRecord integrate(const TimeTable& acceleration, bool straight_baseline) {

@@ -165,7 +165,8 @@ void add_gravity(const Model& model, const Gravity& gravity, ResolvedConditions&
 }
 
 // Dashpots of quiet boundaries and free fields, and what enters through them.
-void add_boundaries(const Model& model, const Conditions& conditions, HeldNodes& held, ResolvedConditions& r) {
+void add_boundaries(const Model& model, const Conditions& conditions, HeldNodes& held,
+                    ResolvedConditions& r) {
   Dashpots dashpots;
   for (const Quiet& quiet : conditions.quiets) {
     const std::vector<int> faces = add_dashpots(model, quiet.on, "quiet", dashpots);
@@ -220,8 +221,8 @@ ResolvedConditions resolve(const Model& model, const State& state, const Conditi
   ResolvedConditions r;
   const std::size_t n = model.node_position.size();
   HeldNodes held;
-  if (conditions.load() || !conditions.bolts.empty() || !conditions.quiets.empty() || !conditions.free_fields.empty() ||
-      !state.support_force.empty())
+  if (conditions.load() || !conditions.bolts.empty() || !conditions.quiets.empty() ||
+      !conditions.free_fields.empty() || !state.support_force.empty())
     r.external.resize(n);
   std::copy(state.support_force.begin(), state.support_force.end(), r.external.begin());
   for (const Fix& fix : conditions.fixes)

@@ -28,13 +28,15 @@ void validate(const TimeTable& table) {
                     table.time.size(), table.time.size() == 1 ? "" : "s"));
   for (std::size_t i = 0; i < table.time.size(); ++i) {
     if (!std::isfinite(table.time[i]) || !std::isfinite(table.value[i]))
-      throw geom::InputError(fmt::format("point {} of a table over time is ({:g}, {:g}): give finite numbers, "
-                                         "and leave out what was not measured",
-                                         i + 1, table.time[i], table.value[i]));
+      throw geom::InputError(
+          fmt::format("point {} of a table over time is ({:g}, {:g}): give finite numbers, "
+                      "and leave out what was not measured",
+                      i + 1, table.time[i], table.value[i]));
     if (i > 0 && table.time[i] <= table.time[i - 1])
-      throw geom::InputError(fmt::format("point {} of a table over time: its time, {:g} s, does not come after "
-                                         "{:g} s of the point before; sort the rows and drop double ones",
-                                         i + 1, table.time[i], table.time[i - 1]));
+      throw geom::InputError(
+          fmt::format("point {} of a table over time: its time, {:g} s, does not come after "
+                      "{:g} s of the point before; sort the rows and drop double ones",
+                      i + 1, table.time[i], table.time[i - 1]));
   }
 }
 

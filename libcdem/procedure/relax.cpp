@@ -127,8 +127,9 @@ private:
 // Dashpots carry nothing at rest.
 void require_no_quiet(const Conditions& conditions) {
   if (!conditions.quiets.empty() || !conditions.free_fields.empty())
-    throw geom::InputError("relax: quiet boundaries and free fields hold nothing in a relaxation; find the static "
-                           "balance with model:fix there, then call model:quiet and model:free_field");
+    throw geom::InputError(
+        "relax: quiet boundaries and free fields hold nothing in a relaxation; find the static "
+        "balance with model:fix there, then call model:quiet and model:free_field");
 }
 
 void stop(State& state) {

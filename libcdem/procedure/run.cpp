@@ -65,9 +65,10 @@ double choose_time_step(const StageContext& context, const RunOptions& options) 
 
 void require_columns_stable(const ResolvedConditions& r, double time_step) {
   if (const double stable = column_time_step(r); time_step > stable)
-    throw geom::InputError("time_step", fmt::format("{:.4g}", time_step),
-                           fmt::format("at most {:.4g} s, the stable step of the free field's columns", stable),
-                           "name a time_step below it");
+    throw geom::InputError(
+        "time_step", fmt::format("{:.4g}", time_step),
+        fmt::format("at most {:.4g} s, the stable step of the free field's columns", stable),
+        "name a time_step below it");
 }
 
 // The time of each step of a run whose step may get shorter on the way, as contacts close.

@@ -136,8 +136,8 @@ std::int64_t record_begun_cracks(const Model& model, State& state, const BegunCr
   return static_cast<std::int64_t>(begun.broken.size());
 }
 
-void record_history(const Model& model, const State& state, const Conditions& conditions, RunLog& log, int stage,
-                    double residual, double kinetic) {
+void record_history(const Model& model, const State& state, const Conditions& conditions, RunLog& log,
+                    int stage, double residual, double kinetic) {
   HistoryRow row;
   row.stage = stage;
   row.step = state.step;

@@ -74,8 +74,9 @@ TEST_CASE("a bolt across a joint carries gap sqrt(EA k) / 2 tanh(L / 2 sqrt(k / 
   CHECK(bridged(a_bolt(401), gap) == Approx(expected).epsilon(0.005));
 }
 
-TEST_CASE("the steel of a bolt yields at area x yield stress, its grout slips at its strength times the length",
-          "[bolts]") {
+TEST_CASE(
+    "the steel of a bolt yields at area x yield stress, its grout slips at its strength times the length",
+    "[bolts]") {
   cdem::ChainLoss loss;
   cdem::Bolt bolt = a_bolt(21);
   bolt.yield_force = 1e5;
@@ -167,7 +168,8 @@ TEST_CASE("a pretensioned bolt presses the rock between plate and anchor", "[bol
   CHECK(s.energy().balance_error() < 0.01);
 }
 
-TEST_CASE("a bolt that swings with the rock goes on to the same bits, its energy counted", "[bolts][checkpoint]") {
+TEST_CASE("a bolt that swings with the rock goes on to the same bits, its energy counted",
+          "[bolts][checkpoint]") {
   const auto solve = [](cdem::Simulation& s, int done) {
     s.fix(fixed(foot));
     cdem::Bolt bolt = a_bolt(10);

@@ -37,7 +37,8 @@ TEST_CASE("tables that are none are refused in one line each", "[over_time]") {
   CHECK_THAT(error({0}, {1}), Contains("1 point"));
   CHECK_THAT(error({0, 1, 1}, {0, 0, 0}), Contains("point 3") && Contains("does not come after"));
   CHECK_THAT(error({0, 1, 2}, {0, std::nan(""), 0}), Contains("point 2") && Contains("finite"));
-  CHECK_THAT(error({0, 1, 2, 5, 6}, {0, 0, 0, 0, 0}), Contains("gap from 2 to 5 s") && Contains("longest_step = 3"));
+  CHECK_THAT(error({0, 1, 2, 5, 6}, {0, 0, 0, 0, 0}),
+             Contains("gap from 2 to 5 s") && Contains("longest_step = 3"));
   CHECK(error({0, 1, 2, 4}, {0, 0, 0, 0}).empty());
 }
 
@@ -51,8 +52,7 @@ TEST_CASE("an acceleration is integrated, and a straight baseline ends it at res
   }
   const cdem::VelocityRecord raw = integrate(a, false);
   CHECK(raw.end_velocity == Approx((1 - std::cos(w * 20)) / w + drift * 20).epsilon(1e-4));
-  CHECK(raw.end_displacement ==
-        Approx((20 - std::sin(w * 20) / w) / w + 0.5 * drift * 400).epsilon(1e-4));
+  CHECK(raw.end_displacement == Approx((20 - std::sin(w * 20) / w) / w + 0.5 * drift * 400).epsilon(1e-4));
   const cdem::VelocityRecord at_rest = integrate(a, true);
   CHECK(std::abs(at_rest.end_velocity) < 1e-9);
   CHECK(std::abs(at_rest.end_displacement) < 1e-8);
@@ -82,8 +82,9 @@ Sliding slide(const cdem::Amplitude& base, double duration, double angle) {
   cdem::ModelSpec spec;
   cdem::Elastic stiff = rock();
   cdem::BodySpec floor = meshed("floor", geom::box_mesh({6, 1, 0.5}, {12, 2, 1}), {}, stiff),
-                 block = meshed("block", box_at({1, 0.6, 0.4}, {2, 1, 1}, geom::Mat3::Identity(), {3, 0.5, 0.7}),
-                                {}, stiff);
+                 block =
+                     meshed("block", box_at({1, 0.6, 0.4}, {2, 1, 1}, geom::Mat3::Identity(), {3, 0.5, 0.7}),
+                            {}, stiff);
   floor.element = block.element = cdem::Element::rigid;
   spec.bodies = {floor, block};
   cdem::Joint contact = friction(angle);
@@ -106,7 +107,8 @@ Sliding slide(const cdem::Amplitude& base, double duration, double angle) {
 
 } // namespace
 
-TEST_CASE("Newmark's block slides as the rigid-plastic block does, under a sine and under a record", "[over_time][newmark]") {
+TEST_CASE("Newmark's block slides as the rigid-plastic block does, under a sine and under a record",
+          "[over_time][newmark]") {
   const double angle = 15, friction = std::tan(angle * degree);
   SECTION("one and a half sines") {
     const double w = 2 * pi * 2, peak = 0.5 * 9.81, end = 1.5 * 2 * pi / w;
@@ -137,7 +139,8 @@ TEST_CASE("Newmark's block slides as the rigid-plastic block does, under a sine 
   }
 }
 
-TEST_CASE("a support that follows a table moves by its integral and goes on to the same bits", "[over_time][checkpoint]") {
+TEST_CASE("a support that follows a table moves by its integral and goes on to the same bits",
+          "[over_time][checkpoint]") {
   const cdem::TimeTable table{{0, 1e-3, 2e-3}, {0, 1, 0}, true};
   const auto make = [](int threads, std::shared_ptr<cdem::Observer> observer) {
     cdem::ModelSpec spec;

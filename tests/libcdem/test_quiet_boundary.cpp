@@ -76,7 +76,8 @@ double comes_back(System s, int axis) {
 
 } // namespace
 
-TEST_CASE("a quiet boundary: less than 1 % of a P or S wave at normal incidence comes back", "[quiet][mesh]") {
+TEST_CASE("a quiet boundary: less than 1 % of a P or S wave at normal incidence comes back",
+          "[quiet][mesh]") {
   const int axis = GENERATE(2, 0);
   INFO((axis == 2 ? "P wave" : "S wave"));
   SECTION("structured meshes") {
@@ -93,8 +94,12 @@ TEST_CASE("a quiet boundary of blocks with stiff joints", "[quiet]") {
   joint.thickness_ratio = 0.001;
   const int axis = GENERATE(2, 0);
   cdem::BodySpec spec = body("column", geom::grid({0.1, 0.1, height}, {1, 1, 40}), rock(), joint);
-  SECTION("small strain") { spec.element = cdem::Element::small_strain; }
-  SECTION("finite volume") { spec.element = cdem::Element::finite_volume; }
+  SECTION("small strain") {
+    spec.element = cdem::Element::small_strain;
+  }
+  SECTION("finite volume") {
+    spec.element = cdem::Element::finite_volume;
+  }
   CHECK(comes_back(System(build({spec})), axis) < 0.01);
 }
 

@@ -156,7 +156,8 @@ void validate(const Joint& j) {
             "a finite number > 0 Pa/m");
   if (j.shear_stiffness)
     require(positive(*j.shear_stiffness), "shear_stiffness", *j.shear_stiffness, "a finite number > 0 Pa/m");
-  require(not_negative(j.stiffness_damping), "stiffness_damping", j.stiffness_damping, "a finite number >= 0 s");
+  require(not_negative(j.stiffness_damping), "stiffness_damping", j.stiffness_damping,
+          "a finite number >= 0 s");
   require(positive(j.restitution) && j.restitution <= 1, "restitution", j.restitution, "in (0, 1]",
           "it is the speed after an impact over the speed before it");
   validate_softening(j);

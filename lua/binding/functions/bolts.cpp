@@ -66,10 +66,12 @@ Value bolts(Session&, ModelObject& model, const Arguments& a) {
     try {
       model.simulation.bolt(bolt);
     } catch (const InputError& e) {
-      throw InputError("bolt " + std::to_string(i + 1) + " of " + std::to_string(ends.size()) + ": " + e.what());
+      throw InputError("bolt " + std::to_string(i + 1) + " of " + std::to_string(ends.size()) + ": " +
+                       e.what());
     }
   }
-  model.notes->conditions.push_back(std::to_string(ends.size()) + (ends.size() == 1 ? " bolt" : " bolts") + " set");
+  model.notes->conditions.push_back(std::to_string(ends.size()) + (ends.size() == 1 ? " bolt" : " bolts") +
+                                    " set");
   return static_cast<std::int64_t>(ends.size());
 }
 
@@ -91,8 +93,15 @@ Value save_bolts(Session& session, ModelObject& model, const Arguments& a) {
   for (const char* const name : {"bolt", "node", "x", "y", "z", "tension", "grout", "slip", "yielded"})
     columns.emplace_back(name, std::vector<double>());
   for (const auto& row : model.simulation.bolts()) {
-    const double values[] = {static_cast<double>(row.bolt), static_cast<double>(row.node), row.place.x(),
-                             row.place.y(), row.place.z(), row.tension, row.grout, row.slip, row.yielded};
+    const double values[] = {static_cast<double>(row.bolt),
+                             static_cast<double>(row.node),
+                             row.place.x(),
+                             row.place.y(),
+                             row.place.z(),
+                             row.tension,
+                             row.grout,
+                             row.slip,
+                             row.yielded};
     for (std::size_t c = 0; c < columns.size(); ++c)
       columns[c].second.push_back(values[c]);
   }
@@ -106,16 +115,17 @@ Value save_bolts(Session& session, ModelObject& model, const Arguments& a) {
 } // namespace
 
 void bind_bolts(Module& m) {
-  m.records.push_back({"BoltState",
-                       "A node of a bolt.",
-                       {integer("bolt").required().doc("from 1, in the order they were set"),
-                        integer("node").required().doc("from 1, from the collar on"),
-                        vec3("place").unit("m").required().doc("undeformed"),
-                        number("tension").unit("N").required().doc("at a collar with a plate that of the plate"),
-                        number("grout").unit("N").required().doc("on the rock, towards the far end; a plate pushes "
-                                                                 "that way"),
-                        number("slip").unit("m").required().doc("of the bolt past the grout"),
-                        number("yielded").required().doc("strain of the next segment that stays")}});
+  m.records.push_back(
+      {"BoltState",
+       "A node of a bolt.",
+       {integer("bolt").required().doc("from 1, in the order they were set"),
+        integer("node").required().doc("from 1, from the collar on"),
+        vec3("place").unit("m").required().doc("undeformed"),
+        number("tension").unit("N").required().doc("at a collar with a plate that of the plate"),
+        number("grout").unit("N").required().doc("on the rock, towards the far end; a plate pushes "
+                                                 "that way"),
+        number("slip").unit("m").required().doc("of the bolt past the grout"),
+        number("yielded").required().doc("strain of the next segment that stays")}});
   Class& model = m.the_class("Model");
   const auto add = [&](std::string name, std::string doc, std::vector<Field> fields, std::string returns,
                        std::string returns_doc, auto body) {
@@ -123,15 +133,17 @@ void bind_bolts(Module& m) {
                              std::move(returns_doc), method<ModelObject>(body)});
   };
   add("bolts",
-      "Sets grouted bolts or cables into the rock as it stands now: steel that yields, grout that slips, along the axis "
+      "Sets grouted bolts or cables into the rock as it stands now: steel that yields, grout that slips, "
+      "along the axis "
       "only. Both ends of each must lie in the rock.",
       {vec3("from").unit("m").doc("of one bolt: the collar"), vec3("to").unit("m").doc("its far end"),
        record("pattern", {vec3("centre").unit("m").required().doc("a point of the axis they fan out from"),
                           choice("axis", {"x", "y", "z"}).standard("y"),
                           number("radius").above(0).unit("m").required().doc("from the axis to the collars"),
                           number("length").above(0).unit("m").required(),
-                          list("angles", number_type()).required().doc(
-                              "degrees from the horizontal (x; y where the axis is x), 90 is up (z)"),
+                          list("angles", number_type())
+                              .required()
+                              .doc("degrees from the horizontal (x; y where the axis is x), 90 is up (z)"),
                           list("at", number_type()).required().doc("places along the axis, m")})
            .doc("fans of bolts, instead of from and to"),
        number("area").above(0).unit("m2").required().doc("of the steel"),

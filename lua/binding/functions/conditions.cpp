@@ -187,8 +187,7 @@ void bind_conditions(Module& m) {
   add("fix", "Holds nodes, or moves them as told. A later call wins over an earlier one where they meet.",
       {on(), axes(),
        vec3("displacement").unit("m").doc("total value to be held; a relaxation moves there first"),
-       vec3("velocity").unit("m/s").doc("in real-time stepping; zero when left out"),
-       amplitude_field()},
+       vec3("velocity").unit("m/s").doc("in real-time stepping; zero when left out"), amplitude_field()},
       fix);
   again();
   add("release", "Undoes fixes.", {on(), axes().doc("components set free")}, release);

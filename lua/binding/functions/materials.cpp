@@ -44,7 +44,8 @@ void read_damping(const Arguments& a, Elastic& elastic) {
     return;
   for (const char* const own : {"viscosity", "stiffness_damping"})
     if (a.number(own) != 0)
-      throw geom::InputError(std::string(own) + ": damping = { fraction, frequency } sets it; give one of the two");
+      throw geom::InputError(std::string(own) +
+                             ": damping = { fraction, frequency } sets it; give one of the two");
   const double fraction = damping->number("fraction"),
                w = 2 * 3.14159265358979323846 * damping->number("frequency");
   const std::string& of = damping->text("of");
@@ -259,14 +260,16 @@ void bind_materials(Module& m) {
             .doc("beta of Rayleigh damping, of meshes in real-time stepping: a vibration of angular "
                  "frequency w has "
                  "beta w / 2 of critical damping, motion as a rigid body none"),
-        record("damping",
-               {number("fraction").between(0, 1).required().doc("of critical damping at the frequency"),
-                number("frequency").above(0).unit("Hz").required(),
-                choice("of", {"both", "mass", "stiffness"})
-                    .standard("both")
-                    .doc("half of it each, and more at other frequencies; or all by viscosity (falls with the "
-                         "frequency, holds back motion as a rigid body); or all by stiffness_damping (grows with "
-                         "the frequency, shortens the stable step)")})
+        record(
+            "damping",
+            {number("fraction").between(0, 1).required().doc("of critical damping at the frequency"),
+             number("frequency").above(0).unit("Hz").required(),
+             choice("of", {"both", "mass", "stiffness"})
+                 .standard("both")
+                 .doc(
+                     "half of it each, and more at other frequencies; or all by viscosity (falls with the "
+                     "frequency, holds back motion as a rigid body); or all by stiffness_damping (grows with "
+                     "the frequency, shortens the stable step)")})
             .doc("Rayleigh damping by the fraction of critical damping, in place of viscosity and "
                  "stiffness_damping")},
        false,

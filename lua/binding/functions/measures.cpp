@@ -118,7 +118,8 @@ Value history(Session&, ModelObject& model, const Arguments&) {
 std::string column_name(const Arguments& a) {
   const std::string& name = a.text("name");
   if (name.empty() || name.find_first_of(",\n\"") != std::string::npos)
-    throw InputError("name", describe(a.value("name")), "a word: it begins the names of columns of history.csv");
+    throw InputError("name", describe(a.value("name")),
+                     "a word: it begins the names of columns of history.csv");
   return name;
 }
 
@@ -240,7 +241,8 @@ void bind_measures(Module& m) {
        vec3("at").unit("m").required().doc("undeformed place")},
       "", "", probe, false);
   add("record_reaction",
-      "Samples the force of the supports on a side or a body into the history (N), as columns <name>_x, <name>_y and "
+      "Samples the force of the supports on a side or a body into the history (N), as columns <name>_x, "
+      "<name>_y and "
       "<name>_z. Each sample costs some steps.",
       {text("name").required(), text("on").required().doc("\"x-\" .. \"z+\", or a body by name")}, "", "",
       record_reaction, false);

@@ -1,6 +1,7 @@
 // Files of a model: ParaView, pictures, films.
 #include "lua/binding/functions/joint_choice.hpp"
 #include "lua/binding/functions/picture_fields.hpp"
+#include "lua/binding/functions/solving_warnings.hpp"
 #include "lua/binding/objects/model_object.hpp"
 #include "lua/binding/runtime/module.hpp"
 
@@ -10,6 +11,7 @@
 #include "libgeom/core/error.hpp"
 
 #include <algorithm>
+#include <array>
 
 namespace cdem::script {
 
@@ -82,6 +84,31 @@ PictureOptions picture_options(const Arguments& a) {
   return options;
 }
 
+// Bolts over the blocks, coloured by the tension in four steps up to the largest.
+void add_bolts(const Simulation& simulation, PictureOptions& options) {
+  constexpr std::array<Colour, 4> colours{
+      Colour{0.55, 0.55, 0.6}, {0.16, 0.5, 0.73}, {0.95, 0.65, 0.1}, {0.8, 0.1, 0.1}};
+  const std::vector<Simulation::BoltRow> rows = simulation.bolts();
+  double most = 0;
+  for (const auto& row : rows)
+    most = std::max(most, row.tension);
+  std::array<bool, 4> told{};
+  for (std::size_t i = 1; i < rows.size(); ++i) {
+    if (rows[i].bolt != rows[i - 1].bolt)
+      continue;
+    const double tension = std::max(0.0, 0.5 * (rows[i - 1].tension + rows[i].tension));
+    const auto step = most > 0 ? std::min<std::size_t>(3, static_cast<std::size_t>(4 * tension / most)) : 0;
+    Polyline line;
+    line.points = {rows[i - 1].place, rows[i].place};
+    line.colour = colours[step];
+    line.width = 5;
+    if (most > 0 && !told[step])
+      line.label = "bolts to " + three_digits(0.25e-3 * most * static_cast<double>(step + 1)) + " kN";
+    told[step] = true;
+    options.polylines.push_back(std::move(line));
+  }
+}
+
 Value picture(Session& session, ModelObject& model, const Arguments& a) {
   require_ending(a.text("file"), ".png");
   PictureOptions options = picture_options(a);
@@ -96,6 +123,8 @@ Value picture(Session& session, ModelObject& model, const Arguments& a) {
     return {};
   }
   const Snapshot shown = without_bodies(model.simulation.snapshot(model.title(session)), hidden);
+  if (a.flag("bolts"))
+    add_bolts(model.simulation, options);
   if (shown.tets.empty())
     throw geom::InputError("hidden: holds every body; leave one to draw");
   draw(session, a.text("file"), [&](const std::string& path) { render(shown, options, path); });
@@ -127,6 +156,8 @@ std::vector<Field> picture_declaration() {
   fields.push_back(number("opacity").within(0.05, 1).standard(1.0).doc(
       "of the blocks; below 1 broken interfaces inside show through"));
   fields.push_back(flag("edges").standard(true).doc("outlines of the blocks"));
+  fields.push_back(
+      flag("bolts").standard(true).doc("bolts, drawn over the blocks and coloured by their tension"));
   fields.push_back(flag("broken_bonds").standard(true).doc("broken interfaces, coloured by how they broke"));
   return fields;
 }

@@ -25,8 +25,10 @@ Amplitude of_table(const Arguments& given) {
 
 Field amplitude_field() {
   return function_or_record("amplitude", "(time: number): number")
-      .doc("factor over time (s): a cdem.record, a list { {time, value}, ... } with straight lines between and its "
-           "first and last value outside, or a function, called once a step; a relaxation asks once at its start; 1 "
+      .doc("factor over time (s): a cdem.record, a list { {time, value}, ... } with straight lines between "
+           "and its "
+           "first and last value outside, or a function, called once a step; a relaxation asks once at its "
+           "start; 1 "
            "when left out");
 }
 

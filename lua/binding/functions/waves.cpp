@@ -51,8 +51,9 @@ public:
     for (const std::string& n : names_)
       have += (have.empty() ? "" : ", ") + n;
     throw InputError(field, "\"" + column + "\"",
-                     names_.empty() ? "the number of a column, from \"1\", as the file \"" + name_ + "\" has no names"
-                                    : "a column of the file \"" + name_ + "\"",
+                     names_.empty()
+                         ? "the number of a column, from \"1\", as the file \"" + name_ + "\" has no names"
+                         : "a column of the file \"" + name_ + "\"",
                      names_.empty() ? "" : "it has: " + have);
   }
 
@@ -61,10 +62,11 @@ public:
     for (const auto& [line, cells] : rows_) {
       const auto number = index < cells.size() ? number_in(cells[index]) : std::nullopt;
       if (!number || !std::isfinite(*number))
-        refuse("line " + std::to_string(line) + ": " +
-               (index < cells.size() && !cells[index].empty() ? "\"" + cells[index] + "\"" : "an empty cell") +
-               " in column " + (names_.empty() ? std::to_string(index + 1) : "\"" + names_[index] + "\"") +
-               ": must be a finite number; drop the row, or fill in what was not measured");
+        refuse(
+            "line " + std::to_string(line) + ": " +
+            (index < cells.size() && !cells[index].empty() ? "\"" + cells[index] + "\"" : "an empty cell") +
+            " in column " + (names_.empty() ? std::to_string(index + 1) : "\"" + names_[index] + "\"") +
+            ": must be a finite number; drop the row, or fill in what was not measured");
       values.push_back(*number);
     }
     return values;
@@ -86,8 +88,9 @@ private:
   static std::optional<double> number_in(const std::string& cell) {
     double x = 0;
     const auto [end, error] = std::from_chars(cell.data(), cell.data() + cell.size(), x);
-    return error == std::errc() && end == cell.data() + cell.size() && !cell.empty() ? std::optional<double>(x)
-                                                                                     : std::nullopt;
+    return error == std::errc() && end == cell.data() + cell.size() && !cell.empty()
+               ? std::optional<double>(x)
+               : std::nullopt;
   }
 
   struct Row {
@@ -105,9 +108,9 @@ struct Unit {
   const char* si;
 };
 constexpr double standard_gravity = 9.80665; // m/s2
-constexpr Unit units[] = {{"m/s2", 1, "m/s2"},   {"cm/s2", 0.01, "m/s2"}, {"g", standard_gravity, "m/s2"},
-                          {"m/s", 1, "m/s"},     {"cm/s", 0.01, "m/s"},   {"Pa", 1, "Pa"},
-                          {"kPa", 1000, "Pa"},   {"MPa", 1e6, "Pa"},      {"1", 1, "1"}};
+constexpr Unit units[] = {{"m/s2", 1, "m/s2"}, {"cm/s2", 0.01, "m/s2"}, {"g", standard_gravity, "m/s2"},
+                          {"m/s", 1, "m/s"},   {"cm/s", 0.01, "m/s"},   {"Pa", 1, "Pa"},
+                          {"kPa", 1000, "Pa"}, {"MPa", 1e6, "Pa"},      {"1", 1, "1"}};
 
 const Unit& unit_of(const std::string& name) {
   for (const Unit& unit : units)
@@ -117,16 +120,16 @@ const Unit& unit_of(const std::string& name) {
 }
 
 // An acceleration becomes a velocity. Tells what the baseline took off, and where the motion ends.
-TimeTable integrated(Session& session, const std::string& head, const TimeTable& table, const std::string& baseline,
-                     Table& result) {
+TimeTable integrated(Session& session, const std::string& head, const TimeTable& table,
+                     const std::string& baseline, Table& result) {
   const VelocityRecord r = integrate(table, baseline == "straight");
   std::string line = head + " integrated to velocity, peak " + three_digits(peak(r.velocity)) +
                      " m/s; at its end " + three_digits(r.raw_end_velocity) + " m/s and " +
                      three_digits(r.raw_end_displacement) + " m";
   if (baseline == "straight")
-    line += "; a baseline of " + three_digits(r.baseline.constant) + " m/s2 + " + three_digits(r.baseline.slope) +
-            " m/s3 t taken off brings both to " + three_digits(r.end_velocity) + " m/s and " +
-            three_digits(r.end_displacement) + " m";
+    line += "; a baseline of " + three_digits(r.baseline.constant) + " m/s2 + " +
+            three_digits(r.baseline.slope) + " m/s3 t taken off brings both to " +
+            three_digits(r.end_velocity) + " m/s and " + three_digits(r.end_displacement) + " m";
   session.message(line);
   result.named["end_velocity"] = r.end_velocity;
   result.named["end_displacement"] = r.end_displacement;
@@ -152,14 +155,16 @@ Value read_record(Session& session, Object*, const Arguments& a) {
     value *= a.number("scale") * unit.factor;
   const bool acceleration = std::string(unit.si) == "m/s2", to_velocity = a.text_or("to", "") == "velocity";
   if (to_velocity && !acceleration)
-    throw InputError("to", "\"velocity\"", "left out", "only an acceleration (unit \"m/s2\", \"cm/s2\", \"g\") is "
-                                                       "integrated, and this is in " + std::string(unit.name));
+    throw InputError("to", "\"velocity\"", "left out",
+                     "only an acceleration (unit \"m/s2\", \"cm/s2\", \"g\") is "
+                     "integrated, and this is in " +
+                         std::string(unit.name));
   if (a.text("baseline") != "none" && !to_velocity)
     throw InputError("baseline: goes with to = \"velocity\"");
   const double first = table.time.front();
-  const std::string head = "record \"" + file + "\": " + std::to_string(table.time.size()) + " samples from " +
-                           three_digits(first) + " to " + three_digits(table.time.back()) + " s, peak " +
-                           three_digits(peak(table)) + " " + unit.si + ";";
+  const std::string head = "record \"" + file + "\": " + std::to_string(table.time.size()) +
+                           " samples from " + three_digits(first) + " to " + three_digits(table.time.back()) +
+                           " s, peak " + three_digits(peak(table)) + " " + unit.si + ";";
   Table result;
   if (to_velocity)
     table = integrated(session, head, table, a.text("baseline"), result);
@@ -222,10 +227,13 @@ void bind_waves(Module& m) {
         list("baseline", number_type(), 2).doc("{a0, a1}: a0 + a1 t has been taken off, m/s2 and m/s3")}});
   m.functions.push_back(
       {"record",
-       "Reads a record over time from two columns of a .csv, in SI units from then on; outside its times it is 0. Times "
-       "must grow without gaps. With to = \"velocity\" an acceleration is integrated by the trapezoidal rule.",
+       "Reads a record over time from two columns of a .csv, in SI units from then on; outside its times it "
+       "is 0. Times "
+       "must grow without gaps. With to = \"velocity\" an acceleration is integrated by the trapezoidal "
+       "rule.",
        {text("path").required().doc("beside the script, in the output folder or below the results"),
-        text("time").standard("time").doc("name of its column (s); the number of it, \"1\", where the file has no names"),
+        text("time").standard("time").doc(
+            "name of its column (s); the number of it, \"1\", where the file has no names"),
         text("value").required().doc("name of its column"),
         number("scale").standard(1.0).doc("factor on the values"),
         choice("unit", {"m/s2", "cm/s2", "g", "m/s", "cm/s", "Pa", "kPa", "MPa", "1"})
@@ -234,10 +242,14 @@ void bind_waves(Module& m) {
         choice("to", {"velocity"}).doc("velocity: an acceleration is integrated"),
         choice("baseline", {"none", "straight"})
             .standard("none")
-            .doc("straight: takes the line a0 + a1 t off the acceleration that brings the last velocity and the "
+            .doc("straight: takes the line a0 + a1 t off the acceleration that brings the last velocity and "
+                 "the "
                  "last displacement to zero"),
-        number("longest_step").above(0).unit("s").doc("two samples further apart are a gap; 2.5 times the median "
-                                                      "step when left out")},
+        number("longest_step")
+            .above(0)
+            .unit("s")
+            .doc("two samples further apart are a gap; 2.5 times the median "
+                 "step when left out")},
        false,
        "cdem.Record",
        "",
@@ -252,15 +264,20 @@ void bind_waves(Module& m) {
   };
   const Field on = place("on").required().doc("where: a place or a list of places");
   add("quiet",
-      "Quiet boundary (Lysmer and Kuhlemeyer 1969): dashpots on outer faces let waves out, and a wave may enter through "
-      "them. It takes the place of a fix of the same place, whose reactions stay as loads. For real-time stepping.",
+      "Quiet boundary (Lysmer and Kuhlemeyer 1969): dashpots on outer faces let waves out, and a wave may "
+      "enter through "
+      "them. It takes the place of a fix of the same place, whose reactions stay as loads. For real-time "
+      "stepping.",
       {on, vec3("velocity").unit("m/s").doc("of the particles in the entering wave alone"),
-       vec3("stress").unit("Pa").doc("traction of the entering wave alone on these faces; the boundary adds 2 of it"),
+       vec3("stress").unit("Pa").doc(
+           "traction of the entering wave alone on these faces; the boundary adds 2 of it"),
        amplitude_field()},
       quiet);
   add("free_field",
-      "Vertical sides that move as if the rock went on beyond them: a column in one dimension, with the foot of the "
-      "model (quiet or fix on z-, given before), moves each side through dashpots. It takes the place of a fix of the "
+      "Vertical sides that move as if the rock went on beyond them: a column in one dimension, with the foot "
+      "of the "
+      "model (quiet or fix on z-, given before), moves each side through dashpots. It takes the place of a "
+      "fix of the "
       "same side, whose reactions stay as loads.",
       {place("on").required().doc("\"x-\", \"x+\", \"y-\", \"y+\", or a list of them")}, free_field);
 }

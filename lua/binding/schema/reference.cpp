@@ -33,7 +33,8 @@ std::string type_text(const Type& type) {
     return (type.or_number   ? "number or function "
             : type.or_vec3   ? "vector or function "
             : type.or_record ? "record, list of {time, value} or function "
-                             : "function ") + type.name;
+                             : "function ") +
+           type.name;
   case Kind::object:
     return with_or(type.name, " or ");
   case Kind::named:

@@ -51,7 +51,11 @@ std::string Type::lua_type() const {
   case Kind::named:
     return "table<string, " + items[0].lua_type() + ">";
   case Kind::function:
-    return (or_number ? "number|fun" : or_vec3 ? "number[]|fun" : or_record ? "cdem.Record|number[][]|fun" : "fun") + name;
+    return (or_number   ? "number|fun"
+            : or_vec3   ? "number[]|fun"
+            : or_record ? "cdem.Record|number[][]|fun"
+                        : "fun") +
+           name;
   case Kind::object:
     return "cdem." + with_or(name, "|cdem.");
   case Kind::place:

@@ -218,7 +218,8 @@ Value checked_plain(const Value& given, const Type& type, const std::string& pat
 // A cdem.Record as it is; a list of {time, value} as one that holds its first and last values.
 Value checked_over_time(const Value& given, const std::string& path) {
   if (given.table()->items.empty()) {
-    std::vector<Field> fields{list("times", number_type(), 2).required(), list("values", number_type(), 2).required(),
+    std::vector<Field> fields{list("times", number_type(), 2).required(),
+                              list("values", number_type(), 2).required(),
                               choice("outside", {"hold", "zero"}).standard("hold")};
     Table of_times = *given.table();
     for (auto entry = of_times.named.begin(); entry != of_times.named.end();) {

@@ -1,0 +1,127 @@
+// Earthquakes and bolts in scripts: records, amplitudes, quiet boundaries, free fields, damping, bolts.
+#include "tests/lua/script.hpp"
+
+#include <catch2/catch.hpp>
+
+using namespace cdem::script;
+using namespace cdem::script::test;
+using Catch::Matchers::Contains;
+using Catch::Matchers::Equals;
+
+namespace {
+
+const std::string head =
+    "local cdem = require 'cdem'\n"
+    "local rock = cdem.elastic{ youngs_modulus = 30e9, poissons_ratio = 0.25, density = 2500 }\n"
+    "local m = cdem.model{ bodies = { { name = 'rock', shape = cdem.box_mesh{ size = {1, 1, 2}, divisions = "
+    "{2, 2, 4} }, "
+    "material = rock } } }\n";
+
+std::string error_with_record(const std::string& csv, const std::string& arguments) {
+  Script script("local cdem = require 'cdem'\nlocal r = cdem.record{ path = 'r.csv', " + arguments +
+                " }\nassert(r.duration == 0.4 and #r.times == 5)");
+  script.write("r.csv", csv);
+  return script.error();
+}
+
+const std::string good = "time,a,b\n0,0,0\n0.1,1,0\n0.2,0,0\n0.3,-1,0\n0.4,0,0\n";
+
+} // namespace
+
+TEST_CASE("a record is read from a .csv, scaled and integrated", "[lua][earthquake]") {
+  CHECK(error_with_record(good, "value = 'a', unit = 'g'").empty());
+  CHECK(error_with_record("# of a station\n0;0\n0.1;1\n0.2;0\n0.3;-1\n0.4;0\n",
+                          "time = '1', value = '2', unit = 'm/s2', to = 'velocity', baseline = 'straight'")
+            .empty());
+  Script script(
+      "local cdem = require 'cdem'\n"
+      "local r = cdem.record{ path = 'r.csv', value = 'a', unit = 'cm/s2', scale = 100, to = 'velocity' }\n"
+      "assert(math.abs(r.peak - 0.1) < 1e-12 and r.unit == 'm/s' and r.outside == 'zero')\n"
+      "assert(math.abs(r.end_displacement - 0.02) < 1e-12)");
+  script.write("r.csv", good);
+  CHECK_THAT(script.error(), Equals(""));
+}
+
+TEST_CASE("records that are none are refused in one line", "[lua][earthquake]") {
+  CHECK_THAT(error_with_record("time,a\n0,0\n0.1,1\n0.2,0\n0.9,0\n", "value = 'a', unit = 'g'"),
+             Contains("r.csv") && Contains("gap from 0.2 to 0.9 s"));
+  CHECK_THAT(error_with_record("time,a\n0,0\n0.1,1\n0.1,0\n", "value = 'a', unit = 'g'"),
+             Contains("point 3") && Contains("sort the rows"));
+  CHECK_THAT(error_with_record("time,a\n0,0\n0.1,\n", "value = 'a', unit = 'g'"),
+             Contains("line 3") && Contains("an empty cell") && Contains("\"a\""));
+  CHECK_THAT(error_with_record("time,a\n0,0\n0.1,nan\n", "value = 'a', unit = 'g'"), Contains("line 3"));
+  CHECK_THAT(error_with_record("time,a\n0,0\n", "value = 'a', unit = 'g'"), Contains("1 point"));
+  CHECK_THAT(error_with_record("time,a\n", "value = 'a', unit = 'g'"), Contains("no rows of numbers"));
+  CHECK_THAT(error_with_record(good, "value = 'c', unit = 'g'"), Contains("it has: time, a, b"));
+  CHECK_THAT(error_with_record(good, "value = 'a', unit = 'Pa', to = 'velocity'"),
+             Contains("only an acceleration"));
+}
+
+TEST_CASE("supports, loads and gravity follow records, lists and functions", "[lua][earthquake]") {
+  CHECK_THAT(
+      error_of(
+          head +
+          "m:fix{ on = 'z-', velocity = {1, 0, 0}, amplitude = { {0, 0}, {1e-4, 1}, {2e-4, 0} } }\n"
+          "m:traction{ on = 'z+', stress = {1e3, 0, 0}, amplitude = { times = {0, 1}, values = {0, 1} } }\n"
+          "m:gravity{ vector = function(t) return {math.sin(t), 0, -9.81} end }\n"
+          "m:record_reaction{ name = 'foot', on = 'z-' }\nm:record_momentum{ name = 'rock', body = 'rock' }\n"
+          "m:run{ duration = 4e-4 }\n"
+          "assert(math.abs(m:mean('displacement.x', 'z-') - 1e-4) < 1e-6)\n"
+          "local h = m:history()\nassert(#h.foot_x == #h.time and #h.rock_z == #h.time)"),
+      Equals(""));
+  CHECK_THAT(error_of(head + "m:fix{ on = 'z-', amplitude = { {0, 0}, {1, 1} } }"),
+             Contains("goes with velocity"));
+  CHECK_THAT(error_of(head + "m:fix{ on = 'z-', velocity = {1, 0, 0}, amplitude = { {0, 0}, {0, 1} } }"),
+             Contains("amplitude: point 2"));
+  CHECK_THAT(error_of(head + "m:fix{ on = 'z-', velocity = {1, 0, 0}, amplitude = 3 }"),
+             Contains("a list { {time, value}"));
+  CHECK_THAT(error_of(head + "m:gravity{ vector = function(t) return 3 end }"),
+             Contains("three finite numbers"));
+  CHECK_THAT(error_of(head + "m:record_reaction{ name = 'a', on = 'nowhere' }"), Contains("nowhere"));
+}
+
+TEST_CASE("quiet boundaries and free fields in a script", "[lua][earthquake]") {
+  CHECK_THAT(error_of(head + "m:quiet{ on = 'z-', velocity = {0, 0, 1}, amplitude = { times = {0, 1e-4, "
+                             "2e-4}, values = {0, 1, 0},"
+                             " outside = 'zero' } }\n"
+                             "m:free_field{ on = {'x-', 'x+'} }\nm:run{ duration = 5e-3 }\n"
+                             "local e = m:energy()\nassert(e.radiated > 0 and e.balance_error < 0.01)"),
+             Equals(""));
+  CHECK_THAT(error_of(head + "m:quiet{ on = 'z-', velocity = {0, 0, 1}, stress = {0, 0, 1} }"),
+             Contains("give one of them"));
+  CHECK_THAT(error_of(head + "m:quiet{ on = 'z-', amplitude = { {0, 0}, {1, 1} } }"),
+             Contains("goes with velocity or stress"));
+  CHECK_THAT(error_of(head + "m:free_field{ on = 'x-' }"), Contains("no foot"));
+}
+
+TEST_CASE("Rayleigh damping by a fraction of critical damping", "[lua][earthquake]") {
+  CHECK_THAT(error_of("local cdem = require 'cdem'\n"
+                      "local w = 2 * math.pi * 5\n"
+                      "local function of(part) return cdem.elastic{ youngs_modulus = 1e9, poissons_ratio = "
+                      "0.2, density = "
+                      "2000, damping = { fraction = 0.05, frequency = 5, of = part } } end\n"
+                      "for _, part in ipairs{ 'both', 'mass', 'stiffness' } do\n"
+                      "  local r = of(part)\n"
+                      "  assert(math.abs(r.viscosity / r.density / (2 * w) + r.stiffness_damping * w / 2 - "
+                      "0.05) < 1e-12)\n"
+                      "end\nassert(of('mass').stiffness_damping == 0 and of('stiffness').viscosity == 0)"),
+             Equals(""));
+}
+
+TEST_CASE("bolts in a script", "[lua][bolts]") {
+  CHECK_THAT(
+      error_of(head +
+               "m:fix{ on = 'z-' }\n"
+               "assert(m:bolts{ from = {0.5, 0.5, 2}, to = {0.5, 0.5, 0.5}, area = 5e-4, plate = true, "
+               "free_length = 1,"
+               " pretension = 1e4 } == 1)\n"
+               "assert(m:bolts{ pattern = { centre = {0.5, 0.5, 1}, axis = 'y', radius = 0.1, length = 0.3, "
+               "angles = "
+               "{0, 90, 180}, at = {0.3, 0.7} }, area = 1e-4 } == 6)\n"
+               "local rows = m:bolt_forces()\nassert(#rows == 77 and math.abs(rows[1].tension - 1e4) < 1)\n"
+               "m:relax{ residual = 1e-6 }\nm:save_bolts{}\nm:picture{ file = 'bolts.png' }"),
+      Equals(""));
+  CHECK_THAT(error_of(head + "m:bolts{ from = {0.5, 0.5, 2}, to = {0.5, 0.5, 3}, area = 5e-4 }"),
+             Contains("bolt 1 of 1") && Contains("hangs in the air"));
+  CHECK_THAT(error_of(head + "m:save_bolts{}"), Contains("no bolts"));
+}
