@@ -3,6 +3,8 @@
 #include "libcdem/bond/spring_forces.hpp"
 #include "libgeom/core/portable.hpp"
 
+#include <algorithm>
+
 namespace cdem {
 namespace {
 
@@ -97,6 +99,32 @@ double spring_energy(const Model& model, const State& state) {
   return energy;
 }
 
+namespace {
+
+// A joint whose strength grows with slip has slipped far enough to bear the shear it begins with, where some slip is enough.
+void mobilise(const Model& model, State& state, const InterfaceLaw& own, int p) {
+  constexpr double least = 1e-7, most = 1, growth = 1.05; // m
+  const geom::Vec3& normal = model.points[p].normal;
+  const geom::Vec3 stretch = local_jump(model, state.displacement, p) - state.bond_offset[p];
+  const double open = stretch.dot(normal), shear = own.spring.ks * (stretch - open * normal).norm();
+  if (open > 0)
+    return;
+  double& path = state.joint_history[p].path;
+  with_law(*own.law, [&](const auto& law) {
+    const double pressure = law.pressure(own.spring, -open);
+    const auto bears = [&](double x) { return law.strength(own.spring, pressure, x) >= shear; };
+    if (bears(path))
+      return;
+    for (double x = std::max(least, growth * path); x < most; x *= growth)
+      if (bears(x)) {
+        path = x;
+        return;
+      }
+  });
+}
+
+} // namespace
+
 void add_traction(const Model& model, State& state, int p, const geom::Vec3& more) {
   const BondPoint& point = model.points[p];
   const Interface& interface = model.interfaces[point.interface];
@@ -111,6 +139,8 @@ void add_traction(const Model& model, State& state, int p, const geom::Vec3& mor
     });
   }
   state.bond_offset[p] -= opening * point.normal + (more - normal * point.normal) / interface.ks;
+  if (const InterfaceLaw own = law_of_interface(model, interface); has_law_now(state, own, p))
+    mobilise(model, state, own, p);
 }
 
 } // namespace cdem

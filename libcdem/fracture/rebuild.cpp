@@ -116,6 +116,8 @@ public:
       return traits(model, a, fa, b, fb);
     });
     result.state = initial_state(result.model);
+    if (!from_.water_pressure.empty())
+      result.state.water_pressure.assign(result.model.points.size(), 0);
     result.state.time = from_.time;
     result.state.step = from_.step;
     result.state.velocity_lag = from_.velocity_lag;

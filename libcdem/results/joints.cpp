@@ -21,13 +21,14 @@ double part_of(double load, double strength) {
 
 double use_of(const Model& model, const State& state, int p, double normal, double shear) {
   const Interface& interface = model.interfaces[model.points[p].interface];
-  const Joint joint = joint_of(model, interface);
+  const Joint& joint = model.joints[interface.joint];
   const double tan_friction = geom::portable::tan(joint.friction_angle);
   if (state.bond_mode[p] == static_cast<std::uint8_t>(BondMode::intact)) {
     if (!interface.may_break)
       return 0;
-    return std::max(part_of(normal, joint.tensile_strength),
-                    part_of(shear, shear_strength(joint.cohesion, tan_friction, normal)));
+    return std::max(
+        part_of(normal, interface.strength * joint.tensile_strength),
+        part_of(shear, shear_strength(interface.strength * joint.cohesion, tan_friction, normal)));
   }
   if (!has_law(joint.law))
     return part_of(shear, friction_limit(std::max(0.0, -normal), tan_friction));

@@ -126,6 +126,8 @@ bool Stage::free_nodes() {
     work = Workspace(model, state, context_.conditions);
     work.damped = before.damped;
     work.bond = std::move(before.bond);
+    for (std::size_t i = 0; i < work.bond.laws.size(); ++i) // of the new Model
+      work.bond.laws[i] = law_of_interface(model, model.interfaces[i]);
     work.contact = std::move(before.contact);
     contacts_ = ContactUpdate(context_);
     contacts_.start_anew(model, work.contact);

@@ -1,5 +1,6 @@
 // Joint sets: families of planes by dip, dip direction and spacing, with seeded scatter.
 #include "libgeom/assembly/builders.hpp"
+#include "libgeom/assembly/discs.hpp"
 #include "libgeom/assembly/edit.hpp"
 #include "libgeom/core/check.hpp"
 #include "libgeom/core/error.hpp"
@@ -42,19 +43,13 @@ void check(const JointSet& set) {
   require_angle("direction_scatter", set.direction_scatter, pi / 4);
 }
 
-// Upward normal of a plane that dips towards dip_direction: x east, y north, z up.
-Vec3 normal_of(double dip, double dip_direction) {
-  return {portable::sin(dip) * portable::sin(dip_direction),
-          portable::sin(dip) * portable::cos(dip_direction), portable::cos(dip)};
-}
-
 // About how many blocks come out: each set cuts a block into 1 + width / spacing parts.
 void check_count(const Assembly& assembly, const std::vector<JointSet>& sets) {
   double blocks = 0;
   for (const Polyhedron& block : assembly.blocks) {
     double parts = 1;
     for (const JointSet& set : sets) {
-      const Vec3 normal = normal_of(set.dip, set.dip_direction);
+      const Vec3 normal = normal_of_dip(set.dip, set.dip_direction);
       double low = std::numeric_limits<double>::infinity(), high = -low;
       for (const Vec3& x : block.vertices) {
         low = std::min(low, normal.dot(x));
@@ -73,7 +68,7 @@ void check_count(const Assembly& assembly, const std::vector<JointSet>& sets) {
 // The planes of one set, sorted along its mean normal. Without scatter they stand one spacing apart, counted
 // from the lowest corner of the box along that normal; with scatter the first place is drawn too.
 std::vector<Plane> planes_of(const JointSet& set, std::uint64_t id, std::uint64_t seed, const Box& box) {
-  const Vec3 mean = normal_of(set.dip, set.dip_direction), centre = box.centre();
+  const Vec3 mean = normal_of_dip(set.dip, set.dip_direction), centre = box.centre();
   const bool scattered = set.spacing_scatter > 0 || set.dip_scatter > 0 || set.direction_scatter > 0;
   const double tilt = std::min(widest_draw * (set.dip_scatter + set.direction_scatter), pi / 3);
   const double half =
@@ -98,8 +93,8 @@ std::vector<Plane> planes_of(const JointSet& set, std::uint64_t id, std::uint64_
     const auto draw = [&](std::uint64_t n) {
       return std::clamp(normal(seed, stream + k, n), -widest_draw, widest_draw);
     };
-    const Vec3 own = scattered ? normal_of(set.dip + set.dip_scatter * draw(1),
-                                           set.dip_direction + set.direction_scatter * draw(2))
+    const Vec3 own = scattered ? normal_of_dip(set.dip + set.dip_scatter * draw(1),
+                                               set.dip_direction + set.direction_scatter * draw(2))
                                : mean;
     planes.push_back(Plane::through(centre + place * mean, own));
   }
@@ -136,6 +131,11 @@ Assembly cut_clear(Assembly assembly, const Plane& plane, double scale, const st
 }
 
 } // namespace
+
+Vec3 normal_of_dip(double dip, double dip_direction) {
+  return {portable::sin(dip) * portable::sin(dip_direction),
+          portable::sin(dip) * portable::cos(dip_direction), portable::cos(dip)};
+}
 
 Assembly cut_by_joints(const Assembly& assembly, const std::vector<JointSet>& sets, std::uint64_t seed) {
   for (const JointSet& set : sets)

@@ -1581,6 +1581,28 @@ function cdem.bricks(options) end
 ---@return cdem.Assembly
 function cdem.cut_by_joints(options) end
 
+---@class (exact) cdem.CutByDiscsOptionsDiscs
+---@field id? integer >= 0: discs cut in the order of their ids; its place in the list when left out
+---@field centre number[] m
+---@field dip number deg, in [0, 90]
+---@field dip_direction number deg, in [0, 360]
+---@field radius number m, > 0
+---@field set string name of its faces, for their law
+
+---@class (exact) cdem.CutByDiscsOptions
+---@field shape cdem.Assembly
+---@field discs cdem.CutByDiscsOptionsDiscs[]
+
+---Joints of finite size: every block that a disc reaches is cut by the disc's plane. Faces with their centroid in the disc belong to its set; beyond it they are bridges of rock, which the body's joint holds.
+---@param options cdem.CutByDiscsOptions
+---@return cdem.Assembly
+function cdem.cut_by_discs(options) end
+
+---Discs of a fracture network from a .csv with the columns id, x, y, z, dip, dip_direction, radius and set, in any order, for cut_by_discs.
+---@param file string
+---@return table[] # id, centre, dip, dip_direction, radius and set of each
+function cdem.read_discs(file) end
+
 ---@class (exact) cdem.ConvexHullOptions
 ---@field points number[][] m: four or more, not in one plane
 

@@ -133,6 +133,24 @@ TEST_CASE("a Barton-Bandis joint closes on its hyperbola and peaks at its mobili
   CHECK(s.reaction(top).x() < 0.97 * peak);
 }
 
+TEST_CASE("a rough joint that begins under stress has closed and mobilised what it needs to bear it",
+          "[joint_laws][barton_bandis]") {
+  const auto element = GENERATE(from_range(elements));
+  cdem::Joint joint = loose(rough());
+  joint.normal_stiffness = joint.shear_stiffness = 1e11;
+  cdem::Simulation s(shear_box(joint, element), 1, nullptr);
+  const double shear = 0.8 * pressure * std::tan(rough().friction_angle(pressure, 2e-3));
+  cdem::InitialStress field;
+  field.stress = {0, 0, -pressure, 0, 0, shear};
+  CHECK(s.initial_stress(field).points == 0);
+  const cdem::JointSum sum = sum_of(s);
+  CHECK(sum.normal == Approx(-pressure));
+  CHECK(sum.shear == Approx(shear));
+  CHECK(sum.largest_use == Approx(1).epsilon(0.05)); // by steps of 5 % of slip
+  field.stress = {0, 0, 0, 0, 0, shear};             // more than its peak
+  CHECK(s.initial_stress(field).points == s.counts().bonds);
+}
+
 TEST_CASE("a joint by tables bears and closes as they say", "[joint_laws][joint_table]") {
   const auto element = GENERATE(from_range(elements));
   cdem::JointTable law;

@@ -2,6 +2,7 @@
 #include "libcdem/joint/joint_law.hpp"
 
 #include "libcdem/joint/joint.hpp"
+#include "libcdem/joint/law_reduction.hpp"
 
 #include <catch2/catch.hpp>
 
@@ -160,4 +161,20 @@ TEST_CASE("residual strength that is no residual is refused", "[joint_law]") {
   joint.softening = cdem::Softening::linear;
   joint.fracture_energy_1 = joint.fracture_energy_2 = 1e5;
   CHECK_THAT(refusal(residual(0.5)), Contains("softening"));
+}
+
+TEST_CASE("a reduced law bears the strength over the factor", "[joint_law]") {
+  const double factor = 1.7;
+  cdem::ResidualStrength law = residual(0.5, 0.4);
+  law.cohesion = 1e5;
+  cdem::JointTable table;
+  table.shear = {{0, 1e5}, {1e6, 7e5}};
+  for (const cdem::JointLaw& one : {cdem::JointLaw(law), cdem::JointLaw(table)})
+    for (const double pressure : {0.0, 0.3e6, 2e6})
+      CHECK(cdem::joint_strength(reduced(one, factor), spring, pressure, 1e-3) ==
+            Approx(cdem::joint_strength(one, spring, pressure, 1e-3) / factor));
+  CHECK(std::get<cdem::ResidualStrength>(reduced(cdem::JointLaw(law), factor)).dilation ==
+        Approx(0.5 / factor));
+  CHECK_FALSE(has_law(reduced(cdem::JointLaw(), factor)));
+  CHECK_THROWS_WITH(reduced(cdem::JointLaw(cdem::BartonBandis()), factor), Contains("Barton-Bandis"));
 }

@@ -9,6 +9,8 @@
 
 #include <catch2/catch.hpp>
 
+#include <map>
+
 using namespace testing;
 using Catch::Matchers::Contains;
 using geom::Vec3;
@@ -218,6 +220,41 @@ TEST_CASE("a slope that a reservoir holds slides when it is drawn down and the j
   CHECK_FALSE(Slide::stands(s)); // rapid drawdown
   s.water(at_pressure(0));       // drained
   CHECK(Slide::stands(s));
+}
+
+TEST_CASE("water stays in the joints that are left when blocks are taken out, and what is cut is dry",
+          "[water]") {
+  cdem::BodySpec rocks =
+      body("rock", cut(cut(geom::grid({1, 1, 3}, {1, 1, 1}), {0, 0, 1}, {0, 0, 1}, "lower"), {0, 0, 2},
+                       {0, 0, 1}, "upper"));
+  cdem::ModelSpec spec;
+  spec.bodies = {rocks};
+  cdem::Simulation s(spec, 1, nullptr);
+  s.fix(fixed(bottom));
+  s.gravity(gravity());
+  cdem::Water water;
+  water.level = 3;
+  s.water(water);
+  REQUIRE(s.relax({}).converged);
+  const auto pressures = [&] {
+    std::map<std::string, double> of_set;
+    for (const cdem::JointSum& sum : s.joints({}))
+      of_set[sum.set] = sum.water;
+    return of_set;
+  };
+  CHECK(pressures()["lower"] == Approx(2 * 9810.0));
+  CHECK(pressures()["upper"] == Approx(9810.0));
+  CHECK(s.remove(cdem::Selection::where([](const Vec3& x) { return x.z() > 2; }, "the top block")) == 1);
+  CHECK(pressures().size() == 1);
+  CHECK(pressures()["lower"] == Approx(2 * 9810.0));
+  cdem::RefineOptions options;
+  options.region = cdem::Selection::where([](const Vec3& x) { return x.z() > 1; }, "the upper block");
+  options.tension_threshold = 1e12;
+  options.shear_threshold = 1e12; // cut whatever bears anything
+  REQUIRE_FALSE(s.refine(options).empty());
+  CHECK(pressures()["lower"] == Approx(2 * 9810.0));
+  CHECK(pressures()[""] == 0);
+  CHECK(s.relax({}).converged);
 }
 
 TEST_CASE("a table of pressures over height is straight between rows", "[water]") {

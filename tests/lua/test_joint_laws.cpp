@@ -111,3 +111,35 @@ TEST_CASE("results of joints point by point and as files", "[lua][joints]") {
                       "m:picture{ file = 'use.png', colour = 'joint_utilisation', size = {200, 200} }"),
              Equals(""));
 }
+
+TEST_CASE("discs of a fracture network are read from a table and cut the blocks they reach", "[lua][discs]") {
+  Script script(
+      head +
+      "local discs = cdem.read_discs('dfn.csv')\n"
+      "assert(#discs == 2 and discs[2].set == 'east' and math.abs(discs[2].dip - 60) < 1e-9)\n"
+      "local shape = cdem.cut_by_discs{ shape = cdem.box{ size = {2, 2, 2} }, discs = discs }\n"
+      "assert(#shape:blocks() == 3)\n"
+      "local names = shape:joint_sets()\nassert(names[1] == 'east' and names[2] == 'level')\n"
+      "local m = cdem.model{ bodies = { { name = 'rock', shape = shape, material = rock, joint = "
+      "cdem.mohr_coulomb{ cohesion = 1e6, friction_angle = 30, tensile_strength = 1e6 }, joints = { level "
+      "= cdem.coulomb{ friction_angle = 30 } } } } }\n"
+      "assert(m:joints{ sets = {'level'} }[1].area > 3.9)");
+  script.write("dfn.csv",
+               "id,x,y,z,dip,dip_direction,radius,set\n1,1,1,1,0,0,5,level\n2,1,1,1.6,60,90,0.3,east\n");
+  CHECK_THAT(script.error(), Equals(""));
+  CHECK_THAT(error_of(head +
+                      "cdem.cut_by_discs{ shape = cdem.box{ size = {2, 2, 2} }, discs = { { centre = {1, 1, "
+                      "1}, dip = 95, dip_direction = 0, radius = 1, set = 'a' } } }"),
+             Contains("dip = 95"));
+}
+
+TEST_CASE("water is part of a saved state", "[lua][water][checkpoint]") {
+  const std::string text = box("cdem.barton_bandis{ jrc = 10, jcs = 100e6, residual_friction_angle = 28, "
+                               "initial_stiffness = 2e9, maximum_closure = 1e-3, length = 1 }") +
+                           "m:relax{}\nm:water{ pressure = function(x) return 1e5 * x end }\n"
+                           "m:save_state{ file = 'wet.cdem' }\n"
+                           "m:water{ pressure = 0 }\nm:run{ steps = 50 }\n"
+                           "m:load_state{ file = 'wet.cdem' }\n"
+                           "assert(m:joints{}[1].water_pressure > 4e4)";
+  CHECK_THAT(error_of(text), Equals(""));
+}

@@ -3,8 +3,10 @@
 #include "lua/binding/objects/objects.hpp"
 #include "lua/binding/objects/solid_objects.hpp"
 #include "lua/binding/runtime/module.hpp"
+#include "lua/binding/runtime/session.hpp"
 
 #include "libgeom/assembly/builders.hpp"
+#include "libgeom/assembly/discs.hpp"
 #include "libgeom/assembly/edit.hpp"
 #include "libgeom/core/error.hpp"
 #include "libgeom/mesh/tet_blocks.hpp"
@@ -62,6 +64,34 @@ Value cut_by_joints(Session&, Object*, const Arguments& a) {
   }
   return made(geom::cut_by_joints(a.object<AssemblyObject>("shape")->assembly, sets,
                                   static_cast<std::uint64_t>(a.integer("seed"))));
+}
+
+Value read_discs(Session& session, Object*, const Arguments& a) {
+  const std::string& name = a.text("file");
+  Values rows;
+  for (const geom::Disc& disc : geom::read_discs(read_file(session.files.to_read(name)), name))
+    rows.emplace_back(Table{{"id", disc.id},
+                            {"centre", disc.centre},
+                            {"dip", degrees(disc.dip)},
+                            {"dip_direction", degrees(disc.dip_direction)},
+                            {"radius", disc.radius},
+                            {"set", disc.set}});
+  return Table::list(std::move(rows));
+}
+
+Value cut_by_discs(Session&, Object*, const Arguments& a) {
+  std::vector<geom::Disc> discs;
+  for (const Arguments& given : a.records("discs")) {
+    geom::Disc disc;
+    disc.id = given.has("id") ? given.integer("id") : static_cast<std::int64_t>(discs.size()) + 1;
+    disc.centre = given.vec3("centre");
+    disc.dip = radians(given.number("dip"));
+    disc.dip_direction = radians(given.number("dip_direction"));
+    disc.radius = given.number("radius");
+    disc.set = given.text("set");
+    discs.push_back(disc);
+  }
+  return made(geom::cut_by_discs(a.object<AssemblyObject>("shape")->assembly, std::move(discs)));
 }
 
 Value blocks_of_mesh(Session&, Object*, const Arguments& a) {
@@ -200,6 +230,29 @@ void bind_builders(Module& m) {
   add("cut_by_joints", "Cuts every block by the planes of joint sets, one set after the other.",
       {object("shape", "Assembly").required(), list("sets", record_type(set)).required(), seed_field()},
       cut_by_joints);
+  const std::vector<Field> disc{
+      integer("id").at_least(0).doc("discs cut in the order of their ids; its place in the "
+                                    "list when left out"),
+      vec3("centre").unit("m").required(),
+      number("dip").within(0, 90).unit("deg").required(),
+      number("dip_direction").within(0, 360).unit("deg").required(),
+      number("radius").above(0).unit("m").required(),
+      text("set").required().doc("name of its faces, for their law")};
+  add("cut_by_discs",
+      "Joints of finite size: every block that a disc reaches is cut by the disc's plane. Faces with their "
+      "centroid in the "
+      "disc belong to its set; beyond it they are bridges of rock, which the body's joint holds.",
+      {object("shape", "Assembly").required(), list("discs", record_type(disc)).required()}, cut_by_discs);
+  m.functions.push_back({"read_discs",
+                         "Discs of a fracture network from a .csv with the columns id, x, y, z, dip, "
+                         "dip_direction, radius and set, in any order, for cut_by_discs.",
+                         {text("file").required()},
+                         true,
+                         "table[]",
+                         "id, centre, dip, dip_direction, radius and set of each",
+                         read_discs,
+                         false,
+                         Replay::recorded});
   add("convex_hull", "One block: the convex hull of points.",
       {list("points", vec3_type(), 4).unit("m").required().doc("four or more, not in one plane")},
       convex_hull);

@@ -1,0 +1,33 @@
+// Joints of finite size: discs of a discrete fracture network cut the blocks they reach.
+//
+// A block that a disc reaches is cut by the disc's whole plane. A face that is cut so belongs to the disc's set where its
+// centroid lies in the disc; beyond it the face has no name: it is a bridge of rock, held by the body's own joint. Cut the
+// rock into smaller blocks first where bridges are to be finer.
+#pragma once
+
+#include "libgeom/assembly/assembly.hpp"
+
+#include <cstdint>
+
+namespace geom {
+
+struct Disc {
+  std::int64_t id = 0;
+  Vec3 centre = Vec3::Zero(); // m
+  double dip = 0;             // rad, 0..pi/2
+  double dip_direction = 0;   // rad, 0..2 pi, clockwise from +y (north) seen from above
+  double radius = 0;          // m, > 0
+  std::string set = {};       // name of the faces
+};
+
+// Upward normal of a plane that dips towards dip_direction: x east, y north, z up.
+Vec3 normal_of_dip(double dip, double dip_direction);
+
+// The discs in the order of their ids. Throws InputError naming the disc.
+Assembly cut_by_discs(const Assembly&, std::vector<Disc>);
+
+// From a table with a first row of names, id, x, y, z, dip, dip_direction, radius, set in any order, commas between, angles
+// in degrees. Throws InputError naming `file`, row and column.
+std::vector<Disc> read_discs(const std::string& text, const std::string& file);
+
+} // namespace geom
