@@ -6,7 +6,7 @@ local cdem = require "cdem"
 
 local spacing = cdem.parameter{ name = "spacing", default = 4, range = {1, 10}, unit = "m", doc = "of all joint sets" }
 local phi = cdem.parameter{ name = "friction_angle", default = 40, range = {5, 70}, unit = "degrees", doc = "of the joints" }
-local runout = cdem.parameter{ name = "runout", default = 6, range = {0, 60}, unit = "s", doc = "of the slide; 0: none" }
+local runout = cdem.parameter{ name = "runout", default = 4, range = {0, 60}, unit = "s", doc = "of the slide; 0: none" }
 local tolerance = cdem.parameter{ name = "tolerance", default = 0.02, range = {0.001, 0.5}, doc = "of the factor of safety" }
 local dip, face, g = 35, 65, 9.81 -- degrees, degrees, m/s2
 
@@ -49,8 +49,8 @@ local figures = { { name = "factor_of_safety", value = safety.factor, kind = "fo
 -- The slide runs out: at the strength that fails.
 if runout > 0 then
   local slide = safety.failing
-  slide:run{ duration = runout, local_damping = 0.05 }
-  draw(slide, "runout.png", "at rest")
+  slide:run{ duration = runout, mass_scaling = { step = 5e-5 } }
+  draw(slide, "runout.png", string.format("F = %.4g, %g s later", safety.upper, runout))
   figures[#figures + 1] = { name = "runout_m", value = slide:max("displacement.x"), unit = "m" }
 end
 figures[#figures + 1] = { name = "wall_time_s", value = cdem.elapsed(), unit = "s" }
