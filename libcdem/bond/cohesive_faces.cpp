@@ -38,7 +38,8 @@ struct ChunkLaw {
   SofteningLaw at(const FaceBatch& batch, int face) const {
     Joint room;
     const double k = penalty(batch, face % lanes);
-    return softening_law(joints.of(face, room), joints.tan_friction(face, tan_friction), k, k);
+    return softening_law(joints.of(face, room), joints.tan_friction(face, tan_friction), k, k,
+                         SofteningBegins::at_strength);
   }
 };
 
@@ -214,7 +215,7 @@ void preload(const FaceBatch& batch, int lane, const FaceMotion& motion, const F
 } // namespace
 
 SofteningLaw cohesive_law(const Joint& joint, double k) {
-  return softening_law(joint, k, k);
+  return softening_law(joint, geom::portable::tan(joint.friction_angle), k, k, SofteningBegins::at_strength);
 }
 
 double damage_of(const CohesiveFace& face) {
@@ -284,11 +285,14 @@ double begin_crack(const FaceBatch& batch, int lane, const FaceFrame& f, const J
   const Vec3 on_plane = f.in_axes(stress * m), on_face = f.in_axes(stress * f.normal);
   state.stage[lane] = FaceStage::cracking;
   face.plane = array(f.in_axes(m));
+  const SofteningLaw law = cohesive_law(joint, k);
   for (int point = 0; point < 3; ++point) {
-    const Vec3 gap = f.in_axes(f.gap[point]), held = gap + vec(face.offset[point]);
+    const Vec3 gap = f.in_axes(f.gap[point]), pulls = on_face + k * (gap + vec(face.offset[point]));
     face.offset[point] = array(on_plane / k - gap);
-    face.rest[point] = array(on_face + k * held - face.plane[2] * on_plane);
-    if (joint.softening == Softening::none) {
+    face.rest[point] = {};
+    if (law.softens()) { // it may be damaged by a crack that ended
+      face.rest[point] = array((pulls - respond(law, face, point, gap, false).traction) / (1 - face.damage[point]));
+    } else {
       face.damage[point] = 1;
       state.mode[point][lane] = static_cast<std::uint8_t>(mode);
     }

@@ -205,8 +205,7 @@ ContactSums contact_forces(const Model& model, State& state, ContactWork& own, i
       add(own.chunks[i].sums, sums);
     }
   }
-  if (own.step > 0)
-    sums.friction += lost(model, state, own.step, state.contacts, own.now);
+  sums.friction += lost(model, state, own.step, state.contacts, own.now);
   if (own.now.capacity() > 2 * own.now.size() + 64)
     own.now.shrink_to_fit();
   std::swap(state.contacts, own.now);

@@ -65,8 +65,8 @@ double strain_rate(const Model& model, const State& state, const FaceTets& tets)
 
 class ChunkCracks {
 public:
-  ChunkCracks(const Model& model, State& state, std::int64_t index, bool in_real_time)
-      : model_(model), state_(state), index_(index), in_real_time_(in_real_time),
+  ChunkCracks(const Model& model, State& state, std::int64_t index, double moved_for, bool in_real_time)
+      : model_(model), state_(state), index_(index), moved_for_(moved_for), in_real_time_(in_real_time),
         chunk_(model.mesh.chunks[index]), body_(model.bodies[model.blocks[chunk_.block].body]),
         joints_(model, state, chunk_), rocks_(body_) {
     if (!joints_.own())
@@ -107,11 +107,13 @@ private:
     return std::all_of(stage, stage + faces, [](FaceStage s) { return s == FaceStage::parted; });
   }
 
+  // When the stress was computed.
   FaceFrame frame(std::int64_t batch, int lane) const {
+    const auto since = [&](int node) { return geom::Vec3(moved_for_ * velocity_of(state_, node)); };
     return face_frame(
         face_nodes(model_.mesh, chunk_, batch, lane),
-        [&](int node) { return place_of(model_, state_, node); },
-        [&](int node) { return vec(state_.displacement[node]); });
+        [&](int node) { return geom::Vec3(place_of(model_, state_, node) - since(node)); },
+        [&](int node) { return geom::Vec3(vec(state_.displacement[node]) - since(node)); });
   }
 
   void one_face(std::int64_t batch, int lane, const FaceStress& of_batch) {
@@ -178,6 +180,7 @@ private:
   const Model& model_;
   State& state_;
   std::int64_t index_;
+  double moved_for_; // s
   bool in_real_time_;
   const MeshChunk& chunk_;
   const Body& body_;
@@ -190,12 +193,13 @@ private:
 
 } // namespace
 
-BegunCracks begin_cracks(const Model& model, State& state, int threads, bool in_real_time) {
+BegunCracks begin_cracks(const Model& model, State& state, double moved_for, int threads,
+                         bool in_real_time) {
   std::vector<BegunCracks> of_chunks(model.mesh.chunks.size());
   for_chunks(static_cast<std::int64_t>(of_chunks.size()), threads, [&](std::int64_t c) {
     const MeshChunk& chunk = model.mesh.chunks[c];
     if (chunk.side_batches.size() > 0 && !is_rigid(model, chunk))
-      of_chunks[c] = ChunkCracks(model, state, c, in_real_time)();
+      of_chunks[c] = ChunkCracks(model, state, c, moved_for, in_real_time)();
   });
   BegunCracks all;
   for (const BegunCracks& some : of_chunks) {

@@ -1,6 +1,7 @@
 // Cracks in cohesive bodies begin and end: freed faces that reach their strength crack on the plane that fails
 // (fracture/working_plane.hpp, bond/cohesive_faces.hpp); those that unload before they are damaged to speak of hold again.
-// Once a step, before its forces; stress is that of the step before, the mean of both tets.
+// Once a step, before its forces, from the stress of the step before (the mean of both tets) and the gaps that stood with
+// it: with those of now the change of energy would be that of two moments.
 #pragma once
 
 #include "libcdem/state/state.hpp"
@@ -21,7 +22,7 @@ struct BegunCracks {
   std::vector<std::pair<std::int64_t, CrackEnergy>> energies;
 };
 
-// in_real_time: strengths follow the rate of strain where a joint says so; in a relaxation there is none.
-BegunCracks begin_cracks(const Model&, State&, int threads, bool in_real_time);
+// moved_for: s, since the stress was computed, at the velocity of the nodes. in_real_time: strengths follow the rate of strain where a joint says so; in a relaxation there is none.
+BegunCracks begin_cracks(const Model&, State&, double moved_for, int threads, bool in_real_time);
 
 } // namespace cdem

@@ -23,6 +23,9 @@
 //   w_I  = (G_I  - sigma_t^2 / 2 kn) / (sigma_t S)
 //   w_II = (G_II - c0^2 / 2 ks) / (c0 S)
 //
+// What is taken off is the stretch of the spring up to its strength, a part of G between blocks. A crack of a cohesive
+// body begins at its strength with no gap: nothing is taken off there.
+//
 // While D grows the traction stays on the strength surface with sigma_t and c0 both multiplied by s: pure
 // opening takes G_I, slip under a constant pressure p takes G_II beyond the work of the friction p tan(phi).
 // At a fixed ratio of opening to slip, the ray of e (direction d, open) meets the surface at t_0 and e_0, and
@@ -66,8 +69,11 @@ struct SofteningLaw {
   bool softens() const { return curve != Softening::none; }
 };
 
+enum class SofteningBegins : std::uint8_t { at_rest, at_strength };
+
 // The joint has passed validate(joint, kn, ks). tan_friction: of its friction angle.
-inline SofteningLaw softening_law(const Joint& joint, double tan_friction, double kn, double ks) {
+inline SofteningLaw softening_law(const Joint& joint, double tan_friction, double kn, double ks,
+                                  SofteningBegins begins = SofteningBegins::at_rest) {
   SofteningLaw law;
   law.curve = joint.softening;
   law.kn = kn;
@@ -78,8 +84,8 @@ inline SofteningLaw softening_law(const Joint& joint, double tan_friction, doubl
   // At the least fracture energy the length is zero; a floor far below the elastic stretch keeps the
   // quotients finite.
   const auto length = [&](double energy, double strength, double k) {
-    return std::max((energy - strength * strength / (2 * k)) / (strength * softening_area(law.curve)),
-                    1e-9 * strength / k);
+    const double stretching = begins == SofteningBegins::at_rest ? strength * strength / (2 * k) : 0;
+    return std::max((energy - stretching) / (strength * softening_area(law.curve)), 1e-9 * strength / k);
   };
   law.opening = length(joint.fracture_energy_1, joint.tensile_strength, kn);
   law.slip = length(joint.fracture_energy_2, joint.cohesion, ks);

@@ -164,7 +164,7 @@ void Stage::end_step(double time_step) {
 
 void Stage::synchronise() {
   synchronise_contacts();
-  synchronise_stress();
+  broken_between_ += synchronise_stress(context_.log);
 }
 
 void Stage::synchronise_contacts() {
@@ -174,27 +174,23 @@ void Stage::synchronise_contacts() {
   }
 }
 
-void Stage::synchronise_stress() {
+std::int64_t Stage::synchronise_stress(RunLog& log) {
+  std::int64_t broken = 0;
   const auto meshes = static_cast<std::int64_t>(context_.model.mesh.chunks.size());
   work.hand_over_due = step % hand_over_every == 0;
-  if (work.strain_step > 0)
+  if (work.strain_step > 0) {
     for_chunks(meshes, context_.threads, [&](std::int64_t c) {
       if (!is_rigid(context_.model, context_.model.mesh.chunks[c]))
-        mesh_forces(context_.model, context_.state, work, c, false);
+        mesh_forces(context_.model, context_.state, work, c, breaking_);
     });
-  // Broken faces slide to where the nodes are too; the next step finds nothing left to do.
-  if (work.strain_step > 0) {
-    record_crack_energy(context_.model, context_.state, work);
-    for (const FaceSums& sums : work.face_sums) {
-      context_.state.spent.friction += sums.friction;
-      context_.state.spent.breaking += sums.breaking;
-      context_.state.spent.damping += sums.damping;
-      context_.state.spent.plastic += sums.plastic;
+    // Faces break and slide to where the nodes are too; the next step finds nothing left to do.
+    broken = record_face_breaks(context_.model, context_.state, work, log, context_.number, step - 1);
+    for (const FaceSums& sums : work.face_sums)
       if (sums.hands_over) // what is handed over now is looked for where things stand now
-        work.contact.fragments_due = work.contact.due = true;
-    }
+        work.contact.due = true;
   }
   work.strain_step = 0;
+  return broken;
 }
 
 // Pieces are told apart anew when a face is handed over, and here: a run that goes on from a checkpoint does so too.
@@ -251,7 +247,8 @@ void Stage::watch(const StepReport& report) {
 void Stage::record_step(const StepReport& report) {
   const Model& model = context_.model;
   EnergyLedger& spent = context_.state.spent;
-  broken_in_step_ = record_bond_breaks(model, context_.state, work, context_.log, context_.number, step - 1);
+  broken_in_step_ = std::exchange(broken_between_, 0);
+  broken_in_step_ += record_bond_breaks(model, context_.state, work, context_.log, context_.number, step - 1);
   broken_in_step_ += record_face_breaks(model, context_.state, work, context_.log, context_.number, step - 1);
   broken_in_step_ +=
       record_begun_cracks(model, context_.state, begun_, context_.log, context_.number, step - 1);

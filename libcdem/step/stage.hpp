@@ -90,7 +90,7 @@ private:
   friend class SynchronisedView;
   void synchronise_to_leave(); // where a run may go on
   void synchronise_contacts();
-  void synchronise_stress();
+  std::int64_t synchronise_stress(RunLog&); // returns how many springs broke, of which the log is told
 
   double wall_time() const; // s
   StageStep here() const { return {context_.number, kind_, step}; }
@@ -111,7 +111,8 @@ private:
   bool has_shared_nodes_;
   std::string kind_;
   double run_away_;
-  std::int64_t broken_in_step_ = 0;
+  bool breaking_ = false; // in the last step
+  std::int64_t broken_in_step_ = 0, broken_between_ = 0; // the latter: as faces were brought up to date
   std::int64_t broken_tension_before_ = 0, broken_shear_before_ = 0;
   std::chrono::steady_clock::time_point start_;
   ProgressReporter progress_;
@@ -123,8 +124,9 @@ NodeSums Stage::advance(bool breaking, const Move& move, const MoveRigid& move_r
   State& state = context_.state;
   work.hand_over_due = step % hand_over_every == 0;
   const int threads = context_.threads;
+  breaking_ = breaking;
   if (breaking && !model.mesh.sides.empty()) {
-    begun_ = begin_cracks(model, state, threads, in_real_time);
+    begun_ = begin_cracks(model, state, work.strain_step, threads, in_real_time);
     times_.end(StepLine::cracks);
   }
   if (!model.point_chunks.empty()) {

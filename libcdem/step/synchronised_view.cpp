@@ -18,7 +18,8 @@ SynchronisedView::SynchronisedView(Stage& stage) : stage_(stage) {
     crack_energy_ = state.crack_energy;
     spent_ = state.spent;
   }
-  stage.synchronise_stress();
+  RunLog of_view;
+  stage.synchronise_stress(of_view);
 }
 
 SynchronisedView::~SynchronisedView() {

@@ -103,8 +103,8 @@ TEST_CASE("cohesive loading: under lateral pressure a prism bears what Mohr and 
   INFO("pressure " << pressure << ", peak " << peak / strength << ", balance " << s.energy().balance_error());
   CHECK(peak == Approx(strength).epsilon(0.07));
   CHECK(s.counts().damaged > 0);
-  // Open by about 1 % once bands slide under pressure; 1e-3 is wanted (theory, section 22).
-  CHECK(s.energy().balance_error() < 2e-2);
+  // 1e-3 is wanted: at the higher pressure all cracks within microseconds (theory, section 22).
+  CHECK(s.energy().balance_error() < (pressure < 10e6 ? 1e-3 : 5e-3));
 }
 
 TEST_CASE("cohesive loading: a bar torn in two carries pressure again when it is closed",
@@ -130,7 +130,7 @@ TEST_CASE("cohesive loading: a bar torn in two carries pressure again when it is
   } else { // as if the tets on both sides of the contact were there twice: a sixth of the height each
     CHECK(stiffness == Approx(1 / (1 + 2 / 6.0)).epsilon(0.02));
   }
-  CHECK(machine.s->energy().balance_error() < 1e-2);
+  CHECK(machine.s->energy().balance_error() < 1e-3);
 }
 
 TEST_CASE("cohesive loading: unloading and loading again follow the secant and take nothing",
@@ -151,16 +151,14 @@ TEST_CASE("cohesive loading: unloading and loading again follow the secant and t
   const double stretch = to.traction / secant - opening(to);
   CHECK(stretch > 0);
   CHECK(stretch < 0.03 * parts);
-  // On the softening line t = T (1 - w / w_I), with w without what the penalty stretches and w_I = 2 G / T - T / k.
-  const double w = opening(from) + stretch * (1 - from.traction / tension);
-  CHECK(from.traction == Approx(tension * (1 - w / (parts - stretch))).epsilon(0.005));
+  // On the softening line, which ends at w = 2 G / T.
+  CHECK(from.traction / tension == Approx(1 - opening(from) / parts).margin(0.01));
   for (const std::vector<Machine::Sample>& way : {back, again})
     for (const Machine::Sample& at : way)
       CHECK(std::abs(to.traction + secant * (opening(at) - opening(to)) - at.traction) < 0.01 * tension);
   CHECK(machine.s->energy().breaking == Approx(spent).epsilon(0.02));
   machine.lead(0.9 * parts, 40e-3);
   CHECK(machine.s->counts().broken_tension == machine.s->counts().bonds);
-  // Of G the law spends all but T^2 / 2k, which its spring is taken to have stored.
-  CHECK(machine.s->energy().breaking == Approx((G - 0.5 * tension * stretch) * width * width).epsilon(0.005));
+  CHECK(machine.s->energy().breaking == Approx(G * width * width).epsilon(0.005));
   CHECK(machine.s->energy().balance_error() < 1e-3);
 }
