@@ -8,6 +8,7 @@ namespace {
 constexpr double keeps_speed = 0.8;  // of the third quarter, in the last one
 constexpr double makes_motion = 1.5; // times the displacement of half the steps ago
 constexpr double stored_part = 0.1;  // of the work
+constexpr double taken_back = 0.1;   // of the work that the loads have given from look to look
 constexpr double stays_out = 0.5;    // of the residual of the third quarter, in the last one
 constexpr double periods = 4;
 constexpr double far = 0.01; // of the model's length
@@ -41,9 +42,13 @@ bool StabilityWatch::runs_away() const {
     return false;
   const std::size_t at_c = n - 1, at_a = (n - 1) / 2, at_b = (at_a + at_c) / 2;
   const StabilityLook &a = looks_[at_a], &b = looks_[at_b], &c = looks_[at_c];
-  for (std::size_t i = at_a + 1; i <= at_c; ++i)
-    if (looks_[i].work <= looks_[i - 1].work)
-      return false;
+  double given = 0, taken = 0; // J, work from look to look
+  for (std::size_t i = at_a + 1; i <= at_c; ++i) {
+    const double work = looks_[i].work - looks_[i - 1].work;
+    (work > 0 ? given : taken) += std::abs(work);
+  }
+  if (!(given > 0) || taken > taken_back * given)
+    return false;
   // Means over as many looks, or one less.
   const auto mean_residual = [&](std::size_t first, std::size_t last) {
     double sum = 0;

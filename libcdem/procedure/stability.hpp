@@ -6,8 +6,8 @@
 //
 //   D_c - D_b >= 0.8 (D_b - D_a)      it does not slow down,
 //   D_c >= 1.5 D_a                    and this motion makes the displacement, not the first settlement;
-//   W grows from look to look from a to c, and S_c - S_a <= 0.1 (W_c - W_a)     the loads drive it on, and their work is
-//                                     not stored: nothing holds against the motion,
+//   from a to c W takes back at most 0.1 of what it gains from look to look, and S_c - S_a <= 0.1 (W_c - W_a)
+//                                     the loads drive it on, and their work is not stored: nothing holds against it,
 //   mean R of (b, c] >= 0.5 mean R of (a, b]     the forces out of balance do not die away,
 //   n >= 4 T  or  D_c - D_a >= L / 100     the slowest wave has crossed the model and come back, several times; or it has
 //                                          moved further than rock and soil do before they fail.

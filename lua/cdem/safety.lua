@@ -12,8 +12,9 @@ local function draw(model, file, factor)
   local size = model:box().max
   local least, moved = model:box().min, model:max("displacement.magnitude")
   local length = math.max(size[1] - least[1], size[2] - least[2], size[3] - least[3])
-  model:picture{ file = file, up = "z", colour = "displacement.magnitude", broken_bonds = false,
-                 deformation = moved > 0 and 0.05 * length / moved or 0, title = "mechanism, " .. text(factor) }
+  local times = moved > 0 and tonumber(string.format("%.2g", 0.05 * length / moved)) or 0
+  model:picture{ file = file, up = "z", colour = "displacement.magnitude", broken_bonds = false, deformation = times,
+                 title = "mechanism, " .. text(factor) }
 end
 
 function cdem.factor_of_safety(options)

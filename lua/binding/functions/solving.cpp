@@ -56,7 +56,7 @@ void tell_verdict(Session& session, const RelaxOptions& options, const RelaxResu
                  ": not converged; raise max_steps, or look whether something moves freely");
   else if (r.verdict == Verdict::failing && options.note.empty())
     session.warn(found + ": it runs away, " + moving_text(r) + "; result.verdict tells the script");
-  else
+  else if (!options.note.empty())
     session.message(found);
 }
 
