@@ -28,7 +28,10 @@ model:free_field{ on = {"x-", "x+"} }
 model:fix{ on = {"y-", "y+"}, axes = "y" }
 model:probe{ name = "surface", field = "velocity.x", at = {2, 1, H} }
 model:probe{ name = "base", field = "velocity.x", at = {2, 1, 0} }
-model:run{ duration = outcrop.duration + after }
+model:run{ duration = 3 }
+model:picture{ file = "model.png", colour = "displacement.x", deformation = 200, title = "After 3 s",
+               camera = { position = {20, -50, 22}, focal_point = {2, 1, 8}, up = {0, 0, 1}, view_angle = 28 } }
+model:run{ duration = outcrop.duration + after - 3 }
 
 -- Fourier amplitudes at f, and |1 / (cos kH + i a sin kH)| with Rayleigh's complex modulus and density of the soil.
 local history = model:history()
@@ -58,8 +61,6 @@ cdem.chart{ file = "amplification.png", x_label = "frequency (Hz)", y_label = "s
 cdem.chart{ file = "motion.png", x_label = "time (s)", y_label = "velocity (m/s)",
             series = { { x = history.time, y = history.surface, name = "surface" },
                        { x = outcrop.times, y = outcrop.values, name = "outcrop" } } }
-model:picture{ file = "model.png", colour = "displacement.x", deformation = 100,
-               camera = { position = {20, -50, 22}, focal_point = {2, 1, 8}, up = {0, 0, 1}, view_angle = 28 } }
 local energy = model:energy()
 cdem.report{
   { name = "first_peak", value = first, reference = transfer.peak(H, soil, rock), kind = "formula",

@@ -64,6 +64,6 @@ if bolts then
 end
 model:picture{ file = "tunnel.png", colour = "displacement.magnitude", edges = true, title = "Displacement, bolts",
                camera = { position = {0, -36, 0}, focal_point = {0, 0, 0}, up = {0, 0, 1}, view_angle = 24 } }
-model:picture{ file = "hoop.png", colour = "principal_stress.3", title = "Largest pressure",
-               camera = { position = {0, -80, 0}, focal_point = {0, 0, 0}, up = {0, 0, 1}, view_angle = 36 } }
+model:picture{ file = "hoop.png", colour = "principal_stress.3", title = "Largest pressure", bolts = false,
+               camera = { position = {0, -40, 0}, focal_point = {0, 0, 0}, up = {0, 0, 1}, view_angle = 36 } }
 cdem.report(figures)

@@ -130,9 +130,21 @@ Column free_field_column(const Model& model, const Conditions& conditions, const
                      ? 0.5
                      : static_cast<double>(model.outer_faces[f].node_area.size());
     const double edge = std::sqrt(area / squares);
-    const int layers = std::max(1, static_cast<int>((top - bottom) / edge));
-    for (int i = 0; i <= layers; ++i)
-      column.z.push_back(i == layers ? top : bottom + (top - bottom) * i / layers);
+    // Even heights between the ends of tall faces: there the material may change.
+    std::vector<double> ends{bottom, top};
+    for (const SideFace& face : side)
+      if (face.high - face.low > 2 * edge)
+        ends.insert(ends.end(), {face.low, face.high});
+    std::sort(ends.begin(), ends.end());
+    column.z.push_back(bottom);
+    for (const double end : ends) {
+      const double from = column.z.back();
+      if (end - from <= 0.5 * edge && end != top)
+        continue;
+      const int layers = std::max(1, static_cast<int>(std::round((end - from) / edge)));
+      for (int i = 1; i <= layers && end > from; ++i)
+        column.z.push_back(i == layers ? end : from + (end - from) * i / layers);
+    }
   }
   column.mass.assign(column.z.size(), 0);
   for (std::size_t i = 0; i + 1 < column.z.size(); ++i) {

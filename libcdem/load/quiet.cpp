@@ -18,7 +18,7 @@ geom::Mat3 wave_impedance(const Elastic& m, const geom::Vec3& normal) {
 }
 
 std::vector<int> add_dashpots(const Model& model, const Selection& on, const char* call, Dashpots& dashpots) {
-  const std::vector<int> faces = selected_outer_faces(model, on);
+  std::vector<int> faces = selected_outer_faces(model, on);
   if (faces.empty())
     throw geom::InputError("on", on.text, "a place that holds outer faces",
                            "nothing of the model lies there; `cdem check` prints the model's box");

@@ -92,20 +92,24 @@ void add_bolts(const Simulation& simulation, PictureOptions& options) {
   double most = 0;
   for (const auto& row : rows)
     most = std::max(most, row.tension);
-  std::array<bool, 4> told{};
-  for (std::size_t i = 1; i < rows.size(); ++i) {
-    if (rows[i].bolt != rows[i - 1].bolt)
-      continue;
-    const double tension = std::max(0.0, 0.5 * (rows[i - 1].tension + rows[i].tension));
-    const auto step = most > 0 ? std::min<std::size_t>(3, static_cast<std::size_t>(4 * tension / most)) : 0;
-    Polyline line;
-    line.points = {rows[i - 1].place, rows[i].place};
-    line.colour = colours[step];
-    line.width = 5;
-    if (most > 0 && !told[step])
-      line.label = "bolts to " + three_digits(0.25e-3 * most * static_cast<double>(step + 1)) + " kN";
-    told[step] = true;
-    options.polylines.push_back(std::move(line));
+  for (std::size_t step = 0; step < colours.size(); ++step) { // the legend in the order of the tension
+    bool told = most == 0;
+    for (std::size_t i = 1; i < rows.size(); ++i) {
+      if (rows[i].bolt != rows[i - 1].bolt)
+        continue;
+      const double tension = std::max(0.0, 0.5 * (rows[i - 1].tension + rows[i].tension));
+      const auto own = most > 0 ? std::min<std::size_t>(3, static_cast<std::size_t>(4 * tension / most)) : 0;
+      if (own != step)
+        continue;
+      Polyline line;
+      line.points = {rows[i - 1].place, rows[i].place};
+      line.colour = colours[step];
+      line.width = 5;
+      if (!told)
+        line.label = "bolts to " + three_digits(0.25e-3 * most * static_cast<double>(step + 1)) + " kN";
+      told = true;
+      options.polylines.push_back(std::move(line));
+    }
   }
 }
 

@@ -1,0 +1,68 @@
+// Stiffness damping of joints: a stiff block on a soft joint swings with beta w / 2 of critical damping, the ledger closes,
+// and the stable step holds.
+#include "libcdem/procedure/run.hpp"
+#include "libcdem/results/energy.hpp"
+#include "libgeom/assembly/builders.hpp"
+#include "tests/libcdem/system.hpp"
+
+#include <catch2/catch.hpp>
+
+using namespace testing;
+
+namespace {
+
+constexpr double soft = 1e8; // Pa/m, of the joint
+
+System block_on_block(double beta, bool bonded) {
+  cdem::Joint joint;
+  joint.bonded = bonded;
+  joint.cohesion = joint.tensile_strength = 1e9;
+  joint.friction_angle = 40 * degree;
+  joint.normal_stiffness = joint.shear_stiffness = soft;
+  joint.stiffness_damping = beta;
+  cdem::BodySpec spec = body("blocks", geom::grid({1, 1, 2}, {1, 1, 2}), rock(), joint);
+  spec.element = cdem::Element::finite_volume;
+  System s(build({spec}));
+  s.hold(cdem::Selection::in_box({{-1, -1, -1}, {2, 2, 0.9}}), "xyz");
+  s.conditions.fixes.push_back(fixed(cdem::Selection::side("z-")));
+  return s;
+}
+
+} // namespace
+
+TEST_CASE("a joint's stiffness damping takes beta w / 2 of critical damping", "[damping][joint]") {
+  const double w = std::sqrt(soft / rock().density), ratio = 0.05;
+  System s = block_on_block(2 * ratio / w, true);
+  s.hold(cdem::Selection::in_box({{-1, -1, -1}, {2, 2, 0.99}}), "xyz"); // all of the lower block but its top
+  for (std::size_t i = 0; i < s.model.node_position.size(); ++i)
+    if (s.model.blocks[cdem::block_of(s.model, static_cast<int>(i))].mass.centroid.z() > 1)
+      s.state.velocity[i].z = 1e-3;
+  const double before = cdem::energy(s.model, s.state).total();
+  cdem::RunOptions options;
+  const double periods = 4;
+  options.duration = periods * 2 * pi / w;
+  s.run(options);
+  const cdem::EnergyLedger after = cdem::energy(s.model, s.state);
+  CHECK(std::log(before / (after.total() - after.damping)) ==
+        Approx(2 * ratio * 2 * pi * periods).epsilon(0.03));
+  CHECK(after.total() == Approx(before).epsilon(2e-3));
+}
+
+TEST_CASE("a contact's damping never pulls, and the shortened stable step holds", "[damping][joint]") {
+  const double w = std::sqrt(soft / rock().density);
+  System s = block_on_block(2 / w, false);
+  CHECK(cdem::stable_time_step(s.model) < cdem::stable_time_step(block_on_block(0, false).model));
+  for (std::size_t i = 0; i < s.model.node_position.size(); ++i)
+    if (s.model.blocks[cdem::block_of(s.model, static_cast<int>(i))].mass.centroid.z() > 1)
+      s.state.velocity[i].z = 1e-3; // flies off
+  cdem::RunOptions options;
+  options.duration = 0.05;
+  s.run(options);
+  double momentum = 0, mass = 0;
+  for (std::size_t i = 0; i < s.model.node_position.size(); ++i)
+    if (s.model.blocks[cdem::block_of(s.model, static_cast<int>(i))].mass.centroid.z() > 1) {
+      momentum += s.model.node_mass[i] * s.state.velocity[i].z;
+      mass += s.model.node_mass[i];
+    }
+  CHECK(momentum / mass == Approx(1e-3).epsilon(1e-6));
+}
