@@ -271,14 +271,14 @@ void archive(A& a, Probe& x) {
 
 template <class A>
 void archive(A& a, Departure& x) {
-  auto& [unit, step, time, velocity, displacement, place] = x;
-  archive_all(a, unit, step, time, velocity, displacement, place);
+  auto& [unit, step, time, velocity, displacement, place, share] = x;
+  archive_all(a, unit, step, time, velocity, displacement, place, share);
 }
 
 template <class A>
 void archive(A& a, Watch& x) {
-  auto& [leaves, blocks, touched, start, gone, left] = x;
-  archive_all(a, leaves, blocks, touched, start, gone, left);
+  auto& [leaves, blocks, touched, start, gone, left, tet_start, tet_left] = x;
+  archive_all(a, leaves, blocks, touched, start, gone, left, tet_start, tet_left);
 }
 
 template <class A>

@@ -484,6 +484,12 @@ void require_whole(const Model& model, const RunLog& log) {
       all_below("watches.touched", touched, model.blocks.size());
     require_length("watches.start", watch.start.size(), model.blocks.size());
     require_length("watches.gone", watch.gone.size(), model.blocks.size());
+    std::size_t tets = 0; // of units that can break
+    for (const int block : watch.blocks)
+      if (!model.bodies[model.blocks[block].body].bonding.none())
+        tets += static_cast<std::size_t>(model.blocks[block].tet_end - model.blocks[block].tet_begin);
+    require_length("watches.tet_start", watch.tet_start.size(), tets);
+    require_length("watches.tet_left", watch.tet_left.size(), tets);
     for (const Departure& departure : watch.left)
       require(departure.unit >= 1 && departure.unit <= count(watch.blocks.size()), "watches.left",
               departure.unit);

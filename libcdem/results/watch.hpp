@@ -5,6 +5,9 @@
 // neighbours leave behind has not left. Of these, units that have left count no
 // more: those they rested on would seem to move. One that touched nothing, or nothing that stays, is measured against
 // the ground.
+//
+// A unit that breaks leaves piece by piece, by the same rule for each piece of at least a twentieth of it. It is gone when
+// less than that is left of it.
 #pragma once
 
 #include "libcdem/state/state.hpp"
@@ -21,6 +24,7 @@ struct Departure {
   double velocity = 0;                          // m/s, of the flow then; NaN without one
   geom::Vec3 displacement = geom::Vec3::Zero(); // m, since the watch was made, relative to what it touched
   geom::Vec3 place = geom::Vec3::Zero();        // m, of the centroid
+  double share = 1;                             // of the unit's volume; below 1: a piece of it
 };
 
 struct Watch {
@@ -30,6 +34,10 @@ struct Watch {
   std::vector<geom::Vec3> start;         // m, centroids of all blocks then (n_blocks)
   std::vector<std::uint8_t> gone;        // (n_blocks) has left
   std::vector<Departure> left;           // in order; of one look by unit
+  // Of the tetrahedra of units that can break, block by block: centroids when the watch was made, m, and the step in which
+  // each left with its piece, -1 while it has not.
+  std::vector<geom::Vec3> tet_start;
+  std::vector<std::int64_t> tet_left;
 };
 
 // Of a body of meshes; throws geom::InputError.

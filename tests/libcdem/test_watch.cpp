@@ -3,8 +3,11 @@
 #include "libcdem/procedure/turn_rigid.hpp"
 #include "libcdem/results/watch.hpp"
 #include "libgeom/mesh/box_mesh.hpp"
+#include "tests/libcdem/cohesive_concrete.hpp"
 #include "tests/libcdem/system.hpp"
+#include "tests/libcdem/two_halves.hpp"
 
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
 
@@ -194,4 +197,35 @@ TEST_CASE("a unit that stands still while its neighbours go has not left", "[wat
   move(s, 2, {0, -0.1, 0}); // now it has moved itself
   cdem::look(s.model, s.state, 0, watch);
   CHECK(units_left(watch) == std::vector<int>{2});
+}
+
+TEST_CASE("a piece of a unit that breaks leaves, the rest stays", "[watch][cohesive]") {
+  cdem::Bonding bonding = cohesive();
+  bonding.everywhere = false;
+  bonding.between_regions = true;
+  System s(
+      build({meshed("units", two_halves(2), bonding, concrete(), concrete_joint(cdem::Softening::linear))}));
+  const double speed = 5, leaves = 0.02;
+  for (const char* end : {"z-", "z+"}) {
+    cdem::Fix fix = fixed(cdem::Selection::side(end), "xyz");
+    fix.velocity = {0, 0, end[1] == '+' ? speed : 0};
+    s.conditions.fixes.push_back(fix);
+  }
+  s.log.watches.push_back(cdem::start_watch(s.model, s.state, "units", leaves));
+  cdem::RunOptions options;
+  options.duration = 2 * leaves / speed;
+  s.run(options);
+  const cdem::Watch& watch = s.log.watches[0];
+  REQUIRE(watch.left.size() == 1);
+  const cdem::Departure& piece = watch.left[0];
+  CHECK(piece.unit == 1);
+  CHECK(piece.share == Approx(0.5).epsilon(1e-6));
+  CHECK(piece.displacement.z() >= leaves);
+  CHECK(piece.displacement.z() < 1.2 * leaves);
+  CHECK(piece.place.z() == Approx(0.75 * side + piece.displacement.z()).epsilon(1e-6));
+  CHECK(watch.gone[watch.blocks[0]] == 0);
+  const cdem::Watch before = cdem::watch_at(watch, piece.step - 1);
+  CHECK(before.left.empty());
+  CHECK(std::count(before.tet_left.begin(), before.tet_left.end(), -1) ==
+        static_cast<std::ptrdiff_t>(before.tet_left.size()));
 }

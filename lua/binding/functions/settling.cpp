@@ -26,7 +26,11 @@ const WatchObject& watch_of(const Object& self) {
 }
 
 Value departure_row(const Departure& d) {
-  Table row{{"unit", d.unit}, {"time", d.time}, {"displacement", d.displacement}, {"place", d.place}};
+  Table row{{"unit", d.unit},
+            {"time", d.time},
+            {"displacement", d.displacement},
+            {"place", d.place},
+            {"share", d.share}};
   if (!std::isnan(d.velocity))
     row.named["velocity"] = d.velocity;
   return row;
@@ -108,12 +112,13 @@ Value settle(Session& session, ModelObject& model, const Arguments& a) {
 
 void bind_settling(Module& m) {
   m.records.push_back({"Departure",
-                       "A unit that has left its place.",
+                       "A unit that has left its place, or a piece of one that broke.",
                        {integer("unit").required().doc("number of the unit in its body, from 1"),
                         number("time").unit("s").required(),
                         number("velocity").unit("m/s").doc("of the flow then; nil without one"),
                         vec3("displacement").unit("m").required().doc("relative to what it touched"),
-                        vec3("place").unit("m").required().doc("of its centroid")}});
+                        vec3("place").unit("m").required().doc("of its centroid"),
+                        number("share").required().doc("of the unit's volume; below 1: a piece of it")}});
   Class watched{"Watch", "Units that have left their place, in order: grows while the model runs."};
   watched.length = [](const Object& self) { return static_cast<std::int64_t>(watch_of(self).left().size()); };
   watched.item = [](const Object& self, std::int64_t i) {
