@@ -2,8 +2,8 @@
 #include "lua/binding/functions/joint_laws.hpp"
 
 #include "lua/binding/functions/angles.hpp"
-#include "lua/binding/objects/objects.hpp"
 #include "lua/binding/functions/solving_warnings.hpp"
+#include "lua/binding/objects/objects.hpp"
 #include "lua/binding/runtime/module.hpp"
 #include "lua/binding/runtime/session.hpp"
 
