@@ -7,6 +7,7 @@
 #pragma once
 
 #include "libcdem/joint/joint.hpp"
+#include "libcdem/joint/law_reduction.hpp"
 #include "libgeom/core/portable.hpp"
 
 #include <algorithm>
@@ -29,11 +30,13 @@ inline Joint reduced(Joint joint, double factor) {
   const double tangent = geom::portable::tan(joint.friction_angle);
   if (joint.softening != Softening::none && tangent > 0)
     joint.tensile_strength = std::min(joint.tensile_strength, joint.cohesion / tangent);
+  joint.law = reduced(joint.law, factor);
   return joint;
 }
 
 inline bool has_strength(const Joint& joint) {
-  return !joint.glued && (joint.cohesion > 0 || joint.friction_angle > 0 || joint.tensile_strength > 0);
+  return !joint.glued && (joint.cohesion > 0 || joint.friction_angle > 0 || joint.tensile_strength > 0 ||
+                          has_law(joint.law));
 }
 
 } // namespace cdem
