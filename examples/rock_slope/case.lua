@@ -6,7 +6,7 @@ local cdem = require "cdem"
 
 local spacing = cdem.parameter{ name = "spacing", default = 4, range = {1, 10}, unit = "m", doc = "of all joint sets" }
 local phi = cdem.parameter{ name = "friction_angle", default = 40, range = {5, 70}, unit = "degrees", doc = "of the joints" }
-local runout = cdem.parameter{ name = "runout", default = 4, range = {0, 60}, unit = "s", doc = "of the slide; 0: none" }
+local runout = cdem.parameter{ name = "runout", default = 3, range = {0, 60}, unit = "s", doc = "of the slide; 0: none" }
 local tolerance = cdem.parameter{ name = "tolerance", default = 0.02, range = {0.001, 0.5}, doc = "of the factor of safety" }
 local dip, face, g = 35, 65, 9.81 -- degrees, degrees, m/s2
 
@@ -24,7 +24,7 @@ local function prism(points)
 end
 local foot, head = { 39 + 14 * run, 0 }, { 39 - 18 * run, 32 } -- ends of the fault
 local massive, jointed = prism{ {0, 0}, foot, head, {0, 32} }, prism{ foot, {60, 0}, {60, 32}, head }
-jointed = cdem.cut_by_joints{ shape = jointed, sets = {
+jointed = cdem.cut_by_joints{ shape = jointed, seed = 7, sets = { -- this seed leaves no slivers in the face
   { name = "bedding", dip = dip, dip_direction = 90, spacing = spacing },
   { name = "cross", dip = 70, dip_direction = 270, spacing = spacing, spacing_scatter = 0.2 },
   { name = "side", dip = 90, dip_direction = 0, spacing = spacing } } }
@@ -56,11 +56,12 @@ local safety = cdem.factor_of_safety{ model = model, reduce = {"joints"}, lower 
 local figures = { { name = "factor_of_safety", value = safety.factor, kind = "formula", tolerance = 0.03,
                     reference = math.tan(math.rad(phi)) / math.tan(math.rad(dip)), source = "tan(phi) / tan(dip)" } }
 
--- The slide runs out: at the strength that fails.
+-- The slide runs out: once it moves, its joints lose a third of what they have left.
 if runout > 0 then
   local slide = safety.failing
+  slide:reduce_strength{ factor = 1.5, reduce = {"joints"} }
   slide:run{ duration = runout, mass_scaling = { step = 5e-5 } }
-  draw(slide, "runout.png", string.format("F = %.4g, %g s later", safety.upper, runout))
+  draw(slide, "runout.png", string.format("%g s later", runout))
   figures[#figures + 1] = { name = "runout_m", value = slide:max("displacement.x"), unit = "m" }
 end
 figures[#figures + 1] = { name = "wall_time_s", value = cdem.elapsed(), unit = "s" }
