@@ -36,8 +36,8 @@ struct BondWork {
   std::vector<geom::Vec3> turned_force;
   const std::vector<geom::Vec3>& force() const { return turned_force.empty() ? spring_force : turned_force; }
   std::vector<SpringStrength> strength; // per interface
-  std::vector<double> damping;          // s, Joint::stiffness_damping per interface; empty where no joint has any
-  double damping_step = 0;              // s, of the step in time; 0: stiffness damping does not act
+  std::vector<double> damping; // s, Joint::stiffness_damping per interface; empty where no joint has any
+  double damping_step = 0;     // s, of the step in time; 0: stiffness damping does not act
   // Both empty in a model without softening joints.
   std::vector<SofteningLaw> softening; // per interface
   // m, of each spring in the step before (n_points); written by spring_forces
