@@ -224,10 +224,10 @@ public:
   struct BoltRow {
     int bolt = 0, node = 0;                // from 1, from the collar on
     geom::Vec3 place = geom::Vec3::Zero(); // m, undeformed
-    double tension = 0;                    // N, mean of the segments at the node; of the plate at a collar with one
-    double grout = 0;                      // N, on the rock, towards the far end
-    double slip = 0;                       // m, of the bolt past the grout
-    double yielded = 0;                    // strain of the next segment that stays
+    double tension = 0; // N, mean of the segments at the node; of the plate at a collar with one
+    double grout = 0;   // N, on the rock, towards the far end
+    double slip = 0;    // m, of the bolt past the grout
+    double yielded = 0; // strain of the next segment that stays
   };
   std::vector<BoltRow> bolts() const;
   // Samples crack_quantities() of a body, or of all where it is empty, into the history as columns name_area ...

@@ -18,7 +18,7 @@ local model = cdem.model{ bodies = { { name = "rock", shape = blocks, material =
 model:fix{ on = {"y-", "y+"}, axes = "y" }
 model:fix{ on = function(x, _, z) return x * x + z * z > (0.97 * outer) ^ 2 end, axes = "xz" }
 model:initial_stress{ stress = { -k0 * p, -rock.poissons_ratio * (1 + k0) * p, -p, 0, 0, 0 } }
-model:relax{ residual = 1e-4 }
+model:relax{ residual = 1e-6 }
 model:reset_displacement()
 
 local function towards(angle) -- how far the wall has come in there, m
@@ -28,7 +28,7 @@ local function towards(angle) -- how far the wall has come in there, m
 end
 local function dig(name, part)
   local count = model:remove{ on = part }
-  local result = model:relax{ residual = 1e-4 }
+  local result = model:relax{ residual = 1e-6 }
   cdem.log(string.format("%s: %d blocks dug out, %s; the roof sinks by %.2f mm", name, count,
                          result.converged and "in balance" or "not in balance", 1e3 * towards(math.pi / 2)))
 end
@@ -51,7 +51,8 @@ for _, block in ipairs(model:blocks()) do
   end
 end
 local figures = {
-  { name = "hoop_stress_over_kirsch", value = ratio / count, reference = 1, kind = "formula", source = "Kirsch 1898", tolerance = 0.03 },
+  { name = "hoop_stress_over_kirsch", value = ratio / count, reference = 1, kind = "formula", source = "Kirsch 1898",
+    tolerance = 0.03 },
   { name = "hoop_stress_worst_block", value = worst },
   { name = "convergence_over_kirsch", value = closed / count / rings.closure(0.5 * (1 + k0) * p, a, outer, rock), reference = 1,
     kind = "formula", source = "Kirsch 1898, fixed at the outer radius", tolerance = 0.03 },

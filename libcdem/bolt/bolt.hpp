@@ -11,14 +11,14 @@ struct Bolt {
   geom::Vec3 from = geom::Vec3::Zero(); // m, undeformed; the collar
   geom::Vec3 to = geom::Vec3::Zero();
   int segments = 10;
-  double area = 0;           // m2, of the steel, > 0
-  double youngs_modulus = 0; // Pa, of the steel, > 0
-  double yield_force = std::numeric_limits<double>::infinity(); // N, > 0
-  double grout_stiffness = 0;                                   // N/m per m of bolt, > 0
+  double area = 0;                                                 // m2, of the steel, > 0
+  double youngs_modulus = 0;                                       // Pa, of the steel, > 0
+  double yield_force = std::numeric_limits<double>::infinity();    // N, > 0
+  double grout_stiffness = 0;                                      // N/m per m of bolt, > 0
   double grout_strength = std::numeric_limits<double>::infinity(); // N per m of bolt, > 0
-  double pretension = 0;  // N, in the plate once the bolt is tight
-  double free_length = 0; // m from the collar on, without grout
-  bool plate = false;     // the collar is fast to the rock
+  double pretension = 0;                                           // N, in the plate once the bolt is tight
+  double free_length = 0;                                          // m from the collar on, without grout
+  bool plate = false;                                              // the collar is fast to the rock
 
   double length() const { return (to - from).norm(); }
 };

@@ -46,8 +46,8 @@ struct BondWork {
   std::vector<geom::Vec3> acting_force;
   const std::vector<geom::Vec3>& force() const { return acting_force.empty() ? spring_force : acting_force; }
   std::vector<SpringStrength> strength; // per interface
-  std::vector<double> damping;          // s, Joint::stiffness_damping per interface; empty where no joint has any
-  double damping_step = 0;              // s, of the step in time; 0: stiffness damping does not act
+  std::vector<double> damping; // s, Joint::stiffness_damping per interface; empty where no joint has any
+  double damping_step = 0;     // s, of the step in time; 0: stiffness damping does not act
   // Both empty in a model without softening joints.
   std::vector<SofteningLaw> softening; // per interface
   std::vector<InterfaceLaw> laws;      // per interface; empty in a model without laws

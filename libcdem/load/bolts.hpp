@@ -29,7 +29,8 @@ std::vector<ResolvedBolt> resolve_bolts(const Model&, const State&, const std::v
 void set_bolt(const Model&, State&, const Bolt&);
 
 // The forces on the rock of the last advance.
-void bolt_forces(const std::vector<ResolvedBolt>&, const State&, std::vector<std::pair<int, geom::Vec3>>& forces);
+void bolt_forces(const std::vector<ResolvedBolt>&, const State&,
+                 std::vector<std::pair<int, geom::Vec3>>& forces);
 
 // Advances all bolts to where the rock is, books what they take in the ledger, and replaces `forces` on the rock.
 void advance_bolts(const std::vector<ResolvedBolt>&, State&, std::vector<std::pair<int, geom::Vec3>>& forces);

@@ -22,10 +22,10 @@
 namespace cdem {
 
 struct ColumnLayer {
-  double height = 0;                            // m
-  double lambda = 0, shear = 0, p_modulus = 0;  // Pa
+  double height = 0;                              // m
+  double lambda = 0, shear = 0, p_modulus = 0;    // Pa
   double mass_damping = 0, stiffness_damping = 0; // 1/s, s; Rayleigh's alpha and beta
-  double density = 0;                           // kg/m3
+  double density = 0;                             // kg/m3
 };
 
 // A part of a face of the side.

@@ -21,8 +21,8 @@ struct Baseline {
 };
 
 struct VelocityRecord {
-  TimeTable velocity;                                   // m/s
-  double end_velocity = 0, end_displacement = 0;        // m/s, m, after the baseline
+  TimeTable velocity;                                    // m/s
+  double end_velocity = 0, end_displacement = 0;         // m/s, m, after the baseline
   double raw_end_velocity = 0, raw_end_displacement = 0; // before
   Baseline baseline;
 };

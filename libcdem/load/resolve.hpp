@@ -28,8 +28,9 @@ struct HeldNode {
   Node free;       // 1 where a component is free, 0 where it is held
   Node prescribed; // m/s, velocity of the held components
   Node target;     // m, displacement the held components are to reach in a relaxation; NaN: none
-  std::array<int, 3> varying{-1, -1, -1}; // into ResolvedConditions::varying_holds; -1: the velocity is constant
-  int dashpot = -1;                       // into ResolvedConditions::dashpots; -1: none
+  std::array<int, 3> varying{-1, -1,
+                             -1}; // into ResolvedConditions::varying_holds; -1: the velocity is constant
+  int dashpot = -1;               // into ResolvedConditions::dashpots; -1: none
 };
 
 // The velocity of supports that varies in time.
@@ -46,7 +47,7 @@ struct ResolvedConditions {
   std::vector<geom::Mat3> dashpots; // N s/m, force per velocity of a node (load/quiet.hpp)
   std::vector<Column> columns;      // of free fields
   std::vector<ResolvedBolt> bolts;
-  std::size_t bolt_load = 0; // their forces on the rock in `varying`
+  std::size_t bolt_load = 0;                    // their forces on the rock in `varying`
   std::vector<std::optional<geom::Vec3>> rigid; // m/s, of the rigid bodies that are held (n rigid bodies)
   std::vector<Node> constant; // N, loads that do not vary (n_nodes); empty where none varies
   std::vector<Node> external; // N, all loads at the present time (n_nodes); empty without loads

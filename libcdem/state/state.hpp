@@ -80,7 +80,8 @@ struct State {
   // without; written by advance_columns
   std::vector<Node> column_displacement, column_velocity;
 
-  std::vector<BoltNode> bolts; // nodes of all bolts, in the order they were set; written by set_bolt, advance_bolts
+  std::vector<BoltNode>
+      bolts; // nodes of all bolts, in the order they were set; written by set_bolt, advance_bolts
 
   // m, what results take from the displacement: what it was when it was last set to zero (n_nodes); empty until then.
   // Mechanics never sees it; written by reset_displacement

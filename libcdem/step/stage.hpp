@@ -114,7 +114,7 @@ private:
   bool has_shared_nodes_;
   std::string kind_;
   double run_away_;
-  bool breaking_ = false; // in the last step
+  bool breaking_ = false;                                // in the last step
   std::int64_t broken_in_step_ = 0, broken_between_ = 0; // the latter: as faces were brought up to date
   std::int64_t broken_tension_before_ = 0, broken_shear_before_ = 0;
   std::chrono::steady_clock::time_point start_;

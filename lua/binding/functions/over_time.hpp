@@ -12,6 +12,7 @@ Field amplitude_field();
 Amplitude amplitude_of(const Arguments&);
 
 // A vector that a function of time gives, asked once at time 0 so that a slip in it is an error of the line that gave it.
-std::function<geom::Vec3(double)> vector_over_time(const std::shared_ptr<Reference>&, const std::string& field);
+std::function<geom::Vec3(double)> vector_over_time(const std::shared_ptr<Reference>&,
+                                                   const std::string& field);
 
 } // namespace cdem::script
