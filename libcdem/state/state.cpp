@@ -174,9 +174,9 @@ std::vector<StateField> fields(State& s) {
       shown(
           field("displacement_zero", "m", FieldPlace::node, "reset_displacement", s.displacement_zero, true)),
       field("support_force", "N", FieldPlace::node, "quiet, free_field", s.support_force, true),
-      field("column_displacement", "m", FieldPlace::model, "advance_columns", s.column_displacement, true),
-      field("column_velocity", "m/s", FieldPlace::model, "advance_columns", s.column_velocity, true),
-      field("bolts", "record", FieldPlace::model, "set_bolt, advance_bolts", s.bolts, true),
+      field("column_displacement", "m", FieldPlace::column, "advance_columns", s.column_displacement, true),
+      field("column_velocity", "m/s", FieldPlace::column, "advance_columns", s.column_velocity, true),
+      field("bolts", "record", FieldPlace::bolt, "set_bolt, advance_bolts", s.bolts, true),
       field("moving_mass", "kg", FieldPlace::node, "run", s.moving_mass, true),
       field("escaped", "1", FieldPlace::node, "find_escapes", s.escaped, false),
       field("crack_energy", "J", FieldPlace::body,

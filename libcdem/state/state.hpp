@@ -119,8 +119,9 @@ CrackEnergy& crack_energy_of(const Model&, State&, int body);
 State initial_state(const Model&);
 
 // What an entry of the array belongs to. bond: a spring of an interface; frame: an interface that may turn; face, tet:
-// of a mesh, eight side by side. body: of each, and one more for the joints between them.
-enum class FieldPlace { model, node, bond, frame, block, tet, face, contact, rigid_body, body };
+// of a mesh, eight side by side. body: of each, and one more for the joints between them. column: a level of
+// one; bolt: a node of one.
+enum class FieldPlace { model, node, bond, frame, block, tet, face, contact, rigid_body, body, column, bolt };
 
 struct StateField {
   const char* name;

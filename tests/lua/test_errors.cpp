@@ -22,7 +22,7 @@ TEST_CASE("an error names script, line, call, field, value and range", "[lua]") 
   CHECK(error_of(head + "cdem.elastic{ young_modulus = 30e9, poissons_ratio = 0.2, density = 2500 }") ==
         "case.lua:2: cdem.elastic: young_modulus: no such key; did you mean youngs_modulus? Allowed: "
         "youngs_modulus, "
-        "poissons_ratio, density, viscosity, stiffness_damping");
+        "poissons_ratio, density, viscosity, stiffness_damping, damping");
   CHECK_THAT(error_of(head + "cdem.grid{ size = {0, 1, 1}, divisions = {1, 1, 1} }"),
              Contains("case.lua:2: cdem.grid: size[1] = 0: must be > 0"));
 }
