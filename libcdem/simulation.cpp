@@ -280,7 +280,7 @@ std::int64_t Simulation::unbond(const Selection& on, bool whole_faces) {
 
 RelaxResult Simulation::relax(const RelaxOptions& options) {
   check(options);
-  const RelaxResult result =
+  RelaxResult result =
       impl_->run_stage([&](const StageContext& context) { return cdem::relax(context, options); });
   impl_->last_residual = result.residual;
   return result;
@@ -315,7 +315,7 @@ GrowResult Simulation::grow(const GrowOptions& options) {
   Impl& s = *impl_;
   return s.run_whole_stage([&](const StageContext& context) {
     const auto relax = [&](const RelaxOptions& o, const std::string& kind) {
-      const RelaxResult result = cdem::relax(context, o, kind);
+      RelaxResult result = cdem::relax(context, o, kind);
       s.last_residual = result.residual;
       return result;
     };

@@ -29,12 +29,14 @@ const std::string head =
 } // namespace
 
 TEST_CASE("a relaxation answers, and the script goes on", "[lua][safety]") {
-  Script script(head + "local m = incline(20)\nlocal r = m:relax{}\n"
-                       "assert(r.verdict == 'failing' and not r.converged and r.moving > 0)\n"
-                       "m:picture{ file = 'failing.png' }\nm:save{ file = 'failing.vtu' }\n"
-                       "m = incline(35)\nr = m:relax{ residual = 1e-5 }\nassert(r.verdict == 'stable')\n"
-                       "m = incline(20)\nr = m:relax{ max_steps = 20, trial = 'short' }\n"
-                       "assert(r.verdict == 'undecided' and r.trial == 'short')\ncdem.report{ { name = 'a', value = 1 } }");
+  Script script(
+      head +
+      "local m = incline(20)\nlocal r = m:relax{}\n"
+      "assert(r.verdict == 'failing' and not r.converged and r.moving > 0)\n"
+      "m:picture{ file = 'failing.png' }\nm:save{ file = 'failing.vtu' }\n"
+      "m = incline(35)\nr = m:relax{ residual = 1e-5 }\nassert(r.verdict == 'stable')\n"
+      "m = incline(20)\nr = m:relax{ max_steps = 20, trial = 'short' }\n"
+      "assert(r.verdict == 'undecided' and r.trial == 'short')\ncdem.report{ { name = 'a', value = 1 } }");
   script.run();
   CHECK(script.wrote("failing.png"));
   CHECK(script.wrote("failing.vtu"));
