@@ -291,7 +291,8 @@ double begin_crack(const FaceBatch& batch, int lane, const FaceFrame& f, const J
     face.offset[point] = array(on_plane / k - gap);
     face.rest[point] = {};
     if (law.softens()) { // it may be damaged by a crack that ended
-      face.rest[point] = array((pulls - respond(law, face, point, gap, false).traction) / (1 - face.damage[point]));
+      face.rest[point] =
+          array((pulls - respond(law, face, point, gap, false).traction) / (1 - face.damage[point]));
     } else {
       face.damage[point] = 1;
       state.mode[point][lane] = static_cast<std::uint8_t>(mode);

@@ -195,8 +195,7 @@ private:
 
 } // namespace
 
-BegunCracks begin_cracks(const Model& model, State& state, double moved_for, int threads,
-                         bool in_real_time) {
+BegunCracks begin_cracks(const Model& model, State& state, double moved_for, int threads, bool in_real_time) {
   std::vector<BegunCracks> of_chunks(model.mesh.chunks.size());
   for_chunks(static_cast<std::int64_t>(of_chunks.size()), threads, [&](std::int64_t c) {
     const MeshChunk& chunk = model.mesh.chunks[c];

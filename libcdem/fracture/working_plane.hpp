@@ -64,7 +64,7 @@ inline constexpr double among_all_faces = 0.70710678118654752, among_a_border = 
 
 // The plane on which a face with the unit normal `face` works from now on; none while the stress is below the strength, or
 // the planes it fails on stand further off the face.
-std::optional<WorkingPlane> working_plane(const geom::Mat3& stress, const RockStrength&, const geom::Vec3& face,
-                                          double least_cosine = among_all_faces);
+std::optional<WorkingPlane> working_plane(const geom::Mat3& stress, const RockStrength&,
+                                          const geom::Vec3& face, double least_cosine = among_all_faces);
 
 } // namespace cdem

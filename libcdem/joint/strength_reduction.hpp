@@ -35,8 +35,8 @@ inline Joint reduced(Joint joint, double factor) {
 }
 
 inline bool has_strength(const Joint& joint) {
-  return !joint.glued && (joint.cohesion > 0 || joint.friction_angle > 0 || joint.tensile_strength > 0 ||
-                          has_law(joint.law));
+  return !joint.glued &&
+         (joint.cohesion > 0 || joint.friction_angle > 0 || joint.tensile_strength > 0 || has_law(joint.law));
 }
 
 } // namespace cdem

@@ -24,8 +24,8 @@ struct EnergyLedger {
   double external_peak = 0; // largest |external| so far
 
   double total() const {
-    return elastic + springs + bolts + kinetic + damping + radiated + friction + breaking + plastic + yielding +
-           cutting + fictitious;
+    return elastic + springs + bolts + kinetic + damping + radiated + friction + breaking + plastic +
+           yielding + cutting + fictitious;
   }
   // |total - external| over the largest external work; 0 before anything happened.
   double balance_error() const;

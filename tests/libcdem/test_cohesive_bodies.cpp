@@ -260,8 +260,7 @@ TEST_CASE("cohesive bodies: a plane between two regions parts at its strength, h
   CHECK(peak == Approx(tension).epsilon(0.01));
 }
 
-TEST_CASE("cohesive bodies: a ragged border between two regions parts",
-          "[cohesive][mesh][energy]") {
+TEST_CASE("cohesive bodies: a ragged border between two regions parts", "[cohesive][mesh][energy]") {
   const double edge = GENERATE(0.1, 0.07);
   const double width = 0.25;
   geom::TetMesh mesh = unstructured({1, width, width}, edge);
@@ -277,8 +276,9 @@ TEST_CASE("cohesive bodies: a ragged border between two regions parts",
   System s(build({body}));
   const double peak = pull(s, 0, 0.05, 0.006, width * width);
   const double dissipated = s.state.spent.breaking / (energy_1 * width * width);
-  INFO("edge " << edge << ", peak " << peak / tension << ", dissipated over G A " << dissipated << ", balance "
-               << balance(s) << ", broken " << s.log.broken_tension << " " << s.log.broken_shear);
+  INFO("edge " << edge << ", peak " << peak / tension << ", dissipated over G A " << dissipated
+               << ", balance " << balance(s) << ", broken " << s.log.broken_tension << " "
+               << s.log.broken_shear);
   CHECK(peak < 1.2 * tension);
   CHECK(dissipated > 0.9);
   CHECK(dissipated < 1.3);

@@ -30,7 +30,8 @@ const std::string pull = "model:traction{ on = 'x+', stress = {1e6, 0, 0} }\n";
 TEST_CASE("a relaxation that does not converge warns and says so in its result", "[lua]") {
   const auto warnings = warnings_of(column() + pull + "assert(not model:relax{ max_steps = 5 }.converged)");
   REQUIRE(warnings.size() == 1);
-  CHECK_THAT(warnings[0], Contains("case.lua:8: warning: relax: undecided after 5 steps, residual ") && Contains("not converged"));
+  CHECK_THAT(warnings[0], Contains("case.lua:8: warning: relax: undecided after 5 steps, residual ") &&
+                              Contains("not converged"));
 }
 
 TEST_CASE("a relaxation on which nothing acts warns", "[lua]") {

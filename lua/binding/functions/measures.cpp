@@ -51,22 +51,14 @@ Value fields(Session&, ModelObject&, const Arguments&) {
 
 Value energy(Session&, ModelObject& model, const Arguments&) {
   const EnergyLedger e = model.simulation.energy();
-  return Table{{"elastic", e.elastic},
-               {"springs", e.springs},
-               {"bolts", e.bolts},
-               {"kinetic", e.kinetic},
-               {"damping", e.damping},
-               {"radiated", e.radiated},
-               {"friction", e.friction},
-               {"breaking", e.breaking},
-               {"plastic", e.plastic},
-               {"yielding", e.yielding},
-               {"cutting", e.cutting},
-               {"fictitious", e.fictitious},
-               {"external", e.external},
-               {"external_peak", e.external_peak},
-               {"total", e.total()},
-               {"balance_error", e.balance_error()}};
+  return Table{{"elastic", e.elastic},   {"springs", e.springs},
+               {"bolts", e.bolts},       {"kinetic", e.kinetic},
+               {"damping", e.damping},   {"radiated", e.radiated},
+               {"friction", e.friction}, {"breaking", e.breaking},
+               {"plastic", e.plastic},   {"yielding", e.yielding},
+               {"cutting", e.cutting},   {"fictitious", e.fictitious},
+               {"external", e.external}, {"external_peak", e.external_peak},
+               {"total", e.total()},     {"balance_error", e.balance_error()}};
 }
 
 Value overlap(Session&, ModelObject& model, const Arguments&) {
