@@ -149,13 +149,14 @@ local cdem = {}
 ---@field failing cdem.Model at upper, as it was when it was found to run away; its displacement is the mechanism
 ---@field trials cdem.SafetyTrial[] in the order they were made
 
----A unit that has left its place.
+---A unit that has left its place, or a piece of one that broke.
 ---@class (exact) cdem.Departure
 ---@field unit integer number of the unit in its body, from 1
 ---@field time number s
 ---@field velocity? number m/s: of the flow then; nil without one
 ---@field displacement number[] m: relative to what it touched
 ---@field place number[] m: of its centroid
+---@field share number of the unit's volume; below 1: a piece of it
 
 ---A part of settling.
 ---@class (exact) cdem.SettlePhase
@@ -217,6 +218,16 @@ local cdem = {}
 ---@field state "growing"|"arrested"|"through"|"stuck" arrested: nothing reaches its strength any more; through: the crack parts the body; stuck: no balance was reached
 ---@field passes cdem.GrowPass[]
 
+---A node of a bolt.
+---@class (exact) cdem.BoltState
+---@field bolt integer from 1, in the order they were set
+---@field node integer from 1, from the collar on
+---@field place number[] m: undeformed
+---@field tension number N: at a collar with a plate that of the plate
+---@field grout number N: on the rock, towards the far end; a plate pushes that way
+---@field slip number m: of the bolt past the grout
+---@field yielded number strain of the next segment that stays
+
 ---A piece of a model that unbroken bonds hold together.
 ---@class (exact) cdem.Fragment
 ---@field volume number m3
@@ -261,6 +272,18 @@ local cdem = {}
 ---@field curve cdem.CriticalFlowSample[] every 100 steps
 ---@field mass_scaling? cdem.CriticalFlowResultMass_scaling of a stage with mass_scaling
 
+---A quantity over time, from a file or of your own; what an amplitude takes.
+---@class (exact) cdem.Record
+---@field times number[] s, ascending
+---@field values number[] as many
+---@field outside? "hold"|"zero" default "hold": before the first and after the last time: those values, or 0
+---@field peak? number largest magnitude
+---@field duration? number s
+---@field unit? string
+---@field end_velocity? number m/s: of an integrated acceleration
+---@field end_displacement? number m
+---@field baseline? number[] {a0, a1}: a0 + a1 t has been taken off, m/s2 and m/s3
+
 ---Where a field is largest or smallest.
 ---@class (exact) cdem.Extreme
 ---@field value number
@@ -271,11 +294,14 @@ local cdem = {}
 ---@class (exact) cdem.Energy
 ---@field elastic number J: stored in the blocks
 ---@field springs number J: stored in bonds and contacts
+---@field bolts number J: stored in bolts and their grout
 ---@field kinetic number J: of the real masses, or of a relaxation's fictitious ones
 ---@field damping number J
+---@field radiated number J: left through quiet boundaries and free fields
 ---@field friction number J
 ---@field breaking number J: lost by bonds that broke or softened
 ---@field plastic number J: plastic work of blocks that yield
+---@field yielding number J: lost by the steel of bolts that yielded
 ---@field cutting number J: lost when blocks were cut or removed
 ---@field fictitious number J: kinetic energy a relaxation threw away at its end
 ---@field external number J: work of loads, gravity and moving supports
@@ -490,6 +516,7 @@ local Material = {}
 ---@field thickness? number m
 ---@field normal_stiffness? number Pa/m
 ---@field shear_stiffness? number Pa/m
+---@field stiffness_damping number s
 ---@field restitution number
 local Joint = {}
 
@@ -772,6 +799,7 @@ function Model:box() end
 ---@field axes? "x"|"y"|"z"|"xy"|"xz"|"yz"|"xyz" default "xyz": components held
 ---@field displacement? number[] m: total value to be held; a relaxation moves there first
 ---@field velocity? number[] m/s: in real-time stepping; zero when left out
+---@field amplitude? cdem.Record|number[][]|fun(time: number): number factor over time (s): a cdem.record, a list { {time, value}, ... } with straight lines between and its first and last value outside, or a function, called once a step; a relaxation asks once at its start; 1 when left out
 
 ---Holds nodes, or moves them as told. A later call wins over an earlier one where they meet.
 ---@param options cdem.ModelFixOptions
@@ -788,7 +816,7 @@ function Model:release(options) end
 ---@class (exact) cdem.ModelTractionOptions
 ---@field on cdem.Place where: a place or a list of places
 ---@field stress number[] Pa: force over area, not following the surface
----@field amplitude? fun(time: number): number factor over time (s); a relaxation asks once at its start; 1 when left out
+---@field amplitude? cdem.Record|number[][]|fun(time: number): number factor over time (s): a cdem.record, a list { {time, value}, ... } with straight lines between and its first and last value outside, or a function, called once a step; a relaxation asks once at its start; 1 when left out
 
 ---Force per undeformed area on outer faces.
 ---@param options cdem.ModelTractionOptions
@@ -797,16 +825,16 @@ function Model:traction(options) end
 ---@class (exact) cdem.ModelForceOptions
 ---@field on cdem.Place where: one place
 ---@field force number[] N: total
----@field amplitude? fun(time: number): number factor over time (s); a relaxation asks once at its start; 1 when left out
+---@field amplitude? cdem.Record|number[][]|fun(time: number): number factor over time (s): a cdem.record, a list { {time, value}, ... } with straight lines between and its first and last value outside, or a function, called once a step; a relaxation asks once at its start; 1 when left out
 
 ---A total force, shared among the nodes of a place.
 ---@param options cdem.ModelForceOptions
 function Model:force(options) end
 
 ---@class (exact) cdem.ModelGravityOptions
----@field vector number[] m/s2: acceleration, e.g. {0, 0, -9.81}
+---@field vector number[]|fun(time: number): number[] m/s2: acceleration, e.g. {0, 0, -9.81}, or a function of time (s) that gives it
 ---@field water_density? number kg/m3, >= 0, default 0: buoyancy: takes from the weight, never from the inertia
----@field amplitude? fun(time: number): number factor over time (s); a relaxation asks once at its start; 1 when left out
+---@field amplitude? cdem.Record|number[][]|fun(time: number): number factor over time (s): a cdem.record, a list { {time, value}, ... } with straight lines between and its first and last value outside, or a function, called once a step; a relaxation asks once at its start; 1 when left out
 
 ---Weight of all blocks; one at a time, the last call counts.
 ---@param options cdem.ModelGravityOptions
@@ -1027,6 +1055,44 @@ function Model:refine(options) end
 ---@return cdem.GrowResult
 function Model:grow(options) end
 
+---@class (exact) cdem.ModelBoltsOptionsPattern
+---@field centre number[] m: a point of the axis they fan out from
+---@field axis? "x"|"y"|"z" default "y"
+---@field radius number m, > 0: from the axis to the collars
+---@field length number m, > 0
+---@field angles number[] degrees from the horizontal (x; y where the axis is x), 90 is up (z)
+---@field at number[] places along the axis, m
+
+---@class (exact) cdem.ModelBoltsOptions
+---@field from? number[] m: of one bolt: the collar
+---@field to? number[] m: its far end
+---@field pattern? cdem.ModelBoltsOptionsPattern fans of bolts, instead of from and to
+---@field area number m2, > 0: of the steel
+---@field youngs_modulus? number Pa, > 0, default 2e+11: of the steel
+---@field yield_stress? number Pa, > 0: of the steel; it does not yield when left out
+---@field grout_stiffness? number N/m2, > 0, default 1e+09: force per length of bolt and displacement past the rock
+---@field grout_strength? number N/m, > 0: force per length; it does not slip when left out
+---@field pretension? number N, >= 0, default 0: of the plate once the bolt is tight
+---@field plate? boolean default false: the collar is fast to the rock
+---@field free_length? number m, >= 0, default 0: without grout, from the collar on
+---@field segments? integer in [1, 1000], default 10
+
+---Sets grouted bolts or cables into the rock as it stands now: steel that yields, grout that slips, along the axis only. Both ends of each must lie in the rock.
+---@param options cdem.ModelBoltsOptions
+---@return integer # how many
+function Model:bolts(options) end
+
+---Forces along the bolts, one table per node.
+---@return cdem.BoltState[]
+function Model:bolt_forces() end
+
+---@class (exact) cdem.ModelSaveBoltsOptions
+---@field file? string default "bolts.csv": in the output folder
+
+---Writes them as .csv: bolt, node, x, y, z, tension, grout, slip, yielded.
+---@param options? cdem.ModelSaveBoltsOptions
+function Model:save_bolts(options) end
+
 ---@class (exact) cdem.ModelFlowOptions
 ---@field direction number[] of the flow; made a unit vector
 ---@field velocity number|fun(time: number): number m/s, >= 0
@@ -1062,6 +1128,23 @@ function Model:flow(options) end
 ---@param options cdem.ModelCriticalFlowOptions
 ---@return cdem.CriticalFlowResult
 function Model:critical_flow(options) end
+
+---@class (exact) cdem.ModelQuietOptions
+---@field on cdem.Place where: a place or a list of places
+---@field velocity? number[] m/s: of the particles in the entering wave alone
+---@field stress? number[] Pa: traction of the entering wave alone on these faces; the boundary adds 2 of it
+---@field amplitude? cdem.Record|number[][]|fun(time: number): number factor over time (s): a cdem.record, a list { {time, value}, ... } with straight lines between and its first and last value outside, or a function, called once a step; a relaxation asks once at its start; 1 when left out
+
+---Quiet boundary (Lysmer and Kuhlemeyer 1969): dashpots on outer faces let waves out, and a wave may enter through them. It takes the place of a fix of the same place, whose reactions stay as loads. For real-time stepping.
+---@param options cdem.ModelQuietOptions
+function Model:quiet(options) end
+
+---@class (exact) cdem.ModelFreeFieldOptions
+---@field on cdem.Place "x-", "x+", "y-", "y+", or a list of them
+
+---Vertical sides that move as if the rock went on beyond them: a column in one dimension, with the foot of the model (quiet or fix on z-, given before), moves each side through dashpots. It takes the place of a fix of the same side, whose reactions stay as loads.
+---@param options cdem.ModelFreeFieldOptions
+function Model:free_field(options) end
 
 ---Largest value of a field.
 ---@param field string e.g. "displacement.x", "stress.yy"; model:fields() has all
@@ -1136,6 +1219,22 @@ function Model:history() end
 ---Samples a field at a place into the history.
 ---@param options cdem.ModelProbeOptions
 function Model:probe(options) end
+
+---@class (exact) cdem.ModelRecordReactionOptions
+---@field name string
+---@field on string "x-" .. "z+", or a body by name
+
+---Samples the force of the supports on a side or a body into the history (N), as columns <name>_x, <name>_y and <name>_z. Each sample costs some steps.
+---@param options cdem.ModelRecordReactionOptions
+function Model:record_reaction(options) end
+
+---@class (exact) cdem.ModelRecordMomentumOptions
+---@field name string
+---@field body string by name
+
+---Samples the momentum of a body into the history (N s), as columns <name>_x, <name>_y and <name>_z.
+---@param options cdem.ModelRecordMomentumOptions
+function Model:record_momentum(options) end
 
 ---Area of all cracks and the energy they took, of the model and of each body.
 ---@return cdem.Cracks
@@ -1313,6 +1412,7 @@ function Model:save_joints(options) end
 ---@field hidden? string[] names of bodies that are left out, such as a wall
 ---@field opacity? number in [0.05, 1], default 1: of the blocks; below 1 broken interfaces inside show through
 ---@field edges? boolean default true: outlines of the blocks
+---@field bolts? boolean default true: bolts, drawn over the blocks and coloured by their tension
 ---@field broken_bonds? boolean default true: broken interfaces, coloured by how they broke
 
 ---Draws the model, without a display.
@@ -1397,12 +1497,18 @@ local Watch = {}
 ---@return any # the value
 function cdem.parameter(options) end
 
+---@class (exact) cdem.ElasticOptionsDamping
+---@field fraction number in (0, 1): of critical damping at the frequency
+---@field frequency number Hz, > 0
+---@field of? "both"|"mass"|"stiffness" default "both": half of it each, and more at other frequencies; or all by viscosity (falls with the frequency, holds back motion as a rigid body); or all by stiffness_damping (grows with the frequency, shortens the stable step)
+
 ---@class (exact) cdem.ElasticOptions
 ---@field youngs_modulus number Pa, > 0: Young's modulus E
 ---@field poissons_ratio number in (-1, 0.5): Poisson's ratio nu
 ---@field density number kg/m3, > 0
 ---@field viscosity? number N s/m4, >= 0, default 0: damping force per volume and velocity, mu of Han 2010 eq 1; used by real-time stepping
 ---@field stiffness_damping? number s, >= 0, default 0: beta of Rayleigh damping, of meshes in real-time stepping: a vibration of angular frequency w has beta w / 2 of critical damping, motion as a rigid body none
+---@field damping? cdem.ElasticOptionsDamping Rayleigh damping by the fraction of critical damping, in place of viscosity and stiffness_damping
 
 ---Isotropic linear elasticity (Han 2010 eq 3).
 ---@param options cdem.ElasticOptions
@@ -1454,6 +1560,7 @@ function cdem.plastic(options) end
 ---@field thickness? number m, > 0: equivalent thickness itself; wins over the ratio
 ---@field normal_stiffness? number Pa/m, > 0: instead of E/L
 ---@field shear_stiffness? number Pa/m, > 0: instead of G/L
+---@field stiffness_damping? number s, >= 0, default 0: beta of Rayleigh damping, of joints between blocks that move far in real-time stepping
 
 ---Bond between block faces: breaks in tension above the tensile strength and in shear above cohesion + normal pressure x tan(friction angle); then it is a contact with the same friction angle, or with what residual strength it has (Han 2010 eqs 8-11). With softening it loses its strength along a curve whose area is the fracture energy.
 ---@param options cdem.MohrCoulombOptions
@@ -1469,6 +1576,7 @@ function cdem.mohr_coulomb(options) end
 ---@field thickness? number m, > 0: equivalent thickness itself; wins over the ratio
 ---@field normal_stiffness? number Pa/m, > 0: instead of E/L
 ---@field shear_stiffness? number Pa/m, > 0: instead of G/L
+---@field stiffness_damping? number s, >= 0, default 0: beta of Rayleigh damping, of joints between blocks that move far in real-time stepping
 ---@field restitution? number in [0.01, 1], default 1: coefficient of restitution of the contact of bodies that move far: speed after over speed before an impact, as far as the contact and not waves within the bodies decide it; 1: the contact loses nothing but by friction
 
 ---Contact that never was bonded: no tension, friction only (Han 2010 eq 9).
@@ -1481,6 +1589,7 @@ function cdem.coulomb(options) end
 ---@field thickness? number m, > 0: equivalent thickness itself; wins over the ratio
 ---@field normal_stiffness? number Pa/m, > 0: instead of E/L
 ---@field shear_stiffness? number Pa/m, > 0: instead of G/L
+---@field stiffness_damping? number s, >= 0, default 0: beta of Rayleigh damping, of joints between blocks that move far in real-time stepping
 
 ---Bond that never breaks, of faces that are no joint, such as those of an excavation outline. It is four times as stiff as a joint by default.
 ---@param options? cdem.GluedOptions
@@ -1500,6 +1609,7 @@ function cdem.glued(options) end
 ---@field thickness? number m, > 0: equivalent thickness itself; wins over the ratio
 ---@field normal_stiffness? number Pa/m, > 0: instead of E/L
 ---@field shear_stiffness? number Pa/m, > 0: instead of G/L
+---@field stiffness_damping? number s, >= 0, default 0: beta of Rayleigh damping, of joints between blocks that move far in real-time stepping
 
 ---Rough joint between blocks that never was bonded (Barton and Choubey 1977, Bandis et al. 1983): it closes on a hyperbola and slips above pressure x tan(residual angle + JRC log10(JCS / pressure)). With a length, or peak_slip, the roughness is mobilised and worn with slip, and the joint dilates.
 ---@param options cdem.BartonBandisOptions
@@ -1513,6 +1623,7 @@ function cdem.barton_bandis(options) end
 ---@field thickness? number m, > 0: equivalent thickness itself; wins over the ratio
 ---@field normal_stiffness? number Pa/m, > 0: instead of E/L
 ---@field shear_stiffness? number Pa/m, > 0: instead of G/L
+---@field stiffness_damping? number s, >= 0, default 0: beta of Rayleigh damping, of joints between blocks that move far in real-time stepping
 
 ---Joint between blocks that never was bonded, by tables: straight between rows, straight on beyond the last.
 ---@param options cdem.JointTableOptions
@@ -2015,6 +2126,21 @@ function cdem.flow_pressure(velocity, water_density) end
 ---@param water_density? number kg/m3, > 0, default 1025: sea water by default
 ---@return number
 function cdem.flow_velocity(pressure, water_density) end
+
+---@class (exact) cdem.RecordOptions
+---@field path string beside the script, in the output folder or below the results
+---@field time? string default "time": name of its column (s); the number of it, "1", where the file has no names
+---@field value string name of its column
+---@field scale? number default 1: factor on the values
+---@field unit "m/s2"|"cm/s2"|"g"|"m/s"|"cm/s"|"Pa"|"kPa"|"MPa"|"1" of the values in the file
+---@field to? "velocity" velocity: an acceleration is integrated
+---@field baseline? "none"|"straight" default "none": straight: takes the line a0 + a1 t off the acceleration that brings the last velocity and the last displacement to zero
+---@field longest_step? number s, > 0: two samples further apart are a gap; 2.5 times the median step when left out
+
+---Reads a record over time from two columns of a .csv, in SI units from then on; outside its times it is 0. Times must grow without gaps. With to = "velocity" an acceleration is integrated by the trapezoidal rule.
+---@param options cdem.RecordOptions
+---@return cdem.Record
+function cdem.record(options) end
 
 ---Speed of waves along the free surface of a material, m/s: the exact root of Rayleigh's equation. A crack in tension cannot run faster.
 ---@param material cdem.Material
