@@ -45,10 +45,10 @@ TEST_CASE("a run whose output folder was deleted or moved does not end well") {
              "print 'begins'\nlocal till = os.time() + 2\nwhile os.time() < till do end");
   for (const std::string what : {"rm -r out", "mv out away", "rm out/cdem.log"}) {
     INFO(what);
-    const Outcome outcome = in_shell(
-        "rm -rf out; $CDEM run case.lua --output out > said & while ! grep -q begins said; do :; done; " +
-            what + "; wait $!",
-        folder);
+    const Outcome outcome = in_shell("rm -rf out said; $CDEM run case.lua --output out > said & while ! grep "
+                                     "-qs begins said; do :; done; " +
+                                         what + "; wait $!",
+                                     folder);
     says_why(outcome, "out");
   }
 }
