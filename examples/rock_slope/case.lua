@@ -8,8 +8,8 @@ local spacing = cdem.parameter{ name = "spacing", default = 4, range = {1, 10}, 
 local phi = cdem.parameter{ name = "friction_angle", default = 40, range = {5, 70}, unit = "degrees", doc = "of the joints" }
 local runout = cdem.parameter{ name = "runout", default = 3, range = {0, 60}, unit = "s", doc = "of the slide; 0: none" }
 local tolerance = cdem.parameter{ name = "tolerance", default = 0.02, range = {0.001, 0.5}, doc = "of the factor of safety" }
-local dip = cdem.parameter{ name = "dip", default = 35, range = {34, 60}, unit = "degrees", doc = "of the fault and the bedding" }
-local seed = cdem.parameter{ name = "seed", default = 7, range = {1, 1000}, doc = "of the spacing: 7 leaves no slivers in the face" }
+local dip = cdem.parameter{ name = "dip", default = 35, range = {34, 60}, unit = "degrees", doc = "of fault and bedding" }
+local seed = cdem.parameter{ name = "seed", default = 7, range = {1, 1000}, doc = "7 leaves no slivers in the face" }
 local face, g = 65, 9.81 -- degrees, m/s2
 
 -- Ground of 60 x 8 x 32 m with a fault that dips out of the slope through (39, 14). Below the fault it is massive, above it

@@ -43,9 +43,10 @@ function cdem.factor_of_safety(options)
     return { factor = lower, lower = lower, upper = upper, stable = sides.stable, failing = sides.failing, trials = {} }
   end
   if not stands then
+    if o.picture then draw(sides.failing, o.picture, lower) end
     error(string.format("cdem.factor_of_safety: lower = %.6g: the model is %s there already, so the factor is below it; "
-                        .. "give a smaller lower, or look at the model with this trial's picture", lower,
-                        trials[1].verdict), 2)
+                        .. "look at %s, and give a smaller lower", lower, trials[1].verdict,
+                        o.picture or "what moves there (picture = \"mechanism.png\")"), 2)
   end
   if try(upper) then
     error(string.format("cdem.factor_of_safety: upper = %.6g: the model is stable there still, so the factor is above "
