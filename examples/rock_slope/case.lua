@@ -4,11 +4,11 @@
 --   ./cdem run examples/rock_slope/case.lua [--set spacing=2] [--set friction_angle=38]
 local cdem = require "cdem"
 
-local spacing = cdem.parameter{ name = "spacing", default = 4, range = {1, 10}, unit = "m", doc = "of all joint sets" }
-local phi = cdem.parameter{ name = "friction_angle", default = 40, range = {5, 70}, unit = "degrees", doc = "of the joints" }
+local spacing = cdem.parameter{ name = "spacing", default = 4.0, range = {1, 10}, unit = "m", doc = "of all joint sets" }
+local phi = cdem.parameter{ name = "friction_angle", default = 40.0, range = {5, 70}, unit = "degrees", doc = "of the joints" }
 local runout = cdem.parameter{ name = "runout", default = 3, range = {0, 60}, unit = "s", doc = "of the slide; 0: none" }
 local tolerance = cdem.parameter{ name = "tolerance", default = 0.02, range = {0.001, 0.5}, doc = "of the factor of safety" }
-local dip = cdem.parameter{ name = "dip", default = 35, range = {34, 60}, unit = "degrees", doc = "of fault and bedding" }
+local dip = cdem.parameter{ name = "dip", default = 35.0, range = {34, 60}, unit = "degrees", doc = "of fault and bedding" }
 local seed = cdem.parameter{ name = "seed", default = 7, range = {1, 1000}, doc = "7 leaves no slivers in the face" }
 local face, g = 65, 9.81 -- degrees, m/s2
 
