@@ -9,7 +9,7 @@
 namespace cdem {
 namespace {
 
-// What held the nodes of a fix holds them on where a boundary has taken its place.
+// The reactions of a fix go on where a boundary has taken its place.
 void keep_reactions(const Workspace& work, const std::vector<Node>& net, const ResolvedConditions& after,
                     std::vector<Node>& support_force) {
   auto now = after.held.begin();

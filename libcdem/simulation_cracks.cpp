@@ -1,4 +1,4 @@
-// What a Simulation tells of its cracks, joints and pieces.
+// A Simulation's answers on its cracks, joints and pieces.
 #include "libcdem/results/crack_surface.hpp"
 #include "libcdem/simulation_impl.hpp"
 

@@ -26,7 +26,7 @@ struct Bolt {
 // Throws geom::InputError naming the field, its value and the allowed range.
 void validate(const Bolt&);
 
-// What a node of a bolt remembers. Displacements are axial, from `from` to `to`.
+// A node of a bolt remembers this. Displacements are axial, from `from` to `to`.
 struct BoltNode {
   double origin = 0;  // m, displacement of the rock here when the bolt was set
   double rock = 0;    // m, displacement of the rock since, when the forces were last found

@@ -8,9 +8,9 @@ namespace cdem {
 namespace {
 
 constexpr int most_iterations = 100;
-// Of the stiffness, above the limits: the balance is always one.
+// Share of the stiffness that remains above the limits: the balance is always one.
 constexpr double hardening = 1e-6;
-// Of a node that nothing holds, over the steel's stiffness: it goes with its neighbours.
+// Stiffness of a node that nothing holds, over the steel's: it goes with its neighbours.
 constexpr double barely = 1e-9;
 
 struct Response {

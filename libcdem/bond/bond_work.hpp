@@ -13,7 +13,7 @@ struct BreakEvent {
   double normal_traction = 0, shear_traction = 0; // Pa, at breaking
 };
 
-// What breaking or damage has taken from a spring of an interface.
+// Energy that breaking or damage has taken from a spring of an interface.
 struct CrackLoss {
   int interface = 0;
   CrackEnergy energy;

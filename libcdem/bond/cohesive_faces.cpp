@@ -112,7 +112,7 @@ private:
     const double taken = area * (m[2] * lost.breaking + (1 - 0.5 * (face_.damage[point] + r.law.damage)) *
                                                             vec(face_.rest[point]).dot(gap - gap0));
     sums.breaking += taken;
-    // What the law stored when it began, and the body never did, is given back as damage grows.
+    // The law stored this when it began, and the body never did: it is given back as damage grows.
     const double begun = 0.5 * area * m[2] * law_.kn * offset.squaredNorm();
     if (taken != 0)
       sums.crack.add(taken - (r.law.damage - face_.damage[point]) * begun,

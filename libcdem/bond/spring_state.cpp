@@ -1,4 +1,4 @@
-// What springs carry and store as they stand, without a step.
+// Forces and energies of springs as they stand, without a step.
 #include "libcdem/bond/interface_frame.hpp"
 #include "libcdem/bond/spring_forces.hpp"
 #include "libgeom/core/portable.hpp"

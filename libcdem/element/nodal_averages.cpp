@@ -38,7 +38,7 @@ CDEM_INLINE void add_to_nodes(const MeshBatch& batch, int used, const Oct& value
     }
 }
 
-// What the average makes of a value, less the value; 0 past the last tet.
+// The average of a value less the value; 0 past the last tet.
 CDEM_INLINE Oct change(const MeshBatch& batch, int used, const JumpBatch& kept, const Node* sums) {
   Oct result{};
   for (int lane = 0; lane < used; ++lane) {

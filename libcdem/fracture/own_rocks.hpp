@@ -1,4 +1,4 @@
-// What the faces of a chunk bear where they have strengths of their own, and the least that any stress must use before
+// Strengths of the faces of a chunk where they have their own, and the least that any stress must use before
 // one of them can be at its strength: a bound for each law of the body, by the weakest face that has it.
 #pragma once
 

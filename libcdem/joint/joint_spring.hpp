@@ -1,4 +1,4 @@
-// What every law of a joint is told about the spring it stands in, and what it remembers. A law is a struct of numbers with
+// Every law of a joint is told this about its spring, and remembers this. A law is a struct of numbers with
 // the functions below; joint/joint_law.hpp lists the laws and puts them to work. Pressures are positive in compression.
 //
 //   double pressure(spring, closure)        Pa, of faces pressed together by `closure` (m, > 0)
@@ -29,7 +29,7 @@ struct JointSpring {
   double tan_friction = 0; // of the joint's peak friction angle
 };
 
-// What a spring whose joint has a law remembers.
+// A spring whose joint has a law remembers this.
 struct JointHistory {
   geom::Vec3 slip = geom::Vec3::Zero(); // m, of side b past side a since the faces fitted together
   double path = 0;                      // m, length of all slip under load

@@ -23,7 +23,7 @@
 //   w_I  = (G_I  - sigma_t^2 / 2 kn) / (sigma_t S)
 //   w_II = (G_II - c0^2 / 2 ks) / (c0 S)
 //
-// What is taken off is the stretch of the spring up to its strength, a part of G between blocks. A crack of a cohesive
+// The stretch of the spring up to its strength is taken off: a part of G between blocks. A crack of a cohesive
 // body begins at its strength with no gap: nothing is taken off there.
 //
 // While D grows the traction stays on the strength surface with sigma_t and c0 both multiplied by s: pure

@@ -10,7 +10,7 @@ namespace cdem {
 namespace {
 
 constexpr double inside = -1e-6; // no barycentric weight below this
-// Of a plate over the steel's own: it does not give.
+// Stiffness of a plate over the steel's own: it does not give.
 constexpr double plate_stiffness = 1e3;
 
 double axial(const ResolvedBolt& bolt, const RockPlace& at, const State& state) {
@@ -164,7 +164,7 @@ void advance_bolts(const std::vector<ResolvedBolt>& bolts, State& state,
     for (std::size_t i = 0; i < n; ++i) {
       if (!bolt.at[i].inside)
         continue;
-      // What the rock gives to the bolt is no work of a load.
+      // The work of the rock on the bolt is no work of a load.
       state.spent.external += 0.5 * (before[i].first + nodes[i].grout) * (rock[i] - before[i].second);
     }
   }

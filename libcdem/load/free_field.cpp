@@ -65,7 +65,7 @@ ColumnLayer layer_of(const std::vector<SideFace>& faces, double low, double high
   return layer;
 }
 
-// What stands under the model: the last quiet boundary on z-, else the last support of each axis there.
+// The foot of the model: the last quiet boundary on z-, else the last support of each axis there.
 void set_foot(Column& column, const Conditions& conditions) {
   const Selection foot = Selection::side("z-");
   const ColumnLayer& lowest = column.layers.front();

@@ -27,7 +27,7 @@ struct VelocityRecord {
   Baseline baseline;
 };
 
-// Of an acceleration, m/s2; it begins at rest.
+// Integrates an acceleration, m/s2; it begins at rest.
 VelocityRecord integrate(const TimeTable& acceleration, bool straight_baseline);
 
 double peak(const TimeTable&); // largest magnitude

@@ -142,7 +142,7 @@ WaterInJoints set_water(const Model& model, State& state, const Water& water) {
   state.water_pressure = std::move(pressure);
   if (std::all_of(state.water_pressure.begin(), state.water_pressure.end(), [](double p) { return p == 0; }))
     state.water_pressure.clear();
-  // What has been done stays done, and the new pressure has done nothing yet.
+  // Past work stays, and the new pressure has done none yet.
   moved.water_pressure = state.water_pressure;
   state.spent.external += done - water_work(model, moved);
   WaterInJoints sum;

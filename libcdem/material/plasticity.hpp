@@ -32,7 +32,7 @@ struct Plasticity {
   double friction_angle = 0;   // phi, rad, in [0, pi/2)
   double dilation_angle = 0;   // psi, rad, in [0, phi]
   double tensile_strength = 0; // T, Pa, >= 0
-  // What is left at softening_strain; the same as the peak where nothing softens.
+  // Values left at softening_strain; the same as the peak where nothing softens.
   double residual_cohesion = 0;         // Pa
   double residual_friction_angle = 0;   // rad
   double residual_tensile_strength = 0; // Pa

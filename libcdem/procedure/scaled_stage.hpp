@@ -22,7 +22,7 @@ public:
   // Energies of a kept state, for the share of motion in them.
   void sample();
   ScaledMasses report() const;
-  // What a loop carries from step to step.
+  // A loop carries this from step to step.
   void add_to(std::vector<double>& loop_state) const;
   void take(const std::vector<double>& loop_state);
 

@@ -22,7 +22,7 @@ public:
   BondSnapshot faces; // point field "displacement"
 };
 
-// Of a triangle over the springs of interfaces: the middle of their two sides.
+// Corners of a triangle over the springs of interfaces: the middle of their two sides.
 BondSurface::Corners spring_corners(const Model&, const State&, const geom::Triangle&);
 
 // Time, step, title and names of bodies; nothing to draw yet.

@@ -1,4 +1,4 @@
-// What lies in the domain of a J integral, and whether the integral is the energy release rate there
+// Model parts in the domain of a J integral, and whether the integral is the energy release rate there
 // (results/j_integral.hpp).
 #pragma once
 

@@ -1,4 +1,4 @@
-// What joints between blocks bear and how they have moved: point by point, summed by joint set, and as a surface.
+// Tractions and movements of joints between blocks: point by point, summed by joint set, and as a surface.
 //
 // Tractions are those of the springs: effective where there is water (load/water.hpp). The utilisation of a point is the part
 // of its strength that its traction takes: of a whole bond the larger one of tension and shear, of the others the shear over

@@ -55,7 +55,7 @@ geom::Vec3 centroid_now(const Model& model, const State& state, int tet) {
 // Pieces smaller than this part of their unit are crumbs.
 constexpr double least_share = 0.05;
 
-// What is left of a unit, piece by piece.
+// The remains of a unit, piece by piece.
 struct Piece {
   double volume = 0;                     // m3
   geom::Vec3 moved = geom::Vec3::Zero(); // m, times volume, since the watch was made

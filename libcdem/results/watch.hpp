@@ -34,7 +34,7 @@ struct Watch {
   std::vector<geom::Vec3> start;         // m, centroids of all blocks then (n_blocks)
   std::vector<std::uint8_t> gone;        // (n_blocks) has left
   std::vector<Departure> left;           // in order; of one look by unit
-  // Of the tetrahedra of units that can break, block by block: centroids when the watch was made, m, and the step in which
+  // The tetrahedra of units that can break, block by block: centroids when the watch was made, m, and the step in which
   // each left with its piece, -1 while it has not.
   std::vector<geom::Vec3> tet_start;
   std::vector<std::int64_t> tet_left;

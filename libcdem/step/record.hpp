@@ -13,7 +13,7 @@ std::int64_t record_bond_breaks(const Model&, State&, const Workspace&, RunLog&,
 // The same of the bonded faces of meshes; contacts are told of those that are handed over to them.
 std::int64_t record_face_breaks(const Model&, State&, Workspace&, RunLog&, int stage, std::int64_t step);
 
-// What cracks in the bonded faces of meshes took, into State::crack_energy.
+// Energy taken by cracks in the bonded faces of meshes, into State::crack_energy.
 void record_crack_energy(const Model&, State&, const Workspace&);
 
 // The same of faces of cohesive bodies that broke as soon as they cracked.

@@ -30,7 +30,7 @@ std::vector<std::string> cells_of(const std::string& line) {
   return cells;
 }
 
-// Of each name, its column.
+// The column of each name.
 std::array<std::size_t, names.size()> columns_of(const std::vector<std::string>& head,
                                                  const std::string& file) {
   std::array<std::size_t, names.size()> column{};

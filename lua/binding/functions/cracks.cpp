@@ -68,7 +68,7 @@ std::vector<Vec3> corners_of(const ModelObject& model, const Arguments& a) {
   return corners;
 }
 
-// Of the body named, or of the only one; nil where there are several.
+// The body named, or the only one; nil where there are several.
 Value rayleigh_of(const ModelObject& model, const Arguments& a) {
   if (a.has("body"))
     return rayleigh_speed(model.simulation.material(a.text("body")));

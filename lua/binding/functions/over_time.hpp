@@ -1,4 +1,4 @@
-// What a script gives for a factor over time: a table, or a function of its own.
+// A factor over time as a script gives it: a table, or a function of its own.
 #pragma once
 
 #include "lua/binding/schema/schema.hpp"

@@ -41,7 +41,7 @@ Value relax_result(const RelaxResult& r, const std::string& trial) {
   return table;
 }
 
-// What moves, for messages.
+// The moving block, for messages.
 std::string moving_text(const RelaxResult& r) {
   return "block " + std::to_string(r.moving_block) + " at " + describe(Value(r.moving_place)) + " m moved " +
          three_digits(r.moving) + " m in the last " + std::to_string(watch_every) + " steps";
