@@ -5,6 +5,7 @@
 #include "libcdem/bond/spring_forces.hpp"
 #include "libcdem/element/mesh_fields.hpp"
 #include "libcdem/model/build/add_meshes.hpp"
+#include "libcdem/results/bond_surface.hpp"
 #include "libcdem/results/fields.hpp"
 #include "libcdem/results/joints.hpp"
 #include "libcdem/state/places.hpp"
@@ -321,12 +322,7 @@ void add_bonds(const Model& model, const State& state, BondSnapshot& bonds) {
 } // namespace
 
 Snapshot make_snapshot(const Model& model, const State& state, const std::string& title) {
-  Snapshot snapshot;
-  snapshot.time = state.time;
-  snapshot.step = state.step;
-  snapshot.title = title;
-  for (const Body& body : model.bodies)
-    snapshot.body_names.push_back(body.name);
+  Snapshot snapshot = snapshot_of(model, state, title);
   snapshot.points = model.node_position;
   for (std::size_t i = 0; i < state.displacement_zero.size(); ++i)
     snapshot.points[i] += vec(state.displacement_zero[i]);
