@@ -1,0 +1,77 @@
+// Processes that solve one model together, on one machine or many. Each is a rank: it runs the same script on the same
+// values, computes the forces of its own chunks, and learns the rest from the others. Rank 0 alone writes files and talks
+// to the user. What is summed is gathered and added in the order of chunks, so results do not depend on how many there
+// are; least and largest values are exact anyway.
+//
+// Every call of a rank here is met by the same call of all others, but for abort.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace cdem {
+
+class Ranks {
+public:
+  virtual ~Ranks() = default;
+
+  int rank() const { return rank_; }
+  int size() const { return size_; }
+  bool alone() const { return size_ == 1; }
+  bool leads() const { return rank_ == 0; } // it writes files and talks to the user
+
+  // Bytes from one rank to another.
+  struct Parcel {
+    int rank = 0; // the other one
+    void* data = nullptr;
+    std::size_t bytes = 0;
+  };
+  // Parcels that one rank sends another arrive in the order they were sent in.
+  virtual void exchange(const std::vector<Parcel>& send, const std::vector<Parcel>& receive) = 0;
+
+  // Each has filled its bytes [begin[rank], begin[rank + 1]) of `data`; afterwards all have all.
+  virtual void share(void* data, const std::vector<std::size_t>& begin) = 0;
+
+  // What each gives, by rank.
+  virtual std::vector<std::string> gather(const std::string& mine) = 0;
+
+  // The bytes of rank 0, for all.
+  virtual void broadcast(std::string&) = 0;
+
+  // The largest of what each has, entry by entry. No rank may hold a NaN.
+  virtual void largest(double* values, std::size_t count) = 0;
+
+  // Ends all ranks with this exit code, wherever they are. For errors that the others cannot know of.
+  [[noreturn]] virtual void abort(int exit_code) = 0;
+
+  // What has been sent since the program began, and how long was waited for others.
+  struct Traffic {
+    std::int64_t messages = 0, bytes = 0;
+    double waited = 0; // s
+  };
+  const Traffic& traffic() const { return traffic_; }
+
+protected:
+  Ranks(int rank, int size) : rank_(rank), size_(size) {}
+  Traffic traffic_;
+
+private:
+  int rank_, size_;
+};
+
+// Those of this process: one alone unless it has joined others.
+Ranks& ranks();
+
+// How many processes mpirun, srun or their like have started this one among; 1 when by itself.
+int processes_started();
+
+// Joins the others that processes_started tells of, by the module cdem_mpi beside the program. Throws
+// std::runtime_error, one line, where there is no such module or it is one of another MPI than the one that started it.
+void join_ranks();
+
+// Says good-bye to the others; the process is alone afterwards.
+void leave_ranks();
+
+} // namespace cdem

@@ -1,0 +1,138 @@
+// The ranks of an MPI job, as a module that the program loads only where it has been started as one of several
+// processes: without MPI it runs as ever. The only file that sees mpi.h.
+#include "libcdem/parallel/ranks.hpp"
+
+#include <algorithm>
+#include <mpi.h>
+
+namespace {
+
+constexpr std::size_t most_at_once = std::size_t{1} << 30; // bytes, as MPI counts in int
+
+class MpiRanks : public cdem::Ranks {
+public:
+  MpiRanks(int rank, int size) : Ranks(rank, size) {}
+  ~MpiRanks() override { MPI_Finalize(); }
+  MpiRanks(const MpiRanks&) = delete;
+  MpiRanks& operator=(const MpiRanks&) = delete;
+
+  void exchange(const std::vector<Parcel>& send, const std::vector<Parcel>& receive) override {
+    const Waiting waiting(*this);
+    requests_.clear();
+    for (const Parcel& parcel : receive)
+      in_slices(parcel.bytes, [&](std::size_t begin, int bytes) {
+        MPI_Irecv(static_cast<char*>(parcel.data) + begin, bytes, MPI_BYTE, parcel.rank, 0, MPI_COMM_WORLD,
+                  &requests_.emplace_back());
+      });
+    for (const Parcel& parcel : send) {
+      count(parcel.bytes, 1);
+      in_slices(parcel.bytes, [&](std::size_t begin, int bytes) {
+        MPI_Isend(static_cast<const char*>(parcel.data) + begin, bytes, MPI_BYTE, parcel.rank, 0,
+                  MPI_COMM_WORLD, &requests_.emplace_back());
+      });
+    }
+    MPI_Waitall(static_cast<int>(requests_.size()), requests_.data(), MPI_STATUSES_IGNORE);
+  }
+
+  void share(void* data, const std::vector<std::size_t>& begin) override {
+    const Waiting waiting(*this);
+    count(begin[rank() + 1] - begin[rank()], size() - 1);
+    if (begin.back() <= most_at_once) {
+      std::vector<int> counts(size()), places(size());
+      for (int r = 0; r < size(); ++r) {
+        counts[r] = static_cast<int>(begin[r + 1] - begin[r]);
+        places[r] = static_cast<int>(begin[r]);
+      }
+      MPI_Allgatherv(MPI_IN_PLACE, 0, MPI_DATATYPE_NULL, data, counts.data(), places.data(), MPI_BYTE,
+                     MPI_COMM_WORLD);
+      return;
+    }
+    for (int r = 0; r < size(); ++r)
+      in_slices(begin[r + 1] - begin[r], [&](std::size_t at, int bytes) {
+        MPI_Bcast(static_cast<char*>(data) + begin[r] + at, bytes, MPI_BYTE, r, MPI_COMM_WORLD);
+      });
+  }
+
+  std::vector<std::string> gather(const std::string& mine) override {
+    std::vector<unsigned long long> sizes(size());
+    sizes[rank()] = mine.size();
+    {
+      const Waiting waiting(*this);
+      MPI_Allgather(MPI_IN_PLACE, 0, MPI_DATATYPE_NULL, sizes.data(), 1, MPI_UNSIGNED_LONG_LONG,
+                    MPI_COMM_WORLD);
+    }
+    std::vector<std::size_t> begin(size() + 1, 0);
+    for (int r = 0; r < size(); ++r)
+      begin[r + 1] = begin[r] + sizes[r];
+    std::string all(begin.back(), '\0');
+    std::copy(mine.begin(), mine.end(), all.begin() + static_cast<std::ptrdiff_t>(begin[rank()]));
+    if (!all.empty())
+      share(all.data(), begin);
+    std::vector<std::string> texts;
+    for (int r = 0; r < size(); ++r)
+      texts.push_back(all.substr(begin[r], sizes[r]));
+    return texts;
+  }
+
+  void broadcast(std::string& text) override {
+    const Waiting waiting(*this);
+    unsigned long long bytes = text.size();
+    MPI_Bcast(&bytes, 1, MPI_UNSIGNED_LONG_LONG, 0, MPI_COMM_WORLD);
+    text.resize(bytes);
+    in_slices(bytes, [&](std::size_t begin, int size) {
+      MPI_Bcast(text.data() + begin, size, MPI_BYTE, 0, MPI_COMM_WORLD);
+    });
+    if (leads())
+      count(bytes, size() - 1);
+  }
+
+  void largest(double* values, std::size_t number) override {
+    const Waiting waiting(*this);
+    count(number * sizeof(double), size() - 1);
+    in_slices(number, [&](std::size_t begin, int part) {
+      MPI_Allreduce(MPI_IN_PLACE, values + begin, part, MPI_DOUBLE, MPI_MAX, MPI_COMM_WORLD);
+    });
+  }
+
+  [[noreturn]] void abort(int exit_code) override {
+    MPI_Abort(MPI_COMM_WORLD, exit_code);
+    std::_Exit(exit_code);
+  }
+
+private:
+  class Waiting {
+  public:
+    explicit Waiting(MpiRanks& ranks) : ranks_(ranks), start_(MPI_Wtime()) {}
+    ~Waiting() { ranks_.traffic_.waited += MPI_Wtime() - start_; }
+    Waiting(const Waiting&) = delete;
+    Waiting& operator=(const Waiting&) = delete;
+
+  private:
+    MpiRanks& ranks_;
+    double start_;
+  };
+
+  void count(std::size_t bytes, int receivers) {
+    traffic_.messages += receivers;
+    traffic_.bytes += static_cast<std::int64_t>(bytes) * receivers;
+  }
+
+  template <class Act>
+  static void in_slices(std::size_t size, const Act& act) {
+    for (std::size_t begin = 0; begin < size; begin += most_at_once)
+      act(begin, static_cast<int>(std::min(size - begin, most_at_once)));
+  }
+
+  std::vector<MPI_Request> requests_;
+};
+
+} // namespace
+
+// Errors of MPI itself end the job, which is what MPI does unasked.
+extern "C" cdem::Ranks* cdem_join_ranks() {
+  int granted = 0, rank = 0, size = 1;
+  MPI_Init_thread(nullptr, nullptr, MPI_THREAD_FUNNELED, &granted);
+  MPI_Comm_rank(MPI_COMM_WORLD, &rank);
+  MPI_Comm_size(MPI_COMM_WORLD, &size);
+  return new MpiRanks(rank, size);
+}
