@@ -41,6 +41,8 @@ Failure current_failure() {
     return make_failure(ExitCode::bad_input, error.what());
   } catch (const UsageError& error) {
     return make_failure(ExitCode::bad_input, error.what());
+  } catch (const RankLost& error) {
+    return make_failure(ExitCode::rank_lost, error.what());
   } catch (const std::filesystem::filesystem_error& error) {
     return make_failure(ExitCode::file_error, error.path1().string() + ": " + error.code().message());
   } catch (const std::bad_alloc&) {

@@ -14,6 +14,12 @@ public:
   using std::runtime_error::runtime_error;
 };
 
+// A rank has gone, as by kill -9 or for want of memory, and the others with it.
+class RankLost : public std::runtime_error {
+public:
+  using std::runtime_error::runtime_error;
+};
+
 struct Failure {
   ExitCode code = ExitCode::internal_error;
   std::string line;    // one line, without "cdem: error: "

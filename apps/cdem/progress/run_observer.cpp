@@ -126,7 +126,7 @@ std::string RunObserver::in_all() const {
 }
 
 bool RunObserver::stop_requested() {
-  return interrupt::requested();
+  return interrupt::requested_of_any();
 }
 
 Activity RunObserver::doing(Activity now) {
