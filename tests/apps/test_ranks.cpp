@@ -239,7 +239,7 @@ local model = cdem.model{ bodies = { { shape = cdem.grid{ size = {1, 1, 1}, divi
   material = rock } } }
 model:fix{ on = "y-" }
 model:gravity{ vector = {0, -9.81, 0} }
-model:run{ steps = 100 + lines * 10 + math.random(50) }
+model:run{ steps = 100 + lines * 10 + math.random(50) + #all + at + math.floor(os.clock() * 1e6) % 50 }
 model:save{ file = "end.vtu" }
 model:picture{ file = "end.png" }
 cdem.report{ { name = "hash", value = model.state_hash } }
