@@ -4,6 +4,7 @@
 #include "libcdem/contact/broad_phase/search.hpp"
 #include "libcdem/contact/geometry/positions.hpp"
 #include "libcdem/contact/narrow_phase/evaluation.hpp"
+#include "libcdem/contact/narrow_phase/row_shares.hpp"
 #include "libcdem/contact/narrow_phase/rows_asleep.hpp"
 #include "libcdem/contact/response/block_motion.hpp"
 #include "libcdem/contact/response/contact_point.hpp"
@@ -42,16 +43,23 @@ bool add_displacements(const Model& model, const State& state, ContactWork& work
 
 // What contacts stored and did not give back that act no more, J: those that opened gave it back, the other side of the
 // rest has gone round an edge or off the end of another. Both lists are sorted.
-double lost(const Model& model, const State& state, double step, const std::vector<Contact>& before,
-            const std::vector<Contact>& now) {
-  double energy_lost = 0;
-  auto next = now.begin();
-  for (const Contact& c : before) {
-    while (next != now.end() && key(*next) < key(c))
+double lost(const Model& model, const State& state, const ContactWork& work) {
+  std::vector<std::size_t> ended;
+  const std::vector<Contact>& before = state.contacts;
+  auto next = work.now.begin();
+  for (std::size_t i = 0; i < before.size(); ++i) {
+    while (next != work.now.end() && key(*next) < key(before[i]))
       ++next;
-    if (next == now.end() || key(*next) != key(c))
-      energy_lost += end_loss(c, law_of(model, c), step * velocity_past(state, arms_of(model, state, c)));
+    if (next == work.now.end() || key(*next) != key(before[i]))
+      ended.push_back(i);
   }
+  const std::vector<double> losses = of_finders(work, ended, [&](std::size_t i) {
+    const Contact& c = before[i];
+    return end_loss(c, law_of(model, c), work.step * velocity_past(state, arms_of(model, state, c)));
+  });
+  double energy_lost = 0;
+  for (const double loss : losses)
+    energy_lost += loss;
   return energy_lost;
 }
 
@@ -113,22 +121,29 @@ void sum_block_forces(const Model& model, const std::vector<Contact>& contacts, 
 }
 
 // Those of one source stand by fragment, then corner: next to their places.
-void add_sorted(const std::vector<Contact>& found, std::vector<Contact>& contacts) {
+void add_sorted(const std::vector<Contact>& found, int rank, ContactWork& work) {
+  std::vector<Contact>& contacts = work.now;
   for (const Contact& c : found) {
     contacts.push_back(c);
-    for (std::size_t i = contacts.size() - 1; i > 0 && key(contacts[i]) < key(contacts[i - 1]); --i)
+    if (work.shared)
+      work.rank_now.push_back(rank);
+    for (std::size_t i = contacts.size() - 1; i > 0 && key(contacts[i]) < key(contacts[i - 1]); --i) {
       std::swap(contacts[i], contacts[i - 1]);
+      if (work.shared)
+        std::swap(work.rank_now[i], work.rank_now[i - 1]);
+    }
   }
 }
 
-void add(const ContactSums& more, ContactSums& sums) {
-  sums.depth = std::max(sums.depth, more.depth);
-  sums.depth_over_height = std::max(sums.depth_over_height, more.depth_over_height);
-  if (more.deepest > sums.deepest) {
-    sums.deepest = more.deepest;
-    sums.deepest_source = more.deepest_source;
-    sums.deepest_target = more.deepest_target;
+// What a chunk found, or a rank.
+void take(const ContactChunk& found, int rank, ContactWork& work, ContactSums& sums) {
+  add_sorted(found.contacts, rank, work);
+  add_forces(found.forces, work);
+  for (const ContactForce& force : found.forces) {
+    sums.friction += force.friction;
+    sums.damping += force.damping;
   }
+  add_depths(found.sums, sums);
 }
 
 } // namespace
@@ -140,8 +155,12 @@ ContactSums contact_forces(const Model& model, State& state, ContactWork& own, i
   own.all_due = own.all_due || own.looks_at_all;
   const bool out_of_skin = add_displacements(model, state, own, threads) || own.looks_at_all,
              fragments_due = own.fragments_due, known = own.history_complete, anew = own.anew;
-  if ((fragments_due || out_of_skin) && !search_contacts(model, state, own, threads))
-    return sums; // something is not a number: the stage's watch will say where
+  if (fragments_due || out_of_skin) {
+    begin_search(state, own);
+    if (!search_contacts(model, state, own, threads))
+      return sums; // something is not a number: the stage's watch will say where
+    share_rows(model, own);
+  }
   own.any_depth_begins = !known || (anew && (!state.face_slip.empty() || !model.mesh.sides.empty()));
   if (!fragments_due)
     std::fill(own.changed.begin(), own.changed.end(), 0);
@@ -158,7 +177,8 @@ ContactSums contact_forces(const Model& model, State& state, ContactWork& own, i
   const auto chunks = [](std::int64_t rows) {
     return (rows + contact_rows_per_chunk - 1) / contact_rows_per_chunk;
   };
-  const std::int64_t n_springs = chunks(springs), n = n_springs + chunks(edges);
+  const std::int64_t n_springs = chunks(springs);
+  const Range rows = own_chunks_of_rows(own, n_springs + chunks(edges));
   own.chunks.resize(static_cast<std::size_t>(chunks_at_a_time * threads));
   clear_forces(own);
   mark_touched_edges(state.contacts, own);
@@ -169,9 +189,11 @@ ContactSums contact_forces(const Model& model, State& state, ContactWork& own, i
   for (RowsAsleep& asleep : own.asleep)
     find_awake(own, asleep);
   own.now.clear();
+  own.rank_now.clear();
   own.now.reserve(state.contacts.size() + state.contacts.size() / 8 + 64);
-  for (std::int64_t first = 0; first < n; first += chunks_at_a_time * threads) {
-    const std::int64_t count = std::min(n - first, chunks_at_a_time * threads);
+  ContactChunk found; // by this rank, where there are others
+  for (std::int64_t first = rows.begin; first < rows.end; first += chunks_at_a_time * threads) {
+    const std::int64_t count = std::min(rows.end - first, chunks_at_a_time * threads);
     for_chunks(count, threads, [&](std::int64_t i) {
       ContactChunk& out = own.chunks[i];
       out.contacts.clear();
@@ -195,20 +217,19 @@ ContactSums contact_forces(const Model& model, State& state, ContactWork& own, i
           asleep.hindered[begin / contact_rows_per_chunk] ^= bits & -bits;
       }
     });
-    for (std::int64_t i = 0; i < count; ++i) {
-      add_sorted(own.chunks[i].contacts, own.now);
-      add_forces(own.chunks[i].forces, own);
-      for (const ContactForce& force : own.chunks[i].forces) {
-        sums.friction += force.friction;
-        sums.damping += force.damping;
-      }
-      add(own.chunks[i].sums, sums);
-    }
+    for (std::int64_t i = 0; i < count; ++i)
+      own.shared ? append(own.chunks[i], found) : take(own.chunks[i], 0, own, sums);
   }
-  sums.friction += lost(model, state, own.step, state.contacts, own.now);
+  if (own.shared) {
+    const std::vector<ContactChunk> by_rank = found_by_all(found);
+    for (std::size_t rank = 0; rank < by_rank.size(); ++rank)
+      take(by_rank[rank], static_cast<int>(rank), own, sums);
+  }
+  sums.friction += lost(model, state, own);
   if (own.now.capacity() > 2 * own.now.size() + 64)
     own.now.shrink_to_fit();
   std::swap(state.contacts, own.now);
+  std::swap(own.rank_of_contact, own.rank_now);
   own.due = false;
   own.step = 0;
   return sums;

@@ -97,6 +97,8 @@ public:
       for (int lane = 0; lane < faces; ++lane)
         one_face(batch, lane, stress);
     }
+    if (breaking_ != 0)
+      begun_.breaking.emplace_back(index_, breaking_);
     if (crack_.tension != 0 || crack_.shear != 0)
       begun_.energies.emplace_back(index_, crack_);
     return std::move(begun_);
@@ -122,9 +124,9 @@ private:
     CohesiveFace& cohesive = state_.cohesive[batch * lanes + lane];
     const FaceBatch& at = model_.mesh.faces[batch];
     if (face.stage[lane] == FaceStage::cracking && may_end(cohesive))
-      begun_.breaking += end_crack(at, lane, frame(batch, lane), joints_.of(place(batch, lane), room_),
-                                   stress_in(of_batch, lane), face, cohesive)
-                             .value_or(0);
+      breaking_ += end_crack(at, lane, frame(batch, lane), joints_.of(place(batch, lane), room_),
+                             stress_in(of_batch, lane), face, cohesive)
+                       .value_or(0);
     else if (holds(face.stage[lane]) && of_batch.may_fail[lane])
       begin(batch, lane, stress_in(of_batch, lane), strength_left(batch, lane));
   }
@@ -163,7 +165,7 @@ private:
     const Joint& joint = joints_.of(face, room_);
     const double taken = begin_crack(model_.mesh.faces[batch], lane, at, joint, stress, plane->normal,
                                      plane->mode, state_.faces[batch], state_.cohesive[batch * lanes + lane]);
-    begun_.breaking += taken;
+    breaking_ += taken;
     if (joint.softening != Softening::none)
       return;
     crack_.add(taken, plane->mode == BondMode::broken_shear ? 1 : 0);
@@ -190,25 +192,30 @@ private:
   OwnRocks rocks_;
   Joint room_;
   BegunCracks begun_;
-  CrackEnergy crack_; // J, of the chunk
+  double breaking_ = 0; // J, of the chunk
+  CrackEnergy crack_;   // J, of the chunk
 };
 
 } // namespace
 
-BegunCracks begin_cracks(const Model& model, State& state, double moved_for, int threads, bool in_real_time) {
-  std::vector<BegunCracks> of_chunks(model.mesh.chunks.size());
-  for_chunks(static_cast<std::int64_t>(of_chunks.size()), threads, [&](std::int64_t c) {
+BegunCracks begin_cracks(const Model& model, State& state, Range chunks, double moved_for, int threads,
+                         bool in_real_time) {
+  std::vector<BegunCracks> of_chunks(static_cast<std::size_t>(chunks.size()));
+  for_chunks(chunks, threads, [&](std::int64_t c) {
     const MeshChunk& chunk = model.mesh.chunks[c];
     if (chunk.side_batches.size() > 0 && !is_rigid(model, chunk))
-      of_chunks[c] = ChunkCracks(model, state, c, moved_for, in_real_time)();
+      of_chunks[c - chunks.begin] = ChunkCracks(model, state, c, moved_for, in_real_time)();
   });
   BegunCracks all;
-  for (const BegunCracks& some : of_chunks) {
-    all.breaking += some.breaking;
-    all.energies.insert(all.energies.end(), some.energies.begin(), some.energies.end());
-    all.broken.insert(all.broken.end(), some.broken.begin(), some.broken.end());
-  }
+  for (const BegunCracks& some : of_chunks)
+    append(some, all);
   return all;
+}
+
+void append(const BegunCracks& more, BegunCracks& all) {
+  all.breaking.insert(all.breaking.end(), more.breaking.begin(), more.breaking.end());
+  all.energies.insert(all.energies.end(), more.energies.begin(), more.energies.end());
+  all.broken.insert(all.broken.end(), more.broken.begin(), more.broken.end());
 }
 
 } // namespace cdem

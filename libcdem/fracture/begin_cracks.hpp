@@ -4,6 +4,7 @@
 // it: with those of now the change of energy would be that of two moments.
 #pragma once
 
+#include "libcdem/parallel/chunks.hpp"
 #include "libcdem/state/state.hpp"
 
 namespace cdem {
@@ -17,12 +18,17 @@ struct BegunCracks {
     double normal_traction = 0, shear_traction = 0; // Pa, on the plane
   };
   std::vector<Break> broken; // of brittle faces, which break at once
-  double breaking = 0;       // J, of what the faces stored
+  // J, by chunk, ascending: of what the faces stored.
+  std::vector<std::pair<std::int64_t, double>> breaking;
   // J, by chunk, ascending: what of `breaking` brittle faces took.
   std::vector<std::pair<std::int64_t, CrackEnergy>> energies;
 };
 
 // moved_for: s, since the stress was computed, at the velocity of the nodes. in_real_time: strengths follow the rate of strain where a joint says so; in a relaxation there is none.
-BegunCracks begin_cracks(const Model&, State&, double moved_for, int threads, bool in_real_time);
+// chunks: of MeshData::chunks, those looked at.
+BegunCracks begin_cracks(const Model&, State&, Range chunks, double moved_for, int threads,
+                         bool in_real_time);
+
+void append(const BegunCracks& more, BegunCracks& all); // of later chunks
 
 } // namespace cdem

@@ -7,6 +7,7 @@
 #include "libcdem/model/build/face_strength.hpp"
 #include "libcdem/model/build/freed_meshes.hpp"
 #include "libcdem/parallel/simd.hpp"
+#include "libcdem/ranks/shared_state.hpp"
 #include "libcdem/state/places.hpp"
 #include "libgeom/mesh/boundary.hpp"
 
@@ -212,11 +213,14 @@ FreeingWatch::FreeingWatch(const Model& model) {
   }
 }
 
-std::optional<std::vector<char>> FreeingWatch::due(const Model& model, const State& state, int threads,
+std::optional<std::vector<char>> FreeingWatch::due(const Model& model, const State& state,
+                                                   const SharedState* shared, int threads,
                                                    double from) const {
   const MeshData& mesh = model.mesh;
   std::vector<NearStrength> found(mesh.chunks.size());
-  for_chunks(static_cast<std::int64_t>(mesh.chunks.size()), threads, [&](std::int64_t c) {
+  const Range own =
+      shared ? shared->part().mesh_chunks() : Range{0, static_cast<std::int64_t>(mesh.chunks.size())};
+  for_chunks(own, threads, [&](std::int64_t c) {
     const MeshChunk& chunk = mesh.chunks[c];
     const Body& body = model.bodies[model.blocks[chunk.block].body];
     if (!body.bonding.is_cohesive() || is_rigid(model, chunk))
@@ -272,12 +276,18 @@ std::optional<std::vector<char>> FreeingWatch::due(const Model& model, const Sta
   double most = 0;
   for (const NearStrength& of : found)
     most = std::max(most, of.most);
+  if (shared)
+    ranks().largest(&most, 1);
   if (most < from)
     return std::nullopt;
-  std::vector<char> nodes(model.node_position.size(), 0);
+  std::string near(model.node_position.size(), 0);
   for (const NearStrength& of : found)
     for (const int node : of.nodes)
-      nodes[node] = 1;
+      near[node] = 1;
+  std::vector<char> nodes(near.size(), 0);
+  for (const std::string& of_rank : shared ? ranks().gather(near) : std::vector<std::string>{near})
+    for (std::size_t i = 0; i < nodes.size(); ++i)
+      nodes[i] = nodes[i] || of_rank[i];
   return nodes;
 }
 

@@ -12,6 +12,8 @@
 
 namespace cdem {
 
+class SharedState; // ranks/shared_state.hpp
+
 // Part of its strength at which a face is freed, and from where on it is high time.
 inline constexpr double freed_at = 0.5, due_at = 0.7;
 
@@ -23,7 +25,9 @@ public:
 
   // Per node of the model, 1 for those of faces between tets whose mean stress uses more than `freed_at` of the strength
   // and which are not freed yet; none unless one uses more than `from`. Stress: that of the state.
-  std::optional<std::vector<char>> due(const Model&, const State&, int threads, double from = due_at) const;
+  // shared: with several ranks, which look at their own chunks each; null: all are looked at.
+  std::optional<std::vector<char>> due(const Model&, const State&, const SharedState* shared, int threads,
+                                       double from = due_at) const;
 
 private:
   std::vector<int> neighbours_;   // per tet of the mesh and face of it: 4 tet + face on the other side, or -1

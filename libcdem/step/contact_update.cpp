@@ -39,6 +39,8 @@ void ContactUpdate::evaluate(const StageContext& context, ContactWork& work) {
 double ContactUpdate::longest_step(const StageContext& context, const Workspace& work, double safety,
                                    const StageStep& here) {
   const ContactSums sums = std::exchange(deepest_, {});
+  if (sums.deepest > 1 && work.shared)
+    work.shared->gather(context.state);
   if (sums.deepest > 1)
     refuse_depth(context.model, context.state, sums.deepest_source, sums.deepest_target, here);
   return std::min(
@@ -56,6 +58,8 @@ void ContactUpdate::start_anew(const Model& model, ContactWork& work) const {
   work.most_friction = before.most_friction;
   work.looks_at_all = before.looks_at_all;
   work.restitution = before.restitution;
+  work.shared = before.shared;
+  work.rank_of_contact = std::move(before.rank_of_contact);
   work.history_complete = true; // those of the step before
 }
 

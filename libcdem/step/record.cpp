@@ -114,7 +114,10 @@ std::int64_t record_face_breaks(const Model& model, State& state, Workspace& wor
 
 std::int64_t record_begun_cracks(const Model& model, State& state, const BegunCracks& begun, RunLog& log,
                                  int stage, std::int64_t step) {
-  state.spent.breaking += begun.breaking;
+  double stored = 0;
+  for (const auto& [chunk, energy] : begun.breaking)
+    stored += energy;
+  state.spent.breaking += stored;
   for (const auto& [chunk, energy] : begun.energies)
     crack_energy_of(model, state, model.blocks[model.mesh.chunks[chunk].block].body) += energy;
   for (const BegunCracks::Break& broken : begun.broken) {

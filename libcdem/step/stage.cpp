@@ -38,6 +38,16 @@ void ask_for_huge_pages_of(const Model& model, const State& state, const Workspa
   ask_for_huge_pages(work.partial);
 }
 
+// Nodes that loads need of whichever rank.
+std::vector<std::int32_t> nodes_of_bolts(const ResolvedConditions& r) {
+  std::vector<std::int32_t> nodes;
+  for (const ResolvedBolt& bolt : r.bolts)
+    for (const RockPlace& at : bolt.at)
+      if (at.inside)
+        nodes.insert(nodes.end(), at.nodes.begin(), at.nodes.end());
+  return nodes;
+}
+
 // A NaN anywhere shows in the sums over all forces or in the one over all velocities in the step it appears.
 bool finite(const NodeSums& sums) {
   return std::isfinite(sums.residual2) && std::isfinite(sums.kinetic) && std::isfinite(sums.reaction2);
@@ -64,6 +74,7 @@ Stage::Stage(const StageContext& context, std::string kind, double run_away)
   context_.threads = threads_.threads();
   ask_for_huge_pages_of(context_.model, context_.state, work);
   start_spring_forces(context_.model, context_.state, work.bond);
+  share();
   if (const RestartPoint* from = context_.from) {
     context_.last_good = context_.state;
     if (context_.restart_point)
@@ -86,6 +97,18 @@ Stage::~Stage() {
   synchronise();
 }
 
+void Stage::share() {
+  if (ranks().alone())
+    return;
+  shared_ = std::make_unique<SharedState>(context_.model, nodes_of_bolts(work.resolved));
+  work.shared = work.contact.shared = shared_.get();
+}
+
+void Stage::see_whole() {
+  if (shared_)
+    shared_->gather(context_.state);
+}
+
 void Stage::keep_restart_point(std::vector<double> loop_state, const std::vector<Node>& previous_force) {
   if (!context_.restart_point)
     return;
@@ -99,6 +122,11 @@ void Stage::keep_restart_point(std::vector<double> loop_state, const std::vector
   point.previous_force = previous_force;
   point.spring_force = work.bond.spring_force;
   point.stretch = work.bond.stretch;
+  if (shared_) {
+    shared_->gather_nodes(point.previous_force);
+    shared_->gather_points(point.spring_force);
+    shared_->gather_points(point.stretch);
+  }
   point.contact_step = work.contact.last_step;
   if (context_.procedure_state)
     point.procedure_state = context_.procedure_state();
@@ -112,7 +140,7 @@ bool Stage::free_nodes() {
     return false;
   const Model& model = context_.model;
   State& state = context_.state;
-  const auto due = freeing_.due(model, state, context_.threads);
+  const auto due = freeing_.due(model, state, shared_.get(), context_.threads);
   if (due) {
     synchronise_to_leave();
     Freed freed = cdem::free_nodes(model, state, *due);
@@ -129,6 +157,7 @@ bool Stage::free_nodes() {
     for (std::size_t i = 0; i < work.bond.laws.size(); ++i) // of the new Model
       work.bond.laws[i] = law_of_interface(model, model.interfaces[i]);
     work.contact = std::move(before.contact);
+    share();
     contacts_ = ContactUpdate(context_);
     contacts_.start_anew(model, work.contact);
     has_shared_nodes_ = has_shared_nodes(model);
@@ -195,13 +224,18 @@ void Stage::synchronise_contacts() {
 
 std::int64_t Stage::synchronise_stress(RunLog& log) {
   std::int64_t broken = 0;
-  const auto meshes = static_cast<std::int64_t>(context_.model.mesh.chunks.size());
   work.hand_over_due = step % hand_over_every == 0;
   if (work.strain_step > 0) {
-    for_chunks(meshes, context_.threads, [&](std::int64_t c) {
+    if (shared_)
+      shared_->parted();
+    for_chunks(work.mesh_chunks(context_.model), context_.threads, [&](std::int64_t c) {
       if (!is_rigid(context_.model, context_.model.mesh.chunks[c]))
         mesh_forces(context_.model, context_.state, work, c, breaking_);
     });
+    if (shared_) {
+      BegunCracks none;
+      share_sums(work, none);
+    }
     // Faces break and slide to where the nodes are too; the next step finds nothing left to do.
     broken = record_face_breaks(context_.model, context_.state, work, log, context_.number, step - 1);
     for (const FaceSums& sums : work.face_sums)
@@ -209,6 +243,7 @@ std::int64_t Stage::synchronise_stress(RunLog& log) {
         work.contact.due = true;
   }
   work.strain_step = 0;
+  see_whole();
   return broken;
 }
 
@@ -220,6 +255,7 @@ void Stage::synchronise_to_leave() {
 }
 
 void Stage::keep_state() {
+  see_whole();
   require_sound(context_.model, context_.state, work, run_away_, here());
   require_neighbours(context_.model, context_.state, here());
   synchronise_to_leave();
@@ -244,21 +280,26 @@ void Stage::look_for_escapes() {
 
 void Stage::watch(const StepReport& report) {
   record_step(report);
-  if (!finite(report.sums))
+  if (!finite(report.sums)) {
+    see_whole();
     require_sound(context_.model, context_.state, work, run_away_, here());
+  }
   if (follows_fragments)
     require_followed(context_.model, work, here());
   release_parted_blocks();
   if (step % watch_every == 0)
     keep_state();
   if (!work.resolved.flows.empty() && step % flow_every == 0) {
+    see_whole();
     refresh_flows(context_.model, context_.state, work.resolved);
     update_external(work.resolved, context_.state.time);
   }
   if (context_.log.due(context_.state.step))
     sample(report);
-  if (step % look_every == 0)
+  if (step % look_every == 0 && !context_.log.watches.empty()) {
+    see_whole();
     look_at_units(context_.model, context_.state, context_.conditions, context_.log);
+  }
   times_.end(StepLine::watch);
   poll(report);
 }
@@ -281,6 +322,7 @@ void Stage::record_step(const StepReport& report) {
 void Stage::release_parted_blocks() {
   if (context_.model.frames.empty() || step % release_every != 0)
     return;
+  see_whole();
   const Released released = release_interfaces(context_.model, context_.state, context_.threads);
   context_.state.spent.breaking += released.stored;
   context_.state.spent.external += released.water;
@@ -319,6 +361,8 @@ void Stage::sample(const StepReport& report) {
   std::optional<SynchronisedView> view;
   if (!context_.log.probes.empty())
     view.emplace(*this);
+  else if (!context_.state.water_pressure.empty())
+    see_whole();
   record_history(context_.model, context_.state, context_.conditions, context_.log, context_.number,
                  report.residual, report.sums.kinetic);
 }

@@ -19,6 +19,7 @@
 #include "libcdem/step/escape.hpp"
 #include "libcdem/step/options.hpp"
 #include "libcdem/step/progress_reporter.hpp"
+#include "libcdem/step/share_sums.hpp"
 #include "libcdem/step/soundness.hpp"
 #include "libcdem/step/stage_context.hpp"
 #include "libcdem/step/step_loops.hpp"
@@ -90,6 +91,8 @@ public:
 
 private:
   friend class SynchronisedView;
+  void share();                // with other ranks, when there are any
+  void see_whole();            // brings the state of all of them here
   void synchronise_to_leave(); // where a run may go on
   void synchronise_contacts();
   std::int64_t synchronise_stress(RunLog&); // returns how many springs broke, of which the log is told
@@ -106,6 +109,7 @@ private:
   void report(const StepReport&, bool last);
 
   StageContext context_;
+  std::unique_ptr<SharedState> shared_; // null where this rank is alone
   ThreadChoice threads_;
   ContactUpdate contacts_;
   StepTimes times_;
@@ -128,8 +132,12 @@ NodeSums Stage::advance(bool breaking, const Move& move, const MoveRigid& move_r
   work.hand_over_due = step % hand_over_every == 0;
   const int threads = context_.threads;
   breaking_ = breaking;
+  if (shared_)
+    shared_->parted();
   if (breaking && !model.mesh.sides.empty()) {
-    begun_ = begin_cracks(model, state, work.strain_step, threads, in_real_time);
+    begun_ = begin_cracks(model, state, work.mesh_chunks(model), work.strain_step, threads, in_real_time);
+    if (shared_)
+      shared_->share_faces(state);
     times_.end(StepLine::cracks);
   }
   if (!model.point_chunks.empty()) {
@@ -145,6 +153,11 @@ NodeSums Stage::advance(bool breaking, const Move& move, const MoveRigid& move_r
   if (!model.rigid.empty()) {
     rigid_bodies(model, work, threads, move_rigid);
     times_.end(StepLine::rigid_bodies);
+  }
+  if (shared_) {
+    shared_->share_nodes(state);
+    share_sums(work, begun_);
+    times_.end(StepLine::ranks);
   }
   return sums_of(work);
 }

@@ -12,9 +12,11 @@ namespace cdem {
 
 // Springs between blocks; each chunk of them writes its own forces only.
 inline void bond_forces(const Model& model, State& state, Workspace& work, int threads, bool breaking) {
-  for_chunks(static_cast<std::int64_t>(model.point_chunks.size()), threads, [&](std::int64_t c) {
+  for_chunks(work.point_chunks(model), threads, [&](std::int64_t c) {
     spring_forces(model, state, work.bond, model.point_chunks[c], work.bond.sums[c], breaking);
   });
+  if (work.shared)
+    work.shared->share_springs(work.bond.spring_force, work.bond.acting_force);
 }
 
 // Elements, the bonds inside meshes, and the motion of the nodes that no other chunk touches: all of a block, the inner
@@ -24,7 +26,7 @@ void element_forces(const Model& model, State& state, Workspace& work, int threa
                     const Move& move) {
   const auto meshes = static_cast<std::int64_t>(model.mesh.chunks.size());
   const auto stars = static_cast<std::int64_t>(model.chunks.size()) - meshes;
-  for_chunks(stars + meshes, threads, [&](std::int64_t c) {
+  for_chunks(work.chunks(model), threads, [&](std::int64_t c) {
     NodeSums sums;
     if (c < stars) {
       block_forces(model, state, work, model.chunks[c]);
@@ -43,6 +45,8 @@ void element_forces(const Model& model, State& state, Workspace& work, int threa
       move(Range{chunk.nodes.begin, chunk.inner_end}, force, sums);
     work.node_sums[c] = sums;
   });
+  if (work.shared)
+    work.shared->share_partial_forces(work.partial);
 }
 
 // Some node is touched by several chunks.
@@ -58,7 +62,7 @@ template <class Move>
 void shared_node_forces(const Model& model, State& state, Workspace& work, int threads, const Move& move) {
   const auto meshes = static_cast<std::int64_t>(model.mesh.chunks.size());
   const auto stars = static_cast<std::int64_t>(model.chunks.size()) - meshes;
-  for_chunks(meshes, threads, [&](std::int64_t c) {
+  for_chunks(work.mesh_chunks(model), threads, [&](std::int64_t c) {
     const MeshChunk& chunk = model.mesh.chunks[c];
     if (chunk.stars || is_rigid(model, chunk))
       return;

@@ -19,10 +19,11 @@ enum class StepLine {
   elements,     // with bonds inside meshes, and the motion of the nodes of one chunk alone
   shared_nodes, // sums over chunks, and the motion of the nodes of several
   rigid_bodies,
+  ranks,  // values and sums that ranks tell each other at the end of a step
   watch,  // energies, breaks, soundness, histories
   others, // between two steps: callbacks, checkpoints, progress
 };
-constexpr std::size_t step_lines = 10;
+constexpr std::size_t step_lines = 11;
 const char* name(StepLine);
 
 class StepTimes {

@@ -37,6 +37,8 @@ SynchronisedView::~SynchronisedView() {
   state.cohesive = cohesive_;
   state.crack_energy = crack_energy_;
   state.spent = spent_;
+  if (stage_.shared_) // of others, stresses are those of when they were last gathered
+    stage_.shared_->parted();
 }
 
 } // namespace cdem

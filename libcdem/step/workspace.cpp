@@ -16,4 +16,18 @@ Workspace::Workspace(const Model& model, const State& state, const Conditions& c
   start_contact(model, contact);
 }
 
+Range Workspace::chunks(const Model& model) const {
+  return shared ? shared->part().chunks() : Range{0, static_cast<std::int64_t>(model.chunks.size())};
+}
+
+Range Workspace::mesh_chunks(const Model& model) const {
+  return shared ? shared->part().mesh_chunks()
+                : Range{0, static_cast<std::int64_t>(model.mesh.chunks.size())};
+}
+
+Range Workspace::point_chunks(const Model& model) const {
+  return shared ? shared->part().point_chunks()
+                : Range{0, static_cast<std::int64_t>(model.point_chunks.size())};
+}
+
 } // namespace cdem

@@ -7,6 +7,7 @@
 #include "libcdem/contact/data/contact_work.hpp"
 #include "libcdem/integrate/move_nodes.hpp"
 #include "libcdem/load/resolve.hpp"
+#include "libcdem/ranks/shared_state.hpp"
 #include "libcdem/state/state.hpp"
 
 namespace cdem {
@@ -28,6 +29,12 @@ struct Workspace {
   ContactWork contact;
   std::vector<NodeSums> node_sums;  // per chunk of blocks
   std::vector<NodeSums> rigid_sums; // per rigid body
+
+  // With several ranks, each of which computes a part; null: this one computes all. Contact knows it too.
+  SharedState* shared = nullptr;
+  Range chunks(const Model&) const;       // of Model::chunks, what this rank computes
+  Range mesh_chunks(const Model&) const;  // of MeshData::chunks, likewise
+  Range point_chunks(const Model&) const; // of Model::point_chunks
 
   ActingForces acting() const { return {resolved, contact.force, bond.force()}; }
 };

@@ -1,6 +1,7 @@
 #include "libcdem/contact/broad_phase/movers.hpp"
 
 #include "libcdem/bond/fragments.hpp"
+#include "libcdem/ranks/shared_state.hpp"
 #include "libcdem/state/places.hpp"
 
 #include <algorithm>
@@ -168,12 +169,16 @@ std::vector<double> speeds_of_movers(const Model& model, const State& state, con
   const Movers& movers = work.movers;
   const auto blocks = static_cast<std::int64_t>(model.blocks.size());
   std::vector<double> speeds(movers.count(), 0.0);
+  const Range own = work.shared ? work.shared->part().nodes()
+                                : Range{0, static_cast<std::int64_t>(model.node_position.size())};
   for_chunks(movers.count(), threads, [&](std::int64_t m) {
     double speed2 = 0;
     if (m < blocks) {
       const Block& block = model.blocks[m];
+      const auto begin = std::max<std::int64_t>(block.node_begin, own.begin),
+                 end = std::min<std::int64_t>(block.node_end, own.end);
       if (block.meshed)
-        for (int node = block.node_begin; node < block.node_end; ++node)
+        for (auto node = static_cast<int>(begin); node < end; ++node)
           speed2 = std::max(speed2, velocity_of(state, node).squaredNorm());
     } else {
       for (int i = movers.node_begin[m - blocks]; i < movers.node_begin[m - blocks + 1]; ++i)
@@ -181,6 +186,8 @@ std::vector<double> speeds_of_movers(const Model& model, const State& state, con
     }
     speeds[m] = std::sqrt(speed2);
   });
+  if (work.shared)
+    ranks().largest(speeds.data(), speeds.size());
   return speeds;
 }
 

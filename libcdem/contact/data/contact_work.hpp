@@ -19,6 +19,8 @@
 
 namespace cdem {
 
+class SharedState; // ranks/shared_state.hpp
+
 inline constexpr std::int64_t contact_rows_per_chunk = 64;
 // Of the usual height of a tet at a block's surface: how deep a contact may be before the pairs around it are all looked
 // at in every step.
@@ -57,6 +59,7 @@ struct ContactRow {
   // it touches nothing (target -1) or nothing but this triangle.
   std::array<float, 3> known_until{};
   std::array<int, 3> known_target{-1, -1, -1};
+  int rank = 0; // that looks at it
 };
 
 // What movers there are. Those of blocks come first and have the numbers of their blocks.
@@ -215,6 +218,12 @@ struct ContactWork {
   int skin_doublings = 0; // how often skins have been doubled, as searches followed each other closely
   std::int64_t steps_since_search = 0; // steps since the search
   std::int64_t searches = 0;
+
+  // With several ranks, each of which looks at a run of chunks of rows; null: this one looks at all.
+  SharedState* shared = nullptr;
+  std::vector<std::int64_t> chunk_begin; // (ranks + 1) of the chunks of rows, those of springs first
+  // Per contact of State::contacts, and of `now`: the rank that found it.
+  std::vector<int> rank_of_contact, rank_now;
 
   std::vector<ContactChunk> chunks; // of as many chunks of rows as are computed at a time
   std::vector<Contact> now;         // those of the step, before they replace State::contacts

@@ -1,4 +1,4 @@
-#include "libcdem/parallel/ranks.hpp"
+#include "libcdem/ranks/ranks.hpp"
 
 #include <cstdlib>
 #include <dlfcn.h>

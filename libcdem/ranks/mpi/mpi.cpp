@@ -1,6 +1,6 @@
 // The ranks of an MPI job, as a module that the program loads only where it has been started as one of several
 // processes: without MPI it runs as ever. The only file that sees mpi.h.
-#include "libcdem/parallel/ranks.hpp"
+#include "libcdem/ranks/ranks.hpp"
 
 #include <algorithm>
 #include <mpi.h>

@@ -1,0 +1,88 @@
+#include "libcdem/ranks/links.hpp"
+
+#include <algorithm>
+#include <cstring>
+
+namespace cdem {
+
+void Links::set(std::vector<std::int32_t> needs, const std::function<int(std::int64_t)>& owner) {
+  Ranks& all = ranks();
+  std::sort(needs.begin(), needs.end());
+  needs.erase(std::unique(needs.begin(), needs.end()), needs.end());
+  const auto size = static_cast<std::size_t>(all.size());
+  send_.assign(size, {});
+  receive_.assign(size, {});
+  for (const std::int32_t entry : needs)
+    if (const int of = owner(entry); of != all.rank())
+      receive_[of].push_back(entry);
+  // All hear of all needs: that is done where contacts are searched, not in a step.
+  std::string told;
+  for (const std::vector<std::int32_t>& of : receive_) {
+    const auto count = static_cast<std::int32_t>(of.size());
+    told.append(reinterpret_cast<const char*>(&count), sizeof count);
+    told.append(reinterpret_cast<const char*>(of.data()), of.size() * sizeof(std::int32_t));
+  }
+  const std::vector<std::string> heard = all.gather(told);
+  any_ = false;
+  for (std::size_t from = 0; from < size; ++from) {
+    const char* at = heard[from].data();
+    for (int of = 0; of < all.size(); ++of) {
+      std::int32_t count = 0;
+      std::memcpy(&count, at, sizeof count);
+      at += sizeof count;
+      any_ = any_ || count > 0;
+      if (of == all.rank() && count > 0) {
+        send_[from].resize(static_cast<std::size_t>(count));
+        std::memcpy(send_[from].data(), at, static_cast<std::size_t>(count) * sizeof count);
+      }
+      at += static_cast<std::size_t>(count) * sizeof count;
+    }
+  }
+  sent_.resize(size);
+  received_.resize(size);
+}
+
+std::size_t Links::received() const {
+  std::size_t sum = 0;
+  for (const std::vector<std::int32_t>& of : receive_)
+    sum += of.size();
+  return sum;
+}
+
+void Links::share(const std::vector<Array>& arrays) {
+  if (!any_)
+    return;
+  std::size_t bytes = 0;
+  for (const Array& array : arrays)
+    bytes += array.bytes;
+  std::vector<Ranks::Parcel> send, receive;
+  for (std::size_t r = 0; r < send_.size(); ++r) {
+    if (!receive_[r].empty()) {
+      received_[r].resize(receive_[r].size() * bytes);
+      receive.push_back({static_cast<int>(r), received_[r].data(), received_[r].size()});
+    }
+    if (send_[r].empty())
+      continue;
+    sent_[r].resize(send_[r].size() * bytes);
+    char* to = sent_[r].data();
+    for (const Array& array : arrays)
+      for (const std::int32_t entry : send_[r]) {
+        std::memcpy(to, static_cast<const char*>(array.data) + array.bytes * static_cast<std::size_t>(entry),
+                    array.bytes);
+        to += array.bytes;
+      }
+    send.push_back({static_cast<int>(r), sent_[r].data(), sent_[r].size()});
+  }
+  ranks().exchange(send, receive);
+  for (std::size_t r = 0; r < receive_.size(); ++r) {
+    const char* from = received_[r].data();
+    for (const Array& array : arrays)
+      for (const std::int32_t entry : receive_[r]) {
+        std::memcpy(static_cast<char*>(array.data) + array.bytes * static_cast<std::size_t>(entry), from,
+                    array.bytes);
+        from += array.bytes;
+      }
+  }
+}
+
+} // namespace cdem

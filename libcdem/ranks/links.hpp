@@ -1,0 +1,39 @@
+// Entries of arrays that ranks send each other in a step, since one computes them and others read them.
+#pragma once
+
+#include "libcdem/ranks/ranks.hpp"
+
+#include <cstdint>
+#include <functional>
+#include <vector>
+
+namespace cdem {
+
+class Links {
+public:
+  // needs: numbers of entries that this rank reads and others own; may name some twice, and its own. owner: of an entry.
+  // All ranks make theirs together.
+  void set(std::vector<std::int32_t> needs, const std::function<int(std::int64_t)>& owner);
+
+  // An array with one entry for each number, all of one size.
+  struct Array {
+    void* data = nullptr;
+    std::size_t bytes = 0; // of an entry
+  };
+  template <class T>
+  static Array array(std::vector<T>& values) {
+    return {values.data(), sizeof(T)};
+  }
+  // Afterwards the entries that this rank needs are those of their owners.
+  void share(const std::vector<Array>& arrays);
+
+  bool any() const { return any_; } // of any rank
+  std::size_t received() const;     // entries
+
+private:
+  std::vector<std::vector<std::int32_t>> send_, receive_; // per rank, ascending
+  std::vector<std::vector<char>> sent_, received_;        // the same in bytes
+  bool any_ = false;
+};
+
+} // namespace cdem

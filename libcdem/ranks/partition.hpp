@@ -1,0 +1,39 @@
+// Which rank computes what: a run of consecutive chunks each, cut where a counted load is shared evenly. The load is
+// counted, never timed, so that a run can be repeated.
+#pragma once
+
+#include "libcdem/model/model.hpp"
+
+namespace cdem {
+
+struct State;
+
+// First of each rank's share, and the end of the last one's: size + 1 numbers. Shares are as even as whole items allow.
+std::vector<std::int64_t> even_shares(const std::vector<double>& load, int size);
+
+// What a step costs for each of Model::chunks, in tets: those that deform, and the bonds between them.
+std::vector<double> chunk_loads(const Model&);
+
+struct Partition {
+  int rank = 0, size = 1;
+  std::vector<std::int64_t> chunk_begin; // (size + 1) into Model::chunks
+  std::vector<std::int64_t> point_begin; // (size + 1) into Model::point_chunks
+  std::vector<std::int64_t> node_begin;  // (size + 1) nodes of those chunks
+  std::int64_t stars = 0;                // chunks of blocks of small strain, before those of meshes
+
+  Partition(const Model&, int rank, int size);
+
+  Range chunks() const { return share(chunk_begin); } // of Model::chunks
+  Range mesh_chunks() const;                          // of MeshData::chunks, likewise
+  Range point_chunks() const { return share(point_begin); }
+  Range nodes() const { return share(node_begin); }
+  int owner_of_node(std::int64_t node) const { return owner(node_begin, node); }
+  int owner_of_chunk(std::int64_t chunk) const { return owner(chunk_begin, chunk); }
+
+  static int owner(const std::vector<std::int64_t>& begin, std::int64_t item);
+
+private:
+  Range share(const std::vector<std::int64_t>& begin) const { return {begin[rank], begin[rank + 1]}; }
+};
+
+} // namespace cdem

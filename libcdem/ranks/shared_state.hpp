@@ -1,0 +1,54 @@
+// A State that several ranks advance together. In a step each computes its share of the chunks and learns from the others
+// what its share reads; in between, and for whoever looks, all of them have the whole State.
+//
+// A step sends (1) what springs bear, to the blocks they pull at; (2) the slices of partial forces, to the owners of
+// nodes; (3) where the nodes are then, to those who read them; and sums. A node is moved by its owner alone, since that
+// knows all that acts on it: one more message than if all who hold a copy moved it, and half the rules.
+#pragma once
+
+#include "libcdem/ranks/links.hpp"
+#include "libcdem/ranks/partition.hpp"
+#include "libcdem/state/state.hpp"
+
+namespace cdem {
+
+class SharedState {
+public:
+  // read_always: nodes that this rank reads whichever chunks are its own.
+  SharedState(const Model&, const std::vector<std::int32_t>& read_always);
+
+  const Partition& part() const { return part_; }
+
+  // In a step.
+  void share_springs(std::vector<geom::Vec3>& spring_force, std::vector<geom::Vec3>& acting_force);
+  void share_partial_forces(std::vector<geom::Vec3>& partial);
+  void share_faces(State&); // that cracks have begun or ended in
+  void share_nodes(State&); // moved, with the stress that faces of others read
+
+  // Nodes that this rank reads beside those that the model tells of: those around its contacts. All ranks call it
+  // together, where the state is whole.
+  void set_further_nodes(std::vector<std::int32_t> nodes);
+
+  // The state is not whole any more: each rank has its share and what it reads.
+  void parted() { whole_ = false; }
+  bool whole() const { return whole_; }
+  // Makes it whole.
+  void gather(State&);
+  // Of arrays that stand beside the State: by point, by node.
+  void gather_points(std::vector<geom::Vec3>& values) const;
+  void gather_nodes(std::vector<Node>& values) const;
+
+private:
+  std::vector<std::size_t> bytes_by_node(std::size_t entry) const;
+  std::vector<std::size_t> bytes_by_point(std::size_t entry) const;
+  void gather_slips(State&) const;
+
+  Partition part_;
+  bool whole_ = true;
+  std::vector<std::int64_t> point_begin_, batch_begin_,
+      face_begin_;                  // per rank: springs, batches of tets, of faces
+  std::vector<std::int32_t> nodes_; // that the model tells of, and read_always
+  Links springs_, partial_, moved_, stress_, faces_;
+};
+
+} // namespace cdem
