@@ -6,7 +6,7 @@
 #include "apps/cdem/memory.hpp"
 #include "apps/cdem/option_values.hpp"
 #include "apps/cdem/ranks/start_ranks.hpp"
-#include "libcdem/parallel/ranks.hpp"
+#include "libcdem/ranks/ranks.hpp"
 #include "lua/binding/schema/nearest.hpp"
 
 #include <CLI/CLI.hpp>
@@ -17,6 +17,7 @@ namespace cdem::app {
 namespace {
 
 constexpr int most_threads = 1024;
+constexpr int most_points = 100000;
 constexpr const char* threads_text =
     "threads (every core, shared among the ranks); results are the same bits for any number";
 
@@ -24,9 +25,9 @@ constexpr const char* threads_text =
 struct Typed {
   std::string file, output, threads, ranks, memory, jobs, colour,
       deformation = "0", view = "front", up = "y", size = "1600x1200", range, hidden, colour_map = "auto",
-      title, topic, checkpoint_every = "10", sources;
+      title, topic, checkpoint_every = "10", sources, point;
   std::vector<std::string> set;
-  bool unsafe = false, quiet = false, machine = false, version = false, manual = false;
+  bool slurm = false, unsafe = false, quiet = false, machine = false, version = false, manual = false;
   bool no_edges = false, no_broken_bonds = false, no_colour_bar = false, no_legend = false, no_axes = false;
 };
 
@@ -276,10 +277,18 @@ private:
     add_threads(command, "threads of each run (the cores shared among the jobs)");
     add_memory(command);
     add_output(command, "DIR", "folder for the runs and sweep.csv (results/<case>-sweep)");
+    command->add_flag("--slurm", typed_.slurm, "run nothing; write DIR/sweep.sbatch, a job array for sbatch");
+    command->add_option("--ranks", typed_.ranks, "with --slurm: processes that solve each run together (1)")
+        ->option_text("N");
+    command->add_option("--point", typed_.point, "the run that a task of the array is for")->group("");
     command->add_flag("--quiet,-q", typed_.quiet, "print nothing but warnings and errors");
-    finish(command, "  cdem sweep case.lua --set pressure=20e6,25e6,30e6 --set cohesion=5e6,8e6 --jobs 2\n",
-           "Every run runs the script, and the files that it requires by a name in quotes, as they are when\n"
-           "the sweep begins; swept/ in its folder keeps them. Data files are read as they are then.\n");
+    finish(
+        command, "  cdem sweep case.lua --set pressure=20e6,25e6,30e6 --set cohesion=5e6,8e6 --jobs 2\n",
+        "Every run runs the script, and the files that it requires by a name in quotes, as they are when\n"
+        "the sweep begins; swept/ in its folder keeps them. Data files are read as they are then.\n"
+        "\n"
+        "--slurm writes a job array. The same command again, when jobs have ended, gathers their figures in\n"
+        "sweep.csv and writes an array of the rest: docs/cluster.md.\n");
   }
   void add_render() {
     auto* command = app_.add_subcommand("render", "draw a picture of a .vtu file");
@@ -380,9 +389,9 @@ private:
   }
 
   // What does not solve one model is not for several ranks.
-  static void refuse_ranks(const std::string& command) {
+  void refuse_ranks(const std::string& command) const {
     for (const char* const name : {"sweep", "render", "repl"})
-      if (command == name && processes_started() > 1)
+      if (command == name && typed_.point.empty() && processes_started() > 1)
         throw UsageError("cdem " + command + ": this is one of " + std::to_string(processes_started()) +
                          " ranks that mpirun or srun has started; start it by itself");
   }
@@ -464,6 +473,7 @@ private:
     RunCommand c;
     c.script = typed_.file;
     c.sources = typed_.sources;
+    c.ends_with_parent = !typed_.sources.empty();
     c.output = typed_.output;
     c.threads = threads();
     c.memory = memory();
@@ -516,6 +526,15 @@ private:
     c.unsafe = typed_.unsafe;
     c.quiet = typed_.quiet;
     c.line = line_;
+    c.sets = typed_.set;
+    c.ranks = typed_.ranks.empty() ? 1 : whole_number("--ranks", typed_.ranks, 1, most_ranks);
+    if (!typed_.point.empty())
+      return
+          [c, point = whole_number("--point", typed_.point, 1, most_points)] { return run_point(c, point); };
+    if (typed_.slurm)
+      return [c] { return write_job_array(c); };
+    if (c.ranks > 1)
+      throw UsageError("cdem sweep: --ranks goes with --slurm; here the runs stand side by side (--jobs)");
     return [c] { return sweep(c); };
   }
 

@@ -20,6 +20,9 @@ public:
   using std::runtime_error::runtime_error;
 };
 
+inline constexpr const char* not_enough_memory =
+    "not enough memory: the model is too large for this machine, or for what --memory allows";
+
 struct Failure {
   ExitCode code = ExitCode::internal_error;
   std::string line;    // one line, without "cdem: error: "

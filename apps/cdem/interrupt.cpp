@@ -1,7 +1,7 @@
 #include "apps/cdem/interrupt.hpp"
 
 #include "apps/cdem/ranks/rank.hpp"
-#include "libcdem/parallel/ranks.hpp"
+#include "libcdem/ranks/ranks.hpp"
 #include "lua/binding/replay/led.hpp"
 
 #include <algorithm>

@@ -52,7 +52,7 @@ int run_program(int argc, char** argv) {
   interrupt::install();
   std::set_terminate(end_by_exception);
   try {
-    join_other_ranks();
+    join_other_ranks(argc, argv);
     (void)instruction_set(); // what the environment asks for is told of at once
     const ExitCode code = parse_command_line(argc, argv)();
     require_stdout_written();

@@ -143,6 +143,25 @@ TEST_CASE("ranks: an error of the script is told once, with its exit code") {
              Contains("did you mean"));
 }
 
+TEST_CASE("ranks: an output folder that goes while they run ends all with one message") {
+  if (no_mpirun())
+    return;
+  Place place("print 'begins'\nlocal till = os.time() + 2\nwhile os.time() < till do end");
+  auto running = std::async(std::launch::async, [&] {
+    return place.cdem({"run", "plate/case.lua", "--output", "out", "--ranks", "2"});
+  });
+  const auto begun = std::chrono::steady_clock::now();
+  while (place.log().find("begins") == std::string::npos &&
+         std::chrono::steady_clock::now() - begun < std::chrono::seconds(20))
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+  fs::remove_all(place.folder / "out");
+  const Outcome outcome = running.get();
+  INFO(outcome.out << outcome.err);
+  CHECK(outcome.exit_code == 4);
+  CHECK(lines_of(outcome.err).size() == 1);
+  CHECK_THAT(outcome.err, Contains("cdem: error: ") && Contains("out"));
+}
+
 TEST_CASE("ranks: Ctrl-C and SIGTERM keep a checkpoint, from which another number of ranks goes on") {
   if (no_mpirun())
     return;
@@ -235,8 +254,8 @@ print(none, why)
 -- Ranks that had seen other values would come to the stage with other arguments, and be told so.
 local rock = cdem.elastic{ youngs_modulus = 1e9 + #all + at + tonumber(text:match("^%d+ ([%d.]+)")), poissons_ratio = 0,
   density = 2000 + math.random() }
-local model = cdem.model{ bodies = { { shape = cdem.grid{ size = {1, 1, 1}, divisions = {1, 1, 1} },
-  material = rock } } }
+local box = cdem.solid.box{ size = {1, 1, 1} }:mesh{ size = 0.5 } -- in a child process of rank 0
+local model = cdem.model{ bodies = { { shape = box, material = rock } } }
 model:fix{ on = "y-" }
 model:gravity{ vector = {0, -9.81, 0} }
 model:run{ steps = 100 + lines * 10 + math.random(50) + #all + at + math.floor(os.clock() * 1e6) % 50 }

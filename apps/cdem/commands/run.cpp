@@ -7,6 +7,7 @@
 #include "apps/cdem/memory.hpp"
 #include "apps/cdem/ranks/rank.hpp"
 #include "apps/cdem/records.hpp"
+#include "libcdem/ranks/ranks.hpp"
 #include "lua/binding/replay/led.hpp"
 #include "lua/binding/runtime/sources.hpp"
 
@@ -29,11 +30,12 @@ void save_last_states(script::Engine& engine, RunObserver& observer) {
 }
 
 void record_settings(const RunCommand& command, int threads, const script::Engine& engine,
-                     OutputFolder& folder) {
+                     OutputFolder& folder, const std::vector<RankLoad>& loads) {
   const fs::path file = folder.path() / "settings.json";
   folder.will_write(file);
   write_settings(
-      {command.script.string(), version(), threads, command.unsafe, command.set, engine.parameters()}, file);
+      {command.script.string(), version(), threads, command.unsafe, command.set, engine.parameters(), loads},
+      file);
 }
 
 // After a failure, whose own error matters more than this one.
@@ -41,7 +43,7 @@ void record_if_possible(const RunCommand& command, int threads, const script::En
                         OutputFolder& folder) {
   try {
     if (folder.begun())
-      record_settings(command, threads, engine, folder);
+      record_settings(command, threads, engine, folder, {});
   } catch (const std::exception& error) {
     folder.log(error.what());
   }
@@ -83,13 +85,18 @@ void run_script(const RunCommand& command, const fs::path& output, int threads, 
       record_if_possible(command, threads, engine, *folder);
     throw;
   }
-  script::led_act("settings", [&] { record_settings(command, threads, engine, *folder); });
+  const std::vector<RankLoad> loads = loads_of_ranks();
+  script::led_act("settings", [&] {
+    for (std::size_t rank = 0; rank < loads.size(); ++rank)
+      folder->log(load_text(static_cast<int>(rank), loads[rank]));
+    record_settings(command, threads, engine, *folder, loads);
+  });
 }
 
 } // namespace
 
 ExitCode run(const RunCommand& command) {
-  if (!command.sources.empty()) // of a sweep
+  if (command.ends_with_parent)
     interrupt::with_parent();
   const fs::path source = script::kept_source(command.sources, command.script.filename(), command.script);
   script::led_act("script", [&] { require_script(source); });
@@ -103,12 +110,14 @@ ExitCode run(const RunCommand& command) {
   const script::Value number = script::led("the output folder", [&]() -> script::Value {
     folder = std::make_unique<OutputFolder>(
         output, command.script,
-        "cdem " + version() + " (" + build_text() + "), " + ranks_text(threads) + command.line,
+        "cdem " + version() + " (" + build_text() + "), " + ranks_text(threads) + ", " + command.line,
         command.resume.empty() ? OutputFolder::Start::anew : OutputFolder::Start::goes_on, source);
     return static_cast<std::int64_t>(folder->run());
   });
   const auto observer =
       std::make_shared<RunObserver>(folder ? command.progress : ProgressStyle::none, folder.get());
+  if (!ranks().alone())
+    observer->message(ranks_text(threads));
   const auto finish = [&](ExitCode code, const std::string& error) {
     script::led_act("the end of the log", [&] { folder->finish(code, error); });
   };

@@ -1,15 +1,23 @@
 #include "apps/cdem/ranks/rank.hpp"
 
+#include "apps/cdem/build_info.hpp"
 #include "apps/cdem/interrupt.hpp"
 #include "apps/cdem/ranks/standard_files.hpp"
-#include "libcdem/parallel/ranks.hpp"
+#include "apps/cdem/text.hpp"
+#include "libcdem/checkpoint/xxh64.hpp"
+#include "libcdem/ranks/ranks.hpp"
+#include "lua/binding/replay/led.hpp"
 
 #include <array>
 #include <atomic>
 #include <chrono>
+#include <cmath>
 #include <condition_variable>
 #include <cstdlib>
+#include <fstream>
 #include <mutex>
+#include <new>
+#include <sstream>
 #include <thread>
 
 #include <fcntl.h>
@@ -27,8 +35,9 @@ constexpr seconds others_come_in{8}; // to where all tell each other that they h
 constexpr seconds rank_0_speaks_in{1};
 constexpr seconds abort_takes{3};
 
-int starter = -1;                      // socket to who started us by --ranks
-int users_stderr = STDERR_FILENO;      // of ranks that print nothing
+int starter = -1;                 // socket to who started us by --ranks
+int users_stderr = STDERR_FILENO; // of ranks that print nothing
+std::chrono::steady_clock::time_point joined_at;
 std::atomic<bool> known_to_all{false}; // that this rank has failed
 
 // Of a rank that has not joined yet.
@@ -45,6 +54,29 @@ void print_nothing() {
   for (const int file : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
     dup2(nothing, file);
   close(nothing);
+}
+
+// A rank that fails within a step cannot tell the others.
+void end_for_want_of_memory() {
+  if (!script::with_others())
+    throw std::bad_alloc();
+  std::set_new_handler(nullptr);
+  interrupt::end_now(ExitCode::bad_input, not_enough_memory);
+}
+
+std::string hash_of_program() {
+  std::ifstream in("/proc/self/exe", std::ios::binary);
+  Xxh64 sum;
+  std::vector<char> part(std::size_t{1} << 20);
+  while (in.read(part.data(), static_cast<std::streamsize>(part.size())) || in.gcount() > 0)
+    sum.add(part.data(), static_cast<std::size_t>(in.gcount()));
+  return version() + " " + std::to_string(sum.value());
+}
+
+std::string host_name() {
+  std::array<char, 256> host{};
+  gethostname(host.data(), host.size() - 1);
+  return host.data();
 }
 
 // Ends all ranks unless it is called off: the others do not come.
@@ -76,7 +108,7 @@ private:
 
 } // namespace
 
-void join_other_ranks() {
+void join_other_ranks(int argc, const char* const* argv) {
   if (processes_started() == 1)
     return;
   const bool first = rank_by_starter() == 0;
@@ -90,7 +122,14 @@ void join_other_ranks() {
   } catch (const std::runtime_error& error) {
     throw UsageError(error.what());
   }
+  joined_at = std::chrono::steady_clock::now();
   interrupt::join_ranks();
+  std::set_new_handler(end_for_want_of_memory);
+  script::require_same("the program", hash_of_program());
+  std::string line;
+  for (int i = 1; i < argc; ++i)
+    line += std::string(argv[i]) + '\0';
+  script::require_same("the command line", line);
 }
 
 int leave_other_ranks(int exit_code) {
@@ -145,13 +184,11 @@ void tell_starter(int exit_code) {
 int ranks_on_these_cores() {
   if (ranks().alone())
     return 1;
-  std::array<char, 256> host{};
-  gethostname(host.data(), host.size() - 1);
   cpu_set_t cores;
   CPU_ZERO(&cores);
   sched_getaffinity(0, sizeof cores, &cores);
   const std::string mine =
-      std::string(host.data()) + '\0' + std::string(reinterpret_cast<const char*>(&cores), sizeof cores);
+      host_name() + '\0' + std::string(reinterpret_cast<const char*>(&cores), sizeof cores);
   int same = 0;
   for (const std::string& place : ranks().gather(mine))
     same += place == mine ? 1 : 0;
@@ -159,8 +196,33 @@ int ranks_on_these_cores() {
 }
 
 std::string ranks_text(int threads) {
-  const std::string text = std::to_string(threads) + (threads == 1 ? " thread, " : " threads, ");
+  const std::string text = std::to_string(threads) + (threads == 1 ? " thread" : " threads");
   return ranks().alone() ? text : std::to_string(ranks().size()) + " ranks of " + text;
+}
+
+std::vector<RankLoad> loads_of_ranks() {
+  if (ranks().alone())
+    return {};
+  const Ranks::Traffic& mine = ranks().traffic();
+  const std::chrono::duration<double> passed = std::chrono::steady_clock::now() - joined_at;
+  std::ostringstream told;
+  told.precision(17);
+  told << host_name() << ' ' << mine.messages << ' ' << mine.bytes << ' ' << mine.waited << ' '
+       << passed.count();
+  std::vector<RankLoad> all;
+  for (const std::string& text : ranks().gather(told.str())) {
+    RankLoad load;
+    std::istringstream(text) >> load.host >> load.messages >> load.bytes >> load.waited >> load.passed;
+    all.push_back(load);
+  }
+  return all;
+}
+
+std::string load_text(int rank, const RankLoad& load) {
+  const double share = load.passed > 0 ? load.waited / load.passed : 0;
+  return "rank " + std::to_string(rank) + " on " + load.host + ": " + count_text(load.messages) +
+         " messages of " + number_text(1e-6 * static_cast<double>(load.bytes)) + " MB in all, waited " +
+         std::to_string(std::lround(100 * share)) + " % of " + duration_text(load.passed);
 }
 
 } // namespace cdem::app

@@ -4,6 +4,7 @@
 #include "apps/cdem/failure.hpp"
 #include "apps/cdem/interrupt.hpp"
 #include "apps/cdem/ranks/standard_files.hpp"
+#include "libcdem/ranks/ranks.hpp"
 
 #include <array>
 #include <atomic>
@@ -86,6 +87,7 @@ private:
 
 pid_t start(std::vector<std::string> command, const Said& said) {
   std::vector<char*> words;
+  words.reserve(command.size() + 1);
   for (std::string& word : command)
     words.push_back(word.data());
   words.push_back(nullptr);
@@ -115,6 +117,8 @@ void pass_on(int& passed, pid_t mpirun, const StandardFiles& files) {
 } // namespace
 
 ExitCode start_ranks(int count, const std::vector<std::string>& words) {
+  if (module_of_ranks().empty())
+    throw UsageError("--ranks: cdem was built without MPI; install libopenmpi-dev and build it again");
   set_up_mpi();
   hear_signals();
   StandardFiles files;

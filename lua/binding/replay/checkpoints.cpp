@@ -1,7 +1,7 @@
 // Checkpoints of a run as files: two in turn, so that one is whole whatever happens while the other is written.
 #include "libcdem/checkpoint/archive.hpp"
 #include "libcdem/checkpoint/file.hpp"
-#include "libcdem/parallel/ranks.hpp"
+#include "libcdem/ranks/ranks.hpp"
 #include "libgeom/core/error.hpp"
 #include "lua/binding/objects/model_object.hpp"
 #include "lua/binding/replay/led.hpp"

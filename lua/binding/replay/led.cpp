@@ -1,6 +1,6 @@
 #include "lua/binding/replay/led.hpp"
 
-#include "libcdem/parallel/ranks.hpp"
+#include "libcdem/ranks/ranks.hpp"
 #include "libcdem/step/errors.hpp"
 #include "libgeom/core/error.hpp"
 #include "libgeom/core/stop.hpp"

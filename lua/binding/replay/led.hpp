@@ -1,4 +1,4 @@
-// Work that rank 0 does for all ranks (libcdem/parallel/ranks.hpp): what reads or writes files, asks the clock, starts
+// Work that rank 0 does for all ranks (libcdem/ranks/ranks.hpp): what reads or writes files, asks the clock, starts
 // processes. All of them call it at the same place of the same script; the others are told its result or its error, so
 // that the script goes the same way everywhere. One process alone just does it.
 #pragma once

@@ -3,7 +3,7 @@
 // writing and seeking go alike on all. Nothing of this is used by one process alone.
 #include "lua/binding/runtime/lua_library.hpp"
 
-#include "libcdem/parallel/ranks.hpp"
+#include "libcdem/ranks/ranks.hpp"
 #include "lua/binding/replay/led.hpp"
 
 #include <cerrno>

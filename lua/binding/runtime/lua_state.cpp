@@ -178,8 +178,6 @@ std::string LuaState::message_of_current_exception(lua_State* L, const std::stri
     kind = ErrorKind::file;
     message = front + error.what();
   } catch (const std::bad_alloc&) {
-    if (with_others())
-      std::terminate(); // perhaps on this rank alone: the others cannot know
     message = front + "not enough memory; use fewer blocks or fewer rows, or allow more with --memory";
   } catch (const std::exception& error) {
     message = front + after_name(shown, error.what());

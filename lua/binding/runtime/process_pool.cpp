@@ -1,6 +1,6 @@
 #include "lua/binding/runtime/process_pool.hpp"
 
-#include "libcdem/parallel/ranks.hpp"
+#include "libcdem/ranks/ranks.hpp"
 #include "lua/binding/runtime/engine.hpp"
 
 #include <chrono>
