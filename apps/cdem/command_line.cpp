@@ -5,6 +5,8 @@
 #include "apps/cdem/failure.hpp"
 #include "apps/cdem/memory.hpp"
 #include "apps/cdem/option_values.hpp"
+#include "apps/cdem/ranks/start_ranks.hpp"
+#include "libcdem/ranks/ranks.hpp"
 #include "lua/binding/schema/nearest.hpp"
 
 #include <CLI/CLI.hpp>
@@ -15,14 +17,17 @@ namespace cdem::app {
 namespace {
 
 constexpr int most_threads = 1024;
+constexpr int most_points = 100000;
+constexpr const char* threads_text =
+    "threads (every core, shared among the ranks); results are the same bits for any number";
 
 // Everything that can be typed, as typed.
 struct Typed {
-  std::string file, output, threads, memory, jobs, colour,
+  std::string file, output, threads, ranks, memory, jobs, colour,
       deformation = "0", view = "front", up = "y", size = "1600x1200", range, hidden, colour_map = "auto",
-      title, topic, checkpoint_every = "10", sources;
+      title, topic, checkpoint_every = "10", sources, point;
   std::vector<std::string> set;
-  bool unsafe = false, quiet = false, machine = false, version = false, manual = false;
+  bool slurm = false, unsafe = false, quiet = false, machine = false, version = false, manual = false;
   bool no_edges = false, no_broken_bonds = false, no_colour_bar = false, no_legend = false, no_axes = false;
 };
 
@@ -98,6 +103,7 @@ public:
   }
 
   std::function<ExitCode()> parse(int argc, const char* const* argv) {
+    words_.assign(argv + std::min(1, argc), argv + argc);
     for (int i = 0; i < argc; ++i)
       line_ += (i == 0 ? "cdem" : std::string(" ") + argv[i]);
     try {
@@ -179,6 +185,12 @@ private:
   void add_threads(CLI::App* command, const std::string& text) {
     command->add_option("--threads", typed_.threads, text)->option_text("N");
   }
+  void add_ranks(CLI::App* command) {
+    command
+        ->add_option("--ranks", typed_.ranks,
+                     "processes that solve the model together, by mpirun (1); the same bits for any number")
+        ->option_text("N");
+  }
   void add_memory(CLI::App* command) {
     command
         ->add_option("--memory", typed_.memory,
@@ -193,7 +205,8 @@ private:
     auto* command = app_.add_subcommand("run", "run a case script");
     add_script_options(command);
     add_output(command, "DIR", "folder for results and log (results/<case>)");
-    add_threads(command, "threads (every core); results are the same bits for any number");
+    add_threads(command, threads_text);
+    add_ranks(command);
     add_memory(command);
     add_set(command, "NAME=VALUE", "value of a parameter of the script; may be repeated");
     add_checkpoint_every(command);
@@ -226,7 +239,8 @@ private:
     auto* command = app_.add_subcommand("resume", "go on with a run that was stopped or killed");
     command->add_option("FOLDER", typed_.file, "its output folder")->option_text(" ");
     add_unsafe(command);
-    add_threads(command, "threads (every core); results are the same bits for any number");
+    add_threads(command, threads_text);
+    add_ranks(command);
     add_memory(command);
     add_checkpoint_every(command);
     command->add_flag("--quiet,-q", typed_.quiet, "print nothing but warnings and errors");
@@ -263,10 +277,18 @@ private:
     add_threads(command, "threads of each run (the cores shared among the jobs)");
     add_memory(command);
     add_output(command, "DIR", "folder for the runs and sweep.csv (results/<case>-sweep)");
+    command->add_flag("--slurm", typed_.slurm, "run nothing; write DIR/sweep.sbatch, a job array for sbatch");
+    command->add_option("--ranks", typed_.ranks, "with --slurm: processes that solve each run together (1)")
+        ->option_text("N");
+    command->add_option("--point", typed_.point, "the run that a task of the array is for")->group("");
     command->add_flag("--quiet,-q", typed_.quiet, "print nothing but warnings and errors");
-    finish(command, "  cdem sweep case.lua --set pressure=20e6,25e6,30e6 --set cohesion=5e6,8e6 --jobs 2\n",
-           "Every run runs the script, and the files that it requires by a name in quotes, as they are when\n"
-           "the sweep begins; swept/ in its folder keeps them. Data files are read as they are then.\n");
+    finish(
+        command, "  cdem sweep case.lua --set pressure=20e6,25e6,30e6 --set cohesion=5e6,8e6 --jobs 2\n",
+        "Every run runs the script, and the files that it requires by a name in quotes, as they are when\n"
+        "the sweep begins; swept/ in its folder keeps them. Data files are read as they are then.\n"
+        "\n"
+        "--slurm writes a job array. The same command again, when jobs have ended, gathers their figures in\n"
+        "sweep.csv and writes an array of the rest: docs/cluster.md.\n");
   }
   void add_render() {
     auto* command = app_.add_subcommand("render", "draw a picture of a .vtu file");
@@ -366,6 +388,14 @@ private:
                      (name.size() > 2 ? script::did_you_mean(name, names) : std::string()));
   }
 
+  // What does not solve one model is not for several ranks.
+  void refuse_ranks(const std::string& command) const {
+    for (const char* const name : {"sweep", "render", "repl"})
+      if (command == name && typed_.point.empty() && processes_started() > 1)
+        throw UsageError("cdem " + command + ": this is one of " + std::to_string(processes_started()) +
+                         " ranks that mpirun or srun has started; start it by itself");
+  }
+
   void require_file(const std::string& what, const std::string& command) const {
     if (typed_.file.empty())
       throw UsageError("cdem " + command + ": which file? usage: cdem " + command + " " + what);
@@ -373,6 +403,23 @@ private:
 
   int threads() const {
     return typed_.threads.empty() ? 0 : whole_number("--threads", typed_.threads, 1, most_threads);
+  }
+
+  // `here`, or as several ranks that --ranks asks for.
+  Action among_ranks(Action here) const {
+    const int count = typed_.ranks.empty() ? 1 : whole_number("--ranks", typed_.ranks, 1, most_ranks);
+    if (!typed_.ranks.empty() && processes_started() > 1)
+      throw UsageError("--ranks " + typed_.ranks + ": this is one of " + std::to_string(processes_started()) +
+                       " ranks that mpirun or srun has started; leave --ranks out");
+    if (count == 1)
+      return here;
+    std::vector<std::string> words;
+    for (std::size_t i = 0; i < words_.size(); ++i)
+      if (words_[i] == "--ranks")
+        ++i;
+      else if (words_[i].rfind("--ranks=", 0) != 0)
+        words.push_back(words_[i]);
+    return [count, words] { return start_ranks(count, words); };
   }
 
   std::size_t memory() const { return typed_.memory.empty() ? 0 : memory_value("--memory", typed_.memory); }
@@ -387,6 +434,7 @@ private:
     if (chosen.empty())
       return print(help_of(&app_));
     const std::string command = chosen.front()->get_name();
+    refuse_ranks(command);
     if (command == "help")
       return help_action();
     if (command == "run")
@@ -425,6 +473,7 @@ private:
     RunCommand c;
     c.script = typed_.file;
     c.sources = typed_.sources;
+    c.ends_with_parent = !typed_.sources.empty();
     c.output = typed_.output;
     c.threads = threads();
     c.memory = memory();
@@ -433,7 +482,7 @@ private:
     c.progress = progress_style();
     c.checkpoint_minutes = checkpoint_minutes();
     c.line = line_;
-    return [c] { return run(c); };
+    return among_ranks([c] { return run(c); });
   }
 
   double checkpoint_minutes() const {
@@ -460,7 +509,7 @@ private:
     c.progress = progress_style();
     c.checkpoint_minutes = checkpoint_minutes();
     c.line = line_;
-    return [c] { return resume(c); };
+    return among_ranks([c] { return resume(c); });
   }
 
   Action sweep_action() {
@@ -477,6 +526,15 @@ private:
     c.unsafe = typed_.unsafe;
     c.quiet = typed_.quiet;
     c.line = line_;
+    c.sets = typed_.set;
+    c.ranks = typed_.ranks.empty() ? 1 : whole_number("--ranks", typed_.ranks, 1, most_ranks);
+    if (!typed_.point.empty())
+      return
+          [c, point = whole_number("--point", typed_.point, 1, most_points)] { return run_point(c, point); };
+    if (typed_.slurm)
+      return [c] { return write_job_array(c); };
+    if (c.ranks > 1)
+      throw UsageError("cdem sweep: --ranks goes with --slurm; here the runs stand side by side (--jobs)");
     return [c] { return sweep(c); };
   }
 
@@ -508,7 +566,8 @@ private:
   CLI::App app_;
   Typed typed_;
   CLI::Option* colour_given_ = nullptr;
-  std::string line_; // the command line, for the log
+  std::vector<std::string> words_; // of the command line behind the program
+  std::string line_;               // the command line, for the log
 };
 
 } // namespace

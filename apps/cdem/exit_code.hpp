@@ -12,6 +12,7 @@ enum class ExitCode : int {
   solution_failed = 3, // NaN, inverted element, run-away displacement
   file_error = 4,
   setup_failed = 5, // the launcher's own
+  rank_lost = 6,    // of several that solve together, killed from outside
   interrupted = 130,
   terminated = 143,
 };

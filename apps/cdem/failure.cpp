@@ -41,12 +41,12 @@ Failure current_failure() {
     return make_failure(ExitCode::bad_input, error.what());
   } catch (const UsageError& error) {
     return make_failure(ExitCode::bad_input, error.what());
+  } catch (const RankLost& error) {
+    return make_failure(ExitCode::rank_lost, error.what());
   } catch (const std::filesystem::filesystem_error& error) {
     return make_failure(ExitCode::file_error, error.path1().string() + ": " + error.code().message());
   } catch (const std::bad_alloc&) {
-    return make_failure(
-        ExitCode::bad_input,
-        "not enough memory: the model is too large for this machine, or for what --memory allows");
+    return make_failure(ExitCode::bad_input, not_enough_memory);
   } catch (const std::exception& error) {
     return make_failure(ExitCode::internal_error,
                         std::string("internal error, please report it: ") + error.what());

@@ -14,6 +14,15 @@ public:
   using std::runtime_error::runtime_error;
 };
 
+// A rank has gone, as by kill -9 or for want of memory, and the others with it.
+class RankLost : public std::runtime_error {
+public:
+  using std::runtime_error::runtime_error;
+};
+
+inline constexpr const char* not_enough_memory =
+    "not enough memory: the model is too large for this machine, or for what --memory allows";
+
 struct Failure {
   ExitCode code = ExitCode::internal_error;
   std::string line;    // one line, without "cdem: error: "

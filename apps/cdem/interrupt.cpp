@@ -1,5 +1,9 @@
 #include "apps/cdem/interrupt.hpp"
 
+#include "apps/cdem/ranks/rank.hpp"
+#include "libcdem/ranks/ranks.hpp"
+#include "lua/binding/replay/led.hpp"
+
 #include <algorithm>
 #include <atomic>
 #include <chrono>
@@ -31,6 +35,7 @@ enum class Answer { nobody, run, waiting_thread };
 std::atomic<Answer> answer{Answer::nobody};
 std::atomic<Activity> activity{Activity::script};
 std::atomic<bool> has_finished{false};
+std::atomic<bool> follows{false}; // a rank for which rank 0 waits and speaks
 
 // One key press can arrive twice, from the terminal and from a shell that passes it on.
 constexpr long long same_press_ms = 300;
@@ -52,7 +57,7 @@ extern "C" void handle(int signal) {
     sem_post(&came);
     return;
   }
-  if (now - received_at.load() < same_press_ms)
+  if (now - received_at.load() < same_press_ms || follows.load())
     return;
   static constexpr char line_feed = '\n'; // behind the live line
   static constexpr char line[] =
@@ -60,6 +65,7 @@ extern "C" void handle(int signal) {
   if (on_terminal.load() && write(STDERR_FILENO, &line_feed, 1) != 1)
     _exit(to_int(ExitCode::interrupted));
   [[maybe_unused]] const auto written = write(STDERR_FILENO, line, sizeof line - 1);
+  tell_starter(signal == SIGTERM ? to_int(ExitCode::terminated) : to_int(ExitCode::interrupted));
   _exit(signal == SIGTERM ? to_int(ExitCode::terminated) : to_int(ExitCode::interrupted));
 }
 
@@ -90,8 +96,7 @@ bool take_over() {
 }
 
 void say(const std::string& line) {
-  const std::string text = (on_terminal.load() ? "\ncdem: error: " : "cdem: error: ") + line + "\n";
-  [[maybe_unused]] const auto written = write(STDERR_FILENO, text.data(), text.size());
+  say_as_rank((on_terminal.load() ? "\ncdem: error: " : "cdem: error: ") + line + "\n");
 }
 
 // The last steps may wait themselves, say for a pipe that nobody reads: they are not waited for.
@@ -102,14 +107,14 @@ void end_soon() {
     if (activity.load() != Activity::script)
       deadline = now_ms() + patience_ms;
   say(line);
-  _exit(to_int(exit_code()));
+  end_all_ranks(to_int(exit_code()));
 }
 
 void wait_for_signals() {
   for (;;) {
     while (sem_wait(&came) != 0) {
     }
-    if (take_over())
+    if (!follows.load() && take_over())
       end_soon();
   }
 }
@@ -118,6 +123,7 @@ void wait_for_signals() {
 
 void end_now(ExitCode code, std::string line) {
   const std::lock_guard<std::recursive_mutex> lock(last().one_at_a_time);
+  const script::WithoutOthers alone;            // they are elsewhere
   if (!std::exchange(last().being_taken, true)) // else a step has failed in its turn
     for (auto step = last().steps.rbegin(); step != last().steps.rend(); ++step)
       try {
@@ -125,7 +131,7 @@ void end_now(ExitCode code, std::string line) {
       } catch (...) { // the line below is what matters
       }
   say(line);
-  _exit(to_int(code));
+  end_all_ranks(to_int(code));
 }
 
 WhenStuck::WhenStuck(std::function<void(ExitCode, std::string&)> step) {
@@ -166,6 +172,27 @@ bool requested() {
     for (;;)
       pause();
   return true;
+}
+
+bool requested_of_any() {
+  if (!script::with_others())
+    return requested();
+  // The larger of the two is SIGTERM, which takes no patience.
+  static_assert(SIGTERM > SIGINT);
+  const int mine = !requested() ? 0 : received.load() == SIGTERM ? SIGTERM : SIGINT;
+  const int told = static_cast<int>(script::agreed(mine));
+  if (told > 0)
+    received.store(told);
+  return told > 0;
+}
+
+void join_ranks() {
+  struct sigaction action {};
+  action.sa_handler = handle;
+  sigemptyset(&action.sa_mask);
+  sigaction(SIGUSR1, &action, nullptr);
+  follows.store(!ranks().leads());
+  on_terminal.store(isatty(STDERR_FILENO) == 1);
 }
 
 void clear() {

@@ -2,7 +2,7 @@
 //
 // Not all that a script calls can look whether it shall stop: patterns of strings, table.move, a builder. So a thread
 // waits beside the run, and where the first signal has not been taken after some time, it closes the log and ends the
-// program. A stage (it comes to a step) and the saving of what was solved are waited for, however long they take.
+// program, with all its ranks. A stage (it comes to a step) and the saving of what was solved are waited for, however long they take.
 #pragma once
 
 #include "apps/cdem/exit_code.hpp"
@@ -15,6 +15,10 @@ namespace cdem::app::interrupt {
 
 void install();       // handlers of SIGINT and SIGTERM, and the thread that waits
 bool requested();     // a signal has come; does not return once the waiting thread ends the program
+// The same of several ranks, which all ask at the same place: one of them has been told to stop. Rank 0 alone, where it
+// works for all.
+bool requested_of_any();
+void join_ranks();    // SIGUSR1, which mpirun and Slurm pass on, asks to stop too; the waiting is rank 0's
 void with_parent();   // SIGTERM comes when the program that started this one ends, as by kill -9
 void clear();         // forget it (the next line of the repl)
 ExitCode exit_code(); // interrupted or terminated

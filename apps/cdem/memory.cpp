@@ -63,9 +63,10 @@ std::size_t memory_value(const std::string& option, const std::string& text) {
   return static_cast<std::size_t>(bytes);
 }
 
-std::size_t limit_memory(std::size_t bytes) {
+std::size_t limit_memory(std::size_t bytes, int sharing) {
   if (bytes == 0)
     bytes = static_cast<std::size_t>(usual_share * static_cast<double>(machine_memory()));
+  bytes = std::max(least_memory, bytes / static_cast<std::size_t>(sharing));
   rlimit data{};
   getrlimit(RLIMIT_DATA, &data);
   const rlim_t before = held();

@@ -15,7 +15,8 @@ machine_memory(); // bytes: of the machine or, if that is less, of the container
 std::size_t memory_value(const std::string& option, const std::string& text);
 
 // From now on this process and those it starts may take so many bytes beyond what it holds; 0: nine tenths of the
-// machine's. A limit that the shell has set and that is lower stays. Gives back what may be taken.
-std::size_t limit_memory(std::size_t bytes);
+// machine's. Of `sharing` such processes on this machine each may take its part. A limit that the shell has set and that is
+// lower stays. Gives back what may be taken.
+std::size_t limit_memory(std::size_t bytes, int sharing = 1);
 
 } // namespace cdem::app

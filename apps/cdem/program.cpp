@@ -3,6 +3,7 @@
 #include "apps/cdem/command_line.hpp"
 #include "apps/cdem/failure.hpp"
 #include "apps/cdem/interrupt.hpp"
+#include "apps/cdem/ranks/rank.hpp"
 #include "libcdem/parallel/instruction_set.hpp"
 
 #include "lua/binding/runtime/engine.hpp"
@@ -51,16 +52,17 @@ int run_program(int argc, char** argv) {
   interrupt::install();
   std::set_terminate(end_by_exception);
   try {
+    join_other_ranks(argc, argv);
     (void)instruction_set(); // what the environment asks for is told of at once
     const ExitCode code = parse_command_line(argc, argv)();
     require_stdout_written();
     interrupt::finished();
-    return to_int(code);
+    return leave_other_ranks(to_int(code));
   } catch (...) {
-    const Failure failure = current_failure();
+    const Failure failure = failure_of_all(current_failure());
     interrupt::finished();
     print_failure(failure);
-    return to_int(failure.code);
+    return leave_other_ranks(to_int(failure.code));
   }
 }
 

@@ -47,8 +47,17 @@ void write_settings(const RunRecord& record, const std::filesystem::path& file) 
   json parameters = json::object();
   for (const auto& p : record.parameters)
     parameters[p.name] = {{"value", value_of(p.type, p.value_text)}, {"unit", p.unit}};
-  const json settings = {{"script", record.script}, {"version", record.version}, {"threads", record.threads},
-                         {"unsafe", record.unsafe}, {"set", record.set},         {"parameters", parameters}};
+  json settings = {{"script", record.script}, {"version", record.version}, {"threads", record.threads},
+                   {"unsafe", record.unsafe}, {"set", record.set},         {"parameters", parameters}};
+  json& ranks = settings["ranks"] = json::array();
+  for (const RankLoad& load : record.ranks)
+    ranks.push_back({{"host", load.host},
+                     {"messages", load.messages},
+                     {"bytes", load.bytes},
+                     {"waited_s", load.waited},
+                     {"passed_s", load.passed}});
+  if (record.ranks.empty())
+    settings.erase("ranks");
   std::ofstream out(file);
   out << settings.dump(2, ' ', false, json::error_handler_t::replace) << '\n';
   if (!out.flush())

@@ -1,6 +1,7 @@
 // The JSON files of an output folder; the only place that sees the JSON library.
 #pragma once
 
+#include "apps/cdem/ranks/rank.hpp"
 #include "lua/binding/runtime/engine.hpp"
 
 #include <filesystem>
@@ -17,6 +18,7 @@ struct RunRecord {
   bool unsafe = false;
   std::map<std::string, std::string> set;
   std::vector<script::ParameterInfo> parameters;
+  std::vector<RankLoad> ranks; // empty of one process alone
 };
 void write_settings(const RunRecord&, const std::filesystem::path& file); // throws script::FileError
 

@@ -56,6 +56,10 @@ int processes_started() {
                                                              : 1;
 }
 
+std::string module_of_ranks() {
+  return module_path().string();
+}
+
 void join_ranks() {
   const int started = processes_started();
   const std::filesystem::path path = module_path();

@@ -67,6 +67,9 @@ Ranks& ranks();
 // How many processes mpirun, srun or their like have started this one among; 1 when by itself.
 int processes_started();
 
+// Path of the module cdem_mpi beside the program; "" where it was built without MPI.
+std::string module_of_ranks();
+
 // Joins the others that processes_started tells of, by the module cdem_mpi beside the program. Throws
 // std::runtime_error, one line, where there is no such module or it is one of another MPI than the one that started it.
 void join_ranks();

@@ -163,10 +163,15 @@ std::string gigabytes(std::uint64_t bytes) {
                    (number > 0 ? std::string(" (") + strsignal(number) + ")" : std::string()));
 }
 
-} // namespace
+using Sharing = std::function<std::string(const std::function<std::string()>&)>;
 
-std::string run_in_child(const std::string& what, const ChildLimits& limits,
-                         const std::function<std::string()>& work) {
+Sharing& sharing() {
+  static Sharing share;
+  return share;
+}
+
+std::string run_here(const std::string& what, const ChildLimits& limits,
+                     const std::function<std::string()>& work) {
   throw_if_stopped();
   std::array<int, 2> ends{};
   if (pipe2(ends.data(), O_CLOEXEC) != 0)
@@ -199,6 +204,18 @@ std::string run_in_child(const std::string& what, const ChildLimits& limits,
   default:
     throw InputError(what + ": " + limits.blame);
   }
+}
+
+} // namespace
+
+void set_sharing(Sharing share) {
+  sharing() = std::move(share);
+}
+
+std::string run_in_child(const std::string& what, const ChildLimits& limits,
+                         const std::function<std::string()>& work) {
+  const auto run = [&] { return run_here(what, limits, work); };
+  return sharing() ? sharing()(run) : run();
 }
 
 } // namespace geom

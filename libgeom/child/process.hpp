@@ -25,4 +25,8 @@ struct ChildLimits {
 std::string run_in_child(const std::string& what, const ChildLimits& limits,
                          const std::function<std::string()>& work);
 
+// Of several processes that come to the same work one may do it and tell the others its bytes: `share` is given what does
+// it here and says what comes of it. Empty: everyone does it.
+void set_sharing(std::function<std::string(const std::function<std::string()>&)> share);
+
 } // namespace geom

@@ -363,3 +363,68 @@ for _, run in ipairs(runs) do print(run.set.a .. " gives " .. (run.figures.sum_m
       CHECK(fs::exists(results / "swept/folder/deep.lua"));
     }
 }
+
+TEST_CASE("sweep --slurm: a job array of one run a task, whose rest the same command writes anew") {
+  const Place cdem;
+  // An srun that runs what it is given here.
+  write_file(cdem.folder / "bin/srun",
+             "#!/bin/sh\nwhile [ \"${1#--}\" != \"$1\" ]; do shift; done\nexec \"$@\"\n");
+  fs::permissions(cdem.folder / "bin/srun", fs::perms::owner_all);
+  const std::vector<std::string> command = {"sweep", "sum/case.lua", "--set", "a=1,2,13", "--set",
+                                            "b=10",  "--threads",    "1",     "--slurm"};
+  const fs::path batch = cdem.folder / "results/sum-sweep/sweep.sbatch";
+  const auto task = [&](int number) {
+    Start start = cdem.start;
+    start.environment = {"SLURM_ARRAY_TASK_ID=" + std::to_string(number),
+                         "PATH=" + (cdem.folder / "bin").string() + ":/usr/bin:/bin"};
+    return run_program({"/bin/sh", batch.string()}, start);
+  };
+  const Outcome written = cdem(command);
+  INFO(written.out << written.err);
+  REQUIRE(written.exit_code == 0);
+  CHECK_THAT(written.out, Contains("3 runs; to run them: sbatch results/sum-sweep/sweep.sbatch"));
+  CHECK_THAT(read_file(batch), Contains("#SBATCH --array=1-3\n") && Contains("#SBATCH --signal=TERM@300\n"));
+  CHECK_FALSE(fs::exists(cdem.folder / "results/sum-sweep/sweep.csv"));
+  // Each runs the text of when the array was written.
+  write_file(cdem.folder / "sum/case.lua", "error 'edited'");
+  CHECK(task(2).exit_code == 0);
+  CHECK(task(3).exit_code == 2);
+  CHECK_THAT(cdem(command).err, Contains("swept/case.lua is of another text of case.lua"));
+  write_file(cdem.folder / "sum/case.lua", sum);
+  CHECK_THAT(cdem(command).out,
+             Contains("3 runs, 1 of which have ended") && Contains("to run the rest: sbatch"));
+  CHECK_THAT(read_file(batch), Contains("#SBATCH --array=1,3\n"));
+  REQUIRE(cdem.table().size() == 4);
+  CHECK(cdem.table()[2] == "2,10,0,,12");
+  CHECK(cdem.table()[1] == "1,10,,,");
+  CHECK(task(1).exit_code == 0);
+  CHECK_THAT(task(1).out, Contains("a=1 b=10: had ended and stands"));
+  CHECK_THAT(cdem({"sweep", "sum/case.lua", "--set", "a=1", "--point", "2"}).err,
+             Contains("the sweep has 1 run"));
+  CHECK_THAT(cdem({"sweep", "sum/case.lua", "--set", "a=1", "--ranks", "2"}).err,
+             Contains("--ranks goes with --slurm"));
+}
+
+TEST_CASE("sweep --slurm: a task that was stopped goes on from its checkpoint") {
+  const Place cdem;
+  write_file(cdem.folder / "sum/case.lua", R"(local cdem = require "cdem"
+local steps = cdem.parameter{ name = "steps", default = 1 }
+local rock = cdem.elastic{ youngs_modulus = 1e9, poissons_ratio = 0.2, density = 2000 }
+local model = cdem.model{ bodies = { { shape = cdem.grid{ size = {1, 1, 1}, divisions = {1, 1, 1} },
+  material = rock } } }
+model:fix{ on = "x-" }
+print "begins"
+model:run{ steps = steps }
+cdem.report{ { name = "steps", value = steps } }
+)");
+  const std::vector<std::string> point = {"sweep", "sum/case.lua", "--set", "steps=3000000", "--point", "1"};
+  REQUIRE(cdem({"sweep", "sum/case.lua", "--set", "steps=3000000", "--slurm"}).exit_code == 0);
+  Start start = cdem.start;
+  start.signal = SIGTERM;
+  start.signal_after = "begins";
+  CHECK(run_cdem(point, start).exit_code == 143);
+  start.signal_after = "goes on from";
+  const Outcome again = run_cdem(point, start);
+  INFO(again.out << again.err);
+  CHECK_THAT(again.out, Contains("goes on from"));
+}

@@ -1,7 +1,9 @@
 #include "lua/binding/runtime/module.hpp"
 #include "tests/lua/script.hpp"
 
+#include <algorithm>
 #include <catch2/catch.hpp>
+#include <functional>
 
 using namespace cdem::script;
 using namespace cdem::script::test;
@@ -28,6 +30,32 @@ TEST_CASE("every declared function is in the module, and nothing else", "[lua]")
                  "  if type(entry) == 'table' then\n"
                  "    for inner in pairs(entry) do assert(known[name .. '.' .. inner], inner) end\n"
                  "  else assert(known[name], name) end\nend") == "");
+}
+
+TEST_CASE("what one rank does for all calls nothing of the script, and gives back what can be told",
+          "[lua]") {
+  const std::function<bool(const Type&)> calls = [&](const Type& type) {
+    return type.kind == Kind::function || type.kind == Kind::place ||
+           std::any_of(type.items.begin(), type.items.end(), calls) ||
+           std::any_of(type.fields.begin(), type.fields.end(), [&](const Field& f) { return calls(f.type); });
+  };
+  std::vector<const Function*> led;
+  const auto gather = [&](const std::vector<Function>& functions) {
+    for (const Function& f : functions)
+      if (f.led)
+        led.push_back(&f);
+  };
+  gather(module().functions);
+  for (const Class& c : module().classes)
+    gather(c.methods);
+  REQUIRE(led.size() > 10);
+  for (const Function* const f : led) {
+    INFO(f->name);
+    CHECK(std::none_of(f->fields.begin(), f->fields.end(),
+                       [&](const Field& field) { return calls(field.type); }));
+    for (const Class& c : module().classes)
+      CHECK(f->returns.find("cdem." + c.name) == std::string::npos);
+  }
 }
 
 TEST_CASE("every default satisfies its own declaration", "[lua]") {

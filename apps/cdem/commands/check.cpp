@@ -1,6 +1,8 @@
 // cdem check: builds and validates what the script describes, without solving and without writing anything.
 #include "apps/cdem/commands/script_run.hpp"
 #include "apps/cdem/memory.hpp"
+#include "apps/cdem/ranks/rank.hpp"
+#include "lua/binding/replay/led.hpp"
 
 #include <cstdio>
 
@@ -21,7 +23,7 @@ void print_what_there_is(const script::Engine& engine) {
 } // namespace
 
 ExitCode check(const CheckCommand& command) {
-  require_script(command.script);
+  script::led_act("script", [&] { require_script(command.script); });
   script::EngineSettings settings;
   settings.script = command.script;
   settings.output = std::filesystem::path("results") / case_name(command.script, command.set);
@@ -30,7 +32,7 @@ ExitCode check(const CheckCommand& command) {
   settings.set = command.set;
   settings.unsafe = command.unsafe;
   settings.check_only = true;
-  settings.memory = limit_memory(command.memory);
+  settings.memory = limit_memory(command.memory, ranks_on_these_cores());
   const auto observer = std::make_shared<RunObserver>(ProgressStyle::plain, nullptr);
   settings.observer = observer;
   settings.program = program_path().string();

@@ -27,6 +27,7 @@ struct RunCommand {
   double checkpoint_minutes = 10; // between checkpoints of a long stage; 0: none
   std::filesystem::path resume;   // checkpoint to go on from; empty: from the start
   std::string line;               // the command line, for the log
+  bool ends_with_parent = false;
 };
 ExitCode run(const RunCommand&);
 
@@ -77,8 +78,12 @@ struct SweepCommand {
   bool unsafe = false, quiet = false;
   std::size_t memory = 0; // bytes of all runs together; 0: most of the machine's
   std::string line;
+  std::vector<std::string> sets; // the settings as typed
+  int ranks = 1;                 // of each run, with Slurm
 };
 ExitCode sweep(const SweepCommand&);
+ExitCode write_job_array(const SweepCommand&);      // for Slurm
+ExitCode run_point(const SweepCommand&, int point); // the point-th of its runs, from 1: a task of that array
 
 struct ReplCommand {
   int threads = 0;

@@ -6,6 +6,7 @@
 #include "apps/cdem/run_log.hpp"
 #include "apps/cdem/text.hpp"
 #include "libcdem/parallel/instruction_set.hpp"
+#include "libcdem/ranks/ranks.hpp"
 #include "libcdem/vtk/files.hpp"
 
 #include <algorithm>
@@ -53,7 +54,9 @@ void about_program() {
               {"program", program_path().string()},
               {"processor", processor()},
               {"instruction set", name(instruction_set()) + " unless CDEM_INSTRUCTION_SET says otherwise"},
-              {"threads", std::to_string(cores) + " unless --threads says otherwise"}});
+              {"threads", std::to_string(cores) + " unless --threads says otherwise"},
+              {"ranks", module_of_ranks().empty() ? "1: built without MPI (libopenmpi-dev)"
+                                                  : "1 unless --ranks, mpirun or srun says otherwise"}});
   std::printf("\nexit codes\n%s", exit_code_table().c_str());
 }
 

@@ -2,13 +2,17 @@
 #include "apps/cdem/commands/script_run.hpp"
 #include "apps/cdem/failure.hpp"
 #include "apps/cdem/run_log.hpp"
+#include "lua/binding/replay/led.hpp"
 #include "lua/binding/runtime/files.hpp"
 
 namespace cdem::app {
 
 namespace fs = std::filesystem;
 
-ExitCode resume(const ResumeCommand& command) {
+namespace {
+
+// What the folder tells of the run, and where to go on from.
+RunCommand run_of(const ResumeCommand& command) {
   std::error_code none;
   if (!is_there(command.folder))
     throw script::FileError(command.folder.string() + ": no such folder");
@@ -27,14 +31,33 @@ ExitCode resume(const ResumeCommand& command) {
   run_on.script = fs::relative(checkpoint.script, fs::current_path(), none);
   if (none || *run_on.script.begin() == "..")
     run_on.script = checkpoint.script;
+  run_on.set = checkpoint.set;
+  run_on.resume = checkpoint.file;
+  return run_on;
+}
+
+} // namespace
+
+ExitCode resume(const ResumeCommand& command) {
+  RunCommand run_on;
+  const script::Value told = script::led("the folder of the run", [&]() -> script::Value {
+    const RunCommand found = run_of(command);
+    script::Table set;
+    for (const auto& [name, value] : found.set)
+      set.named[name] = value;
+    return script::Table{{"script", found.script.string()}, {"resume", found.resume.string()}, {"set", set}};
+  });
+  const auto& known = told.table()->named;
+  run_on.script = *known.at("script").get<std::string>();
+  run_on.resume = *known.at("resume").get<std::string>();
+  for (const auto& [name, value] : known.at("set").table()->named)
+    run_on.set[name] = *value.get<std::string>();
   run_on.output = command.folder;
   run_on.threads = command.threads;
   run_on.memory = command.memory;
-  run_on.set = checkpoint.set;
   run_on.unsafe = command.unsafe;
   run_on.progress = command.progress;
   run_on.checkpoint_minutes = command.checkpoint_minutes;
-  run_on.resume = checkpoint.file;
   run_on.line = command.line;
   return run(run_on);
 }

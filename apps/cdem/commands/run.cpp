@@ -5,7 +5,10 @@
 #include "apps/cdem/failure.hpp"
 #include "apps/cdem/interrupt.hpp"
 #include "apps/cdem/memory.hpp"
+#include "apps/cdem/ranks/rank.hpp"
 #include "apps/cdem/records.hpp"
+#include "libcdem/ranks/ranks.hpp"
+#include "lua/binding/replay/led.hpp"
 #include "lua/binding/runtime/sources.hpp"
 
 #include <csignal>
@@ -27,11 +30,12 @@ void save_last_states(script::Engine& engine, RunObserver& observer) {
 }
 
 void record_settings(const RunCommand& command, int threads, const script::Engine& engine,
-                     OutputFolder& folder) {
+                     OutputFolder& folder, const std::vector<RankLoad>& loads) {
   const fs::path file = folder.path() / "settings.json";
   folder.will_write(file);
   write_settings(
-      {command.script.string(), version(), threads, command.unsafe, command.set, engine.parameters()}, file);
+      {command.script.string(), version(), threads, command.unsafe, command.set, engine.parameters(), loads},
+      file);
 }
 
 // After a failure, whose own error matters more than this one.
@@ -39,28 +43,29 @@ void record_if_possible(const RunCommand& command, int threads, const script::En
                         OutputFolder& folder) {
   try {
     if (folder.begun())
-      record_settings(command, threads, engine, folder);
+      record_settings(command, threads, engine, folder, {});
   } catch (const std::exception& error) {
     folder.log(error.what());
   }
 }
 
-void run_script(const RunCommand& command, int threads, OutputFolder& folder,
-                const std::shared_ptr<RunObserver>& observer) {
+// folder: of rank 0 alone, null on the others; number: of the run.
+void run_script(const RunCommand& command, const fs::path& output, int threads, OutputFolder* folder,
+                std::uint64_t number, const std::shared_ptr<RunObserver>& observer) {
   script::EngineSettings settings;
   settings.script = command.script;
   settings.sources = command.sources;
-  settings.output = folder.path();
+  settings.output = output;
   settings.results = "results";
   settings.threads = threads;
   settings.set = command.set;
   settings.unsafe = command.unsafe;
   settings.observer = observer;
-  settings.will_write = [&folder](const fs::path& file) { folder.will_write(file); };
+  settings.will_write = [folder](const fs::path& file) { folder->will_write(file); };
   settings.program = program_path().string();
   settings.resume = command.resume;
-  settings.run = folder.run();
-  settings.memory = limit_memory(command.memory);
+  settings.run = number;
+  settings.memory = limit_memory(command.memory, ranks_on_these_cores());
   settings.checkpoint_minutes = command.checkpoint_minutes;
 
   script::Engine engine(settings);
@@ -73,44 +78,64 @@ void run_script(const RunCommand& command, int threads, OutputFolder& folder,
   try {
     engine.run_file();
   } catch (...) {
+    (void)failure_of_all(current_failure());
     const Doing saves(observer.get(), Activity::saving);
     save_last_states(engine, *observer);
-    record_if_possible(command, threads, engine, folder);
+    if (folder != nullptr)
+      record_if_possible(command, threads, engine, *folder);
     throw;
   }
-  record_settings(command, threads, engine, folder);
+  const std::vector<RankLoad> loads = loads_of_ranks();
+  script::led_act("settings", [&] {
+    for (std::size_t rank = 0; rank < loads.size(); ++rank)
+      folder->log(load_text(static_cast<int>(rank), loads[rank]));
+    record_settings(command, threads, engine, *folder, loads);
+  });
 }
 
 } // namespace
 
 ExitCode run(const RunCommand& command) {
-  if (!command.sources.empty()) // of a sweep
+  if (command.ends_with_parent)
     interrupt::with_parent();
   const fs::path source = script::kept_source(command.sources, command.script.filename(), command.script);
-  require_script(source);
+  script::led_act("script", [&] { require_script(source); });
   std::signal(SIGPIPE, SIG_IGN); // `cdem run ... | head` must not end a long run
-  const int threads = command.threads > 0 ? command.threads : available_cores();
+  const int threads =
+      command.threads > 0 ? command.threads : std::max(1, available_cores() / ranks_on_these_cores());
   const fs::path output =
       command.output.empty() ? fs::path("results") / case_name(command.script, command.set) : command.output;
 
-  OutputFolder folder(output, command.script,
-                      "cdem " + version() + " (" + build_text() + "), " + std::to_string(threads) +
-                          (threads == 1 ? " thread, " : " threads, ") + command.line,
-                      command.resume.empty() ? OutputFolder::Start::anew : OutputFolder::Start::goes_on,
-                      source);
-  const auto observer = std::make_shared<RunObserver>(command.progress, &folder);
-  const interrupt::WhenStuck stuck(
-      [&folder](ExitCode code, std::string& line) { folder.finish(code, line); });
+  std::unique_ptr<OutputFolder> folder; // of rank 0
+  const script::Value number = script::led("the output folder", [&]() -> script::Value {
+    folder = std::make_unique<OutputFolder>(
+        output, command.script,
+        "cdem " + version() + " (" + build_text() + "), " + ranks_text(threads) + ", " + command.line,
+        command.resume.empty() ? OutputFolder::Start::anew : OutputFolder::Start::goes_on, source);
+    return static_cast<std::int64_t>(folder->run());
+  });
+  const auto observer =
+      std::make_shared<RunObserver>(folder ? command.progress : ProgressStyle::none, folder.get());
+  if (!ranks().alone())
+    observer->message(ranks_text(threads));
+  const auto finish = [&](ExitCode code, const std::string& error) {
+    script::led_act("the end of the log", [&] { folder->finish(code, error); });
+  };
+  const interrupt::WhenStuck stuck([&](ExitCode code, std::string& line) {
+    if (folder)
+      folder->finish(code, line);
+  });
   try {
-    run_script(command, threads, folder, observer);
+    run_script(command, output, threads, folder.get(),
+               static_cast<std::uint64_t>(*number.get<std::int64_t>()), observer);
   } catch (...) {
     observer->clear_line();
     const Failure failure = current_failure();
-    folder.finish(failure.code, failure.details.empty() ? failure.line : failure.details);
+    finish(failure.code, failure.details.empty() ? failure.line : failure.details);
     throw;
   }
-  observer->message(observer->in_all() + "results in " + folder.path().string());
-  folder.finish(ExitCode::success, "");
+  observer->message(observer->in_all() + "results in " + output.string());
+  finish(ExitCode::success, "");
   return ExitCode::success;
 }
 

@@ -2,6 +2,7 @@
 // below the sweep's; sweep.csv gathers the figures of their reports, one row a run.
 #include "apps/cdem/build_info.hpp"
 #include "apps/cdem/commands/script_run.hpp"
+#include "apps/cdem/commands/sweep_plan.hpp"
 #include "apps/cdem/failure.hpp"
 #include "apps/cdem/interrupt.hpp"
 #include "apps/cdem/memory.hpp"
@@ -25,29 +26,6 @@ namespace cdem::app {
 namespace fs = std::filesystem;
 
 namespace {
-
-struct SweptRun {
-  Settings set;
-  std::string name; // "pressure=24e6,cohesion=5e6", also its folder
-  fs::path folder;  // its results
-  fs::path console; // what it prints: its progress, then its error
-  bool begun = false, ended = false;
-  int exit_code = -1; // not run
-  double seconds = 0; // wall clock
-};
-
-// Folder name of a run: as case_name makes it of its settings alone.
-std::string run_name(const Settings& set) {
-  const std::string whole = case_name("/x/case.lua", set);
-  return whole.substr(whole.find('-') + 1);
-}
-
-std::string shown(const Settings& set) {
-  std::vector<std::string> words;
-  for (const auto& [name, value] : set)
-    words.push_back(name + "=" + value);
-  return script::joined(words, " ");
-}
 
 std::vector<std::string> run_arguments(const SweepCommand& command, const SweptRun& run, int threads,
                                        std::size_t memory, const fs::path& sources) {
@@ -80,66 +58,6 @@ std::string last_line(const fs::path& file) {
   return last;
 }
 
-std::string csv_cell(const std::string& text) {
-  if (text.find_first_of(",\"\n") == std::string::npos)
-    return text;
-  std::string quoted = "\"";
-  for (const char c : text)
-    quoted += c == '"' ? "\"\"" : std::string(1, c);
-  return quoted + "\"";
-}
-
-// Columns: the settings, exit code, wall time, then every figure that any report has, by name.
-void write_table(const std::vector<SweptRun>& runs, const fs::path& file) {
-  std::vector<std::map<std::string, std::string>> values(runs.size());
-  std::vector<std::string> names; // in order of appearance
-  for (std::size_t i = 0; i < runs.size(); ++i) {
-    const fs::path report = runs[i].folder / "report.json";
-    // What a failed run has in its folder may be of an earlier sweep.
-    if (runs[i].exit_code != 0 || !fs::exists(report))
-      continue;
-    for (const auto& figure : read_report(report)) {
-      values[i][figure.name] = figure.value;
-      if (std::find(names.begin(), names.end(), figure.name) == names.end())
-        names.push_back(figure.name);
-    }
-  }
-  std::ofstream out(file);
-  for (const auto& [name, value] : runs.front().set)
-    out << csv_cell(name) << ',';
-  out << "exit_code,wall_time_s";
-  for (const auto& name : names)
-    out << ',' << csv_cell(name);
-  out << '\n';
-  for (std::size_t i = 0; i < runs.size(); ++i) {
-    for (const auto& [name, value] : runs[i].set)
-      out << csv_cell(value) << ',';
-    out << (runs[i].exit_code < 0 ? "" : std::to_string(runs[i].exit_code)) << ','
-        << number_text(runs[i].seconds);
-    for (const auto& name : names)
-      out << ',' << csv_cell(values[i][name]);
-    out << '\n';
-  }
-  if (!out.flush())
-    throw script::FileError(file.string() + " cannot be written");
-}
-
-std::vector<SweptRun> planned_runs(const SweepCommand& command, const fs::path& folder) {
-  std::vector<SweptRun> runs;
-  std::set<std::string> names;
-  for (const auto& set : command.settings) {
-    SweptRun run;
-    run.set = set;
-    run.name = run_name(set);
-    run.folder = folder / run.name;
-    run.console = folder / (run.name + ".console");
-    if (!names.insert(run.name).second)
-      throw UsageError("--set gives the same run twice: " + shown(set));
-    runs.push_back(run);
-  }
-  return runs;
-}
-
 std::string verdict_of(const SweptRun& run) {
   if (run.exit_code == 0) {
     const int warnings = summary_of_run_log(run.folder / run_log_name).warnings;
@@ -158,19 +76,6 @@ ExitCode judge(const std::vector<SweptRun>& runs) {
   for (const auto& run : runs)
     worst = std::max(worst, run.exit_code);
   return static_cast<ExitCode>(worst > 4 ? 1 : worst);
-}
-
-bool has_checkpoint(const SweptRun& run) {
-  try {
-    script::newest_checkpoint(run.folder, run_of_log(run.folder / run_log_name));
-    return true;
-  } catch (const script::FileError&) {
-    return false;
-  }
-}
-
-std::string number_of_runs(std::size_t count) {
-  return std::to_string(count) + (count == 1 ? " run" : " runs");
 }
 
 // After Ctrl-C: what stands, and what can be done with the rest.
@@ -206,19 +111,11 @@ ExitCode sweep(const SweepCommand& command) {
   const int threads = command.threads > 0 ? command.threads : std::max(1, cores / jobs);
   const std::size_t memory =
       std::max(least_memory, limit_memory(command.memory) / static_cast<std::size_t>(jobs));
-  const fs::path root = command.output.empty()
-                            ? fs::path("results") / (case_name(command.script, {}) + "-sweep")
-                            : command.output;
-
+  const fs::path root = sweep_folder(command);
   auto runs = planned_runs(command, root);
   OutputFolder folder(root, command.script, "cdem " + version() + " (" + build_text() + "), " + command.line);
   folder.begin_results();
-  script::each_source(command.script, [&](const fs::path& name, const std::string& text) {
-    const fs::path copy = root / script::sources_folder / name;
-    folder.will_write(copy);
-    fs::create_directories(copy.parent_path());
-    script::write_file(copy, text);
-  });
+  keep_sources(command.script, folder);
   std::vector<script::Job> processes(runs.size());
   for (std::size_t i = 0; i < runs.size(); ++i) {
     processes[i].command = run_arguments(command, runs[i], threads, memory, root / script::sources_folder);

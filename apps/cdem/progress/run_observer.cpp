@@ -1,9 +1,11 @@
 #include "apps/cdem/progress/run_observer.hpp"
 
+#include "apps/cdem/failure.hpp"
 #include "apps/cdem/interrupt.hpp"
 #include "apps/cdem/progress/line.hpp"
 #include "apps/cdem/progress/terminal.hpp"
 #include "apps/cdem/text.hpp"
+#include "lua/binding/replay/led.hpp"
 
 #include <cstdio>
 #include <sys/stat.h>
@@ -36,7 +38,25 @@ RunObserver::~RunObserver() {
   clear_line();
 }
 
+// What fails here, a full disk as a rule, fails on rank 0 alone, in the middle of a step where the others cannot be told.
+template <class Act>
+void RunObserver::told(const Act& act) {
+  if (!script::with_others())
+    return act();
+  try {
+    const script::WithoutOthers alone;
+    act();
+  } catch (...) {
+    const Failure failure = current_failure();
+    interrupt::end_now(failure.code, failure.line);
+  }
+}
+
 void RunObserver::progress(const Progress& progress) {
+  told([&] { take(progress); });
+}
+
+void RunObserver::take(const Progress& progress) {
   const auto now = Clock::now();
   if (progress.stage != stage_)
     start_stage(progress, now);
@@ -85,7 +105,7 @@ void RunObserver::end_stage(const Progress& progress) {
   broken_tension_ += progress.broken_tension;
   broken_shear_ += progress.broken_shear;
   if (progress.stage > 0) {
-    message(line);
+    tell(line);
     if (folder_ != nullptr && !progress.times.empty())
       folder_->log("  time of the steps: " + progress.times);
   } else {
@@ -94,6 +114,10 @@ void RunObserver::end_stage(const Progress& progress) {
 }
 
 void RunObserver::message(const std::string& text) {
+  told([&] { tell(text); });
+}
+
+void RunObserver::tell(const std::string& text) {
   if (style_ == ProgressStyle::live || style_ == ProgressStyle::plain)
     print(text);
   if (folder_ != nullptr)
@@ -126,7 +150,7 @@ std::string RunObserver::in_all() const {
 }
 
 bool RunObserver::stop_requested() {
-  return interrupt::requested();
+  return interrupt::requested_of_any();
 }
 
 Activity RunObserver::doing(Activity now) {

@@ -41,6 +41,10 @@ public:
 
 private:
   using Clock = std::chrono::steady_clock;
+  template <class Act>
+  static void told(const Act&);
+  void take(const Progress&);
+  void tell(const std::string& line);
   void start_stage(const Progress&, Clock::time_point now);
   void show(const Progress&, Clock::time_point now);
   void end_stage(const Progress&);

@@ -159,7 +159,7 @@ void bind_charts(Module& m) {
   std::vector<Field> lists = chart_fields();
   lists.insert(lists.begin() + 1, list("series", record_type(series)).required());
   m.functions.push_back({"chart", "Line chart of lists of numbers.", lists, false, "", "", chart_of_lists,
-                         false, Replay::recorded});
+                         false, Replay::recorded, true});
 
   std::vector<Field> histories = chart_fields();
   histories.insert(
@@ -168,7 +168,8 @@ void bind_charts(Module& m) {
        list("right", text_type(), 0).doc("histories read on the right"),
        text("x").standard("step").doc("history along the x axis")});
   m.the_class("Model").methods.push_back({"chart", "Line chart of histories.", histories, false, "", "",
-                                          method<ModelObject>(chart_of_histories)});
+                                          method<ModelObject>(chart_of_histories), false, Replay::standard,
+                                          true});
 
   std::vector<Field> fragments = chart_fields();
   for (Field& field : fragments)
@@ -178,7 +179,8 @@ void bind_charts(Module& m) {
                                           "Chart of the fragments by size: the part of the mass in fragments "
                                           "up to each diameter, that of the sphere "
                                           "with their volume.",
-                                          fragments, false, "", "", method<ModelObject>(chart_of_fragments)});
+                                          fragments, false, "", "", method<ModelObject>(chart_of_fragments),
+                                          false, Replay::standard, true});
 }
 
 } // namespace cdem::script

@@ -1,6 +1,7 @@
 // Checkpoints of a run, and states that other scripts start from.
 #include "lua/binding/functions/picture_fields.hpp"
 #include "lua/binding/objects/model_object.hpp"
+#include "lua/binding/replay/led.hpp"
 #include "lua/binding/runtime/module.hpp"
 
 #include "libcdem/checkpoint/file.hpp"
@@ -34,7 +35,8 @@ Value load_state(Session& session, ModelObject& model, const Arguments& a) {
   require_ending(name, ".cdem");
   if (session.settings.check_only)
     return {};
-  const std::string saved = read_saved(session.files.to_read(name), SavedKind::state);
+  const std::string saved =
+      led_bytes("state", [&] { return read_saved(session.files.to_read(name), SavedKind::state); });
   try {
     model.simulation.restore_state(saved);
   } catch (const InputError& error) {
@@ -66,7 +68,10 @@ void bind_checkpoints(Module& m) {
        false,
        "",
        "",
-       method<ModelObject>(save_state)});
+       method<ModelObject>(save_state),
+       false,
+       Replay::standard,
+       true});
   model.methods.push_back(
       {"load_state",
        "Takes the state from a file of save_state. The model must have been built from the same shapes, "

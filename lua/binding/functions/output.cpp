@@ -3,6 +3,7 @@
 #include "lua/binding/functions/picture_fields.hpp"
 #include "lua/binding/functions/solving_warnings.hpp"
 #include "lua/binding/objects/model_object.hpp"
+#include "lua/binding/replay/led.hpp"
 #include "lua/binding/runtime/module.hpp"
 
 #include "libcdem/vtk/field_values.hpp"
@@ -56,10 +57,12 @@ Value save_surface(Session& session, ModelObject& model, const Arguments& a, con
   if (session.settings.check_only)
     return {};
   const Snapshot surface = make();
-  const fs::path path = session.files.to_write(a.text("file"));
-  write_surface(surface, path.string());
-  if (a.has("series"))
-    add_to_series(session, model, a.text("series"), path, surface);
+  led_act("surface", [&] {
+    const fs::path path = session.files.to_write(a.text("file"));
+    write_surface(surface, path.string());
+    if (a.has("series"))
+      add_to_series(session, model, a.text("series"), path, surface);
+  });
   return {};
 }
 
@@ -178,7 +181,10 @@ void bind_output(Module& m) {
        false,
        "",
        "",
-       method<ModelObject>(save)});
+       method<ModelObject>(save),
+       false,
+       Replay::standard,
+       true});
   model.methods.push_back(
       {"save_cracks",
        "Writes broken faces for ParaView as a surface, midway between their sides: displacement at corners; "
@@ -206,7 +212,7 @@ void bind_output(Module& m) {
        "contact) of faces.",
        joint_file, false, "", "", method<ModelObject>(save_joints)});
   model.methods.push_back({"picture", "Draws the model, without a display.", picture_declaration(), false, "",
-                           "", method<ModelObject>(picture)});
+                           "", method<ModelObject>(picture), false, Replay::standard, true});
   m.functions.push_back({"film",
                          "A film (Ogg/Theora) from pictures of one size.",
                          {text("file").required().doc("ends in .ogv; in the output folder"),
@@ -217,7 +223,8 @@ void bind_output(Module& m) {
                          "",
                          film,
                          false,
-                         Replay::recorded});
+                         Replay::recorded,
+                         true});
 }
 
 } // namespace cdem::script

@@ -190,7 +190,10 @@ std::vector<Function> solid_methods() {
        false,
        "",
        "",
-       method<SolidObject>(save)}};
+       method<SolidObject>(save),
+       false,
+       Replay::standard,
+       true}};
 }
 
 } // namespace

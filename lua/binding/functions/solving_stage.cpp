@@ -1,6 +1,7 @@
 #include "lua/binding/functions/solving_stage.hpp"
 
 #include "libcdem/step/errors.hpp"
+#include "lua/binding/replay/led.hpp"
 
 #include <cstdio>
 
@@ -44,6 +45,8 @@ Value stage(Session& session, ModelObject& model, const char* kind, const Argume
   stage.kind = kind;
   stage.hash = fnv1a(std::string(kind) + " " + std::to_string(model.number) + " " + arguments.canonical());
   stage.result = empty;
+  require_same("what " + std::string(kind) + " is called with, stage " + std::to_string(stage.number) + ",",
+               std::to_string(stage.hash));
   session.stages.push_back(stage);
   const std::size_t index = session.stages.size() - 1;
   struct Solving {

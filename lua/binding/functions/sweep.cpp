@@ -330,7 +330,8 @@ void bind_sweep(Module& m) {
        "in the order given",
        sweep,
        false,
-       Replay::recorded});
+       Replay::recorded,
+       true});
 }
 
 } // namespace cdem::script

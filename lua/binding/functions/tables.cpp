@@ -103,7 +103,8 @@ void bind_tables(Module& m) {
        "lists by name",
        read_csv,
        false,
-       Replay::recorded});
+       Replay::recorded,
+       true});
   m.functions.push_back(
       {"write_csv",
        "Writes columns of numbers.",
@@ -118,7 +119,8 @@ void bind_tables(Module& m) {
        "",
        write_csv,
        false,
-       Replay::recorded});
+       Replay::recorded,
+       true});
   m.functions.push_back(
       {"log", "Writes a line to the log and the terminal.", {text("text").required()}, true, "", "", log});
   m.functions.push_back(
@@ -156,7 +158,8 @@ void bind_tables(Module& m) {
        "",
        [](Session& session, Object*, const Arguments&) -> Value { return session.elapsed(); },
        false,
-       Replay::recorded});
+       Replay::recorded,
+       true});
   m.constants.push_back({"version", "Version of the toolkit.", CDEM_VERSION});
 }
 

@@ -263,9 +263,12 @@ void bind_tet_meshes(Module& m) {
        false,
        "",
        "",
-       method<TetMeshObject>(save)},
+       method<TetMeshObject>(save),
+       false,
+       Replay::standard,
+       true},
       {"picture", "Draws the mesh, without a display.", picture_declaration(), false, "", "",
-       method<TetMeshObject>(picture)}};
+       method<TetMeshObject>(picture), false, Replay::standard, true}};
   m.classes.push_back(mesh);
 }
 

@@ -1,6 +1,7 @@
 #include "lua/binding/objects/model_object.hpp"
 
 #include "lua/binding/functions/selections.hpp"
+#include "lua/binding/replay/led.hpp"
 #include "lua/binding/schema/nearest.hpp"
 #include "lua/binding/schema/schema.hpp"
 
@@ -37,7 +38,8 @@ std::string ModelObject::history_name() const {
 }
 
 void ModelObject::write_history(const Session& session) const {
-  write_file(session.files.to_write(history_name()), csv(history_columns(simulation)));
+  led_act("history",
+          [&] { write_file(session.files.to_write(history_name()), csv(history_columns(simulation))); });
 }
 
 std::vector<std::pair<std::string, std::vector<double>>> history_columns(const Simulation& simulation) {

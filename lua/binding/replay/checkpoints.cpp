@@ -1,8 +1,10 @@
 // Checkpoints of a run as files: two in turn, so that one is whole whatever happens while the other is written.
 #include "libcdem/checkpoint/archive.hpp"
 #include "libcdem/checkpoint/file.hpp"
+#include "libcdem/ranks/ranks.hpp"
 #include "libgeom/core/error.hpp"
 #include "lua/binding/objects/model_object.hpp"
+#include "lua/binding/replay/led.hpp"
 #include "lua/binding/runtime/files.hpp"
 
 #include <algorithm>
@@ -89,7 +91,8 @@ void Checkpoints::begin(const std::string& script_text) {
 
 void Checkpoints::load(const fs::path& file, const std::string& script_text) {
   begin(script_text);
-  const std::string content = read_saved(file, SavedKind::checkpoint);
+  const std::string content =
+      led_bytes("checkpoint", [&] { return read_saved(file, SavedKind::checkpoint); });
   Reader a(content);
   Head head;
   std::string journal;
@@ -103,7 +106,8 @@ void Checkpoints::load(const fs::path& file, const std::string& script_text) {
     throw geom::InputError("resume: other --set values than when the checkpoint was written");
   serial_ = head.serial;
   from_ = file;
-  from_time_ = fs::last_write_time(file);
+  if (ranks().leads())
+    from_time_ = fs::last_write_time(file);
   resumed_ = replaying_ = true;
   journal_.load(std::move(journal));
   if (!journal_.replaying())
@@ -148,8 +152,14 @@ void Checkpoints::go_live() {
 
 bool Checkpoints::wanted() {
   const double minutes = session_.settings.checkpoint_minutes;
-  return minutes > 0 &&
-         std::chrono::duration<double>(std::chrono::steady_clock::now() - last_).count() >= 60 * minutes;
+  if (minutes <= 0)
+    return false;
+  const bool due =
+      std::chrono::duration<double>(std::chrono::steady_clock::now() - last_).count() >= 60 * minutes;
+  constexpr int asked_each = 8; // the ranks agree now and then only: it takes a message
+  if (!with_others())
+    return due;
+  return ++asked_wanted_ % asked_each == 0 && agreed(due && ranks().leads() ? 1 : 0) > 0;
 }
 
 std::string Checkpoints::content(std::size_t journal_size, std::uint64_t script_hash) const {
@@ -209,7 +219,11 @@ void Checkpoints::write(bool stopping) {
     return;
   stopped_ = stopping;
   const Doing saves(session_.settings.observer.get(), Activity::saving);
-  if (!put(content(flags_.in_stage ? mark_ : journal_.size(), script_hash_)))
+  const Value put_down = led("checkpoint", [&]() -> Value {
+    return put(content(flags_.in_stage ? mark_ : journal_.size(), script_hash_));
+  });
+  last_ = std::chrono::steady_clock::now();
+  if (!*put_down.get<bool>())
     return;
   if (stopping || !told_)
     session_.message("checkpoint; to go on: " + command());
@@ -219,7 +233,7 @@ void Checkpoints::write(bool stopping) {
 void Checkpoints::keep_before_call() {
   if (!may_write())
     return;
-  put(content(journal_.size(), script_hash_));
+  led_act("checkpoint", [&] { put(content(journal_.size(), script_hash_)); });
   swept_ = true;
 }
 
@@ -230,11 +244,16 @@ bool Checkpoints::is_of_stopped_run(const fs::path& file) const {
 }
 
 void Checkpoints::keep_unfinished() {
-  if (may_write() && flags_.in_stage && (solved_ > 0 || resumed_ || mark_steps_ > begin_steps_))
+  if (ranks().leads() && may_write() && flags_.in_stage &&
+      (solved_ > 0 || resumed_ || mark_steps_ > begin_steps_))
     unfinished_ = content(mark_, 0);
 }
 
 void Checkpoints::fail() {
+  led_act("checkpoint", [&] { keep_solved(); });
+}
+
+void Checkpoints::keep_solved() {
   if (!may_write() || !refused_.empty())
     return;
   const Doing saves(session_.settings.observer.get(), Activity::saving);
@@ -263,7 +282,7 @@ void Checkpoints::end() {
     refuse("resume: the script ends before it comes to where its checkpoint was written; has a file that it "
            "reads "
            "changed? Start over with cdem run");
-  if (resumed_ || !written_.empty())
+  if (ranks().leads() && (resumed_ || !written_.empty()))
     for (const std::uint64_t turn : {1, 2}) {
       std::error_code none;
       fs::remove(path_of(turn), none);

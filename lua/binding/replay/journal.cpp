@@ -3,6 +3,8 @@
 #include "libcdem/checkpoint/archive.hpp"
 #include "lua/binding/objects/pile_object.hpp"
 
+#include <stdexcept>
+
 namespace cdem::script {
 
 namespace {
@@ -104,6 +106,19 @@ Event read_event(Reader& a) {
 }
 
 } // namespace
+
+std::string value_bytes(const Value& value) {
+  if (!is_plain(value))
+    throw std::logic_error("a value that no other rank can be told");
+  Writer a;
+  write(a, value);
+  return a.take();
+}
+
+Value value_from(const std::string& bytes) {
+  Reader a(bytes);
+  return read(a);
+}
 
 void Journal::load(std::string text) {
   text_ = std::move(text);

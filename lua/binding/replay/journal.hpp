@@ -27,6 +27,10 @@ struct Event {
   Value value{};                    // result, text of the error, or arguments of a callback
 };
 
+// A plain value as bytes: nothing of the script's own, of ours only piles.
+std::string value_bytes(const Value&);
+Value value_from(const std::string& bytes);
+
 class Journal {
 public:
   // Bytes after which nothing is kept any more and there are no checkpoints.

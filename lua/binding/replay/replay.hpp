@@ -84,6 +84,7 @@ private:
   std::string content(std::size_t journal_size, std::uint64_t script_hash) const;
   bool put(const std::string& content); // false: it could not be written, as the user was told
   void keep_unfinished();               // of the running stage, in which a callback has failed
+  void keep_solved();                   // what fail() writes
   [[noreturn]] void went_another_way(const std::string& now, const Event& then);
   [[noreturn]] void refuse(const std::string& text);
   Value solve_recorded(const std::string& kind, const std::function<Value()>& solve);
@@ -103,6 +104,7 @@ private:
   int stages_ = 0;            // begun so far
   int solved_ = 0;            // ended well
   bool swept_ = false;        // or a call that keeps by itself what it has done
+  int asked_wanted_ = 0;
   std::uint64_t serial_ = 0, script_hash_ = 0;
   double elapsed_before_ = 0;
   std::string refused_; // once a replay has failed, every further call fails with it

@@ -1,6 +1,7 @@
 #include "lua/binding/runtime/engine.hpp"
 
 #include "lua/binding/objects/model_object.hpp"
+#include "lua/binding/replay/led.hpp"
 #include "lua/binding/runtime/lua_state.hpp"
 #include "lua/binding/runtime/sources.hpp"
 
@@ -17,6 +18,8 @@ namespace cdem::script {
 
 struct Engine::Impl {
   explicit Impl(EngineSettings settings) : session(std::move(settings)), lua(session) {}
+
+  bool save_failed(); // the models whose stage has failed
 
   Session session;
   LuaState lua;
@@ -38,12 +41,14 @@ void Engine::run_file() {
   Session& session = impl_->session;
   const std::filesystem::path& script = session.settings.script;
   const std::filesystem::path source = kept_source(session.settings.sources, script.filename(), script);
-  std::error_code error;
-  if (!std::filesystem::exists(source, error))
-    throw FileError(script.string() + ": no such file");
-  if (!std::filesystem::is_regular_file(source, error))
-    throw FileError(script.string() + ": not a file");
-  std::string text = read_file(source);
+  std::string text = led_bytes("script", [&] {
+    std::error_code error;
+    if (!std::filesystem::exists(source, error))
+      throw FileError(script.string() + ": no such file");
+    if (!std::filesystem::is_regular_file(source, error))
+      throw FileError(script.string() + ": not a file");
+    return read_file(source);
+  });
   if (text.rfind("\xef\xbb\xbf", 0) == 0)
     text.erase(0, 3);
   if (!text.empty() &&
@@ -226,7 +231,11 @@ std::string Engine::leave_stuck_script() {
 }
 
 bool Engine::model_saved_after_failure() {
-  Session& session = impl_->session;
+  const Value written = led("the last good state", [this]() -> Value { return impl_->save_failed(); });
+  return *written.get<bool>();
+}
+
+bool Engine::Impl::save_failed() {
   bool written = false;
   for (const auto& model : session.failed) {
     const std::string name =

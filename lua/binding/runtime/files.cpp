@@ -1,6 +1,7 @@
 #include "lua/binding/runtime/files.hpp"
 
 #include "libgeom/core/error.hpp"
+#include "lua/binding/replay/led.hpp"
 #include "lua/binding/runtime/engine.hpp"
 
 #include <algorithm>
@@ -68,6 +69,10 @@ fs::path Files::would_write(const std::string& name) const {
 }
 
 fs::path Files::to_write(const std::string& name) const {
+  return led_bytes("file", [&] { return allowed(name).string(); });
+}
+
+fs::path Files::allowed(const std::string& name) const {
   fs::path path = would_write(name);
   std::error_code error;
   fs::create_directories(path.parent_path(), error);
@@ -81,6 +86,10 @@ fs::path Files::to_write(const std::string& name) const {
 }
 
 fs::path Files::to_read(const std::string& name) const {
+  return led_bytes("file", [&] { return found(name).string(); });
+}
+
+fs::path Files::found(const std::string& name) const {
   if (name.empty() || name.find('\0') != std::string::npos)
     throw geom::InputError("file", "\"" + name.substr(0, name.find('\0')) + "\"", "a file name");
   std::vector<fs::path> places;
@@ -139,7 +148,9 @@ std::string shown_name(const fs::path& script) {
   return name.size() < 58 ? name : script.filename().string();
 }
 
-void write_file(const fs::path& path, const std::string& text) {
+namespace {
+
+void write_here(const fs::path& path, const std::string& text) {
   const fs::path temporary = path.string() + ".part";
   {
     std::ofstream out(temporary, std::ios::binary);
@@ -154,13 +165,23 @@ void write_file(const fs::path& path, const std::string& text) {
     throw FileError(path.string() + ": cannot be written: " + error.message());
 }
 
-std::string read_file(const fs::path& path) {
+std::string read_here(const fs::path& path) {
   std::ifstream in(path, std::ios::binary);
   std::ostringstream text;
   text << in.rdbuf();
   if (!in)
     throw FileError(path.string() + ": cannot be read");
   return text.str();
+}
+
+} // namespace
+
+void write_file(const fs::path& path, const std::string& text) {
+  led_act("write", [&] { write_here(path, text); });
+}
+
+std::string read_file(const fs::path& path) {
+  return led_bytes("read", [&] { return read_here(path); });
 }
 
 } // namespace cdem::script

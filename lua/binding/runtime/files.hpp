@@ -1,6 +1,6 @@
 // Which files a script may touch: it writes below the output folder only, and reads beside itself, below the
 // output folder, below the results and, when it is a run of a sweep, below the sweep's folder. `..` and symbolic
-// links are followed before the place is judged.
+// links are followed before the place is judged. Of several ranks the first alone looks, reads and writes.
 #pragma once
 
 #include <filesystem>
@@ -33,6 +33,8 @@ public:
   const std::filesystem::path& script_folder() const { return script_folder_; }
 
 private:
+  std::filesystem::path allowed(const std::string& name) const;
+  std::filesystem::path found(const std::string& name) const;
   bool may_read(const std::filesystem::path&) const;
 
   std::filesystem::path script_folder_, output_, results_, sweep_;

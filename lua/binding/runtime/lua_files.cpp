@@ -40,8 +40,7 @@ int open_file(lua_State* L) {
     lua_pushvalue(L, lua_upvalueindex(1));
     lua_pushlstring(L, path.data(), path.size());
     lua_pushlstring(L, mode.data(), mode.size());
-    lua_call(L, 2, LUA_MULTRET);
-    return lua_gettop(L);
+    return library_open(L, path, mode);
   });
 }
 
@@ -53,8 +52,7 @@ int lines_of_file(lua_State* L) {
     lua_replace(L, 1);
     lua_pushvalue(L, lua_upvalueindex(1));
     lua_insert(L, 1);
-    lua_call(L, lua_gettop(L) - 1, LUA_MULTRET);
-    return lua_gettop(L);
+    return library_lines(L, path);
   });
 }
 

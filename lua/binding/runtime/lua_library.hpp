@@ -25,6 +25,13 @@ void replace_with(lua_State* L, const char* name, int (*wrapper)(lua_State*));
 // pcall, xpcall and coroutines that let an interrupt pass (lua_protected.cpp).
 void use_interruptible_calls(lua_State* L);
 
+// lua_ranks.cpp: the library's io.open or io.lines, which stands on the stack below its arguments, the first of which is
+// the path.
+int library_open(lua_State* L, const std::string& path, const std::string& mode);
+int library_lines(lua_State* L, const std::string& path);
+// What asks the clock, chance or the system, and what writes to files, in a script that several ranks run.
+void use_calls_of_ranks(lua_State* L, bool unsafe);
+
 // lua_files.cpp. Upvalue 1 of the first two: the library's own function; of write_text: an empty string; of
 // require_beside: the table of what has been loaded.
 int open_file(lua_State* L);

@@ -1,5 +1,6 @@
 // The `cdem` table and the metatables of its classes, made from the module's declarations.
 #include "lua/binding/objects/model_object.hpp"
+#include "lua/binding/replay/led.hpp"
 #include "lua/binding/runtime/embedded.hpp"
 #include "lua/binding/runtime/lua_state.hpp"
 #include "lua/binding/schema/nearest.hpp"
@@ -63,7 +64,8 @@ Value answer(Session& session, const Bound& bound, Object* self, const Arguments
       [&] {
         if (model)
           model->touched = false;
-        Value result = bound.function->body(session, self, arguments);
+        const auto body = [&] { return bound.function->body(session, self, arguments); };
+        Value result = bound.function->led ? led(bound.shown, body) : body();
         if (model && model->touched)
           session.checkpoints.keep_call();
         return result;

@@ -205,6 +205,7 @@ void open_libraries(lua_State* L, bool unsafe) {
   lua_call(L, 1, 0);
   lua_pop(L, 1);
   use_interruptible_calls(L);
+  use_calls_of_ranks(L, unsafe);
 }
 
 } // namespace cdem::script

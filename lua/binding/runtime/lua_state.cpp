@@ -2,8 +2,10 @@
 #include "lua/binding/runtime/lua_state.hpp"
 
 #include "libcdem/step/errors.hpp"
+#include "libgeom/child/process.hpp"
 #include "libgeom/core/error.hpp"
 #include "libgeom/core/stop.hpp"
+#include "lua/binding/replay/led.hpp"
 #include "lua/binding/schema/schema.hpp"
 
 #include <algorithm>
@@ -34,7 +36,11 @@ void* allocate(void* user, void* block, std::size_t old_size, std::size_t new_si
 
 void hook(lua_State* L, lua_Debug*) {
   LuaState& state = LuaState::of(L);
-  ++state.looks;
+  const unsigned look = ++state.looks;
+  // All ranks come here alike; they agree now and then only, as it takes a message.
+  constexpr unsigned agreed_each = 64;
+  if (with_others() && look % agreed_each != 0 && !state.interrupted)
+    return;
   if (state.stop_wanted())
     luaL_error(L, "%s: stopped by the user", state.where(L).c_str());
 }
@@ -100,11 +106,13 @@ LuaState::LuaState(Session& given)
   session.collect_garbage = [this] { lua_gc(current, LUA_GCCOLLECT); };
   open_libraries(main, session.settings.unsafe);
   geom::set_stop_check([this] { return stop_wanted(); });
+  geom::set_sharing([](const auto& run) { return led_bytes("geometry", run); });
 }
 
 LuaState::~LuaState() {
   *alive = nullptr;
   geom::set_stop_check({});
+  geom::set_sharing({});
   session.where = nullptr;
   session.new_memory = nullptr;
   session.collect_garbage = nullptr;

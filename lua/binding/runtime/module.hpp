@@ -24,6 +24,9 @@ struct Function {
   // In a resumed script. A method of Model that keeps a place, a condition or a function of the script is `again`; a
   // function that reads or writes files or the clock is `recorded`.
   Replay replay = Replay::standard;
+  // Of several ranks the first alone does it and tells the others its plain result: what draws, writes files by a library,
+  // asks the clock or starts processes. Its fields hold no functions of the script.
+  bool led = false;
 };
 
 struct Property {

@@ -1,5 +1,6 @@
 #include "lua/binding/runtime/process_pool.hpp"
 
+#include "libcdem/ranks/ranks.hpp"
 #include "lua/binding/runtime/engine.hpp"
 
 #include <chrono>
@@ -29,6 +30,19 @@ double seconds_since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
+// What it runs in, but for what would make it take itself for a rank of ours.
+std::vector<char*> environment_of_job() {
+  std::vector<char*> words;
+  for (char** word = environ; *word != nullptr; ++word) {
+    const std::string text = *word;
+    const auto begins = [&](const char* start) { return text.rfind(start, 0) == 0; };
+    if (ranks().alone() || !(begins("OMPI_") || begins("PMIX_") || begins("PMI_") || begins("CDEM_RANKS_")))
+      words.push_back(*word);
+  }
+  words.push_back(nullptr);
+  return words;
+}
+
 pid_t start(const Job& job) {
   std::vector<char*> arguments;
   for (const std::string& word : job.command)
@@ -56,7 +70,9 @@ pid_t start(const Job& job) {
                            POSIX_SPAWN_SETPGROUP | POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETSIGDEF);
 
   pid_t pid = -1;
-  const int error = posix_spawnp(&pid, arguments[0], &files, &attributes, arguments.data(), environ);
+  std::vector<char*> environment = environment_of_job();
+  const int error =
+      posix_spawnp(&pid, arguments[0], &files, &attributes, arguments.data(), environment.data());
   posix_spawn_file_actions_destroy(&files);
   posix_spawnattr_destroy(&attributes);
   if (error != 0)

@@ -1,6 +1,7 @@
 #include "lua/binding/runtime/session.hpp"
 
 #include "libgeom/core/error.hpp"
+#include "lua/binding/replay/led.hpp"
 #include "lua/binding/schema/nearest.hpp"
 
 #include <algorithm>
@@ -87,8 +88,10 @@ void Session::write_report() {
           row.named.insert(*found);
       report.relaxations.push_back(std::move(row));
     }
-  write_file(files.to_write("report.json"), report.json());
-  write_file(files.to_write("report.md"), report.markdown());
+  led_act("report", [&] {
+    write_file(files.to_write("report.json"), report.json());
+    write_file(files.to_write("report.md"), report.markdown());
+  });
 }
 
 void Session::check_set_names() const {

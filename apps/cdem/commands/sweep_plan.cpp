@@ -1,0 +1,122 @@
+#include "apps/cdem/commands/sweep_plan.hpp"
+
+#include "apps/cdem/failure.hpp"
+#include "apps/cdem/records.hpp"
+#include "apps/cdem/run_log.hpp"
+#include "apps/cdem/text.hpp"
+#include "lua/binding/runtime/files.hpp"
+#include "lua/binding/runtime/sources.hpp"
+#include "lua/binding/schema/nearest.hpp"
+
+#include <algorithm>
+#include <fstream>
+#include <set>
+
+namespace cdem::app {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+// Folder name of a run: as case_name makes it of its settings alone.
+std::string run_name(const Settings& set) {
+  const std::string whole = case_name("/x/case.lua", set);
+  return whole.substr(whole.find('-') + 1);
+}
+
+std::string csv_cell(const std::string& text) {
+  if (text.find_first_of(",\"\n") == std::string::npos)
+    return text;
+  std::string quoted = "\"";
+  for (const char c : text)
+    quoted += c == '"' ? "\"\"" : std::string(1, c);
+  return quoted + "\"";
+}
+
+} // namespace
+
+fs::path sweep_folder(const SweepCommand& command) {
+  return command.output.empty() ? fs::path("results") / (case_name(command.script, {}) + "-sweep")
+                                : command.output;
+}
+
+std::string shown(const Settings& set) {
+  std::vector<std::string> words;
+  for (const auto& [name, value] : set)
+    words.push_back(name + "=" + value);
+  return script::joined(words, " ");
+}
+
+std::string number_of_runs(std::size_t count) {
+  return std::to_string(count) + (count == 1 ? " run" : " runs");
+}
+
+void keep_sources(const fs::path& script, OutputFolder& folder) {
+  script::each_source(script, [&](const fs::path& name, const std::string& text) {
+    const fs::path copy = folder.path() / script::sources_folder / name;
+    folder.will_write(copy);
+    fs::create_directories(copy.parent_path());
+    script::write_file(copy, text);
+  });
+}
+
+bool has_checkpoint(const SweptRun& run) {
+  try {
+    script::newest_checkpoint(run.folder, run_of_log(run.folder / run_log_name));
+    return true;
+  } catch (const script::FileError&) {
+    return false;
+  }
+}
+
+std::vector<SweptRun> planned_runs(const SweepCommand& command, const fs::path& folder) {
+  std::vector<SweptRun> runs;
+  std::set<std::string> names;
+  for (const auto& set : command.settings) {
+    SweptRun run;
+    run.set = set;
+    run.name = run_name(set);
+    run.folder = folder / run.name;
+    run.console = folder / (run.name + ".console");
+    if (!names.insert(run.name).second)
+      throw UsageError("--set gives the same run twice: " + shown(set));
+    runs.push_back(run);
+  }
+  return runs;
+}
+
+void write_table(const std::vector<SweptRun>& runs, const fs::path& file) {
+  std::vector<std::map<std::string, std::string>> values(runs.size());
+  std::vector<std::string> names; // in order of appearance
+  for (std::size_t i = 0; i < runs.size(); ++i) {
+    const fs::path report = runs[i].folder / "report.json";
+    // What a failed run has in its folder may be of an earlier sweep.
+    if (runs[i].exit_code != 0 || !fs::exists(report))
+      continue;
+    for (const auto& figure : read_report(report)) {
+      values[i][figure.name] = figure.value;
+      if (std::find(names.begin(), names.end(), figure.name) == names.end())
+        names.push_back(figure.name);
+    }
+  }
+  std::ofstream out(file);
+  for (const auto& [name, value] : runs.front().set)
+    out << csv_cell(name) << ',';
+  out << "exit_code,wall_time_s";
+  for (const auto& name : names)
+    out << ',' << csv_cell(name);
+  out << '\n';
+  for (std::size_t i = 0; i < runs.size(); ++i) {
+    for (const auto& [name, value] : runs[i].set)
+      out << csv_cell(value) << ',';
+    out << (runs[i].exit_code < 0 ? "" : std::to_string(runs[i].exit_code)) << ','
+        << (runs[i].seconds < 0 ? "" : number_text(runs[i].seconds));
+    for (const auto& name : names)
+      out << ',' << csv_cell(values[i][name]);
+    out << '\n';
+  }
+  if (!out.flush())
+    throw script::FileError(file.string() + " cannot be written");
+}
+
+} // namespace cdem::app

@@ -1,0 +1,309 @@
+// Several processes that solve one model, as a user meets them: the same report as of one, one message for an error or a
+// stop, nothing left behind when one is killed, and a script that asks what differs between processes.
+#include "tests/apps/support/child.hpp"
+
+#include <algorithm>
+#include <array>
+#include <catch2/catch.hpp>
+#include <chrono>
+#include <csignal>
+#include <future>
+#include <thread>
+
+#include <unistd.h>
+
+using namespace testing;
+using Catch::Matchers::Contains;
+namespace fs = std::filesystem;
+
+namespace {
+
+// A plate that is shaken and breaks, and what reads files, the clock and chance on the way.
+const char* const plate = R"(local cdem = require "cdem"
+local steps = cdem.parameter{ name = "steps", default = 400 }
+local rock = cdem.elastic{ youngs_modulus = 1e9, poissons_ratio = 0.2, density = 2500 }
+local joint = cdem.mohr_coulomb{ cohesion = 6e5, friction_angle = 30, tensile_strength = 2e5 }
+local model = cdem.model{ bodies = { { shape = cdem.grid{ size = {1.2, 0.5, 0.05}, divisions = {24, 10, 1} },
+  material = rock, joint = joint, name = "plate" } } }
+model:fix{ on = "y-" }
+model:traction{ on = "y+", stress = {2e5, 2.5e5, 0} }
+print "begins"
+model:relax{ max_steps = 250 }
+local most = 0
+model:run{ steps = steps, every = 200, callback = function() most = math.max(most, model:max("velocity.y")) end }
+cdem.report{ { name = "hash", value = model.state_hash }, { name = "most", value = most },
+  { name = "breaks", value = #model:breaks() } }
+)";
+
+struct Place {
+  TempFolder folder;
+  Start start;
+  explicit Place(const std::string& text = plate) {
+    start.folder = folder.path();
+    write_file(folder / "plate" / "case.lua", text);
+  }
+  Outcome cdem(const std::vector<std::string>& arguments, int signal = 0, const std::string& after = "") {
+    start.signal = signal;
+    start.signal_after = after;
+    return run_cdem(arguments, start);
+  }
+  std::string report() const { return read_file(folder / "out/report.json"); }
+  std::string log() const { return read_file(folder / "out/cdem.log"); }
+};
+
+bool no_mpirun() {
+  static const bool none = [] {
+    const TempFolder folder;
+    Start start;
+    start.folder = folder.path();
+    return run_program({"/bin/sh", "-c", "command -v mpirun"}, start).exit_code != 0 ||
+           !fs::exists(fs::path(CDEM_PROGRAM).parent_path() / "cdem_mpi.so");
+  }();
+  if (none)
+    WARN("not tested: there is no mpirun (package openmpi-bin), or cdem was built without MPI");
+  return none;
+}
+
+const std::string& report_of_one() {
+  static const std::string report = [] {
+    Place place;
+    REQUIRE(place.cdem({"run", "plate/case.lua", "--output", "out", "--threads", "1"}).exit_code == 0);
+    return place.report();
+  }();
+  return report;
+}
+
+// Processes of ours in the folder with this rank; 0: none.
+pid_t process_of_rank(const fs::path& folder, int rank) {
+  const std::string wanted = "OMPI_COMM_WORLD_RANK=" + std::to_string(rank) + '\0';
+  std::error_code none;
+  for (const auto& entry : fs::directory_iterator("/proc", none)) {
+    const std::string name = entry.path().filename().string();
+    if (!std::all_of(name.begin(), name.end(), [](unsigned char c) { return std::isdigit(c) != 0; }) ||
+        fs::read_symlink(entry.path() / "cwd", none) != folder)
+      continue;
+    if (read_file(entry.path() / "environ").find(wanted) != std::string::npos)
+      return std::stoi(name);
+  }
+  return 0;
+}
+
+} // namespace
+
+TEST_CASE("ranks: the report is that of one process, told once") {
+  if (no_mpirun())
+    return;
+  for (const char* const ranks : {"2", "3"}) {
+    Place place;
+    const Outcome outcome = place.cdem({"run", "plate/case.lua", "--output", "out", "--ranks", ranks});
+    INFO(outcome.out << outcome.err);
+    CHECK(outcome.exit_code == 0);
+    CHECK(lines_of(outcome.err).size() == 1); // the warning of a relaxation cut short
+    CHECK(place.report() == report_of_one());
+    CHECK_THAT(place.log(),
+               Contains(std::string(ranks) + " ranks of ") && Contains("ended with exit code 0"));
+    const auto lines = lines_of(outcome.out);
+    CHECK(std::count(lines.begin(), lines.end(), "begins") == 1);
+    CHECK(process_of_rank(place.folder.path(), 1) == 0);
+  }
+}
+
+TEST_CASE("ranks: those of a plain mpirun are the same") {
+  if (no_mpirun())
+    return;
+  Place place;
+  place.start.environment = {"OMPI_ALLOW_RUN_AS_ROOT=1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1"};
+  const Outcome outcome = run_program({"/usr/bin/env", "mpirun", "-n", "2", "--oversubscribe", CDEM_PROGRAM,
+                                       "run", "plate/case.lua", "--output", "out"},
+                                      place.start);
+  INFO(outcome.out << outcome.err);
+  CHECK(outcome.exit_code == 0);
+  CHECK(place.report() == report_of_one());
+}
+
+TEST_CASE("ranks: an error of the script is told once, with its exit code") {
+  if (no_mpirun())
+    return;
+  const std::vector<std::array<std::string, 3>> cases = {
+      {"local cdem = require 'cdem'\ncdem.elastic{ youngs_modulus = -1, poissons_ratio = 0, density = 1 }",
+       "2", "youngs_modulus = -1: must be"},
+      {"local cdem = require 'cdem'\ncdem.read_csv 'none.csv'", "4",
+       "cdem.read_csv: file \"none.csv\": not found"}};
+  for (const auto& [text, code, said] : cases) {
+    Place place(text);
+    const Outcome outcome = place.cdem({"run", "plate/case.lua", "--output", "out", "--ranks", "2"});
+    CHECK(outcome.exit_code == std::stoi(code));
+    CHECK(lines_of(outcome.err).size() == 1);
+    CHECK_THAT(outcome.err, Contains("cdem: error: plate/case.lua:2: ") && Contains(said));
+  }
+  Place place;
+  CHECK_THAT(place.cdem({"run", "none.lua", "--ranks", "2"}).err, Contains("none.lua: no such file"));
+  CHECK_THAT(place.cdem({"run", "plate/case.lua", "--ranks", "0"}).err, Contains("--ranks = 0: must be"));
+  CHECK_THAT(place.cdem({"run", "plate/case.lua", "--ranks", "2", "--set", "stepps=3"}).err,
+             Contains("did you mean"));
+}
+
+TEST_CASE("ranks: an output folder that goes while they run ends all with one message") {
+  if (no_mpirun())
+    return;
+  Place place("print 'begins'\nlocal till = os.time() + 2\nwhile os.time() < till do end");
+  auto running = std::async(std::launch::async, [&] {
+    return place.cdem({"run", "plate/case.lua", "--output", "out", "--ranks", "2"});
+  });
+  const auto begun = std::chrono::steady_clock::now();
+  while (place.log().find("begins") == std::string::npos &&
+         std::chrono::steady_clock::now() - begun < std::chrono::seconds(20))
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+  fs::remove_all(place.folder / "out");
+  const Outcome outcome = running.get();
+  INFO(outcome.out << outcome.err);
+  CHECK(outcome.exit_code == 4);
+  CHECK(lines_of(outcome.err).size() == 1);
+  CHECK_THAT(outcome.err, Contains("cdem: error: ") && Contains("out"));
+}
+
+TEST_CASE("ranks: Ctrl-C and SIGTERM keep a checkpoint, from which another number of ranks goes on") {
+  if (no_mpirun())
+    return;
+  for (const auto& [signal, ranks, again] :
+       {std::array<int, 3>{SIGINT, 2, 3}, std::array<int, 3>{SIGTERM, 3, 1}}) {
+    Place place;
+    const Outcome stopped = place.cdem(
+        {"run", "plate/case.lua", "--output", "out", "--ranks", std::to_string(ranks)}, signal, "begins");
+    INFO(stopped.out << stopped.err);
+    CHECK(stopped.exit_code == 128 + signal);
+    CHECK(stopped.err ==
+          (signal == SIGINT ? "cdem: error: stopped by Ctrl-C\n" : "cdem: error: stopped by SIGTERM\n"));
+    CHECK_THAT(stopped.out, Contains("checkpoint; to go on: cdem resume out\n"));
+    const Outcome ended = place.cdem({"resume", "out", "--ranks", std::to_string(again)});
+    INFO(ended.out << ended.err);
+    CHECK(ended.exit_code == 0);
+    CHECK_THAT(ended.out, Contains("goes on from "));
+    CHECK(place.report() == report_of_one());
+  }
+}
+
+TEST_CASE("ranks: Ctrl-C ends what never comes back") {
+  if (no_mpirun())
+    return;
+  for (const std::string text : {"print 'begins'\nstring.find(('a'):rep(40000), ('.-'):rep(20) .. 'b')\n",
+                                 "print 'begins'\nwhile true do end"}) {
+    Place place(text);
+    const Outcome outcome =
+        place.cdem({"run", "plate/case.lua", "--output", "out", "--ranks", "2"}, SIGINT, "begins");
+    CHECK(outcome.exit_code == 130);
+    CHECK_THAT(outcome.err, Contains("cdem: error: stopped by Ctrl-C"));
+    CHECK(lines_of(outcome.err).size() == 1);
+    CHECK(outcome.after_signal < 6);
+  }
+}
+
+TEST_CASE("ranks: when one is killed all end within ten seconds, and a checkpoint is kept") {
+  if (no_mpirun())
+    return;
+  for (const int rank : {1, 0}) {
+    Place place;
+    auto running = std::async(std::launch::async, [&] {
+      return place.cdem({"run", "plate/case.lua", "--output", "out", "--ranks", "2", "--set",
+                         "steps=100000000", "--checkpoint-every", "0.002"});
+    });
+    const fs::path checkpoint = place.folder / "out/checkpoint_2.cdem";
+    const auto begun = std::chrono::steady_clock::now();
+    while (!fs::exists(checkpoint) && std::chrono::steady_clock::now() - begun < std::chrono::seconds(40))
+      std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    const pid_t process = process_of_rank(place.folder.path(), rank);
+    REQUIRE(process > 0);
+    const auto killed = std::chrono::steady_clock::now();
+    kill(process, SIGKILL);
+    const Outcome outcome = running.get();
+    INFO(outcome.out << outcome.err);
+    CHECK(std::chrono::steady_clock::now() - killed < std::chrono::seconds(10));
+    CHECK(outcome.exit_code == 6);
+    CHECK_THAT(outcome.err, Contains("cdem: error: a rank was killed"));
+    const auto lines = lines_of(outcome.err);
+    CHECK(std::count_if(lines.begin(), lines.end(), [](const std::string& line) {
+            return line.find("error: ") != std::string::npos;
+          }) == 1);
+    for (const int other : {0, 1})
+      CHECK(process_of_rank(place.folder.path(), other) == 0);
+    // It goes on from there, to the next Ctrl-C.
+    const Outcome again = place.cdem({"resume", "out"}, SIGINT, "goes on");
+    CHECK(again.exit_code == 130);
+    CHECK_THAT(again.out, Contains("goes on from out/checkpoint_"));
+  }
+}
+
+TEST_CASE("ranks: the clock, chance and files are asked once for all, and go on alike") {
+  if (no_mpirun())
+    return;
+  Place place(R"lua(local cdem = require "cdem"
+math.randomseed()
+local file = assert(io.open("notes.txt", "w"))
+assert(file:write(os.time(), " ", os.clock(), " ", math.random(), " ", os.date(), " ", cdem.elapsed(), "\n"))
+file:write("second line\n")
+local at = file:seek("cur")
+file:close()
+local text, lines = "", 0
+for line in io.lines("notes.txt") do text, lines = text .. line, lines + 1 end
+local added = assert(io.open("notes.txt", "a+"))
+added:write("third")
+added:close()
+local all = assert(io.open("notes.txt")):read("a")
+local none, why = io.open("no/such.txt")
+print(none, why)
+-- Ranks that had seen other values would come to the stage with other arguments, and be told so.
+local rock = cdem.elastic{ youngs_modulus = 1e9 + #all + at + tonumber(text:match("^%d+ ([%d.]+)")), poissons_ratio = 0,
+  density = 2000 + math.random() }
+local box = cdem.solid.box{ size = {1, 1, 1} }:mesh{ size = 0.5 } -- in a child process of rank 0
+local model = cdem.model{ bodies = { { shape = box, material = rock } } }
+model:fix{ on = "y-" }
+model:gravity{ vector = {0, -9.81, 0} }
+model:run{ steps = 100 + lines * 10 + math.random(50) + #all + at + math.floor(os.clock() * 1e6) % 50 }
+model:save{ file = "end.vtu" }
+model:picture{ file = "end.png" }
+cdem.report{ { name = "hash", value = model.state_hash } }
+print(all)
+)lua");
+  const Outcome outcome = place.cdem({"run", "plate/case.lua", "--output", "out", "--ranks", "2"});
+  INFO(outcome.out << outcome.err);
+  CHECK(outcome.exit_code == 0);
+  CHECK_THAT(read_file(place.folder / "out/notes.txt"), Contains("second line\nthird"));
+  CHECK(fs::exists(place.folder / "out/end.vtu"));
+  CHECK(fs::exists(place.folder / "out/end.png"));
+}
+
+TEST_CASE("ranks: a script that goes another way in one process is told so") {
+  if (no_mpirun())
+    return;
+  // Addresses are not the same in two processes; these two lines differ in what they are called with.
+  Place place(
+      "local cdem = require 'cdem'\n"
+      "local rock = cdem.elastic{ youngs_modulus = 1e9, poissons_ratio = 0, density = 2000 }\n"
+      "local model = cdem.model{ bodies = { { shape = cdem.grid{ size = {1, 1, 1}, divisions = {1, 1, 1} },\n"
+      "  material = rock } } }\n"
+      "model:fix{ on = 'y-' }\n"
+      "model:run{ steps = tonumber(tostring({}):match('0x(%x+)'), 16) % 100003 + 1 }\n");
+  const Outcome outcome = place.cdem({"run", "plate/case.lua", "--output", "out", "--ranks", "2"});
+  CHECK(outcome.exit_code == 2);
+  CHECK_THAT(outcome.err, Contains("rank 1: what run is called with, stage 1, differs from that of rank 0"));
+}
+
+TEST_CASE("ranks: what does not solve one model is refused or done once") {
+  if (no_mpirun())
+    return;
+  Place place;
+  place.start.environment = {"OMPI_ALLOW_RUN_AS_ROOT=1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1"};
+  const auto ranks = [&](std::vector<std::string> words) {
+    words.insert(words.begin(), {"/usr/bin/env", "mpirun", "-q", "-n", "2", "--oversubscribe", CDEM_PROGRAM});
+    return run_program(words, place.start);
+  };
+  const Outcome version = ranks({"--version"});
+  CHECK(lines_of(version.out).size() == 1);
+  const Outcome sweep = ranks({"sweep", "plate/case.lua", "--set", "steps=1,2"});
+  CHECK(sweep.exit_code == 2);
+  CHECK_THAT(sweep.err, Contains("cdem sweep: this is one of 2 ranks"));
+  CHECK_THAT(ranks({"run", "plate/case.lua", "--ranks", "2"}).err, Contains("leave --ranks out"));
+  const Outcome check = ranks({"check", "plate/case.lua"});
+  CHECK(check.exit_code == 0);
+  CHECK_THAT(check.out, Contains("no errors found"));
+}
