@@ -15,6 +15,7 @@ model:release{ on = "y+", axes = "y" }
 -- example: model:traction
 model:traction{ on = "y+", stress = {0, -1e6, 0} }               -- 1 MPa downwards
 model:traction{ on = "x+", stress = {-1e5, 0, 0}, amplitude = { {0, 0}, {0.1, 1} } } -- grows from 0 over 0.1 s
+model:traction{ on = "x-", stress = {1e5, 0, 0}, since = model.time, amplitude = { {0, 0}, {0.1, 1} } } -- from now on
 
 -- example: model:force
 model:force{ on = cdem.select.box{ min = {0.4, 1, 0}, max = {0.6, 1, 0.1} }, force = {0, -5e3, 0} } -- N in all

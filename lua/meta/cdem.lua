@@ -183,8 +183,8 @@ local cdem = {}
 ---@field mode "tension"|"shear"
 ---@field centroid number[] m
 ---@field normal number[] of the cut planes
----@field principal_stress number[] Pa: compression positive, the largest first
----@field angle_to_sigma1 number deg: between the plane and the axis of the largest
+---@field principal_stress number[] Pa: tension positive, the largest first
+---@field angle_to_largest_pressure number deg: between the cut planes and the axis of the largest pressure, principal_stress[3]
 ---@field generation integer 0 for an original block
 ---@field pieces integer
 ---@field tie boolean both conjugate planes were equally good
@@ -800,6 +800,7 @@ function Model:box() end
 ---@field displacement? number[] m: total value to be held; a relaxation moves there first
 ---@field velocity? number[] m/s: in real-time stepping; zero when left out
 ---@field amplitude? cdem.Record|number[][]|fun(time: number): number factor over time (s): a cdem.record, a list { {time, value}, ... } with straight lines between and its first and last value outside, or a function, called once a step; a relaxation asks once at its start; 1 when left out
+---@field since? number s: time of the model at which the amplitude's times begin, 0 when left out; since = model.time lets it begin now, in a later stage
 
 ---Holds nodes, or moves them as told. A later call wins over an earlier one where they meet.
 ---@param options cdem.ModelFixOptions
@@ -817,6 +818,7 @@ function Model:release(options) end
 ---@field on cdem.Place where: a place or a list of places
 ---@field stress number[] Pa: force over area, not following the surface
 ---@field amplitude? cdem.Record|number[][]|fun(time: number): number factor over time (s): a cdem.record, a list { {time, value}, ... } with straight lines between and its first and last value outside, or a function, called once a step; a relaxation asks once at its start; 1 when left out
+---@field since? number s: time of the model at which the amplitude's times begin, 0 when left out; since = model.time lets it begin now, in a later stage
 
 ---Force per undeformed area on outer faces.
 ---@param options cdem.ModelTractionOptions
@@ -826,6 +828,7 @@ function Model:traction(options) end
 ---@field on cdem.Place where: one place
 ---@field force number[] N: total
 ---@field amplitude? cdem.Record|number[][]|fun(time: number): number factor over time (s): a cdem.record, a list { {time, value}, ... } with straight lines between and its first and last value outside, or a function, called once a step; a relaxation asks once at its start; 1 when left out
+---@field since? number s: time of the model at which the amplitude's times begin, 0 when left out; since = model.time lets it begin now, in a later stage
 
 ---A total force, shared among the nodes of a place.
 ---@param options cdem.ModelForceOptions
@@ -835,6 +838,7 @@ function Model:force(options) end
 ---@field vector number[]|fun(time: number): number[] m/s2: acceleration, e.g. {0, 0, -9.81}, or a function of time (s) that gives it
 ---@field water_density? number kg/m3, >= 0, default 0: buoyancy: takes from the weight, never from the inertia
 ---@field amplitude? cdem.Record|number[][]|fun(time: number): number factor over time (s): a cdem.record, a list { {time, value}, ... } with straight lines between and its first and last value outside, or a function, called once a step; a relaxation asks once at its start; 1 when left out
+---@field since? number s: time of the model at which the amplitude's times begin, 0 when left out; since = model.time lets it begin now, in a later stage
 
 ---Weight of all blocks; one at a time, the last call counts.
 ---@param options cdem.ModelGravityOptions
@@ -1134,6 +1138,7 @@ function Model:critical_flow(options) end
 ---@field velocity? number[] m/s: of the particles in the entering wave alone
 ---@field stress? number[] Pa: traction of the entering wave alone on these faces; the boundary adds 2 of it
 ---@field amplitude? cdem.Record|number[][]|fun(time: number): number factor over time (s): a cdem.record, a list { {time, value}, ... } with straight lines between and its first and last value outside, or a function, called once a step; a relaxation asks once at its start; 1 when left out
+---@field since? number s: time of the model at which the amplitude's times begin, 0 when left out; since = model.time lets it begin now, in a later stage
 
 ---Quiet boundary (Lysmer and Kuhlemeyer 1969): dashpots on outer faces let waves out, and a wave may enter through them. It takes the place of a fix of the same place, whose reactions stay as loads. For real-time stepping.
 ---@param options cdem.ModelQuietOptions
