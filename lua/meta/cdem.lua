@@ -941,7 +941,7 @@ function Model:water(options) end
 ---@field max_steps? integer >= 1, default 500000: gives up with converged = false, undecided
 ---@field stop_on_failure? boolean default true: ends where the model runs away, with the verdict "failing"; false: goes on, for a fall that something may catch
 ---@field trial? string name of a trial, "F = 1.2", for progress, log and report; that it fails is then an answer and no warning
----@field every? integer >= 1: steps between calls, 100 by default
+---@field every? integer >= 1: steps between calls, 100 by default; without a callback steps between samples of the history from here on, 10 at first
 ---@field callback? fun() called every so many steps; may read the model and write files
 
 ---Dynamic relaxation to static balance, with fictitious masses and adaptive damping (Han 2010 eq 12). The verdict tells a model that stands from one that runs away (docs/theory.md, section 25).
@@ -961,7 +961,7 @@ function Model:relax(options) end
 ---@field mass_scaling? cdem.ModelRunOptionsMass_scaling for quasi-static stages: nodes that need a shorter time step get more inertia, not more weight; instead of time_step
 ---@field breaking? boolean default true: bonds may break
 ---@field local_damping? number in [0, 1), default 0: force against the motion as a fraction of the out-of-balance force (Cundall)
----@field every? integer >= 1: steps between calls, 100 by default
+---@field every? integer >= 1: steps between calls, 100 by default; without a callback steps between samples of the history from here on, 10 at first
 ---@field callback? fun() called every so many steps; may read the model and write files
 ---@field stop? fun(): boolean ends the stage when it returns true
 
