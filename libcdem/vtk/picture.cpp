@@ -85,6 +85,8 @@ void render(const Snapshot& snapshot, const PictureOptions& options, const std::
   std::optional<BarContent> bar;
   if (field && options.colour_bar)
     bar = bar_content(*field, scale);
+  if (bar)
+    bar->given_range = options.range.has_value();
   std::vector<LegendEntry> legend;
   if (options.legend)
     legend = legend_entries(options, broken, pixel);
