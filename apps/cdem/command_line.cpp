@@ -5,6 +5,7 @@
 #include "apps/cdem/failure.hpp"
 #include "apps/cdem/memory.hpp"
 #include "apps/cdem/option_values.hpp"
+#include "apps/cdem/shell/shell_files.hpp"
 #include "lua/binding/schema/nearest.hpp"
 
 #include <CLI/CLI.hpp>
@@ -20,7 +21,7 @@ constexpr int most_threads = 1024;
 struct Typed {
   std::string file, output, threads, memory, jobs, colour,
       deformation = "0", view = "front", up = "y", size = "1600x1200", range, hidden, colour_map = "auto",
-      title, topic, checkpoint_every = "10", sources;
+      title, topic, checkpoint_every = "10", sources, shell_files;
   std::vector<std::string> set;
   bool unsafe = false, quiet = false, machine = false, version = false, manual = false;
   bool no_edges = false, no_broken_bonds = false, no_colour_bar = false, no_legend = false, no_axes = false;
@@ -68,6 +69,7 @@ public:
     app_.option_defaults()->group("options");
     app_.add_flag("--version", typed_.version, "print the version and exit");
     app_.add_flag("--manual", typed_.manual, "print the help of every command as Markdown")->group("");
+    app_.add_option("--shell-files", typed_.shell_files, "folder for manual pages and completion")->group("");
     add_run();
     add_resume();
     add_check();
@@ -384,6 +386,11 @@ private:
       return print("cdem " + version() + "\n");
     if (typed_.manual)
       return print(manual());
+    if (!typed_.shell_files.empty())
+      return [all = declared(app_), folder = typed_.shell_files] {
+        write_shell_files(all, folder);
+        return ExitCode::success;
+      };
     if (chosen.empty())
       return print(help_of(&app_));
     const std::string command = chosen.front()->get_name();
