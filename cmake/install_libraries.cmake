@@ -30,7 +30,7 @@ endfunction()
 
 # Names, not the targets that were found: a program that links libcdem needs neither CGAL nor VTK to be found.
 set(geom_uses voro++ gmsh gmp mpfr ${OpenMP_CXX_FLAGS})
-set(cdem_uses fmt ${OpenMP_CXX_FLAGS})
+set(cdem_uses fmt xxhash ${OpenMP_CXX_FLAGS})
 foreach(kind SHARED STATIC)
   set(s)
   if(kind STREQUAL "STATIC")

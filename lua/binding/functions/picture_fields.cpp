@@ -137,9 +137,18 @@ void draw(Session& session, const std::string& file,
   }
 }
 
+void require_one_of(const std::string& file, const std::vector<std::string>& endings) {
+  std::string all;
+  for (const std::string& ending : endings) {
+    if (file.size() > ending.size() && file.compare(file.size() - ending.size(), ending.size(), ending) == 0)
+      return;
+    all += (all.empty() ? "" : &ending == &endings.back() ? " or " : ", ") + ending;
+  }
+  throw InputError("file", "\"" + file + "\"", "a name that ends in " + all);
+}
+
 void require_ending(const std::string& file, const std::string& ending) {
-  if (file.size() <= ending.size() || file.compare(file.size() - ending.size(), ending.size(), ending) != 0)
-    throw InputError("file", "\"" + file + "\"", "a name that ends in " + ending);
+  require_one_of(file, {ending});
 }
 
 } // namespace cdem::script

@@ -29,5 +29,6 @@ void draw(Session&, const std::string& file, const std::function<void(const std:
 
 // Throws geom::InputError when a file name has another ending.
 void require_ending(const std::string& file, const std::string& ending);
+void require_one_of(const std::string& file, const std::vector<std::string>& endings);
 
 } // namespace cdem::script
