@@ -125,7 +125,7 @@ void add_bolts(const Simulation& simulation, PictureOptions& options) {
 }
 
 Value picture(Session& session, ModelObject& model, const Arguments& a) {
-  require_ending(a.text("file"), ".png");
+  require_drawing(a.text("file"));
   PictureOptions options = picture_options(a);
   for (const Value& body : a.list("plain"))
     options.plain.push_back(model.simulation.body_number(*body.get<std::string>(), "plain"));
@@ -147,7 +147,7 @@ Value picture(Session& session, ModelObject& model, const Arguments& a) {
 }
 
 Value film(Session& session, Object*, const Arguments& a) {
-  require_ending(a.text("file"), ".ogv");
+  require_one_of(a.text("file"), {".ogv", ".mp4"});
   if (session.settings.check_only)
     return {};
   std::vector<std::string> frames;
@@ -228,17 +228,19 @@ void bind_output(Module& m) {
        joint_file, false, "", "", method<ModelObject>(save_joints)});
   model.methods.push_back({"picture", "Draws the model, without a display.", picture_declaration(), false, "",
                            "", method<ModelObject>(picture)});
-  m.functions.push_back({"film",
-                         "A film (Ogg/Theora) from pictures of one size.",
-                         {text("file").required().doc("ends in .ogv; in the output folder"),
-                          list("frames", text_type()).required().doc("names of the pictures, in order"),
-                          integer("frames_per_second").within(1, 120).standard(12)},
-                         false,
-                         "",
-                         "",
-                         film,
-                         false,
-                         Replay::recorded});
+  m.functions.push_back(
+      {"film",
+       "A film from pictures of one size: Ogg/Theora, or H.264 by the program ffmpeg.",
+       {text("file").required().doc("ends in .ogv, or in .mp4 where ffmpeg is installed; in the "
+                                    "output folder"),
+        list("frames", text_type()).required().doc("names of the pictures, in order"),
+        integer("frames_per_second").within(1, 120).standard(12)},
+       false,
+       "",
+       "",
+       film,
+       false,
+       Replay::recorded});
 }
 
 } // namespace cdem::script
