@@ -144,7 +144,7 @@ TEST_CASE(
   CHECK_THAT(svg, Contains("width=\"101.6mm\" height=\"76.2mm\" viewBox=\"0 0 600 450\""));
   CHECK_THAT(svg, Contains("<polygon") && Contains("<path") && !Contains("<image") && Contains("</svg>"));
   CHECK_THAT(read("c.pdf").substr(0, 5), Contains("%PDF-"));
-  CHECK_THAT(read("c.pdf"), Contains("MediaBox [ 0 0 288 216 ]") && !Contains("/Image"));
+  CHECK_THAT(read("c.pdf"), Contains("MediaBox [ 0 0 288 216 ]") && !Contains("/Subtype /Image"));
   // pHYs: pixels in a metre, twice, and the unit.
   CHECK_THAT(read("c.png"), Contains(std::string("pHYs\0\0\x17\x12\0\0\x17\x12\1", 13)));
   CHECK_THROWS_WITH(chart(line, o, folder / "c.jpg"), Contains(".png, .svg or .pdf"));
@@ -158,7 +158,7 @@ TEST_CASE(
   render(sample::plate(), p, folder / "p.pdf");
   CHECK_THAT(read("p.svg"),
              Contains("<image") && Contains("data:image/png;base64,iVBOR") && Contains("<path"));
-  CHECK_THAT(read("p.pdf"), Contains("/Image"));
+  CHECK_THAT(read("p.pdf"), Contains("/Subtype /Image"));
 }
 
 TEST_CASE("a vector page draws what the picture of it shows") {
@@ -186,12 +186,14 @@ TEST_CASE("a vector page draws what the picture of it shows") {
     const Image drawn = read_png(folder / file);
     REQUIRE(drawn.width == truth.width);
     REQUIRE(drawn.height == truth.height);
-    double apart = 0; // mean over all pixels, of 255
+    double apart = 0, blank = 0; // mean over all pixels, of 255; of an empty page
     for (int y = 0; y < truth.height; ++y)
       for (int x = 0; x < truth.width; ++x)
-        for (int c = 0; c < 3; ++c)
+        for (int c = 0; c < 3; ++c) {
           apart += std::abs(static_cast<double>(truth.at(x, y)[c]) - drawn.at(x, y)[c]);
-    CHECK(apart / (3. * truth.width * truth.height) < 1.5);
+          blank += 255 - truth.at(x, y)[c];
+        }
+    CHECK(apart < 0.4 * blank); // lines of a pixel lie half a pixel off, or are drawn wider
   }
 }
 
