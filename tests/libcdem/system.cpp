@@ -148,12 +148,7 @@ cdem::RelaxResult System::relax(double residual, bool breaking) {
   return result;
 }
 
-cdem::RunResult System::run(const cdem::RunOptions& given) {
-  cdem::RunOptions options = given;
-  if (const char* const every = std::getenv("CDEM_TRACE")) {
-    options.callback_every = std::atoi(every);
-    options.callback = [&] { note("trace", state); };
-  }
+cdem::RunResult System::run(const cdem::RunOptions& options) {
   const cdem::RunResult result = cdem::run({model,
                                             state,
                                             conditions,
