@@ -15,7 +15,7 @@ public:
   Alone() : Ranks(0, 1) {}
   void exchange(const std::vector<Parcel>&, const std::vector<Parcel>&) override {}
   void share(void*, const std::vector<std::size_t>&) override {}
-  std::vector<std::string> gather(const std::string& mine) override { return {mine}; }
+  std::vector<std::string> gather(const std::string& mine, Subject) override { return {mine}; }
   void broadcast(std::string&) override {}
   void largest(double*, std::size_t) override {}
   [[noreturn]] void abort(int exit_code) override { std::_Exit(exit_code); }
@@ -25,6 +25,8 @@ std::unique_ptr<Ranks>& joined() {
   static std::unique_ptr<Ranks> ranks;
   return ranks;
 }
+
+int alone_for_now = 0;
 
 // Where the build and the installation put it.
 std::filesystem::path module_path() {
@@ -44,7 +46,15 @@ int number_in(const char* variable) {
 
 Ranks& ranks() {
   static Alone alone;
-  return joined() ? *joined() : alone;
+  return joined() && alone_for_now == 0 ? *joined() : alone;
+}
+
+AloneForNow::AloneForNow() {
+  ++alone_for_now;
+}
+
+AloneForNow::~AloneForNow() {
+  --alone_for_now;
 }
 
 int processes_started() {

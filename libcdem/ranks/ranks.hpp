@@ -34,8 +34,9 @@ public:
   // Each has filled its bytes [begin[rank], begin[rank + 1]) of `data`; afterwards all have all.
   virtual void share(void* data, const std::vector<std::size_t>& begin) = 0;
 
-  // What each gives, by rank.
-  virtual std::vector<std::string> gather(const std::string& mine) = 0;
+  // What each gives, by rank. Of one subject what is said is about as long as it was the time before.
+  enum class Subject { any, sums, contacts, count };
+  virtual std::vector<std::string> gather(const std::string& mine, Subject = Subject::any) = 0;
 
   // The bytes of rank 0, for all.
   virtual void broadcast(std::string&) = 0;
@@ -63,6 +64,15 @@ private:
 
 // Those of this process: one alone unless it has joined others.
 Ranks& ranks();
+
+// While it lives this process counts as one alone: what it does then the others neither see nor wait for.
+class AloneForNow {
+public:
+  AloneForNow();
+  ~AloneForNow();
+  AloneForNow(const AloneForNow&) = delete;
+  AloneForNow& operator=(const AloneForNow&) = delete;
+};
 
 // How many processes mpirun, srun or their like have started this one among; 1 when by itself.
 int processes_started();

@@ -104,7 +104,7 @@ void share_sums(Workspace& work, BegunCracks& begun) {
   put(begun.broken, told);
   put(begun.breaking, told);
   put(begun.energies, told);
-  const std::vector<std::string> heard = ranks().gather(told);
+  const std::vector<std::string> heard = ranks().gather(told, Ranks::Subject::sums);
   BegunCracks all;
   for (int r = 0; r < part.size; ++r) {
     Take take(heard[r]);

@@ -4,7 +4,8 @@
 //   update_contacts          contacts for where the nodes are; the longest step that they leave
 //   free_nodes               of cohesive bodies, where faces near their strength: the model is another one then
 //   update_loads             loads at this time
-//   advance                  begin_cracks; bond_forces; element_forces; shared_node_forces; rigid_bodies
+//   advance                  begin_cracks; bond_forces; element_forces; shared_node_forces; rigid_bodies; what other
+//                            ranks have computed
 //   end_step                 everything has moved on by the time step
 //   watch                    energies, breaks, soundness, histories, progress, stop
 //
@@ -24,6 +25,8 @@
 #include "libcdem/step/stage_context.hpp"
 #include "libcdem/step/step_loops.hpp"
 #include "libcdem/step/step_times.hpp"
+
+#include <memory>
 
 namespace cdem {
 

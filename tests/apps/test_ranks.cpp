@@ -121,6 +121,26 @@ TEST_CASE("ranks: those of a plain mpirun are the same") {
   CHECK(place.report() == report_of_one());
 }
 
+// One model of each kind: blocks of small strain that break and are cut, a cohesive mesh, an armour unit that a flow
+// breaks, a pile that settles, Voronoi blocks that come loose, a body that shatters.
+TEST_CASE("ranks: every kind of model ends in the bits of one process") {
+  if (no_mpirun())
+    return;
+  const auto hashes = [](const std::string& cases, const char* ranks) {
+    Place place(read_file(CDEM_SOURCE_DIR "/tests/apps/ranks/physics.lua"));
+    const Outcome outcome = place.cdem({"run", "plate/case.lua", "--output", "out", "--threads", "1",
+                                        "--ranks", ranks, "--set", "only=" + cases});
+    INFO(outcome.err);
+    REQUIRE(outcome.exit_code == 0);
+    return place.report();
+  };
+  const std::string all = "plate beam unit pile collapse shatter", small = "plate beam collapse";
+  const std::string of_one = hashes(all, "1");
+  CHECK(std::count(of_one.begin(), of_one.end(), '{') > 12);
+  CHECK(hashes(all, "2") == of_one);
+  CHECK(hashes(small, "5") == hashes(small, "1"));
+}
+
 TEST_CASE("ranks: an error of the script is told once, with its exit code") {
   if (no_mpirun())
     return;

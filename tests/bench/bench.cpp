@@ -1,4 +1,5 @@
 // cdem_bench: how fast the solver steps, beside what the machine allows, measured in the same run.
+#include "libcdem/ranks/ranks.hpp"
 #include "tests/bench/measure.hpp"
 
 #include <algorithm>
@@ -7,6 +8,8 @@
 #include <cstring>
 #include <string>
 #include <thread>
+
+#include <unistd.h>
 
 namespace bench {
 
@@ -53,6 +56,7 @@ constexpr const char* help =
     R"(Usage: cdem bench [--sizes 100,10000,100000] [--tets 10000,105000] [--bodies 1000,10000]
                   [--body-divisions 1] [--settle 1000] [--shatter 6000] [--discs 6000] [--prisms 5000]
                   [--threads 1,2] [--seconds 1]
+       cdem bench --ranks 2 [--tets 105000] [--threads 1] [--seconds 1]
 
 Steps plates of bonded blocks, meshed cubes, continuous and with every face bonded, lattices of cubes that touch,
 and discs and prisms that crack, and prints rates beside the bare element kernels and a copy of memory.
@@ -67,12 +71,34 @@ and discs and prisms that crack, and prints rates beside the bare element kernel
   --prisms   tetrahedra in a prism that is crushed between two plates, e.g. 5000,50000; 0: none
   --threads  thread counts to compare
   --seconds  stepping time per figure, at least
+  --ranks    processes that step the cubes of --tets together, by mpirun, beside as many threads of one process
 )";
+
+// This program again, by mpirun.
+[[noreturn]] void start_ranks(const std::string& count, char** argv) {
+  if (geteuid() == 0) { // Open MPI asks for it
+    setenv("OMPI_ALLOW_RUN_AS_ROOT", "1", 1);
+    setenv("OMPI_ALLOW_RUN_AS_ROOT_CONFIRM", "1", 1);
+  }
+  std::vector<std::string> words{"mpirun", "-q",    "--oversubscribe",     "--bind-to",
+                                 "none",   "--mca", "mpi_yield_when_idle", "1",
+                                 "-n",     count};
+  for (char** word = argv; *word; ++word)
+    words.emplace_back(*word);
+  std::vector<char*> arguments;
+  for (std::string& word : words)
+    arguments.push_back(word.data());
+  arguments.push_back(nullptr);
+  execvp("mpirun", arguments.data());
+  std::fprintf(stderr, "cdem bench: error: --ranks needs mpirun (package openmpi-bin)\n");
+  std::exit(1);
+}
 
 } // namespace
 
 int main(int argc, char** argv) {
   bench::Settings settings;
+  std::string ranks;
   for (int i = 1; i < argc; ++i) {
     const std::string option = argv[i];
     if (option == "--help" || option == "-h") {
@@ -82,10 +108,10 @@ int main(int argc, char** argv) {
     if (i + 1 == argc ||
         (option != "--sizes" && option != "--tets" && option != "--bodies" && option != "--body-divisions" &&
          option != "--settle" && option != "--shatter" && option != "--discs" && option != "--prisms" &&
-         option != "--threads" && option != "--seconds")) {
+         option != "--ranks" && option != "--threads" && option != "--seconds")) {
       std::fprintf(stderr,
                    "cdem bench: error: %s: must be --sizes, --tets, --bodies, --body-divisions, --settle, "
-                   "--shatter, --discs, --prisms, --threads or --seconds with a value\n%s",
+                   "--shatter, --discs, --prisms, --ranks, --threads or --seconds with a value\n%s",
                    option.c_str(), help);
       return 2;
     }
@@ -106,10 +132,20 @@ int main(int argc, char** argv) {
       settings.discs = numbers("--discs", value);
     else if (option == "--prisms")
       settings.prisms = numbers("--prisms", value);
+    else if (option == "--ranks")
+      ranks = std::to_string(numbers("--ranks", value)[0]);
     else if (option == "--threads")
       settings.threads = numbers("--threads", value);
     else
       settings.seconds = numbers("--seconds", value)[0];
+  }
+  if (!ranks.empty() && cdem::processes_started() == 1 && ranks != "1")
+    start_ranks(ranks, argv);
+  if (cdem::processes_started() > 1) {
+    cdem::join_ranks();
+    bench::among_ranks(settings);
+    cdem::leave_ranks();
+    return 0;
   }
   std::printf("%u processors; rates of one thread by its processor time, of more by the clock\n\nmemory copy "
               "(read + written)\n",

@@ -3,6 +3,10 @@
 
 #include <vector>
 
+namespace cdem {
+struct Model;
+}
+
 namespace bench {
 
 struct Settings {
@@ -22,6 +26,9 @@ double copy_rate(int threads); // bytes moved per second, read and written, by a
 
 void blocks(const Settings&); // star blocks with bonds: full step beside the bare element kernel
 void meshes(const Settings&); // meshed cubes, continuous and bonded: full step beside the bare kernels
+
+cdem::Model meshed_cube(int tets, bool bonded); // of a unit's size, cells jittered
+void among_ranks(const Settings&);              // meshed cubes by several processes; all of them call it
 
 void contacts(const Settings&); // cubes that touch: search and full step
 void piles(const Settings&);    // armour units that settle on a slope

@@ -26,38 +26,53 @@ double Stopwatch::now() const {
   return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
 }
 
-double step_rate(const Model& model, int threads, double at_least, std::string* times) {
-  State state = initial_state(model), last_good;
+namespace {
+
+struct FirstStep : Observer {
+  const Stopwatch* watch = nullptr;
+  double seconds = -1;
+  void progress(const Progress& p) override {
+    if (seconds < 0 && p.step == 1)
+      seconds = watch->seconds();
+    if (p.last)
+      times = p.times;
+  }
+  std::string times;
+};
+
+} // namespace
+
+State shaken(const Model& model) {
+  State state = initial_state(model);
   for (std::size_t i = 0; i < state.velocity.size(); ++i)
     state.velocity[i].x = 1e-3 * std::sin(static_cast<double>(i));
+  return state;
+}
+
+double stepping_seconds(const Model& model, State& state, int threads, std::int64_t steps, bool by_clock,
+                        std::string* times) {
   const Conditions none;
-  struct FirstStep : Observer {
-    const Stopwatch* watch = nullptr;
-    double seconds = -1;
-    void progress(const Progress& p) override {
-      if (seconds < 0 && p.step == 1)
-        seconds = watch->seconds();
-      if (p.last)
-        times = p.times;
-    }
-    std::string times;
-  };
-  return rate(at_least, [&](std::int64_t n) {
-    RunLog log;
-    const Stopwatch watch(threads);
-    FirstStep first;
-    first.watch = &watch;
-    double last = 0; // s
-    RunOptions options;
-    options.steps = n + 1;
-    options.callback_every =
-        n + 1; // once: what callbacks read has to be brought to one moment, a kernel's work
-    options.callback = [&] { last = watch.seconds(); };
-    run({model, state, none, log, last_good, first, threads, 1}, options);
-    if (times)
-      *times = first.times;
-    return last - first.seconds;
-  });
+  RunLog log;
+  State last_good;
+  const Stopwatch watch(by_clock ? 2 : threads);
+  FirstStep first;
+  first.watch = &watch;
+  double last = 0; // s
+  RunOptions options;
+  options.steps = steps + 1;
+  options.callback_every =
+      steps + 1; // once: what callbacks read has to be brought to one moment, a kernel's work
+  options.callback = [&] { last = watch.seconds(); };
+  run({model, state, none, log, last_good, first, threads, 1}, options);
+  if (times)
+    *times = first.times;
+  return last - first.seconds;
+}
+
+double step_rate(const Model& model, int threads, double at_least, std::string* times) {
+  State state = shaken(model);
+  return rate(at_least,
+              [&](std::int64_t n) { return stepping_seconds(model, state, threads, n, false, times); });
 }
 
 } // namespace bench

@@ -30,8 +30,14 @@ double rate(double at_least, const Repeat& repeat) {
   }
 }
 
-// Steps per second of `run`, breaking on, with velocities far below what breaks a bond. From the first step to the
-// last: what a stage does once, at its start and end, is left out. times: where that time went, by lines of the step.
+cdem::State shaken(const cdem::Model&); // at velocities far below what breaks a bond
+
+// How long so many steps of `run` take, breaking on. From the first step to the last: what a stage does once, at its start
+// and end, is left out. times: where that time went, by lines of the step. by_clock: for one thread too.
+double stepping_seconds(const cdem::Model&, cdem::State&, int threads, std::int64_t steps, bool by_clock,
+                        std::string* times = nullptr);
+
+// Steps per second of a shaken model.
 double step_rate(const cdem::Model&, int threads, double at_least, std::string* times = nullptr);
 
 } // namespace bench

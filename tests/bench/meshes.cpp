@@ -22,7 +22,9 @@ constexpr double flops_per_tet = 364, flops_per_face = 112;
 // Measurements in turn, of which the best counts: what else the machine does takes away from single ones.
 constexpr int rounds = 3;
 
-Model build(int tets, bool bonded) {
+} // namespace
+
+Model meshed_cube(int tets, bool bonded) {
   const int n = std::max(1, static_cast<int>(std::lround(std::cbrt(tets / 6.0))));
   Model frame;
   Body body;
@@ -40,6 +42,8 @@ Model build(int tets, bool bonded) {
   seeds[0].mesh = geom::box_mesh({1, 1, 1}, {n, n, n}, 0.15);
   return build_model(frame, {}, default_traits, std::move(seeds));
 }
+
+namespace {
 
 double kernel_rate(const Model& model, int threads, double at_least) {
   State state = initial_state(model);
@@ -73,7 +77,7 @@ double faces_of(const Model& model) {
 // Of all that a stage holds: model, state, its last good copy and the workspace.
 double bytes_held(int tets, bool bonded) {
   const double before = resident_bytes();
-  const Model model = build(tets, bonded);
+  const Model model = meshed_cube(tets, bonded);
   const std::vector<State> states(2, initial_state(model));
   const Workspace work(model, states[0], {});
   return resident_bytes() - before;
@@ -91,7 +95,7 @@ void meshes(const Settings& settings) {
   for (const bool bonded : {false, true})
     for (const int size : settings.tets) {
       const double held = bytes_held(size, bonded);
-      const Model model = build(size, bonded);
+      const Model model = meshed_cube(size, bonded);
       const auto n = static_cast<double>(model.tets.size());
       const double flops = flops_per_tet * n + flops_per_face * faces_of(model);
       const double moved = bytes_per_step(model, initial_state(model));

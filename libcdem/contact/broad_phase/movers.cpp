@@ -129,6 +129,11 @@ void carry_over(const Model& model, ContactWork& before, ContactWork& work) {
   carry(&ContactWork::look_at);
   carry(&ContactWork::left);
   carry(&ContactWork::past_others);
+  carry(&ContactWork::swing);
+  work.drift.assign(work.movers.count(), geom::Vec3::Zero());
+  for (int m = 0; m < work.movers.count(); ++m)
+    if (!work.changed[m] && old[m] >= 0 && old[m] < static_cast<int>(before.drift.size()))
+      work.drift[m] = before.drift[old[m]];
 }
 
 } // namespace
@@ -147,6 +152,8 @@ void find_fragments(const Model& model, const State& state, ContactWork& work) {
   std::swap(before.look_at, work.look_at);
   std::swap(before.left, work.left);
   std::swap(before.past_others, work.past_others);
+  std::swap(before.swing, work.swing);
+  std::swap(before.drift, work.drift);
   work.fragment_of_node = fragments_of_nodes(model, state, Joins::untouched);
   work.fragment.resize(s.triangles.size());
   work.active.resize(s.triangles.size());
@@ -200,7 +207,7 @@ void set_displacements(const Model& model, const State& state, ContactWork& work
 void set_drifts(const Model& model, const State& state, ContactWork& work, int threads) {
   const Movers& movers = work.movers;
   const auto blocks = static_cast<std::int64_t>(model.blocks.size());
-  work.drift.resize(movers.count());
+  work.drift.resize(movers.count(), geom::Vec3::Zero());
   work.swing.resize(movers.count());
   for_chunks(movers.count() - blocks, threads, [&](std::int64_t fragment) {
     const int begin = movers.node_begin[fragment], end = movers.node_begin[fragment + 1];

@@ -118,7 +118,7 @@ std::vector<ContactChunk> found_by_all(const ContactChunk& own) {
   write(own.contacts, told);
   write(own.forces, told);
   std::vector<ContactChunk> found;
-  for (const std::string& heard : ranks().gather(told)) {
+  for (const std::string& heard : ranks().gather(told, Ranks::Subject::contacts)) {
     ContactChunk& of = found.emplace_back();
     std::memcpy(&of.sums, heard.data(), sizeof of.sums);
     read(read(heard.data() + sizeof of.sums, Contact(), of.contacts), ContactForce(), of.forces);

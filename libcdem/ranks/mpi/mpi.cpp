@@ -3,10 +3,13 @@
 #include "libcdem/ranks/ranks.hpp"
 
 #include <algorithm>
+#include <array>
+#include <cstring>
 #include <mpi.h>
 
 namespace {
 
+constexpr std::size_t largest_slot = std::size_t{1} << 24; // bytes
 constexpr std::size_t most_at_once = std::size_t{1} << 30; // bytes, as MPI counts in int
 
 class MpiRanks : public cdem::Ranks {
@@ -53,24 +56,43 @@ public:
       });
   }
 
-  std::vector<std::string> gather(const std::string& mine) override {
-    std::vector<unsigned long long> sizes(size());
-    sizes[rank()] = mine.size();
+  // In one message where all fit into the slot that fitted those before them, which is the same for all ranks; what does
+  // not comes in a second one.
+  std::vector<std::string> gather(const std::string& mine, Subject subject) override {
+    std::size_t& slot = slots_[static_cast<std::size_t>(subject)];
+    const std::size_t head = sizeof(std::uint64_t), whole = head + slot;
+    std::vector<std::uint64_t> sizes(size());
+    std::vector<std::string> texts(size());
+    buffer_.resize(whole * static_cast<std::size_t>(size()));
     {
       const Waiting waiting(*this);
-      MPI_Allgather(MPI_IN_PLACE, 0, MPI_DATATYPE_NULL, sizes.data(), 1, MPI_UNSIGNED_LONG_LONG,
+      char* const own = buffer_.data() + whole * static_cast<std::size_t>(rank());
+      const std::uint64_t bytes = mine.size();
+      std::memcpy(own, &bytes, head);
+      std::memcpy(own + head, mine.data(), std::min(mine.size(), slot));
+      count(whole, size() - 1);
+      MPI_Allgather(MPI_IN_PLACE, 0, MPI_DATATYPE_NULL, buffer_.data(), static_cast<int>(whole), MPI_BYTE,
                     MPI_COMM_WORLD);
     }
     std::vector<std::size_t> begin(size() + 1, 0);
-    for (int r = 0; r < size(); ++r)
-      begin[r + 1] = begin[r] + sizes[r];
-    std::string all(begin.back(), '\0');
-    std::copy(mine.begin(), mine.end(), all.begin() + static_cast<std::ptrdiff_t>(begin[rank()]));
-    if (!all.empty())
-      share(all.data(), begin);
-    std::vector<std::string> texts;
-    for (int r = 0; r < size(); ++r)
-      texts.push_back(all.substr(begin[r], sizes[r]));
+    for (int r = 0; r < size(); ++r) {
+      const char* const at = buffer_.data() + whole * static_cast<std::size_t>(r);
+      std::memcpy(&sizes[r], at, head);
+      texts[r].assign(at + head, std::min<std::size_t>(sizes[r], slot));
+      begin[r + 1] = begin[r] + sizes[r] - texts[r].size();
+    }
+    if (begin.back() > 0) {
+      std::string rest(begin.back(), '\0');
+      if (mine.size() > slot)
+        std::copy(mine.begin() + static_cast<std::ptrdiff_t>(slot), mine.end(),
+                  rest.begin() + static_cast<std::ptrdiff_t>(begin[rank()]));
+      share(rest.data(), begin);
+      for (int r = 0; r < size(); ++r)
+        texts[r].append(rest, begin[r], begin[r + 1] - begin[r]);
+    }
+    const std::size_t most = *std::max_element(sizes.begin(), sizes.end());
+    if (most > slot || 4 * most < slot)
+      slot = std::min(largest_slot, most + most / 4 + 64);
     return texts;
   }
 
@@ -124,6 +146,8 @@ private:
   }
 
   std::vector<MPI_Request> requests_;
+  std::vector<char> buffer_;
+  std::array<std::size_t, static_cast<std::size_t>(Subject::count)> slots_{}; // bytes
 };
 
 } // namespace

@@ -1,0 +1,113 @@
+// Meshed cubes stepped by several processes, beside as many threads of one: rates, what they tell each other in a step,
+// how long they wait, and what that would be among many more, from counts and stated speeds of a network. That is a
+// projection, no measurement, and the table says so.
+#include "libcdem/ranks/ranks.hpp"
+#include "libcdem/model/model.hpp"
+#include "libcdem/ranks/partition.hpp"
+#include "tests/bench/measure.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+namespace bench {
+namespace {
+
+using namespace cdem;
+
+constexpr double latency = 2e-6, bandwidth = 10e9; // s, bytes/s and direction, of a network of today
+constexpr double messages_deep = 2;                // exchanges that wait for each other in a step
+constexpr int rounds = 3;
+
+struct Measured {
+  double steps = 0;               // a second, by the clock
+  double messages = 0, bytes = 0; // that a rank sends in a step, the most of any
+  double waited = 0;              // share of the time, likewise
+};
+
+// By all ranks together, or by this one alone; the best of some rounds.
+Measured measured(const Model& model, int threads, double at_least) {
+  State state = shaken(model);
+  std::int64_t steps = 8;
+  Measured best;
+  for (int round = 0; round <= rounds; ++round) {
+    const Ranks::Traffic before = ranks().traffic();
+    double seconds = stepping_seconds(model, state, threads, steps, true);
+    const Ranks::Traffic after = ranks().traffic();
+    const auto n = static_cast<double>(steps);
+    double most[4] = {seconds, static_cast<double>(after.messages - before.messages) / n,
+                      static_cast<double>(after.bytes - before.bytes) / n,
+                      (after.waited - before.waited) / seconds};
+    ranks().largest(most, 4);
+    seconds = most[0];
+    if (round > 0 && n / seconds > best.steps)
+      best = {n / seconds, most[1], most[2], most[3]};
+    if (round == 0) // to see how many it takes
+      steps = std::max<std::int64_t>(8, std::lround(n * at_least / rounds / seconds));
+  }
+  return best;
+}
+
+// s, of a step of so many tets on each of many ranks: the measured computing and what the surface of a compact part costs.
+// The sums of all chunks go through a tree.
+double projected(double tets_each, double seconds_per_tet, double bytes_per_surface, double ranks_among) {
+  const double surface = std::pow(tets_each, 2.0 / 3), chunks = tets_each / 512;
+  const double depth = std::ceil(std::log2(ranks_among));
+  const double neighbours = std::min(26.0, ranks_among - 1);
+  const double exchange = messages_deep * neighbours * latency + bytes_per_surface * surface / bandwidth;
+  const double sums = depth * latency + ranks_among * chunks * 72 / bandwidth;
+  return tets_each * seconds_per_tet + exchange + sums;
+}
+
+} // namespace
+
+void among_ranks(const Settings& settings) {
+  const int size = ranks().size(), threads = settings.threads.front();
+  const bool says = ranks().leads();
+  if (says)
+    std::printf("meshed cubes, %d ranks of %d thread%s beside one process of %d threads, by the clock\n"
+                "%10s %8s | %8s %8s %7s | %9s %9s %7s\n%10s %8s | %8s %8s %7s | %9s %9s %7s\n",
+                size, threads, threads == 1 ? "" : "s", size * threads, "faces", "tets", "ranks", "threads",
+                "ranks /", "messages", "bytes", "waited", "", "", "steps/s", "steps/s", "threads", "a step",
+                "a step", "");
+  for (const bool bonded : {false, true})
+    for (const int tets : settings.tets) {
+      const Model model = meshed_cube(tets, bonded);
+      const auto n = static_cast<double>(model.tets.size());
+      Measured together, alone;
+      // In turn, as what else the machine does takes away from both.
+      for (int turn = 0; turn < 2; ++turn) {
+        const Measured here = measured(model, threads, settings.seconds);
+        if (here.steps > together.steps)
+          together = here;
+        std::string done;
+        if (says) {
+          const AloneForNow now;
+          const Measured by_threads = measured(model, size * threads, settings.seconds);
+          if (by_threads.steps > alone.steps)
+            alone = by_threads;
+        }
+        ranks().broadcast(done); // the others wait
+      }
+      if (!says)
+        continue;
+      std::printf("%10s %8.0f | %8.1f %8.1f %7.2f | %9.0f %9.3g %6.0f%%\n", bonded ? "bonded" : "continuous",
+                  n, together.steps, alone.steps, together.steps / alone.steps, together.messages,
+                  together.bytes, 100 * together.waited);
+      const double per_tet = size / (together.steps * n) * (1 - together.waited);
+      const double sums = n / 512 / size * 72 * (size - 1);
+      const double per_surface =
+          std::max(0.0, together.bytes - sums) / std::pow(n / size, 2.0 / 3) * (size == 2 ? 6 : 1);
+      const double weak = projected(n / size, per_tet, 0, 1);
+      std::printf("%10s projection, no measurement (%.0f us, %.0f GB/s):", "", 1e6 * latency,
+                  bandwidth / 1e9);
+      for (const double many : {64.0, 1024.0, 16384.0})
+        std::printf("  %.0f ranks weak %.2f, strong %.2f", many,
+                    weak / projected(n / size, per_tet, per_surface, many),
+                    n * per_tet / many / projected(n / many, per_tet, per_surface, many));
+      std::printf("\n");
+      std::fflush(stdout);
+    }
+}
+
+} // namespace bench
