@@ -303,6 +303,10 @@ TEST_CASE("ranks: what does not solve one model is refused or done once") {
   CHECK(sweep.exit_code == 2);
   CHECK_THAT(sweep.err, Contains("cdem sweep: this is one of 2 ranks"));
   CHECK_THAT(ranks({"run", "plate/case.lua", "--ranks", "2"}).err, Contains("leave --ranks out"));
+  const Outcome two = ranks(
+      {"run", "plate/case.lua", ":", "-n", "1", CDEM_PROGRAM, "run", "plate/case.lua", "--set", "steps=3"});
+  CHECK(two.exit_code == 2);
+  CHECK_THAT(two.err, Contains("cdem: error: rank 2: the command line differs from that of rank 0"));
   const Outcome check = ranks({"check", "plate/case.lua"});
   CHECK(check.exit_code == 0);
   CHECK_THAT(check.out, Contains("no errors found"));

@@ -93,6 +93,13 @@ void run_script(const RunCommand& command, const fs::path& output, int threads, 
   });
 }
 
+ProgressStyle shown_progress(const RunCommand& command, bool leads) {
+  if (!leads)
+    return ProgressStyle::none;
+  return command.progress == ProgressStyle::automatic && !stdout_is_users() ? ProgressStyle::plain
+                                                                            : command.progress;
+}
+
 } // namespace
 
 ExitCode run(const RunCommand& command) {
@@ -115,7 +122,7 @@ ExitCode run(const RunCommand& command) {
     return static_cast<std::int64_t>(folder->run());
   });
   const auto observer =
-      std::make_shared<RunObserver>(folder ? command.progress : ProgressStyle::none, folder.get());
+      std::make_shared<RunObserver>(shown_progress(command, folder != nullptr), folder.get());
   if (!ranks().alone())
     observer->message(ranks_text(threads));
   const auto finish = [&](ExitCode code, const std::string& error) {
