@@ -61,9 +61,13 @@ std::vector<std::int32_t> springs_read(const Model& model, const Partition& part
   std::vector<std::int32_t> springs;
   if (model.points.empty())
     return springs;
-  const Range nodes = part.nodes();
-  for (std::int64_t i = model.bond_begin[nodes.begin]; i < model.bond_begin[nodes.end]; ++i)
-    springs.push_back(model.bonds_on_nodes[i].point);
+  const auto take = [&](std::int64_t first, std::int64_t end) { // nodes
+    for (std::int64_t i = model.bond_begin[first]; i < model.bond_begin[end]; ++i)
+      springs.push_back(model.bonds_on_nodes[i].point);
+  };
+  take(part.nodes().begin, part.nodes().end);
+  for (const RigidBody& body : model.rigid) // all ranks move all of them
+    take(model.blocks[body.block].node_begin, model.blocks[body.block].node_end);
   return springs;
 }
 

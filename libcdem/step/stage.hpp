@@ -107,6 +107,7 @@ private:
   void sample(const StepReport&); // a row of the history
   void poll(const StepReport&);   // stop, checkpoints, progress
   void report(const StepReport&, bool last);
+  void show(); // to an observer who wants to see the model
 
   StageContext context_;
   std::unique_ptr<SharedState> shared_; // null where this rank is alone

@@ -1,4 +1,5 @@
 #include "lua/binding/runtime/module.hpp"
+#include "lua/binding/schema/topics.hpp"
 #include "tests/lua/script.hpp"
 
 #include <algorithm>
@@ -56,6 +57,32 @@ TEST_CASE("what one rank does for all calls nothing of the script, and gives bac
     for (const Class& c : module().classes)
       CHECK(f->returns.find("cdem." + c.name) == std::string::npos);
   }
+}
+
+TEST_CASE("every function has an example in the reference, and no example is of another name", "[lua]") {
+  std::vector<std::string> names;
+  for (const Topic& topic : topics()) {
+    INFO(topic.file);
+    CHECK_FALSE(example_preamble(topic.file).empty()); // its file is there
+    for (const std::string& name : topic.names) {
+      INFO(name);
+      CHECK_FALSE(example_of(name).empty());
+      CHECK(help(name).find(example_of(name)) != std::string::npos);
+      names.push_back(name);
+    }
+  }
+  for (const std::string& name : examples()) {
+    INFO(name);
+    CHECK(std::find(names.begin(), names.end(), name) != names.end());
+  }
+}
+
+TEST_CASE("help tells about topics, classes and short names, and names the nearest for others", "[lua]") {
+  CHECK(help("").find("materials") != std::string::npos);
+  CHECK(help("fix").find("model:fix{ on, ... }") == 0);
+  CHECK(help("Model").find("model:relax") != std::string::npos);
+  CHECK(help("settling").find("model:watch") != std::string::npos);
+  CHECK_THROWS_WITH(help("model:fixx"), Catch::Contains("model:fix"));
 }
 
 TEST_CASE("every default satisfies its own declaration", "[lua]") {

@@ -4,6 +4,7 @@
 #include "apps/cdem/commands/script_run.hpp"
 #include "apps/cdem/failure.hpp"
 #include "apps/cdem/interrupt.hpp"
+#include "apps/cdem/live/live_view.hpp"
 #include "apps/cdem/memory.hpp"
 #include "apps/cdem/ranks/rank.hpp"
 #include "apps/cdem/records.hpp"
@@ -12,6 +13,7 @@
 #include "lua/binding/runtime/sources.hpp"
 
 #include <csignal>
+#include <cstdio>
 
 namespace cdem::app {
 
@@ -125,6 +127,14 @@ ExitCode run(const RunCommand& command) {
       std::make_shared<RunObserver>(shown_progress(command, folder != nullptr), folder.get());
   if (!ranks().alone())
     observer->message(ranks_text(threads));
+  std::shared_ptr<LiveView> page;
+  if (command.live && folder) {
+    page = std::make_shared<LiveView>(output.filename().string());
+    // Not into the log: others may read that, and whoever knows the address can stop the run.
+    std::printf("watch the run at %s\n", page->url().c_str());
+    std::fflush(stdout);
+    observer->show_in(page);
+  }
   const auto finish = [&](ExitCode code, const std::string& error) {
     script::led_act("the end of the log", [&] { folder->finish(code, error); });
   };
@@ -138,10 +148,14 @@ ExitCode run(const RunCommand& command) {
   } catch (...) {
     observer->clear_line();
     const Failure failure = current_failure();
+    if (page)
+      page->ended("ended with exit code " + std::to_string(to_int(failure.code)) + ": " + failure.line);
     finish(failure.code, failure.details.empty() ? failure.line : failure.details);
     throw;
   }
   observer->message(observer->in_all() + "results in " + output.string());
+  if (page)
+    page->ended("ended well; results in " + output.string());
   finish(ExitCode::success, "");
   return ExitCode::success;
 }

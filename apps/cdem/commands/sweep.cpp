@@ -2,6 +2,7 @@
 // below the sweep's; sweep.csv gathers the figures of their reports, one row a run.
 #include "apps/cdem/build_info.hpp"
 #include "apps/cdem/commands/script_run.hpp"
+#include "apps/cdem/commands/sweep_charts.hpp"
 #include "apps/cdem/commands/sweep_plan.hpp"
 #include "apps/cdem/failure.hpp"
 #include "apps/cdem/interrupt.hpp"
@@ -11,6 +12,7 @@
 #include "apps/cdem/run_log.hpp"
 #include "apps/cdem/text.hpp"
 #include "libcdem/step/errors.hpp"
+#include "lua/binding/runtime/csv.hpp"
 #include "lua/binding/runtime/files.hpp"
 #include "lua/binding/runtime/process_pool.hpp"
 #include "lua/binding/runtime/sources.hpp"
@@ -163,7 +165,8 @@ ExitCode sweep(const SweepCommand& command) {
 
   const fs::path table = root / "sweep.csv";
   folder.will_write(table);
-  write_table(runs, table);
+  const std::vector<SweptFigures> figures = figures_of(runs);
+  write_table(runs, figures, table);
   if (interrupt::requested()) {
     for (const auto& line : what_stands(command, runs, table))
       say(line);
@@ -174,6 +177,13 @@ ExitCode sweep(const SweepCommand& command) {
       std::count_if(runs.begin(), runs.end(), [](const SweptRun& run) { return run.exit_code != 0; });
   const ExitCode code = judge(runs);
   say("table in " + table.string());
+  try {
+    const auto charts = draw_sweep(figures, root, [&](const fs::path& file) { folder.will_write(file); });
+    if (!charts.empty())
+      say((charts.size() == 1 ? "chart: " : "charts: ") + script::joined(charts, " "));
+  } catch (const std::exception& error) { // the table stands
+    say(std::string("no charts: ") + error.what());
+  }
   const std::string verdict = std::to_string(failed) + " of " + std::to_string(runs.size()) +
                               " runs failed; see " + (root / run_log_name).string();
   folder.finish(code, failed > 0 ? verdict : "");

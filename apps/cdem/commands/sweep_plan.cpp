@@ -4,6 +4,7 @@
 #include "apps/cdem/records.hpp"
 #include "apps/cdem/run_log.hpp"
 #include "apps/cdem/text.hpp"
+#include "lua/binding/runtime/csv.hpp"
 #include "lua/binding/runtime/files.hpp"
 #include "lua/binding/runtime/sources.hpp"
 #include "lua/binding/schema/nearest.hpp"
@@ -85,15 +86,24 @@ std::vector<SweptRun> planned_runs(const SweepCommand& command, const fs::path& 
   return runs;
 }
 
-void write_table(const std::vector<SweptRun>& runs, const fs::path& file) {
+std::vector<SweptFigures> figures_of(const std::vector<SweptRun>& runs) {
+  std::vector<SweptFigures> all;
+  for (const SweptRun& run : runs) {
+    const fs::path report = run.folder / "report.json";
+    // What a failed run has in its folder may be of an earlier sweep.
+    const bool there = run.exit_code == 0 && fs::exists(report);
+    all.push_back({run.set, there ? read_report(report) : std::vector<Figure>()});
+  }
+  return all;
+}
+
+// Columns: the settings, exit code, wall time, then every figure that any report has, by name.
+void write_table(const std::vector<SweptRun>& runs, const std::vector<SweptFigures>& figures,
+                 const fs::path& file) {
   std::vector<std::map<std::string, std::string>> values(runs.size());
   std::vector<std::string> names; // in order of appearance
   for (std::size_t i = 0; i < runs.size(); ++i) {
-    const fs::path report = runs[i].folder / "report.json";
-    // What a failed run has in its folder may be of an earlier sweep.
-    if (runs[i].exit_code != 0 || !fs::exists(report))
-      continue;
-    for (const auto& figure : read_report(report)) {
+    for (const auto& figure : figures[i].figures) {
       values[i][figure.name] = figure.value;
       if (std::find(names.begin(), names.end(), figure.name) == names.end())
         names.push_back(figure.name);
@@ -101,18 +111,18 @@ void write_table(const std::vector<SweptRun>& runs, const fs::path& file) {
   }
   std::ofstream out(file);
   for (const auto& [name, value] : runs.front().set)
-    out << csv_cell(name) << ',';
+    out << script::csv_cell(name) << ',';
   out << "exit_code,wall_time_s";
   for (const auto& name : names)
-    out << ',' << csv_cell(name);
+    out << ',' << script::csv_cell(name);
   out << '\n';
   for (std::size_t i = 0; i < runs.size(); ++i) {
     for (const auto& [name, value] : runs[i].set)
-      out << csv_cell(value) << ',';
+      out << script::csv_cell(value) << ',';
     out << (runs[i].exit_code < 0 ? "" : std::to_string(runs[i].exit_code)) << ','
-        << (runs[i].seconds < 0 ? "" : number_text(runs[i].seconds));
+        << number_text(runs[i].seconds);
     for (const auto& name : names)
-      out << ',' << csv_cell(values[i][name]);
+      out << ',' << script::csv_cell(values[i][name]);
     out << '\n';
   }
   if (!out.flush())

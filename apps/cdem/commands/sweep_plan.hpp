@@ -2,6 +2,7 @@
 #pragma once
 
 #include "apps/cdem/commands/commands.hpp"
+#include "apps/cdem/commands/sweep_charts.hpp"
 
 namespace cdem::app {
 
@@ -26,7 +27,10 @@ void keep_sources(const std::filesystem::path& script, OutputFolder&);
 
 bool has_checkpoint(const SweptRun&);
 
+std::vector<SweptFigures> figures_of(const std::vector<SweptRun>&); // none of runs that failed
+
 // Columns: the settings, exit code, wall time, then every figure that any report has, by name. FileError.
-void write_table(const std::vector<SweptRun>&, const std::filesystem::path& file);
+void write_table(const std::vector<SweptRun>&, const std::vector<SweptFigures>&,
+                 const std::filesystem::path& file);
 
 } // namespace cdem::app

@@ -106,7 +106,7 @@ ExitCode write_job_array(const SweepCommand& command) {
   if (rest.size() < runs.size()) {
     const fs::path table = root / "sweep.csv";
     folder.will_write(table);
-    write_table(runs, table);
+    write_table(runs, figures_of(runs), table);
     told +=
         ", " + std::to_string(runs.size() - rest.size()) + " of which have ended; table in " + table.string();
   }

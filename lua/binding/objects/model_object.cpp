@@ -2,6 +2,7 @@
 
 #include "lua/binding/functions/selections.hpp"
 #include "lua/binding/replay/led.hpp"
+#include "lua/binding/runtime/csv.hpp"
 #include "lua/binding/schema/nearest.hpp"
 #include "lua/binding/schema/schema.hpp"
 
@@ -73,7 +74,7 @@ std::string csv(const std::vector<std::pair<std::string, std::vector<double>>>& 
   std::string out;
   std::size_t rows = 0;
   for (const auto& [name, values] : columns) {
-    out += (out.empty() ? "" : ",") + name;
+    out += (out.empty() ? "" : ",") + csv_cell(name);
     rows = std::max(rows, values.size());
   }
   out += '\n';
