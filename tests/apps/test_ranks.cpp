@@ -51,19 +51,6 @@ struct Place {
   std::string log() const { return read_file(folder / "out/cdem.log"); }
 };
 
-bool no_mpirun() {
-  static const bool none = [] {
-    const TempFolder folder;
-    Start start;
-    start.folder = folder.path();
-    return run_program({"/bin/sh", "-c", "command -v mpirun"}, start).exit_code != 0 ||
-           !fs::exists(fs::path(CDEM_PROGRAM).parent_path() / "cdem_mpi.so");
-  }();
-  if (none)
-    WARN("not tested: there is no mpirun (package openmpi-bin), or cdem was built without MPI");
-  return none;
-}
-
 const std::string& report_of_one() {
   static const std::string report = [] {
     Place place;

@@ -128,11 +128,13 @@ ExitCode run(const RunCommand& command) {
   if (!ranks().alone())
     observer->message(ranks_text(threads));
   std::shared_ptr<LiveView> page;
-  if (command.live && folder) {
-    page = std::make_shared<LiveView>(output.filename().string());
-    // Not into the log: others may read that, and whoever knows the address can stop the run.
-    std::printf("watch the run at %s\n", page->url().c_str());
-    std::fflush(stdout);
+  if (command.live) {
+    script::led_act("the page", [&] {
+      page = std::make_shared<LiveView>(output.filename().string());
+      // Not into the log: others may read that, and whoever knows the address can stop the run.
+      std::printf("watch the run at %s\n", page->url().c_str());
+      std::fflush(stdout);
+    });
     observer->show_in(page);
   }
   const auto finish = [&](ExitCode code, const std::string& error) {
