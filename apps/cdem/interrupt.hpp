@@ -13,8 +13,8 @@
 
 namespace cdem::app::interrupt {
 
-void install();       // handlers of SIGINT and SIGTERM, and the thread that waits
-bool requested();     // a signal has come; does not return once the waiting thread ends the program
+void install();   // handlers of SIGINT and SIGTERM, and the thread that waits
+bool requested(); // a signal has come; does not return once the waiting thread ends the program
 // The same of several ranks, which all ask at the same place: one of them has been told to stop. Rank 0 alone, where it
 // works for all.
 bool requested_of_any();

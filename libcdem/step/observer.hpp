@@ -48,7 +48,8 @@ public:
   // What an earlier run came to that this one goes on from: spring points broken in stages that had ended, warnings.
   virtual void goes_on(std::int64_t /*broken_tension*/, std::int64_t /*broken_shear*/,
                        std::int64_t /*warnings*/) {}
-  // Asked between two steps some times a second; true: view() is given the model as it is. Looking changes no bit.
+  // Asked every few steps; true: view() is given the model as it is. Looking changes no bit. Several ranks must be told
+  // the same, since all of them give their share.
   virtual bool wants_view() { return false; }
   virtual void view(const Snapshot&) {}
   // Polled every few steps: true ends the stage cleanly by throwing Interrupted.

@@ -341,10 +341,9 @@ void Stage::poll(const StepReport& step_report) {
     }
     if (checkpoints && checkpoints->wanted())
       checkpoints->write(false);
-    if (progress_.due()) {
+    if (progress_.due())
       report(step_report, false);
-      show();
-    }
+    show();
   }
   if (step == 1 || (context_.from && step == context_.from->step + 1))
     report(step_report, false);

@@ -32,15 +32,16 @@ const std::string endless =
 
 class LiveRun {
 public:
-  LiveRun() {
+  explicit LiveRun(const std::string& options = "") {
     write_file(folder_ / "case.lua", endless);
-    ended_ = std::async(std::launch::async, [this] {
+    ended_ = std::async(std::launch::async, [this, options] {
       Start start;
       start.folder = folder_.path();
       start.limit = 120;
-      return run_program({"/bin/sh", "-c",
-                          "exec '" CDEM_PROGRAM "' run case.lua --live --threads 1 --output out >said 2>&1"},
-                         start);
+      return run_program(
+          {"/bin/sh", "-c",
+           "exec '" CDEM_PROGRAM "' run case.lua --live --threads 1 --output out " + options + " >said 2>&1"},
+          start);
     });
     const std::regex address("http://127\\.0\\.0\\.1:([0-9]+)/([0-9a-f]+)/");
     for (int i = 0; i < 600 && port == 0; ++i) {
@@ -133,6 +134,15 @@ TEST_CASE("a live run gives its page, its state and frames, and stops when asked
   CHECK_THAT(run.said(), Contains("cdem: error: stopped"));
   CHECK_THAT(run.log(),
              Contains("ended with exit code 130") && !Contains(run.token)); // others may read the log
+}
+
+TEST_CASE("a live run of two ranks gives its page frames, and stops when asked to") {
+  if (no_mpirun())
+    return;
+  LiveRun run("--ranks 2");
+  CHECK_THAT(until(run, "status", "\"frame\":2"), Contains("\"frame\":2"));
+  CHECK(run.stop().exit_code == 130);
+  CHECK_THAT(run.log(), Contains("2 ranks of 1 thread") && Contains("ended with exit code 130"));
 }
 
 TEST_CASE("a live run refuses strangers, other hosts, other origins and nonsense") {

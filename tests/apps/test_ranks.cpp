@@ -51,19 +51,6 @@ struct Place {
   std::string log() const { return read_file(folder / "out/cdem.log"); }
 };
 
-bool no_mpirun() {
-  static const bool none = [] {
-    const TempFolder folder;
-    Start start;
-    start.folder = folder.path();
-    return run_program({"/bin/sh", "-c", "command -v mpirun"}, start).exit_code != 0 ||
-           !fs::exists(fs::path(CDEM_PROGRAM).parent_path() / "cdem_mpi.so");
-  }();
-  if (none)
-    WARN("not tested: there is no mpirun (package openmpi-bin), or cdem was built without MPI");
-  return none;
-}
-
 const std::string& report_of_one() {
   static const std::string report = [] {
     Place place;
@@ -323,6 +310,10 @@ TEST_CASE("ranks: what does not solve one model is refused or done once") {
   CHECK(sweep.exit_code == 2);
   CHECK_THAT(sweep.err, Contains("cdem sweep: this is one of 2 ranks"));
   CHECK_THAT(ranks({"run", "plate/case.lua", "--ranks", "2"}).err, Contains("leave --ranks out"));
+  const Outcome two = ranks(
+      {"run", "plate/case.lua", ":", "-n", "1", CDEM_PROGRAM, "run", "plate/case.lua", "--set", "steps=3"});
+  CHECK(two.exit_code == 2);
+  CHECK_THAT(two.err, Contains("cdem: error: rank 2: the command line differs from that of rank 0"));
   const Outcome check = ranks({"check", "plate/case.lua"});
   CHECK(check.exit_code == 0);
   CHECK_THAT(check.out, Contains("no errors found"));

@@ -95,6 +95,13 @@ void run_script(const RunCommand& command, const fs::path& output, int threads, 
   });
 }
 
+ProgressStyle shown_progress(const RunCommand& command, bool leads) {
+  if (!leads)
+    return ProgressStyle::none;
+  return command.progress == ProgressStyle::automatic && !stdout_is_users() ? ProgressStyle::plain
+                                                                            : command.progress;
+}
+
 } // namespace
 
 ExitCode run(const RunCommand& command) {
@@ -117,15 +124,17 @@ ExitCode run(const RunCommand& command) {
     return static_cast<std::int64_t>(folder->run());
   });
   const auto observer =
-      std::make_shared<RunObserver>(folder ? command.progress : ProgressStyle::none, folder.get());
+      std::make_shared<RunObserver>(shown_progress(command, folder != nullptr), folder.get());
   if (!ranks().alone())
     observer->message(ranks_text(threads));
   std::shared_ptr<LiveView> page;
-  if (command.live && folder) {
-    page = std::make_shared<LiveView>(output.filename().string());
-    // Not into the log: others may read that, and whoever knows the address can stop the run.
-    std::printf("watch the run at %s\n", page->url().c_str());
-    std::fflush(stdout);
+  if (command.live) {
+    script::led_act("the page", [&] {
+      page = std::make_shared<LiveView>(output.filename().string());
+      // Not into the log: others may read that, and whoever knows the address can stop the run.
+      std::printf("watch the run at %s\n", page->url().c_str());
+      std::fflush(stdout);
+    });
     observer->show_in(page);
   }
   const auto finish = [&](ExitCode code, const std::string& error) {

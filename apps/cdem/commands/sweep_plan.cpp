@@ -120,7 +120,7 @@ void write_table(const std::vector<SweptRun>& runs, const std::vector<SweptFigur
     for (const auto& [name, value] : runs[i].set)
       out << script::csv_cell(value) << ',';
     out << (runs[i].exit_code < 0 ? "" : std::to_string(runs[i].exit_code)) << ','
-        << number_text(runs[i].seconds);
+        << (runs[i].seconds < 0 ? "" : number_text(runs[i].seconds));
     for (const auto& name : names)
       out << ',' << script::csv_cell(values[i][name]);
     out << '\n';

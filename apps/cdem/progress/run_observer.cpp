@@ -156,11 +156,12 @@ std::string RunObserver::in_all() const {
 }
 
 bool RunObserver::wants_view() {
-  return page_ && page_->wants_frame();
+  return live_ && script::agreed(page_ && page_->wants_frame() ? 1 : 0) > 0;
 }
 
 void RunObserver::view(const Snapshot& snapshot) {
-  page_->frame(snapshot);
+  if (page_)
+    told([&] { page_->frame(snapshot); });
 }
 
 bool RunObserver::stop_requested() {

@@ -38,8 +38,11 @@ public:
   bool wants_view() override;
   void view(const Snapshot&) override;
 
-  // From now on a page of the browser shows the run too.
-  void show_in(std::shared_ptr<LiveView> page) { page_ = std::move(page); }
+  // From now on a page of the browser shows the run too; null on ranks other than 0, which give their share to its frames.
+  void show_in(std::shared_ptr<LiveView> page) {
+    page_ = std::move(page);
+    live_ = true;
+  }
 
   // Takes the live line off the screen; before anything else prints.
   void clear_line();
@@ -61,6 +64,7 @@ private:
   ProgressStyle style_;
   OutputFolder* folder_;
   std::shared_ptr<LiveView> page_; // may be null
+  bool live_ = false;
   TimeLeft left_;
   static constexpr int no_stage = -1;
   int stage_ = no_stage;

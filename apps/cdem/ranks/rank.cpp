@@ -181,6 +181,10 @@ void tell_starter(int exit_code) {
   [[maybe_unused]] const auto sent = send(starter, &code, 1, MSG_NOSIGNAL);
 }
 
+bool stdout_is_users() {
+  return ranks().alone() || starter >= 0;
+}
+
 int ranks_on_these_cores() {
   if (ranks().alone())
     return 1;

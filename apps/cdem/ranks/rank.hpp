@@ -29,6 +29,9 @@ void say_as_rank(const std::string& text);
 // Tells who started the ranks with --ranks how rank 0 ends. May be called from a signal handler.
 void tell_starter(int exit_code);
 
+// stdout is the user's, and no pipe of mpirun's, which looks like a terminal whatever lies behind it.
+bool stdout_is_users();
+
 // Ranks that share the cores of this process.
 int ranks_on_these_cores();
 

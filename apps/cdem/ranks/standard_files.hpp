@@ -4,8 +4,6 @@
 
 #include <string>
 
-#include <sys/types.h>
-
 namespace cdem::app {
 
 constexpr const char* starter_variable =
@@ -23,14 +21,14 @@ public:
   StandardFiles& operator=(const StandardFiles&) = delete;
 
   void look();                                 // gives them to rank 0 when it asks, and hears what it tells
-  pid_t rank_0() const { return process_; }    // 0: it has not asked yet
+  int rank_0() const { return process_; }      // 0: it has not asked yet
   int exit_code() const { return exit_code_; } // that rank 0 has told; -1: none
 
 private:
   void give();
 
   int waiting_ = -1, connected_ = -1, exit_code_ = -1;
-  pid_t process_ = 0;
+  int process_ = 0;
 };
 
 } // namespace cdem::app

@@ -154,9 +154,11 @@ ExitCode start_ranks(int count, const std::vector<std::string>& words) {
     return static_cast<ExitCode>(code);
   }
   if (files.rank_0() > 0)
-    throw RankLost("a rank was killed, perhaps for want of memory, and all were ended; cdem resume goes on "
-                   "from the last "
-                   "checkpoint");
+    throw RankLost(
+        "a rank was killed, perhaps for want of memory, and all were ended; cdem resume goes on from the "
+        "last checkpoint");
+  if (code > 128)
+    throw RankLost("a rank was killed before the run had begun, perhaps for want of memory");
   throw UsageError("mpirun cannot start " + std::to_string(count) +
                    " ranks: " + said.line([](const std::string& text) {
                      return text.find_first_not_of("- \t") != std::string::npos;

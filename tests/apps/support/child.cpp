@@ -1,6 +1,7 @@
 #include "tests/apps/support/child.hpp"
 
 #include <array>
+#include <catch2/catch.hpp>
 #include <cerrno>
 #include <chrono>
 #include <csignal>
@@ -204,6 +205,17 @@ Outcome run_cdem(const std::vector<std::string>& arguments, const Start& start) 
   std::vector<std::string> command = {CDEM_PROGRAM};
   command.insert(command.end(), arguments.begin(), arguments.end());
   return run_program(command, start);
+}
+
+bool no_mpirun() {
+  static const bool none = [] {
+    Start start;
+    return run_program({"/bin/sh", "-c", "command -v mpirun"}, start).exit_code != 0 ||
+           !std::filesystem::exists(std::filesystem::path(CDEM_PROGRAM).parent_path() / "cdem_mpi.so");
+  }();
+  if (none)
+    WARN("not tested: there is no mpirun (package openmpi-bin), or cdem was built without MPI");
+  return none;
 }
 
 } // namespace testing

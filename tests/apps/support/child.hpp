@@ -58,4 +58,7 @@ Outcome run_program(const std::vector<std::string>& command, const Start&);
 // The cdem that was built with this test.
 Outcome run_cdem(const std::vector<std::string>& arguments, const Start&);
 
+// Says so and is true where ranks cannot be started: there is no mpirun, or cdem was built without MPI.
+bool no_mpirun();
+
 } // namespace testing
