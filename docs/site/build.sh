@@ -15,7 +15,7 @@ stage_pages() {
   mkdir -p -- "$staged"
   (cd -- "$root" && cp --parents -r -- docs examples README.md CHANGELOG.md CONTRIBUTING.md LICENSE "$staged")
   (cd -- "$root" && find libgeom libcdem lua apps tests '(' -name '*.md' -o -name '*.hpp' ')' -exec cp --parents -t "$staged" {} +)
-  rm -f -- "$staged/docs/mkdocs.yml" "$staged/docs/site/build.sh"
+  rm -rf -- "$staged/docs/mkdocs.yml" "$staged/docs/site/build.sh" "$staged/docs/site/overrides"
   # A checkout may hold results that somebody wrote beside an example.
   rm -rf -- "$staged"/examples/*/results
 }
@@ -53,7 +53,7 @@ write_configuration() {
     else
       printf '%s\n' "$line"
     fi
-  done <"$root/docs/mkdocs.yml" | sed -E 's|^(docs_dir: ).*|\1site-source|; s|^(site_dir: ).*|\1site|'
+  done <"$root/docs/mkdocs.yml" | sed -E 's|^(docs_dir: ).*|\1site-source|; s|^(site_dir: ).*|\1site|; s|^(  custom_dir: )|\1../docs/|'
 }
 
 stage_pages
@@ -61,3 +61,6 @@ stage_katex
 write_gallery >"$staged/gallery.md"
 write_configuration >"$root/build/mkdocs.yml"
 mkdocs build --quiet --strict --clean --config-file "$root/build/mkdocs.yml"
+# The search index once more as a script, for pages opened from the disk.
+index=$root/build/site/search/search_index
+{ printf 'var __search = { index: Promise.resolve(' && cat "$index.json" && printf ') }\n'; } >"$index.js"
