@@ -3,7 +3,7 @@
 #include "libcdem/vtk/picture.hpp"
 
 #include "libcdem/vtk/decorations.hpp"
-#include "libcdem/vtk/offscreen.hpp"
+#include "libcdem/vtk/save_drawing.hpp"
 #include "libcdem/vtk/scene.hpp"
 #include "libgeom/core/check.hpp"
 #include "libgeom/core/error.hpp"
@@ -43,9 +43,9 @@ std::vector<LegendEntry> legend_entries(const PictureOptions& options, const Bro
 
 } // namespace
 
-void render(const Snapshot& snapshot, const PictureOptions& options, const std::string& png_path) {
+void render(const Snapshot& snapshot, const PictureOptions& options, const std::string& path) {
   const bool free_height = options.size[1] == 0;
-  check_picture({options.size[0], free_height ? options.size[0] : options.size[1]}, png_path);
+  check_drawing({options.size[0], free_height ? options.size[0] : options.size[1]}, options.dpi, path);
   check_options(options);
   if (snapshot.surface.empty())
     throw geom::InputError("snapshot", "no faces", "a model with at least one block");
@@ -134,9 +134,7 @@ void render(const Snapshot& snapshot, const PictureOptions& options, const std::
   Scene scene({snapshot, points, field ? &*field : nullptr, scale, any_broken ? &broken : nullptr,
                options.edges, options.opacity, pixel},
               view, layout.size);
-  std::vector<vtkRenderer*> layers = canvas.renderers(layout.size);
-  layers.insert(layers.begin(), scene.renderer());
-  draw_png(layout.size, layers, png_path);
+  save_drawing(layout.size, options.dpi, {scene.renderer()}, canvas, path);
 }
 
 } // namespace cdem

@@ -699,12 +699,13 @@ function TetMesh:save(options) end
 ---@field dashed? boolean default false
 
 ---@class (exact) cdem.TetMeshPictureOptions
----@field file string ends in .png; in the output folder
+---@field file string ends in .png, .svg or .pdf; in the output folder
 ---@field colour? string "region", "radius_ratio", "min_dihedral", "volume" of the tetrahedra, "on_<name>" of named faces; plain when left out
 ---@field view? "front"|"back"|"left"|"right"|"top"|"bottom"|"iso" default "front": front looks along -z at the x-y plane
 ---@field up? "y"|"z" default "y": z: front looks along y with z up
 ---@field camera? cdem.TetMeshPictureOptionsCamera instead of view
 ---@field size? number[] default {1600, 1200}: {width, height} in pixels; height 0: as high as it needs to be
+---@field dpi? number in [10, 2400], default 300: pixels in an inch where it is printed: 1600 pixels are 135 mm wide at 300
 ---@field range? number[] {lowest, highest} of the colours, SI units
 ---@field colour_map? "auto"|"blue_white_red"|"cool_warm"|"viridis"|"grey"|"categorical" default "auto": auto: blue_white_red when values change sign, viridis when not
 ---@field title? string _{...} and ^{...} set sub- and superscripts
@@ -1352,14 +1353,14 @@ function Model:highest_units(options) end
 
 ---@class (exact) cdem.ModelSaveOptions
 ---@field file string ends in .vtu; in the output folder
----@field series? string ends in .pvd: a time series this file is added to
+---@field series? string ends in .pvd: a time series this file is added to; run.pvd has run_bonds.pvd and run_contacts.pvd beside it. One axis: time where it rises from file to file, else steps
 
----Writes the model for ParaView: blocks to the file, bonds beside it (result.vtu, result_bonds.vtu).
+---Writes the model for ParaView: blocks to the file, bonds beside it (result.vtu, result_bonds.vtu), and of bodies that move far the contacts that carry (result_contacts.vtu: points with force on the source body, normal_force, shear_force, depth, bodies and blocks).
 ---@param options cdem.ModelSaveOptions
 function Model:save(options) end
 
 ---@class (exact) cdem.ModelSaveCracksOptions
----@field file string ends in .vtp; in the output folder
+---@field file string ends in .vtp, or .vtu for programs that know no .vtp; in the output folder
 ---@field damaged? boolean default false: faces that soften and have not broken too (mode 0)
 ---@field series? string ends in .pvd: a time series this file is added to
 
@@ -1368,7 +1369,7 @@ function Model:save(options) end
 function Model:save_cracks(options) end
 
 ---@class (exact) cdem.ModelSaveJointsOptions
----@field file string ends in .vtp; in the output folder
+---@field file string ends in .vtp, or .vtu for programs that know no .vtp; in the output folder
 ---@field series? string ends in .pvd: a time series this file is added to
 ---@field sets? string[] names of joint sets and cuts; all joints when left out
 ---@field on? cdem.Place default "all": where: one place
@@ -1398,13 +1399,14 @@ function Model:save_joints(options) end
 ---@field dashed? boolean default false
 
 ---@class (exact) cdem.ModelPictureOptions
----@field file string ends in .png; in the output folder
+---@field file string ends in .png, .svg or .pdf; in the output folder
 ---@field colour? string field to colour by, e.g. "displacement.x", "stress.yy", "von_mises", "block_id"; plain blocks when left out
 ---@field deformation? number default 0: displacements are drawn this many times larger; 0: undeformed
 ---@field view? "front"|"back"|"left"|"right"|"top"|"bottom"|"iso" default "front": front looks along -z at the x-y plane
 ---@field up? "y"|"z" default "y": z: front looks along y with z up
 ---@field camera? cdem.ModelPictureOptionsCamera instead of view
 ---@field size? number[] default {1600, 1200}: {width, height} in pixels; height 0: as high as it needs to be
+---@field dpi? number in [10, 2400], default 300: pixels in an inch where it is printed: 1600 pixels are 135 mm wide at 300
 ---@field range? number[] {lowest, highest} of the colours, SI units
 ---@field colour_map? "auto"|"blue_white_red"|"cool_warm"|"viridis"|"grey"|"categorical" default "auto": auto: blue_white_red when values change sign, viridis when not
 ---@field title? string _{...} and ^{...} set sub- and superscripts
@@ -1442,7 +1444,7 @@ function Model:save_state(options) end
 function Model:load_state(options) end
 
 ---@class (exact) cdem.ModelChartOptions
----@field file string ends in .png; in the output folder
+---@field file string ends in .png, .svg or .pdf; in the output folder
 ---@field y string[] histories, e.g. {"residual"}; model:history() has all
 ---@field right? string[] histories read on the right
 ---@field x? string default "step": history along the x axis
@@ -1458,13 +1460,14 @@ function Model:load_state(options) end
 ---@field right_range? number[]
 ---@field legend? "auto"|"top_left"|"top_right"|"bottom_left"|"bottom_right"|"none" default "auto"
 ---@field size? number[] default {1600, 1200}: {width, height} in pixels; height 0: as high as it needs to be
+---@field dpi? number in [10, 2400], default 300: pixels in an inch where it is printed: 1600 pixels are 135 mm wide at 300
 
 ---Line chart of histories.
 ---@param options cdem.ModelChartOptions
 function Model:chart(options) end
 
 ---@class (exact) cdem.ModelChartFragmentsOptions
----@field file string ends in .png; in the output folder
+---@field file string ends in .png, .svg or .pdf; in the output folder
 ---@field title? string _{...} and ^{...} set sub- and superscripts
 ---@field x_label? string ending in an SI unit, "opening (m)", the axis is shown with the prefix that suits: mm
 ---@field y_label? string
@@ -1477,6 +1480,7 @@ function Model:chart(options) end
 ---@field right_range? number[]
 ---@field legend? "auto"|"top_left"|"top_right"|"bottom_left"|"bottom_right"|"none" default "auto"
 ---@field size? number[] default {1600, 1200}: {width, height} in pixels; height 0: as high as it needs to be
+---@field dpi? number in [10, 2400], default 300: pixels in an inch where it is printed: 1600 pixels are 135 mm wide at 300
 
 ---Chart of the fragments by size: the part of the mass in fragments up to each diameter, that of the sphere with their volume.
 ---@param options cdem.ModelChartFragmentsOptions
@@ -2153,11 +2157,11 @@ function cdem.record(options) end
 function cdem.rayleigh_speed(material) end
 
 ---@class (exact) cdem.FilmOptions
----@field file string ends in .ogv; in the output folder
+---@field file string ends in .ogv, or in .mp4 where ffmpeg is installed; in the output folder
 ---@field frames string[] names of the pictures, in order
 ---@field frames_per_second? integer in [1, 120], default 12
 
----A film (Ogg/Theora) from pictures of one size.
+---A film from pictures of one size: Ogg/Theora, or H.264 by the program ffmpeg.
 ---@param options cdem.FilmOptions
 function cdem.film(options) end
 
@@ -2170,7 +2174,7 @@ function cdem.film(options) end
 ---@field colour? number[] {red, green, blue}, each 0 .. 1
 
 ---@class (exact) cdem.ChartOptions
----@field file string ends in .png; in the output folder
+---@field file string ends in .png, .svg or .pdf; in the output folder
 ---@field series cdem.ChartOptionsSeries[]
 ---@field title? string _{...} and ^{...} set sub- and superscripts
 ---@field x_label? string ending in an SI unit, "opening (m)", the axis is shown with the prefix that suits: mm
@@ -2184,6 +2188,7 @@ function cdem.film(options) end
 ---@field right_range? number[]
 ---@field legend? "auto"|"top_left"|"top_right"|"bottom_left"|"bottom_right"|"none" default "auto"
 ---@field size? number[] default {1600, 1200}: {width, height} in pixels; height 0: as high as it needs to be
+---@field dpi? number in [10, 2400], default 300: pixels in an inch where it is printed: 1600 pixels are 135 mm wide at 300
 
 ---Line chart of lists of numbers.
 ---@param options cdem.ChartOptions
