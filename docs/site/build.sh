@@ -15,7 +15,7 @@ stage_pages() {
   mkdir -p -- "$staged"
   (cd -- "$root" && cp --parents -r -- docs examples README.md CHANGELOG.md CONTRIBUTING.md LICENSE "$staged")
   (cd -- "$root" && find libgeom libcdem lua apps tests '(' -name '*.md' -o -name '*.hpp' ')' -exec cp --parents -t "$staged" {} +)
-  rm -rf -- "$staged/docs/mkdocs.yml" "$staged/docs/site/build.sh" "$staged/docs/site/overrides"
+  rm -rf -- "$staged/docs/mkdocs.yml" "$staged/docs/site/build.sh" "$staged/docs/site/overrides" "$staged/docs/paper"
   # A checkout may hold results that somebody wrote beside an example.
   rm -rf -- "$staged"/examples/*/results
 }
@@ -31,6 +31,7 @@ write_gallery() {
   printf '# Gallery\n\nEvery picture is drawn by the example it stands under. A click leads to the example.\n'
   local folder name
   for folder in "$root"/examples/*/; do
+    [[ -f $folder/README.md ]] || continue
     name=$(basename -- "$folder")
     tr '\n' ' ' <"$folder/README.md" | grep -q '](pictures/' || continue
     printf '\n## %s\n\n<div class="gallery" markdown>\n' "$(title "$folder/README.md")"
@@ -47,6 +48,7 @@ write_configuration() {
   while IFS= read -r line; do
     if [[ $line == *"- EXAMPLES" ]]; then
       for folder in "$root"/examples/*/; do
+        [[ -f $folder/README.md ]] || continue
         name=$(basename -- "$folder")
         printf '      - "%s": examples/%s/README.md\n' "$(title "$folder/README.md")" "$name"
       done

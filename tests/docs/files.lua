@@ -42,7 +42,7 @@ mesh:faces{ side = "z+", name = "top" }
 mesh:save{ file = "mesh.vtu" }
 cdem.report{ { name = "a", value = 1, unit = "m", reference = 1, kind = "formula", source = "1", tolerance = 0.1 } }
 
-for _, name in ipairs{ "a.vtu", "a_bonds.vtu", "cracks.vtp", "joints.vtp" } do arrays(name) end
+for _, name in ipairs{ "a.vtu", "a_bonds.vtu", "a_contacts.vtu", "cracks.vtp", "joints.vtp" } do arrays(name) end
 for array in read("mesh.vtu"):gmatch 'Name="([%w_]+)"' do written[array] = true end
 for _, name in ipairs{ "region", "radius_ratio", "min_dihedral", "volume", "on_top" } do
   if not written[name] then pages.complain("tests/docs/files.lua", nil, "mesh.vtu has no " .. name) end
