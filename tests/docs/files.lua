@@ -30,6 +30,8 @@ local shape = cdem.cut_by_joints{ shape = cdem.box{ size = {1, 1, 1} },
 local model = cdem.model{ bodies = { { name = "rock", shape = shape, material = rock, joint = joint } } }
 model:fix{ on = "z-" }
 model:bolts{ from = {0.5, 0.5, 0.05}, to = {0.5, 0.5, 0.95}, area = 1e-4 }
+model:gravity{ vector = {0, 0, -9.81} }
+model:relax{ residual = 1e-2 }
 model:initial_velocity{ on = cdem.select.box{ min = {0, 0, 0.7}, max = {1, 1, 1} }, velocity = {0, 0, 2} }
 model:run{ steps = 200 }
 model:save{ file = "a.vtu" }
