@@ -1,9 +1,9 @@
 #include "libcdem/procedure/relax.hpp"
 
-#include "libcdem/contact/response/contact_bounds.hpp"
 #include "libcdem/integrate/move_held_nodes.hpp"
 #include "libcdem/integrate/move_rigid.hpp"
-#include "libcdem/integrate/row_sums.hpp"
+#include "libcdem/procedure/fictitious_masses.hpp"
+#include "libcdem/procedure/settled.hpp"
 #include "libcdem/procedure/stability.hpp"
 #include "libcdem/results/energy.hpp"
 #include "libcdem/step/errors.hpp"
@@ -17,15 +17,11 @@
 namespace cdem {
 namespace {
 
-// Part of the Gershgorin limit that a unit step uses; the rest covers the bound's round-off and closing contacts.
-constexpr double step_safety = 0.95;
 // Weight of a step's Rayleigh quotient in the smoothed one.
 constexpr double smoothing = 0.05;
 constexpr double most_damping = 1.8;
 // Supports with a given displacement get there in this many steps.
 constexpr int support_steps = 200;
-// The residual must stay under its goal this long: a body that swings through its balance is under it for a moment.
-constexpr int settled_steps = 10;
 // Without loads the residual is measured against the reactions. Moved supports that have torn their part off, and a free
 // body that springs back from its initial stress, leave none: then against this fraction of the largest reaction of the
 // stage or of the forces of the initial stress (squared norms).
@@ -153,15 +149,6 @@ struct AtRest {
 
 } // namespace
 
-std::vector<double> fictitious_masses(const Model& model, const std::vector<ResolvedBolt>& bolts) {
-  std::vector<double> masses = all_row_sums(model);
-  add_bolt_row_sums(bolts, masses);
-  add_contact_row_sums(model, masses);
-  for (double& mass : masses)
-    mass /= 4 * step_safety * step_safety;
-  return masses;
-}
-
 RelaxResult relax(const StageContext& context, const RelaxOptions& options, const std::string& kind) {
   State& state = context.state;
   require_no_quiet(context.conditions);
@@ -169,9 +156,9 @@ RelaxResult relax(const StageContext& context, const RelaxOptions& options, cons
   require_held(context.model, stage.work.resolved);
   stage.work.contact.restitution = false; // its steps are no times
   stage.in_real_time = false;
-  std::vector<double> mass = fictitious_masses(context.model, stage.work.resolved.bolts);
+  FictitiousMasses masses(context.model, stage.work.resolved.bolts);
   const RestartPoint* const from = context.from;
-  std::vector<Node> previous_force(mass.size()); // N, of the step before
+  std::vector<Node> previous_force(masses.of_nodes().size()); // N, of the step before
   update_external(stage.work.resolved, state.time);
   if (from) {
     previous_force = from->previous_force;
@@ -187,31 +174,28 @@ RelaxResult relax(const StageContext& context, const RelaxOptions& options, cons
 
   // Without supports nothing could hold the model: a mistake, that ends with an error.
   const bool judges = !stage.work.resolved.held.empty();
-  Stability stability(context.model, state, mass, moving_steps);
-  bool failing = false;
+  Stability stability(context.model, state, masses.of_nodes(), moving_steps);
+  bool failing = false, converged = false;
   Stage::StepReport report;
   report.goals.note = options.note;
   report.goals.residual_goal = options.residual;
   report.goals.max_steps = options.max_steps;
   bool forces_known = stage.step > 0; // of the step before
   double lambda = 0, damping = 0, largest_reaction2 = initial_stress_forces2(stage.work.resolved);
-  int settled = 0;
+  Settled settled(options.residual);
   if (from) {
     lambda = from->loop_state.at(0);
     damping = from->loop_state.at(1);
     largest_reaction2 = from->loop_state.at(2);
-    settled = static_cast<int>(from->loop_state.at(3));
-    report.sums.kinetic = from->loop_state.at(4);
-    forces_known = from->loop_state.at(5) != 0;
-    stability.take(from->loop_state, 6);
+    report.sums.kinetic = from->loop_state.at(3);
+    forces_known = from->loop_state.at(4) != 0;
+    stability.take(from->loop_state, masses.take(from->loop_state, settled.take(from->loop_state, 5)));
   }
   const auto loop_state = [&] {
-    std::vector<double> numbers{lambda,
-                                damping,
-                                largest_reaction2,
-                                static_cast<double>(settled),
-                                report.sums.kinetic,
+    std::vector<double> numbers{lambda, damping, largest_reaction2, report.sums.kinetic,
                                 forces_known ? 1.0 : 0.0};
+    settled.add_to(numbers);
+    masses.add_to(numbers);
     stability.add_to(numbers);
     return numbers;
   };
@@ -219,8 +203,8 @@ RelaxResult relax(const StageContext& context, const RelaxOptions& options, cons
   const auto step = [&] {
     const bool freed = options.breaking && stage.free_nodes();
     if (freed) {
-      mass = fictitious_masses(context.model, stage.work.resolved.bolts);
-      previous_force.assign(mass.size(), {});
+      masses = FictitiousMasses(context.model, stage.work.resolved.bolts);
+      previous_force.assign(masses.of_nodes().size(), {});
       forces_known = false;
       stability.renumbered();
     }
@@ -229,10 +213,12 @@ RelaxResult relax(const StageContext& context, const RelaxOptions& options, cons
     if (freed || stage.step == moving_steps)
       lead_supports(state, stage.work.resolved, stage.step);
     stage.update_contacts();
+    masses.follow(context.model, stage.work.contact);
     stage.update_loads_at_rest();
     const auto move = [&](Range range, const Node* force, NodeSums& sums) {
       const auto nodes = [&](Range part) {
-        return moving_nodes(state, stage.work.acting(), mass, part, force + (part.begin - range.begin));
+        return moving_nodes(state, stage.work.acting(), masses.of_nodes(), part,
+                            force + (part.begin - range.begin));
       };
       each_node(
           stage.work.resolved, range,
@@ -260,9 +246,11 @@ RelaxResult relax(const StageContext& context, const RelaxOptions& options, cons
       damping = std::min(2 * std::sqrt(lambda), most_damping);
     }
     forces_known = true;
-    const bool balanced =
-        report.residual <= options.residual && stage.broken_in_step() == 0 && stage.step > moving_steps;
-    settled = balanced ? settled + 1 : 0;
+    if (stage.broken_in_step() == 0 && stage.step > moving_steps)
+      settled.add(report.residual);
+    else
+      settled.start_anew();
+    converged = settled.reached(std::sqrt(lambda));
     if (options.callback && options.callback_every > 0 && stage.step % options.callback_every == 0) {
       const SynchronisedView view(stage); // what it reads is of one moment
       options.callback();
@@ -271,8 +259,7 @@ RelaxResult relax(const StageContext& context, const RelaxOptions& options, cons
   {
     const AtRest at_rest{stage, state, context.last_good, report.sums};
     try {
-      while (stage.step < options.max_steps && settled < settled_steps &&
-             !(failing && options.stop_on_failure))
+      while (stage.step < options.max_steps && !converged && !(failing && options.stop_on_failure))
         step();
     } catch (const SolutionError&) {
       if (!options.stop_on_failure || !stability.watch().suspicious())
@@ -284,7 +271,7 @@ RelaxResult relax(const StageContext& context, const RelaxOptions& options, cons
     }
   }
   static_cast<StageResult&>(result) = stage.finish(report);
-  result.converged = settled >= settled_steps;
+  result.converged = converged;
   result.verdict = result.converged ? Verdict::stable : failing ? Verdict::failing : Verdict::undecided;
   stability.describe(result);
   return result;

@@ -13,7 +13,4 @@ namespace cdem {
 // kind: what progress reports call it.
 RelaxResult relax(const StageContext&, const RelaxOptions&, const std::string& kind = "relax");
 
-// kg for a unit step, per node.
-std::vector<double> fictitious_masses(const Model&, const std::vector<ResolvedBolt>& = {});
-
 } // namespace cdem

@@ -183,8 +183,8 @@ local cdem = {}
 ---@field mode "tension"|"shear"
 ---@field centroid number[] m
 ---@field normal number[] of the cut planes
----@field principal_stress number[] Pa: compression positive, the largest first
----@field angle_to_sigma1 number deg: between the plane and the axis of the largest
+---@field principal_stress number[] Pa: tension positive, the largest first
+---@field angle_to_largest_pressure number deg: between the cut planes and the axis of the largest pressure, principal_stress[3]
 ---@field generation integer 0 for an original block
 ---@field pieces integer
 ---@field tie boolean both conjugate planes were equally good
@@ -801,6 +801,7 @@ function Model:box() end
 ---@field displacement? number[] m: total value to be held; a relaxation moves there first
 ---@field velocity? number[] m/s: in real-time stepping; zero when left out
 ---@field amplitude? cdem.Record|number[][]|fun(time: number): number factor over time (s): a cdem.record, a list { {time, value}, ... } with straight lines between and its first and last value outside, or a function, called once a step; a relaxation asks once at its start; 1 when left out
+---@field since? number s: time of the model at which the amplitude's times begin, 0 when left out; since = model.time lets it begin now, in a later stage
 
 ---Holds nodes, or moves them as told. A later call wins over an earlier one where they meet.
 ---@param options cdem.ModelFixOptions
@@ -818,6 +819,7 @@ function Model:release(options) end
 ---@field on cdem.Place where: a place or a list of places
 ---@field stress number[] Pa: force over area, not following the surface
 ---@field amplitude? cdem.Record|number[][]|fun(time: number): number factor over time (s): a cdem.record, a list { {time, value}, ... } with straight lines between and its first and last value outside, or a function, called once a step; a relaxation asks once at its start; 1 when left out
+---@field since? number s: time of the model at which the amplitude's times begin, 0 when left out; since = model.time lets it begin now, in a later stage
 
 ---Force per undeformed area on outer faces.
 ---@param options cdem.ModelTractionOptions
@@ -827,6 +829,7 @@ function Model:traction(options) end
 ---@field on cdem.Place where: one place
 ---@field force number[] N: total
 ---@field amplitude? cdem.Record|number[][]|fun(time: number): number factor over time (s): a cdem.record, a list { {time, value}, ... } with straight lines between and its first and last value outside, or a function, called once a step; a relaxation asks once at its start; 1 when left out
+---@field since? number s: time of the model at which the amplitude's times begin, 0 when left out; since = model.time lets it begin now, in a later stage
 
 ---A total force, shared among the nodes of a place.
 ---@param options cdem.ModelForceOptions
@@ -836,6 +839,7 @@ function Model:force(options) end
 ---@field vector number[]|fun(time: number): number[] m/s2: acceleration, e.g. {0, 0, -9.81}, or a function of time (s) that gives it
 ---@field water_density? number kg/m3, >= 0, default 0: buoyancy: takes from the weight, never from the inertia
 ---@field amplitude? cdem.Record|number[][]|fun(time: number): number factor over time (s): a cdem.record, a list { {time, value}, ... } with straight lines between and its first and last value outside, or a function, called once a step; a relaxation asks once at its start; 1 when left out
+---@field since? number s: time of the model at which the amplitude's times begin, 0 when left out; since = model.time lets it begin now, in a later stage
 
 ---Weight of all blocks; one at a time, the last call counts.
 ---@param options cdem.ModelGravityOptions
@@ -938,7 +942,7 @@ function Model:water(options) end
 ---@field max_steps? integer >= 1, default 500000: gives up with converged = false, undecided
 ---@field stop_on_failure? boolean default true: ends where the model runs away, with the verdict "failing"; false: goes on, for a fall that something may catch
 ---@field trial? string name of a trial, "F = 1.2", for progress, log and report; that it fails is then an answer and no warning
----@field every? integer >= 1: steps between calls, 100 by default
+---@field every? integer >= 1: steps between calls, 100 by default; without a callback steps between samples of the history from here on, 10 at first
 ---@field callback? fun() called every so many steps; may read the model and write files
 
 ---Dynamic relaxation to static balance, with fictitious masses and adaptive damping (Han 2010 eq 12). The verdict tells a model that stands from one that runs away (docs/theory.md, section 25).
@@ -958,7 +962,7 @@ function Model:relax(options) end
 ---@field mass_scaling? cdem.ModelRunOptionsMass_scaling for quasi-static stages: nodes that need a shorter time step get more inertia, not more weight; instead of time_step
 ---@field breaking? boolean default true: bonds may break
 ---@field local_damping? number in [0, 1), default 0: force against the motion as a fraction of the out-of-balance force (Cundall)
----@field every? integer >= 1: steps between calls, 100 by default
+---@field every? integer >= 1: steps between calls, 100 by default; without a callback steps between samples of the history from here on, 10 at first
 ---@field callback? fun() called every so many steps; may read the model and write files
 ---@field stop? fun(): boolean ends the stage when it returns true
 
@@ -1135,6 +1139,7 @@ function Model:critical_flow(options) end
 ---@field velocity? number[] m/s: of the particles in the entering wave alone
 ---@field stress? number[] Pa: traction of the entering wave alone on these faces; the boundary adds 2 of it
 ---@field amplitude? cdem.Record|number[][]|fun(time: number): number factor over time (s): a cdem.record, a list { {time, value}, ... } with straight lines between and its first and last value outside, or a function, called once a step; a relaxation asks once at its start; 1 when left out
+---@field since? number s: time of the model at which the amplitude's times begin, 0 when left out; since = model.time lets it begin now, in a later stage
 
 ---Quiet boundary (Lysmer and Kuhlemeyer 1969): dashpots on outer faces let waves out, and a wave may enter through them. It takes the place of a fix of the same place, whose reactions stay as loads. For real-time stepping.
 ---@param options cdem.ModelQuietOptions

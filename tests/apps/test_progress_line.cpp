@@ -62,6 +62,15 @@ TEST_CASE("the bar follows the decades of the residual, not its value") {
   CHECK_THAT(live_line(p, seen(p), 200), Contains(" 25 %"));
 }
 
+TEST_CASE("a stage that goes on is never done, and names no time that is none", "[progress]") {
+  Progress p = half_way();
+  p.residual = 0.9e-6; // below its goal, which has to last
+  CHECK_THAT(live_line(p, seen(p), 200), Contains(" 99 %") && !Contains("100 %") && !Contains("left"));
+  CHECK_THAT(plain_line(p, seen(p)), Contains(" 99 %") && !Contains("left"));
+  p.last = true;
+  CHECK_THAT(plain_line(p, seen(p)), Contains("100 %"));
+}
+
 TEST_CASE("a plain line names both kinds of breaking") {
   const Progress p = half_way();
   CHECK(plain_line(p, seen(p)) == "stage 3 relax: step 12,345, residual 0.001 -> 1e-06, 50 %, 1,204 broken "

@@ -108,7 +108,7 @@ void RunObserver::warning(const std::string& text) {
   ++warnings_;
   if (style_ != ProgressStyle::machine) { // the sweep that watches this run shows its own
     clear_line();
-    std::fprintf(stderr, "%s\n", text.c_str());
+    std::fprintf(stderr, "%s\n", with_tone(text, Tone::warning).c_str());
   }
   if (page_)
     page_->add_line(text);

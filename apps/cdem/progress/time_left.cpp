@@ -10,6 +10,9 @@ namespace {
 
 constexpr std::size_t most_samples = 128; // the pairs of their second half are 2016 slopes
 
+// Of a stage that still goes on, though its goals are reached now: they have to last.
+constexpr double most_done = 0.99;
+
 double median(std::vector<double>& values) {
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
   std::nth_element(values.begin(), middle, values.end());
@@ -114,8 +117,10 @@ double TimeLeft::seconds() const {
   const double steps = steps_to_goals();
   if (gives_up())
     return steps_to_limit() / rate;
-  if (steps >= 0)
+  if (steps > 0)
     return steps / rate;
+  if (steps == 0)
+    return -1; // it waits for the goals to last, nobody knows how long
   const auto wanted = goals(last_);
   if (std::any_of(wanted.begin(), wanted.end(), [](double goal) { return goal > 0; }))
     return -1; // what does not fall says nothing, however far the limit is
@@ -136,7 +141,7 @@ double TimeLeft::fraction() const {
     done = std::min(done, height <= 0 ? 1 : 1 - height / highest_[i]); // the one furthest from its goal
   }
   if (std::isfinite(done))
-    return done;
+    return last_.last ? done : std::min(done, most_done);
   if (last_.time_goal > last_.time_start)
     return std::min(1.0, (last_.time - last_.time_start) / (last_.time_goal - last_.time_start));
   return last_.max_steps > 0
