@@ -228,10 +228,10 @@ private:
         "joined by commas in the order of their names. Other characters than letters, digits and +-=.,_\n"
         "become _, and then a short hash keeps cases apart.\n"
         "\n"
-        "A run takes away what the last run in the same folder wrote, once it produces results itself; a\n"
-        "file that was edited since is kept as FILE.edited. A folder with other files than results is\n"
-        "refused. Ctrl-C ends a run at the next step, saves the state and writes a checkpoint, from which\n"
-        "cdem resume goes on; a second one ends it at once.\n");
+        "Once a run writes its first result, it deletes the files of the last run in the same folder. A\n"
+        "file that was edited since is kept as FILE.edited. A folder that holds other files than results\n"
+        "is refused. Ctrl-C ends a run at the next step, saves the state and writes a checkpoint for cdem\n"
+        "resume; a second Ctrl-C ends it at once.\n");
   }
   void add_live(CLI::App* command) {
     command->add_flag("--live", typed_.live,
@@ -244,7 +244,7 @@ private:
         ->option_text("MINUTES");
   }
   void add_resume() {
-    auto* command = app_.add_subcommand("resume", "go on with a run that was stopped or killed");
+    auto* command = app_.add_subcommand("resume", "continue a run that was stopped or killed");
     command->add_option("FOLDER", typed_.file, "its output folder")->option_text(" ");
     add_unsafe(command);
     add_threads(command, threads_text);
@@ -255,14 +255,14 @@ private:
     command->add_flag("--quiet,-q", typed_.quiet, "print nothing but warnings and errors");
     finish(
         command, "  cdem resume results/uniaxial_compression\n  cdem resume results/plate --threads 8\n",
-        "Goes on from the newest whole checkpoint in the folder, with the script and the settings of the\n"
-        "run, to the same bits as one that was never stopped. The script is run from its beginning: what it\n"
-        "has solved, read and written so far it is told again without being done. So it must be as it was.\n"
-        "A run that an error of its script ended (exit code 2 or 4) is the exception: mend the script, "
-        "which\n"
-        "may differ behind the last stage that was solved, or in the callback that failed.\n"
-        "A run that was started with --unsafe needs it again. A run that has ended well takes its\n"
-        "checkpoints away.\n");
+        "Continues from the newest intact checkpoint in the folder, with the script and the settings of the\n"
+        "run. The result is the same, bit for bit, as that of a run that was never stopped. The script runs\n"
+        "from its beginning; calls before the checkpoint return their recorded results and do nothing. So\n"
+        "the script must not have changed. There is one exception, a run that ended with an error of its\n"
+        "script (exit code 2 or 4): correct the script; it may change after the last solved stage, or in\n"
+        "the callback that failed. A run that was started with --unsafe needs it again. A run that ends "
+        "well\n"
+        "deletes its checkpoints.\n");
   }
   void add_check() {
     auto* command =
@@ -273,9 +273,9 @@ private:
     add_set(command, "NAME=VALUE", "value of a parameter of the script; may be repeated");
     finish(
         command, "  cdem check case.lua --set pressure=24e6\n",
-        "Parameters, what each model is made of, its box from corner to corner, conditions and stages are\n"
-        "printed. Solving calls call their callbacks once and return empty results; what a script prints\n"
-        "after the first is left out. No file is written.\n");
+        "Prints the parameters, the parts of each model, its box from corner to corner, conditions and\n"
+        "stages. Solving calls call their callbacks once and return empty results; what the script prints\n"
+        "after the first of them is left out. No file is written.\n");
   }
   void add_sweep() {
     auto* command =
@@ -293,8 +293,8 @@ private:
     command->add_flag("--quiet,-q", typed_.quiet, "print nothing but warnings and errors");
     finish(
         command, "  cdem sweep case.lua --set pressure=20e6,25e6,30e6 --set cohesion=5e6,8e6 --jobs 2\n",
-        "Every run runs the script, and the files that it requires by a name in quotes, as they are when\n"
-        "the sweep begins; swept/ in its folder keeps them. Data files are read as they are then.\n"
+        "All runs use the script, and the files that it requires by a name in quotes, as they are when the\n"
+        "sweep begins; the folder keeps copies in swept/. Data files are read when a run reads them.\n"
         "\n"
         "--slurm writes a job array. The same command again, when jobs have ended, gathers their figures in\n"
         "sweep.csv and writes an array of the rest: docs/cluster.md.\n");
@@ -339,7 +339,7 @@ private:
   }
   void add_info() {
     auto* command =
-        app_.add_subcommand("info", "tell about this program, a .vtu file, a script or a results folder");
+        app_.add_subcommand("info", "describe this program, a .vtu file, a script or a results folder");
     command
         ->add_option("PATH", typed_.file,
                      "a .vtu file, a .lua script or a folder of results; none: this program")

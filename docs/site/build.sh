@@ -15,7 +15,7 @@ stage_pages() {
   mkdir -p -- "$staged"
   (cd -- "$root" && cp --parents -r -- docs examples README.md CHANGELOG.md CONTRIBUTING.md LICENSE "$staged")
   (cd -- "$root" && find libgeom libcdem lua apps tests '(' -name '*.md' -o -name '*.hpp' ')' -exec cp --parents -t "$staged" {} +)
-  rm -f -- "$staged/docs/mkdocs.yml" "$staged/docs/site/build.sh"
+  rm -rf -- "$staged/docs/mkdocs.yml" "$staged/docs/site/build.sh" "$staged/docs/site/overrides" "$staged/docs/paper"
   # A checkout may hold results that somebody wrote beside an example.
   rm -rf -- "$staged"/examples/*/results
 }
@@ -31,6 +31,7 @@ write_gallery() {
   printf '# Gallery\n\nEvery picture is drawn by the example it stands under. A click leads to the example.\n'
   local folder name
   for folder in "$root"/examples/*/; do
+    [[ -f $folder/README.md ]] || continue
     name=$(basename -- "$folder")
     tr '\n' ' ' <"$folder/README.md" | grep -q '](pictures/' || continue
     printf '\n## %s\n\n<div class="gallery" markdown>\n' "$(title "$folder/README.md")"
@@ -47,13 +48,14 @@ write_configuration() {
   while IFS= read -r line; do
     if [[ $line == *"- EXAMPLES" ]]; then
       for folder in "$root"/examples/*/; do
+        [[ -f $folder/README.md ]] || continue
         name=$(basename -- "$folder")
         printf '      - "%s": examples/%s/README.md\n' "$(title "$folder/README.md")" "$name"
       done
     else
       printf '%s\n' "$line"
     fi
-  done <"$root/docs/mkdocs.yml" | sed -E 's|^(docs_dir: ).*|\1site-source|; s|^(site_dir: ).*|\1site|'
+  done <"$root/docs/mkdocs.yml" | sed -E 's|^(docs_dir: ).*|\1site-source|; s|^(site_dir: ).*|\1site|; s|^(  custom_dir: )|\1../docs/|'
 }
 
 stage_pages
@@ -61,3 +63,6 @@ stage_katex
 write_gallery >"$staged/gallery.md"
 write_configuration >"$root/build/mkdocs.yml"
 mkdocs build --quiet --strict --clean --config-file "$root/build/mkdocs.yml"
+# The search index once more as a script, for pages opened from the disk.
+index=$root/build/site/search/search_index
+{ printf 'var __search = { index: Promise.resolve(' && cat "$index.json" && printf ') }\n'; } >"$index.js"

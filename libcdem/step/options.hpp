@@ -83,7 +83,7 @@ struct RunOptions {
   bool looks_at_all_contacts = false;
   std::int64_t callback_every = 0;
   std::function<void()> callback;
-  std::int64_t history_every = 0; // as of a relaxation
+  std::int64_t history_every = 0;         // as of a relaxation
   std::function<void(Progress&)> details; // adds to what the progress line shows
   std::function<bool()> stop;             // asked every callback_every (default 100) steps
   // Where the out-of-balance force over the applied force is above this, `stop` is asked in vain.

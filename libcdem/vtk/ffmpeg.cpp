@@ -97,6 +97,7 @@ std::string write_with_ffmpeg(const std::vector<std::string>& png_frames, int fr
       "-movflags",   "+faststart",   "-f",         "mp4",
       "file:" + path};
   std::vector<char*> arguments;
+  arguments.reserve(words.size() + 1);
   for (std::string& word : words)
     arguments.push_back(word.data());
   arguments.push_back(nullptr);

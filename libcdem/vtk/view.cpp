@@ -40,7 +40,7 @@ View View::named(const std::string& view, const std::string& up) {
 
 View View::iso(const std::string& up, const std::vector<Vec3>& points,
                const std::vector<geom::Triangle>& surface) {
-  constexpr double hardly = 1.05;  // times what the usual corner shows
+  constexpr double hardly = 1.5;   // times what the usual corner shows
   constexpr double upwards = 0.05; // of a unit normal along the upward axis
   const Vec3 vertical = up == "z" ? Vec3::UnitZ() : Vec3::UnitY();
   const View usual = named("iso", up);

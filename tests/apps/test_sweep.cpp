@@ -52,6 +52,7 @@ TEST_CASE("a sweep runs every combination and gathers the figures") {
     CHECK(table[i + 1].substr(table[i + 1].rfind(',') + 1) == sums[i]);
   }
   CHECK(fs::exists(cdem.folder / "results/sum-sweep/a=2,b=30/report.json"));
+  CHECK(read_file(cdem.folder / "results/sum-sweep/sweep_sum_m.png").rfind("\x89PNG", 0) == 0);
   CHECK_THAT(read_file(cdem.folder / "results/sum-sweep/cdem.log"), Contains("ended with exit code 0"));
 }
 

@@ -13,7 +13,7 @@ for _, name in ipairs{ "run", "resume", "check", "render", "sweep", "info", "rep
   help[name] = words_of(name)
 end
 local launcher = pages.read(pages.root .. "/cdem")
-for name in launcher:gmatch "\n  ([%l_]+)%)\n    shift" do help[name] = help[name] or "" end
+for name in launcher:gmatch "\n  ([%l_]+)%)\n" do help[name] = help[name] or "" end
 
 local count = 0
 local function check(path, line, command)

@@ -83,7 +83,7 @@ TEST_CASE("cracks: the surface and the fragments as files and charts", "[lua][cr
   CHECK_THAT(script.read("cracks.vtp"), Contains("PolyData") && Contains("opening") && Contains("time"));
   CHECK(script.read("all.pvd").find("more.vtp") != std::string::npos);
   CHECK(script.read("sizes.png").rfind("\x89PNG", 0) == 0);
-  CHECK_THAT(error_of(pulled_apart() + "model:save_cracks{ file = 'cracks.vtu' }"), Contains(".vtp"));
+  CHECK_THAT(error_of(pulled_apart() + "model:save_cracks{ file = 'cracks.stl' }"), Contains(".vtp"));
 }
 
 TEST_CASE("cracks: a J integral is refused where it makes no sense", "[lua][cracks]") {

@@ -18,9 +18,27 @@ TEST_CASE("save writes blocks, bonds beside them, and a series", "[lua]") {
   const std::string series = script.read("all.pvd");
   CHECK(series.find("a.vtu") < series.find("sub/b.vtu"));
   CHECK(series.find("sub/b.vtu") != std::string::npos);
+  // One series each for what has other fields.
+  CHECK_THAT(script.read("all_bonds.pvd"), Contains("a_bonds.vtu") && Contains("sub/b_bonds.vtu"));
 }
 
-TEST_CASE("pictures and charts are written as PNG", "[lua]") {
+TEST_CASE("save writes the contacts of bodies that move far, and their series", "[lua]") {
+  Script script(
+      "local cdem = require 'cdem'\n"
+      "local rock = cdem.elastic{ youngs_modulus = 1e9, poissons_ratio = 0.2, density = 2500 }\n"
+      "local block = cdem.grid{ size = {1, 1, 1}, divisions = {1, 1, 1} }\n"
+      "local model = cdem.model{ bodies = { { shape = block, material = rock, element = 'rigid' },\n"
+      "  { shape = cdem.grid{ size = {1, 1, 1}, divisions = {1, 1, 1}, origin = {0, 0, 2} }, material = "
+      "rock,\n"
+      "    element = 'rigid' } },\n"
+      "  contacts = { default = cdem.coulomb{ friction_angle = 30 } } }\n"
+      "model:save{ file = 'a.vtu', series = 'all.pvd' }");
+  CHECK(script.error() == "");
+  CHECK(script.wrote("a_contacts.vtu"));
+  CHECK_THAT(script.read("all_contacts.pvd"), Contains("a_contacts.vtu"));
+}
+
+TEST_CASE("pictures and charts are written as PNG, SVG and PDF", "[lua]") {
   Script script(
       column() +
       "model:run{ steps = 20 }\n"
@@ -32,6 +50,13 @@ TEST_CASE("pictures and charts are written as PNG", "[lua]") {
   script.run();
   for (const std::string name : {"p.png", "h.png", "c.png"})
     CHECK(script.read(name).rfind("\x89PNG", 0) == 0);
+  Script vector(
+      column() +
+      "model:picture{ file = 'p.svg', size = {320, 240}, dpi = 100 }\n"
+      "cdem.chart{ file = 'c.pdf', size = {320, 240}, series = { { name = 'a', x = {1, 2}, y = {1, 2} } } }");
+  CHECK(vector.error() == "");
+  CHECK_THAT(vector.read("p.svg"), Contains("<svg") && Contains("width=\"81.28mm\""));
+  CHECK(vector.read("c.pdf").rfind("%PDF", 0) == 0);
 }
 
 TEST_CASE("an unknown colour is named as the script calls it, by a check and by a run", "[lua]") {
@@ -59,6 +84,19 @@ TEST_CASE("columns of numbers survive writing and reading", "[lua]") {
       "assert(t.y[1] == 1 and t.y[2] ~= t.y[2] and t.y[3] == 3)");
   CHECK(script.error() == "");
   CHECK(script.read("t.csv") == "x,y\n0.1,1\n1e-300,\n-5,3\n");
+}
+
+TEST_CASE("names with commas, quotes and blanks survive in a table", "[lua]") {
+  Script script("local cdem = require 'cdem'\n"
+                "cdem.write_csv{ file = 't.csv', columns = { { name = 'force, N', values = {1} },\n"
+                "  { name = 'the \"old\" one', values = {2} }, { name = 'plain', values = {3} } } }\n"
+                "local t = cdem.read_csv('t.csv')\n"
+                "assert(t['force, N'][1] == 1 and t['the \"old\" one'][1] == 2 and t.plain[1] == 3)");
+  CHECK(script.error() == "");
+  CHECK(script.read("t.csv") == "\"force, N\",\"the \"\"old\"\" one\",plain\n1,2,3\n");
+  Script foreign("local t = require('cdem').read_csv('t.csv')\nassert(t.a[1] == 1 and t['b c'][1] == 2)");
+  foreign.write("t.csv", "a , \"b c\"\r\n 1,\"2\"\r\n"); // as a spreadsheet writes it
+  CHECK(foreign.error() == "");
 }
 
 TEST_CASE("tables that do not fit are refused with their row", "[lua]") {

@@ -3,6 +3,7 @@
 
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <nlohmann/json.hpp>
 
 using namespace cdem::script;
 using namespace cdem::script::test;
@@ -28,7 +29,67 @@ std::map<std::string, Value> entry(const std::string& json, std::size_t i) {
   return all.table()->named.at("figures").table()->items.at(i).table()->named;
 }
 
+using Json = nlohmann::json;
+
+bool has_type(const Json& value, const std::string& type) {
+  return (type == "object" && value.is_object()) || (type == "array" && value.is_array()) ||
+         (type == "string" && value.is_string()) || (type == "number" && value.is_number()) ||
+         (type == "boolean" && value.is_boolean()) || (type == "null" && value.is_null());
+}
+
+// What a value breaks of the parts of JSON Schema that docs/report.schema.json uses; "" nothing.
+std::string broken(const Json& schema, const Json& value, const std::string& at) {
+  if (schema.is_boolean())
+    return schema.get<bool>() ? "" : at + ": is not foreseen";
+  if (schema.contains("const") && value != schema["const"])
+    return at + ": not the constant";
+  if (schema.contains("type")) {
+    const Json types = schema["type"].is_array() ? schema["type"] : Json::array({schema["type"]});
+    if (std::none_of(types.begin(), types.end(),
+                     [&](const Json& type) { return has_type(value, type.get<std::string>()); }))
+      return at + ": of another type";
+  }
+  if (value.is_object()) {
+    for (const Json& name : schema.value("required", Json::array()))
+      if (!value.contains(name.get<std::string>()))
+        return at + ": lacks " + name.get<std::string>();
+    for (const auto& [name, entry] : value.items()) {
+      const Json known = schema.value("properties", Json::object());
+      const Json rule = known.contains(name) ? known[name] : schema.value("additionalProperties", Json(true));
+      if (const std::string wrong = broken(rule, entry, at + "." + name); !wrong.empty())
+        return wrong;
+    }
+  }
+  if (value.is_array() && schema.contains("items"))
+    for (const Json& item : value)
+      if (const std::string wrong = broken(schema["items"], item, at + "[]"); !wrong.empty())
+        return wrong;
+  return "";
+}
+
 } // namespace
+
+TEST_CASE("report.json is as docs/report.schema.json says, with the version of the format", "[lua]") {
+  const Json schema = Json::parse(read_file(std::string(CDEM_SOURCE) + "/docs/report.schema.json"));
+  Script script(
+      column() +
+      "model:relax{ residual = 1e-3 }\n"
+      "cdem.report{ { name = 'a', value = 1.5, unit = 'm', reference = 1.4, kind = 'formula', source = 's',\n"
+      "    tolerance = 0.1 },\n"
+      "  { name = 'b', value = true }, { name = 'c', value = 0/0 },\n"
+      "  { name = 'd', value = 0, reference = 0, kind = 'formula', source = 's', tolerance_absolute = 1e-3 } "
+      "}");
+  REQUIRE(script.error() == "");
+  Json report = Json::parse(script.read("report.json"));
+  CHECK(report["schema"] == report_schema);
+  CHECK(broken(schema, report, "report") == "");
+  CHECK(report["relaxations"].size() == 1);
+  report["figures"][0]["new"] = 1;
+  CHECK(broken(schema, report, "report") == "report.figures[].new: is not foreseen");
+  report["figures"][0].erase("new");
+  report["figures"][1].erase("unit");
+  CHECK(broken(schema, report, "report") == "report.figures[]: lacks unit");
+}
 
 TEST_CASE("a figure is within when it lies no further from the reference than the tolerance", "[lua]") {
   CHECK(figure(1.02, 1, "paper", 0.021).within() == true);

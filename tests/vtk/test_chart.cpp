@@ -168,7 +168,7 @@ TEST_CASE("a vector page draws what the picture of it shows") {
   }
   const TemporaryFolder folder;
   ChartOptions o;
-  o.size = {600, 450};
+  o.size = {1600, 1200};
   o.dpi = 72;
   o.title = "\u03c3_{yy} \u2212 a chart";
   o.y_label = "turned (Pa)";
@@ -177,7 +177,7 @@ TEST_CASE("a vector page draws what the picture of it shows") {
     chart(line, o, folder / file);
   const std::string commands =
       "cd '" + (folder / "") +
-      "' && pdftoppm -r 72 -png -singlefile c.pdf pdf && rsvg-convert -w 600 -h 450 c.svg -o "
+      "' && pdftoppm -r 72 -png -singlefile c.pdf pdf && rsvg-convert -w 1600 -h 1200 c.svg -o "
       "svg.png";
   REQUIRE(std::system(commands.c_str()) == 0);
   const Image truth = read_png(folder / "c.png");
@@ -193,7 +193,7 @@ TEST_CASE("a vector page draws what the picture of it shows") {
           apart += std::abs(static_cast<double>(truth.at(x, y)[c]) - drawn.at(x, y)[c]);
           blank += 255 - truth.at(x, y)[c];
         }
-    CHECK(apart < 0.4 * blank); // lines of a pixel lie half a pixel off, or are drawn wider
+    CHECK(apart < 0.2 * blank); // edges fall half a pixel off; 0.08 and 0.11 where all is right
   }
 }
 

@@ -47,6 +47,7 @@ std::string zsh_files(const std::vector<std::string>& endings) {
   if (endings.empty())
     return "_files";
   std::vector<std::string> words;
+  words.reserve(endings.size());
   for (const std::string& ending : endings)
     words.push_back(ending.substr(1));
   return "_files -g \"*.(" + joined(words, "|") + ")\"";
