@@ -13,7 +13,7 @@ title() { sed -n 's/^# *//p' "$1" | head -n 1; }
 stage_pages() {
   rm -rf -- "$staged"
   mkdir -p -- "$staged"
-  (cd -- "$root" && cp --parents -r -- docs examples README.md CHANGELOG.md CONTRIBUTING.md LICENSE "$staged")
+  (cd -- "$root" && cp --parents -r -- docs examples README.md CHANGELOG.md CONTRIBUTING.md LICENSE CITATION.cff "$staged")
   (cd -- "$root" && find libgeom libcdem lua apps tests '(' -name '*.md' -o -name '*.hpp' ')' -exec cp --parents -t "$staged" {} +)
   rm -f -- "$staged/docs/mkdocs.yml" "$staged/docs/site/build.sh"
   # A checkout may hold results that somebody wrote beside an example.
