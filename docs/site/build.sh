@@ -13,7 +13,7 @@ title() { sed -n 's/^# *//p' "$1" | head -n 1; }
 stage_pages() {
   rm -rf -- "$staged"
   mkdir -p -- "$staged"
-  (cd -- "$root" && cp --parents -r -- docs examples README.md CHANGELOG.md CONTRIBUTING.md LICENSE "$staged")
+  (cd -- "$root" && cp --parents -r -- docs examples README.md CHANGELOG.md CONTRIBUTING.md LICENSE CITATION.cff "$staged")
   (cd -- "$root" && find libgeom libcdem lua apps tests '(' -name '*.md' -o -name '*.hpp' ')' -exec cp --parents -t "$staged" {} +)
   rm -rf -- "$staged/docs/mkdocs.yml" "$staged/docs/site/build.sh" "$staged/docs/site/overrides" "$staged/docs/paper"
   # A checkout may hold results that somebody wrote beside an example.

@@ -57,7 +57,7 @@ case $case in
   program) # needs nothing of the checkout
     cd /
     if grep -aqF "$source/" "$prefix/bin/cdem"; then fail "the program names files of the source tree"; fi
-    env -i PATH=/usr/bin:/bin HOME="$work" "$prefix/bin/cdem" run "$prefix/share/cdem/examples/toppling/case.lua" \
+    env -i PATH=/usr/bin:/bin HOME="$work" "$prefix/bin/cdem" run "$prefix/share/cdem/examples/cohesive_bar/case.lua" \
       --threads 1 --quiet --output "$work/results"
     [[ -s $work/results/report.md ]] || fail "no report.md"
     [[ -s $prefix/share/cdem/meta/cdem.lua ]] || fail "no annotations"

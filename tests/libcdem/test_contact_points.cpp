@@ -17,7 +17,8 @@ TEST_CASE("contact points carry the weight of a block at rest, and the friction 
   friction.friction_angle = 0.6;
   cdem::ModelSpec spec;
   spec.bodies.push_back({"floor", geom::grid({3, 3, 0.5}, {1, 1, 1}, {-1, -1, -0.5}), rock, friction});
-  spec.bodies.push_back({"block", geom::grid({1, 1, 1}, {1, 1, 1}), rock, friction});
+  spec.bodies.push_back({"block", geom::grid({1, 1, 1}, {1, 1, 1}, {0, 0, 1e-4}), rock,
+                         friction}); // above it, not bonded to it
   spec.default_contact = friction;
   for (cdem::BodySpec& body : spec.bodies)
     body.element = cdem::Element::rigid;

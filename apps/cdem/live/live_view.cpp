@@ -1,6 +1,5 @@
 #include "apps/cdem/live/live_view.hpp"
 
-#include "apps/cdem/progress/line.hpp"
 #include "libcdem/vtk/picture.hpp"
 #include "lua/binding/runtime/engine.hpp"
 #include "lua/binding/runtime/files.hpp"
@@ -56,11 +55,6 @@ LiveView::~LiveView() {
     std::this_thread::sleep_for(milliseconds(20));
   std::error_code ignored;
   fs::remove_all(folder_, ignored);
-}
-
-void LiveView::progress(const Progress& progress, const TimeLeft& left) {
-  shown_.progress(progress, progress.last ? stage_line(progress) : plain_line(progress, left),
-                  left.fraction(), left.seconds());
 }
 
 bool LiveView::wants_frame() {

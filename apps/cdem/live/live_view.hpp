@@ -5,7 +5,6 @@
 
 #include "apps/cdem/live/server.hpp"
 #include "apps/cdem/live/shown_run.hpp"
-#include "apps/cdem/progress/time_left.hpp"
 #include "libcdem/results/snapshot.hpp"
 
 #include <filesystem>
@@ -21,7 +20,10 @@ public:
 
   const std::string& url() const { return server_.url(); }
 
-  void progress(const Progress&, const TimeLeft&);
+  // line: the same for people; fraction and seconds to the end of the stage, negative when unknown.
+  void progress(const Progress& progress, const std::string& line, double fraction, double seconds_left) {
+    shown_.progress(progress, line, fraction, seconds_left);
+  }
   void add_line(const std::string& line) { shown_.add_line(line); }
   bool wants_frame();
   void frame(const Snapshot&); // what cannot be drawn is told of in the log and tried no more

@@ -62,7 +62,8 @@ void RunObserver::take(const Progress& progress) {
     start_stage(progress, now);
   left_.add(progress, progress.wall_time);
   if (page_)
-    page_->progress(progress, left_);
+    page_->progress(progress, progress.last ? stage_line(progress) : plain_line(progress, left_),
+                    left_.fraction(), left_.seconds());
   if (progress.last)
     end_stage(progress);
   else
