@@ -36,6 +36,14 @@ void ask_for_huge_pages_of(const Model& model, const State& state, const Workspa
   ask_for_huge_pages(model.node_position);
   ask_for_huge_pages(model.node_mass);
   ask_for_huge_pages(work.partial);
+  ask_for_huge_pages(model.batches);
+  ask_for_huge_pages(model.bonds_on_nodes);
+  ask_for_huge_pages(model.bond_begin);
+  ask_for_huge_pages(state.bond_offset);
+  ask_for_huge_pages(work.force);
+  ask_for_huge_pages(work.bond.spring_force);
+  ask_for_huge_pages(work.bond.acting_force);
+  ask_for_huge_pages(work.bond.batches.springs);
 }
 
 // A NaN anywhere shows in the sums over all forces or in the one over all velocities in the step it appears.
