@@ -278,18 +278,32 @@ std::int64_t Simulation::unbond(const Selection& on, bool whole_faces) {
   return count;
 }
 
+namespace {
+
+// A stage that goes on from a checkpoint finds in its log what it has come to.
+void sample_every(const StageContext& context, std::int64_t steps) {
+  if (steps > 0 && !context.from)
+    context.log.every = steps;
+}
+
+} // namespace
+
 RelaxResult Simulation::relax(const RelaxOptions& options) {
   check(options);
-  RelaxResult result =
-      impl_->run_stage([&](const StageContext& context) { return cdem::relax(context, options); });
+  RelaxResult result = impl_->run_stage([&](const StageContext& context) {
+    sample_every(context, options.history_every);
+    return cdem::relax(context, options);
+  });
   impl_->last_residual = result.residual;
   return result;
 }
 
 RunResult Simulation::run(const RunOptions& options) {
   check(options);
-  RunResult result =
-      impl_->run_stage([&](const StageContext& context) { return cdem::run(context, options); });
+  RunResult result = impl_->run_stage([&](const StageContext& context) {
+    sample_every(context, options.history_every);
+    return cdem::run(context, options);
+  });
   impl_->last_residual = impl_->log.history.back().residual;
   return result;
 }

@@ -14,6 +14,7 @@
 #include "libcdem/procedure/grow_options.hpp"
 #include "libcdem/procedure/reduce_strength.hpp"
 #include "libcdem/procedure/settle_options.hpp"
+#include "libcdem/results/contact_points.hpp"
 #include "libcdem/results/crack_tip.hpp"
 #include "libcdem/results/cracks.hpp"
 #include "libcdem/results/deformation.hpp"
@@ -148,8 +149,10 @@ public:
   // Results.
   ModelCounts counts() const;
   ContactSummary contacts() const;
-  double time() const;     // s
-  double residual() const; // out-of-balance force norm over applied force norm
+  bool can_touch() const;                           // there are bodies that move far
+  std::vector<ContactPoint> contact_points() const; // of theirs, those that carry now
+  double time() const;                              // s
+  double residual() const;                          // out-of-balance force norm over applied force norm
   Unbalance unbalance(std::optional<double> reference = {}) const; // results/unbalance.hpp
   double stable_time_step() const;                                 // s
   int stage() const;                                               // solving calls so far

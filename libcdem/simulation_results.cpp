@@ -23,6 +23,14 @@ ContactSummary Simulation::contacts() const {
           impl_->log.deepest_over_height};
 }
 
+bool Simulation::can_touch() const {
+  return !impl_->model.surface.triangles.empty();
+}
+
+std::vector<ContactPoint> Simulation::contact_points() const {
+  return cdem::contact_points(impl_->model, impl_->state);
+}
+
 std::vector<ProcessZone> Simulation::process_zones() const {
   return cdem::process_zones(impl_->model);
 }

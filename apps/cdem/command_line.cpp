@@ -5,6 +5,7 @@
 #include "apps/cdem/failure.hpp"
 #include "apps/cdem/memory.hpp"
 #include "apps/cdem/option_values.hpp"
+#include "apps/cdem/shell/shell_files.hpp"
 #include "lua/binding/schema/nearest.hpp"
 
 #include <CLI/CLI.hpp>
@@ -20,9 +21,9 @@ constexpr int most_threads = 1024;
 struct Typed {
   std::string file, output, threads, memory, jobs, colour,
       deformation = "0", view = "front", up = "y", size = "1600x1200", range, hidden, colour_map = "auto",
-      title, topic, checkpoint_every = "10", sources;
+      title, topic, checkpoint_every = "10", sources, shell_files, dpi = "300";
   std::vector<std::string> set;
-  bool unsafe = false, quiet = false, machine = false, version = false, manual = false;
+  bool unsafe = false, quiet = false, machine = false, live = false, version = false, manual = false;
   bool no_edges = false, no_broken_bonds = false, no_colour_bar = false, no_legend = false, no_axes = false;
 };
 
@@ -68,6 +69,7 @@ public:
     app_.option_defaults()->group("options");
     app_.add_flag("--version", typed_.version, "print the version and exit");
     app_.add_flag("--manual", typed_.manual, "print the help of every command as Markdown")->group("");
+    app_.add_option("--shell-files", typed_.shell_files, "folder for manual pages and completion")->group("");
     add_run();
     add_resume();
     add_check();
@@ -197,6 +199,7 @@ private:
     add_memory(command);
     add_set(command, "NAME=VALUE", "value of a parameter of the script; may be repeated");
     add_checkpoint_every(command);
+    add_live(command);
     command->add_flag("--quiet,-q", typed_.quiet, "print nothing but warnings and errors");
     command->add_flag("--machine-progress", typed_.machine, "progress for a program that watches this run")
         ->group("");
@@ -216,6 +219,10 @@ private:
         "refused. Ctrl-C ends a run at the next step, saves the state and writes a checkpoint, from which\n"
         "cdem resume goes on; a second one ends it at once.\n");
   }
+  void add_live(CLI::App* command) {
+    command->add_flag("--live", typed_.live,
+                      "show the run in a browser page of this machine; its address is printed");
+  }
   void add_checkpoint_every(CLI::App* command) {
     command
         ->add_option("--checkpoint-every", typed_.checkpoint_every,
@@ -229,6 +236,7 @@ private:
     add_threads(command, "threads (every core); results are the same bits for any number");
     add_memory(command);
     add_checkpoint_every(command);
+    add_live(command);
     command->add_flag("--quiet,-q", typed_.quiet, "print nothing but warnings and errors");
     finish(
         command, "  cdem resume results/uniaxial_compression\n  cdem resume results/plate --threads 8\n",
@@ -262,7 +270,7 @@ private:
     command->add_option("--jobs,-j", typed_.jobs, "runs side by side (one a core)")->option_text("N");
     add_threads(command, "threads of each run (the cores shared among the jobs)");
     add_memory(command);
-    add_output(command, "DIR", "folder for the runs and sweep.csv (results/<case>-sweep)");
+    add_output(command, "DIR", "folder for the runs, sweep.csv and charts of it (results/<case>-sweep)");
     command->add_flag("--quiet,-q", typed_.quiet, "print nothing but warnings and errors");
     finish(command, "  cdem sweep case.lua --set pressure=20e6,25e6,30e6 --set cohesion=5e6,8e6 --jobs 2\n",
            "Every run runs the script, and the files that it requires by a name in quotes, as they are when\n"
@@ -299,7 +307,10 @@ private:
     command->add_flag("--no-colour-bar,--no-color-bar", typed_.no_colour_bar, "without the colour bar");
     command->add_flag("--no-legend", typed_.no_legend, "without the legend");
     command->add_flag("--no-axes", typed_.no_axes, "without the axes");
-    add_output(command, "FILE.png", "the picture (beside the .vtu, named after it and the field)");
+    add_output(command, "FILE",
+               "the picture, .png, .svg or .pdf (a .png beside the .vtu, named after it and the field)");
+    command->add_option("--dpi", typed_.dpi, "pixels in an inch where the picture is printed (300)")
+        ->option_text("N");
     finish(command, "  cdem render results/plate/result.vtu --colour stress.yy --range -40e6,0\n"
                     "  cdem render result.vtu -c displacement.x -d 20 -s 2400x1800 -o ux.png\n");
   }
@@ -384,6 +395,11 @@ private:
       return print("cdem " + version() + "\n");
     if (typed_.manual)
       return print(manual());
+    if (!typed_.shell_files.empty())
+      return [all = declared(app_), folder = typed_.shell_files] {
+        write_shell_files(all, folder);
+        return ExitCode::success;
+      };
     if (chosen.empty())
       return print(help_of(&app_));
     const std::string command = chosen.front()->get_name();
@@ -432,6 +448,7 @@ private:
     c.unsafe = typed_.unsafe;
     c.progress = progress_style();
     c.checkpoint_minutes = checkpoint_minutes();
+    c.live = typed_.live;
     c.line = line_;
     return [c] { return run(c); };
   }
@@ -459,6 +476,7 @@ private:
     c.unsafe = typed_.unsafe;
     c.progress = progress_style();
     c.checkpoint_minutes = checkpoint_minutes();
+    c.live = typed_.live;
     c.line = line_;
     return [c] { return resume(c); };
   }
@@ -491,6 +509,7 @@ private:
     c.view = typed_.view;
     c.up = typed_.up;
     c.size = size_value("--size", typed_.size);
+    c.dpi = real_number("--dpi", typed_.dpi);
     if (!typed_.range.empty())
       c.range = range_value("--range", typed_.range);
     if (!typed_.hidden.empty())

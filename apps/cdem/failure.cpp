@@ -1,6 +1,7 @@
 #include "apps/cdem/failure.hpp"
 
 #include "apps/cdem/interrupt.hpp"
+#include "apps/cdem/progress/terminal.hpp"
 #include "libcdem/step/errors.hpp"
 #include "libgeom/core/error.hpp"
 #include "lua/binding/runtime/engine.hpp"
@@ -57,7 +58,7 @@ Failure current_failure() {
 
 void print_failure(const Failure& failure) {
   std::fflush(stdout);
-  std::fprintf(stderr, "cdem: error: %s\n", failure.line.c_str());
+  std::fprintf(stderr, "%s\n", with_tone("cdem: error: " + failure.line, Tone::error).c_str());
 }
 
 } // namespace cdem::app

@@ -97,9 +97,15 @@ function M.ways(from, to)
 end
 
 -- A picture of the model from the side of the toe and above. Units are coloured, the ground is not, walls would hide them.
--- ground is that of M.model; `options` those of model:picture that differ from picture to picture.
+-- ground is that of M.model; `options` those of model:picture that differ from picture to picture. Frames of a film look
+-- from one place, other pictures from where the model fills the frame.
 function M.picture(model, ground, options)
-  options.deformation, options.axes, options.camera = 1, false, ground.camera
+  options.deformation = 1
+  if options.film then
+    options.film, options.camera, options.axes = nil, ground.camera, false
+  else
+    options.view, options.up, options.size = "iso", "z", {1600, 0}
+  end
   options.plain, options.hidden = {"slope"}, {}
   for _, name in ipairs(ground) do
     if name ~= "slope" then table.insert(options.hidden, name) end

@@ -47,22 +47,23 @@ local model, ground = set_up.model(pile, { length = length, friction_angle = fri
 local held_units = cdem.select.units{ body = "units", numbers = model:lowest_units{ body = "units", count = held } }
 model:fix{ on = held_units }
 
-local function picture(name, title)
+local function picture(name, title, film)
   if draw then
-    set_up.picture(model, ground, { file = name, title = title, colour = "unit", colour_bar = false })
+    set_up.picture(model, ground, { file = name, title = title, colour = "unit", colour_bar = false, film = film })
   end
 end
-picture("start.png", start == "drop" and "before they fall" or "laid")
+local units = string.format("%d units of %g t", count, mass / 1000)
+picture("start.png", units .. (start == "drop" and ", before they fall" or ", laid"))
 local frames = {}
 local less_friction = start == "place" and sliding or nil
 local settled = model:settle{ kinetic_energy_ratio = ratio, friction_angle = less_friction, every = 500, callback = function()
   if draw and start == "drop" then
     frames[#frames + 1] = string.format("frames/fall_%03d.png", #frames + 1)
-    picture(frames[#frames], string.format("%.1f s", model.time))
+    picture(frames[#frames], string.format("%s, %.1f s", units, model.time), true)
   end
 end }
 if #frames > 0 then cdem.film{ file = "fall.ogv", frames = frames, frames_per_second = 12 } end
-picture("settled.png", "settled")
+picture("settled.png", units .. (start == "drop" and ", dropped and at rest" or ", laid and at rest"))
 
 local now = model:pile{ body = "units" }
 local ways = set_up.ways(pile:poses(), now:poses())

@@ -2,14 +2,13 @@
 -- the similarity law V ~ mass^(1/6). Which unit sticks and which slips changes with the last digits, so that one pile
 -- tells little: with several, means and their standard errors over piles.
 --
---   ./cdem run examples/armour_pile/settle.lua
---   ./cdem run examples/armour_pile/study.lua [--set modes=hold] [--set first_velocity=5]
+--   ./cdem run examples/armour_pile/study.lua [--set modes=hold] [--set first_velocity=5]   # settles the pile if it is missing
 --   ./cdem run examples/armour_pile/study.lua --set piles=6 [--set first_seed=1]  # settles them first, seeds 1 to 6
 local cdem = require "cdem"
 
-local file = cdem.parameter{ name = "pile", default = "results/armour_pile-settle/pile.json",
-                             doc = "that settle.lua wrote: run it first" }
-local piles = cdem.parameter{ name = "piles", default = 1, range = {1, 100}, doc = "with more, others than that are settled" }
+local standard_file = "results/armour_pile-settle/pile.json"
+local file = cdem.parameter{ name = "pile", default = standard_file, doc = "that settle.lua wrote; settled first when missing" }
+local piles = cdem.parameter{ name = "piles", default = 1, range = {1, 100}, doc = "with more, these are settled first" }
 local first_seed = cdem.parameter{ name = "first_seed", default = 1, range = {0, 1e6}, doc = "of the piles; they count up" }
 local sliding = cdem.parameter{ name = "sliding_angle", default = 15.0, range = {0, 80}, unit = "deg",
                                 doc = "of settle.lua, with more piles than one" }
@@ -24,9 +23,11 @@ local jobs = cdem.parameter{ name = "jobs", default = 2, range = {1, 64}, doc = 
 
 local masses = { 5000.0, 9000.0, 16000.0 }
 local files = { file }
-if piles == 1 then
-  cdem.read_pile{ file = file } -- without it no run would begin
-else
+-- A pile that is not there yet is settled first.
+local found, why = pcall(cdem.read_pile, { file = file })
+local missing = not found and file == standard_file and why:find("not found", 1, true)
+if piles == 1 and not found and not missing then error(why, 0) end
+if piles > 1 or missing then
   local settings = {}
   for pile = 1, piles do settings[pile] = { seed = first_seed + pile - 1, sliding_angle = sliding, pictures = false } end
   for pile, run in ipairs(cdem.sweep{ script = "settle.lua", set = settings, jobs = jobs }) do

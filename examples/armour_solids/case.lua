@@ -24,7 +24,7 @@ local units = {
 }
 
 local function draw(mesh, name, title, more)
-  local options = { file = name .. ".png", title = title, edges = "mesh", view = "iso", up = "z", size = {1000, 800} }
+  local options = { file = name .. ".png", title = title, edges = "mesh", view = "iso", up = "z", size = {1600, 0} }
   for key, value in pairs(more or {}) do options[key] = value end
   mesh:picture(options)
 end

@@ -43,8 +43,8 @@ end
 local quality = mesh:quality()
 
 if draw then
-  mesh:picture{ file = "setup.png", camera = unit.camera(case, height, 3.6),
-                title = "Case " .. number .. ": held on " .. case.held, lines = unit.set_up(case, height, mesh:box()) }
+  mesh:picture{ file = "setup.png", camera = unit.camera(case, height, 2.85, 0.09),
+                title = unit.title(number), lines = unit.set_up(case, height, mesh:box()) }
 end
 
 local figures, energy_error, steps = {}, 0, 0

@@ -39,10 +39,18 @@ function unit.place(result, case)
   return table.concat(words, ", ")
 end
 
--- From where the held side can be seen, in front and above; distance: about, in heights.
-function unit.camera(case, height, distance)
-  local toward, part = case.held == "x-" and -1 or 1, 0.63 * distance * height
-  return { position = { toward * part, -part, 0.72 * part }, focal_point = {0, 0, 0}, up = {0, 0, 1} }
+-- "Case 1: held on z-, flow along x"
+function unit.title(number)
+  local case = unit.cases[number]
+  local along = case.flow[1] ~= 0 and "x" or case.flow[2] ~= 0 and "y" or "z"
+  return string.format("Case %d: held on %s, flow along %s", number, case.held, along)
+end
+
+-- From where the held side can be seen, in front and above; distance: about, in heights; lower: by how much it looks
+-- below the unit's middle, in heights.
+function unit.camera(case, height, distance, lower)
+  local toward, part, z = case.held == "x-" and -1 or 1, 0.63 * distance * height, -(lower or 0) * height
+  return { position = { toward * part, -part, 0.72 * part + z }, focal_point = {0, 0, z}, up = {0, 0, 1} }
 end
 
 -- Lines that show a set-up in a picture of the mesh: the flow as an arrow on its way to the unit, and a frame round the

@@ -9,7 +9,7 @@ local joint = cdem.mohr_coulomb{ cohesion = 8e6, friction_angle = 30, tensile_st
 local function draw(name, shape, title, view)
   local model = cdem.model{ bodies = { { shape = shape, material = rock, joint = joint } } }
   model:picture{ file = name .. ".png", title = title, colour = "block_id", colour_map = "categorical", colour_bar = false,
-                 view = view or "iso", up = "z", size = {1000, 750} }
+                 view = view or "iso", up = "z", size = {1600, 0} }
   model:save{ file = name .. ".vtu" }
   local counts = model:counts()
   cdem.log(string.format("%s: %d blocks, %d interfaces, volume %.6g m3", name, counts.blocks, counts.interfaces, shape:volume()))

@@ -31,7 +31,7 @@ function collapse.run(model, on)
   local frames, every, stroke, speed = {}, duration / 60, 0.01, 0.5 -- m, m/s
   local function draw(name)
     model:picture{ file = name, colour = "displacement.magnitude", range = {0, 0.15}, deformation = 1, plain = {"floor"},
-                   broken_bonds = false, axes = false, title = string.format("%.3f s", model.time),
+                   broken_bonds = false, axes = false, title = string.format("The failed plate comes apart, %.3f s", model.time),
                    camera = { position = {0.15, 0.13, 1.45}, focal_point = {0.15, 0.13, 0}, up = {0, 1, 0}, view_angle = 30 } }
     return name
   end

@@ -6,6 +6,8 @@
 
 namespace cdem {
 
+struct Snapshot;
+
 struct Progress {
   int stage = 0;                   // number of the solving call, from 1
   std::string kind;                // "relax", "run", ...
@@ -46,6 +48,9 @@ public:
   // What an earlier run came to that this one goes on from: spring points broken in stages that had ended, warnings.
   virtual void goes_on(std::int64_t /*broken_tension*/, std::int64_t /*broken_shear*/,
                        std::int64_t /*warnings*/) {}
+  // Asked between two steps some times a second; true: view() is given the model as it is. Looking changes no bit.
+  virtual bool wants_view() { return false; }
+  virtual void view(const Snapshot&) {}
   // Polled every few steps: true ends the stage cleanly by throwing Interrupted.
   virtual bool stop_requested() { return false; }
   // Gives back what it was about before.

@@ -30,6 +30,7 @@ struct RelaxOptions {
   std::string note;                // what the progress shows of it, "F = 1.25"
   std::int64_t callback_every = 0; // steps between calls of `callback`; 0 never
   std::function<void()> callback;
+  std::int64_t history_every = 0; // steps between samples of the history from now on; 0: as before
 };
 
 enum class Verdict : std::uint8_t { stable, failing, undecided };
@@ -82,6 +83,7 @@ struct RunOptions {
   bool looks_at_all_contacts = false;
   std::int64_t callback_every = 0;
   std::function<void()> callback;
+  std::int64_t history_every = 0; // as of a relaxation
   std::function<void(Progress&)> details; // adds to what the progress line shows
   std::function<bool()> stop;             // asked every callback_every (default 100) steps
   // Where the out-of-balance force over the applied force is above this, `stop` is asked in vain.

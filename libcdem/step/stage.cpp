@@ -4,6 +4,7 @@
 #include "libcdem/integrate/move_columns.hpp"
 #include "libcdem/parallel/huge_pages.hpp"
 #include "libcdem/parallel/instruction_set.hpp"
+#include "libcdem/results/make_snapshot.hpp"
 #include "libcdem/step/errors.hpp"
 #include "libcdem/step/record.hpp"
 #include "libcdem/step/synchronised_view.hpp"
@@ -306,11 +307,20 @@ void Stage::poll(const StepReport& step_report) {
     }
     if (checkpoints && checkpoints->wanted())
       checkpoints->write(false);
-    if (progress_.due())
+    if (progress_.due()) {
       report(step_report, false);
+      show();
+    }
   }
   if (step == 1 || (context_.from && step == context_.from->step + 1))
     report(step_report, false);
+}
+
+void Stage::show() {
+  if (!context_.observer.wants_view())
+    return;
+  const SynchronisedView view(*this);
+  context_.observer.view(make_snapshot(context_.model, context_.state, ""));
 }
 
 StageResult Stage::finish(const StepReport& step_report) {

@@ -104,6 +104,7 @@ private:
   void sample(const StepReport&); // a row of the history
   void poll(const StepReport&);   // stop, checkpoints, progress
   void report(const StepReport&, bool last);
+  void show(); // to an observer who wants to see the model
 
   StageContext context_;
   ThreadChoice threads_;

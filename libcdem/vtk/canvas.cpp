@@ -92,6 +92,8 @@ struct Canvas::Impl {
   vtkNew<vtkPoints> points;
   vtkNew<vtkCellArray> cells;
   vtkNew<vtkUnsignedCharArray> colours;
+  std::vector<VectorShape> flat;
+  std::vector<VectorText> written;
 };
 
 Canvas::Canvas() : impl_(std::make_unique<Impl>()) {
@@ -112,6 +114,7 @@ void Canvas::polygon(const std::vector<Point>& corners, const Colour& colour) {
   for (std::size_t c = 0; c < 3; ++c)
     bytes[c] = static_cast<unsigned char>(std::lround(255 * colour[c]));
   impl_->colours->InsertNextTypedTuple(bytes.data());
+  impl_->flat.push_back({corners, colour});
 }
 
 void Canvas::rectangle(const Rect& r, const Colour& colour) {
@@ -212,12 +215,26 @@ void Canvas::text(const std::string& markup, const Point& anchor, double size, H
     set_font(actor->GetTextProperty(), pixels);
     actor->GetTextProperty()->SetColor(colour[0], colour[1], colour[2]);
     actor->GetTextProperty()->SetOrientation(degrees);
-    const double y = baseline + run.rise * size - descent * run.size * size; // lower edge of the line of text
+    const double base = baseline + run.rise * size;
+    impl_->written.push_back({run.text,
+                              {anchor[0] + c * x - s * base, anchor[1] + s * x + c * base},
+                              size * run.size,
+                              degrees,
+                              colour});
+    const double y = base - descent * run.size * size; // lower edge of the line of text
     actor->SetPosition(std::round(supersampling * (anchor[0] + c * x - s * y)),
                        std::round(supersampling * (anchor[1] + s * x + c * y)));
     impl_->texts->AddActor(actor);
     x += run_width(run.text, pixels) / supersampling;
   }
+}
+
+VectorPage Canvas::page(const std::array<int, 2>& size) const {
+  VectorPage page;
+  page.size = size;
+  page.shapes = impl_->flat;
+  page.texts = impl_->written;
+  return page;
 }
 
 std::vector<vtkRenderer*> Canvas::renderers(const std::array<int, 2>& size) {

@@ -2,6 +2,7 @@
 // lower left.
 #pragma once
 
+#include "libcdem/vtk/vector_page.hpp"
 #include "libcdem/vtk/view.hpp"
 
 #include <memory>
@@ -34,6 +35,8 @@ public:
   void text(const std::string&, const Point& anchor, double size, HorizontalAlign, VerticalAlign,
             const Colour& = {0, 0, 0}, double degrees = 0);
   double text_width(const std::string&, double size) const;
+
+  VectorPage page(const std::array<int, 2>& size) const; // the same as shapes and text
 
   // Transparent, to be drawn on top of a picture of `size` pixels, in this order. Call once, at the end.
   std::vector<vtkRenderer*> renderers(const std::array<int, 2>& size);

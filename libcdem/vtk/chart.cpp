@@ -8,7 +8,7 @@
 #include "libcdem/vtk/colour_map.hpp"
 #include "libcdem/vtk/labels.hpp"
 #include "libcdem/vtk/layout.hpp"
-#include "libcdem/vtk/offscreen.hpp"
+#include "libcdem/vtk/save_drawing.hpp"
 #include "libgeom/core/error.hpp"
 
 #include <algorithm>
@@ -92,7 +92,7 @@ std::string shown_label(const std::string& label, const ChartAxis& axis) {
 class ChartDrawing {
 public:
   ChartDrawing(const std::vector<Series>& series, const ChartOptions& options);
-  void draw(const std::string& png_path);
+  void draw(const std::string& path);
 
 private:
   Colour colour(std::size_t i) const { return series_[i].colour.value_or(palette_colour(i)); }
@@ -366,7 +366,7 @@ void ChartDrawing::draw_legend() {
   }
 }
 
-void ChartDrawing::draw(const std::string& png_path) {
+void ChartDrawing::draw(const std::string& path) {
   place_plot();
   draw_axes();
   for (std::size_t i = 0; i < series_.size(); ++i)
@@ -382,15 +382,15 @@ void ChartDrawing::draw(const std::string& png_path) {
                  title_font * pixel_ * std::min(1., room / std::max(wanted, 1.)), HorizontalAlign::centre,
                  VerticalAlign::baseline);
   }
-  draw_png(options_.size, canvas_.renderers(options_.size), png_path);
+  save_drawing(options_.size, options_.dpi, {}, canvas_, path);
 }
 
 } // namespace
 
-void chart(const std::vector<Series>& series, const ChartOptions& options, const std::string& png_path) {
-  check_picture(options.size, png_path);
+void chart(const std::vector<Series>& series, const ChartOptions& options, const std::string& path) {
+  check_drawing(options.size, options.dpi, path);
   check(series, options);
-  ChartDrawing(series, options).draw(png_path);
+  ChartDrawing(series, options).draw(path);
 }
 
 } // namespace cdem

@@ -21,13 +21,14 @@ struct ChartOptions {
   std::string x_label, y_label, right_label;
   bool log_x = false, log_y = false, log_right = false;
   std::array<int, 2> size = {1600, 1200}; // pixels
+  double dpi = 300;                       // pixels in an inch of the printed chart
   std::string legend = "auto"; // auto: above the plot, where it covers no line; or top_left top_right
                                // bottom_left bottom_right (inside), none
   std::optional<std::array<double, 2>> x_range, y_range, right_range; // of the axes
 };
 
-// Writes a PNG. Throws geom::InputError for options or series that cannot be used, std::runtime_error when
+// Writes a .png, .svg or .pdf. Throws geom::InputError for options or series that cannot be used, std::runtime_error when
 // the machine offers no off-screen OpenGL.
-void chart(const std::vector<Series>&, const ChartOptions&, const std::string& png_path);
+void chart(const std::vector<Series>&, const ChartOptions&, const std::string& path);
 
 } // namespace cdem

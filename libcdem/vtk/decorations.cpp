@@ -138,7 +138,8 @@ void draw_bar(Canvas& canvas, const BarContent& bar, const Layout& layout, doubl
                   HorizontalAlign::centre, VerticalAlign::top);
     }
   }
-  const double above = r.top() + (vertical && bar.beyond_high ? 0.7 * across : 0) + 0.8 * font;
+  const double above =
+      r.top() + (vertical && (bar.beyond_high || bar.given_range) ? 0.7 * across : 0) + 0.8 * font;
   canvas.text(bar.title, {vertical ? r.left : r.centre_x(), above}, font,
               vertical ? HorizontalAlign::left : HorizontalAlign::centre, VerticalAlign::baseline);
 }

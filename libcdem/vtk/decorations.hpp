@@ -15,6 +15,7 @@ struct BarContent {
   double factor = 1;                            // shown number = factor * SI value
   std::vector<std::int64_t> ids;                // one swatch each; empty: continuous
   bool beyond_low = false, beyond_high = false; // values outside the range: the bar ends in a point
+  bool given_range = false; // pictures of a film have one: the title keeps clear of a point that may come
 };
 
 // Without content (no value, more ids than can be told apart): no bar.

@@ -3,6 +3,7 @@
 // renamed, so that a reader never sees half of one.
 #pragma once
 
+#include "libcdem/results/contact_points.hpp"
 #include "libcdem/results/snapshot.hpp"
 
 #include <string>
@@ -10,8 +11,8 @@
 
 namespace cdem {
 
-// Points, tets and all fields, values to the bit; time ("TimeValue", where ParaView looks for it), step and
-// title as field data. Binary, LZ4. Throws geom::InputError when the name does not end in .vtu, FileError
+// Points, tets and all fields, values to the bit; time ("TimeValue", where ParaView looks for it), step, title and names
+// of bodies as field data. Binary, zlib. Throws geom::InputError when the name does not end in .vtu, FileError
 // when the file cannot be written.
 void write_vtu(const Snapshot&, const std::string& path);
 
@@ -20,14 +21,21 @@ void write_vtu(const Snapshot&, const std::string& path);
 void write_bonds(const Snapshot&, const std::string& path);
 std::string bonds_path(const std::string& vtu_path); // "out/plate.vtu" -> "out/plate_bonds.vtu"
 
-// The triangles of the bonds alone as a surface (.vtp), as results/crack_surface makes them. Throws as write_vtu, of a
-// name that does not end in .vtp.
+// The triangles of the bonds alone as a surface (.vtp; .vtu for programs that know no .vtp), as results/crack_surface
+// makes them. Throws as write_vtu, of a name that ends in neither.
 void write_surface(const Snapshot&, const std::string& path);
 
+// Contacts as points with force (on the source), depth and who touches; time, step and title of the header. Throws as
+// write_vtu.
+void write_contacts(const std::vector<ContactPoint>&, const Snapshot& header, const std::string& path);
+std::string contacts_path(const std::string& vtu_path); // "out/plate.vtu" -> "out/plate_contacts.vtu"
+
 struct SeriesEntry {
-  double time = 0;  // s
-  std::string file; // as seen from the folder of the .pvd
+  double time = 0;       // s
+  std::int64_t step = 0; // of all stages so far
+  std::string file;      // as seen from the folder of the .pvd
 };
+// Along one axis: time, where it rises from file to file, else steps, else 1, 2, ...
 void write_pvd(const std::string& path, const std::vector<SeriesEntry>&);
 
 // A snapshot written by write_vtu, with its bonds when bonds_path(path) is there. The surface and the block

@@ -5,7 +5,6 @@
 #include "libcdem/vtk/picture.hpp"
 #include "libcdem/vtk/picture_room.hpp"
 
-#include "libcdem/vtk/atomic_file.hpp"
 #include "libgeom/core/error.hpp"
 
 #include <vtk_glew.h>
@@ -22,7 +21,6 @@
 #include <vtkRendererCollection.h>
 #include <vtkUnsignedCharArray.h>
 
-#include <fstream>
 #include <stdexcept>
 
 VTK_MODULE_INIT(vtkRenderingOpenGL2);
@@ -161,22 +159,19 @@ private:
 
 } // namespace
 
-void check_picture(const std::array<int, 2>& size, const std::string& png_path) {
+void check_picture_size(const std::array<int, 2>& size) {
   for (const int side : size)
     if (side < least_picture_side || side > most_picture_side)
       throw geom::InputError("size", "{" + std::to_string(size[0]) + ", " + std::to_string(size[1]) + "}",
                              "between " + std::to_string(least_picture_side) + " and " +
                                  std::to_string(most_picture_side) + " pixels");
-  require_extension(png_path, ".png");
-  AtomicFile probe(png_path); // the folder exists
 }
 
 std::array<double, 4> viewport_of(const Rect& frame, const std::array<int, 2>& size) {
   return {frame.left / size[0], frame.bottom / size[1], frame.right() / size[0], frame.top() / size[1]};
 }
 
-void draw_png(const std::array<int, 2>& size, const std::vector<vtkRenderer*>& layers,
-              const std::string& png_path) {
+std::string png_of(const std::array<int, 2>& size, const std::vector<vtkRenderer*>& layers) {
   constexpr int n = supersampling;
   const int width = size[0], height = size[1];
   require_room_for_picture(size);
@@ -203,18 +198,13 @@ void draw_png(const std::array<int, 2>& size, const std::vector<vtkRenderer*>& l
             sum += in[3 * (static_cast<std::ptrdiff_t>(n * y + j) * n * width + n * x + i) + c];
         *out++ = static_cast<unsigned char>(sum / (n * n));
       }
-  AtomicFile file(png_path);
   vtkNew<vtkPNGWriter> writer;
   writer->WriteToMemoryOn(); // libpng would print what goes wrong with a file
   writer->SetInputData(image);
   writer->Write();
   vtkUnsignedCharArray* bytes = writer->GetResult();
-  std::ofstream stream(file.temporary(), std::ios::binary);
-  stream.write(reinterpret_cast<const char*>(bytes->GetPointer(0)), bytes->GetNumberOfValues());
-  stream.close();
-  if (!stream)
-    file.refuse();
-  file.commit();
+  return {reinterpret_cast<const char*>(bytes->GetPointer(0)),
+          static_cast<std::size_t>(bytes->GetNumberOfValues())};
 }
 
 } // namespace cdem

@@ -1,4 +1,4 @@
-// The one off-screen window of the process: renderers in, a PNG file out.
+// The one off-screen window of the process: renderers in, a PNG out.
 #pragma once
 
 #include "libcdem/vtk/view.hpp"
@@ -11,14 +11,11 @@ namespace cdem {
 // OpenGL.
 inline constexpr int supersampling = 2;
 
-// Throws geom::InputError for a size outside 64 .. 8000, FileError for a file that cannot be written. Cheap: call
-// it first.
-void check_picture(const std::array<int, 2>& size, const std::string& png_path);
+void check_picture_size(const std::array<int, 2>& size); // throws geom::InputError outside 64 .. 8000
 
 // Draws the renderers on top of each other, the first one at the bottom, on white. Viewports are set by the
 // caller. Throws std::runtime_error when the machine offers no off-screen OpenGL. One thread at a time.
-void draw_png(const std::array<int, 2>& size, const std::vector<vtkRenderer*>& layers,
-              const std::string& png_path);
+std::string png_of(const std::array<int, 2>& size, const std::vector<vtkRenderer*>& layers);
 
 // The part of a picture of `size` that `frame` covers, as VTK wants it: fractions left, bottom, right, top.
 std::array<double, 4> viewport_of(const Rect& frame, const std::array<int, 2>& size);

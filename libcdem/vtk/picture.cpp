@@ -3,7 +3,7 @@
 #include "libcdem/vtk/picture.hpp"
 
 #include "libcdem/vtk/decorations.hpp"
-#include "libcdem/vtk/offscreen.hpp"
+#include "libcdem/vtk/save_drawing.hpp"
 #include "libcdem/vtk/scene.hpp"
 #include "libgeom/core/check.hpp"
 #include "libgeom/core/error.hpp"
@@ -43,9 +43,9 @@ std::vector<LegendEntry> legend_entries(const PictureOptions& options, const Bro
 
 } // namespace
 
-void render(const Snapshot& snapshot, const PictureOptions& options, const std::string& png_path) {
+void render(const Snapshot& snapshot, const PictureOptions& options, const std::string& path) {
   const bool free_height = options.size[1] == 0;
-  check_picture({options.size[0], free_height ? options.size[0] : options.size[1]}, png_path);
+  check_drawing({options.size[0], free_height ? options.size[0] : options.size[1]}, options.dpi, path);
   check_options(options);
   if (snapshot.surface.empty())
     throw geom::InputError("snapshot", "no faces", "a model with at least one block");
@@ -66,7 +66,9 @@ void render(const Snapshot& snapshot, const PictureOptions& options, const std::
     scale = colour_scale(field->values, field->id, options.colour_map, options.range);
   }
 
-  View view = options.camera ? View::from(*options.camera) : View::named(options.view, options.up);
+  View view = options.camera          ? View::from(*options.camera)
+              : options.view == "iso" ? View::iso(options.up, snapshot.points, snapshot.surface)
+                                      : View::named(options.view, options.up);
   geom::Box extent = view.extent(points);
   for (const auto* part : {&broken.tension, &broken.shear})
     for (const geom::Triangle& t : part->triangles)
@@ -83,6 +85,8 @@ void render(const Snapshot& snapshot, const PictureOptions& options, const std::
   std::optional<BarContent> bar;
   if (field && options.colour_bar)
     bar = bar_content(*field, scale);
+  if (bar)
+    bar->given_range = options.range.has_value();
   std::vector<LegendEntry> legend;
   if (options.legend)
     legend = legend_entries(options, broken, pixel);
@@ -98,7 +102,10 @@ void render(const Snapshot& snapshot, const PictureOptions& options, const std::
   input.pixel = pixel;
   input.title = !options.title.empty();
   input.bar = bar.has_value();
-  input.legend = !legend.empty();
+  // Pictures from a camera of their own are frames of a film: they keep the room of a legend that is still empty, so that
+  // nothing moves when the first bond breaks.
+  input.legend = !legend.empty() ||
+                 (view.literal && options.legend && options.broken_bonds && !snapshot.bonds.points.empty());
   input.bar_column = bar ? bar_column_width(canvas, *bar, pixel) : 0;
   input.axes = axes.size;
   const Layout layout = arrange(input);
@@ -127,9 +134,7 @@ void render(const Snapshot& snapshot, const PictureOptions& options, const std::
   Scene scene({snapshot, points, field ? &*field : nullptr, scale, any_broken ? &broken : nullptr,
                options.edges, options.opacity, pixel},
               view, layout.size);
-  std::vector<vtkRenderer*> layers = canvas.renderers(layout.size);
-  layers.insert(layers.begin(), scene.renderer());
-  draw_png(layout.size, layers, png_path);
+  save_drawing(layout.size, options.dpi, {scene.renderer()}, canvas, path);
 }
 
 } // namespace cdem

@@ -51,6 +51,7 @@ struct PictureOptions {
   std::string up = "y"; // "z": front looks along y with z up, and the other views turn with it
   std::optional<Camera> camera;
   std::array<int, 2> size = {1600, 1200};     // pixels; height 0: as high as the picture needs
+  double dpi = 300;                           // pixels in an inch of the printed picture
   std::optional<std::array<double, 2>> range; // of the colours, SI units
   // "auto": blue_white_red with white at zero when the values change sign, else viridis; distinct colours for
   // ids. Or one of blue_white_red, cool_warm, viridis, grey, categorical.
@@ -65,9 +66,9 @@ struct PictureOptions {
   std::vector<Polyline> polylines;
 };
 
-// Writes a PNG. Throws geom::InputError for an option that cannot be used (an unknown field names the nearest
+// Writes a .png; or .svg or .pdf, with the model as pixels, its title, colour bar and legend as shapes. Throws geom::InputError for an option that cannot be used (an unknown field names the nearest
 // right ones), std::runtime_error when the machine offers no off-screen OpenGL.
-void render(const Snapshot&, const PictureOptions&, const std::string& png_path);
+void render(const Snapshot&, const PictureOptions&, const std::string& path);
 
 // What `field` may be for this snapshot, with components.
 std::vector<std::string> picture_fields(const Snapshot&);

@@ -109,9 +109,14 @@ BondSnapshot read_bonds(const std::string& path) {
   return bonds;
 }
 
-// Empty when there are none of the name.
+// Empty when there are none of the name. Files of version 0.1.0 have them as strings.
 std::vector<std::string> texts_of(vtkFieldData* header, const char* name) {
   std::vector<std::string> texts;
+  if (vtkDataArray* array = header->GetArray(name))
+    for (int i = 0; i < array->GetNumberOfComponents(); ++i) {
+      const char* const text = array->GetComponentName(i);
+      texts.emplace_back(text ? text : "");
+    }
   if (auto* array = vtkStringArray::SafeDownCast(header->GetAbstractArray(name)))
     for (vtkIdType i = 0; i < array->GetNumberOfValues(); ++i)
       texts.push_back(array->GetValue(i));

@@ -4,6 +4,7 @@
 #include "libgeom/core/check.hpp"
 #include "libgeom/core/error.hpp"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -35,6 +36,35 @@ View View::named(const std::string& view, const std::string& up) {
   result.right = axes.up.cross(result.toward).normalized();
   result.up = result.toward.cross(result.right);
   return result;
+}
+
+View View::iso(const std::string& up, const std::vector<Vec3>& points,
+               const std::vector<geom::Triangle>& surface) {
+  constexpr double hardly = 1.05;  // times what the usual corner shows
+  constexpr double upwards = 0.05; // of a unit normal along the upward axis
+  const Vec3 vertical = up == "z" ? Vec3::UnitZ() : Vec3::UnitY();
+  const View usual = named("iso", up);
+  View best = usual;
+  double most = 0;
+  for (int quarter = 0; quarter < 4; ++quarter) {
+    const Eigen::AngleAxisd turn(quarter * M_PI / 2, vertical);
+    const Vec3 toward = turn * usual.toward;
+    double shown = 0; // m2, projected
+    for (const geom::Triangle& t : surface) {
+      const Vec3 area =
+          0.5 * (points[static_cast<std::size_t>(t[1])] - points[static_cast<std::size_t>(t[0])])
+                    .cross(points[static_cast<std::size_t>(t[2])] - points[static_cast<std::size_t>(t[0])]);
+      if (area.dot(vertical) > upwards * area.norm())
+        shown += std::max(0.0, area.dot(toward));
+    }
+    if (shown <= (quarter == 0 ? 0 : hardly * most))
+      continue;
+    most = shown;
+    best.toward = toward;
+    best.right = turn * usual.right;
+    best.up = turn * usual.up;
+  }
+  return best;
 }
 
 View View::from(const Camera& camera) {

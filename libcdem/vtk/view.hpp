@@ -18,6 +18,10 @@ public:
   // Throws geom::InputError for an unknown view, or a camera without direction.
   static View named(const std::string& view, const std::string& up);
   static View from(const Camera&);
+  // "iso" from the corner, one of four about the upward axis, from which most of what looks upwards is seen: the face of a
+  // slope and not its back. The usual corner where another shows hardly more.
+  static View iso(const std::string& up, const std::vector<geom::Vec3>& points,
+                  const std::vector<geom::Triangle>& surface);
 
   // Named views: moves and scales so that the extent (in view axes) fills `frame` but for `inset` pixels all
   // round.

@@ -1,9 +1,10 @@
-// Snapshots to .vtu (VTK XML, appended raw data, LZ4) and series to .pvd.
+// Snapshots to .vtu and .vtp (VTK XML, appended raw data, zlib, which every reader knows: meshio has no LZ4).
 #include "libcdem/vtk/atomic_file.hpp"
 #include "libcdem/vtk/checksum.hpp"
 #include "libcdem/vtk/files.hpp"
 #include "libcdem/vtk/header_names.hpp"
 #include "libcdem/vtk/quiet.hpp"
+#include "libcdem/vtk/xml_text.hpp"
 
 #include <vtkCellArray.h>
 #include <vtkCellData.h>
@@ -16,7 +17,6 @@
 #include <vtkPoints.h>
 #include <vtkPolyData.h>
 #include <vtkSmartPointer.h>
-#include <vtkStringArray.h>
 #include <vtkTypeInt64Array.h>
 #include <vtkUnstructuredGrid.h>
 #include <vtkXMLPolyDataWriter.h>
@@ -24,8 +24,6 @@
 
 #include <cassert>
 #include <cmath>
-#include <cstdio>
-#include <fstream>
 
 namespace cdem {
 namespace {
@@ -98,11 +96,17 @@ vtkSmartPointer<vtkUnstructuredGrid> to_grid(const std::vector<geom::Vec3>& poin
   return grid;
 }
 
+// Texts as the names of the components of numbers 0, 1, ...: meshio cannot read a file with an array of strings.
 void add_texts(vtkDataSet* grid, const char* name, const std::vector<std::string>& texts) {
-  vtkNew<vtkStringArray> array;
+  vtkNew<vtkTypeInt64Array> array;
   array->SetName(name);
-  for (const std::string& text : texts)
-    array->InsertNextValue(text);
+  array->SetNumberOfComponents(static_cast<int>(texts.size()));
+  array->SetNumberOfTuples(1);
+  for (int i = 0; i < array->GetNumberOfComponents(); ++i) {
+    array->SetTypedComponent(0, i, i);
+    // VTK's writer takes the name as it is.
+    array->SetComponentName(i, xml_text(texts[static_cast<std::size_t>(i)]).c_str());
+  }
   grid->GetFieldData()->AddArray(array);
 }
 
@@ -131,7 +135,8 @@ void write_with(vtkDataSet* grid, const std::string& path, const std::string& ex
   writer->SetDataModeToAppended();
   writer->EncodeAppendedDataOff();
   writer->SetHeaderTypeToUInt64();
-  writer->SetCompressorTypeToLZ4();
+  writer->SetCompressorTypeToZLib();
+  writer->SetCompressionLevel(2); // a third of the time of 5, and a twentieth more to store
   if (writer->Write() != 1 || writer->GetErrorCode() != 0 || !add_checksum(file.temporary()))
     file.refuse();
   file.commit();
@@ -141,26 +146,13 @@ void write_grid(vtkUnstructuredGrid* grid, const std::string& path) {
   write_with<vtkXMLUnstructuredGridWriter>(grid, path, ".vtu");
 }
 
-std::string xml_text(const std::string& text) {
-  std::string out;
-  for (const char c : text)
-    switch (c) {
-    case '&':
-      out += "&amp;";
-      break;
-    case '<':
-      out += "&lt;";
-      break;
-    case '>':
-      out += "&gt;";
-      break;
-    case '"':
-      out += "&quot;";
-      break;
-    default:
-      out += c;
-    }
-  return out;
+bool ends_with(const std::string& text, const std::string& end) {
+  return text.size() >= end.size() && text.compare(text.size() - end.size(), end.size(), end) == 0;
+}
+
+std::string beside(const std::string& vtu_path, const std::string& what) {
+  require_extension(vtu_path, ".vtu");
+  return vtu_path.substr(0, vtu_path.size() - 4) + what + ".vtu";
 }
 
 } // namespace
@@ -184,6 +176,10 @@ void write_bonds(const Snapshot& snapshot, const std::string& path) {
 
 void write_surface(const Snapshot& snapshot, const std::string& path) {
   const BondSnapshot& bonds = snapshot.bonds;
+  if (ends_with(path, ".vtu")) {
+    write_bonds(snapshot, path);
+    return;
+  }
   vtkNew<vtkPolyData> surface;
   surface->SetPoints(to_points(bonds.points));
   surface->SetPolys(to_cells(bonds.triangles));
@@ -193,29 +189,42 @@ void write_surface(const Snapshot& snapshot, const std::string& path) {
   write_with<vtkXMLPolyDataWriter>(surface, path, ".vtp");
 }
 
-std::string bonds_path(const std::string& vtu_path) {
-  require_extension(vtu_path, ".vtu");
-  return vtu_path.substr(0, vtu_path.size() - 4) + "_bonds.vtu";
+void write_contacts(const std::vector<ContactPoint>& contacts, const Snapshot& header,
+                    const std::string& path) {
+  std::vector<geom::Vec3> places;
+  std::vector<std::array<int, 1>> cells;
+  SnapshotField force{"force", "N", 3, {}}, normal{"normal_force", "N", 1, {}},
+      shear{"shear_force", "N", 1, {}}, depth{"depth", "m", 1, {}}, edge{"edge", "", 1, {}, true},
+      source_body{"source_body", "", 1, {}, true}, target_body{"target_body", "", 1, {}, true},
+      source_block{"source_block", "", 1, {}, true}, target_block{"target_block", "", 1, {}, true};
+  for (const ContactPoint& contact : contacts) {
+    cells.push_back({static_cast<int>(places.size())});
+    places.push_back(contact.place);
+    const geom::Vec3 sum = contact.normal + contact.shear;
+    force.values.insert(force.values.end(), sum.data(), sum.data() + 3);
+    normal.values.push_back(contact.normal.norm());
+    shear.values.push_back(contact.shear.norm());
+    depth.values.push_back(contact.depth);
+    edge.values.push_back(contact.edge);
+    source_body.values.push_back(contact.source_body);
+    target_body.values.push_back(contact.target_body);
+    source_block.values.push_back(static_cast<double>(contact.source_block));
+    target_block.values.push_back(static_cast<double>(contact.target_block));
+  }
+  const auto grid = to_grid(places, cells, VTK_VERTEX);
+  add_fields(grid->GetPointData(),
+             {force, normal, shear, depth, edge, source_body, target_body, source_block, target_block},
+             places.size());
+  add_header(grid, header);
+  write_grid(grid, path);
 }
 
-void write_pvd(const std::string& path, const std::vector<SeriesEntry>& series) {
-  require_extension(path, ".pvd");
-  AtomicFile file(path);
-  std::ofstream out(file.temporary());
-  out << "<?xml version=\"1.0\"?>\n"
-         "<VTKFile type=\"Collection\" version=\"1.0\" byte_order=\"LittleEndian\">\n"
-         "  <Collection>\n";
-  for (const SeriesEntry& entry : series) {
-    char time[32];
-    std::snprintf(time, sizeof time, "%.17g", entry.time);
-    out << "    <DataSet timestep=\"" << time << "\" group=\"\" part=\"0\" file=\"" << xml_text(entry.file)
-        << "\"/>\n";
-  }
-  out << "  </Collection>\n</VTKFile>\n";
-  out.close();
-  if (!out)
-    file.refuse();
-  file.commit();
+std::string bonds_path(const std::string& vtu_path) {
+  return beside(vtu_path, "_bonds");
+}
+
+std::string contacts_path(const std::string& vtu_path) {
+  return beside(vtu_path, "_contacts");
 }
 
 } // namespace cdem

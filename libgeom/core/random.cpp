@@ -1,10 +1,11 @@
-// Philox 4x32-10: uniform() takes the first two words of a block, normal() the other two, so that the two
+// Philox 4x32-10 (library Random123): uniform() takes the first two words of a block, normal() the other two, so that the two
 // never share a number. normal() inverts the normal distribution by Wichura's rational approximations (AS
 // 241, 1988; relative error 1e-16).
 #include "libgeom/core/random.hpp"
 
 #include "libgeom/core/portable.hpp"
 
+#include <Random123/philox.h>
 #include <cassert>
 #include <cmath>
 
@@ -35,16 +36,9 @@ double polynomial(const std::array<double, 8>& c, double x) {
 
 std::array<std::uint32_t, 4> philox(const std::array<std::uint32_t, 4>& counter,
                                     const std::array<std::uint32_t, 2>& key) {
-  std::array<std::uint32_t, 4> x = counter;
-  std::array<std::uint32_t, 2> k = key;
-  for (int round = 0; round < 10; ++round) {
-    const std::uint64_t p0 = 0xD2511F53ull * x[0], p1 = 0xCD9E8D57ull * x[2];
-    x = {static_cast<std::uint32_t>(p1 >> 32) ^ x[1] ^ k[0], static_cast<std::uint32_t>(p1),
-         static_cast<std::uint32_t>(p0 >> 32) ^ x[3] ^ k[1], static_cast<std::uint32_t>(p0)};
-    k[0] += 0x9E3779B9u;
-    k[1] += 0xBB67AE85u;
-  }
-  return x;
+  const r123::Philox4x32 generator; // of 10 rounds
+  const auto words = generator({{counter[0], counter[1], counter[2], counter[3]}}, {{key[0], key[1]}});
+  return {words[0], words[1], words[2], words[3]};
 }
 
 double normal_quantile(double p) {

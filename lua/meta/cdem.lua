@@ -183,8 +183,8 @@ local cdem = {}
 ---@field mode "tension"|"shear"
 ---@field centroid number[] m
 ---@field normal number[] of the cut planes
----@field principal_stress number[] Pa: compression positive, the largest first
----@field angle_to_sigma1 number deg: between the plane and the axis of the largest
+---@field principal_stress number[] Pa: tension positive, the largest first
+---@field angle_to_largest_pressure number deg: between the cut planes and the axis of the largest pressure, principal_stress[3]
 ---@field generation integer 0 for an original block
 ---@field pieces integer
 ---@field tie boolean both conjugate planes were equally good
@@ -699,12 +699,13 @@ function TetMesh:save(options) end
 ---@field dashed? boolean default false
 
 ---@class (exact) cdem.TetMeshPictureOptions
----@field file string ends in .png; in the output folder
+---@field file string ends in .png, .svg or .pdf; in the output folder
 ---@field colour? string "region", "radius_ratio", "min_dihedral", "volume" of the tetrahedra, "on_<name>" of named faces; plain when left out
 ---@field view? "front"|"back"|"left"|"right"|"top"|"bottom"|"iso" default "front": front looks along -z at the x-y plane
 ---@field up? "y"|"z" default "y": z: front looks along y with z up
 ---@field camera? cdem.TetMeshPictureOptionsCamera instead of view
 ---@field size? number[] default {1600, 1200}: {width, height} in pixels; height 0: as high as it needs to be
+---@field dpi? number in [10, 2400], default 300: pixels in an inch where it is printed: 1600 pixels are 135 mm wide at 300
 ---@field range? number[] {lowest, highest} of the colours, SI units
 ---@field colour_map? "auto"|"blue_white_red"|"cool_warm"|"viridis"|"grey"|"categorical" default "auto": auto: blue_white_red when values change sign, viridis when not
 ---@field title? string _{...} and ^{...} set sub- and superscripts
@@ -800,6 +801,7 @@ function Model:box() end
 ---@field displacement? number[] m: total value to be held; a relaxation moves there first
 ---@field velocity? number[] m/s: in real-time stepping; zero when left out
 ---@field amplitude? cdem.Record|number[][]|fun(time: number): number factor over time (s): a cdem.record, a list { {time, value}, ... } with straight lines between and its first and last value outside, or a function, called once a step; a relaxation asks once at its start; 1 when left out
+---@field since? number s: time of the model at which the amplitude's times begin, 0 when left out; since = model.time lets it begin now, in a later stage
 
 ---Holds nodes, or moves them as told. A later call wins over an earlier one where they meet.
 ---@param options cdem.ModelFixOptions
@@ -817,6 +819,7 @@ function Model:release(options) end
 ---@field on cdem.Place where: a place or a list of places
 ---@field stress number[] Pa: force over area, not following the surface
 ---@field amplitude? cdem.Record|number[][]|fun(time: number): number factor over time (s): a cdem.record, a list { {time, value}, ... } with straight lines between and its first and last value outside, or a function, called once a step; a relaxation asks once at its start; 1 when left out
+---@field since? number s: time of the model at which the amplitude's times begin, 0 when left out; since = model.time lets it begin now, in a later stage
 
 ---Force per undeformed area on outer faces.
 ---@param options cdem.ModelTractionOptions
@@ -826,6 +829,7 @@ function Model:traction(options) end
 ---@field on cdem.Place where: one place
 ---@field force number[] N: total
 ---@field amplitude? cdem.Record|number[][]|fun(time: number): number factor over time (s): a cdem.record, a list { {time, value}, ... } with straight lines between and its first and last value outside, or a function, called once a step; a relaxation asks once at its start; 1 when left out
+---@field since? number s: time of the model at which the amplitude's times begin, 0 when left out; since = model.time lets it begin now, in a later stage
 
 ---A total force, shared among the nodes of a place.
 ---@param options cdem.ModelForceOptions
@@ -835,6 +839,7 @@ function Model:force(options) end
 ---@field vector number[]|fun(time: number): number[] m/s2: acceleration, e.g. {0, 0, -9.81}, or a function of time (s) that gives it
 ---@field water_density? number kg/m3, >= 0, default 0: buoyancy: takes from the weight, never from the inertia
 ---@field amplitude? cdem.Record|number[][]|fun(time: number): number factor over time (s): a cdem.record, a list { {time, value}, ... } with straight lines between and its first and last value outside, or a function, called once a step; a relaxation asks once at its start; 1 when left out
+---@field since? number s: time of the model at which the amplitude's times begin, 0 when left out; since = model.time lets it begin now, in a later stage
 
 ---Weight of all blocks; one at a time, the last call counts.
 ---@param options cdem.ModelGravityOptions
@@ -937,7 +942,7 @@ function Model:water(options) end
 ---@field max_steps? integer >= 1, default 500000: gives up with converged = false, undecided
 ---@field stop_on_failure? boolean default true: ends where the model runs away, with the verdict "failing"; false: goes on, for a fall that something may catch
 ---@field trial? string name of a trial, "F = 1.2", for progress, log and report; that it fails is then an answer and no warning
----@field every? integer >= 1: steps between calls, 100 by default
+---@field every? integer >= 1: steps between calls, 100 by default; without a callback steps between samples of the history from here on, 10 at first
 ---@field callback? fun() called every so many steps; may read the model and write files
 
 ---Dynamic relaxation to static balance, with fictitious masses and adaptive damping (Han 2010 eq 12). The verdict tells a model that stands from one that runs away (docs/theory.md, section 25).
@@ -957,7 +962,7 @@ function Model:relax(options) end
 ---@field mass_scaling? cdem.ModelRunOptionsMass_scaling for quasi-static stages: nodes that need a shorter time step get more inertia, not more weight; instead of time_step
 ---@field breaking? boolean default true: bonds may break
 ---@field local_damping? number in [0, 1), default 0: force against the motion as a fraction of the out-of-balance force (Cundall)
----@field every? integer >= 1: steps between calls, 100 by default
+---@field every? integer >= 1: steps between calls, 100 by default; without a callback steps between samples of the history from here on, 10 at first
 ---@field callback? fun() called every so many steps; may read the model and write files
 ---@field stop? fun(): boolean ends the stage when it returns true
 
@@ -1134,6 +1139,7 @@ function Model:critical_flow(options) end
 ---@field velocity? number[] m/s: of the particles in the entering wave alone
 ---@field stress? number[] Pa: traction of the entering wave alone on these faces; the boundary adds 2 of it
 ---@field amplitude? cdem.Record|number[][]|fun(time: number): number factor over time (s): a cdem.record, a list { {time, value}, ... } with straight lines between and its first and last value outside, or a function, called once a step; a relaxation asks once at its start; 1 when left out
+---@field since? number s: time of the model at which the amplitude's times begin, 0 when left out; since = model.time lets it begin now, in a later stage
 
 ---Quiet boundary (Lysmer and Kuhlemeyer 1969): dashpots on outer faces let waves out, and a wave may enter through them. It takes the place of a fix of the same place, whose reactions stay as loads. For real-time stepping.
 ---@param options cdem.ModelQuietOptions
@@ -1347,14 +1353,14 @@ function Model:highest_units(options) end
 
 ---@class (exact) cdem.ModelSaveOptions
 ---@field file string ends in .vtu; in the output folder
----@field series? string ends in .pvd: a time series this file is added to
+---@field series? string ends in .pvd: a time series this file is added to; run.pvd has run_bonds.pvd and run_contacts.pvd beside it. One axis: time where it rises from file to file, else steps
 
----Writes the model for ParaView: blocks to the file, bonds beside it (result.vtu, result_bonds.vtu).
+---Writes the model for ParaView: blocks to the file, bonds beside it (result.vtu, result_bonds.vtu), and of bodies that move far the contacts that carry (result_contacts.vtu: points with force on the source body, normal_force, shear_force, depth, bodies and blocks).
 ---@param options cdem.ModelSaveOptions
 function Model:save(options) end
 
 ---@class (exact) cdem.ModelSaveCracksOptions
----@field file string ends in .vtp; in the output folder
+---@field file string ends in .vtp, or .vtu for programs that know no .vtp; in the output folder
 ---@field damaged? boolean default false: faces that soften and have not broken too (mode 0)
 ---@field series? string ends in .pvd: a time series this file is added to
 
@@ -1363,7 +1369,7 @@ function Model:save(options) end
 function Model:save_cracks(options) end
 
 ---@class (exact) cdem.ModelSaveJointsOptions
----@field file string ends in .vtp; in the output folder
+---@field file string ends in .vtp, or .vtu for programs that know no .vtp; in the output folder
 ---@field series? string ends in .pvd: a time series this file is added to
 ---@field sets? string[] names of joint sets and cuts; all joints when left out
 ---@field on? cdem.Place default "all": where: one place
@@ -1393,13 +1399,14 @@ function Model:save_joints(options) end
 ---@field dashed? boolean default false
 
 ---@class (exact) cdem.ModelPictureOptions
----@field file string ends in .png; in the output folder
+---@field file string ends in .png, .svg or .pdf; in the output folder
 ---@field colour? string field to colour by, e.g. "displacement.x", "stress.yy", "von_mises", "block_id"; plain blocks when left out
 ---@field deformation? number default 0: displacements are drawn this many times larger; 0: undeformed
 ---@field view? "front"|"back"|"left"|"right"|"top"|"bottom"|"iso" default "front": front looks along -z at the x-y plane
 ---@field up? "y"|"z" default "y": z: front looks along y with z up
 ---@field camera? cdem.ModelPictureOptionsCamera instead of view
 ---@field size? number[] default {1600, 1200}: {width, height} in pixels; height 0: as high as it needs to be
+---@field dpi? number in [10, 2400], default 300: pixels in an inch where it is printed: 1600 pixels are 135 mm wide at 300
 ---@field range? number[] {lowest, highest} of the colours, SI units
 ---@field colour_map? "auto"|"blue_white_red"|"cool_warm"|"viridis"|"grey"|"categorical" default "auto": auto: blue_white_red when values change sign, viridis when not
 ---@field title? string _{...} and ^{...} set sub- and superscripts
@@ -1437,7 +1444,7 @@ function Model:save_state(options) end
 function Model:load_state(options) end
 
 ---@class (exact) cdem.ModelChartOptions
----@field file string ends in .png; in the output folder
+---@field file string ends in .png, .svg or .pdf; in the output folder
 ---@field y string[] histories, e.g. {"residual"}; model:history() has all
 ---@field right? string[] histories read on the right
 ---@field x? string default "step": history along the x axis
@@ -1453,13 +1460,14 @@ function Model:load_state(options) end
 ---@field right_range? number[]
 ---@field legend? "auto"|"top_left"|"top_right"|"bottom_left"|"bottom_right"|"none" default "auto"
 ---@field size? number[] default {1600, 1200}: {width, height} in pixels; height 0: as high as it needs to be
+---@field dpi? number in [10, 2400], default 300: pixels in an inch where it is printed: 1600 pixels are 135 mm wide at 300
 
 ---Line chart of histories.
 ---@param options cdem.ModelChartOptions
 function Model:chart(options) end
 
 ---@class (exact) cdem.ModelChartFragmentsOptions
----@field file string ends in .png; in the output folder
+---@field file string ends in .png, .svg or .pdf; in the output folder
 ---@field title? string _{...} and ^{...} set sub- and superscripts
 ---@field x_label? string ending in an SI unit, "opening (m)", the axis is shown with the prefix that suits: mm
 ---@field y_label? string
@@ -1472,6 +1480,7 @@ function Model:chart(options) end
 ---@field right_range? number[]
 ---@field legend? "auto"|"top_left"|"top_right"|"bottom_left"|"bottom_right"|"none" default "auto"
 ---@field size? number[] default {1600, 1200}: {width, height} in pixels; height 0: as high as it needs to be
+---@field dpi? number in [10, 2400], default 300: pixels in an inch where it is printed: 1600 pixels are 135 mm wide at 300
 
 ---Chart of the fragments by size: the part of the mass in fragments up to each diameter, that of the sphere with their volume.
 ---@param options cdem.ModelChartFragmentsOptions
@@ -2148,11 +2157,11 @@ function cdem.record(options) end
 function cdem.rayleigh_speed(material) end
 
 ---@class (exact) cdem.FilmOptions
----@field file string ends in .ogv; in the output folder
+---@field file string ends in .ogv, or in .mp4 where ffmpeg is installed; in the output folder
 ---@field frames string[] names of the pictures, in order
 ---@field frames_per_second? integer in [1, 120], default 12
 
----A film (Ogg/Theora) from pictures of one size.
+---A film from pictures of one size: Ogg/Theora, or H.264 by the program ffmpeg.
 ---@param options cdem.FilmOptions
 function cdem.film(options) end
 
@@ -2165,7 +2174,7 @@ function cdem.film(options) end
 ---@field colour? number[] {red, green, blue}, each 0 .. 1
 
 ---@class (exact) cdem.ChartOptions
----@field file string ends in .png; in the output folder
+---@field file string ends in .png, .svg or .pdf; in the output folder
 ---@field series cdem.ChartOptionsSeries[]
 ---@field title? string _{...} and ^{...} set sub- and superscripts
 ---@field x_label? string ending in an SI unit, "opening (m)", the axis is shown with the prefix that suits: mm
@@ -2179,6 +2188,7 @@ function cdem.film(options) end
 ---@field right_range? number[]
 ---@field legend? "auto"|"top_left"|"top_right"|"bottom_left"|"bottom_right"|"none" default "auto"
 ---@field size? number[] default {1600, 1200}: {width, height} in pixels; height 0: as high as it needs to be
+---@field dpi? number in [10, 2400], default 300: pixels in an inch where it is printed: 1600 pixels are 135 mm wide at 300
 
 ---Line chart of lists of numbers.
 ---@param options cdem.ChartOptions

@@ -72,6 +72,27 @@ TEST_CASE("on a terminal an error costs only its line, and Ctrl-D ends") {
   CHECK_THAT(outcome.out, Contains("cdem: error: ") && Contains("nil value") && Contains("42\r\n"));
 }
 
+TEST_CASE("help tells about a function, with its example, and names the nearest") {
+  Home home;
+  const Outcome outcome = home.piped("help\nhelp model:fix\nhelp(cdem.grid)\nhelpless = 41\nhelpless + 1\n");
+  CHECK(outcome.exit_code == 0);
+  CHECK_THAT(outcome.out, Contains("Supports, loads and changes") && Contains("model:fix{ on, ... }") &&
+                              Contains("cdem.grid{ size, divisions, ... }") && Contains("42\n"));
+  const Outcome wrong = home.piped("help model:fixx\n");
+  CHECK(wrong.exit_code == 2);
+  CHECK_THAT(wrong.err, Contains("model:fixx") && Contains("did you mean model:fix?"));
+}
+
+TEST_CASE("errors are in colour on a terminal, and not where NO_COLOR says so or nobody looks") {
+  const std::string in_colour = "cdem: \033[1;31merror:\033[0m ";
+  Home home;
+  home.start.environment.push_back("NO_COLOR=");
+  CHECK_THAT(home.typed({"nothing.at_all\r"}).out, Contains(in_colour));
+  CHECK_THAT(home.piped("nothing.at_all\n").err, Contains("cdem: error: ") && !Contains("\033"));
+  home.start.environment.back() = "NO_COLOR=1";
+  CHECK_THAT(home.typed({"nothing.at_all\r"}).out, Contains("cdem: error: ") && !Contains(in_colour));
+}
+
 TEST_CASE("the tab key completes names of the module") {
   Home home;
   const Outcome outcome = home.typed({"cdem.mohr_c\t\r"});

@@ -99,6 +99,7 @@ case $case_name in
     expect "lists are refreshed first" equal "$(grep -m1 ^apt-get "$CALLS" | cut -d' ' -f1-2)" "apt-get update"
     expect "only what is missing is installed" grep -q '^apt-get install .* catch2 cmake$' "$CALLS"
     expect "apt's output goes to the log" grep -q "own words" "$checkout/build/install.log"
+    expect "it is said at once how long it takes" contains "$(head -n 1 "$work/err")" "minutes; later calls start at once"
     expect "the goal is the program alone" grep -q '^ninja .* cdem_program$' "$CALLS"
     ;;
   nothing_is_asked_when_nothing_changed)
@@ -228,7 +229,7 @@ case $case_name in
     expect "but the developer's" grep -q '^apt-get install .* shellcheck$' "$CALLS"
     cdem setup lnit
     expect "unknown group" equal "$rc" 2
-    expect "names them" contains "$err" "build, lint, tsan"
+    expect "names them" contains "$err" "build, docs, lint, package, tsan"
     ;;
   two_first_calls_build_once)
     PATH=$bin "$checkout/cdem" info >"$work/out1" 2>&1 &

@@ -245,6 +245,13 @@ TEST_CASE("checkpoint: the checksum is XXH64", "[checkpoint]") {
   CHECK(cdem::xxh64("abc", 3) == 0x44BC2CF5AD770999ull);
   const std::string line = "Nobody inspects the spammish repetition";
   CHECK(cdem::xxh64(line.data(), line.size()) == 0xFBCEA83C8A378BF1ull);
+  // What checkpoints of version 0.1.0 carry, which had a function of its own.
+  std::string noise;
+  for (std::uint32_t i = 0, x = 1; i < 100003; ++i) {
+    x = x * 1664525u + 1013904223u;
+    noise += static_cast<char>(x >> 24);
+  }
+  CHECK(cdem::xxh64(noise.data(), noise.size()) == 0x0cb79ec2c3b87809ull);
   // In pieces as at once.
   cdem::Xxh64 sum;
   for (const char c : line)

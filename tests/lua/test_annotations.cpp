@@ -1,6 +1,8 @@
 #include "lua/binding/runtime/module.hpp"
+#include "lua/binding/schema/topics.hpp"
 #include "tests/lua/script.hpp"
 
+#include <algorithm>
 #include <catch2/catch.hpp>
 
 using namespace cdem::script;
@@ -28,6 +30,32 @@ TEST_CASE("every declared function is in the module, and nothing else", "[lua]")
                  "  if type(entry) == 'table' then\n"
                  "    for inner in pairs(entry) do assert(known[name .. '.' .. inner], inner) end\n"
                  "  else assert(known[name], name) end\nend") == "");
+}
+
+TEST_CASE("every function has an example in the reference, and no example is of another name", "[lua]") {
+  std::vector<std::string> names;
+  for (const Topic& topic : topics()) {
+    INFO(topic.file);
+    CHECK_FALSE(example_preamble(topic.file).empty()); // its file is there
+    for (const std::string& name : topic.names) {
+      INFO(name);
+      CHECK_FALSE(example_of(name).empty());
+      CHECK(help(name).find(example_of(name)) != std::string::npos);
+      names.push_back(name);
+    }
+  }
+  for (const std::string& name : examples()) {
+    INFO(name);
+    CHECK(std::find(names.begin(), names.end(), name) != names.end());
+  }
+}
+
+TEST_CASE("help tells about topics, classes and short names, and names the nearest for others", "[lua]") {
+  CHECK(help("").find("materials") != std::string::npos);
+  CHECK(help("fix").find("model:fix{ on, ... }") == 0);
+  CHECK(help("Model").find("model:relax") != std::string::npos);
+  CHECK(help("settling").find("model:watch") != std::string::npos);
+  CHECK_THROWS_WITH(help("model:fixx"), Catch::Contains("model:fix"));
 }
 
 TEST_CASE("every default satisfies its own declaration", "[lua]") {

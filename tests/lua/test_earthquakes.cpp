@@ -80,6 +80,32 @@ TEST_CASE("supports, loads and gravity follow records, lists and functions", "[l
   CHECK_THAT(error_of(head + "m:record_reaction{ name = 'a', on = 'nowhere' }"), Contains("nowhere"));
 }
 
+TEST_CASE("an amplitude's times begin at `since`", "[lua][earthquake]") {
+  // The support follows the list from the moment it is given on: in the second stage it moves by the area below the list.
+  CHECK_THAT(error_of(head +
+                      "m:run{ duration = 3e-4 }\n"
+                      "m:fix{ on = 'z-', velocity = {1, 0, 0}, since = m.time,\n"
+                      "       amplitude = { {0, 0}, {1e-4, 1}, {2e-4, 0} } }\n"
+                      "local before = m:mean('displacement.x', 'z-')\n"
+                      "m:run{ duration = 4e-4 }\n"
+                      "assert(math.abs(m:mean('displacement.x', 'z-') - before - 1e-4) < 1e-6)\n"
+                      "local least = math.huge\n"
+                      "m:force{ on = 'z+', force = {1, 0, 0}, since = m.time,\n"
+                      "         amplitude = function(t) least = math.min(least, t); return 1 end }\n"
+                      "least = math.huge\nm:run{ duration = 1e-4 }\nassert(math.abs(least) < 1e-12, least)"),
+             Equals(""));
+  CHECK_THAT(error_of(head + "m:traction{ on = 'z+', stress = {1, 0, 0}, since = 1 }"),
+             Contains("since: goes with amplitude"));
+}
+
+TEST_CASE("without a callback `every` is of the history", "[lua]") {
+  CHECK_THAT(error_of(head + "m:initial_velocity{ velocity = {0, 0, 1e-3} }\n"
+                             "m:run{ steps = 40, every = 4 }\n"
+                             "assert(#m:history().time == 10 or #m:history().time == 11)\n"
+                             "m:run{ steps = 40 }\nassert(#m:history().time >= 20)"),
+             Equals(""));
+}
+
 TEST_CASE("quiet boundaries and free fields in a script", "[lua][earthquake]") {
   CHECK_THAT(error_of(head + "m:quiet{ on = 'z-', velocity = {0, 0, 1}, amplitude = { times = {0, 1e-4, "
                              "2e-4}, values = {0, 1, 0},"

@@ -9,6 +9,7 @@
 #include <catch2/catch.hpp>
 
 #include <cmath>
+#include <cstdlib>
 #include <fstream>
 #include <limits>
 
@@ -123,6 +124,79 @@ TEST_CASE("series and options of a chart that cannot be used are refused") {
   CHECK(folder.names().empty());
 }
 
+TEST_CASE(
+    "charts and pictures are vector graphics in .svg and .pdf, with the size that they are printed in") {
+  const TemporaryFolder folder;
+  const auto read = [&](const std::string& file) {
+    std::ifstream in(folder / file, std::ios::binary);
+    return std::string(std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>());
+  };
+  ChartOptions o;
+  o.size = {600, 450};
+  o.title = "\u03c3_{yy} \u2212 a chart";
+  o.x_label = "time (s)";
+  o.dpi = 150;
+  const std::vector<Series> line{{"a", {0, 1, 2}, {0, 1, 4}}};
+  chart(line, o, folder / "c.svg");
+  chart(line, o, folder / "c.pdf");
+  chart(line, o, folder / "c.png");
+  const std::string svg = read("c.svg");
+  CHECK_THAT(svg, Contains("width=\"101.6mm\" height=\"76.2mm\" viewBox=\"0 0 600 450\""));
+  CHECK_THAT(svg, Contains("<polygon") && Contains("<path") && !Contains("<image") && Contains("</svg>"));
+  CHECK_THAT(read("c.pdf").substr(0, 5), Contains("%PDF-"));
+  CHECK_THAT(read("c.pdf"), Contains("MediaBox [ 0 0 288 216 ]") && !Contains("/Subtype /Image"));
+  // pHYs: pixels in a metre, twice, and the unit.
+  CHECK_THAT(read("c.png"), Contains(std::string("pHYs\0\0\x17\x12\0\0\x17\x12\1", 13)));
+  CHECK_THROWS_WITH(chart(line, o, folder / "c.jpg"), Contains(".png, .svg or .pdf"));
+  o.dpi = 5;
+  CHECK_THROWS_WITH(chart(line, o, folder / "c.svg"), Contains("dpi"));
+
+  PictureOptions p;
+  p.size = {320, 240};
+  p.title = "a picture";
+  render(sample::plate(), p, folder / "p.svg");
+  render(sample::plate(), p, folder / "p.pdf");
+  CHECK_THAT(read("p.svg"),
+             Contains("<image") && Contains("data:image/png;base64,iVBOR") && Contains("<path"));
+  CHECK_THAT(read("p.pdf"), Contains("/Subtype /Image"));
+}
+
+TEST_CASE("a vector page draws what the picture of it shows") {
+  if (std::system("command -v pdftoppm rsvg-convert >/dev/null 2>&1") != 0) {
+    WARN("poppler-utils or librsvg2-bin is missing: the pages are not compared");
+    return;
+  }
+  const TemporaryFolder folder;
+  ChartOptions o;
+  o.size = {600, 450};
+  o.dpi = 72;
+  o.title = "\u03c3_{yy} \u2212 a chart";
+  o.y_label = "turned (Pa)";
+  const std::vector<Series> line{{"a", {0, 1, 2}, {0, 1, 4}, false, "both"}};
+  for (const char* file : {"c.png", "c.svg", "c.pdf"})
+    chart(line, o, folder / file);
+  const std::string commands =
+      "cd '" + (folder / "") +
+      "' && pdftoppm -r 72 -png -singlefile c.pdf pdf && rsvg-convert -w 600 -h 450 c.svg -o "
+      "svg.png";
+  REQUIRE(std::system(commands.c_str()) == 0);
+  const Image truth = read_png(folder / "c.png");
+  for (const char* file : {"pdf.png", "svg.png"}) {
+    INFO(file);
+    const Image drawn = read_png(folder / file);
+    REQUIRE(drawn.width == truth.width);
+    REQUIRE(drawn.height == truth.height);
+    double apart = 0, blank = 0; // mean over all pixels, of 255; of an empty page
+    for (int y = 0; y < truth.height; ++y)
+      for (int x = 0; x < truth.width; ++x)
+        for (int c = 0; c < 3; ++c) {
+          apart += std::abs(static_cast<double>(truth.at(x, y)[c]) - drawn.at(x, y)[c]);
+          blank += 255 - truth.at(x, y)[c];
+        }
+    CHECK(apart < 0.4 * blank); // lines of a pixel lie half a pixel off, or are drawn wider
+  }
+}
+
 TEST_CASE("pictures become a film") {
   const TemporaryFolder folder;
   PictureOptions o;
@@ -139,6 +213,28 @@ TEST_CASE("pictures become a film") {
   std::string head(4, ' ');
   in.read(head.data(), 4);
   CHECK(head == "OggS"); // every Ogg page starts so
+  // What players are told: ffprobe is the judge.
+  const auto probed = [&](const std::string& file) {
+    const std::string said = folder / "said";
+    const std::string command = "ffprobe -v error -count_frames -select_streams v -show_entries "
+                                "stream=codec_name,width,height,r_frame_rate,nb_read_frames -of csv=p=0 '" +
+                                (folder / file) + "' >'" + said + "' 2>&1";
+    REQUIRE(std::system(command.c_str()) == 0);
+    std::ifstream answer(said);
+    std::string line;
+    std::getline(answer, line);
+    std::remove(said.c_str());
+    return line;
+  };
+  if (std::system("command -v ffprobe ffmpeg >/dev/null 2>&1") == 0) {
+    CHECK(probed("film.ogv") == "theora,320,240,10/1,3");
+    write_film(frames, 10, folder / "film.mp4");
+    CHECK(probed("film.mp4") == "h264,320,240,10/1,3");
+  } else {
+    WARN("ffmpeg is not installed: films are not tried");
+    CHECK_THROWS_WITH(write_film(frames, 10, folder / "film.mp4"), Contains("ffmpeg"));
+  }
+  CHECK_THROWS_WITH(write_film(frames, 10, folder / "film.avi"), Contains(".ogv"));
 
   CHECK_THROWS_WITH(write_film({}, 10, folder / "none.ogv"), Contains("at least one"));
   CHECK_THROWS_WITH(write_film({folder / "missing.png"}, 10, folder / "none.ogv"), Contains("missing.png"));

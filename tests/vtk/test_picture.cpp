@@ -245,6 +245,32 @@ TEST_CASE("views look where they say") {
   CHECK(View::named("iso", "z").up.z() > 0.5);
 }
 
+TEST_CASE("an isometric view looks at the face of a slope, and at a cube as ever") {
+  using geom::Vec3;
+  const auto same = [](const View& a, const View& b) {
+    return (a.toward - b.toward).norm() + (a.right - b.right).norm() + (a.up - b.up).norm() < 1e-12;
+  };
+  const Snapshot cube = sample::blocks(sample::grid(1, 1, 1, 1), 1);
+  for (const char* up : {"y", "z"})
+    CHECK(same(View::iso(up, cube.points, cube.surface), View::named("iso", up)));
+  // A wedge that rises along +x, then along each other direction: its face looks back, and so does the viewer.
+  const std::vector<geom::Triangle> face{{0, 1, 2}, {0, 2, 3}};
+  for (int quarter = 0; quarter < 4; ++quarter) {
+    const Eigen::AngleAxisd turn(quarter * M_PI / 2, Vec3::UnitZ());
+    std::vector<Vec3> points{{0, -1, 0}, {0, 1, 0}, {2, 1, 1}, {2, -1, 1}};
+    for (Vec3& x : points)
+      x = turn * x;
+    std::vector<geom::Triangle> surface;
+    for (const auto& t : face) // outward: upwards
+      surface.push_back({t[1], t[0], t[2]});
+    const View view = View::iso("z", points, surface);
+    const Vec3 rise = turn * Vec3::UnitX();
+    CHECK(view.toward.dot(rise) < 0);
+    CHECK(view.toward.z() > 0);
+    CHECK(view.toward.dot(view.right.cross(view.up)) == Approx(1));
+  }
+}
+
 TEST_CASE("a camera of one's own shows a place where the pinhole formula puts it") {
   // A cube of 2 cm about (0.3, 0.2, 0) seen from 2 m: the frame is the picture less 32 / 1600 of its width
   // all round.

@@ -56,5 +56,5 @@ TEST_CASE("a surface without a triangle is a file all the same, and another endi
   const TemporaryFolder folder;
   write_surface({}, folder / "none.vtp");
   CHECK(read(folder / "none.vtp")->GetNumberOfPolys() == 0);
-  CHECK_THROWS_WITH(write_surface({}, folder / "cracks.vtu"), Contains(".vtp"));
+  CHECK_THROWS_WITH(write_surface({}, folder / "cracks.stl"), Contains(".vtp"));
 }

@@ -25,6 +25,7 @@ struct RunCommand {
   ProgressStyle progress = ProgressStyle::automatic;
   std::size_t memory = 0;         // bytes; 0: most of the machine's
   double checkpoint_minutes = 10; // between checkpoints of a long stage; 0: none
+  bool live = false;              // shown in a browser while it goes on
   std::filesystem::path resume;   // checkpoint to go on from; empty: from the start
   std::string line;               // the command line, for the log
 };
@@ -37,6 +38,7 @@ struct ResumeCommand {
   std::size_t memory = 0;
   double checkpoint_minutes = 10;
   bool unsafe = false; // the user's word, never the file's
+  bool live = false;
   std::string line;
 };
 // Goes on from the folder's newest checkpoint, with the script and settings it tells of. A run that was --unsafe is
@@ -59,6 +61,7 @@ struct RenderCommand {
   double deformation = 0;
   std::string view = "front", up = "y", colour_map = "auto", title;
   std::array<int, 2> size = {1600, 1200}; // pixels; height 0: as high as the picture needs
+  double dpi = 300;                       // where it is printed
   std::optional<std::array<double, 2>> range;
   std::vector<std::string> hidden; // bodies, by their names or by their numbers in field body
   bool edges = true, broken_bonds = true, colour_bar = true, legend = true, axes = true;

@@ -98,6 +98,7 @@ ExitCode render_picture(const RenderCommand& command) {
   options.view = command.view;
   options.up = command.up;
   options.size = command.size;
+  options.dpi = command.dpi;
   options.range = command.range;
   options.colour_map = command.colour_map;
   options.title = command.title;

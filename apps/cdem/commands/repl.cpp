@@ -6,6 +6,7 @@
 #include "apps/cdem/failure.hpp"
 #include "apps/cdem/interrupt.hpp"
 #include "apps/cdem/memory.hpp"
+#include "lua/binding/schema/topics.hpp"
 
 #include <cstdio>
 #include <cstdlib>
@@ -135,6 +136,20 @@ private:
   fs::path history_;
 };
 
+// "help", "help model:fix", "help(cdem.grid)" and help"..." ask about names; anything else is Lua.
+bool asks_for_help(const std::string& line, std::string& name) {
+  constexpr std::size_t length = 4;
+  if (line.rfind("help", 0) != 0)
+    return false;
+  name = line.substr(length);
+  const auto end = name.find_last_not_of(" \t\"')");
+  name.resize(end == std::string::npos ? 0 : end + 1);
+  const auto begin = name.find_first_not_of(" \t\"'(");
+  const bool apart = line.size() == length || std::strchr(" \t\"'(", line[length]) != nullptr;
+  name = begin == std::string::npos ? "" : name.substr(begin);
+  return apart && name.find_first_of("=,+ ") == std::string::npos;
+}
+
 void print_result(const std::string& text) {
   if (!text.empty())
     std::printf("%s%s", text.c_str(), text.back() == '\n' ? "" : "\n");
@@ -142,7 +157,7 @@ void print_result(const std::string& text) {
 }
 
 ExitCode interactive(script::Engine& engine, RunObserver& observer) {
-  std::printf("cdem %s, Lua with the cdem module. Tab completes, Ctrl-C cancels, Ctrl-D ends.\n",
+  std::printf("cdem %s, Lua with the cdem module. Tab completes, help tells, Ctrl-C cancels, Ctrl-D ends.\n",
               version().c_str());
   Terminal terminal(engine);
   std::string chunk;
@@ -160,7 +175,9 @@ ExitCode interactive(script::Engine& engine, RunObserver& observer) {
     chunk += (chunk.empty() ? "" : "\n") + line;
     bool incomplete = false;
     try {
-      const std::string result = engine.run_line(chunk, incomplete);
+      std::string name;
+      const std::string result =
+          asks_for_help(chunk, name) ? script::help(name) : engine.run_line(chunk, incomplete);
       observer.clear_line();
       if (!incomplete)
         print_result(result);
@@ -180,7 +197,8 @@ ExitCode from_pipe(script::Engine& engine) {
   bool incomplete = false;
   for (std::string line; std::getline(std::cin, line);) {
     chunk += (chunk.empty() ? "" : "\n") + line;
-    print_result(engine.run_line(chunk, incomplete));
+    std::string name;
+    print_result(asks_for_help(chunk, name) ? script::help(name) : engine.run_line(chunk, incomplete));
     if (!incomplete)
       chunk.clear();
   }

@@ -35,6 +35,7 @@ ExitCode resume(const ResumeCommand& command) {
   run_on.progress = command.progress;
   run_on.checkpoint_minutes = command.checkpoint_minutes;
   run_on.resume = checkpoint.file;
+  run_on.live = command.live;
   run_on.line = command.line;
   return run(run_on);
 }

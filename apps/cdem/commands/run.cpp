@@ -4,11 +4,13 @@
 #include "apps/cdem/commands/script_run.hpp"
 #include "apps/cdem/failure.hpp"
 #include "apps/cdem/interrupt.hpp"
+#include "apps/cdem/live/live_view.hpp"
 #include "apps/cdem/memory.hpp"
 #include "apps/cdem/records.hpp"
 #include "lua/binding/runtime/sources.hpp"
 
 #include <csignal>
+#include <cstdio>
 
 namespace cdem::app {
 
@@ -99,6 +101,14 @@ ExitCode run(const RunCommand& command) {
                       command.resume.empty() ? OutputFolder::Start::anew : OutputFolder::Start::goes_on,
                       source);
   const auto observer = std::make_shared<RunObserver>(command.progress, &folder);
+  std::shared_ptr<LiveView> page;
+  if (command.live) {
+    page = std::make_shared<LiveView>(output.filename().string());
+    // Not into the log: others may read that, and whoever knows the address can stop the run.
+    std::printf("watch the run at %s\n", page->url().c_str());
+    std::fflush(stdout);
+    observer->show_in(page);
+  }
   const interrupt::WhenStuck stuck(
       [&folder](ExitCode code, std::string& line) { folder.finish(code, line); });
   try {
@@ -106,10 +116,14 @@ ExitCode run(const RunCommand& command) {
   } catch (...) {
     observer->clear_line();
     const Failure failure = current_failure();
+    if (page)
+      page->ended("ended with exit code " + std::to_string(to_int(failure.code)) + ": " + failure.line);
     folder.finish(failure.code, failure.details.empty() ? failure.line : failure.details);
     throw;
   }
   observer->message(observer->in_all() + "results in " + folder.path().string());
+  if (page)
+    page->ended("ended well; results in " + folder.path().string());
   folder.finish(ExitCode::success, "");
   return ExitCode::success;
 }

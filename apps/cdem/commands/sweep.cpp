@@ -2,6 +2,7 @@
 // below the sweep's; sweep.csv gathers the figures of their reports, one row a run.
 #include "apps/cdem/build_info.hpp"
 #include "apps/cdem/commands/script_run.hpp"
+#include "apps/cdem/commands/sweep_charts.hpp"
 #include "apps/cdem/failure.hpp"
 #include "apps/cdem/interrupt.hpp"
 #include "apps/cdem/memory.hpp"
@@ -10,6 +11,7 @@
 #include "apps/cdem/run_log.hpp"
 #include "apps/cdem/text.hpp"
 #include "libcdem/step/errors.hpp"
+#include "lua/binding/runtime/csv.hpp"
 #include "lua/binding/runtime/files.hpp"
 #include "lua/binding/runtime/process_pool.hpp"
 #include "lua/binding/runtime/sources.hpp"
@@ -80,25 +82,24 @@ std::string last_line(const fs::path& file) {
   return last;
 }
 
-std::string csv_cell(const std::string& text) {
-  if (text.find_first_of(",\"\n") == std::string::npos)
-    return text;
-  std::string quoted = "\"";
-  for (const char c : text)
-    quoted += c == '"' ? "\"\"" : std::string(1, c);
-  return quoted + "\"";
+std::vector<SweptFigures> figures_of(const std::vector<SweptRun>& runs) {
+  std::vector<SweptFigures> all;
+  for (const SweptRun& run : runs) {
+    const fs::path report = run.folder / "report.json";
+    // What a failed run has in its folder may be of an earlier sweep.
+    const bool there = run.exit_code == 0 && fs::exists(report);
+    all.push_back({run.set, there ? read_report(report) : std::vector<Figure>()});
+  }
+  return all;
 }
 
 // Columns: the settings, exit code, wall time, then every figure that any report has, by name.
-void write_table(const std::vector<SweptRun>& runs, const fs::path& file) {
+void write_table(const std::vector<SweptRun>& runs, const std::vector<SweptFigures>& figures,
+                 const fs::path& file) {
   std::vector<std::map<std::string, std::string>> values(runs.size());
   std::vector<std::string> names; // in order of appearance
   for (std::size_t i = 0; i < runs.size(); ++i) {
-    const fs::path report = runs[i].folder / "report.json";
-    // What a failed run has in its folder may be of an earlier sweep.
-    if (runs[i].exit_code != 0 || !fs::exists(report))
-      continue;
-    for (const auto& figure : read_report(report)) {
+    for (const auto& figure : figures[i].figures) {
       values[i][figure.name] = figure.value;
       if (std::find(names.begin(), names.end(), figure.name) == names.end())
         names.push_back(figure.name);
@@ -106,18 +107,18 @@ void write_table(const std::vector<SweptRun>& runs, const fs::path& file) {
   }
   std::ofstream out(file);
   for (const auto& [name, value] : runs.front().set)
-    out << csv_cell(name) << ',';
+    out << script::csv_cell(name) << ',';
   out << "exit_code,wall_time_s";
   for (const auto& name : names)
-    out << ',' << csv_cell(name);
+    out << ',' << script::csv_cell(name);
   out << '\n';
   for (std::size_t i = 0; i < runs.size(); ++i) {
     for (const auto& [name, value] : runs[i].set)
-      out << csv_cell(value) << ',';
+      out << script::csv_cell(value) << ',';
     out << (runs[i].exit_code < 0 ? "" : std::to_string(runs[i].exit_code)) << ','
         << number_text(runs[i].seconds);
     for (const auto& name : names)
-      out << ',' << csv_cell(values[i][name]);
+      out << ',' << script::csv_cell(values[i][name]);
     out << '\n';
   }
   if (!out.flush())
@@ -266,7 +267,8 @@ ExitCode sweep(const SweepCommand& command) {
 
   const fs::path table = root / "sweep.csv";
   folder.will_write(table);
-  write_table(runs, table);
+  const std::vector<SweptFigures> figures = figures_of(runs);
+  write_table(runs, figures, table);
   if (interrupt::requested()) {
     for (const auto& line : what_stands(command, runs, table))
       say(line);
@@ -277,6 +279,13 @@ ExitCode sweep(const SweepCommand& command) {
       std::count_if(runs.begin(), runs.end(), [](const SweptRun& run) { return run.exit_code != 0; });
   const ExitCode code = judge(runs);
   say("table in " + table.string());
+  try {
+    const auto charts = draw_sweep(figures, root, [&](const fs::path& file) { folder.will_write(file); });
+    if (!charts.empty())
+      say((charts.size() == 1 ? "chart: " : "charts: ") + script::joined(charts, " "));
+  } catch (const std::exception& error) { // the table stands
+    say(std::string("no charts: ") + error.what());
+  }
   const std::string verdict = std::to_string(failed) + " of " + std::to_string(runs.size()) +
                               " runs failed; see " + (root / run_log_name).string();
   folder.finish(code, failed > 0 ? verdict : "");

@@ -41,6 +41,8 @@ void RunObserver::progress(const Progress& progress) {
   if (progress.stage != stage_)
     start_stage(progress, now);
   left_.add(progress, progress.wall_time);
+  if (page_)
+    page_->progress(progress, left_);
   if (progress.last)
     end_stage(progress);
   else
@@ -96,6 +98,8 @@ void RunObserver::end_stage(const Progress& progress) {
 void RunObserver::message(const std::string& text) {
   if (style_ == ProgressStyle::live || style_ == ProgressStyle::plain)
     print(text);
+  if (page_)
+    page_->add_line(text);
   if (folder_ != nullptr)
     folder_->log(text);
 }
@@ -104,8 +108,10 @@ void RunObserver::warning(const std::string& text) {
   ++warnings_;
   if (style_ != ProgressStyle::machine) { // the sweep that watches this run shows its own
     clear_line();
-    std::fprintf(stderr, "%s\n", text.c_str());
+    std::fprintf(stderr, "%s\n", with_tone(text, Tone::warning).c_str());
   }
+  if (page_)
+    page_->add_line(text);
   if (folder_ != nullptr)
     folder_->log(text);
 }
@@ -123,6 +129,14 @@ std::string RunObserver::in_all() const {
   if (warnings_ > 0)
     text += (text.empty() ? "" : ", ") + count_text(warnings_) + (warnings_ == 1 ? " warning" : " warnings");
   return text.empty() ? text : text + "; ";
+}
+
+bool RunObserver::wants_view() {
+  return page_ && page_->wants_frame();
+}
+
+void RunObserver::view(const Snapshot& snapshot) {
+  page_->frame(snapshot);
 }
 
 bool RunObserver::stop_requested() {

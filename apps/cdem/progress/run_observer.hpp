@@ -2,11 +2,13 @@
 // elsewhere, all of it in the log; warnings on stderr. Asks the run to stop after Ctrl-C.
 #pragma once
 
+#include "apps/cdem/live/live_view.hpp"
 #include "apps/cdem/output_folder.hpp"
 #include "apps/cdem/progress/time_left.hpp"
 #include "libcdem/step/observer.hpp"
 
 #include <chrono>
+#include <memory>
 #include <string>
 
 namespace cdem::app {
@@ -33,6 +35,12 @@ public:
   bool stop_requested() override;
   Activity doing(Activity) override;
 
+  bool wants_view() override;
+  void view(const Snapshot&) override;
+
+  // From now on a page of the browser shows the run too.
+  void show_in(std::shared_ptr<LiveView> page) { page_ = std::move(page); }
+
   // Takes the live line off the screen; before anything else prints.
   void clear_line();
 
@@ -48,6 +56,7 @@ private:
 
   ProgressStyle style_;
   OutputFolder* folder_;
+  std::shared_ptr<LiveView> page_; // may be null
   TimeLeft left_;
   static constexpr int no_stage = -1;
   int stage_ = no_stage;

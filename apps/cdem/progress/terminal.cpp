@@ -29,6 +29,17 @@ bool is_live_terminal() {
   return isatty(STDOUT_FILENO) == 1 && kind != nullptr && std::string(kind) != "dumb";
 }
 
+std::string with_tone(const std::string& line, Tone tone) {
+  const char* const none = std::getenv("NO_COLOR");
+  const std::string word = tone == Tone::error ? "error:" : "warning:";
+  const auto at = line.find(word);
+  if (!is_live_terminal() || isatty(STDERR_FILENO) != 1 || (none != nullptr && *none != '\0') ||
+      at == std::string::npos)
+    return line;
+  const std::string colour = tone == Tone::error ? "\033[1;31m" : "\033[1;33m";
+  return line.substr(0, at) + colour + word + "\033[0m" + line.substr(at + word.size());
+}
+
 int terminal_columns() {
   const int columns = window().ws_col;
   return columns > 0 ? columns : from_environment("COLUMNS", 80);

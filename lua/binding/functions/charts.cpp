@@ -16,7 +16,7 @@ namespace {
 using geom::InputError;
 
 std::vector<Field> chart_fields() {
-  return {text("file").required().doc("ends in .png; in the output folder"),
+  return {drawing_field(),
           text("title").doc("_{...} and ^{...} set sub- and superscripts"),
           text("x_label").doc(
               "ending in an SI unit, \"opening (m)\", the axis is shown with the prefix that suits: mm"),
@@ -30,7 +30,8 @@ std::vector<Field> chart_fields() {
           list("right_range", number_type(), 2),
           choice("legend", {"auto", "top_left", "top_right", "bottom_left", "bottom_right", "none"})
               .standard("auto"),
-          size_field()};
+          size_field(),
+          dpi_field()};
 }
 
 ChartOptions chart_options(const Arguments& a) {
@@ -47,11 +48,12 @@ ChartOptions chart_options(const Arguments& a) {
   options.right_range = limits_of(a, "right_range");
   options.legend = a.text("legend");
   options.size = size_of(a, false);
+  options.dpi = a.number("dpi");
   return options;
 }
 
 Value chart_of_lists(Session& session, Object*, const Arguments& a) {
-  require_ending(a.text("file"), ".png");
+  require_drawing(a.text("file"));
   const ChartOptions options = chart_options(a);
   std::vector<Series> all;
   for (const Arguments& given : a.records("series")) {
@@ -91,7 +93,7 @@ const std::vector<double>& column(const std::vector<std::pair<std::string, std::
 }
 
 Value chart_of_histories(Session& session, ModelObject& model, const Arguments& a) {
-  require_ending(a.text("file"), ".png");
+  require_drawing(a.text("file"));
   ChartOptions options = chart_options(a);
   const auto columns = history_columns(model.simulation);
   const std::string& x_name = a.text("x");
@@ -120,7 +122,7 @@ Value chart_of_histories(Session& session, ModelObject& model, const Arguments& 
 
 // Steps at the diameters of the fragments.
 Value chart_of_fragments(Session& session, ModelObject& model, const Arguments& a) {
-  require_ending(a.text("file"), ".png");
+  require_drawing(a.text("file"));
   ChartOptions options = chart_options(a);
   if (options.x_label.empty())
     options.x_label = "diameter (m)";

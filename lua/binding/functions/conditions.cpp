@@ -187,18 +187,20 @@ void bind_conditions(Module& m) {
   add("fix", "Holds nodes, or moves them as told. A later call wins over an earlier one where they meet.",
       {on(), axes(),
        vec3("displacement").unit("m").doc("total value to be held; a relaxation moves there first"),
-       vec3("velocity").unit("m/s").doc("in real-time stepping; zero when left out"), amplitude_field()},
+       vec3("velocity").unit("m/s").doc("in real-time stepping; zero when left out"), amplitude_field(),
+       since_field()},
       fix);
   again();
   add("release", "Undoes fixes.", {on(), axes().doc("components set free")}, release);
   again();
   add("traction", "Force per undeformed area on outer faces.",
       {on(), vec3("stress").unit("Pa").required().doc("force over area, not following the surface"),
-       amplitude_field()},
+       amplitude_field(), since_field()},
       traction);
   again();
   add("force", "A total force, shared among the nodes of a place.",
-      {one_place(), vec3("force").unit("N").required().doc("total"), amplitude_field()}, force);
+      {one_place(), vec3("force").unit("N").required().doc("total"), amplitude_field(), since_field()},
+      force);
   again();
   add("gravity", "Weight of all blocks; one at a time, the last call counts.",
       {vec3_or_function("vector", "(time: number): number[]")
@@ -210,7 +212,7 @@ void bind_conditions(Module& m) {
            .standard(0.0)
            .unit("kg/m3")
            .doc("buoyancy: takes from the weight, never from the inertia"),
-       amplitude_field()},
+       amplitude_field(), since_field()},
       gravity);
   again();
   add("clear_loads", "Takes away tractions, forces, gravity and flows.", {}, clear_loads);

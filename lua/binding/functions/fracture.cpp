@@ -19,8 +19,9 @@ Value cut_row(const BlockCut& cut) {
                {"mode", cut.mode == CutMode::shear ? "shear" : "tension"},
                {"centroid", cut.centroid},
                {"normal", cut.normal},
-               {"principal_stress", cut.principal},
-               {"angle_to_sigma1", degrees(cut.angle_to_sigma1)},
+               // The criteria keep the paper's compression-positive values; scripts see tension as positive.
+               {"principal_stress", geom::Vec3(-cut.principal.reverse())},
+               {"angle_to_largest_pressure", degrees(cut.angle_to_sigma1)},
                {"generation", cut.generation},
                {"pieces", cut.pieces},
                {"tie", cut.tie}};
@@ -200,8 +201,11 @@ void bind_fracture_records(Module& m) {
        "A block that was cut.",
        {integer("block").required().doc("id"), choice("mode", {"tension", "shear"}).required(),
         vec3("centroid").unit("m").required(), vec3("normal").required().doc("of the cut planes"),
-        vec3("principal_stress").unit("Pa").required().doc("compression positive, the largest first"),
-        number("angle_to_sigma1").unit("deg").required().doc("between the plane and the axis of the largest"),
+        vec3("principal_stress").unit("Pa").required().doc("tension positive, the largest first"),
+        number("angle_to_largest_pressure")
+            .unit("deg")
+            .required()
+            .doc("between the cut planes and the axis of the largest pressure, principal_stress[3]"),
         integer("generation").required().doc("0 for an original block"), integer("pieces").required(),
         flag("tie").required().doc("both conjugate planes were equally good")}});
   m.records.push_back(

@@ -29,9 +29,7 @@ void add_to_series(Session& session, ModelObject& model, const std::string& name
   const std::string file = path.lexically_relative(series.parent_path()).generic_string();
   const auto same = [&](const SeriesEntry& e) { return e.file == file; };
   entries.erase(std::remove_if(entries.begin(), entries.end(), same), entries.end());
-  // Relaxations have no time: the steps so far keep their moments in order.
-  const double moment = snapshot.time > 0 ? snapshot.time : static_cast<double>(snapshot.step);
-  entries.push_back({moment, file});
+  entries.push_back({snapshot.time, snapshot.step, file});
   write_pvd(series.string(), entries);
 }
 
@@ -44,16 +42,29 @@ Value save(Session& session, ModelObject& model, const Arguments& a) {
   const Snapshot snapshot = model.simulation.snapshot(model.title(session));
   const fs::path path = session.files.to_write(a.text("file"));
   write_vtu(snapshot, path.string());
-  write_bonds(snapshot, session.files.to_write(bonds_path(a.text("file"))).string());
-  if (a.has("series"))
-    add_to_series(session, model, a.text("series"), path, snapshot);
+  const fs::path bonds = session.files.to_write(bonds_path(a.text("file")));
+  write_bonds(snapshot, bonds.string());
+  // A series is of one kind of file, so that ParaView shows each with its own fields.
+  const auto add = [&](const char* what, const fs::path& file) {
+    if (!a.has("series"))
+      return;
+    const std::string& name = a.text("series");
+    add_to_series(session, model, name.substr(0, name.size() - 4) + what + ".pvd", file, snapshot);
+  };
+  add("", path);
+  add("_bonds", bonds);
+  if (model.simulation.can_touch()) {
+    const fs::path contacts = session.files.to_write(contacts_path(a.text("file")));
+    write_contacts(model.simulation.contact_points(), snapshot, contacts.string());
+    add("_contacts", contacts);
+  }
   return {};
 }
 
 // make: returns the Snapshot whose bonds are written.
 template <class Make>
 Value save_surface(Session& session, ModelObject& model, const Arguments& a, const Make& make) {
-  require_ending(a.text("file"), ".vtp");
+  require_one_of(a.text("file"), {".vtp", ".vtu"});
   if (a.has("series"))
     require_ending(a.text("series"), ".pvd");
   if (session.settings.check_only)
@@ -153,7 +164,7 @@ void require_together(const Arguments& a) {
 }
 
 Value picture(Session& session, ModelObject& model, const Arguments& a) {
-  require_ending(a.text("file"), ".png");
+  require_drawing(a.text("file"));
   require_together(a);
   PictureOptions options = picture_options(a);
   for (const Value& body : a.list("plain"))
@@ -177,7 +188,7 @@ Value picture(Session& session, ModelObject& model, const Arguments& a) {
 }
 
 Value film(Session& session, Object*, const Arguments& a) {
-  require_ending(a.text("file"), ".ogv");
+  require_one_of(a.text("file"), {".ogv", ".mp4"});
   if (session.settings.check_only)
     return {};
   std::vector<std::string> frames;
@@ -224,9 +235,16 @@ void bind_output(Module& m) {
   Class& model = m.the_class("Model");
   model.methods.push_back(
       {"save",
-       "Writes the model for ParaView: blocks to the file, bonds beside it (result.vtu, result_bonds.vtu).",
+       "Writes the model for ParaView: blocks to the file, bonds beside it (result.vtu, result_bonds.vtu), "
+       "and of "
+       "bodies that move far the contacts that carry (result_contacts.vtu: points with force on the source "
+       "body, "
+       "normal_force, shear_force, depth, bodies and blocks).",
        {text("file").required().doc("ends in .vtu; in the output folder"),
-        text("series").doc("ends in .pvd: a time series this file is added to")},
+        text("series").doc(
+            "ends in .pvd: a time series this file is added to; run.pvd has run_bonds.pvd and "
+            "run_contacts.pvd beside it. One axis: time where it rises from file to file, else "
+            "steps")},
        false,
        "",
        "",
@@ -238,15 +256,18 @@ void bind_output(Module& m) {
        "(1 tension, 2 shear), damage, opening, slip, time of the last break (nan where it is not known) and "
        "body "
        "(its number from 0; -1 between two) of faces.",
-       {text("file").required().doc("ends in .vtp; in the output folder"),
+       {text("file").required().doc(
+            "ends in .vtp, or .vtu for programs that know no .vtp; in the output folder"),
         flag("damaged").standard(false).doc("faces that soften and have not broken too (mode 0)"),
         text("series").doc("ends in .pvd: a time series this file is added to")},
        false,
        "",
        "",
        method<ModelObject>(save_cracks)});
-  std::vector<Field> joint_file{text("file").required().doc("ends in .vtp; in the output folder"),
-                                text("series").doc("ends in .pvd: a time series this file is added to")};
+  std::vector<Field> joint_file{
+      text("file").required().doc(
+          "ends in .vtp, or .vtu for programs that know no .vtp; in the output folder"),
+      text("series").doc("ends in .pvd: a time series this file is added to")};
   for (const Field& field : joint_choice_fields())
     joint_file.push_back(field);
   model.methods.push_back(
@@ -259,17 +280,19 @@ void bind_output(Module& m) {
        joint_file, false, "", "", method<ModelObject>(save_joints)});
   model.methods.push_back({"picture", "Draws the model, without a display.", picture_declaration(), false, "",
                            "", method<ModelObject>(picture)});
-  m.functions.push_back({"film",
-                         "A film (Ogg/Theora) from pictures of one size.",
-                         {text("file").required().doc("ends in .ogv; in the output folder"),
-                          list("frames", text_type()).required().doc("names of the pictures, in order"),
-                          integer("frames_per_second").within(1, 120).standard(12)},
-                         false,
-                         "",
-                         "",
-                         film,
-                         false,
-                         Replay::recorded});
+  m.functions.push_back(
+      {"film",
+       "A film from pictures of one size: Ogg/Theora, or H.264 by the program ffmpeg.",
+       {text("file").required().doc("ends in .ogv, or in .mp4 where ffmpeg is installed; in the "
+                                    "output folder"),
+        list("frames", text_type()).required().doc("names of the pictures, in order"),
+        integer("frames_per_second").within(1, 120).standard(12)},
+       false,
+       "",
+       "",
+       film,
+       false,
+       Replay::recorded});
 }
 
 } // namespace cdem::script

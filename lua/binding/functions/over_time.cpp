@@ -21,6 +21,18 @@ Amplitude of_table(const Arguments& given) {
   return [table = std::move(table)](double time) { return table.at(time); };
 }
 
+Amplitude of_function(const std::shared_ptr<Reference>& function) {
+  Amplitude amplitude = [function](double time) {
+    const Values answer = function->call({time});
+    if (answer.empty() || !answer[0].is_number() || !std::isfinite(answer[0].number()))
+      throw InputError("amplitude(" + number_text(time) + ") of " + function->place(),
+                       answer.empty() ? "nothing" : describe(answer[0]), "a finite number");
+    return answer[0].number();
+  };
+  amplitude(0); // so that a slip in it is an error of the line that gave it
+  return amplitude;
+}
+
 } // namespace
 
 Field amplitude_field() {
@@ -32,21 +44,24 @@ Field amplitude_field() {
            "when left out");
 }
 
+Field since_field() {
+  return number("since").unit("s").doc(
+      "time of the model at which the amplitude's times begin, 0 when left out; since = model.time lets it "
+      "begin now, in a later stage");
+}
+
 Amplitude amplitude_of(const Arguments& a) {
+  Amplitude amplitude;
   if (const auto table = a.value("amplitude").table() ? a.record("amplitude") : std::nullopt)
-    return of_table(*table);
-  const auto function = a.function("amplitude");
-  if (!function)
-    return {};
-  Amplitude amplitude = [function](double time) {
-    const Values answer = function->call({time});
-    if (answer.empty() || !answer[0].is_number() || !std::isfinite(answer[0].number()))
-      throw InputError("amplitude(" + number_text(time) + ") of " + function->place(),
-                       answer.empty() ? "nothing" : describe(answer[0]), "a finite number");
-    return answer[0].number();
-  };
-  amplitude(0); // so that a slip in it is an error of the line that gave it
-  return amplitude;
+    amplitude = of_table(*table);
+  else if (const auto function = a.function("amplitude"))
+    amplitude = of_function(function);
+  const auto since = a.optional_number("since");
+  if (since && !amplitude)
+    throw InputError("since: goes with amplitude, whose times begin there");
+  if (!since)
+    return amplitude;
+  return [amplitude = std::move(amplitude), since = *since](double time) { return amplitude(time - since); };
 }
 
 std::function<geom::Vec3(double)> vector_over_time(const std::shared_ptr<Reference>& function,

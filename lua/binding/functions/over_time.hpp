@@ -9,6 +9,8 @@ namespace cdem::script {
 
 // "amplitude": factor over time (s), 1 when left out.
 Field amplitude_field();
+// "since": when its times begin (s), beside every amplitude.
+Field since_field();
 Amplitude amplitude_of(const Arguments&);
 
 // A vector that a function of time gives, asked once at time 0 so that a slip in it is an error of the line that gave it.

@@ -16,6 +16,15 @@ Field size_field() {
       .doc("{width, height} in pixels; height 0: as high as it needs to be");
 }
 
+Field dpi_field() {
+  return number("dpi").within(10, 2400).standard(300.0).doc(
+      "pixels in an inch where it is printed: 1600 pixels are 135 mm wide at 300");
+}
+
+Field drawing_field() {
+  return text("file").required().doc("ends in .png, .svg or .pdf; in the output folder");
+}
+
 Field colour_field() {
   return list("colour", number_type(), 3).doc("{red, green, blue}, each 0 .. 1");
 }
@@ -66,7 +75,7 @@ std::vector<Field> view_fields(const std::string& colour_doc) {
   const std::vector<Field> line{list("points", vec3_type(), 2).unit("m").required(), text("label"),
                                 colour_field(), number("width").above(0).standard(4.0).doc("pixels"),
                                 flag("dashed").standard(false)};
-  return {text("file").required().doc("ends in .png; in the output folder"),
+  return {drawing_field(),
           text("colour").doc(colour_doc),
           choice("view", {"front", "back", "left", "right", "top", "bottom", "iso"})
               .standard("front")
@@ -74,6 +83,7 @@ std::vector<Field> view_fields(const std::string& colour_doc) {
           choice("up", {"y", "z"}).standard("y").doc("z: front looks along y with z up"),
           record("camera", camera).doc("instead of view"),
           size_field(),
+          dpi_field(),
           list("range", number_type(), 2).doc("{lowest, highest} of the colours, SI units"),
           choice("colour_map", {"auto", "blue_white_red", "cool_warm", "viridis", "grey", "categorical"})
               .standard("auto")
@@ -100,6 +110,7 @@ PictureOptions view_options(const Arguments& a) {
     options.camera->perspective = camera->flag("perspective");
   }
   options.size = size_of(a);
+  options.dpi = a.number("dpi");
   options.range = limits_of(a, "range");
   options.colour_map = a.text("colour_map");
   options.title = a.text_or("title", "");
@@ -137,9 +148,22 @@ void draw(Session& session, const std::string& file,
   }
 }
 
+void require_drawing(const std::string& file) {
+  require_one_of(file, {".png", ".svg", ".pdf"});
+}
+
+void require_one_of(const std::string& file, const std::vector<std::string>& endings) {
+  std::string all;
+  for (const std::string& ending : endings) {
+    if (file.size() > ending.size() && file.compare(file.size() - ending.size(), ending.size(), ending) == 0)
+      return;
+    all += (all.empty() ? "" : &ending == &endings.back() ? " or " : ", ") + ending;
+  }
+  throw InputError("file", "\"" + file + "\"", "a name that ends in " + all);
+}
+
 void require_ending(const std::string& file, const std::string& ending) {
-  if (file.size() <= ending.size() || file.compare(file.size() - ending.size(), ending.size(), ending) != 0)
-    throw InputError("file", "\"" + file + "\"", "a name that ends in " + ending);
+  require_one_of(file, {ending});
 }
 
 } // namespace cdem::script

@@ -11,8 +11,10 @@ namespace cdem::script {
 
 struct Session;
 
-Field size_field();   // "size": {width, height} in pixels
-Field colour_field(); // "colour": {red, green, blue}
+Field size_field(); // "size": {width, height} in pixels
+Field dpi_field();
+Field drawing_field(); // file
+Field colour_field();  // "colour": {red, green, blue}
 
 std::array<int, 2> size_of(const Arguments&, bool free_height = true); // free: 0, as high as needed
 std::optional<Colour> colour_of(const Arguments&);
@@ -29,5 +31,7 @@ void draw(Session&, const std::string& file, const std::function<void(const std:
 
 // Throws geom::InputError when a file name has another ending.
 void require_ending(const std::string& file, const std::string& ending);
+void require_drawing(const std::string& file); // .png, .svg or .pdf
+void require_one_of(const std::string& file, const std::vector<std::string>& endings);
 
 } // namespace cdem::script

@@ -22,10 +22,12 @@ std::function<void()> callback_of(Session& session, const Arguments& a) {
 std::int64_t callback_interval(const Arguments& a) {
   if (a.has("callback") || a.has("stop"))
     return a.has("every") ? a.integer("every") : 100;
-  if (a.has("every"))
-    throw InputError("every = " + describe(a.value("every")) +
-                     ": says how often callback is called; give one");
   return 0;
+}
+
+// Without a callback `every` is of the history.
+std::int64_t history_interval(const Arguments& a) {
+  return a.has("every") && !a.has("callback") && !a.has("stop") ? a.integer("every") : 0;
 }
 
 Value relax_result(const RelaxResult& r, const std::string& trial) {
@@ -68,6 +70,7 @@ Value relax(Session& session, ModelObject& model, const Arguments& a) {
   options.max_steps = a.integer("max_steps");
   options.callback_every = callback_interval(a);
   options.callback = callback_of(session, a);
+  options.history_every = history_interval(a);
   options.stop_on_failure = a.flag("stop_on_failure");
   options.note = a.text_or("trial", "");
   warn_if_nothing_acts(session, model, "relax");
@@ -104,6 +107,7 @@ Value run(Session& session, ModelObject& model, const Arguments& a) {
   options.local_damping = a.number("local_damping");
   options.callback_every = callback_interval(a);
   options.callback = callback_of(session, a);
+  options.history_every = history_interval(a);
   if (const auto stop = a.function("stop"))
     options.stop = [&session, stop] {
       const Values answer = session.checkpoints.call_back("stop", *stop, {});
@@ -140,7 +144,9 @@ Value after_stage(Session&, ModelObject& model, const Arguments& a) {
 }
 
 Field every() {
-  return integer("every").at_least(1).doc("steps between calls, 100 by default");
+  return integer("every").at_least(1).doc("steps between calls, 100 by default; without a callback steps "
+                                          "between samples of the history from here "
+                                          "on, 10 at first");
 }
 Field callback() {
   return function("callback", "()").doc("called every so many steps; may read the model and write files");

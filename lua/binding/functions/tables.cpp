@@ -1,5 +1,6 @@
 // Small helpers: tables of numbers as .csv, lines for the log, the version.
 #include "lua/binding/objects/model_object.hpp"
+#include "lua/binding/runtime/csv.hpp"
 #include "lua/binding/runtime/module.hpp"
 
 #include "libgeom/core/error.hpp"
@@ -13,19 +14,6 @@ namespace cdem::script {
 namespace {
 
 using geom::InputError;
-
-std::vector<std::string> split(const std::string& line) {
-  std::vector<std::string> cells;
-  std::istringstream in(line);
-  for (std::string cell; std::getline(in, cell, ',');) {
-    const auto first = cell.find_first_not_of(" \t\r\"");
-    const auto last = cell.find_last_not_of(" \t\r\"");
-    cells.push_back(first == std::string::npos ? std::string() : cell.substr(first, last - first + 1));
-  }
-  if (!line.empty() && line.back() == ',')
-    cells.emplace_back();
-  return cells;
-}
 
 // An empty cell is nan, so that every column keeps one value per row.
 Value number_in(const std::string& cell, const std::string& file, int row) {
@@ -43,12 +31,12 @@ Value read_csv(Session& session, Object*, const Arguments& a) {
   std::string line;
   if (!std::getline(in, line))
     throw InputError("file \"" + name + "\": empty; must begin with a row of column names");
-  const std::vector<std::string> names = split(line);
+  const std::vector<std::string> names = csv_cells(line);
   std::vector<Values> columns(names.size());
   for (int row = 2; std::getline(in, line); ++row) {
     if (line.find_first_not_of(" \t\r") == std::string::npos)
       continue;
-    const auto cells = split(line);
+    const auto cells = csv_cells(line);
     if (cells.size() != names.size())
       throw InputError("file \"" + name + "\": row " + std::to_string(row) + " has " +
                        std::to_string(cells.size()) + (cells.size() == 1 ? " value" : " values") +
@@ -66,8 +54,8 @@ Value write_csv(Session& session, Object*, const Arguments& a) {
   std::vector<std::pair<std::string, std::vector<double>>> columns;
   for (const Arguments& given : a.records("columns")) {
     const std::string& name = given.text("name");
-    if (name.empty() || name.find_first_of(",\n\"") != std::string::npos)
-      throw InputError("columns: name", describe(given.value("name")), "a word without commas and quotes");
+    if (name.empty() || name.find_first_of("\r\n") != std::string::npos)
+      throw InputError("columns: name", describe(given.value("name")), "a name of one line");
     std::vector<double> values;
     for (const Value& value : given.list("values")) {
       if (!value.is_number())

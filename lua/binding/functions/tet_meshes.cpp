@@ -107,7 +107,7 @@ Value save(Session& session, TetMeshObject& self, const Arguments& a) {
 }
 
 Value picture(Session& session, TetMeshObject& self, const Arguments& a) {
-  require_ending(a.text("file"), ".png");
+  require_drawing(a.text("file"));
   PictureOptions options = view_options(a);
   options.edges = a.text("edges") != "none";
   Snapshot snapshot =

@@ -278,7 +278,7 @@ void bind_waves(Module& m) {
       {on, vec3("velocity").unit("m/s").doc("of the particles in the entering wave alone"),
        vec3("stress").unit("Pa").doc(
            "traction of the entering wave alone on these faces; the boundary adds 2 of it"),
-       amplitude_field()},
+       amplitude_field(), since_field()},
       quiet);
   add("free_field",
       "Vertical sides that move as if the rock went on beyond them: a column in one dimension, with the foot "

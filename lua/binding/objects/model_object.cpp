@@ -1,6 +1,7 @@
 #include "lua/binding/objects/model_object.hpp"
 
 #include "lua/binding/functions/selections.hpp"
+#include "lua/binding/runtime/csv.hpp"
 #include "lua/binding/schema/nearest.hpp"
 #include "lua/binding/schema/schema.hpp"
 
@@ -71,7 +72,7 @@ std::string csv(const std::vector<std::pair<std::string, std::vector<double>>>& 
   std::string out;
   std::size_t rows = 0;
   for (const auto& [name, values] : columns) {
-    out += (out.empty() ? "" : ",") + name;
+    out += (out.empty() ? "" : ",") + csv_cell(name);
     rows = std::max(rows, values.size());
   }
   out += '\n';

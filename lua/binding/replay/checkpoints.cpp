@@ -124,8 +124,9 @@ void Checkpoints::go_live() {
       refuse("resume: model " + std::to_string(model.number) + ": " + error.what());
     }
     for (auto& [file, entries] : model.series)
-      for (auto& [time, name] : entries)
-        object->series[(session_.files.output() / file).string()].push_back({time, name});
+      for (auto& [moment, name] : entries)
+        object->series[(session_.files.output() / file).string()].push_back(
+            {moment.first, moment.second, name});
   }
   models_.clear();
   std::array<std::int64_t, 2> broken{};
@@ -170,7 +171,7 @@ std::string Checkpoints::content(std::size_t journal_size, std::uint64_t script_
       for (const auto& [path, entries] : object->series) {
         saved.series.push_back({fs::path(path).lexically_relative(session_.files.output()).string(), {}});
         for (const SeriesEntry& entry : entries)
-          saved.series.back().second.emplace_back(entry.time, entry.file);
+          saved.series.back().second.emplace_back(std::pair(entry.time, entry.step), entry.file);
       }
       models.push_back(std::move(saved));
     }

@@ -109,7 +109,8 @@ private:
   struct SavedModel {
     int number = 0;
     std::string saved;
-    std::vector<std::pair<std::string, std::vector<std::pair<double, std::string>>>> series;
+    using SavedFile = std::pair<std::pair<double, std::int64_t>, std::string>; // time, step, name
+    std::vector<std::pair<std::string, std::vector<SavedFile>>> series;
   };
   template <class A>
   friend void archive(A&, SavedModel&);

@@ -143,6 +143,7 @@ std::string Report::json() const {
     list.push_back(entry);
   }
   Json all;
+  all["schema"] = report_schema;
   all["case"] = case_name;
   all["figures"] = list;
   if (!relaxations.empty()) {

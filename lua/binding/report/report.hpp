@@ -7,6 +7,8 @@
 
 namespace cdem::script {
 
+inline constexpr int report_schema = 1; // version of report.json, docs/report.schema.json
+
 struct Figure {
   std::string name;
   Value value; // number, text, boolean or nil

@@ -48,6 +48,7 @@ struct Child {
   if (!start.folder.empty() && chdir(start.folder.c_str()) != 0)
     _exit(126);
   setenv("TERM", "xterm", 1);
+  setenv("NO_COLOR", "1", 1); // what a terminal shows is read as words
   for (const auto& setting : start.environment)
     putenv(const_cast<char*>(setting.c_str()));
   std::vector<char*> words;

@@ -1,0 +1,46 @@
+local cdem = require "cdem"
+local rock = cdem.elastic{ youngs_modulus = 30e9, poissons_ratio = 0.25, density = 2500 }
+local joint = cdem.mohr_coulomb{ cohesion = 8e6, friction_angle = 30, tensile_strength = 5e6 }
+local model = cdem.model{ bodies = { { name = "plate", shape = cdem.grid{ size = {1, 1, 0.1}, divisions = {4, 4, 1} },
+                                       material = rock, joint = joint } } }
+
+-- example: model:fix
+model:fix{ on = "y-" }                                           -- held in x, y and z
+model:fix{ on = {"z-", "z+"}, axes = "z" }                       -- rollers
+model:fix{ on = "y+", axes = "y", velocity = {0, -0.01, 0} }     -- moved by model:run, m/s
+
+-- example: model:release
+model:release{ on = "y+", axes = "y" }
+
+-- example: model:traction
+model:traction{ on = "y+", stress = {0, -1e6, 0} }               -- 1 MPa downwards
+model:traction{ on = "x+", stress = {-1e5, 0, 0}, amplitude = { {0, 0}, {0.1, 1} } } -- grows from 0 over 0.1 s
+model:traction{ on = "x-", stress = {1e5, 0, 0}, since = model.time, amplitude = { {0, 0}, {0.1, 1} } } -- from now on
+
+-- example: model:force
+model:force{ on = cdem.select.box{ min = {0.4, 1, 0}, max = {0.6, 1, 0.1} }, force = {0, -5e3, 0} } -- N in all
+
+-- example: model:gravity
+model:gravity{ vector = {0, -9.81, 0} }
+model:gravity{ vector = {0, -9.81, 0}, water_density = 1025 }    -- under water
+
+-- example: model:unbond
+local points = model:unbond{ on = cdem.select.box{ min = {0.5, 0.8, 0}, max = {0.5, 1, 0.1} } } -- a notch
+print(points)
+
+-- example: model:remove
+local blocks = model:remove{ on = cdem.select.box{ min = {0, 0.75, 0}, max = {0.25, 1, 0.1} } }
+print(blocks) -- 1
+
+-- example: model:clear_loads
+model:clear_loads()
+
+-- example: model:initial_velocity
+local flying = cdem.model{ bodies = { { name = "unit", shape = cdem.box_mesh{ size = {1, 1, 1}, divisions = {1, 1, 1} },
+                                        material = rock } } }
+flying:initial_velocity{ on = "unit", velocity = {2, 0, 0}, angular_velocity = {0, 0, 2 * math.pi} } -- a turn a second
+
+-- example: model:make_rigid model:make_deformable
+flying:make_rigid{ on = "unit" } -- keeps its shape and its stress
+flying:run{ duration = 1e-3, time_step = 1e-4 }
+flying:make_deformable{ on = "unit" }
