@@ -55,6 +55,7 @@ local function draw(m, name, title)
 end
 local safety = cdem.factor_of_safety{ model = model, reduce = {"joints"}, lower = 0.8, upper = 2, tolerance = tolerance,
                                       residual = 1e-4, picture = "mechanism.png" }
+safety.failing:picture{ file = "slip.png", up = "z", view = "iso", joints = true, colour = "slip" }
 local figures = { { name = "factor_of_safety", value = safety.factor, kind = "formula", tolerance = 0.03,
                     reference = math.tan(math.rad(phi)) / math.tan(math.rad(dip)), source = "tan(phi) / tan(dip)" } }
 

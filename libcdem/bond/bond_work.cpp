@@ -19,6 +19,7 @@ BondWork::BondWork(const Model& model, const State& state)
                    geom::Vec3::Zero()),
       stretch(std::max(state.bond_damage.size(), state.joint_history.size()), geom::Vec3::Zero()),
       sums(model.point_chunks.size()) {
+  std::vector<char> plain;
   for (const Interface& interface : model.interfaces) {
     const Joint joint = joint_of(model, interface);
     strength.push_back({joint.cohesion, geom::portable::tan(joint.friction_angle), joint.tensile_strength});
@@ -30,7 +31,9 @@ BondWork::BondWork(const Model& model, const State& state)
       softening.push_back(softening_law(joint, interface.kn, interface.ks));
     if (!state.joint_history.empty())
       laws.push_back(law_of_interface(model, interface));
+    plain.push_back((softening.empty() || !softening.back().softens()) && (laws.empty() || !laws.back().law));
   }
+  batches = spring_batches(model, strength, plain);
 }
 
 } // namespace cdem

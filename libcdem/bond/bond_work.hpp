@@ -2,6 +2,7 @@
 // the numbers of their laws.
 #pragma once
 
+#include "libcdem/bond/spring_batches.hpp"
 #include "libcdem/joint/softening.hpp"
 #include "libcdem/state/state.hpp"
 
@@ -54,6 +55,7 @@ struct BondWork {
   // m, of each spring in the step before (n_points; empty without softening joints and laws); written by spring_forces
   std::vector<geom::Vec3> stretch;
   std::vector<SpringSums> sums; // per chunk of springs
+  SpringBatches batches;        // of the same springs, with their strengths
 };
 
 } // namespace cdem

@@ -1,6 +1,7 @@
 #include "libcdem/bond/spring_forces.hpp"
 
 #include "libcdem/bond/interface_frame.hpp"
+#include "libcdem/bond/spring_kernel.hpp"
 #include "libcdem/state/places.hpp"
 #include "libgeom/core/portable.hpp"
 
@@ -167,54 +168,112 @@ geom::Vec3 viscous_force(const BondPoint& point, const Interface& interface, std
   return normal * point.normal + shear;
 }
 
+// What the springs of a chunk share.
+struct SpringsOfChunk {
+  const Model& model;
+  State& state;
+  BondWork& work;
+  SpringSums& sums;
+  bool breaking, acts_otherwise, damped;
+};
+
+// One spring of any kind; rotation: of its interface.
 template <bool special>
-void forces_of_springs(const Model& model, State& state, BondWork& work, Range range, SpringSums& sums,
-                       bool breaking) {
-  sums.friction = sums.breaking = sums.damping = 0;
-  sums.broken.clear();
-  sums.losses.clear();
-  const Node* u = state.displacement.data();
-  const bool acts_otherwise = !work.acting_force.empty();
-  const bool damped = !work.damping.empty() && work.damping_step > 0;
-  int turned_interface = -1; // whose rotation it is
-  geom::Mat3 rotation = geom::Mat3::Identity();
-  for (std::int64_t p = range.begin; p < range.end; ++p) {
-    const BondPoint& point = model.points[p];
-    const Interface& interface = model.interfaces[point.interface];
-    if (interface.frame < 0) {
-      update_spring<special>(point, interface, state, work, p, jump_at(point, u), sums, breaking);
-      if (acts_otherwise)
-        work.acting_force[p] = work.spring_force[p] + water_force(state, point, p);
-      continue;
-    }
-    if (released(state, interface)) {
-      work.spring_force[p].setZero();
-      work.acting_force[p].setZero();
-      if (state.water_pressure.empty() || !(state.water_pressure[p] > 0))
-        continue;
-    }
-    if (point.interface != turned_interface) {
-      rotation = interface_rotation(model, u, interface);
-      turned_interface = point.interface;
-    }
-    if (released(state, interface)) {
+void one_spring(const SpringsOfChunk& c, std::int64_t p, const geom::Mat3& rotation) {
+  const BondPoint& point = c.model.points[p];
+  const Interface& interface = c.model.interfaces[point.interface];
+  State& state = c.state;
+  BondWork& work = c.work;
+  const Node* const u = state.displacement.data();
+  if (interface.frame < 0) {
+    update_spring<special>(point, interface, state, work, p, jump_at(point, u), c.sums, c.breaking);
+    if (c.acts_otherwise)
+      work.acting_force[p] = work.spring_force[p] + water_force(state, point, p);
+    return;
+  }
+  if (released(state, interface)) {
+    work.spring_force[p].setZero();
+    work.acting_force[p].setZero();
+    if (!state.water_pressure.empty() && state.water_pressure[p] > 0)
       work.acting_force[p] = rotation * water_force(state, point, p);
-      continue;
+    return;
+  }
+  const geom::Vec3 offset_before = state.bond_offset[p];
+  update_spring<special>(point, interface, state, work, p, rotation.transpose() * jump_at(point, u), c.sums,
+                         c.breaking);
+  work.acting_force[p] = rotation * (work.spring_force[p] + water_force(state, point, p));
+  if (!c.damped || work.damping[point.interface] == 0)
+    return;
+  const geom::Vec3 rate = rotation.transpose() * jump_at(point, state.velocity.data());
+  const bool slid = state.bond_offset[p] != offset_before;
+  const geom::Vec3 viscous = slid ? geom::Vec3(geom::Vec3::Zero())
+                                  : viscous_force(point, interface, state.bond_mode[p], work.spring_force[p],
+                                                  rate, work.damping[point.interface]);
+  work.acting_force[p] += rotation * viscous;
+  c.sums.damping += viscous.dot(rate) * work.damping_step;
+}
+
+bool some_released(const Model& model, const State& state, const SpringBatch& batch) {
+  if (!batch.turns)
+    return false;
+  for (int lane = 0; lane < batch.count; ++lane)
+    if (released(state, model.interfaces[batch.interface[lane]]))
+      return true;
+  return false;
+}
+
+// Turned interfaces of a chunk, worked out eight at a time.
+struct Rotations {
+  std::vector<double> numbers; // nine of each, column by column
+  int first = 0;               // interface
+
+  void work_out(const SpringBatches& batches, Range interfaces, const Node* displacement) {
+    const Range frames{interfaces.begin / lanes, (interfaces.end + lanes - 1) / lanes};
+    first = static_cast<int>(frames.begin * lanes);
+    numbers.resize(static_cast<std::size_t>(frames.size() * lanes * 9));
+    interface_rotations(batches, frames, displacement, numbers.data());
+  }
+  geom::Mat3 of(int interface) const {
+    return Eigen::Map<const geom::Mat3>(numbers.data() + 9 * (interface - first));
+  }
+};
+
+template <bool special>
+void forces_of_springs(std::int64_t chunk, const SpringsOfChunk& c) {
+  thread_local Rotations rotations;
+  const Range range = c.model.point_chunks[chunk];
+  State& state = c.state;
+  const SpringBatches& batches = c.work.batches;
+  const bool turns = !batches.frames.empty();
+  if (turns)
+    rotations.work_out(batches,
+                       {c.model.points[range.begin].interface, c.model.points[range.end - 1].interface + 1},
+                       state.displacement.data());
+  const bool plain = state.water_pressure.empty() && !c.damped;
+  std::int64_t p = range.begin;
+  for (std::int64_t b = batches.first[chunk]; b < batches.first[chunk + 1]; ++b) {
+    const SpringBatch& batch = batches.springs[b];
+    unsigned one_by_one = (1u << batch.count) - 1;
+    if (plain && batch.plain && batch.count == lanes && !some_released(c.model, state, batch)) {
+      SpringsOfBatch springs;
+      springs.displacement = state.displacement.data();
+      springs.rotation = turns ? rotations.numbers.data() : nullptr;
+      springs.first_interface = rotations.first;
+      springs.mode = state.bond_mode.data() + p;
+      springs.offset = state.bond_offset.data() + p;
+      springs.force = c.work.spring_force.data() + p;
+      springs.acting = c.acts_otherwise ? c.work.acting_force.data() + p : nullptr;
+      springs.breaking = c.breaking;
+      one_by_one = plain_springs(batches, batch, springs, c.sums.friction);
     }
-    const geom::Vec3 offset_before = state.bond_offset[p];
-    update_spring<special>(point, interface, state, work, p, rotation.transpose() * jump_at(point, u), sums,
-                           breaking);
-    work.acting_force[p] = rotation * (work.spring_force[p] + water_force(state, point, p));
-    if (!damped || work.damping[point.interface] == 0)
-      continue;
-    const geom::Vec3 rate = rotation.transpose() * jump_at(point, state.velocity.data());
-    const bool slid = state.bond_offset[p] != offset_before;
-    const geom::Vec3 viscous = slid
-                                   ? geom::Vec3(geom::Vec3::Zero())
-                                   : viscous_force(point, interface, state.bond_mode[p], work.spring_force[p],
-                                                   rate, work.damping[point.interface]);
-    work.acting_force[p] += rotation * viscous;
-    sums.damping += viscous.dot(rate) * work.damping_step;
+    for (int lane = 0; one_by_one != 0; ++lane, one_by_one >>= 1u)
+      if (one_by_one & 1u) {
+        const int interface = batch.interface[lane];
+        const bool turned = c.model.interfaces[interface].frame >= 0;
+        one_spring<special>(c, p + lane,
+                            turned ? rotations.of(interface) : geom::Mat3(geom::Mat3::Identity()));
+      }
+    p += batch.count;
   }
 }
 
@@ -228,12 +287,22 @@ bool released(const State& state, const Interface& interface) {
   return interface.frame >= 0 && state.released[interface.frame] != 0;
 }
 
-void spring_forces(const Model& model, State& state, BondWork& work, Range range, SpringSums& sums,
-                   bool breaking) {
+void spring_forces(const Model& model, State& state, BondWork& work, std::int64_t chunk, bool breaking) {
+  SpringSums& sums = work.sums[chunk];
+  sums.friction = sums.breaking = sums.damping = 0;
+  sums.broken.clear();
+  sums.losses.clear();
+  const SpringsOfChunk springs{model,
+                               state,
+                               work,
+                               sums,
+                               breaking,
+                               !work.acting_force.empty(),
+                               !work.damping.empty() && work.damping_step > 0};
   if (state.bond_damage.empty() && state.joint_history.empty())
-    forces_of_springs<false>(model, state, work, range, sums, breaking);
+    forces_of_springs<false>(chunk, springs);
   else
-    forces_of_springs<true>(model, state, work, range, sums, breaking);
+    forces_of_springs<true>(chunk, springs);
 }
 
 void add_bond_forces(const Model& model, const std::vector<geom::Vec3>& bond_force, Range nodes,

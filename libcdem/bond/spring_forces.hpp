@@ -6,9 +6,9 @@
 
 namespace cdem {
 
-// Reads displacement; writes spring_force, acting_force and stretch of BondWork, the sums and, where a spring breaks,
+// Of a chunk of springs. Reads displacement; writes spring_force, acting_force and stretch of BondWork, the sums and, where a spring breaks,
 // slips, opens or softens, bond_mode, bond_offset, bond_damage, bond_slip and joint_history.
-void spring_forces(const Model&, State&, BondWork&, Range points, SpringSums&, bool breaking);
+void spring_forces(const Model&, State&, BondWork&, std::int64_t chunk, bool breaking);
 
 // Adds what bonds do to nodes, force[0] the first of them, N; bond_force: BondWork::force().
 void add_bond_forces(const Model&, const std::vector<geom::Vec3>& bond_force, Range nodes, Node* force);

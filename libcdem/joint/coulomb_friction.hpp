@@ -4,13 +4,16 @@
 
 namespace cdem {
 
-inline double friction_limit(double pressure, double tan_friction) {
+// T: one number or several side by side.
+template <class T>
+T friction_limit(const T& pressure, const T& tan_friction) {
   return pressure * tan_friction;
 }
 
 // The part of a trial shear load that friction holds, > 0 to 1: the return to the cone along the direction of the trial.
-inline double held_by_friction(double trial, double limit) {
-  return trial > limit ? limit / trial : 1;
+template <class T>
+T held_by_friction(const T& trial, const T& limit) {
+  return trial > limit ? limit / trial : T{} + 1.0;
 }
 
 } // namespace cdem

@@ -18,6 +18,21 @@
 
 namespace cdem {
 
+// What a contact keeps of the trial kn e_n n + ks e_s: parts of its normal and its shear load. The rest of the shear, 1 -
+// shear, slips. T: one number or several side by side, per area or for a whole spring.
+template <class T>
+struct HeldByContact {
+  T normal, shear;
+};
+
+template <class T>
+HeldByContact<T> held_by_contact(const T& kn, const T& ks, const T& tan_friction, const T& open,
+                                 const T& shear_length) {
+  const T none = T{}, all = none + 1.0;
+  const T held = held_by_friction<T>(ks * shear_length, friction_limit<T>(-(kn * open), tan_friction));
+  return {open > none ? none : all, open > none ? none : held};
+}
+
 struct SpringResponse {
   geom::Vec3 traction = geom::Vec3::Zero(); // Pa, pulls a towards b when along the normal
   geom::Vec3 offset = geom::Vec3::Zero();   // m, new o
@@ -25,26 +40,11 @@ struct SpringResponse {
 
 inline SpringResponse contact_response(double kn, double ks, double tan_friction, const geom::Vec3& normal,
                                        const geom::Vec3& jump, const geom::Vec3& offset) {
-  SpringResponse r;
   const geom::Vec3 stretch = jump - offset;
   const double open = stretch.dot(normal);
   const geom::Vec3 shear = stretch - open * normal;
-  if (open > 0) {
-    r.offset = offset + shear;
-    return r;
-  }
-  const double normal_traction = kn * open;
-  const double limit = friction_limit(-normal_traction, tan_friction);
-  const double shear_traction = ks * shear.norm();
-  r.offset = offset;
-  r.traction = normal_traction * normal + ks * shear;
-  if (shear_traction > limit) {
-    const double scale = held_by_friction(shear_traction, limit);
-    const geom::Vec3 slip = (1 - scale) * shear;
-    r.offset += slip;
-    r.traction = normal_traction * normal + (ks * scale) * shear;
-  }
-  return r;
+  const HeldByContact<double> held = held_by_contact(kn, ks, tan_friction, open, shear.norm());
+  return {held.normal * kn * open * normal + held.shear * ks * shear, offset + (1 - held.shear) * shear};
 }
 
 // J/m2, that a spring of these stiffnesses stores under a traction.

@@ -30,7 +30,7 @@ double displacement(const TimeTable& acceleration, const std::vector<double>& ve
 
 } // namespace
 
-void require_no_gaps(const TimeTable& table, double longest) {
+void require_no_gaps(const TimeTable& table, double longest, const std::vector<int>& lines) {
   std::vector<double> steps;
   for (std::size_t i = 1; i < table.time.size(); ++i)
     steps.push_back(table.time[i] - table.time[i - 1]);
@@ -40,10 +40,13 @@ void require_no_gaps(const TimeTable& table, double longest) {
   const double median = sorted[sorted.size() / 2], most = longest > 0 ? longest : usual_gap * median;
   for (std::size_t i = 0; i < steps.size(); ++i)
     if (steps[i] > most)
-      throw geom::InputError(fmt::format(
-          "a gap from {:g} to {:g} s (points {} and {}), its usual step is {:g} s; fill the missing "
-          "samples, or say longest_step = {:g} where straight lines across gaps will do",
-          table.time[i], table.time[i + 1], i + 1, i + 2, median, steps[i]));
+      throw geom::InputError(
+          fmt::format("a gap from {:g} to {:g} s ({}), its usual step is {:g} s; fill the missing "
+                      "samples, or say longest_step = {:g} where straight lines across gaps will do",
+                      table.time[i], table.time[i + 1],
+                      lines.empty() ? fmt::format("points {} and {}", i + 1, i + 2)
+                                    : fmt::format("lines {} and {}", lines[i], lines[i + 1]),
+                      median, steps[i]));
 }
 
 VelocityRecord integrate(const TimeTable& acceleration, bool straight_baseline) {
@@ -61,8 +64,10 @@ VelocityRecord integrate(const TimeTable& acceleration, bool straight_baseline) 
   for (std::size_t i = 0; i < corrected.time.size(); ++i)
     corrected.value[i] -= r.baseline.constant + r.baseline.slope * (corrected.time[i] - first);
   r.velocity.value = integral(corrected.time, corrected.value);
-  r.end_velocity = r.velocity.value.back();
-  r.end_displacement = displacement(corrected, r.velocity.value);
+  // The baseline makes both 0: what rounding leaves is none of the motion.
+  const auto rounded = [](double end, double raw) { return std::abs(end) < 1e-9 * std::abs(raw) ? 0 : end; };
+  r.end_velocity = rounded(r.velocity.value.back(), r.raw_end_velocity);
+  r.end_displacement = rounded(displacement(corrected, r.velocity.value), r.raw_end_displacement);
   return r;
 }
 

@@ -12,8 +12,9 @@
 
 namespace cdem {
 
-// Throws geom::InputError where two times are further apart than `longest`; 0: than 2.5 times the median step.
-void require_no_gaps(const TimeTable&, double longest = 0);
+// Throws geom::InputError where two times are further apart than `longest`; 0: than 2.5 times the median step. lines: of the
+// points in their file, for the message.
+void require_no_gaps(const TimeTable&, double longest = 0, const std::vector<int>& lines = {});
 
 struct Baseline {
   double constant = 0; // a_0, m/s2

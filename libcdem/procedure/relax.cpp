@@ -4,6 +4,7 @@
 #include "libcdem/integrate/move_rigid.hpp"
 #include "libcdem/procedure/fictitious_masses.hpp"
 #include "libcdem/procedure/settled.hpp"
+#include "libcdem/procedure/slow_mode.hpp"
 #include "libcdem/procedure/stability.hpp"
 #include "libcdem/results/energy.hpp"
 #include "libcdem/step/errors.hpp"
@@ -183,17 +184,25 @@ RelaxResult relax(const StageContext& context, const RelaxOptions& options, cons
   bool forces_known = stage.step > 0; // of the step before
   double lambda = 0, damping = 0, largest_reaction2 = initial_stress_forces2(stage.work.resolved);
   Settled settled(options.residual);
+  SlowMode slow;
   if (from) {
     lambda = from->loop_state.at(0);
     damping = from->loop_state.at(1);
     largest_reaction2 = from->loop_state.at(2);
     report.sums.kinetic = from->loop_state.at(3);
     forces_known = from->loop_state.at(4) != 0;
-    stability.take(from->loop_state, masses.take(from->loop_state, settled.take(from->loop_state, 5)));
+    slow.take(from->loop_state.at(5));
+    if (forces_known && stage.step > moving_steps)
+      slow.start(state, previous_force);
+    stability.take(from->loop_state, masses.take(from->loop_state, settled.take(from->loop_state, 6)));
   }
   const auto loop_state = [&] {
-    std::vector<double> numbers{lambda, damping, largest_reaction2, report.sums.kinetic,
-                                forces_known ? 1.0 : 0.0};
+    std::vector<double> numbers{lambda,
+                                damping,
+                                largest_reaction2,
+                                report.sums.kinetic,
+                                forces_known ? 1.0 : 0.0,
+                                slow.frequency2().value_or(-1)};
     settled.add_to(numbers);
     masses.add_to(numbers);
     stability.add_to(numbers);
@@ -206,6 +215,7 @@ RelaxResult relax(const StageContext& context, const RelaxOptions& options, cons
       masses = FictitiousMasses(context.model, stage.work.resolved.bolts);
       previous_force.assign(masses.of_nodes().size(), {});
       forces_known = false;
+      slow.forget();
       stability.renumbered();
     }
     if (freed || stage.can_be_left())
@@ -243,14 +253,18 @@ RelaxResult relax(const StageContext& context, const RelaxOptions& options, cons
     if (report.sums.inertia > 0 && (forces_known || stage.step <= 1)) {
       const double quotient = std::max(0.0, report.sums.stiffness / report.sums.inertia);
       lambda += (stage.step < 3 ? 1.0 : smoothing) * (quotient - lambda);
-      damping = std::min(2 * std::sqrt(lambda), most_damping);
     }
     forces_known = true;
+    if (stage.step > moving_steps && stage.step % slow_mode_every == 0) {
+      stage.see_whole(&previous_force);
+      slow.look(state, previous_force, masses.of_nodes());
+    }
+    damping = std::min(2 * std::sqrt(std::min(lambda, slow.frequency2().value_or(lambda))), most_damping);
     if (stage.broken_in_step() == 0 && stage.step > moving_steps)
       settled.add(report.residual);
     else
       settled.start_anew();
-    converged = settled.reached(std::sqrt(lambda));
+    converged = settled.reached(0.5 * damping);
     if (options.callback && options.callback_every > 0 && stage.step % options.callback_every == 0) {
       const SynchronisedView view(stage); // what it reads is of one moment
       options.callback();

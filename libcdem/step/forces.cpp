@@ -33,7 +33,7 @@ std::vector<Node> net_forces(const Model& model, const State& state, Workspace& 
   work.contact.due = true;
   contact_forces(model, copy, work.contact, 1);
   for (std::size_t c = 0; c < model.point_chunks.size(); ++c)
-    spring_forces(model, copy, work.bond, model.point_chunks[c], work.bond.sums[c], false);
+    spring_forces(model, copy, work.bond, static_cast<std::int64_t>(c), false);
   std::vector<Node> force(model.node_position.size());
   for (std::size_t c = 0; c < model.mesh.chunks.size(); ++c) {
     const MeshChunk& chunk = model.mesh.chunks[c];

@@ -37,6 +37,14 @@ void ask_for_huge_pages_of(const Model& model, const State& state, const Workspa
   ask_for_huge_pages(model.node_position);
   ask_for_huge_pages(model.node_mass);
   ask_for_huge_pages(work.partial);
+  ask_for_huge_pages(model.batches);
+  ask_for_huge_pages(model.bonds_on_nodes);
+  ask_for_huge_pages(model.bond_begin);
+  ask_for_huge_pages(state.bond_offset);
+  ask_for_huge_pages(work.force);
+  ask_for_huge_pages(work.bond.spring_force);
+  ask_for_huge_pages(work.bond.acting_force);
+  ask_for_huge_pages(work.bond.batches.springs);
 }
 
 // Nodes that loads need of whichever rank.
@@ -105,9 +113,12 @@ void Stage::share() {
   work.shared = work.contact.shared = shared_.get();
 }
 
-void Stage::see_whole() {
-  if (shared_)
-    shared_->gather(context_.state);
+void Stage::see_whole(std::vector<Node>* by_node) {
+  if (!shared_)
+    return;
+  shared_->gather(context_.state);
+  if (by_node)
+    shared_->gather_nodes(*by_node);
 }
 
 void Stage::keep_restart_point(std::vector<double> loop_state, const std::vector<Node>& previous_force) {

@@ -89,6 +89,9 @@ public:
   StageResult finish(const StepReport&); // last history row and progress
   std::int64_t broken_in_step() const { return broken_in_step_; }
 
+  // The state of all ranks, and an array by node that stands beside it, for who looks at the whole of it.
+  void see_whole(std::vector<Node>* by_node = nullptr);
+
   // Brings contacts and the stress of meshes up to where the nodes are; before a state is kept or handed out.
   void synchronise();
 

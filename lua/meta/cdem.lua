@@ -1398,6 +1398,10 @@ function Model:save_joints(options) end
 ---@field width? number > 0, default 4: pixels
 ---@field dashed? boolean default false
 
+---@class (exact) cdem.ModelPictureOptionsSection
+---@field point number[] m
+---@field normal number[]
+
 ---@class (exact) cdem.ModelPictureOptions
 ---@field file string ends in .png, .svg or .pdf; in the output folder
 ---@field colour? string field to colour by, e.g. "displacement.x", "stress.yy", "von_mises", "block_id"; plain blocks when left out
@@ -1419,6 +1423,11 @@ function Model:save_joints(options) end
 ---@field hidden? string[] names of bodies that are left out, such as a wall
 ---@field opacity? number in [0.05, 1], default 1: of the blocks; below 1 broken interfaces inside show through
 ---@field edges? boolean default true: outlines of the blocks
+---@field section? cdem.ModelPictureOptionsSection a plane: the cut through the undeformed blocks is drawn in place of their faces
+---@field arrows? boolean default false: displacement of the blocks that are shown
+---@field crosses? boolean default false: principal stresses of the blocks that are shown, pressure and tension in two colours
+---@field joint_sets? string[] with joints: the sets that are drawn; all when left out
+---@field joints? boolean default false: the joints alone, between blocks; colour is then "slip", "opening", "utilisation", "normal_traction", "shear_traction", "water_pressure", "mode" or "set"
 ---@field bolts? boolean default true: bolts, drawn over the blocks and coloured by their tension
 ---@field broken_bonds? boolean default true: broken interfaces, coloured by how they broke
 

@@ -79,7 +79,7 @@ Value initial_stress(Session& session, ModelObject& model, const Arguments& a) {
                  (std::isfinite(beyond.largest_use)
                       ? "at most " + three_digits(beyond.largest_use) + " times its strength"
                       : std::string("some of them without any strength")) +
-                 ", worst at " + describe(Value(beyond.place)) +
+                 ", worst at " + place_text(beyond.place) +
                  " m: they break or slide at once; change k0 or stress, or raise the joint's strength");
   return beyond.points;
 }

@@ -6,9 +6,12 @@
 #include "lua/binding/replay/led.hpp"
 #include "lua/binding/runtime/module.hpp"
 
+#include "libcdem/vtk/block_marks.hpp"
 #include "libcdem/vtk/field_values.hpp"
 #include "libcdem/vtk/film.hpp"
+#include "libcdem/vtk/section.hpp"
 #include "libcdem/vtk/without_bodies.hpp"
+#include "libgeom/core/check.hpp"
 #include "libgeom/core/error.hpp"
 
 #include <algorithm>
@@ -127,8 +130,45 @@ void add_bolts(const Simulation& simulation, PictureOptions& options) {
   }
 }
 
+// What of the model is drawn: its blocks, a section through them, or its joints.
+Snapshot drawn_part(const ModelObject& model, const Arguments& a, const std::vector<int>& hidden,
+                    const std::string& title) {
+  if (a.flag("joints")) {
+    JointChoice choice;
+    for (const Value& set : a.list("joint_sets"))
+      choice.sets.push_back(*set.get<std::string>());
+    return joints_of(model.simulation.joint_surface(choice, title));
+  }
+  Snapshot shown = without_bodies(model.simulation.snapshot(title), hidden);
+  if (shown.tets.empty())
+    throw geom::InputError("hidden: holds every body; leave one to draw");
+  if (const auto section = a.record("section"))
+    return section_of(shown, {section->vec3("point"), section->vec3("normal")});
+  return shown;
+}
+
+void add_marks(const Snapshot& shown, const Arguments& a, PictureOptions& options) {
+  const auto add = [&](const std::vector<Polyline>& lines) {
+    options.polylines.insert(options.polylines.end(), lines.begin(), lines.end());
+  };
+  if (a.flag("arrows"))
+    add(displacement_arrows(shown, options.deformation));
+  if (a.flag("crosses"))
+    add(stress_crosses(shown, options.deformation));
+}
+
+void require_together(const Arguments& a) {
+  const auto section = a.record("section");
+  if (a.flag("joints") && (section || a.flag("arrows") || a.flag("crosses") || !a.list("hidden").empty()))
+    throw geom::InputError(
+        "joints: draws the joints alone, without section, arrows, crosses or hidden; leave these out");
+  if (section && !(section->vec3("normal").norm() > 0))
+    throw geom::InputError("section.normal", geom::text(section->vec3("normal")), "a direction, not zero");
+}
+
 Value picture(Session& session, ModelObject& model, const Arguments& a) {
   require_drawing(a.text("file"));
+  require_together(a);
   PictureOptions options = picture_options(a);
   for (const Value& body : a.list("plain"))
     options.plain.push_back(model.simulation.body_number(*body.get<std::string>(), "plain"));
@@ -136,15 +176,16 @@ Value picture(Session& session, ModelObject& model, const Arguments& a) {
   for (const Value& body : a.list("hidden"))
     hidden.push_back(model.simulation.body_number(*body.get<std::string>(), "hidden"));
   if (session.settings.check_only) {
-    if (!options.field.empty())
-      field_values(model.simulation.snapshot(""), options.field);
+    if (!options.field.empty() && !a.record("section"))
+      field_values(drawn_part(model, a, hidden, ""), options.field);
     return {};
   }
-  const Snapshot shown = without_bodies(model.simulation.snapshot(model.title(session)), hidden);
+  const Snapshot shown = drawn_part(model, a, hidden, model.title(session));
+  if (a.flag("joints") || a.record("section"))
+    options.broken_bonds = false;
   if (a.flag("bolts"))
     add_bolts(model.simulation, options);
-  if (shown.tets.empty())
-    throw geom::InputError("hidden: holds every body; leave one to draw");
+  add_marks(shown, a, options);
   draw(session, a.text("file"), [&](const std::string& path) { render(shown, options, path); });
   return {};
 }
@@ -174,6 +215,17 @@ std::vector<Field> picture_declaration() {
   fields.push_back(number("opacity").within(0.05, 1).standard(1.0).doc(
       "of the blocks; below 1 broken interfaces inside show through"));
   fields.push_back(flag("edges").standard(true).doc("outlines of the blocks"));
+  fields.push_back(
+      record("section", {vec3("point").unit("m").required(), vec3("normal").required()})
+          .doc("a plane: the cut through the undeformed blocks is drawn in place of their faces"));
+  fields.push_back(flag("arrows").standard(false).doc("displacement of the blocks that are shown"));
+  fields.push_back(flag("crosses").standard(false).doc(
+      "principal stresses of the blocks that are shown, pressure and tension in two colours"));
+  fields.push_back(
+      list("joint_sets", text_type(), 0).doc("with joints: the sets that are drawn; all when left out"));
+  fields.push_back(flag("joints").standard(false).doc(
+      "the joints alone, between blocks; colour is then \"slip\", \"opening\", \"utilisation\", "
+      "\"normal_traction\", \"shear_traction\", \"water_pressure\", \"mode\" or \"set\""));
   fields.push_back(
       flag("bolts").standard(true).doc("bolts, drawn over the blocks and coloured by their tension"));
   fields.push_back(flag("broken_bonds").standard(true).doc("broken interfaces, coloured by how they broke"));

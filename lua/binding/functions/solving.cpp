@@ -45,7 +45,7 @@ Value relax_result(const RelaxResult& r, const std::string& trial) {
 
 // The moving block, for messages.
 std::string moving_text(const RelaxResult& r) {
-  return "block " + std::to_string(r.moving_block) + " at " + describe(Value(r.moving_place)) + " m moved " +
+  return "block " + std::to_string(r.moving_block) + " at " + place_text(r.moving_place) + " m moved " +
          three_digits(r.moving) + " m in the last " + std::to_string(watch_every) + " steps";
 }
 
@@ -57,7 +57,8 @@ void tell_verdict(Session& session, const RelaxOptions& options, const RelaxResu
     session.warn(found + " above " + number_text(options.residual) +
                  ": not converged; raise max_steps, or look whether something moves freely");
   else if (r.verdict == Verdict::failing && options.note.empty())
-    session.warn(found + ": it runs away, " + moving_text(r) + "; result.verdict tells the script");
+    session.warn(found + ": it runs away, " + moving_text(r) +
+                 "; the script goes on, and result.verdict is \"failing\"");
   else if (!options.note.empty())
     session.message(found);
 }

@@ -78,17 +78,18 @@ Cause likely_cause(const ModelObject& model) {
 std::string avoiding(const Slivers& s) {
   return s.elements ? "take another mesh size there, a simpler solid, element = \"rigid\", or mass_scaling "
                       "where all is slow"
-                    : "take element = \"rigid\", more relaxations or another seed of cdem.voronoi, or cuts "
-                      "that stay clear of corners";
-}
-
-std::string shown(const geom::Vec3& x) {
-  char text[64];
-  std::snprintf(text, sizeof text, "(%.6g, %.6g, %.6g)", x.x(), x.y(), x.z());
-  return text;
+                    : "take element = \"rigid\", another seed or spacing of cdem.cut_by_joints, another seed "
+                      "or more "
+                      "relaxations of cdem.voronoi, or cuts that stay clear of corners";
 }
 
 } // namespace
+
+std::string place_text(const geom::Vec3& x) {
+  char text[64];
+  std::snprintf(text, sizeof text, "(%.4g, %.4g, %.4g)", x.x(), x.y(), x.z());
+  return text;
+}
 
 std::string three_digits(double x) {
   char text[32];
@@ -117,7 +118,8 @@ void warn_of_slivers(Session& session, ModelObject& model) {
     all += (all.empty() ? "" : "; ") + std::to_string(s.count) + " of " + std::to_string(s.of) + " " + unit +
            "s of \"" + s.body + "\" need a time step of " + three_digits(s.step) + " s; the others allow " +
            three_digits(s.other_step) + " s. The worst is " + unit + " " + std::to_string(s.worst) + " at " +
-           shown(s.place) + " m, " + three_digits(s.height_over_size) + " of its size high: " + avoiding(s);
+           place_text(s.place) + " m, " + three_digits(s.height_over_size) +
+           " of its size high: " + avoiding(s);
   }
   if (!all.empty() && all != model.told_slivers)
     session.warn(all);

@@ -5,7 +5,8 @@
 
 namespace cdem::script {
 
-std::string three_digits(double); // for messages
+std::string three_digits(double);                // for messages
+std::string place_text(const geom::Vec3& place); // to four digits, likewise
 
 // Where no load, moved support or the like acts. kind: of the stage.
 void warn_if_nothing_acts(Session&, const ModelObject&, const std::string& kind);

@@ -41,6 +41,13 @@ public:
       refuse("holds no rows of numbers");
   }
 
+  std::vector<int> lines() const { // of the rows, in the file
+    std::vector<int> numbers;
+    for (const Row& row : rows_)
+      numbers.push_back(row.line);
+    return numbers;
+  }
+
   std::size_t find(const std::string& column, const char* field) const {
     const auto named = std::find(names_.begin(), names_.end(), column);
     if (named != names_.end())
@@ -146,7 +153,7 @@ Value read_record(Session& session, Object*, const Arguments& a) {
   table.zero_outside = true;
   try {
     validate(table);
-    require_no_gaps(table, a.optional_number("longest_step").value_or(0));
+    require_no_gaps(table, a.optional_number("longest_step").value_or(0), csv.lines());
   } catch (const InputError& e) {
     throw InputError("record \"" + file + "\": " + e.what());
   }

@@ -1,0 +1,66 @@
+// Three numbers of any type, `double` or several side by side: laws of vectors written once for both.
+#pragma once
+
+#include "libcdem/parallel/simd.hpp"
+
+#include <cmath>
+
+namespace cdem {
+
+template <class T>
+struct Triple {
+  T x, y, z;
+};
+
+template <class T>
+CDEM_INLINE Triple<T> operator+(const Triple<T>& a, const Triple<T>& b) {
+  return {a.x + b.x, a.y + b.y, a.z + b.z};
+}
+
+template <class T>
+CDEM_INLINE Triple<T> operator-(const Triple<T>& a, const Triple<T>& b) {
+  return {a.x - b.x, a.y - b.y, a.z - b.z};
+}
+
+template <class T>
+CDEM_INLINE Triple<T> operator*(const T& s, const Triple<T>& a) {
+  return {s * a.x, s * a.y, s * a.z};
+}
+
+template <class T>
+CDEM_INLINE T dot(const Triple<T>& a, const Triple<T>& b) {
+  return a.x * b.x + a.y * b.y + a.z * b.z;
+}
+
+template <class T>
+CDEM_INLINE Triple<T> cross(const Triple<T>& a, const Triple<T>& b) {
+  return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+
+CDEM_INLINE double root(double a) {
+  return std::sqrt(a);
+}
+
+// Lane by lane: a root is rounded exactly on every processor.
+CDEM_INLINE simd::Oct root(const simd::Oct& a) {
+  simd::Oct r{};
+  for (int lane = 0; lane < lanes; ++lane)
+    r[lane] = __builtin_sqrt(a[lane]);
+  return r;
+}
+
+template <class T>
+CDEM_INLINE Triple<T> unit(const Triple<T>& a) {
+  const T inverse = 1.0 / root(dot(a, a));
+  return inverse * a;
+}
+
+CDEM_INLINE Triple<double> triple(const geom::Vec3& a) {
+  return {a.x(), a.y(), a.z()};
+}
+
+CDEM_INLINE geom::Vec3 vec(const Triple<double>& a) {
+  return {a.x, a.y, a.z};
+}
+
+} // namespace cdem

@@ -1,0 +1,34 @@
+// The frequency of the slow mode that a relaxation waits for, by which it is damped: the Rayleigh quotient of the way D
+// that the nodes have gone in the last 20 steps,
+//
+//   omega^2 = -D . dF / (D . M D),   dF the change of the net force along it
+//
+// Joints that slip to and fro and contacts that close ring at high frequencies. In a single step they may outweigh the slow
+// mode, which is then damped far beyond what is critical for it, and creeps; over 20 steps they cancel out.
+#pragma once
+
+#include "libcdem/state/state.hpp"
+
+#include <optional>
+
+namespace cdem {
+
+inline constexpr std::int64_t slow_mode_every = 20; // steps
+
+class SlowMode {
+public:
+  // After every slow_mode_every steps; force: the net forces before the last step, N; mass: kg for a unit step.
+  void look(const State&, const std::vector<Node>& force, const std::vector<double>& mass);
+  // The way is counted from where the nodes were when these forces acted.
+  void start(const State&, const std::vector<Node>& force);
+  void forget() { *this = {}; }
+  // Of the last look, per step squared; none: there was none, or nothing has moved.
+  std::optional<double> frequency2() const { return frequency2_; }
+  void take(double frequency2); // < 0: none
+
+private:
+  std::vector<Node> from_, force_; // m, N
+  std::optional<double> frequency2_;
+};
+
+} // namespace cdem
