@@ -98,7 +98,6 @@ public:
 private:
   friend class SynchronisedView;
   void share();                // with other ranks, when there are any
-  void see_whole();            // brings the state of all of them here
   void synchronise_to_leave(); // where a run may go on
   void synchronise_contacts();
   std::int64_t synchronise_stress(RunLog&); // returns how many springs broke, of which the log is told

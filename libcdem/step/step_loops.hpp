@@ -12,9 +12,8 @@ namespace cdem {
 
 // Springs between blocks; each chunk of them writes its own forces only.
 inline void bond_forces(const Model& model, State& state, Workspace& work, int threads, bool breaking) {
-  for_chunks(work.point_chunks(model), threads, [&](std::int64_t c) {
-    spring_forces(model, state, work.bond, c, breaking);
-  });
+  for_chunks(work.point_chunks(model), threads,
+             [&](std::int64_t c) { spring_forces(model, state, work.bond, c, breaking); });
   if (work.shared)
     work.shared->share_springs(work.bond.spring_force, work.bond.acting_force);
 }
