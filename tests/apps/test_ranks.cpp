@@ -114,7 +114,7 @@ TEST_CASE("ranks: every kind of model ends in the bits of one process") {
   if (no_mpirun())
     return;
   const auto hashes = [](const std::string& cases, const char* ranks) {
-    Place place(read_file(CDEM_SOURCE_DIR "/tests/apps/ranks/physics.lua"));
+    Place place(read_file(CDEM_SOURCE "/tests/apps/ranks/physics.lua"));
     const Outcome outcome = place.cdem({"run", "plate/case.lua", "--output", "out", "--threads", "1",
                                         "--ranks", ranks, "--set", "only=" + cases});
     INFO(outcome.err);

@@ -69,7 +69,7 @@ public:
       char* const own = buffer_.data() + whole * static_cast<std::size_t>(rank());
       const std::uint64_t bytes = mine.size();
       std::memcpy(own, &bytes, head);
-      std::memcpy(own + head, mine.data(), std::min(mine.size(), slot));
+      std::copy_n(mine.data(), std::min(mine.size(), slot), own + head);
       count(whole, size() - 1);
       MPI_Allgather(MPI_IN_PLACE, 0, MPI_DATATYPE_NULL, buffer_.data(), static_cast<int>(whole), MPI_BYTE,
                     MPI_COMM_WORLD);
