@@ -7,8 +7,15 @@
 #include "tests/bench/measure.hpp"
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <thread>
+
+#include <unistd.h>
 
 namespace bench {
 namespace {
@@ -48,6 +55,28 @@ Measured measured(const Model& model, int threads, double at_least) {
   return best;
 }
 
+// While it lives the other ranks, of the same machine, sleep: those that wait for a message take processor time.
+class Others {
+public:
+  Others()
+      : file_(std::filesystem::temp_directory_path().string() + "/cdem_bench_" + std::to_string(getpid())) {
+    if (ranks().leads())
+      std::ofstream(file_) << "a bench runs\n";
+    ranks().broadcast(file_);
+    while (!ranks().leads() && std::filesystem::exists(file_))
+      std::this_thread::sleep_for(std::chrono::milliseconds(50));
+  }
+  ~Others() {
+    if (ranks().leads())
+      std::filesystem::remove(file_);
+  }
+  Others(const Others&) = delete;
+  Others& operator=(const Others&) = delete;
+
+private:
+  std::string file_;
+};
+
 // s, of a step of so many tets on each of many ranks: the measured computing and what the surface of a compact part costs.
 // The sums of all chunks go through a tree.
 double projected(double tets_each, double seconds_per_tet, double bytes_per_surface, double ranks_among) {
@@ -80,14 +109,13 @@ void among_ranks(const Settings& settings) {
         const Measured here = measured(model, threads, settings.seconds);
         if (here.steps > together.steps)
           together = here;
-        std::string done;
+        const Others sleeping;
         if (says) {
           const AloneForNow now;
           const Measured by_threads = measured(model, size * threads, settings.seconds);
           if (by_threads.steps > alone.steps)
             alone = by_threads;
         }
-        ranks().broadcast(done); // the others wait
       }
       if (!says)
         continue;
