@@ -5,7 +5,7 @@
 
 namespace cdem {
 
-// Of one side, where it is: the edges of the three nodes and the parts of the direction `along` in them.
+// One side where it is now: the edges of its three nodes and the parts of the direction `along` in them.
 template <class T>
 struct TurnedSide {
   Triple<T> e1, e2;

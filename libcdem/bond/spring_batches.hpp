@@ -25,7 +25,7 @@ struct SpringEnds {
   double weight_a[3][lanes], weight_b[3][lanes];
 };
 
-// Of eight interfaces: edges of the undeformed sides, m, and the rest of InterfaceFrame. Those that do not turn get sides
+// Eight interfaces side by side: edges of the undeformed sides, m, and the rest of InterfaceFrame. Those that do not turn get sides
 // that never move.
 struct FrameBatch {
   int node_a[3][lanes], node_b[3][lanes];

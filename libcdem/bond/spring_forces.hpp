@@ -6,7 +6,7 @@
 
 namespace cdem {
 
-// Of a chunk of springs. Reads displacement; writes spring_force, acting_force and stretch of BondWork, the sums and, where a spring breaks,
+// One chunk of springs. Reads displacement; writes spring_force, acting_force and stretch of BondWork, the sums and, where a spring breaks,
 // slips, opens or softens, bond_mode, bond_offset, bond_damage, bond_slip and joint_history.
 void spring_forces(const Model&, State&, BondWork&, std::int64_t chunk, bool breaking);
 

@@ -10,7 +10,7 @@ using simd::Oct;
 using Triples = Triple<Oct>;
 using Mask = decltype(Oct{} < Oct{});
 
-// Of what a spring bears: below that none breaks, whatever the rounding. The law of one spring decides.
+// Part of its strength below which no spring breaks, whatever the rounding; above it the law of one spring decides.
 constexpr double margin = 0.98;
 constexpr int numbers = 9; // of a rotation
 

@@ -10,7 +10,7 @@ namespace cdem {
 // frames.begin; nine numbers each, column by column. u: displacements.
 void interface_rotations(const SpringBatches&, Range frames, const Node* displacement, double* rotation);
 
-// Of one batch, what a step writes of its springs.
+// One batch: what a step writes of its springs.
 struct SpringsOfBatch {
   const Node* displacement = nullptr;
   const double* rotation = nullptr; // of interface `first_interface`, as above; null where none turns

@@ -135,7 +135,7 @@ void add_sorted(const std::vector<Contact>& found, int rank, ContactWork& work) 
   }
 }
 
-// What a chunk found, or a rank.
+// Takes over what a chunk found, or a rank.
 void take(const ContactChunk& found, int rank, ContactWork& work, ContactSums& sums) {
   add_sorted(found.contacts, rank, work);
   add_forces(found.forces, work);

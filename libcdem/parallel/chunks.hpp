@@ -31,7 +31,7 @@ void for_chunks(std::int64_t chunks, [[maybe_unused]] int threads, const Body& b
     body(chunk);
 }
 
-// Of these chunks.
+// The same for these chunks.
 template <class Body>
 void for_chunks(Range chunks, int threads, const Body& body) {
   for_chunks(chunks.size(), threads, [&](std::int64_t i) { body(chunks.begin + i); });

@@ -22,7 +22,7 @@ public:
   // The way is counted from where the nodes were when these forces acted.
   void start(const State&, const std::vector<Node>& force);
   void forget() { *this = {}; }
-  // Of the last look, per step squared; none: there was none, or nothing has moved.
+  // As the last look found it, per step squared; none: there was no look, or nothing has moved.
   std::optional<double> frequency2() const { return frequency2_; }
   void take(double frequency2); // < 0: none
 

@@ -6,7 +6,7 @@
 namespace cdem {
 namespace {
 
-// Of a bonded face, and of a spring between blocks, over that of a tet.
+// Work of a bonded face, and of a spring between blocks, over that of a tet.
 constexpr double face_load = 1.5, spring_load = 0.5;
 
 } // namespace

@@ -34,7 +34,8 @@ public:
   // Each has filled its bytes [begin[rank], begin[rank + 1]) of `data`; afterwards all have all.
   virtual void share(void* data, const std::vector<std::size_t>& begin) = 0;
 
-  // What each gives, by rank. Of one subject what is said is about as long as it was the time before.
+  // Returns what each gives, by rank. Messages on one subject should be about as long as the time before: they are sent
+  // in one piece then.
   enum class Subject { any, sums, contacts, count };
   virtual std::vector<std::string> gather(const std::string& mine, Subject = Subject::any) = 0;
 
@@ -47,7 +48,7 @@ public:
   // Ends all ranks with this exit code, wherever they are. For errors that the others cannot know of.
   [[noreturn]] virtual void abort(int exit_code) = 0;
 
-  // What has been sent since the program began, and how long was waited for others.
+  // Messages sent since the program began, and the time spent waiting for other ranks.
   struct Traffic {
     std::int64_t messages = 0, bytes = 0;
     double waited = 0; // s

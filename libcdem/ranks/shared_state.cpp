@@ -26,7 +26,7 @@ std::vector<std::size_t> in_bytes(const std::vector<std::int64_t>& begin, std::s
   return bytes;
 }
 
-// What the chunks and springs of this rank read.
+// Nodes that the chunks and springs of this rank read.
 std::vector<std::int32_t> nodes_read(const Model& model, const Partition& part) {
   std::vector<std::int32_t> nodes;
   const MeshData& mesh = model.mesh;
@@ -71,7 +71,7 @@ std::vector<std::int32_t> springs_read(const Model& model, const Partition& part
   return springs;
 }
 
-// Of the nodes it owns.
+// Places in the slices of all chunks that add up to the nodes it owns.
 std::vector<std::int32_t> partial_forces_read(const Model& model, const Partition& part) {
   std::vector<std::int32_t> places;
   const MeshData& mesh = model.mesh;

@@ -34,7 +34,7 @@ public:
   bool whole() const { return whole_; }
   // Makes it whole.
   void gather(State&);
-  // Of arrays that stand beside the State: by point, by node.
+  // The same for arrays beside the State, by point and by node.
   void gather_points(std::vector<geom::Vec3>& values) const;
   void gather_nodes(std::vector<Node>& values) const;
 

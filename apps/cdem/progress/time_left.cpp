@@ -10,7 +10,7 @@ namespace {
 
 constexpr std::size_t most_samples = 128; // the pairs of their second half are 2016 slopes
 
-// Of a stage that still goes on, though its goals are reached now: they have to last.
+// The stage still goes on, though its goals are reached now: they have to last.
 constexpr double most_done = 0.99;
 
 double median(std::vector<double>& values) {

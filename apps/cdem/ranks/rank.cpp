@@ -40,7 +40,7 @@ int users_stderr = STDERR_FILENO; // of ranks that print nothing
 std::chrono::steady_clock::time_point joined_at;
 std::atomic<bool> known_to_all{false}; // that this rank has failed
 
-// Of a rank that has not joined yet.
+// The rank has not joined yet.
 int rank_by_starter() {
   for (const char* const variable : {"OMPI_COMM_WORLD_RANK", "PMIX_RANK", "PMI_RANK", "SLURM_PROCID"})
     if (const char* const text = std::getenv(variable))

@@ -8,7 +8,7 @@
 namespace cdem {
 namespace {
 
-// Of a row over that of a candidate.
+// Work of a row over that of a candidate.
 constexpr double row_load = 4;
 
 void add_surface_nodes(const Model& model, const ContactWork& work, int block,

@@ -130,7 +130,7 @@ void add_bolts(const Simulation& simulation, PictureOptions& options) {
   }
 }
 
-// What of the model is drawn: its blocks, a section through them, or its joints.
+// The part of the model that is drawn: its blocks, a section through them, or its joints.
 Snapshot drawn_part(const ModelObject& model, const Arguments& a, const std::vector<int>& hidden,
                     const std::string& title) {
   if (a.flag("joints")) {
