@@ -116,6 +116,7 @@ private:
       return joint;
     Joint contact;
     contact.bonded = false;
+    contact.restitution = joint.restitution;
     contact.friction_angle =
         has_law(joint.law) ? geom::portable::atan2(friction_left(joint), 1) : joint.friction_angle;
     if (!are_blocks(a, b))

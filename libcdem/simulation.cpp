@@ -360,13 +360,20 @@ bool Simulation::anything_acts() const {
     return true;
   const auto moves = [](const Fix& fix) { return fix.displacement || fix.velocity; };
   const auto is_nonzero = [](const Node& n) { return n.x != 0 || n.y != 0 || n.z != 0; };
+  const auto is_strained = [](const StressBatch& batch) {
+    for (const auto& component : batch.component)
+      if (std::any_of(std::begin(component), std::end(component), [](double x) { return x != 0; }))
+        return true;
+    return false;
+  };
   const auto is_stressed = [](const Stress& stress) {
     return std::any_of(stress.begin(), stress.end(), [](double x) { return x != 0; });
   };
   return std::any_of(c.fixes.begin(), c.fixes.end(), moves) ||
          std::any_of(s.displacement.begin(), s.displacement.end(), is_nonzero) ||
          std::any_of(s.velocity.begin(), s.velocity.end(), is_nonzero) ||
-         std::any_of(s.initial_stress.begin(), s.initial_stress.end(), is_stressed);
+         std::any_of(s.initial_stress.begin(), s.initial_stress.end(), is_stressed) ||
+         std::any_of(s.stress.begin(), s.stress.end(), is_strained);
 }
 
 SettleResult Simulation::settle(const SettleOptions& options) {

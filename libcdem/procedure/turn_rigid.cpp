@@ -29,7 +29,8 @@ RigidState motion_of(const Model& model, const State& state, const RigidShape& s
   RigidState motion;
   motion.centroid = triple(shape.centroid);
   motion.velocity = triple(velocity);
-  motion.angular_momentum = triple(angular);
+  // The spin is kept, that of the masses at the nodes; the solid's moment of inertia is smaller.
+  motion.angular_momentum = triple(shape.body.inertia * shape.nodal_inertia.inverse() * angular);
   return motion;
 }
 

@@ -37,8 +37,11 @@ std::vector<Node> net_forces(const Model& model, const State& state, Workspace& 
   std::vector<Node> force(model.node_position.size());
   for (std::size_t c = 0; c < model.mesh.chunks.size(); ++c) {
     const MeshChunk& chunk = model.mesh.chunks[c];
-    if (is_rigid(model, chunk))
+    if (is_rigid(model, chunk)) { // only interfaces pull at its nodes
+      if (chunk.stars)
+        add_bond_forces(model, work.bond.force(), chunk.nodes, force.data() + chunk.nodes.begin);
       continue;
+    }
     const Node* const at = mesh_forces(model, copy, work, static_cast<std::int64_t>(c), false);
     std::copy(at, at + (chunk.inner_end - chunk.nodes.begin), force.begin() + chunk.nodes.begin);
   }

@@ -20,8 +20,20 @@ geom::Vec3 SupportForces::reaction(const Selection& on) const {
   if (nodes.empty())
     throw geom::InputError("on", on.text, "a place that holds nodes", "nothing of the model lies there");
   geom::Vec3 sum = geom::Vec3::Zero();
+  // A rigid body is held as a whole, by whichever of its nodes a support names: what acts on it counts once it is there.
+  std::vector<char> counted(model_.rigid.size(), 0);
+  for (const int node : nodes) {
+    const int rigid = model_.blocks[block_of(model_, node)].rigid;
+    if (rigid < 0 || counted[rigid] || !work_.resolved.rigid[rigid])
+      continue;
+    counted[rigid] = 1;
+    const Block& block = model_.blocks[model_.rigid[rigid].block];
+    for (int i = block.node_begin; i < block.node_end; ++i)
+      sum -= vec(net_[i]);
+  }
   for (const HeldNode& h : work_.resolved.held) {
-    if (!std::binary_search(nodes.begin(), nodes.end(), h.node))
+    if (!std::binary_search(nodes.begin(), nodes.end(), h.node) ||
+        model_.blocks[block_of(model_, h.node)].rigid >= 0)
       continue;
     const Node& f = net_[h.node];
     sum -= geom::Vec3((1 - h.free.x) * f.x, (1 - h.free.y) * f.y, (1 - h.free.z) * f.z);

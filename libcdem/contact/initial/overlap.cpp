@@ -7,8 +7,10 @@
 #include "libgeom/query/box_pairs.hpp"
 #include "libgeom/query/closest.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
+#include <optional>
 
 namespace cdem {
 namespace {
@@ -93,6 +95,29 @@ double distance_to_surface(const Model& model, int block, const geom::Vec3& plac
   return nearest;
 }
 
+// Where one block reaches into another by more than the depth, by some places that far below its outer triangles; none
+// that is found says nothing. Sees what crossing triangles do not: faces that lie in one plane, and two copies of a body.
+std::optional<geom::Vec3> place_inside(const Model& model, int inner, int around, const geom::Box& region,
+                                       double depth) {
+  constexpr int most = 24;
+  std::vector<geom::Vec3> places;
+  for (int t = model.surface.block_begin[inner]; t < model.surface.block_begin[inner + 1]; ++t) {
+    if (model.surface.triangles[t].face >= 0)
+      continue;
+    const Corners x = corners(model, t);
+    const geom::Vec3 normal = (x[1] - x[0]).cross(x[2] - x[0]).normalized(),
+                     place = (x[0] + x[1] + x[2]) / 3 - depth * normal;
+    if ((place.array() > region.min.array()).all() && (place.array() < region.max.array()).all())
+      places.push_back(place);
+  }
+  const std::size_t step = std::max<std::size_t>(1, places.size() / most);
+  for (std::size_t i = 0; i < places.size(); i += step)
+    if (holds(model, around, places[i]) && distance_to_surface(model, around, places[i]) > 0.25 * depth &&
+        holds(model, inner, places[i]))
+      return places[i];
+  return std::nullopt;
+}
+
 std::string both(const Model& model, int a, int b) {
   return block_name(model, a) + " and " + block_name(model, b);
 }
@@ -163,7 +188,10 @@ void require_separate_meshes(const Model& model) {
       if (lawless && distance(x, y) < touching_ratio * smaller)
         refuse_touching(model, a, b);
     }
+    const bool deep = ((region.max - region.min).array() > depth).all();
     for (const auto& [inner, around] : {std::pair(a, b), std::pair(b, a)}) {
+      if (const auto inside = deep ? place_inside(model, inner, around, region, depth) : std::nullopt)
+        refuse_overlap(model, a, b, *inside);
       const geom::Vec3& x = model.node_position[s.triangles[s.block_begin[inner]].nodes[0]];
       const geom::Box& box = block_boxes[around];
       const bool deep_in =

@@ -4,6 +4,8 @@
 #include "libcdem/model/build/contact_surface.hpp"
 #include "libgeom/core/portable.hpp"
 
+#include <algorithm>
+
 namespace cdem {
 namespace {
 
@@ -54,7 +56,9 @@ ContactLaw law_of(const Model& model, const Contact& c) {
 
 ContactLaw spring_law(const Joint& joint, double tan_friction, const ContactTriangle& from,
                       const ContactTriangle& to) {
-  return law_over(joint, tan_friction, from.area / 3, from.compliance + to.compliance);
+  // A corner of a large triangle stands for no more than what it can press on: with its whole area a vertex of a coarse
+  // floor under a small block would carry many times the block's own corners.
+  return law_over(joint, tan_friction, std::min(from.area, to.area) / 3, from.compliance + to.compliance);
 }
 
 ContactLaw edge_law(const Joint& joint, double tan_friction, const ContactSurface& s,
