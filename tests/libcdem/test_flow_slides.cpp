@@ -47,6 +47,10 @@ struct Cube {
           cdem::Joint contact;
           contact.bonded = false;
           contact.friction_angle = std::atan(mu);
+          // Without loss a rigid cube that slides comes to rock on its leading edge, from mu = 0.65 on: what friction
+          // feeds into the rocking nothing takes out.
+          if (element == cdem::Element::rigid && mu < 1)
+            contact.restitution = 0.5;
           // It sinks in by a millionth of its height: the law is that of a rigid cube.
           contact.normal_stiffness = 1e6 * rock().density * g;
           cdem::ModelSpec spec;
@@ -95,7 +99,6 @@ TEST_CASE("a flow that rises slowly takes a lone cube at F = W' (sin a + mu cos 
   const auto [element, size] =
       GENERATE(std::pair(cdem::Element::rigid, 1.5), std::pair(cdem::Element::rigid, 0.1),
                std::pair(cdem::Element::finite_volume, 1.5));
-  // From 0.77 to where it tips, 1, a cube that nothing damps rocks on its leading edge while it slides.
   const double mu = GENERATE(0.55, 0.75, 1.5), critical = critical_velocity(size, mu);
   Cube cube(size, mu, element);
   cube.velocity = 0.95 * critical;
