@@ -127,7 +127,7 @@ void add_probes(RunLog& log, const std::string& name, const char* quantity, int 
 
 void Simulation::record_reaction(const std::string& name, const std::string& on) {
   if (selected_nodes(impl_->model, place_of_support(impl_->model, on)).empty())
-    throw geom::InputError("on", on, "a side (\"x-\" .. \"z+\") or a body that holds nodes");
+    throw geom::InputError("on", on, "a side of the model's box (\"x-\" .. \"z+\") or the name of a body");
   add_probes(impl_->log, name, "reaction", -1, on);
 }
 

@@ -4,6 +4,7 @@
 
 #include "libgeom/core/error.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace cdem::script {
@@ -23,7 +24,18 @@ Value finite_or_nil(Session& session, const std::string& name, const char* field
   return value;
 }
 
+// On the terminal and in the log too: who reads neither file must not take a miss for a hit.
+void tell_misses(Session& session, const std::vector<std::string>& given) {
+  std::string missed;
+  for (const Figure& figure : session.report.figures)
+    if (std::find(given.begin(), given.end(), figure.name) != given.end() && figure.within() == false)
+      missed += (missed.empty() ? "" : ", ") + figure.name;
+  if (!missed.empty() && !session.settings.check_only)
+    session.message("outside its tolerance: " + missed + " (report.md)");
+}
+
 Value report(Session& session, Object*, const Arguments& arguments) {
+  std::vector<std::string> names;
   for (const Arguments& given : arguments.records("figures")) {
     Figure figure;
     figure.name = given.text("name");
@@ -48,8 +60,10 @@ Value report(Session& session, Object*, const Arguments& arguments) {
                              ": tolerance: a trial figure is shown beside ours and never judged; leave "
                              "the tolerance out");
     session.report.add(figure);
+    names.push_back(figure.name);
   }
   session.write_report();
+  tell_misses(session, names);
   return {};
 }
 
