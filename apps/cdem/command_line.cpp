@@ -81,6 +81,7 @@ public:
     add_check();
     add_sweep();
     add_render();
+    add_view();
     add_info();
     add_repl();
     add_annotations();
@@ -337,6 +338,16 @@ private:
     finish(command, "  cdem render results/plate/result.vtu --colour stress.yy --range -40e6,0\n"
                     "  cdem render result.vtu -c displacement.x -d 20 -s 2400x1800 -o ux.png\n");
   }
+  void add_view() {
+    auto* command = app_.add_subcommand("view", "look at saved files in a browser page of this machine");
+    command->add_option("PATH", typed_.file, "a .vtu file, a .pvd series or a folder of results")
+        ->option_text(" ");
+    finish(
+        command, "  cdem view results/plate\n  cdem view results/plate/run.pvd\n",
+        "Prints the address of a page that shows the model: choose the file, the field and the step, turn\n"
+        "and zoom it, play a series. cdem draws each picture, so the browser may be a plain one. The page\n"
+        "can be read on this machine only; its button, or Ctrl-C, ends the viewer.\n");
+  }
   void add_info() {
     auto* command =
         app_.add_subcommand("info", "describe this program, a .vtu file, a script or a results folder");
@@ -402,7 +413,7 @@ private:
 
   // What does not solve one model is not for several ranks.
   void refuse_ranks(const std::string& command) const {
-    for (const char* const name : {"sweep", "render", "repl"})
+    for (const char* const name : {"sweep", "render", "view", "repl"})
       if (command == name && typed_.point.empty() && processes_started() > 1)
         throw UsageError("cdem " + command + ": this is one of " + std::to_string(processes_started()) +
                          " ranks that mpirun or srun has started; start it by itself");
@@ -468,6 +479,10 @@ private:
       return sweep_action();
     if (command == "render")
       return render_action();
+    if (command == "view") {
+      require_file("PATH", command);
+      return [file = typed_.file] { return view(file); };
+    }
     if (command == "info")
       return [file = typed_.file] { return info(file); };
     if (command == "repl")

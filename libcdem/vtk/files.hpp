@@ -38,6 +38,10 @@ struct SeriesEntry {
 // Along one axis: time, where it rises from file to file, else steps, else 1, 2, ...
 void write_pvd(const std::string& path, const std::vector<SeriesEntry>&);
 
+// The files that a .pvd lists, in its order, as seen from its folder. Throws FileError when there is no such file,
+// geom::InputError when it is damaged, lists nothing, or names a file outside its folder.
+std::vector<std::string> read_pvd(const std::string& path);
+
 // A snapshot written by write_vtu, with its bonds when bonds_path(path) is there. The surface and the block
 // edges are found again from the tets and "block_id": the outside of each block, and the edges where that
 // outside has a corner. Throws FileError when there is no such file,
