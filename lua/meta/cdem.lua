@@ -746,6 +746,16 @@ function Pile:scaled(options) end
 ---@return cdem.Pile
 function Pile:with_unit(options) end
 
+---@class (exact) cdem.PileWallsOptions
+---@field onto cdem.TetMesh the ground, z up
+---@field height? number m, > 0: over the ground; that of the highest unit when left out, two units at least
+---@field thickness? number m, > 0: a unit's height when left out
+
+---Walls that keep the pile together, as of a flume, for a rigid body that is held: at both sides and at the foot of the ground, on level ground all round. Their inner faces stand at the ends of the pile's box; they follow the ground a little above it, so that both may be bodies of one model.
+---@param options cdem.PileWallsOptions
+---@return cdem.TetMesh
+function Pile:walls(options) end
+
 ---Place and attitude of each unit.
 ---@return cdem.Pose[]
 function Pile:poses() end
