@@ -301,8 +301,8 @@ private:
         "sweep.csv and writes an array of the rest: docs/cluster.md.\n");
   }
   void add_render() {
-    auto* command = app_.add_subcommand("render", "draw a picture of a .vtu file");
-    command->add_option("FILE", typed_.file, "the .vtu file")->option_text(" ");
+    auto* command = app_.add_subcommand("render", "draw a picture of a saved file");
+    command->add_option("FILE", typed_.file, "the .vtu or .vtkhdf file")->option_text(" ");
     colour_given_ = command
                         ->add_option("--colour,--color,-c", typed_.colour,
                                      "field to colour by (displacement.magnitude); \"\": plain blocks")
@@ -340,7 +340,7 @@ private:
   }
   void add_view() {
     auto* command = app_.add_subcommand("view", "look at saved files in a browser page of this machine");
-    command->add_option("PATH", typed_.file, "a .vtu file, a .pvd series or a folder of results")
+    command->add_option("PATH", typed_.file, "a .vtu or .vtkhdf file, a .pvd series or a folder of results")
         ->option_text(" ");
     finish(
         command, "  cdem view results/plate\n  cdem view results/plate/run.pvd\n",
@@ -350,10 +350,10 @@ private:
   }
   void add_info() {
     auto* command =
-        app_.add_subcommand("info", "describe this program, a .vtu file, a script or a results folder");
+        app_.add_subcommand("info", "describe this program, a saved file, a script or a results folder");
     command
         ->add_option("PATH", typed_.file,
-                     "a .vtu file, a .lua script or a folder of results; none: this program")
+                     "a .vtu or .vtkhdf file, a .lua script or a folder of results; none: this program")
         ->option_text(" ");
     finish(command, "  cdem info\n  cdem info case.lua\n  cdem info results/plate\n");
   }

@@ -1,5 +1,5 @@
-// ParaView files of a snapshot: blocks as an unstructured grid of tets (.vtu), interfaces as a second .vtu of
-// triangles beside it, a time series of both as a .pvd. Every file is written under a temporary name and
+// ParaView files of a snapshot: blocks as an unstructured grid of tets (.vtu, or .vtkhdf by the ending), interfaces as a
+// second file of triangles beside it, a time series of both as a .pvd. Every file is written under a temporary name and
 // renamed, so that a reader never sees half of one.
 #pragma once
 
@@ -12,7 +12,7 @@
 namespace cdem {
 
 // Points, tets and all fields, values to the bit; time ("TimeValue", where ParaView looks for it), step, title and names
-// of bodies as field data. Binary, zlib. Throws geom::InputError when the name does not end in .vtu, FileError
+// of bodies as field data. Binary, zlib. Throws geom::InputError for a name that ends in neither, FileError
 // when the file cannot be written.
 void write_vtu(const Snapshot&, const std::string& path);
 
@@ -22,7 +22,7 @@ void write_bonds(const Snapshot&, const std::string& path);
 std::string bonds_path(const std::string& vtu_path); // "out/plate.vtu" -> "out/plate_bonds.vtu"
 
 // The triangles of the bonds alone as a surface (.vtp; .vtu for programs that know no .vtp), as results/crack_surface
-// makes them. Throws as write_vtu, of a name that ends in neither.
+// makes them. Throws as write_vtu.
 void write_surface(const Snapshot&, const std::string& path);
 
 // Contacts as points with force (on the source), depth and who touches; time, step and title of the header. Throws as

@@ -71,20 +71,6 @@ TemporaryFile::TemporaryFile(const std::string& ending, const std::string& to_be
                              failed.message());
 }
 
-ChildLimits limits_of_file(const std::string& path) {
-  constexpr std::uint64_t least_memory = std::uint64_t{2} << 30, memory_per_byte = 100;
-  constexpr std::uint64_t least_seconds = 60, bytes_per_second = 100'000, most_seconds = 100'000;
-  std::error_code none;
-  const std::uintmax_t size = std::filesystem::file_size(path, none);
-  ChildLimits limits;
-  limits.blame = "the file is damaged, or not what its name says";
-  if (none)
-    return limits; // the reader says why it cannot be read
-  limits.memory = least_memory + memory_per_byte * size;
-  limits.seconds = static_cast<unsigned>(std::min(least_seconds + size / bytes_per_second, most_seconds));
-  return limits;
-}
-
 void pack(std::string& out, const MassProperties& x) {
   pack(out, x.volume);
   pack(out, x.centroid);

@@ -3,6 +3,7 @@
 
 #include <catch2/catch.hpp>
 
+#include <algorithm>
 #include <cstdlib>
 
 using namespace testing;
@@ -52,7 +53,7 @@ const std::string pressed = std::string(column) +
                             "  model:run{ duration = 1e-4 }\n"
                             "  model:save{ file = 'run' .. step .. '.vtu', series = 'run.pvd' }\n"
                             "end\n"
-                            "model:save{ file = 'end.vtu' }\n";
+                            "model:save{ file = 'end.vtkhdf' }\n";
 
 class Viewed : public ServedPage {
 public:
@@ -152,7 +153,7 @@ TEST_CASE("a browser shows a live run and stops it") {
 TEST_CASE("the page of saved files offers each file once, and draws what is asked for") {
   Viewed page;
   const std::string first = until(page, "status", "\"frame\":1");
-  CHECK_THAT(first, Contains("{\"name\":\"run.pvd\",\"steps\":3},{\"name\":\"end.vtu\",\"steps\":1}") &&
+  CHECK_THAT(first, Contains("{\"name\":\"run.pvd\",\"steps\":3},{\"name\":\"end.vtkhdf\",\"steps\":1}") &&
                         !Contains("_bonds") && Contains("run1.vtu: time 0.0001"));
   CHECK_THAT(page.ask(page.here("frame.png")), Contains("\x89PNG"));
   const auto show = [&](const std::string& words) {
@@ -162,9 +163,10 @@ TEST_CASE("the page of saved files offers each file once, and draws what is aske
   CHECK_THAT(until(page, "status", "\"step\":2"),
              Contains("\"turn\":30.0") && Contains("\"range\":[-1.0,1.0]") && Contains("run3.vtu"));
   CHECK_THAT(show("file=1"), Contains("204")); // its first step
-  CHECK_THAT(until(page, "status", "\"file\":1"), Contains("\"step\":0") && Contains("end.vtu: time"));
-  for (const char* wish : {"file=2", "file=-1", "file=../out/end.vtu", "step=1", "file=0&step=3", "step=0.5",
-                           "turn=x", "zoom=0", "zoom=1e9", "low=1&high=0", "low=1", "right=nan"}) {
+  CHECK_THAT(until(page, "status", "\"file\":1"), Contains("\"step\":0") && Contains("end.vtkhdf: time"));
+  for (const char* wish :
+       {"file=2", "file=-1", "file=../out/end.vtkhdf", "step=1", "file=0&step=3", "step=0.5", "turn=x",
+        "zoom=0", "zoom=1e9", "low=1&high=0", "low=1", "right=nan"}) {
     INFO(wish);
     CHECK_THAT(show(wish), Contains("400"));
   }
@@ -216,7 +218,32 @@ TEST_CASE("what cannot be viewed is one line") {
   CHECK_THAT(said("none.pvd", 2), Contains("lists no file"));
   CHECK_THAT(said("junk.pvd", 2), Contains("it is none, or it is damaged"));
   CHECK_THAT(said("lost.pvd", 4), Contains("lost.vtu") && Contains("no such file"));
-  CHECK_THAT(said("text.txt", 2), Contains("must be a .vtu file"));
+  CHECK_THAT(said("text.txt", 2), Contains("must be a .vtu or .vtkhdf file"));
   CHECK_THAT(said("empty", 2), Contains("nothing to look at"));
   CHECK_THAT(said("nothing.vtu", 4), Contains("no such file"));
+}
+
+TEST_CASE("a .vtkhdf is drawn and described as the .vtu of the same state") {
+  TempFolder folder;
+  write_file(folder / "case.lua", pressed);
+  Start start;
+  start.folder = folder.path();
+  REQUIRE(run_cdem({"run", "case.lua", "--threads", "1", "--output", "out"}, start).exit_code == 0);
+  std::string pictures[2], described[2];
+  const char* const names[] = {"out/run3.vtu", "out/end.vtkhdf"};
+  for (int i = 0; i < 2; ++i) {
+    REQUIRE(run_cdem({"render", names[i], "--colour", "stress.zz", "--output", "a.png"}, start).exit_code ==
+            0);
+    pictures[i] = read_file(folder / "a.png");
+    const Outcome told = run_cdem({"info", names[i]}, start);
+    CHECK(told.exit_code == 0);
+    std::vector<std::string> lines = lines_of(told.out);
+    std::sort(lines.begin(), lines.end()); // VTK's reader lists fields by name
+    for (const std::string& line : lines)
+      described[i] += line + "\n";
+  }
+  CHECK(pictures[0].size() > 1000);
+  CHECK(pictures[0] == pictures[1]);
+  CHECK_THAT(described[0], Contains("stress.zz"));
+  CHECK(described[0] == described[1]);
 }

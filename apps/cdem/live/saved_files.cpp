@@ -12,10 +12,6 @@ namespace fs = std::filesystem;
 
 namespace {
 
-bool is_state(const fs::path& file) {
-  return file.extension() == ".vtu";
-}
-
 SavedFile series(const fs::path& file) {
   SavedFile one{file.filename().string(), {}};
   for (const std::string& name : read_pvd(file.string()))
@@ -44,14 +40,18 @@ std::vector<SavedFile> files_of_folder(const fs::path& folder) {
       listed.insert(found.back().steps.begin(), found.back().steps.end());
     }
   for (const fs::path& file : all)
-    if (is_state(file) && listed.count(file) == 0 && !goes_with_another(file, all))
+    if (is_saved_state(file) && listed.count(file) == 0 && !goes_with_another(file, all))
       found.push_back({file.filename().string(), {file}});
   if (found.empty())
-    throw UsageError(folder.string() + " holds no .vtu file and no series: nothing to look at");
+    throw UsageError(folder.string() + " holds no .vtu or .vtkhdf file and no series: nothing to look at");
   return found;
 }
 
 } // namespace
+
+bool is_saved_state(const fs::path& file) {
+  return file.extension() == ".vtu" || file.extension() == ".vtkhdf";
+}
 
 std::vector<SavedFile> saved_files(const fs::path& path) {
   std::error_code none;
@@ -59,9 +59,9 @@ std::vector<SavedFile> saved_files(const fs::path& path) {
     return files_of_folder(path);
   if (path.extension() == ".pvd")
     return {series(path)};
-  if (is_state(path))
+  if (is_saved_state(path))
     return {{path.filename().string(), {path}}};
-  throw UsageError(path.string() + ": must be a .vtu file, a .pvd series or a folder of results");
+  throw UsageError(path.string() + ": must be a .vtu or .vtkhdf file, a .pvd series or a folder of results");
 }
 
 } // namespace cdem::app

@@ -7,6 +7,9 @@
 
 namespace cdem::app {
 
+// A .vtu or .vtkhdf by its name.
+bool is_saved_state(const std::filesystem::path&);
+
 struct SavedFile {
   std::string name;                         // as the page lists it
   std::vector<std::filesystem::path> steps; // one state each
