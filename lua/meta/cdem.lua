@@ -1362,7 +1362,7 @@ function Model:lowest_units(options) end
 function Model:highest_units(options) end
 
 ---@class (exact) cdem.ModelSaveOptions
----@field file string ends in .vtu; in the output folder
+---@field file string ends in .vtu, or .vtkhdf for programs that read HDF5; in the output folder
 ---@field series? string ends in .pvd: a time series this file is added to; run.pvd has run_bonds.pvd and run_contacts.pvd beside it. One axis: time where it rises from file to file, else steps
 
 ---Writes the model for ParaView: blocks to the file, bonds beside it (result.vtu, result_bonds.vtu), and of bodies that move far the contacts that carry (result_contacts.vtu: points with force on the source body, normal_force, shear_force, depth, bodies and blocks).

@@ -6,6 +6,7 @@
 
 #include <functional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace cdem::app {
@@ -31,13 +32,14 @@ public:
     bool hidden = false;                        // from help
   };
 
-  Command(std::string name, std::string text) : name(std::move(name)), text(std::move(text)) {}
+  Command(std::string its_name, std::string its_text)
+      : name(std::move(its_name)), text(std::move(its_text)) {}
 
   void argument(const std::string& its_name, std::string& into, const std::string& its_text) {
     options.push_back({Kind::argument, its_name, "", its_text, &into});
   }
-  void value(const std::string& names, std::string& into, const std::string& form, const std::string& its_text,
-             bool* typed = nullptr) {
+  void value(const std::string& names, std::string& into, const std::string& form,
+             const std::string& its_text, bool* typed = nullptr) {
     options.push_back({Kind::value, names, form, its_text, &into, nullptr, typed});
   }
   void values(const std::string& names, std::vector<std::string>& into, const std::string& form,
@@ -50,9 +52,8 @@ public:
   void hide_last() { options.back().hidden = true; }
 
   std::string name, text;
-  std::string examples, notes;       // below the options, with their line ends
-  bool for_ranks = true;             // may be one of several processes that mpirun or srun has started
-  std::vector<Option> options;       // in the order of help
+  std::string examples, notes;                    // below the options, with their line ends
+  std::vector<Option> options;                    // in the order of help
   std::function<Action(const TypedLine&)> action; // throws UsageError
 };
 

@@ -8,12 +8,6 @@
 
 namespace cdem::app {
 
-namespace {
-
-constexpr int most_threads = 1024;
-
-} // namespace
-
 void add_script(Command& command, std::string& file) {
   command.argument("FILE", file, "the case script, a .lua file");
 }
@@ -31,7 +25,8 @@ void add_memory(Command& command, std::string& memory) {
                 "the most it may take, as in 12G or 800M (nine tenths of the machine's)");
 }
 
-void add_set(Command& command, std::vector<std::string>& set, const std::string& form, const std::string& text) {
+void add_set(Command& command, std::vector<std::string>& set, const std::string& form,
+             const std::string& text) {
   command.values("--set", set, form, text);
 }
 
@@ -55,9 +50,15 @@ int ranks_of(const std::string& typed) {
   return typed.empty() ? 1 : whole_number("--ranks", typed, 1, most_ranks);
 }
 
-void require_file(const std::string& file, const Command& command, const std::string& usage) {
+void require_file(const std::string& file, const std::string& command, const std::string& usage) {
   if (file.empty())
-    throw UsageError("cdem " + command.name + ": which file? usage: cdem " + command.name + " " + usage);
+    throw UsageError("cdem " + command + ": which file? usage: cdem " + command + " " + usage);
+}
+
+void refuse_ranks(const std::string& command) {
+  if (processes_started() > 1)
+    throw UsageError("cdem " + command + ": this is one of " + std::to_string(processes_started()) +
+                     " ranks that mpirun or srun has started; start it by itself");
 }
 
 void SolvingOptions::add_computing(Command& command) {

@@ -14,12 +14,16 @@ void add_set(Command&, std::vector<std::string>&, const std::string& form, const
 void add_output(Command&, std::string&, const std::string& form, const std::string& text);
 void add_quiet(Command&, bool&);
 
+inline constexpr int most_threads = 1024;
 int threads_of(const std::string& typed);        // 0: not said
 std::size_t memory_of(const std::string& typed); // bytes; 0: not said
 int ranks_of(const std::string& typed);          // 1 where it is not said
 
 // "cdem check: which file? usage: cdem check FILE.lua"
-void require_file(const std::string& file, const Command&, const std::string& usage);
+void require_file(const std::string& file, const std::string& command, const std::string& usage);
+
+// UsageError where this is one of several ranks: for a command that does not solve one model.
+void refuse_ranks(const std::string& command);
 
 // Of run and resume.
 struct SolvingOptions {
