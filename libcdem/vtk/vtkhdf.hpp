@@ -4,8 +4,6 @@
 
 #include <string>
 
-#include <vtkSmartPointer.h>
-
 class vtkUnstructuredGrid;
 
 namespace cdem {

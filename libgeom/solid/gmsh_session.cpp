@@ -71,6 +71,19 @@ TemporaryFile::TemporaryFile(const std::string& ending, const std::string& to_be
                              failed.message());
 }
 
+void set_mesh_options() {
+  // Delaunay (1), not HXT (10): HXT's mesh differs from run to run, even on one thread.
+  for (const auto& [name, value] : {std::pair<const char*, double>{"Mesh.Algorithm", 6},
+                                    {"Mesh.Algorithm3D", 1},
+                                    {"Mesh.MaxNumThreads1D", 1},
+                                    {"Mesh.MaxNumThreads2D", 1},
+                                    {"Mesh.MaxNumThreads3D", 1},
+                                    {"Mesh.Optimize", 1},
+                                    {"Mesh.MeshSizeExtendFromBoundary", 0},
+                                    {"Mesh.MeshSizeFromPoints", 0}})
+    gmsh::option::setNumber(name, value);
+}
+
 void pack(std::string& out, const MassProperties& x) {
   pack(out, x.volume);
   pack(out, x.centroid);
