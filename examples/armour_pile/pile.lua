@@ -33,35 +33,23 @@ local function camera_on(points)
   return { position = position, focal_point = middle, up = {0, 0, 1}, view_angle = 31 }
 end
 
--- A model of the pile on a slope, between three walls if wanted that stand where its outermost units end: at the sides, as
--- in a flume, and at the toe. Options: length of the slope, m; friction_angle, degrees, of everything on everything; walls,
--- true or false; stiffness_damping of the units, s. Bodies "slope", "units", "wall_1" to "wall_3"; nothing but the ground
--- and the walls is held yet. Returns the model and { names of ground and walls, weight = of these in water, N; camera }.
+-- A model of the pile on a slope, between walls if wanted. Options: length of the slope, m; friction_angle, degrees, of
+-- everything on everything; walls, true or false; stiffness_damping of the units, s. Bodies "slope", "units", "walls";
+-- nothing but the ground and the walls is held yet. Returns the model and { names of ground and walls, weight = of these
+-- in water, N; camera }.
 function M.model(pile, options)
   local height, box, length = pile.height, pile:box(), options.length
   local concrete = cdem.elastic{ youngs_modulus = 30e9, poissons_ratio = 0.25, density = M.density,
                                  stiffness_damping = options.stiffness_damping }
-  local rough = cdem.coulomb{ friction_angle = options.friction_angle }
-  -- Between walls the slope ends a little short of them, so that they do not touch.
-  local thickness, clear = height, 0.05 * height
-  local width = options.walls and 2 * (math.min(-box.min[2], box.max[2]) - clear)
-                or 2 * math.max(-box.min[2], box.max[2]) + 2 * height
-  local bodies = { { shape = M.slope(length, width, height), material = concrete, element = "rigid", name = "slope" },
+  local width = 2 * math.max(-box.min[2], box.max[2]) + 2 * height
+  local slope = M.slope(length, width, height)
+  local bodies = { { shape = slope, material = concrete, element = "rigid", name = "slope" },
                    { shape = pile, material = concrete, name = "units" } }
-  local contacts = { { "units", "units", rough }, { "units", "slope", rough } }
-  local toe, top = box.min[1] - clear, M.gradient * length + 3 * height
-  local foot = M.gradient * math.max(0, box.min[1]) + clear
-  local long, high = length + height - toe, top + height
-  local walls = options.walls and {
-    cdem.solid.box{ origin = {toe, box.min[2] - thickness, -height}, size = {long, thickness, high} },
-    cdem.solid.box{ origin = {toe, box.max[2], -height}, size = {long, thickness, high} },
-    cdem.solid.box{ origin = {box.min[1] - thickness, -width / 2, foot}, size = {thickness, width, 2 * height} } } or {}
-  for k, wall in ipairs(walls) do
-    local name = "wall_" .. k
-    bodies[#bodies + 1] = { shape = wall:mesh{ size = 0.9 * thickness }, material = concrete, element = "rigid", name = name }
-    contacts[#contacts + 1] = { "units", name, rough }
+  if options.walls then
+    bodies[3] = { shape = pile:walls{ onto = slope }, material = concrete, element = "rigid", name = "walls" }
   end
-  local model = cdem.model{ bodies = bodies, contacts = contacts }
+  local model = cdem.model{ bodies = bodies,
+                            contacts = { default = cdem.coulomb{ friction_angle = options.friction_angle } } }
   local seen, rise = {}, M.gradient * length
   for _, y in ipairs{-width / 2, width / 2} do
     for _, corner in ipairs{ {0, y, 0}, {length, y, 0}, {length, y, rise} } do seen[#seen + 1] = corner end

@@ -17,22 +17,13 @@ local length = (0.55 * math.ceil(count / columns) + 2.5) * height
 local slope = cdem.slope{ gradient = gradient, length = length, width = (1.4 * columns + 2) * height }:mesh{ size = 2 * height }
 local pile = cdem.place{ unit = unit, count = count, columns = columns, onto = slope, friction_angle = 12, walls = true }
 
--- Walls at both sides, on which the ends of the rows lean.
-local box, thick = pile:box(), height
-local function wall(y)
-  return cdem.solid.box{ origin = {box.min[1] - height, y, -height},
-                         size = {length + height, thick, gradient * length + 4 * height} }:mesh{ size = thick }
-end
-local friction = cdem.coulomb{ friction_angle = 35 }
-local inner = cdem.slope{ gradient = gradient, length = length, width = 2 * math.min(-box.min[2], box.max[2]) - 0.1 * height }
+-- Walls at both sides, on which the ends of the rows lean, and at the toe.
 local model = cdem.model{
   bodies = { { name = "units", shape = pile, material = concrete },
-             { name = "slope", shape = inner:mesh{ size = 2 * height }, material = concrete, element = "rigid" },
-             { name = "left", shape = wall(box.min[2] - thick), material = concrete, element = "rigid" },
-             { name = "right", shape = wall(box.max[2]), material = concrete, element = "rigid" } },
-  contacts = { {"units", "units", friction}, {"units", "slope", friction}, {"units", "left", friction},
-               {"units", "right", friction} } }
-model:fix{ on = {"slope", "left", "right"} }
+             { name = "slope", shape = slope, material = concrete, element = "rigid" },
+             { name = "walls", shape = pile:walls{ onto = slope }, material = concrete, element = "rigid" } },
+  contacts = { default = cdem.coulomb{ friction_angle = 35 } } }
+model:fix{ on = {"slope", "walls"} }
 local lowest = cdem.select.units{ body = "units", numbers = model:lowest_units{ body = "units", count = columns } }
 model:fix{ on = lowest }
 model:gravity{ vector = {0, 0, -g}, water_density = water }
@@ -41,7 +32,7 @@ model:gravity{ vector = {0, 0, -g}, water_density = water }
 local rest = model:settle{ kinetic_energy_ratio = 1e-4, friction_angle = 15 }
 local function draw(name, title, field, range)
   model:picture{ file = name, title = title, colour = field, range = range, colour_bar = field ~= "unit", plain = {"slope"},
-                 hidden = {"left", "right"}, view = "iso", up = "z", deformation = 1, size = {1600, 0} }
+                 hidden = {"walls"}, view = "iso", up = "z", deformation = 1, size = {1600, 0} }
 end
 draw("settled.png", "At rest", "unit")
 local measures = model:pile_measures{ body = "units", ground = "slope" }

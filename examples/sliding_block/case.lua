@@ -26,7 +26,9 @@ local function slide(angle, time, picture)
   local start = model:mean("displacement.x", "block")
   model:run{ duration = time }
   if picture then
-    model:picture{ file = picture, view = "iso", up = "z", colour = "displacement.x", deformation = 1, title = "Slid" }
+    model:picture{ file = picture, view = "iso", up = "z", colour = "displacement.x", deformation = 1,
+                   size = {1600, 0}, plain = {"plate"}, range = {0, size},
+                   title = string.format("A block that has slid for %.2f s on a plane of %g degrees", time, angle) }
   end
   return model:mean("displacement.x", "block") - start, model
 end

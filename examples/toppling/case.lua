@@ -32,7 +32,8 @@ local function topples(angle, picture)
   end }
   if picture and fell then
     model:picture{ file = picture, view = "iso", up = "z", colour = "displacement.magnitude", deformation = 1,
-                   title = "Toppling" }
+                   size = {1600, 0}, plain = {"plate"},
+                   title = string.format("A slender block topples on a plane of %.1f degrees", angle) }
   end
   return fell
 end

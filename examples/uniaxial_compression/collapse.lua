@@ -29,10 +29,12 @@ end
 
 function collapse.run(model, on)
   local frames, every, stroke, speed = {}, duration / 60, 0.01, 0.5 -- m, m/s
-  local function draw(name)
+  local camera = { position = {0.15, 0.13, 1.45}, focal_point = {0.15, 0.13, 0}, up = {0, 1, 0}, view_angle = 30 }
+  -- Frames of the film have a camera; a picture fits the model.
+  local function draw(name, film)
     model:picture{ file = name, colour = "displacement.magnitude", range = {0, 0.15}, deformation = 1, plain = {"floor"},
                    broken_bonds = false, axes = false, title = string.format("The failed plate comes apart, %.3f s", model.time),
-                   camera = { position = {0.15, 0.13, 1.45}, focal_point = {0.15, 0.13, 0}, up = {0, 1, 0}, view_angle = 30 } }
+                   camera = film and camera or nil, size = film and {1600, 1200} or {1600, 0} }
     return name
   end
   model:clear_loads()
@@ -42,7 +44,7 @@ function collapse.run(model, on)
     model:fix{ on = on.top, axes = "xyz", velocity = {0, model.time - start < stroke / speed and -speed or 0, 0} }
     model:run{ duration = every, safety = 0.8 }
     open = math.max(open, model:energy().balance_error)
-    frames[i] = draw(string.format("frames/collapse_%03d.png", i))
+    frames[i] = draw(string.format("frames/collapse_%03d.png", i), true)
     if i == 20 then draw("sliding.png") end
   end
   cdem.film{ file = "collapse.ogv", frames = frames, frames_per_second = 15 }

@@ -41,11 +41,15 @@ std::vector<LegendEntry> legend_entries(const PictureOptions& options, const Bro
   return entries;
 }
 
-} // namespace
+// The size to check: a picture as high as it needs is checked by its width.
+std::array<int, 2> asked_size(const PictureOptions& options) {
+  return {options.size[0], options.size[1] == 0 ? options.size[0] : options.size[1]};
+}
 
-void render(const Snapshot& snapshot, const PictureOptions& options, const std::string& path) {
+// Puts the parts together and hands them to `finish`: size in pixels, the renderer of the model, what is drawn over it.
+template <class Finish>
+void draw(const Snapshot& snapshot, const PictureOptions& options, const Finish& finish) {
   const bool free_height = options.size[1] == 0;
-  check_drawing({options.size[0], free_height ? options.size[0] : options.size[1]}, options.dpi, path);
   check_options(options);
   if (snapshot.surface.empty())
     throw geom::InputError("snapshot", "no faces", "a model with at least one block");
@@ -134,7 +138,25 @@ void render(const Snapshot& snapshot, const PictureOptions& options, const std::
   Scene scene({snapshot, points, field ? &*field : nullptr, scale, any_broken ? &broken : nullptr,
                options.edges, options.opacity, pixel},
               view, layout.size);
-  save_drawing(layout.size, options.dpi, {scene.renderer()}, canvas, path);
+  finish(layout.size, scene.renderer(), canvas);
+}
+
+} // namespace
+
+void render(const Snapshot& snapshot, const PictureOptions& options, const std::string& path) {
+  check_drawing(asked_size(options), options.dpi, path);
+  draw(snapshot, options, [&](const std::array<int, 2>& size, vtkRenderer* model, Canvas& canvas) {
+    save_drawing(size, options.dpi, {model}, canvas, path);
+  });
+}
+
+std::string render_png(const Snapshot& snapshot, const PictureOptions& options) {
+  check_drawing(asked_size(options), options.dpi);
+  std::string bytes;
+  draw(snapshot, options, [&](const std::array<int, 2>& size, vtkRenderer* model, Canvas& canvas) {
+    bytes = png_of_drawing(size, options.dpi, {model}, canvas);
+  });
+  return bytes;
 }
 
 } // namespace cdem

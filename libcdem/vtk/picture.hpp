@@ -66,9 +66,12 @@ struct PictureOptions {
   std::vector<Polyline> polylines;
 };
 
-// Writes a .png; or .svg or .pdf, with the model as pixels, its title, colour bar and legend as shapes. Throws geom::InputError for an option that cannot be used (an unknown field names the nearest
-// right ones), std::runtime_error when the machine offers no off-screen OpenGL.
+// Writes a .png; or .svg or .pdf, with the model as pixels, its title, colour bar and legend as shapes. Throws
+// geom::InputError for an option that cannot be used (an unknown field names the nearest right ones), std::runtime_error when the machine offers no off-screen OpenGL.
 void render(const Snapshot&, const PictureOptions&, const std::string& path);
+
+// The same as the bytes of a .png.
+std::string render_png(const Snapshot&, const PictureOptions&);
 
 // What `field` may be for this snapshot, with components.
 std::vector<std::string> picture_fields(const Snapshot&);

@@ -1,9 +1,10 @@
-// .vtu files of ours back to snapshots, with every number in them checked before it is used.
+// .vtu and .vtkhdf files of ours back to snapshots, with every number in them checked before it is used.
 #include "libcdem/vtk/checksum.hpp"
 #include "libcdem/vtk/file_error.hpp"
 #include "libcdem/vtk/files.hpp"
 #include "libcdem/vtk/header_names.hpp"
 #include "libcdem/vtk/outline.hpp"
+#include "libcdem/vtk/vtkhdf.hpp"
 #include "libgeom/core/error.hpp"
 
 #include <vtkCellArray.h>
@@ -24,7 +25,7 @@ namespace cdem {
 namespace {
 
 [[noreturn]] void refuse(const std::string& path, const std::string& what) {
-  throw geom::InputError("file", '"' + path + '"', "a .vtu file written by cdem", what);
+  throw geom::InputError("file", '"' + path + '"', "a .vtu or .vtkhdf file written by cdem", what);
 }
 
 vtkSmartPointer<vtkUnstructuredGrid> read_grid(const std::string& path) {
@@ -40,7 +41,16 @@ vtkSmartPointer<vtkUnstructuredGrid> read_grid(const std::string& path) {
     break;
   }
   vtkNew<vtkXMLUnstructuredGridReader> reader;
-  reader->SetFileName(path.c_str());
+  const std::string hdf = ".vtkhdf";
+  if (path.size() > hdf.size() && path.compare(path.size() - hdf.size(), hdf.size(), hdf) == 0) {
+    const std::string vtu = vtkhdf_as_vtu(path);
+    if (vtu.empty())
+      refuse(path, "VTK cannot read it");
+    reader->ReadFromInputStringOn();
+    reader->SetInputString(vtu);
+  } else {
+    reader->SetFileName(path.c_str());
+  }
   reader->Update();
   vtkUnstructuredGrid* grid = reader->GetOutput();
   if (reader->GetErrorCode() != 0 || !grid || !grid->GetPoints())

@@ -20,11 +20,22 @@ std::string ending_of(const std::string& path) {
 
 } // namespace
 
-void check_drawing(const std::array<int, 2>& size, double dpi, const std::string& path) {
+void check_drawing(const std::array<int, 2>& size, double dpi) {
   check_picture_size(size);
   geom::require_between("dpi", dpi, 10, 2400);
+}
+
+void check_drawing(const std::array<int, 2>& size, double dpi, const std::string& path) {
+  check_drawing(size, dpi);
   ending_of(path);
   const AtomicFile probe(path); // the folder exists
+}
+
+std::string png_of_drawing(const std::array<int, 2>& size, double dpi, std::vector<vtkRenderer*> layers,
+                           Canvas& canvas) {
+  for (vtkRenderer* layer : canvas.renderers(size))
+    layers.push_back(layer);
+  return with_resolution(png_of(size, layers), dpi);
 }
 
 void save_drawing(const std::array<int, 2>& size, double dpi, const std::vector<vtkRenderer*>& below,
@@ -32,10 +43,7 @@ void save_drawing(const std::array<int, 2>& size, double dpi, const std::vector<
   const std::string ending = ending_of(path);
   std::string bytes;
   if (ending == ".png") {
-    std::vector<vtkRenderer*> layers = below;
-    for (vtkRenderer* layer : canvas.renderers(size))
-      layers.push_back(layer);
-    bytes = with_resolution(png_of(size, layers), dpi);
+    bytes = png_of_drawing(size, dpi, below, canvas);
   } else {
     VectorPage page = canvas.page(size);
     page.dpi = dpi;

@@ -1,9 +1,10 @@
-// Snapshots to .vtu and .vtp (VTK XML, appended raw data, zlib, which every reader knows: meshio has no LZ4).
+// Snapshots to .vtu and .vtp (VTK XML, appended raw data, zlib, which every reader knows: meshio has no LZ4), and to .vtkhdf.
 #include "libcdem/vtk/atomic_file.hpp"
 #include "libcdem/vtk/checksum.hpp"
 #include "libcdem/vtk/files.hpp"
 #include "libcdem/vtk/header_names.hpp"
 #include "libcdem/vtk/quiet.hpp"
+#include "libcdem/vtk/vtkhdf.hpp"
 #include "libcdem/vtk/xml_text.hpp"
 
 #include <vtkCellArray.h>
@@ -96,21 +97,33 @@ vtkSmartPointer<vtkUnstructuredGrid> to_grid(const std::vector<geom::Vec3>& poin
   return grid;
 }
 
+bool ends_with(const std::string& text, const std::string& end) {
+  return text.size() >= end.size() && text.compare(text.size() - end.size(), end.size(), end) == 0;
+}
+
+std::string extension_of_grid(const std::string& path) {
+  if (ends_with(path, ".vtkhdf"))
+    return ".vtkhdf";
+  require_extension(path, ".vtu");
+  return ".vtu";
+}
+
 // Texts as the names of the components of numbers 0, 1, ...: meshio cannot read a file with an array of strings.
-void add_texts(vtkDataSet* grid, const char* name, const std::vector<std::string>& texts) {
+void add_texts(vtkDataSet* grid, const char* name, const std::vector<std::string>& texts, bool xml) {
   vtkNew<vtkTypeInt64Array> array;
   array->SetName(name);
   array->SetNumberOfComponents(static_cast<int>(texts.size()));
   array->SetNumberOfTuples(1);
   for (int i = 0; i < array->GetNumberOfComponents(); ++i) {
+    const std::string& text = texts[static_cast<std::size_t>(i)];
     array->SetTypedComponent(0, i, i);
-    // VTK's writer takes the name as it is.
-    array->SetComponentName(i, xml_text(texts[static_cast<std::size_t>(i)]).c_str());
+    // VTK's XML writer takes the name as it is.
+    array->SetComponentName(i, xml ? xml_text(text).c_str() : text.c_str());
   }
   grid->GetFieldData()->AddArray(array);
 }
 
-void add_header(vtkDataSet* grid, const Snapshot& snapshot) {
+void add_header(vtkDataSet* grid, const Snapshot& snapshot, bool xml) {
   vtkNew<vtkDoubleArray> time;
   time->SetName(time_name);
   time->InsertNextValue(snapshot.time);
@@ -119,40 +132,44 @@ void add_header(vtkDataSet* grid, const Snapshot& snapshot) {
   step->InsertNextValue(snapshot.step);
   grid->GetFieldData()->AddArray(time);
   grid->GetFieldData()->AddArray(step);
-  add_texts(grid, title_name, {snapshot.title});
+  add_texts(grid, title_name, {snapshot.title}, xml);
   if (!snapshot.body_names.empty())
-    add_texts(grid, bodies_name, snapshot.body_names);
+    add_texts(grid, bodies_name, snapshot.body_names, xml);
 }
 
 template <class Writer>
-void write_with(vtkDataSet* grid, const std::string& path, const std::string& extension) {
-  require_extension(path, extension);
-  AtomicFile file(path);
+bool write_xml(vtkDataSet* grid, const std::string& path) {
   const Quiet quiet;
   vtkNew<Writer> writer;
-  writer->SetFileName(file.temporary().c_str());
+  writer->SetFileName(path.c_str());
   writer->SetInputData(grid);
   writer->SetDataModeToAppended();
   writer->EncodeAppendedDataOff();
   writer->SetHeaderTypeToUInt64();
   writer->SetCompressorTypeToZLib();
   writer->SetCompressionLevel(2); // a third of the time of 5, and a twentieth more to store
-  if (writer->Write() != 1 || writer->GetErrorCode() != 0 || !add_checksum(file.temporary()))
+  return writer->Write() == 1 && writer->GetErrorCode() == 0;
+}
+
+template <class Write>
+void write_whole(const std::string& path, const Write& write) {
+  AtomicFile file(path);
+  if (!write(file.temporary()) || !add_checksum(file.temporary()))
     file.refuse();
   file.commit();
 }
 
-void write_grid(vtkUnstructuredGrid* grid, const std::string& path) {
-  write_with<vtkXMLUnstructuredGridWriter>(grid, path, ".vtu");
+void write_grid(vtkUnstructuredGrid* grid, const Snapshot& header, const std::string& path) {
+  const bool xml = extension_of_grid(path) == ".vtu";
+  add_header(grid, header, xml);
+  write_whole(path, [&](const std::string& temporary) {
+    return xml ? write_xml<vtkXMLUnstructuredGridWriter>(grid, temporary) : write_vtkhdf(grid, temporary);
+  });
 }
 
-bool ends_with(const std::string& text, const std::string& end) {
-  return text.size() >= end.size() && text.compare(text.size() - end.size(), end.size(), end) == 0;
-}
-
-std::string beside(const std::string& vtu_path, const std::string& what) {
-  require_extension(vtu_path, ".vtu");
-  return vtu_path.substr(0, vtu_path.size() - 4) + what + ".vtu";
+std::string beside(const std::string& path, const std::string& what) {
+  const std::string extension = extension_of_grid(path);
+  return path.substr(0, path.size() - extension.size()) + what + extension;
 }
 
 } // namespace
@@ -161,8 +178,7 @@ void write_vtu(const Snapshot& snapshot, const std::string& path) {
   const auto grid = to_grid(snapshot.points, snapshot.tets, VTK_TETRA);
   add_fields(grid->GetPointData(), snapshot.point_fields, snapshot.points.size());
   add_fields(grid->GetCellData(), snapshot.cell_fields, snapshot.tets.size());
-  add_header(grid, snapshot);
-  write_grid(grid, path);
+  write_grid(grid, snapshot, path);
 }
 
 void write_bonds(const Snapshot& snapshot, const std::string& path) {
@@ -170,13 +186,12 @@ void write_bonds(const Snapshot& snapshot, const std::string& path) {
   const auto grid = to_grid(bonds.points, bonds.triangles, VTK_TRIANGLE);
   add_fields(grid->GetPointData(), bonds.point_fields, bonds.points.size());
   add_fields(grid->GetCellData(), bonds.triangle_fields, bonds.triangles.size());
-  add_header(grid, snapshot);
-  write_grid(grid, path);
+  write_grid(grid, snapshot, path);
 }
 
 void write_surface(const Snapshot& snapshot, const std::string& path) {
   const BondSnapshot& bonds = snapshot.bonds;
-  if (ends_with(path, ".vtu")) {
+  if (ends_with(path, ".vtu") || ends_with(path, ".vtkhdf")) {
     write_bonds(snapshot, path);
     return;
   }
@@ -185,8 +200,11 @@ void write_surface(const Snapshot& snapshot, const std::string& path) {
   surface->SetPolys(to_cells(bonds.triangles));
   add_fields(surface->GetPointData(), bonds.point_fields, bonds.points.size());
   add_fields(surface->GetCellData(), bonds.triangle_fields, bonds.triangles.size());
-  add_header(surface, snapshot);
-  write_with<vtkXMLPolyDataWriter>(surface, path, ".vtp");
+  add_header(surface, snapshot, true);
+  require_extension(path, ".vtp");
+  write_whole(path, [&](const std::string& temporary) {
+    return write_xml<vtkXMLPolyDataWriter>(surface, temporary);
+  });
 }
 
 void write_contacts(const std::vector<ContactPoint>& contacts, const Snapshot& header,
@@ -215,8 +233,7 @@ void write_contacts(const std::vector<ContactPoint>& contacts, const Snapshot& h
   add_fields(grid->GetPointData(),
              {force, normal, shear, depth, edge, source_body, target_body, source_block, target_block},
              places.size());
-  add_header(grid, header);
-  write_grid(grid, path);
+  write_grid(grid, header, path);
 }
 
 std::string bonds_path(const std::string& vtu_path) {

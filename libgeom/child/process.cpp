@@ -8,6 +8,7 @@
 #include <cerrno>
 #include <csignal>
 #include <cstring>
+#include <filesystem>
 #include <fstream>
 #include <new>
 #include <stdexcept>
@@ -158,8 +159,8 @@ std::string gigabytes(std::uint64_t bytes) {
     throw InputError(what + ": needs more than the " + std::to_string(limits.seconds) +
                      " s of processor time that it may take");
   if (number == SIGKILL)
-    throw InputError(what + ": the system ended the geometry kernel, most likely for want of memory");
-  throw InputError(what + ": " + limits.blame + ": the geometry kernel crashed" +
+    throw InputError(what + ": the system ended " + limits.worker + ", most likely for want of memory");
+  throw InputError(what + ": " + limits.blame + ": " + limits.worker + " crashed" +
                    (number > 0 ? std::string(" (") + strsignal(number) + ")" : std::string()));
 }
 
@@ -207,6 +208,20 @@ std::string run_here(const std::string& what, const ChildLimits& limits,
 }
 
 } // namespace
+
+ChildLimits limits_of_file(const std::string& path) {
+  constexpr std::uint64_t least_memory = std::uint64_t{2} << 30, memory_per_byte = 100;
+  constexpr std::uint64_t least_seconds = 60, bytes_per_second = 100'000, most_seconds = 100'000;
+  std::error_code none;
+  const std::uintmax_t size = std::filesystem::file_size(path, none);
+  ChildLimits limits;
+  limits.blame = "the file is damaged, or not what its name says";
+  if (none)
+    return limits; // the reader says why it cannot be read
+  limits.memory = least_memory + memory_per_byte * size;
+  limits.seconds = static_cast<unsigned>(std::min(least_seconds + size / bytes_per_second, most_seconds));
+  return limits;
+}
 
 void set_sharing(Sharing share) {
   sharing() = std::move(share);

@@ -17,7 +17,11 @@ struct ChildLimits {
       0;                // bytes beyond what the process holds when the work begins; 0: no limit of its own
   unsigned seconds = 0; // of processor time; 0: no limit
   std::string blame = "the geometry kernel cannot do it"; // what a crash means for the user; follows "what: "
+  std::string worker = "the geometry kernel";             // who crashed
 };
+
+// For a file that somebody else made: memory and time grow with its size.
+ChildLimits limits_of_file(const std::string& path);
 
 // The bytes that `work` returns. `what` begins the messages. Exceptions of the work arrive here as InputError,
 // std::bad_alloc or std::runtime_error with the same text; a crash or a limit as InputError. Throws Stopped when the

@@ -75,16 +75,7 @@ TetMesh mesh_solid(const Solid& solid, const MeshSize& sizes) {
   limits.blame =
       "the solid cannot be meshed with this size; try another, and make sure that no faces nearly touch";
   TetMesh mesh = in_session("mesh", limits, [&] {
-    // Delaunay (1), not HXT (10): HXT's mesh differs from run to run, even on one thread.
-    for (const auto& [name, value] : {std::pair<const char*, double>{"Mesh.Algorithm", 6},
-                                      {"Mesh.Algorithm3D", 1},
-                                      {"Mesh.MaxNumThreads1D", 1},
-                                      {"Mesh.MaxNumThreads2D", 1},
-                                      {"Mesh.MaxNumThreads3D", 1},
-                                      {"Mesh.Optimize", 1},
-                                      {"Mesh.MeshSizeExtendFromBoundary", 0},
-                                      {"Mesh.MeshSizeFromPoints", 0}})
-      gmsh::option::setNumber(name, value);
+    set_mesh_options();
     load(solid);
     gmsh::model::occ::synchronize();
     gmsh::model::mesh::setSizeCallback([&](int, int, double x, double y, double z) {

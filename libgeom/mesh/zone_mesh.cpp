@@ -163,15 +163,7 @@ std::vector<BlockMesh> zone_meshes(const std::vector<Polyhedron>& blocks, double
   if (blocks.empty())
     return {};
   return in_session("zone_size", [&] {
-    for (const auto& [name, value] : {std::pair<const char*, double>{"Mesh.Algorithm", 6},
-                                      {"Mesh.Algorithm3D", 1},
-                                      {"Mesh.MaxNumThreads1D", 1},
-                                      {"Mesh.MaxNumThreads2D", 1},
-                                      {"Mesh.MaxNumThreads3D", 1},
-                                      {"Mesh.Optimize", 1},
-                                      {"Mesh.MeshSizeExtendFromBoundary", 0},
-                                      {"Mesh.MeshSizeFromPoints", 0}})
-      gmsh::option::setNumber(name, value);
+    set_mesh_options();
     gmsh::option::setNumber("Mesh.MeshSizeMax", size);
     gmsh::option::setNumber("General.AbortOnError", 0); // surfaces are meshed where nothing can be thrown
     std::vector<BlockMesh> meshes;

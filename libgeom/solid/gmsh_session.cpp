@@ -71,18 +71,17 @@ TemporaryFile::TemporaryFile(const std::string& ending, const std::string& to_be
                              failed.message());
 }
 
-ChildLimits limits_of_file(const std::string& path) {
-  constexpr std::uint64_t least_memory = std::uint64_t{2} << 30, memory_per_byte = 100;
-  constexpr std::uint64_t least_seconds = 60, bytes_per_second = 100'000, most_seconds = 100'000;
-  std::error_code none;
-  const std::uintmax_t size = std::filesystem::file_size(path, none);
-  ChildLimits limits;
-  limits.blame = "the file is damaged, or not what its name says";
-  if (none)
-    return limits; // the reader says why it cannot be read
-  limits.memory = least_memory + memory_per_byte * size;
-  limits.seconds = static_cast<unsigned>(std::min(least_seconds + size / bytes_per_second, most_seconds));
-  return limits;
+void set_mesh_options() {
+  // Delaunay (1), not HXT (10): HXT's mesh differs from run to run, even on one thread.
+  for (const auto& [name, value] : {std::pair<const char*, double>{"Mesh.Algorithm", 6},
+                                    {"Mesh.Algorithm3D", 1},
+                                    {"Mesh.MaxNumThreads1D", 1},
+                                    {"Mesh.MaxNumThreads2D", 1},
+                                    {"Mesh.MaxNumThreads3D", 1},
+                                    {"Mesh.Optimize", 1},
+                                    {"Mesh.MeshSizeExtendFromBoundary", 0},
+                                    {"Mesh.MeshSizeFromPoints", 0}})
+    gmsh::option::setNumber(name, value);
 }
 
 void pack(std::string& out, const MassProperties& x) {

@@ -72,8 +72,8 @@ auto in_session(const std::string& what, Body body) {
   return in_session(what, ChildLimits(), body);
 }
 
-// For a file that somebody else made: memory and time grow with its size.
-ChildLimits limits_of_file(const std::string& path);
+// Inside a session, before a mesh is made: options that make one repeat, and leave its size to the caller.
+void set_mesh_options();
 
 // Inside a session: a file in its private folder, deleted at the end. gmsh also reads FILE.opt beside each FILE it opens, a script that can
 // run commands: what it opens must stand where no one else can put such a file.

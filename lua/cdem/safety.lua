@@ -14,7 +14,7 @@ local function draw(model, file, factor)
   local length = math.max(size[1] - least[1], size[2] - least[2], size[3] - least[3])
   local times = moved > 0 and tonumber(string.format("%.2g", 0.05 * length / moved)) or 0
   model:picture{ file = file, up = "z", colour = "displacement.magnitude", broken_bonds = false, deformation = times,
-                 title = "mechanism, " .. text(factor) }
+                 size = {1600, 0}, title = "Mechanism, " .. text(factor) }
 end
 
 function cdem.factor_of_safety(options)

@@ -6,6 +6,10 @@ local slope = cdem.slope{ gradient = 1 / 1.5, length = 9, width = 8 }:mesh{ size
 local hung = cdem.drop{ unit = unit, count = 6, onto = slope, seed = 2 } -- to be let fall by model:settle
 print(hung.count)
 
+-- example: pile:walls
+local walls = hung:walls{ onto = slope } -- shape of a rigid body beside the slope and the units
+print(walls.parts)
+
 -- example: cdem.place
 local layer = cdem.place{ unit = unit, count = 6, onto = slope, attitudes = 20, nudges = 0 }
 print(layer.nominal_diameter)

@@ -746,6 +746,16 @@ function Pile:scaled(options) end
 ---@return cdem.Pile
 function Pile:with_unit(options) end
 
+---@class (exact) cdem.PileWallsOptions
+---@field onto cdem.TetMesh the ground, z up
+---@field height? number m, > 0: over the ground; that of the highest unit when left out, two units at least
+---@field thickness? number m, > 0: a unit's height when left out
+
+---Walls that keep the pile together, as of a flume, for a rigid body that is held: at both sides and at the foot of the ground, on level ground all round. Their inner faces stand at the ends of the pile's box; they follow the ground a little above it, so that both may be bodies of one model.
+---@param options cdem.PileWallsOptions
+---@return cdem.TetMesh
+function Pile:walls(options) end
+
 ---Place and attitude of each unit.
 ---@return cdem.Pose[]
 function Pile:poses() end
@@ -1352,7 +1362,7 @@ function Model:lowest_units(options) end
 function Model:highest_units(options) end
 
 ---@class (exact) cdem.ModelSaveOptions
----@field file string ends in .vtu; in the output folder
+---@field file string ends in .vtu, or .vtkhdf for programs that read HDF5; in the output folder
 ---@field series? string ends in .pvd: a time series this file is added to; run.pvd has run_bonds.pvd and run_contacts.pvd beside it. One axis: time where it rises from file to file, else steps
 
 ---Writes the model for ParaView: blocks to the file, bonds beside it (result.vtu, result_bonds.vtu), and of bodies that move far the contacts that carry (result_contacts.vtu: points with force on the source body, normal_force, shear_force, depth, bodies and blocks).

@@ -1,121 +1,64 @@
-// `cdem run --live`: what the page is given, who is refused, and that a browser shows it.
-#include "tests/apps/support/child.hpp"
+// `cdem run --live` and `cdem view`: what the page is given, who is refused, and that a browser shows it.
+#include "tests/apps/support/served_page.hpp"
 
 #include <catch2/catch.hpp>
 
-#include <arpa/inet.h>
-#include <chrono>
+#include <algorithm>
 #include <cstdlib>
-#include <future>
-#include <netinet/in.h>
-#include <regex>
-#include <sys/socket.h>
-#include <thread>
-#include <unistd.h>
 
 using namespace testing;
 using Catch::Matchers::Contains;
 
 namespace {
 
-// A relaxation that never gets where it is to go.
-const std::string endless =
+const char* const column =
     "local cdem = require 'cdem'\n"
     "local rock = cdem.elastic{ youngs_modulus = 30e9, poissons_ratio = 0.2, density = 2500 }\n"
     "local block = cdem.grid{ size = {1, 1, 1}, divisions = {2, 2, 2} }\n"
     "local model = cdem.model{ bodies = { { shape = block, material = rock,\n"
     "  joint = cdem.mohr_coulomb{ cohesion = 1e9, friction_angle = 30, tensile_strength = 1e9 },\n"
     "  element = 'small_strain' } } }\n"
-    "model:fix{ on = 'z-', axes = 'xyz' }\n"
-    "model:traction{ on = 'z+', stress = {0, 0, -1e6} }\n"
-    "model:run{ duration = 1e6 }\n";
+    "model:fix{ on = 'z-', axes = 'xyz' }\n";
 
-class LiveRun {
+// A run that never gets where it is to go.
+const std::string endless = std::string(column) + "model:traction{ on = 'z+', stress = {0, 0, -1e6} }\n"
+                                                  "model:run{ duration = 1e6 }\n";
+
+class LiveRun : public ServedPage {
 public:
-  explicit LiveRun(const std::string& options = "") {
-    write_file(folder_ / "case.lua", endless);
-    ended_ = std::async(std::launch::async, [this, options] {
-      Start start;
-      start.folder = folder_.path();
-      start.limit = 120;
-      return run_program(
-          {"/bin/sh", "-c",
-           "exec '" CDEM_PROGRAM "' run case.lua --live --threads 1 --output out " + options + " >said 2>&1"},
-          start);
-    });
-    const std::regex address("http://127\\.0\\.0\\.1:([0-9]+)/([0-9a-f]+)/");
-    for (int i = 0; i < 600 && port == 0; ++i) {
-      std::this_thread::sleep_for(std::chrono::milliseconds(50));
-      std::smatch found;
-      if (const std::string said = read_file(folder_ / "said"); std::regex_search(said, found, address)) {
-        url = found[0];
-        port = std::stoi(found[1]);
-        token = found[2];
-      }
-    }
-    REQUIRE(port > 0);
-  }
-  ~LiveRun() {
-    if (ended_.valid())
-      stop();
-  }
-
-  // Sends the bytes as they are; the answer.
-  std::string raw(const std::string& request) const {
-    const int file = socket(AF_INET, SOCK_STREAM, 0);
-    sockaddr_in to{};
-    to.sin_family = AF_INET;
-    to.sin_port = htons(static_cast<std::uint16_t>(port));
-    to.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
-    std::string answer;
-    if (connect(file, reinterpret_cast<const sockaddr*>(&to), sizeof to) == 0 &&
-        send(file, request.data(), request.size(), MSG_NOSIGNAL) >= 0) {
-      char bytes[4096];
-      for (ssize_t n = 0; (n = recv(file, bytes, sizeof bytes, 0)) > 0;)
-        answer.append(bytes, static_cast<std::size_t>(n));
-    }
-    close(file);
-    return answer;
-  }
-  std::string ask(const std::string& what, const std::string& host = "", const std::string& more = "",
-                  const std::string& method = "GET", const std::string& body = "") const {
-    return raw(method + " " + what + " HTTP/1.1\r\nHost: " +
-               (host.empty() ? "127.0.0.1:" + std::to_string(port) : host) + "\r\nConnection: close\r\n" +
-               more + (body.empty() ? "" : "Content-Type: application/x-www-form-urlencoded\r\n") +
-               "Content-Length: " + std::to_string(body.size()) + "\r\n\r\n" + body);
-  }
-  std::string here(const std::string& name) const { return "/" + token + "/" + name; }
-  Outcome stop() {
-    ask(here("stop"), "", "", "POST");
-    return ended_.get();
-  }
-  Outcome end() { return ended_.get(); }
-  std::string said() const { return read_file(folder_ / "said"); }
-  std::string log() const { return read_file(folder_ / "out/cdem.log"); }
-
-  int port = 0;
-  std::string token, url;
-
-private:
-  TempFolder folder_;
-  std::future<Outcome> ended_;
+  explicit LiveRun(const std::string& options = "")
+      : ServedPage({{"case.lua", endless}}, "run case.lua --live --threads 1 --output out " + options) {}
+  std::string log() const { return read_file(folder() / "out/cdem.log"); }
 };
 
-std::string first_line(const std::string& answer) {
-  return answer.substr(0, answer.find("\r\n"));
+// In headless chromium, by a script beside this file. False, with a warning, where there is none.
+bool browser_can(const std::string& script, const ServedPage& page) {
+  if (std::system("command -v chromium python3 >/dev/null 2>&1 && test -x \"$(command -v chromium)\"") != 0) {
+    WARN("chromium or python3 is missing: the page is not tried in a browser");
+    return false;
+  }
+  Start start;
+  start.limit = 100;
+  const Outcome browser =
+      run_program({"/usr/bin/env", "python3", CDEM_SOURCE "/tests/apps/" + script, page.url}, start);
+  INFO(browser.out << browser.err);
+  CHECK(browser.exit_code == 0);
+  return true;
 }
 
-// Asks until the answer holds the text, at most 20 s.
-std::string until(const LiveRun& run, const std::string& what, const std::string& text) {
-  std::string answer;
-  for (int i = 0; i < 200; ++i) {
-    answer = run.ask(run.here(what));
-    if (answer.find(text) != std::string::npos)
-      break;
-    std::this_thread::sleep_for(std::chrono::milliseconds(100));
-  }
-  return answer;
-}
+// A column that is pressed: three states of a series, and the last one by itself.
+const std::string pressed = std::string(column) +
+                            "model:traction{ on = 'z+', stress = {0, 0, -1e6} }\n"
+                            "for step = 1, 3 do\n"
+                            "  model:run{ duration = 1e-4 }\n"
+                            "  model:save{ file = 'run' .. step .. '.vtu', series = 'run.pvd' }\n"
+                            "end\n"
+                            "model:save{ file = 'end.vtkhdf' }\n";
+
+class Viewed : public ServedPage {
+public:
+  Viewed() : ServedPage({{"case.lua", pressed}}, "view out", "run case.lua --threads 1 --output out") {}
+};
 
 } // namespace
 
@@ -202,16 +145,105 @@ TEST_CASE("a live run refuses strangers, other hosts, other origins and nonsense
 }
 
 TEST_CASE("a browser shows a live run and stops it") {
-  if (std::system("command -v chromium python3 >/dev/null 2>&1 && test -x \"$(command -v chromium)\"") != 0) {
-    WARN("chromium or python3 is missing: the page is not tried in a browser");
-    return;
-  }
   LiveRun run;
+  if (browser_can("live_browser.py", run))
+    CHECK(run.end().exit_code == 130); // by the button
+}
+
+TEST_CASE("the page of saved files offers each file once, and draws what is asked for") {
+  Viewed page;
+  const std::string first = until(page, "status", "\"frame\":1");
+  CHECK_THAT(first, Contains("{\"name\":\"run.pvd\",\"steps\":3},{\"name\":\"end.vtkhdf\",\"steps\":1}") &&
+                        !Contains("_bonds") && Contains("run1.vtu: time 0.0001"));
+  CHECK_THAT(page.ask(page.here("frame.png")), Contains("\x89PNG"));
+  const auto show = [&](const std::string& words) {
+    return first_line(page.ask(page.here("show"), "", "", "POST", words));
+  };
+  CHECK_THAT(show("step=2&turn=30&zoom=2&low=-1&high=1"), Contains("204"));
+  CHECK_THAT(until(page, "status", "\"step\":2"),
+             Contains("\"turn\":30.0") && Contains("\"range\":[-1.0,1.0]") && Contains("run3.vtu"));
+  CHECK_THAT(show("file=1"), Contains("204")); // its first step
+  CHECK_THAT(until(page, "status", "\"file\":1"), Contains("\"step\":0") && Contains("end.vtkhdf: time"));
+  for (const char* wish :
+       {"file=2", "file=-1", "file=../out/end.vtkhdf", "step=1", "file=0&step=3", "step=0.5", "turn=x",
+        "zoom=0", "zoom=1e9", "low=1&high=0", "low=1", "right=nan"}) {
+    INFO(wish);
+    CHECK_THAT(show(wish), Contains("400"));
+  }
+  CHECK_THAT(first_line(page.ask("/" + std::string(32, '0') + "/status")), Contains("404"));
+  CHECK_THAT(first_line(page.ask(page.here("status"), "evil.example:" + std::to_string(page.port))),
+             Contains("403"));
+  CHECK(page.stop().exit_code == 0);
+}
+
+TEST_CASE("a file that is damaged while it is viewed is told of, and the page goes back") {
+  Viewed page;
+  until(page, "status", "\"frame\":1");
+  write_file(page.folder() / "out/run2.vtu", "nonsense");
+  CHECK_THAT(page.ask(page.here("show"), "", "", "POST", "step=1"), Contains("204"));
+  CHECK_THAT(until(page, "status", "incomplete"), Contains("\"step\":0"));
+  CHECK_THAT(page.ask(page.here("show"), "", "", "POST", "step=2"), Contains("204"));
+  CHECK_THAT(until(page, "status", "\"step\":2"), Contains("run3.vtu: time"));
+  CHECK(page.stop().exit_code == 0);
+}
+
+TEST_CASE("a browser shows saved files, turns them and plays a series") {
+  Viewed page;
+  if (browser_can("view_browser.py", page))
+    CHECK(page.end().exit_code == 0); // by the button
+}
+
+TEST_CASE("what cannot be viewed is one line") {
+  TempFolder folder;
   Start start;
-  start.limit = 100;
-  const Outcome browser =
-      run_program({"/usr/bin/env", "python3", CDEM_SOURCE "/tests/apps/live_browser.py", run.url}, start);
-  INFO(browser.out << browser.err);
-  CHECK(browser.exit_code == 0);
-  CHECK(run.end().exit_code == 130); // by the button
+  start.folder = folder.path();
+  const std::string head = "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\"><Collection>",
+                    tail = "</Collection></VTKFile>\n";
+  write_file(folder / "up.pvd", head + "<DataSet timestep=\"0\" file=\"../../etc/passwd\"/>" + tail);
+  write_file(folder / "root.pvd", head + "<DataSet timestep=\"0\" file=\"/etc/passwd\"/>" + tail);
+  write_file(folder / "none.pvd", head + tail);
+  write_file(folder / "junk.pvd", std::string("junk\0junk", 9));
+  write_file(folder / "lost.pvd", head + "<DataSet timestep=\"0\" file=\"lost.vtu\"/>" + tail);
+  write_file(folder / "text.txt", "text");
+  std::filesystem::create_directory(folder / "empty");
+  const auto said = [&](const std::string& path, int exit_code) {
+    const Outcome outcome = run_cdem({"view", path}, start);
+    CHECK(outcome.exit_code == exit_code);
+    CHECK(lines_of(outcome.err).size() == 1);
+    CHECK(outcome.out.empty());
+    return outcome.err;
+  };
+  CHECK_THAT(said("up.pvd", 2), Contains("outside its folder"));
+  CHECK_THAT(said("root.pvd", 2), Contains("outside its folder"));
+  CHECK_THAT(said("none.pvd", 2), Contains("lists no file"));
+  CHECK_THAT(said("junk.pvd", 2), Contains("it is none, or it is damaged"));
+  CHECK_THAT(said("lost.pvd", 4), Contains("lost.vtu") && Contains("no such file"));
+  CHECK_THAT(said("text.txt", 2), Contains("must be a .vtu or .vtkhdf file"));
+  CHECK_THAT(said("empty", 2), Contains("nothing to look at"));
+  CHECK_THAT(said("nothing.vtu", 4), Contains("no such file"));
+}
+
+TEST_CASE("a .vtkhdf is drawn and described as the .vtu of the same state") {
+  TempFolder folder;
+  write_file(folder / "case.lua", pressed);
+  Start start;
+  start.folder = folder.path();
+  REQUIRE(run_cdem({"run", "case.lua", "--threads", "1", "--output", "out"}, start).exit_code == 0);
+  std::string pictures[2], described[2];
+  const char* const names[] = {"out/run3.vtu", "out/end.vtkhdf"};
+  for (int i = 0; i < 2; ++i) {
+    REQUIRE(run_cdem({"render", names[i], "--colour", "stress.zz", "--output", "a.png"}, start).exit_code ==
+            0);
+    pictures[i] = read_file(folder / "a.png");
+    const Outcome told = run_cdem({"info", names[i]}, start);
+    CHECK(told.exit_code == 0);
+    std::vector<std::string> lines = lines_of(told.out);
+    std::sort(lines.begin(), lines.end()); // VTK's reader lists fields by name
+    for (const std::string& line : lines)
+      described[i] += line + "\n";
+  }
+  CHECK(pictures[0].size() > 1000);
+  CHECK(pictures[0] == pictures[1]);
+  CHECK_THAT(described[0], Contains("stress.zz"));
+  CHECK(described[0] == described[1]);
 }

@@ -1,6 +1,6 @@
 // Several processes that solve one model, as a user meets them: the same report as of one, one message for an error or a
 // stop, nothing left behind when one is killed, and a script that asks what differs between processes.
-#include "tests/apps/support/child.hpp"
+#include "tests/apps/support/case_folder.hpp"
 
 #include <algorithm>
 #include <array>
@@ -18,35 +18,10 @@ namespace fs = std::filesystem;
 
 namespace {
 
-// A plate that is shaken and breaks, and what reads files, the clock and chance on the way.
-const char* const plate = R"(local cdem = require "cdem"
-local steps = cdem.parameter{ name = "steps", default = 400 }
-local rock = cdem.elastic{ youngs_modulus = 1e9, poissons_ratio = 0.2, density = 2500 }
-local joint = cdem.mohr_coulomb{ cohesion = 6e5, friction_angle = 30, tensile_strength = 2e5 }
-local model = cdem.model{ bodies = { { shape = cdem.grid{ size = {1.2, 0.5, 0.05}, divisions = {24, 10, 1} },
-  material = rock, joint = joint, name = "plate" } } }
-model:fix{ on = "y-" }
-model:traction{ on = "y+", stress = {2e5, 2.5e5, 0} }
-print "begins"
-model:relax{ max_steps = 250 }
-local most = 0
-model:run{ steps = steps, every = 200, callback = function() most = math.max(most, model:max("velocity.y")) end }
-cdem.report{ { name = "hash", value = model.state_hash }, { name = "most", value = most },
-  { name = "breaks", value = #model:breaks() } }
-)";
+const std::string plate = shaken_plate("{1.2, 0.5, 0.05}", "{24, 10, 1}", 400);
 
-struct Place {
-  TempFolder folder;
-  Start start;
-  explicit Place(const std::string& text = plate) {
-    start.folder = folder.path();
-    write_file(folder / "plate" / "case.lua", text);
-  }
-  Outcome cdem(const std::vector<std::string>& arguments, int signal = 0, const std::string& after = "") {
-    start.signal = signal;
-    start.signal_after = after;
-    return run_cdem(arguments, start);
-  }
+struct Place : CaseFolder {
+  explicit Place(const std::string& text = plate) : CaseFolder({{"plate/case.lua", text}}) {}
   std::string report() const { return read_file(folder / "out/report.json"); }
   std::string log() const { return read_file(folder / "out/cdem.log"); }
 };

@@ -1,6 +1,6 @@
 // cdem resume as a user meets it: after Ctrl-C, after kill -9 at any moment, with another number of threads, and where
 // it cannot go on.
-#include "tests/apps/support/child.hpp"
+#include "tests/apps/support/case_folder.hpp"
 
 #include <catch2/catch.hpp>
 #include <csignal>
@@ -12,36 +12,12 @@ namespace fs = std::filesystem;
 
 namespace {
 
-// A plate large enough for two threads that is shaken and breaks, for a second or so.
-const char* const plate = R"(local cdem = require "cdem"
-local rock = cdem.elastic{ youngs_modulus = 1e9, poissons_ratio = 0.2, density = 2500 }
-local joint = cdem.mohr_coulomb{ cohesion = 6e5, friction_angle = 30, tensile_strength = 2e5 }
-local steps = cdem.parameter{ name = "steps", default = 500 }
-local model = cdem.model{ bodies = { { shape = cdem.grid{ size = {2.7, 1, 0.05}, divisions = {54, 20, 1} },
-  material = rock, joint = joint, name = "plate" } } }
-model:fix{ on = "y-" }
-model:traction{ on = "y+", stress = {2e5, 2.5e5, 0} }
-print "begins"
-model:relax{ max_steps = 250 }
-local most = 0
-model:run{ steps = steps, every = 200, callback = function() most = math.max(most, model:max("velocity.y")) end }
-cdem.report{ { name = "hash", value = model.state_hash }, { name = "most", value = most },
-  { name = "breaks", value = #model:breaks() } }
-)";
+// Large enough for two threads; it takes a second or so.
+const std::string plate = shaken_plate("{2.7, 1, 0.05}", "{54, 20, 1}", 500);
 
-struct Place {
-  TempFolder folder;
-  Start start;
+struct Place : CaseFolder {
+  Place() : CaseFolder({{"plate/case.lua", plate}}) {}
   fs::path results = folder / "results/plate";
-  Place() {
-    start.folder = folder.path();
-    write_file(folder / "plate/case.lua", plate);
-  }
-  Outcome cdem(const std::vector<std::string>& arguments, int signal = 0, const std::string& after = "") {
-    start.signal = signal;
-    start.signal_after = after;
-    return run_cdem(arguments, start);
-  }
 };
 
 std::string whole_report() {

@@ -1,4 +1,4 @@
-#include "tests/apps/support/child.hpp"
+#include "tests/apps/support/case_folder.hpp"
 
 #include <catch2/catch.hpp>
 #include <csignal>
@@ -40,15 +40,8 @@ print "begins"
 model:run{ duration = 1e6, breaking = false }
 )";
 
-struct Place {
-  TempFolder folder;
-  Start start;
-  Place() {
-    start.folder = folder.path();
-    write_file(folder / "bar/case.lua", bar);
-    write_file(folder / "bar/endless.lua", endless);
-  }
-  Outcome operator()(const std::vector<std::string>& arguments) const { return run_cdem(arguments, start); }
+struct Place : CaseFolder {
+  Place() : CaseFolder({{"bar/case.lua", bar}, {"bar/endless.lua", endless}}) {}
 };
 
 } // namespace

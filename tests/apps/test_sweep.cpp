@@ -1,4 +1,4 @@
-#include "tests/apps/support/child.hpp"
+#include "tests/apps/support/case_folder.hpp"
 
 #include <catch2/catch.hpp>
 #include <chrono>
@@ -21,14 +21,8 @@ if b == 99 then while true do end end
 cdem.report{ { name = "sum_m", value = a + b, unit = "m" } }
 )";
 
-struct Place {
-  TempFolder folder;
-  Start start;
-  Place() {
-    start.folder = folder.path();
-    write_file(folder / "sum/case.lua", sum);
-  }
-  Outcome operator()(const std::vector<std::string>& arguments) const { return run_cdem(arguments, start); }
+struct Place : CaseFolder {
+  Place() : CaseFolder({{"sum/case.lua", sum}}) {}
   std::vector<std::string> table() const {
     return lines_of(read_file(folder / "results/sum-sweep/sweep.csv"));
   }

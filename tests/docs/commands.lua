@@ -9,7 +9,7 @@ local function words_of(command) -- what `PROGRAM COMMAND --help` names as optio
 end
 
 local help = { test = "", bench = "", docs = "", setup = "", help = "" } -- the launcher's own: their options are others'
-for _, name in ipairs{ "run", "resume", "check", "render", "sweep", "info", "repl", "annotations" } do
+for _, name in ipairs{ "run", "resume", "check", "view", "render", "sweep", "info", "repl", "annotations" } do
   help[name] = words_of(name)
 end
 local launcher = pages.read(pages.root .. "/cdem")

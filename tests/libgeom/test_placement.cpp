@@ -1,11 +1,13 @@
 // Where units start: drop grids and armour layers keep them clear of each other and of the ground.
 #include "libgeom/core/error.hpp"
 #include "libgeom/mesh/box_mesh.hpp"
+#include "libgeom/mesh/parts.hpp"
 #include "libgeom/mesh/solid_mesh.hpp"
 #include "libgeom/placement/armour_layer.hpp"
 #include "libgeom/placement/drop_grid.hpp"
 #include "libgeom/placement/pile_measures.hpp"
 #include "libgeom/placement/rest.hpp"
+#include "libgeom/placement/walls.hpp"
 #include "libgeom/query/triangle_distance.hpp"
 #include "libgeom/solid/armour_units.hpp"
 #include "tests/support/refusal.hpp"
@@ -474,4 +476,54 @@ TEST_CASE("between walls a layer in which units lean on too little is laid anew 
   CHECK(layer.at_rest);
   CHECK(layer.leaning.empty());
   CHECK(layer.put_back.empty());
+}
+
+TEST_CASE("walls stand at the ends of the pile and on the ground, clear of it and of each other") {
+  const TetMesh cube = box_mesh({1, 1, 1}, {1, 1, 1});
+  for (const double gradient : {0., 0.5, -0.5}) {
+    const Ground ground = slope_ground(gradient);
+    const Pile pile = drop_grid(cube, 20, ground);
+    const TetMesh walls = walls_around(pile, ground);
+    validate(walls, "walls");
+    const Box inside = bounding_box(pile), outside = bounding_box(walls);
+    // On a slope the upper end is open.
+    CHECK(count_parts(walls) == (gradient == 0 ? 4 : 3));
+    CHECK(outside.min.y() == Approx(inside.min.y() - 1));
+    CHECK(outside.max.y() == Approx(inside.max.y() + 1));
+    for (const Vec3& x : walls.nodes) {
+      const double over = x.z() - *ground.height(x.x(), x.y());
+      CHECK(over > 0.99 * wall_clearance);
+      CHECK(over < (inside.max.z() - inside.min.z()) + 20 * std::abs(gradient) + 3);
+      const bool between = x.x() > inside.min.x() + 1e-9 && x.x() < inside.max.x() - 1e-9 &&
+                           x.y() > inside.min.y() + 1e-9 && x.y() < inside.max.y() - 1e-9;
+      CHECK(!between);
+    }
+    // Nothing of the ground reaches into them.
+    const Surface surface = surface_of(walls);
+    for (std::size_t i = 0; i < surface.triangles.size(); ++i) {
+      const auto t = surface.corners(i);
+      const Vec3 middle = (t[0] + t[1] + t[2]) / 3;
+      CHECK(middle.z() > *ground.height(middle.x(), middle.y()));
+    }
+  }
+}
+
+TEST_CASE("walls clear a ground that is higher between their nodes, and reach below one that has ended") {
+  TetMesh mesh = box_mesh({20, 8, 1}, {40, 1, 1});
+  for (Vec3& x : mesh.nodes)
+    x.z() += std::abs(std::fmod(x.x(), 2.0) - 1) < 0.3 ? 0.4 : 0; // ridges 2 m apart
+  const Ground ground(surface_of(mesh));
+  const Pile pile = drop_grid(box_mesh({1.5, 1.5, 1.5}, {1, 1, 1}), 6, ground);
+  const TetMesh walls = walls_around(pile, ground);
+  const Surface surface = surface_of(walls);
+  for (std::size_t i = 0; i < surface.triangles.size(); ++i) {
+    const auto t = surface.corners(i);
+    for (const double a : {0.1, 0.3, 0.5, 0.8}) {
+      const Vec3 x = a * t[0] + 0.5 * (1 - a) * (t[1] + t[2]);
+      if (const auto z = ground.height(x.x(), x.y()))
+        CHECK(x.z() > *z);
+      else
+        CHECK(x.z() > 1); // its lowest place
+    }
+  }
 }

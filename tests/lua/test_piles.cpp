@@ -185,6 +185,31 @@ TEST_CASE("default is the law between meshed bodies, and between the units of on
              Contains("contacts.default = a joint that bonds: must be cdem.coulomb"));
 }
 
+TEST_CASE("walls keep a dropped pile on a slope together", "[lua]") {
+  // Nothing is held but the slope and the walls; without walls the cubes roll down and off the slope.
+  CHECK(
+      error_of(head +
+               "local slope = cdem.slope{ gradient = 0.5, length = 8, width = 8 }:mesh{ size = 2 }\n"
+               "local pile = cdem.drop{ unit = cube, count = 6, onto = slope, seed = 2 }\n"
+               "local model = cdem.model{\n"
+               "  bodies = { { shape = pile, material = concrete, element = 'rigid', name = 'units' },\n"
+               "             { shape = slope, material = concrete, element = 'rigid', name = 'slope' },\n"
+               "             { shape = pile:walls{ onto = slope }, material = concrete, element = 'rigid',\n"
+               "               name = 'walls' } },\n"
+               "  contacts = { default = cdem.coulomb{ friction_angle = 20 } } }\n"
+               "model:fix{ on = {'slope', 'walls'} }\nmodel:gravity{ vector = {0, 0, -9.81} }\n"
+               "local rest = model:settle{ kinetic_energy_ratio = 1e-4, max_time = 20 }\n"
+               "assert(rest.converged)\n"
+               "local before, after = pile:box(), model:pile{ body = 'units' }:box()\n"
+               "assert(after.min[1] > before.min[1] - 0.01)\n"
+               "for k = 1, 2 do assert(after.max[k] < before.max[k] + 0.01) end\n"
+               "assert(after.min[2] > before.min[2] - 0.01)\n"
+               "local weight = 6 * 2500 * 9.81\n"
+               "local carried = model:reaction('slope')[3] + model:reaction('walls')[3]\n"
+               "local own = 2500 * 9.81 * (slope:volume() + pile:walls{ onto = slope }:volume())\n"
+               "assert(math.abs((carried - own) / weight - 1) < 0.01, (carried - own) / weight)") == "");
+}
+
 TEST_CASE("piles that cannot be made are refused", "[lua]") {
   const auto refused = [](const std::string& call) { return error_of(head + call); };
   CHECK_THAT(refused("cdem.drop{ unit = cube, count = 0, onto = slab }"), Contains("count = 0: must be"));
@@ -201,6 +226,8 @@ TEST_CASE("piles that cannot be made are refused", "[lua]") {
              Contains("density = 9: must be"));
   CHECK_THAT(refused("cdem.drop{ unit = cube, count = 2, onto = slab }:save{ file = 'pile.csv' }"),
              Contains("ends in .json"));
+  CHECK_THAT(refused("cdem.drop{ unit = cube, count = 2, onto = slab }:walls{ onto = slab, height = 0 }"),
+             Contains("height = 0: must be"));
   CHECK_THAT(refused("cdem.drop{ unit = cube, count = 2, onto = slab }:scaled{ factor = 0 }"),
              Contains("factor = 0: must be > 0"));
   CHECK_THAT(refused("cdem.select.units{ body = 'units', numbers = {0} }"), Contains("must be"));

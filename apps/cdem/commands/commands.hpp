@@ -69,6 +69,9 @@ struct RenderCommand {
 };
 ExitCode render_picture(const RenderCommand&);
 
+// Saved files in a page of this machine: a .vtu, a .pvd or an output folder.
+ExitCode view(const std::filesystem::path&);
+
 // About this program, a .vtu, a script or an output folder.
 ExitCode info(const std::filesystem::path&);
 

@@ -1,7 +1,8 @@
-// cdem info: what this program is, or what a .vtu file, a script or an output folder holds.
+// cdem info: what this program is, or what a saved file, a script or an output folder holds.
 #include "apps/cdem/build_info.hpp"
 #include "apps/cdem/commands/script_run.hpp"
 #include "apps/cdem/failure.hpp"
+#include "apps/cdem/live/saved_files.hpp"
 #include "apps/cdem/records.hpp"
 #include "apps/cdem/run_log.hpp"
 #include "apps/cdem/text.hpp"
@@ -109,9 +110,10 @@ std::string shortened(const std::string& text) {
 }
 
 void about_snapshot(const fs::path& file) {
-  const std::string name = file.filename().string(), bonds = "_bonds.vtu";
+  const std::string name = file.stem().string(), bonds = "_bonds";
   if (name.size() > bonds.size() && name.substr(name.size() - bonds.size()) == bonds) {
-    const fs::path blocks = file.parent_path() / (name.substr(0, name.size() - bonds.size()) + ".vtu");
+    const fs::path blocks =
+        file.parent_path() / (name.substr(0, name.size() - bonds.size()) + file.extension().string());
     throw UsageError(file.string() + " holds the bonds of " + blocks.string() +
                      "; give that file, its bonds are told with it");
   }
@@ -201,12 +203,13 @@ ExitCode info(const fs::path& path) {
     throw script::FileError(path.string() + ": no such file or folder");
   else if (fs::is_directory(path, none))
     about_results(path);
-  else if (path.extension() == ".vtu")
+  else if (is_saved_state(path))
     about_snapshot(path);
   else if (path.extension() == ".lua")
     about_script(path);
   else
-    throw UsageError(path.string() + ": must be a .vtu file, a .lua script or a folder of results");
+    throw UsageError(path.string() +
+                     ": must be a .vtu or .vtkhdf file, a .lua script or a folder of results");
   return ExitCode::success;
 }
 

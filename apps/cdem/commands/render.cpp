@@ -1,5 +1,6 @@
 // cdem render: a picture of a .vtu file.
 #include "apps/cdem/commands/script_run.hpp"
+#include "apps/cdem/usual_field.hpp"
 #include "libcdem/vtk/field_values.hpp"
 #include "libcdem/vtk/files.hpp"
 #include "libcdem/vtk/picture.hpp"
@@ -19,18 +20,6 @@ namespace cdem::app {
 namespace fs = std::filesystem;
 
 namespace {
-
-// What to colour by when the user does not say: a file of a mesh has no displacement.
-std::string usual_field(const Snapshot& snapshot) {
-  if (displacement_of(snapshot.point_fields))
-    return "displacement.magnitude";
-  if (find_field(snapshot.cell_fields, "region"))
-    return "region";
-  for (const SnapshotField& field : snapshot.cell_fields)
-    if (field.components == 1)
-      return field.name;
-  return "";
-}
 
 // Numbers in cell field "body" that there are, ascending, with their names where the file tells them.
 std::map<int, std::string> bodies_of(const Snapshot& snapshot) {

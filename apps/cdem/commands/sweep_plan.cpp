@@ -25,15 +25,6 @@ std::string run_name(const Settings& set) {
   return whole.substr(whole.find('-') + 1);
 }
 
-std::string csv_cell(const std::string& text) {
-  if (text.find_first_of(",\"\n") == std::string::npos)
-    return text;
-  std::string quoted = "\"";
-  for (const char c : text)
-    quoted += c == '"' ? "\"\"" : std::string(1, c);
-  return quoted + "\"";
-}
-
 } // namespace
 
 fs::path sweep_folder(const SweepCommand& command) {

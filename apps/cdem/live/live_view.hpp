@@ -3,11 +3,9 @@
 // tenth of its time.
 #pragma once
 
+#include "apps/cdem/live/page_state.hpp"
 #include "apps/cdem/live/server.hpp"
-#include "apps/cdem/live/shown_run.hpp"
 #include "libcdem/results/snapshot.hpp"
-
-#include <filesystem>
 
 namespace cdem::app {
 
@@ -32,9 +30,8 @@ public:
 private:
   using Clock = std::chrono::steady_clock;
 
-  ShownRun shown_;
-  std::filesystem::path folder_; // for the frame while it is drawn
-  LiveServer server_;            // last: its threads use the others
+  PageState shown_;
+  LiveServer server_; // last: its threads use the others
   Clock::time_point next_frame_;
   bool draws_ = true;
 };

@@ -14,11 +14,12 @@ namespace {
 constexpr const char* loopback = "127.0.0.1";
 constexpr std::size_t longest_body = 4096; // bytes
 constexpr int seconds_to_read = 5;
+constexpr std::size_t threads = 16; // a browser holds up to six connections
 
 std::string random_token() {
   unsigned char bytes[16];
   if (getrandom(bytes, sizeof bytes, 0) != static_cast<ssize_t>(sizeof bytes))
-    throw script::FileError("--live: the system gives no random numbers");
+    throw script::FileError("the page: the system gives no random numbers");
   std::string text;
   for (const unsigned char byte : bytes) {
     char two[3];
@@ -77,8 +78,10 @@ struct LiveServer::Impl {
     text("", page_html, "text/html; charset=utf-8");
     text("page.css", page_css, "text/css; charset=utf-8");
     text("page.js", page_js, "text/javascript; charset=utf-8");
-    server.Get(here + "status",
-               [this](const Request&, Response& r) { r.set_content(answers.status(), "application/json"); });
+    server.Get(here + "status", [this](const Request& request, Response& r) {
+      const int seen = request.has_param("seen") ? std::atoi(request.get_param_value("seen").c_str()) : -1;
+      r.set_content(answers.status(seen), "application/json");
+    });
     server.Get(here + "frame\\.png", [this](const Request&, Response& r) {
       const std::string png = answers.frame();
       if (png.empty())
@@ -103,7 +106,7 @@ LiveServer::LiveServer(Answers answers) : impl_(std::make_unique<Impl>()) {
   Impl& all = *impl_;
   all.answers = std::move(answers);
   httplib::Server& server = all.server;
-  server.new_task_queue = [] { return new httplib::ThreadPool(8); };
+  server.new_task_queue = [] { return new httplib::ThreadPool(threads); };
   server.set_payload_max_length(longest_body);
   server.set_read_timeout(seconds_to_read);
   server.set_write_timeout(seconds_to_read);
@@ -131,7 +134,7 @@ LiveServer::LiveServer(Answers answers) : impl_(std::make_unique<Impl>()) {
   all.set_routes();
   all.port = server.bind_to_any_port(loopback);
   if (all.port <= 0)
-    throw script::FileError("--live: no port of the loopback address can be had");
+    throw script::FileError("the page: no port of the loopback address can be had");
   all.url = "http://" + std::string(loopback) + ":" + std::to_string(all.port) + "/" + all.token + "/";
   all.thread = std::thread([&server] { server.listen_after_bind(); });
 }

@@ -1,4 +1,4 @@
-// Serves the page of a run to browsers of this machine. What keeps others out:
+// Serves the page of `cdem run --live` and `cdem view` to browsers of this machine. What keeps others out:
 //
 // - It listens on the loopback address alone, on a port that the system chooses.
 // - Every address begins with 128 random bits; without them nothing is answered. Other users of the machine do not know
@@ -17,9 +17,9 @@ namespace cdem::app {
 
 // Called by threads of the server, several at a time.
 struct Answers {
-  std::function<std::string()> status; // JSON
-  std::function<std::string()> frame;  // PNG; empty: none yet
-  // Wishes for the next frames: colour, view, up, deformation. False: one that cannot be met.
+  std::function<std::string(int seen)> status; // JSON; may wait while frame number `seen` is the newest
+  std::function<std::string()> frame;          // PNG; empty: none yet
+  // Wishes for the next frames (FrameWish). False: one that cannot be met.
   std::function<bool(const std::map<std::string, std::string>&)> show;
   std::function<void()> stop;
 };

@@ -1,5 +1,5 @@
 // cdem.model, and what a model is apart from its conditions, stages and results.
-#include "lua/binding/functions/selections.hpp"
+#include "lua/binding/functions/mesh_body.hpp"
 #include "lua/binding/functions/solving_warnings.hpp"
 #include "lua/binding/objects/model_object.hpp"
 #include "lua/binding/objects/pile_object.hpp"
@@ -18,68 +18,6 @@ namespace cdem::script {
 namespace {
 
 using geom::InputError;
-
-// Which faces of a mesh its joint stands on.
-void read_bonded_faces(const Arguments& given, const std::string& path, const std::string& which,
-                       Bonding& bonding) {
-  if (given.has("bonded_regions") && which == "regions")
-    throw InputError(path + ".bonded_regions: these regions or bonded_faces = \"regions\", not both");
-  for (const double region : given.numbers("bonded_regions"))
-    bonding.regions.push_back(static_cast<int>(region) - 1);
-  bonding.between_regions = which == "regions";
-  bonding.everywhere = which == "all" && bonding.regions.empty();
-}
-
-// A meshed body: with a joint it may break.
-void read_mesh(Session& session, const Arguments& given, const std::string& path,
-               std::vector<geom::TetMesh> meshes, BodySpec& body) {
-  const std::string element = given.text_or("element", "finite_volume");
-  if (element == "small_strain")
-    throw InputError(path + ".element", "\"small_strain\"", "finite_volume or rigid for a mesh",
-                     "small_strain is for assemblies of convex blocks");
-  body.element = element == "rigid" ? Element::rigid : Element::finite_volume;
-  body.meshes = std::move(meshes);
-  std::string bonds = given.text_or("bonds", given.has("joint") ? "cohesive" : "none"),
-              faces = given.text_or("bonded_faces", "all");
-  if (bonds == "all" || bonds == "regions" || bonds == "listed") { // as older scripts wrote it
-    if (bonds == "listed" && !given.has("bonded_regions"))
-      throw InputError(path + ".bonded_regions: missing; bonds = \"listed\" needs to know which");
-    faces = bonds == "regions" ? bonds : "all";
-    session.warn(path + ".bonds = \"" + bonds +
-                 "\" says which faces are bonded, as of old; write bonds = \"springs\"" +
-                 (faces == "regions" ? ", bonded_faces = \"regions\"" : "") +
-                 ". The next version refuses it");
-    bonds = "springs";
-  }
-  if (bonds != "none" && !given.has("joint"))
-    throw InputError(path + ".joint: missing; bonds = \"" + bonds +
-                     "\" needs to know what holds the faces, cdem.mohr_coulomb{...}");
-  if (bonds == "none" && given.has("joint"))
-    throw InputError(path + ".bonds", "\"none\"", "cohesive or springs with a joint", "leave the joint out");
-  if (bonds == "none")
-    for (const char* const only : {"bonded_faces", "bonded_regions"})
-      if (given.has(only))
-        throw InputError(path + "." + only + ": goes with a joint, which says what the faces bear");
-  if (bonds != "none")
-    read_bonded_faces(given, path, faces, body.bonding);
-  std::size_t row = 0;
-  for (const Value& law : given.list("region_joints")) {
-    ++row;
-    if (bonds == "none")
-      throw InputError(path + ".region_joints: goes with a joint, which the other faces have");
-    const Values& items = law.table()->items;
-    const auto region = [&](int i) { return static_cast<int>(items[i].number()) - 1; };
-    body.region_laws.regions.emplace_back(std::minmax({region(0), region(1)}));
-    body.region_laws.joints.push_back(static_cast<const JointObject&>(*items[2].object()).joint);
-  }
-  if (bonds == "cohesive") {
-    body.bonding.kind = BondKind::cohesive;
-    body.bonding.stiffness_ratio = 1;
-  }
-  body.bonding.stiffness_ratio =
-      given.optional_number("stiffness_ratio").value_or(body.bonding.stiffness_ratio);
-  body.bonding.shear_ratio = given.optional_number("shear_ratio").value_or(body.bonding.shear_ratio);
-}
 
 // The shape of a meshed body as a pile, of one unit when it is a mesh; none for an assembly.
 std::optional<geom::Pile> pile_shape(const Arguments& given) {
@@ -285,85 +223,6 @@ Value make_model(Session& session, Object*, const Arguments& a) {
   return model;
 }
 
-Value process_zones(Session&, ModelObject& model, const Arguments&) {
-  Values rows;
-  for (const ProcessZone& zone : model.simulation.process_zones())
-    rows.emplace_back(Table{{"of", zone.of},
-                            {"length", zone.length},
-                            {"face_size", zone.face_size},
-                            {"largest_face_size", zone.largest_face_size},
-                            {"faces_in_zone", zone.faces_in_zone()}});
-  return Table::list(std::move(rows));
-}
-
-Value select(Session&, ModelObject& model, const Arguments& a) {
-  const std::string& name = a.text("name");
-  const bool body =
-      std::find(model.body_names.begin(), model.body_names.end(), name) != model.body_names.end();
-  const bool side = name.size() == 2 && (name[1] == '-' || name[1] == '+');
-  if (name.empty() || name == "all" || body || side || model.places.count(name) > 0)
-    throw InputError("name", "\"" + name + "\"", "a new name",
-                     body || side || name == "all" || name.empty() ? "that one stands for something else"
-                                                                   : "it was given before");
-  model.places[name] = selections(model, a.value("on"), "on");
-  return {};
-}
-
-Value counts(Session&, ModelObject& model, const Arguments&) {
-  const ModelCounts c = model.simulation.counts();
-  return Table{{"bodies", c.bodies},
-               {"blocks", c.blocks},
-               {"nodes", c.nodes},
-               {"tets", c.tets},
-               {"interfaces", c.interfaces},
-               {"bonds", c.bonds},
-               {"intact", c.intact},
-               {"broken_tension", c.broken_tension},
-               {"broken_shear", c.broken_shear},
-               {"contacts", c.contacts},
-               {"damaged", c.damaged}};
-}
-
-Value box(Session&, ModelObject& model, const Arguments&) {
-  const geom::Box box = model.simulation.box();
-  return Table{{"min", box.min}, {"max", box.max}};
-}
-
-template <class Get>
-Property simulation_property(std::string name, std::string type, std::string unit, std::string doc, Get get) {
-  return {std::move(name), std::move(type), std::move(unit), std::move(doc),
-          [get](Session&, Object& self) -> Value { return get(static_cast<ModelObject&>(self).simulation); }};
-}
-
-std::vector<Property> model_properties() {
-  Property memory{
-      "memory", "table", "",
-      "What callbacks must remember: only booleans, numbers, strings and tables of them. It is saved with "
-      "the model, a local variable is not.",
-      [](Session&, Object& self) -> Value { return static_cast<ModelObject&>(self).memory; }};
-  memory.set = [](Session& session, Object& self, const Value& value) {
-    if (!value.table())
-      throw InputError("memory", describe(value), "a table");
-    check_value(value, plain("memory").type, "memory");
-    static_cast<ModelObject&>(self).memory = session.new_memory(value);
-  };
-  return {simulation_property("time", "number", "s", "", [](const Simulation& s) { return s.time(); }),
-          simulation_property("residual", "number", "", "out-of-balance force norm over applied force norm",
-                              [](const Simulation& s) { return s.residual(); }),
-          simulation_property("steps", "integer", "", "of all stages so far",
-                              [](const Simulation& s) { return s.steps(); }),
-          simulation_property("stable_time_step", "number", "s", "of real-time stepping",
-                              [](const Simulation& s) { return s.stable_time_step(); }),
-          simulation_property("state_hash", "string", "", "of every state field, bit for bit",
-                              [](const Simulation& s) {
-                                char text[17];
-                                std::snprintf(text, sizeof text, "%016llx",
-                                              static_cast<unsigned long long>(s.state_hash()));
-                                return std::string(text);
-                              }),
-          memory};
-}
-
 } // namespace
 
 void bind_model(Module& m) {
@@ -446,65 +305,7 @@ void bind_model(Module& m) {
        "cdem.Model",
        "",
        make_model});
-
-  m.records.push_back(
-      {"Counts",
-       "Each bond (spring point) stands in exactly one of intact, broken_tension, broken_shear and "
-       "contacts.",
-       {integer("bodies").required(), integer("blocks").required(), integer("nodes").required(),
-        integer("tets").required(), integer("interfaces").required(), integer("bonds").required(),
-        integer("intact").required(), integer("broken_tension").required(),
-        integer("broken_shear").required(), integer("contacts").required(),
-        integer("damaged").required().doc("of the intact ones: have begun to soften")}});
-  m.records.push_back(
-      {"ProcessZone",
-       "The process zone of a law that softens beside the faces that carry it; medians over the faces.",
-       {text("of").required().doc("body, regions or pair of bodies"),
-        number("length").unit("m").required().doc("E' G_I / T^2, E' = E / (1 - nu^2)"),
-        number("face_size").unit("m").required().doc("edge of an equilateral triangle of the face's area"),
-        number("largest_face_size").unit("m").required().doc("that leaves three faces in the cohesive zone"),
-        number("faces_in_zone").required().doc("faces in the cohesive zone, 0.88 of the length")}});
-  Class model{"Model", "Made by cdem.model."};
-  model.properties = model_properties();
-  model.text = [](const Object& self) {
-    const auto& object = static_cast<const ModelObject&>(self);
-    const ModelCounts c = object.simulation.counts();
-    return "cdem.Model (" + std::to_string(c.bodies) + (c.bodies == 1 ? " body, " : " bodies, ") +
-           std::to_string(c.blocks) + (c.blocks == 1 ? " block, " : " blocks, ") + std::to_string(c.tets) +
-           (c.tets == 1 ? " tet, " : " tets, ") + std::to_string(c.bonds) +
-           (c.bonds == 1 ? " bond)" : " bonds)");
-  };
-  model.methods = {{"select",
-                    "Gives a place a name that `on` understands from now on.",
-                    {text("name").required(), place("on").required()},
-                    false,
-                    "",
-                    "",
-                    method<ModelObject>(select),
-                    false,
-                    Replay::again},
-                   {"counts",
-                    "How many there are of everything.",
-                    {},
-                    true,
-                    "cdem.Counts",
-                    "",
-                    method<ModelObject>(counts)},
-                   {"process_zones",
-                    "Whether faces resolve the process zone E' G_I / T^2 of what softens, by body and pair.",
-                    {},
-                    true,
-                    "cdem.ProcessZone[]",
-                    "",
-                    method<ModelObject>(process_zones)},
-                   {"box",
-                    "Smallest axis-aligned box around the undeformed model.",
-                    {},
-                    true,
-                    "cdem.Box",
-                    "",
-                    method<ModelObject>(box)}};
-  m.classes.push_back(model);
+  bind_model_class(m);
 }
 
 } // namespace cdem::script

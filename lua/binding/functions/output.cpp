@@ -35,9 +35,15 @@ void add_to_series(Session& session, ModelObject& model, const std::string& name
 }
 
 Value save(Session& session, ModelObject& model, const Arguments& a) {
-  require_ending(a.text("file"), ".vtu");
-  if (a.has("series"))
+  require_one_of(a.text("file"), {".vtu", ".vtkhdf"});
+  if (a.has("series")) {
     require_ending(a.text("series"), ".pvd");
+    if (fs::path(a.text("file")).extension() != ".vtu")
+      throw geom::InputError(
+          "file", describe(a.value("file")), "a name ending in .vtu",
+          "ParaView's .pvd lists no .vtkhdf; it shows files x_1.vtkhdf, x_2.vtkhdf, ... as a series "
+          "by their names");
+  }
   if (session.settings.check_only)
     return {};
   const Snapshot snapshot = model.simulation.snapshot(model.title(session));
@@ -243,7 +249,8 @@ void bind_output(Module& m) {
        "bodies that move far the contacts that carry (result_contacts.vtu: points with force on the source "
        "body, "
        "normal_force, shear_force, depth, bodies and blocks).",
-       {text("file").required().doc("ends in .vtu; in the output folder"),
+       {text("file").required().doc(
+            "ends in .vtu, or .vtkhdf for programs that read HDF5; in the output folder"),
         text("series").doc(
             "ends in .pvd: a time series this file is added to; run.pvd has run_bonds.pvd and "
             "run_contacts.pvd beside it. One axis: time where it rises from file to file, else "

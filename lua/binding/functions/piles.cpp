@@ -12,6 +12,7 @@
 #include "libgeom/core/portable.hpp"
 #include "libgeom/placement/armour_layer.hpp"
 #include "libgeom/placement/drop_grid.hpp"
+#include "libgeom/placement/walls.hpp"
 
 #include <cmath>
 
@@ -189,6 +190,11 @@ Value with_unit(Session&, PileObject& self, const Arguments& a) {
   return std::make_shared<PileObject>(std::move(pile));
 }
 
+Value walls(Session&, PileObject& self, const Arguments& a) {
+  return std::make_shared<TetMeshObject>(geom::walls_around(
+      self.pile, ground_of(a), {a.optional_number("height"), a.optional_number("thickness")}));
+}
+
 Value poses(Session&, PileObject& self, const Arguments&) {
   Values rows;
   for (const geom::Pose& pose : self.pile.poses) {
@@ -254,6 +260,19 @@ void bind_class(Module& m) {
        "cdem.Pile",
        "",
        method<PileObject>(with_unit)},
+      {"walls",
+       "Walls that keep the pile together, as of a flume, for a rigid body that is held: at both sides and "
+       "at "
+       "the foot of the ground, on level ground all round. Their inner faces stand at the ends of the pile's "
+       "box; they follow the ground a little above it, so that both may be bodies of one model.",
+       {object("onto", "TetMesh").required().doc("the ground, z up"),
+        number("height").above(0).unit("m").doc(
+            "over the ground; that of the highest unit when left out, two units at least"),
+        number("thickness").above(0).unit("m").doc("a unit's height when left out")},
+       false,
+       "cdem.TetMesh",
+       "",
+       method<PileObject>(walls)},
       {"poses", "Place and attitude of each unit.", {}, true, "cdem.Pose[]", "", method<PileObject>(poses)},
       {"box",
        "Smallest axis-aligned box that holds all units where they are.",

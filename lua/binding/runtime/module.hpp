@@ -89,6 +89,7 @@ void bind_tet_meshes(Module&);
 void bind_piles(Module&);
 void bind_selections(Module&);
 void bind_model(Module&);
+void bind_model_class(Module&); // by bind_model
 void bind_conditions(Module&);
 void bind_in_situ(Module&);
 void bind_water(Module&);

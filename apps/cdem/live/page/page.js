@@ -1,8 +1,12 @@
 "use strict";
-// Asks for the state of the run once a second and shows it. All text goes in as text, never as HTML.
+// Asks for the state of the run or of the files, which answers when there is a new frame or after a second, and shows it.
+// All text goes in as text, never as HTML.
 const at = (id) => document.getElementById(id);
 const svgName = "http://www.w3.org/2000/svg";
-let frame = 0, over = false, fields = "";
+let frame = 0, over = false, fields = "", shown = {}, files = [];
+// wish: words of the next request; sent: those of the last one; drawing: its frame has not come; played: the last step that
+// was played, -1: none.
+let wish = {}, sent = {}, drawing = false, playing = false, played = -1;
 
 function duration(seconds) {
   if (seconds < 60) return Math.ceil(seconds) + " s";
@@ -61,12 +65,34 @@ function chart(given) {
   return section;
 }
 
-function choices(list) {
-  if (list.join() === fields || list.length === 0) return;
-  fields = list.join();
-  const chosen = at("colour").value;
-  at("colour").replaceChildren(...[""].concat(list).map((name) => new Option(name === "" ? "plain blocks" : name, name)));
-  at("colour").value = list.includes(chosen) ? chosen : list.includes("displacement.magnitude") ? "displacement.magnitude" : "";
+function options(select, names, values) {
+  select.replaceChildren(...names.map((name, i) => new Option(name, values[i])));
+}
+
+function choices(status) {
+  if (status.fields.length > 0 && status.fields.join() !== fields) {
+    fields = status.fields.join();
+    options(at("colour"), ["plain blocks", ...status.fields], ["", ...status.fields]);
+  }
+  if (files.length === 0 && status.files.length > 0) {
+    files = status.files;
+    options(at("file"), files.map((f) => f.name), files.map((f, i) => i));
+    at("file-label").hidden = files.length < 2;
+  }
+}
+
+// What is drawn goes into the form, but for a field that somebody is typing into.
+function show_drawn(drawn) {
+  shown = drawn;
+  const range = drawn.range || ["", ""];
+  const values = { ...drawn, low: range[0], high: range[1] };
+  for (const name of ["file", "colour", "view", "up", "deformation", "low", "high"])
+    if (at(name) !== document.activeElement || at(name).tagName === "SELECT") at(name).value = values[name];
+  const steps = files.length > 0 ? files[drawn.file].steps : 1;
+  at("series").hidden = steps < 2;
+  at("step").max = steps - 1;
+  if (!("step" in wish)) at("step").value = drawn.step;
+  at("step-text").value = (drawn.step + 1) + " of " + steps;
 }
 
 function show(status) {
@@ -74,38 +100,42 @@ function show(status) {
   document.title = "cdem: " + status.case;
   at("line").textContent = status.line;
   if (status.ended) at("state").textContent = status.ended.text;
-  else if (status.stopping) at("state").textContent = "stopping at the next step";
+  else if (status.stopping) at("state").textContent = "stopping";
+  else if (status.files.length > 0) at("state").textContent = "";
   else at("state").textContent = status.seconds_left >= 0 ? "running, about " + duration(status.seconds_left) + " left in this stage" : "running";
   at("done").style.width = 100 * (status.ended ? 1 : Math.max(0, status.fraction)) + "%";
-  at("stop").hidden = !status.can_stop || Boolean(status.ended);
+  at("stop").textContent = status.stop;
+  at("stop").hidden = Boolean(status.ended);
   at("stop").disabled = status.stopping;
+  at("bar").hidden = status.files.length > 0;
   const log = at("log"), below = log.scrollTop + log.clientHeight >= log.scrollHeight - 4;
   log.textContent = status.log.join("\n");
   if (below) log.scrollTop = log.scrollHeight;
-  choices(status.fields);
-  if (frame === 0 && status.frame > 0)
-    for (const name of ["view", "up", "deformation"]) at(name).value = status.shown[name];
+  at("log-section").hidden = status.log.length === 0;
+  choices(status);
   if (status.frame !== frame) {
     frame = status.frame;
+    show_drawn(status.shown);
     at("frame").src = "frame.png?" + frame;
     at("frame").hidden = false;
     at("no-frame").hidden = true;
   }
   at("charts").replaceChildren(...status.charts.map(chart).filter((made) => made !== null));
+  at("charts").hidden = at("charts").children.length === 0;
   over = Boolean(status.ended);
 }
 
 async function ask() {
   try {
-    const answer = await fetch("status", { cache: "no-store" });
+    const answer = await fetch("status?seen=" + frame, { cache: "no-store" });
     if (!answer.ok) throw new Error(answer.status);
     show(await answer.json());
   } catch (error) {
-    if (!over) at("state").textContent = "cdem does not answer any more: the run has ended or was stopped";
+    if (!over) at("state").textContent = "cdem does not answer any more: it has ended or was stopped";
     at("stop").hidden = true;
     over = true;
   }
-  if (!over) setTimeout(ask, 1000);
+  if (!over) ask();
 }
 
 async function send(what, words) {
@@ -116,8 +146,90 @@ async function send(what, words) {
   }
 }
 
+// One request at a time: the next goes when the frame of the last has come, with all that was wished in between.
+async function request() {
+  if (drawing || Object.keys(wish).length === 0 || over) return;
+  sent = wish;
+  wish = {};
+  drawing = true;
+  try {
+    const answer = await fetch("show", { method: "POST", body: new URLSearchParams(sent) });
+    if (answer.ok) return; // the frame answers
+    at("line").textContent = "cannot be drawn: " + Object.entries(sent).map(([k, v]) => k + " " + v).join(", ");
+  } catch (error) {
+    at("state").textContent = "cdem does not answer any more";
+  }
+  drawing = false;
+  sent = {};
+  play(false);
+}
+
+function ask_for(words) {
+  Object.assign(wish, words);
+  request();
+}
+
+// A turn of the camera adds to what is asked for already.
+const value_of = (name) => name in wish ? wish[name] : name in sent ? sent[name] :
+  name === "right" ? shown.shift[0] : name === "upwards" ? shown.shift[1] : shown[name];
+const turn_by = (turn, tilt) => ask_for({ turn: value_of("turn") + turn, tilt: value_of("tilt") + tilt });
+const zoom_by = (factor) => ask_for({ zoom: Math.min(100, Math.max(0.05, value_of("zoom") * factor)) });
+const straight = { turn: 0, tilt: 0, zoom: 1, right: 0, upwards: 0 };
+
+function next_step() {
+  const last = files.length > 0 ? files[shown.file].steps - 1 : 0;
+  if (shown.step >= last || shown.step === played) play(false); // the end, or a step that cannot be drawn
+  if (!playing) return;
+  played = shown.step;
+  ask_for({ step: shown.step + 1 });
+}
+
+function play(on) {
+  playing = on;
+  played = -1;
+  at("play").textContent = on ? "⏸" : "▶";
+}
+
+at("frame").addEventListener("load", () => {
+  drawing = false;
+  sent = {};
+  request();
+  if (playing && !drawing) next_step();
+});
 at("stop").addEventListener("click", () => { at("stop").disabled = true; send("stop", {}); });
 at("show").addEventListener("submit", (event) => event.preventDefault());
-at("show").addEventListener("change", () =>
-  send("show", { colour: at("colour").value, view: at("view").value, up: at("up").value, deformation: at("deformation").value }));
+at("show").addEventListener("change", (event) => {
+  const name = event.target.id, value = event.target.value;
+  if (name === "low" || name === "high") {
+    const both = (at("low").value === "") === (at("high").value === "");
+    if (both) ask_for({ low: at("low").value, high: at("high").value });
+  } else if (name === "view" || name === "up") ask_for({ [name]: value, ...straight });
+  else if (name === "file") { play(false); ask_for({ file: value, step: 0 }); }
+  else ask_for({ [name]: value });
+});
+at("show").addEventListener("click", (event) => {
+  const { turn, tilt, zoom } = event.target.dataset;
+  if (turn) turn_by(Number(turn), 0);
+  if (tilt) turn_by(0, Number(tilt));
+  if (zoom) zoom_by(Number(zoom));
+  if (event.target.id === "reset") ask_for(straight);
+});
+at("step").addEventListener("input", () => { play(false); ask_for({ step: at("step").value }); });
+at("play").addEventListener("click", () => {
+  play(!playing);
+  if (playing && shown.step >= files[shown.file].steps - 1) ask_for({ step: 0 });
+  else next_step();
+});
+at("frame").addEventListener("pointermove", (event) => {
+  if (event.buttons !== 1) return;
+  const height = at("frame").clientHeight;
+  if (event.shiftKey)
+    ask_for({ right: value_of("right") + event.movementX / height, upwards: value_of("upwards") - event.movementY / height });
+  else turn_by(-event.movementX * 0.4, event.movementY * 0.4);
+});
+at("frame").addEventListener("pointerdown", (event) => at("frame").setPointerCapture(event.pointerId));
+at("frame").addEventListener("wheel", (event) => {
+  event.preventDefault();
+  zoom_by(event.deltaY < 0 ? 1.1 : 1 / 1.1);
+}, { passive: false });
 ask();

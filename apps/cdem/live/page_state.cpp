@@ -1,10 +1,8 @@
-#include "apps/cdem/live/shown_run.hpp"
+#include "apps/cdem/live/page_state.hpp"
 
 #include <nlohmann/json.hpp>
 
-#include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <utility>
 
 namespace cdem::app {
@@ -12,14 +10,18 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr std::size_t most_lines = 300, most_samples = 1000, longest_word = 200;
+using std::chrono::milliseconds;
+
+constexpr std::size_t most_lines = 300, most_samples = 1000;
+constexpr milliseconds longest_wait_for_frame{1000}, longest_wait_for_page{2000};
 
 } // namespace
 
-ShownRun::ShownRun(std::string name, bool can_stop) : name_(std::move(name)), can_stop_(can_stop) {}
+PageState::PageState(std::string name, std::string stop, std::vector<ShownFile> files)
+    : name_(std::move(name)), stop_(std::move(stop)), files_(std::move(files)) {}
 
-void ShownRun::progress(const Progress& progress, const std::string& line, double fraction,
-                        double seconds_left) {
+void PageState::progress(const Progress& progress, const std::string& line, double fraction,
+                         double seconds_left) {
   const std::lock_guard lock(one_at_a_time_);
   line_ = line;
   fraction_ = fraction;
@@ -43,48 +45,76 @@ void ShownRun::progress(const Progress& progress, const std::string& line, doubl
   stride_ *= 2;
 }
 
-void ShownRun::add_line(const std::string& line) {
+void PageState::line(const std::string& line) {
+  const std::lock_guard lock(one_at_a_time_);
+  line_ = line;
+}
+
+void PageState::add_line(const std::string& line) {
   const std::lock_guard lock(one_at_a_time_);
   log_.push_back(line);
   if (log_.size() > most_lines)
     log_.pop_front();
 }
 
-void ShownRun::frame(std::string png, std::vector<std::string> fields, const FrameWish& drawn) {
+void PageState::frame(std::string png, std::vector<std::string> fields, const FrameWish& drawn) {
   const std::lock_guard lock(one_at_a_time_);
   png_ = std::move(png);
   fields_ = std::move(fields);
   drawn_ = drawn;
   ++frame_;
+  changed_.notify_all();
 }
 
-bool ShownRun::stop() {
+void PageState::refuse(const std::string& line) {
+  add_line(line);
   const std::lock_guard lock(one_at_a_time_);
+  wish_ = drawn_;
+  ++frame_;
+  changed_.notify_all();
+}
+
+bool PageState::stop() {
+  const std::lock_guard lock(one_at_a_time_);
+  changed_.notify_all();
   return !std::exchange(stopping_, true);
 }
 
-void ShownRun::ended(const std::string& text) {
+void PageState::ended(const std::string& text) {
   const std::lock_guard lock(one_at_a_time_);
   end_ = text;
   ended_ = true;
+  changed_.notify_all();
 }
 
-std::string ShownRun::status() {
-  const std::lock_guard lock(one_at_a_time_);
+std::string PageState::status(int seen) {
+  std::unique_lock lock(one_at_a_time_);
+  was_read_ = true;
+  changed_.wait_for(lock, longest_wait_for_frame, [&] { return frame_ != seen || ended_; });
   Json all;
   all["case"] = name_;
   all["line"] = line_;
   all["fraction"] = fraction_;
   all["seconds_left"] = seconds_left_;
-  all["can_stop"] = can_stop_;
+  all["stop"] = stop_;
   all["stopping"] = stopping_;
   all["ended"] = ended_ ? Json{{"text", end_}} : Json(nullptr);
   all["frame"] = frame_;
   all["fields"] = fields_;
-  all["shown"] = {{"colour", drawn_.colour},
+  all["files"] = Json::array();
+  for (const ShownFile& file : files_)
+    all["files"].push_back({{"name", file.name}, {"steps", file.steps}});
+  all["shown"] = {{"file", drawn_.file},
+                  {"step", drawn_.step},
+                  {"colour", drawn_.colour},
+                  {"range", drawn_.range ? Json(*drawn_.range) : Json(nullptr)},
+                  {"deformation", drawn_.deformation},
                   {"view", drawn_.view},
                   {"up", drawn_.up},
-                  {"deformation", drawn_.deformation}};
+                  {"turn", drawn_.turn},
+                  {"tilt", drawn_.tilt},
+                  {"zoom", drawn_.zoom},
+                  {"shift", drawn_.shift}};
   all["log"] = log_;
   Json charts = Json::array();
   const auto add = [&](const char* name, bool log, double Sample::*value) {
@@ -102,62 +132,54 @@ std::string ShownRun::status() {
   add("kinetic energy over its peak", true, &Sample::kinetic);
   add("spring points broken", false, &Sample::broken);
   all["charts"] = charts;
-  was_read_ = true;
   end_was_read_ = end_was_read_ || ended_;
+  changed_.notify_all();
   return all.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
-std::string ShownRun::frame() const {
+std::string PageState::frame() const {
   const std::lock_guard lock(one_at_a_time_);
   return png_;
 }
 
-FrameWish ShownRun::wish() const {
+FrameWish PageState::wish() const {
   const std::lock_guard lock(one_at_a_time_);
   return wish_;
 }
 
-bool ShownRun::wish(const std::map<std::string, std::string>& wishes) {
-  static const std::vector<std::string> views{"front", "back", "left", "right", "top", "bottom", "iso"};
+bool PageState::wish(const std::map<std::string, std::string>& words) {
   const std::lock_guard lock(one_at_a_time_);
-  FrameWish next = wish_;
-  for (const auto& [name, value] : wishes) {
-    if (value.size() > longest_word)
-      return false;
-    if (name == "colour" &&
-        (value.empty() || std::find(fields_.begin(), fields_.end(), value) != fields_.end()))
-      next.colour = value;
-    else if (name == "view" && std::find(views.begin(), views.end(), value) != views.end())
-      next.view = value;
-    else if (name == "up" && (value == "y" || value == "z"))
-      next.up = value;
-    else if (name == "deformation") {
-      char* end = nullptr;
-      next.deformation = std::strtod(value.c_str(), &end);
-      if (value.empty() || *end != '\0' || !(std::abs(next.deformation) <= 1e9))
-        return false;
-    } else {
-      return false;
-    }
-  }
-  wish_ = next;
+  if (!wish_.take(words, fields_, files_))
+    return false;
   wished_ = true;
+  changed_.notify_all();
   return true;
 }
 
-bool ShownRun::wishes_changed() {
+bool PageState::wishes_changed() {
   const std::lock_guard lock(one_at_a_time_);
   return std::exchange(wished_, false);
 }
 
-bool ShownRun::was_read() const {
+void PageState::wait_for_wish(milliseconds longest) {
+  std::unique_lock lock(one_at_a_time_);
+  changed_.wait_for(lock, longest, [&] { return wished_ || stopping_; });
+}
+
+bool PageState::stops() const {
+  const std::lock_guard lock(one_at_a_time_);
+  return stopping_;
+}
+
+bool PageState::was_read() const {
   const std::lock_guard lock(one_at_a_time_);
   return was_read_;
 }
 
-bool ShownRun::end_was_read() const {
-  const std::lock_guard lock(one_at_a_time_);
-  return end_was_read_;
+void PageState::wait_until_end_was_read() const {
+  std::unique_lock lock(one_at_a_time_);
+  if (was_read_)
+    changed_.wait_for(lock, longest_wait_for_page, [&] { return end_was_read_; });
 }
 
 } // namespace cdem::app

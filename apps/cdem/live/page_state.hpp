@@ -1,9 +1,11 @@
-// What the page of a run shows. The run writes it, threads of the server read it.
+// What the page shows: a run, or files that were saved. The program writes it, threads of the server read it.
 #pragma once
 
+#include "apps/cdem/live/frame_wish.hpp"
 #include "libcdem/step/observer.hpp"
 
 #include <chrono>
+#include <condition_variable>
 #include <deque>
 #include <map>
 #include <mutex>
@@ -12,40 +14,43 @@
 
 namespace cdem::app {
 
-// How the next frame is drawn.
-struct FrameWish {
-  std::string colour = "displacement.magnitude", view, up; // of views: empty where nobody has asked
-  double deformation = 1;
-};
-
-class ShownRun {
+class PageState {
 public:
-  ShownRun(std::string name, bool can_stop);
+  // stop: what the button says that ends it; files: none of a run.
+  PageState(std::string name, std::string stop, std::vector<ShownFile> files = {});
 
   void progress(const Progress&, const std::string& line, double fraction, double seconds_left);
+  void line(const std::string&); // the one under the bar
   void add_line(const std::string&);
   void frame(std::string png, std::vector<std::string> fields, const FrameWish& drawn);
-  bool stop(); // false: it was asked to already
+  void
+  refuse(const std::string& line); // the wish cannot be drawn: back to what is shown, with a line in the log
+  bool stop();                     // false: it was asked to already
   void ended(const std::string& text);
 
-  std::string status(); // JSON
+  // JSON. Waits up to a second while the newest frame is still `seen`.
+  std::string status(int seen);
   std::string frame() const;
   FrameWish wish() const;
   // False, and nothing is changed: a name or value that means nothing.
   bool wish(const std::map<std::string, std::string>&);
-  bool wishes_changed(); // since the last frame
+  bool wishes_changed();                                 // since the last frame
+  void wait_for_wish(std::chrono::milliseconds longest); // or for stop()
+  bool stops() const;
   bool was_read() const; // a page is open, or was
-  bool end_was_read() const;
+  // Until a page that was open has seen the end, 2 s at most.
+  void wait_until_end_was_read() const;
 
 private:
   struct Sample {
     double seconds, residual, kinetic, broken;
   };
 
-  const std::string name_;
-  const bool can_stop_;
+  const std::string name_, stop_;
+  const std::vector<ShownFile> files_;
   const std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
   mutable std::mutex one_at_a_time_;
+  mutable std::condition_variable changed_; // a frame, a wish, the end
   std::string line_, end_, png_;
   double fraction_ = -1, seconds_left_ = -1, broken_before_ = 0, broken_in_stage_ = 0;
   int stage_ = 0;

@@ -1,0 +1,57 @@
+// The files that a .pvd lists.
+#include "libcdem/vtk/file_error.hpp"
+#include "libcdem/vtk/files.hpp"
+#include "libcdem/vtk/quiet.hpp"
+#include "libgeom/core/error.hpp"
+
+#include <vtkSmartPointer.h>
+#include <vtkXMLDataElement.h>
+#include <vtkXMLUtilities.h>
+
+#include <filesystem>
+
+namespace cdem {
+namespace {
+
+[[noreturn]] void refuse(const std::string& path, const std::string& what) {
+  throw geom::InputError("file", '"' + path + '"', "a series written by cdem", what);
+}
+
+// A series that somebody sends must not lead to files elsewhere.
+bool is_inside(const std::filesystem::path& file) {
+  if (file.empty() || file.is_absolute())
+    return false;
+  for (const auto& part : file)
+    if (part == "..")
+      return false;
+  return true;
+}
+
+} // namespace
+
+std::vector<std::string> read_pvd(const std::string& path) {
+  std::error_code ignored;
+  if (!std::filesystem::is_regular_file(path, ignored))
+    throw FileError('"' + path + "\" cannot be read: there is no such file");
+  const Quiet quiet;
+  const auto root =
+      vtkSmartPointer<vtkXMLDataElement>::Take(vtkXMLUtilities::ReadElementFromFile(path.c_str()));
+  vtkXMLDataElement* list = root ? root->FindNestedElementWithName("Collection") : nullptr;
+  if (list == nullptr)
+    refuse(path, "it is none, or it is damaged");
+  std::vector<std::string> files;
+  for (int i = 0; i < list->GetNumberOfNestedElements(); ++i) {
+    vtkXMLDataElement* entry = list->GetNestedElement(i);
+    const char* const file = entry->GetAttribute("file");
+    if (file == nullptr || std::string(entry->GetName()) != "DataSet")
+      continue;
+    if (!is_inside(file))
+      refuse(path, "it names \"" + std::string(file) + "\", outside its folder");
+    files.emplace_back(file);
+  }
+  if (files.empty())
+    refuse(path, "it lists no file");
+  return files;
+}
+
+} // namespace cdem
