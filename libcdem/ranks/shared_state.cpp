@@ -183,52 +183,48 @@ void SharedState::share_nodes(State& state) {
   stress_.share({Links::array(state.stress)});
 }
 
-std::vector<std::size_t> SharedState::bytes_by_node(std::size_t entry) const {
-  return in_bytes(part_.node_begin, entry);
-}
-
-std::vector<std::size_t> SharedState::bytes_by_point(std::size_t entry) const {
-  return in_bytes(point_begin_, entry);
-}
-
-void SharedState::gather_points(std::vector<geom::Vec3>& values) const {
+template <class T>
+void SharedState::gather_points(std::vector<T>& values) const {
   if (!values.empty())
-    ranks().share(values.data(), bytes_by_point(sizeof values[0]));
+    ranks().share(values.data(), in_bytes(point_begin_, sizeof values[0]));
 }
+template void SharedState::gather_points(std::vector<geom::Vec3>&) const;
 
 void SharedState::gather_nodes(std::vector<Node>& values) const {
   if (!values.empty())
-    ranks().share(values.data(), bytes_by_node(sizeof values[0]));
+    ranks().share(values.data(), in_bytes(part_.node_begin, sizeof values[0]));
+}
+
+template <class T>
+void SharedState::gather_batches(const std::vector<std::int64_t>& begin, std::vector<T>& values,
+                                 std::size_t entries) const {
+  if (!values.empty())
+    ranks().share(values.data(), in_bytes(begin, entries * sizeof values[0]));
+}
+
+void SharedState::gather_surfaces(State& state) {
+  if (surfaces_whole())
+    return;
+  gather_nodes(state.displacement);
+  gather_nodes(state.velocity);
+  gather_points(state.bond_mode);
+  gather_batches(face_begin_, state.faces);
+  surfaces_whole_ = true;
 }
 
 void SharedState::gather(State& state) {
   if (whole_)
     return;
-  const auto by_node = [&](auto& values) {
-    if (!values.empty())
-      ranks().share(values.data(), bytes_by_node(sizeof values[0]));
-  };
-  const auto by_point = [&](auto& values) {
-    if (!values.empty())
-      ranks().share(values.data(), bytes_by_point(sizeof values[0]));
-  };
-  const auto along = [&](const std::vector<std::int64_t>& begin, auto& values, std::size_t entries = 1) {
-    if (!values.empty())
-      ranks().share(values.data(), in_bytes(begin, entries * sizeof values[0]));
-  };
-  by_node(state.displacement);
-  by_node(state.velocity);
-  by_point(state.bond_offset);
-  by_point(state.bond_mode);
-  by_point(state.bond_damage);
-  by_point(state.bond_slip);
-  by_point(state.joint_history);
-  along(batch_begin_, state.stress);
-  along(batch_begin_, state.viscous_stress);
-  along(batch_begin_, state.plastic_strain);
-  along(face_begin_, state.faces);
-  along(face_begin_, state.cohesive, lanes);
-  along(face_begin_, state.rate_factor, lanes);
+  gather_surfaces(state);
+  gather_points(state.bond_offset);
+  gather_points(state.bond_damage);
+  gather_points(state.bond_slip);
+  gather_points(state.joint_history);
+  gather_batches(batch_begin_, state.stress);
+  gather_batches(batch_begin_, state.viscous_stress);
+  gather_batches(batch_begin_, state.plastic_strain);
+  gather_batches(face_begin_, state.cohesive, lanes);
+  gather_batches(face_begin_, state.rate_factor, lanes);
   gather_slips(state);
   whole_ = true;
 }

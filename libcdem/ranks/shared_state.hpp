@@ -30,21 +30,26 @@ public:
   void set_further_nodes(std::vector<std::int32_t> nodes);
 
   // The state is not whole any more: each rank has its share and what it reads.
-  void parted() { whole_ = false; }
+  void parted() { whole_ = surfaces_whole_ = false; }
   bool whole() const { return whole_; }
+  // What a search for contacts reads is: where nodes are, and which bonds hold.
+  bool surfaces_whole() const { return whole_ || surfaces_whole_; }
+  void gather_surfaces(State&);
   // Makes it whole.
   void gather(State&);
   // The same for arrays beside the State, by point and by node.
-  void gather_points(std::vector<geom::Vec3>& values) const;
+  template <class T>
+  void gather_points(std::vector<T>& values) const;
   void gather_nodes(std::vector<Node>& values) const;
 
 private:
-  std::vector<std::size_t> bytes_by_node(std::size_t entry) const;
-  std::vector<std::size_t> bytes_by_point(std::size_t entry) const;
   void gather_slips(State&) const;
+  template <class T>
+  void gather_batches(const std::vector<std::int64_t>& begin, std::vector<T>& values,
+                      std::size_t entries = 1) const;
 
   Partition part_;
-  bool whole_ = true;
+  bool whole_ = true, surfaces_whole_ = true;
   std::vector<std::int64_t> point_begin_, batch_begin_,
       face_begin_;                  // per rank: springs, batches of tets, of faces
   std::vector<std::int32_t> nodes_; // that the model tells of, and read_always
