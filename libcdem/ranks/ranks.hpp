@@ -51,9 +51,9 @@ public:
   // Whole numbers, summed over the ranks entry by entry: their order does not matter.
   virtual void sum(std::int64_t* values, std::size_t count) = 0;
 
-  // True where all ranks come to this call within so many seconds. A rank that fails asks it, since the others may go on
-  // and wait for it elsewhere: then it returns false, and from there on every call above does nothing and gives this rank
-  // what it has itself. A call above asks it by itself where an exception is on its way.
+  // True where all ranks come to this call within so many seconds. A rank that has an error asks it before anything else,
+  // since the others may go on and wait for it elsewhere. Then it returns false, and every call above does nothing from
+  // there on and gives this rank what it has itself; it must end all.
   virtual bool all_fail(double seconds) = 0;
   static constexpr double patience = 6; // s: ranks that all fail come so far apart at most
 

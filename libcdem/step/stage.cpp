@@ -10,6 +10,7 @@
 #include "libcdem/step/synchronised_view.hpp"
 
 #include <cmath>
+#include <exception>
 
 namespace cdem {
 namespace {
@@ -223,6 +224,9 @@ void Stage::end_step(double time_step) {
 }
 
 void Stage::synchronise() {
+  // Where the stage is left by an error that this rank has alone, the others are elsewhere.
+  if (shared_ && std::uncaught_exceptions() > 0 && !ranks().all_fail(Ranks::patience))
+    return;
   synchronise_contacts();
   broken_between_ += synchronise_stress(context_.log);
 }

@@ -10,6 +10,7 @@
 #include <future>
 #include <thread>
 
+#include <sys/resource.h>
 #include <unistd.h>
 
 using namespace testing;
@@ -167,6 +168,95 @@ TEST_CASE("ranks: an output folder that goes while they run ends all with one me
   CHECK(outcome.exit_code == 4);
   CHECK(lines_of(outcome.err).size() == 1);
   CHECK_THAT(outcome.err, Contains("cdem: error: ") && Contains("out"));
+}
+
+// Addresses are not the same in two processes: a script tells by one whether it runs on rank 0.
+const char* const on_rank_0 = R"(local cdem = require "cdem"
+local own = {}
+local file = io.open("address.txt", "w")
+file:write(tostring(own))
+file:close()
+local on_rank_0 = io.open("address.txt"):read("a") == tostring(own)
+)";
+
+const char* const steps = R"(
+local rock = cdem.elastic{ youngs_modulus = 1e9, poissons_ratio = 0.2, density = 2500 }
+local model = cdem.model{ bodies = { { shape = cdem.box_mesh{ size = {1, 1, 1}, divisions = {4, 4, 4} },
+  material = rock, name = "cube" } } }
+model:fix{ on = "y-" }
+model:gravity{ vector = {0, -9.81, 0} }
+local looks = 0
+local function fails() %s end
+local function solve()
+  model:run{ steps = 1000000, every = 50, callback = function()
+    looks = looks + 1
+    if looks == 5 then fails() end
+  end }
+end
+print "begins"
+%s
+print "goes on"
+)";
+
+// How a run of two or three ranks ends in which one of them fails.
+void require_end_of_all(const std::string& fails, const std::string& solves, int code,
+                        const std::string& said, const char* ranks) {
+  std::string text = steps;
+  text.replace(text.find("%s"), 2, fails);
+  text.replace(text.find("%s"), 2, solves);
+  Place place(on_rank_0 + text);
+  const Outcome outcome = place.cdem({"run", "plate/case.lua", "--output", "out", "--ranks", ranks,
+                                      "--threads", "1", "--checkpoint-every", "0.0001"});
+  INFO(outcome.out << outcome.err);
+  CHECK(outcome.exit_code == code);
+  CHECK(lines_of(outcome.err).size() == 1);
+  CHECK_THAT(outcome.err, Contains(said));
+  CHECK_THAT(outcome.out, !Contains("goes on"));
+  CHECK(outcome.seconds < 20);
+  CHECK(process_of_rank(place.folder.path(), 1) == 0);
+  CHECK(fs::exists(place.folder / "out/checkpoint_1.cdem"));
+}
+
+TEST_CASE("ranks: an error on one rank alone, in a step, ends all with its message and exit code") {
+  if (no_mpirun())
+    return;
+  const std::string caught = "pcall(solve)"; // no script can go on without the others
+  require_end_of_all("if not on_rank_0 then error('here alone') end", "solve()", 2,
+                     "cdem: error: rank 1: plate/case.lua:", "2");
+  require_end_of_all("if on_rank_0 then error('here alone') end", caught, 2, "here alone", "3");
+  require_end_of_all("if not on_rank_0 then model:max('no.field') end", caught, 2, "no.field", "2");
+  // What is solved inside is not the same either.
+  require_end_of_all(
+      "if on_rank_0 then cdem.elastic{ youngs_modulus = -1, poissons_ratio = 0, density = 1 } end", "solve()",
+      2, "youngs_modulus = -1", "2");
+}
+
+TEST_CASE("ranks: one rank that runs out of memory ends all") {
+  if (no_mpirun())
+    return;
+  Place place(std::string(on_rank_0) + R"(
+print "begins"
+local blocks = {}
+for i = 1, 1000 do blocks[i] = cdem.grid{ size = {1, 1, 1}, divisions = {40, 40, 40} } end
+)");
+  auto running = std::async(std::launch::async, [&] {
+    return place.cdem({"run", "plate/case.lua", "--output", "out", "--ranks", "2", "--threads", "1"});
+  });
+  const auto begun = std::chrono::steady_clock::now();
+  while (place.log().find("begins") == std::string::npos &&
+         std::chrono::steady_clock::now() - begun < std::chrono::seconds(20))
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+  const pid_t process = process_of_rank(place.folder.path(), 1);
+  REQUIRE(process > 0);
+  const rlimit little{rlim_t{1} << 20, RLIM_INFINITY};
+  REQUIRE(prlimit(process, RLIMIT_AS, &little, nullptr) == 0);
+  const auto limited = std::chrono::steady_clock::now();
+  const Outcome outcome = running.get();
+  INFO(outcome.out << outcome.err);
+  CHECK(std::chrono::steady_clock::now() - limited < std::chrono::seconds(10));
+  CHECK(outcome.exit_code == 2);
+  CHECK(lines_of(outcome.err).size() == 1);
+  CHECK_THAT(outcome.err, Contains("rank 1") && Contains("memory"));
 }
 
 TEST_CASE("ranks: Ctrl-C and SIGTERM keep a checkpoint, from which another number of ranks goes on") {
