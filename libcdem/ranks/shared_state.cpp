@@ -161,30 +161,26 @@ void SharedState::share_nodes(State& state) {
 }
 
 void SharedState::parted(State& state) {
-  if (!state.parted)
-    since_whole_ = since_motion_ = 0;
+  since_whole_ = whole_ ? 0 : since_whole_ + 1;
+  since_surfaces_ = surfaces_whole() ? 0 : since_surfaces_ + 1;
   state.parted = shares_;
-  whole_ = false;
-  const bool all = ++since_whole_ == release_after, motion = ++since_motion_ == release_after;
-  if (all)
-    shares_->release(state);
-  else if (motion)
-    shares_->release_motion(state);
-  if (all || motion)
-    share_nodes(state); // what is read of others was on those pages too
+  whole_ = surfaces_whole_ = false;
+  if (since_whole_ != release_after && since_surfaces_ != release_after)
+    return;
+  since_whole_ == release_after ? shares_->release(state) : shares_->release_motion(state);
+  share_nodes(state); // what is read of others was on those pages too
+}
+
+void SharedState::gather_surfaces(State& state) {
+  if (state.parted && !surfaces_whole_)
+    shares_->gather_surfaces(state);
+  surfaces_whole_ = true;
 }
 
 void SharedState::gather(State& state) {
   if (state.parted)
     shares_->gather(state);
   whole_ = true;
-}
-
-void SharedState::gather_motion(State& state) {
-  if (!state.parted)
-    return;
-  shares_->gather_motion(state);
-  since_motion_ = 0;
 }
 
 void SharedState::keep(State& state, State& copy) const {

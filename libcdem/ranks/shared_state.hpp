@@ -32,9 +32,11 @@ public:
   // some steps, the pages of others are given back: what is looked at often would only come and go.
   void parted(State&);
   bool whole() const { return whole_; }
-  // Makes it whole, or displacements and velocities only.
+  // What a search for contacts reads is: where nodes are, and which bonds hold.
+  bool surfaces_whole() const { return whole_ || surfaces_whole_; }
+  void gather_surfaces(State&);
+  // Makes all of it whole.
   void gather(State&);
-  void gather_motion(State&);
   const StateShares& shares() const { return *shares_; }
   // Copies the own share.
   void keep(State& state, State& copy) const;
@@ -42,9 +44,9 @@ public:
 private:
   Partition part_;
   std::shared_ptr<const StateShares> shares_;
-  bool whole_ = true;
-  std::int64_t since_whole_ = 0, since_motion_ = 0; // calls of `parted` since all was gathered, or motions
-  std::vector<std::int32_t> nodes_;                 // that the model tells of, and read_always
+  bool whole_ = true, surfaces_whole_ = true;
+  std::int64_t since_whole_ = 0, since_surfaces_ = 0; // calls of `parted` since it was so
+  std::vector<std::int32_t> nodes_;                   // that the model tells of, and read_always
   Links springs_, partial_, moved_, stress_, faces_;
 };
 

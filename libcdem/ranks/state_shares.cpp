@@ -144,9 +144,12 @@ void StateShares::gather_slips(State& state) const {
   }
 }
 
-void StateShares::gather_motion(State& state) const {
-  each_motion([&](const std::vector<std::int64_t>& begin, int, auto& values) { gather(values, begin); },
-              state);
+void StateShares::gather_surfaces(State& state) const {
+  const auto visit = [&](const std::vector<std::int64_t>& begin, int, auto& values) {
+    gather(values, begin);
+  };
+  each_motion(visit, state);
+  each_small(visit, state);
 }
 
 void StateShares::release(State& state) const {

@@ -39,7 +39,7 @@ public:
 
   // All ranks call these together. Afterwards all have all, or rank 0 has, which `parted` does not say.
   void gather(State&) const;
-  void gather_motion(State&) const; // of displacements and velocities only
+  void gather_surfaces(State&) const; // where nodes are, and which bonds hold
   void gather_on_lead(State&) const;
   // The same for arrays beside the State.
   template <class T>

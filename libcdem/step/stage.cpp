@@ -138,10 +138,10 @@ void Stage::see_whole() {
     shared_->gather(context_.state);
 }
 
-void Stage::see_motion(std::vector<Node>& by_node) {
+void Stage::see_surfaces(std::vector<Node>& by_node) {
   if (!shared_)
     return;
-  shared_->gather_motion(context_.state);
+  shared_->gather_surfaces(context_.state);
   shared_->shares().gather_nodes(by_node);
 }
 

@@ -90,9 +90,9 @@ public:
   StageResult finish(const StepReport&); // last history row and progress
   std::int64_t broken_in_step() const { return broken_in_step_; }
 
-  // The state of all ranks, for who looks at the whole of it; with the motion an array by node that stands beside it.
+  // The state of all ranks, for who looks at the whole of it, or at what a search for contacts reads and an array by node beside it.
   void see_whole();
-  void see_motion(std::vector<Node>& by_node); // displacements and velocities only
+  void see_surfaces(std::vector<Node>& by_node); // where nodes are, and which bonds hold
 
   // Brings contacts and the stress of meshes up to where the nodes are; before a state is kept or handed out.
   void synchronise();

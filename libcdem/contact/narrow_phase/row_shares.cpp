@@ -1,5 +1,6 @@
 #include "libcdem/contact/narrow_phase/row_shares.hpp"
 
+#include "libcdem/ranks/bytes.hpp"
 #include "libcdem/ranks/shared_state.hpp"
 
 #include <algorithm>
@@ -7,9 +8,6 @@
 
 namespace cdem {
 namespace {
-
-// Work of a row over that of a candidate.
-constexpr double row_load = 4;
 
 void add_surface_nodes(const Model& model, const ContactWork& work, int block,
                        std::vector<std::int32_t>& nodes) {
@@ -22,60 +20,20 @@ void add_surface_nodes(const Model& model, const ContactWork& work, int block,
     }
 }
 
-template <class T>
-void write(const std::vector<T>& values, std::string& to) {
-  const std::size_t count = values.size();
-  to.append(reinterpret_cast<const char*>(&count), sizeof count);
-  to.append(reinterpret_cast<const char*>(values.data()), count * sizeof(T));
-}
-
-template <class T>
-const char* read(const char* from, const T& like, std::vector<T>& values) {
-  std::size_t count = 0;
-  std::memcpy(&count, from, sizeof count);
-  from += sizeof count;
-  values.assign(count, like);
-  std::memcpy(reinterpret_cast<char*>(values.data()), from, count * sizeof(T));
-  return from + count * sizeof(T);
-}
-
 } // namespace
 
 void begin_search(State& state, ContactWork& work) {
   if (work.shared)
-    work.shared->gather(state);
+    work.shared->gather_surfaces(state);
 }
 
-void share_rows(const Model& model, ContactWork& work) {
+void read_nodes_of_rows(const Model& model, ContactWork& work) {
   if (!work.shared)
     return;
-  std::vector<double> loads;
-  for (const std::vector<ContactRow>& rows : work.rows)
-    for (std::size_t r = 0; r < rows.size(); ++r) {
-      if (r % contact_rows_per_chunk == 0)
-        loads.push_back(0);
-      loads.back() += row_load + rows[r].count;
-    }
-  const Partition& part = work.shared->part();
-  work.chunk_begin = even_shares(loads, part.size);
   std::vector<char> read(model.blocks.size(), 0);
-  std::int64_t chunk = -1;
-  for (std::size_t kind = 0; kind < work.rows.size(); ++kind)
-    for (std::size_t r = 0; r < work.rows[kind].size(); ++r) {
-      if (r % contact_rows_per_chunk == 0)
-        ++chunk;
-      ContactRow& row = work.rows[kind][r];
-      const int rank = Partition::owner(work.chunk_begin, chunk);
-      if (row.rank != rank) {
-        if (kind == Contact::spring)
-          row.reach = 0;
-        row.recheck_distance = row.allowed = 0;
-        work.asleep[kind].recheck_distance[r] = 0;
-      }
-      row.rank = rank;
-      if (rank == part.rank)
-        read[work.movers.block[row.source_mover]] = read[work.movers.block[row.mover]] = 1;
-    }
+  for (const std::vector<ContactRow>& rows : work.rows)
+    for (const ContactRow& row : rows)
+      read[work.movers.block[row.source_mover]] = read[work.movers.block[row.mover]] = 1;
   std::vector<std::int32_t> nodes;
   for (std::size_t b = 0; b < model.blocks.size(); ++b) {
     const Block& block = model.blocks[b];
@@ -88,13 +46,6 @@ void share_rows(const Model& model, ContactWork& work) {
       add_surface_nodes(model, work, static_cast<int>(b), nodes);
   }
   work.shared->set_further_nodes(std::move(nodes));
-}
-
-Range own_chunks_of_rows(const ContactWork& work, std::int64_t chunks) {
-  if (!work.shared)
-    return {0, chunks};
-  const int rank = work.shared->part().rank;
-  return {work.chunk_begin[rank], work.chunk_begin[rank + 1]};
 }
 
 void add_depths(const ContactSums& more, ContactSums& sums) {
@@ -113,15 +64,22 @@ void append(const ContactChunk& more, ContactChunk& sum) {
   add_depths(more.sums, sum.sums);
 }
 
-std::vector<ContactChunk> found_by_all(const ContactChunk& own) {
-  std::string told(reinterpret_cast<const char*>(&own.sums), sizeof own.sums);
-  write(own.contacts, told);
-  write(own.forces, told);
-  std::vector<ContactChunk> found;
-  for (const std::string& heard : ranks().gather(told, Ranks::Subject::contacts)) {
-    ContactChunk& of = found.emplace_back();
-    std::memcpy(&of.sums, heard.data(), sizeof of.sums);
-    read(read(heard.data() + sizeof of.sums, Contact(), of.contacts), ContactForce(), of.forces);
+std::array<std::vector<ContactChunk>, 2> found_by_all(const std::array<ContactChunk, 2>& own) {
+  Pack pack;
+  for (const ContactChunk& chunk : own) {
+    pack(chunk.sums);
+    pack(chunk.contacts);
+    pack(chunk.forces);
+  }
+  std::array<std::vector<ContactChunk>, 2> found;
+  for (const std::string& heard : ranks().gather(pack.text(), Ranks::Subject::contacts)) {
+    Unpack unpack(heard);
+    for (std::vector<ContactChunk>& of_kind : found) {
+      ContactChunk& of = of_kind.emplace_back();
+      unpack(of.sums);
+      unpack(of.contacts);
+      unpack(of.forces);
+    }
   }
   return found;
 }
@@ -129,7 +87,7 @@ std::vector<ContactChunk> found_by_all(const ContactChunk& own) {
 std::vector<double> of_finders(const ContactWork& work, const std::vector<std::size_t>& contacts,
                                const std::function<double(std::size_t)>& number) {
   std::vector<double> numbers(contacts.size(), 0.0);
-  const bool by_all = !work.shared || work.shared->whole();
+  const bool by_all = !work.shared || work.shared->surfaces_whole();
   for (std::size_t i = 0; i < contacts.size(); ++i)
     if (by_all || work.rank_of_contact[contacts[i]] == work.shared->part().rank)
       numbers[i] = number(contacts[i]);
