@@ -246,6 +246,7 @@ RelaxResult relax(const StageContext& context, const RelaxOptions& options, cons
     report.residual = relative_residual(report.sums);
     stage.watch(report);
     if (judges && stage.step % watch_every == 0) {
+      stage.see_whole();
       stability.look(stage.step, report.residual);
       failing = stability.watch().failing();
     }
@@ -256,7 +257,7 @@ RelaxResult relax(const StageContext& context, const RelaxOptions& options, cons
     }
     forces_known = true;
     if (stage.step > moving_steps && stage.step % slow_mode_every == 0) {
-      stage.see_whole(&previous_force);
+      stage.see_surfaces(previous_force);
       slow.look(state, previous_force, masses.of_nodes());
     }
     damping = std::min(2 * std::sqrt(std::min(lambda, slow.frequency2().value_or(lambda))), most_damping);
@@ -280,6 +281,7 @@ RelaxResult relax(const StageContext& context, const RelaxOptions& options, cons
         throw;
       // It ran too far between two looks: what is kept is the last one.
       state = context.last_good;
+      stage.see_whole();
       stage.work.strain_step = 0;
       failing = true;
     }

@@ -8,6 +8,8 @@ namespace {
 
 // Work of a bonded face, and of a spring between blocks, over that of a tet.
 constexpr double face_load = 1.5, spring_load = 0.5;
+// A tet of a rigid block takes memory only.
+constexpr double rigid_load = 1e-3;
 
 } // namespace
 
@@ -35,8 +37,8 @@ std::vector<double> chunk_loads(const Model& model) {
   for (std::size_t c = 0; c < stars; ++c)
     loads.push_back(static_cast<double>(model.chunks[c].batches.size() * lanes));
   for (const MeshChunk& chunk : model.mesh.chunks)
-    loads.push_back(
-        is_rigid(model, chunk) ? 0 : static_cast<double>(chunk.tets.size()) + face_load * chunk.faces);
+    loads.push_back((is_rigid(model, chunk) ? rigid_load : 1) *
+                    (static_cast<double>(chunk.tets.size()) + face_load * chunk.faces));
   return loads;
 }
 

@@ -4,6 +4,7 @@
 #include "libcdem/integrate/move_columns.hpp"
 #include "libcdem/parallel/huge_pages.hpp"
 #include "libcdem/parallel/instruction_set.hpp"
+#include "libcdem/parallel/residency.hpp"
 #include "libcdem/results/make_snapshot.hpp"
 #include "libcdem/step/errors.hpp"
 #include "libcdem/step/record.hpp"
@@ -63,6 +64,12 @@ bool finite(const NodeSums& sums) {
   return std::isfinite(sums.residual2) && std::isfinite(sums.kinetic) && std::isfinite(sums.reaction2);
 }
 
+bool any_rank(bool says_so) {
+  double said = says_so ? 1 : 0;
+  ranks().largest(&said, 1);
+  return said > 0;
+}
+
 } // namespace
 
 double relative_residual(const NodeSums& sums) {
@@ -101,10 +108,16 @@ Stage::Stage(const StageContext& context, std::string kind, double run_away)
   } else {
     keep_start_of_loop(context_);
   }
+  if (shared_) {
+    keep_last_good();
+    trim_heap(); // what building and looking at the whole has left
+  }
 }
 
 Stage::~Stage() {
   synchronise();
+  if (shared_ && std::uncaught_exceptions() > exceptions_) // the last good state is written
+    shared_->shares().gather_on_lead(context_.last_good);
 }
 
 void Stage::share() {
@@ -114,12 +127,23 @@ void Stage::share() {
   work.shared = work.contact.shared = shared_.get();
 }
 
-void Stage::see_whole(std::vector<Node>* by_node) {
+void Stage::keep_last_good() {
+  if (shared_)
+    shared_->keep(context_.state, context_.last_good);
+  else
+    context_.last_good = context_.state;
+}
+
+void Stage::see_whole() {
+  if (shared_)
+    shared_->gather(context_.state);
+}
+
+void Stage::see_surfaces(std::vector<Node>& by_node) {
   if (!shared_)
     return;
-  shared_->gather(context_.state);
-  if (by_node)
-    shared_->gather_nodes(*by_node);
+  shared_->gather_surfaces(context_.state);
+  shared_->shares().gather_nodes(by_node);
 }
 
 void Stage::keep_restart_point(std::vector<double> loop_state, const std::vector<Node>& previous_force) {
@@ -132,13 +156,15 @@ void Stage::keep_restart_point(std::vector<double> loop_state, const std::vector
   point.breaks = context_.log.breaks.size();
   point.wall_time = wall_time();
   point.loop_state = std::move(loop_state);
-  point.previous_force = previous_force;
-  point.spring_force = work.bond.spring_force;
-  point.stretch = work.bond.stretch;
   if (shared_) {
-    shared_->gather_nodes(point.previous_force);
-    shared_->gather_points(point.spring_force);
-    shared_->gather_points(point.stretch);
+    const StateShares& shares = shared_->shares();
+    StateShares::copy(previous_force, point.previous_force, shares.nodes());
+    StateShares::copy(work.bond.spring_force, point.spring_force, shares.points());
+    StateShares::copy(work.bond.stretch, point.stretch, shares.points());
+  } else {
+    point.previous_force = previous_force;
+    point.spring_force = work.bond.spring_force;
+    point.stretch = work.bond.stretch;
   }
   point.contact_step = work.contact.last_step;
   if (context_.procedure_state)
@@ -156,6 +182,7 @@ bool Stage::free_nodes() {
   const auto due = freeing_.due(model, state, shared_.get(), context_.threads);
   if (due) {
     synchronise_to_leave();
+    see_whole();
     Freed freed = cdem::free_nodes(model, state, *due);
     *context_.changing = std::move(freed.model);
     state = std::move(freed.state);
@@ -176,7 +203,7 @@ bool Stage::free_nodes() {
     has_shared_nodes_ = has_shared_nodes(model);
     update_external(work.resolved, state.time);
     preload_faces(model, state, net_forces(model, state, work), freed.anew);
-    context_.last_good = state;
+    keep_last_good();
   }
   times_.end(StepLine::cracks);
   return due.has_value();
@@ -229,6 +256,7 @@ void Stage::synchronise() {
     return;
   synchronise_contacts();
   broken_between_ += synchronise_stress(context_.log);
+  see_whole();
 }
 
 void Stage::synchronise_contacts() {
@@ -243,7 +271,7 @@ std::int64_t Stage::synchronise_stress(RunLog& log) {
   work.hand_over_due = step % hand_over_every == 0;
   if (work.strain_step > 0) {
     if (shared_)
-      shared_->parted();
+      shared_->parted(context_.state);
     for_chunks(work.mesh_chunks(context_.model), context_.threads, [&](std::int64_t c) {
       if (!is_rigid(context_.model, context_.model.mesh.chunks[c]))
         mesh_forces(context_.model, context_.state, work, c, breaking_);
@@ -259,7 +287,6 @@ std::int64_t Stage::synchronise_stress(RunLog& log) {
         work.contact.due = true;
   }
   work.strain_step = 0;
-  see_whole();
   return broken;
 }
 
@@ -267,19 +294,30 @@ std::int64_t Stage::synchronise_stress(RunLog& log) {
 void Stage::synchronise_to_leave() {
   if (!context_.state.face_slip.empty() || !context_.model.mesh.sides.empty())
     work.contact.fragments_due = work.contact.anew = true;
-  synchronise();
+  synchronise_contacts();
+  broken_between_ += synchronise_stress(context_.log);
 }
 
 void Stage::keep_state() {
+  require_sound_state();
+  synchronise_to_leave();
+  look_for_escapes();
+  keep_last_good();
+}
+
+// Each rank looks at its share; what is wrong is told of by all, as one that sees everything.
+void Stage::require_sound_state() {
+  if (shared_ && !any_rank(!share_is_sound(context_.model, context_.state, work, run_away_)))
+    return;
   see_whole();
   require_sound(context_.model, context_.state, work, run_away_, here());
   require_neighbours(context_.model, context_.state, here());
-  synchronise_to_leave();
-  look_for_escapes();
-  context_.last_good = context_.state;
 }
 
 void Stage::look_for_escapes() {
+  if (shared_ && !any_rank(any_is_out(context_.model, context_.state, escapes, shared_->part().nodes())))
+    return;
+  see_whole();
   bool holds = false;
   for (const Escape& escape : find_escapes(context_.model, context_.state, work.resolved, escapes)) {
     require_kept_energy(context_.model, context_.state, escape, here());
@@ -373,6 +411,7 @@ void Stage::show() {
 
 StageResult Stage::finish(const StepReport& step_report) {
   keep_state();
+  see_whole();
   look_at_units(context_.model, context_.state, context_.conditions, context_.log);
   sample(step_report);
   times_.end(StepLine::watch);

@@ -26,6 +26,7 @@
 #include "libcdem/step/step_loops.hpp"
 #include "libcdem/step/step_times.hpp"
 
+#include <exception>
 #include <memory>
 
 namespace cdem {
@@ -89,8 +90,9 @@ public:
   StageResult finish(const StepReport&); // last history row and progress
   std::int64_t broken_in_step() const { return broken_in_step_; }
 
-  // The state of all ranks, and an array by node that stands beside it, for who looks at the whole of it.
-  void see_whole(std::vector<Node>* by_node = nullptr);
+  // The state of all ranks, for who looks at the whole of it, or at what a search for contacts reads and an array by node beside it.
+  void see_whole();
+  void see_surfaces(std::vector<Node>& by_node); // where nodes are, and which bonds hold
 
   // Brings contacts and the stress of meshes up to where the nodes are; before a state is kept or handed out.
   void synchronise();
@@ -98,6 +100,8 @@ public:
 private:
   friend class SynchronisedView;
   void share();                // with other ranks, when there are any
+  void require_sound_state();  // Throws SolutionError
+  void keep_last_good();       // of this rank's share
   void synchronise_to_leave(); // where a run may go on
   void synchronise_contacts();
   std::int64_t synchronise_stress(RunLog&); // returns how many springs broke, of which the log is told
@@ -116,6 +120,7 @@ private:
 
   StageContext context_;
   std::unique_ptr<SharedState> shared_; // null where this rank is alone
+  int exceptions_ = std::uncaught_exceptions();
   ThreadChoice threads_;
   ContactUpdate contacts_;
   StepTimes times_;
@@ -139,7 +144,7 @@ NodeSums Stage::advance(bool breaking, const Move& move, const MoveRigid& move_r
   const int threads = context_.threads;
   breaking_ = breaking;
   if (shared_)
-    shared_->parted();
+    shared_->parted(state);
   if (breaking && !model.mesh.sides.empty()) {
     begun_ = begin_cracks(model, state, work.mesh_chunks(model), work.strain_step, threads, in_real_time);
     if (shared_)
