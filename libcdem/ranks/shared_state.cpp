@@ -118,8 +118,9 @@ std::vector<std::int32_t> faces_read(const Model& model, const Partition& part) 
 
 } // namespace
 
-SharedState::SharedState(const Model& model, const std::vector<std::int32_t>& read_always)
-    : part_(model, ranks().rank(), ranks().size()),
+SharedState::SharedState(const Model& model, const std::vector<std::int32_t>& read_always,
+                         const std::vector<double>& loads)
+    : part_(model, loads, ranks().rank(), ranks().size()),
       shares_(std::make_shared<const StateShares>(model, part_)), nodes_(nodes_read(model, part_)) {
   nodes_.insert(nodes_.end(), read_always.begin(), read_always.end());
   const MeshData& mesh = model.mesh;
