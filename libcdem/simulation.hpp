@@ -249,6 +249,8 @@ public:
   // Everything but the conditions, as bytes for a file: of a model that is idle as it is, in a stage as it was where
   // the stage can be left. The Model itself is among it only where it is no longer the one that was built.
   std::string save() const;
+  // With several ranks, before rank 0 alone saves: brings it what the others hold. All of them call it.
+  void gather_to_save();
   // On a Simulation built from the same ModelSpec; throws geom::InputError on another. A stage that was left is
   // begun again by the next solving call, which must be the same, and goes on where it was left.
   void restore(const std::string& saved);

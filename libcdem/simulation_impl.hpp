@@ -5,6 +5,7 @@
 #include "libcdem/bond/water_work.hpp"
 #include "libcdem/element/mesh_fields.hpp"
 #include "libcdem/fracture/rebuild.hpp"
+#include "libcdem/ranks/state_shares.hpp"
 #include "libcdem/results/energy.hpp"
 #include "libcdem/simulation.hpp"
 #include "libcdem/step/stage.hpp"

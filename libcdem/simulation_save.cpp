@@ -85,6 +85,18 @@ void Simulation::Impl::take(std::string_view saved, bool state_only) {
   }
 }
 
+// Only a stage that runs keeps a copy in shares.
+void Simulation::gather_to_save() {
+  Impl& s = *impl_;
+  const std::shared_ptr<const StateShares> shares = s.last_good.parted;
+  if (!shares || !s.restart_point)
+    return;
+  shares->gather_on_lead(s.last_good);
+  shares->gather_nodes_on_lead(s.restart_point->previous_force);
+  shares->gather_points_on_lead(s.restart_point->spring_force);
+  shares->gather_points_on_lead(s.restart_point->stretch);
+}
+
 std::string Simulation::save() const {
   return impl_->saved();
 }

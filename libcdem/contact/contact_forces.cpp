@@ -159,7 +159,7 @@ ContactSums contact_forces(const Model& model, State& state, ContactWork& own, i
     begin_search(state, own);
     if (!search_contacts(model, state, own, threads))
       return sums; // something is not a number: the stage's watch will say where
-    share_rows(model, own);
+    read_nodes_of_rows(model, own);
   }
   own.any_depth_begins = !known || (anew && (!state.face_slip.empty() || !model.mesh.sides.empty()));
   if (!fragments_due)
@@ -178,7 +178,7 @@ ContactSums contact_forces(const Model& model, State& state, ContactWork& own, i
     return (rows + contact_rows_per_chunk - 1) / contact_rows_per_chunk;
   };
   const std::int64_t n_springs = chunks(springs);
-  const Range rows = own_chunks_of_rows(own, n_springs + chunks(edges));
+  const std::int64_t n_chunks = n_springs + chunks(edges);
   own.chunks.resize(static_cast<std::size_t>(chunks_at_a_time * threads));
   clear_forces(own);
   mark_touched_edges(state.contacts, own);
@@ -191,9 +191,9 @@ ContactSums contact_forces(const Model& model, State& state, ContactWork& own, i
   own.now.clear();
   own.rank_now.clear();
   own.now.reserve(state.contacts.size() + state.contacts.size() / 8 + 64);
-  ContactChunk found; // by this rank, where there are others
-  for (std::int64_t first = rows.begin; first < rows.end; first += chunks_at_a_time * threads) {
-    const std::int64_t count = std::min(rows.end - first, chunks_at_a_time * threads);
+  std::array<ContactChunk, 2> found; // springs and edges, by this rank, where there are others
+  for (std::int64_t first = 0; first < n_chunks; first += chunks_at_a_time * threads) {
+    const std::int64_t count = std::min(n_chunks - first, chunks_at_a_time * threads);
     for_chunks(count, threads, [&](std::int64_t i) {
       ContactChunk& out = own.chunks[i];
       out.contacts.clear();
@@ -218,13 +218,13 @@ ContactSums contact_forces(const Model& model, State& state, ContactWork& own, i
       }
     });
     for (std::int64_t i = 0; i < count; ++i)
-      own.shared ? append(own.chunks[i], found) : take(own.chunks[i], 0, own, sums);
+      own.shared ? append(own.chunks[i], found[first + i < n_springs ? Contact::spring : Contact::edge])
+                 : take(own.chunks[i], 0, own, sums);
   }
-  if (own.shared) {
-    const std::vector<ContactChunk> by_rank = found_by_all(found);
-    for (std::size_t rank = 0; rank < by_rank.size(); ++rank)
-      take(by_rank[rank], static_cast<int>(rank), own, sums);
-  }
+  if (own.shared)
+    for (const std::vector<ContactChunk>& by_rank : found_by_all(found))
+      for (std::size_t rank = 0; rank < by_rank.size(); ++rank)
+        take(by_rank[rank], static_cast<int>(rank), own, sums);
   sums.friction += lost(model, state, own);
   if (own.now.capacity() > 2 * own.now.size() + 64)
     own.now.shrink_to_fit();

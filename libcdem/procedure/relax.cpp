@@ -160,6 +160,7 @@ RelaxResult relax(const StageContext& context, const RelaxOptions& options, cons
   FictitiousMasses masses(context.model, stage.work.resolved.bolts);
   const RestartPoint* const from = context.from;
   std::vector<Node> previous_force(masses.of_nodes().size()); // N, of the step before
+  stage.carried = &previous_force;
   update_external(stage.work.resolved, state.time);
   if (from) {
     previous_force = from->previous_force;
@@ -246,6 +247,7 @@ RelaxResult relax(const StageContext& context, const RelaxOptions& options, cons
     report.residual = relative_residual(report.sums);
     stage.watch(report);
     if (judges && stage.step % watch_every == 0) {
+      stage.see_whole();
       stability.look(stage.step, report.residual);
       failing = stability.watch().failing();
     }
@@ -256,7 +258,7 @@ RelaxResult relax(const StageContext& context, const RelaxOptions& options, cons
     }
     forces_known = true;
     if (stage.step > moving_steps && stage.step % slow_mode_every == 0) {
-      stage.see_whole(&previous_force);
+      stage.see_surfaces(previous_force);
       slow.look(state, previous_force, masses.of_nodes());
     }
     damping = std::min(2 * std::sqrt(std::min(lambda, slow.frequency2().value_or(lambda))), most_damping);
@@ -280,6 +282,7 @@ RelaxResult relax(const StageContext& context, const RelaxOptions& options, cons
         throw;
       // It ran too far between two looks: what is kept is the last one.
       state = context.last_good;
+      stage.see_whole();
       stage.work.strain_step = 0;
       failing = true;
     }

@@ -214,8 +214,10 @@ RunResult run(const StageContext& context, const RunOptions& options, const std:
     state.time = clock.time_at(stage.step);
     state.velocity_lag = 0.5 * stepping.time_step;
     stage.watch(report);
-    if (scaled.on() && stage.step % watch_every == 0)
+    if (scaled.on() && stage.step % watch_every == 0) {
+      stage.see_whole();
       scaled.sample();
+    }
     if (stage.step % ask_every == 0) {
       std::optional<SynchronisedView> view; // what they read is of one moment
       if (options.callback || options.stop)

@@ -15,28 +15,14 @@ void Links::set(std::vector<std::int32_t> needs, const std::function<int(std::in
   for (const std::int32_t entry : needs)
     if (const int of = owner(entry); of != all.rank())
       receive_[of].push_back(entry);
-  // All hear of all needs: that is done where contacts are searched, not in a step.
-  std::string told;
-  for (const std::vector<std::int32_t>& of : receive_) {
-    const auto count = static_cast<std::int32_t>(of.size());
-    told.append(reinterpret_cast<const char*>(&count), sizeof count);
-    told.append(reinterpret_cast<const char*>(of.data()), of.size() * sizeof(std::int32_t));
-  }
-  const std::vector<std::string> heard = all.gather(told);
-  any_ = false;
-  for (std::size_t from = 0; from < size; ++from) {
-    const char* at = heard[from].data();
-    for (int of = 0; of < all.size(); ++of) {
-      std::int32_t count = 0;
-      std::memcpy(&count, at, sizeof count);
-      at += sizeof count;
-      any_ = any_ || count > 0;
-      if (of == all.rank() && count > 0) {
-        send_[from].resize(static_cast<std::size_t>(count));
-        std::memcpy(send_[from].data(), at, static_cast<std::size_t>(count) * sizeof count);
-      }
-      at += static_cast<std::size_t>(count) * sizeof count;
-    }
+  std::vector<std::string> told(size);
+  for (std::size_t r = 0; r < size; ++r)
+    told[r].assign(reinterpret_cast<const char*>(receive_[r].data()),
+                   receive_[r].size() * sizeof(std::int32_t));
+  const std::vector<std::string> heard = all.deal(told);
+  for (std::size_t r = 0; r < size; ++r) {
+    send_[r].resize(heard[r].size() / sizeof(std::int32_t));
+    std::memcpy(send_[r].data(), heard[r].data(), heard[r].size());
   }
   sent_.resize(size);
   received_.resize(size);
@@ -50,8 +36,6 @@ std::size_t Links::received() const {
 }
 
 void Links::share(const std::vector<Array>& arrays) {
-  if (!any_)
-    return;
   std::size_t bytes = 0;
   for (const Array& array : arrays)
     bytes += array.bytes;

@@ -27,13 +27,11 @@ public:
   // Afterwards the entries that this rank needs are those of their owners.
   void share(const std::vector<Array>& arrays);
 
-  bool any() const { return any_; } // of any rank
-  std::size_t received() const;     // entries
+  std::size_t received() const; // entries
 
 private:
   std::vector<std::vector<std::int32_t>> send_, receive_; // per rank, ascending
   std::vector<std::vector<char>> sent_, received_;        // the same in bytes
-  bool any_ = false;
 };
 
 } // namespace cdem

@@ -36,14 +36,26 @@ public:
 
   // Returns what each gives, by rank. Messages on one subject should be about as long as the time before: they are sent
   // in one piece then.
-  enum class Subject { any, sums, contacts, count };
+  enum class Subject { any, sums, contacts, drifts, count };
   virtual std::vector<std::string> gather(const std::string& mine, Subject = Subject::any) = 0;
+
+  // Sends each rank a text of its own, to[rank]; returns what each has sent this one, by rank.
+  virtual std::vector<std::string> deal(const std::vector<std::string>& to) = 0;
 
   // The bytes of rank 0, for all.
   virtual void broadcast(std::string&) = 0;
 
   // The largest of what each has, entry by entry. No rank may hold a NaN.
   virtual void largest(double* values, std::size_t count) = 0;
+
+  // Whole numbers, summed over the ranks entry by entry: their order does not matter.
+  virtual void sum(std::int64_t* values, std::size_t count) = 0;
+
+  // True where all ranks come to this call within so many seconds. A rank that has an error asks it before anything else,
+  // since the others may go on and wait for it elsewhere. Then it returns false, and every call above does nothing from
+  // there on and gives this rank what it has itself; it must end all.
+  virtual bool all_fail(double seconds) = 0;
+  static constexpr double patience = 6; // s: ranks that all fail come so far apart at most
 
   // Ends all ranks with this exit code, wherever they are. For errors that the others cannot know of.
   [[noreturn]] virtual void abort(int exit_code) = 0;

@@ -6,25 +6,9 @@
 namespace cdem {
 namespace {
 
-// Where each rank's share of something begins that runs along the chunks of meshes.
-template <class Begin>
-std::vector<std::int64_t> along_mesh_chunks(const Model& model, const Partition& part, std::int64_t end,
-                                            const Begin& begin) {
-  std::vector<std::int64_t> at;
-  for (const std::int64_t chunk : part.chunk_begin) {
-    const std::int64_t c = std::max(chunk, part.stars) - part.stars;
-    at.push_back(c < static_cast<std::int64_t>(model.mesh.chunks.size()) ? begin(model.mesh.chunks[c]) : end);
-  }
-  return at;
-}
-
-std::vector<std::size_t> in_bytes(const std::vector<std::int64_t>& begin, std::size_t entry) {
-  std::vector<std::size_t> bytes;
-  bytes.reserve(begin.size());
-  for (const std::int64_t item : begin)
-    bytes.push_back(static_cast<std::size_t>(item) * entry);
-  return bytes;
-}
+// Steps without a look at the whole state after which the pages of others are given back: more than between the looks of
+// a relaxation.
+constexpr std::int64_t release_after = 32;
 
 // Nodes that the chunks and springs of this rank read.
 std::vector<std::int32_t> nodes_read(const Model& model, const Partition& part) {
@@ -33,6 +17,8 @@ std::vector<std::int32_t> nodes_read(const Model& model, const Partition& part) 
   const Range chunks = part.mesh_chunks();
   for (std::int64_t c = chunks.begin; c < chunks.end; ++c) {
     const MeshChunk& chunk = mesh.chunks[c];
+    if (is_rigid(model, chunk)) // moved by all
+      continue;
     nodes.insert(nodes.end(), mesh.others.begin() + chunk.others.begin,
                  mesh.others.begin() + chunk.others.end);
     if (chunk.side_batches.size() > 0) // rates of strain on both sides of faces
@@ -78,7 +64,7 @@ std::vector<std::int32_t> partial_forces_read(const Model& model, const Partitio
   const Range chunks = part.mesh_chunks();
   for (std::int64_t c = chunks.begin; c < chunks.end; ++c) {
     const MeshChunk& chunk = mesh.chunks[c];
-    if (chunk.stars || chunk.inner_end == chunk.nodes.end)
+    if (chunk.stars || is_rigid(model, chunk) || chunk.inner_end == chunk.nodes.end)
       continue;
     const int* const begin = mesh.share_begin.data() + chunk.share_begin;
     for (int i = begin[0]; i < begin[chunk.nodes.end - chunk.inner_end]; ++i)
@@ -132,28 +118,22 @@ std::vector<std::int32_t> faces_read(const Model& model, const Partition& part) 
 
 } // namespace
 
-SharedState::SharedState(const Model& model, const std::vector<std::int32_t>& read_always)
-    : part_(model, ranks().rank(), ranks().size()), nodes_(nodes_read(model, part_)) {
+SharedState::SharedState(const Model& model, const std::vector<std::int32_t>& read_always,
+                         const std::vector<double>& loads)
+    : part_(model, loads, ranks().rank(), ranks().size()),
+      shares_(std::make_shared<const StateShares>(model, part_)), nodes_(nodes_read(model, part_)) {
   nodes_.insert(nodes_.end(), read_always.begin(), read_always.end());
-  for (const std::int64_t chunk : part_.point_begin)
-    point_begin_.push_back(chunk < static_cast<std::int64_t>(model.point_chunks.size())
-                               ? model.point_chunks[chunk].begin
-                               : static_cast<std::int64_t>(model.points.size()));
   const MeshData& mesh = model.mesh;
-  batch_begin_ = along_mesh_chunks(model, part_, static_cast<std::int64_t>(mesh.batches.size()),
-                                   [](const MeshChunk& chunk) { return chunk.batches.begin; });
-  face_begin_ = along_mesh_chunks(model, part_, static_cast<std::int64_t>(mesh.faces.size()),
-                                  [](const MeshChunk& chunk) { return chunk.face_batches.begin; });
   const auto along = [](const std::vector<std::int64_t>& begin) {
     return [&begin](std::int64_t entry) { return Partition::owner(begin, entry); };
   };
-  springs_.set(springs_read(model, part_), along(point_begin_));
+  springs_.set(springs_read(model, part_), along(shares_->point_begin()));
   const std::vector<std::int64_t> partial_begin =
       along_mesh_chunks(model, part_, mesh.chunks.empty() ? 0 : mesh.chunks.back().partial.end,
                         [](const MeshChunk& chunk) { return chunk.partial.begin; });
   partial_.set(partial_forces_read(model, part_), along(partial_begin));
-  stress_.set(stress_read(model, part_), along(batch_begin_));
-  faces_.set(faces_read(model, part_), along(face_begin_));
+  stress_.set(stress_read(model, part_), along(shares_->batch_begin()));
+  faces_.set(faces_read(model, part_), along(shares_->face_begin()));
   set_further_nodes({});
 }
 
@@ -183,78 +163,32 @@ void SharedState::share_nodes(State& state) {
   stress_.share({Links::array(state.stress)});
 }
 
-std::vector<std::size_t> SharedState::bytes_by_node(std::size_t entry) const {
-  return in_bytes(part_.node_begin, entry);
+void SharedState::parted(State& state) {
+  since_whole_ = whole_ ? 0 : since_whole_ + 1;
+  since_surfaces_ = surfaces_whole() ? 0 : since_surfaces_ + 1;
+  state.parted = shares_;
+  whole_ = surfaces_whole_ = false;
+  if (since_whole_ != release_after && since_surfaces_ != release_after)
+    return;
+  since_whole_ == release_after ? shares_->release(state) : shares_->release_motion(state);
+  share_nodes(state); // what is read of others was on those pages too
 }
 
-std::vector<std::size_t> SharedState::bytes_by_point(std::size_t entry) const {
-  return in_bytes(point_begin_, entry);
-}
-
-void SharedState::gather_points(std::vector<geom::Vec3>& values) const {
-  if (!values.empty())
-    ranks().share(values.data(), bytes_by_point(sizeof values[0]));
-}
-
-void SharedState::gather_nodes(std::vector<Node>& values) const {
-  if (!values.empty())
-    ranks().share(values.data(), bytes_by_node(sizeof values[0]));
+void SharedState::gather_surfaces(State& state) {
+  if (state.parted && !surfaces_whole_)
+    shares_->gather_surfaces(state);
+  surfaces_whole_ = true;
 }
 
 void SharedState::gather(State& state) {
-  if (whole_)
-    return;
-  const auto by_node = [&](auto& values) {
-    if (!values.empty())
-      ranks().share(values.data(), bytes_by_node(sizeof values[0]));
-  };
-  const auto by_point = [&](auto& values) {
-    if (!values.empty())
-      ranks().share(values.data(), bytes_by_point(sizeof values[0]));
-  };
-  const auto along = [&](const std::vector<std::int64_t>& begin, auto& values, std::size_t entries = 1) {
-    if (!values.empty())
-      ranks().share(values.data(), in_bytes(begin, entries * sizeof values[0]));
-  };
-  by_node(state.displacement);
-  by_node(state.velocity);
-  by_point(state.bond_offset);
-  by_point(state.bond_mode);
-  by_point(state.bond_damage);
-  by_point(state.bond_slip);
-  by_point(state.joint_history);
-  along(batch_begin_, state.stress);
-  along(batch_begin_, state.viscous_stress);
-  along(batch_begin_, state.plastic_strain);
-  along(face_begin_, state.faces);
-  along(face_begin_, state.cohesive, lanes);
-  along(face_begin_, state.rate_factor, lanes);
-  gather_slips(state);
+  if (state.parted)
+    shares_->gather(state);
   whole_ = true;
 }
 
-// They stand in the order in which faces broke, the same for all; their faces say whose they are.
-void SharedState::gather_slips(State& state) const {
-  if (state.face_slip.empty())
-    return;
-  constexpr std::size_t bytes = lanes * sizeof(FaceSlip);
-  const auto each = [&](int rank, const auto& visit) {
-    for (std::int64_t b = face_begin_[rank]; b < face_begin_[rank + 1]; ++b)
-      if (const std::int32_t first = state.faces[b].slip; first >= 0)
-        visit(&state.face_slip[first]);
-  };
-  std::string own;
-  each(part_.rank, [&](const FaceSlip* slips) { own.append(reinterpret_cast<const char*>(slips), bytes); });
-  const std::vector<std::string> all = ranks().gather(own);
-  for (int r = 0; r < part_.size; ++r) {
-    if (r == part_.rank)
-      continue;
-    const char* from = all[r].data();
-    each(r, [&](FaceSlip* slips) {
-      std::memcpy(reinterpret_cast<char*>(slips), from, bytes);
-      from += bytes;
-    });
-  }
+void SharedState::keep(State& state, State& copy) const {
+  shares_->copy(state, copy);
+  copy.parted = shares_;
 }
 
 } // namespace cdem

@@ -7,15 +7,14 @@
 #pragma once
 
 #include "libcdem/ranks/links.hpp"
-#include "libcdem/ranks/partition.hpp"
-#include "libcdem/state/state.hpp"
+#include "libcdem/ranks/state_shares.hpp"
 
 namespace cdem {
 
 class SharedState {
 public:
-  // read_always: nodes that this rank reads whichever chunks are its own.
-  SharedState(const Model&, const std::vector<std::int32_t>& read_always);
+  // Of a state that is whole. read_always: nodes that this rank reads whichever chunks are its own. loads: chunk_loads.
+  SharedState(const Model&, const std::vector<std::int32_t>& read_always, const std::vector<double>& loads);
 
   const Partition& part() const { return part_; }
 
@@ -29,25 +28,25 @@ public:
   // together, where the state is whole.
   void set_further_nodes(std::vector<std::int32_t> nodes);
 
-  // The state is not whole any more: each rank has its share and what it reads.
-  void parted() { whole_ = false; }
+  // The state is not whole any more: each rank has its share and what it reads. Where nobody has looked at the whole for
+  // some steps, the pages of others are given back: what is looked at often would only come and go.
+  void parted(State&);
   bool whole() const { return whole_; }
-  // Makes it whole.
+  // What a search for contacts reads is: where nodes are, and which bonds hold.
+  bool surfaces_whole() const { return whole_ || surfaces_whole_; }
+  void gather_surfaces(State&);
+  // Makes all of it whole.
   void gather(State&);
-  // The same for arrays beside the State, by point and by node.
-  void gather_points(std::vector<geom::Vec3>& values) const;
-  void gather_nodes(std::vector<Node>& values) const;
+  const StateShares& shares() const { return *shares_; }
+  // Copies the own share.
+  void keep(State& state, State& copy) const;
 
 private:
-  std::vector<std::size_t> bytes_by_node(std::size_t entry) const;
-  std::vector<std::size_t> bytes_by_point(std::size_t entry) const;
-  void gather_slips(State&) const;
-
   Partition part_;
-  bool whole_ = true;
-  std::vector<std::int64_t> point_begin_, batch_begin_,
-      face_begin_;                  // per rank: springs, batches of tets, of faces
-  std::vector<std::int32_t> nodes_; // that the model tells of, and read_always
+  std::shared_ptr<const StateShares> shares_;
+  bool whole_ = true, surfaces_whole_ = true;
+  std::int64_t since_whole_ = 0, since_surfaces_ = 0; // calls of `parted` since it was so
+  std::vector<std::int32_t> nodes_;                   // that the model tells of, and read_always
   Links springs_, partial_, moved_, stress_, faces_;
 };
 

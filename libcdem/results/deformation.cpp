@@ -26,13 +26,22 @@ double turn_of(const geom::Mat3& gradient) {
 } // namespace
 
 double departure(const Model& model, const State& state, const Interface& interface) {
+  return departure(model, state, interface, {interface.point_begin, interface.point_end});
+}
+
+double departure(const Model& model, const State& state, const Interface& interface, Range points) {
   if (interface.frame >= 0 || interface.point_begin == interface.point_end)
     return 0;
   double area = 0, least = std::numeric_limits<double>::infinity();
-  for (int p = interface.point_begin; p < interface.point_end; ++p) {
+  for (int p = interface.point_begin; p < interface.point_end; ++p)
+    area += model.points[p].area;
+  const auto begin = std::max<std::int64_t>(points.begin, interface.point_begin),
+             end = std::min<std::int64_t>(points.end, interface.point_end);
+  if (begin >= end)
+    return 0;
+  for (auto p = static_cast<int>(begin); p < end; ++p) {
     if (state.bond_mode[p] == static_cast<std::uint8_t>(BondMode::intact))
       return 0;
-    area += model.points[p].area;
     least = std::min(least, jump(model.points[p], state.displacement).norm());
   }
   return least / std::sqrt(area);

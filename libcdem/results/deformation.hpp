@@ -24,5 +24,7 @@ Deformation largest_deformation(const Model&, const State&);
 // How far the two sides of an interface between blocks of small strain, none of whose bonds is whole, have gone from
 // each other at least: the least jump of its springs over the root of its area. 0 for every other interface.
 double departure(const Model&, const State&, const Interface&);
+// At least as much: only these springs, those of one rank, are looked at.
+double departure(const Model&, const State&, const Interface&, Range points);
 
 } // namespace cdem

@@ -15,8 +15,11 @@
 #include "libcdem/state/stress_batch.hpp"
 
 #include <functional>
+#include <memory>
 
 namespace cdem {
+
+class StateShares; // ranks/state_shares.hpp
 
 // Of a node: its piece is where the model is, has left it and been told of, or is held where it was then.
 enum class Escaped : std::uint8_t { inside, told, held };
@@ -91,6 +94,9 @@ struct State {
   std::vector<CrackEnergy> crack_energy;
 
   EnergyLedger spent; // J, the summed entries only (damping, friction, ... external); the stored ones stay 0
+
+  // With several ranks: how they share it, while each holds its own part only; null: it is whole. No field.
+  std::shared_ptr<const StateShares> parted;
 };
 
 std::size_t small_strain_tets(const Model&); // the first so many tets of a model

@@ -32,15 +32,6 @@ Escaped next_status(Escaped now, double away, const EscapeLimits& limits) {
   return away > limits.told_beyond ? Escaped::told : now;
 }
 
-bool any_node_is_out(const Model& model, const State& state, const EscapeLimits& limits) {
-  for (int node = 0; node < static_cast<int>(model.node_position.size()); ++node) {
-    const Escaped now = status(state, node);
-    if (next_status(now, distance(model.box, place_of(model, state, node)), limits) != now)
-      return true;
-  }
-  return false;
-}
-
 std::string name_of(const Model& model, const std::vector<int>& pieces, int first) {
   const int block = block_of(model, first);
   const Block& b = model.blocks[block];
@@ -51,10 +42,19 @@ std::string name_of(const Model& model, const std::vector<int>& pieces, int firs
 
 } // namespace
 
+bool any_is_out(const Model& model, const State& state, const EscapeLimits& limits, Range nodes) {
+  for (auto node = static_cast<int>(nodes.begin); node < nodes.end; ++node) {
+    const Escaped now = status(state, node);
+    if (next_status(now, distance(model.box, place_of(model, state, node)), limits) != now)
+      return true;
+  }
+  return false;
+}
+
 std::vector<Escape> find_escapes(const Model& model, State& state, const ResolvedConditions& conditions,
                                  const EscapeLimits& limits) {
   std::vector<Escape> found;
-  if (!any_node_is_out(model, state, limits))
+  if (!any_is_out(model, state, limits, {0, static_cast<std::int64_t>(model.node_position.size())}))
     return found;
   const std::vector<int> pieces = fragments_of_nodes(model, state);
   std::map<int, Piece> by_first; // by the smallest node of the piece

@@ -27,6 +27,9 @@ struct Escape {
   bool held = false;                     // from now on
 };
 
+// Some of these nodes are where a piece that has left may be.
+bool any_is_out(const Model&, const State&, const EscapeLimits&, Range nodes);
+
 // Those that have left, or are held, since the last look; State::escaped says so from then on.
 std::vector<Escape> find_escapes(const Model&, State&, const ResolvedConditions&, const EscapeLimits&);
 

@@ -26,10 +26,31 @@ std::string where(const Model& model, int node) {
                      model.bodies[block.body].name, x.x(), x.y(), x.z());
 }
 
-} // namespace
+// What is looked at: all of a model, or a rank's share.
+struct Part {
+  Range nodes, star_tets, mesh_tets;
+};
 
-void require_sound(const Model& model, const State& state, const Workspace& work, double run_away,
-                   const StageStep& at) {
+Part whole(const Model& model) {
+  const auto nodes = static_cast<std::int64_t>(model.node_position.size()),
+             tets = static_cast<std::int64_t>(model.tets.size()),
+             first = static_cast<std::int64_t>(small_strain_tets(model));
+  return {{0, nodes}, {0, first}, {first, tets}};
+}
+
+Part share(const Model& model, const Partition& of) {
+  Part part{of.nodes(), {}, {}};
+  const Range chunks = of.chunks(), meshes = of.mesh_chunks();
+  if (const std::int64_t end = std::min(chunks.end, of.stars); chunks.begin < end)
+    part.star_tets = {model.blocks[model.chunks[chunks.begin].blocks.begin].tet_begin,
+                      model.blocks[model.chunks[end - 1].blocks.end - 1].tet_end};
+  if (meshes.size() > 0)
+    part.mesh_tets = {model.mesh.chunks[meshes.begin].tets.begin, model.mesh.chunks[meshes.end - 1].tets.end};
+  return part;
+}
+
+void require_sound_part(const Model& model, const State& state, const Workspace& work, double run_away,
+                        const StageStep& at, const Part& part) {
   const auto fail = [&](const std::string& what, int node, const std::string& advice) {
     throw SolutionError(fmt::format("{}: {} in {}; {}", in_words(at), what, where(model, node), advice));
   };
@@ -43,7 +64,7 @@ void require_sound(const Model& model, const State& state, const Workspace& work
       fail("a rigid body turns by a radian or more in a step", model.blocks[model.rigid[i].block].node_begin,
            "use a smaller time_step");
   }
-  for (int node = 0; node < static_cast<int>(model.node_position.size()); ++node) {
+  for (auto node = static_cast<int>(part.nodes.begin); node < part.nodes.end; ++node) {
     const Node& u = state.displacement[node];
     const Node& v = state.velocity[node];
     if (!std::isfinite(u.x + u.y + u.z) || !std::isfinite(v.x + v.y + v.z))
@@ -55,27 +76,50 @@ void require_sound(const Model& model, const State& state, const Workspace& work
            node,
            "is this part held by supports, does it fall off what it lies on, and can it carry its load?");
   }
-  for (int node = 0; node < static_cast<int>(work.force.size()); ++node)
+  const auto forces = static_cast<std::int64_t>(work.force.size());
+  for (auto node = static_cast<int>(part.nodes.begin); node < std::min(part.nodes.end, forces); ++node)
     if (!std::isfinite(work.force[node].x + work.force[node].y + work.force[node].z))
       fail("displacement, velocity or force is not a number", node, "look at loads and stiffnesses there");
-  for (std::size_t i = 0; i < model.mesh.tet_slot.size(); ++i) {
+  for (std::int64_t tet = part.mesh_tets.begin; tet < part.mesh_tets.end; ++tet) {
+    const int slot = model.mesh.tet_slot[tet - model.mesh.first_tet];
     double sum = 0;
-    for (const auto& component : state.stress[model.mesh.tet_slot[i] / lanes].component)
-      sum += component[model.mesh.tet_slot[i] % lanes];
+    for (const auto& component : state.stress[slot / lanes].component)
+      sum += component[slot % lanes];
     if (!std::isfinite(sum))
-      fail("stress is not a number", model.tets[static_cast<std::size_t>(model.mesh.first_tet) + i][0],
-           "look at loads and stiffnesses there");
+      fail("stress is not a number", model.tets[tet][0], "look at loads and stiffnesses there");
   }
-  for (int tet = 0; tet < static_cast<int>(model.tets.size()); ++tet) {
-    if (model.blocks[model.tet_block[tet]].rigid >= 0)
-      continue;
-    const geom::Mat3 f = geom::Mat3::Identity() + displacement_gradient(model, state.displacement, tet);
-    if (f.determinant() <= 0)
-      fail("an element is turned inside out", model.tets[tet][0],
-           model.blocks[model.tet_block[tet]].meshed
-               ? "the load there crushes the mesh"
-               : "the load there is beyond what small strain can carry");
+  for (const Range& tets : {part.star_tets, part.mesh_tets})
+    for (auto tet = static_cast<int>(tets.begin); tet < tets.end; ++tet) {
+      if (model.blocks[model.tet_block[tet]].rigid >= 0)
+        continue;
+      const geom::Mat3 f = geom::Mat3::Identity() + displacement_gradient(model, state.displacement, tet);
+      if (f.determinant() <= 0)
+        fail("an element is turned inside out", model.tets[tet][0],
+             model.blocks[model.tet_block[tet]].meshed
+                 ? "the load there crushes the mesh"
+                 : "the load there is beyond what small strain can carry");
+    }
+}
+
+} // namespace
+
+void require_sound(const Model& model, const State& state, const Workspace& work, double run_away,
+                   const StageStep& at) {
+  require_sound_part(model, state, work, run_away, at, whole(model));
+}
+
+bool share_is_sound(const Model& model, const State& state, const Workspace& work, double run_away) {
+  const std::string nobody_reads_it;
+  try {
+    require_sound_part(model, state, work, run_away, {0, nobody_reads_it, 0},
+                       share(model, work.shared->part()));
+  } catch (const SolutionError&) {
+    return false;
   }
+  const Range points = work.shared->shares().points();
+  return std::none_of(model.interfaces.begin(), model.interfaces.end(), [&](const Interface& interface) {
+    return departure(model, state, interface, points) > 1;
+  });
 }
 
 void require_neighbours(const Model& model, const State& state, const StageStep& at) {

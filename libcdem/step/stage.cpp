@@ -4,18 +4,23 @@
 #include "libcdem/integrate/move_columns.hpp"
 #include "libcdem/parallel/huge_pages.hpp"
 #include "libcdem/parallel/instruction_set.hpp"
+#include "libcdem/parallel/residency.hpp"
 #include "libcdem/results/make_snapshot.hpp"
 #include "libcdem/step/errors.hpp"
 #include "libcdem/step/record.hpp"
 #include "libcdem/step/synchronised_view.hpp"
 
 #include <cmath>
+#include <exception>
+#include <fmt/format.h>
 
 namespace cdem {
 namespace {
 
 // Steps between questions whether to stop, to write a checkpoint, to show the progress.
 constexpr std::int64_t poll_every = 16;
+// The largest load of a rank over the mean from which on chunks are shared anew.
+constexpr double uneven = 1.1;
 // Steps between looks at which faces a flow meets: they turn by next to nothing in between.
 constexpr std::int64_t flow_every = 100;
 static_assert(watch_every % flow_every == 0, "a stage that goes on looks anew where it did when it was left");
@@ -62,6 +67,12 @@ bool finite(const NodeSums& sums) {
   return std::isfinite(sums.residual2) && std::isfinite(sums.kinetic) && std::isfinite(sums.reaction2);
 }
 
+bool any_rank(bool says_so) {
+  double said = says_so ? 1 : 0;
+  ranks().largest(&said, 1);
+  return said > 0;
+}
+
 } // namespace
 
 double relative_residual(const NodeSums& sums) {
@@ -84,6 +95,7 @@ Stage::Stage(const StageContext& context, std::string kind, double run_away)
   ask_for_huge_pages_of(context_.model, context_.state, work);
   start_spring_forces(context_.model, context_.state, work.bond);
   share();
+  warn_of_idle_ranks();
   if (const RestartPoint* from = context_.from) {
     context_.last_good = context_.state;
     if (context_.restart_point)
@@ -100,25 +112,83 @@ Stage::Stage(const StageContext& context, std::string kind, double run_away)
   } else {
     keep_start_of_loop(context_);
   }
+  if (shared_) {
+    keep_last_good();
+    trim_heap(); // what building and looking at the whole has left
+  }
 }
 
 Stage::~Stage() {
+  if (left_alone())
+    return;
   synchronise();
+  if (shared_ && std::uncaught_exceptions() > exceptions_) // the last good state is written
+    shared_->shares().gather_on_lead(context_.last_good);
 }
 
 void Stage::share() {
   if (ranks().alone())
     return;
-  shared_ = std::make_unique<SharedState>(context_.model, nodes_of_bolts(work.resolved));
+  const Range all{0, static_cast<std::int64_t>(context_.model.chunks.size())};
+  shared_ = std::make_unique<SharedState>(context_.model, nodes_of_bolts(work.resolved),
+                                          chunk_loads(context_.model, context_.state, all));
   work.shared = work.contact.shared = shared_.get();
 }
 
-void Stage::see_whole(std::vector<Node>* by_node) {
+void Stage::warn_of_idle_ranks() const {
+  static bool told = false; // once is enough
+  const auto chunks = static_cast<int>(context_.model.chunks.size());
+  if (!shared_ || told || chunks >= ranks().size())
+    return;
+  told = true;
+  context_.observer.warning(
+      fmt::format("warning: the model has {} chunk{} for {} ranks: {} of them have no elements to compute",
+                  chunks, chunks == 1 ? "" : "s", ranks().size(), ranks().size() - chunks));
+}
+
+// A body that breaks on one side costs more there. What is read of others is found anew with the contacts.
+void Stage::share_anew() {
   if (!shared_)
     return;
-  shared_->gather(context_.state);
-  if (by_node)
-    shared_->gather_nodes(*by_node);
+  const Partition& part = shared_->part();
+  const std::vector<double> own = chunk_loads(context_.model, context_.state, part.chunks());
+  std::vector<double> loads(context_.model.chunks.size());
+  std::copy(own.begin(), own.end(), loads.begin() + part.chunks().begin);
+  std::vector<std::size_t> bytes;
+  for (const std::int64_t chunk : part.chunk_begin)
+    bytes.push_back(static_cast<std::size_t>(chunk) * sizeof(double));
+  ranks().share(loads.data(), bytes);
+  const double now = imbalance(loads, part.chunk_begin);
+  if (now < uneven || imbalance(loads, even_shares(loads, part.size)) > 0.5 * (1 + now))
+    return;
+  see_whole();
+  shared_->shares().gather_points(work.bond.spring_force);
+  shared_->shares().gather_points(work.bond.stretch);
+  if (carried)
+    shared_->shares().gather_nodes(*carried);
+  share();
+  work.contact.fragments_due = work.contact.all_due = true;
+  ++shared_anew_;
+  keep_last_good(); // of the share that is this rank's now
+}
+
+void Stage::keep_last_good() {
+  if (shared_)
+    shared_->keep(context_.state, context_.last_good);
+  else
+    context_.last_good = context_.state;
+}
+
+void Stage::see_whole() {
+  if (shared_)
+    shared_->gather(context_.state);
+}
+
+void Stage::see_surfaces(std::vector<Node>& by_node) {
+  if (!shared_)
+    return;
+  shared_->gather_surfaces(context_.state);
+  shared_->shares().gather_nodes(by_node);
 }
 
 void Stage::keep_restart_point(std::vector<double> loop_state, const std::vector<Node>& previous_force) {
@@ -131,13 +201,15 @@ void Stage::keep_restart_point(std::vector<double> loop_state, const std::vector
   point.breaks = context_.log.breaks.size();
   point.wall_time = wall_time();
   point.loop_state = std::move(loop_state);
-  point.previous_force = previous_force;
-  point.spring_force = work.bond.spring_force;
-  point.stretch = work.bond.stretch;
   if (shared_) {
-    shared_->gather_nodes(point.previous_force);
-    shared_->gather_points(point.spring_force);
-    shared_->gather_points(point.stretch);
+    const StateShares& shares = shared_->shares();
+    StateShares::copy(previous_force, point.previous_force, shares.nodes());
+    StateShares::copy(work.bond.spring_force, point.spring_force, shares.points());
+    StateShares::copy(work.bond.stretch, point.stretch, shares.points());
+  } else {
+    point.previous_force = previous_force;
+    point.spring_force = work.bond.spring_force;
+    point.stretch = work.bond.stretch;
   }
   point.contact_step = work.contact.last_step;
   if (context_.procedure_state)
@@ -155,6 +227,7 @@ bool Stage::free_nodes() {
   const auto due = freeing_.due(model, state, shared_.get(), context_.threads);
   if (due) {
     synchronise_to_leave();
+    see_whole();
     Freed freed = cdem::free_nodes(model, state, *due);
     *context_.changing = std::move(freed.model);
     state = std::move(freed.state);
@@ -175,7 +248,7 @@ bool Stage::free_nodes() {
     has_shared_nodes_ = has_shared_nodes(model);
     update_external(work.resolved, state.time);
     preload_faces(model, state, net_forces(model, state, work), freed.anew);
-    context_.last_good = state;
+    keep_last_good();
   }
   times_.end(StepLine::cracks);
   return due.has_value();
@@ -222,9 +295,16 @@ void Stage::end_step(double time_step) {
   context_.threads = threads_.threads();
 }
 
+bool Stage::left_alone() const {
+  return shared_ && std::uncaught_exceptions() > exceptions_ && !ranks().all_fail(Ranks::patience);
+}
+
 void Stage::synchronise() {
+  if (left_alone())
+    return;
   synchronise_contacts();
   broken_between_ += synchronise_stress(context_.log);
+  see_whole();
 }
 
 void Stage::synchronise_contacts() {
@@ -239,14 +319,16 @@ std::int64_t Stage::synchronise_stress(RunLog& log) {
   work.hand_over_due = step % hand_over_every == 0;
   if (work.strain_step > 0) {
     if (shared_)
-      shared_->parted();
+      shared_->parted(context_.state);
     for_chunks(work.mesh_chunks(context_.model), context_.threads, [&](std::int64_t c) {
       if (!is_rigid(context_.model, context_.model.mesh.chunks[c]))
         mesh_forces(context_.model, context_.state, work, c, breaking_);
     });
     if (shared_) {
       BegunCracks none;
-      share_sums(work, none);
+      std::int64_t tellers = has_to_tell(work, none) ? 1 : 0;
+      ranks().sum(&tellers, 1);
+      share_sums(work, none, tellers);
     }
     // Faces break and slide to where the nodes are too; the next step finds nothing left to do.
     broken = record_face_breaks(context_.model, context_.state, work, log, context_.number, step - 1);
@@ -255,7 +337,6 @@ std::int64_t Stage::synchronise_stress(RunLog& log) {
         work.contact.due = true;
   }
   work.strain_step = 0;
-  see_whole();
   return broken;
 }
 
@@ -263,19 +344,30 @@ std::int64_t Stage::synchronise_stress(RunLog& log) {
 void Stage::synchronise_to_leave() {
   if (!context_.state.face_slip.empty() || !context_.model.mesh.sides.empty())
     work.contact.fragments_due = work.contact.anew = true;
-  synchronise();
+  synchronise_contacts();
+  broken_between_ += synchronise_stress(context_.log);
 }
 
 void Stage::keep_state() {
+  require_sound_state();
+  synchronise_to_leave();
+  look_for_escapes();
+  keep_last_good();
+}
+
+// Each rank looks at its share; what is wrong is told of by all, as one that sees everything.
+void Stage::require_sound_state() {
+  if (shared_ && !any_rank(!share_is_sound(context_.model, context_.state, work, run_away_)))
+    return;
   see_whole();
   require_sound(context_.model, context_.state, work, run_away_, here());
   require_neighbours(context_.model, context_.state, here());
-  synchronise_to_leave();
-  look_for_escapes();
-  context_.last_good = context_.state;
 }
 
 void Stage::look_for_escapes() {
+  if (shared_ && !any_rank(any_is_out(context_.model, context_.state, escapes, shared_->part().nodes())))
+    return;
+  see_whole();
   bool holds = false;
   for (const Escape& escape : find_escapes(context_.model, context_.state, work.resolved, escapes)) {
     require_kept_energy(context_.model, context_.state, escape, here());
@@ -299,8 +391,10 @@ void Stage::watch(const StepReport& report) {
   if (follows_fragments)
     require_followed(context_.model, work, here());
   release_parted_blocks();
-  if (step % watch_every == 0)
+  if (step % watch_every == 0) {
     keep_state();
+    share_anew();
+  }
   if (!work.resolved.flows.empty() && step % flow_every == 0) {
     see_whole();
     refresh_flows(context_.model, context_.state, work.resolved);
@@ -369,6 +463,7 @@ void Stage::show() {
 
 StageResult Stage::finish(const StepReport& step_report) {
   keep_state();
+  see_whole();
   look_at_units(context_.model, context_.state, context_.conditions, context_.log);
   sample(step_report);
   times_.end(StepLine::watch);
@@ -396,7 +491,8 @@ void Stage::report(const StepReport& report, bool last) {
   progress.time = context_.state.time;
   progress.wall_time = wall_time();
   if (last)
-    progress.times = times_.text();
+    progress.times =
+        times_.text() + (shared_anew_ > 0 ? fmt::format("; chunks shared anew {} times", shared_anew_) : "");
   if (details)
     details(progress);
   progress_(std::move(progress), last);

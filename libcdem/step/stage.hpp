@@ -26,6 +26,7 @@
 #include "libcdem/step/step_loops.hpp"
 #include "libcdem/step/step_times.hpp"
 
+#include <exception>
 #include <memory>
 
 namespace cdem {
@@ -56,7 +57,8 @@ public:
   bool in_real_time = true;           // velocities are per second: strength may depend on the rate
   std::function<void()> scale_masses; // after nodes have been freed; may be empty
   bool follows_fragments = false;
-  EscapeLimits escapes; // where pieces have left the model
+  std::vector<Node>* carried = nullptr; // by node, that the loop carries beside the State; may be null
+  EscapeLimits escapes;                 // where pieces have left the model
 
   // True at the head of a step before which the state has been kept: keep_restart_point there, with what the loop
   // carries from step to step.
@@ -89,15 +91,21 @@ public:
   StageResult finish(const StepReport&); // last history row and progress
   std::int64_t broken_in_step() const { return broken_in_step_; }
 
-  // The state of all ranks, and an array by node that stands beside it, for who looks at the whole of it.
-  void see_whole(std::vector<Node>* by_node = nullptr);
+  // The state of all ranks, for who looks at the whole of it, or at what a search for contacts reads and an array by node beside it.
+  void see_whole();
+  void see_surfaces(std::vector<Node>& by_node); // where nodes are, and which bonds hold
 
   // Brings contacts and the stress of meshes up to where the nodes are; before a state is kept or handed out.
   void synchronise();
 
 private:
   friend class SynchronisedView;
-  void share();                // with other ranks, when there are any
+  void share(); // with other ranks, when there are any
+  void warn_of_idle_ranks() const;
+  void share_anew();           // where the loads of ranks are uneven
+  bool left_alone() const;     // by an error that the other ranks, which are elsewhere, do not have
+  void require_sound_state();  // Throws SolutionError
+  void keep_last_good();       // of this rank's share
   void synchronise_to_leave(); // where a run may go on
   void synchronise_contacts();
   std::int64_t synchronise_stress(RunLog&); // returns how many springs broke, of which the log is told
@@ -116,6 +124,8 @@ private:
 
   StageContext context_;
   std::unique_ptr<SharedState> shared_; // null where this rank is alone
+  int exceptions_ = std::uncaught_exceptions();
+  int shared_anew_ = 0; // how often
   ThreadChoice threads_;
   ContactUpdate contacts_;
   StepTimes times_;
@@ -139,7 +149,7 @@ NodeSums Stage::advance(bool breaking, const Move& move, const MoveRigid& move_r
   const int threads = context_.threads;
   breaking_ = breaking;
   if (shared_)
-    shared_->parted();
+    shared_->parted(state);
   if (breaking && !model.mesh.sides.empty()) {
     begun_ = begin_cracks(model, state, work.mesh_chunks(model), work.strain_step, threads, in_real_time);
     if (shared_)
@@ -160,12 +170,15 @@ NodeSums Stage::advance(bool breaking, const Move& move, const MoveRigid& move_r
     rigid_bodies(model, work, threads, move_rigid);
     times_.end(StepLine::rigid_bodies);
   }
-  if (shared_) {
+  if (shared_)
     shared_->share_nodes(state);
-    share_sums(work, begun_);
+  std::int64_t tellers = has_to_tell(work, begun_) ? 1 : 0;
+  const NodeSums sums = sums_of(work, tellers);
+  if (shared_) {
+    share_sums(work, begun_, tellers);
     times_.end(StepLine::ranks);
   }
-  return sums_of(work);
+  return sums;
 }
 
 // Of the threads allowed, as many as the model keeps busy.

@@ -20,6 +20,7 @@ SynchronisedView::SynchronisedView(Stage& stage) : stage_(stage) {
   }
   RunLog of_view;
   stage.synchronise_stress(of_view);
+  stage.see_whole();
 }
 
 SynchronisedView::~SynchronisedView() {
@@ -38,7 +39,7 @@ SynchronisedView::~SynchronisedView() {
   state.crack_energy = crack_energy_;
   state.spent = spent_;
   if (stage_.shared_) // of others, stresses are those of when they were last gathered
-    stage_.shared_->parted();
+    stage_.shared_->parted(state);
 }
 
 } // namespace cdem

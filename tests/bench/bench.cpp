@@ -141,8 +141,9 @@ int main(int argc, char** argv) {
   }
   if (!ranks.empty() && cdem::processes_started() == 1 && ranks != "1")
     start_ranks(ranks, argv);
-  if (cdem::processes_started() > 1) {
+  if (cdem::processes_started() > 1)
     cdem::join_ranks();
+  if (cdem::processes_started() > 1 || ranks == "1") {
     bench::among_ranks(settings);
     cdem::leave_ranks();
     return 0;

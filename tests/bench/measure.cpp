@@ -36,8 +36,11 @@ struct FirstStep : Observer {
       seconds = watch->seconds();
     if (p.last)
       times = p.times;
+    else if (memory)
+      *memory = resident();
   }
   std::string times;
+  Resident* memory = nullptr;
 };
 
 } // namespace
@@ -50,13 +53,14 @@ State shaken(const Model& model) {
 }
 
 double stepping_seconds(const Model& model, State& state, int threads, std::int64_t steps, bool by_clock,
-                        std::string* times) {
+                        std::string* times, Resident* memory) {
   const Conditions none;
   RunLog log;
   State last_good;
   const Stopwatch watch(by_clock ? 2 : threads);
   FirstStep first;
   first.watch = &watch;
+  first.memory = memory;
   double last = 0; // s
   RunOptions options;
   options.steps = steps + 1;

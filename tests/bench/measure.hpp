@@ -1,6 +1,7 @@
 // What the benchmarks share: rates, memory, and the solver's own step from outside.
 #pragma once
 
+#include "libcdem/parallel/residency.hpp"
 #include "libcdem/state/state.hpp"
 #include "tests/bench/bench.hpp"
 
@@ -33,9 +34,10 @@ double rate(double at_least, const Repeat& repeat) {
 cdem::State shaken(const cdem::Model&); // at velocities far below what breaks a bond
 
 // How long so many steps of `run` take, breaking on. From the first step to the last: what a stage does once, at its start
-// and end, is left out. times: where that time went, by lines of the step. by_clock: for one thread too.
+// and end, is left out. times: where that time went, by lines of the step. by_clock: for one thread too. memory: of this
+// process between two steps, when it was last asked.
 double stepping_seconds(const cdem::Model&, cdem::State&, int threads, std::int64_t steps, bool by_clock,
-                        std::string* times = nullptr);
+                        std::string* times = nullptr, cdem::Resident* memory = nullptr);
 
 // Steps per second of a shaken model.
 double step_rate(const cdem::Model&, int threads, double at_least, std::string* times = nullptr);

@@ -1,6 +1,7 @@
 #include "libcdem/contact/broad_phase/box_lists.hpp"
 #include "libcdem/contact/broad_phase/candidates.hpp"
 #include "libcdem/contact/broad_phase/search.hpp"
+#include "libcdem/contact/broad_phase/search_shares.hpp"
 #include "libcdem/contact/geometry/edge_touch.hpp"
 #include "libgeom/query/closest.hpp"
 
@@ -195,9 +196,19 @@ std::vector<Near> near_edges_of_fragments(const Model& model, const State& state
     wanted.push_back(searched[bars.edges()[k]]);
   }
   std::vector<Near> out;
-  if (std::count(wanted.begin(), wanted.end(), 0) == static_cast<std::ptrdiff_t>(wanted.size()))
+  constexpr std::size_t edges_per_part = 64;
+  std::vector<double> loads((wanted.size() + edges_per_part - 1) / edges_per_part, 0.0);
+  for (std::size_t k = 0; k < wanted.size(); ++k)
+    loads[k / edges_per_part] += wanted[k];
+  std::vector<char> own_wanted(wanted.size(), 0);
+  for (const std::int64_t part : own_share(work, loads))
+    for (std::size_t k = part * edges_per_part; k < std::min((part + 1) * edges_per_part, wanted.size()); ++k)
+      own_wanted[k] = wanted[k];
+  if (std::count(own_wanted.begin(), own_wanted.end(), 0) == static_cast<std::ptrdiff_t>(wanted.size()))
     return out;
-  for (const auto& [k, l] : geom::touching_pairs(boxes, wanted)) {
+  for (const auto& [k, l] : geom::touching_pairs(boxes, own_wanted)) {
+    if (!own_wanted[wanted[k] ? k : l]) // of a pair that two ranks see, the one with its first edge takes it
+      continue;
     const int a = bars.triangle(k), b = bars.triangle(l);
     if (work.fragment[a] != work.fragment[b] || apart_at_first(model, work, a, b))
       add_near(model, work, margins, bars, k, bars, l, out);

@@ -2,6 +2,7 @@
 
 #include "libcdem/contact/broad_phase/movers.hpp"
 #include "libcdem/contact/broad_phase/search.hpp"
+#include "libcdem/contact/broad_phase/search_shares.hpp"
 #include "libcdem/contact/broad_phase/solid_grid.hpp"
 #include "libcdem/contact/geometry/nearest.hpp"
 #include "libcdem/contact/response/contact_point.hpp"
@@ -14,6 +15,9 @@ namespace cdem {
 namespace {
 
 using geom::Vec3;
+
+// Work of a tetrahedron that only asks which of those searched are near, over that of one that is searched itself.
+constexpr double load_of_known = 0.2;
 
 // What all sources share.
 struct Surroundings {
@@ -290,7 +294,12 @@ NearFragments near_fragments(const Model& model, const State& state, const Conta
   std::vector<Pairs> movers(chunks.size());
   NearFragments found;
   found.springs.resize(chunks.size());
-  for_chunks(static_cast<std::int64_t>(chunks.size()), threads, [&](std::int64_t c) {
+  std::vector<double> loads(chunks.size(), 0.0);
+  for (std::size_t i = 0; i < solids.size(); ++i)
+    loads[i / solids_per_chunk] += searched[solids[i].mover] ? 1 : load_of_known;
+  const std::vector<std::int64_t> own = own_share(work, loads);
+  for_chunks(static_cast<std::int64_t>(own.size()), threads, [&](std::int64_t k) {
+    const std::int64_t c = own[k];
     NearSolid near(around);
     for (std::int64_t i = chunks[c].begin; i < chunks[c].end; ++i)
       near.add(state, solids[i], movers[c]);

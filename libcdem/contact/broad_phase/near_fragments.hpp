@@ -14,7 +14,7 @@ struct NearFragments {
   Pairs movers;                           // within the skins, of each pair the lower one first, sorted
 };
 
-// Only pairs of which the mover of one is `searched` (per mover).
+// Only pairs of which the mover of one is `searched` (per mover). Of the tetrahedra of this rank's share.
 NearFragments near_fragments(const Model&, const State&, const ContactWork&, const SearchMargin&,
                              const ActiveSurface&, int block, const std::vector<char>& searched, int threads);
 

@@ -6,6 +6,7 @@
 #include "libcdem/contact/broad_phase/movers.hpp"
 #include "libcdem/contact/broad_phase/near_fragments.hpp"
 #include "libcdem/contact/broad_phase/rows.hpp"
+#include "libcdem/contact/broad_phase/search_shares.hpp"
 #include "libcdem/contact/geometry/positions.hpp"
 #include "libcdem/contact/geometry/semi_edges.hpp"
 #include "libcdem/model/build/contact_surface.hpp"
@@ -178,14 +179,25 @@ bool search_contacts(const Model& model, const State& state, ContactWork& work, 
         contact_joint(model, b, b))
       (work.broken[b] ? shattered : alone).push_back(b);
   const auto n_pairs = static_cast<std::int64_t>(blocks.size());
-  std::vector<std::vector<Near>> springs(blocks.size() + alone.size()), edges(springs.size());
-  std::vector<double> may_go(springs.size(), std::numeric_limits<double>::infinity());
-  std::vector<std::string> wrong(springs.size()); // nothing may be thrown out of a parallel loop
-  for_chunks(static_cast<std::int64_t>(springs.size()), threads, [&](std::int64_t i) {
+  std::vector<double> loads;
+  for (const auto& [a, b] : blocks)
+    loads.push_back(model.blocks[a].meshed && model.blocks[b].meshed ? near_triangles_of(active, a, b) : 0);
+  for (const int b : alone)
+    loads.push_back(near_triangles_of(active, b, b));
+  const std::vector<std::int64_t> own = own_share(work, loads);
+  const std::size_t n_own = own.size();
+  FoundNear found;
+  found.springs.resize(n_own);
+  found.edges.resize(n_own);
+  std::vector<double> may_go(n_own, std::numeric_limits<double>::infinity());
+  std::vector<std::string> wrong(n_own); // nothing may be thrown out of a parallel loop
+  for_chunks(static_cast<std::int64_t>(n_own), threads, [&](std::int64_t place) {
+    const std::int64_t i = own[place];
+    std::vector<Near>&springs = found.springs[place], &edges = found.edges[place];
     if (i >= n_pairs) {
       NearWithin near = near_within(model, work, margins, active, alone[i - n_pairs]);
-      edges[i] = near_edges_within(model, state, work, margins, active, near.meeting);
-      springs[i] = near_springs(model, work, margins, active, near.looked_at, work.skin);
+      edges = near_edges_within(model, state, work, margins, active, near.meeting);
+      springs = near_springs(model, work, margins, active, near.looked_at, work.skin);
       return;
     }
     const auto [a, b] = blocks[i];
@@ -195,40 +207,43 @@ bool search_contacts(const Model& model, const State& state, ContactWork& work, 
     leave_out_known(active, renewed, part);
     if (!contact_joint(model, a, b)) {
       try {
-        may_go[i] = require_apart(model, active, meeting(margins, active, part));
+        may_go[place] = require_apart(model, active, meeting(margins, active, part));
       } catch (const SolutionError& error) {
-        wrong[i] = error.what();
+        wrong[place] = error.what();
       }
       return;
     }
-    edges[i] = near_edges(model, state, work, margins, active, part);
+    edges = near_edges(model, state, work, margins, active, part);
     Pairs pairs = looked_at(model, work, active, part);
-    leave_out_known(active, renewed, pairs, edges[i]);
-    springs[i] = near_springs(model, work, margins, active, pairs, work.skin);
+    leave_out_known(active, renewed, pairs, edges);
+    springs = near_springs(model, work, margins, active, pairs, work.skin);
   });
-  for (const std::string& message : wrong)
-    if (!message.empty())
-      throw SolutionError(message);
-  Pairs near_movers;
+  for (std::size_t i = 0; i < n_own; ++i) {
+    found.may_go = std::min(found.may_go, may_go[i]);
+    if (found.wrong.empty())
+      found.wrong = wrong[i];
+  }
   for (const int block : shattered) {
-    edges.push_back(near_edges_of_fragments(model, state, work, margins, block, renewed.edges));
+    found.edges.push_back(near_edges_of_fragments(model, state, work, margins, block, renewed.edges));
     NearFragments near = near_fragments(model, state, work, margins, active, block, renewed.movers, threads);
     for (std::vector<Near>& part : near.springs)
-      springs.push_back(std::move(part));
-    near_movers.insert(near_movers.end(), near.movers.begin(), near.movers.end());
+      found.springs.push_back(std::move(part));
+    found.movers.insert(found.movers.end(), near.movers.begin(), near.movers.end());
   }
-  make_rows(model, work, margins, springs, Contact::spring, renewed);
-  make_rows(model, work, margins, edges, Contact::edge, renewed);
-  const double margin = may_go.empty() ? std::numeric_limits<double>::infinity()
-                                       : *std::min_element(may_go.begin(), may_go.end());
-  work.undefined_pair_margin = renewed.all ? margin : std::min(work.undefined_pair_margin, margin);
+  share_found(model, work, renewed.all, found);
+  if (!found.wrong.empty())
+    throw SolutionError(found.wrong);
+  make_rows(model, work, margins, found.springs, Contact::spring, renewed);
+  make_rows(model, work, margins, found.edges, Contact::edge, renewed);
+  work.undefined_pair_margin =
+      renewed.all ? found.may_go : std::min(work.undefined_pair_margin, found.may_go);
   for (int m = 0; m < work.movers.count(); ++m)
     if (renewed.movers[m])
       work.travelled[m] = 0;
   begin_drifts(model, state, renewed.movers, work);
   set_drifts(model, state, work, threads);
   ++work.searches;
-  keep_near_movers(model, near_movers, renewed.movers, work);
+  keep_near_movers(model, found.movers, renewed.movers, work);
   if (work.anew) // whatever is known, all is looked at
     let_all_wake(work);
   if (renewed.all)

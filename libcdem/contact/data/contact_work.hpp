@@ -59,7 +59,6 @@ struct ContactRow {
   // it touches nothing (target -1) or nothing but this triangle.
   std::array<float, 3> known_until{};
   std::array<int, 3> known_target{-1, -1, -1};
-  int rank = 0; // that looks at it
 };
 
 // What movers there are. Those of blocks come first and have the numbers of their blocks.
@@ -149,7 +148,7 @@ struct RowsAsleep {
 static_assert(contact_rows_per_chunk == 64, "a bit per row");
 
 struct ContactWork {
-  std::array<std::vector<ContactRow>, 2> rows; // of springs, of edges
+  std::array<std::vector<ContactRow>, 2> rows; // of springs, of edges; of the sources that this rank keeps
   std::array<RowsAsleep, 2> asleep;
   std::array<std::vector<ContactCandidate>, 2> candidates;
   // Per node, and per triangle: what hangs together, by its smallest node. Over faces without a broken bond only, so that
@@ -219,9 +218,10 @@ struct ContactWork {
   std::int64_t steps_since_search = 0; // steps since the search
   std::int64_t searches = 0;
 
-  // With several ranks, each of which looks at a run of chunks of rows; null: this one looks at all.
+  // With several ranks, each of which keeps the rows of a run of source triangles, and of the edges of which these are the
+  // first; null: this one keeps all.
   SharedState* shared = nullptr;
-  std::vector<std::int64_t> chunk_begin; // (ranks + 1) of the chunks of rows, those of springs first
+  std::vector<std::int64_t> triangle_begin; // (ranks + 1)
   // Per contact of State::contacts, and of `now`: the rank that found it.
   std::vector<int> rank_of_contact, rank_now;
 

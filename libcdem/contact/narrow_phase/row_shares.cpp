@@ -1,5 +1,7 @@
 #include "libcdem/contact/narrow_phase/row_shares.hpp"
 
+#include "libcdem/contact/broad_phase/movers.hpp"
+#include "libcdem/ranks/bytes.hpp"
 #include "libcdem/ranks/shared_state.hpp"
 
 #include <algorithm>
@@ -8,93 +10,82 @@
 namespace cdem {
 namespace {
 
-// Work of a row over that of a candidate.
-constexpr double row_load = 4;
+// What a rank reads of surfaces: nodes of triangles and of the tets behind them.
+class NodesRead {
+public:
+  NodesRead(const Model& model, const ContactWork& work) : model_(model), work_(work), s_(model.surface) {}
 
-void add_surface_nodes(const Model& model, const ContactWork& work, int block,
-                       std::vector<std::int32_t>& nodes) {
-  const ContactSurface& s = model.surface;
-  for (int t = s.block_begin[block]; t < s.block_begin[block + 1]; ++t)
-    if (work.active[t]) {
-      nodes.insert(nodes.end(), s.triangles[t].nodes.begin(), s.triangles[t].nodes.end());
-      const geom::Tet& tet = model.tets[s.triangles[t].tet];
-      nodes.insert(nodes.end(), tet.begin(), tet.end());
+  void add_block(int block) {
+    for (int node = model_.blocks[block].node_begin; node < model_.blocks[block].node_end; ++node)
+      nodes_.push_back(node);
+  }
+  void add_surface(int block) {
+    for (int t = s_.block_begin[block]; t < s_.block_begin[block + 1]; ++t)
+      if (work_.active[t])
+        add_triangle(t);
+  }
+  // Of the movers of the block for which `read` holds, and of the edges on them: an edge may part two movers.
+  template <class Read>
+  void add_movers(int block, const Read& read) {
+    const auto reads = [&](int t) { return read(work_.movers.of_triangle[t]); };
+    for (int t = s_.block_begin[block]; t < s_.block_begin[block + 1]; ++t) {
+      if (work_.active[t] && reads(t))
+        add_triangle(t);
+      for (int e = work_.edge_begin[t]; e < work_.edge_begin[t + 1]; ++e)
+        if (const auto& sides = work_.edges[e].triangles; reads(sides[0]) || reads(sides[1])) {
+          add_triangle(sides[0]);
+          add_triangle(sides[1]);
+        }
     }
-}
+  }
+  std::vector<std::int32_t> take() { return std::move(nodes_); }
 
-template <class T>
-void write(const std::vector<T>& values, std::string& to) {
-  const std::size_t count = values.size();
-  to.append(reinterpret_cast<const char*>(&count), sizeof count);
-  to.append(reinterpret_cast<const char*>(values.data()), count * sizeof(T));
-}
+private:
+  void add_triangle(int t) {
+    const geom::Triangle& corners = s_.triangles[t].nodes;
+    nodes_.insert(nodes_.end(), corners.begin(), corners.end());
+    const geom::Tet& tet = model_.tets[s_.triangles[t].tet];
+    nodes_.insert(nodes_.end(), tet.begin(), tet.end());
+  }
 
-template <class T>
-const char* read(const char* from, const T& like, std::vector<T>& values) {
-  std::size_t count = 0;
-  std::memcpy(&count, from, sizeof count);
-  from += sizeof count;
-  values.assign(count, like);
-  std::memcpy(reinterpret_cast<char*>(values.data()), from, count * sizeof(T));
-  return from + count * sizeof(T);
-}
+  const Model& model_;
+  const ContactWork& work_;
+  const ContactSurface& s_;
+  std::vector<std::int32_t> nodes_;
+};
 
 } // namespace
 
 void begin_search(State& state, ContactWork& work) {
   if (work.shared)
-    work.shared->gather(state);
+    work.shared->gather_surfaces(state);
 }
 
-void share_rows(const Model& model, ContactWork& work) {
+void read_nodes_of_rows(const Model& model, ContactWork& work) {
   if (!work.shared)
     return;
-  std::vector<double> loads;
+  const auto blocks = static_cast<int>(model.blocks.size());
+  std::vector<char> read(model.blocks.size(), 0), mover_read(work.movers.count(), 0);
   for (const std::vector<ContactRow>& rows : work.rows)
-    for (std::size_t r = 0; r < rows.size(); ++r) {
-      if (r % contact_rows_per_chunk == 0)
-        loads.push_back(0);
-      loads.back() += row_load + rows[r].count;
-    }
-  const Partition& part = work.shared->part();
-  work.chunk_begin = even_shares(loads, part.size);
-  std::vector<char> read(model.blocks.size(), 0);
-  std::int64_t chunk = -1;
-  for (std::size_t kind = 0; kind < work.rows.size(); ++kind)
-    for (std::size_t r = 0; r < work.rows[kind].size(); ++r) {
-      if (r % contact_rows_per_chunk == 0)
-        ++chunk;
-      ContactRow& row = work.rows[kind][r];
-      const int rank = Partition::owner(work.chunk_begin, chunk);
-      if (row.rank != rank) {
-        if (kind == Contact::spring)
-          row.reach = 0;
-        row.recheck_distance = row.allowed = 0;
-        work.asleep[kind].recheck_distance[r] = 0;
-      }
-      row.rank = rank;
-      if (rank == part.rank)
-        read[work.movers.block[row.source_mover]] = read[work.movers.block[row.mover]] = 1;
-    }
-  std::vector<std::int32_t> nodes;
-  for (std::size_t b = 0; b < model.blocks.size(); ++b) {
+    for (const ContactRow& row : rows)
+      for (const int mover : {row.source_mover, row.mover})
+        read[work.movers.block[mover]] = mover_read[mover] = 1;
+  for (int m = blocks; m < work.movers.count(); ++m)
+    if (rank_of_fragment(work, m - blocks) == work.shared->part().rank)
+      mover_read[m] = 1;
+  NodesRead nodes(model, work);
+  for (int b = 0; b < blocks; ++b) {
     const Block& block = model.blocks[b];
     if (block.rigid >= 0 || !block.meshed) // rigid ones are moved by all
       continue;
-    if (work.broken[b] || work.restitution)
-      for (int node = block.node_begin; node < block.node_end; ++node)
-        nodes.push_back(node);
+    if (work.restitution)
+      nodes.add_block(b);
+    else if (work.broken[b])
+      nodes.add_movers(b, [&](int mover) { return mover_read[mover] != 0; });
     else if (read[b])
-      add_surface_nodes(model, work, static_cast<int>(b), nodes);
+      nodes.add_surface(b);
   }
-  work.shared->set_further_nodes(std::move(nodes));
-}
-
-Range own_chunks_of_rows(const ContactWork& work, std::int64_t chunks) {
-  if (!work.shared)
-    return {0, chunks};
-  const int rank = work.shared->part().rank;
-  return {work.chunk_begin[rank], work.chunk_begin[rank + 1]};
+  work.shared->set_further_nodes(nodes.take());
 }
 
 void add_depths(const ContactSums& more, ContactSums& sums) {
@@ -113,15 +104,22 @@ void append(const ContactChunk& more, ContactChunk& sum) {
   add_depths(more.sums, sum.sums);
 }
 
-std::vector<ContactChunk> found_by_all(const ContactChunk& own) {
-  std::string told(reinterpret_cast<const char*>(&own.sums), sizeof own.sums);
-  write(own.contacts, told);
-  write(own.forces, told);
-  std::vector<ContactChunk> found;
-  for (const std::string& heard : ranks().gather(told, Ranks::Subject::contacts)) {
-    ContactChunk& of = found.emplace_back();
-    std::memcpy(&of.sums, heard.data(), sizeof of.sums);
-    read(read(heard.data() + sizeof of.sums, Contact(), of.contacts), ContactForce(), of.forces);
+std::array<std::vector<ContactChunk>, 2> found_by_all(const std::array<ContactChunk, 2>& own) {
+  Pack pack;
+  for (const ContactChunk& chunk : own) {
+    pack(chunk.sums);
+    pack(chunk.contacts);
+    pack(chunk.forces);
+  }
+  std::array<std::vector<ContactChunk>, 2> found;
+  for (const std::string& heard : ranks().gather(pack.text(), Ranks::Subject::contacts)) {
+    Unpack unpack(heard);
+    for (std::vector<ContactChunk>& of_kind : found) {
+      ContactChunk& of = of_kind.emplace_back();
+      unpack(of.sums);
+      unpack(of.contacts);
+      unpack(of.forces);
+    }
   }
   return found;
 }
@@ -129,7 +127,7 @@ std::vector<ContactChunk> found_by_all(const ContactChunk& own) {
 std::vector<double> of_finders(const ContactWork& work, const std::vector<std::size_t>& contacts,
                                const std::function<double(std::size_t)>& number) {
   std::vector<double> numbers(contacts.size(), 0.0);
-  const bool by_all = !work.shared || work.shared->whole();
+  const bool by_all = !work.shared || work.shared->surfaces_whole();
   for (std::size_t i = 0; i < contacts.size(); ++i)
     if (by_all || work.rank_of_contact[contacts[i]] == work.shared->part().rank)
       numbers[i] = number(contacts[i]);

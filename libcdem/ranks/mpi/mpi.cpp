@@ -4,8 +4,10 @@
 
 #include <algorithm>
 #include <array>
+#include <chrono>
 #include <cstring>
 #include <mpi.h>
+#include <thread>
 
 namespace {
 
@@ -14,12 +16,17 @@ constexpr std::size_t most_at_once = std::size_t{1} << 30; // bytes, as MPI coun
 
 class MpiRanks : public cdem::Ranks {
 public:
-  MpiRanks(int rank, int size) : Ranks(rank, size) {}
-  ~MpiRanks() override { MPI_Finalize(); }
+  MpiRanks(int rank, int size) : Ranks(rank, size) { MPI_Comm_dup(MPI_COMM_WORLD, &of_failures_); }
+  ~MpiRanks() override {
+    MPI_Comm_free(&of_failures_);
+    MPI_Finalize();
+  }
   MpiRanks(const MpiRanks&) = delete;
   MpiRanks& operator=(const MpiRanks&) = delete;
 
   void exchange(const std::vector<Parcel>& send, const std::vector<Parcel>& receive) override {
+    if (lost_)
+      return;
     const Waiting waiting(*this);
     requests_.clear();
     for (const Parcel& parcel : receive)
@@ -38,6 +45,8 @@ public:
   }
 
   void share(void* data, const std::vector<std::size_t>& begin) override {
+    if (lost_)
+      return;
     const Waiting waiting(*this);
     count(begin[rank() + 1] - begin[rank()], size() - 1);
     if (begin.back() <= most_at_once) {
@@ -59,6 +68,8 @@ public:
   // In one message where all fit into the slot that fitted those before them, which is the same for all ranks; what does
   // not comes in a second one.
   std::vector<std::string> gather(const std::string& mine, Subject subject) override {
+    if (lost_)
+      return std::vector<std::string>(size(), mine);
     std::size_t& slot = slots_[static_cast<std::size_t>(subject)];
     const std::size_t head = sizeof(std::uint64_t), whole = head + slot;
     std::vector<std::uint64_t> sizes(size());
@@ -96,7 +107,36 @@ public:
     return texts;
   }
 
+  std::vector<std::string> deal(const std::vector<std::string>& to) override {
+    std::vector<std::string> from(size());
+    from[rank()] = to[rank()];
+    if (lost_)
+      return from;
+    std::vector<unsigned long long> sent(size()), received(size());
+    for (int r = 0; r < size(); ++r)
+      sent[r] = to[r].size();
+    {
+      const Waiting waiting(*this);
+      MPI_Alltoall(sent.data(), 1, MPI_UNSIGNED_LONG_LONG, received.data(), 1, MPI_UNSIGNED_LONG_LONG,
+                   MPI_COMM_WORLD);
+    }
+    std::vector<Parcel> out, in;
+    for (int r = 0; r < size(); ++r) {
+      if (r == rank())
+        continue;
+      if (sent[r] > 0) // it is only read
+        out.push_back({r, const_cast<char*>(to[r].data()), to[r].size()});
+      from[r].resize(received[r]);
+      if (received[r] > 0)
+        in.push_back({r, from[r].data(), from[r].size()});
+    }
+    exchange(out, in);
+    return from;
+  }
+
   void broadcast(std::string& text) override {
+    if (lost_)
+      return;
     const Waiting waiting(*this);
     unsigned long long bytes = text.size();
     MPI_Bcast(&bytes, 1, MPI_UNSIGNED_LONG_LONG, 0, MPI_COMM_WORLD);
@@ -108,12 +148,25 @@ public:
       count(bytes, size() - 1);
   }
 
-  void largest(double* values, std::size_t number) override {
-    const Waiting waiting(*this);
-    count(number * sizeof(double), size() - 1);
-    in_slices(number, [&](std::size_t begin, int part) {
-      MPI_Allreduce(MPI_IN_PLACE, values + begin, part, MPI_DOUBLE, MPI_MAX, MPI_COMM_WORLD);
-    });
+  void largest(double* values, std::size_t number) override { reduce(values, number, MPI_DOUBLE, MPI_MAX); }
+  void sum(std::int64_t* values, std::size_t number) override {
+    reduce(values, number, MPI_INT64_T, MPI_SUM);
+  }
+
+  // By messages of their own: the others may be in any other call.
+  bool all_fail(double seconds) override {
+    if (lost_)
+      return false;
+    MPI_Request request = MPI_REQUEST_NULL;
+    MPI_Ibarrier(of_failures_, &request);
+    int come = 0;
+    for (const double start = MPI_Wtime(); come == 0 && MPI_Wtime() - start < seconds;) {
+      MPI_Test(&request, &come, MPI_STATUS_IGNORE);
+      if (come == 0)
+        std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
+    lost_ = come == 0;
+    return !lost_;
   }
 
   [[noreturn]] void abort(int exit_code) override {
@@ -134,6 +187,17 @@ private:
     double start_;
   };
 
+  template <class Number>
+  void reduce(Number* values, std::size_t number, MPI_Datatype type, MPI_Op how) {
+    if (lost_)
+      return;
+    const Waiting waiting(*this);
+    count(number * sizeof(Number), size() - 1);
+    in_slices(number, [&](std::size_t begin, int part) {
+      MPI_Allreduce(MPI_IN_PLACE, values + begin, part, type, how, MPI_COMM_WORLD);
+    });
+  }
+
   void count(std::size_t bytes, int receivers) {
     traffic_.messages += receivers;
     traffic_.bytes += static_cast<std::int64_t>(bytes) * receivers;
@@ -145,6 +209,8 @@ private:
       act(begin, static_cast<int>(std::min(size - begin, most_at_once)));
   }
 
+  MPI_Comm of_failures_ = MPI_COMM_NULL; // of all_fail alone
+  bool lost_ = false;                    // this rank has failed by itself
   std::vector<MPI_Request> requests_;
   std::vector<char> buffer_;
   std::array<std::size_t, static_cast<std::size_t>(Subject::count)> slots_{}; // bytes

@@ -215,10 +215,17 @@ std::string Checkpoints::command() const {
   return resume_command(session_.settings.output, session_.settings.unsafe);
 }
 
+void Checkpoints::gather_models() {
+  for (const auto& known : session_.models)
+    if (const auto object = known.lock())
+      object->simulation.gather_to_save();
+}
+
 void Checkpoints::write(bool stopping) {
   if (!may_write() || flags_.in_call || stages_ == 0)
     return;
   stopped_ = stopping;
+  gather_models();
   const Doing saves(session_.settings.observer.get(), Activity::saving);
   const Value put_down = led("checkpoint", [&]() -> Value {
     return put(content(flags_.in_stage ? mark_ : journal_.size(), script_hash_));
@@ -245,8 +252,10 @@ bool Checkpoints::is_of_stopped_run(const fs::path& file) const {
 }
 
 void Checkpoints::keep_unfinished() {
-  if (ranks().leads() && may_write() && flags_.in_stage &&
-      (solved_ > 0 || resumed_ || mark_steps_ > begin_steps_))
+  if (!may_write() || !flags_.in_stage || !(solved_ > 0 || resumed_ || mark_steps_ > begin_steps_))
+    return;
+  gather_models();
+  if (ranks().leads())
     unfinished_ = content(mark_, 0);
 }
 

@@ -82,6 +82,7 @@ private:
   bool may_write() const { return keeps_ && !replaying_ && !journal_.full() && !stopped_; }
   // A checkpoint of now; script_hash 0: the script may have changed when it goes on.
   std::string content(std::size_t journal_size, std::uint64_t script_hash) const;
+  void gather_models();                 // to rank 0, before it writes
   bool put(const std::string& content); // false: it could not be written, as the user was told
   void keep_unfinished();               // of the running stage, in which a callback has failed
   void keep_solved();                   // what fail() writes

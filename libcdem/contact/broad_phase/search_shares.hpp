@@ -1,0 +1,31 @@
+// A search with several ranks. The pairs of blocks, and the parts of what has broken, are dealt to them by counted loads;
+// each sends what it finds near a source to the rank that keeps that source's rows. Rows are kept by runs of source
+// triangles, cut by the rows and candidates that a search of all movers has found; edges go with the first of their
+// triangles. One rank alone looks at all and keeps all.
+#pragma once
+
+#include "libcdem/contact/broad_phase/candidates.hpp"
+
+namespace cdem {
+
+// Of items with these loads, those that this rank looks at, ascending: the heaviest first, each goes to the rank that has
+// least, so that neighbours, which weigh alike, go to different ones.
+std::vector<std::int64_t> own_share(const ContactWork&, const std::vector<double>& load);
+
+// Triangles of the two blocks that stand where their boxes meet, as if they were spread evenly in these; of which a search
+// looks at so many.
+double near_triangles_of(const ActiveSurface&, int block_a, int block_b);
+
+// What a search found near each other, and beside it.
+struct FoundNear {
+  std::vector<std::vector<Near>> springs, edges;           // in parts
+  Pairs movers;                                            // fragments near each other, the lower one first
+  double may_go = std::numeric_limits<double>::infinity(); // m, ContactWork::undefined_pair_margin
+  std::string wrong; // what is wrong with the first pair that is; empty: nothing
+};
+
+// Afterwards `springs` and `edges` are those of sources that this rank keeps, and the rest is known to all. all: of all
+// movers, for which it writes ContactWork::triangle_begin.
+void share_found(const Model&, ContactWork&, bool all, FoundNear&);
+
+} // namespace cdem

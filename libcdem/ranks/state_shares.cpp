@@ -1,0 +1,196 @@
+#include "libcdem/ranks/state_shares.hpp"
+
+#include "libcdem/parallel/residency.hpp"
+#include "libcdem/ranks/ranks.hpp"
+
+#include <algorithm>
+#include <cstring>
+#include <utility>
+
+namespace cdem {
+namespace {
+
+std::vector<std::size_t> in_bytes(const std::vector<std::int64_t>& begin, std::size_t entry) {
+  std::vector<std::size_t> bytes;
+  bytes.reserve(begin.size());
+  for (const std::int64_t item : begin)
+    bytes.push_back(static_cast<std::size_t>(item) * entry);
+  return bytes;
+}
+
+// Own nodes and those of rigid bodies, as ascending runs.
+std::vector<Range> nodes_kept(const Model& model, Range own) {
+  std::vector<Range> all{own};
+  for (const RigidBody& body : model.rigid)
+    all.push_back({model.blocks[body.block].node_begin, model.blocks[body.block].node_end});
+  std::sort(all.begin(), all.end(), [](const Range& a, const Range& b) { return a.begin < b.begin; });
+  std::vector<Range> runs;
+  for (const Range& run : all)
+    if (!runs.empty() && run.begin <= runs.back().end)
+      runs.back().end = std::max(runs.back().end, run.end);
+    else
+      runs.push_back(run);
+  return runs;
+}
+
+} // namespace
+
+// visit(first entry of each rank, numbers of the array for each of those, the array in each state): those whose pages a
+// rank gives back.
+template <class Visit, class... S>
+void StateShares::each_motion(const Visit& visit, S&... s) const {
+  visit(nodes_, 1, s.displacement...);
+  visit(nodes_, 1, s.velocity...);
+}
+
+template <class Visit, class... S>
+void StateShares::each_large(const Visit& visit, S&... s) const {
+  each_motion(visit, s...);
+  visit(points_, 1, s.bond_offset...);
+  visit(points_, 1, s.bond_damage...);
+  visit(points_, 1, s.bond_slip...);
+  visit(points_, 1, s.joint_history...);
+  visit(batches_, 1, s.stress...);
+  visit(batches_, 1, s.viscous_stress...);
+  visit(batches_, 1, s.plastic_strain...);
+  visit(faces_, lanes, s.cohesive...);
+  visit(faces_, lanes, s.rate_factor...);
+}
+
+// Those that are so small that all keep them whole, though not up to date. All know which faces have slips.
+template <class Visit, class... S>
+void StateShares::each_small(const Visit& visit, S&... s) const {
+  visit(points_, 1, s.bond_mode...);
+  visit(faces_, 1, s.faces...);
+}
+
+StateShares::StateShares(const Model& model, const Partition& part)
+    : rank_(part.rank), size_(part.size), nodes_(part.node_begin) {
+  for (const std::int64_t chunk : part.point_begin)
+    points_.push_back(chunk < static_cast<std::int64_t>(model.point_chunks.size())
+                          ? model.point_chunks[chunk].begin
+                          : static_cast<std::int64_t>(model.points.size()));
+  const MeshData& mesh = model.mesh;
+  batches_ = along_mesh_chunks(model, part, static_cast<std::int64_t>(mesh.batches.size()),
+                               [](const MeshChunk& chunk) { return chunk.batches.begin; });
+  faces_ = along_mesh_chunks(model, part, static_cast<std::int64_t>(mesh.faces.size()),
+                             [](const MeshChunk& chunk) { return chunk.face_batches.begin; });
+  kept_nodes_ = nodes_kept(model, nodes());
+}
+
+void StateShares::gather(void* data, const std::vector<std::int64_t>& begin, std::size_t bytes,
+                         std::size_t entry) const {
+  if (bytes > 0)
+    ranks().share(data, in_bytes(begin, entry));
+}
+
+void StateShares::gather_on_lead(void* data, const std::vector<std::int64_t>& begin, std::size_t bytes,
+                                 std::size_t entry) const {
+  if (bytes == 0)
+    return;
+  const std::vector<std::size_t> at = in_bytes(begin, entry);
+  const auto part_of = [&](int rank, int other) {
+    return Ranks::Parcel{other, static_cast<char*>(data) + at[rank], at[rank + 1] - at[rank]};
+  };
+  std::vector<Ranks::Parcel> send, receive;
+  if (rank_ > 0)
+    send.push_back(part_of(rank_, 0));
+  else
+    for (int r = 1; r < size_; ++r)
+      receive.push_back(part_of(r, r));
+  ranks().exchange(send, receive);
+}
+
+void StateShares::gather(State& state) const {
+  const auto visit = [&](const std::vector<std::int64_t>& begin, std::size_t entries, auto& values) {
+    gather(values, begin, entries);
+  };
+  each_large(visit, state);
+  each_small(visit, state);
+  gather_slips(state);
+  state.parted.reset();
+}
+
+void StateShares::gather_on_lead(State& state) const {
+  const auto visit = [&](const std::vector<std::int64_t>& begin, std::size_t entries, auto& values) {
+    gather_on_lead(values.data(), begin, values.size() * sizeof values[0], entries * sizeof values[0]);
+  };
+  each_large(visit, state);
+  each_small(visit, state);
+  gather_slips(state);
+}
+
+// They stand in the order in which faces broke, the same for all; their faces say whose they are.
+void StateShares::gather_slips(State& state) const {
+  if (state.face_slip.empty())
+    return;
+  constexpr std::size_t bytes = lanes * sizeof(FaceSlip);
+  const auto each = [&](int rank, const auto& visit) {
+    for (std::int64_t b = faces_[rank]; b < faces_[rank + 1]; ++b)
+      if (const std::int32_t first = state.faces[b].slip; first >= 0)
+        visit(&state.face_slip[first]);
+  };
+  std::string own;
+  each(rank_, [&](const FaceSlip* slips) { own.append(reinterpret_cast<const char*>(slips), bytes); });
+  const std::vector<std::string> all = ranks().gather(own);
+  for (int r = 0; r < size_; ++r) {
+    if (r == rank_)
+      continue;
+    const char* from = all[r].data();
+    each(r, [&](FaceSlip* slips) {
+      std::memcpy(reinterpret_cast<char*>(slips), from, bytes);
+      from += bytes;
+    });
+  }
+}
+
+void StateShares::gather_surfaces(State& state) const {
+  const auto visit = [&](const std::vector<std::int64_t>& begin, int, auto& values) {
+    gather(values, begin);
+  };
+  each_motion(visit, state);
+  each_small(visit, state);
+}
+
+void StateShares::release(State& state) const {
+  release_motion(state);
+  each_large(
+      [&](const std::vector<std::int64_t>& begin, std::int64_t entries, auto& values) {
+        const Range mine = own(begin);
+        if (&begin != &nodes_)
+          release_outside(values, {{mine.begin * entries, mine.end * entries}});
+      },
+      state);
+}
+
+void StateShares::release_motion(State& state) const {
+  each_motion([&](const auto&, int, auto& values) { release_outside(values, kept_nodes_); }, state);
+}
+
+void StateShares::copy(State& from, State& to) const {
+  // The large arrays stand aside while the rest is copied.
+  struct Aside {
+    const StateShares& shares;
+    State &state, arrays;
+    void swap() {
+      shares.each_large([](const auto&, int, auto& a, auto& b) { std::swap(a, b); }, state, arrays);
+    }
+    Aside(const StateShares& of, State& s) : shares(of), state(s) { swap(); }
+    ~Aside() { swap(); }
+    Aside(const Aside&) = delete;
+    Aside& operator=(const Aside&) = delete;
+  };
+  {
+    const Aside of_from(*this, from), of_to(*this, to);
+    to = from;
+  }
+  each_large(
+      [&](const std::vector<std::int64_t>& begin, std::int64_t entries, auto& a, auto& b) {
+        const Range mine = own(begin);
+        copy(a, b, {mine.begin * entries, mine.end * entries});
+      },
+      from, to);
+  release(to); // it may have been whole
+}
+
+} // namespace cdem
