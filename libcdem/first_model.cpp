@@ -193,7 +193,7 @@ void add_set_joints(Model& frame, int index, const BodySpec& body) {
     if (found == glued.end()) {
       std::string names;
       for (const auto& known : glued)
-        names += (names.empty() ? "\"" : ", \"") + known.first + "\"";
+        names += (names.empty() ? "\"" : ", \"") + known.first + (known.second ? "\", which is glued" : "\"");
       throw geom::InputError("joints of body \"" + body.name + "\"", "\"" + name + "\"",
                              names.empty() ? "the name of a joint set or cut; none of its cuts has a name"
                                            : "the name of a joint set or cut of its shape (" + names + ")",
@@ -264,7 +264,20 @@ Model first_model(const ModelSpec& spec) {
   laws.add_left_by_sets();
   if (spec.default_contact)
     laws.add_default(*spec.default_contact);
-  Model model = build_model(frame, std::move(seeds), default_traits, std::move(meshes));
+  std::map<int, const JointAt*> varying; // by joint
+  for (int b = 0; b < static_cast<int>(frame.bodies.size()); ++b) {
+    if (spec.bodies[b].joint_at)
+      varying[frame.pair_joint.at({b, b})] = &spec.bodies[b].joint_at;
+    for (const auto& [name, joint_at] : spec.bodies[b].set_joints_at)
+      varying[frame.bodies[b].set_joint.at(name)] = &joint_at;
+  }
+  const auto rule = [&](const Model& model, int block_a, int face_a, int block_b, int face_b) {
+    InterfaceTraits traits = default_traits(model, block_a, face_a, block_b, face_b);
+    if (const auto found = varying.find(traits.joint); found != varying.end())
+      traits.joint_at = found->second;
+    return traits;
+  };
+  Model model = build_model(frame, std::move(seeds), rule, std::move(meshes));
   require_separate(model);
   return model;
 }
@@ -273,6 +286,8 @@ std::vector<std::array<int, 2>> pairs_without_interface(const ModelSpec& spec, c
   std::set<std::array<int, 2>> pairs;
   for (const PairSpec& pair : spec.pairs) {
     const int a = body_index(model, pair.body_a), b = body_index(model, pair.body_b);
+    if (a == b && !model.bodies[a].bonding.none())
+      continue; // the parts of a mesh meet once it breaks
     pairs.insert({std::min(a, b), std::max(a, b)});
   }
   for (int b = 0; b < static_cast<int>(spec.bodies.size()); ++b)

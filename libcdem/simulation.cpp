@@ -86,6 +86,14 @@ void Simulation::release(const Selection& on, std::array<bool, 3> axes) {
 
 void Simulation::traction(const Traction& traction) {
   require_finite("stress", traction.stress);
+  if (traction.pressure && traction.pressure->level) {
+    if (!std::isfinite(*traction.pressure->level))
+      throw geom::InputError("level", fmt::format("{:g}", *traction.pressure->level),
+                             "a finite height z (m)");
+    if (!(std::isfinite(traction.pressure->weight) && traction.pressure->weight > 0))
+      throw geom::InputError("weight", fmt::format("{:g}", traction.pressure->weight),
+                             "a finite number > 0 N/m3", "water has 9810");
+  }
   impl_->add_condition([&](Conditions& c) { c.tractions.push_back(traction); });
 }
 

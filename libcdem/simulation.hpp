@@ -47,6 +47,9 @@
 namespace cdem {
 
 // Convex blocks (shape), or meshes. Each connected part of a mesh becomes one block of tetrahedra.
+// The law of an interface whose centroid lies there (undeformed, m).
+using JointAt = std::function<Joint(const geom::Vec3&)>;
+
 struct BodySpec {
   std::string name; // unique; "body_1", ... when the user gives none
   geom::Assembly shape;
@@ -59,6 +62,10 @@ struct BodySpec {
   RegionLaws region_laws = {}; // of meshes
   // Of blocks: laws on faces by the joint set or cut that made them; `joint` holds the others.
   std::map<std::string, Joint> set_joints = {};
+  // Of blocks: laws that vary from place to place, in place of `joint` and of those of set_joints, which hold for faces that
+  // are cut later and for blocks that meet anew.
+  JointAt joint_at = {};
+  std::map<std::string, JointAt> set_joints_at = {};
   PlasticLaws plasticity = {}; // of a body that moves far; empty: elastic
 };
 

@@ -55,7 +55,7 @@ function arch.draw(model, name)
   model:picture{ file = name, colour = "velocity.magnitude", range = {0, 4}, deformation = 1, plain = {"ground"},
                  broken_bonds = false, axes = false,
                  title = string.format("Arch with t/R = 0.08, %.2f s after its centring is gone", model.time),
-                 camera = { position = {1.2, -5.6, 2}, focal_point = {0, 0.1, 0.35}, up = {0, 0, 1}, view_angle = 27 } }
+                 camera = { position = {1.2, -5.6, 2}, focal_point = {0, 0.1, 0.35}, up = {0, 0, 1}, view_angle = 34 } }
   return name
 end
 

@@ -37,4 +37,28 @@ function transfer.peak(height, layer, rock)
   return most
 end
 
+-- Fourier amplitude of a motion at f.
+local function spectrum(motion, f)
+  local c, s, times, values = 0, 0, motion.times, motion.values
+  for i = 2, #times do
+    local dt, w = times[i] - times[i - 1], 2 * math.pi * f
+    c = c + dt * values[i] * math.cos(w * times[i])
+    s = s + dt * values[i] * math.sin(w * times[i])
+  end
+  return math.sqrt(c * c + s * s)
+end
+
+-- Surface over outcrop beside the transfer function from 0.6 to 10 Hz, and the largest ratio below 4 Hz.
+function transfer.compare(surface, outcrop, height, layer, rock)
+  local r = { frequency = {}, ratio = {}, theory = {}, worst = 0, peak = 0, peak_at = 0 }
+  for f = 0.6, 10, 0.1 do
+    local i = #r.frequency + 1
+    r.frequency[i], r.theory[i] = f, transfer.amplification(f, height, layer, rock)
+    r.ratio[i] = spectrum(surface, f) / spectrum(outcrop, f)
+    r.worst = math.max(r.worst, math.abs(r.ratio[i] / r.theory[i] - 1))
+    if f < 4 and r.ratio[i] > r.peak then r.peak, r.peak_at = r.ratio[i], f end
+  end
+  return r
+end
+
 return transfer

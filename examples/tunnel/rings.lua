@@ -52,4 +52,27 @@ function rings.hoop(stress, angle)
   return stress[1] * s * s + stress[3] * c * c - 2 * stress[6] * s * c
 end
 
+-- How far the wall has come in there, m.
+function rings.towards(model, a, thickness, angle)
+  local c, s = math.cos(angle), math.sin(angle)
+  local at = { (a + 0.01) * c, thickness / 2, (a + 0.01) * s }
+  return -model:at("displacement.x", at) * c - model:at("displacement.z", at) * s
+end
+
+-- The first ring of blocks over Kirsch: mean hoop stress, the worst block, and convergence.
+function rings.beside_kirsch(model, t)
+  local ratio, worst, closed, count = 0, 0, 0, 0
+  for _, block in ipairs(model:blocks()) do
+    local x, z = block.centroid[1], block.centroid[3]
+    if x * x + z * z < t.far * t.far then
+      local angle = math.atan(z, x)
+      local one = rings.hoop(block.stress, angle) / rings.mean_hoop(t.p, t.k0, t.a, t.far, angle, 2 * math.pi / t.sectors)
+      ratio, worst, count = ratio + one, math.max(worst, math.abs(one - 1)), count + 1
+      closed = closed + rings.towards(model, t.a, t.thickness, angle)
+    end
+  end
+  return { hoop = ratio / count, worst = worst,
+           closure = closed / count / rings.closure(0.5 * (1 + t.k0) * t.p, t.a, t.outer, t.rock) }
+end
+
 return rings

@@ -26,10 +26,18 @@ struct Fix {
 // Adds a fix. Earlier ones that it overrules altogether are dropped: a script may hold a place anew in every stage.
 void add_fix(std::vector<Fix>& fixes, const Fix& fix);
 
+// Pressure on outer faces, along their inward normals (load/face_pressure.hpp).
+struct FacePressure {
+  std::optional<double> level; // m, z of a free water surface: p = weight (level - z) below it
+  double weight = 9810;        // N/m3
+  std::function<double(const geom::Vec3&)> pressure; // Pa, at undeformed places; where no level is given
+};
+
 struct Traction {
   Selection on;
   geom::Vec3 stress = geom::Vec3::Zero(); // Pa, force over undeformed area, not following the surface
   Amplitude amplitude;
+  std::optional<FacePressure> pressure{}; // in place of the stress
 };
 
 struct PointForce {

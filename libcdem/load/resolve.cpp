@@ -1,6 +1,7 @@
 #include "libcdem/load/resolve.hpp"
 
 #include "libcdem/element/small_strain.hpp"
+#include "libcdem/load/face_pressure.hpp"
 #include "libcdem/load/flow.hpp"
 #include "libcdem/load/free_field.hpp"
 #include "libgeom/core/error.hpp"
@@ -115,6 +116,8 @@ Pattern traction_pattern(const Model& model, const Traction& traction) {
   const std::vector<int> faces = selected_outer_faces(model, traction.on);
   if (faces.empty())
     selects_nothing("outer faces", traction.on);
+  if (traction.pressure)
+    return pressure_pattern(model, faces, *traction.pressure);
   Pattern pattern;
   for (const int f : faces)
     each_face_node(model, model.outer_faces[f],

@@ -23,11 +23,24 @@ bool any_joint_has_strength(const Model& model) {
          std::any_of(model.bodies.begin(), model.bodies.end(), bonded);
 }
 
+bool any_block_has_strength(const Model& model) {
+  return std::any_of(model.bodies.begin(), model.bodies.end(), [](const Body& body) {
+    return std::any_of(body.plasticity.laws.begin(), body.plasticity.laws.end(),
+                       [](const Plasticity& law) { return has_strength(law); });
+  });
+}
+
+// What the other kind of strength would serve for.
+std::string advice(bool other_has_strength, const char* other) {
+  return other_has_strength ? std::string("; or write reduce = {\"") + other + "\"}, which has some here"
+                            : "";
+}
+
 void reduce_joints(Model& model, double factor) {
   if (!any_joint_has_strength(model))
     throw geom::InputError("reduce: the joints of the model have no strength to reduce: no cohesion, no "
-                           "friction, no tensile strength, or all are glued; give them some, or leave "
-                           "\"joints\" out");
+                           "friction, no tensile strength, or all are glued; give a body a joint with some" +
+                           advice(any_block_has_strength(model), "blocks"));
   for (Joint& joint : model.joints)
     joint = reduced(joint, factor);
   for (Body& body : model.bodies) {
@@ -44,16 +57,14 @@ void reduce_joints(Model& model, double factor) {
 }
 
 void reduce_blocks(Model& model, double factor) {
-  bool any = false;
-  for (Body& body : model.bodies)
-    for (Plasticity& law : body.plasticity.laws) {
-      any = any || has_strength(law);
-      law = reduced(law, factor);
-    }
-  if (!any)
+  if (!any_block_has_strength(model))
     throw geom::InputError(
         "reduce: no body of the model has a plasticity whose strength could be reduced; give "
-        "bodies plasticity = cdem.plastic{...}, or leave \"blocks\" out");
+        "bodies plasticity = cdem.plastic{...}" +
+        advice(any_joint_has_strength(model), "joints"));
+  for (Body& body : model.bodies)
+    for (Plasticity& law : body.plasticity.laws)
+      law = reduced(law, factor);
 }
 
 } // namespace

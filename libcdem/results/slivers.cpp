@@ -139,6 +139,11 @@ std::vector<Slivers> find_slivers(const Model& model) {
       Slivers s;
       s.body = model.bodies[body].name;
       s.elements = elements;
+      s.cut = std::any_of(all.begin(), all.end(), [&](const Candidate& c) {
+        const auto& faces = model.blocks[c.block].shape.faces;
+        return std::any_of(faces.begin(), faces.end(),
+                           [](const geom::PolyhedronFace& face) { return !face.cut.empty() || face.glued; });
+      });
       s.count = static_cast<std::int64_t>(slivers.size());
       s.of = static_cast<std::int64_t>(all.size());
       const Candidate* worst = &slivers.front();

@@ -16,6 +16,7 @@ struct Slivers { // of one body
   std::string body;
   bool elements = false;           // tetrahedra of a mesh; else convex blocks
   std::int64_t count = 0, of = 0;  // slivers, of how many
+  bool cut = false;                // blocks: some have faces of joint sets or cuts with a name
   double step = 0, other_step = 0; // s, stable step with them, and of all that touches none
   // The worst: id of a block, or number of a tetrahedron in its body from 1.
   std::int64_t worst = 0;

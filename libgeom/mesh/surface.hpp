@@ -19,4 +19,10 @@ struct Surface {
 Surface surface_of(const TetMesh&);
 Box bounding_box(const Surface&);
 
+// Throws InputError when more than two triangles meet in an edge; `field` names the surface.
+void require_single(const Surface&, const std::string& field);
+
+// Edges that belong to one triangle only, from the corner with the smaller number; none: the surface is closed.
+std::vector<std::array<int, 2>> open_edges(const Surface&);
+
 } // namespace geom

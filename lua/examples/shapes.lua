@@ -35,6 +35,17 @@ local discs = cdem.read_discs("discs.csv")
 local network = cdem.cut_by_discs{ shape = cdem.box{ size = {10, 10, 10} }, discs = discs }
 print(#discs, #network)
 
+-- example: cdem.random_discs cdem.disc_statistics
+local room = { min = {-3, -3, -3}, max = {13, 13, 13} } -- larger than the rock by the largest radius
+local fractures = cdem.random_discs{ box = room, seed = 5, sets = {
+  { set = "a", dip = 30, dip_direction = 90, kappa = 40, p32 = 0.4,
+    radius = { law = "power", exponent = 2.5, smallest = 1, largest = 3 } },
+  { set = "b", dip = 80, dip_direction = 200, kappa = 25, p30 = 0.01, radius = { mean = 2 } } } }
+for _, s in ipairs(cdem.disc_statistics{ discs = fractures, box = { min = {0, 0, 0}, max = {10, 10, 10} },
+                                         line = { from = {0, 5, 5}, to = {10, 5, 5} } }) do
+  print(s.set, s.count, s.dip, s.kappa, s.p32, s.p10)
+end
+
 -- example: cdem.convex_hull
 local wedge = cdem.convex_hull{ points = { {0, 0, 0}, {2, 0, 0}, {0, 0, 1}, {0, 1, 0}, {2, 1, 0}, {0, 1, 1} } }
 print(wedge:volume()) -- 1 m3

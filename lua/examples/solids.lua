@@ -53,3 +53,33 @@ print(other:box().max[2])
 hollow:save{ file = "hollow.step" }
 local read = cdem.solid.read{ file = "hollow.step" }
 print(read:volume() / hollow:volume()) -- 1
+
+-- example: cdem.surface cdem.clip
+local points, triangles = {}, {}
+for i = 0, 10 do
+  for j = 0, 10 do points[#points + 1] = { i, j, 3 + math.sin(0.5 * i) * math.cos(0.4 * j) } end
+end
+for i = 0, 9 do
+  for j = 1, 10 do
+    local a = 11 * i + j
+    triangles[#triangles + 1], triangles[#triangles + 2] = { a, a + 11, a + 12 }, { a, a + 12, a + 1 }
+  end
+end
+local terrain = cdem.surface{ points = points, triangles = triangles }
+local hill = cdem.clip{ shape = cdem.grid{ size = {10, 10, 5}, divisions = {4, 4, 2} }, surface = terrain, keep = "below",
+                        tolerance = 0.2 }
+local shaft = cdem.solid.cylinder{ radius = 1, axis = {0, 0, 10}, base = {5, 5, -1} }
+hill = cdem.clip{ shape = hill, solid = shaft, keep = "outside", tolerance = 0.1 }
+print(#hill, hill:volume())
+
+-- example: cdem.read_surface surface:area surface:closed surface:box
+local faces <close> = assert(io.open("ramp.dxf", "w")) -- in the output folder
+local corners = { {0, 0, 1}, {10, 0, 3}, {10, 10, 3}, {0, 10, 1} }
+faces:write("0\nSECTION\n2\nENTITIES\n0\n3DFACE\n")
+for i, x in ipairs(corners) do
+  for axis = 1, 3 do faces:write(10 * axis + i - 1, "\n", x[axis], "\n") end
+end
+faces:write("0\nENDSEC\n0\nEOF\n")
+faces:flush()
+local ramp = cdem.read_surface{ file = "ramp.dxf" }
+print(#ramp, ramp:area(), ramp:closed(), ramp:box().max[3]) -- 2 triangles

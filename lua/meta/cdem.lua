@@ -22,6 +22,19 @@ local cdem = {}
 ---@field faces integer number of faces
 ---@field vertices number[][] m
 
+---What the discs of one set come to.
+---@class (exact) cdem.DiscStatistics
+---@field set string
+---@field count integer discs in all
+---@field mean_radius number m
+---@field dip number deg: of the mean plane
+---@field dip_direction number deg
+---@field kappa? number of Fisher, (n - 1) / (n - R); nil for fewer than three discs or parallel ones
+---@field p30 number 1/m3: centres in the box over its volume
+---@field p32 number 1/m: area in the box over its volume
+---@field p21? number 1/m: length of traces in the plane, within the box, over its area
+---@field p10? number 1/m: crossings with the line over its length
+
 ---About the centroid.
 ---@class (exact) cdem.Inertia
 ---@field mass number kg
@@ -627,6 +640,23 @@ function Solid:scale(options) end
 ---@param options cdem.SolidSaveOptions
 function Solid:save(options) end
 
+---Triangles, made by cdem.read_surface or cdem.surface; #surface is their number.
+---@class cdem.Surface
+---@operator len: integer
+local Surface = {}
+
+---Of all triangles, m2.
+---@return number # m2
+function Surface:area() end
+
+---Whether every edge belongs to two triangles.
+---@return boolean
+function Surface:closed() end
+
+---Smallest axis-aligned box that holds it.
+---@return cdem.Box
+function Surface:box() end
+
 ---Tetrahedra, made by solid:mesh{} or cdem.read_mesh.
 ---@class cdem.TetMesh
 ---@field nodes integer how many
@@ -827,11 +857,14 @@ function Model:release(options) end
 
 ---@class (exact) cdem.ModelTractionOptions
 ---@field on cdem.Place where: a place or a list of places
----@field stress number[] Pa: force over area, not following the surface
+---@field stress? number[] Pa: force over area
+---@field pressure? number|fun(x: number, y: number, z: number): number Pa: instead: along the inward normal, the same everywhere or at each undeformed place
+---@field level? number m: instead: z of a free water surface; weight times the depth below it, none above. Water in joints is model:water's
+---@field weight? number N/m3, > 0, default 9810: of the water
 ---@field amplitude? cdem.Record|number[][]|fun(time: number): number factor over time (s): a cdem.record, a list { {time, value}, ... } with straight lines between and its first and last value outside, or a function, called once a step; a relaxation asks once at its start; 1 when left out
 ---@field since? number s: time of the model at which the amplitude's times begin, 0 when left out; since = model.time lets it begin now, in a later stage
 
----Force per undeformed area on outer faces.
+---Force per undeformed area on outer faces: a stress, or a pressure along their inward normals, such as that of a reservoir. It acts on faces that are free as the stage begins and does not follow them.
 ---@param options cdem.ModelTractionOptions
 function Model:traction(options) end
 
@@ -1714,6 +1747,7 @@ function cdem.bricks(options) end
 ---@field shape cdem.Assembly
 ---@field sets cdem.CutByJointsOptionsSets[]
 ---@field seed? integer >= 0, default 1: the same seed gives the same blocks on every machine
+---@field smallest? number m, >= 0, default 0: blocks thinner than this, by their least height over a face, are united with a neighbour where both are convex together, or else glued to one: splinters fail before the rock does and shorten the time step
 
 ---Cuts every block by the planes of joint sets, one set after the other.
 ---@param options cdem.CutByJointsOptions
@@ -1822,6 +1856,68 @@ function cdem.rotate(options) end
 ---@return cdem.Assembly
 function cdem.merge(options) end
 
+---@class (exact) cdem.RandomDiscsOptionsSetsRadius
+---@field law? "constant"|"exponential"|"lognormal"|"power" default "constant"
+---@field mean? number m, > 0: of constant, exponential and lognormal
+---@field deviation? number m, > 0: standard deviation, of lognormal
+---@field exponent? number in [0.01, 20]: a of power: the density falls as radius^-(a + 1)
+---@field smallest? number m, > 0: of power
+---@field largest? number m, > 0: of power
+
+---@class (exact) cdem.RandomDiscsOptionsSets
+---@field set string its name
+---@field dip number deg, in [0, 90]: of the mean plane
+---@field dip_direction number deg, in [0, 360]
+---@field kappa? number > 0: concentration of Fisher's distribution, some 10 to 100; all discs are parallel when left out
+---@field radius cdem.RandomDiscsOptionsSetsRadius
+---@field p30? number 1/m3, > 0: discs per volume
+---@field p32? number 1/m, > 0: instead: area of discs per volume
+
+---@class (exact) cdem.RandomDiscsOptionsBox
+---@field min number[] m
+---@field max number[] m
+
+---@class (exact) cdem.RandomDiscsOptions
+---@field sets cdem.RandomDiscsOptionsSets[]
+---@field box cdem.RandomDiscsOptionsBox of the centres
+---@field seed? integer >= 0, default 1: the same seed gives the same discs on every machine
+
+---A fracture network at random, for cut_by_discs: discs with centres even in a box, orientation after Fisher, and a law of radii. Take the box larger than the rock by the largest radius, or the discs thin out at its sides.
+---@param options cdem.RandomDiscsOptions
+---@return table[] # id, centre, dip, dip_direction, radius and set of each
+function cdem.random_discs(options) end
+
+---@class (exact) cdem.DiscStatisticsOptionsDiscs
+---@field id? integer >= 0: discs cut in the order of their ids; its place in the list when left out
+---@field centre number[] m
+---@field dip number deg, in [0, 90]
+---@field dip_direction number deg, in [0, 360]
+---@field radius number m, > 0
+---@field set string name of its faces, for their law
+
+---@class (exact) cdem.DiscStatisticsOptionsBox
+---@field min number[] m
+---@field max number[] m
+
+---@class (exact) cdem.DiscStatisticsOptionsPlane
+---@field point number[] m
+---@field normal number[]
+
+---@class (exact) cdem.DiscStatisticsOptionsLine
+---@field from number[] m
+---@field to number[] m
+
+---@class (exact) cdem.DiscStatisticsOptions
+---@field discs cdem.DiscStatisticsOptionsDiscs[]
+---@field box cdem.DiscStatisticsOptionsBox the volume
+---@field plane? cdem.DiscStatisticsOptionsPlane for p21: a rock face or the floor of a drift
+---@field line? cdem.DiscStatisticsOptionsLine for p10: a scanline or a borehole
+
+---Intensities and mean orientation of discs, a row for each set: of cdem.random_discs, or as surveyed, of cdem.read_discs.
+---@param options cdem.DiscStatisticsOptions
+---@return cdem.DiscStatistics[]
+function cdem.disc_statistics(options) end
+
 cdem.solid = {}
 
 ---@class (exact) cdem.SolidBoxOptions
@@ -1905,6 +2001,37 @@ function cdem.solid.common(options) end
 ---@param options cdem.SolidFragmentsOptions
 ---@return cdem.Solid
 function cdem.solid.fragments(options) end
+
+---@class (exact) cdem.ReadSurfaceOptions
+---@field file string ends in .stl or .dxf
+---@field scale? number in [1e-06, 1e+06], default 1: 0.001 for a file in millimetres
+
+---A surface of triangles from an STL file or an ASCII DXF file (3DFACE, polyface and polygon meshes): a terrain, an excavation.
+---@param options cdem.ReadSurfaceOptions
+---@return cdem.Surface
+function cdem.read_surface(options) end
+
+---@class (exact) cdem.SurfaceOptions
+---@field points number[][] m
+---@field triangles [number, number, number][] numbers of three points each, from 1
+
+---A surface of triangles by its points: a terrain by a formula or from a table.
+---@param options cdem.SurfaceOptions
+---@return cdem.Surface
+function cdem.surface(options) end
+
+---@class (exact) cdem.ClipOptions
+---@field shape cdem.Assembly left as it is; the result is a new one
+---@field solid? cdem.Solid
+---@field surface? cdem.Surface instead: closed, or open and single in height, a terrain
+---@field keep "inside"|"outside"|"below"|"above"|"both" inside and outside of a closed surface or a solid, below and above an open one; both: only cut, the outline of a later excavation (model:remove)
+---@field tolerance? number m, >= 0, default 0: how far the cuts may leave the surface; makes fewer pieces and no thinner ones. 0: exact; curved solids need one
+---@field name? string of the faces that are cut, in pictures of joints and lists
+
+---Cuts blocks along a surface or the faces of a solid, and keeps those on one side. Each block is cut by planes into convex pieces; the cuts within it are glued, they are no joints.
+---@param options cdem.ClipOptions
+---@return cdem.Assembly
+function cdem.clip(options) end
 
 ---@class (exact) cdem.AccropodeOptions
 ---@field height? number m, > 0
@@ -2103,8 +2230,8 @@ function cdem.select.where(predicate) end
 ---@class (exact) cdem.ModelOptionsBodies
 ---@field shape cdem.Assembly|cdem.TetMesh|cdem.Pile blocks, a mesh of tetrahedra, or a pile of them
 ---@field material cdem.Material
----@field joint? cdem.Joint between the body's own blocks; needed when there are several, or when they are cut. Of a mesh: on inner faces, which can break then
----@field joints? table<string, cdem.Joint> of an assembly: laws by the name of the joint set or cut that made the faces, { bedding = joint, fault = joint }; `joint` holds all others
+---@field joint? cdem.Joint|fun(x: number, y: number, z: number): cdem.Joint between the body's own blocks; needed when there are several, or when they are cut. Of a mesh: on inner faces, which can break then. Of an assembly also a function of the place that gives a law, so that any field may vary with depth, region or seed: it is called once for each face between two blocks, with its centroid
+---@field joints? table<string, cdem.Joint|fun(x: number, y: number, z: number): cdem.Joint> of an assembly: laws by the name of the joint set or cut that made the faces, { bedding = joint, fault = joint }; `joint` holds all others
 ---@field name? string for selections and contacts; body_1, body_2 ... by default
 ---@field element? "small_strain"|"finite_volume"|"rigid" how its tetrahedra deform: finite_volume (Feng 2014) for any motion, the default; small_strain (Han 2010) of an assembly whose blocks hardly turn and keep the neighbours they begin with; rigid: keeps its shape until model:make_deformable
 ---@field zone_size? number m, > 0: of an assembly: each block gets tetrahedra of about this edge length inside, so that it bends and shows where it is stressed; without it a few about its centroid. Joints between blocks stay as they are

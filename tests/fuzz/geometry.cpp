@@ -5,6 +5,7 @@
 #include "libgeom/mesh/read_mesh.hpp"
 #include "libgeom/solid/gmsh_session.hpp"
 #include "libgeom/solid/read_stl.hpp"
+#include "libgeom/solid/read_surface.hpp"
 
 #include <array>
 #include <stdexcept>
@@ -13,6 +14,10 @@ namespace fuzz {
 
 void read_stl(const std::string& bytes) {
   geom::read_stl(as_file("part.stl", bytes));
+}
+
+void read_dxf(const std::string& bytes) {
+  geom::read_surface(as_file("ground.dxf", bytes), 1, geom::max_surface_triangles);
 }
 
 void read_mesh(const std::string& bytes) {

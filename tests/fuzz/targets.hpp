@@ -38,6 +38,7 @@ private:
 };
 
 void read_stl(const std::string&);
+void read_dxf(const std::string&);
 void read_mesh(const std::string&);    // the first byte chooses the format
 void read_step(const std::string&);    // in a child
 void child_answer(const std::string&); // what a child process hands back

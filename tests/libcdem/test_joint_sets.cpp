@@ -1,4 +1,5 @@
 // Laws by joint set and named cut, and glued cuts.
+#include "libcdem/first_model.hpp"
 #include "libcdem/fracture/rebuild.hpp"
 #include "libgeom/assembly/builders.hpp"
 #include "libgeom/assembly/edit.hpp"
@@ -113,4 +114,59 @@ TEST_CASE("names of joint sets that no face has are refused with those there are
   held.bodies[0].shape = cut_at(held.bodies[0].shape, 0.5, "outline", true);
   held.bodies[0].set_joints["outline"] = rock_joint();
   CHECK_THROWS_WITH(cdem::Simulation(held, 1, nullptr), Contains("a cut that is not glued"));
+}
+
+TEST_CASE("a law that varies from place to place holds each interface by its own", "[joint_sets]") {
+  // A bar of six blocks along x; the joint at x bears x MPa.
+  cdem::BodySpec body;
+  body.name = "bar";
+  body.shape = geom::grid({6, 1, 1}, {6, 1, 1});
+  body.material = rock();
+  body.joint = with_strength(3e6);
+  body.joint_at = [](const geom::Vec3& x) { return with_strength(1e6 * x.x()); };
+  body.element = GENERATE(cdem::Element::small_strain, cdem::Element::finite_volume);
+  cdem::ModelSpec spec;
+  spec.bodies = {body};
+  const cdem::Model model = cdem::first_model(spec);
+  REQUIRE(model.interfaces.size() == 5);
+  for (const cdem::Interface& i : model.interfaces)
+    CHECK(cdem::joint_of(model, i).tensile_strength ==
+          Approx(1e6 * model.point_position[i.point_begin].x()).epsilon(1e-12));
+  cdem::Simulation s(spec, 1, nullptr);
+  s.fix(fixed(cdem::Selection::side("x-")));
+  const auto broken_under = [&](double stress) {
+    s.clear_loads();
+    s.traction(traction(cdem::Selection::side("x+"), {stress, 0, 0}));
+    cdem::RelaxOptions options;
+    options.max_steps = 2000;
+    s.relax(options);
+    return s.counts().broken_tension;
+  };
+  CHECK(broken_under(0.9e6) == 0);
+  CHECK(broken_under(1.2e6) == s.counts().bonds / 5); // the first joint only, which then carries nothing on
+}
+
+TEST_CASE("blocks that part where the law varies meet with the friction it had there", "[joint_sets]") {
+  cdem::BodySpec body;
+  body.name = "rock";
+  body.shape = geom::grid({4, 1, 1}, {4, 1, 1});
+  body.material = rock();
+  cdem::Joint joint;
+  joint.bonded = false;
+  joint.friction_angle = 20 * degree;
+  body.joint = joint;
+  body.joint_at = [joint](const geom::Vec3& x) {
+    cdem::Joint own = joint;
+    own.friction_angle = 10 * degree * x.x();
+    return own;
+  };
+  cdem::ModelSpec spec;
+  spec.bodies = {body};
+  const cdem::Model model = cdem::first_model(spec);
+  for (const cdem::Interface& i : model.interfaces) {
+    const auto left = model.surface.left_by.find(i.joint);
+    REQUIRE(left != model.surface.left_by.end());
+    CHECK(model.joints[left->second].friction_angle ==
+          Approx(10 * degree * model.point_position[i.point_begin].x()));
+  }
 }

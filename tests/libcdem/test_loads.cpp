@@ -2,6 +2,9 @@
 #include "tests/libcdem/columns.hpp"
 
 #include "libgeom/assembly/builders.hpp"
+#include "libgeom/assembly/edit.hpp"
+#include "libgeom/mesh/box_mesh.hpp"
+#include "libgeom/polyhedron/cut.hpp"
 
 #include <catch2/catch.hpp>
 
@@ -66,6 +69,100 @@ TEST_CASE("a pressure all round has no resultant", "[loads]") {
   s.load_all_faces(-1e6 * geom::Mat3::Identity());
   CHECK(resultant(s).force.norm() < 1e-10 * 1e6);
   CHECK(resultant(s).moment.norm() < 1e-10 * 1e6);
+}
+
+namespace {
+
+cdem::Traction water_to(double level, double weight = 9810) {
+  cdem::Traction water;
+  water.on = cdem::Selection::everything();
+  water.pressure = cdem::FacePressure{level, weight, {}};
+  return water;
+}
+
+// Blocks whose faces cross the water at all angles: a turned box in Voronoi cells.
+geom::Assembly turned_rock() {
+  geom::VoronoiOptions cells;
+  cells.size = {1, 0.8, 0.6};
+  cells.count = 12;
+  return geom::rotated(geom::voronoi(cells), {1, 2, 3}, 0.8, {0.5, 0.4, 0.3});
+}
+
+} // namespace
+
+TEST_CASE("a submerged body is lifted by the weight of the water, at its centroid", "[loads][reservoir]") {
+  const double weight = 9810, level = 5;
+  const geom::Assembly blocks = turned_rock();
+  const auto element = GENERATE(cdem::Element::small_strain, cdem::Element::finite_volume);
+  cdem::BodySpec spec = body("rock", blocks);
+  spec.element = element;
+  spec.zone_size = element == cdem::Element::finite_volume ? 0.3 : 0;
+  System s(build({spec}));
+  s.conditions.tractions = {water_to(level, weight)};
+  const Resultant sum = resultant(s);
+  double volume = 0;
+  Vec3 moment = Vec3::Zero();
+  for (const geom::Polyhedron& block : blocks.blocks) {
+    const geom::MassProperties mass = geom::mass_properties(block);
+    volume += mass.volume;
+    moment += mass.volume * mass.centroid;
+  }
+  CHECK((sum.force - Vec3(0, 0, weight * volume)).norm() < 1e-9 * weight * level);
+  CHECK((sum.moment - moment.cross(Vec3(0, 0, weight))).norm() < 1e-9 * weight * level);
+}
+
+TEST_CASE("a body that floats is lifted by the water that its part below the level displaces",
+          "[loads][reservoir]") {
+  const double weight = 9810, level = 0.33;
+  const geom::Assembly blocks = turned_rock();
+  double below = 0;
+  for (const geom::Polyhedron& block : blocks.blocks)
+    if (const auto part = geom::cut(block, geom::Plane::through({0, 0, level}, {0, 0, 1})).below)
+      below += geom::mass_properties(part->shape).volume;
+  System s(build({body("rock", blocks)}));
+  s.conditions.tractions = {water_to(level, weight)};
+  CHECK((resultant(s).force - Vec3(0, 0, weight * below)).norm() < 1e-9 * weight);
+  // The same pressure as a function of the place: to the size of the parts that it is taken at.
+  s.conditions.tractions[0].pressure =
+      cdem::FacePressure{{}, 1, [&](const Vec3& x) { return std::max(0.0, weight * (level - x.z())); }};
+  CHECK((resultant(s).force - Vec3(0, 0, weight * below)).norm() < 0.01 * weight * below);
+}
+
+TEST_CASE("a reservoir pushes an inclined face with gamma h^2 / 2 per width, at a third of its depth",
+          "[loads][reservoir]") {
+  // A dam 3 m wide, 10 m high, whose upstream face leans by 60 degrees; water 7 m deep.
+  const double width = 3, height = 10, deep = 7, lean = height / std::tan(60 * degree), weight = 9810;
+  std::vector<Vec3> corners;
+  for (const double y : {0.0, width})
+    for (const Vec3& x : {Vec3(0, y, 0), Vec3(20, y, 0), Vec3(20, y, height), Vec3(lean, y, height)})
+      corners.push_back(x);
+  geom::Assembly dam;
+  dam.blocks = {geom::convex_hull(corners)};
+  System s(build({body("dam", dam)}));
+  cdem::Traction water = water_to(deep, weight);
+  water.on = cdem::Selection::on_plane(geom::Plane::through({0, 0, 0}, {-height, 0, lean}));
+  s.conditions.tractions = {water};
+  const Resultant sum = resultant(s);
+  CHECK(sum.force.x() == Approx(weight * deep * deep / 2 * width));
+  CHECK(sum.force.z() == Approx(-sum.force.x() * lean / height));
+  const Vec3 at(lean * deep / 3 / height, width / 2, deep / 3);
+  CHECK((sum.moment - at.cross(sum.force)).norm() < 1e-9 * sum.moment.norm());
+  s.conditions.tractions[0].pressure->level = -1;
+  CHECK_THROWS_WITH(resultant(s), Catch::Matchers::Contains("none of them is under water"));
+}
+
+TEST_CASE("the same pressure everywhere is the traction along the normals, on blocks and on meshes",
+          "[loads][reservoir]") {
+  cdem::Traction even;
+  even.on = cdem::Selection::everything();
+  even.pressure = cdem::FacePressure{{}, 1, [](const Vec3&) { return 2e5; }};
+  for (const bool mesh : {false, true}) {
+    const geom::Assembly blocks = geom::grid({1, 1, 1}, {2, 2, 2});
+    System s(build({mesh ? meshed("rock", geom::box_mesh({1, 1, 1}, {2, 2, 2})) : body("rock", blocks)}));
+    even.on = cdem::Selection::side("x+");
+    s.conditions.tractions = {even};
+    CHECK((resultant(s).force - Vec3(-2e5, 0, 0)).norm() < 1e-6);
+  }
 }
 
 TEST_CASE("a column under its own weight carries rho g times the height above", "[loads]") {

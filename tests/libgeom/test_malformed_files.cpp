@@ -4,7 +4,9 @@
 #include "libgeom/core/random.hpp"
 #include "libgeom/mesh/read_mesh.hpp"
 #include "libgeom/solid/read_stl.hpp"
+#include "libgeom/solid/read_surface.hpp"
 #include "libgeom/solid/solid.hpp"
+#include "tests/libgeom/dxf_files.hpp"
 #include "tests/libgeom/mesh_files.hpp"
 #include "tests/support/refusal.hpp"
 #include "tests/vtk/temporary_folder.hpp"
@@ -102,6 +104,12 @@ TEST_CASE("a damaged STL file gives a surface or one line with its name") {
   }
   text << "endsolid a\n";
   spoil("part.stl", text.str(), 300, [](const std::string& path) { read_stl(path); });
+}
+
+TEST_CASE("a damaged DXF file gives a surface or one line with its name") {
+  for (const std::string& text : {dxf_faces(), dxf_polyface(), dxf_mesh()})
+    spoil("part.dxf", text, 200,
+          [](const std::string& path) { read_surface(path, 1, max_surface_triangles); });
 }
 
 TEST_CASE("counts that say far more than the file holds end in one line") {

@@ -6,6 +6,7 @@
 #include "libcdem/model/build/rigid_bodies.hpp"
 #include "libgeom/assembly/assembly.hpp"
 #include "libgeom/core/error.hpp"
+#include "libgeom/core/portable.hpp"
 #include "libgeom/mesh/star_mesh.hpp"
 #include "libgeom/mesh/zone_mesh.hpp"
 #include "libgeom/query/face_overlap.hpp"
@@ -194,6 +195,34 @@ std::vector<geom::Vec3> block_nodes(const Model& model, const Block& block) {
   return {model.node_position.begin() + block.node_begin, model.node_position.begin() + block.node_end};
 }
 
+// A law of its own for an interface, and for the contact that is left once its blocks have parted.
+void take_joint_at(Model& model, const Block& a, const Block& b, const geom::FaceOverlap& faces,
+                   InterfaceTraits& traits) {
+  geom::Vec3 centroid = geom::Vec3::Zero();
+  for (const geom::OverlapPoint& p : faces.points)
+    centroid += p.area / faces.area * p.position;
+  Joint joint = (*traits.joint_at)(centroid);
+  validate(joint);
+  auto base = model.surface.left_by.find(traits.joint);
+  const auto own = model.surface.joint.find(std::minmax(a.body, b.body));
+  const int left = base != model.surface.left_by.end() ? base->second
+                   : own != model.surface.joint.end()  ? own->second
+                                                       : -1;
+  traits.joint = static_cast<int>(model.joints.size());
+  traits.thickness = joint.thickness.value_or(joint.thickness_ratio * 0.5 * (a.first_size + b.first_size));
+  traits.may_break = !joint.glued;
+  if (left >= 0) {
+    Joint contact = model.joints[left];
+    contact.friction_angle =
+        has_law(joint.law) ? geom::portable::atan2(friction_left(joint), 1) : joint.friction_angle;
+    model.surface.left_by[traits.joint] = traits.joint + 1;
+    model.joints.push_back(std::move(joint));
+    model.joints.push_back(std::move(contact));
+  } else {
+    model.joints.push_back(std::move(joint));
+  }
+}
+
 void add_interface(Model& model, const geom::SharedFace& pair, const InterfaceRule& rule,
                    const std::vector<geom::BlockMesh>& meshes) {
   const Block& a = model.blocks[pair.block_a];
@@ -211,7 +240,9 @@ void add_interface(Model& model, const geom::SharedFace& pair, const InterfaceRu
   if (faces.points.empty())
     return;
 
-  const InterfaceTraits traits = rule(model, pair.block_a, pair.face_a, pair.block_b, pair.face_b);
+  InterfaceTraits traits = rule(model, pair.block_a, pair.face_a, pair.block_b, pair.face_b);
+  if (traits.joint_at)
+    take_joint_at(model, a, b, faces, traits);
   interface.id = traits.id ? traits.id : model.next_id++;
   interface.joint = traits.joint;
   interface.thickness = traits.thickness;

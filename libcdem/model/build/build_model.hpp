@@ -26,6 +26,8 @@ struct InterfaceTraits {
   double thickness = 0; // L, m
   InterfaceOrigin origin = InterfaceOrigin::original;
   bool may_break = true;
+  // The law at the interface's centroid, in place of `joint`; null: the same everywhere.
+  const std::function<Joint(const geom::Vec3&)>* joint_at = nullptr;
   std::optional<double> strength = {}; // over that of the joint; none: a new draw where it scatters
 };
 using InterfaceRule =

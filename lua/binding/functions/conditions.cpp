@@ -1,4 +1,5 @@
 // Supports, loads and initial states of a model.
+#include "lua/binding/functions/over_place.hpp"
 #include "lua/binding/functions/over_time.hpp"
 #include "lua/binding/functions/selections.hpp"
 #include "lua/binding/objects/model_object.hpp"
@@ -57,16 +58,42 @@ Value release(Session&, ModelObject& model, const Arguments& a) {
   return {};
 }
 
+FacePressure face_pressure_of(const Arguments& a) {
+  FacePressure pressure;
+  pressure.level = a.optional_number("level");
+  pressure.weight = a.number("weight");
+  if (const Value& given = a.value("pressure"); given.is_number())
+    pressure.pressure = [p = given.number()](const geom::Vec3&) { return p; };
+  else if (a.has("pressure"))
+    pressure.pressure = number_at_place(a.function("pressure"), "pressure", "a finite number (Pa)");
+  return pressure;
+}
+
 Value traction(Session&, ModelObject& model, const Arguments& a) {
   model.require_idle("traction");
   const Amplitude amplitude = amplitude_of(a);
+  if (static_cast<int>(a.has("stress")) + static_cast<int>(a.has("pressure")) +
+          static_cast<int>(a.has("level")) !=
+      1)
+    throw InputError("give one of stress = {x, y, z} (Pa), pressure = a number (Pa) or function(x, y, z), "
+                     "and level = z of "
+                     "the water (m)");
   for (const Selection& on : selections(model, a.value("on"), "on")) {
     Traction traction;
     traction.on = on;
-    traction.stress = a.vec3("stress");
     traction.amplitude = amplitude;
+    std::string line;
+    if (a.has("stress")) {
+      traction.stress = a.vec3("stress");
+      line = "traction " + describe(a.value("stress")) + " Pa";
+    } else {
+      traction.pressure = face_pressure_of(a);
+      line = a.has("level") ? "pressure of water up to z = " + describe(a.value("level")) + " m"
+             : a.value("pressure").is_number() ? "pressure " + describe(a.value("pressure")) + " Pa"
+                                               : std::string("pressure after a function");
+    }
     model.simulation.traction(traction);
-    note(model, "traction " + describe(a.value("stress")) + " Pa on " + shown(on));
+    note(model, line + " on " + shown(on));
   }
   return {};
 }
@@ -193,9 +220,18 @@ void bind_conditions(Module& m) {
   again();
   add("release", "Undoes fixes.", {on(), axes().doc("components set free")}, release);
   again();
-  add("traction", "Force per undeformed area on outer faces.",
-      {on(), vec3("stress").unit("Pa").required().doc("force over area, not following the surface"),
-       amplitude_field(), since_field()},
+  add("traction",
+      "Force per undeformed area on outer faces: a stress, or a pressure along their inward normals, such as "
+      "that of a "
+      "reservoir. It acts on faces that are free as the stage begins and does not follow them.",
+      {on(), vec3("stress").unit("Pa").doc("force over area"),
+       number_or_function("pressure", "(x: number, y: number, z: number): number")
+           .unit("Pa")
+           .doc("instead: along the inward normal, the same everywhere or at each undeformed place"),
+       number("level").unit("m").doc("instead: z of a free water surface; weight times the depth below it, "
+                                     "none above. Water in joints is model:water's"),
+       number("weight").above(0).unit("N/m3").standard(9810.0).doc("of the water"), amplitude_field(),
+       since_field()},
       traction);
   again();
   add("force", "A total force, shared among the nodes of a place.",

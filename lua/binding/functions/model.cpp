@@ -63,6 +63,26 @@ void read_plasticity(const Arguments& given, const std::string& path, BodySpec& 
   }
 }
 
+// A law, or a function of the place that gives one: for each interface that at its centroid. Faces that are cut later, and
+// blocks that meet anew, have the law at the middle of the body.
+void read_joint(const Value& given, const std::string& path, const BodySpec& body, Joint& joint,
+                JointAt& at) {
+  if (const auto object = std::dynamic_pointer_cast<JointObject>(given.object())) {
+    joint = object->joint;
+    return;
+  }
+  at = [function = given.reference(), path](const geom::Vec3& x) {
+    const Values answer = function->call({x.x(), x.y(), x.z()});
+    const auto law = answer.empty() ? nullptr : std::dynamic_pointer_cast<JointObject>(answer[0].object());
+    if (!law)
+      throw InputError(path + place_text(x) + " of " + function->place(),
+                       answer.empty() ? "nothing" : describe(answer[0]),
+                       "a Joint: cdem.mohr_coulomb{...}, cdem.coulomb{...} or another law of joints");
+    return law->joint;
+  };
+  joint = at(geom::bounding_box(body.shape).centre());
+}
+
 // The meshes of bodies that do not hang together: the body, and how many parts it is in.
 using PartCounts = std::vector<std::pair<std::string, int>>;
 
@@ -83,6 +103,11 @@ std::vector<std::string> read_bodies(Session& session, const Arguments& a, Model
     body.material = given.object<MaterialObject>("material")->elastic;
     if (const auto joint = given.object<JointObject>("joint"))
       body.joint = joint->joint;
+    else if (given.has("joint") && !given.object<AssemblyObject>("shape"))
+      throw InputError(
+          path + ".joint", "a function", "a Joint for a mesh",
+          "a law that varies from place to place is for assemblies of blocks; region_joints gives "
+          "regions of a mesh their own");
     if (const auto pile = pile_shape(given)) {
       std::vector<geom::TetMesh> units;
       const auto mesh = given.object<TetMeshObject>("shape");
@@ -116,7 +141,11 @@ std::vector<std::string> read_bodies(Session& session, const Arguments& a, Model
     read_plasticity(given, path, body);
     if (const Table* joints = given.value("joints").table())
       for (const auto& [name, joint] : joints->named)
-        body.set_joints[name] = static_cast<const JointObject&>(*joint.object()).joint;
+        read_joint(joint, path + ".joints." + name, body, body.set_joints[name], body.set_joints_at[name]);
+    if (given.has("joint"))
+      read_joint(given.value("joint"), path + ".joint", body, body.joint, body.joint_at);
+    for (auto at = body.set_joints_at.begin(); at != body.set_joints_at.end();)
+      at = at->second ? std::next(at) : body.set_joints_at.erase(at);
     if (!given.has("joint") && body.shape.blocks.size() > 1)
       throw InputError(path + ".joint: missing; the body has " + std::to_string(body.shape.blocks.size()) +
                        " blocks: say what holds them together, cdem.mohr_coulomb{...} or cdem.coulomb{...}");
@@ -234,11 +263,14 @@ void bind_model(Module& m) {
           .required()
           .doc("blocks, a mesh of tetrahedra, or a pile of them"),
       object("material", "Material").required(),
-      object("joint", "Joint")
+      object_or_function("joint", "Joint", "(x: number, y: number, z: number): cdem.Joint")
           .doc("between the body's own blocks; needed when there are several, or when they are cut. Of a "
                "mesh: on "
-               "inner faces, which can break then"),
-      named("joints", object_type("Joint"))
+               "inner faces, which can break then. Of an assembly also a function of the place that gives a "
+               "law, so that any field may vary with depth, region or seed: it is called once for each face "
+               "between two "
+               "blocks, with its centroid"),
+      named("joints", object_or_function_type("Joint", "(x: number, y: number, z: number): cdem.Joint"))
           .doc("of an assembly: laws by the name of the joint set or cut that made the faces, { bedding = "
                "joint, fault = "
                "joint }; `joint` holds all others"),

@@ -1,5 +1,6 @@
 // Block assemblies: the builders of libgeom.
 #include "lua/binding/functions/angles.hpp"
+#include "lua/binding/functions/discs.hpp"
 #include "lua/binding/objects/objects.hpp"
 #include "lua/binding/objects/solid_objects.hpp"
 #include "lua/binding/runtime/module.hpp"
@@ -8,6 +9,7 @@
 #include "libgeom/assembly/builders.hpp"
 #include "libgeom/assembly/discs.hpp"
 #include "libgeom/assembly/edit.hpp"
+#include "libgeom/assembly/join_thin.hpp"
 #include "libgeom/core/error.hpp"
 #include "libgeom/mesh/tet_blocks.hpp"
 
@@ -49,7 +51,7 @@ Value bricks(Session&, Object*, const Arguments& a) {
   return made(geom::bricks(options));
 }
 
-Value cut_by_joints(Session&, Object*, const Arguments& a) {
+Value cut_by_joints(Session& session, Object*, const Arguments& a) {
   std::vector<geom::JointSet> sets;
   for (const Arguments& given : a.records("sets")) {
     geom::JointSet set;
@@ -62,8 +64,15 @@ Value cut_by_joints(Session&, Object*, const Arguments& a) {
     set.name = given.text_or("name", "");
     sets.push_back(set);
   }
-  return made(geom::cut_by_joints(a.object<AssemblyObject>("shape")->assembly, sets,
-                                  static_cast<std::uint64_t>(a.integer("seed"))));
+  geom::JoinedThin joined =
+      geom::join_thin(geom::cut_by_joints(a.object<AssemblyObject>("shape")->assembly, sets,
+                                          static_cast<std::uint64_t>(a.integer("seed"))),
+                      a.number("smallest"));
+  if (joined.united + joined.glued > 0)
+    session.message("cut_by_joints: " + std::to_string(joined.united) + " blocks thinner than " +
+                    describe(a.value("smallest")) + " m united with a neighbour, " +
+                    std::to_string(joined.glued) + " glued to one");
+  return made(std::move(joined.assembly));
 }
 
 Value read_discs(Session& session, Object*, const Arguments& a) {
@@ -80,18 +89,7 @@ Value read_discs(Session& session, Object*, const Arguments& a) {
 }
 
 Value cut_by_discs(Session&, Object*, const Arguments& a) {
-  std::vector<geom::Disc> discs;
-  for (const Arguments& given : a.records("discs")) {
-    geom::Disc disc;
-    disc.id = given.has("id") ? given.integer("id") : static_cast<std::int64_t>(discs.size()) + 1;
-    disc.centre = given.vec3("centre");
-    disc.dip = radians(given.number("dip"));
-    disc.dip_direction = radians(given.number("dip_direction"));
-    disc.radius = given.number("radius");
-    disc.set = given.text("set");
-    discs.push_back(disc);
-  }
-  return made(geom::cut_by_discs(a.object<AssemblyObject>("shape")->assembly, std::move(discs)));
+  return made(geom::cut_by_discs(a.object<AssemblyObject>("shape")->assembly, discs_of(a)));
 }
 
 Value blocks_of_mesh(Session&, Object*, const Arguments& a) {
@@ -228,21 +226,23 @@ void bind_builders(Module& m) {
       number("direction_scatter").within(0, 360).unit("deg").standard(0.0).doc("standard deviation"),
       text("name").doc("of the set, for its law: a body's joints = { name = joint }")};
   add("cut_by_joints", "Cuts every block by the planes of joint sets, one set after the other.",
-      {object("shape", "Assembly").required(), list("sets", record_type(set)).required(), seed_field()},
+      {object("shape", "Assembly").required(), list("sets", record_type(set)).required(), seed_field(),
+       number("smallest")
+           .at_least(0)
+           .unit("m")
+           .standard(0.0)
+           .doc("blocks thinner than this, by their least height over a face, are united with a neighbour "
+                "where both "
+                "are convex "
+                "together, or else glued to one: splinters fail before the rock does and shorten the time "
+                "step")},
       cut_by_joints);
-  const std::vector<Field> disc{
-      integer("id").at_least(0).doc("discs cut in the order of their ids; its place in the "
-                                    "list when left out"),
-      vec3("centre").unit("m").required(),
-      number("dip").within(0, 90).unit("deg").required(),
-      number("dip_direction").within(0, 360).unit("deg").required(),
-      number("radius").above(0).unit("m").required(),
-      text("set").required().doc("name of its faces, for their law")};
   add("cut_by_discs",
       "Joints of finite size: every block that a disc reaches is cut by the disc's plane. Faces with their "
       "centroid in the "
       "disc belong to its set; beyond it they are bridges of rock, which the body's joint holds.",
-      {object("shape", "Assembly").required(), list("discs", record_type(disc)).required()}, cut_by_discs);
+      {object("shape", "Assembly").required(), list("discs", record_type(disc_fields())).required()},
+      cut_by_discs);
   m.functions.push_back({"read_discs",
                          "Discs of a fracture network from a .csv with the columns id, x, y, z, dip, "
                          "dip_direction, radius and set, in any order, for cut_by_discs.",

@@ -1,4 +1,5 @@
 // Water in joints.
+#include "lua/binding/functions/over_place.hpp"
 #include "lua/binding/functions/selections.hpp"
 #include "lua/binding/objects/model_object.hpp"
 #include "lua/binding/runtime/module.hpp"
@@ -16,15 +17,7 @@ using geom::InputError;
 std::function<double(const geom::Vec3&)> pressure_of(const Arguments& a) {
   if (const Value& given = a.value("pressure"); given.is_number())
     return [p = given.number()](const geom::Vec3&) { return p; };
-  const auto function = a.function("pressure");
-  return [function](const geom::Vec3& x) {
-    const Values answer = function->call({x.x(), x.y(), x.z()});
-    if (answer.empty() || !answer[0].is_number() || !(answer[0].number() >= 0) ||
-        !std::isfinite(answer[0].number()))
-      throw InputError("pressure" + describe(Value(x)) + " of " + function->place(),
-                       answer.empty() ? "nothing" : describe(answer[0]), "a finite number >= 0 Pa");
-    return answer[0].number();
-  };
+  return number_at_place(a.function("pressure"), "pressure", "a finite number >= 0 Pa", 0);
 }
 
 Water water_of(const ModelObject& model, const Arguments& a, std::string& line) {

@@ -5,6 +5,7 @@
 
 #include "libcdem/vtk/mesh_snapshot.hpp"
 #include "libgeom/mesh/parts.hpp"
+#include "libgeom/mesh/surface.hpp"
 #include "libgeom/solid/solid.hpp"
 
 #include <optional>
@@ -21,6 +22,11 @@ struct SolidObject final : Object {
   std::optional<double> mesh_size; // m, unless mesh{} gives another
 
   const char* class_name() const override { return "Solid"; }
+};
+
+struct SurfaceObject final : Object {
+  geom::Surface surface;
+  const char* class_name() const override { return "Surface"; }
 };
 
 struct TetMeshObject final : Object {

@@ -58,8 +58,8 @@ const Declared& declared() {
     Declared d;
     declare(d, "parameters", "Parameters of a script", {bind_parameters});
     declare(d, "materials", "Materials and joints", {bind_materials, bind_joint_laws});
-    declare(d, "shapes", "Assemblies of blocks", {bind_shapes});
-    declare(d, "solids", "Free-form solids", {bind_solids});
+    declare(d, "shapes", "Assemblies of blocks", {bind_shapes, bind_discs});
+    declare(d, "solids", "Free-form solids", {bind_solids, bind_surfaces});
     declare(d, "armour_units", "Armour units", {bind_armour_units});
     declare(d, "meshes", "Meshes of tetrahedra", {bind_tet_meshes});
     declare(d, "piles", "Piles of units", {bind_piles});

@@ -82,7 +82,9 @@ void bind_parameters(Module&);
 void bind_materials(Module&);
 void bind_joint_laws(Module&);
 void bind_shapes(Module&);
+void bind_discs(Module&);
 void bind_solids(Module&);
+void bind_surfaces(Module&);    // after solids
 void bind_solid_class(Module&); // by bind_solids
 void bind_armour_units(Module&);
 void bind_tet_meshes(Module&);

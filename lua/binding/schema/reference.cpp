@@ -40,6 +40,7 @@ std::string type_text(const Type& type) {
   case Kind::function:
     return (type.or_number   ? "number or function "
             : type.or_vec3   ? "vector or function "
+            : type.or_object ? type.object + " or function "
             : type.or_record ? "record, list of {time, value} or function "
                              : "function ") +
            type.name;

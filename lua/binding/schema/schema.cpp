@@ -53,6 +53,7 @@ std::string Type::lua_type() const {
   case Kind::function:
     return (or_number   ? "number|fun"
             : or_vec3   ? "number[]|fun"
+            : or_object ? "cdem." + object + "|fun"
             : or_record ? "cdem.Record|number[][]|fun"
                         : "fun") +
            name;
@@ -114,6 +115,7 @@ std::string Type::words() const {
   case Kind::function:
     return or_number   ? "a number or a function"
            : or_vec3   ? "three numbers {x, y, z} or a function"
+           : or_object ? "a " + object + " or a function"
            : or_record ? "a function of time, a cdem.Record, or a list { {time, value}, ... }"
                        : "a function";
   case Kind::object:
@@ -257,6 +259,20 @@ Field number_or_function(std::string name, std::string signature) {
   return field;
 }
 
+Type object_or_function_type(std::string class_name, std::string signature) {
+  Type type;
+  type.kind = Kind::function;
+  type.or_object = true;
+  type.object = std::move(class_name);
+  type.name = std::move(signature);
+  return type;
+}
+Field object_or_function(std::string name, std::string class_name, std::string signature) {
+  Field field;
+  field.name = std::move(name);
+  field.type = object_or_function_type(std::move(class_name), std::move(signature));
+  return field;
+}
 Field function_or_record(std::string name, std::string signature) {
   Field field = function(std::move(name), std::move(signature));
   field.type.or_record = true;

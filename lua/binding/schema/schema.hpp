@@ -58,6 +58,8 @@ struct Type {
   bool or_number = false; // function: a finite number in the range will do, for one that does not vary
   bool or_vec3 = false;   // function: three finite numbers will do
   bool or_record = false; // function: a table over time will do, a cdem.Record or a list of {time, value}
+  bool or_object = false; // function: an object of the class `object` will do, for one that does not vary
+  std::string object{};   // class, with or_object
   std::string
       name{}; // object: class, or "A|B" for either; function: its parameters, e.g. "(time: number): number"
   std::vector<Type> items{};   // list, named: one; tuple: one per place
@@ -101,6 +103,7 @@ Field function(std::string name, std::string signature);
 Field number_or_function(std::string name, std::string signature);
 Field function_or_record(std::string name, std::string signature);
 Field vec3_or_function(std::string name, std::string signature);
+Field object_or_function(std::string name, std::string class_name, std::string signature);
 Field scalar(std::string name);
 Field plain(std::string name);
 Field record(std::string name, std::vector<Field> fields);
@@ -114,6 +117,7 @@ Type scalar_type();
 Type vec3_type();
 Type object_type(std::string class_name);
 Type record_type(std::vector<Field> fields);
+Type object_or_function_type(std::string class_name, std::string signature);
 Type tuple_type(std::vector<Type> items);
 Type list_type(Type item, std::size_t min_items = 1);
 

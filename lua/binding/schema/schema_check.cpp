@@ -276,6 +276,8 @@ Value check_value(const Value& given, const Type& type, const std::string& path)
       return checked_number(given, type, path);
     if (type.or_vec3 && given.table())
       return checked_vec3(given, type, path);
+    if (type.or_object && given.object() && given.object()->class_name() == type.object)
+      return given;
     if (type.or_record && given.table())
       return checked_over_time(given, path);
     if (!given.reference())

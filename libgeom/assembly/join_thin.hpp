@@ -1,0 +1,26 @@
+// Splinters that joint sets leave: blocks thinner than a given length become part of a neighbour.
+//
+// The thickness of a block is its least height over one of its faces. A thin block that shares a whole face with a neighbour, so
+// that both together are convex, is united with it: the cut between them is undone. The largest such face is taken. Where there is
+// none its largest face to a neighbour is glued: the block stays and the joint there goes.
+#pragma once
+
+#include "libgeom/assembly/assembly.hpp"
+
+#include <optional>
+
+namespace geom {
+
+double thickness(const Polyhedron&); // m, least height over a face
+
+// Two blocks that have a whole face in common as one; none when they are not convex together. Faces that come to lie in one plane
+// become one, with the name that face has in `a`.
+std::optional<Polyhedron> united(const Polyhedron& a, int face_a, const Polyhedron& b, int face_b);
+
+struct JoinedThin {
+  Assembly assembly;
+  std::int64_t united = 0, glued = 0; // thin blocks
+};
+JoinedThin join_thin(Assembly, double smallest); // m; throws InputError unless it is >= 0
+
+} // namespace geom

@@ -1,0 +1,201 @@
+// Discs of fracture networks at random, and statistics of networks.
+#include "lua/binding/functions/discs.hpp"
+
+#include "lua/binding/functions/angles.hpp"
+#include "lua/binding/objects/objects.hpp"
+#include "lua/binding/runtime/module.hpp"
+
+#include "libgeom/assembly/random_discs.hpp"
+#include "libgeom/core/error.hpp"
+
+namespace cdem::script {
+
+namespace {
+
+using geom::InputError;
+
+constexpr double pi = 3.14159265358979323846;
+
+geom::Box box_of(const Arguments& a) {
+  const auto given = a.record("box");
+  geom::Box box;
+  box.min = given->vec3("min");
+  box.max = given->vec3("max");
+  return box;
+}
+
+geom::RadiusOptions radius_of(const Arguments& given, const std::string& path) {
+  geom::RadiusOptions radius;
+  const std::string& law = given.text("law");
+  const bool power = law == "power", lognormal = law == "lognormal";
+  radius.law = power                  ? geom::RadiusLaw::power
+               : lognormal            ? geom::RadiusLaw::lognormal
+               : law == "exponential" ? geom::RadiusLaw::exponential
+                                      : geom::RadiusLaw::constant;
+  const auto need = [&](const char* name, bool wanted, double& to) {
+    if (given.has(name) != wanted)
+      throw InputError(path + "." + name + (wanted ? ": missing; the law \"" : ": not of the law \"") + law +
+                       "\", which takes " +
+                       (power       ? "exponent, smallest and largest"
+                        : lognormal ? "mean and deviation"
+                                    : "mean"));
+    if (wanted)
+      to = given.number(name);
+  };
+  need("mean", !power, radius.mean);
+  need("deviation", lognormal, radius.deviation);
+  need("exponent", power, radius.exponent);
+  need("smallest", power, radius.smallest);
+  need("largest", power, radius.largest);
+  return radius;
+}
+
+Value disc_table(const geom::Disc& disc) {
+  return Table{{"id", disc.id},
+               {"centre", disc.centre},
+               {"dip", degrees(disc.dip)},
+               {"dip_direction", degrees(disc.dip_direction)},
+               {"radius", disc.radius},
+               {"set", disc.set}};
+}
+
+Value random_discs(Session&, Object*, const Arguments& a) {
+  std::vector<geom::RandomDiscs> sets;
+  for (const Arguments& given : a.records("sets")) {
+    const std::string path = "sets[" + std::to_string(sets.size() + 1) + "]";
+    geom::RandomDiscs set;
+    set.set = given.text("set");
+    set.dip = radians(given.number("dip"));
+    set.dip_direction = radians(given.number("dip_direction"));
+    set.kappa = given.optional_number("kappa");
+    set.radius = radius_of(*given.record("radius"), path + ".radius");
+    if (given.has("p30") == given.has("p32"))
+      throw InputError(path + ": give one of p30 (discs per m3) and p32 (m2 of joint per m3)");
+    set.p30 =
+        given.has("p30") ? given.number("p30") : given.number("p32") / (pi * geom::mean_square(set.radius));
+    sets.push_back(std::move(set));
+  }
+  Values rows;
+  for (const geom::Disc& disc :
+       geom::random_discs(sets, box_of(a), static_cast<std::uint64_t>(a.integer("seed"))))
+    rows.push_back(disc_table(disc));
+  return Table::list(std::move(rows));
+}
+
+Value disc_statistics(Session&, Object*, const Arguments& a) {
+  geom::DiscWindow window;
+  window.box = box_of(a);
+  if (const auto plane = a.record("plane")) {
+    if (!(plane->vec3("normal").norm() > 0))
+      throw InputError("plane.normal", describe(plane->value("normal")), "longer than zero");
+    window.plane = geom::Plane::through(plane->vec3("point"), plane->vec3("normal"));
+  }
+  if (const auto line = a.record("line"))
+    window.line = {line->vec3("from"), line->vec3("to")};
+  Values rows;
+  for (const geom::DiscStatistics& s : geom::disc_statistics(discs_of(a), window)) {
+    Table row{{"set", s.set},
+              {"count", s.count},
+              {"mean_radius", s.mean_radius},
+              {"dip", degrees(s.dip)},
+              {"dip_direction", degrees(s.dip_direction)},
+              {"p30", s.p30},
+              {"p32", s.p32}};
+    if (s.kappa)
+      row.named["kappa"] = *s.kappa;
+    if (s.p21)
+      row.named["p21"] = *s.p21;
+    if (s.p10)
+      row.named["p10"] = *s.p10;
+    rows.emplace_back(std::move(row));
+  }
+  return Table::list(std::move(rows));
+}
+
+Field box_field() {
+  return record("box", {vec3("min").unit("m").required(), vec3("max").unit("m").required()}).required();
+}
+
+} // namespace
+
+std::vector<geom::Disc> discs_of(const Arguments& a) {
+  std::vector<geom::Disc> discs;
+  for (const Arguments& given : a.records("discs")) {
+    geom::Disc disc;
+    disc.id = given.has("id") ? given.integer("id") : static_cast<std::int64_t>(discs.size()) + 1;
+    disc.centre = given.vec3("centre");
+    disc.dip = radians(given.number("dip"));
+    disc.dip_direction = radians(given.number("dip_direction"));
+    disc.radius = given.number("radius");
+    disc.set = given.text("set");
+    discs.push_back(disc);
+  }
+  return discs;
+}
+
+std::vector<Field> disc_fields() {
+  return {integer("id").at_least(0).doc("discs cut in the order of their ids; its place in the "
+                                        "list when left out"),
+          vec3("centre").unit("m").required(),
+          number("dip").within(0, 90).unit("deg").required(),
+          number("dip_direction").within(0, 360).unit("deg").required(),
+          number("radius").above(0).unit("m").required(),
+          text("set").required().doc("name of its faces, for their law")};
+}
+
+void bind_discs(Module& m) {
+  const std::vector<Field> radius{
+      choice("law", {"constant", "exponential", "lognormal", "power"}).standard("constant"),
+      number("mean").above(0).unit("m").doc("of constant, exponential and lognormal"),
+      number("deviation").above(0).unit("m").doc("standard deviation, of lognormal"),
+      number("exponent").within(0.01, 20).doc("a of power: the density falls as radius^-(a + 1)"),
+      number("smallest").above(0).unit("m").doc("of power"),
+      number("largest").above(0).unit("m").doc("of power")};
+  const std::vector<Field> set{
+      text("set").required().doc("its name"),
+      number("dip").within(0, 90).unit("deg").required().doc("of the mean plane"),
+      number("dip_direction").within(0, 360).unit("deg").required(),
+      number("kappa").above(0).doc("concentration of Fisher's distribution, some 10 to 100; all discs are "
+                                   "parallel when left out"),
+      record("radius", radius).required(),
+      number("p30").above(0).unit("1/m3").doc("discs per volume"),
+      number("p32").above(0).unit("1/m").doc("instead: area of discs per volume")};
+  m.functions.push_back(
+      {"random_discs",
+       "A fracture network at random, for cut_by_discs: discs with centres even in a box, orientation after "
+       "Fisher, and a law of "
+       "radii. Take the box larger than the rock by the largest radius, or the discs thin out at its sides.",
+       {list("sets", record_type(set)).required(), box_field().doc("of the centres"),
+        integer("seed").at_least(0).standard(1).doc("the same seed gives the same discs on every machine")},
+       false,
+       "table[]",
+       "id, centre, dip, dip_direction, radius and set of each",
+       random_discs});
+  m.records.push_back(
+      {"DiscStatistics",
+       "What the discs of one set come to.",
+       {text("set").required(), integer("count").required().doc("discs in all"),
+        number("mean_radius").unit("m").required(),
+        number("dip").unit("deg").required().doc("of the mean plane"),
+        number("dip_direction").unit("deg").required(),
+        number("kappa").doc("of Fisher, (n - 1) / (n - R); nil for fewer than three discs or parallel ones"),
+        number("p30").unit("1/m3").required().doc("centres in the box over its volume"),
+        number("p32").unit("1/m").required().doc("area in the box over its volume"),
+        number("p21").unit("1/m").doc("length of traces in the plane, within the box, over its area"),
+        number("p10").unit("1/m").doc("crossings with the line over its length")}});
+  m.functions.push_back({"disc_statistics",
+                         "Intensities and mean orientation of discs, a row for each set: of "
+                         "cdem.random_discs, or as surveyed, of "
+                         "cdem.read_discs.",
+                         {list("discs", record_type(disc_fields())).required(), box_field().doc("the volume"),
+                          record("plane", {vec3("point").unit("m").required(), vec3("normal").required()})
+                              .doc("for p21: a rock face or the floor of a drift"),
+                          record("line", {vec3("from").unit("m").required(), vec3("to").unit("m").required()})
+                              .doc("for p10: a scanline or a borehole")},
+                         false,
+                         "cdem.DiscStatistics[]",
+                         "",
+                         disc_statistics});
+}
+
+} // namespace cdem::script

@@ -1,0 +1,13 @@
+// Discs as scripts give them.
+#pragma once
+
+#include "lua/binding/schema/schema.hpp"
+
+#include "libgeom/assembly/discs.hpp"
+
+namespace cdem::script {
+
+std::vector<Field> disc_fields();
+std::vector<geom::Disc> discs_of(const Arguments&); // of the list "discs"
+
+} // namespace cdem::script
