@@ -15,7 +15,7 @@ struct StageStep {
 };
 
 // Every number is one, no node has gone further than run_away (m), no element is inside out.
-void require_sound(const Model&, const State&, const Workspace&, double run_away, const StageStep&);
+void require_sound(const Model&, const State&, double run_away, const StageStep&);
 
 // Throws SolutionError where a block of small strain has left a neighbour by more than the size of their face.
 void require_neighbours(const Model&, const State&, const StageStep&);
