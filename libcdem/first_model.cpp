@@ -4,6 +4,7 @@
 #include "libcdem/model/build/build_model.hpp"
 #include "libcdem/simulation_checks.hpp"
 #include "libgeom/core/error.hpp"
+#include "libgeom/core/hilbert.hpp"
 #include "libgeom/core/portable.hpp"
 #include "libgeom/mesh/parts.hpp"
 
@@ -209,6 +210,23 @@ void add_set_joints(Model& frame, int index, const BodySpec& body) {
     made.glued_joint = add(glued_joint());
 }
 
+// The blocks of a body in the order of a Hilbert curve, which keeps neighbours near each other in memory; ids count them as
+// they were built.
+void add_seeds(Model& frame, int index, const geom::Assembly& shape, std::vector<BlockSeed>& seeds) {
+  std::vector<geom::Vec3> places;
+  places.reserve(shape.blocks.size());
+  for (const geom::Polyhedron& block : shape.blocks)
+    places.push_back(geom::bounding_box(block).centre());
+  for (const int i : geom::along_hilbert_curve(places, geom::bounding_box(shape))) {
+    BlockSeed seed;
+    seed.id = frame.next_id + i;
+    seed.body = index;
+    seed.shape = shape.blocks[i];
+    seeds.push_back(std::move(seed));
+  }
+  frame.next_id += static_cast<std::int64_t>(shape.blocks.size());
+}
+
 } // namespace
 
 Model first_model(const ModelSpec& spec) {
@@ -246,12 +264,7 @@ Model first_model(const ModelSpec& spec) {
     frame.pair_joint[{index, index}] = static_cast<int>(frame.joints.size());
     frame.joints.push_back(body.joint);
     add_set_joints(frame, index, body);
-    for (const geom::Polyhedron& block : body.shape.blocks) {
-      BlockSeed seed;
-      seed.body = index;
-      seed.shape = block;
-      seeds.push_back(std::move(seed));
-    }
+    add_seeds(frame, index, body.shape, seeds);
   }
   PairLaws laws(frame, spec, parts);
   for (const PairSpec& pair : spec.pairs) {

@@ -4,6 +4,7 @@
 
 #include "libcdem/element/small_strain.hpp"
 #include "libcdem/model/names.hpp"
+#include "libcdem/model/unit_order.hpp"
 #include "libcdem/procedure/run.hpp"
 #include "libcdem/results/fragments.hpp"
 #include "libcdem/results/make_snapshot.hpp"
@@ -142,7 +143,7 @@ geom::Vec3 Simulation::reaction(const Selection& on) const {
 std::vector<Simulation::BlockRow> Simulation::blocks() const {
   const Impl& s = *impl_;
   std::vector<BlockRow> rows;
-  for (int b = 0; b < static_cast<int>(s.model.blocks.size()); ++b) {
+  for (const int b : blocks_by_id(s.model)) {
     const Block& block = s.model.blocks[b];
     rows.push_back({block.id, block.parent, block.generation, s.model.bodies[block.body].name,
                     block.mass.centroid, shown_centroid_displacement(s.model, s.state, b), block.mass.volume,

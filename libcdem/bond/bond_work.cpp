@@ -34,6 +34,13 @@ BondWork::BondWork(const Model& model, const State& state)
     plain.push_back((softening.empty() || !softening.back().softens()) && (laws.empty() || !laws.back().law));
   }
   batches = spring_batches(model, strength, plain);
+  const auto first_behind = [&](std::int64_t node) { // springs stand in the order of their later blocks
+    return std::partition_point(model.points.begin(), model.points.end(),
+                                [&](const BondPoint& point) { return point.node_b[0] < node; }) -
+           model.points.begin();
+  };
+  for (const BlockChunk& chunk : model.chunks)
+    new_springs.push_back({first_behind(chunk.nodes.begin), first_behind(chunk.nodes.end)});
 }
 
 } // namespace cdem

@@ -56,6 +56,9 @@ struct BondWork {
   std::vector<geom::Vec3> stretch;
   std::vector<SpringSums> sums; // per chunk of springs
   SpringBatches batches;        // of the same springs, with their strengths
+  // Springs whose side b is in the chunk, of each Model::chunks: no earlier chunk reads them in a step, which goes through
+  // them from the last to the first.
+  std::vector<Range> new_springs;
 };
 
 } // namespace cdem

@@ -7,29 +7,20 @@ namespace {
 
 constexpr double unbreakable = std::numeric_limits<double>::infinity();
 
-void set_spring(SpringBatch& batch, int lane, const BondPoint& point, const Interface& interface,
-                const SpringStrength& strength) {
+InterfaceNumbers numbers_of(const Interface& interface, const SpringStrength& strength) {
+  InterfaceNumbers numbers;
+  numbers.normal = {interface.normal.x(), interface.normal.y(), interface.normal.z(), strength.tan_friction};
+  numbers.stiffness = {interface.kn, interface.ks,
+                       interface.may_break ? strength.tensile_strength : unbreakable,
+                       interface.may_break ? strength.cohesion : unbreakable};
+  return numbers;
+}
+
+void set_spring(SpringBatch& batch, int lane, const BondPoint& point) {
   batch.node_a[lane] = point.node_a[0];
   batch.node_b[lane] = point.node_b[0];
   batch.interface[lane] = point.interface;
-  for (int axis = 0; axis < 3; ++axis)
-    batch.normal[axis][lane] = point.normal[axis];
-  batch.kn[lane] = point.kn_area;
-  batch.ks[lane] = point.ks_area;
-  batch.tensile_strength[lane] = interface.may_break ? point.area * strength.tensile_strength : unbreakable;
-  batch.cohesion[lane] = interface.may_break ? point.area * strength.cohesion : unbreakable;
-  batch.tan_friction[lane] = strength.tan_friction;
-}
-
-SpringBatch empty_batch() {
-  SpringBatch batch = {};
-  batch.ends = -1;
-  batch.plain = true;
-  for (int lane = 0; lane < lanes; ++lane) {
-    batch.kn[lane] = batch.ks[lane] = 1;
-    batch.tensile_strength[lane] = batch.cohesion[lane] = unbreakable;
-  }
-  return batch;
+  batch.area[lane] = point.area;
 }
 
 SpringEnds ends_of(const Model& model, Range points) {
@@ -82,17 +73,23 @@ void set_frame(const Model& model, const Interface& interface, FrameBatch& batch
 SpringBatches spring_batches(const Model& model, const std::vector<SpringStrength>& strength,
                              const std::vector<char>& plain) {
   SpringBatches all;
+  for (std::size_t i = 0; i < model.interfaces.size(); ++i)
+    all.interfaces.push_back(numbers_of(model.interfaces[i], strength[i]));
   for (const Range& chunk : model.point_chunks) {
+    const auto later_block = [&](std::int64_t point) -> const Block& {
+      return model.blocks[model.interfaces[model.points[point].interface].block_b];
+    };
+    all.nodes.push_back({later_block(chunk.begin).node_begin, later_block(chunk.end - 1).node_end});
     all.first.push_back(static_cast<std::int64_t>(all.springs.size()));
     for (std::int64_t begin = chunk.begin; begin < chunk.end; begin += lanes) {
       const Range points{begin, std::min<std::int64_t>(begin + lanes, chunk.end)};
-      SpringBatch batch = empty_batch();
+      SpringBatch batch = {};
       batch.count = static_cast<int>(points.size());
       bool on_nodes = true;
       for (std::int64_t p = points.begin; p < points.end; ++p) {
         const BondPoint& point = model.points[p];
         const Interface& interface = model.interfaces[point.interface];
-        set_spring(batch, static_cast<int>(p - begin), point, interface, strength[point.interface]);
+        set_spring(batch, static_cast<int>(p - begin), point);
         on_nodes = on_nodes && point.one_to_one;
         batch.turns = batch.turns || interface.frame >= 0;
         batch.plain = batch.plain && plain[point.interface] != 0;

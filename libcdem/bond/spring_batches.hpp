@@ -7,6 +7,12 @@
 
 namespace cdem {
 
+// What the springs of an interface share: (normal, tan of the friction angle) and (kn, ks, tensile strength, cohesion), Pa/m and
+// Pa; the strengths are infinite where nothing may break. One line of a cache.
+struct alignas(64) InterfaceNumbers {
+  Node normal, stiffness;
+};
+
 struct alignas(64) SpringBatch {
   int node_a[lanes], node_b[lanes]; // where both sides sit on a node
   int interface[lanes];
@@ -14,10 +20,7 @@ struct alignas(64) SpringBatch {
   int count = 0;      // springs
   bool turns = false; // some interface may turn
   bool plain = true;  // brittle bonds and contacts with friction: nothing softens or has a law of its own
-  double normal[3][lanes];
-  double kn[lanes], ks[lanes];                     // N/m, with the area
-  double tensile_strength[lanes], cohesion[lanes]; // N; infinite where nothing may break
-  double tan_friction[lanes];
+  double area[lanes]; // m2
 };
 
 struct SpringEnds {
@@ -37,8 +40,10 @@ struct FrameBatch {
 
 struct SpringBatches {
   std::vector<SpringBatch> springs;
-  std::vector<std::int64_t> first; // batch of each chunk of springs, and the end
+  std::vector<InterfaceNumbers> interfaces; // (n_interfaces)
+  std::vector<std::int64_t> first;          // batch of each chunk of springs, and the end
   std::vector<SpringEnds> ends;
+  std::vector<Range> nodes;       // of the blocks that each chunk of springs meets first: those on sides b
   std::vector<FrameBatch> frames; // of the interfaces, eight by eight; empty where none turns
 };
 

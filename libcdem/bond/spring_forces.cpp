@@ -2,6 +2,7 @@
 
 #include "libcdem/bond/interface_frame.hpp"
 #include "libcdem/bond/spring_kernel.hpp"
+#include "libcdem/parallel/simd.hpp"
 #include "libcdem/state/places.hpp"
 #include "libgeom/core/portable.hpp"
 
@@ -238,6 +239,20 @@ struct Rotations {
   }
 };
 
+// What the next chunk reads that none before it has read.
+ReadAhead reads_of(const SpringsOfChunk& c, std::int64_t chunk) {
+  ReadAhead ahead;
+  if (chunk >= static_cast<std::int64_t>(c.model.point_chunks.size()))
+    return ahead;
+  const Range points = c.model.point_chunks[chunk], nodes = c.work.batches.nodes[chunk];
+  const std::int64_t first = c.work.batches.first[chunk];
+  ahead.add(c.state.displacement.data() + nodes.begin, nodes.size());
+  ahead.add(c.work.batches.springs.data() + first, c.work.batches.first[chunk + 1] - first);
+  ahead.add(c.state.bond_offset.data() + points.begin, points.size());
+  ahead.add(c.work.spring_force.data() + points.begin, points.size());
+  return ahead;
+}
+
 template <bool special>
 void forces_of_springs(std::int64_t chunk, const SpringsOfChunk& c) {
   thread_local Rotations rotations;
@@ -250,6 +265,8 @@ void forces_of_springs(std::int64_t chunk, const SpringsOfChunk& c) {
                        {c.model.points[range.begin].interface, c.model.points[range.end - 1].interface + 1},
                        state.displacement.data());
   const bool plain = state.water_pressure.empty() && !c.damped;
+  ReadAhead ahead = reads_of(c, chunk + 1);
+  ahead.spread(batches.first[chunk + 1] - batches.first[chunk]);
   std::int64_t p = range.begin;
   for (std::int64_t b = batches.first[chunk]; b < batches.first[chunk + 1]; ++b) {
     const SpringBatch& batch = batches.springs[b];
@@ -274,6 +291,7 @@ void forces_of_springs(std::int64_t chunk, const SpringsOfChunk& c) {
                             turned ? rotations.of(interface) : geom::Mat3(geom::Mat3::Identity()));
       }
     p += batch.count;
+    ahead.some();
   }
 }
 
@@ -305,20 +323,42 @@ void spring_forces(const Model& model, State& state, BondWork& work, std::int64_
     forces_of_springs<true>(chunk, springs);
 }
 
+namespace {
+
+CDEM_INLINE void bond_force_kernel(const Model& model, const geom::Vec3* bond_force, Range nodes,
+                                   Node* force) {
+  constexpr double sign[2] = {1, -1}; // of the only node of side a, b
+  const std::int64_t* const begin = model.bond_begin.data();
+  const SpringEnd* const ends = model.spring_ends.data();
+  for (std::int64_t node = nodes.begin; node < nodes.end; ++node) {
+    simd::Quad sum = simd::load(force[node - nodes.begin]);
+    for (std::int64_t i = begin[node]; i < begin[node + 1]; ++i) {
+      const SpringEnd end = ends[i];
+      const double* const spring = bond_force[end.point()].data();
+      const double weight =
+          end.end() >= SpringEnd::only_a ? sign[end.end() - SpringEnd::only_a] : end.weight(model.points);
+      sum += weight * simd::Quad{spring[0], spring[1], spring[2], 0};
+    }
+    simd::store(force[node - nodes.begin], sum);
+  }
+}
+
+} // namespace
+
 void add_bond_forces(const Model& model, const std::vector<geom::Vec3>& bond_force, Range nodes,
                      Node* force) {
+  if (!model.points.empty())
+    simd::best<bond_force_kernel>(model, bond_force.data(), nodes, force);
+}
+
+void add_bond_reads(const Model& model, const BondWork& work, std::int64_t chunk, ReadAhead& ahead) {
   if (model.points.empty())
     return;
-  for (std::int64_t node = nodes.begin; node < nodes.end; ++node) {
-    Node& f = force[node - nodes.begin];
-    for (std::int64_t i = model.bond_begin[node]; i < model.bond_begin[node + 1]; ++i) {
-      const BondOnNode& bond = model.bonds_on_nodes[i];
-      const geom::Vec3& spring = bond_force[bond.point];
-      f.x += bond.weight * spring.x();
-      f.y += bond.weight * spring.y();
-      f.z += bond.weight * spring.z();
-    }
-  }
+  const Range nodes = model.chunks[chunk].nodes, springs = work.new_springs[chunk];
+  const std::int64_t end = model.bond_begin[nodes.begin];
+  ahead.add(model.bond_begin.data() + nodes.begin, nodes.size());
+  ahead.add(model.spring_ends.data() + end, model.bond_begin[nodes.end] - end);
+  ahead.add(work.force().data() + springs.begin, springs.size());
 }
 
 void start_spring_forces(const Model& model, const State& state, BondWork& work) {

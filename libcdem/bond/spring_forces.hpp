@@ -3,6 +3,7 @@
 #pragma once
 
 #include "libcdem/bond/bond_work.hpp"
+#include "libcdem/parallel/read_ahead.hpp"
 
 namespace cdem {
 
@@ -12,6 +13,9 @@ void spring_forces(const Model&, State&, BondWork&, std::int64_t chunk, bool bre
 
 // Adds what bonds do to nodes, force[0] the first of them, N; bond_force: BondWork::force().
 void add_bond_forces(const Model&, const std::vector<geom::Vec3>& bond_force, Range nodes, Node* force);
+
+// What add_bond_forces reads for a chunk of Model::chunks.
+void add_bond_reads(const Model&, const BondWork&, std::int64_t chunk, ReadAhead&);
 
 // Forces of the present state without any breaking or slip: what the first step's energy losses are counted
 // from.

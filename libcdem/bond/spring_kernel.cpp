@@ -25,23 +25,26 @@ CDEM_INLINE Triples gather(const Node* nodes, const int (&index)[lanes]) {
 
 // x, y, z of eight triples of numbers that follow each other.
 CDEM_INLINE Triples load_triples(const geom::Vec3* from) {
-  const double* const p = from->data();
-  Triples t{};
-  for (int lane = 0; lane < lanes; ++lane) {
-    t.x[lane] = p[3 * lane];
-    t.y[lane] = p[3 * lane + 1];
-    t.z[lane] = p[3 * lane + 2];
-  }
-  return t;
+  Oct a, b, c;
+  std::memcpy(&a, from->data(), sizeof a);
+  std::memcpy(&b, from->data() + lanes, sizeof b);
+  std::memcpy(&c, from->data() + 2 * lanes, sizeof c);
+  const Oct x = __builtin_shufflevector(a, b, 0, 3, 6, 9, 12, 15, 0, 0),
+            y = __builtin_shufflevector(a, b, 1, 4, 7, 10, 13, 0, 0, 0),
+            z = __builtin_shufflevector(a, b, 2, 5, 8, 11, 14, 0, 0, 0);
+  return {__builtin_shufflevector(x, c, 0, 1, 2, 3, 4, 5, 10, 13),
+          __builtin_shufflevector(y, c, 0, 1, 2, 3, 4, 8, 11, 14),
+          __builtin_shufflevector(z, c, 0, 1, 2, 3, 4, 9, 12, 15)};
 }
 
 CDEM_INLINE void store_triples(geom::Vec3* to, const Triples& t) {
-  double* const p = to->data();
-  for (int lane = 0; lane < lanes; ++lane) {
-    p[3 * lane] = t.x[lane];
-    p[3 * lane + 1] = t.y[lane];
-    p[3 * lane + 2] = t.z[lane];
-  }
+  const Oct a = __builtin_shufflevector(t.x, t.y, 0, 8, 0, 1, 9, 0, 2, 10),
+            b = __builtin_shufflevector(t.x, t.y, 0, 3, 11, 0, 4, 12, 0, 5),
+            c = __builtin_shufflevector(t.x, t.y, 13, 0, 6, 14, 0, 7, 15, 0);
+  const Oct out[3] = {__builtin_shufflevector(a, t.z, 0, 1, 8, 3, 4, 9, 6, 7),
+                      __builtin_shufflevector(b, t.z, 10, 1, 2, 11, 4, 5, 12, 7),
+                      __builtin_shufflevector(c, t.z, 0, 13, 2, 3, 14, 5, 6, 15)};
+  std::memcpy(to->data(), out, sizeof out);
 }
 
 CDEM_INLINE bool any(const Mask& mask) {
@@ -52,9 +55,18 @@ CDEM_INLINE bool any(const Mask& mask) {
 
 CDEM_INLINE unsigned bits(const Mask& mask) {
   unsigned bits = 0;
+  if (!any(mask))
+    return bits;
   for (int lane = 0; lane < lanes; ++lane)
     bits |= static_cast<unsigned>(mask[lane] != 0) << lane;
   return bits;
+}
+
+CDEM_INLINE bool all_intact(const std::uint8_t* mode) {
+  static_assert(static_cast<int>(BondMode::intact) == 0 && lanes == sizeof(std::uint64_t));
+  std::uint64_t modes = 0;
+  std::memcpy(&modes, mode, sizeof modes);
+  return modes == 0;
 }
 
 CDEM_INLINE TurnedSide<Oct> side_of(const Node* u, const int (&node)[3][lanes],
@@ -114,18 +126,26 @@ CDEM_INLINE void spring_kernel(const SpringBatches& all, const SpringBatch& batc
     rotation = rotations_of(batch, springs);
     j = turned_back(rotation, j);
   }
-  const Triples n = load(batch.normal), offset = load_triples(springs.offset), stretch = j - offset;
-  const Oct kn = simd::load(batch.kn), ks = simd::load(batch.ks), tan = simd::load(batch.tan_friction);
+  int place[lanes];
+  for (int lane = 0; lane < lanes; ++lane)
+    place[lane] = 2 * batch.interface[lane];
+  const simd::Four normal = simd::gather_four(&all.interfaces.front().normal, place),
+                   stiffness = simd::gather_four(&all.interfaces.front().stiffness, place);
+  const Oct area = simd::load(batch.area), tan = normal.w;
+  const Triples n = {normal.x, normal.y, normal.z}, offset = load_triples(springs.offset),
+                stretch = j - offset;
+  const Oct kn = stiffness.x * area, ks = stiffness.y * area;
   const Oct open = dot(stretch, n);
   const Triples shear = stretch - open * n;
   const Oct normal_force = kn * open, shear2 = ks * ks * dot(shear, shear);
   Mask contact{};
-  for (int lane = 0; lane < lanes; ++lane)
-    contact[lane] = springs.mode[lane] == static_cast<std::uint8_t>(BondMode::intact) ? 0 : -1;
+  if (!all_intact(springs.mode))
+    for (int lane = 0; lane < lanes; ++lane)
+      contact[lane] = springs.mode[lane] == static_cast<std::uint8_t>(BondMode::intact) ? 0 : -1;
   Mask leaves{};
   if (springs.breaking) {
-    const Oct strength = shear_strength<Oct>(margin * simd::load(batch.cohesion), margin * tan, normal_force);
-    leaves = ~contact & ((normal_force >= margin * simd::load(batch.tensile_strength)) | (strength <= Oct{}) |
+    const Oct strength = shear_strength<Oct>(margin * (area * stiffness.w), margin * tan, normal_force);
+    leaves = ~contact & ((normal_force >= margin * (area * stiffness.z)) | (strength <= Oct{}) |
                          (shear2 >= strength * strength));
   }
   left = bits(leaves);

@@ -9,6 +9,8 @@ namespace cdem {
 template <>
 struct Flat<TetBatch> : std::bool_constant<sizeof(TetBatch) == (4 * 4 + 11 * 8) * lanes> {};
 template <>
+struct Flat<SpringEnd> : std::bool_constant<sizeof(SpringEnd) == 4> {};
+template <>
 struct Flat<MeshBatch> : std::bool_constant<sizeof(MeshBatch) == 4 * 2 * lanes> {};
 
 template <class A>
@@ -158,12 +160,6 @@ void archive(A& a, BlockChunk& x) {
 }
 
 template <class A>
-void archive(A& a, BondOnNode& x) {
-  auto& [point, weight] = x;
-  archive_all(a, point, weight);
-}
-
-template <class A>
 void archive(A& a, RigidBody& x) {
   auto& [block, mass, inertia, inverse_inertia, principal, axes] = x;
   archive_all(a, block, mass, inertia, inverse_inertia, principal, axes);
@@ -243,10 +239,10 @@ void archive(A& a, ContactSurface& x) {
 template <class A>
 void archive(A& a, Model& x) {
   auto& [bodies, joints, blocks, pair_joint, node_position, node_mass, tets, tet_block, batches, interfaces,
-         frames, points, point_position, bond_triangles, bond_begin, bonds_on_nodes, outer_faces, mesh,
-         surface, rigid, chunks, point_chunks, box, length, tolerance, next_id] = x;
+         frames, points, point_position, bond_triangles, bond_begin, spring_ends, outer_faces, mesh, surface,
+         rigid, chunks, point_chunks, box, length, tolerance, next_id] = x;
   archive_all(a, bodies, joints, blocks, pair_joint, node_position, node_mass, tets, tet_block, batches,
-              interfaces, frames, points, point_position, bond_triangles, bond_begin, bonds_on_nodes,
+              interfaces, frames, points, point_position, bond_triangles, bond_begin, spring_ends,
               outer_faces, mesh, surface, rigid, chunks, point_chunks, box, length, tolerance, next_id);
 }
 

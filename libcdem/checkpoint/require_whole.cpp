@@ -86,9 +86,9 @@ void check_interfaces(const Model& model) {
   require_length("point_position", model.point_position.size(), points);
   for (const geom::Triangle& triangle : model.bond_triangles)
     all_below("bond_triangles", triangle, points);
-  require_parts("bond_begin", model.bond_begin, nodes, model.bonds_on_nodes.size());
-  for (const BondOnNode& bond : model.bonds_on_nodes)
-    below("bonds_on_nodes.point", bond.point, points);
+  require_parts("bond_begin", model.bond_begin, nodes, model.spring_ends.size());
+  for (const SpringEnd& spring : model.spring_ends)
+    below("spring_ends.point", spring.point(), points);
   Follow parts("point_chunks", 0);
   for (const Range& chunk : model.point_chunks)
     parts(chunk);
@@ -111,7 +111,7 @@ void check_chunks(const Model& model) {
       for (std::int64_t i = chunk.batches.begin; i < chunk.batches.end; ++i)
         for (const auto& corner : model.batches[i].node)
           for (const int node : corner)
-            require(node >= chunk.nodes.begin && node < chunk.nodes.end, "batches.node", node);
+            below("batches.node", node, static_cast<std::size_t>(chunk.nodes.size()));
     } else {
       require(chunk.batches.size() == 0 && chunk.blocks.size() == 0, "chunks.batches", chunk.batches.end);
     }

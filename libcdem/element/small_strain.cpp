@@ -6,8 +6,9 @@ namespace cdem {
 namespace {
 
 CDEM_INLINE void small_strain_kernel(const TetBatch* batches, std::int64_t count, const Node* displacement,
-                                     Node* force) {
+                                     Node* force, ReadAhead& reads) {
   using simd::Oct;
+  ReadAhead ahead = reads;
   for (std::int64_t i = 0; i < count; ++i) {
     const TetBatch& batch = batches[i];
     const simd::Vec u0 = simd::gather(displacement, batch.node[0]);
@@ -41,14 +42,15 @@ CDEM_INLINE void small_strain_kernel(const TetBatch* batches, std::int64_t count
       simd::scatter_add(force, batch.node[k + 1], f);
     }
     simd::scatter_add(force, batch.node[0], f0);
+    ahead.some();
   }
 }
 
 } // namespace
 
 void add_small_strain_forces(const TetBatch* batches, std::int64_t count, const Node* displacement,
-                             Node* force) {
-  simd::best<small_strain_kernel>(batches, count, displacement, force);
+                             Node* force, ReadAhead ahead) {
+  simd::best<small_strain_kernel>(batches, count, displacement, force, ahead);
 }
 
 } // namespace cdem

@@ -2,13 +2,14 @@
 //   grad u = sum_k (u_k - u_0) (x) g_k,   sigma = lambda tr(eps) I + 2 G eps,   f_k = -V sigma g_k,  f_0 = -sum f_k.
 #pragma once
 
+#include "libcdem/parallel/read_ahead.hpp"
 #include "libcdem/state/state.hpp"
 
 namespace cdem {
 
-// Adds the nodal forces of `count` batches.
+// Adds the nodal forces of `count` batches; displacement, force: of the chunk's nodes, first node first.
 void add_small_strain_forces(const TetBatch* batches, std::int64_t count, const Node* displacement,
-                             Node* force);
+                             Node* force, ReadAhead ahead = {});
 
 // Nodal forces of a stress in a tet.
 void add_stress_forces(const Model&, int tet, const Stress&, std::vector<Node>& force);

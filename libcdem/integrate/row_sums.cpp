@@ -23,7 +23,7 @@ double damping_of(const Model& model, int node) {
   double beta = model.bodies[model.blocks[block_of(model, node)].body].material.stiffness_damping;
   if (!model.bond_begin.empty())
     for (std::int64_t i = model.bond_begin[node]; i < model.bond_begin[node + 1]; ++i) {
-      const Interface& interface = model.interfaces[model.points[model.bonds_on_nodes[i].point].interface];
+      const Interface& interface = model.interfaces[model.points[model.spring_ends[i].point()].interface];
       beta = std::max(beta, model.joints[interface.joint].stiffness_damping);
     }
   return beta;

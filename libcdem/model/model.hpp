@@ -107,7 +107,7 @@ struct alignas(64) BondPoint {
 // Eight tets side by side, all of one chunk. grad: shape function gradients of corners 1..3 (corner 0 is minus their
 // sum), 1/m; the moduli carry the volume, N m.
 struct TetBatch {
-  int node[4][lanes];
+  int node[4][lanes]; // of the chunk's nodes, from 0
   double grad[9][lanes];
   double lambda_volume[lanes];
   double two_g_volume[lanes];
@@ -130,10 +130,23 @@ struct BlockChunk {
   Range blocks, nodes, batches;
 };
 
-// Which springs pull at a node: force on node += weight * spring force (positive on side a, negative on side b).
-struct BondOnNode {
-  int point = 0;
-  double weight = 0;
+// A spring that pulls at a node, as one of the three nodes of its side a (0 to 2) or b (3 to 5), or as the only one of side
+// a (6) or b (7).
+struct SpringEnd {
+  static constexpr std::uint32_t only_a = 6, only_b = 7;
+  std::uint32_t code = 0; // 8 times the spring, plus that number
+
+  SpringEnd() = default;
+  SpringEnd(int point, std::uint32_t end) : code(static_cast<std::uint32_t>(point) << 3U | end) {}
+  int point() const { return static_cast<int>(code >> 3U); }
+  std::uint32_t end() const { return code & 7U; }
+  // force on the node += weight * spring force (positive on side a, negative on side b).
+  double weight(const std::vector<BondPoint>& points) const {
+    if (end() >= only_a)
+      return end() == only_a ? 1 : -1;
+    const BondPoint& p = points[point()];
+    return end() < 3 ? p.weight_a[end()] : -p.weight_b[end() - 3];
+  }
 };
 
 // A meshed block that keeps the shape it had when it was made rigid.
@@ -166,8 +179,8 @@ struct Model {
   std::vector<geom::Vec3> point_position;     // undeformed, m (n_points)
   std::vector<geom::Triangle> bond_triangles; // over points
 
-  std::vector<std::int64_t> bond_begin; // (n_nodes + 1) into bonds_on_nodes
-  std::vector<BondOnNode> bonds_on_nodes;
+  std::vector<std::int64_t> bond_begin; // (n_nodes + 1) into spring_ends
+  std::vector<SpringEnd> spring_ends;   // of each node, springs ascending
 
   std::vector<OuterFace> outer_faces;
 

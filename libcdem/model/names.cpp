@@ -9,10 +9,10 @@ namespace cdem {
 std::string block_name(const Model& model, int block) {
   const int body = model.blocks[block].body;
   int unit = 0, units = 0;
-  for (int b = 0; b < static_cast<int>(model.blocks.size()); ++b)
-    if (model.blocks[b].body == body) {
+  for (const Block& b : model.blocks)
+    if (b.body == body) {
       ++units;
-      unit += b <= block ? 1 : 0;
+      unit += b.id <= model.blocks[block].id ? 1 : 0;
     }
   return units > 1 ? fmt::format("unit {} of \"{}\"", unit, model.bodies[body].name)
                    : fmt::format("\"{}\"", model.bodies[body].name);

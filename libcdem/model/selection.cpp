@@ -1,6 +1,7 @@
 #include "libcdem/model/selection.hpp"
 
 #include "libcdem/model/names.hpp"
+#include "libcdem/model/unit_order.hpp"
 #include "libgeom/core/error.hpp"
 #include "libgeom/core/nearest.hpp"
 
@@ -14,9 +15,8 @@ namespace {
 std::vector<char> chosen_units(const Model& model, const Selection& s) {
   std::vector<char> chosen(model.blocks.size(), 0);
   int number = 0;
-  for (std::size_t b = 0; b < model.blocks.size(); ++b)
-    if (model.bodies[model.blocks[b].body].name == s.body)
-      chosen[b] = std::binary_search(s.units.begin(), s.units.end(), ++number);
+  for (const int b : units_of_body(model, s.body))
+    chosen[b] = std::binary_search(s.units.begin(), s.units.end(), ++number);
   if (number == 0)
     refuse_body("body", s.body, model);
   if (s.units.back() > number)

@@ -69,9 +69,13 @@ CDEM_INLINE Oct pair(const Quad& low, const Quad& high) {
   return __builtin_shufflevector(low, high, 0, 1, 2, 3, 4, 5, 6, 7);
 }
 
-// x, y, z of eight nodes, one node a lane. Nodes i and i + 4 stand in one vector from the start: half the shuffles.
+struct Four {
+  Oct x, y, z, w;
+};
+
+// The four numbers of eight nodes, one node a lane. Nodes i and i + 4 stand in one vector from the start: half the shuffles.
 template <class Index>
-CDEM_INLINE Vec gather(const Node* nodes, const Index (&index)[lanes]) {
+CDEM_INLINE Four gather_four(const Node* nodes, const Index (&index)[lanes]) {
   const auto two = [&](int i) { return pair(load(nodes[index[i]]), load(nodes[index[i + 4]])); };
   const Oct a = two(0), b = two(1), c = two(2), d = two(3);
   const Oct ab = __builtin_shufflevector(a, b, 0, 8, 2, 10, 4, 12, 6, 14); // a0 b0 a2 b2 ...
@@ -80,7 +84,14 @@ CDEM_INLINE Vec gather(const Node* nodes, const Index (&index)[lanes]) {
   const Oct cd_y = __builtin_shufflevector(c, d, 1, 9, 3, 11, 5, 13, 7, 15);
   return {__builtin_shufflevector(ab, cd, 0, 1, 8, 9, 4, 5, 12, 13),
           __builtin_shufflevector(ab_y, cd_y, 0, 1, 8, 9, 4, 5, 12, 13),
-          __builtin_shufflevector(ab, cd, 2, 3, 10, 11, 6, 7, 14, 15)};
+          __builtin_shufflevector(ab, cd, 2, 3, 10, 11, 6, 7, 14, 15),
+          __builtin_shufflevector(ab_y, cd_y, 2, 3, 10, 11, 6, 7, 14, 15)};
+}
+
+template <class Index>
+CDEM_INLINE Vec gather(const Node* nodes, const Index (&index)[lanes]) {
+  const Four v = gather_four(nodes, index);
+  return {v.x, v.y, v.z};
 }
 
 // Adds one lane to each of eight nodes, in lane order (a node may occur twice).

@@ -8,6 +8,7 @@
 #include "libgeom/core/error.hpp"
 #include "libgeom/polyhedron/cut.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
 
@@ -210,6 +211,8 @@ Refined refine(const Model& model, const State& state, const RefineOptions& opti
     for (Successor& part : parts)
       successors.push_back(std::move(part));
   }
+  std::sort(result.cuts.begin(), result.cuts.end(),
+            [](const BlockCut& a, const BlockCut& b) { return a.block < b.block; });
   // Where nothing is cut, what may break stays as it was: a rule about cuts would leave nothing that may.
   const MayBreak may_break = result.cuts.empty() ? MayBreak::all : options.may_break;
   result.rebuilt = rebuild(frame, state, std::move(successors), joints, may_break);

@@ -164,6 +164,9 @@ RunResult run(const StageContext& context, const RunOptions& options, const std:
   };
   if (scaled.on())
     stage.scale_masses = [&] { scaled.scale(); };
+  // Where damping takes the energy anyway, and where the user has chosen the step, impacts are as coarse as the step.
+  const bool keeps_energy_of_impacts =
+      options.local_damping == 0 && options.damp_flight && options.time_step == 0;
   const std::int64_t ask_every = options.callback_every > 0 ? options.callback_every : 100;
 
   bool stopped = false;
@@ -180,7 +183,10 @@ RunResult run(const StageContext& context, const RunOptions& options, const std:
     }
     if (freed || stage.can_be_left())
       stage.keep_restart_point(loop_state());
-    if (const double longest = stage.update_contacts(options.safety); longest < stepping.time_step) {
+    double longest = stage.update_contacts(options.safety);
+    if (keeps_energy_of_impacts)
+      longest = std::min(longest, stage.longest_step_of_flight());
+    if (longest < stepping.time_step) {
       stepping.time_step = longest;
       clock.shorten(stage.step, longest);
       set_goals();

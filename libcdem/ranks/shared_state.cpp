@@ -49,7 +49,7 @@ std::vector<std::int32_t> springs_read(const Model& model, const Partition& part
     return springs;
   const auto take = [&](std::int64_t first, std::int64_t end) { // nodes
     for (std::int64_t i = model.bond_begin[first]; i < model.bond_begin[end]; ++i)
-      springs.push_back(model.bonds_on_nodes[i].point);
+      springs.push_back(model.spring_ends[i].point());
   };
   take(part.nodes().begin, part.nodes().end);
   for (const RigidBody& body : model.rigid) // all ranks move all of them

@@ -2,6 +2,7 @@
 
 #include "libcdem/element/mesh_fields.hpp"
 #include "libcdem/element/small_strain.hpp"
+#include "libcdem/model/unit_order.hpp"
 #include "libgeom/core/error.hpp"
 #include "libgeom/core/nearest.hpp"
 
@@ -172,6 +173,8 @@ std::vector<FieldValue> values(const Model& model, const State& state, const std
     if (list.empty())
       nothing_there(on, "block centroids, or a side");
   }
+  std::stable_sort(list.begin(), list.end(),
+                   [](const FieldValue& a, const FieldValue& b) { return a.block < b.block; });
   return list;
 }
 
@@ -204,7 +207,7 @@ double mean_value(const Model& model, const State& state, const std::string& fie
 
 double value_at(const Model& model, const State& state, const std::string& field, const geom::Vec3& place) {
   const bool nodal = find_field(field).nodal;
-  for (int b = 0; b < static_cast<int>(model.blocks.size()); ++b) {
+  for (const int b : blocks_by_id(model)) { // the first one of those that meet there
     const Block& block = model.blocks[b];
     if (block.convex() && !geom::bounding_box(block.shape).contains(place, model.tolerance))
       continue;

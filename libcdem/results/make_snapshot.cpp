@@ -5,6 +5,7 @@
 #include "libcdem/bond/spring_forces.hpp"
 #include "libcdem/element/mesh_fields.hpp"
 #include "libcdem/model/build/add_meshes.hpp"
+#include "libcdem/model/unit_order.hpp"
 #include "libcdem/results/bond_surface.hpp"
 #include "libcdem/results/fields.hpp"
 #include "libcdem/results/joints.hpp"
@@ -104,10 +105,10 @@ std::vector<double> mesh_damage(const Model& model, const State& state) {
 }
 
 // Number of each block among those of its body, from 1; 0 where it is the only one.
-std::vector<int> unit_numbers(const Model& model) {
-  std::vector<int> blocks_in(model.bodies.size(), 0), number;
+std::vector<int> shown_unit_numbers(const Model& model) {
+  std::vector<int> blocks_in(model.bodies.size(), 0), number = unit_numbers(model);
   for (const Block& block : model.blocks)
-    number.push_back(++blocks_in[block.body]);
+    ++blocks_in[block.body];
   for (std::size_t b = 0; b < number.size(); ++b)
     if (blocks_in[model.blocks[b].body] == 1)
       number[b] = 0;
@@ -122,7 +123,7 @@ void add_cells(const Model& model, const State& state, Snapshot& snapshot) {
   SnapshotField id = scalar("block_id", "", n, true), parent = scalar("parent_id", "", n, true);
   SnapshotField generation = scalar("generation", "", n, true), body = scalar("body", "", n, true);
   SnapshotField unit = scalar("unit", "", n, true);
-  const std::vector<int> units = unit_numbers(model);
+  const std::vector<int> units = shown_unit_numbers(model);
   SnapshotField damage = scalar("damage", "1", n);
   stress.components = 6;
   principal_stress.components = 3;

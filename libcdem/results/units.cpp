@@ -2,6 +2,7 @@
 
 #include "libcdem/contact/response/contact_point.hpp"
 #include "libcdem/model/names.hpp"
+#include "libcdem/model/unit_order.hpp"
 #include "libcdem/state/places.hpp"
 
 #include <algorithm>
@@ -11,10 +12,7 @@ namespace cdem {
 namespace {
 
 std::vector<int> units_named(const Model& model, const std::string& body) {
-  std::vector<int> blocks;
-  for (std::size_t b = 0; b < model.blocks.size(); ++b)
-    if (model.bodies[model.blocks[b].body].name == body)
-      blocks.push_back(static_cast<int>(b));
+  std::vector<int> blocks = units_of_body(model, body);
   if (blocks.empty())
     refuse_body("body", body, model);
   return blocks;

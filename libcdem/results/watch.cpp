@@ -4,6 +4,7 @@
 #include "libcdem/contact/response/contact_point.hpp"
 #include "libcdem/element/small_strain.hpp"
 #include "libcdem/model/names.hpp"
+#include "libcdem/model/unit_order.hpp"
 #include "libcdem/results/units.hpp"
 #include "libcdem/state/places.hpp"
 #include "libgeom/core/error.hpp"
@@ -90,13 +91,11 @@ Watch start_watch(const Model& model, const State& state, const std::string& bod
                            "half the height of a unit is usual");
   Watch watch;
   watch.leaves = leaves;
-  for (int b = 0; b < static_cast<int>(model.blocks.size()); ++b)
-    if (model.bodies[model.blocks[b].body].name == body) {
-      if (!model.blocks[b].meshed)
-        throw geom::InputError("bodies", "\"" + body + "\"", "a body of meshes",
-                               "blocks that can be cut are not watched");
-      watch.blocks.push_back(b);
-    }
+  watch.blocks = units_of_body(model, body);
+  for (const int b : watch.blocks)
+    if (!model.blocks[b].meshed)
+      throw geom::InputError("bodies", "\"" + body + "\"", "a body of meshes",
+                             "blocks that can be cut are not watched");
   if (watch.blocks.empty())
     refuse_body("bodies", body, model);
   const std::vector<std::vector<int>> touched = touching(model, state);

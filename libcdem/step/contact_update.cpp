@@ -18,8 +18,10 @@ constexpr std::int64_t meetings_every = 10;
 
 ContactUpdate::ContactUpdate(const StageContext& context)
     : rigid_reach_(reaches_of_rigid(context.model, context.state)) {
-  if (!context.model.surface.empty())
-    row_sums_ = all_row_sums(context.model);
+  if (context.model.surface.empty())
+    return;
+  row_sums_ = all_row_sums(context.model);
+  impact_frequency2_ = impact_frequencies2(context.model);
 }
 
 void ContactUpdate::evaluate(const StageContext& context, ContactWork& work) {
@@ -46,6 +48,15 @@ double ContactUpdate::longest_step(const StageContext& context, const Workspace&
   return std::min(
       contact_time_step(context.model, context.state, work.contact, {row_sums_, work.damped, safety}),
       displacement_time_step(context.model, context.state, rigid_reach_));
+}
+
+double ContactUpdate::longest_step_of_flight(const StageContext& context, const Workspace& work) const {
+  if (impact_frequency2_.empty())
+    return std::numeric_limits<double>::infinity();
+  const std::optional<Gravity>& gravity = context.conditions.gravity;
+  return flight_time_step(
+      context.model, context.state, work.contact,
+      {impact_frequency2_, work.resolved.rigid, gravity ? gravity->acceleration.norm() : 0});
 }
 
 void ContactUpdate::start_anew(const Model& model, ContactWork& work) const {

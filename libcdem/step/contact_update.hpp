@@ -17,14 +17,17 @@ public:
   // The longest step that the contacts evaluated last leave, s, `safety` times the stable one; infinite without
   // contacts. Throws SolutionError where one has gone too deep since the last call.
   double longest_step(const StageContext&, const Workspace&, double safety, const StageStep&);
+  // The same for rigid bodies that are about to meet others: such that an impact keeps its energy.
+  double longest_step_of_flight(const StageContext&, const Workspace&) const;
 
   // Contacts are looked for anew from here on, as by a stage that goes on from here: which pairs are skipped is not saved.
   void start_anew(const Model&, ContactWork&) const;
 
 private:
-  std::vector<double> row_sums_;    // N/m, of elements and bonds (n_nodes); empty without contacts
-  std::vector<double> rigid_reach_; // m, reaches_of_rigid
-  ContactSums deepest_;             // since the last call of longest_step
+  std::vector<double> row_sums_;          // N/m, of elements and bonds (n_nodes); empty without contacts
+  std::vector<double> rigid_reach_;       // m, reaches_of_rigid
+  std::vector<double> impact_frequency2_; // 1/s2, impact_frequencies2
+  ContactSums deepest_;                   // since the last call of longest_step
   std::size_t contacts_before_ = 0;
 };
 

@@ -8,8 +8,19 @@
 namespace cdem {
 namespace {
 
-void clear_forces(Workspace& work, Range nodes) {
-  std::fill(work.force.begin() + nodes.begin, work.force.begin() + nodes.end, Node{});
+// What the chunk before `index` reads: the step goes through chunks from the last to the first.
+ReadAhead reads_before(const Model& model, const State& state, const Workspace& work, std::int64_t index) {
+  ReadAhead ahead;
+  if (index == 0)
+    return ahead;
+  const BlockChunk& chunk = model.chunks[index - 1];
+  const std::int64_t node = chunk.nodes.begin, nodes = chunk.nodes.size();
+  ahead.add(model.batches.data() + chunk.batches.begin, chunk.batches.size());
+  ahead.add(state.displacement.data() + node, nodes);
+  ahead.add(state.velocity.data() + node, nodes);
+  ahead.add(model.node_mass.data() + node, nodes);
+  add_bond_reads(model, work.bond, index - 1, ahead);
+  return ahead;
 }
 
 void add(Node& force, const Node& more) {
@@ -20,11 +31,16 @@ void add(Node& force, const Node& more) {
 
 } // namespace
 
-void block_forces(const Model& model, const State& state, Workspace& work, const BlockChunk& chunk) {
-  clear_forces(work, chunk.nodes);
+const Node* block_forces(const Model& model, const State& state, const Workspace& work, std::int64_t index) {
+  thread_local std::vector<Node> force;
+  const BlockChunk& chunk = model.chunks[index];
+  force.assign(static_cast<std::size_t>(chunk.nodes.size()), Node{});
+  ReadAhead ahead = reads_before(model, state, work, index);
+  ahead.spread(chunk.batches.size());
   add_small_strain_forces(model.batches.data() + chunk.batches.begin, chunk.batches.size(),
-                          state.displacement.data(), work.force.data());
-  add_bond_forces(model, work.bond.force(), chunk.nodes, work.force.data() + chunk.nodes.begin);
+                          state.displacement.data() + chunk.nodes.begin, force.data(), ahead);
+  add_bond_forces(model, work.bond.force(), chunk.nodes, force.data());
+  return force.data();
 }
 
 std::vector<Node> net_forces(const Model& model, const State& state, Workspace& work) {
@@ -50,9 +66,10 @@ std::vector<Node> net_forces(const Model& model, const State& state, Workspace& 
       each_shared_force(model.mesh, work, chunk, {}, [&](Range nodes, const Node* at) {
         std::copy(at, at + nodes.size(), force.begin() + nodes.begin);
       });
-  for (std::size_t c = 0; c < model.chunks.size() - model.mesh.chunks.size(); ++c)
-    block_forces(model, copy, work, model.chunks[c]);
-  std::copy(work.force.begin(), work.force.end(), force.begin());
+  for (std::size_t c = 0; c < model.chunks.size() - model.mesh.chunks.size(); ++c) {
+    const Node* const at = block_forces(model, copy, work, static_cast<std::int64_t>(c));
+    std::copy(at, at + model.chunks[c].nodes.size(), force.begin() + model.chunks[c].nodes.begin);
+  }
   const ResolvedConditions& r = work.resolved;
   for (std::size_t i = 0; i < force.size(); ++i) {
     if (!work.contact.force.empty())

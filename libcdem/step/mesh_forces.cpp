@@ -16,6 +16,10 @@ struct Near {
   std::vector<JumpBatch> jumps;                              // per batch of tets
 };
 
+std::int64_t first_mesh_chunk(const Model& model) {
+  return static_cast<std::int64_t>(model.chunks.size() - model.mesh.chunks.size());
+}
+
 struct NearArrays {
   Node *position, *displacement, *velocity, *force; // displacement: null where no bond asks for it
 };
@@ -54,12 +58,12 @@ NearArrays fetch(const Model& model, const State& state, const MeshChunk& chunk,
   return at;
 }
 
-// What the chunk that most likely comes next will read from afar.
-ReadAhead reads_of(const Model& model, const State& state, std::int64_t index) {
+// What the chunk before `index` will read from afar: the step goes through chunks from the last to the first.
+ReadAhead reads_before(const Model& model, const State& state, const Workspace& work, std::int64_t index) {
   ReadAhead ahead;
-  if (index >= static_cast<std::int64_t>(model.mesh.chunks.size()))
+  if (index == 0)
     return ahead;
-  const MeshChunk& chunk = model.mesh.chunks[index];
+  const MeshChunk& chunk = model.mesh.chunks[index - 1];
   const std::int64_t node = chunk.nodes.begin, nodes = chunk.nodes.size();
   ahead.add(model.node_position.data() + node, nodes);
   ahead.add(state.displacement.data() + node, nodes);
@@ -73,6 +77,8 @@ ReadAhead reads_of(const Model& model, const State& state, std::int64_t index) {
   ahead.add_at(model.node_position.data(), others, chunk.others.size());
   ahead.add_at(state.displacement.data(), others, chunk.others.size());
   ahead.add_at(state.velocity.data(), others, chunk.others.size());
+  if (chunk.stars)
+    add_bond_reads(model, work.bond, first_mesh_chunk(model) + index - 1, ahead);
   return ahead;
 }
 
@@ -123,7 +129,7 @@ const Node* mesh_forces(const Model& model, State& state, Workspace& work, std::
   const MeshChunk& chunk = model.mesh.chunks[index];
   const Body& body = model.bodies[model.blocks[chunk.block].body];
   const NearArrays at = fetch(model, state, chunk, near);
-  ReadAhead ahead = reads_of(model, state, index + 1);
+  ReadAhead ahead = reads_before(model, state, work, index);
   ahead.spread(chunk.batches.size() + chunk.face_batches.size());
   const int last_lanes = static_cast<int>(chunk.tets.size() - (chunk.batches.size() - 1) * lanes);
   TetDamping damping;

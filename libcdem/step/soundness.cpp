@@ -49,8 +49,8 @@ Part share(const Model& model, const Partition& of) {
   return part;
 }
 
-void require_sound_part(const Model& model, const State& state, const Workspace& work, double run_away,
-                        const StageStep& at, const Part& part) {
+void require_sound_part(const Model& model, const State& state, double run_away, const StageStep& at,
+                        const Part& part) {
   const auto fail = [&](const std::string& what, int node, const std::string& advice) {
     throw SolutionError(fmt::format("{}: {} in {}; {}", in_words(at), what, where(model, node), advice));
   };
@@ -76,10 +76,6 @@ void require_sound_part(const Model& model, const State& state, const Workspace&
            node,
            "is this part held by supports, does it fall off what it lies on, and can it carry its load?");
   }
-  const auto forces = static_cast<std::int64_t>(work.force.size());
-  for (auto node = static_cast<int>(part.nodes.begin); node < std::min(part.nodes.end, forces); ++node)
-    if (!std::isfinite(work.force[node].x + work.force[node].y + work.force[node].z))
-      fail("displacement, velocity or force is not a number", node, "look at loads and stiffnesses there");
   for (std::int64_t tet = part.mesh_tets.begin; tet < part.mesh_tets.end; ++tet) {
     const int slot = model.mesh.tet_slot[tet - model.mesh.first_tet];
     double sum = 0;
@@ -103,16 +99,14 @@ void require_sound_part(const Model& model, const State& state, const Workspace&
 
 } // namespace
 
-void require_sound(const Model& model, const State& state, const Workspace& work, double run_away,
-                   const StageStep& at) {
-  require_sound_part(model, state, work, run_away, at, whole(model));
+void require_sound(const Model& model, const State& state, double run_away, const StageStep& at) {
+  require_sound_part(model, state, run_away, at, whole(model));
 }
 
 bool share_is_sound(const Model& model, const State& state, const Workspace& work, double run_away) {
   const std::string nobody_reads_it;
   try {
-    require_sound_part(model, state, work, run_away, {0, nobody_reads_it, 0},
-                       share(model, work.shared->part()));
+    require_sound_part(model, state, run_away, {0, nobody_reads_it, 0}, share(model, work.shared->part()));
   } catch (const SolutionError&) {
     return false;
   }

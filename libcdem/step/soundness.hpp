@@ -15,7 +15,7 @@ struct StageStep {
 };
 
 // Every number is one, no node has gone further than run_away (m), no element is inside out.
-void require_sound(const Model&, const State&, const Workspace&, double run_away, const StageStep&);
+void require_sound(const Model&, const State&, double run_away, const StageStep&);
 
 // Of this rank's share of a State that several advance: neither require_sound nor require_neighbours finds anything there.
 bool share_is_sound(const Model&, const State&, const Workspace&, double run_away);

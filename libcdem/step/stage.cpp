@@ -43,13 +43,14 @@ void ask_for_huge_pages_of(const Model& model, const State& state, const Workspa
   ask_for_huge_pages(model.node_mass);
   ask_for_huge_pages(work.partial);
   ask_for_huge_pages(model.batches);
-  ask_for_huge_pages(model.bonds_on_nodes);
+  ask_for_huge_pages(model.spring_ends);
   ask_for_huge_pages(model.bond_begin);
   ask_for_huge_pages(state.bond_offset);
-  ask_for_huge_pages(work.force);
+  ask_for_huge_pages(state.bond_mode);
   ask_for_huge_pages(work.bond.spring_force);
   ask_for_huge_pages(work.bond.acting_force);
   ask_for_huge_pages(work.bond.batches.springs);
+  ask_for_huge_pages(work.bond.batches.interfaces);
 }
 
 // Nodes that loads need of whichever rank.
@@ -360,7 +361,7 @@ void Stage::require_sound_state() {
   if (shared_ && !any_rank(!share_is_sound(context_.model, context_.state, work, run_away_)))
     return;
   see_whole();
-  require_sound(context_.model, context_.state, work, run_away_, here());
+  require_sound(context_.model, context_.state, run_away_, here());
   require_neighbours(context_.model, context_.state, here());
 }
 
@@ -386,7 +387,7 @@ void Stage::watch(const StepReport& report) {
   record_step(report);
   if (!finite(report.sums)) {
     see_whole();
-    require_sound(context_.model, context_.state, work, run_away_, here());
+    require_sound(context_.model, context_.state, run_away_, here());
   }
   if (follows_fragments)
     require_followed(context_.model, work, here());

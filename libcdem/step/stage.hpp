@@ -72,6 +72,8 @@ public:
   // Returns the longest step that contacts leave, s, `safety` times the stable one; infinite without contacts. Throws
   // SolutionError when something has gone too deep.
   double update_contacts(double safety = 1);
+  // s, for rigid bodies in flight (contact/response/contact_bounds.hpp); after update_contacts.
+  double longest_step_of_flight() const { return contacts_.longest_step_of_flight(context_, work); }
   // Of the step from `time` (s) on: loads, supports that vary, free fields.
   void update_loads(double time, const Stepping&);
   void update_loads_at_rest(); // in a relaxation: of what follows the rock

@@ -25,11 +25,12 @@ void element_forces(const Model& model, State& state, Workspace& work, int threa
                     const Move& move) {
   const auto meshes = static_cast<std::int64_t>(model.mesh.chunks.size());
   const auto stars = static_cast<std::int64_t>(model.chunks.size()) - meshes;
-  for_chunks(work.chunks(model), threads, [&](std::int64_t c) {
+  const Range chunks = work.chunks(model);
+  for_chunks(chunks.size(), threads, [&](std::int64_t i) {
+    const std::int64_t c = chunks.end - 1 - i;
     NodeSums sums;
     if (c < stars) {
-      block_forces(model, state, work, model.chunks[c]);
-      move(model.chunks[c].nodes, work.force.data() + model.chunks[c].nodes.begin, sums);
+      move(model.chunks[c].nodes, block_forces(model, state, work, c), sums);
       work.node_sums[c] = sums;
       return;
     }

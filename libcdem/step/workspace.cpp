@@ -5,10 +5,8 @@
 namespace cdem {
 
 Workspace::Workspace(const Model& model, const State& state, const Conditions& conditions)
-    : resolved(resolve(model, state, conditions)),
-      force(model.mesh.empty() ? model.node_position.size()
-                               : static_cast<std::size_t>(model.mesh.first_node)),
-      bond(model, state), node_sums(model.chunks.size()), rigid_sums(model.rigid.size()) {
+    : resolved(resolve(model, state, conditions)), bond(model, state), node_sums(model.chunks.size()),
+      rigid_sums(model.rigid.size()) {
   if (!model.mesh.empty()) {
     partial.resize(static_cast<std::size_t>(model.mesh.chunks.back().partial.end));
     face_sums.resize(model.mesh.chunks.size());

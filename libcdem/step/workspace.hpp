@@ -16,7 +16,6 @@ struct Workspace {
   Workspace(const Model&, const State&, const Conditions&);
 
   ResolvedConditions resolved;
-  std::vector<Node> force; // N, at the nodes of star blocks, without loads; written by block_forces
   BondWork bond;
   // Of meshed bodies; empty without them.
   std::vector<geom::Vec3>

@@ -1,13 +1,11 @@
 // An order of tets and nodes in which neighbours in space are neighbours in memory: tets along a Hilbert curve
-// through their centroids (Skilling 2004, "Programming the Hilbert curve"), nodes as these tets touch them.
+// through their centroids, nodes as these tets touch them.
 #pragma once
 
+#include "libgeom/core/hilbert.hpp"
 #include "libgeom/mesh/tet_mesh.hpp"
 
 namespace geom {
-
-// Distance along the curve through a grid of 2^21 cells in each axis.
-std::uint64_t hilbert_index(std::array<std::uint32_t, 3> cell);
 
 struct MeshOrder {
   std::vector<int> tets;  // old number by new place

@@ -1,7 +1,7 @@
 // Star blocks bonded on all faces, stepped with breaking on and nothing breaking: the cost of a step far from
 // failure.
 #include "libcdem/element/small_strain.hpp"
-#include "libcdem/model/build/build_model.hpp"
+#include "libcdem/first_model.hpp"
 #include "libcdem/step/stage.hpp"
 #include "libgeom/assembly/builders.hpp"
 #include "tests/bench/measure.hpp"
@@ -18,25 +18,17 @@ using namespace cdem;
 Model build(int count) {
   const int side = std::max(1, static_cast<int>(std::lround(std::cbrt(count))));
   const int depth = std::max(1, count / (side * side));
-  Model frame;
-  Body body;
+  BodySpec body;
   body.name = "rock";
   body.material = {30e9, 0.25, 2500, 0};
   body.element = Element::small_strain;
   body.joint.cohesion = 8e6;
   body.joint.friction_angle = 0.5;
   body.joint.tensile_strength = 5e6;
-  frame.bodies.push_back(body);
-  frame.joints.push_back(body.joint);
-  frame.pair_joint[{0, 0}] = 0;
-  std::vector<BlockSeed> seeds;
-  const geom::Vec3 size(0.1 * side, 0.1 * side, 0.1 * depth);
-  for (const geom::Polyhedron& shape : geom::grid(size, {side, side, depth}).blocks) {
-    BlockSeed seed;
-    seed.shape = shape;
-    seeds.push_back(seed);
-  }
-  return build_model(frame, std::move(seeds), default_traits);
+  body.shape = geom::grid(geom::Vec3(0.1 * side, 0.1 * side, 0.1 * depth), {side, side, depth});
+  ModelSpec spec;
+  spec.bodies.push_back(std::move(body));
+  return first_model(spec);
 }
 
 double kernel_rate(const Model& model, const State& state, int threads, double at_least) {
@@ -47,7 +39,8 @@ double kernel_rate(const Model& model, const State& state, int threads, double a
       for_chunks(static_cast<std::int64_t>(model.chunks.size()), threads, [&](std::int64_t c) {
         const BlockChunk& chunk = model.chunks[c];
         add_small_strain_forces(model.batches.data() + chunk.batches.begin, chunk.batches.size(),
-                                state.displacement.data(), force.data());
+                                state.displacement.data() + chunk.nodes.begin,
+                                force.data() + chunk.nodes.begin);
       });
     return watch.seconds();
   });

@@ -8,6 +8,9 @@
 #include "libcdem/integrate/row_sums.hpp"
 #include "libcdem/model/build/rigid_bodies.hpp"
 
+#include <cmath>
+#include <map>
+
 namespace cdem {
 namespace {
 
@@ -16,6 +19,11 @@ constexpr double touching_part = 0.02;
 // Of the stable step, for the contacts of rigid bodies: they have no elements, so an impact is all in their stiffness,
 // and at 0.9 it takes three steps and gives back 0.75 to 1.5 of the energy, at 0.5 what it took within a tenth.
 constexpr double most_of_rigid = 0.5;
+// Of the stable step of an impact, for rigid bodies in flight: its square is the part of the energy that an impact may gain
+// or lose.
+constexpr double most_of_impact = 0.1;
+// Parts of a unit normal, and of a block's size, in which triangles of one plane agree.
+constexpr double plane_grid = 500;
 // Of a tet's height, in a step.
 constexpr double way_part = 0.1;
 
@@ -122,6 +130,68 @@ std::vector<double> closing_row_sums(const Model& model) {
     if (k.contact[i] > 0)
       k.contact[i] += k.elements[i];
   return k.contact;
+}
+
+std::vector<double> impact_frequencies2(const Model& model) {
+  const ContactSurface& surface = model.surface;
+  const std::vector<double> given = given_stiffness(model);
+  double stiffest = std::numeric_limits<double>::infinity(); // m/Pa
+  for (const ContactTriangle& t : surface.triangles)
+    if (t.face < 0)
+      stiffest = std::min(stiffest, t.compliance);
+  std::vector<double> frequencies2;
+  for (const RigidBody& body : model.rigid) {
+    const Block& block = model.blocks[body.block];
+    std::map<std::array<long, 4>, double> faces; // m2, by plane
+    std::map<int, double> corners;               // m2, of the semi-springs around a node
+    double compliance = std::numeric_limits<double>::infinity(), frequency2 = 0;
+    for (int t = surface.block_begin[body.block]; t < surface.block_begin[body.block + 1]; ++t) {
+      const ContactTriangle& triangle = surface.triangles[t];
+      if (triangle.face >= 0)
+        continue;
+      const geom::Vec3 &x = model.node_position[triangle.nodes[0]],
+                       &y = model.node_position[triangle.nodes[1]],
+                       &z = model.node_position[triangle.nodes[2]];
+      const geom::Vec3 normal = (y - x).cross(z - x).normalized();
+      const double level = normal.dot(x - block.mass.centroid) / block.size;
+      faces[{std::lround(plane_grid * normal.x()), std::lround(plane_grid * normal.y()),
+             std::lround(plane_grid * normal.z()), std::lround(plane_grid * level)}] += triangle.area;
+      for (const int node : triangle.nodes)
+        corners[node] += triangle.area / 3;
+      compliance = std::min(compliance, triangle.compliance);
+    }
+    const double stiffness = std::max(1 / (compliance + stiffest), given[block.body]); // Pa/m
+    for (const auto& [plane, area] : faces)
+      frequency2 = std::max(frequency2, stiffness * area / body.mass);
+    for (const auto& [node, area] : corners)
+      frequency2 = std::max(
+          frequency2, stiffness * area *
+                          rigid_inverse_mass(body, (model.node_position[node] - block.mass.centroid).norm()));
+    frequencies2.push_back(frequency2);
+  }
+  return frequencies2;
+}
+
+double flight_time_step(const Model& model, const State& state, const ContactWork& own,
+                        const Flight& flight) {
+  std::vector<char> touches(model.rigid.size(), 0);
+  for (const auto& [node, block] : own.touched)
+    if (model.blocks[block].rigid >= 0)
+      touches[model.blocks[block].rigid] = 1;
+  double flying = 0, any = 0; // 1/s2, the largest
+  for (std::size_t i = 0; i < model.rigid.size(); ++i) {
+    const double frequency2 = flight.impact_frequency2[i];
+    if (!flight.held.empty() && flight.held[i])
+      continue;
+    any = std::max(any, frequency2);
+    const double spin = vec(state.rigid[i].angular_momentum).norm() / model.rigid[i].principal.minCoeff();
+    const double speed = vec(state.rigid[i].velocity).norm() + spin * model.blocks[model.rigid[i].block].size;
+    // Pressed by its weight it sinks in by g / w^2 and moves at g / w at most.
+    if (!touches[i] && speed * std::sqrt(frequency2) > flight.gravity)
+      flying = std::max(flying, frequency2);
+  }
+  return flying > 0 ? most_of_impact * stable_time_step(flying + any, 0)
+                    : std::numeric_limits<double>::infinity();
 }
 
 std::vector<double> reaches_of_rigid(const Model& model, const State& state) {

@@ -4,6 +4,8 @@
 #include "libcdem/contact/data/contact_work.hpp"
 #include "libcdem/state/state.hpp"
 
+#include <optional>
+
 namespace cdem {
 
 // s: `safety` times a bound of the stable step of all nodes and rigid bodies that contacts act on, as they are now;
@@ -32,6 +34,19 @@ std::vector<double> reaches_of_rigid(const Model&, const State&);
 // s, in which no point of a rigid body goes further than a tenth of the usual height of the tets at any surface, moving
 // as it does now: a contact is found before it is too deep, and nothing passes through anything. Infinite at rest.
 double displacement_time_step(const Model&, const State&, const std::vector<double>& reaches);
+
+// 1/s2, per rigid body: the square of the circular frequency at which it bounces, its stiffest flat face or corner pressed.
+std::vector<double> impact_frequencies2(const Model&);
+
+// s: a step for rigid bodies in flight in which an impact gains or loses at most 1 % of its energy. A contact of stiffness k that
+// closes or opens within a step dt at the speed v changes the energy by up to k (v dt)^2 / 8, a part k dt^2 / 4 m of the body's.
+struct Flight {
+  const std::vector<double>& impact_frequency2;       // 1/s2, per rigid body
+  const std::vector<std::optional<geom::Vec3>>& held; // ResolvedConditions::rigid
+  double gravity = 0;                                 // m/s2
+};
+// Infinite where no rigid body that moves is free of contacts, or all of those hop lower than their weight presses them together.
+double flight_time_step(const Model&, const State&, const ContactWork&, const Flight&);
 
 // Adds to the row sums what contacts may at most add at the surface, when all of it is pressed by its like, N/m.
 void add_contact_row_sums(const Model&, std::vector<double>& row_sums);

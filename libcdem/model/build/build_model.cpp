@@ -75,7 +75,7 @@ void make_zones(const Model& model, std::vector<BlockSeed>& seeds) {
   }
 }
 
-TetBatch make_batch(const Model& model, const std::vector<int>& tets) {
+TetBatch make_batch(const Model& model, std::int64_t first_node, const std::vector<int>& tets) {
   TetBatch batch{};
   for (int lane = 0; lane < lanes; ++lane) {
     // A lane past the end repeats the first tet with modulus 0: it adds zeros.
@@ -88,7 +88,7 @@ TetBatch make_batch(const Model& model, const std::vector<int>& tets) {
     const geom::Vec3 g[3] = {e2.cross(e3) / six_volume, e3.cross(e1) / six_volume, e1.cross(e2) / six_volume};
     const Elastic& material = model.bodies[model.blocks[model.tet_block[t]].body].material;
     for (int corner = 0; corner < 4; ++corner)
-      batch.node[corner][lane] = tet[corner];
+      batch.node[corner][lane] = tet[corner] - static_cast<int>(first_node);
     for (int k = 0; k < 3; ++k)
       for (int axis = 0; axis < 3; ++axis)
         batch.grad[3 * k + axis][lane] = g[k][axis];
@@ -117,7 +117,7 @@ void add_chunks(Model& model) {
     for (int t = tet_begin; t < model.blocks[end - 1].tet_end; ++t) {
       tets.push_back(t);
       if (tets.size() == lanes || t + 1 == model.blocks[end - 1].tet_end) {
-        model.batches.push_back(make_batch(model, tets));
+        model.batches.push_back(make_batch(model, chunk.nodes.begin, tets));
         tets.clear();
       }
     }
@@ -189,6 +189,14 @@ void set_stiffness(const Model& model, Interface& interface) {
   interface.kn = joint.normal_stiffness.value_or(series(a.youngs_modulus, b.youngs_modulus));
   interface.ks = joint.shear_stiffness.value_or(series(a.shear_modulus(), b.shear_modulus()));
   validate(joint, interface.kn, interface.ks);
+}
+
+// Blocks that stand behind each other are met for the first time one after the other then, when springs are worked out.
+std::vector<geom::SharedFace> in_order_of_later_block(std::vector<geom::SharedFace> faces) {
+  std::stable_sort(faces.begin(), faces.end(), [](const geom::SharedFace& x, const geom::SharedFace& y) {
+    return x.block_b < y.block_b;
+  });
+  return faces;
 }
 
 std::vector<geom::Vec3> block_nodes(const Model& model, const Block& block) {
@@ -286,24 +294,27 @@ void add_interface(Model& model, const geom::SharedFace& pair, const InterfaceRu
   model.interfaces.push_back(interface);
 }
 
-void add_bonds_on_nodes(Model& model) {
+void add_spring_ends(Model& model) {
+  if (model.points.size() > std::numeric_limits<std::uint32_t>::max() >> 3U)
+    throw geom::InputError("blocks", std::to_string(model.points.size()) + " springs between them",
+                           "at most 536 million", "make the model of larger blocks");
   std::vector<std::int64_t> begin(model.node_position.size() + 1, 0);
   const auto each_end = [&](const auto& visit) {
     for (int p = 0; p < static_cast<int>(model.points.size()); ++p)
-      for (int k = 0; k < 3; ++k) {
+      for (std::uint32_t k = 0; k < 3; ++k) {
         const BondPoint& point = model.points[p];
         if (point.weight_a[k] != 0)
-          visit(point.node_a[k], p, point.weight_a[k]);
+          visit(point.node_a[k], SpringEnd(p, point.one_to_one ? SpringEnd::only_a : k));
         if (point.weight_b[k] != 0)
-          visit(point.node_b[k], p, -point.weight_b[k]);
+          visit(point.node_b[k], SpringEnd(p, point.one_to_one ? SpringEnd::only_b : k + 3));
       }
   };
-  each_end([&](int node, int, double) { ++begin[node + 1]; });
+  each_end([&](int node, SpringEnd) { ++begin[node + 1]; });
   for (std::size_t i = 1; i < begin.size(); ++i)
     begin[i] += begin[i - 1];
-  model.bonds_on_nodes.resize(begin.back());
+  model.spring_ends.resize(begin.back());
   std::vector<std::int64_t> next(begin.begin(), begin.end() - 1);
-  each_end([&](int node, int p, double weight) { model.bonds_on_nodes[next[node]++] = {p, weight}; });
+  each_end([&](int node, SpringEnd end) { model.spring_ends[next[node]++] = end; });
   model.bond_begin = std::move(begin);
 }
 
@@ -449,14 +460,15 @@ Model build_model(const Model& frame, std::vector<BlockSeed> seeds, const Interf
   }
   if (small_strain == seeds.size())
     start_meshes(model);
-  for (const geom::SharedFace& pair : geom::shared_faces(shapes, relative_tolerance * smallest))
+  for (const geom::SharedFace& pair :
+       in_order_of_later_block(geom::shared_faces(shapes, relative_tolerance * smallest)))
     add_interface(model, pair, rule, block_meshes);
   add_outer_faces(model, block_meshes);
   add_chunks(model);
   add_convex_blocks(model, block_meshes);
   add_meshes(model, std::move(meshes));
   add_rigid_bodies(model);
-  add_bonds_on_nodes(model);
+  add_spring_ends(model);
   build_surface(model);
 
   for (const Block& block : model.blocks)

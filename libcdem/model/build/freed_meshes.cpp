@@ -115,7 +115,7 @@ Model with_freed_nodes(const Model& old, const std::vector<char>& freed) {
   // Springs of interfaces are on nodes before the mesh parts.
   for (std::size_t node = static_cast<std::size_t>(old.blocks[first].node_begin) + 1;
        node < model.bond_begin.size(); ++node)
-    model.bond_begin[node] = static_cast<std::int64_t>(model.bonds_on_nodes.size());
+    model.bond_begin[node] = static_cast<std::int64_t>(model.spring_ends.size());
   build_surface(model);
   return model;
 }
