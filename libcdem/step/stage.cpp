@@ -5,6 +5,7 @@
 #include "libcdem/parallel/huge_pages.hpp"
 #include "libcdem/parallel/instruction_set.hpp"
 #include "libcdem/parallel/residency.hpp"
+#include "libcdem/ranks/parked_model.hpp"
 #include "libcdem/results/make_snapshot.hpp"
 #include "libcdem/step/errors.hpp"
 #include "libcdem/step/record.hpp"
@@ -109,7 +110,7 @@ Stage::Stage(const StageContext& context, std::string kind, double run_away)
   }
   if (shared_) {
     keep_last_good();
-    trim_heap(); // what building and looking at the whole has left
+    give_back();
   }
 }
 
@@ -122,8 +123,27 @@ Stage::~Stage() {
 void Stage::share() {
   if (ranks().alone())
     return;
+  if (gave_back_) { // loads on nodes that others own
+    work.resolved = resolve(context_.model, context_.state, context_.conditions);
+    update_external(work.resolved, context_.state.time);
+    gave_back_ = false;
+  }
   shared_ = std::make_unique<SharedState>(context_.model, nodes_of_bolts(work.resolved));
   work.shared = work.contact.shared = shared_.get();
+}
+
+void Stage::give_back() {
+  if (!shared_ || gave_back_)
+    return;
+  gave_back_ = true;
+  park(context_.model, shared_->shares());
+  for (std::vector<Node>* of_nodes : {&work.resolved.external, &work.resolved.constant})
+    release_outside(*of_nodes, shared_->shares().kept_nodes());
+  release_zeros(work.partial);
+  release_zeros(work.force);
+  release_zeros(work.contact.force);
+  release_zeros(work.contact.stiffness);
+  trim_heap(); // what building and looking at the whole has left
 }
 
 void Stage::keep_last_good() {
@@ -196,6 +216,7 @@ bool Stage::free_nodes() {
     for (std::size_t i = 0; i < work.bond.laws.size(); ++i) // of the new Model
       work.bond.laws[i] = law_of_interface(model, model.interfaces[i]);
     work.contact = std::move(before.contact);
+    gave_back_ = false;
     share();
     contacts_ = ContactUpdate(context_);
     contacts_.start_anew(model, work.contact);
@@ -299,6 +320,7 @@ void Stage::keep_state() {
   synchronise_to_leave();
   look_for_escapes();
   keep_last_good();
+  give_back();
 }
 
 // Each rank looks at its share; what is wrong is told of by all, as one that sees everything.
@@ -324,6 +346,7 @@ void Stage::look_for_escapes() {
   }
   if (!holds)
     return;
+  gave_back_ = false;
   work.resolved = resolve(context_.model, context_.state, context_.conditions);
   update_external(work.resolved, context_.state.time);
 }

@@ -102,6 +102,7 @@ private:
   void share();                // with other ranks, when there are any
   void require_sound_state();  // Throws SolutionError
   void keep_last_good();       // of this rank's share
+  void give_back();            // memory of what other ranks own
   void synchronise_to_leave(); // where a run may go on
   void synchronise_contacts();
   std::int64_t synchronise_stress(RunLog&); // returns how many springs broke, of which the log is told
@@ -120,6 +121,7 @@ private:
 
   StageContext context_;
   std::unique_ptr<SharedState> shared_; // null where this rank is alone
+  bool gave_back_ = false;              // since it was last shared
   int exceptions_ = std::uncaught_exceptions();
   ThreadChoice threads_;
   ContactUpdate contacts_;
