@@ -160,6 +160,7 @@ RelaxResult relax(const StageContext& context, const RelaxOptions& options, cons
   FictitiousMasses masses(context.model, stage.work.resolved.bolts);
   const RestartPoint* const from = context.from;
   std::vector<Node> previous_force(masses.of_nodes().size()); // N, of the step before
+  stage.carried = &previous_force;
   update_external(stage.work.resolved, state.time);
   if (from) {
     previous_force = from->previous_force;

@@ -11,8 +11,12 @@ struct State;
 // First of each rank's share, and the end of the last one's: size + 1 numbers. Shares are as even as whole items allow.
 std::vector<std::int64_t> even_shares(const std::vector<double>& load, int size);
 
-// What a step costs for each of Model::chunks, in tets: those that deform, and the bonds between them.
-std::vector<double> chunk_loads(const Model&);
+// What a step costs for each of these of Model::chunks, in tets: those that deform, the bonds between them, and the faces
+// that have broken and still hold their sides.
+std::vector<double> chunk_loads(const Model&, const State&, Range chunks);
+
+// Of shares cut at `begin`, the load of the largest over the mean.
+double imbalance(const std::vector<double>& load, const std::vector<std::int64_t>& begin);
 
 struct Partition {
   int rank = 0, size = 1;
@@ -21,7 +25,8 @@ struct Partition {
   std::vector<std::int64_t> node_begin;  // (size + 1) nodes of those chunks
   std::int64_t stars = 0;                // chunks of blocks of small strain, before those of meshes
 
-  Partition(const Model&, int rank, int size);
+  // loads: of all chunks, chunk_loads.
+  Partition(const Model&, const std::vector<double>& loads, int rank, int size);
 
   Range chunks() const { return share(chunk_begin); } // of Model::chunks
   Range mesh_chunks() const;                          // of MeshData::chunks, likewise

@@ -36,7 +36,7 @@ public:
 
   // Returns what each gives, by rank. Messages on one subject should be about as long as the time before: they are sent
   // in one piece then.
-  enum class Subject { any, sums, contacts, count };
+  enum class Subject { any, sums, contacts, drifts, count };
   virtual std::vector<std::string> gather(const std::string& mine, Subject = Subject::any) = 0;
 
   // Sends each rank a text of its own, to[rank]; returns what each has sent this one, by rank.
@@ -51,9 +51,9 @@ public:
   // Whole numbers, summed over the ranks entry by entry: their order does not matter.
   virtual void sum(std::int64_t* values, std::size_t count) = 0;
 
-  // True where all ranks come to this call within so many seconds. A rank that fails asks it, since the others may go on
-  // and wait for it elsewhere: then it returns false, and from there on every call above does nothing and gives this rank
-  // what it has itself. A call above asks it by itself where an exception is on its way.
+  // True where all ranks come to this call within so many seconds. A rank that has an error asks it before anything else,
+  // since the others may go on and wait for it elsewhere. Then it returns false, and every call above does nothing from
+  // there on and gives this rank what it has itself; it must end all.
   virtual bool all_fail(double seconds) = 0;
   static constexpr double patience = 6; // s: ranks that all fail come so far apart at most
 

@@ -17,6 +17,8 @@ std::vector<std::int32_t> nodes_read(const Model& model, const Partition& part) 
   const Range chunks = part.mesh_chunks();
   for (std::int64_t c = chunks.begin; c < chunks.end; ++c) {
     const MeshChunk& chunk = mesh.chunks[c];
+    if (is_rigid(model, chunk)) // moved by all
+      continue;
     nodes.insert(nodes.end(), mesh.others.begin() + chunk.others.begin,
                  mesh.others.begin() + chunk.others.end);
     if (chunk.side_batches.size() > 0) // rates of strain on both sides of faces
@@ -62,7 +64,7 @@ std::vector<std::int32_t> partial_forces_read(const Model& model, const Partitio
   const Range chunks = part.mesh_chunks();
   for (std::int64_t c = chunks.begin; c < chunks.end; ++c) {
     const MeshChunk& chunk = mesh.chunks[c];
-    if (chunk.stars || chunk.inner_end == chunk.nodes.end)
+    if (chunk.stars || is_rigid(model, chunk) || chunk.inner_end == chunk.nodes.end)
       continue;
     const int* const begin = mesh.share_begin.data() + chunk.share_begin;
     for (int i = begin[0]; i < begin[chunk.nodes.end - chunk.inner_end]; ++i)
@@ -116,8 +118,9 @@ std::vector<std::int32_t> faces_read(const Model& model, const Partition& part) 
 
 } // namespace
 
-SharedState::SharedState(const Model& model, const std::vector<std::int32_t>& read_always)
-    : part_(model, ranks().rank(), ranks().size()),
+SharedState::SharedState(const Model& model, const std::vector<std::int32_t>& read_always,
+                         const std::vector<double>& loads)
+    : part_(model, loads, ranks().rank(), ranks().size()),
       shares_(std::make_shared<const StateShares>(model, part_)), nodes_(nodes_read(model, part_)) {
   nodes_.insert(nodes_.end(), read_always.begin(), read_always.end());
   const MeshData& mesh = model.mesh;

@@ -13,8 +13,8 @@ namespace cdem {
 
 class SharedState {
 public:
-  // read_always: nodes that this rank reads whichever chunks are its own.
-  SharedState(const Model&, const std::vector<std::int32_t>& read_always);
+  // Of a state that is whole. read_always: nodes that this rank reads whichever chunks are its own. loads: chunk_loads.
+  SharedState(const Model&, const std::vector<std::int32_t>& read_always, const std::vector<double>& loads);
 
   const Partition& part() const { return part_; }
 

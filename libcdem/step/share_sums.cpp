@@ -57,16 +57,46 @@ void unpack_list(Unpack& unpack, std::vector<Sums>& all) {
   }
 }
 
+template <class Sums>
+bool any_in(const std::vector<Sums>& all, Range own) {
+  for (std::int64_t c = own.begin; c < own.end && !all.empty(); ++c)
+    if (!is_zero(all[c]))
+      return true;
+  return false;
+}
+
+template <class Sums>
+void clear(std::vector<Sums>& all, std::int64_t begin, std::int64_t end) {
+  for (std::int64_t c = begin; c < end; ++c)
+    if (!is_zero(all[c]))
+      all[c] = {};
+}
+
 } // namespace
 
-void share_sums(Workspace& work, BegunCracks& begun) {
+bool has_to_tell(const Workspace& work, const BegunCracks& begun) {
+  if (!work.shared)
+    return false;
+  const Partition& part = work.shared->part();
+  return any_in(work.face_sums, part.mesh_chunks()) || any_in(work.bond.sums, part.point_chunks()) ||
+         !begun.broken.empty() || !begun.breaking.empty() || !begun.energies.empty();
+}
+
+void share_sums(Workspace& work, BegunCracks& begun, std::int64_t tellers) {
   if (!work.shared)
     return;
   const Partition& part = work.shared->part();
-  const Range chunks = part.chunks(), meshes = part.mesh_chunks(), points = part.point_chunks();
+  const Range meshes = part.mesh_chunks(), points = part.point_chunks();
+  for (int r = 0; r < part.size; ++r) {
+    if (r == part.rank)
+      continue;
+    clear(work.face_sums, std::max(part.chunk_begin[r], part.stars) - part.stars,
+          std::max(part.chunk_begin[r + 1], part.stars) - part.stars);
+    clear(work.bond.sums, part.point_begin[r], part.point_begin[r + 1]);
+  }
+  if (tellers == 0)
+    return;
   Pack pack;
-  pack.bytes(work.node_sums.data() + chunks.begin,
-             static_cast<std::size_t>(chunks.size()) * sizeof(NodeSums));
   pack_list(work.face_sums, work.face_sums.empty() ? Range() : meshes, pack);
   pack_list(work.bond.sums, work.bond.sums.empty() ? Range() : points, pack);
   pack(begun.broken);
@@ -81,13 +111,6 @@ void share_sums(Workspace& work, BegunCracks& begun) {
     }
     Unpack unpack(heard[r]);
     BegunCracks of_rank;
-    const std::int64_t first = part.chunk_begin[r], count = part.chunk_begin[r + 1] - first;
-    unpack.bytes(reinterpret_cast<char*>(work.node_sums.data() + first),
-                 static_cast<std::size_t>(count) * sizeof(NodeSums));
-    for (std::int64_t c = std::max(first - part.stars, std::int64_t{0}); c < first + count - part.stars; ++c)
-      work.face_sums[c] = {};
-    for (std::int64_t c = part.point_begin[r]; c < part.point_begin[r + 1]; ++c)
-      work.bond.sums[c] = {};
     unpack_list(unpack, work.face_sums);
     unpack_list(unpack, work.bond.sums);
     unpack(of_rank.broken);

@@ -1,5 +1,6 @@
-// What the chunks of each rank leave for the sums and the log of a step, told to all: afterwards the workspace holds that
-// of all chunks, as if this rank had computed them, and they are added in their order.
+// What the faces and springs of each rank leave for the sums and the log of a step, told to all: afterwards the workspace
+// holds that of all chunks, as if this rank had computed them, and they are added in their order. Most leave nothing, and
+// only the others are told of. Sums over nodes, which all chunks have, are added by the ranks (step_loops.hpp, sums_of).
 #pragma once
 
 #include "libcdem/fracture/begin_cracks.hpp"
@@ -7,7 +8,10 @@
 
 namespace cdem {
 
-// Does nothing where one rank computes all.
-void share_sums(Workspace&, BegunCracks&);
+// Whether this rank has anything to tell.
+bool has_to_tell(const Workspace&, const BegunCracks&);
+
+// tellers: of how many ranks that is so. Does nothing where one rank computes all.
+void share_sums(Workspace&, BegunCracks&, std::int64_t tellers);
 
 } // namespace cdem

@@ -12,12 +12,16 @@
 #include "libcdem/step/synchronised_view.hpp"
 
 #include <cmath>
+#include <exception>
+#include <fmt/format.h>
 
 namespace cdem {
 namespace {
 
 // Steps between questions whether to stop, to write a checkpoint, to show the progress.
 constexpr std::int64_t poll_every = 16;
+// The largest load of a rank over the mean from which on chunks are shared anew.
+constexpr double uneven = 1.1;
 // Steps between looks at which faces a flow meets: they turn by next to nothing in between.
 constexpr std::int64_t flow_every = 100;
 static_assert(watch_every % flow_every == 0, "a stage that goes on looks anew where it did when it was left");
@@ -92,6 +96,7 @@ Stage::Stage(const StageContext& context, std::string kind, double run_away)
   ask_for_huge_pages_of(context_.model, context_.state, work);
   start_spring_forces(context_.model, context_.state, work.bond);
   share();
+  warn_of_idle_ranks();
   if (const RestartPoint* from = context_.from) {
     context_.last_good = context_.state;
     if (context_.restart_point)
@@ -115,6 +120,8 @@ Stage::Stage(const StageContext& context, std::string kind, double run_away)
 }
 
 Stage::~Stage() {
+  if (left_alone())
+    return;
   synchronise();
   if (shared_ && std::uncaught_exceptions() > exceptions_) // the last good state is written
     shared_->shares().gather_on_lead(context_.last_good);
@@ -123,13 +130,54 @@ Stage::~Stage() {
 void Stage::share() {
   if (ranks().alone())
     return;
-  if (gave_back_) { // loads on nodes that others own
-    work.resolved = resolve(context_.model, context_.state, context_.conditions);
+  if (gave_back_) { // loads on nodes that others owned
+    ResolvedConditions whole = resolve(context_.model, context_.state, context_.conditions);
+    work.resolved.external = std::move(whole.external);
+    work.resolved.constant = std::move(whole.constant);
     update_external(work.resolved, context_.state.time);
     gave_back_ = false;
   }
-  shared_ = std::make_unique<SharedState>(context_.model, nodes_of_bolts(work.resolved));
+  const Range all{0, static_cast<std::int64_t>(context_.model.chunks.size())};
+  shared_ = std::make_unique<SharedState>(context_.model, nodes_of_bolts(work.resolved),
+                                          chunk_loads(context_.model, context_.state, all));
   work.shared = work.contact.shared = shared_.get();
+}
+
+void Stage::warn_of_idle_ranks() const {
+  static bool told = false; // once is enough
+  const auto chunks = static_cast<int>(context_.model.chunks.size());
+  if (!shared_ || told || chunks >= ranks().size())
+    return;
+  told = true;
+  context_.observer.warning(
+      fmt::format("warning: the model has {} chunk{} for {} ranks: {} of them have no elements to compute",
+                  chunks, chunks == 1 ? "" : "s", ranks().size(), ranks().size() - chunks));
+}
+
+// A body that breaks on one side costs more there. What is read of others is found anew with the contacts.
+void Stage::share_anew() {
+  if (!shared_)
+    return;
+  const Partition& part = shared_->part();
+  const std::vector<double> own = chunk_loads(context_.model, context_.state, part.chunks());
+  std::vector<double> loads(context_.model.chunks.size());
+  std::copy(own.begin(), own.end(), loads.begin() + part.chunks().begin);
+  std::vector<std::size_t> bytes;
+  for (const std::int64_t chunk : part.chunk_begin)
+    bytes.push_back(static_cast<std::size_t>(chunk) * sizeof(double));
+  ranks().share(loads.data(), bytes);
+  const double now = imbalance(loads, part.chunk_begin);
+  if (now < uneven || imbalance(loads, even_shares(loads, part.size)) > 0.5 * (1 + now))
+    return;
+  see_whole();
+  shared_->shares().gather_points(work.bond.spring_force);
+  shared_->shares().gather_points(work.bond.stretch);
+  if (carried)
+    shared_->shares().gather_nodes(*carried);
+  share();
+  work.contact.fragments_due = work.contact.all_due = true;
+  ++shared_anew_;
+  keep_last_good(); // of the share that is this rank's now
 }
 
 void Stage::give_back() {
@@ -270,7 +318,13 @@ void Stage::end_step(double time_step) {
   context_.threads = threads_.threads();
 }
 
+bool Stage::left_alone() const {
+  return shared_ && std::uncaught_exceptions() > exceptions_ && !ranks().all_fail(Ranks::patience);
+}
+
 void Stage::synchronise() {
+  if (left_alone())
+    return;
   synchronise_contacts();
   broken_between_ += synchronise_stress(context_.log);
   see_whole();
@@ -295,7 +349,9 @@ std::int64_t Stage::synchronise_stress(RunLog& log) {
     });
     if (shared_) {
       BegunCracks none;
-      share_sums(work, none);
+      std::int64_t tellers = has_to_tell(work, none) ? 1 : 0;
+      ranks().sum(&tellers, 1);
+      share_sums(work, none, tellers);
     }
     // Faces break and slide to where the nodes are too; the next step finds nothing left to do.
     broken = record_face_breaks(context_.model, context_.state, work, log, context_.number, step - 1);
@@ -320,7 +376,6 @@ void Stage::keep_state() {
   synchronise_to_leave();
   look_for_escapes();
   keep_last_good();
-  give_back();
 }
 
 // Each rank looks at its share; what is wrong is told of by all, as one that sees everything.
@@ -360,8 +415,11 @@ void Stage::watch(const StepReport& report) {
   if (follows_fragments)
     require_followed(context_.model, work, here());
   release_parted_blocks();
-  if (step % watch_every == 0)
+  if (step % watch_every == 0) {
     keep_state();
+    share_anew();
+    give_back();
+  }
   if (!work.resolved.flows.empty() && step % flow_every == 0) {
     see_whole();
     refresh_flows(context_.model, context_.state, work.resolved);
@@ -458,7 +516,8 @@ void Stage::report(const StepReport& report, bool last) {
   progress.time = context_.state.time;
   progress.wall_time = wall_time();
   if (last)
-    progress.times = times_.text();
+    progress.times =
+        times_.text() + (shared_anew_ > 0 ? fmt::format("; chunks shared anew {} times", shared_anew_) : "");
   if (details)
     details(progress);
   progress_(std::move(progress), last);

@@ -57,7 +57,8 @@ public:
   bool in_real_time = true;           // velocities are per second: strength may depend on the rate
   std::function<void()> scale_masses; // after nodes have been freed; may be empty
   bool follows_fragments = false;
-  EscapeLimits escapes; // where pieces have left the model
+  std::vector<Node>* carried = nullptr; // by node, that the loop carries beside the State; may be null
+  EscapeLimits escapes;                 // where pieces have left the model
 
   // True at the head of a step before which the state has been kept: keep_restart_point there, with what the loop
   // carries from step to step.
@@ -99,7 +100,10 @@ public:
 
 private:
   friend class SynchronisedView;
-  void share();                // with other ranks, when there are any
+  void share(); // with other ranks, when there are any
+  void warn_of_idle_ranks() const;
+  void share_anew();           // where the loads of ranks are uneven
+  bool left_alone() const;     // by an error that the other ranks, which are elsewhere, do not have
   void require_sound_state();  // Throws SolutionError
   void keep_last_good();       // of this rank's share
   void give_back();            // memory of what other ranks own
@@ -123,6 +127,7 @@ private:
   std::unique_ptr<SharedState> shared_; // null where this rank is alone
   bool gave_back_ = false;              // since it was last shared
   int exceptions_ = std::uncaught_exceptions();
+  int shared_anew_ = 0; // how often
   ThreadChoice threads_;
   ContactUpdate contacts_;
   StepTimes times_;
@@ -167,12 +172,15 @@ NodeSums Stage::advance(bool breaking, const Move& move, const MoveRigid& move_r
     rigid_bodies(model, work, threads, move_rigid);
     times_.end(StepLine::rigid_bodies);
   }
-  if (shared_) {
+  if (shared_)
     shared_->share_nodes(state);
-    share_sums(work, begun_);
+  std::int64_t tellers = has_to_tell(work, begun_) ? 1 : 0;
+  const NodeSums sums = sums_of(work, tellers);
+  if (shared_) {
+    share_sums(work, begun_, tellers);
     times_.end(StepLine::ranks);
   }
-  return sums_of(work);
+  return sums;
 }
 
 // Of the threads allowed, as many as the model keeps busy.

@@ -1,24 +1,44 @@
 #include "libcdem/step/step_loops.hpp"
 
-namespace cdem {
+#include "libcdem/parallel/exact_sum.hpp"
 
-NodeSums sums_of(const Workspace& work) {
+#include <algorithm>
+#include <array>
+#include <iterator>
+
+namespace cdem {
+namespace {
+
+constexpr double NodeSums::*members[] = {&NodeSums::residual2, &NodeSums::applied2, &NodeSums::reaction2,
+                                         &NodeSums::stiffness, &NodeSums::inertia,  &NodeSums::kinetic,
+                                         &NodeSums::external,  &NodeSums::damping,  &NodeSums::radiated};
+constexpr std::size_t n_members = std::size(members);
+static_assert(n_members * sizeof(double) == sizeof(NodeSums), "all of them are summed");
+
+} // namespace
+
+NodeSums sums_of(const Workspace& work, std::int64_t& tellers) {
+  const Range own =
+      work.shared ? work.shared->part().chunks() : Range{0, static_cast<std::int64_t>(work.node_sums.size())};
+  ExactSums<n_members> exact;
+  for (std::int64_t c = own.begin; c < own.end; ++c)
+    for (std::size_t i = 0; i < n_members; ++i)
+      if (const double x = work.node_sums[c].*members[i]; x != 0)
+        exact.add(i, x);
+  if (work.shared) {
+    std::array<std::int64_t, exact.size() + 1> told;
+    std::copy_n(exact.data(), exact.size(), told.begin());
+    told.back() = tellers;
+    ranks().sum(told.data(), told.size());
+    std::copy_n(told.begin(), exact.size(), exact.data());
+    tellers = told.back();
+  }
   NodeSums sum;
-  const auto add = [&](const NodeSums& s) {
-    sum.residual2 += s.residual2;
-    sum.applied2 += s.applied2;
-    sum.reaction2 += s.reaction2;
-    sum.stiffness += s.stiffness;
-    sum.inertia += s.inertia;
-    sum.kinetic += s.kinetic;
-    sum.external += s.external;
-    sum.damping += s.damping;
-    sum.radiated += s.radiated;
-  };
-  for (const NodeSums& s : work.node_sums)
-    add(s);
-  for (const NodeSums& s : work.rigid_sums)
-    add(s);
+  for (std::size_t i = 0; i < n_members; ++i) {
+    sum.*members[i] = exact.value(i);
+    for (const NodeSums& rigid : work.rigid_sums) // all ranks know all
+      sum.*members[i] += rigid.*members[i];
+  }
   return sum;
 }
 

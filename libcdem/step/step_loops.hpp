@@ -84,6 +84,8 @@ void rigid_bodies(const Model& model, Workspace& work, int threads, const MoveRi
   });
 }
 
-NodeSums sums_of(const Workspace&); // over all chunks and rigid bodies, in their order
+// Over all chunks of all ranks, exactly, then rounded, and over rigid bodies in their order. All ranks call it together;
+// tellers: a number that is summed over them in the same message.
+NodeSums sums_of(const Workspace&, std::int64_t& tellers);
 
 } // namespace cdem

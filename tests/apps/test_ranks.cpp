@@ -7,9 +7,11 @@
 #include <catch2/catch.hpp>
 #include <chrono>
 #include <csignal>
+#include <fstream>
 #include <future>
 #include <thread>
 
+#include <sys/resource.h>
 #include <unistd.h>
 
 using namespace testing;
@@ -109,23 +111,166 @@ TEST_CASE("ranks: those of a plain mpirun are the same") {
 }
 
 // One model of each kind: blocks of small strain that break and are cut, a cohesive mesh, an armour unit that a flow
-// breaks, a pile that settles, Voronoi blocks that come loose, a body that shatters.
+// breaks, a pile that settles and is pushed by a flow, Voronoi blocks that come loose, a body that shatters.
+const std::string& physics() {
+  static const std::string text = read_file(CDEM_SOURCE "/tests/apps/ranks/physics.lua");
+  return text;
+}
+
+std::vector<std::string> solve_physics(int ranks, int threads) {
+  return {"run",       "plate/case.lua",        "--output", "out",
+          "--threads", std::to_string(threads), "--ranks",  std::to_string(ranks)};
+}
+
+const std::string& physics_of_one() {
+  static const std::string report = [] {
+    Place place(physics());
+    REQUIRE(place.cdem(solve_physics(1, 1)).exit_code == 0);
+    const std::string of_one = place.report();
+    CHECK(std::count(of_one.begin(), of_one.end(), '{') > 12);
+    return of_one;
+  }();
+  return report;
+}
+
 TEST_CASE("ranks: every kind of model ends in the bits of one process") {
   if (no_mpirun())
     return;
-  const auto hashes = [](const std::string& cases, const char* ranks) {
-    Place place(read_file(CDEM_SOURCE "/tests/apps/ranks/physics.lua"));
-    const Outcome outcome = place.cdem({"run", "plate/case.lua", "--output", "out", "--threads", "1",
-                                        "--ranks", ranks, "--set", "only=" + cases});
-    INFO(outcome.err);
+  for (const auto& [ranks, threads] : {std::pair(1, 2), std::pair(2, 1), std::pair(2, 2), std::pair(3, 1),
+                                       std::pair(5, 2), std::pair(8, 1)}) {
+    Place place(physics());
+    place.start.limit = 150;
+    const Outcome outcome = place.cdem(solve_physics(ranks, threads));
+    INFO(ranks << " ranks of " << threads << " threads: " << outcome.err);
+    CHECK(outcome.exit_code == 0);
+    CHECK(place.report() == physics_of_one());
+  }
+}
+
+TEST_CASE(
+    "ranks: every kind of model, left in each of its stages, goes on with the same bits on other ranks") {
+  if (no_mpirun())
+    return;
+  Place place(physics());
+  place.start.limit = 150;
+  const std::vector<std::string> stages = {"plate", "beam", "unit", "settle", "flow", "collapse", "shatter"};
+  const std::vector<std::pair<int, int>> counts = {{2, 1}, {1, 2}, {3, 1}, {5, 1},
+                                                   {8, 1}, {3, 2}, {2, 2}, {1, 1}};
+  for (std::size_t i = 0; i < counts.size(); ++i) {
+    const auto& [ranks, threads] = counts[i];
+    std::vector<std::string> words = solve_physics(ranks, threads);
+    if (i == 0)
+      words.insert(words.end(), {"--set", "stops=1"});
+    else
+      words = {"resume", "out", "--threads", std::to_string(threads), "--ranks", std::to_string(ranks)};
+    const bool last = i == stages.size();
+    const Outcome outcome = place.cdem(words, last ? 0 : SIGTERM, last ? "" : "half of " + stages[i]);
+    INFO(ranks << " ranks of " << threads << " threads: " << outcome.out << outcome.err);
+    REQUIRE(outcome.exit_code == (last ? 0 : 128 + SIGTERM));
+    if (i > 0)
+      CHECK_THAT(outcome.out, Contains("goes on from "));
+  }
+  CHECK(place.report() == physics_of_one());
+}
+
+// A column that a floor breaks from below, in several chunks.
+TEST_CASE("ranks: chunks change hands where a body breaks on one side, and no bit does") {
+  if (no_mpirun())
+    return;
+  const std::string text = R"(local cdem = require "cdem"
+local rock = cdem.elastic{ youngs_modulus = 1e9, poissons_ratio = 0.2, density = 2500, stiffness_damping = 1e-6 }
+local weak = cdem.mohr_coulomb{ cohesion = 3e5, friction_angle = 35, tensile_strength = 1e5 }
+local rough = cdem.coulomb{ friction_angle = 30 }
+local column = cdem.solid.box{ size = {0.2, 0.2, 2}, origin = {0, 0, 1e-3} }:mesh{ size = 0.06 }
+local model = cdem.model{ bodies = {
+  { shape = cdem.solid.box{ size = {2, 2, 0.2}, origin = {-1, -1, -0.2} }:mesh{ size = 1 }, material = rock,
+    element = "rigid", name = "floor" },
+  { shape = column, material = rock, joint = weak, name = "column", bonded_faces = "all", bonds = "springs" } },
+  contacts = { default = rough } }
+model:fix{ on = "floor" }
+model:initial_velocity{ on = "column", velocity = {0, 0, -8} }
+model:run{ steps = 450 }
+cdem.report{ { name = "hash", value = model.state_hash }, { name = "breaks", value = #model:breaks() } }
+)";
+  std::string of_one;
+  for (const int ranks : {1, 3}) {
+    Place place(text);
+    const Outcome outcome = place.cdem(solve_physics(ranks, 1));
+    INFO(outcome.out << outcome.err);
     REQUIRE(outcome.exit_code == 0);
-    return place.report();
+    if (ranks == 1)
+      of_one = place.report();
+    CHECK(place.report() == of_one);
+    if (ranks > 1)
+      CHECK_THAT(place.log(), Contains("chunks shared anew"));
+  }
+}
+
+TEST_CASE("ranks: more of them than chunks solve a model too, and say so") {
+  if (no_mpirun())
+    return;
+  const std::string text = R"(local cdem = require "cdem"
+local model = cdem.model{ bodies = { { shape = cdem.box_mesh{ size = {1, 1, 1}, divisions = {2, 2, 2} },
+  material = cdem.elastic{ youngs_modulus = 1e9, poissons_ratio = 0.2, density = 2500 } } } }
+model:fix{ on = "y-" }
+model:gravity{ vector = {0, -9.81, 0} }
+model:run{ steps = 20 }
+model:run{ steps = 20 }
+cdem.report{ { name = "hash", value = model.state_hash } }
+)";
+  Place one(text), three(text);
+  REQUIRE(one.cdem(solve_physics(1, 1)).exit_code == 0);
+  const Outcome outcome = three.cdem(solve_physics(3, 1));
+  CHECK(outcome.exit_code == 0);
+  CHECK(three.report() == one.report());
+  CHECK(lines_of(outcome.err).size() == 1);
+  CHECK_THAT(outcome.err, Contains("1 chunk for 3 ranks: 2 of them have no elements to compute"));
+}
+
+TEST_CASE("ranks: only rank 0 needs to see the script and the output folder, and all must run one program") {
+  if (no_mpirun())
+    return;
+  Place place;
+  place.start.environment = {"OMPI_ALLOW_RUN_AS_ROOT=1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1"};
+  const fs::path elsewhere = place.folder / "elsewhere";
+  fs::create_directories(elsewhere);
+  const auto both = [&](const std::string& program, const std::string& folder) {
+    return run_program({"/usr/bin/env",
+                        "mpirun",
+                        "-q",
+                        "--oversubscribe",
+                        "-n",
+                        "1",
+                        CDEM_PROGRAM,
+                        "run",
+                        "plate/case.lua",
+                        "--output",
+                        "out",
+                        ":",
+                        "-n",
+                        "1",
+                        "--wdir",
+                        folder,
+                        program,
+                        "run",
+                        "plate/case.lua",
+                        "--output",
+                        "out"},
+                       place.start);
   };
-  const std::string all = "plate beam unit pile collapse shatter", small = "plate beam collapse";
-  const std::string of_one = hashes(all, "1");
-  CHECK(std::count(of_one.begin(), of_one.end(), '{') > 12);
-  CHECK(hashes(all, "2") == of_one);
-  CHECK(hashes(small, "5") == hashes(small, "1"));
+  const Outcome solved = both(CDEM_PROGRAM, elsewhere.string());
+  INFO(solved.out << solved.err);
+  CHECK(solved.exit_code == 0);
+  CHECK(place.report() == report_of_one());
+  CHECK(fs::is_empty(elsewhere));
+  // A program that differs in its last byte.
+  const fs::path other = elsewhere / "cdem";
+  fs::copy_file(CDEM_PROGRAM, other);
+  fs::copy_file(fs::path(CDEM_PROGRAM).parent_path() / "cdem_mpi.so", elsewhere / "cdem_mpi.so");
+  std::ofstream(other, std::ios::app) << ' ';
+  const Outcome refused = both(other.string(), place.folder.path().string());
+  CHECK(refused.exit_code == 2);
+  CHECK_THAT(refused.err, Contains("cdem: error: rank 1: the program differs from that of rank 0"));
 }
 
 TEST_CASE("ranks: an error of the script is told once, with its exit code") {
@@ -167,6 +312,95 @@ TEST_CASE("ranks: an output folder that goes while they run ends all with one me
   CHECK(outcome.exit_code == 4);
   CHECK(lines_of(outcome.err).size() == 1);
   CHECK_THAT(outcome.err, Contains("cdem: error: ") && Contains("out"));
+}
+
+// Addresses are not the same in two processes: a script tells by one whether it runs on rank 0.
+const char* const on_rank_0 = R"(local cdem = require "cdem"
+local own = {}
+local file = io.open("address.txt", "w")
+file:write(tostring(own))
+file:close()
+local on_rank_0 = io.open("address.txt"):read("a") == tostring(own)
+)";
+
+const char* const steps = R"(
+local rock = cdem.elastic{ youngs_modulus = 1e9, poissons_ratio = 0.2, density = 2500 }
+local model = cdem.model{ bodies = { { shape = cdem.box_mesh{ size = {1, 1, 1}, divisions = {4, 4, 4} },
+  material = rock, name = "cube" } } }
+model:fix{ on = "y-" }
+model:gravity{ vector = {0, -9.81, 0} }
+local looks = 0
+local function fails() %s end
+local function solve()
+  model:run{ steps = 1000000, every = 50, callback = function()
+    looks = looks + 1
+    if looks == 5 then fails() end
+  end }
+end
+print "begins"
+%s
+print "goes on"
+)";
+
+// How a run of two or three ranks ends in which one of them fails.
+void require_end_of_all(const std::string& fails, const std::string& solves, int code,
+                        const std::string& said, const char* ranks) {
+  std::string text = steps;
+  text.replace(text.find("%s"), 2, fails);
+  text.replace(text.find("%s"), 2, solves);
+  Place place(on_rank_0 + text);
+  const Outcome outcome = place.cdem({"run", "plate/case.lua", "--output", "out", "--ranks", ranks,
+                                      "--threads", "1", "--checkpoint-every", "0.0001"});
+  INFO(outcome.out << outcome.err);
+  CHECK(outcome.exit_code == code);
+  CHECK(lines_of(outcome.err).size() == 1);
+  CHECK_THAT(outcome.err, Contains(said));
+  CHECK_THAT(outcome.out, !Contains("goes on"));
+  CHECK(outcome.seconds < 20);
+  CHECK(process_of_rank(place.folder.path(), 1) == 0);
+  CHECK(fs::exists(place.folder / "out/checkpoint_1.cdem"));
+}
+
+TEST_CASE("ranks: an error on one rank alone, in a step, ends all with its message and exit code") {
+  if (no_mpirun())
+    return;
+  const std::string caught = "pcall(solve)"; // no script can go on without the others
+  require_end_of_all("if not on_rank_0 then error('here alone') end", "solve()", 2,
+                     "cdem: error: rank 1: plate/case.lua:", "2");
+  require_end_of_all("if on_rank_0 then error('here alone') end", caught, 2, "here alone", "3");
+  require_end_of_all("if not on_rank_0 then model:max('no.field') end", caught, 2, "no.field", "2");
+  // What is solved inside is not the same either.
+  require_end_of_all(
+      "if on_rank_0 then cdem.elastic{ youngs_modulus = -1, poissons_ratio = 0, density = 1 } end", "solve()",
+      2, "youngs_modulus = -1", "2");
+}
+
+TEST_CASE("ranks: one rank that runs out of memory ends all") {
+  if (no_mpirun())
+    return;
+  Place place(std::string(on_rank_0) + R"(
+print "begins"
+local blocks = {}
+for i = 1, 1000 do blocks[i] = cdem.grid{ size = {1, 1, 1}, divisions = {40, 40, 40} } end
+)");
+  auto running = std::async(std::launch::async, [&] {
+    return place.cdem({"run", "plate/case.lua", "--output", "out", "--ranks", "2", "--threads", "1"});
+  });
+  const auto begun = std::chrono::steady_clock::now();
+  while (place.log().find("begins") == std::string::npos &&
+         std::chrono::steady_clock::now() - begun < std::chrono::seconds(20))
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+  const pid_t process = process_of_rank(place.folder.path(), 1);
+  REQUIRE(process > 0);
+  const rlimit little{rlim_t{1} << 20, RLIM_INFINITY};
+  REQUIRE(prlimit(process, RLIMIT_AS, &little, nullptr) == 0);
+  const auto limited = std::chrono::steady_clock::now();
+  const Outcome outcome = running.get();
+  INFO(outcome.out << outcome.err);
+  CHECK(std::chrono::steady_clock::now() - limited < std::chrono::seconds(10));
+  CHECK(outcome.exit_code == 2);
+  CHECK(lines_of(outcome.err).size() == 1);
+  CHECK_THAT(outcome.err, Contains("rank 1") && Contains("memory"));
 }
 
 TEST_CASE("ranks: Ctrl-C and SIGTERM keep a checkpoint, from which another number of ranks goes on") {
@@ -277,6 +511,22 @@ print(all)
   CHECK_THAT(read_file(place.folder / "out/notes.txt"), Contains("second line\nthird"));
   CHECK(fs::exists(place.folder / "out/end.vtu"));
   CHECK(fs::exists(place.folder / "out/end.png"));
+}
+
+TEST_CASE("ranks: what rank 0 cannot tell the others is refused in one line") {
+  if (no_mpirun())
+    return;
+  for (const auto& [text, said] :
+       {std::pair("print(io.read())", "io.read: not with several ranks"),
+        std::pair("assert(io.open('/dev/urandom', 'rb'))", "/dev/urandom: a device may never end")}) {
+    Place place(text);
+    const Outcome outcome =
+        place.cdem({"run", "plate/case.lua", "--output", "out", "--ranks", "2", "--unsafe"});
+    INFO(outcome.out << outcome.err);
+    CHECK(outcome.exit_code == 2);
+    CHECK(lines_of(outcome.err).size() == 1);
+    CHECK_THAT(outcome.err, Contains(said));
+  }
 }
 
 TEST_CASE("ranks: a script that goes another way in one process is told so") {

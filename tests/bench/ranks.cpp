@@ -24,6 +24,7 @@ using namespace cdem;
 
 constexpr double latency = 2e-6, bandwidth = 10e9; // s, bytes/s and direction, of a network of today
 constexpr double messages_deep = 2;                // exchanges that wait for each other in a step
+constexpr double bytes_of_sums = 9 * 72 * 8;       // exact sums of a step (parallel/exact_sum.hpp)
 constexpr int rounds = 3;
 
 struct Measured {
@@ -85,13 +86,13 @@ private:
 };
 
 // s, of a step of so many tets on each of many ranks: the measured computing and what the surface of a compact part costs.
-// The sums of all chunks go through a tree.
+// Sums go through a tree.
 double projected(double tets_each, double seconds_per_tet, double bytes_per_surface, double ranks_among) {
-  const double surface = std::pow(tets_each, 2.0 / 3), chunks = tets_each / 512;
+  const double surface = std::pow(tets_each, 2.0 / 3);
   const double depth = std::ceil(std::log2(ranks_among));
   const double neighbours = std::min(26.0, ranks_among - 1);
   const double exchange = messages_deep * neighbours * latency + bytes_per_surface * surface / bandwidth;
-  const double sums = depth * latency + ranks_among * chunks * 72 / bandwidth;
+  const double sums = depth * (latency + bytes_of_sums / bandwidth);
   return tets_each * seconds_per_tet + exchange + sums;
 }
 
@@ -137,7 +138,7 @@ void among_ranks(const Settings& settings) {
           "%10s memory of a rank: %.0f MB between steps, %.0f MB of that in no file; %.0f MB at most\n", "",
           memory.resident / 1e6, memory.anonymous / 1e6, memory.most / 1e6);
       const double per_tet = size / (together.steps * n) * (1 - together.waited);
-      const double sums = n / 512 / size * 72 * (size - 1);
+      const double sums = bytes_of_sums * (size - 1);
       const double per_surface =
           std::max(0.0, together.bytes - sums) / std::pow(n / size, 2.0 / 3) * (size == 2 ? 6 : 1);
       const double weak = projected(n / size, per_tet, 0, 1);

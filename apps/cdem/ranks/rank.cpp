@@ -12,10 +12,9 @@
 #include <atomic>
 #include <chrono>
 #include <cmath>
-#include <condition_variable>
+#include <csignal>
 #include <cstdlib>
 #include <fstream>
-#include <mutex>
 #include <new>
 #include <sstream>
 #include <thread>
@@ -31,14 +30,17 @@ namespace {
 
 using std::chrono::seconds;
 
-constexpr seconds others_come_in{8}; // to where all tell each other that they have failed
 constexpr seconds rank_0_speaks_in{1};
-constexpr seconds abort_takes{3};
+constexpr unsigned abort_takes = 3; // s
 
 int starter = -1;                 // socket to who started us by --ranks
 int users_stderr = STDERR_FILENO; // of ranks that print nothing
 std::chrono::steady_clock::time_point joined_at;
 std::atomic<bool> known_to_all{false}; // that this rank has failed
+volatile std::sig_atomic_t code_if_stuck = 0;
+// Given up where memory is short, for what ends the program; in pieces that the heap keeps.
+std::vector<std::string> reserve;
+constexpr std::size_t reserve_pieces = 32, reserve_piece = 65536; // bytes
 
 // The rank has not joined yet.
 int rank_by_starter() {
@@ -56,8 +58,13 @@ void print_nothing() {
   close(nothing);
 }
 
+extern "C" void end_if_stuck(int) {
+  _exit(code_if_stuck);
+}
+
 // A rank that fails within a step cannot tell the others.
 void end_for_want_of_memory() {
+  reserve.clear();
   if (!script::with_others())
     throw std::bad_alloc();
   std::set_new_handler(nullptr);
@@ -79,33 +86,6 @@ std::string host_name() {
   return host.data();
 }
 
-// Ends all ranks unless it is called off: the others do not come.
-class Watch {
-public:
-  explicit Watch(const Failure& failure)
-      : thread_([this, failure] {
-          std::unique_lock<std::mutex> lock(mutex_);
-          if (!called_off_.wait_for(lock, others_come_in, [this] { return off_; }))
-            interrupt::end_now(failure.code, failure.line);
-        }) {}
-  ~Watch() {
-    {
-      const std::lock_guard<std::mutex> lock(mutex_);
-      off_ = true;
-    }
-    called_off_.notify_one();
-    thread_.join();
-  }
-  Watch(const Watch&) = delete;
-  Watch& operator=(const Watch&) = delete;
-
-private:
-  std::mutex mutex_;
-  std::condition_variable called_off_;
-  bool off_ = false;
-  std::thread thread_;
-};
-
 } // namespace
 
 void join_other_ranks(int argc, const char* const* argv) {
@@ -124,6 +104,7 @@ void join_other_ranks(int argc, const char* const* argv) {
   }
   joined_at = std::chrono::steady_clock::now();
   interrupt::join_ranks();
+  reserve.assign(reserve_pieces, std::string(reserve_piece, ' '));
   std::set_new_handler(end_for_want_of_memory);
   script::require_same("the program", hash_of_program());
   std::string line;
@@ -143,7 +124,8 @@ int leave_other_ranks(int exit_code) {
 Failure failure_of_all(const Failure& failure) {
   if (ranks().alone() || known_to_all.exchange(true))
     return failure;
-  const Watch watch(failure);
+  if (!ranks().all_fail(Ranks::patience))
+    interrupt::end_now(failure.code, failure.line);
   Failure first = failure;
   first.code = static_cast<ExitCode>(std::stoi(ranks().gather(std::to_string(to_int(failure.code))).front()));
   return first;
@@ -154,11 +136,9 @@ void end_all_ranks(int exit_code) {
     tell_starter(exit_code);
   if (ranks().alone())
     _exit(exit_code);
-  std::thread([exit_code] { // where MPI itself is stuck
-    std::this_thread::sleep_for(abort_takes);
-    _exit(exit_code);
-  })
-      .detach();
+  code_if_stuck = exit_code; // where MPI itself is
+  std::signal(SIGALRM, end_if_stuck);
+  alarm(abort_takes);
   ranks().abort(exit_code);
   _exit(exit_code);
 }

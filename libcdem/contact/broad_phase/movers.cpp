@@ -1,6 +1,7 @@
 #include "libcdem/contact/broad_phase/movers.hpp"
 
 #include "libcdem/bond/fragments.hpp"
+#include "libcdem/ranks/bytes.hpp"
 #include "libcdem/ranks/shared_state.hpp"
 #include "libcdem/state/places.hpp"
 
@@ -188,8 +189,11 @@ std::vector<double> speeds_of_movers(const Model& model, const State& state, con
         for (auto node = static_cast<int>(begin); node < end; ++node)
           speed2 = std::max(speed2, velocity_of(state, node).squaredNorm());
     } else {
-      for (int i = movers.node_begin[m - blocks]; i < movers.node_begin[m - blocks + 1]; ++i)
-        speed2 = std::max(speed2, velocity_of(state, movers.nodes[i]).squaredNorm());
+      const auto nodes = movers.nodes.begin();
+      const auto begin = nodes + movers.node_begin[m - blocks],
+                 end = nodes + movers.node_begin[m - blocks + 1];
+      for (auto node = std::lower_bound(begin, end, own.begin); node != end && *node < own.end; ++node)
+        speed2 = std::max(speed2, velocity_of(state, *node).squaredNorm());
     }
     speeds[m] = std::sqrt(speed2);
   });
@@ -204,12 +208,43 @@ void set_displacements(const Model& model, const State& state, ContactWork& work
     way *= work.step;
 }
 
+int rank_of_fragment(const ContactWork& work, std::int64_t fragment) {
+  const Movers& movers = work.movers;
+  const int begin = movers.node_begin[fragment];
+  return begin < movers.node_begin[fragment + 1] ? work.shared->part().owner_of_node(movers.nodes[begin]) : 0;
+}
+
+namespace {
+
+void share_drifts(std::int64_t blocks, ContactWork& work) {
+  const std::int64_t fragments = work.movers.count() - blocks;
+  if (fragments == 0)
+    return;
+  Pack own;
+  for (std::int64_t f = 0; f < fragments; ++f)
+    if (rank_of_fragment(work, f) == work.shared->part().rank) {
+      own(work.drift[blocks + f]);
+      own(work.swing[blocks + f]);
+    }
+  const std::vector<std::string> told = ranks().gather(own.text(), Ranks::Subject::drifts);
+  std::vector<Unpack> of_rank(told.begin(), told.end());
+  for (std::int64_t f = 0; f < fragments; ++f) {
+    Unpack& unpack = of_rank[rank_of_fragment(work, f)];
+    unpack(work.drift[blocks + f]);
+    unpack(work.swing[blocks + f]);
+  }
+}
+
+} // namespace
+
 void set_drifts(const Model& model, const State& state, ContactWork& work, int threads) {
   const Movers& movers = work.movers;
   const auto blocks = static_cast<std::int64_t>(model.blocks.size());
   work.drift.resize(movers.count(), geom::Vec3::Zero());
   work.swing.resize(movers.count());
   for_chunks(movers.count() - blocks, threads, [&](std::int64_t fragment) {
+    if (work.shared && rank_of_fragment(work, fragment) != work.shared->part().rank)
+      return;
     const int begin = movers.node_begin[fragment], end = movers.node_begin[fragment + 1];
     const auto gone = [&](int i) -> geom::Vec3 {
       return vec(state.displacement[movers.nodes[i]]) - work.at_search[movers.nodes[i]];
@@ -224,6 +259,8 @@ void set_drifts(const Model& model, const State& state, ContactWork& work, int t
     work.drift[blocks + fragment] = mean;
     work.swing[blocks + fragment] = std::sqrt(swing2);
   });
+  if (work.shared)
+    share_drifts(blocks, work);
 }
 
 void begin_drifts(const Model& model, const State& state, const std::vector<char>& searched,

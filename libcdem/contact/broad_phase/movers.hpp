@@ -16,6 +16,10 @@ std::vector<double> speeds_of_movers(const Model&, const State&, const ContactWo
 // Writes ContactWork::last_displacement, of the step that is as long as ContactWork::step.
 void set_displacements(const Model&, const State&, ContactWork&, int threads);
 
+// With several ranks, the one that follows a fragment: it reads all of its nodes. fragment: from the first mover after the
+// blocks on.
+int rank_of_fragment(const ContactWork&, std::int64_t fragment);
+
 // Writes ContactWork::drift and swing; begin_drifts: at_search, of those that are searched (per mover).
 void set_drifts(const Model&, const State&, ContactWork&, int threads);
 void begin_drifts(const Model&, const State&, const std::vector<char>& searched, ContactWork&);

@@ -196,9 +196,14 @@ std::vector<Near> near_edges_of_fragments(const Model& model, const State& state
     wanted.push_back(searched[bars.edges()[k]]);
   }
   std::vector<Near> out;
-  const Range own = own_share(work, std::vector<double>(wanted.begin(), wanted.end()));
+  constexpr std::size_t edges_per_part = 64;
+  std::vector<double> loads((wanted.size() + edges_per_part - 1) / edges_per_part, 0.0);
+  for (std::size_t k = 0; k < wanted.size(); ++k)
+    loads[k / edges_per_part] += wanted[k];
   std::vector<char> own_wanted(wanted.size(), 0);
-  std::copy(wanted.begin() + own.begin, wanted.begin() + own.end, own_wanted.begin() + own.begin);
+  for (const std::int64_t part : own_share(work, loads))
+    for (std::size_t k = part * edges_per_part; k < std::min((part + 1) * edges_per_part, wanted.size()); ++k)
+      own_wanted[k] = wanted[k];
   if (std::count(own_wanted.begin(), own_wanted.end(), 0) == static_cast<std::ptrdiff_t>(wanted.size()))
     return out;
   for (const auto& [k, l] : geom::touching_pairs(boxes, own_wanted)) {

@@ -297,7 +297,9 @@ NearFragments near_fragments(const Model& model, const State& state, const Conta
   std::vector<double> loads(chunks.size(), 0.0);
   for (std::size_t i = 0; i < solids.size(); ++i)
     loads[i / solids_per_chunk] += searched[solids[i].mover] ? 1 : load_of_known;
-  for_chunks(own_share(work, loads), threads, [&](std::int64_t c) {
+  const std::vector<std::int64_t> own = own_share(work, loads);
+  for_chunks(static_cast<std::int64_t>(own.size()), threads, [&](std::int64_t k) {
+    const std::int64_t c = own[k];
     NearSolid near(around);
     for (std::int64_t i = chunks[c].begin; i < chunks[c].end; ++i)
       near.add(state, solids[i], movers[c]);

@@ -184,15 +184,15 @@ bool search_contacts(const Model& model, const State& state, ContactWork& work, 
     loads.push_back(model.blocks[a].meshed && model.blocks[b].meshed ? near_triangles_of(active, a, b) : 0);
   for (const int b : alone)
     loads.push_back(near_triangles_of(active, b, b));
-  const Range own = own_share(work, loads);
-  const auto n_own = static_cast<std::size_t>(own.size());
+  const std::vector<std::int64_t> own = own_share(work, loads);
+  const std::size_t n_own = own.size();
   FoundNear found;
   found.springs.resize(n_own);
   found.edges.resize(n_own);
   std::vector<double> may_go(n_own, std::numeric_limits<double>::infinity());
   std::vector<std::string> wrong(n_own); // nothing may be thrown out of a parallel loop
-  for_chunks(own, threads, [&](std::int64_t i) {
-    const std::int64_t place = i - own.begin;
+  for_chunks(static_cast<std::int64_t>(n_own), threads, [&](std::int64_t place) {
+    const std::int64_t i = own[place];
     std::vector<Near>&springs = found.springs[place], &edges = found.edges[place];
     if (i >= n_pairs) {
       NearWithin near = near_within(model, work, margins, active, alone[i - n_pairs]);

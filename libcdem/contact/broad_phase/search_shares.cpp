@@ -4,6 +4,9 @@
 #include "libcdem/ranks/shared_state.hpp"
 
 #include <algorithm>
+#include <functional>
+#include <numeric>
+#include <queue>
 
 namespace cdem {
 namespace {
@@ -46,12 +49,28 @@ void cut_sources(const Model& model, ContactWork& work, const FoundNear& found) 
 
 } // namespace
 
-Range own_share(const ContactWork& work, const std::vector<double>& load) {
+std::vector<std::int64_t> own_share(const ContactWork& work, const std::vector<double>& load) {
+  std::vector<std::int64_t> items(load.size());
+  std::iota(items.begin(), items.end(), std::int64_t{0});
   if (!work.shared)
-    return {0, static_cast<std::int64_t>(load.size())};
+    return items;
+  std::stable_sort(items.begin(), items.end(),
+                   [&](std::int64_t a, std::int64_t b) { return load[a] > load[b]; });
   const Partition& part = work.shared->part();
-  const std::vector<std::int64_t> begin = even_shares(load, part.size);
-  return {begin[part.rank], begin[part.rank + 1]};
+  using Laden = std::pair<double, int>; // load, rank
+  std::priority_queue<Laden, std::vector<Laden>, std::greater<>> least;
+  for (int rank = 0; rank < part.size; ++rank)
+    least.emplace(0, rank);
+  std::vector<std::int64_t> own;
+  for (const std::int64_t item : items) {
+    const auto [before, rank] = least.top();
+    least.pop();
+    least.emplace(before + load[item], rank);
+    if (rank == part.rank)
+      own.push_back(item);
+  }
+  std::sort(own.begin(), own.end());
+  return own;
 }
 
 double near_triangles_of(const ActiveSurface& active, int a, int b) {

@@ -1,5 +1,5 @@
-// A search with several ranks. Each looks at a run of the pairs of blocks, cut by the triangles that stand near each
-// other, and sends what it finds near a source to the rank that keeps that source's rows. Rows are kept by runs of source
+// A search with several ranks. The pairs of blocks, and the parts of what has broken, are dealt to them by counted loads;
+// each sends what it finds near a source to the rank that keeps that source's rows. Rows are kept by runs of source
 // triangles, cut by the rows and candidates that a search of all movers has found; edges go with the first of their
 // triangles. One rank alone looks at all and keeps all.
 #pragma once
@@ -8,8 +8,9 @@
 
 namespace cdem {
 
-// Of items with these loads, those that this rank looks at.
-Range own_share(const ContactWork&, const std::vector<double>& load);
+// Of items with these loads, those that this rank looks at, ascending: the heaviest first, each goes to the rank that has
+// least, so that neighbours, which weigh alike, go to different ones.
+std::vector<std::int64_t> own_share(const ContactWork&, const std::vector<double>& load);
 
 // Triangles of the two blocks that stand where their boxes meet, as if they were spread evenly in these; of which a search
 // looks at so many.

@@ -1,5 +1,6 @@
 #include "libcdem/contact/narrow_phase/row_shares.hpp"
 
+#include "libcdem/contact/broad_phase/movers.hpp"
 #include "libcdem/ranks/bytes.hpp"
 #include "libcdem/ranks/shared_state.hpp"
 
@@ -9,16 +10,49 @@
 namespace cdem {
 namespace {
 
-void add_surface_nodes(const Model& model, const ContactWork& work, int block,
-                       std::vector<std::int32_t>& nodes) {
-  const ContactSurface& s = model.surface;
-  for (int t = s.block_begin[block]; t < s.block_begin[block + 1]; ++t)
-    if (work.active[t]) {
-      nodes.insert(nodes.end(), s.triangles[t].nodes.begin(), s.triangles[t].nodes.end());
-      const geom::Tet& tet = model.tets[s.triangles[t].tet];
-      nodes.insert(nodes.end(), tet.begin(), tet.end());
+// What a rank reads of surfaces: nodes of triangles and of the tets behind them.
+class NodesRead {
+public:
+  NodesRead(const Model& model, const ContactWork& work) : model_(model), work_(work), s_(model.surface) {}
+
+  void add_block(int block) {
+    for (int node = model_.blocks[block].node_begin; node < model_.blocks[block].node_end; ++node)
+      nodes_.push_back(node);
+  }
+  void add_surface(int block) {
+    for (int t = s_.block_begin[block]; t < s_.block_begin[block + 1]; ++t)
+      if (work_.active[t])
+        add_triangle(t);
+  }
+  // Of the movers of the block for which `read` holds, and of the edges on them: an edge may part two movers.
+  template <class Read>
+  void add_movers(int block, const Read& read) {
+    const auto reads = [&](int t) { return read(work_.movers.of_triangle[t]); };
+    for (int t = s_.block_begin[block]; t < s_.block_begin[block + 1]; ++t) {
+      if (work_.active[t] && reads(t))
+        add_triangle(t);
+      for (int e = work_.edge_begin[t]; e < work_.edge_begin[t + 1]; ++e)
+        if (const auto& sides = work_.edges[e].triangles; reads(sides[0]) || reads(sides[1])) {
+          add_triangle(sides[0]);
+          add_triangle(sides[1]);
+        }
     }
-}
+  }
+  std::vector<std::int32_t> take() { return std::move(nodes_); }
+
+private:
+  void add_triangle(int t) {
+    const geom::Triangle& corners = s_.triangles[t].nodes;
+    nodes_.insert(nodes_.end(), corners.begin(), corners.end());
+    const geom::Tet& tet = model_.tets[s_.triangles[t].tet];
+    nodes_.insert(nodes_.end(), tet.begin(), tet.end());
+  }
+
+  const Model& model_;
+  const ContactWork& work_;
+  const ContactSurface& s_;
+  std::vector<std::int32_t> nodes_;
+};
 
 } // namespace
 
@@ -30,22 +64,28 @@ void begin_search(State& state, ContactWork& work) {
 void read_nodes_of_rows(const Model& model, ContactWork& work) {
   if (!work.shared)
     return;
-  std::vector<char> read(model.blocks.size(), 0);
+  const auto blocks = static_cast<int>(model.blocks.size());
+  std::vector<char> read(model.blocks.size(), 0), mover_read(work.movers.count(), 0);
   for (const std::vector<ContactRow>& rows : work.rows)
     for (const ContactRow& row : rows)
-      read[work.movers.block[row.source_mover]] = read[work.movers.block[row.mover]] = 1;
-  std::vector<std::int32_t> nodes;
-  for (std::size_t b = 0; b < model.blocks.size(); ++b) {
+      for (const int mover : {row.source_mover, row.mover})
+        read[work.movers.block[mover]] = mover_read[mover] = 1;
+  for (int m = blocks; m < work.movers.count(); ++m)
+    if (rank_of_fragment(work, m - blocks) == work.shared->part().rank)
+      mover_read[m] = 1;
+  NodesRead nodes(model, work);
+  for (int b = 0; b < blocks; ++b) {
     const Block& block = model.blocks[b];
     if (block.rigid >= 0 || !block.meshed) // rigid ones are moved by all
       continue;
-    if (work.broken[b] || work.restitution)
-      for (int node = block.node_begin; node < block.node_end; ++node)
-        nodes.push_back(node);
+    if (work.restitution)
+      nodes.add_block(b);
+    else if (work.broken[b])
+      nodes.add_movers(b, [&](int mover) { return mover_read[mover] != 0; });
     else if (read[b])
-      add_surface_nodes(model, work, static_cast<int>(b), nodes);
+      nodes.add_surface(b);
   }
-  work.shared->set_further_nodes(std::move(nodes));
+  work.shared->set_further_nodes(nodes.take());
 }
 
 void add_depths(const ContactSums& more, ContactSums& sums) {

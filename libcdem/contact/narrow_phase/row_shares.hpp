@@ -12,8 +12,8 @@ namespace cdem {
 // Before a search, which looks at all surfaces.
 void begin_search(State&, ContactWork&);
 
-// After one: which nodes this rank reads for its rows, those at the surface of all that stands in them. Nodes of what has
-// broken, and of blocks whose motion as a whole counts, are read by all.
+// After one: which nodes this rank reads, those at the surface of the blocks and fragments in its rows, and of the fragments
+// that it follows. Nodes of blocks whose motion as a whole counts are read by all.
 void read_nodes_of_rows(const Model&, ContactWork&);
 
 void add_depths(const ContactSums& more, ContactSums& sums); // the deepest; the first of equals

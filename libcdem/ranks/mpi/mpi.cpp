@@ -6,7 +6,6 @@
 #include <array>
 #include <chrono>
 #include <cstring>
-#include <exception>
 #include <mpi.h>
 #include <thread>
 
@@ -26,7 +25,7 @@ public:
   MpiRanks& operator=(const MpiRanks&) = delete;
 
   void exchange(const std::vector<Parcel>& send, const std::vector<Parcel>& receive) override {
-    if (by_itself())
+    if (lost_)
       return;
     const Waiting waiting(*this);
     requests_.clear();
@@ -46,7 +45,7 @@ public:
   }
 
   void share(void* data, const std::vector<std::size_t>& begin) override {
-    if (by_itself())
+    if (lost_)
       return;
     const Waiting waiting(*this);
     count(begin[rank() + 1] - begin[rank()], size() - 1);
@@ -69,7 +68,7 @@ public:
   // In one message where all fit into the slot that fitted those before them, which is the same for all ranks; what does
   // not comes in a second one.
   std::vector<std::string> gather(const std::string& mine, Subject subject) override {
-    if (by_itself())
+    if (lost_)
       return std::vector<std::string>(size(), mine);
     std::size_t& slot = slots_[static_cast<std::size_t>(subject)];
     const std::size_t head = sizeof(std::uint64_t), whole = head + slot;
@@ -111,7 +110,7 @@ public:
   std::vector<std::string> deal(const std::vector<std::string>& to) override {
     std::vector<std::string> from(size());
     from[rank()] = to[rank()];
-    if (by_itself())
+    if (lost_)
       return from;
     std::vector<unsigned long long> sent(size()), received(size());
     for (int r = 0; r < size(); ++r)
@@ -136,7 +135,7 @@ public:
   }
 
   void broadcast(std::string& text) override {
-    if (by_itself())
+    if (lost_)
       return;
     const Waiting waiting(*this);
     unsigned long long bytes = text.size();
@@ -188,16 +187,9 @@ private:
     double start_;
   };
 
-  // An exception is on its way here and not in the other ranks, who wait for something else.
-  bool by_itself() {
-    if (!lost_ && std::uncaught_exceptions() > 0)
-      all_fail(patience);
-    return lost_;
-  }
-
   template <class Number>
   void reduce(Number* values, std::size_t number, MPI_Datatype type, MPI_Op how) {
-    if (by_itself())
+    if (lost_)
       return;
     const Waiting waiting(*this);
     count(number * sizeof(Number), size() - 1);

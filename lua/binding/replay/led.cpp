@@ -167,6 +167,10 @@ double agreed(double value) {
   return value;
 }
 
+bool all_fail_here() {
+  return !with_others() || ranks().all_fail(Ranks::patience);
+}
+
 void require_same(const std::string& what, const std::string& text) {
   if (!with_others())
     return;

@@ -29,6 +29,10 @@ public:
 
 bool with_others(); // there are others, and they take part
 
+// An error is on its way: true where every rank has one here, or this one does without the others. Else it has failed alone,
+// and must end all.
+bool all_fail_here();
+
 // Throws geom::InputError on all ranks where one has come here with another text.
 void require_same(const std::string& what, const std::string& text);
 

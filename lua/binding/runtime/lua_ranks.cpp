@@ -9,6 +9,7 @@
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
+#include <filesystem>
 #include <lua.hpp>
 #include <memory>
 #include <random>
@@ -25,6 +26,11 @@ struct Close {
 
 // What the others need to know of a file that rank 0 can open: what it holds, or why it cannot be opened.
 Value look_into(const std::string& path, const std::string& mode) {
+  std::error_code none;
+  if (mode.front() != 'w' && std::filesystem::is_character_file(path, none) && path != "/dev/null")
+    return Table{{"error", path + ": a device may never end, and all ranks are told what a file holds; take "
+                                  "math.random, or run the script on one rank"},
+                 {"number", ENODEV}};
   const std::unique_ptr<std::FILE, Close> file(std::fopen(path.c_str(), mode.c_str()));
   if (!file)
     return Table{{"error", path + ": " + std::strerror(errno)}, {"number", errno}};
@@ -181,7 +187,7 @@ int write_as_leader(lua_State* L) {
 }
 
 int refuse(lua_State* L) {
-  return luaL_error(L, "%s: not with several ranks, each of which would do it; run the script on one",
+  return luaL_error(L, "%s: not with several ranks, which would not all get the same; run the script on one",
                     lua_tostring(L, lua_upvalueindex(2)));
 }
 
@@ -241,7 +247,10 @@ void use_calls_of_ranks(lua_State* L, bool unsafe) {
   if (unsafe) {
     replace_named(L, "io.", "open", open_anywhere);
     replace_named(L, "io.", "lines", lines_anywhere);
-    replace_named(L, "io.", "popen", refuse);
+    for (const char* const name : {"popen", "read", "input"}) // standard input is that of rank 0
+      replace_named(L, "io.", name, refuse);
+    lua_pushnil(L);
+    lua_setfield(L, -2, "stdin");
   }
   lua_pop(L, 1);
 }

@@ -156,6 +156,28 @@ std::string after_name(const std::string& shown, const std::string& what) {
 
 } // namespace
 
+// The script may catch no error that the other ranks do not have.
+void LuaState::end_unless_all_fail(ErrorKind kind, const std::string& message) {
+  if (all_fail_here())
+    return;
+  try {
+    throw_kind(kind, message);
+  } catch (...) {
+    std::terminate();
+  }
+}
+
+[[noreturn]] void LuaState::throw_kind(ErrorKind kind, const std::string& message) {
+  switch (kind) {
+  case ErrorKind::solution:
+    throw SolutionError(message);
+  case ErrorKind::file:
+    throw FileError(message);
+  default:
+    throw ScriptError(message);
+  }
+}
+
 std::string LuaState::message_of_current_exception(lua_State* L, const std::string& shown) {
   const std::string place = where(L);
   const std::string front = (place.empty() ? "" : place + ": ") + shown + ": ";
@@ -182,6 +204,7 @@ std::string LuaState::message_of_current_exception(lua_State* L, const std::stri
   } catch (const std::exception& error) {
     message = front + after_name(shown, error.what());
   }
+  end_unless_all_fail(kind, message);
   if (kind != ErrorKind::script)
     kinds_[message] = kind;
   return message;
@@ -203,16 +226,13 @@ void LuaState::throw_error(lua_State* L, int status) {
   if (interrupted)
     throw Interrupted();
   if (status == LUA_ERRMEM)
-    throw ScriptError(shown_name(session.settings.script) +
-                      ": the script's own tables and strings need more than " + memory_text(memory_limit) +
-                      "; keep less of them" +
-                      (memory_limit < most_memory ? ", or allow more with --memory" : ""));
-  const auto kind = kinds_.find(message);
-  if (kind != kinds_.end() && kind->second == ErrorKind::solution)
-    throw SolutionError(message);
-  if (kind != kinds_.end() && kind->second == ErrorKind::file)
-    throw FileError(message);
-  throw ScriptError(message);
+    message = shown_name(session.settings.script) + ": the script's own tables and strings need more than " +
+              memory_text(memory_limit) + "; keep less of them" +
+              (memory_limit < most_memory ? ", or allow more with --memory" : "");
+  const auto known = kinds_.find(message);
+  const ErrorKind kind = known != kinds_.end() ? known->second : ErrorKind::script;
+  end_unless_all_fail(kind, message);
+  throw_kind(kind, message);
 }
 
 void LuaState::call(lua_State* L, int arguments, int results) {

@@ -64,6 +64,8 @@ public:
 
 private:
   enum class ErrorKind { script, file, solution };
+  [[noreturn]] static void throw_kind(ErrorKind, const std::string& message);
+  static void end_unless_all_fail(ErrorKind, const std::string& message);
   std::map<std::string, ErrorKind>
       kinds_; // by message, so that an error passed on by a script keeps its type
   std::thread::id thread_;

@@ -1,7 +1,10 @@
 -- One small model of each kind, solved until it has done what is particular to it; the hash of each, and that it has.
+-- stops: in the middle of each stage, behind a place where it can be left, the script waits for a signal, the first time.
 local cdem = require "cdem"
 
 local only = cdem.parameter{ name = "only", default = "plate beam unit pile collapse shatter", doc = "cases" }
+
+local stops = cdem.parameter{ name = "stops", default = 0, doc = "1: waits in each stage for a signal" }
 
 local stiff = cdem.elastic{ youngs_modulus = 30e9, poissons_ratio = 0.2, density = 2500 }
 local rock = cdem.elastic{ youngs_modulus = 1e9, poissons_ratio = 0.2, density = 2500, stiffness_damping = 1e-6 }
@@ -12,6 +15,19 @@ local figures, of = {}, "?"
 local function told(model, what, value)
   figures[#figures + 1] = { name = of .. ": " .. what, value = value }
   figures[#figures + 1] = { name = of .. ": hash", value = model.state_hash }
+end
+
+-- In every step from 210 on of a stage, which can be left at 200.
+local function half_way(stage)
+  local looks = 0
+  return function()
+    looks = looks + 1
+    if stops == 0 or looks ~= 1 or io.open(stage .. ".seen") then return end
+    io.open(stage .. ".seen", "w"):close()
+    print("half of " .. stage)
+    local till = os.time() + 60
+    while os.time() < till do end
+  end
 end
 
 local function floor()
@@ -29,7 +45,7 @@ function cases.plate()
   model:traction{ on = "y+", stress = {1e5, 1.3e5, 0} }
   model:relax{ max_steps = 120 }
   model:refine{ tension_threshold = 0.5, shear_threshold = 0.5 }
-  model:run{ steps = 60 }
+  model:run{ steps = 230, every = 210, callback = half_way "plate" }
   told(model, "breaks", #model:breaks())
 end
 
@@ -41,7 +57,7 @@ function cases.beam()
     material = stiff, joint = joint, name = "beam", bonds = "cohesive" } } }
   model:fix{ on = "x-", velocity = {-0.1, 0, 0} }
   model:fix{ on = "x+", velocity = {0.1, 0, 0} }
-  model:run{ duration = 6e-4 }
+  model:run{ steps = 240, every = 210, callback = half_way "beam" }
   told(model, "breaks", #model:breaks())
 end
 
@@ -55,7 +71,7 @@ function cases.unit()
   model:gravity{ vector = {0, 0, -9.81} }
   model:flow{ on = "unit", direction = {1, 0, 0}, velocity = 30 }
   model:initial_velocity{ on = "unit", velocity = {0, 0, -6} }
-  model:run{ steps = 300 }
+  model:run{ steps = 250, every = 210, callback = half_way "unit" }
   told(model, "broken", #model:breaks() > 0)
 end
 
@@ -71,9 +87,9 @@ function cases.pile()
   model:fix{ on = "slope" }
   model:gravity{ vector = {0, 0, -9.81} }
   model:watch{ bodies = "units", leaves = 0.3 }
-  model:settle{ max_time = 2 }
+  model:settle{ max_time = 0.5, every = 220, callback = half_way "settle" }
   model:flow{ on = "units", direction = {1, 0, 0}, velocity = 4 }
-  model:run{ steps = 150 }
+  model:run{ steps = 230, every = 210, callback = half_way "flow" }
   told(model, "kinetic energy", model:energy().kinetic)
 end
 
@@ -86,7 +102,7 @@ function cases.collapse()
   model:fix{ on = "floor" }
   model:gravity{ vector = {0, 0, -9.81} }
   model:initial_velocity{ on = "heap", velocity = {1, 0, -5}, angular_velocity = {0, 3, 0} }
-  model:run{ steps = 500 }
+  model:run{ steps = 400, every = 210, callback = half_way "collapse" }
   told(model, "breaks", #model:breaks())
 end
 
@@ -98,7 +114,7 @@ function cases.shatter()
     contacts = { { "floor", "cube", rough }, { "cube", "cube", rough } } }
   model:fix{ on = "floor" }
   model:initial_velocity{ on = "cube", velocity = {1, 0, -8} }
-  model:run{ steps = 380 }
+  model:run{ steps = 380, every = 210, callback = half_way "shatter" }
   told(model, "breaks", #model:breaks())
 end
 
