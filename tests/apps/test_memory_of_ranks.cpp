@@ -90,6 +90,7 @@ double memory_between_steps(const std::string& ranks) {
 std::string checkpoint(const fs::path& folder, const std::string& ranks) {
   Start start;
   start.folder = folder;
+  start.limit = 250;
   const Outcome outcome =
       run_cdem({"run", "case.lua", "--output", "out", "--threads", "1", "--ranks", ranks}, start);
   INFO(outcome.out << outcome.err);
