@@ -4,6 +4,7 @@
 #include <dlfcn.h>
 #include <filesystem>
 #include <fmt/format.h>
+#include <malloc.h>
 #include <memory>
 #include <stdexcept>
 
@@ -88,6 +89,9 @@ void join_ranks() {
   auto* const join = reinterpret_cast<Ranks* (*)()>(dlsym(module, "cdem_join_ranks"));
   if (!join)
     throw std::runtime_error(fmt::format("{} is not the module of this program", path.filename().string()));
+  // Large arrays have pages of their own, so that what a rank frees or does not need goes back to the system.
+  mallopt(M_MMAP_THRESHOLD, 4 << 20);
+  mallopt(M_TRIM_THRESHOLD, 8 << 20);
   joined().reset(join());
   if (const int size = joined()->size(); size != started) {
     joined().reset();

@@ -36,6 +36,7 @@ public:
   Range own(const std::vector<std::int64_t>& begin) const { return {begin[rank_], begin[rank_ + 1]}; }
   Range nodes() const { return own(nodes_); }
   Range points() const { return own(points_); }
+  const std::vector<Range>& kept_nodes() const { return kept_nodes_; } // own, and those of rigid bodies
 
   // All ranks call these together. Afterwards all have all, or rank 0 has, which `parted` does not say.
   void gather(State&) const;

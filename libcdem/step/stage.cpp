@@ -5,6 +5,7 @@
 #include "libcdem/parallel/huge_pages.hpp"
 #include "libcdem/parallel/instruction_set.hpp"
 #include "libcdem/parallel/residency.hpp"
+#include "libcdem/ranks/parked_model.hpp"
 #include "libcdem/results/make_snapshot.hpp"
 #include "libcdem/step/errors.hpp"
 #include "libcdem/step/record.hpp"
@@ -115,7 +116,7 @@ Stage::Stage(const StageContext& context, std::string kind, double run_away)
   }
   if (shared_) {
     keep_last_good();
-    trim_heap(); // what building and looking at the whole has left
+    give_back();
   }
 }
 
@@ -130,6 +131,13 @@ Stage::~Stage() {
 void Stage::share() {
   if (ranks().alone())
     return;
+  if (gave_back_) { // loads on nodes that others owned
+    ResolvedConditions whole = resolve(context_.model, context_.state, context_.conditions);
+    work.resolved.external = std::move(whole.external);
+    work.resolved.constant = std::move(whole.constant);
+    update_external(work.resolved, context_.state.time);
+    gave_back_ = false;
+  }
   const Range all{0, static_cast<std::int64_t>(context_.model.chunks.size())};
   shared_ = std::make_unique<SharedState>(context_.model, nodes_of_bolts(work.resolved),
                                           chunk_loads(context_.model, context_.state, all));
@@ -171,6 +179,20 @@ void Stage::share_anew() {
   work.contact.fragments_due = work.contact.all_due = true;
   ++shared_anew_;
   keep_last_good(); // of the share that is this rank's now
+}
+
+void Stage::give_back() {
+  if (!shared_ || gave_back_)
+    return;
+  gave_back_ = true;
+  park(context_.model, shared_->shares());
+  for (std::vector<Node>* of_nodes : {&work.resolved.external, &work.resolved.constant})
+    release_outside(*of_nodes, shared_->shares().kept_nodes());
+  release_zeros(work.partial);
+  release_zeros(work.force);
+  release_zeros(work.contact.force);
+  release_zeros(work.contact.stiffness);
+  trim_heap(); // what building and looking at the whole has left
 }
 
 void Stage::keep_last_good() {
@@ -243,6 +265,7 @@ bool Stage::free_nodes() {
     for (std::size_t i = 0; i < work.bond.laws.size(); ++i) // of the new Model
       work.bond.laws[i] = law_of_interface(model, model.interfaces[i]);
     work.contact = std::move(before.contact);
+    gave_back_ = false;
     share();
     contacts_ = ContactUpdate(context_);
     contacts_.start_anew(model, work.contact);
@@ -379,6 +402,7 @@ void Stage::look_for_escapes() {
   }
   if (!holds)
     return;
+  gave_back_ = false;
   work.resolved = resolve(context_.model, context_.state, context_.conditions);
   update_external(work.resolved, context_.state.time);
 }
@@ -395,6 +419,7 @@ void Stage::watch(const StepReport& report) {
   if (step % watch_every == 0) {
     keep_state();
     share_anew();
+    give_back();
   }
   if (!work.resolved.flows.empty() && step % flow_every == 0) {
     see_whole();

@@ -108,6 +108,7 @@ private:
   bool left_alone() const;     // by an error that the other ranks, which are elsewhere, do not have
   void require_sound_state();  // Throws SolutionError
   void keep_last_good();       // of this rank's share
+  void give_back();            // memory of what other ranks own
   void synchronise_to_leave(); // where a run may go on
   void synchronise_contacts();
   std::int64_t synchronise_stress(RunLog&); // returns how many springs broke, of which the log is told
@@ -126,6 +127,7 @@ private:
 
   StageContext context_;
   std::unique_ptr<SharedState> shared_; // null where this rank is alone
+  bool gave_back_ = false;              // since it was last shared
   int exceptions_ = std::uncaught_exceptions();
   int shared_anew_ = 0; // how often
   ThreadChoice threads_;

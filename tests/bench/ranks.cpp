@@ -26,6 +26,7 @@ constexpr double latency = 2e-6, bandwidth = 10e9; // s, bytes/s and direction, 
 constexpr double messages_deep = 2;                // exchanges that wait for each other in a step
 constexpr double bytes_of_sums = 9 * 72 * 8;       // exact sums of a step (parallel/exact_sum.hpp)
 constexpr int rounds = 3;
+constexpr std::int64_t least_steps = 64; // memory is that of a stage that nobody has looked at for a while
 
 struct Measured {
   double steps = 0;               // a second, by the clock
@@ -38,7 +39,7 @@ struct Measured {
 // By all ranks together, or by this one alone; the best of some rounds.
 Measured measured(const Model& model, int threads, double at_least) {
   State state = shaken(model);
-  std::int64_t steps = 8;
+  std::int64_t steps = least_steps;
   Measured best;
   for (int round = 0; round <= rounds; ++round) {
     const Ranks::Traffic before = ranks().traffic();
@@ -58,7 +59,7 @@ Measured measured(const Model& model, int threads, double at_least) {
     if (round > 0 && n / seconds > best.steps)
       best = {n / seconds, most[1], most[2], most[3], most[4], most[5], most[6]};
     if (round == 0) // to see how many it takes
-      steps = std::max<std::int64_t>(8, std::lround(n * at_least / rounds / seconds));
+      steps = std::max<std::int64_t>(least_steps, std::lround(n * at_least / rounds / seconds));
   }
   return best;
 }
