@@ -137,13 +137,13 @@ void Stage::share() {
 
 void Stage::warn_of_idle_ranks() const {
   static bool told = false; // once is enough
-  const auto chunks = static_cast<int>(context_.model.chunks.size());
-  if (!shared_ || told || chunks >= ranks().size())
+  const auto chunks = static_cast<int>(context_.model.chunks.size()), idle = ranks().size() - chunks;
+  if (!shared_ || told || idle <= 0)
     return;
   told = true;
   context_.observer.warning(
-      fmt::format("warning: the model has {} chunk{} for {} ranks: {} of them have no elements to compute",
-                  chunks, chunks == 1 ? "" : "s", ranks().size(), ranks().size() - chunks));
+      fmt::format("warning: the model has {} chunk{} for {} ranks: {} of them {} no elements to compute",
+                  chunks, chunks == 1 ? "" : "s", ranks().size(), idle, idle == 1 ? "has" : "have"));
 }
 
 // A body that breaks on one side costs more there. What is read of others is found anew with the contacts.

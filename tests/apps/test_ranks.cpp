@@ -325,7 +325,7 @@ local on_rank_0 = io.open("address.txt"):read("a") == tostring(own)
 
 const char* const steps = R"(
 local rock = cdem.elastic{ youngs_modulus = 1e9, poissons_ratio = 0.2, density = 2500 }
-local model = cdem.model{ bodies = { { shape = cdem.box_mesh{ size = {1, 1, 1}, divisions = {4, 4, 4} },
+local model = cdem.model{ bodies = { { shape = cdem.box_mesh{ size = {1, 1, 1}, divisions = {8, 8, 8} },
   material = rock, name = "cube" } } }
 model:fix{ on = "y-" }
 model:gravity{ vector = {0, -9.81, 0} }
