@@ -492,7 +492,7 @@ void Stage::report(const StepReport& report, bool last) {
   progress.wall_time = wall_time();
   if (last)
     progress.times =
-        times_.text() + (shared_anew_ > 0 ? fmt::format("; chunks shared anew {} times", shared_anew_) : "");
+        times_.text() + (shared_anew_ > 0 ? fmt::format("; chunks shared anew: {}", shared_anew_) : "");
   if (details)
     details(progress);
   progress_(std::move(progress), last);
