@@ -139,7 +139,7 @@ TEST_CASE("ranks: every kind of model ends in the bits of one process") {
   for (const auto& [ranks, threads] : {std::pair(1, 2), std::pair(2, 1), std::pair(2, 2), std::pair(3, 1),
                                        std::pair(5, 2), std::pair(8, 1)}) {
     Place place(physics());
-    place.start.limit = 150;
+    place.start.limit = 250;
     const Outcome outcome = place.cdem(solve_physics(ranks, threads));
     INFO(ranks << " ranks of " << threads << " threads: " << outcome.err);
     CHECK(outcome.exit_code == 0);
@@ -152,7 +152,7 @@ TEST_CASE(
   if (no_mpirun())
     return;
   Place place(physics());
-  place.start.limit = 150;
+  place.start.limit = 250;
   const std::vector<std::string> stages = {"plate", "beam", "unit", "settle", "flow", "collapse", "shatter"};
   const std::vector<std::pair<int, int>> counts = {{2, 1}, {1, 2}, {3, 1}, {5, 1},
                                                    {8, 1}, {3, 2}, {2, 2}, {1, 1}};
@@ -195,7 +195,7 @@ cdem.report{ { name = "hash", value = model.state_hash }, { name = "breaks", val
   std::string of_one;
   for (const int ranks : {1, 3}) {
     Place place(text);
-    place.start.limit = 150;
+    place.start.limit = 250;
     const Outcome outcome = place.cdem(solve_physics(ranks, 1));
     INFO(outcome.out << outcome.err);
     REQUIRE(outcome.exit_code == 0);
