@@ -146,13 +146,13 @@ void Stage::share() {
 
 void Stage::warn_of_idle_ranks() const {
   static bool told = false; // once is enough
-  const auto chunks = static_cast<int>(context_.model.chunks.size());
-  if (!shared_ || told || chunks >= ranks().size())
+  const auto chunks = static_cast<int>(context_.model.chunks.size()), idle = ranks().size() - chunks;
+  if (!shared_ || told || idle <= 0)
     return;
   told = true;
   context_.observer.warning(
-      fmt::format("warning: the model has {} chunk{} for {} ranks: {} of them have no elements to compute",
-                  chunks, chunks == 1 ? "" : "s", ranks().size(), ranks().size() - chunks));
+      fmt::format("warning: the model has {} chunk{} for {} ranks: {} of them {} no elements to compute",
+                  chunks, chunks == 1 ? "" : "s", ranks().size(), idle, idle == 1 ? "has" : "have"));
 }
 
 // A body that breaks on one side costs more there. What is read of others is found anew with the contacts.
@@ -518,7 +518,7 @@ void Stage::report(const StepReport& report, bool last) {
   progress.wall_time = wall_time();
   if (last)
     progress.times =
-        times_.text() + (shared_anew_ > 0 ? fmt::format("; chunks shared anew {} times", shared_anew_) : "");
+        times_.text() + (shared_anew_ > 0 ? fmt::format("; chunks shared anew: {}", shared_anew_) : "");
   if (details)
     details(progress);
   progress_(std::move(progress), last);

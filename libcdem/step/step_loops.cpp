@@ -20,17 +20,18 @@ static_assert(n_members * sizeof(double) == sizeof(NodeSums), "all of them are s
 NodeSums sums_of(const Workspace& work, std::int64_t& tellers) {
   const Range own =
       work.shared ? work.shared->part().chunks() : Range{0, static_cast<std::int64_t>(work.node_sums.size())};
-  ExactSums<n_members> exact;
+  using Exact = ExactSums<n_members>;
+  Exact exact;
   for (std::int64_t c = own.begin; c < own.end; ++c)
     for (std::size_t i = 0; i < n_members; ++i)
       if (const double x = work.node_sums[c].*members[i]; x != 0)
         exact.add(i, x);
   if (work.shared) {
-    std::array<std::int64_t, exact.size() + 1> told;
-    std::copy_n(exact.data(), exact.size(), told.begin());
+    std::array<std::int64_t, Exact::size() + 1> told;
+    std::copy_n(exact.data(), Exact::size(), told.begin());
     told.back() = tellers;
     ranks().sum(told.data(), told.size());
-    std::copy_n(told.begin(), exact.size(), exact.data());
+    std::copy_n(told.begin(), Exact::size(), exact.data());
     tellers = told.back();
   }
   NodeSums sum;
