@@ -68,8 +68,8 @@ end
 local terrain = cdem.surface{ points = points, triangles = triangles }
 local hill = cdem.clip{ shape = cdem.grid{ size = {10, 10, 5}, divisions = {4, 4, 2} }, surface = terrain, keep = "below",
                         tolerance = 0.2 }
-local shaft = cdem.solid.cylinder{ radius = 1, axis = {0, 0, 10}, base = {5, 5, -1} }
-hill = cdem.clip{ shape = hill, solid = shaft, keep = "outside", tolerance = 0.1 }
+local shaft = cdem.solid.cylinder{ radius = 1.5, axis = {0, 0, 10}, base = {5, 5, -1} }
+hill = cdem.clip{ shape = hill, solid = shaft, keep = "outside", tolerance = 0.3 }
 print(#hill, hill:volume())
 
 -- example: cdem.read_surface surface:area surface:closed surface:box

@@ -78,11 +78,11 @@ Cause likely_cause(const ModelObject& model) {
 std::string avoiding(const Slivers& s) {
   return s.elements ? "take another mesh size there, a simpler solid, element = \"rigid\", or mass_scaling "
                       "where all is slow"
-         : s.cut
-             ? "give cdem.cut_by_joints a smallest (m), which joins thinner blocks to a neighbour, or take "
-               "another seed or spacing, cuts that stay clear of corners, or element = \"rigid\""
-             : "take another seed or more relaxations of cdem.voronoi, another seed or spacing of "
-               "cdem.cut_by_joints, cuts that stay clear of corners, or element = \"rigid\"";
+         : s.cut    ? "give cdem.cut_by_joints a larger smallest (m), which joins thinner blocks to a "
+                      "neighbour, or take "
+                      "another seed or spacing, cuts that stay clear of corners, or element = \"rigid\""
+                    : "take another seed or more relaxations of cdem.voronoi, another seed or spacing of "
+                      "cdem.cut_by_joints, cuts that stay clear of corners, or element = \"rigid\"";
 }
 
 } // namespace
