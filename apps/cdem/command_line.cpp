@@ -42,41 +42,47 @@ public:
 
 class Parser {
 public:
-  Parser()
-      : app_("cdem: continuum-based discrete element method.\n"
-             "Lua scripts build assemblies of deformable blocks, load and break them, and write pictures,\n"
-             "ParaView files and a report into results/.",
-             "cdem") {
+  Parser() : app_(program_.text, program_.name) {
     app_.formatter(std::make_shared<HelpFormatter>());
-    app_.set_help_flag("-h,--help", "print this help and exit")->group("options");
+    app_.set_help_flag("-h,--help", help_text)->group("options");
     app_.allow_extras();
     app_.require_subcommand(0, 1);
     app_.get_formatter()->label("Positionals", "arguments");
     app_.option_defaults()->group("options");
-    app_.add_flag("--version", version_, "print the version and exit");
-    app_.add_flag("--manual", manual_, "print the help of every command as Markdown")->group("");
-    app_.add_option("--shell-files", shell_files_, "folder for manual pages and completion")->group("");
-    for (const Command& command : commands_)
-      declare(command);
-    auto* help = app_.add_subcommand("help", "print the help of a command");
-    finish(help, "", "");
-    help->add_option("[COMMAND]", topic_, "run, check, ...");
-    app_.footer(
-        "examples:\n"
-        "  cdem run examples/uniaxial_compression/case.lua\n"
-        "  cdem run case.lua --set pressure=24e6 --threads 2 --output results/gentle\n"
-        "  cdem resume results/gentle\n"
-        "  cdem check case.lua\n"
-        "  cdem sweep case.lua --set pressure=20e6,25e6,30e6 --jobs 2\n"
-        "  cdem render results/plate/result.vtu --colour displacement.x --deformation 20\n"
-        "  cdem help run\n"
-        "\n"
+    program_.flag("--version", version_, "print the version and exit");
+    program_.flag("--manual", manual_, "print the help of every command as Markdown");
+    program_.hide_last();
+    program_.value("--shell-files", shell_files_, "DIR", "folder for manual pages and completion");
+    program_.hide_last();
+    program_.examples = "  cdem run examples/uniaxial_compression/case.lua\n"
+                        "  cdem run case.lua --set pressure=24e6 --threads 2 --output results/gentle\n"
+                        "  cdem resume results/gentle\n"
+                        "  cdem check case.lua\n"
+                        "  cdem sweep case.lua --set pressure=20e6,25e6,30e6 --jobs 2\n"
+                        "  cdem render results/plate/result.vtu --colour displacement.x --deformation 20\n"
+                        "  cdem view results/plate\n"
+                        "  cdem help run\n";
+    program_.notes =
         "environment:\n"
         "  CDEM_INSTRUCTION_SET        baseline, avx2 or avx512: what kernels run with (the widest that the\n"
         "                              processor has); results are the same bits for every one\n"
         "\n"
         "exit codes:\n" +
-        exit_code_table());
+        exit_code_table();
+    add_options(&app_, program_);
+    app_.footer(program_.footer());
+    Command help("help", "print the help of a command");
+    help.argument("[COMMAND]", topic_, "run, check, ...");
+    help.action = [this](const TypedLine&) { return help_action(); };
+    commands_.push_back(help);
+    for (const Command& command : commands_) {
+      auto* app = app_.add_subcommand(command.name, command.text);
+      app->group("commands");
+      add_options(app, command);
+      app->set_help_flag("-h,--help", help_text);
+      app->allow_extras();
+      app->footer(command.footer());
+    }
   }
 
   std::function<ExitCode()> parse(int argc, const char* const* argv) {
@@ -138,16 +144,7 @@ private:
     return names;
   }
 
-  static void finish(CLI::App* app, const std::string& examples, const std::string& notes) {
-    app->group("commands");
-    app->set_help_flag("-h,--help", "print this help and exit");
-    app->allow_extras();
-    if (!examples.empty())
-      app->footer("examples:\n" + examples + (notes.empty() ? notes : "\n" + notes));
-  }
-
-  void declare(const Command& command) {
-    auto* app = app_.add_subcommand(command.name, command.text);
+  static void add_options(CLI::App* app, const Command& command) {
     for (const Command::Option& option : command.options) {
       CLI::Option* made = nullptr;
       switch (option.kind) {
@@ -171,7 +168,6 @@ private:
       if (option.hidden)
         made->group("");
     }
-    finish(app, command.examples, command.notes);
   }
 
   // What the parser left over: the first of it names the mistake.
@@ -222,16 +218,14 @@ private:
     if (manual_)
       return print(manual());
     if (!shell_files_.empty())
-      return [all = declared(app_), folder = shell_files_] {
+      return [all = declared(program_, commands_), folder = shell_files_] {
         write_shell_files(all, folder);
         return ExitCode::success;
       };
-    if (chosen.empty())
-      return print(help_of(&app_));
     for (const Command& command : commands_)
-      if (command.name == chosen.front()->get_name())
+      if (!chosen.empty() && command.name == chosen.front()->get_name())
         return command.action(line_);
-    return help_action();
+    return print(help_of(&app_));
   }
 
   Action help_action() {
@@ -243,10 +237,14 @@ private:
     throw UsageError("no command '" + topic_ + "'" + script::did_you_mean(topic_, command_names()));
   }
 
+  Command program_{
+      "cdem", "cdem: continuum-based discrete element method.\n"
+              "Lua scripts build assemblies of deformable blocks, load and break them, and write pictures,\n"
+              "ParaView files and a report into results/."};
   CLI::App app_;
-  const std::vector<Command> commands_{run_command(),   resume_command(), check_command(),
-                                       sweep_command(), render_command(), view_command(),
-                                       info_command(),  repl_command(),   annotations_command()};
+  std::vector<Command> commands_{run_command(),   resume_command(), check_command(),
+                                 sweep_command(), render_command(), view_command(),
+                                 info_command(),  repl_command(),   annotations_command()};
   std::string topic_, shell_files_; // of help, and of the hidden --shell-files
   bool version_ = false, manual_ = false;
   TypedLine line_;

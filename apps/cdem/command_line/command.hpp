@@ -11,6 +11,8 @@
 
 namespace cdem::app {
 
+inline constexpr const char* help_text = "print this help and exit"; // of -h, --help, which all have
+
 using Action = std::function<ExitCode()>;
 
 struct TypedLine {
@@ -50,6 +52,10 @@ public:
     options.push_back({Kind::flag, names, "", its_text, nullptr, nullptr, &into});
   }
   void hide_last() { options.back().hidden = true; }
+  // Below the options of its help.
+  std::string footer() const {
+    return examples.empty() ? notes : "examples:\n" + examples + (notes.empty() ? notes : "\n" + notes);
+  }
 
   std::string name, text;
   std::string examples, notes;                    // below the options, with their line ends

@@ -1,9 +1,7 @@
 #include "apps/cdem/shell/declared.hpp"
 
-#include <CLI/CLI.hpp>
-
-#include <algorithm>
 #include <regex>
+#include <sstream>
 
 namespace cdem::app {
 namespace {
@@ -16,15 +14,22 @@ bool is_file(const std::string& value) {
   return value.rfind("FILE", 0) == 0 || value == "PATH";
 }
 
-DeclaredOption option_of(const CLI::Option& option) {
+// "--output,-o": the short name first.
+std::vector<std::string> names_in(const std::string& declared) {
+  std::vector<std::string> shorts, longs;
+  std::istringstream parts(declared);
+  for (std::string name; std::getline(parts, name, ',');)
+    (name.rfind("--", 0) == 0 ? longs : shorts).push_back(name);
+  shorts.insert(shorts.end(), longs.begin(), longs.end());
+  return shorts;
+}
+
+DeclaredOption option_of(const Command::Option& option) {
   DeclaredOption one;
-  for (const std::string& name : option.get_snames())
-    one.names.push_back("-" + name);
-  for (const std::string& name : option.get_lnames())
-    one.names.push_back("--" + name);
-  if (option.get_expected_min() > 0)
-    one.value = option.get_option_text().empty() ? "VALUE" : option.get_option_text();
-  one.text = option.get_description();
+  one.names = names_in(option.names);
+  if (option.kind != Command::Kind::flag)
+    one.value = option.form;
+  one.text = option.text;
   one.takes_folder = is_folder(one.value);
   one.takes_file = is_file(one.value);
   return one;
@@ -39,35 +44,39 @@ std::vector<std::string> endings_in(const std::string& text) {
   return all;
 }
 
-DeclaredCommand command_of(const CLI::App& app) {
-  DeclaredCommand command;
-  command.name = app.get_name();
-  command.text = app.get_description();
-  command.footer = app.get_footer();
-  for (const CLI::Option* option : app.get_options()) {
-    if (option->get_group().empty())
+DeclaredCommand command_of(const Command& command) {
+  DeclaredCommand one;
+  one.name = command.name;
+  one.text = command.text;
+  one.footer = command.footer();
+  for (const Command::Option& option : command.options) {
+    if (option.hidden)
       continue;
-    if (!option->get_positional()) {
-      command.options.push_back(option_of(*option));
+    if (option.kind != Command::Kind::argument) {
+      one.options.push_back(option_of(option));
       continue;
     }
-    command.argument = option->get_name(true);
-    command.argument_text = option->get_description();
-    command.takes_command = command.argument.find("COMMAND") != std::string::npos;
-    command.endings = endings_in(command.argument_text);
-    command.takes_folder = command.argument_text.find("folder") != std::string::npos;
+    one.argument = option.names;
+    one.argument_text = option.text;
+    one.takes_command = one.argument.find("COMMAND") != std::string::npos;
+    one.endings = endings_in(one.argument_text);
+    one.takes_folder = one.argument_text.find("folder") != std::string::npos;
   }
-  return command;
+  return one;
 }
+
+const DeclaredOption help{{"-h", "--help"}, "", help_text};
 
 } // namespace
 
-Declared declared(const CLI::App& app) {
+Declared declared(const Command& program, const std::vector<Command>& commands) {
   Declared all;
-  all.program = command_of(app);
-  for (const CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; }))
-    if (!command->get_group().empty())
-      all.commands.push_back(command_of(*command));
+  all.program = command_of(program);
+  all.program.options.insert(all.program.options.begin(), help);
+  for (const Command& command : commands) {
+    all.commands.push_back(command_of(command));
+    all.commands.back().options.push_back(help);
+  }
   return all;
 }
 

@@ -2,12 +2,10 @@
 // declaration of each command and option.
 #pragma once
 
+#include "apps/cdem/command_line/command.hpp"
+
 #include <string>
 #include <vector>
-
-namespace CLI {
-class App;
-}
 
 namespace cdem::app {
 
@@ -32,7 +30,7 @@ struct Declared {
   std::vector<DeclaredCommand> commands;
 };
 
-// Without hidden options and commands.
-Declared declared(const CLI::App&);
+// Without hidden options. program: the options before a command.
+Declared declared(const Command& program, const std::vector<Command>& commands);
 
 } // namespace cdem::app
