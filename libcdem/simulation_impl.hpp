@@ -77,7 +77,8 @@ struct Simulation::Impl {
       ~Leave() { s.at_start.clear(); }
     } leave{*this};
     return solve(
-        StageContext{model, state, conditions, log, last_good, *observer, threads, ++stage, checkpoints});
+        StageContext{model, state, conditions, log, last_good, *observer, threads, ++stage, checkpoints, nullptr,
+                     nullptr, {}, {}, &model});
   }
 
   std::string saved() const;

@@ -47,9 +47,14 @@ double interface_opening_angle(const Model& model, const Node* u, const Interfac
 }
 
 geom::Vec3 local_jump(const Model& model, const std::vector<Node>& displacement, int point) {
-  const BondPoint& p = model.points[point];
-  return interface_rotation(model, displacement.data(), model.interfaces[p.interface]).transpose() *
-         jump(p, displacement);
+  const Interface& interface = model.interfaces[model.points[point].interface];
+  return interface_rotation(model, displacement.data(), interface).transpose() *
+         jump(model, displacement, point);
+}
+
+geom::Vec3 movement_past(const Model& model, const State& state, int point) {
+  const geom::Vec3 j = local_jump(model, state.displacement, point);
+  return state.slid_before.empty() ? j : geom::Vec3(j + state.slid_before[point]);
 }
 
 } // namespace cdem

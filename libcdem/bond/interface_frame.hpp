@@ -17,7 +17,10 @@ geom::Mat3 interface_rotation(const Model&, const Node* displacement, const Inte
 // The angle between the normals of the two sides, rad; 0 for an interface that does not turn.
 double interface_opening_angle(const Model&, const Node* displacement, const Interface&);
 
-// Jump of the displacement from side a to side b in the interface's undeformed directions, m.
+// From where side a of a spring stands to where side b does, in the interface's undeformed directions, m.
 geom::Vec3 local_jump(const Model&, const std::vector<Node>& displacement, int point);
+
+// By how much side b has moved past side a since the two were built, m, likewise: what results show as opening and slip.
+geom::Vec3 movement_past(const Model&, const State&, int point);
 
 } // namespace cdem

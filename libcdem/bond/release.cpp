@@ -9,7 +9,7 @@
 namespace cdem {
 namespace {
 
-constexpr double parted = 1e-3, slid = 0.02; // of the interface's size
+constexpr double parted = 1e-3; // of the interface's size
 constexpr double opened = 0.02;              // rad
 constexpr double drained = 0.05;             // of the interface's size
 
@@ -20,19 +20,24 @@ bool any_intact(const State& state, const Interface& interface) {
   return false;
 }
 
-bool has_left(const Model& model, const State& state, const Interface& interface) {
+// What an interface without a whole bond does next.
+enum class Fate : char { stays, slides, leaves };
+
+Fate fate_of(const Model& model, const State& state, const Interface& interface) {
   if (interface_opening_angle(model, state.displacement.data(), interface) > opened)
-    return true;
+    return Fate::leaves;
   const double size = model.frames[interface.frame].size;
   const geom::Mat3 back = interface_rotation(model, state.displacement.data(), interface).transpose();
-  bool open = true, shifted = true;
+  bool open = true;
+  double slid = 0;
   for (int p = interface.point_begin; p < interface.point_end; ++p) {
-    const geom::Vec3 gap = back * jump(model.points[p], state.displacement);
+    const geom::Vec3 gap = back * jump(model, state.displacement, p);
     const double normal = gap.dot(interface.normal);
-    open = open && normal > parted * size;
-    shifted = shifted && (gap - normal * interface.normal).norm() > slid * size;
+    slid = std::max(slid, (gap - normal * interface.normal).norm());
+    open = open && (gap - state.bond_offset[p]).dot(interface.normal) > parted * size &&
+           traction(model, state, p).isZero(0);
   }
-  return open || shifted;
+  return open ? Fate::leaves : slid > slid_too_far * size ? Fate::slides : Fate::stays;
 }
 
 double stored_in(const Model& model, const State& state, const Interface& interface) {
@@ -44,7 +49,7 @@ double stored_in(const Model& model, const State& state, const Interface& interf
 
 bool has_drained(const Model& model, const State& state, const Interface& interface) {
   for (int p = interface.point_begin; p < interface.point_end; ++p)
-    if (jump(model.points[p], state.displacement).norm() <= drained * model.frames[interface.frame].size)
+    if (movement_past(model, state, p).norm() <= drained * model.frames[interface.frame].size)
       return false;
   return true;
 }
@@ -73,14 +78,16 @@ Released release_interfaces(const Model& model, State& state, int threads) {
   if (model.frames.empty())
     return sum;
   const auto n = static_cast<std::int64_t>(model.interfaces.size());
-  std::vector<char> leaves(model.interfaces.size(), 0);
+  std::vector<Fate> fate(model.interfaces.size(), Fate::stays);
   for_chunks(n, threads, [&](std::int64_t i) {
     const Interface& interface = model.interfaces[i];
     if (interface.frame >= 0 && !released(state, interface) && !any_intact(state, interface))
-      leaves[i] = static_cast<char>(has_left(model, state, interface));
+      fate[i] = fate_of(model, state, interface);
   });
   for (std::int64_t i = 0; i < n; ++i)
-    if (leaves[i]) {
+    if (fate[i] == Fate::slides) {
+      sum.slid.push_back(static_cast<int>(i));
+    } else if (fate[i] == Fate::leaves) {
       const Interface& interface = model.interfaces[i];
       sum.stored += stored_in(model, state, interface);
       state.released[interface.frame] = 1;

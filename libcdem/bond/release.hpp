@@ -1,22 +1,24 @@
-// Interfaces that are left to contact: an interface between two blocks that move far holds them while its faces stand
-// before each other. Once none of its bonds is whole it is handed over to the contact of the surfaces when
-//   1. its faces have parted at every point (by 1e-3 of the interface's size), or
-//   2. they have slid, at every point (by 0.02 of it), or
-//   3. they have opened like a hinge (by more than 0.02 rad).
-// Water in them goes on pushing the faces apart until, at every point, they have moved by 0.05 of the size against each
-// other: then it is gone.
-//
-// Beyond these the springs no longer stand for what touches: forces act at the places that lay on each other once.
+// Interfaces that are left to contact: an interface between two blocks that move far holds them while its faces lie on
+// each other. Once none of its bonds is whole it is handed over to the contact of the surfaces when
+//   1. its springs carry nothing and have opened at every point (by 1e-3 of the interface's size), or
+//   2. its faces have opened like a hinge (by more than 0.02 rad).
+// An interface that has slid, at any of its points, by 0.02 of its size gets new springs where its faces lie on each other
+// now (fracture/renew_interfaces.hpp).
+// Water goes on pushing the faces apart until, at every point, they have moved by 0.05 of the size against each other and
+// the interface is left to contact: then it is gone.
 #pragma once
 
 #include "libcdem/state/state.hpp"
 
 namespace cdem {
 
+inline constexpr double slid_too_far = 0.02; // of the interface's size
+
 struct Released {
   std::int64_t interfaces = 0;
   double stored = 0; // J, that their springs held and hold no more
   double water = 0;  // J, that water that is gone had done by opening them
+  std::vector<int> slid; // interfaces that stay and have slid too far for their springs, ascending
 };
 
 // Writes State::released, and State::water_pressure where water is gone.

@@ -1,5 +1,6 @@
 #include "libcdem/bond/spring_batches.hpp"
 
+#include <algorithm>
 #include <limits>
 
 namespace cdem {
@@ -34,6 +35,20 @@ SpringEnds ends_of(const Model& model, Range points) {
       ends.weight_b[k][lane] = model.points[p].weight_b[k];
     }
   return ends;
+}
+
+bool any_apart(const Model& model, Range points) {
+  return !model.point_apart.empty() &&
+         std::any_of(model.point_apart.begin() + points.begin, model.point_apart.begin() + points.end,
+                     [](const geom::Vec3& apart) { return !apart.isZero(0); });
+}
+
+SpringsApart apart_of(const Model& model, Range points) {
+  SpringsApart all = {};
+  for (std::int64_t p = points.begin; p < points.end; ++p)
+    for (int axis = 0; axis < 3; ++axis)
+      all.apart[axis][p - points.begin] = model.point_apart[p][axis];
+  return all;
 }
 
 void set_side(const Model& model, const std::array<int, 3>& nodes, int lane, int (&node)[3][lanes],
@@ -99,6 +114,10 @@ SpringBatches spring_batches(const Model& model, const std::vector<SpringStrengt
       if (!on_nodes) {
         batch.ends = static_cast<int>(all.ends.size());
         all.ends.push_back(ends_of(model, points));
+      }
+      if (any_apart(model, points)) {
+        batch.apart = static_cast<int>(all.apart.size());
+        all.apart.push_back(apart_of(model, points));
       }
       all.springs.push_back(batch);
     }

@@ -17,6 +17,7 @@ struct alignas(64) SpringBatch {
   int node_a[lanes], node_b[lanes]; // where both sides sit on a node
   int interface[lanes];
   int ends = -1;      // into SpringBatches::ends where some spring's do not sit on nodes
+  int apart = -1;     // into SpringBatches::apart where some spring's sides did not lie on each other undeformed
   int count = 0;      // springs
   bool turns = false; // some interface may turn
   bool plain = true;  // brittle bonds and contacts with friction: nothing softens or has a law of its own
@@ -26,6 +27,10 @@ struct alignas(64) SpringBatch {
 struct SpringEnds {
   int node_a[3][lanes], node_b[3][lanes];
   double weight_a[3][lanes], weight_b[3][lanes];
+};
+
+struct SpringsApart {
+  double apart[3][lanes]; // m, Model::point_apart
 };
 
 // Eight interfaces side by side: edges of the undeformed sides, m, and the rest of InterfaceFrame. Those that do not turn get sides
@@ -44,6 +49,7 @@ struct SpringBatches {
   std::vector<std::int64_t> first;          // batch of each chunk of springs, and the end
   std::vector<SpringEnds> ends;
   std::vector<Range> nodes;       // of the blocks that each chunk of springs meets first: those on sides b
+  std::vector<SpringsApart> apart;
   std::vector<FrameBatch> frames; // of the interfaces, eight by eight; empty where none turns
 };
 

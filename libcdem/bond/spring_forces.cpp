@@ -18,6 +18,11 @@ CDEM_INLINE geom::Vec3 jump_at(const BondPoint& p, const Node* u) {
   return j;
 }
 
+CDEM_INLINE geom::Vec3 jump_at(const Model& model, std::int64_t p, const Node* u) {
+  const geom::Vec3 j = jump_at(model.points[p], u);
+  return model.point_apart.empty() ? j : geom::Vec3(j + model.point_apart[p]);
+}
+
 bool is_intact(std::uint8_t mode) {
   return mode == static_cast<std::uint8_t>(BondMode::intact);
 }
@@ -200,7 +205,7 @@ void one_spring(const SpringsOfChunk& c, std::int64_t p, const geom::Mat3& rotat
     return;
   }
   const geom::Vec3 offset_before = state.bond_offset[p];
-  update_spring<special>(point, interface, state, work, p, rotation.transpose() * jump_at(point, u), c.sums,
+  update_spring<special>(point, interface, state, work, p, rotation.transpose() * jump_at(c.model, p, u), c.sums,
                          c.breaking);
   work.acting_force[p] = rotation * (work.spring_force[p] + water_force(state, point, p));
   if (!c.damped || work.damping[point.interface] == 0)
@@ -297,8 +302,8 @@ void forces_of_springs(std::int64_t chunk, const SpringsOfChunk& c) {
 
 } // namespace
 
-geom::Vec3 jump(const BondPoint& point, const std::vector<Node>& displacement) {
-  return jump_at(point, displacement.data());
+geom::Vec3 jump(const Model& model, const std::vector<Node>& displacement, int point) {
+  return jump_at(model, point, displacement.data());
 }
 
 bool released(const State& state, const Interface& interface) {

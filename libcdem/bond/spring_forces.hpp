@@ -21,8 +21,9 @@ void add_bond_reads(const Model&, const BondWork&, std::int64_t chunk, ReadAhead
 // from.
 void start_spring_forces(const Model&, const State&, BondWork&);
 
-// Jump of the displacement from side a to side b in space, m (bond/interface_frame.hpp: in undeformed directions).
-geom::Vec3 jump(const BondPoint&, const std::vector<Node>& displacement);
+// From where side a of a spring stands to where side b does, in space, m (bond/interface_frame.hpp: in undeformed
+// directions): the jump of the displacement, and what lay between the two undeformed.
+geom::Vec3 jump(const Model&, const std::vector<Node>& displacement, int point);
 
 // The interface has been handed over to contact: its springs carry nothing any more.
 bool released(const State&, const Interface&);

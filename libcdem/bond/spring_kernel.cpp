@@ -122,6 +122,8 @@ CDEM_INLINE void spring_kernel(const SpringBatches& all, const SpringBatch& batc
   const bool turns = batch.turns && springs.rotation;
   Rotation<Oct> rotation{};
   Triples j = jumps_of(all, batch, springs.displacement);
+  if (batch.apart >= 0)
+    j = j + load(all.apart[static_cast<std::size_t>(batch.apart)].apart);
   if (turns) {
     rotation = rotations_of(batch, springs);
     j = turned_back(rotation, j);

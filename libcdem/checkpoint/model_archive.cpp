@@ -137,8 +137,8 @@ void archive(A& a, Interface& x) {
 
 template <class A>
 void archive(A& a, InterfaceFrame& x) {
-  auto& [nodes_a, nodes_b, along_a, along_b, along, size] = x;
-  archive_all(a, nodes_a, nodes_b, along_a, along_b, along, size);
+  auto& [nodes_a, nodes_b, along_a, along_b, along, size, area, renewed] = x;
+  archive_all(a, nodes_a, nodes_b, along_a, along_b, along, size, area, renewed);
 }
 
 template <class A>
@@ -239,10 +239,10 @@ void archive(A& a, ContactSurface& x) {
 template <class A>
 void archive(A& a, Model& x) {
   auto& [bodies, joints, blocks, pair_joint, node_position, node_mass, tets, tet_block, batches, interfaces,
-         frames, points, point_position, bond_triangles, bond_begin, spring_ends, outer_faces, mesh, surface,
+         frames, points, point_position, point_apart, bond_triangles, bond_begin, spring_ends, outer_faces, mesh, surface,
          rigid, chunks, point_chunks, box, length, tolerance, next_id] = x;
   archive_all(a, bodies, joints, blocks, pair_joint, node_position, node_mass, tets, tet_block, batches,
-              interfaces, frames, points, point_position, bond_triangles, bond_begin, spring_ends,
+              interfaces, frames, points, point_position, point_apart, bond_triangles, bond_begin, spring_ends,
               outer_faces, mesh, surface, rigid, chunks, point_chunks, box, length, tolerance, next_id);
 }
 

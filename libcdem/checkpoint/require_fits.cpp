@@ -82,6 +82,7 @@ void require_fits(const Model& model, const State& state) {
   for (const JointHistory& history : state.joint_history)
     if (!(history.path >= 0 && history.parted >= 0))
       refuse("joint_history", std::to_string(std::min(history.path, history.parted)) + " is out of range");
+  require_length("slid_before", state.slid_before.size(), points, true);
   require_length("water_pressure", state.water_pressure.size(), points, true);
   for (const double pressure : state.water_pressure)
     if (!(pressure >= 0))

@@ -84,6 +84,8 @@ void check_interfaces(const Model& model) {
     of(point.node_b, model.blocks[i.block_b]);
   }
   require_length("point_position", model.point_position.size(), points);
+  if (!model.point_apart.empty())
+    require_length("point_apart", model.point_apart.size(), points);
   for (const geom::Triangle& triangle : model.bond_triangles)
     all_below("bond_triangles", triangle, points);
   require_parts("bond_begin", model.bond_begin, nodes, model.spring_ends.size());

@@ -63,6 +63,7 @@ public:
     s.bond_damage = from_.bond_damage;
     s.bond_slip = from_.bond_slip;
     s.joint_history = from_.joint_history;
+    s.slid_before = from_.slid_before;
     s.water_pressure = from_.water_pressure;
     s.released = from_.released;
     s.initial_stress = from_.initial_stress;

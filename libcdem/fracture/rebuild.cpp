@@ -6,6 +6,7 @@
 #include "libcdem/contact/response/contact_point.hpp"
 #include "libcdem/element/mesh_fields.hpp"
 #include "libcdem/element/small_strain.hpp"
+#include "libcdem/fracture/renew_interfaces.hpp"
 #include "libgeom/polyhedron/cut.hpp"
 
 #include <algorithm>
@@ -133,6 +134,7 @@ public:
     carry_rigid(result);
     for (const Interface& interface : result.model.interfaces)
       carry_interface(result, interface);
+    carry_renewed(result);
     carry_contacts(result);
     return result;
   }
@@ -339,6 +341,8 @@ private:
   void carry_interface(Rebuilt& r, const Interface& now) const {
     const Interface* before = old_interface(now.block_a, now.face_a, now.block_b, now.face_b);
     const bool same = before && successors_[now.block_a].whole && successors_[now.block_b].whole;
+    if (before && is_renewed(*before))
+      return;
     assert(!same || before->point_end - before->point_begin == now.point_end - now.point_begin);
     // Blocks keep their order, so side a of the old interface is side a of the new one.
     for (int p = now.point_begin; p < now.point_end; ++p) {
@@ -361,6 +365,25 @@ private:
         preload(r, now, p);
       }
     }
+  }
+
+  bool is_renewed(const Interface& interface) const {
+    return interface.frame >= 0 && old_.frames[interface.frame].renewed;
+  }
+
+  // Interfaces whose faces had slid: their springs stand where the faces lie on each other now.
+  void carry_renewed(Rebuilt& r) const {
+    std::vector<InterfaceToRenew> list;
+    for (int i = 0; i < static_cast<int>(r.model.interfaces.size()); ++i) {
+      const Interface& now = r.model.interfaces[i];
+      const Interface* before = old_interface(now.block_a, now.face_a, now.block_b, now.face_b);
+      if (!before || !is_renewed(*before))
+        continue;
+      list.push_back({i, InterfaceMemory(old_, from_, *before)});
+      r.state.released[now.frame] = static_cast<std::uint8_t>(released(from_, *before));
+    }
+    if (!list.empty())
+      renew_interfaces(r.model, r.state, list, 1);
   }
 
   void preload(Rebuilt& r, const Interface& now, int p) const {

@@ -90,7 +90,9 @@ struct InterfaceFrame {
   std::array<int, 3> nodes_a{}, nodes_b{};
   std::array<double, 2> along_a{}, along_b{};
   geom::Vec3 along = geom::Vec3::Zero(); // unit, undeformed
-  double size = 0;                       // m, root of the interface's area
+  double size = 0;                       // m, root of the interface's area when it was made
+  double area = 0;                       // m2, of its springs now
+  bool renewed = false; // its faces have slid and were intersected anew where they stood (fracture/renew_interfaces.hpp)
 };
 
 // One spring: a point of face a against a point of face b, both interpolated linearly.
@@ -176,7 +178,10 @@ struct Model {
   std::vector<Interface> interfaces;
   std::vector<InterfaceFrame> frames;         // of those that may turn
   std::vector<BondPoint> points;              // springs (n_points)
-  std::vector<geom::Vec3> point_position;     // undeformed, m (n_points)
+  std::vector<geom::Vec3> point_position;     // undeformed, m (n_points); the mean of both sides
+  // m, from side a's undeformed place to side b's (n_points); empty while they lie on each other at every spring, as when
+  // an interface is built; written by renew_interfaces
+  std::vector<geom::Vec3> point_apart;
   std::vector<geom::Triangle> bond_triangles; // over points
 
   std::vector<std::int64_t> bond_begin; // (n_nodes + 1) into spring_ends

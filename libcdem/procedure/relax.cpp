@@ -211,7 +211,7 @@ RelaxResult relax(const StageContext& context, const RelaxOptions& options, cons
   };
   RelaxResult result;
   const auto step = [&] {
-    const bool freed = options.breaking && stage.free_nodes();
+    const bool renewed = stage.renew_interfaces(), freed = (options.breaking && stage.free_nodes()) || renewed;
     if (freed) {
       masses = FictitiousMasses(context.model, stage.work.resolved.bolts);
       previous_force.assign(masses.of_nodes().size(), {});

@@ -47,6 +47,7 @@ template <class Visit, class... S>
 void StateShares::each_large(const Visit& visit, S&... s) const {
   each_motion(visit, s...);
   visit(points_, 1, s.bond_offset...);
+  visit(points_, 1, s.slid_before...);
   visit(points_, 1, s.bond_damage...);
   visit(points_, 1, s.bond_slip...);
   visit(points_, 1, s.joint_history...);

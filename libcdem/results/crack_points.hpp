@@ -26,6 +26,11 @@ inline CrackPoint crack_point(const Model& model, const State& state, int point)
   p.body = a == b ? a : static_cast<int>(model.bodies.size());
   p.mode = static_cast<BondMode>(state.bond_mode[point]);
   p.area = bond.area;
+  if (interface.frame >= 0) { // what has broken, however much of it the faces still cover
+    const InterfaceFrame& frame = model.frames[interface.frame];
+    if (frame.renewed)
+      p.area *= frame.size * frame.size / frame.area;
+  }
   if (is_broken(p.mode))
     p.damage = 1;
   else if (!state.bond_damage.empty() && p.mode == BondMode::intact)

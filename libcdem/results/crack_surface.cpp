@@ -115,7 +115,7 @@ void add_interfaces(const Model& model, const State& state, const BreakTimes& ti
     for (int i = 0; i < 3; ++i) {
       const int p = triangle[i];
       bonds[i].crack = crack_point(model, state, p);
-      bonds[i].gap = local_jump(model, state.displacement, p);
+      bonds[i].gap = movement_past(model, state, p);
       bonds[i].normal = model.points[p].normal;
     }
     if (!surface.shows(bonds))

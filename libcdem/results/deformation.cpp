@@ -42,7 +42,7 @@ double departure(const Model& model, const State& state, const Interface& interf
   for (auto p = static_cast<int>(begin); p < end; ++p) {
     if (state.bond_mode[p] == static_cast<std::uint8_t>(BondMode::intact))
       return 0;
-    least = std::min(least, jump(model.points[p], state.displacement).norm());
+    least = std::min(least, jump(model, state.displacement, p).norm());
   }
   return least / std::sqrt(area);
 }

@@ -73,7 +73,7 @@ void add_point(JointSum& sum, const JointPoint& point) {
 
 JointPoint joint_point(const Model& model, const State& state, int p) {
   const BondPoint& point = model.points[p];
-  const geom::Vec3 t = traction(model, state, p), gap = local_jump(model, state.displacement, p);
+  const geom::Vec3 t = traction(model, state, p), gap = movement_past(model, state, p);
   JointPoint r;
   r.place = model.point_position[p];
   r.area = point.area;

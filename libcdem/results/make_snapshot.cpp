@@ -263,7 +263,7 @@ void add_springs(const Model& model, const State& state, BondFields& fields, Bon
     if (!state.displacement_zero.empty())
       bonds.points[p] += point_movement(point, [&](int node) { return state.displacement_zero[node]; });
     fields.add(state.bond_mode[p], damage_of(state, p),
-               local_jump(model, state.displacement, static_cast<int>(p)), point.normal,
+               movement_past(model, state, static_cast<int>(p)), point.normal,
                traction(model, state, static_cast<int>(p)), moved);
   }
 }

@@ -158,6 +158,7 @@ std::vector<StateField> fields(State& s) {
       field("bond_damage", "1", FieldPlace::bond, "spring_forces", s.bond_damage, true),
       field("bond_slip", "m", FieldPlace::bond, "spring_forces", s.bond_slip, true),
       field("joint_history", "m", FieldPlace::bond, "spring_forces", s.joint_history, true),
+      field("slid_before", "m", FieldPlace::bond, "renew_interfaces", s.slid_before, true),
       field("water_pressure", "Pa", FieldPlace::bond, "set_water", s.water_pressure, true),
       field("released", "1", FieldPlace::frame, "release_interfaces", s.released, false),
       field("initial_stress", "Pa", FieldPlace::tet, "initial_stress", s.initial_stress, true),

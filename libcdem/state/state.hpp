@@ -42,6 +42,9 @@ struct State {
       bond_slip; // m, slip of the damaged part, added to bond_offset at separation (n_points)
   // Of springs whose joint has a law (joint/joint_law.hpp), written by spring_forces; empty where no joint has one.
   std::vector<JointHistory> joint_history; // (n_points)
+  // m, in the interface's undeformed directions, by which side b had slid past side a when the faces were last
+  // intersected anew (n_points); for results only; empty until that happens; written by renew_interfaces
+  std::vector<geom::Vec3> slid_before;
   // Pa, of the water in joints, >= 0 (n_points); empty until there is some; written by set_water
   std::vector<double> water_pressure;
   // 1: the interface has parted or slid away and is left to contact (n frames); written by release_interfaces

@@ -1,6 +1,7 @@
 #include "libcdem/step/stage.hpp"
 
 #include "libcdem/bond/release.hpp"
+#include "libcdem/fracture/renew_interfaces.hpp"
 #include "libcdem/integrate/move_columns.hpp"
 #include "libcdem/parallel/huge_pages.hpp"
 #include "libcdem/parallel/instruction_set.hpp"
@@ -278,6 +279,39 @@ bool Stage::free_nodes() {
   return due.has_value();
 }
 
+bool Stage::renew_interfaces() {
+  if (slid_.empty() || !context_.changing)
+    return false;
+  const Model& model = context_.model;
+  State& state = context_.state;
+  synchronise_to_leave();
+  BondWork before = std::move(work.bond);
+  if (shared_) {
+    shared_->gather_points(before.spring_force);
+    shared_->gather_points(before.stretch);
+  }
+  const RenewedInterfaces renewed =
+      cdem::renew_interfaces(*context_.changing, state, std::exchange(slid_, {}), context_.threads);
+  state.spent.friction += renewed.lost;
+  state.spent.external += renewed.water;
+  work.bond = BondWork(model, state);
+  start_spring_forces(model, state, work.bond);
+  for (std::size_t p = 0; p < renewed.old_point.size(); ++p)
+    if (const int old = renewed.old_point[p]; old >= 0) {
+      work.bond.spring_force[p] = before.spring_force[old];
+      if (!work.bond.stretch.empty())
+        work.bond.stretch[p] = before.stretch[old];
+    }
+  if (scale_masses)
+    scale_masses();
+  share();
+  contacts_ = ContactUpdate(context_);
+  contacts_.start_anew(model, work.contact);
+  keep_last_good();
+  times_.end(StepLine::bonds);
+  return true;
+}
+
 double Stage::update_contacts(double safety) {
   times_.end(StepLine::others);
   const std::int64_t searches = work.contact.searches;
@@ -455,7 +489,8 @@ void Stage::release_parted_blocks() {
   if (context_.model.frames.empty() || step % release_every != 0)
     return;
   see_whole();
-  const Released released = release_interfaces(context_.model, context_.state, context_.threads);
+  Released released = release_interfaces(context_.model, context_.state, context_.threads);
+  slid_ = std::move(released.slid);
   context_.state.spent.breaking += released.stored;
   context_.state.spent.external += released.water;
   work.contact.fragments_due = work.contact.fragments_due || released.interfaces > 0;

@@ -2,6 +2,7 @@
 //
 //   keep_restart_point       where the stage can be left
 //   update_contacts          contacts for where the nodes are; the longest step that they leave
+//   renew_interfaces         of blocks that have slid past each other: the model has other springs then
 //   free_nodes               of cohesive bodies, where faces near their strength: the model is another one then
 //   update_loads             loads at this time
 //   advance                  begin_cracks; bond_forces; element_forces; shared_node_forces; rigid_bodies; what other
@@ -68,6 +69,9 @@ public:
   // Frees the nodes whose time it is. True when it has: arrays by node are others now, the stable step is shorter, and the
   // stage can be left here (keep_restart_point).
   bool free_nodes();
+  // Gives interfaces that have slid new springs (fracture/renew_interfaces.hpp). True when it has: the stable step is
+  // another one, and the stage can be left here.
+  bool renew_interfaces();
 
   // Returns the longest step that contacts leave, s, `safety` times the stable one; infinite without contacts. Throws
   // SolutionError when something has gone too deep.
@@ -134,7 +138,8 @@ private:
   ContactUpdate contacts_;
   StepTimes times_;
   FreeingWatch freeing_;
-  BegunCracks begun_; // in this step
+  BegunCracks begun_;     // in this step
+  std::vector<int> slid_; // interfaces to renew before the next step
   bool has_shared_nodes_;
   std::string kind_;
   double run_away_;

@@ -143,7 +143,7 @@ cdem::RelaxResult System::relax(double residual, bool breaking) {
   options.breaking = breaking;
   options.max_steps = 100000;
   const cdem::RelaxResult result =
-      cdem::relax({model, state, conditions, log, last_good, observer, threads, ++stage}, options);
+      cdem::relax({model, state, conditions, log, last_good, observer, threads, ++stage, nullptr, nullptr, nullptr, {}, {}, &model}, options);
   note("relax", state);
   return result;
 }

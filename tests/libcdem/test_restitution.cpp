@@ -57,7 +57,8 @@ TEST_CASE("bodies bounce with the restitution of their contact, rigid and deform
     cdem::Simulation s = cube_over_floor(bouncy(restitution), element, divisions);
     s.initial_velocity(cdem::Selection::of_body("cube"), {0, 0, -1});
     cdem::RunOptions options;
-    options.duration = 2 * gap + period;
+    options.duration =
+        2 * gap + 1.5 * period; // on a floor of larger triangles the contact is up to half as stiff
     options.safety = safety;
     s.run(options);
     return std::pair(mean_velocity(s), s.energy().balance_error());

@@ -1,6 +1,7 @@
 #include "libcdem/model/build/build_model.hpp"
 
 #include "libcdem/model/build/face_strength.hpp"
+#include "libcdem/model/build/interface_springs.hpp"
 
 #include "libcdem/model/build/contact_surface.hpp"
 #include "libcdem/model/build/rigid_bodies.hpp"
@@ -20,7 +21,6 @@ namespace {
 constexpr double relative_tolerance = 1e-7;
 // Blocks of a chunk: enough tets to fill the caches' lines, few enough to share a small model among threads.
 constexpr int tets_per_chunk = 384;
-constexpr int points_per_chunk = 512;
 
 void add_block(Model& model, BlockSeed&& seed, const geom::BlockMesh& mesh) {
   Block block;
@@ -125,7 +125,6 @@ void add_chunks(Model& model) {
     model.chunks.push_back(chunk);
     begin = end;
   }
-  model.point_chunks = split(static_cast<std::int64_t>(model.points.size()), points_per_chunk);
 }
 
 bool moves_far(const Model& model, int body) {
@@ -176,6 +175,7 @@ void add_frame(Model& model, Interface& interface) {
   for (int p = interface.point_begin; p < interface.point_end; ++p)
     area += model.points[p].area;
   frame.size = std::sqrt(area);
+  frame.area = area;
   interface.frame = static_cast<int>(model.frames.size());
   model.frames.push_back(frame);
 }
@@ -264,58 +264,9 @@ void add_interface(Model& model, const geom::SharedFace& pair, const InterfaceRu
       interface_strength(model.joints[interface.joint], a.mass.centroid, b.mass.centroid, area * apart / 3));
   set_stiffness(model, interface);
 
-  interface.point_begin = static_cast<int>(model.points.size());
-  interface.triangle_begin = static_cast<int>(model.bond_triangles.size());
-  for (const geom::OverlapPoint& p : faces.points) {
-    BondPoint point;
-    for (int k = 0; k < 3; ++k) {
-      point.node_a[k] = a.node_begin + p.nodes_a[k];
-      point.node_b[k] = b.node_begin + p.nodes_b[k];
-    }
-    point.weight_a = p.weights_a;
-    point.weight_b = p.weights_b;
-    point.normal = interface.normal;
-    point.area = p.area;
-    point.kn_area = interface.kn * p.area;
-    point.ks_area = interface.ks * p.area;
-    point.interface = static_cast<int>(model.interfaces.size());
-    point.one_to_one = p.weights_a[0] == 1 && p.weights_b[0] == 1;
-    model.points.push_back(point);
-    model.point_position.push_back(p.position);
-  }
-  for (geom::Triangle triangle : faces.triangles) {
-    for (int& corner : triangle)
-      corner += interface.point_begin;
-    model.bond_triangles.push_back(triangle);
-  }
-  interface.point_end = static_cast<int>(model.points.size());
-  interface.triangle_end = static_cast<int>(model.bond_triangles.size());
+  append_springs(model, static_cast<int>(model.interfaces.size()), interface, faces);
   add_frame(model, interface);
   model.interfaces.push_back(interface);
-}
-
-void add_spring_ends(Model& model) {
-  if (model.points.size() > std::numeric_limits<std::uint32_t>::max() >> 3U)
-    throw geom::InputError("blocks", std::to_string(model.points.size()) + " springs between them",
-                           "at most 536 million", "make the model of larger blocks");
-  std::vector<std::int64_t> begin(model.node_position.size() + 1, 0);
-  const auto each_end = [&](const auto& visit) {
-    for (int p = 0; p < static_cast<int>(model.points.size()); ++p)
-      for (std::uint32_t k = 0; k < 3; ++k) {
-        const BondPoint& point = model.points[p];
-        if (point.weight_a[k] != 0)
-          visit(point.node_a[k], SpringEnd(p, point.one_to_one ? SpringEnd::only_a : k));
-        if (point.weight_b[k] != 0)
-          visit(point.node_b[k], SpringEnd(p, point.one_to_one ? SpringEnd::only_b : k + 3));
-      }
-  };
-  each_end([&](int node, SpringEnd) { ++begin[node + 1]; });
-  for (std::size_t i = 1; i < begin.size(); ++i)
-    begin[i] += begin[i - 1];
-  model.spring_ends.resize(begin.back());
-  std::vector<std::int64_t> next(begin.begin(), begin.end() - 1);
-  each_end([&](int node, SpringEnd end) { model.spring_ends[next[node]++] = end; });
-  model.bond_begin = std::move(begin);
 }
 
 // A face's nodes carry the integral of their shape functions over the face less that over what other faces cover.
@@ -468,7 +419,7 @@ Model build_model(const Model& frame, std::vector<BlockSeed> seeds, const Interf
   add_convex_blocks(model, block_meshes);
   add_meshes(model, std::move(meshes));
   add_rigid_bodies(model);
-  add_spring_ends(model);
+  index_springs(model);
   build_surface(model);
 
   for (const Block& block : model.blocks)

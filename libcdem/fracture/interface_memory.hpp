@@ -1,0 +1,45 @@
+// What the springs of an interface remember, as fields over one of its faces: so that other springs, which stand where the
+// faces overlap now, can go on from it. Between the springs the fields are linear over the triangles of the interface;
+// beyond them they are as at the nearest place.
+//
+//   preload and dilation    o.n, the normal part of the offset: the pressure follows from it and from where the faces stand
+//   elastic shear           (j - o)_s, so that the shear traction goes on
+//   slip, path, dilation, damage, water    as they are
+#pragma once
+
+#include "libcdem/state/state.hpp"
+
+namespace cdem {
+
+struct SpringMemory {
+  double preload = 0;                    // m, normal part of the offset
+  geom::Vec3 shear = geom::Vec3::Zero(); // m, elastic, in undeformed directions
+  geom::Vec3 slid = geom::Vec3::Zero();  // m, of side b past side a since both were built, likewise
+  JointHistory history;
+  geom::Vec3 bond_slip = geom::Vec3::Zero(); // m
+  double damage = 0;
+  double water = 0; // Pa
+  std::uint8_t mode = 0;
+};
+
+class InterfaceMemory {
+public:
+  InterfaceMemory(const Model&, const State&, const Interface&);
+
+  const geom::Mat3& rotation() const { return rotation_; }
+  // The fields at a spring of a model with the same blocks or parts of them. Its place on the face that the interface
+  // covered more of counts.
+  SpringMemory at(const Model&, int point) const;
+
+private:
+  geom::Mat3 rotation_; // of the interface
+  bool on_b_ = false;
+  std::vector<geom::Vec3> places_; // undeformed, m
+  std::vector<geom::Triangle> triangles_;
+  std::vector<SpringMemory> springs_;
+};
+
+// Undeformed place of a spring on one of its sides, m.
+geom::Vec3 place_on_side(const Model&, int point, bool side_b);
+
+} // namespace cdem

@@ -1,0 +1,197 @@
+// Joints between convex blocks that move far, when one face slides a long way past the other: the joint goes on pressing,
+// rubbing and riding up as its law says, because its springs follow the faces.
+#include "tests/libcdem/boxes.hpp"
+#include "tests/libcdem/going_on.hpp"
+
+#include "libgeom/assembly/builders.hpp"
+#include "libgeom/assembly/edit.hpp"
+
+using namespace testing;
+using geom::Vec3;
+
+namespace {
+
+constexpr double kn = 1e9; // Pa/m
+
+cdem::Joint pressed_joint(double angle = 30) {
+  cdem::Joint joint = friction(angle);
+  joint.normal_stiffness = joint.shear_stiffness = kn;
+  return joint;
+}
+
+// A cube of 1 m on a floor, both turned about the origin as a whole.
+struct ShearBox {
+  geom::Mat3 turn;
+  cdem::Simulation s;
+  cdem::Selection top, bottom;
+
+  ShearBox(const cdem::Joint& joint, const geom::Mat3& turned, double viscosity = 0, double zones = 0,
+           int threads = 1, const Vec3& floor = {3, 3, 1}, std::shared_ptr<cdem::Observer> observer = nullptr)
+      : turn(turned), s(spec(joint, turned, viscosity, zones, floor), threads, std::move(observer)),
+        top(level(0.999, 1.001)), bottom(level(-1.001, -0.999)) {
+    s.fix(fixed(bottom));
+  }
+
+  Vec3 axis(int i) const { return turn.col(i); }
+  double along(int i, const Vec3& v) const { return v.dot(turn.col(i)); }
+  double moved(int i) const { // m, mean of the top
+    return along(i, {s.mean("displacement.x", top), s.mean("displacement.y", top),
+                     s.mean("displacement.z", top)});
+  }
+  void move_top(const Vec3& velocity) {
+    cdem::Fix move = fixed(top);
+    move.velocity = Vec3(turn * velocity);
+    s.fix(move);
+  }
+
+private:
+  cdem::Selection level(double low, double high) const {
+    const Vec3 up = turn.col(2);
+    return cdem::Selection::where(
+        [=](const Vec3& x) { return x.dot(up) > low && x.dot(up) < high; }, "a level");
+  }
+  static cdem::ModelSpec spec(const cdem::Joint& joint, const geom::Mat3& turn, double viscosity,
+                              double zones, const Vec3& floor) {
+    cdem::Elastic soft = rock();
+    soft.youngs_modulus = 1e10;
+    soft.poissons_ratio = 0;
+    soft.viscosity = viscosity;
+    const Eigen::AngleAxisd by(turn);
+    const auto turned = [&](const geom::Assembly& shape) {
+      return geom::rotated(shape, by.axis(), by.angle());
+    };
+    cdem::ModelSpec spec;
+    spec.bodies = {body("floor", turned(geom::grid(floor, {1, 1, 1}, {-1.1, -1.2, -1})), soft, joint),
+                   body("block", turned(geom::grid({1, 1, 1}, {1, 1, 1})), soft, joint)};
+    for (cdem::BodySpec& of : spec.bodies) {
+      of.element = cdem::Element::finite_volume;
+      of.zone_size = zones;
+    }
+    spec.pairs = {{"floor", "block", joint}};
+    return spec;
+  }
+};
+
+const geom::Mat3 straight = geom::Mat3::Identity(), odd = rotation({1, 2, -0.5}, 37 * degree);
+
+cdem::RunOptions lasting(double duration, double local_damping = 0) {
+  cdem::RunOptions options;
+  options.duration = duration;
+  options.local_damping = local_damping;
+  return options;
+}
+
+void relax(cdem::Simulation& s) {
+  cdem::RelaxOptions options;
+  options.residual = 1e-6;
+  REQUIRE(s.relax(options).converged);
+}
+
+cdem::Joint dilating() {
+  cdem::ResidualStrength law;
+  law.friction = std::tan(25 * degree);
+  law.dilation = std::tan(10 * degree);
+  cdem::Joint joint = pressed_joint();
+  joint.law = law;
+  return joint;
+}
+
+} // namespace
+
+TEST_CASE("sliding blocks: at a constant normal displacement a joint keeps its normal force and its friction",
+          "[sliding]") {
+  const auto [turn, zones] = GENERATE(std::pair(straight, 0.0), std::pair(odd, 0.0), std::pair(odd, 0.4));
+  ShearBox box(pressed_joint(), turn, 2e5, zones);
+  cdem::Fix press = fixed(box.top);
+  press.displacement = Vec3(turn * Vec3(0, 0, -1e-3));
+  box.s.fix(press);
+  relax(box.s);
+  const double pressed = -box.along(2, box.s.reaction(box.top));
+  CHECK(pressed > 0.8 * kn * 1e-3);
+  box.move_top({0.2, 0, 0});
+  for (int i = 0; i < 6; ++i) { // to 0.3 m
+    box.s.run(lasting(0.25));
+    CAPTURE(zones, i, box.moved(0));
+    const double drag = 2e5 * 0.2; // N, of the viscosity of 1 m3 at 0.2 m/s
+    const Vec3 reaction = box.s.reaction(box.top);
+    CHECK(-box.along(2, reaction) == Approx(pressed).epsilon(0.03));
+    CHECK(box.along(0, reaction) - drag == Approx(pressed * std::tan(30 * degree)).epsilon(0.03));
+    CHECK(box.s.energy().balance_error() < 1e-3);
+  }
+  CHECK(box.s.joints({}).at(0).parted == 0);
+  CHECK(box.s.joints({}).at(0).mean_slip == Approx(0.3).epsilon(0.01));
+}
+
+TEST_CASE("sliding blocks: under a constant pressure a block does not sink", "[sliding]") {
+  const geom::Mat3 turn = GENERATE(straight, odd);
+  const double pressure = 1e6, closure = pressure / kn;
+  ShearBox box(pressed_joint(), turn);
+  box.s.traction(traction(box.top, turn * Vec3(0, 0, -pressure)));
+  relax(box.s);
+  const double height = box.moved(2);
+  CHECK(height < -closure);
+  box.s.initial_velocity(cdem::Selection::of_body("block"), turn * Vec3(2, 0, 0), Vec3::Zero(), {});
+  box.s.run(lasting(0.3, 0.02));
+  CHECK(box.moved(0) > 0.2);
+  CHECK(box.moved(2) == Approx(height).margin(0.1 * closure));
+}
+
+TEST_CASE("sliding blocks: a block that slides down a dilating joint follows its law", "[sliding][joint_laws]") {
+  const double steepness = 40 * degree, friction = std::tan(25 * degree), rise = std::tan(10 * degree);
+  ShearBox box(dilating(), straight);
+  box.s.gravity(gravity(9.81 * Vec3(std::sin(steepness), 0, -std::cos(steepness))));
+  box.s.fix(fixed(box.top, "x"));
+  relax(box.s);
+  const double height = box.moved(2);
+  box.s.release(box.top, axes("x"));
+  box.s.run(lasting(0.4));
+  const double slid = box.moved(0);
+  CHECK(slid > 0.2);
+  CHECK(box.moved(2) - height == Approx(slid * rise).epsilon(0.03));
+  // m s'' = m g sin - N friction, m s'' rise = N - m g cos
+  const double a = 9.81 * (std::sin(steepness) - std::cos(steepness) * friction) / (1 + rise * friction);
+  CHECK(slid == Approx(0.5 * a * 0.4 * 0.4).epsilon(0.03));
+  CHECK(box.s.energy().balance_error() < 1e-3);
+  CHECK(box.s.joints({}).at(0).parted == 0);
+}
+
+TEST_CASE("sliding blocks: a block that spins on its joint by more than a right angle stays on it", "[sliding]") {
+  ShearBox box(pressed_joint(0), odd);
+  box.s.gravity(gravity(odd * Vec3(0, 0, -9.81)));
+  relax(box.s);
+  const double height = box.moved(2);
+  box.s.initial_velocity(cdem::Selection::of_body("block"), Vec3::Zero(), odd * Vec3(0, 0, 3), {});
+  box.s.run(lasting(0.7));
+  CHECK(box.moved(2) == Approx(height).margin(2e-5));
+  CHECK(box.s.joints({}).at(0).parted == 0);
+  CHECK(box.s.energy().balance_error() < 1e-3);
+}
+
+TEST_CASE("sliding blocks: a face that slides over the end of the other is left to contact once they overlap no more",
+          "[sliding]") {
+  ShearBox box(pressed_joint(0), straight, 0, 0, 1, {2.2, 3, 1});
+  box.move_top({1, 0, 0});
+  box.s.run(lasting(1));
+  const double half = box.s.joints({}).at(0).area;
+  CHECK(half == Approx(0.1).epsilon(0.02));
+  box.s.run(lasting(0.2));
+  CHECK(box.s.joints({}).at(0).parted == 1);
+}
+
+TEST_CASE("sliding blocks end in the same bits for every number of threads, and when left and taken up again",
+          "[sliding][threads]") {
+  const auto law = GENERATE(0, 1);
+  const auto build = [&](int threads, std::shared_ptr<cdem::Observer> observer) {
+    ShearBox box(law == 0 ? pressed_joint() : dilating(), odd, 0, 0, threads, {3, 3, 1}, std::move(observer));
+    cdem::Fix press = fixed(box.top);
+    press.displacement = Vec3(odd * Vec3(0, 0, -1e-3));
+    box.s.fix(press);
+    box.move_top({3, 0, 0.5});
+    return std::move(box.s);
+  };
+  const auto solve = [](cdem::Simulation& s, int) -> Figures {
+    const cdem::RunResult r = s.run(lasting(0.05));
+    return {double(r.steps), s.energy().friction, s.energy().external};
+  };
+  check_going_on(build, solve, {1, 8, 20});
+}
