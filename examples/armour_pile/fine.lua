@@ -1,4 +1,4 @@
--- The layer of settle.lua with units of 9800 tetrahedra, half a million in all: laid, at rest as rigid bodies, then
+-- The layer of settle.lua with units of 7000 tetrahedra, 351,000 in all: laid, at rest as rigid bodies, then
 -- deformable under a flow for some thousand steps. It measures what a study on a cluster would take.
 --
 --   ./cdem run examples/armour_pile/fine.lua --ranks 2 --threads 1
