@@ -9,6 +9,9 @@
 namespace cdem {
 namespace {
 
+// Area that a semi-spring stands for, over that of the triangle it presses on.
+constexpr double most_over_target = 4;
+
 // Weights of a tet's corners that make up a place, which may lie a little outside.
 std::array<double, 4> in_tet(const Model& model, const State& state, const geom::Tet& nodes,
                              const geom::Vec3& place) {
@@ -56,9 +59,9 @@ ContactLaw law_of(const Model& model, const Contact& c) {
 
 ContactLaw spring_law(const Joint& joint, double tan_friction, const ContactTriangle& from,
                       const ContactTriangle& to) {
-  // A corner of a large triangle stands for no more than what it can press on: with its whole area a vertex of a coarse
-  // floor under a small block would carry many times the block's own corners.
-  return law_over(joint, tan_friction, std::min(from.area, to.area) / 3, from.compliance + to.compliance);
+  // With its whole area a vertex of a coarse floor would carry many times the corners of a small block that stands on it.
+  return law_over(joint, tan_friction, std::min(from.area, most_over_target * to.area) / 3,
+                  from.compliance + to.compliance);
 }
 
 ContactLaw edge_law(const Joint& joint, double tan_friction, const ContactSurface& s,
