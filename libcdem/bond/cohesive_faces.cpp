@@ -242,7 +242,7 @@ void cohesive_face_forces(const FaceBatch* batches, int faces, const FaceMotion&
         at.handed_over[lane] = 1;
         sums.hands_over = true;
       }
-    } else if (at.preloaded[lane] != 0) {
+    } else if (at.preloaded[lane] != 0 && holds(at.stage[lane])) { // in a crack it would work without end
       preload(batch, lane, motion, law, at, cohesive[i], force, sums);
     }
   }

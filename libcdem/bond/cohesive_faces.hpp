@@ -15,7 +15,8 @@
 // back. A face whose points have lost all strength and are open has parted: what meets there is left to contact.
 //
 // Preload: a node that has just been freed leaves each of its copies with the force that keeps its acceleration, on the
-// faces between them. It dies away over some hundred steps.
+// faces between them. It dies away over some hundred steps, and acts while the face holds: on the sides of a crack, whose gap
+// has no bound, it would give the body more energy than the body has.
 #pragma once
 
 #include "libcdem/bond/face_frame.hpp"
