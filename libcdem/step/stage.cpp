@@ -193,6 +193,8 @@ bool Stage::renew_interfaces() {
     shared_->gather_points(before.spring_force);
     shared_->gather_points(before.stretch);
   }
+  for (const int i : slid_)
+    state.spent.friction += catch_up(model, state, before, model.interfaces[i]);
   const RenewedInterfaces renewed =
       cdem::renew_interfaces(*context_.changing, state, std::exchange(slid_, {}), context_.threads);
   state.spent.friction += renewed.lost;
