@@ -76,9 +76,20 @@ struct Simulation::Impl {
       Impl& s;
       ~Leave() { s.at_start.clear(); }
     } leave{*this};
-    return solve(
-        StageContext{model, state, conditions, log, last_good, *observer, threads, ++stage, checkpoints, nullptr,
-                     nullptr, {}, {}, &model});
+    return solve(StageContext{model,
+                              state,
+                              conditions,
+                              log,
+                              last_good,
+                              *observer,
+                              threads,
+                              ++stage,
+                              checkpoints,
+                              nullptr,
+                              nullptr,
+                              {},
+                              {},
+                              &model});
   }
 
   std::string saved() const;

@@ -9,9 +9,9 @@
 namespace cdem {
 namespace {
 
-constexpr double parted = 1e-3; // of the interface's size
-constexpr double opened = 0.02;              // rad
-constexpr double drained = 0.05;             // of the interface's size
+constexpr double parted = 1e-3;  // of the interface's size
+constexpr double opened = 0.02;  // rad
+constexpr double drained = 0.05; // of the interface's size
 
 bool any_intact(const State& state, const Interface& interface) {
   for (int p = interface.point_begin; p < interface.point_end; ++p)

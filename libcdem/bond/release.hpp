@@ -16,8 +16,8 @@ inline constexpr double slid_too_far = 0.02; // of the interface's size
 
 struct Released {
   std::int64_t interfaces = 0;
-  double stored = 0; // J, that their springs held and hold no more
-  double water = 0;  // J, that water that is gone had done by opening them
+  double stored = 0;     // J, that their springs held and hold no more
+  double water = 0;      // J, that water that is gone had done by opening them
   std::vector<int> slid; // interfaces that stay and have slid too far for their springs, ascending
 };
 

@@ -16,9 +16,9 @@ struct alignas(64) InterfaceNumbers {
 struct alignas(64) SpringBatch {
   int node_a[lanes], node_b[lanes]; // where both sides sit on a node
   int interface[lanes];
-  int ends = -1;      // into SpringBatches::ends where some spring's do not sit on nodes
-  int apart = -1;     // into SpringBatches::apart where some spring's sides did not lie on each other undeformed
-  int count = 0;      // springs
+  int ends = -1;  // into SpringBatches::ends where some spring's do not sit on nodes
+  int apart = -1; // into SpringBatches::apart where some spring's sides did not lie on each other undeformed
+  int count = 0;  // springs
   bool turns = false; // some interface may turn
   bool plain = true;  // brittle bonds and contacts with friction: nothing softens or has a law of its own
   double area[lanes]; // m2

@@ -205,8 +205,8 @@ void one_spring(const SpringsOfChunk& c, std::int64_t p, const geom::Mat3& rotat
     return;
   }
   const geom::Vec3 offset_before = state.bond_offset[p];
-  update_spring<special>(point, interface, state, work, p, rotation.transpose() * jump_at(c.model, p, u), c.sums,
-                         c.breaking);
+  update_spring<special>(point, interface, state, work, p, rotation.transpose() * jump_at(c.model, p, u),
+                         c.sums, c.breaking);
   work.acting_force[p] = rotation * (work.spring_force[p] + water_force(state, point, p));
   if (!c.damped || work.damping[point.interface] == 0)
     return;
@@ -326,6 +326,16 @@ void spring_forces(const Model& model, State& state, BondWork& work, std::int64_
     forces_of_springs<false>(chunk, springs);
   else
     forces_of_springs<true>(chunk, springs);
+}
+
+double catch_up(const Model& model, State& state, BondWork& work, const Interface& interface) {
+  SpringSums sums;
+  const SpringsOfChunk springs{model, state, work, sums, false, !work.acting_force.empty(), false};
+  const bool special = !state.bond_damage.empty() || !state.joint_history.empty();
+  const geom::Mat3 rotation = interface_rotation(model, state.displacement.data(), interface);
+  for (int p = interface.point_begin; p < interface.point_end; ++p)
+    special ? one_spring<true>(springs, p, rotation) : one_spring<false>(springs, p, rotation);
+  return sums.friction;
 }
 
 namespace {

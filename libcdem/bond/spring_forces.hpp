@@ -11,6 +11,10 @@ namespace cdem {
 // slips, opens or softens, bond_mode, bond_offset, bond_damage, bond_slip and joint_history.
 void spring_forces(const Model&, State&, BondWork&, std::int64_t chunk, bool breaking);
 
+// The springs of one interface without a whole bond where its nodes are now. Returns what slip has taken since they were
+// last looked at, J.
+double catch_up(const Model&, State&, BondWork&, const Interface&);
+
 // Adds what bonds do to nodes, force[0] the first of them, N; bond_force: BondWork::force().
 void add_bond_forces(const Model&, const std::vector<geom::Vec3>& bond_force, Range nodes, Node* force);
 

@@ -1,12 +1,16 @@
 #include "libcdem/fracture/interface_memory.hpp"
 
 #include "libcdem/bond/interface_frame.hpp"
+#include "libcdem/bond/spring_forces.hpp"
 #include "libgeom/query/closest.hpp"
 
+#include <algorithm>
 #include <limits>
 
 namespace cdem {
 namespace {
+
+constexpr double uneven = 0.01; // of the mean closure
 
 SpringMemory memory_of(const Model& model, const State& state, int p) {
   const geom::Vec3& n = model.points[p].normal;
@@ -68,7 +72,13 @@ InterfaceMemory::InterfaceMemory(const Model& model, const State& state, const I
   for (int p = interface.point_begin; p < interface.point_end; ++p) {
     places_.push_back(place_on_side(model, p, on_b_));
     springs_.push_back(memory_of(model, state, p));
+    mean_pressure_ +=
+        model.points[p].area / area * std::max(0.0, -traction(model, state, p).dot(model.points[p].normal));
   }
+  const auto [least, most] =
+      std::minmax_element(springs_.begin(), springs_.end(),
+                          [](const SpringMemory& a, const SpringMemory& b) { return a.preload < b.preload; });
+  evenly_preloaded_ = interface.kn * (most->preload - least->preload) <= uneven * mean_pressure_;
   for (int t = interface.triangle_begin; t < interface.triangle_end; ++t) {
     geom::Triangle triangle = model.bond_triangles[t];
     for (int& corner : triangle)

@@ -27,13 +27,18 @@ public:
   InterfaceMemory(const Model&, const State&, const Interface&);
 
   const geom::Mat3& rotation() const { return rotation_; }
+  double mean_pressure() const { return mean_pressure_; } // Pa, over all of its area
+  // The preload is the same everywhere, to a hundredth of the mean closure: where the faces stand says all about the
+  // pressure.
+  bool evenly_preloaded() const { return evenly_preloaded_; }
   // The fields at a spring of a model with the same blocks or parts of them. Its place on the face that the interface
   // covered more of counts.
   SpringMemory at(const Model&, int point) const;
 
 private:
   geom::Mat3 rotation_; // of the interface
-  bool on_b_ = false;
+  double mean_pressure_ = 0;
+  bool evenly_preloaded_ = true, on_b_ = false;
   std::vector<geom::Vec3> places_; // undeformed, m
   std::vector<geom::Triangle> triangles_;
   std::vector<SpringMemory> springs_;

@@ -1,5 +1,6 @@
 #include "libcdem/fracture/renew_interfaces.hpp"
 
+#include "libcdem/bond/bond_work.hpp"
 #include "libcdem/bond/interface_frame.hpp"
 #include "libcdem/bond/spring_forces.hpp"
 #include "libcdem/bond/water_work.hpp"
@@ -7,13 +8,14 @@
 #include "libcdem/state/places.hpp"
 #include "libgeom/mesh/star_mesh.hpp"
 
+#include <algorithm>
 #include <utility>
 
 namespace cdem {
 namespace {
 
-constexpr double least_area = 1e-3;  // of what the interface covered when it was made
-constexpr double same_place = 1e-7;  // of a block's size: places nearer than this are one
+constexpr double least_area = 1e-3; // of what the interface covered when it was made
+constexpr double same_place = 1e-7; // of a block's size: places nearer than this are one
 
 std::vector<geom::Vec3> present_nodes(const Model& model, const State& state, const Block& block) {
   std::vector<geom::Vec3> places;
@@ -93,6 +95,44 @@ void carry_all(State& state, const std::vector<int>& old_point) {
   carry(state.water_pressure, old_point, 0.0);
 }
 
+// Springs that have ridden up by different amounts stand apart by much more than they are closed, and what lies between
+// them is not known to that precision: all offsets are raised or lowered by the one length with which the mean pressure
+// stays what it was.
+void keep_pressure(const Model& model, State& state, const Interface& interface, double mean_pressure) {
+  if (mean_pressure == 0)
+    return;
+  const InterfaceLaw own = law_of_interface(model, interface);
+  std::vector<double> open; // m, of each spring
+  double area = 0;
+  for (int p = interface.point_begin; p < interface.point_end; ++p) {
+    open.push_back((local_jump(model, state.displacement, p) - state.bond_offset[p]).dot(interface.normal));
+    area += model.points[p].area;
+  }
+  const auto pressure_of = [&](double closure) {
+    if (own.law)
+      return with_law(*own.law, [&](const auto& law) { return law.pressure(own.spring, closure); });
+    return interface.kn * closure;
+  };
+  const auto mean_at = [&](double raised) {
+    double mean = 0;
+    for (std::size_t i = 0; i < open.size(); ++i)
+      if (open[i] < raised)
+        mean += model.points[interface.point_begin + static_cast<int>(i)].area / area *
+                pressure_of(raised - open[i]);
+    return mean;
+  };
+  double low = *std::min_element(open.begin(), open.end()), step = mean_pressure / interface.kn;
+  while (mean_at(low + step) < mean_pressure && step < model.frames[interface.frame].size)
+    step *= 2;
+  double high = low + step;
+  for (int i = 0; i < 60; ++i) {
+    const double middle = 0.5 * (low + high);
+    (mean_at(middle) < mean_pressure ? low : high) = middle;
+  }
+  for (int p = interface.point_begin; p < interface.point_end; ++p)
+    state.bond_offset[p] += high * interface.normal;
+}
+
 void take_up(const Model& model, State& state, int p, const SpringMemory& m) {
   const geom::Vec3& n = model.points[p].normal;
   const geom::Vec3 jump = local_jump(model, state.displacement, p), past = jump - jump.dot(n) * n;
@@ -107,7 +147,6 @@ void take_up(const Model& model, State& state, int p, const SpringMemory& m) {
   }
   if (!state.water_pressure.empty())
     state.water_pressure[p] = m.water;
-  settle(model, state, p);
 }
 
 void leave_to_contact(const Model& model, State& state, const InterfaceToRenew& of) {
@@ -192,6 +231,10 @@ RenewedInterfaces renew_interfaces(Model& model, State& state, const std::vector
     renew_frame(model, state, interface, list[k].before.rotation(), overlaps[k].area);
     for (int p = interface.point_begin; p < interface.point_end; ++p)
       take_up(model, state, p, list[k].before.at(model, p));
+    if (!list[k].before.evenly_preloaded())
+      keep_pressure(model, state, interface, list[k].before.mean_pressure());
+    for (int p = interface.point_begin; p < interface.point_end; ++p)
+      settle(model, state, p);
   }
   return result;
 }

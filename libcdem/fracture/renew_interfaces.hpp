@@ -14,10 +14,10 @@
 namespace cdem {
 
 struct RenewedInterfaces {
-  std::vector<int> old_point;  // per spring, which it was before; -1: of an interface that was renewed
-  std::int64_t left = 0;       // interfaces that are left to contact
-  double lost = 0;             // J, that springs stored before and do not store now
-  double water = 0;            // J, that water had done by opening what it presses on no more
+  std::vector<int> old_point; // per spring, which it was before; -1: of an interface that was renewed
+  std::int64_t left = 0;      // interfaces that are left to contact
+  double lost = 0;            // J, that springs stored before and do not store now
+  double water = 0;           // J, that water had done by opening what it presses on no more
 };
 
 // Of interfaces that turn and hold no whole bond, ascending.

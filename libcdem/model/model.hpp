@@ -92,7 +92,8 @@ struct InterfaceFrame {
   geom::Vec3 along = geom::Vec3::Zero(); // unit, undeformed
   double size = 0;                       // m, root of the interface's area when it was made
   double area = 0;                       // m2, of its springs now
-  bool renewed = false; // its faces have slid and were intersected anew where they stood (fracture/renew_interfaces.hpp)
+  bool renewed =
+      false; // its faces have slid and were intersected anew where they stood (fracture/renew_interfaces.hpp)
 };
 
 // One spring: a point of face a against a point of face b, both interpolated linearly.
@@ -176,9 +177,9 @@ struct Model {
   std::vector<TetBatch> batches;
 
   std::vector<Interface> interfaces;
-  std::vector<InterfaceFrame> frames;         // of those that may turn
-  std::vector<BondPoint> points;              // springs (n_points)
-  std::vector<geom::Vec3> point_position;     // undeformed, m (n_points); the mean of both sides
+  std::vector<InterfaceFrame> frames;     // of those that may turn
+  std::vector<BondPoint> points;          // springs (n_points)
+  std::vector<geom::Vec3> point_position; // undeformed, m (n_points); the mean of both sides
   // m, from side a's undeformed place to side b's (n_points); empty while they lie on each other at every spring, as when
   // an interface is built; written by renew_interfaces
   std::vector<geom::Vec3> point_apart;

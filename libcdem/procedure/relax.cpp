@@ -211,7 +211,8 @@ RelaxResult relax(const StageContext& context, const RelaxOptions& options, cons
   };
   RelaxResult result;
   const auto step = [&] {
-    const bool renewed = stage.renew_interfaces(), freed = (options.breaking && stage.free_nodes()) || renewed;
+    const bool renewed = stage.renew_interfaces(),
+               freed = (options.breaking && stage.free_nodes()) || renewed;
     if (freed) {
       masses = FictitiousMasses(context.model, stage.work.resolved.bolts);
       previous_force.assign(masses.of_nodes().size(), {});

@@ -171,7 +171,8 @@ RunResult run(const StageContext& context, const RunOptions& options, const std:
 
   bool stopped = false;
   while (stage.step < clock.steps() && !stopped) {
-    const bool renewed = stage.renew_interfaces(), freed = (options.breaking && stage.free_nodes()) || renewed;
+    const bool renewed = stage.renew_interfaces(),
+               freed = (options.breaking && stage.free_nodes()) || renewed;
     if (freed) {
       viscous = viscous_forces(context.model);
       if (const double stable = options.safety * stable_time_step(context.model, stage.work.resolved.bolts);

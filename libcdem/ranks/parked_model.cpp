@@ -60,7 +60,7 @@ std::vector<Array> arrays_of(const Model& model, const StateShares& shares) {
   add(model.point_position);
   add(model.bond_triangles);
   add(model.bond_begin, nodes);
-  add(model.bonds_on_nodes);
+  add(model.spring_ends);
   const MeshData& mesh = model.mesh;
   add(mesh.batches, batches);
   add(mesh.faces, faces);

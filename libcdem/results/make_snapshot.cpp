@@ -262,9 +262,8 @@ void add_springs(const Model& model, const State& state, BondFields& fields, Bon
     const geom::Vec3 moved = point_movement(point, [&](int node) { return shown_displacement(state, node); });
     if (!state.displacement_zero.empty())
       bonds.points[p] += point_movement(point, [&](int node) { return state.displacement_zero[node]; });
-    fields.add(state.bond_mode[p], damage_of(state, p),
-               movement_past(model, state, static_cast<int>(p)), point.normal,
-               traction(model, state, static_cast<int>(p)), moved);
+    fields.add(state.bond_mode[p], damage_of(state, p), movement_past(model, state, static_cast<int>(p)),
+               point.normal, traction(model, state, static_cast<int>(p)), moved);
   }
 }
 

@@ -190,7 +190,6 @@ void Stage::give_back() {
   for (std::vector<Node>* of_nodes : {&work.resolved.external, &work.resolved.constant})
     release_outside(*of_nodes, shared_->shares().kept_nodes());
   release_zeros(work.partial);
-  release_zeros(work.force);
   release_zeros(work.contact.force);
   release_zeros(work.contact.stiffness);
   trim_heap(); // what building and looking at the whole has left
@@ -285,11 +284,14 @@ bool Stage::renew_interfaces() {
   const Model& model = context_.model;
   State& state = context_.state;
   synchronise_to_leave();
+  see_whole();
   BondWork before = std::move(work.bond);
   if (shared_) {
-    shared_->gather_points(before.spring_force);
-    shared_->gather_points(before.stretch);
+    shared_->shares().gather_points(before.spring_force);
+    shared_->shares().gather_points(before.stretch);
   }
+  for (const int i : slid_)
+    state.spent.friction += catch_up(model, state, before, model.interfaces[i]);
   const RenewedInterfaces renewed =
       cdem::renew_interfaces(*context_.changing, state, std::exchange(slid_, {}), context_.threads);
   state.spent.friction += renewed.lost;
@@ -304,6 +306,7 @@ bool Stage::renew_interfaces() {
     }
   if (scale_masses)
     scale_masses();
+  gave_back_ = false;
   share();
   contacts_ = ContactUpdate(context_);
   contacts_.start_anew(model, work.contact);

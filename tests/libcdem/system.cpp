@@ -142,8 +142,21 @@ cdem::RelaxResult System::relax(double residual, bool breaking) {
   options.residual = residual;
   options.breaking = breaking;
   options.max_steps = 100000;
-  const cdem::RelaxResult result =
-      cdem::relax({model, state, conditions, log, last_good, observer, threads, ++stage, nullptr, nullptr, nullptr, {}, {}, &model}, options);
+  const cdem::RelaxResult result = cdem::relax({model,
+                                                state,
+                                                conditions,
+                                                log,
+                                                last_good,
+                                                observer,
+                                                threads,
+                                                ++stage,
+                                                nullptr,
+                                                nullptr,
+                                                nullptr,
+                                                {},
+                                                {},
+                                                &model},
+                                               options);
   note("relax", state);
   return result;
 }

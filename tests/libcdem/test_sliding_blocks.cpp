@@ -26,17 +26,18 @@ struct ShearBox {
   cdem::Selection top, bottom;
 
   ShearBox(const cdem::Joint& joint, const geom::Mat3& turned, double viscosity = 0, double zones = 0,
-           int threads = 1, const Vec3& floor = {3, 3, 1}, std::shared_ptr<cdem::Observer> observer = nullptr)
-      : turn(turned), s(spec(joint, turned, viscosity, zones, floor), threads, std::move(observer)),
-        top(level(0.999, 1.001)), bottom(level(-1.001, -0.999)) {
+           int threads = 1, const Vec3& floor = {3, 3, 1}, double height = 1,
+           std::shared_ptr<cdem::Observer> observer = nullptr)
+      : turn(turned), s(spec(joint, turned, viscosity, zones, floor, height), threads, std::move(observer)),
+        top(level(height - 1e-3, height + 1e-3)), bottom(level(-1.001, -0.999)) {
     s.fix(fixed(bottom));
   }
 
   Vec3 axis(int i) const { return turn.col(i); }
   double along(int i, const Vec3& v) const { return v.dot(turn.col(i)); }
   double moved(int i) const { // m, mean of the top
-    return along(i, {s.mean("displacement.x", top), s.mean("displacement.y", top),
-                     s.mean("displacement.z", top)});
+    return along(
+        i, {s.mean("displacement.x", top), s.mean("displacement.y", top), s.mean("displacement.z", top)});
   }
   void move_top(const Vec3& velocity) {
     cdem::Fix move = fixed(top);
@@ -47,11 +48,11 @@ struct ShearBox {
 private:
   cdem::Selection level(double low, double high) const {
     const Vec3 up = turn.col(2);
-    return cdem::Selection::where(
-        [=](const Vec3& x) { return x.dot(up) > low && x.dot(up) < high; }, "a level");
+    return cdem::Selection::where([=](const Vec3& x) { return x.dot(up) > low && x.dot(up) < high; },
+                                  "a level");
   }
   static cdem::ModelSpec spec(const cdem::Joint& joint, const geom::Mat3& turn, double viscosity,
-                              double zones, const Vec3& floor) {
+                              double zones, const Vec3& floor, double height) {
     cdem::Elastic soft = rock();
     soft.youngs_modulus = 1e10;
     soft.poissons_ratio = 0;
@@ -62,7 +63,7 @@ private:
     };
     cdem::ModelSpec spec;
     spec.bodies = {body("floor", turned(geom::grid(floor, {1, 1, 1}, {-1.1, -1.2, -1})), soft, joint),
-                   body("block", turned(geom::grid({1, 1, 1}, {1, 1, 1})), soft, joint)};
+                   body("block", turned(geom::grid({1, 1, height}, {1, 1, 1})), soft, joint)};
     for (cdem::BodySpec& of : spec.bodies) {
       of.element = cdem::Element::finite_volume;
       of.zone_size = zones;
@@ -125,7 +126,7 @@ TEST_CASE("sliding blocks: at a constant normal displacement a joint keeps its n
 TEST_CASE("sliding blocks: under a constant pressure a block does not sink", "[sliding]") {
   const geom::Mat3 turn = GENERATE(straight, odd);
   const double pressure = 1e6, closure = pressure / kn;
-  ShearBox box(pressed_joint(), turn);
+  ShearBox box(pressed_joint(1), turn);
   box.s.traction(traction(box.top, turn * Vec3(0, 0, -pressure)));
   relax(box.s);
   const double height = box.moved(2);
@@ -136,26 +137,30 @@ TEST_CASE("sliding blocks: under a constant pressure a block does not sink", "[s
   CHECK(box.moved(2) == Approx(height).margin(0.1 * closure));
 }
 
-TEST_CASE("sliding blocks: a block that slides down a dilating joint follows its law", "[sliding][joint_laws]") {
-  const double steepness = 40 * degree, friction = std::tan(25 * degree), rise = std::tan(10 * degree);
-  ShearBox box(dilating(), straight);
-  box.s.gravity(gravity(9.81 * Vec3(std::sin(steepness), 0, -std::cos(steepness))));
-  box.s.fix(fixed(box.top, "x"));
+TEST_CASE("sliding blocks: a pressed joint with dilation follows its law", "[sliding][joint_laws]") {
+  const double pressure = 1e6;
+  ShearBox box(dilating(), straight, 0, 0, 1, {3, 3, 1}, 0.2); // flat: all of its joint stays pressed
+  box.s.traction(traction(box.top, {0, 0, -pressure}));
+  box.s.fix(fixed(box.top, "xy"));
   relax(box.s);
   const double height = box.moved(2);
   box.s.release(box.top, axes("x"));
-  box.s.run(lasting(0.4));
-  const double slid = box.moved(0);
-  CHECK(slid > 0.2);
-  CHECK(box.moved(2) - height == Approx(slid * rise).epsilon(0.03));
-  // m s'' = m g sin - N friction, m s'' rise = N - m g cos
-  const double a = 9.81 * (std::sin(steepness) - std::cos(steepness) * friction) / (1 + rise * friction);
-  CHECK(slid == Approx(0.5 * a * 0.4 * 0.4).epsilon(0.03));
-  CHECK(box.s.energy().balance_error() < 1e-3);
+  cdem::Fix move = fixed(box.top, "x");
+  move.velocity = Vec3(0.1, 0, 0);
+  box.s.fix(move);
+  for (int i = 0; i < 4; ++i) { // to 0.2 m
+    box.s.run(lasting(0.5, 0.3));
+    const double slid = box.moved(0);
+    CAPTURE(slid);
+    CHECK(box.moved(2) - height == Approx(slid * std::tan(10 * degree)).epsilon(0.03));
+    CHECK(box.s.reaction(box.top).x() == Approx(pressure * std::tan(25 * degree)).epsilon(0.03));
+    CHECK(box.s.energy().balance_error() < 1e-3);
+  }
   CHECK(box.s.joints({}).at(0).parted == 0);
 }
 
-TEST_CASE("sliding blocks: a block that spins on its joint by more than a right angle stays on it", "[sliding]") {
+TEST_CASE("sliding blocks: a block that spins on its joint by more than a right angle stays on it",
+          "[sliding]") {
   ShearBox box(pressed_joint(0), odd);
   box.s.gravity(gravity(odd * Vec3(0, 0, -9.81)));
   relax(box.s);
@@ -167,13 +172,15 @@ TEST_CASE("sliding blocks: a block that spins on its joint by more than a right 
   CHECK(box.s.energy().balance_error() < 1e-3);
 }
 
-TEST_CASE("sliding blocks: a face that slides over the end of the other is left to contact once they overlap no more",
+TEST_CASE("sliding blocks: a face that slides over the end of the other is left to contact once they overlap "
+          "no more",
           "[sliding]") {
   ShearBox box(pressed_joint(0), straight, 0, 0, 1, {2.2, 3, 1});
   box.move_top({1, 0, 0});
   box.s.run(lasting(1));
-  const double half = box.s.joints({}).at(0).area;
-  CHECK(half == Approx(0.1).epsilon(0.02));
+  const double area = box.s.joints({}).at(0).area; // of 0.1 m2, up to 0.02 m behind
+  CHECK(area > 0.099);
+  CHECK(area < 0.121);
   box.s.run(lasting(0.2));
   CHECK(box.s.joints({}).at(0).parted == 1);
 }
@@ -182,7 +189,8 @@ TEST_CASE("sliding blocks end in the same bits for every number of threads, and 
           "[sliding][threads]") {
   const auto law = GENERATE(0, 1);
   const auto build = [&](int threads, std::shared_ptr<cdem::Observer> observer) {
-    ShearBox box(law == 0 ? pressed_joint() : dilating(), odd, 0, 0, threads, {3, 3, 1}, std::move(observer));
+    ShearBox box(law == 0 ? pressed_joint() : dilating(), odd, 0, 0, threads, {3, 3, 1}, 1,
+                 std::move(observer));
     cdem::Fix press = fixed(box.top);
     press.displacement = Vec3(odd * Vec3(0, 0, -1e-3));
     box.s.fix(press);
