@@ -21,12 +21,13 @@ const geom::Mat3 oblique_stress = 1e6 * symmetric(-3, 2, 1, 0.5, -0.7, 0.9);
 // Largest difference between a spring's jump and t_n / kn n + t_s / ks, over the largest of these.
 double jump_error(const System& s, const geom::Mat3& stress) {
   double error = 0, scale = 0;
-  for (const cdem::BondPoint& p : s.model.points) {
+  for (int i = 0; i < static_cast<int>(s.model.points.size()); ++i) {
+    const cdem::BondPoint& p = s.model.points[i];
     const cdem::Interface& face = s.model.interfaces[p.interface];
     const Vec3 t = stress * p.normal;
     const double tn = t.dot(p.normal);
     const Vec3 expected = tn / face.kn * p.normal + (t - tn * p.normal) / face.ks;
-    error = std::max(error, (cdem::jump(p, s.state.displacement) - expected).norm());
+    error = std::max(error, (cdem::jump(s.model, s.state.displacement, i) - expected).norm());
     scale = std::max(scale, expected.norm());
   }
   return error / scale;
