@@ -98,7 +98,8 @@ std::vector<Simulation::BoltRow> Simulation::bolts() const {
       row.node = i + 1;
       row.place = given.from + (given.to - given.from) * i / (n - 1);
       const double next = i + 1 < n ? nodes[i].tension : 0, before = i > 0 ? nodes[i - 1].tension : 0;
-      row.tension = i == 0 && given.plate ? -nodes[0].grout : (std::abs(before) > std::abs(next) ? before : next);
+      row.tension =
+          i == 0 && given.plate ? -nodes[0].grout : (std::abs(before) > std::abs(next) ? before : next);
       row.grout = -nodes[i].grout;
       row.slip = given.plate && i == 0 ? 0 : nodes[i].slip;
       row.yielded = i + 1 < n ? nodes[i].stretch / (given.length() / given.segments) : 0;

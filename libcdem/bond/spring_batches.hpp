@@ -48,7 +48,7 @@ struct SpringBatches {
   std::vector<InterfaceNumbers> interfaces; // (n_interfaces)
   std::vector<std::int64_t> first;          // batch of each chunk of springs, and the end
   std::vector<SpringEnds> ends;
-  std::vector<Range> nodes;       // of the blocks that each chunk of springs meets first: those on sides b
+  std::vector<Range> nodes; // of the blocks that each chunk of springs meets first: those on sides b
   std::vector<SpringsApart> apart;
   std::vector<FrameBatch> frames; // of the interfaces, eight by eight; empty where none turns
 };

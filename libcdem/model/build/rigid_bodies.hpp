@@ -13,7 +13,7 @@ namespace cdem {
 
 struct RigidShape {
   RigidBody body;
-  geom::Vec3 centroid = geom::Vec3::Zero();         // m
+  geom::Vec3 centroid = geom::Vec3::Zero();          // m
   geom::Mat3 nodal_inertia = geom::Mat3::Identity(); // kg m2, of the masses at its nodes, about the centroid
 };
 
