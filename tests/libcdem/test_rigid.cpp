@@ -71,7 +71,7 @@ Momentum of_body(const System& s) {
 } // namespace
 
 TEST_CASE(
-    "a rigid box has the solid's mass, centroid and inertia on any mesh; its nodes come near it with h^2",
+    "a rigid box has the solid's mass, centroid and inertia on any mesh, and its nodes come near it with h^2",
     "[rigid]") {
   const double mass = rock().density * sides.prod();
   const auto error = [&](int n) { // of the masses at the nodes
