@@ -122,6 +122,16 @@ TEST_CASE("ranks: every kind of model ends in the bits of one process") {
   }
 }
 
+// Names and values of a report. What is warned of at the end of a script may differ after cdem resume: models that were done
+// with before are not looked at again.
+std::string figures_of(const std::string& report) {
+  std::string figures;
+  for (const std::string& line : lines_of(report))
+    if (line.find("\"name\": ") != std::string::npos || line.find("\"value\": ") != std::string::npos)
+      figures += line + '\n';
+  return figures;
+}
+
 TEST_CASE(
     "ranks: every kind of model, left in each of its stages, goes on with the same bits on other ranks") {
   if (no_mpirun())
@@ -145,7 +155,7 @@ TEST_CASE(
     if (i > 0)
       CHECK_THAT(outcome.out, Contains("goes on from "));
   }
-  CHECK(place.report() == physics_of_one());
+  CHECK(figures_of(place.report()) == figures_of(physics_of_one()));
 }
 
 // A column that a floor breaks from below, in several chunks.

@@ -224,10 +224,9 @@ void Checkpoints::gather_models() {
 void Checkpoints::write(bool stopping) {
   if (!may_write() || flags_.in_call || stages_ == 0)
     return;
-  if (flags_.in_stage && !ranks().alone() && !with_others())
-    return; // this rank has its share of the state only: what was written last stays
   stopped_ = stopping;
-  gather_models();
+  if (with_others()) // else Lua is busy in a callback, before which they were gathered
+    gather_models();
   const Doing saves(session_.settings.observer.get(), Activity::saving);
   const Value put_down = led("checkpoint", [&]() -> Value {
     return put(content(flags_.in_stage ? mark_ : journal_.size(), script_hash_));

@@ -4,6 +4,7 @@
 #include "libcdem/step/errors.hpp"
 #include "libgeom/core/error.hpp"
 #include "lua/binding/objects/model_object.hpp"
+#include "lua/binding/replay/led.hpp"
 #include "lua/binding/runtime/session.hpp"
 
 namespace cdem::script {
@@ -176,6 +177,8 @@ Values Checkpoints::call_back(const std::string& name, const Reference& function
   event.name = name;
   event.value = Table::list(arguments);
   record(event);
+  if (with_others() && may_write() && flags_.in_stage) // it may be busy when the user wants to stop
+    gather_models();
   try {
     const With listening(*this, {false, false, flags_.in_stage});
     return function.call(arguments);
