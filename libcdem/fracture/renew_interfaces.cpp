@@ -255,6 +255,7 @@ RenewedInterfaces renew_interfaces(Model& model, State& state, const std::vector
     return work;
   };
   std::vector<InterfaceToRenew> list;
+  list.reserve(interfaces.size());
   for (const int i : interfaces)
     list.push_back({i, InterfaceMemory(model, state, model.interfaces[i])});
   const double stored_before = stored(), water_before = by_water();

@@ -33,7 +33,7 @@ struct Pages {
 void release(std::uintptr_t begin, std::uintptr_t end) {
   if (begin >= end)
     return;
-  void* const pages = reinterpret_cast<void*>(begin);
+  void* const pages = reinterpret_cast<void*>(begin); // NOLINT(performance-no-int-to-ptr): whole pages
   (void)madvise(pages, end - begin, MADV_NOHUGEPAGE);
   (void)madvise(pages, end - begin, MADV_DONTNEED);
 }
@@ -58,7 +58,7 @@ void release_zeros(void* data, std::size_t bytes) {
   const std::uintptr_t page = page_size();
   std::uintptr_t first = all.begin; // of a run of zeros
   for (std::uintptr_t at = all.begin; at < all.end; at += page) {
-    const char* const here = reinterpret_cast<const char*>(at);
+    const char* const here = reinterpret_cast<const char*>(at); // NOLINT(performance-no-int-to-ptr)
     if (here[0] == 0 && std::memcmp(here, here + 1, page - 1) == 0)
       continue;
     release(first, at);

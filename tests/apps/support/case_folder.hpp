@@ -18,12 +18,14 @@ struct CaseFolder {
     for (const File& file : files)
       write_file(folder / file.name, file.text);
   }
-  // signal: sent once `after` has been printed; 0: none.
+  // signal: sent once `after` has been printed; 0: what `start` says.
   Outcome cdem(const std::vector<std::string>& arguments, int signal = 0,
                const std::string& after = "") const {
     Start with = start;
-    with.signal = signal;
-    with.signal_after = after;
+    if (signal != 0) {
+      with.signal = signal;
+      with.signal_after = after;
+    }
     return run_cdem(arguments, with);
   }
   Outcome operator()(const std::vector<std::string>& arguments) const { return cdem(arguments); }
