@@ -20,7 +20,7 @@ struct RenewedInterfaces {
   double water = 0;           // J, that water had done by opening what it presses on no more
 };
 
-// Of interfaces that turn and hold no whole bond, ascending.
+// Interfaces that turn and hold no whole bond, ascending.
 RenewedInterfaces renew_interfaces(Model&, State&, const std::vector<int>& interfaces, int threads);
 
 // The same from what springs of another model remember; those that are left to contact already stay so. Its sums are 0.

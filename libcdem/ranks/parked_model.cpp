@@ -21,7 +21,7 @@ namespace {
 constexpr std::size_t least_array = std::size_t{1} << 20, least_model = std::size_t{16} << 20; // bytes
 const char* const name = "cdem-model-";
 
-// Of an array: its bytes, and those that stay this rank's own. `at`: of its first page in the file.
+// The bytes of an array, and those that stay this rank's own. `at`: of its first page in the file.
 struct Array {
   const char* data = nullptr;
   std::size_t bytes = 0, at = 0;

@@ -15,7 +15,7 @@ std::vector<std::int64_t> even_shares(const std::vector<double>& load, int size)
 // that have broken and still hold their sides.
 std::vector<double> chunk_loads(const Model&, const State&, Range chunks);
 
-// Of shares cut at `begin`, the load of the largest over the mean.
+// The load of the largest share over the mean, for shares cut at `begin`.
 double imbalance(const std::vector<double>& load, const std::vector<std::int64_t>& begin);
 
 struct Partition {

@@ -1,6 +1,6 @@
 // Processes that solve one model together, on one machine or many. Each is a rank: it runs the same script on the same
 // values, computes the forces of its own chunks, and learns the rest from the others. Rank 0 alone writes files and talks
-// to the user. What is summed is gathered and added in the order of chunks, so results do not depend on how many there
+// to the user. Sums are exact or added in the order of chunks, so results do not depend on how many there
 // are; least and largest values are exact anyway.
 //
 // Every call of a rank here is met by the same call of all others, but for abort.

@@ -28,7 +28,7 @@ class StateShares {
 public:
   StateShares(const Model&, const Partition&);
 
-  // Of each rank the first, and the end of the last one's.
+  // The first entry of each rank, and the end of the last one's.
   const std::vector<std::int64_t>& point_begin() const { return points_; }
   const std::vector<std::int64_t>& batch_begin() const { return batches_; }
   const std::vector<std::int64_t>& face_begin() const { return faces_; }

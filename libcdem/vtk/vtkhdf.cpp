@@ -75,7 +75,7 @@ Handle space_of(const std::vector<hsize_t>& size) {
   return {H5Screate_simple(static_cast<int>(size.size()), size.data(), nullptr), H5Sclose};
 }
 
-// Of variable length; not marked as UTF-8, which it is, since VTK 9.1 reads no other strings.
+// A string of variable length; not marked as UTF-8, which it is, since VTK 9.1 reads no other strings.
 Handle text_type() {
   Handle type(H5Tcopy(H5T_C_S1), H5Tclose);
   good(H5Tset_size(type, H5T_VARIABLE));

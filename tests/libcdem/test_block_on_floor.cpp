@@ -1,5 +1,5 @@
 // A block on a floor of another mesh: what a user sees of it. Restitution is the input between blocks as between meshes;
-// a floor carries what stands on it, rigid or not; a vertex of a coarse floor carries no more than the block's corners;
+// a floor carries what stands on it, rigid or not; a vertex of a coarse floor carries as much as a few of the block's corners;
 // rigid blocks in a stack keep their energy at the default time step; two copies of a body are refused.
 #include "libgeom/assembly/builders.hpp"
 #include "libgeom/core/error.hpp"

@@ -25,7 +25,7 @@ void require_file(const std::string& file, const std::string& command, const std
 // UsageError where this is one of several ranks: for a command that does not solve one model.
 void refuse_ranks(const std::string& command);
 
-// Of run and resume.
+// Options of run and resume.
 struct SolvingOptions {
   std::string threads, ranks, memory, checkpoint_every = "10";
   bool unsafe = false, live = false, quiet = false;

@@ -15,7 +15,7 @@ struct SavedFile {
   std::vector<std::filesystem::path> steps; // one state each
 };
 
-// Of a .vtu or .vtkhdf file: itself; of a .pvd: its files. Of a folder: its series by name, then its files that stand in
+// A .vtu or .vtkhdf file gives itself, of a .pvd: its files. Of a folder: its series by name, then its files that stand in
 // none; without those of bonds and contacts, which are drawn or stand beside the blocks. Throws UsageError for anything
 // else and for a folder without any.
 std::vector<SavedFile> saved_files(const std::filesystem::path&);

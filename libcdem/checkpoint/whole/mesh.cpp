@@ -62,7 +62,7 @@ void check_sides(const Model& model, const MeshChunk& chunk) {
   }
 }
 
-// Of plastic bodies each tet has a law of its body.
+// Each tet of a plastic body has a law of its body.
 void check_plastic(const Model& model) {
   const MeshData& mesh = model.mesh;
   const auto is_plastic = [](const Body& body) { return !body.plasticity.empty(); };
@@ -80,7 +80,7 @@ void check_plastic(const Model& model) {
           "mesh.plastic_law", tets);
 }
 
-// Of cohesive bodies there is a region for each tet and a mark for each node.
+// A cohesive body has a region for each tet and a mark for each node.
 void check_cohesive(const Model& model) {
   const MeshData& mesh = model.mesh;
   for (const Block& block : model.blocks)

@@ -36,7 +36,7 @@ std::vector<Near> near_edges(const Model&, const State&, const ContactWork&, con
 // Of one block: edges of triangles that meet, by pairs that stand each once.
 std::vector<Near> near_edges_within(const Model&, const State&, const ContactWork&, const SearchMargin&,
                                     const ActiveSurface&, const Pairs& meeting);
-// Of one block that has broken: edges of which one is `searched` (per edge), those of this rank's share.
+// Pairs of edges of one broken block, of which one is `searched` (per edge), those of this rank's share.
 std::vector<Near> near_edges_of_fragments(const Model&, const State&, const ContactWork&, const SearchMargin&,
                                           int block, const std::vector<char>& searched);
 

@@ -19,7 +19,7 @@ void read_nodes_of_rows(const Model&, ContactWork&);
 void add_depths(const ContactSums& more, ContactSums& sums); // the deepest; the first of equals
 void append(const ContactChunk& more, ContactChunk& sum);
 
-// Of springs and of edges, by rank: what all have found, in the order of their sources.
+// What all ranks have found, springs and edges, by rank, in the order of their sources.
 std::array<std::vector<ContactChunk>, 2> found_by_all(const std::array<ContactChunk, 2>& own);
 
 // A number for each of these of State::contacts, worked out by the rank that found it in the step before, or by all right
