@@ -238,13 +238,14 @@ void archive(A& a, ContactSurface& x) {
 
 template <class A>
 void archive(A& a, Model& x) {
-  auto& [bodies, joints, blocks, pair_joint, node_position, node_mass, tets, tet_block, batches, interfaces,
-         frames, points, point_position, point_apart, bond_triangles, bond_begin, spring_ends, outer_faces,
-         mesh, surface, rigid, chunks, point_chunks, box, length, tolerance, next_id] = x;
-  archive_all(a, bodies, joints, blocks, pair_joint, node_position, node_mass, tets, tet_block, batches,
-              interfaces, frames, points, point_position, point_apart, bond_triangles, bond_begin,
-              spring_ends, outer_faces, mesh, surface, rigid, chunks, point_chunks, box, length, tolerance,
-              next_id);
+  auto& [bodies, joints, blocks, pair_joint, node_position, node_mass, gravitational_mass, tets, tet_block,
+         batches, interfaces, frames, points, point_position, point_apart, bond_triangles, bond_begin,
+         spring_ends, outer_faces, mesh, surface, rigid, chunks, point_chunks, box, length, tolerance,
+         next_id] = x;
+  archive_all(a, bodies, joints, blocks, pair_joint, node_position, node_mass, gravitational_mass, tets,
+              tet_block, batches, interfaces, frames, points, point_position, point_apart, bond_triangles,
+              bond_begin, spring_ends, outer_faces, mesh, surface, rigid, chunks, point_chunks, box, length,
+              tolerance, next_id);
 }
 
 template <class A>

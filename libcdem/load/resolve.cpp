@@ -143,8 +143,9 @@ Pattern force_pattern(const Model& model, const PointForce& force) {
 Pattern gravity_pattern(const Model& model, const Gravity& gravity, const geom::Vec3& acceleration) {
   Pattern pattern;
   for (int node = 0; node < static_cast<int>(model.node_position.size()); ++node)
-    pattern.emplace_back(node, (model.node_mass[node] - gravity.water_density * node_volume(model, node)) *
-                                   acceleration);
+    pattern.emplace_back(node,
+                         (model.gravitational_mass[node] - gravity.water_density * node_volume(model, node)) *
+                             acceleration);
   return pattern;
 }
 

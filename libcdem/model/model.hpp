@@ -170,7 +170,10 @@ struct Model {
   std::map<std::pair<int, int>, int> pair_joint; // bodies (smaller first) -> joint between them
 
   std::vector<geom::Vec3> node_position; // undeformed, m (n_nodes)
-  std::vector<double> node_mass;         // kg (n_nodes), a quarter of each tet around it
+  // kg (n_nodes). What moves, and what weighs: a quarter of each tet around a node. They differ in star blocks that move
+  // far (build/star_inertia).
+  std::vector<double> node_mass;
+  std::vector<double> gravitational_mass;
 
   std::vector<geom::Tet> tets; // global nodes (n_tets)
   std::vector<int> tet_block;  // (n_tets)

@@ -54,6 +54,7 @@ std::vector<Array> arrays_of(const Model& model, const StateShares& shares) {
               faces = shares.own(shares.face_begin());
   add(model.node_position, nodes);
   add(model.node_mass, nodes);
+  add(model.gravitational_mass);
   add(model.tets);
   add(model.tet_block);
   add(model.points, points);

@@ -132,6 +132,8 @@ void add_nodes(Model& model, const geom::TetMesh& mesh, const SplitMesh& split, 
     model.tets.push_back(tet);
     model.tet_block.push_back(block);
   }
+  model.gravitational_mass.insert(model.gravitational_mass.end(), model.node_mass.begin() + first,
+                                  model.node_mass.end());
 }
 
 void add_boundary(Model& model, const std::vector<geom::OuterFace>& outer, int block) {
