@@ -135,7 +135,7 @@ public:
   std::int64_t remove(const Selection&);
   // Bonds whose point is selected are broken from now on (a notch); returns how many. whole_faces: only those of
   // interfaces that are selected with all their points, so that faces which meet the notch at its tip stay bonded.
-  std::int64_t unbond(const Selection&, bool whole_faces = false);
+  std::int64_t break_bonds(const Selection&, bool whole_faces = false);
 
   // Divides strengths by a factor (procedure/reduce_strength.hpp).
   void reduce_strength(double factor, const StrengthKinds&);

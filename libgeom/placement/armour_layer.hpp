@@ -5,7 +5,7 @@
 // The pattern is a diamond, twice as wide along the contour as its rows are apart, so that rows are Dn / sqrt(2 phi)
 // apart. Units lie at rest under gravity with friction, slid down against the two below, and keep `gap` from all
 // others; then all but the lowest row, which is taken for held, come to rest together, and those that lean on fewer
-// than three things are seated otherwise (placement/laying.hpp). How far apart rows then are depends on how units
+// than three things are repositioned (placement/laying.hpp). How far apart rows then are depends on how units
 // fit: the pattern is widened along the contour until the density in the middle of the pile (of rows and columns,
 // where it has no middle) is phi within 1 %, in six trials at most (two of a thousand units), of which the nearest is
 // taken. Between walls, where units slid off or lean on too little for all that or do not come to rest, another layer
@@ -24,7 +24,7 @@ struct LayerProgress {
   int layer = 1, layers = 1;     // with other attitudes: this one, and how many there are at most
   int spacing = 1, spacings = 1; // of the layer's: the same
   int laid = 0;                  // units, with this spacing
-  const char* doing = "";        // "laid", and with all of them "come to rest together", "seated otherwise"
+  const char* doing = "";        // "laid", and with all of them "come to rest together", "repositioned"
 };
 
 struct LayerOptions {

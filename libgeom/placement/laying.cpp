@@ -21,7 +21,8 @@ constexpr std::size_t rested_tries = 10;    // at least; more while none of them
 
 // Over the height: from where on, and how finely, places up the slope are tried.
 constexpr double lowest_place = -0.3, highest_place = 1.5, place_step = 0.05;
-constexpr double seated = 0.03; // over the height: how far from the bare slope a lowered unit still is on it
+constexpr double on_slope =
+    0.03; // over the height: how far from the bare slope a lowered unit still is on it
 
 constexpr double sliding = 0.2;      // coefficient of friction, on the way
 constexpr double steeper = 0.1;      // friction over the slope's gradient, of what stands on it by itself
@@ -207,17 +208,17 @@ Laying::Try Laying::lowered(const Mat3& rotation, const Site& site) const {
   for (double up = site.below.empty() ? 0 : lowest_place; up < highest_place; up += place_step) {
     Vec3 place(along, site.place.y() + up * height_, 0);
     const Vec3 offset(place.x(), place.y(), 0);
-    double room = clearance(profile, offset, ground_profile_, far);
-    if (room == far) // beside the ground
+    double nearest = clearance(profile, offset, ground_profile_, far);
+    if (nearest == far) // beside the ground
       continue;
     for (const Laid& other : laid_)
-      room = std::min(room, clearance(profile, offset, other.profile, room));
-    place.z() = gap_ - room;
+      nearest = std::min(nearest, clearance(profile, offset, other.profile, nearest));
+    place.z() = gap_ - nearest;
     const double over = (place.z() - ground_level(place) - bare) / height_;
-    const double cost = astray(place.y() - site.wanted) / height_ + 3 * std::max(0., over - seated);
+    const double cost = astray(place.y() - site.wanted) / height_ + 3 * std::max(0., over - on_slope);
     if (cost < best.cost)
       best = {{rotation, frame_.transpose() * place}, cost};
-    if (over <= seated)
+    if (over <= on_slope)
       break;
   }
   return best;

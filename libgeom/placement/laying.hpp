@@ -1,5 +1,5 @@
 // Laying one unit of an armour layer after the other, each at rest; then all of them come to rest together, and those
-// that lean on too little are seated otherwise (reseating.cpp).
+// that lean on too little are repositioned (repositioning.cpp).
 //
 // A unit is tried in many attitudes: some in which it stands on the bare slope by itself, some that fit into the
 // pattern, any others. In each it is lowered along the normal of the slope as near to its place as it comes down to the
@@ -45,9 +45,9 @@ public:
   // Units from number `held` on come to rest once more, all together: those above press on those below. If they are not
   // clear of each other then, they are where they were.
   void rest_together(int held);
-  // After that: units on which fewer than three things press are seated otherwise, and all rest together again, until
+  // After that: units on which fewer than three things press are repositioned, and all rest together again, until
   // there are none, or so many times.
-  void reseat(int held);
+  void reposition_unsupported(int held);
   const Rested& rested() const { return rested_; }
 
   const Pose& pose(int unit) const { return laid_[unit].pose; }
@@ -83,7 +83,7 @@ private:
   Near near(const Vec3& centroid, double reach, int except = -1) const;
   Near on_the_way(const Vec3& centroid, int except = -1) const;
   void rest_together(int held, double step, int steps);
-  bool seat_otherwise(int unit, int round);
+  bool reposition(int unit, int round);
   double ground_level(const Vec3& place) const;
   double standing() const;
   RestOptions resting(double friction) const;

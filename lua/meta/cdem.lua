@@ -925,11 +925,20 @@ function Model:make_rigid(options) end
 ---@return integer # how many changed
 function Model:make_deformable(options) end
 
----@class (exact) cdem.ModelUnbondOptions
+---@class (exact) cdem.ModelBreakBondsOptions
 ---@field on cdem.Place where: a place or a list of places
 ---@field whole_faces? boolean default false: only faces that are selected with all their points, so that faces that meet the notch at its tip stay bonded
 
 ---Breaks bonds before anything is loaded (a notch): those whose point is selected.
+---@param options cdem.ModelBreakBondsOptions
+---@return integer # how many
+function Model:break_bonds(options) end
+
+---@class (exact) cdem.ModelUnbondOptions
+---@field on cdem.Place where: a place or a list of places
+---@field whole_faces? boolean default false: only faces that are selected with all their points, so that faces that meet the notch at its tip stay bonded
+
+---The old name of model:break_bonds; it warns.
 ---@param options cdem.ModelUnbondOptions
 ---@return integer # how many
 function Model:unbond(options) end

@@ -207,7 +207,7 @@ TEST_CASE("cracks: a saved model has its cracks and histories again", "[cracks][
 
 TEST_CASE("cracks: a notch made by hand is none", "[cracks]") {
   cdem::Simulation s = two_slabs(softening_joint(cdem::Softening::linear));
-  CHECK(s.unbond(cdem::Selection::everything()) > 0);
+  CHECK(s.break_bonds(cdem::Selection::everything()) > 0);
   CHECK(s.cracks().all().area() == 0);
   CHECK(s.crack_surface(true, "").bonds.triangles.empty());
 }
