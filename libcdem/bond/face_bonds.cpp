@@ -50,7 +50,7 @@ CDEM_INLINE bool any(const Mask& mask) {
   return (four[0] | four[1] | four[2] | four[3]) != 0;
 }
 
-// Of the faces of a batch.
+// Strengths of the faces of a batch.
 struct Strengths {
   Oct tension, cohesion, tan_friction;
 };
@@ -62,7 +62,7 @@ CDEM_INLINE Strengths strengths_of(const FaceLaw& law, std::int64_t batch) {
   return {simd::load(own.tensile_strength), simd::load(own.cohesion), simd::load(own.tan_friction)};
 }
 
-// Of what a spring bears: below that none breaks, whatever the rounding. one_by_one decides.
+// Fraction of a spring's strength: below it no spring breaks, for any rounding. Above it one_by_one decides.
 constexpr double margin = 0.98;
 
 // Some spring of the batch carries a force that would break it in the worst of all directions, which is

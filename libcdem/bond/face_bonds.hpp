@@ -68,7 +68,7 @@ struct FaceMotion {
 void face_bond_forces(const FaceBatch*, std::int64_t count, int faces, const FaceMotion&, const FaceLaw&,
                       bool breaking, FaceStateBatch*, FaceSlip*, Node* force, FaceSums&, ReadAhead&);
 
-// Of one spring; position, displacement: m (n_nodes). slip: of the state's face, may be null.
+// State of one spring. position, displacement: m (n_nodes). slip: of the face in the State; may be null.
 struct FaceSpring {
   geom::Vec3 gap = geom::Vec3::Zero();    // m, from a to b
   geom::Vec3 normal = geom::Vec3::Zero(); // unit, from a to b

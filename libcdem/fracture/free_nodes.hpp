@@ -42,7 +42,8 @@ struct Freed {
   std::vector<char> anew;    // per node, 1 for the copies of those that were not freed before
 };
 
-// The same model and state with these nodes freed (n_nodes). Of a state whose stress stands where its nodes are.
+// The same model and state with these nodes freed (n_nodes). The stress of the state must belong to the present
+// positions of the nodes.
 Freed free_nodes(const Model&, const State&, const std::vector<char>& nodes);
 
 // Gives the faces between the copies of these nodes the forces with which all copies of a node have one acceleration, that

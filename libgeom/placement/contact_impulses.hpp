@@ -50,8 +50,8 @@ struct ImpulseOptions {
   double compliance = 0; // m that a touch gives way by per m of impulse, along the face too
 };
 
-// Of all bodies; the impulses are left in the rows of the touches, where those that they begin with are found. Touches
-// and bounds deeper than a step are taken for one.
+// Motions of all bodies. The impulses are written into the rows of the contact points; their starting values are read
+// there. Contact points and bounds deeper than a step count as one step deep.
 std::vector<Motion> motions(std::vector<BodyTouch>&, std::vector<BodyBound>&, std::size_t bodies,
                             const Vec3& pull, const ImpulseOptions&);
 

@@ -58,7 +58,7 @@ Surface upper_side(const Surface& ground) {
   return side;
 }
 
-// Of a solid whose inertia is the same about all axes.
+// Radius of gyration of a solid with the same inertia about all axes.
 double gyration_of(const Pile& pile) {
   const MassProperties solid = mass_properties(pile.unit);
   return std::sqrt(solid.inertia.trace() / (3 * solid.volume));

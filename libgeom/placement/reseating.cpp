@@ -10,11 +10,11 @@
 namespace geom {
 namespace {
 
-// Of all units at once.
+// When all units come to rest at once.
 constexpr int first_steps = 1000, later_steps = 400;    // at most
 constexpr double first_step = 0.01, later_step = 0.003; // over the height
 
-// Of seating otherwise units that too few others press on.
+// When units with too few supports are repositioned.
 constexpr int most_rounds = 40, most_in_vain = 20; // the latter in a row
 constexpr int units_times_rounds = 4000;           // at most: every round takes all to rest again
 constexpr std::uint64_t seats_tried = 20;

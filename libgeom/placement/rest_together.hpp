@@ -21,7 +21,7 @@ struct RestTogether {
   std::vector<int> pressed_by;
 };
 
-// Of bodies of one shape that press on each other and on others that do not move; `bounds` are not asked.
+// For bodies of one shape that press on each other and on others that do not move; `bounds` are not used.
 RestTogether come_to_rest_together(const Features& shape, const std::vector<Pose>& start,
                                    const std::vector<const Features*>& others, const RestOptions&);
 

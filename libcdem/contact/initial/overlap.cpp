@@ -15,8 +15,8 @@
 namespace cdem {
 namespace {
 
-// Of the smaller block's size: how far meshes may stand in each other, as those of a pile at rest do, and how near they
-// must be to touch.
+// Over the smaller block's size: the depth by which meshes may overlap, as in a pile at rest, and the distance below
+// which they touch.
 constexpr double overlap_ratio = 0.01, touching_ratio = 1e-3;
 
 Corners corners(const Model& model, int triangle) {
