@@ -1,5 +1,5 @@
-// A model on its way through a script: the const Model, its State, the conditions, and the solving calls in order.
-// This is the whole public face of libcdem for the script layer.
+// A model that a script builds, loads and solves: the const Model, its State, the conditions, and the solving calls in
+// order. This is the whole public face of libcdem for the script layer.
 #pragma once
 
 #include "libcdem/fracture/options.hpp"

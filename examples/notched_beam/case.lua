@@ -1,4 +1,4 @@
--- Han 2010, example 4.2: an off-centre notch in a bent beam; the crack finds its way to the load.
+-- Han 2010, example 4.2: an off-centre notch in a beam in bending; the crack grows to the load.
 --
 --   ./cdem run examples/notched_beam/case.lua [--set passes=3] [--set support=roller] [--set mesh=voronoi]
 local cdem = require "cdem"

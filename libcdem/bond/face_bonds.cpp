@@ -16,7 +16,8 @@ struct Gaps {
 
 template <class Index>
 CDEM_INLINE Gaps gaps_of(const Index (&a)[3][lanes], const Index (&b)[3][lanes], const Node* displacement) {
-  // Both sides of a face were one place: the gap is the difference of their displacements, with all its digits.
+  // Both sides of a face had one undeformed position: their relative displacement is the difference of their
+  // displacements, with all its digits.
   const Vec d0 = minus(simd::gather(displacement, b[0]), simd::gather(displacement, a[0]));
   const Vec d1 = minus(simd::gather(displacement, b[1]), simd::gather(displacement, a[1]));
   const Vec d2 = minus(simd::gather(displacement, b[2]), simd::gather(displacement, a[2]));
@@ -26,7 +27,7 @@ CDEM_INLINE Gaps gaps_of(const Index (&a)[3][lanes], const Index (&b)[3][lanes],
           {plus(common, scaled(half, d0)), plus(common, scaled(half, d1)), plus(common, scaled(half, d2))}};
 }
 
-// Not made a unit vector: four times the area. The corners of b stand where those of a do plus the gap.
+// Not made a unit vector: four times the area. The corners of b are those of a plus the relative displacement.
 template <class Index>
 CDEM_INLINE Vec normal_of(const Index (&a)[3][lanes], const Vec (&d)[3], const Node* position) {
   const Vec a0 = simd::gather(position, a[0]);

@@ -2,7 +2,7 @@
 // which may break parts from the others, so that the faces between can open (element/face_jumps.hpp, cohesive_faces.hpp).
 // Nothing moves by it: stress stays, each copy takes place, velocity and its share of the mass, and its acceleration is
 // kept by a preload on the faces between the copies, which dies away. Faces are freed at half their strength, so that a
-// crack finds its way open before it gets there.
+// crack finds freed nodes wherever it goes.
 #pragma once
 
 #include "libcdem/fracture/working_plane.hpp"

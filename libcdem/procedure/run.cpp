@@ -72,7 +72,7 @@ void require_columns_stable(const ResolvedConditions& r, double time_step) {
         "name a time_step below it");
 }
 
-// The time of each step of a run whose step may get shorter on the way, as contacts close.
+// The time of each step of a run whose step may get shorter as contacts close.
 class Clock {
 public:
   Clock(double start, double time_step, const RunOptions& options)

@@ -34,7 +34,8 @@ inline bool handed_over(const FaceStateBatch& state, int lane) {
   return state.handed_over[lane] != 0;
 }
 
-// m, tangential gap at which the broken springs of a face carry no shear: point; along its first edge, across.
+// m, tangential relative displacement at which the broken springs of a face carry no shear: point; along its first
+// edge, across.
 struct FaceSlip {
   double value[3][2] = {};
 };

@@ -33,7 +33,7 @@ struct State {
   std::vector<Node> displacement; // m (n_nodes); written by step_nodes, relax_nodes, move_rigid
   std::vector<Node> velocity;     // m/s, velocity_lag behind (n_nodes); likewise
   std::vector<geom::Vec3>
-      bond_offset; // m, jump at which the spring carries nothing: preload and slip (n_points)
+      bond_offset; // m, relative displacement without traction: preload and slip (n_points)
   std::vector<std::uint8_t>
       bond_mode; // BondMode (n_points); bond_offset and bond_mode: written by spring_forces
   // For bonds that soften (joint/softening.hpp), written by spring_forces; empty if no joint of the model softens.

@@ -1,4 +1,4 @@
-// Laying, second part: all units come to rest together, and those that lean on too little are seated otherwise.
+// Laying, second part: all units come to rest together, and units with too few supports are repositioned.
 #include "libgeom/placement/laying.hpp"
 
 #include "libgeom/core/random.hpp"
@@ -76,7 +76,7 @@ void Laying::rest_together(int held, double step, int steps) {
   }
 }
 
-// The best, and nearest, of some other seats near by where three things carry it by itself: turned and shifted, more in
+// The best of some other positions near by in which three bodies support the unit: it is rotated and shifted, more in
 // each round, or lifted and in any attitude. False where there is none.
 bool Laying::seat_otherwise(int unit, int round) {
   const Pose here = laid_[unit].pose;

@@ -3,9 +3,9 @@
 //
 // A mover is what moves by itself: a block, or a fragment of a block some of whose faces have broken. A search finds what
 // can touch before a mover has gone further than its skin; none of it changes a force. A pair found near sleeps until its
-// two movers have moved as far as it was apart: `recheck_distance` is compared with the sum of the ways the two have gone
-// since the search. A row sleeps as long as all its pairs must. Lengths kept as floats are rounded to the side on which
-// more is looked at.
+// two movers have moved as far as it was apart: `recheck_distance` is compared with the sum of the distances that the
+// two have moved since the search. A row sleeps as long as all its pairs must. Lengths kept as floats are rounded to
+// the side on which more is looked at.
 #pragma once
 
 #include "libcdem/model/contact_surface.hpp"

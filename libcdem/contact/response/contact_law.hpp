@@ -45,7 +45,7 @@ struct ContactLoss {
   double friction = 0, damping = 0;
 };
 
-// A vector at right angles to the unit vector `from`, turned the shortest way to `to`.
+// A vector at right angles to the unit vector `from`, rotated by the smallest rotation from `from` to `to`.
 inline geom::Vec3 turned_with(const geom::Vec3& v, const geom::Vec3& from, const geom::Vec3& to) {
   const double c = from.dot(to);
   if (c < -0.5) // not a motion but another face
