@@ -1,5 +1,5 @@
-// A model on its way through a script: the const Model, its State, the conditions, and the solving calls in order.
-// This is the whole public face of libcdem for the script layer.
+// A model that a script builds, loads and solves: the const Model, its State, the conditions, and the solving calls in
+// order. This is the whole public face of libcdem for the script layer.
 #pragma once
 
 #include "libcdem/fracture/options.hpp"
@@ -60,10 +60,10 @@ struct BodySpec {
   Element element = Element::finite_volume; // small_strain: of blocks only
   double zone_size = 0;        // m, edge length of the tets inside each convex block; 0: its star mesh
   RegionLaws region_laws = {}; // of meshes
-  // Of blocks: laws on faces by the joint set or cut that made them; `joint` holds the others.
+  // For blocks: laws on faces by the joint set or cut that made them. All other faces have `joint`.
   std::map<std::string, Joint> set_joints = {};
-  // Of blocks: laws that vary from place to place, in place of `joint` and of those of set_joints, which hold for faces that
-  // are cut later and for blocks that meet anew.
+  // For blocks: laws that vary with position. They replace `joint` and set_joints, which still apply to faces that are
+  // cut later and to blocks that meet new neighbours.
   JointAt joint_at = {};
   std::map<std::string, JointAt> set_joints_at = {};
   PlasticLaws plasticity = {}; // of a body that moves far; empty: elastic
@@ -189,7 +189,8 @@ public:
   static std::vector<std::string> field_names();
   FieldValue max(const std::string& field, const Selection& = {}) const;
   FieldValue min(const std::string& field, const Selection& = {}) const;
-  // Of nodes: over the outer faces on a side or plane that has some, else over the volume; of blocks: over the volume.
+  // Mean of a field of nodes over the outer faces on a side or plane that has some, else over the volume; mean of a
+  // field of blocks over the volume.
   double mean(const std::string& field, const Selection& = {}) const;
   double at(const std::string& field,
             const geom::Vec3& place) const;    // interpolated in the block that holds place

@@ -70,7 +70,7 @@ private:
   std::string script_text_;             // as it was at the start: the copy shows what ran
   std::set<std::string> written_;       // relative to the folder
   std::vector<LoggedFile> last_states_; // of the run that this one goes on from
-  // Of what is logged and listed: where the run does not come back, another thread closes the log.
+  // Guards the log and the lists: if the run does not return, another thread closes the log.
   mutable std::recursive_mutex one_at_a_time_;
   int lock_ = -1;
   std::uint64_t run_ = 0;

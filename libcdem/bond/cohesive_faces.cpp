@@ -124,7 +124,7 @@ private:
     if (r.law.damage >= 1 && is_intact(mode)) {
       const BondMode how = r.law.mode == BondMode::intact ? BondMode::broken_tension : r.law.mode;
       mode = static_cast<std::uint8_t>(how);
-      const Vec3 began = law_.kn * offset; // the gap was next to nothing then
+      const Vec3 began = law_.kn * offset; // the relative displacement was nearly zero then
       sums.broken.push_back(
           {spring, how, now_.in_space(m), began.dot(m), (began - began.dot(m) * m).norm(), {}});
     }

@@ -43,7 +43,7 @@ struct MovingNodes {
 MovingNodes moving_nodes(State&, const ActingForces&, const std::vector<double>& mass, Range range,
                          const Node* force);
 
-// Of the first node: net force, loads included, and the load in it.
+// Forces of the first node, N: the net force, loads included, and the load in it.
 struct HeldForces {
   Node net, load;
 };

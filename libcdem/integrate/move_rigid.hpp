@@ -19,7 +19,7 @@ RigidForces rigid_forces(const Model&, const State&, const ActingForces&, int ri
 // step, the chord of the turn.
 void move_rigid(const Model&, State&, const ActingForces&, int rigid, const Stepping&, NodeSums&);
 
-// Of one that is held and does not move, in a relaxation: its reaction.
+// Adds the reaction of a rigid body that is held and does not move, in a relaxation.
 void hold_rigid(const Model&, const State&, const ActingForces&, int rigid, NodeSums&);
 
 } // namespace cdem

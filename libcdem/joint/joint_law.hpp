@@ -157,7 +157,7 @@ double stored(const Law& law, const JointSpring& spring, const geom::Vec3& norma
 
 } // namespace joint_law
 
-// Of a spring whose joint has a law, broken or never bonded.
+// Response of a spring whose joint has a law, broken or never bonded.
 inline JointResponse joint_response(const JointLaw& law, const JointSpring& spring, const geom::Vec3& normal,
                                     const geom::Vec3& jump, const geom::Vec3& offset,
                                     const JointHistory& history) {

@@ -15,7 +15,7 @@
 
 namespace cdem {
 
-// Of a joint, Pa; of a spring with an area, N.
+// Strength of a joint, Pa, or of a spring with an area, N.
 struct SpringStrength {
   double cohesion = 0;         // c
   double tan_friction = 0;     // tan(phi)

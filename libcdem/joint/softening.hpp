@@ -24,7 +24,7 @@
 //   w_II = (G_II - c0^2 / 2 ks) / (c0 S)
 //
 // The stretch of the spring up to its strength is taken off: a part of G between blocks. A crack of a cohesive
-// body begins at its strength with no gap: nothing is taken off there.
+// body begins at its strength with zero opening: nothing is subtracted there.
 //
 // While D grows the traction stays on the strength surface with sigma_t and c0 both multiplied by s: pure
 // opening takes G_I, slip under a constant pressure p takes G_II beyond the work of the friction p tan(phi).

@@ -37,7 +37,7 @@ struct alignas(32) FaceBatch {
   std::uint16_t place_a[3][lanes], place_b[3][lanes]; // of the nodes among those of the chunk
 };
 
-// Of eight bonded faces whose strength is their own (model/build/face_strength.hpp).
+// Strengths of eight bonded faces that have strengths of their own (model/build/face_strength.hpp).
 struct alignas(64) FaceStrengthBatch {
   double tensile_strength[lanes], cohesion[lanes]; // Pa
   double tan_friction[lanes];

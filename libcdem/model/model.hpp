@@ -56,7 +56,7 @@ struct Block {
   double size = 0;           // h, cube root of the volume, m
   double first_size =
       0; // h of the generation-0 block it comes from, m; joints keep their thickness through cuts
-  // Of a convex block: its vertices first; of one that is not zoned then one centre per face, then the centroid.
+  // A convex block has its vertices first. Without zones, one centre per face and the centroid follow.
   int node_begin = 0, node_end = 0;
   int tet_begin = 0, tet_end = 0;
 
@@ -122,8 +122,8 @@ struct OuterFace {
   int boundary = -1;                      // of a meshed block: index into MeshData::boundary
   geom::Vec3 normal = geom::Vec3::Zero(); // unit, outward
   double area = 0;                        // m2, uncovered
-  // Node, integral of its shape function over the uncovered part, m2. Of a meshed block none is kept: a third of the
-  // area each (each_face_node).
+  // Node, and integral of its shape function over the uncovered part, m2. Empty for a meshed block: each node has a
+  // third of the area (each_face_node).
   std::vector<std::pair<int, double>> node_area;
 };
 

@@ -16,7 +16,8 @@
 namespace cdem {
 namespace {
 
-// Of the model's size: so far from its box a piece has left it, or has run away when it is the only one.
+// Distance from the model's box, over its size: beyond it a piece has left the model, or has run away if it is the only
+// one.
 constexpr double left_lengths = 1, run_away_lengths = 100;
 
 // mu V of every node, N s/m; empty when nothing is viscous.
@@ -71,7 +72,7 @@ void require_columns_stable(const ResolvedConditions& r, double time_step) {
         "name a time_step below it");
 }
 
-// The time of each step of a run whose step may get shorter on the way, as contacts close.
+// The time of each step of a run whose step may get shorter as contacts close.
 class Clock {
 public:
   Clock(double start, double time_step, const RunOptions& options)

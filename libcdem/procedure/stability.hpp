@@ -44,7 +44,7 @@ public:
 
   void add(const StabilityLook&);
   bool failing() const { return suspicious_ >= 3; }
-  // Of the last look alone.
+  // From the last look alone.
   bool suspicious() const { return suspicious_ > 0; }
 
   // For a stage that goes on: numbers that a later add_to gives again.

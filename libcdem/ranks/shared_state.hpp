@@ -13,7 +13,7 @@ namespace cdem {
 
 class SharedState {
 public:
-  // Of a state that is whole. read_always: nodes that this rank reads whichever chunks are its own. loads: chunk_loads.
+  // The state must be whole. read_always: nodes that this rank reads for any share of chunks. loads: chunk_loads.
   SharedState(const Model&, const std::vector<std::int32_t>& read_always, const std::vector<double>& loads);
 
   const Partition& part() const { return part_; }

@@ -15,14 +15,15 @@ struct Deformation {
   std::int64_t strain_block = -1;    // id
   double turn = 0;                   // rad, largest rotation of any block
   std::int64_t turn_block = -1;      // id
-  double departure = 0;              // least gap of the springs of an interface over its size
+  double departure = 0;              // least opening of the springs of an interface over its size
   std::int64_t departure_block = -1; // id
 };
 
 Deformation largest_deformation(const Model&, const State&);
 
 // How far the two sides of an interface between blocks of small strain, none of whose bonds is whole, have gone from
-// each other at least: the least jump of its springs over the root of its area. 0 for every other interface.
+// each other at least: the least relative displacement of its springs over the root of its area. 0 for every other
+// interface.
 double departure(const Model&, const State&, const Interface&);
 // At least as much: only these springs, those of one rank, are looked at.
 double departure(const Model&, const State&, const Interface&, Range points);

@@ -13,7 +13,7 @@
 namespace cdem {
 
 double EnergyLedger::balance_error() const {
-  // Where rock gives way from its initial stress alone, bolts do next to no work beside what is lost.
+  // Where rock fails from its initial stress alone, the work of bolts is small compared with the losses.
   const double lost = bolts + yielding > 0 ? damping + fictitious + friction + bolts + yielding : 0;
   return external_peak > 0 ? std::abs(total() - external) / std::max(external_peak, lost) : 0;
 }

@@ -19,7 +19,7 @@ struct JointPoint {
   double water = 0;             // Pa
   double use = 0;               // utilisation
   double opening = 0,
-         slip = 0;    // m, jump across the joint since the beginning: along the normal, size of the rest
+         slip = 0;    // m, relative displacement since the beginning: along the normal, size of the rest
   bool apart = false; // carries nothing
 };
 

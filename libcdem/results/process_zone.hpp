@@ -28,7 +28,8 @@ struct ProcessZone {
 // m; modulus: E', Pa.
 double process_zone_length(double modulus, double fracture_energy, double tensile_strength);
 
-// Of each body and pair of bodies with a law that softens, by body; one for each law of a body with several.
+// Process zones of each body and pair of bodies with a law that softens, by body; one for each law if a body has
+// several.
 std::vector<ProcessZone> process_zones(const Model&);
 
 } // namespace cdem

@@ -13,8 +13,8 @@ struct Contact {
   enum Kind : std::uint32_t { spring, edge };
   std::uint32_t kind : 1;
   std::uint32_t source : 31; // 3 triangle + corner; of an edge where it starts on the first of its triangles
-  // Of a spring's target, one contact for each: its block, or its fragment once it has broken. Of an edge its own second
-  // triangle.
+  // For a spring: the target's block, or its fragment once the block has broken; one contact for each. For an edge: its
+  // own second triangle.
   std::int32_t fragment = 0;
   std::int32_t target = 0;                // triangle; of an edge as source
   std::int32_t beside = 0;                // of an edge the second triangle of the target

@@ -78,7 +78,7 @@ public:
   double update_contacts(double safety = 1);
   // s, for rigid bodies in flight (contact/response/contact_bounds.hpp); after update_contacts.
   double longest_step_of_flight() const { return contacts_.longest_step_of_flight(context_, work); }
-  // Of the step from `time` (s) on: loads, supports that vary, free fields.
+  // Updates loads, supports that vary and free fields for the step that begins at `time` (s).
   void update_loads(double time, const Stepping&);
   void update_loads_at_rest(); // in a relaxation: of what follows the rock
   // All forces where the nodes are, and move(nodes, forces, sums), move_rigid(rigid body, sums) (step_loops.hpp).
@@ -190,7 +190,7 @@ NodeSums Stage::advance(bool breaking, const Move& move, const MoveRigid& move_r
   return sums;
 }
 
-// Of the threads allowed, as many as the model keeps busy.
+// Number of the allowed threads that the model keeps busy.
 int useful_threads(const Model&, int threads);
 
 // Out-of-balance over applied force norm; reactions stand in for the loads where supports move.

@@ -17,7 +17,7 @@ struct Workspace {
 
   ResolvedConditions resolved;
   BondWork bond;
-  // Of meshed bodies; empty without them.
+  // For meshed bodies; empty without them.
   std::vector<geom::Vec3>
       partial; // N, at the places of mesh chunks that others touch too; written by mesh_forces
   std::vector<FaceSums> face_sums; // per mesh chunk

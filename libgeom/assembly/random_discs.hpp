@@ -22,7 +22,7 @@ struct RadiusOptions {
   RadiusLaw law = RadiusLaw::constant;
   double mean = 0;      // m, of constant, exponential and lognormal
   double deviation = 0; // m, standard deviation of lognormal
-  // Of power: density ~ r^-(exponent + 1) between smallest and largest, m.
+  // For `power`: density ~ r^-(exponent + 1) between smallest and largest, m.
   double exponent = 0, smallest = 0, largest = 0;
 };
 double mean_square(const RadiusOptions&);         // m2

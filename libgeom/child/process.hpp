@@ -29,8 +29,8 @@ ChildLimits limits_of_file(const std::string& path);
 std::string run_in_child(const std::string& what, const ChildLimits& limits,
                          const std::function<std::string()>& work);
 
-// Of several processes that come to the same work one may do it and tell the others its bytes: `share` is given what does
-// it here and says what comes of it. Empty: everyone does it.
+// If several processes reach the same work, one of them may do it and send the bytes of its result to the others.
+// `share` receives the function that does the work here, and returns the result. Empty: every process does the work.
 void set_sharing(std::function<std::string(const std::function<std::string()>&)> share);
 
 } // namespace geom

@@ -5,12 +5,12 @@
 // The pattern is a diamond, twice as wide along the contour as its rows are apart, so that rows are Dn / sqrt(2 phi)
 // apart. Units lie at rest under gravity with friction, slid down against the two below, and keep `gap` from all
 // others; then all but the lowest row, which is taken for held, come to rest together, and those that lean on fewer
-// than three things are repositioned (placement/laying.hpp). How far apart rows then are depends on how units
-// fit: the pattern is widened along the contour until the density in the middle of the pile (of rows and columns,
-// where it has no middle) is phi within 1 %, in six trials at most (two of a thousand units), of which the nearest is
-// taken. Between walls, where units slid off or lean on too little for all that or do not come to rest, another layer
-// with other attitudes is laid, up to four in all (three from 61 units on, two from 81, one from 121). The one with the
-// fewest such units is taken, but none of a density further off than 1 % and than that of those before.
+// than three bodies are repositioned (placement/laying.hpp). How far apart rows then are depends on how units fit: the
+// pattern is widened along the contour until the density in the middle of the pile (of rows and columns, where it has
+// no middle) is phi within 1 %, in six trials at most (two of a thousand units), of which the nearest is taken. Between
+// walls, where units slid off or lean on too little for all that or do not come to rest, another layer with other
+// attitudes is laid, up to four in all (three from 61 units on, two from 81, one from 121). The one with the fewest
+// such units is taken, but none of a density further off than 1 % and than that of those before.
 #pragma once
 
 #include "libgeom/placement/ground.hpp"

@@ -59,7 +59,7 @@ Surface upper_side(const Surface& ground) {
   return side;
 }
 
-// Of a solid whose inertia is the same about all axes.
+// Radius of gyration of a solid with the same inertia about all axes.
 double gyration_of(const Pile& pile) {
   const MassProperties solid = mass_properties(pile.unit);
   return std::sqrt(solid.inertia.trace() / (3 * solid.volume));
@@ -95,7 +95,7 @@ double Laying::ground_level(const Vec3& place) const {
   return z ? frame_.row(2).dot(Vec3(x.x(), x.y(), *z)) : 0;
 }
 
-// What a unit may meet on its way to rest.
+// Bodies that a unit may meet before it comes to rest.
 Laying::Near Laying::on_the_way(const Vec3& centroid, int except) const {
   return near(centroid, 2 * radius_ + (way + roll) * height_, except);
 }

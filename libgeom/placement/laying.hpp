@@ -1,5 +1,5 @@
 // Laying one unit of an armour layer after the other, each at rest; then all of them come to rest together, and those
-// that lean on too little are repositioned (repositioning.cpp).
+// that have too few supports are repositioned (repositioning.cpp).
 //
 // A unit is tried in many attitudes: some in which it stands on the bare slope by itself, some that fit into the
 // pattern, any others. In each it is lowered along the normal of the slope as near to its place as it comes down to the
@@ -45,7 +45,7 @@ public:
   // Units from number `held` on come to rest once more, all together: those above press on those below. If they are not
   // clear of each other then, they are where they were.
   void rest_together(int held);
-  // After that: units on which fewer than three things press are repositioned, and all rest together again, until
+  // After that: units with fewer than three supports are repositioned, and all rest together again, until
   // there are none, or so many times.
   void reposition_unsupported(int held);
   const Rested& rested() const { return rested_; }

@@ -1,4 +1,4 @@
-// Laying, second part: all units come to rest together, and those that lean on too little are repositioned.
+// Laying, second part: all units come to rest together, and units with too few supports are repositioned.
 #include "libgeom/placement/laying.hpp"
 
 #include "libgeom/core/random.hpp"
@@ -10,11 +10,11 @@
 namespace geom {
 namespace {
 
-// Of all units at once.
+// When all units come to rest at once.
 constexpr int first_steps = 1000, later_steps = 400;    // at most
 constexpr double first_step = 0.01, later_step = 0.003; // over the height
 
-// Repositions units that too few others press on.
+// When units with too few supports are repositioned.
 constexpr int most_rounds = 40, most_in_vain = 20; // the latter in a row
 constexpr int units_times_rounds = 4000;           // at most: every round takes all to rest again
 constexpr std::uint64_t positions_tried = 20;
@@ -76,7 +76,7 @@ void Laying::rest_together(int held, double step, int steps) {
   }
 }
 
-// The best, and nearest, of some other positions near by where three things carry it by itself: turned and shifted, more in
+// The best of some other positions near by in which three bodies support the unit: it is rotated and shifted, more in
 // each round, or lifted and in any attitude. False where there is none.
 bool Laying::reposition(int unit, int round) {
   const Pose here = laid_[unit].pose;

@@ -17,7 +17,7 @@ namespace geom {
 
 using Pieces = std::vector<std::pair<int, int>>; // (dimension, tag) in gmsh's model
 
-// Of a session, what its child hands back.
+// Packs and unpacks the results that the child of a session returns.
 void pack(std::string& out, const MassProperties&);
 void unpack(Unpacker&, MassProperties&);
 void pack(std::string& out, const TetMesh&); // without names of faces

@@ -18,7 +18,7 @@ double depth_of(const ContactWork&, const ContactTriangle&);
 // m, around triangles that belong together: those that were further from each other than both at first may meet.
 double far_at_first(const ContactWork&, const ContactTriangle&);
 
-// Of two blocks together: how deep a contact may stand that the search knows of, m.
+// Largest depth of a contact between two blocks for which the search allows, m.
 class SearchMargin {
 public:
   SearchMargin(const Model&, const State&, const ContactWork&);

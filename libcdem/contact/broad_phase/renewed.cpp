@@ -7,7 +7,8 @@
 namespace cdem {
 namespace {
 
-// Of its skin: a fragment that has less left is searched with the first that leaves its own.
+// Fraction of a skin: a fragment that has less of its skin left is searched with the first fragment that leaves its
+// own.
 constexpr double searched_with_others = 0.6;
 
 } // namespace

@@ -8,8 +8,8 @@
 
 namespace cdem {
 
-// Of items with these loads, those that this rank looks at, ascending: the heaviest first, each goes to the rank that has
-// least, so that neighbours, which weigh alike, go to different ones.
+// Items that this rank computes, ascending; load: of each item. The heaviest items come first, and each goes to the
+// rank with the least load. So neighbours, which have similar loads, go to different ranks.
 std::vector<std::int64_t> own_share(const ContactWork&, const std::vector<double>& load);
 
 // Triangles of the two blocks that stand where their boxes meet, as if they were spread evenly in these; of which a search

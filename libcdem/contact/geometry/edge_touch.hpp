@@ -30,7 +30,8 @@ inline NearestOfEdges nearest_of_edges(const Model& model, const State& state, c
 }
 
 struct EdgeTouch {
-  // Unit, out of the second edge's body: at right angles to both edges, but at an end along the way of the two places.
+  // Unit, out of the second edge's body: at right angles to both edges, but at an end along the line between the two
+  // points.
   geom::Vec3 normal;
   double depth = 0; // m, > 0 where they touch
   double sense = 1; // of (first x second) . normal, 1 or -1

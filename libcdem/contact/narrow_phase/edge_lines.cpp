@@ -7,10 +7,10 @@
 namespace cdem {
 namespace {
 
-// Of the distance of two edges: further from an end of both no other edges of their lines are as near. Edges that act
-// enclose an angle with a sine of 0.05 or more.
+// Distance from the ends, over the distance of two edges: beyond it no other edges of their chains are as near. Edges
+// that act enclose an angle with a sine of 0.05 or more.
 constexpr double reach_of_ends = 40;
-// Of a tet's height: distances that differ by less are one, as at a node that two edges share.
+// Difference over a tet's height: distances that differ by less are equal, as at a node that two edges share.
 constexpr double same_distance = 1e-12;
 
 } // namespace

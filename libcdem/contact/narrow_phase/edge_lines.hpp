@@ -45,7 +45,8 @@ private:
   bool far_from_ends(int edge, double place, double distance) const;
   bool nearer(int e, int f, const NearestOfEdges&, int than_e, int than_f, const NearestOfEdges& than) const;
   std::vector<int> with_those_at_ends(int edge) const;
-  // Of all new contacts around that of `from` and `to` the one of e and f has the normal most like the one before.
+  // True if, among all new contacts around that of `from` and `to`, the contact of e and f has the normal most like the
+  // old one.
   bool takes_over(int e, int f, const geom::Vec3& normal, int from, int to, const geom::Vec3& before) const;
 
   const Model& model_;

@@ -24,7 +24,8 @@ public:
       if (work_.active[t])
         add_triangle(t);
   }
-  // Of the movers of the block for which `read` holds, and of the edges on them: an edge may part two movers.
+  // Adds the nodes of the block's movers for which `read` holds, and of the edges on them: an edge may separate two
+  // movers.
   template <class Read>
   void add_movers(int block, const Read& read) {
     const auto reads = [&](int t) { return read(work_.movers.of_triangle[t]); };

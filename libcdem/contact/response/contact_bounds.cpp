@@ -14,17 +14,18 @@
 namespace cdem {
 namespace {
 
-// Of a rigid body's surface: what touches at most, by the step that it starts with.
+// Largest fraction of a rigid body's surface in contact that the first time step allows for.
 constexpr double touching_part = 0.02;
-// Of the stable step, for the contacts of rigid bodies: they have no elements, so an impact is all in their stiffness,
-// and at 0.9 it takes three steps and gives back 0.75 to 1.5 of the energy, at 0.5 what it took within a tenth.
+// Fraction of the stable step, for the contacts of rigid bodies. Rigid bodies have no elements, so only the stiffness
+// of the contacts takes up an impact. At 0.9 an impact takes three steps and returns 0.75 to 1.5 of the energy. At 0.5
+// it returns the energy within a tenth.
 constexpr double most_of_rigid = 0.5;
-// Of the stable step of an impact, for rigid bodies in flight: its square is the part of the energy that an impact may gain
-// or lose.
+// Fraction of the stable step of an impact, for rigid bodies in flight. Its square is the part of the energy that an
+// impact may gain or lose.
 constexpr double most_of_impact = 0.1;
 // Parts of a unit normal, and of a block's size, in which triangles of one plane agree.
 constexpr double plane_grid = 500;
-// Of a tet's height, in a step.
+// Largest motion in a step, over a tet's height.
 constexpr double way_part = 0.1;
 
 // Pa/m, per body: the stiffest that any of its contacts is given to be; 0: all are as stiff as their tets.

@@ -45,7 +45,7 @@ struct ContactLoss {
   double friction = 0, damping = 0;
 };
 
-// A vector at right angles to the unit vector `from`, turned the shortest way to `to`.
+// A vector at right angles to the unit vector `from`, rotated by the smallest rotation from `from` to `to`.
 inline geom::Vec3 turned_with(const geom::Vec3& v, const geom::Vec3& from, const geom::Vec3& to) {
   const double c = from.dot(to);
   if (c < -0.5) // not a motion but another face
@@ -103,8 +103,8 @@ inline double energy(double pressed, double shear_force, const ContactLaw& law) 
   return 0.5 * law.kn * pressed * pressed + (law.ks > 0 ? 0.5 * shear_force * shear_force / law.ks : 0);
 }
 
-// J, that a contact loses which acts no more, having slid by this in its last step: what it stored, less the work of its
-// force in that step. Of the normal spring that is nothing when it opened.
+// J, loss of a contact that has ended; slid: slip in its last step. The loss is the stored energy less the work of its
+// force in that step. The normal spring loses nothing if the contact opened.
 inline double end_loss(const Contact& c, const ContactLaw& law, const geom::Vec3& slid) {
   const double pressed = c.effective_penetration(), opened = std::min(slid.dot(c.normal), pressed);
   return 0.5 * law.kn * pressed * (pressed - opened) - 0.5 * c.damping * opened +

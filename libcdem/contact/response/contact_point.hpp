@@ -1,4 +1,4 @@
-// Of a contact that acts: its law, its two blocks, and the nodes on which its forces act.
+// A contact that acts: its law, its two blocks, and the nodes on which its forces act.
 #pragma once
 
 #include "libcdem/contact/data/contact_work.hpp"
@@ -18,8 +18,8 @@ inline auto key(const Contact& c) {
 
 ContactLaw law_of(const Model&, const Contact&);
 
-// Of a spring, by its triangle and the one it is pressed into; of two edges, each by its two triangles, with the means of
-// both. The joint is that between their bodies.
+// Law of a spring, from its triangle and the triangle it is pressed into; law of two edges, each with the means of its
+// two triangles. The joint is that between their bodies.
 ContactLaw spring_law(const Joint&, double tan_friction, const ContactTriangle& from,
                       const ContactTriangle& to);
 ContactLaw edge_law(const Joint&, double tan_friction, const ContactSurface&, const std::array<int, 2>& from,
@@ -29,7 +29,7 @@ ContactLaw edge_law(const Joint&, double tan_friction, const ContactSurface&, co
 std::pair<int, int> blocks_of(const Model&, const Contact&);
 std::pair<int, int> triangles_of(const Contact&);
 
-// Of a triangle's corners, where the semi-spring of one of them stands.
+// Weights of a triangle's corners at the position of the semi-spring of one of them.
 geom::Vec3 spring_weights(int corner);
 
 // nearest: weights of the target's corners.

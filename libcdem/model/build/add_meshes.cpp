@@ -295,7 +295,7 @@ void add_shares(Model& model) {
     for (std::int64_t node = chunk.inner_end; node < chunk.nodes.end; ++node)
       rank[node - first] = shared++;
   }
-  // Of the partial forces, in their order: visit(rank of the node, place).
+  // Visits the partial forces in their order: visit(rank of the node, place).
   const auto each = [&](const auto& visit) {
     for (const MeshChunk& chunk : data.chunks) {
       auto place = static_cast<int>(chunk.partial.begin);
@@ -313,7 +313,7 @@ void add_shares(Model& model) {
   each([&](int node, int place) { data.shares[next[node]++] = place; });
 }
 
-// Of the last block that has been added: its tets' laws. regions: of its tets; empty: of one region.
+// Adds the laws of the tets of the last block that was added. regions: of its tets; empty: one region.
 void add_plastic_laws(Model& model, int block, const std::vector<int>& regions) {
   const Block& b = model.blocks[block];
   const PlasticLaws& laws = model.bodies[b.body].plasticity;

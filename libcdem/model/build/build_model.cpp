@@ -345,9 +345,9 @@ geom::BlockMesh zones_of(const Model& model, int block) {
 
 namespace {
 
-// Of two blocks of one body, the law of the joint set or cut that made the faces; -1: none of its own. Where both sides
-// have one, as when another joint runs along a face, that of the first counts; a face is glued on both sides or not at
-// all.
+// The law of the joint set or cut that made two faces of two blocks of one body; -1: none of its own. If both sides
+// have one, as when another joint runs along a face, that of the first block counts. A face is glued on both sides or
+// not at all.
 int joint_of_cut(const Body& body, const geom::PolyhedronFace& a, const geom::PolyhedronFace& b) {
   if (a.glued && b.glued)
     return body.glued_joint;

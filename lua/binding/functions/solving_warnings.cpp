@@ -16,7 +16,7 @@ constexpr double small_turn = 1;        // degree
 constexpr double small_departure = 0.1; // of a face's size
 // An open energy balance is told of again when it has grown by this.
 constexpr double tell_again = 1.5;
-// Of an element's height: contacts deeper than this may well be what opens the balance.
+// Depth over an element's height: deeper contacts are a likely cause of an open energy balance.
 constexpr double deep_contact = 0.05;
 
 std::string of_stage(const Stage& stage) {

@@ -8,7 +8,7 @@
 
 namespace cdem::script {
 
-// Of the output folder of a sweep: holds the text that its runs run.
+// Folder in the output folder of a sweep: holds the scripts that its runs execute.
 inline constexpr const char* sources_folder = "swept";
 
 // Where the file of `require "a.b"` stands, from the script's folder: a/b.lua.
