@@ -48,6 +48,13 @@ public:
   // The largest of what each has, entry by entry. No rank may hold a NaN.
   virtual void largest(double* values, std::size_t count) = 0;
 
+  // True where it is so on any rank.
+  bool any(bool here) {
+    double said = here ? 1 : 0;
+    largest(&said, 1);
+    return said > 0;
+  }
+
   // Whole numbers, summed over the ranks entry by entry: their order does not matter.
   virtual void sum(std::int64_t* values, std::size_t count) = 0;
 
