@@ -165,6 +165,7 @@ public:
   int stage() const;                                               // solving calls so far
   std::int64_t steps() const;                                      // steps of all stages
   EnergyLedger energy() const;
+  ImpossibleEnergy impossible_energy() const;     // of the ledger so far
   std::uint64_t state_hash() const;               // of every State field, bit for bit
   geom::Box box() const;                          // undeformed
   Deformation deformation() const;                // how far from small strain

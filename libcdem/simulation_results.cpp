@@ -94,6 +94,10 @@ int Simulation::stage() const {
 std::int64_t Simulation::steps() const {
   return impl_->state.step;
 }
+ImpossibleEnergy Simulation::impossible_energy() const {
+  return cdem::impossible_energy(energy(), impl_->state.time, impl_->log.one_way);
+}
+
 EnergyLedger Simulation::energy() const {
   return cdem::energy(impl_->model, impl_->state);
 }

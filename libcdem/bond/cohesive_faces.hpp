@@ -10,9 +10,9 @@
 // so that nothing jumps. A crack takes G times its area as m sees it, whatever the faces it follows: on the faces' own planes
 // a crack that has to zigzag would lock.
 //
-// The law begins as if its spring had been stretched all along: the s m . s m / 2k that it then stores is taken from what
-// breaking spends. A face that unloads before it is damaged to speak of goes back to holding, so that none of that is given
-// back. A face whose points have lost all strength and are open has parted: what meets there is left to contact.
+// The law begins as if its spring had been stretched all along. The body never stored the s m . s m / 2k that it then holds, so
+// it counts neither as stored nor, as damage grows, as taken by breaking: a face that unloads stores less than nothing then.
+// One that unloads before it is damaged to speak of goes back to holding, so that none of that is given back. A face whose points have lost all strength and are open has parted: what meets there is left to contact.
 //
 // Preload: a node that has just been freed leaves each of its copies with the force that keeps its acceleration, on the
 // faces between them. It dies away over some hundred steps, and acts while the face holds: on the sides of a crack, whose gap

@@ -168,7 +168,7 @@ private:
     breaking_ += taken;
     if (joint.softening != Softening::none)
       return;
-    crack_.add(taken, plane->mode == BondMode::broken_shear ? 1 : 0);
+    crack_.add(std::max(0.0, taken), plane->mode == BondMode::broken_shear ? 1 : 0);
     const geom::Vec3 traction = stress * plane->normal;
     const double normal = traction.dot(plane->normal);
     for (int point = 0; point < 3; ++point)

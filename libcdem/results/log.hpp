@@ -2,6 +2,7 @@
 // them.
 #pragma once
 
+#include "libcdem/results/one_way_energies.hpp"
 #include "libcdem/results/snapshot.hpp"
 #include "libcdem/results/watch.hpp"
 
@@ -67,6 +68,8 @@ struct RunLog {
 
   // Largest values of all contacts so far: depth, m, and depth over the height of the lower of the two tets.
   double deepest_contact = 0, deepest_over_height = 0;
+
+  OneWayEnergies one_way; // of the ledger after every step
 
   std::int64_t every = 10; // steps between samples
 

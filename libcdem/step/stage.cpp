@@ -304,6 +304,7 @@ void Stage::record_step(const StepReport& report) {
   spent.external_peak = std::max(spent.external_peak, std::abs(spent.external));
   spent.damping += report.sums.damping;
   spent.radiated += report.sums.radiated;
+  context_.log.one_way.look(spent, context_.state.time);
 }
 
 void Stage::release_parted_blocks() {

@@ -320,7 +320,8 @@ local cdem = {}
 ---@field external number J: work of loads, gravity and moving supports
 ---@field external_peak number J: largest |external| so far
 ---@field total number J: sum of all but external
----@field balance_error number |total - external| over external_peak
+---@field balance_error number |total - external| over the largest energy above
+---@field one_way_error number the largest so far of: how far damping, friction, breaking, plastic or yielding, which can only rise, fell; how far kinetic and stored energy were above what was given; over the largest energy above
 
 ---Volume that two blocks occupy at once, as they stand now.
 ---@class (exact) cdem.Overlap

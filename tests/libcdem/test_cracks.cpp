@@ -160,7 +160,7 @@ TEST_CASE("cracks: a cohesive plane has its section and its fracture energy", "[
   CHECK(all.projected == Approx(all.area()).epsilon(1e-3));
   CHECK(all.energy.tension == Approx(joint.fracture_energy_1 * side * side).epsilon(0.03));
   CHECK(all.energy.shear < 0.01 * all.energy.tension);
-  // The ledger has beside it the dying preload of freed nodes.
+  // The ledger has beside it what the faces stored before they cracked.
   CHECK(all.energy.tension + all.energy.shear == Approx(s.state.spent.breaking).epsilon(0.02));
 }
 

@@ -51,14 +51,23 @@ Value fields(Session&, ModelObject&, const Arguments&) {
 
 Value energy(Session&, ModelObject& model, const Arguments&) {
   const EnergyLedger e = model.simulation.energy();
-  return Table{{"elastic", e.elastic},   {"springs", e.springs},
-               {"bolts", e.bolts},       {"kinetic", e.kinetic},
-               {"damping", e.damping},   {"radiated", e.radiated},
-               {"friction", e.friction}, {"breaking", e.breaking},
-               {"plastic", e.plastic},   {"yielding", e.yielding},
-               {"cutting", e.cutting},   {"fictitious", e.fictitious},
-               {"external", e.external}, {"external_peak", e.external_peak},
-               {"total", e.total()},     {"balance_error", e.balance_error()}};
+  return Table{{"elastic", e.elastic},
+               {"springs", e.springs},
+               {"bolts", e.bolts},
+               {"kinetic", e.kinetic},
+               {"damping", e.damping},
+               {"radiated", e.radiated},
+               {"friction", e.friction},
+               {"breaking", e.breaking},
+               {"plastic", e.plastic},
+               {"yielding", e.yielding},
+               {"cutting", e.cutting},
+               {"fictitious", e.fictitious},
+               {"external", e.external},
+               {"external_peak", e.external_peak},
+               {"total", e.total()},
+               {"balance_error", e.balance_error()},
+               {"one_way_error", model.simulation.impossible_energy().part}};
 }
 
 Value overlap(Session&, ModelObject& model, const Arguments&) {
@@ -165,7 +174,14 @@ void bind_rows(Module& m) {
         number("external").unit("J").required().doc("work of loads, gravity and moving supports"),
         number("external_peak").unit("J").required().doc("largest |external| so far"),
         number("total").unit("J").required().doc("sum of all but external"),
-        number("balance_error").required().doc("|total - external| over external_peak")}});
+        number("balance_error").required().doc("|total - external| over the largest energy above"),
+        number("one_way_error")
+            .required()
+            .doc("the largest so far of: how far damping, friction, breaking, plastic or yielding, which can "
+                 "only "
+                 "rise, fell; how far kinetic and stored energy were above what was given; over the largest "
+                 "energy "
+                 "above")}});
   m.records.push_back(
       {"Overlap",
        "Volume that two blocks occupy at once, as they stand now.",
