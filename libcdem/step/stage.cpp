@@ -7,6 +7,7 @@
 #include "libcdem/parallel/instruction_set.hpp"
 #include "libcdem/parallel/residency.hpp"
 #include "libcdem/ranks/parked_model.hpp"
+#include "libcdem/results/energy.hpp"
 #include "libcdem/results/make_snapshot.hpp"
 #include "libcdem/step/errors.hpp"
 #include "libcdem/step/record.hpp"
@@ -136,7 +137,7 @@ void Stage::share() {
     ResolvedConditions whole = resolve(context_.model, context_.state, context_.conditions);
     work.resolved.external = std::move(whole.external);
     work.resolved.constant = std::move(whole.constant);
-    update_external(work.resolved, context_.state.time);
+    update_external(work.resolved, context_.state.time, moving());
     gave_back_ = false;
   }
   const Range all{0, static_cast<std::int64_t>(context_.model.chunks.size())};
@@ -270,7 +271,7 @@ bool Stage::free_nodes() {
     contacts_ = ContactUpdate(context_);
     contacts_.start_anew(model, work.contact);
     has_shared_nodes_ = has_shared_nodes(model);
-    update_external(work.resolved, state.time);
+    update_external(work.resolved, state.time, moving());
     preload_faces(model, state, net_forces(model, state, work), freed.anew);
     keep_last_good();
   }
@@ -329,7 +330,7 @@ void Stage::update_loads(double time, const Stepping& stepping) {
   advance_columns(work.resolved, context_.state, {time, stepping.time_step, stepping.kick});
   update_supports(work.resolved, time + 0.5 * stepping.time_step);
   advance_bolts();
-  update_external(work.resolved, time);
+  update_external(work.resolved, time, &context_.state.velocity);
   times_.end(StepLine::loads);
 }
 
@@ -337,7 +338,7 @@ void Stage::update_loads_at_rest() {
   if (work.resolved.bolts.empty())
     return;
   advance_bolts();
-  update_external(work.resolved, context_.state.time);
+  update_external(work.resolved, context_.state.time, moving());
   times_.end(StepLine::loads);
 }
 
@@ -441,10 +442,12 @@ void Stage::look_for_escapes() {
     return;
   gave_back_ = false;
   work.resolved = resolve(context_.model, context_.state, context_.conditions);
-  update_external(work.resolved, context_.state.time);
+  update_external(work.resolved, context_.state.time, moving());
 }
 
 void Stage::watch(const StepReport& report) {
+  if (std::exchange(sampled_start_, false))
+    context_.log.history.back().residual = report.residual;
   record_step(report);
   if (!finite(report.sums)) {
     see_whole();
@@ -461,7 +464,7 @@ void Stage::watch(const StepReport& report) {
   if (!work.resolved.flows.empty() && step % flow_every == 0) {
     see_whole();
     refresh_flows(context_.model, context_.state, work.resolved);
-    update_external(work.resolved, context_.state.time);
+    update_external(work.resolved, context_.state.time, moving());
   }
   if (context_.log.due(context_.state.step))
     sample(report);
@@ -534,6 +537,16 @@ StageResult Stage::finish(const StepReport& step_report) {
   report(step_report, true);
   return {step, step_report.residual, context_.log.broken_tension - broken_tension_before_,
           context_.log.broken_shear - broken_shear_before_, wall_time()};
+}
+
+void Stage::sample_start() {
+  RunLog& log = context_.log;
+  if (!log.history.empty() && log.history.back().stage == context_.number)
+    return; // a stage of several loops, or one that goes on
+  see_whole();
+  record_history(context_.model, context_.state, context_.conditions, log, context_.number, 0,
+                 kinetic_energy(context_.model, context_.state));
+  sampled_start_ = true;
 }
 
 void Stage::sample(const StepReport& report) {
