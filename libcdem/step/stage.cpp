@@ -4,6 +4,7 @@
 #include "libcdem/integrate/move_columns.hpp"
 #include "libcdem/parallel/huge_pages.hpp"
 #include "libcdem/parallel/instruction_set.hpp"
+#include "libcdem/results/energy.hpp"
 #include "libcdem/results/make_snapshot.hpp"
 #include "libcdem/step/errors.hpp"
 #include "libcdem/step/record.hpp"
@@ -151,7 +152,7 @@ void Stage::update_loads(double time, const Stepping& stepping) {
   advance_columns(work.resolved, context_.state, {time, stepping.time_step, stepping.kick});
   update_supports(work.resolved, time + 0.5 * stepping.time_step);
   advance_bolts();
-  update_external(work.resolved, time);
+  update_external(work.resolved, time, &context_.state.velocity);
   times_.end(StepLine::loads);
 }
 
@@ -159,7 +160,7 @@ void Stage::update_loads_at_rest() {
   if (work.resolved.bolts.empty())
     return;
   advance_bolts();
-  update_external(work.resolved, context_.state.time);
+  update_external(work.resolved, context_.state.time, moving());
   times_.end(StepLine::loads);
 }
 
@@ -259,10 +260,12 @@ void Stage::look_for_escapes() {
     return;
   gave_back_ = false;
   work.resolved = resolve(context_.model, context_.state, context_.conditions);
-  update_external(work.resolved, context_.state.time);
+  update_external(work.resolved, context_.state.time, moving());
 }
 
 void Stage::watch(const StepReport& report) {
+  if (std::exchange(sampled_start_, false))
+    context_.log.history.back().residual = report.residual;
   record_step(report);
   if (!finite(report.sums)) {
     see_whole();
@@ -279,7 +282,7 @@ void Stage::watch(const StepReport& report) {
   if (!work.resolved.flows.empty() && step % flow_every == 0) {
     see_whole();
     refresh_flows(context_.model, context_.state, work.resolved);
-    update_external(work.resolved, context_.state.time);
+    update_external(work.resolved, context_.state.time, moving());
   }
   if (context_.log.due(context_.state.step))
     sample(report);
@@ -353,6 +356,16 @@ StageResult Stage::finish(const StepReport& step_report) {
   report(step_report, true);
   return {step, step_report.residual, context_.log.broken_tension - broken_tension_before_,
           context_.log.broken_shear - broken_shear_before_, wall_time()};
+}
+
+void Stage::sample_start() {
+  RunLog& log = context_.log;
+  if (!log.history.empty() && log.history.back().stage == context_.number)
+    return; // a stage of several loops, or one that goes on
+  see_whole();
+  record_history(context_.model, context_.state, context_.conditions, log, context_.number, 0,
+                 kinetic_energy(context_.model, context_.state));
+  sampled_start_ = true;
 }
 
 void Stage::sample(const StepReport& report) {

@@ -61,6 +61,10 @@ public:
   std::vector<Node>* carried = nullptr; // by node, that the loop carries beside the State; may be null
   EscapeLimits escapes;                 // where pieces have left the model
 
+  // The first row of the history: how things stand where the stage begins. Its residual comes with the first step, which
+  // finds the forces there.
+  void sample_start();
+
   // True at the head of a step before which the state has been kept: keep_restart_point there, with what the loop
   // carries from step to step.
   bool can_be_left() const { return context_.restart_point && step > 0 && step % watch_every == 0; }
@@ -118,6 +122,8 @@ private:
   std::int64_t synchronise_stress(RunLog&); // returns how many springs broke, of which the log is told
 
   void advance_bolts();
+  // m/s, of the nodes, for loads that depend on it; null in a relaxation, whose velocities are lengths per step.
+  const std::vector<Node>* moving() const { return in_real_time ? &context_.state.velocity : nullptr; }
   double wall_time() const; // s
   StageStep here() const { return {context_.number, kind_, step}; }
   void record_step(const StepReport&); // energies and breaks
@@ -131,6 +137,7 @@ private:
 
   StageContext context_;
   std::unique_ptr<SharedState> shared_; // null where this rank is alone
+  bool sampled_start_ = false;          // the last row of the history waits for its residual
   bool gave_back_ = false;              // since it was last shared
   int exceptions_ = std::uncaught_exceptions();
   int shared_anew_ = 0; // how often

@@ -37,7 +37,7 @@ bool Stage::free_nodes() {
     contacts_ = ContactUpdate(context_);
     contacts_.start_anew(model, work.contact);
     has_shared_nodes_ = has_shared_nodes(model);
-    update_external(work.resolved, state.time);
+    update_external(work.resolved, state.time, moving());
     preload_faces(model, state, net_forces(model, state, work), freed.anew);
     keep_last_good();
   }

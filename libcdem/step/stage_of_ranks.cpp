@@ -30,7 +30,7 @@ void Stage::share() {
     ResolvedConditions whole = resolve(context_.model, context_.state, context_.conditions);
     work.resolved.external = std::move(whole.external);
     work.resolved.constant = std::move(whole.constant);
-    update_external(work.resolved, context_.state.time);
+    update_external(work.resolved, context_.state.time, moving());
     gave_back_ = false;
   }
   const Range all{0, static_cast<std::int64_t>(context_.model.chunks.size())};

@@ -134,7 +134,7 @@ private:
     for (std::size_t f = 0; f < shape.faces.size(); ++f)
       if (part.parent_face[f] == cut_face) {
         shape.faces[f].cut = options_.name;
-        shape.faces[f].glued = true;
+        shape.faces[f].glued = options_.glued;
       }
     return shape;
   }

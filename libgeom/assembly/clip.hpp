@@ -22,7 +22,8 @@ struct ClipOptions {
   ClipSide keep = ClipSide::inside;
   // m, >= 0: the surface that is cut may deviate from the given one by as much, and no piece is made thinner. 0: exact.
   double tolerance = 0;
-  std::string name = {}; // of the faces on the surface
+  std::string name = {}; // of the faces that are cut
+  bool glued = true;     // they are no joints
 };
 
 struct Clipped {
@@ -33,7 +34,8 @@ struct Clipped {
   Vec3 thinnest_place = Vec3::Zero();
 };
 
-// Pieces stand in the place of their block. Faces that a cut makes are glued: within the rock they are no joints. Throws
+// Pieces stand in the place of their block. Faces that a cut makes are glued as long as within the rock they are
+// no joints. Throws
 // InputError when an open surface ends over a block, when nothing is left, and when a block falls into more than 20000
 // pieces.
 Clipped clip(const Assembly&, const Surface&, const ClipOptions&);

@@ -8,6 +8,7 @@ local model = cdem.model{ bodies = { { name = "plate", shape = cdem.grid{ size =
 model:fix{ on = "y-" }                                           -- held in x, y and z
 model:fix{ on = {"z-", "z+"}, axes = "z" }                       -- rollers
 model:fix{ on = "y+", axes = "y", velocity = {0, -0.01, 0} }     -- moved by model:run, m/s
+model:fix{ on = "x+", axes = "x", displacement = {1e-4, 0, 0} }  -- where it is at the end of the next run or relaxation
 
 -- example: model:release
 model:release{ on = "y+", axes = "y" }

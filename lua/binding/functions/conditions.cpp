@@ -219,9 +219,12 @@ void bind_conditions(Module& m) {
   const auto again = [&] { model.methods.back().replay = Replay::again; };
   add("fix", "Holds nodes, or moves them as told. A later call wins over an earlier one where they meet.",
       {on(), axes(),
-       vec3("displacement").unit("m").doc("total value to be held; a relaxation moves there first"),
-       vec3("velocity").unit("m/s").doc("in real-time stepping; zero when left out"), amplitude_field(),
-       since_field()},
+       vec3("displacement")
+           .unit("m")
+           .doc("total value to be held. A relaxation moves there in its first steps; a run moves there at a "
+                "steady velocity and arrives at its end (one that `stop` ends earlier does not)"),
+       vec3("velocity").unit("m/s").doc("in real-time stepping; zero when left out, and in a relaxation"),
+       amplitude_field(), since_field()},
       fix);
   again();
   add("release", "Undoes fixes.", {on(), axes().doc("components set free")}, release);

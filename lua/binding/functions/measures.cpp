@@ -232,8 +232,13 @@ void bind_measures(Module& m) {
   add("mean", "Mean of a field: over nodes, or over blocks by volume.", {field, on}, "number", "", mean);
   add("at", "Value of a field at an undeformed place, interpolated in the block there.",
       {field, vec3("place").unit("m").required()}, "number", "", at);
-  add("reaction", "Force of the supports on a place.", {place("on").required().doc("where: one place")},
-      "number[]", "N, {x, y, z}", reaction);
+  add("reaction",
+      "Force of what holds a place from outside: of supports; of quiet boundaries and free fields the force "
+      "of "
+      "the support they took the place of, their dashpots, and the waves that enter. A node on an edge "
+      "counts in "
+      "both sides.",
+      {place("on").required().doc("where: one place")}, "number[]", "N, {x, y, z}", reaction);
   add("fields", "Names that max, min, mean, at and probe understand.", {}, "string[]", "", fields);
   add("energy", "Energy ledger.", {}, "cdem.Energy", "", energy);
   add("overlap", "How far contacts let blocks into each other, as a volume.", {}, "cdem.Overlap", "",
@@ -242,14 +247,17 @@ void bind_measures(Module& m) {
   add("breaks", "One table per broken bond, the oldest first.", {}, "cdem.Break[]", "", breaks);
   add("history",
       "Histories as lists by name: stage, step, time, residual, kinetic_energy, external_work, "
-      "broken_tension, broken_shear and the probes. The same are in history.csv after each stage.",
+      "broken_tension, broken_shear and the probes. The first sample of a run is its beginning. The same are "
+      "in "
+      "history.csv after each stage.",
       {}, "table<string, number[]>", "", history);
   add("probe", "Samples a field at a place into the history.",
       {text("name").required().doc("of the column"), field,
        vec3("at").unit("m").required().doc("undeformed place")},
       "", "", probe, false);
   add("record_reaction",
-      "Samples the force of the supports on a side or a body into the history (N), as columns <name>_x, "
+      "Samples the force of the supports and boundaries (model:reaction) on a side or a body into the "
+      "history (N), as columns <name>_x, "
       "<name>_y and "
       "<name>_z. Each sample costs some steps.",
       {text("name").required(), text("on").required().doc("\"x-\" .. \"z+\", or a body by name")}, "", "",
