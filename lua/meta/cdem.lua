@@ -2299,7 +2299,7 @@ function cdem.flow_velocity(pressure, water_density) end
 ---@field time? string default "time": name of its column (s); the number of it, "1", where the file has no names
 ---@field value string name of its column
 ---@field scale? number default 1: factor on the values
----@field unit "m/s2"|"cm/s2"|"g"|"m/s"|"cm/s"|"Pa"|"kPa"|"MPa"|"1" of the values in the file
+---@field unit "m/s2"|"cm/s2"|"Gal"|"g"|"m/s"|"cm/s"|"Pa"|"kPa"|"MPa"|"1" of the values in the file
 ---@field to? "velocity" velocity: an acceleration is integrated
 ---@field baseline? "none"|"straight" default "none": straight: takes the line a0 + a1 t off the acceleration that brings the last velocity and the last displacement to zero
 ---@field longest_step? number s, > 0: two samples further apart are a gap; 2.5 times the median step when left out
