@@ -1,8 +1,9 @@
-// Semi-edges as the lines that they make up: which pairs of them act, and which go on with what another has stored.
+// Chains of semi-edges: which pairs of edges act, and which take over the stored energy of another pair.
 //
-// Edges go on in each other over a node where they enclose less than 45 degrees. Where two such lines cross the nearest
-// places act, as a spring acts with the nearest place of a surface: within both edges, or at an end where the line goes
-// on. Edges of a line that cross another from opposite sides, in and out again, are two crossings.
+// Two edges that meet at a node continue each other if the angle between them is less than 45 degrees. Where two chains
+// cross, their nearest points act, as a spring acts with the nearest point of a surface. These points lie within both
+// edges, or at an end where the chain continues. If a chain crosses another twice, in and out again, these are two
+// crossings.
 #pragma once
 
 #include "libcdem/contact/data/contact_work.hpp"
