@@ -1,5 +1,5 @@
-// A mesh on its way into the model, in its own numbers: its nodes are split where faces may part, and numbered by the chunk
-// that is the first to touch them.
+// A mesh before it becomes part of the model, with its own numbers. Its nodes are split where faces may separate, and
+// numbered by the first chunk that uses them.
 #pragma once
 
 #include "libcdem/model/build/face_strength.hpp"
