@@ -1,4 +1,4 @@
-// Where two solids touch, or will soon: corner on face, face on corner, edge across edge.
+// Contact points of two solids that touch or are near each other: corner on face, face on corner, edge across edge.
 //
 // Only corners and edges that stand out (the surface is convex across the edge) can touch first. Where a corner is over
 // a face, or two edges cross, the gap is signed: negative as far as one solid is inside the other.
