@@ -2,8 +2,8 @@
 //
 // Some calls of a script cannot check for the request to stop: patterns of strings, table.move, a builder. So a second
 // thread runs. If the run has not reacted to the first signal after some time, this thread closes the log and ends the
-// program, with all its ranks. It waits for a stage to finish its step and for the saving of the solved state, for any
-// time.
+// program, with all its ranks. It waits until a stage has finished its step and the solved state is saved, however long
+// this takes.
 #pragma once
 
 #include "apps/cdem/exit_code.hpp"

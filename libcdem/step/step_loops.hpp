@@ -57,7 +57,7 @@ inline bool has_shared_nodes(const Model& model) {
   });
 }
 
-// What all chunks left for the nodes that several of them touch, added in their order, and the motion of these. After
+// Adds the forces of all chunks on the nodes that several of them use, in their order, and moves these nodes. After
 // element_forces.
 template <class Move>
 void shared_node_forces(const Model& model, State& state, Workspace& work, int threads, const Move& move) {

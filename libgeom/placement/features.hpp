@@ -45,7 +45,7 @@ public:
   NearFeatures() = default;
   NearFeatures(const Features& first, const Features& second, double reach);
 
-  // Adds the touches with a gap below `reach`, of the same two where they are now.
+  // Adds the contact points with a clearance below `reach`, of the same two bodies at their present positions.
   void touches(const Features& first, const Features& second, double reach, std::vector<Touch>&) const;
   bool empty() const { return corner_face_.empty() && face_corner_.empty() && edge_edge_.empty(); }
 

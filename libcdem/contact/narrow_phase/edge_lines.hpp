@@ -18,9 +18,9 @@ class EdgeLines {
 public:
   EdgeLines(const Model&, const State&, const ContactWork&);
 
-  // Two edges by their numbers, e < f. None where they do not touch, where one ends at their nearest places and its line
-  // does not go on, and where a pair of the same crossing is nearer: with one of the two edges, touching or not, or with
-  // two others that touch.
+  // Contact of two edges, by their numbers, e < f. None if they do not touch, if one ends at the nearest points and its
+  // chain does not continue, or if a pair of the same crossing is nearer: a pair with one of the two edges, touching or
+  // not, or a pair of two other edges that touch.
   std::optional<EdgeTouch> active(int e, int f, const NearestOfEdges&) const;
 
   // The contact that the two edges, or others which meet their ends, have just left behind, as if it were that of e and f:
@@ -36,8 +36,8 @@ public:
 private:
   const Contact* contact_of(int e, int f) const; // before the step
   NearestOfEdges nearest(int e, int f) const;
-  // Calls does(next, way) for the edges in which one goes on over an end of it, until it returns true; way: 1 or -1, with
-  // or against their own direction. Returns whether it did.
+  // Calls does(next, way) for the edges that continue an edge over one of its ends, until it returns true; way: 1 or
+  // -1, with or against their own direction. Returns whether it did.
   template <typename Does>
   bool any_next(int edge, int end, const Does& does) const;
   template <typename Does>
