@@ -1,9 +1,9 @@
 // The folder a run writes into, and its log cdem.log.
 //
-// Nothing of the user's is lost: a folder that holds files but no cdem.log is refused. When the last run's
-// results are there, they stay until this run begins to produce its own (a script with a typo does not cost
-// them; its log is then failed.log). What goes then are exactly the files that run wrote, by the list in its
-// log; one that was edited since is kept under another name.
+// The user's files are never lost: a folder that holds files but no cdem.log is refused. The results of the last run
+// stay until this run begins to produce its own. So a script with a typo does not delete them; its log is then
+// failed.log. Exactly the files that the last run wrote are deleted, by the list in its log. A file that was edited
+// since is kept under another name.
 #pragma once
 
 #include "apps/cdem/exit_code.hpp"

@@ -7,8 +7,8 @@
 // n: mean of the two sides' area vectors, made a unit vector. With Ks = Kn the force is parallel to g and conserves the
 // angular momentum. Slip is kept along the face's own axes: its first edge, the mean of both sides, and across.
 //
-// The contact is one of two planes without end, which holds while the sides stay before each other. A face that has
-// broken and then parted or slid away is handed over to the contact of the surface where there is one for its body.
+// The contact treats the two sides as infinite planes, which is valid while they lie opposite each other. A face that
+// has broken and then parted or slid away is handed over to the contact of the surface where there is one for its body.
 #pragma once
 
 #include "libcdem/joint/bond_mode.hpp"

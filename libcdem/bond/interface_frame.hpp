@@ -1,4 +1,4 @@
-// How the interface of two blocks has turned: the rotation R from the undeformed interface to where it is now.
+// Rotation R of the interface of two blocks, from the undeformed interface to its present position.
 //
 // Each side gives the normal n of three of its nodes and the image t of one direction fixed in the undeformed face. The
 // interface turns as the two sides do in the mean:

@@ -164,7 +164,7 @@ ContactSums contact_forces(const Model& model, State& state, ContactWork& own, i
   own.any_depth_begins = !known || (anew && (!state.face_slip.empty() || !model.mesh.sides.empty()));
   if (!fragments_due)
     std::fill(own.changed.begin(), own.changed.end(), 0);
-  // Where a fragment has fallen apart, contacts go with the part they touch.
+  // If a fragment has fallen apart, each contact stays with the part on which it acts.
   if (fragments_due) {
     for (Contact& c : state.contacts)
       if (c.kind == Contact::spring)

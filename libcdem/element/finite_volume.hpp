@@ -15,7 +15,7 @@
 //
 // In a tet beside freed faces of a cohesive body, the strain (but not the spin) has an additional part
 // (element/face_jumps.hpp)
-//   D += sum over these faces of sym(J) / 2V, J = (mean relative velocity) (x) A n in the middle of the step
+//   D += sum over these faces of sym(J) / 2V,  J = (mean relative velocity) (x) A n in the middle of the step
 #pragma once
 
 #include "libcdem/material/elastic.hpp"

@@ -1,13 +1,13 @@
-// Where a crack is: its tip, and the line it has taken from its start.
+// Position of a crack: its tip, and its path from its start.
 //
 // The crack is the set of springs that are broken, or whose bonds the user removed (a notch), with the triangles
-// between them. Distances run along these triangles; from one part of the crack to the next the way through unbroken
-// rock counts `bridge_cost` times its length. The crack starts at the notch, or without one at the first face that
-// broke.
+// between them. Distances are measured along these triangles. From one part of the crack to the next the path through
+// unbroken rock counts `bridge_cost` times its length. The crack starts at the notch, or without one at the first face
+// that broke.
 //
-// A place on the crack lies on its front when the two sides are still held together there: going round it
-// over intact bonds leads from one side to the other. The tip is the part of the front that is farthest along
-// the crack; the front of a crack that reaches a free surface all round is empty.
+// A point of the crack lies on its front when the two sides are still held together there: a path over intact bonds
+// around the point leads from one side to the other. The tip is the part of the front that is farthest along the crack;
+// the front of a crack that reaches a free surface all round is empty.
 #pragma once
 
 #include "libcdem/state/state.hpp"

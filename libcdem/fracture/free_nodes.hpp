@@ -1,8 +1,8 @@
-// Frees the nodes of cohesive bodies where a face nears its strength: each gets a copy for every tet around it that a face
-// which may break parts from the others, so that the faces between can open (element/face_jumps.hpp, cohesive_faces.hpp).
-// Nothing moves by it: stress stays, each copy takes place, velocity and its share of the mass, and its acceleration is
-// kept by a preload on the faces between the copies, which dies away. Faces are freed at half their strength, so that a
-// crack finds freed nodes wherever it goes.
+// Frees the nodes of cohesive bodies where a face nears its strength: each node gets a copy for every tet around it
+// that a breakable face separates from the others, so that the faces between them can open (element/face_jumps.hpp,
+// bond/cohesive_faces.hpp). Freeing moves nothing. The stress stays, and each copy takes the position, the velocity and
+// its share of the mass. A preload on the faces between the copies keeps the acceleration; it decays with time. Faces
+// are freed at half their strength, so that a crack finds freed nodes wherever it goes.
 #pragma once
 
 #include "libcdem/fracture/working_plane.hpp"

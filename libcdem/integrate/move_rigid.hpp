@@ -1,6 +1,6 @@
-// One step of a rigid body: the forces on its nodes summed to a force and a torque about the centroid, Newton and Euler
-// by central differences (element/rigid_motion.hpp), and its nodes where it then is. Like step_nodes, with the velocity and the
-// angular momentum half a step before the places.
+// One step of a rigid body. The forces on its nodes are summed to a force and a torque about the centroid. Newton's and
+// Euler's equations are integrated by central differences (element/rigid_motion.hpp). Then the nodes move with the
+// body. As in step_nodes, velocity and angular momentum are half a step before the positions.
 #pragma once
 
 #include "libcdem/integrate/move_nodes.hpp"

@@ -1,4 +1,4 @@
-// Mohr-Coulomb after the peak: what is left of cohesion, friction and tensile strength, and dilation.
+// Mohr-Coulomb after the peak: residual cohesion, friction and tensile strength, and dilation.
 //
 //   |t_s| <= c_r + p tan(phi_r)     once it has slipped; with the peak's friction until then
 //   pull  <= T_r                    however far it opens; back on the line to the origin

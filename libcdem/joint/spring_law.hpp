@@ -1,6 +1,6 @@
 // Law of one spring between two faces, per area (Han 2010 eqs 8-11 as amended in docs/theory.md).
 //
-//   bonded: t = kn (j - o).n n + ks (j - o)_s, j relative displacement from a to b, o that at t = 0
+//   bonded:   t = kn (j - o).n n + ks (j - o)_s,   j relative displacement from a to b, o that at t = 0
 //
 // broken or never bonded:
 //   closed (t_n <= 0):  the same, |t_s| limited to |t_n| tan(phi), o_s slips with it

@@ -1,4 +1,4 @@
-// What a solid under a flow is judged by: how far it gives, how slowly it swings, where it has broken.
+// Measures of a solid under a flow: compliance, period, and position of the break.
 #pragma once
 
 #include "libcdem/results/log.hpp"

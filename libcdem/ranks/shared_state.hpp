@@ -1,9 +1,10 @@
-// A State that several ranks advance together. In a step each computes its share of the chunks and learns from the others
-// what its share reads; in between, and for whoever looks, all of them have the whole State.
+// A State that several ranks advance together. In a step each rank computes its share of the chunks and receives from
+// the others the data that its share reads. Between steps, when the State is read, all ranks have the whole State.
 //
-// A step sends (1) what springs bear, to the blocks they pull at; (2) the slices of partial forces, to the owners of
-// nodes; (3) where the nodes are then, to those who read them; and sums. A node is moved by its owner alone, since that
-// knows all that acts on it: one more message than if all who hold a copy moved it, and half the rules.
+// A step sends (1) the forces of springs, to the ranks of the blocks on which they act; (2) the slices of partial
+// forces, to the owners of nodes; (3) the new positions of nodes, to the ranks that read them; and sums. The owner
+// alone moves a node, since it knows all forces on it. This needs one message more than if every rank with a copy moved
+// the node, but half the rules.
 #pragma once
 
 #include "libcdem/ranks/links.hpp"

@@ -1,5 +1,6 @@
-// What each rank keeps of a State that several advance: the entries of its own chunks. Arrays have their whole length on
-// every rank, so that all speak of an entry by the same number; the pages of others' entries are given back to the system.
+// The share of a State that each of several ranks keeps: the entries of its own chunks. Arrays have their whole length
+// on every rank, so that an entry has the same index everywhere. The pages of other ranks' entries are returned to the
+// system.
 //
 // `parted` in a State says that it holds one share only, and which; gather makes it whole.
 #pragma once

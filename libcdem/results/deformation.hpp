@@ -1,9 +1,9 @@
-// How far a state is from small strain: the largest strain of any tet, the largest turn of any block, and how far a block
-// has gone along or away from a neighbour that its broken interface still stands for.
+// Deviation of a state from small strain: the largest strain of any tet, the largest rotation of any block, and the
+// largest displacement of a block relative to a neighbour whose broken interface still acts.
 //
-// Small strain drops terms of second order. A strain e is wrong by about e^2 / 2, and a block turned by theta shows the
-// strain theta^2 / 2 of its own: at 1 degree 1.5e-4, in rock of 30 GPa a stress of 4.6 MPa, as much as it can bear in
-// tension.
+// Small strain drops terms of second order. A strain e is wrong by about e^2 / 2, and a block rotated by theta has a
+// false strain of theta^2 / 2. At 1 degree this is 1.5e-4, or 4.6 MPa in rock of 30 GPa, which is about the tensile
+// strength of the rock.
 #pragma once
 
 #include "libcdem/state/state.hpp"

@@ -6,8 +6,8 @@
 // count in the mean, otherwise a unit on which they rested would seem to move. A unit without neighbours, or whose
 // neighbours have all left, is measured relative to the ground alone.
 //
-// A unit that breaks leaves piece by piece, by the same rule for each piece of at least a twentieth of it. It is gone when
-// less than that is left of it.
+// A unit that breaks leaves piece by piece, by the same rule for each piece of at least a twentieth of it. The unit is
+// gone when less than a twentieth is left.
 #pragma once
 
 #include "libcdem/state/state.hpp"

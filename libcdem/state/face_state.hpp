@@ -1,4 +1,4 @@
-// How the faces of meshes stand that may break (bond/face_bonds.hpp, bond/cohesive_faces.hpp).
+// State of the faces of meshes that may break (bond/face_bonds.hpp, bond/cohesive_faces.hpp).
 #pragma once
 
 #include "libcdem/parallel/node.hpp"

@@ -1,5 +1,5 @@
-// The contacts of a step: found and evaluated for where the nodes are before anything else of the step is, and again
-// where somebody looks between two steps.
+// The contacts of a step. They are found and evaluated for the present positions of the nodes before the other parts of
+// the step, and again when the state is read between two steps.
 #pragma once
 
 #include "libcdem/step/soundness.hpp"

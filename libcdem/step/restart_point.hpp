@@ -1,4 +1,4 @@
-// A place where a stage that runs can be left, and taken up again to the same bits as one that was never left.
+// A point at which a running stage can be left, and continued later with the same bits as without the interruption.
 //
 // Every watch_every steps a stage synchronises everything and copies its state (Stage::keep_restart_point). From there it
 // can go on: the state is in last_good, and what the loop carries besides in the RestartPoint. A stage of several loops

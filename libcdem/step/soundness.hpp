@@ -1,4 +1,4 @@
-// What a stage does not go on with: each ends it with a SolutionError that names stage, step, block and place.
+// Faults that end a stage: each throws a SolutionError that names stage, step, block and place.
 #pragma once
 
 #include "libcdem/step/escape.hpp"

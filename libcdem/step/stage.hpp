@@ -10,8 +10,8 @@
 //   end_step                 everything has moved on by the time step
 //   watch                    energies, breaks, soundness, histories, progress, stop
 //
-// Each is a line of StepTimes. The stress of meshes and the contacts stand a step behind the nodes between two steps:
-// synchronise brings them up, SynchronisedView for those who only look.
+// Each is a line of StepTimes. Between two steps, the stress of meshes and the contacts are a step behind the nodes.
+// synchronise advances them; SynchronisedView does so for code that only reads the state.
 #pragma once
 
 #include "libcdem/fracture/begin_cracks.hpp"

@@ -1,7 +1,8 @@
-// The loops of a step over chunks. What moves nodes is handed in: move(nodes, forces, sums) for a run of nodes once all
-// that reads where they are has done so; `forces` are those of elements and springs, the first node's first.
+// The loops of a step over chunks. The caller passes the function that moves nodes: move(nodes, forces, sums) is called
+// for a run of nodes once all code that reads their positions has run. `forces` are those of elements and springs,
+// beginning with the first node.
 //
-// Forces and motion of a chunk stand in one loop, since its forces are in a near cache then.
+// One loop computes the forces of a chunk and moves its nodes, since the forces are then still in the cache.
 #pragma once
 
 #include "libcdem/bond/spring_forces.hpp"
@@ -56,7 +57,7 @@ inline bool has_shared_nodes(const Model& model) {
   });
 }
 
-// What all chunks left for the nodes that several of them touch, added in their order, and the motion of these. After
+// Adds the forces of all chunks on the nodes that several of them use, in their order, and moves these nodes. After
 // element_forces.
 template <class Move>
 void shared_node_forces(const Model& model, State& state, Workspace& work, int threads, const Move& move) {

@@ -1,4 +1,4 @@
-// Discs of a fracture network at random, and what a network comes to.
+// Random discs of a fracture network, and the statistics of a network.
 //
 // Orientation after Fisher (1953, Proc. R. Soc. A 217): poles around the mean, at the angle t from it with the probability
 // density kappa sin t exp(kappa cos t) / (2 sinh kappa). Radii after one of four laws, with the mean square that links the

@@ -22,7 +22,7 @@ constexpr int begins_again = 6;
 constexpr int bodies_times_beginnings = 600;
 constexpr double too_far = 2; // times what is needed: lists that reach further are made anew
 
-// Bodies that move, those that stay, and their touches.
+// Bodies that move, bodies that stay, and their contact points.
 class Together {
 public:
   Together(const Features& shape, const std::vector<Pose>& start, const std::vector<const Features*>& others,

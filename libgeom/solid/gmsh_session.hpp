@@ -1,7 +1,7 @@
 // What the wrappers of gmsh share: each operation in a child process, failures as our own errors, solids in and out.
-// gmsh is one global thing per process that stays "busy" after an error, throws std::string, changes the locale and the
-// number of threads, and both it and OpenCASCADE can crash on damaged files and odd shapes: neither ever runs in this
-// process.
+// gmsh has one global state per process. This state stays "busy" after an error. gmsh throws std::string, and changes
+// the locale and the number of threads. gmsh and OpenCASCADE can crash on damaged files and odd shapes. So neither ever
+// runs in this process.
 #pragma once
 
 #include "libgeom/child/bytes.hpp"

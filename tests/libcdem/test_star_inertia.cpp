@@ -95,7 +95,7 @@ TEST_CASE("a deformable cube that hangs from one of its edges swings with the so
       "xyz");
   // Its diagonal points along (1, 0, -1); gravity is turned from it by the tilt.
   const double angle = -45 * degree - tilt;
-  s.gravity(gravity(g * Vec3(std::cos(angle), 0, std::sin(angle))));
+  s.conditions.gravity = gravity(g * Vec3(std::cos(angle), 0, std::sin(angle)));
   const double arm = side / std::sqrt(2.0),
                period = 2 * pi * std::sqrt(2.0 / 3 * side * side / (g * arm)) * (1 + tilt * tilt / 16);
   // After a whole period it is back, after half of one it is furthest away.

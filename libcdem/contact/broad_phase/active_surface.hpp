@@ -1,5 +1,5 @@
-// What of the contact surfaces a search steps_since_search at: the triangles that are outside or on broken faces, by block, in boxes
-// that hold all that may touch them before the next search.
+// The part of the contact surfaces that a search uses: the outer triangles and those on broken faces, by block, in
+// boxes that contain everything that may touch them before the next search.
 #pragma once
 
 #include "libcdem/contact/data/contact_work.hpp"

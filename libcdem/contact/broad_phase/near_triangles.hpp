@@ -1,5 +1,5 @@
-// Which triangles of two blocks, or of one with itself, are near each other: by their boxes, and by their planes, as a box
-// says little of a large triangle that lies askew.
+// Which triangles of two blocks, or of one with itself, are near each other: by their boxes, and by their planes, since
+// the box of a large oblique triangle is much larger than the triangle.
 //
 // Within the skins and the depth of contacts two triangles may meet. A source whose semi-springs may get into a block
 // needs to know of all its triangles that may become the nearest to them: within two more skins of each block.

@@ -1,7 +1,7 @@
-// A search with several ranks. The pairs of blocks, and the parts of what has broken, are dealt to them by counted loads;
-// each sends what it finds near a source to the rank that keeps that source's rows. Rows are kept by runs of source
-// triangles, cut by the rows and candidates that a search of all movers has found; edges go with the first of their
-// triangles. One rank alone looks at all and keeps all.
+// A search with several ranks. The pairs of blocks, and the parts of broken bodies, are assigned to the ranks by
+// counted loads. Each rank sends the pairs that it finds near a source to the rank that keeps the rows of that source.
+// Rows are kept by runs of source triangles, cut by the rows and candidates that a search of all movers has found;
+// edges go with the first of their triangles. A single rank searches and keeps everything.
 #pragma once
 
 #include "libcdem/contact/broad_phase/candidates.hpp"

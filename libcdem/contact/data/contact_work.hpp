@@ -1,11 +1,11 @@
-// What contact needs beside Model and State and throws away with its stage: which triangles and edges are near enough
-// to look at, and the forces of the step.
+// Data of contact that live for one stage, beside Model and State: the candidates, that is triangles and edges that are
+// near each other, and the forces of the step.
 //
-// A mover is what moves by itself: a block, or a fragment of a block some of whose faces have broken. A search finds what
-// can touch before a mover has gone further than its skin; none of it changes a force. A pair found near sleeps until its
-// two movers have moved as far as it was apart: `recheck_distance` is compared with the sum of the distances that the
-// two have moved since the search. A row sleeps as long as all its pairs must. Lengths kept as floats are rounded to
-// the side on which more is looked at.
+// A mover is a body that moves by itself: a block, or a fragment of a block with broken faces. A search finds the pairs
+// that can touch before a mover has moved further than its skin. The search never changes a force. A near pair is
+// skipped until its two movers have moved by its distance: `recheck_distance` is compared with the sum of the distances
+// that the two have moved since the search. A row is skipped as long as all its pairs are. Lengths stored as floats are
+// rounded such that more pairs are checked, never fewer.
 #pragma once
 
 #include "libcdem/model/contact_surface.hpp"

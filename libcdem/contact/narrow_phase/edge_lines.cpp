@@ -137,7 +137,7 @@ bool EdgeLines::any_of_line(int edge, const Does& does) const {
   return does(edge, 1.) || any_next(edge, 0, does) || any_next(edge, 1, does);
 }
 
-// The place is within the edge, or at an end of it where it goes on in one that touches the other edge as well.
+// The point is within the edge, or at an end where the edge continues in one that touches the other edge as well.
 bool EdgeLines::goes_on(int edge, double place, int other) const {
   return (place > 0 && place < 1) || any_next(edge, place < 0.5 ? 0 : 1, [&](int next, double) {
            if (next == other)

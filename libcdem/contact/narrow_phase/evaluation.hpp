@@ -1,4 +1,4 @@
-// What sources, triangles with their three semi-springs or semi-edges, do to what is near them.
+// Forces of sources (triangles with their three semi-springs, and semi-edges) on the targets near them.
 #pragma once
 
 #include "libcdem/contact/broad_phase/active_surface.hpp"

@@ -1,5 +1,5 @@
-// Contact with several ranks: each looks at the rows that it keeps (broad_phase/search_shares.hpp), and tells the others what
-// it found. All of them know all contacts and their forces. By one rank alone nothing of it happens.
+// Contact with several ranks. Each rank computes the rows that it keeps (broad_phase/search_shares.hpp), and sends its
+// contacts to the others. All ranks know all contacts and their forces. A single rank does none of this.
 #pragma once
 
 #include "libcdem/contact/data/contact_work.hpp"

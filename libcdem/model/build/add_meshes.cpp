@@ -24,7 +24,7 @@ int chunk_size(const SplitMesh& split, const Bonding& bonding) {
   return std::clamp(tets / chunks_per_mesh / lanes * lanes, tets_per_chunk, most_tets_per_chunk);
 }
 
-// Gives the nodes a chunk touches their places: its own first, the others as they come.
+// Gives the nodes that a chunk uses their places: its own first, the others as they come.
 class Places {
 public:
   explicit Places(std::size_t nodes) : place_(nodes, -1) {}
@@ -101,7 +101,7 @@ void add_tets(MeshData& data, Range tets, const std::vector<geom::Tet>& all, Pla
   }
 }
 
-// Those a chunk is the first to touch follow each other.
+// Nodes that a chunk is the first to use follow each other.
 int nodes_end(const std::vector<geom::Tet>& tets, Range range, int begin) {
   int end = begin;
   for (std::int64_t t = range.begin; t < range.end; ++t)

@@ -1,4 +1,4 @@
-// Calls of a script on their way through the journal, and what a session keeps for its checkpoints.
+// Passes the calls of a script through the journal, and keeps the data of a session for its checkpoints.
 #pragma once
 
 #include "lua/binding/replay/journal.hpp"

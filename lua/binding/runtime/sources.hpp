@@ -1,5 +1,5 @@
-// The Lua text of a sweep: its script and the files that it requires, as they are when the sweep begins, so that
-// every run of it runs the same, whatever is edited meanwhile.
+// The Lua text of a sweep: its script and the files that it requires, as they are when the sweep begins. So all runs
+// execute the same text, even if the files are edited meanwhile.
 #pragma once
 
 #include <filesystem>
