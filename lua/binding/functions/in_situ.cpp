@@ -53,9 +53,13 @@ InitialStress field_of(Session& session, ModelObject& model, const Arguments& a)
     double largest = 0; // Pa
     for (const double component : given)
       largest = std::fmax(largest, std::abs(component));
-    if (largest > 0 && largest < least)
+    const bool alone = !a.has("gradient");
+    if (alone && largest > 0 && largest < least)
       session.warn("initial_stress: stress = " + describe(a.value("stress")) +
                    ": no ground has as little; it is in Pa, 1 MPa is 1e6");
+    if (alone && given[0] + given[1] + given[2] > 0)
+      session.warn("initial_stress: stress = " + describe(a.value("stress")) +
+                   ": tension in the mean; the ground is under pressure, which is negative");
   }
   if (a.has("gradient")) {
     field.gradient = a.number("gradient");
