@@ -237,7 +237,7 @@ void Stage::keep_restart_point(std::vector<double> loop_state, const std::vector
   point.contact_step = work.contact.last_step;
   if (context_.procedure_state)
     point.procedure_state = context_.procedure_state();
-  contacts_.start_anew(context_.model, work.contact);
+  contacts_.start_anew(context_.model, work.contact, true);
   if (context_.checkpoints)
     context_.checkpoints->marked();
 }
@@ -268,7 +268,7 @@ bool Stage::free_nodes() {
     gave_back_ = false;
     share();
     contacts_ = ContactUpdate(context_);
-    contacts_.start_anew(model, work.contact);
+    contacts_.start_anew(model, work.contact, false);
     has_shared_nodes_ = has_shared_nodes(model);
     update_external(work.resolved, state.time);
     preload_faces(model, state, net_forces(model, state, work), freed.anew);
@@ -309,7 +309,7 @@ bool Stage::renew_interfaces() {
   gave_back_ = false;
   share();
   contacts_ = ContactUpdate(context_);
-  contacts_.start_anew(model, work.contact);
+  contacts_.start_anew(model, work.contact, true);
   keep_last_good();
   times_.end(StepLine::bonds);
   return true;
