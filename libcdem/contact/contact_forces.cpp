@@ -1,6 +1,7 @@
 #include "libcdem/contact/contact_forces.hpp"
 
 #include "libcdem/contact/broad_phase/movers.hpp"
+#include "libcdem/contact/broad_phase/rigid_pairs.hpp"
 #include "libcdem/contact/broad_phase/search.hpp"
 #include "libcdem/contact/geometry/positions.hpp"
 #include "libcdem/contact/narrow_phase/evaluation.hpp"
@@ -25,9 +26,15 @@ bool add_displacements(const Model& model, const State& state, ContactWork& work
   set_displacements(model, state, work, threads);
   for (std::size_t m = 0; m < work.travelled.size(); ++m)
     work.travelled[m] += work.last_displacement[m];
+  for (std::size_t b = 0; b < work.path.size(); ++b) // rounded up
+    if (work.last_displacement[b] > 0)
+      work.path[b] =
+          (work.path[b] + work.last_displacement[b]) * (1 + std::numeric_limits<double>::epsilon());
+  set_poses(model, state, work);
   if (work.step > 0)
     work.last_step = work.step;
   ++work.steps_since_search;
+  ++work.steps;
   set_drifts(model, state, work, threads);
   bool out = false;
   for (int m = 0; m < work.movers.count(); ++m) {
@@ -36,8 +43,10 @@ bool add_displacements(const Model& model, const State& state, ContactWork& work
       continue;
     const double gone = gone_at_most(model, work, m);
     if (gone > work.undefined_pair_margin || (!fragment && gone > work.skin[m]))
-      out = work.all_due = true;
+      out = work.blocks_due = true;
   }
+  if (any_left_skin(work))
+    out = work.pairs_due = true;
   return find_leavers(model, work) || out;
 }
 
@@ -152,7 +161,7 @@ ContactSums contact_forces(const Model& model, State& state, ContactWork& own, i
   ContactSums sums;
   if (model.surface.empty() || !own.due)
     return sums;
-  own.all_due = own.all_due || own.looks_at_all;
+  own.blocks_due = own.blocks_due || own.looks_at_all;
   const bool out_of_skin = add_displacements(model, state, own, threads) || own.looks_at_all,
              fragments_due = own.fragments_due, known = own.history_complete, anew = own.anew;
   if (fragments_due || out_of_skin) {
@@ -161,7 +170,7 @@ ContactSums contact_forces(const Model& model, State& state, ContactWork& own, i
       return sums; // something is not a number: the stage's watch will say where
     read_nodes_of_rows(model, own);
   }
-  own.any_depth_begins = !known || (anew && (!state.face_slip.empty() || !model.mesh.sides.empty()));
+  own.any_depth_begins = !known || (anew && any_bonded_faces(model, state));
   if (!fragments_due)
     std::fill(own.changed.begin(), own.changed.end(), 0);
   // If a fragment has fallen apart, each contact stays with the part on which it acts.
@@ -186,8 +195,7 @@ ContactSums contact_forces(const Model& model, State& state, ContactWork& own, i
     sum_block_forces(model, state.contacts, own);
     find_block_motions(model, state, own, threads);
   }
-  for (RowsAsleep& asleep : own.asleep)
-    find_awake(own, asleep);
+  find_awake(model, state, own);
   own.now.clear();
   own.rank_now.clear();
   own.now.reserve(state.contacts.size() + state.contacts.size() / 8 + 64);
@@ -212,7 +220,10 @@ ContactSums contact_forces(const Model& model, State& state, ContactWork& own, i
         if (!hindered && !own.looks_at_all && sleeps_on(own, row, asleep.recheck_distance[r]))
           continue;
         edge ? evaluation.edges(row, candidates) : evaluation.springs(row, candidates);
-        fall_asleep(own, static_cast<int>(model.blocks.size()), row, asleep.recheck_distance[r]);
+        if (row.pair >= 0)
+          asleep.of_pairs.until[row.place] = row.recheck_distance;
+        else
+          fall_asleep(own, static_cast<int>(model.blocks.size()), row, asleep.recheck_distance[r]);
         if (row.hindered != hindered)
           asleep.hindered[begin / contact_rows_per_chunk] ^= bits & -bits;
       }

@@ -1,5 +1,6 @@
 #include "libcdem/step/contact_update.hpp"
 
+#include "libcdem/contact/broad_phase/rigid_pairs.hpp"
 #include "libcdem/contact/broad_phase/search.hpp"
 #include "libcdem/contact/contact_forces.hpp"
 #include "libcdem/contact/response/contact_bounds.hpp"
@@ -59,7 +60,7 @@ double ContactUpdate::longest_step_of_flight(const StageContext& context, const 
       {impact_frequency2_, work.resolved.rigid, gravity ? gravity->acceleration.norm() : 0});
 }
 
-void ContactUpdate::start_anew(const Model& model, ContactWork& work) const {
+void ContactUpdate::start_anew(const Model& model, ContactWork& work, bool same_surfaces) const {
   if (model.surface.empty())
     return;
   ContactWork before = std::move(work);
@@ -72,6 +73,8 @@ void ContactUpdate::start_anew(const Model& model, ContactWork& work) const {
   work.shared = before.shared;
   work.rank_of_contact = std::move(before.rank_of_contact);
   work.history_complete = true; // those of the step before
+  if (same_surfaces)
+    keep_rigid_pairs(before, work);
 }
 
 } // namespace cdem

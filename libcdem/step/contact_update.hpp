@@ -21,7 +21,8 @@ public:
   double longest_step_of_flight(const StageContext&, const Workspace&) const;
 
   // Contacts are looked for anew from here on, as by a stage that goes on from here: which pairs are skipped is not saved.
-  void start_anew(const Model&, ContactWork&) const;
+  // same_surfaces: those of before; what is known of rigid pairs goes on, as it changes no force.
+  void start_anew(const Model&, ContactWork&, bool same_surfaces) const;
 
 private:
   std::vector<double> row_sums_;          // N/m, of elements and bonds (n_nodes); empty without contacts

@@ -133,7 +133,7 @@ void Stage::keep_restart_point(std::vector<double> loop_state, const std::vector
   point.contact_step = work.contact.last_step;
   if (context_.procedure_state)
     point.procedure_state = context_.procedure_state();
-  contacts_.start_anew(context_.model, work.contact);
+  contacts_.start_anew(context_.model, work.contact, true);
   if (context_.checkpoints)
     context_.checkpoints->marked();
 }

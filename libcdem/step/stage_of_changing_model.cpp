@@ -35,7 +35,7 @@ bool Stage::free_nodes() {
     gave_back_ = false;
     share();
     contacts_ = ContactUpdate(context_);
-    contacts_.start_anew(model, work.contact);
+    contacts_.start_anew(model, work.contact, false);
     has_shared_nodes_ = has_shared_nodes(model);
     update_external(work.resolved, state.time, moving());
     preload_faces(model, state, net_forces(model, state, work), freed.anew);
@@ -76,7 +76,7 @@ bool Stage::renew_interfaces() {
   gave_back_ = false;
   share();
   contacts_ = ContactUpdate(context_);
-  contacts_.start_anew(model, work.contact);
+  contacts_.start_anew(model, work.contact, true);
   keep_last_good();
   times_.end(StepLine::bonds);
   return true;

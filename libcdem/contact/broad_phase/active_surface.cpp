@@ -90,8 +90,8 @@ void choose_skins_of_blocks(const Model& model, const State& state, const std::v
 
 } // namespace
 
-void choose_skins(const Model& model, const State& state, ContactWork& work,
-                  const std::vector<char>& searched, bool all) {
+std::vector<double> choose_skins(const Model& model, const State& state, ContactWork& work,
+                                 const std::vector<char>& searched, bool all) {
   std::vector<double> pace = speeds_of_movers(model, state, work, 1); // m/s, then m in a step
   for (double& of_mover : pace)
     of_mover *= work.last_step;
@@ -116,6 +116,7 @@ void choose_skins(const Model& model, const State& state, ContactWork& work,
     double& most = work.skin[work.movers.block[m]];
     most = std::max(most, work.skin[m]);
   }
+  return pace;
 }
 
 double depth_of(const ContactWork& work, const ContactTriangle& t) {
@@ -151,10 +152,13 @@ ActiveSurface active_surface(const Model& model, const State& state, const Conta
   const ContactSurface& s = model.surface;
   ActiveSurface part;
   part.block_begin.push_back(0);
+  part.place.assign(s.triangles.size(), -1);
   for (std::size_t b = 0; b + 1 < s.block_begin.size(); ++b) {
     for (int t = s.block_begin[b]; t < s.block_begin[b + 1]; ++t)
-      if (work.active[t])
+      if (work.active[t]) {
+        part.place[t] = static_cast<int>(part.triangles.size());
         part.triangles.push_back(t);
+      }
     part.block_begin.push_back(static_cast<int>(part.triangles.size()));
   }
   part.facets.resize(part.triangles.size());

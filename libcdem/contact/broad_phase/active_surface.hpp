@@ -9,8 +9,27 @@
 namespace cdem {
 
 // Writes ContactWork::skin: thin for what hardly moves, so that little is near; thick for what flies by itself. Movers are
-// known; Of those that are searched (per mover); all: of all.
-void choose_skins(const Model&, const State&, ContactWork&, const std::vector<char>& searched, bool all);
+// known; Of those that are searched (per mover); all: of all. Returns how far each mover moves in a step, m.
+std::vector<double> choose_skins(const Model&, const State&, ContactWork&, const std::vector<char>& searched,
+                                 bool all);
+
+// m, how far two movers may move before they are searched again: each by its own skin, or both together by that of a rigid
+// pair, of which each has half.
+class Skins {
+public:
+  explicit Skins(const std::vector<double>& of_movers) : of_movers_(&of_movers) {}
+  Skins(const std::vector<double>& of_movers, double of_pair) : of_movers_(&of_movers), of_pair_(of_pair) {}
+
+  bool of_pair() const { return of_pair_ >= 0; }
+  double of(int mover) const { return of_pair() ? 0.5 * of_pair_ : (*of_movers_)[mover]; }
+  double between(int a, int b) const { return of(a) + of(b); }
+  // What boxes that hold the skin of a mover are to be grown by.
+  double beyond_own(int mover) const { return of_pair() ? of(mover) - (*of_movers_)[mover] : 0; }
+
+private:
+  const std::vector<double>* of_movers_; // m, per mover
+  double of_pair_ = -1;                  // m; -1: each by its own
+};
 
 // m: a quarter of the tet's height, of those much higher than usual in their block a quarter of the usual.
 double depth_of(const ContactWork&, const ContactTriangle&);
@@ -49,6 +68,7 @@ struct Facet {
 
 struct ActiveSurface {
   std::vector<int> triangles;         // by block
+  std::vector<int> place;             // per triangle of the model: its number here; -1: it is not active
   std::vector<int> block_begin;       // (n_blocks + 1) into triangles
   std::vector<Facet> facets;          // per triangle
   std::vector<geom::Box> boxes;       // per triangle, with its margin

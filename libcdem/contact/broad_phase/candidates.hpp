@@ -26,14 +26,13 @@ struct Near {
   std::uint32_t springs : 3; // of a triangle: which of its semi-springs
 };
 
-// pairs: (source, target), of one or two blocks; they are sorted by source, fragment of the target and target. skin: m, per
-// mover.
+// pairs: (source, target), of one or two blocks; they are sorted by source, fragment of the target and target.
 std::vector<Near> near_springs(const Model&, const ContactWork&, const SearchMargin&, const ActiveSurface&,
-                               Pairs& pairs, const std::vector<double>& skin);
+                               Pairs& pairs, const Skins&);
 
 // Near edges of two blocks. The edge with the lower number is the source.
 std::vector<Near> near_edges(const Model&, const State&, const ContactWork&, const SearchMargin&,
-                             const ActiveSurface&, const SharedPart&);
+                             const ActiveSurface&, const SharedPart&, const Skins&);
 // Near edges within one block, of triangles that meet; each pair stands once.
 std::vector<Near> near_edges_within(const Model&, const State&, const ContactWork&, const SearchMargin&,
                                     const ActiveSurface&, const Pairs& meeting);

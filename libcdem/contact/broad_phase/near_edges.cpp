@@ -19,7 +19,9 @@ struct Bar {
   double turns = 0, skin = 0;         // rad, m
 };
 
-Bar bar_of(const Model& model, const State& state, const ContactWork& work, const ContactEdge& e) {
+// Either edge of a rigid pair may turn by all that the two move.
+Bar bar_of(const Model& model, const State& state, const ContactWork& work, const Skins& skins,
+           const ContactEdge& e) {
   Bar bar;
   bar.x0 = place_of(model, state, e.nodes[0]);
   bar.x1 = place_of(model, state, e.nodes[1]);
@@ -27,12 +29,13 @@ Bar bar_of(const Model& model, const State& state, const ContactWork& work, cons
   bar.along = (bar.x1 - bar.x0) / length;
   bar.into = into_faces(model, state, e, bar.x0, bar.x1);
   for (const int t : e.triangles) // its two faces may be of two fragments that still hold together
-    bar.skin = std::max(bar.skin, work.skin[work.movers.of_triangle[t]]);
-  bar.turns = 4 * bar.skin / length; // twice what its ends can make of it
+    bar.skin = std::max(bar.skin, skins.of(work.movers.of_triangle[t]));
+  const double moves = skins.of_pair() ? 2 * bar.skin : bar.skin;
+  bar.turns = 4 * moves / length; // twice what its ends can make of it
   for (int i = 0; i < 2; ++i) {
     const Corners x = corners_of(model, state, model.surface.triangles[e.triangles[i]].nodes);
     const double arm = ((x[0] + x[1] + x[2]) / 3 - bar.x0).norm();
-    bar.into_turns[i] = 2 * (2 * bar.skin + arm * bar.turns) / bar.into[i].norm();
+    bar.into_turns[i] = 2 * (2 * moves + arm * bar.turns) / bar.into[i].norm();
   }
   return bar;
 }
@@ -64,8 +67,8 @@ bool may_touch(const Bar& a, const Bar& b, double depth) {
 // Edges as they are now. What of them their boxes do not tell is worked out when it is first asked for.
 class Bars {
 public:
-  Bars(const Model& model, const State& state, const ContactWork& work)
-      : model_(model), state_(state), work_(work) {}
+  Bars(const Model& model, const State& state, const ContactWork& work, const Skins& skins)
+      : model_(model), state_(state), work_(work), skins_(skins) {}
 
   // Those of one triangle of which the boxes meet the region, by number.
   void add(int triangle, const geom::Box& region) {
@@ -85,14 +88,16 @@ public:
   int triangle(std::size_t k) const { return work_.edges[edges_[k]].triangles[0]; }
   const Bar& operator[](std::size_t k) {
     if (!bars_[k])
-      bars_[k] = bar_of(model_, state_, work_, work_.edges[edges_[k]]);
+      bars_[k] = bar_of(model_, state_, work_, skins_, work_.edges[edges_[k]]);
     return *bars_[k];
   }
+  double skin(std::size_t k) const { return skins_.of(work_.movers.of_triangle[triangle(k)]); }
 
 private:
   const Model& model_;
   const State& state_;
   const ContactWork& work_;
+  Skins skins_;
   std::vector<int> edges_;
   std::vector<geom::Box> boxes_;
   std::vector<std::optional<Bar>> bars_;
@@ -104,9 +109,7 @@ void add_near(const Model& model, const ContactWork& work, const SearchMargin& m
   const ContactTriangle &a = model.surface.triangles[one.triangle(k)],
                         &b = model.surface.triangles[other.triangle(l)];
   const double depth = std::max(edge_depth(work, a, b), margins.known(a.block, b.block));
-  const auto skin = [&](int triangle) { return work.skin[work.movers.of_triangle[triangle]]; };
-  if (apart(grown(one.boxes()[k], depth + skin(one.triangle(k)) + skin(other.triangle(l))),
-            other.boxes()[l]) ||
+  if (apart(grown(one.boxes()[k], depth + one.skin(k) + other.skin(l)), other.boxes()[l]) ||
       !may_touch(one[k], other[l], depth))
     return;
   const auto [first, second] = std::minmax(one.edges()[k], other.edges()[l]);
@@ -125,13 +128,13 @@ double edge_depth(const ContactWork& work, const ContactTriangle& source, const 
 }
 
 std::vector<Near> near_edges(const Model& model, const State& state, const ContactWork& work,
-                             const SearchMargin& margins, const ActiveSurface& active,
-                             const SharedPart& part) {
+                             const SearchMargin& margins, const ActiveSurface& active, const SharedPart& part,
+                             const Skins& skins) {
   // No two edges that touch are further apart than this; their triangles meet then.
   const double depth = std::max(std::min(edge_depth(work, part.block_a), edge_depth(work, part.block_b)),
                                 margins.known(part.block_a, part.block_b));
-  const double reach = depth + work.skin[part.block_a] + work.skin[part.block_b];
-  Bars one(model, state, work), other(model, state, work);
+  const double reach = depth + skins.between(part.block_a, part.block_b);
+  Bars one(model, state, work, skins), other(model, state, work, skins);
   for (const int i : part.of_a)
     one.add(active.triangles[i], grown(active.outlines[part.block_b], reach));
   if (one.edges().empty())
@@ -154,7 +157,7 @@ std::vector<Near> near_edges_within(const Model& model, const State& state, cons
   }
   std::sort(triangles.begin(), triangles.end());
   triangles.erase(std::unique(triangles.begin(), triangles.end()), triangles.end());
-  Bars bars(model, state, work);
+  Bars bars(model, state, work, Skins(work.skin));
   geom::Box everywhere;
   std::swap(everywhere.min, everywhere.max);
   for (const int t : triangles)
@@ -183,7 +186,7 @@ std::vector<Near> near_edges_of_fragments(const Model& model, const State& state
                                           const std::vector<char>& searched) {
   const ContactSurface& s = model.surface;
   const double depth = std::max(edge_depth(work, block), margins.known(block, block));
-  Bars bars(model, state, work);
+  Bars bars(model, state, work, Skins(work.skin));
   geom::Box everywhere;
   std::swap(everywhere.min, everywhere.max);
   std::vector<geom::Box> boxes;

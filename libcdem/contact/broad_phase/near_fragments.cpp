@@ -70,7 +70,7 @@ public:
       sorted.insert(sorted.end(), pairs_.begin() + static_cast<std::ptrdiff_t>(sources_[i].begin),
                     pairs_.begin() + static_cast<std::ptrdiff_t>(sources_[i + 1].begin));
     std::vector<Near> found =
-        near_springs(all_.model, work_, all_.margins, all_.active, sorted, work_.inner_skin);
+        near_springs(all_.model, work_, all_.margins, all_.active, sorted, Skins(work_.inner_skin));
     found.insert(found.end(), of_tets_.begin(), of_tets_.end());
     return found;
   }

@@ -21,8 +21,9 @@ double least_distance2(const geom::Vec3& x, const Corners& triangle) {
 class SpringsOfSource {
 public:
   SpringsOfSource(const Model& model, const ContactWork& work, const SearchMargin& margins,
-                  const ActiveSurface& active, const std::vector<double>& skin)
-      : s_(model.surface), model_(model), work_(work), margins_(margins), active_(active), skin_(skin) {}
+                  const ActiveSurface& active, const Skins& skins)
+      : s_(model.surface), model_(model), work_(work), margins_(margins), active_(active), skins_(skins),
+        own_skins_(skins.of_pair() ? skins : Skins(work.skin)) {}
 
   // pairs [begin, end)
   void add(const Pairs& pairs, std::size_t begin, std::size_t end, std::vector<Near>& out) {
@@ -30,7 +31,7 @@ public:
     const ContactTriangle &from = triangle(source), &first = triangle(pairs[begin].second);
     const int own = mover(source), other = mover(pairs[begin].second);
     // What a mover does relative to itself is not watched: until it leaves its skin.
-    const double skins = own == other ? 2 * work_.skin[own] : skin_[own] + skin_[other];
+    const double skins = own == other ? 2 * work_.skin[own] : skins_.between(own, other);
     bonded_ = bonded(model_, work_, first.block, other);
     double margin_of_targets = 0, one_place_of_targets = 0; // the largest
     for (std::size_t i = begin; i < end; ++i) {
@@ -83,8 +84,9 @@ private:
     std::array<bool, 3> gets_in{};
     for (int corner = 0; corner < 3; ++corner) {
       spring[corner] = weighted(x, spring_weights(corner));
-      gets_in[corner] = may_get_into(work_, active_, triangle(pairs[begin].first), spring[corner],
-                                     triangle(pairs[begin].second).block);
+      gets_in[corner] =
+          may_get_into(model_, work_, active_, spring[corner], triangle(pairs[begin].first).block,
+                       triangle(pairs[begin].second).block, own_skins_);
     }
     nearest_ = {};
     distance_.clear();
@@ -108,7 +110,8 @@ private:
   const ContactWork& work_;
   const SearchMargin& margins_;
   const ActiveSurface& active_;
-  const std::vector<double>& skin_;             // m, per mover
+  const Skins& skins_;
+  Skins own_skins_;                             // of blocks, not those of fragments relative to each other
   bool bonded_ = false;                         // the fragment
   std::array<Nearest, 3> nearest_;              // of each spring
   std::vector<std::array<double, 3>> distance_; // m, of each target from each spring
@@ -148,7 +151,7 @@ void sort_by_source(Pairs& pairs, const Piece& fragment) {
 } // namespace
 
 std::vector<Near> near_springs(const Model& model, const ContactWork& work, const SearchMargin& margins,
-                               const ActiveSurface& active, Pairs& pairs, const std::vector<double>& skin) {
+                               const ActiveSurface& active, Pairs& pairs, const Skins& skins) {
   const auto fragment = [&](const std::pair<int, int>& p) {
     return work.fragment[active.triangles[p.second]];
   };
@@ -156,7 +159,7 @@ std::vector<Near> near_springs(const Model& model, const ContactWork& work, cons
   std::vector<Near> out;
   if (pairs.empty())
     return out;
-  SpringsOfSource springs(model, work, margins, active, skin);
+  SpringsOfSource springs(model, work, margins, active, skins);
   for (std::size_t begin = 0, end = 0; begin < pairs.size(); begin = end) {
     while (end < pairs.size() && pairs[end].first == pairs[begin].first &&
            fragment(pairs[end]) == fragment(pairs[begin]))

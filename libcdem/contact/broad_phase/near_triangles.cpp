@@ -1,6 +1,7 @@
 #include "libcdem/contact/broad_phase/near_triangles.hpp"
 
 #include "libcdem/contact/broad_phase/box_lists.hpp"
+#include "libcdem/contact/broad_phase/rigid_pairs.hpp"
 #include "libcdem/contact/response/contact_point.hpp"
 
 #include <algorithm>
@@ -22,68 +23,70 @@ bool parted(const SearchMargin& margins, const ActiveSurface& active, int i, int
   return beside(one.x, other, reach) || beside(other.x, one, reach);
 }
 
-// Triangles of a block whose boxes meet the region. The region shrinks to the part that these boxes cover.
-std::vector<int> inside(const ActiveSurface& active, int block, geom::Box& region) {
+// Triangles of a block whose boxes, grown by `by`, meet the region. The region shrinks to the part that these boxes cover.
+std::vector<int> inside(const ActiveSurface& active, int block, double by, geom::Box& region) {
   std::vector<int> list;
   geom::Box box;
   for (int i = active.block_begin[block]; i < active.block_begin[block + 1]; ++i)
-    if (!apart(active.boxes[i], region)) {
+    if (const geom::Box own = grown(active.boxes[i], by); !apart(own, region)) {
       list.push_back(i);
-      box.extend(active.boxes[i].min);
-      box.extend(active.boxes[i].max);
+      box.extend(own.min);
+      box.extend(own.max);
     }
   region = {region.min.cwiseMax(box.min), region.max.cwiseMin(box.max)};
   return list;
 }
 
-std::vector<geom::Box> boxes_of(const ActiveSurface& active, const std::vector<int>& places) {
+std::vector<geom::Box> boxes_of(const ActiveSurface& active, const std::vector<int>& places, double by = 0) {
   std::vector<geom::Box> boxes;
   boxes.reserve(places.size());
   for (const int i : places)
-    boxes.push_back(active.boxes[i]);
+    boxes.push_back(grown(active.boxes[i], by));
   return boxes;
 }
 
 // Those of one block's triangles that may get into another block, with what of it is near them.
 void look(const Model& model, const ContactWork& work, const ActiveSurface& active,
-          const std::vector<int>& of_one, int one, int other, Pairs& pairs) {
+          const std::vector<int>& of_one, int one, int other, const Skins& skins, Pairs& pairs) {
+  const double by_one = skins.beyond_own(one), by_other = skins.beyond_own(other);
   std::vector<int> sources;
   geom::Box around;
   for (const int i : of_one) {
-    const ContactTriangle& source = model.surface.triangles[active.triangles[i]];
     bool gets_in = false;
     for (int corner = 0; corner < 3 && !gets_in; ++corner)
-      gets_in =
-          may_get_into(work, active, source, weighted(active.facets[i].x, spring_weights(corner)), other);
+      gets_in = may_get_into(model, work, active, weighted(active.facets[i].x, spring_weights(corner)), one,
+                             other, skins);
     if (!gets_in)
       continue;
     sources.push_back(i);
-    around.extend(active.boxes[i].min);
-    around.extend(active.boxes[i].max);
+    const geom::Box box = grown(active.boxes[i], by_one);
+    around.extend(box.min);
+    around.extend(box.max);
   }
   if (sources.empty())
     return;
-  const double further = 2 * (work.skin[one] + work.skin[other]);
+  const double further = 2 * skins.between(one, other);
   around = grown(around, further);
-  std::vector<int> targets = inside(active, other, around);
+  std::vector<int> targets = inside(active, other, by_other, around);
   const auto known = [&](int i) { return !active.searched[i]; };
-  if (std::all_of(sources.begin(), sources.end(), known))
+  if (!skins.of_pair() && std::all_of(sources.begin(), sources.end(), known))
     targets.erase(std::remove_if(targets.begin(), targets.end(), known), targets.end());
-  each_meeting(boxes_of(active, sources), further, boxes_of(active, targets),
+  each_meeting(boxes_of(active, sources, by_one), further, boxes_of(active, targets, by_other),
                [&](std::size_t i, std::size_t j) { pairs.emplace_back(sources[i], targets[j]); });
 }
 
 } // namespace
 
-SharedPart shared_part(const ActiveSurface& active, int a, int b) {
+SharedPart shared_part(const ActiveSurface& active, int a, int b, const Skins& skins) {
   SharedPart part;
   part.block_a = a;
   part.block_b = b;
-  geom::Box region{active.block_boxes[a].min.cwiseMax(active.block_boxes[b].min),
-                   active.block_boxes[a].max.cwiseMin(active.block_boxes[b].max)};
+  const double by_a = skins.beyond_own(a), by_b = skins.beyond_own(b);
+  const geom::Box one = grown(active.block_boxes[a], by_a), other = grown(active.block_boxes[b], by_b);
+  geom::Box region{one.min.cwiseMax(other.min), one.max.cwiseMin(other.max)};
   for (int round = 0; round < 3; ++round) { // what is left of one leaves less of the other
-    part.of_a = inside(active, a, region);
-    part.of_b = inside(active, b, region);
+    part.of_a = inside(active, a, by_a, region);
+    part.of_b = inside(active, b, by_b, region);
   }
   return part;
 }
@@ -99,17 +102,27 @@ Pairs meeting(const SearchMargin& margins, const ActiveSurface& active, const Sh
 }
 
 Pairs looked_at(const Model& model, const ContactWork& work, const ActiveSurface& active,
-                const SharedPart& part) {
+                const SharedPart& part, const Skins& skins) {
   Pairs pairs;
-  look(model, work, active, part.of_a, part.block_a, part.block_b, pairs);
-  look(model, work, active, part.of_b, part.block_b, part.block_a, pairs);
+  look(model, work, active, part.of_a, part.block_a, part.block_b, skins, pairs);
+  look(model, work, active, part.of_b, part.block_b, part.block_a, skins, pairs);
   return pairs;
 }
 
-bool may_get_into(const ContactWork& work, const ActiveSurface& active, const ContactTriangle& source,
-                  const geom::Vec3& x, int block) {
-  const double skins = work.skin[source.block] + work.skin[block];
-  return active.outlines[block].contains(x, skins);
+bool may_get_into(const Model& model, const ContactWork& work, const ActiveSurface& active,
+                  const geom::Vec3& x, int source_block, int block, const Skins& skins) {
+  const double both = skins.between(source_block, block);
+  if (!active.outlines[block].contains(x, both))
+    return false;
+  if (!skins.of_pair())
+    return true;
+  const double far = both + slack_of(model, work, block);
+  for (const int t : work.planes[block]) {
+    const Facet& plane = active.facets[active.place[t]];
+    if ((x - plane.x[0]).dot(plane.normal) > far)
+      return false;
+  }
+  return true;
 }
 
 namespace {

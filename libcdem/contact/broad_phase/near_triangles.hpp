@@ -16,18 +16,18 @@ struct SharedPart {
   int block_a = 0, block_b = 0;
   std::vector<int> of_a, of_b;
 };
-SharedPart shared_part(const ActiveSurface&, int block_a, int block_b);
+SharedPart shared_part(const ActiveSurface&, int block_a, int block_b, const Skins&);
 
 // Those that meet, (of a, of b).
 Pairs meeting(const SearchMargin&, const ActiveSurface&, const SharedPart&);
 
 // (source, target), both ways.
-Pairs looked_at(const Model&, const ContactWork&, const ActiveSurface&, const SharedPart&);
+Pairs looked_at(const Model&, const ContactWork&, const ActiveSurface&, const SharedPart&, const Skins&);
 
-// Whether a semi-spring at x may get into a block before the next search. One that stands outside the box around the
-// block stands outside the block, and nothing but a skin counts there.
-bool may_get_into(const ContactWork&, const ActiveSurface&, const ContactTriangle& source,
-                  const geom::Vec3& x, int block);
+// Whether a semi-spring at x of another block may get into a block before the next search. One that stands outside the box
+// around the block, or outside a plane of a pairwise one, stands outside the block, and nothing but a skin counts there.
+bool may_get_into(const Model&, const ContactWork&, const ActiveSurface&, const geom::Vec3& x,
+                  int source_block, int block, const Skins&);
 
 // Writes ContactWork::boxes_at_first and boxed.
 void find_boxes_at_first(const Model&, ContactWork&);

@@ -5,14 +5,6 @@
 #include <algorithm>
 
 namespace cdem {
-namespace {
-
-// Fraction of a skin: a fragment that has less of its skin left is searched with the first fragment that leaves its
-// own.
-constexpr double searched_with_others = 0.6;
-
-} // namespace
-
 Renewed movers_to_search(const Model& model, const ContactWork& work, bool all) {
   Renewed renewed;
   renewed.all = all;
@@ -37,7 +29,7 @@ void edges_to_search(const ContactWork& work, const std::vector<ContactEdge>& be
   for (std::size_t e = 0; e < work.edges.size(); ++e)
     for (const int t : work.edges[e].triangles)
       renewed.edges[e] = static_cast<char>(renewed.edges[e] | renewed.movers[work.movers.of_triangle[t]]);
-  if (renewed.all || !fragments_due)
+  if (!fragments_due)
     return;
   const auto same = [](const ContactEdge& a, const ContactEdge& b) {
     return a.id() == b.id() && a.triangles[1] == b.triangles[1];

@@ -7,13 +7,18 @@ namespace cdem {
 
 // What a search renews. The rows of all others stay as they are.
 struct Renewed {
-  bool all = true;
+  bool all = true;          // movers; but rigid pairs may keep their rows
   std::vector<char> movers; // per mover
   std::vector<char> blocks; // per block: one of its movers
   std::vector<char> edges;  // per edge: of such a mover, or new
   // Per edge as it was numbered before, its number now; -1: it is no more. Empty: as before.
   std::vector<int> edge_now;
+  // Per rigid pair as it was numbered before, its number now; -1: its rows are found anew.
+  std::vector<int> pair_now;
 };
+
+// Of its skin: what has less left is searched with the first that leaves its own.
+inline constexpr double searched_with_others = 0.6;
 
 // Those that are new, and those that have left their skins or soon will; or all.
 Renewed movers_to_search(const Model&, const ContactWork&, bool all);

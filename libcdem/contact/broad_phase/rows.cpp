@@ -1,5 +1,7 @@
 #include "libcdem/contact/broad_phase/rows.hpp"
 
+#include "libcdem/contact/broad_phase/rigid_pairs.hpp"
+
 #include <algorithm>
 #include <tuple>
 
@@ -85,11 +87,10 @@ private:
   // Fills kept_ with what stays of its targets.
   bool stays(const ContactRow& row, const std::vector<ContactCandidate>& candidates) {
     kept_.clear();
-    if (renewed_.all)
+    const bool of_pair = row.pair >= 0;
+    if (of_pair ? renewed_.pair_now[row.pair] < 0 : renewed_.all || is_renewed(source_now(row)))
       return false;
-    const int source = source_now(row);
-    if (is_renewed(source))
-      return false;
+    const auto is_renewed = [&](int target) { return !of_pair && this->is_renewed(target); };
     if (kind_ == Contact::spring) { // all its targets are of one fragment
       const ContactCandidate* const first = candidates.data() + row.begin;
       if (!is_renewed(static_cast<int>(first->target)))
@@ -115,6 +116,8 @@ private:
 
   void keep(ContactRow row, int source) {
     row.source = source;
+    if (row.pair >= 0)
+      row.pair = renewed_.pair_now[row.pair];
     place(row, kept_.data(), static_cast<std::uint32_t>(kept_.size()));
   }
 
@@ -126,12 +129,12 @@ private:
     ContactRow row;
     row.source = source;
     row.block = block(found_[first].target);
-    if (kind_ == Contact::edge) {
-      const int own = mover(source), other = mover(static_cast<int>(found_[first].target));
-      row.reach =
-          static_cast<float>(margins_.known(surface_.triangles[source_triangle(source)].block, row.block) +
-                             work_.skin[own] + work_.skin[other]);
-    }
+    const int own = mover(source), other = mover(static_cast<int>(found_[first].target));
+    row.pair = number_of(work_.rigid_pairs, own, other);
+    if (kind_ == Contact::edge)
+      row.reach = static_cast<float>(
+          margins_.known(surface_.triangles[source_triangle(source)].block, row.block) +
+          (row.pair >= 0 ? work_.rigid_pairs[row.pair].skin : work_.skin[own] + work_.skin[other]));
     place(row, &found_[first], end - first);
     return end;
   }
@@ -155,6 +158,25 @@ private:
   std::vector<ContactRow> rows_;
 };
 
+// Rows of rigid pairs, by pair.
+void sort_by_pair(std::vector<ContactRow>& rows, std::size_t n_pairs, RowsOfPairs& of_pairs) {
+  of_pairs.begin.assign(n_pairs + 1, 0);
+  for (const ContactRow& row : rows)
+    if (row.pair >= 0)
+      ++of_pairs.begin[row.pair + 1];
+  for (std::size_t p = 0; p < n_pairs; ++p)
+    of_pairs.begin[p + 1] += of_pairs.begin[p];
+  of_pairs.row.resize(of_pairs.begin.back());
+  of_pairs.until.resize(of_pairs.begin.back());
+  std::vector<int> next(of_pairs.begin.begin(), of_pairs.begin.end() - 1);
+  for (std::size_t r = 0; r < rows.size(); ++r)
+    if (ContactRow& row = rows[r]; row.pair >= 0) {
+      row.place = next[row.pair]++;
+      of_pairs.row[row.place] = static_cast<int>(r);
+      of_pairs.until[row.place] = row.recheck_distance;
+    }
+}
+
 } // namespace
 
 void make_rows(const Model& model, ContactWork& work, const SearchMargin& margins,
@@ -170,12 +192,14 @@ void make_rows(const Model& model, ContactWork& work, const SearchMargin& margin
   asleep.mover.resize(rows.size());
   asleep.hindered.assign((rows.size() + contact_rows_per_chunk - 1) / contact_rows_per_chunk, 0);
   for (std::size_t r = 0; r < rows.size(); ++r) {
-    asleep.recheck_distance[r] = rows[r].recheck_distance;
+    asleep.recheck_distance[r] =
+        rows[r].pair < 0 ? rows[r].recheck_distance : std::numeric_limits<float>::infinity();
     asleep.hindered[r / contact_rows_per_chunk] |= static_cast<std::uint64_t>(rows[r].hindered)
                                                    << (r % contact_rows_per_chunk);
     asleep.source_mover[r] = rows[r].source_mover;
     asleep.mover[r] = rows[r].mover;
   }
+  sort_by_pair(rows, work.rigid_pairs.size(), asleep.of_pairs);
 }
 
 } // namespace cdem

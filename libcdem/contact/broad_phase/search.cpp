@@ -5,6 +5,7 @@
 #include "libcdem/contact/broad_phase/candidates.hpp"
 #include "libcdem/contact/broad_phase/movers.hpp"
 #include "libcdem/contact/broad_phase/near_fragments.hpp"
+#include "libcdem/contact/broad_phase/rigid_pairs.hpp"
 #include "libcdem/contact/broad_phase/rows.hpp"
 #include "libcdem/contact/broad_phase/search_shares.hpp"
 #include "libcdem/contact/geometry/positions.hpp"
@@ -96,7 +97,7 @@ void start_contact(const Model& model, ContactWork& work) {
   work.shallow = s.usual_height;
   for (double& height : work.shallow)
     height *= shallow_ratio;
-  for (std::vector<double>* of_movers : {&work.travelled, &work.last_displacement, &work.skin})
+  for (std::vector<double>* of_movers : {&work.travelled, &work.last_displacement, &work.skin, &work.path})
     of_movers->assign(model.blocks.size(), 0.0);
   for (const auto& [bodies, law] : s.joint)
     work.restitution = work.restitution || model.joints[law].restitution < 1;
@@ -132,14 +133,29 @@ void leave_out_known(const ActiveSurface& active, const Renewed& renewed, Pairs&
               edges.end());
 }
 
-// What was found of rows when they were last looked at counts no more.
-void let_all_wake(ContactWork& work) {
-  for (ContactRow& row : work.rows[Contact::spring])
-    row.reach = 0;
+// What was found of rows when they were last looked at counts no more; of rigid pairs only where contacts may begin at any
+// depth.
+void let_all_wake(ContactWork& work, bool pairs_too) {
   for (std::size_t kind = 0; kind < work.rows.size(); ++kind) {
-    for (ContactRow& row : work.rows[kind])
+    RowsAsleep& asleep = work.asleep[kind];
+    for (std::size_t r = 0; r < work.rows[kind].size(); ++r) {
+      ContactRow& row = work.rows[kind][r];
+      if (row.pair >= 0 && !pairs_too)
+        continue;
       row.recheck_distance = row.allowed = 0;
-    std::fill(work.asleep[kind].recheck_distance.begin(), work.asleep[kind].recheck_distance.end(), 0.F);
+      if (kind == Contact::spring)
+        row.reach = 0;
+      if (row.pair < 0)
+        asleep.recheck_distance[r] = 0;
+      else
+        asleep.of_pairs.until[row.place] = 0;
+    }
+  }
+  if (!pairs_too)
+    return;
+  for (RigidPair& pair : work.rigid_pairs) {
+    pair.next = {};
+    pair.look_at = 0;
   }
 }
 
@@ -155,11 +171,13 @@ bool search_contacts(const Model& model, const State& state, ContactWork& work, 
     find_boxes_at_first(model, work);
     find_semi_edges(model, state, work);
     set_displacements(model, state, work, threads);
+    find_pairwise(model, state, work);
   }
-  Renewed renewed =
-      movers_to_search(model, work, work.all_due || work.searches == 0 || (fragments_due && fragments_only));
+  Renewed renewed = movers_to_search(model, work,
+                                     work.blocks_due || work.all_due || work.searches == 0 ||
+                                         (fragments_due && fragments_only));
   edges_to_search(work, edges_before, fragments_due, renewed);
-  choose_skins(model, state, work, renewed.movers, renewed.all);
+  const std::vector<double> pace = choose_skins(model, state, work, renewed.movers, renewed.all);
   const SearchMargin margins(model, state, work);
   const ActiveSurface active = active_surface(model, state, work, margins, renewed.movers, threads);
   if (!active.finite())
@@ -168,22 +186,32 @@ bool search_contacts(const Model& model, const State& state, ContactWork& work, 
   for (std::size_t b = 0; b + 1 < active.block_begin.size(); ++b)
     has_surface.push_back(static_cast<char>(active.block_begin[b] < active.block_begin[b + 1]));
   Pairs blocks = free_pairs(model, state, work, geom::touching_pairs(active.block_boxes, has_surface));
-  blocks.erase(std::remove_if(blocks.begin(), blocks.end(),
+  const auto rigid = std::stable_partition(blocks.begin(), blocks.end(), [&](const auto& pair) {
+    return !pairwise(work, pair.first, pair.second) || !contact_joint(model, pair.first, pair.second);
+  });
+  const Pairs rigid_near(rigid, blocks.end());
+  blocks.erase(std::remove_if(blocks.begin(), rigid,
                               [&](const auto& pair) {
                                 return !renewed.blocks[pair.first] && !renewed.blocks[pair.second];
                               }),
                blocks.end());
+  PairsSearched pairs =
+      pairs_to_search(model, state, work, margins, pace, renewed.all ? &rigid_near : nullptr);
+  renewed.pair_now = std::move(pairs.now);
   std::vector<int> alone, shattered; // blocks that may touch themselves
   for (int b = 0; b + 1 < static_cast<int>(s.block_begin.size()); ++b)
     if (model.blocks[b].meshed && model.blocks[b].rigid < 0 && renewed.blocks[b] &&
         contact_joint(model, b, b))
       (work.broken[b] ? shattered : alone).push_back(b);
-  const auto n_pairs = static_cast<std::int64_t>(blocks.size());
+  const auto n_pairs = static_cast<std::int64_t>(blocks.size()),
+             n_alone = static_cast<std::int64_t>(alone.size());
   std::vector<double> loads;
   for (const auto& [a, b] : blocks)
     loads.push_back(model.blocks[a].meshed && model.blocks[b].meshed ? near_triangles_of(active, a, b) : 0);
   for (const int b : alone)
     loads.push_back(near_triangles_of(active, b, b));
+  for (const int p : pairs.searched)
+    loads.push_back(near_triangles_of(active, pairs.pairs[p].a, pairs.pairs[p].b));
   const std::vector<std::int64_t> own = own_share(work, loads);
   const std::size_t n_own = own.size();
   FoundNear found;
@@ -194,16 +222,27 @@ bool search_contacts(const Model& model, const State& state, ContactWork& work, 
   for_chunks(static_cast<std::int64_t>(n_own), threads, [&](std::int64_t place) {
     const std::int64_t i = own[place];
     std::vector<Near>&springs = found.springs[place], &edges = found.edges[place];
+    if (i >= n_pairs + n_alone) {
+      const RigidPair& pair = pairs.pairs[pairs.searched[i - n_pairs - n_alone]];
+      const Skins skins(work.skin, pair.skin);
+      const auto [a, b] = std::minmax(pair.a, pair.b);
+      const SharedPart part = shared_part(active, a, b, skins);
+      edges = near_edges(model, state, work, margins, active, part, skins);
+      Pairs near = looked_at(model, work, active, part, skins);
+      springs = near_springs(model, work, margins, active, near, skins);
+      return;
+    }
+    const Skins skins(work.skin);
     if (i >= n_pairs) {
       NearWithin near = near_within(model, work, margins, active, alone[i - n_pairs]);
       edges = near_edges_within(model, state, work, margins, active, near.meeting);
-      springs = near_springs(model, work, margins, active, near.looked_at, work.skin);
+      springs = near_springs(model, work, margins, active, near.looked_at, skins);
       return;
     }
     const auto [a, b] = blocks[i];
     if (!model.blocks[a].meshed || !model.blocks[b].meshed)
       return;
-    SharedPart part = shared_part(active, a, b);
+    SharedPart part = shared_part(active, a, b, skins);
     leave_out_known(active, renewed, part);
     if (!contact_joint(model, a, b)) {
       try {
@@ -213,10 +252,10 @@ bool search_contacts(const Model& model, const State& state, ContactWork& work, 
       }
       return;
     }
-    edges = near_edges(model, state, work, margins, active, part);
-    Pairs pairs = looked_at(model, work, active, part);
-    leave_out_known(active, renewed, pairs, edges);
-    springs = near_springs(model, work, margins, active, pairs, work.skin);
+    edges = near_edges(model, state, work, margins, active, part, skins);
+    Pairs near = looked_at(model, work, active, part, skins);
+    leave_out_known(active, renewed, near, edges);
+    springs = near_springs(model, work, margins, active, near, skins);
   });
   for (std::size_t i = 0; i < n_own; ++i) {
     found.may_go = std::min(found.may_go, may_go[i]);
@@ -230,9 +269,10 @@ bool search_contacts(const Model& model, const State& state, ContactWork& work, 
       found.springs.push_back(std::move(part));
     found.movers.insert(found.movers.end(), near.movers.begin(), near.movers.end());
   }
-  share_found(model, work, renewed.all, found);
+  share_found(model, work, renewed.all && !pairs.kept, found);
   if (!found.wrong.empty())
     throw SolutionError(found.wrong);
+  work.rigid_pairs = std::move(pairs.pairs);
   make_rows(model, work, margins, found.springs, Contact::spring, renewed);
   make_rows(model, work, margins, found.edges, Contact::edge, renewed);
   work.undefined_pair_margin =
@@ -245,10 +285,10 @@ bool search_contacts(const Model& model, const State& state, ContactWork& work, 
   ++work.searches;
   keep_near_movers(model, found.movers, renewed.movers, work);
   if (work.anew) // whatever is known, all is looked at
-    let_all_wake(work);
+    let_all_wake(work, any_bonded_faces(model, state));
   if (renewed.all)
     work.steps_since_search = 0;
-  work.fragments_due = work.all_due = work.anew = false;
+  work.fragments_due = work.blocks_due = work.pairs_due = work.all_due = work.anew = false;
   work.history_complete = true;
   return true;
 }

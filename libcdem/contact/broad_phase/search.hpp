@@ -6,6 +6,11 @@
 
 namespace cdem {
 
+// Faces that bonds may hold: what they let go of is in contact at whatever depth.
+inline bool any_bonded_faces(const Model& model, const State& state) {
+  return !state.face_slip.empty() || !model.mesh.sides.empty();
+}
+
 void start_contact(const Model&, ContactWork&);
 
 // Renews rows and candidates for where the nodes are. Throws SolutionError when two bodies meet for which no contact

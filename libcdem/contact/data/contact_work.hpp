@@ -5,9 +5,12 @@
 // that can touch before a mover has moved further than its skin. The search never changes a force. A near pair is
 // skipped until its two movers have moved by its distance: `recheck_distance` is compared with the sum of the distances
 // that the two have moved since the search. A row is skipped as long as all its pairs are. Lengths stored as floats are
-// rounded such that more pairs are checked, never fewer.
+// rounded such that more pairs are checked, never fewer. Two rigid convex
+// blocks have rows of their own. These rows depend on the relative motion of the two (RigidPair) and stay as long as that
+// motion is within the skin of the pair.
 #pragma once
 
+#include "libcdem/contact/data/rigid_pair.hpp"
 #include "libcdem/model/contact_surface.hpp"
 #include "libcdem/parallel/chunks.hpp"
 #include "libcdem/parallel/node.hpp"
@@ -35,8 +38,8 @@ struct ContactCandidate {
 };
 inline constexpr std::uint32_t last_contact_triangle = (1u << 29) - 1;
 
-inline float rounded_down(double length) { // >= 0
-  return static_cast<float>(length * (1 - 2e-7));
+inline float rounded_down(double length) { // at least 0
+  return length > 0 ? static_cast<float>(length * (1 - 2e-7)) : 0;
 }
 
 // The targets near one source (triangle or edge) of one fragment (springs) or mover (edges), by number.
@@ -50,7 +53,9 @@ struct ContactRow {
   float reach = 0;
   float recheck_distance = 0; // m, of its targets the least
   bool hindered = false;      // of edges: some sleep only as long as no contact stands on the edges around
-  std::uint8_t plane = 0;     // of springs and a single tet: which of its planes parted them best, from 0
+  std::uint8_t plane = 0;     // of springs: which of the planes of their target parted them best, from 0
+  int pair = -1;              // of two rigid convex blocks, into ContactWork::rigid_pairs; -1: of others
+  int place = -1;             // into RowsAsleep::of_pairs
   // For two fragments, from the last check: m, the distance that they may move until the next check, and the difference
   // of their drifts and the sum of their swings at that time.
   float allowed = 0, swings = 0;
@@ -138,9 +143,18 @@ struct NearMover {
   std::array<float, 3> drifts{};
 };
 
+// Rows of rigid pairs, those of one pair side by side.
+struct RowsOfPairs {
+  std::vector<int> begin;   // (n_pairs + 1)
+  std::vector<int> row;     // by pair, ascending
+  std::vector<float> until; // m, of RigidPair::moved: the row sleeps so long
+};
+
 // What tells of all rows which ones sleep, side by side: it is gone through in every step.
 struct RowsAsleep {
-  std::vector<float> recheck_distance;  // m, per row; 0 where more than that decides
+  std::vector<float>
+      recheck_distance; // m, per row; 0 where more than that decides; infinite for those of rigid pairs
+  RowsOfPairs of_pairs;
   std::vector<int> source_mover, mover; // per row
   std::vector<std::uint64_t> hindered;  // per chunk of rows, a bit each: ContactRow::hindered
   std::vector<std::uint64_t> awake;     // per chunk of rows, a bit each: it is looked at in this step
@@ -174,6 +188,14 @@ struct ContactWork {
   // Per edge, and per mover: it had a contact of edges before the step.
   std::vector<char> edge_touched, mover_edges_touched;
   std::vector<double> travelled; // m, per mover, at most, since the search
+  // Of blocks that are rigid, convex and bonded to no other: 1. Of them, per block, how they stand, and their radius; and
+  // triangles in the planes of their faces, by number.
+  std::vector<char> pairwise;
+  std::vector<BodyPose> pose;
+  std::vector<double> radius; // m
+  std::vector<std::vector<int>> planes;
+  std::vector<double> path;           // m, per block, of its fastest node, never less than it was
+  std::vector<RigidPair> rigid_pairs; // of pairwise blocks near each other, by their two numbers
   // For fragments, per mover, since their last search: mean displacement of their nodes, and largest deviation of a
   // node from it, m. Measured from the positions at that search (n_nodes).
   std::vector<geom::Vec3> drift;
@@ -201,7 +223,9 @@ struct ContactWork {
   // anybody's doing.
   bool history_complete = false;
   bool looks_at_all = false; // in every step, after a search of all movers: for tests of what is skipped
-  bool all_due = false;      // a search is due of all movers, not only of fragments that left their skins
+  bool blocks_due = false;   // a search is due of all movers, not only of fragments that left their skins
+  bool pairs_due = false;    // a search is due of rigid pairs that left their skins
+  bool all_due = false;      // a search of all movers is due in which no rigid pair keeps its rows
   // A search goes on from here as if nothing of fragments had been known, as that of a stage that goes on from here does.
   bool anew = true;
   // In this step contacts begin at any depth, since it is not known which fragments are new. Otherwise only contacts of
@@ -216,6 +240,7 @@ struct ContactWork {
   std::vector<BlockMotion> block_motion; // per block, of those that touched before the step; with restitution
   int skin_doublings = 0; // how often skins have been doubled, as searches followed each other closely
   std::int64_t steps_since_search = 0; // steps since the search
+  std::int64_t steps = 0;              // since the stage began
   std::int64_t searches = 0;
 
   // With several ranks, each of which keeps the rows of a run of source triangles, and of the edges of which these are the

@@ -1,5 +1,6 @@
 #include "libcdem/contact/narrow_phase/evaluation.hpp"
 
+#include "libcdem/contact/broad_phase/rigid_pairs.hpp"
 #include "libcdem/contact/broad_phase/search.hpp"
 #include "libcdem/contact/response/contact_point.hpp"
 #include "libcdem/model/build/contact_surface.hpp"
@@ -52,7 +53,12 @@ const Evaluation::Law& Evaluation::law_between(int block_a, int block_b) {
 }
 
 double Evaluation::moved(const ContactRow& row) const {
-  return work_.travelled[row.source_mover] + work_.travelled[row.mover];
+  return row.pair >= 0 ? work_.rigid_pairs[row.pair].moved
+                       : work_.travelled[row.source_mover] + work_.travelled[row.mover];
+}
+
+double Evaluation::from(const ContactRow& row) const {
+  return row.pair >= 0 ? work_.rigid_pairs[row.pair].from : moved(row);
 }
 
 double Evaluation::moved_in_step(const ContactRow& row) const {
@@ -120,10 +126,13 @@ Nearest Evaluation::nearest_on(int target, const geom::Vec3& spring, bool bonded
   return nearest;
 }
 
-// A plane of the tet that has all of them on its outer side is enough. The one that parted them best is tried first.
+// A plane that has all of them on its outer side is enough. The one that parted them best is tried first.
 bool Evaluation::stand_outside(ContactRow& row, const Springs& spring) {
-  const std::array<int, 4>& planes = work_.movers.triangles_of_tet[row.mover];
-  if (planes[0] < 0 || work_.looks_at_all)
+  const bool of_pair = row.pair >= 0;
+  const std::array<int, 4>& of_tet = work_.movers.triangles_of_tet[row.mover];
+  const int* const planes = of_pair ? work_.planes[row.mover].data() : of_tet.data();
+  const int count = of_pair ? static_cast<int>(work_.planes[row.mover].size()) : of_tet[0] < 0 ? 0 : 4;
+  if (count == 0 || work_.looks_at_all)
     return false;
   const auto outside = [&](int plane) { // m, of each
     const Facet& y = facet(planes[plane]);
@@ -135,7 +144,7 @@ bool Evaluation::stand_outside(ContactRow& row, const Springs& spring) {
   const double height = surface_.triangles[planes[row.plane]].height;
   if (least < shallow_ratio * height) {
     double best = least;
-    for (int plane = 0; plane < 4; ++plane) {
+    for (int plane = 0; plane < count; ++plane) {
       const geom::Vec3 here = outside(plane);
       most = most.cwiseMax(here);
       if (here.minCoeff() > best) {
@@ -145,18 +154,19 @@ bool Evaluation::stand_outside(ContactRow& row, const Springs& spring) {
     }
     least = most.minCoeff();
   }
-  const double until = least - 4 * (same_place_at_least * height + 4 * same_place * least);
+  const double slack = of_pair ? slack_of(model_, work_, row.block) : 4 * same_place_at_least * height,
+               until = least - slack - 16 * same_place * least;
   if (until <= 0)
     return false;
   row.known_target = {-1, -1, -1};
-  row.known_until.fill(rounded_down(moved(row) + until));
+  row.known_until.fill(rounded_down(from(row) + until));
   row.recheck_distance = row.known_until[0];
   return true;
 }
 
 void Evaluation::find_nearest(ContactRow& row, ContactCandidate* candidates, bool all, const Springs& spring,
                               std::array<Nearest, 3>& nearest) {
-  const double moved = this->moved(row);
+  const double moved = this->moved(row), from = this->from(row);
   const bool bonded = cdem::bonded(model_, work_, row.block, row.mover);
   std::array<Distances, 3> distances;
   float recheck_distance = std::numeric_limits<float>::infinity();
@@ -181,7 +191,7 @@ void Evaluation::find_nearest(ContactRow& row, ContactCandidate* candidates, boo
       distances[corner].add(std::sqrt(found.distance2), target, triangle.height);
       take_nearer(nearest[corner], found, y.x, y.normal, triangle.height, bonded);
     }
-    candidate.recheck_distance = rounded_down(moved + std::max(0.0, std::sqrt(least2) - row.reach));
+    candidate.recheck_distance = rounded_down(from + std::max(0.0, std::sqrt(least2) - row.reach));
     recheck_distance = std::min(recheck_distance, candidate.recheck_distance);
   }
   row.recheck_distance = recheck_distance;
@@ -206,7 +216,7 @@ void Evaluation::find_nearest(ContactRow& row, ContactCandidate* candidates, boo
       row.known_target[corner] = -1;
       until = least - 4 * one_place;
     }
-    row.known_until[corner] = rounded_down(moved + std::max(0.0, until));
+    row.known_until[corner] = rounded_down(from + std::max(0.0, until));
   }
 }
 
@@ -249,8 +259,8 @@ double Evaluation::narrow_phase(ContactRow& row, ContactCandidate* candidates, b
     // With some asleep, what is further in than a step can have brought it is not inside: nearer ones sleep.
     const double shallow = std::min(work_.shallow[source.block], work_.shallow[row.block]);
     const auto sleep_without_contact = [&] { // too deep to begin, by the motion of the step too
-      sleeps =
-          std::min(sleeps, rounded_down(moved + std::max(0.0, 0.5 * (std::sqrt(found.distance2) - shallow))));
+      sleeps = std::min(
+          sleeps, rounded_down(from(row) + std::max(0.0, 0.5 * (std::sqrt(found.distance2) - shallow))));
       sleep(corner);
     };
     const double reach = row.reach + ways;

@@ -28,7 +28,10 @@ private:
     double tan_friction = 0;
   };
   const Law& law_between(int block_a, int block_b);
-  double moved(const ContactRow&) const;         // m, both movers together, since the search
+  // m, both movers together, since the search; or what the pair has moved.
+  double moved(const ContactRow&) const;
+  // m, what is found now and is d away waits until `moved` is from + d.
+  double from(const ContactRow&) const;
   double moved_in_step(const ContactRow&) const; // m
   // The two are the sides of a broken face that its own springs still hold.
   bool held_by_face(int source, int target) const;
@@ -36,7 +39,8 @@ private:
   const Contact* before(const Contact&) const;
   double narrow_phase(ContactRow&, ContactCandidate*, bool all); // returns how deep the deepest is, m
   using Springs = std::array<geom::Vec3, 3>;                     // where the three of a source are, m
-  // All of them stand outside a fragment that is a single tet, and so they touch nothing until they have moved.
+  // All of them stand outside a fragment that is a single tet, or outside the other block of a rigid pair, and so they
+  // touch nothing until they have moved.
   bool stand_outside(ContactRow&, const Springs&);
   // The nearest places of one fragment to them, of all targets that do not sleep.
   void find_nearest(ContactRow&, ContactCandidate*, bool all, const Springs&, std::array<Nearest, 3>&);

@@ -11,9 +11,10 @@ namespace cdem {
 namespace {
 
 // How far, m, two edges may go, both together, before a pair that may not begin now can do so: because they are nearly
-// parallel, or because their nearest places stay at the last end of one of their lines.
+// parallel or, of rigid blocks, their common normal lies outside a fan; or because their nearest places stay at the last end
+// of one of their lines.
 struct Hindrance {
-  double parallel = 0, last_end = 0;
+  double by_angle = 0, last_end = 0;
 };
 
 Hindrance hindrance_of(const Model& model, const State& state, const ContactEdge& e, const ContactEdge& f,
@@ -22,12 +23,48 @@ Hindrance hindrance_of(const Model& model, const State& state, const ContactEdge
                    b = place_of(model, state, f.nodes[1]) - place_of(model, state, f.nodes[0]);
   const double la = a.norm(), lb = b.norm(), sine = a.cross(b).norm() / (la * lb);
   // An edge rotates by at most twice the displacement of its ends over its length.
-  const double parallel = 0.4 * (parallel_edges - sine) * std::min(la, lb);
+  const double by_angle = 0.4 * (parallel_edges - sine) * std::min(la, lb);
   // The nearest places of two lines move by some times that over the sine between them.
   const auto left = [&](bool ends, double place, double length) {
     return ends ? (drawn_in - std::min(place, 1 - place)) * length * sine / 16 : 0.;
   };
-  return {std::max(0., parallel), std::max({0., left(e_ends, at.s, la), left(f_ends, at.t, lb)})};
+  return {std::max(0., by_angle), std::max({0., left(e_ends, at.s, la), left(f_ends, at.t, lb)})};
+}
+
+// m: until two edges of rigid blocks have moved so far they do not touch: either normal lies outside a fan (the Gauss map),
+// or it tells that they are apart. Along a common normal of two lines any two places of them are as far from each other.
+double apart_until(const Model& model, const State& state, const ContactEdge& e, const ContactEdge& f,
+                   const geom::Vec3& way) {
+  const auto along_of = [&](const ContactEdge& edge) -> geom::Vec3 {
+    return place_of(model, state, edge.nodes[1]) - place_of(model, state, edge.nodes[0]);
+  };
+  const geom::Vec3 a = along_of(e), b = along_of(f);
+  const double la = a.norm(), lb = b.norm(), sine = a.cross(b).norm() / (la * lb);
+  if (sine < parallel_edges)
+    return 0;
+  const geom::Vec3 across = a.cross(b) / (sine * la * lb);
+  // An edge turns by at most twice the way of its ends over its length, its faces by what that and the way of their
+  // centroids make of it, and the common normal by what both edges make of it over the sine; all of it taken twice.
+  const double turns = 2 / la + 2 / lb; // 1/m
+  std::array<double, 2> until{0, 0};    // of the normal along and against `across`
+  for (const bool of_f : {false, true}) {
+    const ContactEdge& edge = of_f ? f : e;
+    const geom::Vec3 x0 = place_of(model, state, edge.nodes[0]), x1 = place_of(model, state, edge.nodes[1]);
+    const auto into = into_faces(model, state, edge, x0, x1);
+    for (int i = 0; i < 2; ++i) {
+      const Corners x = corners_of(model, state, model.surface.triangles[edge.triangles[i]].nodes);
+      const double arm = ((x[0] + x[1] + x[2]) / 3 - x0).norm(), height = into[i].norm();
+      const double rate = 4 * turns / sine + 4 * (1 + 2 * arm / (of_f ? lb : la)) / height;
+      for (int sign = 0; sign < 2; ++sign) { // n lies in the fan of f, -n in that of e
+        const double outward = (of_f == (sign == 0) ? 1 : -1) * across.dot(into[i]) / height;
+        until[sign] = std::max(until[sign], (outward - fan_slack) / rate);
+      }
+    }
+  }
+  const double along = way.dot(across), rate_along = 1 + 4 * way.norm() * turns / sine;
+  double& other_side = until[along > 0 ? 1 : 0]; // of the normal along which they are apart
+  other_side = std::max(other_side, 0.5 * std::abs(along) / rate_along);
+  return std::min({until[0], until[1], 0.25 * sine / turns});
 }
 
 } // namespace
@@ -36,7 +73,7 @@ void Evaluation::edges(ContactRow& row, ContactCandidate* candidates) {
   const ContactEdge& e = work_.edges[row.source];
   const ContactTriangle& from = surface_.triangles[e.triangles[0]];
   const bool touched = work_.mover_edges_touched[row.source_mover] && work_.mover_edges_touched[row.mover];
-  const double moved = this->moved(row);
+  const double moved = this->moved(row), from_here = this->from(row);
   const bool skips = !work_.looks_at_all;
   if (skips && moved < row.recheck_distance && !(row.hindered && touched))
     return;
@@ -58,16 +95,18 @@ void Evaluation::edges(ContactRow& row, ContactCandidate* candidates) {
     const NearestOfEdges nearest = nearest_of_edges(model_, state_, e, f);
     const double distance = nearest.way.norm(), limit = edge_depth(work_, from, to);
     const double apart = distance - std::max(limit, static_cast<double>(row.reach));
-    candidate.recheck_distance = rounded_down(moved + std::max(0.0, apart));
+    candidate.recheck_distance = rounded_down(from_here + std::max(0.0, apart));
     candidate.springs = 0;
     // At the last end of a line contacts go on but do not begin.
     const bool e_ends = lines_.at_last_end(row.source, nearest.at.s),
                f_ends = lines_.at_last_end(target, nearest.at.t);
     const bool may_begin = distance <= limit && !e_ends && !f_ends;
     if (apart <= 0) {
-      const Hindrance hindrance = hindrance_of(model_, state_, e, f, nearest.at, e_ends, f_ends);
-      candidate.recheck_distance = rounded_down(moved + std::max(hindrance.parallel, hindrance.last_end));
-      candidate.springs = hindrance.last_end > hindrance.parallel ? 1 : 0;
+      Hindrance hindrance = hindrance_of(model_, state_, e, f, nearest.at, e_ends, f_ends);
+      if (row.pair >= 0)
+        hindrance.by_angle = std::max(hindrance.by_angle, apart_until(model_, state_, e, f, nearest.way));
+      candidate.recheck_distance = rounded_down(from_here + std::max(hindrance.by_angle, hindrance.last_end));
+      candidate.springs = hindrance.last_end > hindrance.by_angle ? 1 : 0;
     }
     recheck_distance = std::min(recheck_distance, candidate.recheck_distance);
     row.hindered = row.hindered || candidate.springs != 0;

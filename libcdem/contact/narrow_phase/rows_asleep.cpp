@@ -1,6 +1,8 @@
 #include "libcdem/contact/narrow_phase/rows_asleep.hpp"
 
 #include "libcdem/contact/broad_phase/movers.hpp"
+#include "libcdem/contact/broad_phase/rigid_pairs.hpp"
+#include "libcdem/contact/narrow_phase/parted.hpp"
 #include "libcdem/parallel/instruction_set.hpp"
 
 #include <algorithm>
@@ -24,13 +26,53 @@ CDEM_INLINE void awake_kernel(const double* travelled, const RowsAsleep& rows, s
   }
 }
 
+void wake(RowsAsleep& rows, std::size_t row) {
+  rows.awake[row / contact_rows_per_chunk] |= std::uint64_t{1} << (row % contact_rows_per_chunk);
+}
+
+// Wakes those of a pair that are due. Returns until when none is, m of what it has moved; 0: one has been woken.
+double wake_due(const RigidPair& pair, std::size_t p, RowsAsleep& rows) {
+  const RowsOfPairs& of_pairs = rows.of_pairs;
+  bool any = false;
+  float next = std::numeric_limits<float>::infinity();
+  for (int i = of_pairs.begin[p]; i < of_pairs.begin[p + 1]; ++i)
+    if (pair.moved >= of_pairs.until[i]) {
+      wake(rows, of_pairs.row[i]);
+      any = true;
+    } else {
+      next = std::min(next, of_pairs.until[i]);
+    }
+  return any ? 0 : next;
+}
+
+// Semi-springs of two blocks that a plane parts touch nothing. Rows of edges tell by their fans.
+void wake_pair(const Model& model, const State& state, ContactWork& work, std::size_t p) {
+  RigidPair& pair = work.rigid_pairs[p];
+  update_motion(work, pair);
+  if (pair.moved >= pair.next[Contact::spring]) {
+    const double apart = parted_by(model, state, work, pair);
+    pair.next[Contact::spring] =
+        apart > 0 ? pair.from + apart : wake_due(pair, p, work.asleep[Contact::spring]);
+  }
+  if (pair.moved >= pair.next[Contact::edge])
+    pair.next[Contact::edge] = wake_due(pair, p, work.asleep[Contact::edge]);
+  const double left = std::min(pair.next[0], pair.next[1]) - pair.moved;
+  pair.look_at = left > 0 ? path_of(work, pair) + left : 0;
+}
+
 // Edges that sleep only as long as no contact stands around.
-void wake_hindered(const ContactWork& work, RowsAsleep& rows) {
+void wake_hindered(ContactWork& work, RowsAsleep& rows) {
   for (std::size_t chunk = 0; chunk < rows.hindered.size(); ++chunk)
     for (std::uint64_t bits = rows.hindered[chunk]; bits != 0; bits &= bits - 1) {
       const std::size_t r = chunk * contact_rows_per_chunk + static_cast<std::size_t>(__builtin_ctzll(bits));
-      if (work.mover_edges_touched[rows.source_mover[r]] && work.mover_edges_touched[rows.mover[r]])
-        rows.awake[chunk] |= bits & -bits;
+      if (!work.mover_edges_touched[rows.source_mover[r]] || !work.mover_edges_touched[rows.mover[r]])
+        continue;
+      rows.awake[chunk] |= bits & -bits;
+      if (const int p = work.rows[Contact::edge][r].pair; p >= 0) {
+        RigidPair& pair = work.rigid_pairs[p];
+        update_motion(work, pair);
+        pair.next[Contact::edge] = pair.look_at = 0; // it may sleep less long than before
+      }
     }
 }
 
@@ -44,12 +86,19 @@ void wake_all(RowsAsleep& rows) {
 
 } // namespace
 
-void find_awake(const ContactWork& work, RowsAsleep& rows) {
-  rows.awake.resize((rows.mover.size() + contact_rows_per_chunk - 1) / contact_rows_per_chunk);
-  simd::best<awake_kernel>(work.travelled.data(), rows, rows.awake.data());
-  wake_hindered(work, rows);
-  if (work.looks_at_all)
-    wake_all(rows);
+void find_awake(const Model& model, const State& state, ContactWork& work) {
+  for (RowsAsleep& rows : work.asleep) {
+    rows.awake.resize((rows.mover.size() + contact_rows_per_chunk - 1) / contact_rows_per_chunk);
+    simd::best<awake_kernel>(work.travelled.data(), rows, rows.awake.data());
+  }
+  for (std::size_t p = 0; p < work.rigid_pairs.size(); ++p)
+    if (work.looks_at_all || path_of(work, work.rigid_pairs[p]) >= work.rigid_pairs[p].look_at)
+      wake_pair(model, state, work, p);
+  for (RowsAsleep& rows : work.asleep) {
+    wake_hindered(work, rows);
+    if (work.looks_at_all)
+      wake_all(rows);
+  }
 }
 
 bool sleeps_on(const ContactWork& work, const ContactRow& row, float& recheck_distance) {

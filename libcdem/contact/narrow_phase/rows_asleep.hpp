@@ -2,16 +2,17 @@
 #pragma once
 
 #include "libcdem/contact/data/contact_work.hpp"
+#include "libcdem/state/state.hpp"
 
 namespace cdem {
 
-// Writes RowsAsleep::awake.
-void find_awake(const ContactWork&, RowsAsleep&);
+// Writes RowsAsleep::awake, and the motion of the rigid pairs whose rows are awake.
+void find_awake(const Model&, const State&, ContactWork&);
 
 // Whether a row whose movers have travelled far enough to be looked at may sleep on, since they did so together.
 bool sleeps_on(const ContactWork&, const ContactRow&, float& recheck_distance);
 
-// After it has been looked at. blocks: in the model.
+// After it has been looked at, of a row that is of no rigid pair. blocks: in the model.
 void fall_asleep(const ContactWork&, int blocks, ContactRow&, float& recheck_distance);
 
 } // namespace cdem

@@ -1,0 +1,302 @@
+#include "libcdem/contact/broad_phase/rigid_pairs.hpp"
+
+#include "libcdem/contact/broad_phase/movers.hpp"
+#include "libcdem/contact/broad_phase/renewed.hpp"
+#include "libcdem/contact/geometry/nearest.hpp"
+#include "libcdem/element/rigid_motion.hpp"
+#include "libcdem/model/names.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace cdem {
+namespace {
+
+using Quaternion = std::array<double, 4>;
+
+// Of a body's size: what rounding makes of its place.
+constexpr double rounding = 1e-12;
+// Of the usual height of a tet: the thinnest skin of a pair, and the thickest. Steps that a pair can go on at its pace.
+constexpr double thinnest = 0.01, thickest = 0.2, steps_ahead = 250;
+// A pair that leaves its skin within fewer steps than this gets one twice as thick, after more one half as thick.
+constexpr std::int64_t few_steps = 50, many_steps = 150;
+constexpr int most_doublings = 5;
+
+// conj(q) p
+Quaternion conjugate_times(const Quaternion& q, const Quaternion& p) {
+  return {q[0] * p[0] + q[1] * p[1] + q[2] * p[2] + q[3] * p[3],
+          q[0] * p[1] - q[1] * p[0] - q[2] * p[3] + q[3] * p[2],
+          q[0] * p[2] + q[1] * p[3] - q[2] * p[0] - q[3] * p[1],
+          q[0] * p[3] - q[1] * p[2] + q[2] * p[1] - q[3] * p[0]};
+}
+
+// R^T v
+geom::Vec3 turned_back(const Quaternion& q, const geom::Vec3& v) {
+  const geom::Vec3 u(q[1], q[2], q[3]), t = 2 * v.cross(u);
+  return v + q[0] * t + t.cross(u);
+}
+
+// The norm of the difference of two rotations: 2 sin(angle / 2).
+double difference(const Quaternion& q, const Quaternion& p) {
+  double minus = 0, plus = 0;
+  for (int i = 0; i < 4; ++i) {
+    minus += (q[i] - p[i]) * (q[i] - p[i]);
+    plus += (q[i] + p[i]) * (q[i] + p[i]);
+  }
+  return 2 * std::sqrt(std::min(minus, plus));
+}
+
+// Planes that have no node of the block beyond them: of each face the largest triangle's.
+std::vector<int> planes_of(const Model& model, const State& state, int b) {
+  constexpr double flat = 1e-9, same_direction = 1e-8; // of the block's size; of the cosine of an angle
+  const ContactSurface& s = model.surface;
+  const Block& block = model.blocks[b];
+  std::vector<int> triangles(static_cast<std::size_t>(s.block_begin[b + 1] - s.block_begin[b])), planes;
+  for (std::size_t i = 0; i < triangles.size(); ++i)
+    triangles[i] = s.block_begin[b] + static_cast<int>(i);
+  std::sort(triangles.begin(), triangles.end(), [&](int one, int other) {
+    return std::pair(-s.triangles[one].area, one) < std::pair(-s.triangles[other].area, other);
+  });
+  std::vector<geom::Vec3> normals;
+  constexpr std::size_t most = std::numeric_limits<std::uint8_t>::max(); // ContactRow::plane
+  for (std::size_t i = 0; i < triangles.size() && planes.size() < most; ++i) {
+    const Corners x = corners_of(model, state, s.triangles[triangles[i]].nodes);
+    const geom::Vec3 normal = unit_normal(x);
+    if (std::any_of(normals.begin(), normals.end(),
+                    [&](const geom::Vec3& known) { return known.dot(normal) > 1 - same_direction; }))
+      continue;
+    double beyond = 0;
+    for (int node = block.node_begin; node < block.node_end; ++node)
+      beyond = std::max(beyond, (place_of(model, state, node) - x[0]).dot(normal));
+    if (beyond > flat * block.size)
+      continue;
+    normals.push_back(normal);
+    planes.push_back(triangles[i]);
+  }
+  return planes;
+}
+
+double radius_of(const Model& model, const State& state, int b) {
+  double radius2 = 0;
+  for (int node = model.blocks[b].node_begin; node < model.blocks[b].node_end; ++node)
+    radius2 = std::max(radius2, vec(state.rigid_offset[node]).squaredNorm());
+  return std::sqrt(radius2) * (1 + rounding);
+}
+
+// m in a step, of b's fastest place seen from a.
+double relative_pace(const Model& model, const State& state, const ContactWork& work, int a, int b,
+                     const std::vector<double>& pace) {
+  if (work.radius[a] < work.radius[b])
+    std::swap(a, b);
+  const int rigid_a = model.blocks[a].rigid, rigid_b = model.blocks[b].rigid;
+  const RigidState &one = state.rigid[rigid_a], &other = state.rigid[rigid_b];
+  const geom::Vec3 spin_a = spin(model.rigid[rigid_a], one, 0), spin_b = spin(model.rigid[rigid_b], other, 0),
+                   arm = vec(other.centroid) - vec(one.centroid);
+  const double relative =
+      work.last_step * ((vec(other.velocity) - vec(one.velocity) - spin_a.cross(arm)).norm() +
+                        (spin_b - spin_a).norm() * work.radius[b]);
+  const double sum = pace[a] + pace[b];
+  return std::isfinite(relative) ? std::min(relative, sum) : sum;
+}
+
+// m, by how much a plane of a face of one of the two parts them; 0: none does.
+double distance_apart(const Model& model, const State& state, const ContactWork& work, int a, int b) {
+  double best = 0;
+  for (const auto& [one, other] : {std::pair(a, b), std::pair(b, a)})
+    for (const int t : work.planes[one]) {
+      const Corners x = corners_of(model, state, model.surface.triangles[t].nodes);
+      const geom::Vec3 normal = unit_normal(x);
+      double least = std::numeric_limits<double>::infinity();
+      for (int node = model.blocks[other].node_begin; node < model.blocks[other].node_end; ++node)
+        least = std::min(least, (place_of(model, state, node) - x[0]).dot(normal));
+      best = std::max(best, least);
+    }
+  return best * (1 - rounding);
+}
+
+bool before(const RigidPair& x, const RigidPair& y) {
+  return std::minmax(x.a, x.b) < std::minmax(y.a, y.b);
+}
+
+// m, at most, of the motion since it was searched.
+double used_of_skin(const ContactWork& work, const RigidPair& pair) {
+  return std::min(
+      path_of(work, pair) - pair.path_at_search,
+      motion_between(seen_from(work.pose[pair.a], work.pose[pair.b]), pair.at_search, pair.radius_b));
+}
+
+} // namespace
+
+void find_pairwise(const Model& model, const State& state, ContactWork& work) {
+  const auto blocks = static_cast<int>(model.blocks.size());
+  const ContactSurface& s = model.surface;
+  const bool first = work.pose.empty();
+  if (first) {
+    work.pose.resize(model.blocks.size());
+    work.radius.resize(model.blocks.size(), 0.0);
+    work.planes.resize(model.blocks.size());
+  }
+  work.pairwise.assign(model.blocks.size(), 0);
+  std::vector<int> fragments;
+  const auto fragment = [&](int b) { return work.fragment[s.block_begin[b]]; };
+  for (int b = 0; b < blocks; ++b) {
+    const Block& block = model.blocks[b];
+    work.pairwise[b] = static_cast<char>(block.rigid >= 0 && block.convex() && block.meshed &&
+                                         !work.broken[b] && s.block_begin[b] < s.block_begin[b + 1]);
+    if (s.block_begin[b] < s.block_begin[b + 1])
+      fragments.push_back(fragment(b));
+  }
+  std::sort(fragments.begin(), fragments.end());
+  for (int b = 0; b < blocks; ++b) {
+    if (!work.pairwise[b])
+      continue;
+    const auto [begin, end] = std::equal_range(fragments.begin(), fragments.end(), fragment(b));
+    work.pairwise[b] = static_cast<char>(end - begin == 1); // else its bonds hold others
+    if (work.radius[b] == 0) {
+      work.radius[b] = radius_of(model, state, b);
+      work.planes[b] = planes_of(model, state, b);
+    }
+  }
+  set_poses(model, state, work);
+}
+
+void set_poses(const Model& model, const State& state, ContactWork& work) {
+  for (std::size_t i = 0; i < model.rigid.size(); ++i)
+    if (work.pairwise[model.rigid[i].block])
+      work.pose[model.rigid[i].block] = {vec(state.rigid[i].centroid), state.rigid[i].rotation};
+}
+
+BodyPose seen_from(const BodyPose& a, const BodyPose& b) {
+  return {turned_back(a.rotation, b.centre - a.centre), conjugate_times(a.rotation, b.rotation)};
+}
+
+double motion_between(const BodyPose& x, const BodyPose& y, double radius) {
+  return (x.centre - y.centre).norm() + difference(x.rotation, y.rotation) * radius +
+         rounding * (radius + x.centre.norm());
+}
+
+RigidPair pair_of(const ContactWork& work, int a, int b, double skin) {
+  if (work.radius[a] < work.radius[b])
+    std::swap(a, b);
+  RigidPair pair;
+  pair.a = a;
+  pair.b = b;
+  pair.radius_b = work.radius[b];
+  pair.skin = skin;
+  pair.at = work.steps;
+  pair.at_search = pair.at_look = seen_from(work.pose[a], work.pose[b]);
+  pair.path_at_search = pair.path_at_look = path_of(work, pair);
+  pair.threshold = 0.25 * std::min(work.shallow[a], work.shallow[b]);
+  return pair;
+}
+
+void update_motion(const ContactWork& work, RigidPair& pair) {
+  const BodyPose now = seen_from(work.pose[pair.a], work.pose[pair.b]);
+  const double path = path_of(work, pair);
+  double since = std::min(path - pair.path_at_look, motion_between(now, pair.at_look, pair.radius_b));
+  if (since > pair.threshold) {
+    pair.base += since;
+    pair.at_look = now;
+    pair.path_at_look = path;
+    since = 0;
+  }
+  pair.moved = pair.base + since;
+  pair.from = pair.base - since;
+}
+
+bool any_left_skin(ContactWork& work) {
+  bool left = false;
+  for (RigidPair& pair : work.rigid_pairs) {
+    const double path = path_of(work, pair);
+    if (path < pair.leaves_at)
+      continue;
+    const double rest = pair.skin - used_of_skin(work, pair);
+    left = left || rest <= 0;
+    pair.leaves_at = path + std::max(0.0, rest);
+  }
+  return left;
+}
+
+double slack_of(const Model& model, const ContactWork& work, int block) {
+  return 4 * (bonded(model, work, block, block) ? bond_gives : same_place_at_least) *
+         model.blocks[block].size;
+}
+
+PairsSearched pairs_to_search(const Model& model, const State& state, const ContactWork& work,
+                              const SearchMargin& margins, const std::vector<double>& pace,
+                              const Pairs* near) {
+  PairsSearched found;
+  found.now.assign(work.rigid_pairs.size(), -1);
+  std::vector<char> anew;
+  const auto add = [&](int a, int b) {
+    const int known = number_of(work.rigid_pairs, a, b);
+    const RigidPair* const old = known < 0 ? nullptr : &work.rigid_pairs[known];
+    if (old && !work.all_due && !work.looks_at_all &&
+        used_of_skin(work, *old) <= (1 - searched_with_others) * old->skin) {
+      found.now[known] = static_cast<int>(found.pairs.size());
+      found.kept = true;
+      found.pairs.push_back(*old);
+      return;
+    }
+    int doublings = old ? old->doublings : 0;
+    if (old && work.steps - old->at < few_steps)
+      doublings = std::min(doublings + 1, most_doublings);
+    else if (old && work.steps - old->at > many_steps)
+      doublings = std::max(doublings - 1, 0);
+    const double least = thinnest * work.usual_height * static_cast<double>(1 << doublings);
+    const double skin = std::min(std::max(least, steps_ahead * relative_pace(model, state, work, a, b, pace)),
+                                 thickest * work.usual_height);
+    // Two blocks that a plane parts have no rows, and need none until they have moved as far as it parts them: edges touch
+    // by their fans, which may be by as much as their depth before a plane tells.
+    const double depth = std::max(std::min(edge_depth(work, a), edge_depth(work, b)), margins.known(a, b)),
+                 apart = distance_apart(model, state, work, a, b) - depth - slack_of(model, work, a) -
+                         slack_of(model, work, b);
+    const bool rows = apart <= skin;
+    if (rows)
+      found.searched.push_back(static_cast<int>(found.pairs.size()));
+    found.pairs.push_back(pair_of(work, a, b, rows ? skin : apart));
+    found.pairs.back().doublings = rows ? doublings : 0;
+  };
+  if (near) {
+    Pairs sorted;
+    for (const auto& [a, b] : *near)
+      sorted.push_back(std::minmax(a, b));
+    std::sort(sorted.begin(), sorted.end());
+    for (const auto& [a, b] : sorted)
+      add(a, b);
+  } else {
+    for (const RigidPair& pair : work.rigid_pairs)
+      add(std::min(pair.a, pair.b), std::max(pair.a, pair.b));
+  }
+  return found;
+}
+
+void keep_rigid_pairs(ContactWork& before, ContactWork& work) {
+  if (before.due || before.shared || before.rigid_pairs.empty())
+    return;
+  for (std::size_t kind = 0; kind < work.rows.size(); ++kind) {
+    std::vector<ContactRow>& rows = before.rows[kind];
+    rows.erase(std::remove_if(rows.begin(), rows.end(), [](const ContactRow& row) { return row.pair < 0; }),
+               rows.end());
+    work.rows[kind] = std::move(rows);
+    work.candidates[kind] = std::move(before.candidates[kind]);
+  }
+  work.edges = std::move(before.edges); // by their numbers, which rows have
+  work.rigid_pairs = std::move(before.rigid_pairs);
+  work.pose = std::move(before.pose);
+  work.radius = std::move(before.radius);
+  work.planes = std::move(before.planes);
+  work.path = std::move(before.path);
+  work.steps = before.steps;
+}
+
+int number_of(const std::vector<RigidPair>& pairs, int a, int b) {
+  RigidPair like;
+  like.a = a;
+  like.b = b;
+  const auto at = std::lower_bound(pairs.begin(), pairs.end(), like, before);
+  return at == pairs.end() || before(like, *at) ? -1 : static_cast<int>(at - pairs.begin());
+}
+
+} // namespace cdem

@@ -1,0 +1,54 @@
+// Pairs of rigid convex blocks: which there are, how far the two have moved relative to each other, and which of them a
+// search finds anew. Equal on all ranks, which all move all rigid bodies.
+#pragma once
+
+#include "libcdem/contact/broad_phase/candidates.hpp"
+
+namespace cdem {
+
+// Writes ContactWork::pairwise, planes, radius and pose. Fragments are known.
+void find_pairwise(const Model&, const State&, ContactWork&);
+// Writes ContactWork::pose.
+void set_poses(const Model&, const State&, ContactWork&);
+
+inline bool pairwise(const ContactWork& work, int block_a, int block_b) {
+  return work.pairwise[block_a] && work.pairwise[block_b];
+}
+
+// b seen from a.
+BodyPose seen_from(const BodyPose& a, const BodyPose& b);
+// m, that no place within the radius of a body moves further between two poses.
+double motion_between(const BodyPose&, const BodyPose&, double radius);
+// The pair as it is when it is searched. skin: m.
+RigidPair pair_of(const ContactWork&, int block_a, int block_b, double skin);
+// Writes RigidPair::moved and from.
+void update_motion(const ContactWork&, RigidPair&);
+
+inline double path_of(const ContactWork& work, const RigidPair& pair) {
+  return work.path[pair.a] + work.path[pair.b];
+}
+
+// True when one has left its skin.
+bool any_left_skin(ContactWork&);
+
+// m, a block with these slacks around it holds all that its nearest places may take for inside.
+double slack_of(const Model&, const ContactWork&, int block);
+
+// What a search finds anew of rigid pairs.
+struct PairsSearched {
+  std::vector<RigidPair> pairs; // those there are now, as ContactWork::rigid_pairs
+  std::vector<int> searched;    // of them
+  std::vector<int> now;         // per pair before: its number now, if it keeps its rows; else -1
+  bool kept = false;            // one keeps its rows
+};
+// near: blocks near each other; null: those of before, as blocks are not searched. pace: m in a step, per mover.
+PairsSearched pairs_to_search(const Model&, const State&, const ContactWork&, const SearchMargin&,
+                              const std::vector<double>& pace, const Pairs* near);
+
+// What `before` knows of rigid pairs goes on in a workspace that is new otherwise.
+void keep_rigid_pairs(ContactWork& before, ContactWork&);
+
+// -1: there is none. By number.
+int number_of(const std::vector<RigidPair>&, int block_a, int block_b);
+
+} // namespace cdem
