@@ -1,7 +1,7 @@
 // Frees the nodes of cohesive bodies where a face nears its strength: each gets a copy for every tet around it that a face
 // which may break parts from the others, so that the faces between can open (element/face_jumps.hpp, cohesive_faces.hpp).
 // Nothing moves by it: stress stays, each copy takes place, velocity and its share of the mass, and its acceleration is
-// kept by a preload on the faces between the copies, which dies away. Faces are freed at half their strength, so that a
+// kept by a preload on the faces between the copies, which dies away (bond/cohesive_faces.hpp). Faces are freed at half their strength, so that a
 // crack finds its way open before it gets there.
 #pragma once
 
