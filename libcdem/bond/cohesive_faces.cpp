@@ -13,6 +13,8 @@ using geom::Vec3;
 
 // Part of a preload that dies in a step, and what of a face's strength is too little to keep.
 constexpr double dying = 1.0 / 200, too_little = 1e-6;
+// Work that a preload q may do on its face's sides before it ends, over q^2 / (k A).
+constexpr double pushing = 0.01;
 // A crack ends where less than this part of its strength is asked of it and less than that part of it is damaged.
 constexpr double unloaded = 0.97, hardly_damaged = 0.1;
 
@@ -223,7 +225,10 @@ void preload(const FaceBatch& batch, int lane, const FaceMotion& motion, const F
     if (q.isZero(0))
       continue;
     const int a = batch.place_a[corner][lane], b = batch.place_b[corner][lane];
-    const Vec3 left = motion.step > 0 ? Vec3((1 - dying) * q) : q;
+    const Vec3 apart = vec(motion.displacement[b]) - vec(motion.displacement[a]);
+    const double most = pushing * q.squaredNorm() / batch.kn[lane];
+    const double remaining = q.dot(apart) < -most ? 0 : motion.step > 0 ? 1 - dying : 1;
+    const Vec3 left = remaining * q;
     sums.breaking += 0.5 * motion.step * (q + left).dot(vec(motion.velocity[b]) - vec(motion.velocity[a]));
     face.preload[corner] = left.norm() > least ? array(left) : CohesiveFace::Vector{};
     remains = remains || left.norm() > least;

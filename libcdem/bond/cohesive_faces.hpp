@@ -17,8 +17,9 @@
 // strength and are open has separated and is left to contact.
 //
 // Preload: a node that has just been freed leaves each of its copies with the force that keeps its acceleration, on the
-// faces between them. It dies away over some hundred steps, and acts while the face holds: on the sides of a crack,
-// whose opening has no bound, it would give the body more energy than the body has.
+// faces between them. It dies away over some hundred steps. It acts while the face holds and while it draws the corner's two
+// sides together, q . j >= 0: then its work, -q . j - (what it loses as it dies), is never above zero. Otherwise it would give
+// the body energy, where the stress turns round before it has died; in an impact, more than the body has.
 #pragma once
 
 #include "libcdem/bond/face_frame.hpp"

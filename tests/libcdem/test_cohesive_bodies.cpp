@@ -199,8 +199,8 @@ TEST_CASE("cohesive bodies: a bar free to crack anywhere bears its strength and 
   CHECK(balance(s) < 1e-3);
   const double dissipated = s.state.spent.breaking / (energy_1 * width * width);
   INFO("dissipated over G A " << dissipated);
-  CHECK(dissipated > 0.95);
-  CHECK(dissipated < 1.3); // faces beside the crack are damaged too
+  CHECK(dissipated > 0.85);
+  CHECK(dissipated < 1.15);
 }
 
 TEST_CASE("cohesive bodies: a prism between smooth platens bears the strength of Mohr and Coulomb",

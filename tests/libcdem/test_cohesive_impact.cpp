@@ -3,6 +3,7 @@
 #include "libcdem/results/one_way_energies.hpp"
 #include "tests/libcdem/cohesive_concrete.hpp"
 
+#include <algorithm>
 #include <catch2/catch.hpp>
 
 using namespace testing;
@@ -67,17 +68,18 @@ TEST_CASE("cohesive impact: a slab that breaks on a rod gains nothing, and what 
   CHECK(e.breaking > 0);
   CHECK(fallen[0].energy < 1e-9 * given);
   CHECK(fallen[1].energy < 1e-3 * given);
-  CHECK(fallen[2].energy < 0.015 * given); // by the preload of freed nodes
+  CHECK(fallen[2].energy < 1e-3 * given);
   CHECK(std::abs(e.total() - e.external - given) < 0.01 * given);
 }
 
-TEST_CASE("cohesive impact: the step hardly changes what is left of the motion",
+TEST_CASE("cohesive impact: what is left of the motion depends little on the step",
           "[cohesive][breaking][energy]") {
   std::vector<double> kinetic;
-  for (const double safety : {0.9, 0.5}) {
+  for (const double safety : {0.9, 0.7, 0.5}) {
     System s = slab_on_rod(geom::box_mesh({1, 1, thickness}, {6, 6, 1}));
     kinetic.push_back(fall(s, safety, 2e-3));
   }
-  INFO("kinetic over given " << kinetic[0] / given << " " << kinetic[1] / given);
-  CHECK(kinetic[0] == Approx(kinetic[1]).epsilon(0.05));
+  INFO("kinetic over given " << kinetic[0] / given << " " << kinetic[1] / given << " " << kinetic[2] / given);
+  const auto [least, most] = std::minmax_element(kinetic.begin(), kinetic.end());
+  CHECK(*most - *least < 0.08 * given); // how it breaks hangs on the step
 }
