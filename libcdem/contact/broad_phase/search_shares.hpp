@@ -1,7 +1,6 @@
 // A search with several ranks. The pairs of blocks, and the parts of what has broken, are dealt to them by counted loads;
-// each sends what it finds near a source to the rank that keeps that source's rows. Rows are kept by runs of source
-// triangles, cut by the rows and candidates that a search of all movers has found; edges go with the first of their
-// triangles. One rank alone looks at all and keeps all.
+// each sends what it finds near a source to the rank that keeps the row (data/row_owner.hpp). Runs of triangles are
+// cut by the rows and candidates that a search of all movers has found. One rank alone looks at all and keeps all.
 #pragma once
 
 #include "libcdem/contact/broad_phase/candidates.hpp"
@@ -24,7 +23,7 @@ struct FoundNear {
   std::string wrong; // what is wrong with the first pair that is; empty: nothing
 };
 
-// Afterwards `springs` and `edges` are those of sources that this rank keeps, and the rest is known to all. all: of all
+// Afterwards `springs` and `edges` are those of rows that this rank keeps, and the rest is known to all. all: of all
 // movers, for which it writes ContactWork::triangle_begin.
 void share_found(const Model&, ContactWork&, bool all, FoundNear&);
 
