@@ -233,9 +233,13 @@ RunResult run(const StageContext& context, const RunOptions& options, const std:
               step_dashpot_node(node, h, stage.work.resolved.dashpots[h.dashpot], stepping, sums);
           });
     };
-    report.sums = stage.advance(options.breaking, move, [&](int rigid, NodeSums& sums) {
-      move_rigid(context.model, state, stage.work.acting(), rigid, stepping, sums);
-    });
+    std::vector<geom::Vec3>& angle = stage.work.rigid_angle;
+    report.sums = stage.advance(
+        options.breaking, move,
+        [&](int rigid, NodeSums& sums) {
+          angle[rigid] = move_rigid(context.model, state, stage.work.acting(), rigid, stepping, sums);
+        },
+        [&](int rigid) { place_rigid(context.model, state, rigid, angle[rigid], stepping.time_step); });
     stage.end_step(stepping.time_step);
     report.residual = relative_residual(report.sums);
     state.time = clock.time_at(stage.step);

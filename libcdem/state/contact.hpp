@@ -6,6 +6,8 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <tuple>
+#include <utility>
 
 namespace cdem {
 
@@ -29,5 +31,16 @@ struct Contact {
 
   double effective_penetration() const { return std::max(0.0, depth - reference_penetration); } // m
 };
+
+// The two triangles of a contact, its source's first; of edges the first of each.
+inline std::pair<int, int> triangles_of(const Contact& c) {
+  return {static_cast<int>(c.source) / 3, c.kind == Contact::spring ? c.target : c.target / 3};
+}
+
+// Contacts are sorted by it: of a spring one for each fragment, of an edge one for each other edge.
+inline auto key(const Contact& c) {
+  return std::tuple(c.kind == Contact::edge, static_cast<int>(c.source), c.fragment,
+                    c.kind == Contact::edge ? c.target : 0);
+}
 
 } // namespace cdem

@@ -29,7 +29,7 @@ private:
   std::vector<double> rigid_reach_;       // m, reaches_of_rigid
   std::vector<double> impact_frequency2_; // 1/s2, impact_frequencies2
   ContactSums deepest_;                   // since the last call of longest_step
-  std::size_t contacts_before_ = 0;
+  std::int64_t contacts_before_ = 0;
 };
 
 } // namespace cdem

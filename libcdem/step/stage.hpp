@@ -85,10 +85,11 @@ public:
   // Updates loads, supports that vary and free fields for the step that begins at `time` (s).
   void update_loads(double time, const Stepping&);
   void update_loads_at_rest(); // in a relaxation: of what follows the rock
-  // All forces where the nodes are, and move(nodes, forces, sums), move_rigid(rigid body, sums) (step_loops.hpp).
-  // Returns the sums over all chunks, added in order.
+  // All forces where the nodes are, and move(nodes, forces, sums), move_rigid(rigid body, sums), place_rigid(rigid body)
+  // (step_loops.hpp). Returns the sums over all chunks.
   template <class Move, class MoveRigid>
-  NodeSums advance(bool breaking, const Move& move, const MoveRigid& move_rigid);
+  NodeSums advance(bool breaking, const Move& move, const MoveRigid& move_rigid,
+                   const std::function<void(int)>& place_rigid = {});
   void end_step(double time_step); // s; steps of unit length in a relaxation
 
   // Throws SolutionError, Interrupted.
@@ -158,7 +159,8 @@ private:
 };
 
 template <class Move, class MoveRigid>
-NodeSums Stage::advance(bool breaking, const Move& move, const MoveRigid& move_rigid) {
+NodeSums Stage::advance(bool breaking, const Move& move, const MoveRigid& move_rigid,
+                        const std::function<void(int)>& place_rigid) {
   const Model& model = context_.model;
   State& state = context_.state;
   work.hand_over_due = step % hand_over_every == 0;
@@ -183,7 +185,7 @@ NodeSums Stage::advance(bool breaking, const Move& move, const MoveRigid& move_r
     times_.end(StepLine::shared_nodes);
   }
   if (!model.rigid.empty()) {
-    rigid_bodies(model, work, threads, move_rigid);
+    rigid_bodies(model, state, work, threads, move_rigid, place_rigid);
     times_.end(StepLine::rigid_bodies);
   }
   if (shared_)

@@ -103,6 +103,8 @@ void start_contact(const Model& model, ContactWork& work) {
     work.restitution = work.restitution || model.joints[law].restitution < 1;
   work.force.assign(model.node_position.size(), Node{});
   work.stiffness.assign(model.node_position.size(), 0.0);
+  work.rigid_sums.resize(model.rigid.size());
+  work.on_rigid.assign(model.rigid.size(), {});
 }
 
 namespace {

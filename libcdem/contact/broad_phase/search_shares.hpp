@@ -1,7 +1,7 @@
 // A search with several ranks. The pairs of blocks, and the parts of broken bodies, are assigned to the ranks by
-// counted loads. Each rank sends the pairs that it finds near a source to the rank that keeps the rows of that source.
-// Rows are kept by runs of source triangles, cut by the rows and candidates that a search of all movers has found;
-// edges go with the first of their triangles. A single rank searches and keeps everything.
+// counted loads. Each rank sends the pairs that it finds near a source to the rank that keeps the row
+// (data/row_owner.hpp). Runs of triangles are cut by the rows and candidates that a search of all movers has found. A
+// single rank searches and keeps everything.
 #pragma once
 
 #include "libcdem/contact/broad_phase/candidates.hpp"
@@ -24,7 +24,7 @@ struct FoundNear {
   std::string wrong; // what is wrong with the first pair that is; empty: nothing
 };
 
-// Afterwards `springs` and `edges` are those of sources that this rank keeps, and the rest is known to all. all: of all
+// Afterwards `springs` and `edges` are those of rows that this rank keeps, and the rest is known to all. all: of all
 // movers, for which it writes ContactWork::triangle_begin.
 void share_found(const Model&, ContactWork&, bool all, FoundNear&);
 

@@ -11,6 +11,8 @@
 #pragma once
 
 #include "libcdem/contact/data/rigid_pair.hpp"
+#include "libcdem/contact/data/rigid_sums.hpp"
+#include "libcdem/integrate/contact_on_rigid.hpp"
 #include "libcdem/model/contact_surface.hpp"
 #include "libcdem/parallel/chunks.hpp"
 #include "libcdem/parallel/node.hpp"
@@ -102,8 +104,8 @@ struct ContactForce {
 };
 
 struct ContactSums {
-  double friction = 0,
-         damping = 0; // J, this step: of contacts in their order, whichever chunks they stand in
+  double friction = 0, damping = 0; // J, this step, rounded once
+  std::int64_t contacts = 0;        // of all ranks
   // The deepest, in parts of the depth at which a contact is not to be trusted (depth_limit).
   double deepest = 0;
   double depth = 0, depth_over_height = 0;      // largest, m and in parts of the lower tet's height
@@ -243,18 +245,19 @@ struct ContactWork {
   std::int64_t steps = 0;              // since the stage began
   std::int64_t searches = 0;
 
-  // With several ranks, each of which keeps the rows of a run of source triangles, and of the edges of which these are the
-  // first; null: this one keeps all.
+  // With several ranks, each of which keeps the rows that stand at a run of triangles (data/row_owner.hpp); null:
+  // this one keeps all.
   SharedState* shared = nullptr;
   std::vector<std::int64_t> triangle_begin; // (ranks + 1)
-  // Per contact of State::contacts, and of `now`: the rank that found it.
-  std::vector<int> rank_of_contact, rank_now;
 
   std::vector<ContactChunk> chunks; // of as many chunks of rows as are computed at a time
   std::vector<Contact> now;         // those of the step, before they replace State::contacts
   std::vector<Node> force;          // N, of contacts (n_nodes); empty without; written by contact_forces
   std::vector<double> stiffness;    // N/m, of contacts at nodes, row sums (n_nodes)
-  std::vector<TouchedNode> touched; // nodes with a force, in the order of the contacts
+  std::vector<TouchedNode> touched; // nodes with a force, in the order of the contacts; none of rigid bodies
+  // Of rigid bodies, by number: the sums as contacts are added, and their values, which all ranks know.
+  std::vector<RigidSums> rigid_sums;
+  std::vector<ContactOnRigid> on_rigid;
 };
 
 } // namespace cdem

@@ -8,6 +8,9 @@
 
 namespace cdem {
 
+// Writes ContactWork::block_forces, of State::contacts.
+void sum_block_forces(const Model&, const State&, ContactWork&);
+
 // Writes ContactWork::block_motion. A block with broken faces has none: its fragments move by themselves.
 void find_block_motions(const Model&, const State&, ContactWork&, int threads);
 

@@ -6,15 +6,7 @@
 #include "libcdem/state/state.hpp"
 #include "libgeom/query/closest.hpp"
 
-#include <tuple>
-
 namespace cdem {
-
-// Contacts are sorted by it: of a spring one for each fragment, of an edge one for each other edge.
-inline auto key(const Contact& c) {
-  return std::tuple(c.kind == Contact::edge, static_cast<int>(c.source), c.fragment,
-                    c.kind == Contact::edge ? c.target : 0);
-}
 
 ContactLaw law_of(const Model&, const Contact&);
 
@@ -25,9 +17,8 @@ ContactLaw spring_law(const Joint&, double tan_friction, const ContactTriangle& 
 ContactLaw edge_law(const Joint&, double tan_friction, const ContactSurface&, const std::array<int, 2>& from,
                     const std::array<int, 2>& to);
 
-// The two blocks of a contact, its source's first; its two triangles, of edges the first of each.
+// The two blocks of a contact, its source's first.
 std::pair<int, int> blocks_of(const Model&, const Contact&);
-std::pair<int, int> triangles_of(const Contact&);
 
 // Weights of a triangle's corners at the position of the semi-spring of one of them.
 geom::Vec3 spring_weights(int corner);
