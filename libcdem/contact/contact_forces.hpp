@@ -7,7 +7,7 @@
 // faces meet in a re-entrant edge.
 //
 // A semi-edge acts on an edge of another fragment where their common normal lies in the fans of outward normals of both
-// (Gauss map), and their nearest places within both. Near-parallel edges (sin < 0.05) are left to the semi-springs.
+// (Gauss map), and their nearest places within both. Near-parallel edges (sin < 0.01) are left to the semi-springs.
 // Both act side by side: switching the edges off where a spring of the same faces acts, as the paper does, throws
 // away what they store, and gives it back when the spring lets go.
 #pragma once

@@ -8,8 +8,8 @@ namespace cdem {
 namespace {
 
 // Of the distance of two edges: further from an end of both no other edges of their lines are as near. Edges that act
-// enclose an angle with a sine of 0.05 or more.
-constexpr double reach_of_ends = 40;
+// enclose an angle with a sine of parallel_edges or more.
+constexpr double reach_of_ends = 2 / parallel_edges;
 // Of a tet's height: distances that differ by less are one, as at a node that two edges share.
 constexpr double same_distance = 1e-12;
 
