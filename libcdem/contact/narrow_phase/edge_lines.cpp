@@ -8,8 +8,8 @@ namespace cdem {
 namespace {
 
 // Distance from the ends, over the distance of two edges: beyond it no other edges of their chains are as near. Edges
-// that act enclose an angle with a sine of 0.05 or more.
-constexpr double reach_of_ends = 40;
+// that act enclose an angle with a sine of parallel_edges or more.
+constexpr double reach_of_ends = 2 / parallel_edges;
 // Difference over a tet's height: distances that differ by less are equal, as at a node that two edges share.
 constexpr double same_distance = 1e-12;
 
