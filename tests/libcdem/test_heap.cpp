@@ -1,6 +1,7 @@
 // A heap of rigid convex blocks: how far two of them have moved relative to each other, and that pairs of blocks that are
 // skipped change no bit.
 #include "libcdem/contact/broad_phase/rigid_pairs.hpp"
+#include "libcdem/element/rigid_motion.hpp"
 #include "libcdem/first_model.hpp"
 #include "libcdem/results/energy.hpp"
 #include "libgeom/assembly/builders.hpp"
@@ -175,7 +176,7 @@ TEST_CASE("a heap that strikes a tilted floor: pairs that are skipped change no 
   c.push = [](System& s) {
     for (std::size_t i = 0; i < s.model.rigid.size(); ++i)
       if (const int block = s.model.rigid[i].block; s.model.bodies[s.model.blocks[block].body].name == "heap")
-        s.state.rigid[i].velocity = triple(4 * centroid(s, block) + Vec3(0, 0, -4));
+        s.state.rigid[i].velocity = cdem::triple(4 * centroid(s, block) + Vec3(0, 0, -4));
   };
   require_same_bits(c, 5);
 }
