@@ -65,6 +65,8 @@ void Simulation::fix(const Fix& fix) {
     require_finite("displacement", *fix.displacement);
   if (fix.velocity)
     require_finite("velocity", *fix.velocity);
+  if (fix.displacement && fix.velocity)
+    throw geom::InputError("displacement and velocity: give one of them");
   impl_->add_condition([&](Conditions& c) {
     add_fix(c.fixes, fix);
     const auto same = [&](const auto& boundary) { return selects_same(boundary.on, fix.on); };

@@ -74,6 +74,7 @@ struct Cube {
     flow.on = cdem::Selection::of_body("cube");
     flow.direction = {1, 0, 0};
     flow.water_density = water;
+    flow.relative = false; // the statics are those of a cube at rest
     flow.velocity = [this](double time) { return velocity + rate * std::max(0.0, time - since); };
     model.flow(flow);
   }

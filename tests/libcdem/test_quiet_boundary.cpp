@@ -94,14 +94,18 @@ TEST_CASE("a quiet boundary of blocks with stiff joints", "[quiet]") {
   cdem::Joint joint = rock_joint();
   joint.thickness_ratio = 0.001;
   const int axis = GENERATE(2, 0);
-  cdem::BodySpec spec = body("column", geom::grid({0.1, 0.1, height}, {1, 1, 40}), rock(), joint);
+  const auto column = [&](cdem::Element element, int blocks) {
+    cdem::BodySpec spec = body("column", geom::grid({0.1, 0.1, height}, {1, 1, blocks}), rock(), joint);
+    spec.element = element;
+    return System(build({spec}));
+  };
   SECTION("small strain") {
-    spec.element = cdem::Element::small_strain;
+    CHECK(comes_back(column(cdem::Element::small_strain, 40), axis) < 0.01);
   }
-  SECTION("finite volume") {
-    spec.element = cdem::Element::finite_volume;
+  SECTION("finite volume: more of the mass is in the middle of a block, so a wave needs more blocks") {
+    CHECK(comes_back(column(cdem::Element::finite_volume, 80), axis) < 0.01);
+    CHECK(comes_back(column(cdem::Element::finite_volume, 40), axis) < 0.02);
   }
-  CHECK(comes_back(System(build({spec})), axis) < 0.01);
 }
 
 TEST_CASE("a stress wave of rho c v enters as the velocity v does", "[quiet][mesh]") {

@@ -38,8 +38,6 @@ Value fix(Session&, ModelObject& model, const Arguments& a) {
     fix.displacement = a.optional_vec3("displacement");
     fix.velocity = a.optional_vec3("velocity");
     fix.amplitude = amplitude;
-    if (fix.displacement && fix.velocity)
-      throw InputError("displacement and velocity: give one of them");
     model.simulation.fix(fix);
     note(model, "fix " + shown(on) + " in " + a.text("axes") +
                     (fix.displacement ? " at displacement " + describe(a.value("displacement")) + " m" : "") +
