@@ -1,4 +1,4 @@
-// From what the user states to the first Model.
+// Builds the first Model from the user's input.
 #pragma once
 
 #include "libcdem/model/model.hpp"

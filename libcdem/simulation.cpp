@@ -238,7 +238,7 @@ std::int64_t Simulation::remove(const Selection& on) {
   return removed;
 }
 
-std::int64_t Simulation::unbond(const Selection& on, bool whole_faces) {
+std::int64_t Simulation::break_bonds(const Selection& on, bool whole_faces) {
   Impl& s = *impl_;
   std::vector<char> selected(s.model.points.size());
   for (int p = 0; p < static_cast<int>(selected.size()); ++p)

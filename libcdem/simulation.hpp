@@ -1,5 +1,5 @@
-// A model on its way through a script: the const Model, its State, the conditions, and the solving calls in order.
-// This is the whole public face of libcdem for the script layer.
+// A model that a script builds, loads and solves: the const Model, its State, the conditions, and the solving calls in
+// order. This is the whole public face of libcdem for the script layer.
 #pragma once
 
 #include "libcdem/fracture/options.hpp"
@@ -60,10 +60,10 @@ struct BodySpec {
   Element element = Element::finite_volume; // small_strain: of blocks only
   double zone_size = 0;        // m, edge length of the tets inside each convex block; 0: its star mesh
   RegionLaws region_laws = {}; // of meshes
-  // Of blocks: laws on faces by the joint set or cut that made them; `joint` holds the others.
+  // For blocks: laws on faces by the joint set or cut that made them. All other faces have `joint`.
   std::map<std::string, Joint> set_joints = {};
-  // Of blocks: laws that vary from place to place, in place of `joint` and of those of set_joints, which hold for faces that
-  // are cut later and for blocks that meet anew.
+  // For blocks: laws that vary with position. They replace `joint` and set_joints, which still apply to faces that are
+  // cut later and to blocks that meet new neighbours.
   JointAt joint_at = {};
   std::map<std::string, JointAt> set_joints_at = {};
   PlasticLaws plasticity = {}; // of a body that moves far; empty: elastic
@@ -77,8 +77,8 @@ struct PairSpec {
 struct ModelSpec {
   std::vector<BodySpec> bodies;
   std::vector<PairSpec> pairs; // two bodies that touch and are not named here have the default
-  // Between every two bodies that are not named, and of a meshed body with itself. Without it two bodies that touch and
-  // are not named: geom::InputError.
+  // The law between all pairs of bodies that are not named, and of a meshed body with itself. Without it two bodies
+  // that touch and are not named: geom::InputError.
   std::optional<Joint> default_contact = {};
 };
 
@@ -135,7 +135,7 @@ public:
   std::int64_t remove(const Selection&);
   // Bonds whose point is selected are broken from now on (a notch); returns how many. whole_faces: only those of
   // interfaces that are selected with all their points, so that faces which meet the notch at its tip stay bonded.
-  std::int64_t unbond(const Selection&, bool whole_faces = false);
+  std::int64_t break_bonds(const Selection&, bool whole_faces = false);
 
   // Divides strengths by a factor (procedure/reduce_strength.hpp).
   void reduce_strength(double factor, const StrengthKinds&);
@@ -165,6 +165,7 @@ public:
   int stage() const;                                               // solving calls so far
   std::int64_t steps() const;                                      // steps of all stages
   EnergyLedger energy() const;
+  ImpossibleEnergy impossible_energy() const;     // of the ledger so far
   std::uint64_t state_hash() const;               // of every State field, bit for bit
   geom::Box box() const;                          // undeformed
   Deformation deformation() const;                // how far from small strain
@@ -189,7 +190,8 @@ public:
   static std::vector<std::string> field_names();
   FieldValue max(const std::string& field, const Selection& = {}) const;
   FieldValue min(const std::string& field, const Selection& = {}) const;
-  // Of nodes: over the outer faces on a side or plane that has some, else over the volume; of blocks: over the volume.
+  // Mean of a field of nodes over the outer faces on a side or plane that has some, else over the volume; mean of a
+  // field of blocks over the volume.
   double mean(const std::string& field, const Selection& = {}) const;
   double at(const std::string& field,
             const geom::Vec3& place) const;    // interpolated in the block that holds place

@@ -44,7 +44,7 @@ void Simulation::Impl::add_boundary(const Selection& on, const std::function<voi
     return;
   }
   Workspace work(model, state, conditions);
-  update_external(work.resolved, state.time);
+  update_external(work.resolved, state.time, &state.velocity);
   const std::vector<Node> net = net_forces(model, state, work);
   const ResolvedConditions after = resolve(model, state, changed);
   state.support_force.resize(model.node_position.size());

@@ -44,7 +44,7 @@ JIntegral Simulation::j_integral(const std::string& body, JFront front,
     throw geom::InputError("body: left out: the model has several bodies; name the one with the crack");
   front.body = body.empty() ? 0 : body_number(body);
   ResolvedConditions conditions = resolve(s.model, s.state, s.conditions);
-  update_external(conditions, s.state.time);
+  update_external(conditions, s.state.time, &s.state.velocity);
   return cdem::j_integral(s.model, s.state, conditions, front, domains);
 }
 

@@ -35,6 +35,13 @@ struct Simulation::Impl {
   std::optional<RestartPoint> from;          // of a restored stage, until it is taken up
   std::string at_start; // saved before a stage that can be begun again only; empty: none runs
 
+  StageContext next_stage() {
+    StageContext context =
+        stage_context(model, state, conditions, log, last_good, *observer, threads, ++stage);
+    context.checkpoints = checkpoints;
+    return context;
+  }
+
   // Runs one stage, from where it was left if it was.
   template <class Solve>
   auto run_stage(const Solve& solve) {
@@ -44,20 +51,9 @@ struct Simulation::Impl {
       Impl& s;
       ~Leave() { s.restart_point.reset(); }
     } leave{*this};
-    const StageContext context{model,
-                               state,
-                               conditions,
-                               log,
-                               last_good,
-                               *observer,
-                               threads,
-                               ++stage,
-                               checkpoints,
-                               &restart_point,
-                               entry ? &*entry : nullptr,
-                               {},
-                               {},
-                               &model};
+    StageContext context = next_stage();
+    context.restart_point = &restart_point;
+    context.from = entry ? &*entry : nullptr;
     if (entry) {
       last_good = state;
       restart_point = entry;
@@ -76,20 +72,7 @@ struct Simulation::Impl {
       Impl& s;
       ~Leave() { s.at_start.clear(); }
     } leave{*this};
-    return solve(StageContext{model,
-                              state,
-                              conditions,
-                              log,
-                              last_good,
-                              *observer,
-                              threads,
-                              ++stage,
-                              checkpoints,
-                              nullptr,
-                              nullptr,
-                              {},
-                              {},
-                              &model});
+    return solve(next_stage());
   }
 
   std::string saved() const;

@@ -94,6 +94,10 @@ int Simulation::stage() const {
 std::int64_t Simulation::steps() const {
   return impl_->state.step;
 }
+ImpossibleEnergy Simulation::impossible_energy() const {
+  return cdem::impossible_energy(energy(), impl_->state.time, impl_->log.one_way);
+}
+
 EnergyLedger Simulation::energy() const {
   return cdem::energy(impl_->model, impl_->state);
 }
@@ -130,7 +134,7 @@ double Simulation::at(const std::string& field, const geom::Vec3& place) const {
 Unbalance Simulation::unbalance(std::optional<double> reference) const {
   const Impl& s = *impl_;
   Workspace work(s.model, s.state, s.conditions);
-  update_external(work.resolved, s.state.time);
+  update_external(work.resolved, s.state.time, &s.state.velocity);
   return cdem::unbalance(s.model, work.resolved, net_forces(s.model, s.state, work), s.conditions.gravity,
                          reference);
 }

@@ -1,8 +1,9 @@
 // Ctrl-C and SIGTERM. The first asks the run to stop at the next whole step; a second one ends the program at once.
 //
-// Not all that a script calls can look whether it shall stop: patterns of strings, table.move, a builder. So a thread
-// waits beside the run, and where the first signal has not been taken after some time, it closes the log and ends the
-// program, with all its ranks. A stage (it comes to a step) and the saving of what was solved are waited for, however long they take.
+// Some calls of a script cannot check for the request to stop: patterns of strings, table.move, a builder. So a second
+// thread runs. If the run has not reacted to the first signal after some time, this thread closes the log and ends the
+// program, with all its ranks. It waits until a stage has finished its step and the solved state is saved, however long
+// this takes.
 #pragma once
 
 #include "apps/cdem/exit_code.hpp"

@@ -1,4 +1,4 @@
-// How much memory this program may take: what is beyond ends in one line, not in the kernel's hands.
+// Limit of the memory of this program. Beyond it the program ends with one line, before the kernel kills it.
 #pragma once
 
 #include <cstddef>

@@ -1,9 +1,9 @@
 // The folder a run writes into, and its log cdem.log.
 //
-// Nothing of the user's is lost: a folder that holds files but no cdem.log is refused. When the last run's
-// results are there, they stay until this run begins to produce its own (a script with a typo does not cost
-// them; its log is then failed.log). What goes then are exactly the files that run wrote, by the list in its
-// log; one that was edited since is kept under another name.
+// The user's files are never lost: a folder that holds files but no cdem.log is refused. The results of the last run
+// stay until this run begins to produce its own. So a script with a typo does not delete them; its log is then
+// failed.log. Exactly the files that the last run wrote are deleted, by the list in its log. A file that was edited
+// since is kept under another name.
 #pragma once
 
 #include "apps/cdem/exit_code.hpp"
@@ -70,7 +70,7 @@ private:
   std::string script_text_;             // as it was at the start: the copy shows what ran
   std::set<std::string> written_;       // relative to the folder
   std::vector<LoggedFile> last_states_; // of the run that this one goes on from
-  // Of what is logged and listed: where the run does not come back, another thread closes the log.
+  // Guards the log and the lists: if the run does not return, another thread closes the log.
   mutable std::recursive_mutex one_at_a_time_;
   int lock_ = -1;
   std::uint64_t run_ = 0;

@@ -73,10 +73,10 @@ local memory = model.memory
 memory.velocity, memory.since, memory.gone, memory.whole = first * scale, model.time, 0, math.floor(first)
 if mode == "ramp" then
   local start = model.time
-  model:flow{ on = "units", direction = {1.5, 0, 1}, water_density = set_up.water,
+  model:flow{ on = "units", direction = {1.5, 0, 1}, water_density = set_up.water, relative = false, -- as the paper
               velocity = function(time) return first * scale + rate * math.max(0, time - start) end }
 else
-  model:flow{ on = "units", direction = {1.5, 0, 1}, water_density = set_up.water,
+  model:flow{ on = "units", direction = {1.5, 0, 1}, water_density = set_up.water, relative = false, -- as the paper
               velocity = function() return memory.velocity end }
 end
 

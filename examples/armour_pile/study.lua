@@ -89,7 +89,7 @@ for _, mode in ipairs(modes == "both" and {"hold", "ramp"} or {modes}) do
       figures[#figures + 1] = { name = name, value = value, unit = "m/s" }
       if piles > 1 then figures[#figures + 1] = { name = name .. "_standard_error", value = standard_error, unit = "m/s" } end
     end
-    -- Of each pile the mean over the units that left at both masses.
+    -- For each pile: mean over the units that left at both masses.
     local ratios = {}
     for pile = 1, piles do
       local least, here, both = velocities(mode, masses[1], pile), velocities(mode, mass, pile), {}

@@ -5,7 +5,7 @@ local unit = {}
 unit.density, unit.youngs_modulus, unit.poissons_ratio = 2500, 30e9, 0.25
 unit.tensile_strength, unit.cohesion, unit.friction_angle = 3e6, 6e6, 45
 
--- Which side is held and which way the flow goes is our reading: the paper draws them in its Fig 3 without axes.
+-- The held side and the direction of the flow are our interpretation: the paper draws them in its Fig 3 without axes.
 -- place: where the paper says the unit breaks.
 unit.cases = {
   { held = "z-", flow = {1, 0, 0}, velocity = 23.66, place = "root" },

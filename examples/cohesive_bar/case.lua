@@ -20,7 +20,8 @@ local function joint(curve)
                             softening = curve, fracture_energy_1 = G1, fracture_energy_2 = G2 }
 end
 
--- What is left of the strength at a part xi of the way to separation, and the length of that way (docs/softening.md).
+-- Remaining fraction of the strength at the fraction xi of the separation, and the separation itself
+-- (docs/softening.md).
 local a = 5
 local function left(curve, xi)
   if xi >= 1 then return 0 end

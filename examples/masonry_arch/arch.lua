@@ -33,7 +33,7 @@ end
 -- By statics: is there a thrust H at the crown, of moment K, whose line of thrust passes within every joint?
 function arch.has_thrust_line(t)
   local inner, outer = R - t / 2, R + t / 2
-  local function room(H) -- of K: its upper less its lower bound
+  local function margin(H) -- of K: its upper less its lower bound
     local low, high = -math.huge, math.huge
     for k = 1, (n + 1) // 2 do
       local a = (k - 0.5 * (n % 2)) * math.pi / n
@@ -46,16 +46,16 @@ function arch.has_thrust_line(t)
   local a, b = 0, t * R
   for _ = 1, 100 do
     local p, q = a + (b - a) / 3, b - (b - a) / 3
-    if room(p) < room(q) then a = p else b = q end
+    if margin(p) < margin(q) then a = p else b = q end
   end
-  return room(a) >= 0
+  return margin(a) >= 0
 end
 
 function arch.draw(model, name)
   model:picture{ file = name, colour = "velocity.magnitude", range = {0, 4}, deformation = 1, plain = {"ground"},
                  broken_bonds = false, axes = false,
                  title = string.format("Arch with t/R = 0.08, %.2f s after its centring is gone", model.time),
-                 camera = { position = {1.2, -5.6, 2}, focal_point = {0, 0.1, 0.35}, up = {0, 0, 1}, view_angle = 34 } }
+                 camera = { position = {1.3, -7.4, 2.6}, focal_point = {0.1, 0.1, 0.35}, up = {0, 0, 1}, view_angle = 34 } }
   return name
 end
 

@@ -8,7 +8,7 @@ local arch = require "arch"
 
 local halvings = cdem.parameter{ name = "halvings", default = 8, range = {0, 20}, doc = "of the interval 0.08 to 0.14" }
 local collapse = cdem.parameter{ name = "collapse", default = true, doc = "a thinner arch falls, with a film" }
-local safety = cdem.parameter{ name = "safety", default = 0.15, range = {0.01, 1},
+local safety = cdem.parameter{ name = "safety", default = 0.1, range = {0.01, 1},
                                doc = "of the fall: time step over the stable one" }
 
 -- Stands: its kinetic energy is below 1e-9 of its weight times R at five looks in a row. Falls: it sinks by R/50.

@@ -76,7 +76,7 @@ function beam.model(bodies, support, contacts)
   model:fix{ on = {"z-", "z+"}, axes = "z" }
   model:fix{ on = "left support" }
   model:fix{ on = "right support", axes = support == "roller" and "yz" or "xyz" }
-  model:unbond{ on = cdem.select.box{ min = {beam.notch_x - 1e-6, 0, 0},
+  model:break_bonds{ on = cdem.select.box{ min = {beam.notch_x - 1e-6, 0, 0},
                                       max = {beam.notch_x + 1e-6, beam.notch_height, beam.depth} }, whole_faces = true }
   return model
 end

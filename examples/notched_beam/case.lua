@@ -1,4 +1,4 @@
--- Han 2010, example 4.2: an off-centre notch in a bent beam; the crack finds its way to the load.
+-- Han 2010, example 4.2: an off-centre notch in a beam in bending; the crack grows to the load.
 --
 --   ./cdem run examples/notched_beam/case.lua [--set passes=3] [--set support=roller] [--set mesh=voronoi]
 local cdem = require "cdem"
@@ -67,7 +67,7 @@ local paper = load == 2.5e4 or nil
 local elastic = { pinned = { -4.1e-4, "finite elements of 12 mm; -4.35e-4 with 4 mm at the supports" },
                   roller = { -7.03e-4, "finite elements of 12 mm; -7.34e-4 with 4 mm at the supports" },
                   face = { -3.136e-4, "finite elements", mesh == "41x10" and 0.02 or nil } }
--- Of a crack that has run its course.
+-- Only for a crack that has stopped by itself.
 local end_of_hoop_stress = paper and growth.state == "arrested" and
                            beam.hoop_stress_path[support][#beam.hoop_stress_path[support]] or {}
 cdem.report{

@@ -1,5 +1,5 @@
 -- The notched beam as a testing machine loads it: the load line is led down in increments. Load over the opening of the
--- notch's mouth, with brittle joints (grow), and with joints that soften along the way the brittle crack took (relax).
+-- notch's mouth, with brittle joints (grow), and with joints that soften along the path of the brittle crack (relax).
 --
 --   ./cdem run examples/notched_beam/displacement_control.lua [--set support=pinned] [--set fracture_energy_1=30]
 local cdem = require "cdem"
@@ -110,7 +110,7 @@ local figures = {
 brittle:picture{ file = "brittle.png", colour = "displacement.x", deformation = 200, size = {1600, 0},
                  title = "Brittle joints, at the end" }
 
--- The beam in two bodies, left and right of the way that the crack took and from there straight up.
+-- The beam in two bodies, left and right of the path of the crack, and from its end straight up.
 local function two_halves()
   line[#line + 1] = {tip[1], beam.height, 0}
   local shape = beam.shape("41x10")

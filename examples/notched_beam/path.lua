@@ -61,7 +61,7 @@ function path.distance(one, other)
   return math.sqrt(sum.square / sum.length), sum.most
 end
 
--- Sum of a line's turns, degrees, and its length over the straight way from its first to its last place.
+-- Sum of a line's turns, degrees, and its length over the straight distance from its first to its last point.
 function path.wandering(line)
   local turns, length, before = 0, 0, nil
   for i = 2, #line do

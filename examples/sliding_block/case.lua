@@ -11,12 +11,14 @@ local plate = cdem.solid.box{ size = {4 * size, 2 * size, 0.2 * size}, origin = 
 local block = cdem.solid.box{ size = {size, size, 0.4 * size}, origin = {-size / 2, -size / 2, 0} }
 local g = 9.81
 
--- The plate lies level and gravity leans by the angle instead. Returns the way of the block after `time`, m.
+-- The plate is level, and gravity is inclined by the angle instead. Returns the displacement of the block after `time`,
+-- m.
 local function slide(angle, time, picture)
   local model = cdem.model{
     bodies = { { shape = plate:mesh{ size = 0.5 * size }, material = stone, element = "rigid", name = "plate" },
                { shape = block:mesh{ size = 0.3 * size }, material = stone, element = "rigid", name = "block" } },
-    -- Without loss the block comes to rock on its leading edge while it slides, which changes its way by a per cent.
+    -- Without energy loss the block begins to rock on its leading edge while it slides, which changes its displacement
+    -- by a per cent.
     contacts = { { "plate", "block", cdem.coulomb{ friction_angle = phi, restitution = 0.5 } } },
   }
   model:fix{ on = "plate" }

@@ -46,7 +46,8 @@ local function rectangle(a, b, E, nu)
   return K
 end
 
--- The same of triangles of constant strain, the mean of both ways to cut the rectangle: what linear tetrahedra can do.
+-- The same for constant-strain triangles, as the mean of both cuts of the rectangle: an estimate of the error of linear
+-- tetrahedra.
 local function triangles(a, b, E, nu)
   local f = E / (1 - nu * nu)
   local D = { {f, f * nu, 0}, {f * nu, f, 0}, {0, 0, f * (1 - nu) / 2} }

@@ -1,5 +1,5 @@
-// What the springs of interfaces need beside Model and State and throw away with their stage: the forces they carry and
-// the numbers of their laws.
+// Data of the springs of interfaces that live for one stage, beside Model and State: their forces and the numbers of
+// their laws.
 #pragma once
 
 #include "libcdem/bond/spring_batches.hpp"

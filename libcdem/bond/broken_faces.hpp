@@ -1,9 +1,10 @@
-// Faces of a mesh some of whose springs have broken or may break now, one by one: the law at the top of face_bonds.hpp
-// on one face's own axes, what breaking and friction take, and the hand-over to the contact of the surface.
+// Faces of a mesh with springs that have broken or may break now, computed one by one: the law at the top of
+// face_bonds.hpp in the axes of the face, the energy of breaking and friction, and the hand-over to the contact of the
+// surface.
 //
-// Energies go by the trapezoidal rule, which is what central differences do. A spring that slides by ds takes
-// (Fs before + Fs now) . ds / 2; one that breaks takes what it lets go of, less the half step of work that its force
-// would have done.
+// Energies follow the trapezoidal rule, as central differences require. A spring that slides by ds dissipates (Fs
+// before + Fs now) . ds / 2. A spring that breaks dissipates its stored energy, less the half step of work that its
+// force would have done.
 #pragma once
 
 #include "libcdem/bond/face_bonds.hpp"
@@ -11,9 +12,9 @@
 
 namespace cdem {
 
-// Of the first `faces` faces of a batch, whose first spring has the place `first_spring`; replaces the force that the
-// three points have on side a, N, wherever it is not that of an intact spring. may_break: the faces, a bit each, of which
-// an intact spring may break now; the other faces without a broken spring are left as they are.
+// Forces of the first `faces` faces of a batch, whose first spring has the place `first_spring`. Replaces the force of
+// the three points on side a, N, wherever it is not that of an intact spring. may_break: one bit for each face; set
+// where an intact spring may break now. Other faces without a broken spring are left as they are.
 void one_by_one(const FaceBatch&, int faces, const FaceMotion&, const FaceLaw&, bool breaking,
                 unsigned may_break, std::int64_t first_spring, FaceStateBatch&, FaceSlip*,
                 simd::Vec (&force)[3], FaceSums&);

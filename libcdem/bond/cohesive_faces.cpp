@@ -3,6 +3,7 @@
 #include "libcdem/parallel/simd.hpp"
 #include "libgeom/core/portable.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace cdem {
@@ -12,6 +13,8 @@ using geom::Vec3;
 
 // Part of a preload that dies in a step, and what of a face's strength is too little to keep.
 constexpr double dying = 1.0 / 200, too_little = 1e-6;
+// Work that a preload q may do on its face's sides before it ends, over q^2 / (k A).
+constexpr double pushing = 0.01;
 // A crack ends where less than this part of its strength is asked of it and less than that part of it is damaged.
 constexpr double unloaded = 0.97, hardly_damaged = 0.1;
 
@@ -65,6 +68,29 @@ PointResponse respond(const SofteningLaw& law, const CohesiveFace& face, int poi
   return r;
 }
 
+// Energies of one point of a cracking face, J per area. The law begins stretched by w0 = offset (+ a gap of next to nothing),
+// as if its spring had been drawn there: k w0^2 / 2, which the body never stored. Damage can take
+//   P = k (<w0_n>^2 + <|w0_s| - friction>^2) / 2
+// of it. The rest, of pressure and friction, stays until the face parts.
+double taken_by_damage(const SofteningLaw& law, const Vec3& m, const Vec3& offset) {
+  const double open = offset.dot(m), shear = (offset - open * m).norm();
+  const double slip = std::max(0.0, shear - friction_limit(std::max(0.0, -open), law.strength.tan_friction));
+  return 0.5 * law.kn * (std::max(0.0, open) * std::max(0.0, open) + slip * slip);
+}
+
+double never_stored(const SofteningLaw& law, const Vec3& m, const Vec3& offset, double damage) {
+  return 0.5 * law.kn * offset.squaredNorm() - damage * taken_by_damage(law, m, offset);
+}
+
+// r0 stores (1 - D) r0.j.
+double stored_at(const SofteningLaw& law, const CohesiveFace& face, int point, const Vec3& stretch,
+                 const SofteningResponse& now) {
+  const Vec3 m = vec(face.plane), offset = vec(face.offset[point]);
+  return m[2] * (softening_stored(law, m, stretch, now.damage, now.contact) -
+                 never_stored(law, m, offset, now.damage)) +
+         (1 - now.damage) * vec(face.rest[point]).dot(stretch - offset);
+}
+
 // What the three points of a face pull with (N, in space), shared out to its corners.
 void share(const FaceNodes& at, const Vec3 (&pull)[3], Node* force) {
   const Vec3 common = (pull[0] + pull[1] + pull[2]) / 6;
@@ -109,14 +135,11 @@ private:
       lost = softening_loss(law_, m, gap0 + offset, face_.damage[point], vec(face_.slip[point]), gap + offset,
                             r.law);
     sums.friction += area * m[2] * lost.friction;
-    const double taken = area * (m[2] * lost.breaking + (1 - 0.5 * (face_.damage[point] + r.law.damage)) *
-                                                            vec(face_.rest[point]).dot(gap - gap0));
-    sums.breaking += taken;
-    // The law stored this when it began, and the body never did: it is given back as damage grows.
-    const double begun = 0.5 * area * m[2] * law_.kn * offset.squaredNorm();
-    if (taken != 0)
-      sums.crack.add(taken - (r.law.damage - face_.damage[point]) * begun,
-                     shear_share(law_, m, gap + offset));
+    const double grown = r.law.damage - face_.damage[point];
+    const double taken = area * m[2] * (lost.breaking - grown * taken_by_damage(law_, m, offset));
+    sums.breaking += taken + 0.5 * area * grown * vec(face_.rest[point]).dot(gap + gap0);
+    if (grown > 0)
+      sums.crack.add(std::max(0.0, taken), shear_share(law_, m, gap + offset));
     face_.damage[point] = r.law.damage;
     face_.slip[point] = array(r.law.slip);
     open = open && r.law.traction.isZero(0);
@@ -124,7 +147,7 @@ private:
     if (r.law.damage >= 1 && is_intact(mode)) {
       const BondMode how = r.law.mode == BondMode::intact ? BondMode::broken_tension : r.law.mode;
       mode = static_cast<std::uint8_t>(how);
-      const Vec3 began = law_.kn * offset; // the gap was next to nothing then
+      const Vec3 began = law_.kn * offset; // the relative displacement was nearly zero then
       sums.broken.push_back(
           {spring, how, now_.in_space(m), began.dot(m), (began - began.dot(m) * m).norm(), {}});
     }
@@ -138,7 +161,7 @@ private:
       const Vec3 stretch = now_.in_axes(now_.gap[point]) + vec(face_.offset[point]);
       const SofteningResponse r =
           softening_response(law_, m, stretch, face_.damage[point], vec(face_.slip[point]), false);
-      sums.breaking += batch_.area[lane_] * m[2] * softening_stored(law_, m, stretch, 1, r.contact) -
+      sums.breaking += batch_.area[lane_] * stored_at(law_, face_, point, stretch, r) -
                        0.5 * pull[point].dot(now_.gap[point] - before_.gap[point]);
       pull[point] = Vec3::Zero();
     }
@@ -202,7 +225,10 @@ void preload(const FaceBatch& batch, int lane, const FaceMotion& motion, const F
     if (q.isZero(0))
       continue;
     const int a = batch.place_a[corner][lane], b = batch.place_b[corner][lane];
-    const Vec3 left = motion.step > 0 ? Vec3((1 - dying) * q) : q;
+    const Vec3 apart = vec(motion.displacement[b]) - vec(motion.displacement[a]);
+    const double most = pushing * q.squaredNorm() / batch.kn[lane];
+    const double remaining = q.dot(apart) < -most ? 0 : motion.step > 0 ? 1 - dying : 1;
+    const Vec3 left = remaining * q;
     sums.breaking += 0.5 * motion.step * (q + left).dot(vec(motion.velocity[b]) - vec(motion.velocity[a]));
     face.preload[corner] = left.norm() > least ? array(left) : CohesiveFace::Vector{};
     remains = remains || left.norm() > least;
@@ -253,7 +279,7 @@ FaceSpring cohesive_spring(const FaceBatch& batch, int lane, const FaceFrame& f,
   FaceSpring spring;
   spring.gap = f.gap[point];
   spring.normal = f.normal;
-  const Vec3 stretch = f.in_axes(f.gap[point]) + vec(face.offset[point]), m = vec(face.plane);
+  const Vec3 stretch = f.in_axes(f.gap[point]) + vec(face.offset[point]);
   if (holds(state.stage[lane])) {
     spring.force = batch.kn[lane] * f.in_space(stretch);
     spring.energy = 0.5 * batch.kn[lane] * stretch.squaredNorm();
@@ -261,7 +287,7 @@ FaceSpring cohesive_spring(const FaceBatch& batch, int lane, const FaceFrame& f,
     const SofteningLaw law = cohesive_law(joint, penalty(batch, lane));
     const PointResponse r = respond(law, face, point, f.in_axes(f.gap[point]), false);
     spring.force = f.in_space(batch.area[lane] * r.traction);
-    spring.energy = batch.area[lane] * m[2] * softening_stored(law, m, stretch, r.law.damage, r.law.contact);
+    spring.energy = batch.area[lane] * stored_at(law, face, point, stretch, r.law);
   }
   return spring;
 }

@@ -1,22 +1,25 @@
 // Freed faces of cohesive bodies: how their sides hold together, and the cohesive law once they crack.
 //
-// A face that holds has the traction of element/face_jumps.hpp; its penalty k (j + o) is computed here, with j the gap at
-// three points of the face and o = 0 unless a crack began there and did not go on. When the mean stress s of the two tets reaches the strength on a
-// plane with the normal m (fracture/working_plane.hpp) the face cracks: from then on it works on that plane, whatever its
-// own direction n, and the stress of the tets takes no part,
+// A face that holds has the traction of element/face_jumps.hpp; its penalty k (j + o) is computed here, with j the
+// relative displacement at three points of the face, and o = 0 unless a crack began there and did not continue. When
+// the mean stress s of the two tets reaches the strength on a plane with the normal m (fracture/working_plane.hpp) the
+// face cracks. From then on its law acts on that plane, for any direction n of the face, and does not depend on the
+// stress of the tets:
 //   t = (m.n) law(j + w0) + (1 - D) r0
 // law: joint/softening.hpp with kn = ks = k on the plane m, D its damage; brittle: the contact that is left. w0 = s m / k - j
-// makes the law begin with the traction that stood there, s m; r0 is what the traction of the face was beyond (m.n) s m,
-// so that nothing jumps. A crack takes G times its area as m sees it, whatever the faces it follows: on the faces' own planes
-// a crack that has to zigzag would lock.
+// makes the law begin with the present traction s m. r0 is the traction of the face less (m.n) s m, so that the
+// traction is continuous. A crack takes G times its area projected on m, for any faces that it follows. On the faces'
+// own planes a crack that zigzags would lock.
 //
-// The law begins as if its spring had been stretched all along: the s m . s m / 2k that it then stores is taken from what
-// breaking spends. A face that unloads before it is damaged to speak of goes back to holding, so that none of that is given
-// back. A face whose points have lost all strength and are open has parted: what meets there is left to contact.
+// The law begins with a stored energy s m . s m / 2k that the body never stored. This energy counts neither as stored
+// nor, as damage grows, as taken by breaking, so a face that unloads then stores less than nothing. A face that unloads
+// with little damage becomes whole again, so that it does not give this energy back. A face whose points have lost all
+// strength and are open has separated and is left to contact.
 //
 // Preload: a node that has just been freed leaves each of its copies with the force that keeps its acceleration, on the
-// faces between them. It dies away over some hundred steps, and acts while the face holds: on the sides of a crack, whose gap
-// has no bound, it would give the body more energy than the body has.
+// faces between them. It dies away over some hundred steps. It acts while the face holds and while it draws the corner's two
+// sides together, q . j >= 0: then its work, -q . j - (what it loses as it dies), is never above zero. Otherwise it would give
+// the body energy, where the stress turns round before it has died; in an impact, more than the body has.
 #pragma once
 
 #include "libcdem/bond/face_frame.hpp"

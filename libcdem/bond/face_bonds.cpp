@@ -16,7 +16,8 @@ struct Gaps {
 
 template <class Index>
 CDEM_INLINE Gaps gaps_of(const Index (&a)[3][lanes], const Index (&b)[3][lanes], const Node* displacement) {
-  // Both sides of a face were one place: the gap is the difference of their displacements, with all its digits.
+  // Both sides of a face had one undeformed position: their relative displacement is the difference of their
+  // displacements, with all its digits.
   const Vec d0 = minus(simd::gather(displacement, b[0]), simd::gather(displacement, a[0]));
   const Vec d1 = minus(simd::gather(displacement, b[1]), simd::gather(displacement, a[1]));
   const Vec d2 = minus(simd::gather(displacement, b[2]), simd::gather(displacement, a[2]));
@@ -26,7 +27,7 @@ CDEM_INLINE Gaps gaps_of(const Index (&a)[3][lanes], const Index (&b)[3][lanes],
           {plus(common, scaled(half, d0)), plus(common, scaled(half, d1)), plus(common, scaled(half, d2))}};
 }
 
-// Not made a unit vector: four times the area. The corners of b stand where those of a do plus the gap.
+// Not made a unit vector: four times the area. The corners of b are those of a plus the relative displacement.
 template <class Index>
 CDEM_INLINE Vec normal_of(const Index (&a)[3][lanes], const Vec (&d)[3], const Node* position) {
   const Vec a0 = simd::gather(position, a[0]);
@@ -50,7 +51,7 @@ CDEM_INLINE bool any(const Mask& mask) {
   return (four[0] | four[1] | four[2] | four[3]) != 0;
 }
 
-// Of the faces of a batch.
+// Strengths of the faces of a batch.
 struct Strengths {
   Oct tension, cohesion, tan_friction;
 };
@@ -62,7 +63,7 @@ CDEM_INLINE Strengths strengths_of(const FaceLaw& law, std::int64_t batch) {
   return {simd::load(own.tensile_strength), simd::load(own.cohesion), simd::load(own.tan_friction)};
 }
 
-// Of what a spring bears: below that none breaks, whatever the rounding. one_by_one decides.
+// Fraction of a spring's strength: below it no spring breaks, for any rounding. Above it one_by_one decides.
 constexpr double margin = 0.98;
 
 // Some spring of the batch carries a force that would break it in the worst of all directions, which is

@@ -1,14 +1,14 @@
 // Bonds between the two sides of inner faces of a mesh (Feng 2014 section 2.3, law eq 18). Three springs a face, at
 // points drawn in from its corners (weights 2/3, 1/6, 1/6: at the corners a broken piece would stay hinged), with
 //   Kn = beta E A / (3 d),  Ks = ratio Kn,  d = 3 (V1 + V2) / 4A the distance of the two centroids,
-// and the gap g from a to b of the two sides in space, so that the law follows any motion:
+// and the relative displacement g from a to b of the two sides in space, so that the law follows any motion:
 //   bonded:  F = Ks g + (Kn - Ks) (g . n) n,  breaks when  Fn > T A/3  (tension) or  Fs > C A/3 - Fn tan(phi)
 //   broken:  the contact it would always have been: no tension, Fs <= -Fn tan(phi), slip turns with the face
-// n: mean of the two sides' area vectors, made a unit vector. With Ks = Kn the force lies along the gap and keeps the
+// n: mean of the two sides' area vectors, made a unit vector. With Ks = Kn the force is parallel to g and conserves the
 // angular momentum. Slip is kept along the face's own axes: its first edge, the mean of both sides, and across.
 //
-// The contact is one of two planes without end, which holds while the sides stay before each other. A face that has
-// broken and then parted or slid away is handed over to the contact of the surface where there is one for its body.
+// The contact treats the two sides as infinite planes, which is valid while they lie opposite each other. A face that
+// has broken and then parted or slid away is handed over to the contact of the surface where there is one for its body.
 #pragma once
 
 #include "libcdem/joint/bond_mode.hpp"
@@ -68,7 +68,7 @@ struct FaceMotion {
 void face_bond_forces(const FaceBatch*, std::int64_t count, int faces, const FaceMotion&, const FaceLaw&,
                       bool breaking, FaceStateBatch*, FaceSlip*, Node* force, FaceSums&, ReadAhead&);
 
-// Of one spring; position, displacement: m (n_nodes). slip: of the state's face, may be null.
+// State of one spring. position, displacement: m (n_nodes). slip: of the face in the State; may be null.
 struct FaceSpring {
   geom::Vec3 gap = geom::Vec3::Zero();    // m, from a to b
   geom::Vec3 normal = geom::Vec3::Zero(); // unit, from a to b

@@ -1,5 +1,5 @@
-// A face between two sides that have parted or may part: its own axes, the mean of both sides, and the gaps at its three
-// points, which are drawn in from its corners (weights 2/3, 1/6, 1/6).
+// A face between two sides that have parted or may part: its own axes, the mean of both sides, and the relative
+// displacements at its three points, which are drawn in from its corners (weights 2/3, 1/6, 1/6).
 #pragma once
 
 #include "libcdem/bond/face_bonds.hpp"

@@ -1,10 +1,10 @@
-// How the interface of two blocks has turned: the rotation R from the undeformed interface to where it is now.
+// Rotation R of the interface of two blocks, from the undeformed interface to its present position.
 //
 // Each side gives the normal n of three of its nodes and the image t of one direction fixed in the undeformed face. The
 // interface turns as the two sides do in the mean:
 //   n <- n_a / |n_a| - n_b / |n_b|,   t <- t_a + t_b less its part along n,   R = [n t n x t] [N T N x T]^T
-// Springs keep their law in the undeformed directions: with the jump j of the displacement from a to b they see R^T j
-// and pull with R f (joint/spring_law.hpp), so that no rigid motion of the two blocks together strains them.
+// Springs keep their law in the undeformed directions: with the relative displacement j from a to b they see R^T j and
+// pull with R f (joint/spring_law.hpp), so that no rigid motion of the two blocks together strains them.
 #pragma once
 
 #include "libcdem/state/state.hpp"

@@ -4,8 +4,8 @@
 //   2. its faces have opened like a hinge (by more than 0.02 rad).
 // An interface that has slid, at any of its points, by 0.02 of its size gets new springs where its faces lie on each other
 // now (fracture/renew_interfaces.hpp).
-// Water goes on pushing the faces apart until, at every point, they have moved by 0.05 of the size against each other and
-// the interface is left to contact: then it is gone.
+// The pressure of water acts on the faces until the interface is left to contact and the faces have moved relative to
+// each other, at every point, by 0.05 of the size. Then the water is lost.
 #pragma once
 
 #include "libcdem/state/state.hpp"

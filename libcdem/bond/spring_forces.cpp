@@ -90,8 +90,8 @@ void law_spring(const BondPoint& point, State& state, BondWork& work, std::int64
       point.area * lost, state.bond_mode[p] == static_cast<std::uint8_t>(BondMode::broken_shear) ? 1 : 0);
 }
 
-// One spring at the jump j of its two sides, in undeformed directions. special: some joint of the model softens or has a
-// law; a model of plain brittle bonds pays nothing for the others.
+// One spring at the relative displacement j of its two sides, in undeformed directions. special: some joint of the
+// model softens or has a law; a model of plain brittle bonds pays nothing for the others.
 template <bool special>
 CDEM_INLINE void update_spring(const BondPoint& point, const Interface& interface, State& state,
                                BondWork& work, std::int64_t p, const geom::Vec3& j, SpringSums& sums,

@@ -21,12 +21,11 @@ void add_bond_forces(const Model&, const std::vector<geom::Vec3>& bond_force, Ra
 // What add_bond_forces reads for a chunk of Model::chunks.
 void add_bond_reads(const Model&, const BondWork&, std::int64_t chunk, ReadAhead&);
 
-// Forces of the present state without any breaking or slip: what the first step's energy losses are counted
-// from.
+// Forces of the present state without any breaking or slip. The energy losses of the first step are counted from them.
 void start_spring_forces(const Model&, const State&, BondWork&);
 
-// From where side a of a spring stands to where side b does, in space, m (bond/interface_frame.hpp: in undeformed
-// directions): the jump of the displacement, and what lay between the two undeformed.
+// Position of side b of a spring less that of side a, in space, m (bond/interface_frame.hpp: in undeformed directions):
+// the relative displacement plus the undeformed distance of the two.
 geom::Vec3 jump(const Model&, const std::vector<Node>& displacement, int point);
 
 // The interface has been handed over to contact: its springs carry nothing any more.
@@ -35,7 +34,8 @@ bool released(const State&, const Interface&);
 // Traction that a spring carries at the present state in the interface's undeformed directions, Pa: positive normal part is tension.
 geom::Vec3 traction(const Model&, const State&, int point);
 
-// The spring carries so much more (Pa, undeformed directions) where its sides stand now: its offset gives way.
+// Adds `more` (Pa, undeformed directions) to the traction of the spring at its present relative displacement, by a
+// change of its offset.
 void add_traction(const Model&, State&, int point, const geom::Vec3& more);
 
 // Lets a spring that has just become a contact slide to where friction holds it.

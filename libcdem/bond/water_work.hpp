@@ -1,5 +1,5 @@
-// Work of the water in joints (load/water.hpp): pressure times area times opening, summed over the springs. A pressure that
-// stays the same has such a potential, so that its work needs no sum over steps.
+// Work of the water in joints (load/water.hpp): pressure times area times opening, summed over the springs. A constant
+// pressure has this potential, so its work needs no sum over steps.
 #pragma once
 
 #include "libcdem/state/state.hpp"

@@ -1,5 +1,5 @@
-// Files that are whole or not there: written beside, brought to the disk, then renamed; a checksum over everything
-// is verified before anything is used.
+// Files that are either complete or absent. A file is written under another name, flushed to the disk, and then
+// renamed. A checksum of the whole file is verified before any of it is used.
 //
 //     "cdem " and what it is, 16 bytes | format, u32 | length of the content, u64 | content | XXH64 of all before
 #pragma once

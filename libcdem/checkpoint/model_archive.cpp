@@ -238,13 +238,14 @@ void archive(A& a, ContactSurface& x) {
 
 template <class A>
 void archive(A& a, Model& x) {
-  auto& [bodies, joints, blocks, pair_joint, node_position, node_mass, tets, tet_block, batches, interfaces,
-         frames, points, point_position, point_apart, bond_triangles, bond_begin, spring_ends, outer_faces,
-         mesh, surface, rigid, chunks, point_chunks, box, length, tolerance, next_id] = x;
-  archive_all(a, bodies, joints, blocks, pair_joint, node_position, node_mass, tets, tet_block, batches,
-              interfaces, frames, points, point_position, point_apart, bond_triangles, bond_begin,
-              spring_ends, outer_faces, mesh, surface, rigid, chunks, point_chunks, box, length, tolerance,
-              next_id);
+  auto& [bodies, joints, blocks, pair_joint, node_position, node_mass, gravitational_mass, tets, tet_block,
+         batches, interfaces, frames, points, point_position, point_apart, bond_triangles, bond_begin,
+         spring_ends, outer_faces, mesh, surface, rigid, chunks, point_chunks, box, length, tolerance,
+         next_id] = x;
+  archive_all(a, bodies, joints, blocks, pair_joint, node_position, node_mass, gravitational_mass, tets,
+              tet_block, batches, interfaces, frames, points, point_position, point_apart, bond_triangles,
+              bond_begin, spring_ends, outer_faces, mesh, surface, rigid, chunks, point_chunks, box, length,
+              tolerance, next_id);
 }
 
 template <class A>
@@ -285,11 +286,26 @@ void archive(A& a, EscapeRow& x) {
 }
 
 template <class A>
+void archive(A& a, OneWayEnergies::Fall& x) {
+  auto& [energy, time] = x;
+  archive_all(a, energy, time);
+}
+
+template <class A>
+void archive(A& a, OneWayEnergies& x) {
+  auto& [largest, fallen, surplus] = x;
+  archive(a, largest);
+  for (OneWayEnergies::Fall& fall : fallen)
+    archive(a, fall);
+  archive(a, surplus);
+}
+
+template <class A>
 void archive(A& a, RunLog& x) {
   auto& [breaks, history, probes, watches, escapes, unmet, broken_tension, broken_shear, told_tension,
-         told_shear, deepest_contact, deepest_over_height, every] = x;
+         told_shear, deepest_contact, deepest_over_height, one_way, every] = x;
   archive_all(a, breaks, history, probes, watches, escapes, unmet, broken_tension, broken_shear, told_tension,
-              told_shear, deepest_contact, deepest_over_height, every);
+              told_shear, deepest_contact, deepest_over_height, one_way, every);
 }
 // NOLINTEND(readability-identifier-length)
 

@@ -166,6 +166,7 @@ void require_whole(const Model& model) {
   check_pairs("pair_joint", model.pair_joint, model);
   for (const Joint& joint : model.joints) // a table without rows is read beyond its end
     with_law(joint.law, [](const auto& law) { law.validate(); });
+  require_length("gravitational_mass", model.gravitational_mass.size(), model.node_position.size());
   require_length("node_mass", model.node_mass.size(), model.node_position.size());
   require_length("tet_block", model.tet_block.size(), model.tets.size());
   all_below("tet_block", model.tet_block, model.blocks.size());

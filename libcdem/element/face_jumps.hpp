@@ -1,12 +1,13 @@
-// What holds the two sides of a freed face of a cohesive body together until it reaches its strength: the symmetric
-// interior penalty form of the discontinuous Galerkin method (Noels and Radovitzky 2008, Int. J. Numer. Meth. Engng 74),
-// on constant-stress tets. With j the jump of the displacement from side 1 to side 2, n from 1 to 2 and A the area,
+// Forces that hold the two sides of a freed face of a cohesive body together until it reaches its strength: the
+// symmetric interior penalty form of the discontinuous Galerkin method (Noels and Radovitzky 2008, Int. J. Numer. Meth.
+// Engng 74), on constant-stress tets. With j the relative displacement from side 1 to side 2, n from 1 to 2 and A the
+// area,
 //   traction       t = (sigma_1 + sigma_2) n / 2 + k j,   k = beta E / d, d = 3 (V1 + V2) / 4A
 //   strain of 1    += A / 2V1 sym(mean j (x) n), and of 2 likewise
 // The mean of the stresses and the strain of the jumps are each other's adjoint, so that the whole has an energy: it is
-// that of the tets and k j.j / 2. Where nodes are shared j = 0, and all of it vanishes: stress that is uniform stays so
-// whichever nodes have been freed. Each tet does its own half of every face, as if it reached to the nodes beyond;
-// k j belongs to the face (bond/cohesive_faces.hpp).
+// that of the tets and k j.j / 2. Where nodes are shared, j = 0 and all of these terms vanish. So a uniform stress
+// stays uniform whichever nodes are freed. Each tet computes its own half of every face, for which it reads the nodes
+// of the other side. The term k j belongs to the face (bond/cohesive_faces.hpp).
 #pragma once
 
 #include "libcdem/element/finite_volume.hpp"

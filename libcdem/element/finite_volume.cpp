@@ -173,7 +173,7 @@ CDEM_INLINE double tets_kernel(const MeshBatch* batches, std::int64_t count, int
               zz = v1.z * a1.z + v2.z * a2.z + v3.z * a3.z;
 
     const Turn turn = turn_of({0.5 * (zy - yz), 0.5 * (xz - zx), 0.5 * (yx - xy)});
-    // Of the strain, those off the diagonal twice.
+    // Components of the strain; those off the diagonal are doubled.
     Symmetric strain{xx, yy, zz, xy + yx, yz + zy, xz + zx};
     if (jumps) {
       const JumpBatch& jump = jumps[i];

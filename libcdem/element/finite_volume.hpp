@@ -13,8 +13,9 @@
 // The paper prints no rotation of the stress and the geometry of the start: one slow turn then leaves 9 MPa of stress
 // in concrete. c_k / 6V is the gradient of the shape function, the same as the sum over face areas with one division.
 //
-// Of a tet beside freed faces of a cohesive body the strain, but not the spin, has the part (element/face_jumps.hpp)
-//   D += sum over these faces of sym(J) / 2V,  J = (mean jump of the velocity) (x) A n in the middle of the step
+// In a tet beside freed faces of a cohesive body, the strain (but not the spin) has an additional part
+// (element/face_jumps.hpp)
+//   D += sum over these faces of sym(J) / 2V,  J = (mean relative velocity) (x) A n in the middle of the step
 #pragma once
 
 #include "libcdem/material/elastic.hpp"
@@ -50,10 +51,10 @@ struct alignas(64) JumpBatch {
   double component[6][lanes];
 };
 
-// Of a run of batches, the last with `last_lanes` tets. Advances `stress` by the last step of dt (s; with 0 nothing
-// changes) and adds to `force`. position (m), velocity, force: one entry for each place of the chunk. Returns the energy
-// that damping took in that step, J: the mean of the viscous stress before and after it times the strain. Asks for some
-// of what is to be read ahead with each batch. jumps: null where no face is freed.
+// Forces of a run of batches, the last with `last_lanes` tets. Advances `stress` by the last step of dt (s; with 0
+// nothing changes) and adds to `force`. position (m), velocity, force: one entry for each place of the chunk. Returns
+// the energy that damping took in that step, J: the mean of the viscous stress before and after it times the strain.
+// Asks for some of what is to be read ahead with each batch. jumps: null where no face is freed.
 double finite_volume_forces(const MeshBatch* batches, std::int64_t count, int last_lanes,
                             const Node* position, const Node* velocity, const JumpBatch* jumps, double dt,
                             const TetStiffness&, const TetDamping&, const PlasticTets&, StressBatch* stress,

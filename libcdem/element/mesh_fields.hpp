@@ -6,7 +6,7 @@
 
 namespace cdem {
 
-// Of one tet of the model, with its initial stress.
+// Stress of one tet of the model, with its initial stress.
 Stress tet_stress(const Model&, const State&, int tet);
 
 std::vector<Node> present_places(const Model&, const State&); // m (n_nodes)

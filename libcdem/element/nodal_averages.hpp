@@ -1,12 +1,12 @@
-// Volume strain and mean stress of tets averaged over nodes and back, so that a mesh of constant-strain tets does not lock
-// when it flows plastically: a tet that has to keep its volume by itself leaves too little freedom to its nodes.
+// Volume strain and mean stress of tets averaged over nodes and back, so that a mesh of constant-strain tets does not
+// lock in plastic flow. If each tet keeps its volume by itself, its nodes have too little freedom.
 //
 //   q_a = sum V_e q_e / sum V_e over the tets e at node a,     (A q)_e = (q_1 + q_2 + q_3 + q_4) / 4 of the nodes of e
 //
 // (average nodal pressure: Bonet and Burton 1998, Commun. Numer. Meth. Engng 14; nodal mixed discretization: Detournay and
 // Dzik 2006). The strain of a tet has B theta in place of its own volume strain theta, and its forces are those of a stress
-// with B p in place of its own mean stress p, B = (1 - s) A + s. With s = 0 nothing but its shear stiffness would keep a
-// tet from being turned inside out, and where it flows not even that; s = 0.1. Weighted with V the operator is its own
+// with B p in place of its own mean stress p, B = (1 - s) A + s. With s = 0 only its shear stiffness would keep a tet
+// from turning inside out, and in plastic flow not even that. So s = 0.1. Weighted with V the operator is its own
 // adjoint,
 //
 //   sum V p (B theta) = sum V (B p) theta

@@ -35,7 +35,7 @@ geom::Mat3 rotation_in(const geom::Mat3&);
 
 geom::Mat3 matrix(const Stress&);
 Stress tensor(const geom::Mat3&); // symmetric part
-// Of a rigid body: what stands in the directions it was made rigid in, as it stands now.
+// Turns a stress of a rigid body from the directions in which the body was made rigid to its present directions.
 Stress turned(const geom::Mat3& rotation, const Stress&);
 
 // Row sums of |K| of the star blocks' own stiffness, N/m: per node the largest of its three rows. A Gershgorin bound.

@@ -139,7 +139,7 @@ private:
     return rocks_.of(joints_.law(face), joints_.tensile_strength(face), joints_.cohesion(face));
   }
 
-  // Of 1: a crack that did not go on took the rest. At least what may_end leaves.
+  // Fraction of the strength: a crack that did not continue took the rest. At least the fraction that may_end leaves.
   double strength_left(std::int64_t batch, int lane) const {
     return state_.faces[batch].stage[lane] == FaceStage::resumed
                ? 1 - damage_of(state_.cohesive[batch * lanes + lane])
@@ -168,7 +168,7 @@ private:
     breaking_ += taken;
     if (joint.softening != Softening::none)
       return;
-    crack_.add(taken, plane->mode == BondMode::broken_shear ? 1 : 0);
+    crack_.add(std::max(0.0, taken), plane->mode == BondMode::broken_shear ? 1 : 0);
     const geom::Vec3 traction = stress * plane->normal;
     const double normal = traction.dot(plane->normal);
     for (int point = 0; point < 3; ++point)

@@ -1,7 +1,8 @@
-// Cracks in cohesive bodies begin and end: freed faces that reach their strength crack on the plane that fails
-// (fracture/working_plane.hpp, bond/cohesive_faces.hpp); those that unload before they are damaged to speak of hold again.
-// Once a step, before its forces, from the stress of the step before (the mean of both tets) and the gaps that stood with
-// it: with those of now the change of energy would be that of two moments.
+// Begins and ends cracks in cohesive bodies. Freed faces that reach their strength crack on the plane that fails
+// (fracture/working_plane.hpp, bond/cohesive_faces.hpp). Cracked faces that unload with little damage become whole
+// again. This is done once a step, before its forces, from the stress of the step before (the mean of both tets) and
+// the relative displacements of that step. With the present ones, stress and displacement would belong to two moments,
+// and the change of energy would be wrong.
 #pragma once
 
 #include "libcdem/parallel/chunks.hpp"

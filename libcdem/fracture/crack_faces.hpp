@@ -1,4 +1,5 @@
-// Interfaces as faces that break whole: how much of its strength each one carries, and breaking one.
+// Interfaces as faces that break as a whole: the ratio of traction to strength of each face, and the breaking of a
+// face.
 //
 // The traction of a face is the mean over its intact springs. A spring at a crack's tip carries a stress that
 // grows without bound as blocks get smaller; the mean over a face of a given size does not, and ranks faces

@@ -9,7 +9,7 @@ namespace cdem {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
-// A way through rock that holds counts this much more than one along the crack.
+// A path through intact rock counts this many times its length, a path along the crack once.
 constexpr double bridge_cost = 5;
 // Places of the front within this part of a block size of its farthest place are one tip.
 constexpr double about_as_far = 0.5;

@@ -1,13 +1,13 @@
-// Where a crack is: its tip, and the line it has taken from its start.
+// Position of a crack: its tip, and its path from its start.
 //
-// The crack is the set of springs that are broken, or were unbonded by the user (a notch), with the triangles
-// between them. Distances run along these triangles; from one part of the crack to the next the way through
-// unbroken rock counts `bridge_cost` times its length. The crack starts at the notch, or without one at the
-// first face that broke.
+// The crack is the set of springs that are broken, or whose bonds the user removed (a notch), with the triangles
+// between them. Distances are measured along these triangles. From one part of the crack to the next the path through
+// unbroken rock counts `bridge_cost` times its length. The crack starts at the notch, or without one at the first face
+// that broke.
 //
-// A place on the crack lies on its front when the two sides are still held together there: going round it
-// over intact bonds leads from one side to the other. The tip is the part of the front that is farthest along
-// the crack; the front of a crack that reaches a free surface all round is empty.
+// A point of the crack lies on its front when the two sides are still held together there: a path over intact bonds
+// around the point leads from one side to the other. The tip is the part of the front that is farthest along the crack;
+// the front of a crack that reaches a free surface all round is empty.
 #pragma once
 
 #include "libcdem/state/state.hpp"
@@ -27,7 +27,7 @@ struct CrackPath {
   std::vector<int> front_interfaces; // ascending; indices of the intact ones that meet the front
 };
 
-// first_break: place of the first spring that broke, the start when nothing was unbonded.
+// first_break: place of the first spring that broke, the start when the user removed no bonds.
 CrackPath crack_path(const Model&, const State&, const std::optional<geom::Vec3>& first_break);
 
 // Volume of each piece that intact bonds hold together, largest first, m3.

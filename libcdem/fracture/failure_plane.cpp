@@ -20,8 +20,8 @@ geom::Vec3 pointing_forward(const geom::Vec3& axis) {
   return axis[largest] < 0 ? geom::Vec3(-axis) : axis;
 }
 
-// Of an axis that stress leaves free to turn about `fixed`: the first of x, y, z that stands at least 45 degrees off it,
-// turned square to it.
+// Direction of an axis that the stress leaves free to rotate about `fixed`: the first of x, y, z that makes at least 45
+// degrees with `fixed`, less its part along `fixed`.
 geom::Vec3 chosen_across(const geom::Vec3& fixed) {
   const double half = std::sqrt(0.5) * (1 + 1e-9);
   const geom::Vec3 axis = std::abs(fixed.x()) <= half   ? geom::Vec3::UnitX()

@@ -8,15 +8,15 @@
 //   griffith  instead of shear: (sigma1 - sigma3)^2 / (8 (sigma1 + sigma3)) - sigma_t >= -delta_t:
 //             plane at 1/2 acos((sigma1 - sigma3) / (2 (sigma1 + sigma3))) from the sigma1 axis
 //
-// Stress cannot tell the two conjugate planes apart. The one is taken along which the block slides more:
-// the larger |t . grad(u) . n|, grad(u) with the block's rotation in it. When both are equal to 1e-6 of the larger,
-// it is the plane that turns from sigma1 towards sigma3, both axes pointing so that their largest component is
-// positive, and `tie` says so.
+// The stress is the same on the two conjugate planes. The plane with the larger |t . grad(u) . n| is taken, along which
+// the block slides more; grad(u) includes the block's rotation. When both values are equal to 1e-6 of the larger, the
+// plane that is turned from sigma1 towards sigma3 is taken, with both axes pointing so that their largest component is
+// positive, and `tie` is set.
 //
-// Where two principal stresses are equal to 1e-4 of sigma1 - sigma3, stress leaves their axes free to turn about the
-// third, and rounding would choose. The axis of sigma3 (of sigma1, when sigma1 = sigma2) is then taken in the plane of
-// the third axis and the first of x, y, z that stands at least 45 degrees off it: for models drawn in the x-y plane the
-// plane of failure stands upright on it.
+// Where two principal stresses are equal to 1e-4 of sigma1 - sigma3, their axes are free to rotate about the third, and
+// rounding would decide. The axis of sigma3 (of sigma1, when sigma1 = sigma2) is then taken in the plane of the third
+// axis and the first of x, y, z that stands at least 45 degrees off it: for models drawn in the x-y plane the plane of
+// failure stands upright on it.
 #pragma once
 
 #include "libcdem/fracture/options.hpp"

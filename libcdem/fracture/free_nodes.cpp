@@ -230,7 +230,7 @@ std::optional<std::vector<char>> FreeingWatch::due(const Model& model, const Sta
     const auto rock_of = [&](std::int64_t face) -> const RockStrength& { // of the mesh, as in neighbours_
       return own_.empty() ? of_body : own_[static_cast<std::size_t>(face)];
     };
-    // Of convex sets: the mean of two stresses below them is below them.
+    // The bounds are convex: if two stresses are below them, so is their mean.
     const std::vector<UseBound> bounds = own_.empty() ? std::vector<UseBound>{UseBound(of_body, freed_at)}
                                                       : bounds_[static_cast<std::size_t>(c)];
     const auto stress_of = [&](std::int64_t tet) {

@@ -1,8 +1,8 @@
-// Frees the nodes of cohesive bodies where a face nears its strength: each gets a copy for every tet around it that a face
-// which may break parts from the others, so that the faces between can open (element/face_jumps.hpp, cohesive_faces.hpp).
-// Nothing moves by it: stress stays, each copy takes place, velocity and its share of the mass, and its acceleration is
-// kept by a preload on the faces between the copies, which dies away. Faces are freed at half their strength, so that a
-// crack finds its way open before it gets there.
+// Frees the nodes of cohesive bodies where a face nears its strength: each node gets a copy for every tet around it
+// that a breakable face separates from the others, so that the faces between them can open (element/face_jumps.hpp,
+// bond/cohesive_faces.hpp). Freeing moves nothing. The stress stays, and each copy takes the position, the velocity and
+// its share of the mass. A preload on the faces between the copies keeps the acceleration; it decays with time. Faces
+// are freed at half their strength, so that a crack finds freed nodes wherever it goes.
 #pragma once
 
 #include "libcdem/fracture/working_plane.hpp"
@@ -42,7 +42,8 @@ struct Freed {
   std::vector<char> anew;    // per node, 1 for the copies of those that were not freed before
 };
 
-// The same model and state with these nodes freed (n_nodes). Of a state whose stress stands where its nodes are.
+// The same model and state with these nodes freed (n_nodes). The stress of the state must belong to the present
+// positions of the nodes.
 Freed free_nodes(const Model&, const State&, const std::vector<char>& nodes);
 
 // Gives the faces between the copies of these nodes the forces with which all copies of a node have one acceleration, that

@@ -1,6 +1,6 @@
-// What the springs of an interface remember, as fields over one of its faces: so that other springs, which stand where the
-// faces overlap now, can go on from it. Between the springs the fields are linear over the triangles of the interface;
-// beyond them they are as at the nearest place.
+// State of the springs of an interface, as fields over one of its faces. New springs, which stand where the faces
+// overlap now, take their state from these fields. The fields are linear over the triangles of the interface. Outside
+// the triangles they have the value of the nearest point.
 //
 //   preload and dilation    o.n, the normal part of the offset: the pressure follows from it and from where the faces stand
 //   elastic shear           (j - o)_s, so that the shear traction goes on

@@ -31,7 +31,7 @@ public:
       weakest.cohesion = std::min(before.cohesion, rock.cohesion);
     }
   }
-  // Of the laws that some face has.
+  // Bounds of the laws that some face has.
   std::vector<UseBound> bounds(double use) const {
     std::vector<UseBound> all;
     for (const RockStrength& rock : weakest_)

@@ -1,12 +1,12 @@
-// Interfaces whose faces have slid get new springs: the faces are intersected anew where they stand, in the plane that the
-// interface has turned to, and the springs there go on from what the old ones remember (fracture/interface_memory.hpp).
-// With X the undeformed places of a spring on the sides a and b, its jump from now on is
+// Gives interfaces whose faces have slid new springs. The faces are intersected in their present position and in the
+// present plane of the interface. The new springs take over the state of the old ones (fracture/interface_memory.hpp).
+// With X the undeformed positions of a spring on the sides a and b, its relative displacement is from now on
 //
 //   j = R^T (u_b - u_a + X_b - X_a),      o_n = preload and dilation,   o_s = j_s - elastic shear
 //
-// so that the pressure follows from where the faces stand, the shear traction goes on, and no rigid motion of the two
-// blocks together strains the spring, however far one has slid past the other. Where the faces lie on each other no more,
-// the interface is left to contact.
+// So the pressure follows from the position of the faces, the shear traction stays the same, and no rigid motion of the
+// two blocks together strains the spring, for any slip. Where the faces do not overlap any more, the interface is left
+// to contact.
 #pragma once
 
 #include "libcdem/fracture/interface_memory.hpp"

@@ -8,8 +8,8 @@
 //   v* = ((m/dt - c/2) v- + F) / (m/dt + c/2)      without local damping
 //   v+ = v* -+ alpha |F| / (m/dt + c/2)            against v- + v*, and at rest on the mean where it could be held there
 //
-// One component: written for any number type, `double` or several side by side. Of a rigid body m is its mass, or a
-// principal moment of inertia with angular velocity and torque.
+// One component, written for any number type: `double`, or several values at a time. For a rigid body m is its mass, or
+// a principal moment of inertia with angular velocity and torque.
 #pragma once
 
 #include "libcdem/parallel/node.hpp"

@@ -1,10 +1,10 @@
-// Mass scaling of quasi-static stages: nodes whose stable step is shorter than the one named get just the mass that the
-// step asks for (integrate/row_sums.hpp),
+// Mass scaling of quasi-static stages: nodes with a stable step shorter than the step asked for get exactly the mass
+// that this step needs (integrate/row_sums.hpp),
 //
 //   m = max(m, K (dt^2 + 2 beta dt) / 4),   K row sum of |K|, beta stiffness damping
 //
-// It is inertia only: weight is that of the true mass. What does not change is the balance a slow stage goes through; what
-// does are waves and vibrations of the small elements.
+// The added mass is inertia only: the weight is that of the true mass. So the equilibrium states of a slow stage do not
+// change. Waves and vibrations of the small elements do.
 #pragma once
 
 #include "libcdem/model/model.hpp"

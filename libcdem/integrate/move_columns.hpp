@@ -15,6 +15,9 @@ struct ColumnStep {
 // Writes the forces on the sides at amplitude 1. Throws geom::InputError where the state has other columns.
 void advance_columns(ResolvedConditions&, State&, const ColumnStep&);
 
+// The same forces where columns and time stand still, from the velocities they have.
+void find_side_forces(ResolvedConditions&, const State&);
+
 double column_time_step(const ResolvedConditions&); // s, stable; infinite without columns
 
 } // namespace cdem

@@ -2,6 +2,7 @@
 // Velocities stand half a step before the displacements (central differences).
 #pragma once
 
+#include "libcdem/integrate/contact_on_rigid.hpp"
 #include "libcdem/load/resolve.hpp"
 
 namespace cdem {
@@ -22,8 +23,9 @@ struct NodeSums {
 // What acts on nodes beside the stress of elements.
 struct ActingForces {
   const ResolvedConditions& resolved;
-  const std::vector<Node>& contact;    // N, of contacts (n_nodes); empty without
-  const std::vector<geom::Vec3>& bond; // N, of springs of interfaces on side a (n_points)
+  const std::vector<Node>& contact; // N, of contacts, where nodes deform (n_nodes); empty without
+  const std::vector<ContactOnRigid>& contact_on_rigid; // per rigid body; empty without
+  const std::vector<geom::Vec3>& bond;                 // N, of springs of interfaces on side a (n_points)
 };
 
 // Arrays of the nodes that move, first of them first. force: of elements and springs, without loads.
@@ -43,7 +45,7 @@ struct MovingNodes {
 MovingNodes moving_nodes(State&, const ActingForces&, const std::vector<double>& mass, Range range,
                          const Node* force);
 
-// Of the first node: net force, loads included, and the load in it.
+// Forces of the first node, N: the net force, loads included, and the load in it.
 struct HeldForces {
   Node net, load;
 };

@@ -46,17 +46,16 @@ RigidForces rigid_forces(const Model& model, const State& state, const ActingFor
   const Block& block = model.blocks[model.rigid[rigid].block];
   const geom::Vec3 centroid = cdem::vec(state.rigid[rigid].centroid);
   RigidForces forces;
-  const auto sum = [&](const std::vector<Node>& nodes, geom::Vec3& force, geom::Vec3& torque) {
-    if (nodes.empty())
-      return;
+  if (const std::vector<Node>& load = acting.resolved.external; !load.empty())
     for (int i = block.node_begin; i < block.node_end; ++i) {
-      const geom::Vec3 f = vec(nodes[i]);
-      force += f;
-      torque += (model.node_position[i] - centroid + vec(state.displacement[i])).cross(f);
+      const geom::Vec3 f = vec(load[i]);
+      forces.load += f;
+      forces.load_torque += (model.node_position[i] - centroid + vec(state.displacement[i])).cross(f);
     }
-  };
-  sum(acting.resolved.external, forces.load, forces.load_torque);
-  sum(acting.contact, forces.contact, forces.contact_torque);
+  if (!acting.contact_on_rigid.empty()) {
+    forces.contact = acting.contact_on_rigid[rigid].force;
+    forces.contact_torque = acting.contact_on_rigid[rigid].torque;
+  }
   if (block.convex() && !model.points.empty()) {
     const std::vector<geom::Vec3>& bonds = acting.bond;
     for (int i = block.node_begin; i < block.node_end; ++i) {
@@ -69,10 +68,9 @@ RigidForces rigid_forces(const Model& model, const State& state, const ActingFor
   return forces;
 }
 
-void move_rigid(const Model& model, State& state, const ActingForces& acting, int rigid, const Stepping& s,
-                NodeSums& sums) {
+geom::Vec3 move_rigid(const Model& model, State& state, const ActingForces& acting, int rigid,
+                      const Stepping& s, NodeSums& sums) {
   const RigidBody& body = model.rigid[rigid];
-  const Block& block = model.blocks[body.block];
   RigidState& motion = state.rigid[rigid];
   const RigidForces f = rigid_forces(model, state, acting, rigid);
   const geom::Vec3 force = f.load + f.contact, torque = f.load_torque + f.contact_torque;
@@ -106,12 +104,17 @@ void move_rigid(const Model& model, State& state, const ActingForces& acting, in
         0.5 * body.mass * velocity.squaredNorm() + 0.5 * cdem::vec(motion.angular_momentum).dot(turning);
   }
 
-  const geom::Vec3 velocity = cdem::vec(motion.velocity), angle = s.time_step * turning;
-  const geom::Mat3 chord = turn_less_one(angle) * rotation(motion) / s.time_step;
-  motion.centroid = triple(cdem::vec(motion.centroid) + s.time_step * velocity);
+  const geom::Vec3 angle = s.time_step * turning;
+  motion.centroid = triple(cdem::vec(motion.centroid) + s.time_step * cdem::vec(motion.velocity));
   turn_by(motion, angle);
-  const geom::Vec3 centroid = cdem::vec(motion.centroid);
-  const geom::Mat3 now = rotation(motion);
+  return angle;
+}
+
+void place_rigid(const Model& model, State& state, int rigid, const geom::Vec3& angle, double time_step) {
+  const Block& block = model.blocks[model.rigid[rigid].block];
+  const RigidState& motion = state.rigid[rigid];
+  const geom::Vec3 centroid = cdem::vec(motion.centroid), velocity = cdem::vec(motion.velocity);
+  const geom::Mat3 now = rotation(motion), chord = turn_less_one(-angle) * now / -time_step;
   for (int i = block.node_begin; i < block.node_end; ++i) {
     const geom::Vec3 offset = vec(state.rigid_offset[i]);
     state.velocity[i] = node(velocity + chord * offset);

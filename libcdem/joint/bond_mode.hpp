@@ -1,4 +1,4 @@
-// How a bond stands.
+// State of a bond.
 #pragma once
 
 namespace cdem {

@@ -1,5 +1,5 @@
-// Coulomb friction: |t_s| <= p tan(phi) under the pressure p >= 0, for tractions and for forces. The only place where it
-// stands. (Units that are laid, libgeom/placement, slide by impulses of their own.)
+// Coulomb friction: |t_s| <= p tan(phi) under the pressure p >= 0, for tractions and for forces. The only
+// implementation of this law. (Units that are laid, libgeom/placement, slide by their own impulses.)
 #pragma once
 
 namespace cdem {

@@ -1,5 +1,5 @@
-// What holds two faces together, and what is left when it has broken: springs in series with nothing else
-// (Han 2010 eq 8) with a tension and a Mohr-Coulomb limit (eqs 10-11), beyond which they break or soften.
+// The joint of two faces, bonded or broken: springs (Han 2010 eq 8) with a tension limit and a Mohr-Coulomb limit (eqs
+// 10-11), beyond which they break or soften.
 #pragma once
 
 #include "libcdem/joint/joint_law.hpp"

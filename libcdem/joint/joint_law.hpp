@@ -2,12 +2,13 @@
 // a spring that is broken or never was bonded. joint/joint_spring.hpp says what a law is; to add one, write it in a header
 // of its own, put it into the list, and declare its fields in lua/binding/functions/joint_laws.cpp.
 //
-// With the stretch e = j - o the spring is closed by -e_n and sheared by e_s. Shear beyond the strength slips by x along
-// the trial,
+// With the elastic relative displacement e = j - o the closure is -e_n and the elastic shear e_s. If the trial shear
+// exceeds the strength, the spring slips by x in the direction of the trial,
 //
 //   k_s (|e_s| - x) = strength(p(x), path + x),    p(x) the pressure after the rise of the slip x
 //
-// o_s follows the slip, o_n the rise. Faces that are apart carry nothing, and o_s follows them.
+// The slip is added to o_s, the rise to o_n. Faces that are apart carry no traction, and o_s follows their relative
+// displacement.
 #pragma once
 
 #include "libcdem/joint/barton_bandis.hpp"
@@ -157,7 +158,7 @@ double stored(const Law& law, const JointSpring& spring, const geom::Vec3& norma
 
 } // namespace joint_law
 
-// Of a spring whose joint has a law, broken or never bonded.
+// Response of a spring whose joint has a law, broken or never bonded.
 inline JointResponse joint_response(const JointLaw& law, const JointSpring& spring, const geom::Vec3& normal,
                                     const geom::Vec3& jump, const geom::Vec3& offset,
                                     const JointHistory& history) {

@@ -1,5 +1,6 @@
-// Every law of a joint is told this about its spring, and remembers this. A law is a struct of numbers with
-// the functions below; joint/joint_law.hpp lists the laws and puts them to work. Pressures are positive in compression.
+// Interface of the laws of joints: the data of a spring that a law receives, and the history that it stores. A law is a
+// struct of numbers with the functions below; joint/joint_law.hpp lists the laws and applies them. Pressures are
+// positive in compression.
 //
 //   double pressure(spring, closure)        Pa, of faces pressed together by `closure` (m, > 0)
 //   double closure(spring, pressure)        m, the inverse

@@ -33,7 +33,7 @@ struct JointTable : NoDilation {
     const std::size_t i = segment(rows, x, 0);
     return rows[i - 1][1] + slope(rows, i) * (x - rows[i - 1][0]);
   }
-  // Of the straight lines from 0 to x.
+  // Integral of the straight lines from 0 to x.
   static double integral(const Rows& rows, double x) {
     double sum = 0;
     const auto piece = [&](double from, double to) {

@@ -1,6 +1,6 @@
 // Joint laws whose strengths are divided by a factor F, for a factor of safety: at any pressure, slip and opening the reduced
-// law bears the strength of the law over F. Closure and the opening by dilation stay, but a joint that rises more steeply
-// than it rubs would give energy: the dilation angle is at most the reduced residual friction angle.
+// law bears the strength of the law over F. Closure and dilation stay, with one exception: the dilation angle is at
+// most the reduced residual friction angle. A joint with more dilation than friction would create energy.
 #pragma once
 
 #include "libcdem/joint/joint_law.hpp"

@@ -1,5 +1,5 @@
-// The limit of what a bond or a rock carries: Mohr-Coulomb with a tension cut-off (Han 2010 eqs 10-11), for stresses and,
-// times an area, for forces. The only place where it stands; tension is positive.
+// Strength of a bond or a rock: Mohr-Coulomb with a tension cut-off (Han 2010 eqs 10-11), for stresses and, times an
+// area, for forces. This is the only implementation. Tension is positive.
 //
 //   t_n <= sigma_t,     |t_s| <= max(0, c - t_n tan(phi))
 //
@@ -15,7 +15,7 @@
 
 namespace cdem {
 
-// Of a joint, Pa; of a spring with an area, N.
+// Strength of a joint, Pa, or of a spring with an area, N.
 struct SpringStrength {
   double cohesion = 0;         // c
   double tan_friction = 0;     // tan(phi)

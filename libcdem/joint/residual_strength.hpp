@@ -1,12 +1,12 @@
-// Mohr-Coulomb after the peak: what is left of cohesion, friction and tensile strength, and dilation.
+// Mohr-Coulomb after the peak: residual cohesion, friction and tensile strength, and dilation.
 //
 //   |t_s| <= c_r + p tan(phi_r)     once it has slipped; with the peak's friction until then
 //   pull  <= T_r                    however far it opens; back on the line to the origin
 //   opening by slip  d = s tan(psi)   up to the slip s_max, then no more
 //
-// s is the distance from where the faces fitted together. On the way back the faces come down along the straight line.
-// Slip takes (|t_s| - p tan(psi)) per length from the energy: the rest lifts what presses on the joint. So psi is at most
-// phi_r.
+// s is the slip since the faces fitted together. When the slip reverses, the opening decreases along the same straight
+// line. Slip dissipates (|t_s| - p tan(psi)) per length; the rest of the work lifts the load on the joint. So psi is at
+// most phi_r.
 #pragma once
 
 #include "libcdem/joint/joint_spring.hpp"

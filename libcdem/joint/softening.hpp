@@ -1,13 +1,12 @@
-// Softening of a bond between its strength and its separation, per area: a cohesive law with one damage
-// variable D, whose damaged part rubs like a contact (bonded and rubbing part side by side as in Alfano and
-// Sacco 2006, Int. J. Numer. Meth. Engng 68).
+// Softening of a bond between its strength and its separation, per area: a cohesive law with one damage variable D. The
+// damaged part of the area has friction like a contact (Alfano and Sacco 2006, Int. J. Numer. Meth. Engng 68).
 //
 //   t      = (1 - D) K e + D t_c
 //   stored = (1 - D) e.K e / 2 + D t_c.K^-1 t_c / 2
 //
-// e = j - o is the stretch, K = kn n n + ks (1 - n n), t_c the traction of a contact there (Han 2010 eq 9).
-// The elastic trial t = K e goes r times as far as the strength surface (Han 2010 eqs 10-11, signed t_n), by
-// an opening w_n and a slip w_s:
+// e = j - o is the elastic relative displacement, K = kn n n + ks (1 - n n), and t_c the traction of a contact at the
+// same e (Han 2010 eq 9). r is the ratio of the elastic trial t = K e to the strength surface (Han 2010 eqs 10-11,
+// signed t_n). w_n and w_s are the inelastic opening and slip:
 //
 //   r   = max(t_n / sigma_t, (|t_s| + t_n tan(phi)) / c0)
 //   w_n = (1 - 1/r) <e_n>
@@ -15,7 +14,7 @@
 //   xi  = sqrt((w_n / w_I)^2 + (w_s / w_II)^2)
 //   D   = max(D so far, 1 - s(xi) / r)
 //
-// with what is left of the strength, s = 0 from xi = 1 on and S its integral over 0..1,
+// with s the remaining fraction of the strength (0 from xi = 1 on) and S its integral over 0..1,
 //
 //   linear       s = 1 - xi
 //   exponential  s = (exp(-a xi) - exp(-a)) / (1 - exp(-a)),   a = 5
@@ -23,8 +22,8 @@
 //   w_I  = (G_I  - sigma_t^2 / 2 kn) / (sigma_t S)
 //   w_II = (G_II - c0^2 / 2 ks) / (c0 S)
 //
-// The stretch of the spring up to its strength is taken off: a part of G between blocks. A crack of a cohesive
-// body begins at its strength with no gap: nothing is taken off there.
+// Between blocks the elastic energy of the spring at its strength is part of G, and is subtracted. A crack of a
+// cohesive body begins at its strength with zero opening, so nothing is subtracted there.
 //
 // While D grows the traction stays on the strength surface with sigma_t and c0 both multiplied by s: pure
 // opening takes G_I, slip under a constant pressure p takes G_II beyond the work of the friction p tan(phi).

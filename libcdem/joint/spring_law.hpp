@@ -1,12 +1,12 @@
 // Law of one spring between two faces, per area (Han 2010 eqs 8-11 as amended in docs/theory.md).
 //
-//   bonded:   t = kn (j - o).n n + ks (j - o)_s,   j jump of the displacement from a to b, o that at t = 0
+//   bonded:   t = kn (j - o).n n + ks (j - o)_s,   j relative displacement from a to b, o that at t = 0
 //
 // broken or never bonded:
 //   closed (t_n <= 0):  the same, |t_s| limited to |t_n| tan(phi), o_s slips with it
 //   open (t_n > 0):     t = 0, o_s follows j_s so that a closing face starts without shear
 //
-// A bond that softens on the way from one to the other: joint/softening.hpp.
+// A bond that softens between the two states: joint/softening.hpp.
 #pragma once
 
 #include "libcdem/joint/coulomb_friction.hpp"

@@ -21,7 +21,7 @@ struct StrengthScatter {
   bool on() const { return modulus > 0; }
 };
 
-// Of the strength of the joint; volume: m3, > 0; draw: u.
+// Factor on the strength of the joint. volume: m3, > 0; draw: u.
 double scatter_factor(const StrengthScatter&, double volume, double draw);
 
 double gamma_function(double x); // x in [1, 2], the same bits on every processor

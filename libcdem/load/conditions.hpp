@@ -17,7 +17,7 @@ struct Fix {
   Selection on;
   std::array<bool, 3> axes{true, true, true};
   bool release = false; // sets the components free instead; later ones win over earlier ones
-  // m, total value; a relaxation moves there in its first steps and holds it
+  // m, total value; a relaxation moves there in its first steps, a run at a steady velocity until its end
   std::optional<geom::Vec3> displacement;
   std::optional<geom::Vec3> velocity; // m/s, in real-time stepping; zero when not given
   Amplitude amplitude;                // of the velocity
@@ -69,14 +69,17 @@ struct FreeField {
 };
 
 // Pressure of a steady stream on what faces it (Feng 2014 eqs 19-20): traction alpha F along the flow, alpha = d . n
-// with n the inward normal of an outer face where it stands now, F = rho V^2 / 2; none where alpha <= 0. Shielding by
-// other bodies, or by other parts of the same one, is not modelled.
+// with n the inward normal of an outer face where it stands now, F = rho V^2 / 2; none where alpha <= 0. The paper's
+// surface is at rest. One that moves at v meets the water at u = V d - v, and where the flow is `relative` this u takes
+// the place of V d: traction rho/2 (u . n)+ u, which is the paper's at v = 0. Shielding by other bodies, or by other parts
+// of the same one, is not modelled.
 struct Flow {
   Selection on;                                // outer faces
   geom::Vec3 direction = geom::Vec3::Zero();   // d, made a unit vector
   double water_density = 1025;                 // kg/m3; the paper gives none, this is sea water
   std::function<double(double time)> velocity; // V, m/s, >= 0
   bool new_faces = false;                      // faces opened by cracks take the pressure too
+  bool relative = true;                        // to the velocity of the surface, in real-time stepping
 };
 
 inline double flow_pressure(double velocity, double water_density) { // F, Pa

@@ -3,8 +3,9 @@
 //
 //   t = -Z v + 2 Z w + 2 s,   Z = rho c_p n n^T + rho c_s (I - n n^T)
 //
-// w is the particle velocity, s the traction of a wave that enters; half of it is what the rock behind would need to
-// move with the wave, half what the dashpot takes from it again. A P or S wave that arrives along n leaves whole.
+// w is the particle velocity, s the traction of an incoming wave. Half of the term is the traction of the wave itself;
+// the other half compensates the dashpot, which absorbs the same amount. A P or S wave that arrives along n leaves
+// completely.
 #pragma once
 
 #include "libcdem/load/resolve.hpp"

@@ -18,7 +18,8 @@ std::vector<double> integral(const std::vector<double>& time, const std::vector<
   return sum;
 }
 
-// Of a velocity that is parabolic between two samples whose accelerations are known: to the last displacement exactly.
+// Integral of a velocity that is parabolic between two samples with known accelerations: exact up to the last
+// displacement.
 double displacement(const TimeTable& acceleration, const std::vector<double>& velocity) {
   double sum = 0;
   for (std::size_t i = 1; i < velocity.size(); ++i) {

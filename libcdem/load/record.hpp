@@ -1,4 +1,4 @@
-// Earthquake records: acceleration integrated to velocity (trapezoidal rule), and the baseline taken off it.
+// Earthquake records: acceleration integrated to velocity (trapezoidal rule), and its baseline correction.
 //
 //   v(t) = integral of a,   d(t) = integral of v
 //

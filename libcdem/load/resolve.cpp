@@ -4,6 +4,7 @@
 #include "libcdem/load/face_pressure.hpp"
 #include "libcdem/load/flow.hpp"
 #include "libcdem/load/free_field.hpp"
+#include "libcdem/state/places.hpp"
 #include "libgeom/core/error.hpp"
 
 #include <cmath>
@@ -143,8 +144,9 @@ Pattern force_pattern(const Model& model, const PointForce& force) {
 Pattern gravity_pattern(const Model& model, const Gravity& gravity, const geom::Vec3& acceleration) {
   Pattern pattern;
   for (int node = 0; node < static_cast<int>(model.node_position.size()); ++node)
-    pattern.emplace_back(node, (model.node_mass[node] - gravity.water_density * node_volume(model, node)) *
-                                   acceleration);
+    pattern.emplace_back(node,
+                         (model.gravitational_mass[node] - gravity.water_density * node_volume(model, node)) *
+                             acceleration);
   return pattern;
 }
 
@@ -173,8 +175,11 @@ void add_boundaries(const Model& model, const Conditions& conditions, HeldNodes&
   Dashpots dashpots;
   for (const Quiet& quiet : conditions.quiets) {
     const std::vector<int> faces = add_dashpots(model, quiet.on, "quiet", dashpots);
-    if (!quiet.velocity.isZero(0) || !quiet.stress.isZero(0))
-      load(r, entering_wave(model, faces, quiet), quiet.amplitude);
+    if (!quiet.velocity.isZero(0) || !quiet.stress.isZero(0)) {
+      r.boundary_loads.push_back(r.varying.size());
+      const Amplitude steady = [](double) { return 1; };
+      r.varying.push_back({entering_wave(model, faces, quiet), quiet.amplitude ? quiet.amplitude : steady});
+    }
   }
   for (const FreeField& field : conditions.free_fields) {
     const std::vector<int> faces = add_dashpots(model, field.on, "free_field", dashpots);
@@ -185,6 +190,7 @@ void add_boundaries(const Model& model, const Conditions& conditions, HeldNodes&
     for (const ColumnShare& share : column.shares)
       side.forces.emplace_back(share.node, geom::Vec3::Zero());
     side.amplitude = [](double) { return 1; };
+    r.boundary_loads.push_back(r.varying.size());
     r.varying.push_back(std::move(side));
     r.columns.push_back(std::move(column));
   }
@@ -202,21 +208,45 @@ void add_flow(const Model& model, const Flow& flow, ResolvedConditions& r) {
     selects_nothing("outer faces", flow.on);
   resolved.new_faces = flow.new_faces;
   resolved.load = r.varying.size();
+  if (flow.relative) {
+    resolved.velocity = flow.velocity;
+    resolved.water_density = flow.water_density;
+    r.varying.push_back({{}, [](double) { return 1; }});
+  } else {
+    const double density = flow.water_density;
+    const auto velocity = flow.velocity;
+    r.varying.push_back(
+        {{}, [density, velocity](double time) { return flow_pressure(velocity(time), density); }});
+  }
   r.flows.push_back(std::move(resolved));
-  const double density = flow.water_density;
-  const auto velocity = flow.velocity;
-  r.varying.push_back(
-      {{}, [density, velocity](double time) { return flow_pressure(velocity(time), density); }});
+}
+
+// Forces of a flow that meets each node at u = V d - v: rho/2 (u . A)+ u, A the node's share of a face, inward.
+void add_relative_flow(const ResolvedFlow& flow, double time, const std::vector<Node>* velocity,
+                       std::vector<std::pair<int, geom::Vec3>>& forces) {
+  const geom::Vec3 water = flow.velocity(time) * flow.direction;
+  for (std::size_t i = 0; i < flow.inward.size(); ++i) {
+    const auto& [node, area] = flow.inward[i];
+    const geom::Vec3 u = velocity ? geom::Vec3(water - vec((*velocity)[node])) : water;
+    forces[i].second = 0.5 * flow.water_density * std::max(0.0, u.dot(area)) * u;
+  }
 }
 
 } // namespace
 
 void refresh_flows(const Model& model, const State& state, ResolvedConditions& r) {
-  for (const ResolvedFlow& flow : r.flows) {
+  for (ResolvedFlow& flow : r.flows) {
     // What the pattern leaves keeps no force of it.
     for (const auto& [node, force] : r.varying[flow.load].forces)
       r.external[node] = r.constant[node];
-    r.varying[flow.load].forces = flow_pattern(model, state, flow);
+    if (flow.velocity) {
+      flow.inward = inward_areas(model, state, flow);
+      r.varying[flow.load].forces.assign(flow.inward.size(), {});
+      for (std::size_t i = 0; i < flow.inward.size(); ++i)
+        r.varying[flow.load].forces[i].first = flow.inward[i].first;
+    } else {
+      r.varying[flow.load].forces = flow_pattern(model, state, flow);
+    }
   }
 }
 
@@ -277,7 +307,27 @@ void update_supports(ResolvedConditions& r, double time) {
         component(h.prescribed, axis) = factors[varying] * r.varying_holds[varying].velocity[axis];
 }
 
-void update_external(ResolvedConditions& r, double time) {
+void aim_supports(const State& state, ResolvedConditions& r, double left) {
+  for (HeldNode& h : r.held)
+    for (int axis = 0; axis < 3; ++axis)
+      if (const double target = component(h.target, axis); !std::isnan(target))
+        component(h.prescribed, axis) = (target - vec(state.displacement[h.node])[axis]) / left;
+}
+
+bool has_way_to_go(const Model& model, const State& state, const ResolvedConditions& r) {
+  for (const HeldNode& h : r.held) {
+    const geom::Vec3 way = vec(h.target) - vec(state.displacement[h.node]); // NaN without a target
+    for (int axis = 0; axis < 3; ++axis)
+      if (std::abs(way[axis]) > 1e-12 * model.length)
+        return true;
+  }
+  return false;
+}
+
+void update_external(ResolvedConditions& r, double time, const std::vector<Node>* velocity) {
+  for (const ResolvedFlow& flow : r.flows)
+    if (flow.velocity)
+      add_relative_flow(flow, time, velocity, r.varying[flow.load].forces);
   for (const VaryingLoad& load : r.varying)
     for (const auto& [node, force] : load.forces)
       r.external[node] = r.constant[node];

@@ -20,6 +20,11 @@ struct ResolvedFlow {
   std::vector<int> faces;                    // Model::outer_faces
   bool new_faces = false;
   std::size_t load = 0; // its place in ResolvedConditions::varying
+  // Of a flow relative to the surface, whose forces are found anew in every step; the amplitude of its load is 1.
+  std::function<double(double time)> velocity; // m/s; empty: the pattern times the pressure
+  double water_density = 0;                    // kg/m3
+  std::vector<std::pair<int, geom::Vec3>>
+      inward; // node, its share of a face's area along the inward normal, m2
 };
 
 // A node of which a component at least is held.
@@ -27,7 +32,7 @@ struct HeldNode {
   int node = 0;
   Node free;       // 1 where a component is free, 0 where it is held
   Node prescribed; // m/s, velocity of the held components
-  Node target;     // m, displacement the held components are to reach in a relaxation; NaN: none
+  Node target;     // m, displacement the held components are to reach; NaN: none
   std::array<int, 3> varying{-1, -1,
                              -1}; // into ResolvedConditions::varying_holds; -1: the velocity is constant
   int dashpot = -1;               // into ResolvedConditions::dashpots; -1: none
@@ -53,6 +58,7 @@ struct ResolvedConditions {
   std::vector<Node> external; // N, all loads at the present time (n_nodes); empty without loads
   std::vector<Node> internal; // N, forces of the initial stress (n_nodes); empty without
   std::vector<VaryingLoad> varying;
+  std::vector<std::size_t> boundary_loads; // of these: what enters through quiet boundaries and from columns
   std::vector<ResolvedFlow> flows;
   bool has_target = false;
 };
@@ -80,10 +86,18 @@ ResolvedConditions resolve(const Model&, const State&, const Conditions&);
 // The patterns of flows for where the faces are now.
 void refresh_flows(const Model&, const State&, ResolvedConditions&);
 
-// external at `time`; does nothing when no load varies.
-void update_external(ResolvedConditions&, double time);
+// external at `time`; does nothing when no load varies. velocity: m/s (n_nodes), of surfaces in a flow; null: they are
+// at rest.
+void update_external(ResolvedConditions&, double time, const std::vector<Node>* velocity = nullptr);
 
 // Velocities of supports at `time`: the middle of the step they move in.
 void update_supports(ResolvedConditions&, double time);
+
+// Gives the held components that have a target the velocity that brings them there in `left` (s, or steps of a
+// relaxation).
+void aim_supports(const State&, ResolvedConditions&, double left);
+
+// Some held component stands further from its target than rounding leaves it.
+bool has_way_to_go(const Model&, const State&, const ResolvedConditions&);
 
 } // namespace cdem

@@ -1,12 +1,12 @@
-// Water in joints: a pressure p at the points of interfaces. It pushes the two faces apart, and the springs, with all their
-// laws, bear what is left of the total traction: the effective one (Terzaghi 1936), tension positive,
+// Water in joints: a pressure p at the points of interfaces. It pushes the two faces apart. The springs, with all their
+// laws, carry the effective traction (Terzaghi 1936), tension positive,
 //
 //   t' = t + p n
 //
-// The pressure is taken at undeformed places, once, and stays until it is set again: a point has the mean over the triangles
-// around it, weighted by its shape function, so that the force of the water is right where a face reaches above the water. A
-// crack of blocks that move far has lost its water once it is open, or slid, by a twentieth of its size (bond/release.hpp);
-// what is newly cut is dry.
+// The pressure is evaluated once, at undeformed positions, and stays until it is set again. A point has the mean over
+// the triangles around it, weighted by its shape function. So the force of the water is right where a face reaches
+// above the water. An interface of blocks that move far loses its water once it is left to contact and has opened or
+// slid by a twentieth of its size (bond/release.hpp). Newly cut faces are dry.
 #pragma once
 
 #include "libcdem/model/selection.hpp"

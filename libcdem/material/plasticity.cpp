@@ -13,7 +13,7 @@ namespace cdem {
 namespace {
 
 constexpr double pi = 3.14159265358979323846;
-// Of the largest stress or strength: what rounding leaves of f = 0.
+// Rounding error of f = 0, over the largest stress or strength.
 constexpr double rounding = 1e-10;
 
 using Three = std::array<double, 3>;
@@ -171,7 +171,7 @@ PlasticReturn return_to_limit(const Three& trial, double lambda, double shear, c
   result.stress = trial;
   if (returning.holds(trial))
     return result;
-  // The usual ones first. Of single planes only those of s1 and s3, and of s1, can be: the others are violated less.
+  // The usual sets first. A single plane can only be that of s1 and s3, or that of s1: the others are violated less.
   for (const int one : {0, 1})
     if (returning.to(&one, 1, result))
       return result;

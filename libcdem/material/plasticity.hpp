@@ -77,8 +77,8 @@ struct PlasticReturn {
 PlasticReturn return_to_limit(const std::array<double, 3>& trial, double lambda, double shear,
                               const RockLimit&);
 
-// Of a whole tensor, in place: xx yy zz xy yz xz, Pa. Returns the plastic work per volume, J/m3: the mean of the stress
-// `before` the step and the one after it, times the plastic strain. plastic_strain: k, advanced.
+// Returns a whole tensor to the strength, in place: xx yy zz xy yz xz, Pa. Returns the plastic work per volume, J/m3:
+// the mean of the stress `before` the step and the one after it, times the plastic strain. plastic_strain: k, advanced.
 double plastic_step(const RockLimit&, double lambda, double shear, const double (&before)[6],
                     double (&stress)[6], double& plastic_strain);
 

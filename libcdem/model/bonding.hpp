@@ -18,9 +18,10 @@ struct Bonding {
   bool between_regions = false; // faces between two different regions of the mesh
   std::vector<int> regions;     // every face of a tet of these regions (from 0)
 
-  // Kn = beta E A / (3 d). Of a cohesive body the penalty on jumps across freed faces, which leaves its stiffness alone
-  // (beta about 1 serves). Springs in series with the tets: a body bonded everywhere has about E / (1 + 1/beta) left,
-  // while its stable step shrinks like 1 / sqrt(beta).
+  // Kn = beta E A / (3 d). In a cohesive body it is the penalty on relative displacements across freed faces, which
+  // does not change the stiffness of the body (a beta of about 1 is enough). Springs are in series with the tets: a
+  // body bonded everywhere has a modulus of about E / (1 + 1/beta), and its stable step is proportional to 1 /
+  // sqrt(beta).
   double stiffness_ratio = 10; // beta, > 0
   double shear_ratio = 1;      // Ks / Kn, > 0
 

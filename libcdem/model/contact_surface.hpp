@@ -1,5 +1,5 @@
-// What of meshed bodies can touch: their outer triangles, with the faces along which bonds may open, and the edges
-// where the outside turns outwards (Feng 2014 section 2.2).
+// Surface of meshed bodies for contact: their outer triangles, the faces along which bonds may open, and the edges
+// where the surface turns outwards (Feng 2014 section 2.2).
 //
 // Every triangle carries three semi-springs, its corners drawn in a little, each with a third of its area; every such
 // edge is a semi-edge. Inner faces of the mesh take no part unless their bonds have broken.

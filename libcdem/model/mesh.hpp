@@ -5,10 +5,11 @@
 // bonded each tet has its own four nodes, where none is the nodes are those of the mesh. In a cohesive body a face is
 // bonded in this sense once one of its nodes has been freed (fracture/free_nodes.hpp), and only freed nodes have copies.
 //
-// Tets stand in the order of a Hilbert curve and nodes in that of first touch. A chunk is a run of tets; it owns the
-// nodes it is the first to touch, those that no other chunk touches (inner) first, and lists the others it needs. It
-// sums the forces of its tets and faces, moves its inner nodes, and leaves the rest in its own slice of an array of
-// partial forces; the owner of a node adds those in a fixed order. Nothing is written twice.
+// Tets are stored in the order of a Hilbert curve, nodes in the order of their first use. A chunk is a run of tets. It
+// owns the nodes that it is the first to use; nodes that no other chunk uses (inner) come first. It lists the other
+// nodes that it needs. It sums the forces of its tets and faces, moves its inner nodes, and writes the other forces to
+// its own slice of an array of partial forces. The owner of a node adds these in a fixed order. Nothing is written
+// twice.
 #pragma once
 
 #include "libcdem/parallel/chunks.hpp"
@@ -37,7 +38,7 @@ struct alignas(32) FaceBatch {
   std::uint16_t place_a[3][lanes], place_b[3][lanes]; // of the nodes among those of the chunk
 };
 
-// Of eight bonded faces whose strength is their own (model/build/face_strength.hpp).
+// Strengths of eight bonded faces that have strengths of their own (model/build/face_strength.hpp).
 struct alignas(64) FaceStrengthBatch {
   double tensile_strength[lanes], cohesion[lanes]; // Pa
   double tan_friction[lanes];
@@ -100,7 +101,7 @@ struct MeshData {
   std::vector<char> freed; // (n mesh nodes) 1: faces around it may have parted
   // Into the body's PlasticLaws, batch * lanes + lane; -1: elastic. Empty without plastic bodies.
   std::vector<std::int8_t> plastic_law;
-  // Which partial forces add up to that of a node that several chunks touch, in order: into `shares`.
+  // The partial forces that add up to the force of a node that several chunks use, in order: into `shares`.
   std::vector<int> share_begin, shares;
   std::vector<BoundaryTriangle> boundary;
   // Those that were given a name, by body and name: into `boundary`, ascending. They say where conditions are, not what

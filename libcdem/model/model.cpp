@@ -39,7 +39,8 @@ int block_of(const Model& model, int node) {
 }
 
 double node_volume(const Model& model, int node) {
-  return model.node_mass[node] / model.bodies[model.blocks[block_of(model, node)].body].material.density;
+  return model.gravitational_mass[node] /
+         model.bodies[model.blocks[block_of(model, node)].body].material.density;
 }
 
 } // namespace cdem

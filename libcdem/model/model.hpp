@@ -56,7 +56,7 @@ struct Block {
   double size = 0;           // h, cube root of the volume, m
   double first_size =
       0; // h of the generation-0 block it comes from, m; joints keep their thickness through cuts
-  // Of a convex block: its vertices first; of one that is not zoned then one centre per face, then the centroid.
+  // A convex block has its vertices first. Without zones, one centre per face and the centroid follow.
   int node_begin = 0, node_end = 0;
   int tet_begin = 0, tet_end = 0;
 
@@ -122,8 +122,8 @@ struct OuterFace {
   int boundary = -1;                      // of a meshed block: index into MeshData::boundary
   geom::Vec3 normal = geom::Vec3::Zero(); // unit, outward
   double area = 0;                        // m2, uncovered
-  // Node, integral of its shape function over the uncovered part, m2. Of a meshed block none is kept: a third of the
-  // area each (each_face_node).
+  // Node, and integral of its shape function over the uncovered part, m2. Empty for a meshed block: each node has a
+  // third of the area (each_face_node).
   std::vector<std::pair<int, double>> node_area;
 };
 
@@ -170,7 +170,10 @@ struct Model {
   std::map<std::pair<int, int>, int> pair_joint; // bodies (smaller first) -> joint between them
 
   std::vector<geom::Vec3> node_position; // undeformed, m (n_nodes)
-  std::vector<double> node_mass;         // kg (n_nodes), a quarter of each tet around it
+  // kg (n_nodes). What moves, and what weighs: a quarter of each tet around a node. They differ in star blocks that move
+  // far (build/star_inertia).
+  std::vector<double> node_mass;
+  std::vector<double> gravitational_mass;
 
   std::vector<geom::Tet> tets; // global nodes (n_tets)
   std::vector<int> tet_block;  // (n_tets)

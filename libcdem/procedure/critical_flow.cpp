@@ -93,6 +93,7 @@ public:
     now_.pressure = {0, flow_pressure(first_velocity, density), options.pressure_rate,
                      flow_pressure(options.max_velocity, density)};
     Flow flow = options.flow;
+    flow.relative = false; // the paper's: the solid is held
     flow.velocity = [this, density](double time) {
       return now_.part == Part::search ? flow_velocity(now_.pressure.at(time), density) : first_velocity;
     };

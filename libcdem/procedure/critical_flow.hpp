@@ -3,10 +3,11 @@
 //   ramp  the pressure rises at a constant rate: inertia sets part of the result
 //   hold  it rises at that rate only while no bond broke for a hold time: near the static strength
 //
-// Both end at the first of: a piece of at least `fragment_fraction` of the volume hangs on no held node any more; the
-// compliance, displacement under the flow's own pattern over pressure, is `compliance_ratio` times that of the unbroken
-// solid at rest. Before it starts a relaxation at a small pressure gives that compliance and, by Rayleigh's quotient
-// omega^2 = F . u / u . M u, the period of the first mode, in which the hold time is measured.
+// Both end at the first of two events. (1) A piece of at least `fragment_fraction` of the volume is connected to no
+// held node. (2) The compliance is `compliance_ratio` times that of the unbroken solid at rest; compliance is the
+// displacement, weighted by the nodal forces of the flow, over the pressure. Before the search a relaxation at a small
+// pressure gives the compliance of the unbroken solid. Rayleigh's quotient omega^2 = F . u / u . M u of this state
+// gives the period of the first mode, the unit of the hold time.
 #pragma once
 
 #include "libcdem/procedure/critical_flow_options.hpp"

@@ -41,7 +41,7 @@ struct CriticalFlowResult {
   double broken_area = 0;            // m2
   geom::Vec3 place =
       geom::Vec3::Zero(); // m, centroid of the broken area, undeformed; zero when nothing broke
-  // Of the first bonds that broke, those of one step; zero when none did.
+  // Values at the step in which the first bonds broke; zero if none did.
   double first_break_pressure = 0, first_break_velocity = 0; // Pa, m/s
   geom::Vec3 first_break_place = geom::Vec3::Zero();         // m, undeformed
   std::int64_t broken_tension = 0, broken_shear = 0;

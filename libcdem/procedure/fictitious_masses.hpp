@@ -1,8 +1,8 @@
 // Masses of a relaxation with unit steps: central differences are stable for m >= sum_j |K_ij| / 4 (Gershgorin).
 //
-// What a contact adds depends on where it acts: at the tip of a wedge it may be ten times as stiff as the faces around
-// it. So the mass of a node follows the contacts it has met, upwards only; a contact too stiff for its node would be
-// thrown back and forth for ever, and the relaxation would never settle.
+// The stiffness that a contact adds depends on where it acts: at the tip of a wedge it may be ten times as stiff as the
+// faces around it. So the mass of a node is raised for the contacts that act on it, and never lowered again. A contact
+// too stiff for its node would throw the node back and forth for ever, and the relaxation would never settle.
 #pragma once
 
 #include "libcdem/contact/data/contact_work.hpp"

@@ -1,4 +1,4 @@
-// What a solid under a flow is judged by: how far it gives, how slowly it swings, where it has broken.
+// Measures of a solid under a flow: compliance, period, and position of the break.
 #pragma once
 
 #include "libcdem/results/log.hpp"
@@ -22,7 +22,7 @@ struct BrokenArea {
   double area = 0;                          // m2
   geom::Vec3 centroid = geom::Vec3::Zero(); // m, undeformed
 };
-// Of the bonds that broke from the row `first` on; of those of its step only.
+// Area of the bonds that broke from the row `first` on, or only in the step of that row.
 BrokenArea broken_area(const RunLog&, std::size_t first, bool of_one_step);
 
 } // namespace cdem

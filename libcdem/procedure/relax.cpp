@@ -28,24 +28,12 @@ constexpr int support_steps = 200;
 // stage or of the forces of the initial stress (squared norms).
 constexpr double reaction_floor2 = 1e-4;
 
-// Velocities per step that bring held components to their given displacement.
-void aim_supports(const State& state, ResolvedConditions& r, int steps) {
-  const auto aim = [&](double target, double now) {
-    return std::isnan(target) ? 0.0 : (target - now) / steps;
-  };
-  for (HeldNode& h : r.held) {
-    const Node& u = state.displacement[h.node];
-    h.prescribed = {aim(h.target.x, u.x), aim(h.target.y, u.y), aim(h.target.z, u.z), 0};
-  }
-}
-
 // In the steps that are left to them; then they stand.
 void lead_supports(const State& state, ResolvedConditions& r, std::int64_t step) {
+  for (HeldNode& h : r.held)
+    h.prescribed = {};
   if (r.has_target && step < support_steps)
     aim_supports(state, r, support_steps - static_cast<int>(step));
-  else
-    for (HeldNode& h : r.held)
-      h.prescribed = {};
 }
 
 // Squared norm of the initial stress's forces on free components, N2.

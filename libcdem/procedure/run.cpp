@@ -16,7 +16,8 @@
 namespace cdem {
 namespace {
 
-// Of the model's size: so far from its box a piece has left it, or has run away when it is the only one.
+// Distance from the model's box, over its size: beyond it a piece has left the model, or has run away if it is the only
+// one.
 constexpr double left_lengths = 1, run_away_lengths = 100;
 
 // mu V of every node, N s/m; empty when nothing is viscous.
@@ -71,7 +72,7 @@ void require_columns_stable(const ResolvedConditions& r, double time_step) {
         "name a time_step below it");
 }
 
-// The time of each step of a run whose step may get shorter on the way, as contacts close.
+// The time of each step of a run whose step may get shorter as contacts close.
 class Clock {
 public:
   Clock(double start, double time_step, const RunOptions& options)
@@ -157,6 +158,22 @@ RunResult run(const StageContext& context, const RunOptions& options, const std:
     }
   };
   set_goals();
+  // Supports with a given displacement are there at the end. They are led anew wherever the stage can be left, so that
+  // one that goes on moves them by the same bits.
+  const auto lead_supports = [&] {
+    ResolvedConditions& r = stage.work.resolved;
+    if (!r.has_target)
+      return;
+    const bool has_end = clock.steps() < std::numeric_limits<std::int64_t>::max() && !options.holds_what_left;
+    if (has_end)
+      aim_supports(state, r, clock.time_at(clock.steps()) - clock.time_at(stage.step));
+    else if (has_way_to_go(context.model, state, r))
+      throw geom::InputError("displacement of fix: " + kind +
+                             " has no set end at which the support could be there; move it by model:relax or "
+                             "model:run before, or give velocity");
+  };
+  lead_supports();
+  stage.sample_start();
   const auto loop_state = [&] {
     std::vector<double> numbers = clock.loop_state();
     scaled.add_to(numbers);
@@ -187,11 +204,14 @@ RunResult run(const StageContext& context, const RunOptions& options, const std:
     double longest = stage.update_contacts(options.safety);
     if (keeps_energy_of_impacts)
       longest = std::min(longest, stage.longest_step_of_flight());
-    if (longest < stepping.time_step) {
+    const bool shorter = longest < stepping.time_step;
+    if (shorter) {
       stepping.time_step = longest;
       clock.shorten(stage.step, longest);
       set_goals();
     }
+    if (freed || shorter || stage.step % watch_every == 0)
+      lead_supports();
     // Velocities that stand at the time of the displacements, at the start or after a relaxation, take half a step.
     stepping.kick = state.velocity_lag + 0.5 * stepping.time_step;
     stage.update_loads(state.time, stepping);
@@ -213,9 +233,13 @@ RunResult run(const StageContext& context, const RunOptions& options, const std:
               step_dashpot_node(node, h, stage.work.resolved.dashpots[h.dashpot], stepping, sums);
           });
     };
-    report.sums = stage.advance(options.breaking, move, [&](int rigid, NodeSums& sums) {
-      move_rigid(context.model, state, stage.work.acting(), rigid, stepping, sums);
-    });
+    std::vector<geom::Vec3>& angle = stage.work.rigid_angle;
+    report.sums = stage.advance(
+        options.breaking, move,
+        [&](int rigid, NodeSums& sums) {
+          angle[rigid] = move_rigid(context.model, state, stage.work.acting(), rigid, stepping, sums);
+        },
+        [&](int rigid) { place_rigid(context.model, state, rigid, angle[rigid], stepping.time_step); });
     stage.end_step(stepping.time_step);
     report.residual = relative_residual(report.sums);
     state.time = clock.time_at(stage.step);

@@ -97,7 +97,7 @@ public:
   SettleResult operator()();
 
 private:
-  // Ends at rest, or where something touches first.
+  // Ends at rest, or at the first contact.
   enum class Until { rest, touch };
 
   bool deforms() const {

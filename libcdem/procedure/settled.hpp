@@ -3,9 +3,9 @@
 //
 //   W = max(10, 1/omega),   at most 200
 //
-// omega the frequency, per step, of the mode that moves. A body that swings through its balance is near it for a moment
-// only: the mean over 1/omega steps around that moment is a quarter of the swing's peak. Joints that slip to and fro lift
-// the residual of single steps; the mean says whether they add up to anything.
+// omega is the frequency, per step, of the mode that moves. A body that swings through its equilibrium is near it only
+// for a moment: the mean over 1/omega steps around that moment is a quarter of the swing's peak. Joints that slip to
+// and fro raise the residual of single steps but not the mean.
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,5 @@
-// The frequency of the slow mode that a relaxation waits for, by which it is damped: the Rayleigh quotient of the way D
-// that the nodes have gone in the last 20 steps,
+// The frequency of the slow mode of a relaxation, which sets its damping. It is the Rayleigh quotient of the
+// displacement D of the nodes in the last 20 steps,
 //
 //   omega^2 = -D . dF / (D . M D),   dF the change of the net force along it
 //
@@ -19,7 +19,7 @@ class SlowMode {
 public:
   // After every slow_mode_every steps; force: the net forces before the last step, N; mass: kg for a unit step.
   void look(const State&, const std::vector<Node>& force, const std::vector<double>& mass);
-  // The way is counted from where the nodes were when these forces acted.
+  // The displacement counts from the positions of the nodes when these forces acted.
   void start(const State&, const std::vector<Node>& force);
   void forget() { *this = {}; }
   // As the last look found it, per step squared; none: there was no look, or nothing has moved.

@@ -1,4 +1,4 @@
-// Whether a relaxation comes to rest: a run-away told from slow convergence.
+// Decides whether a relaxation comes to rest, that is, distinguishes a run-away from slow convergence.
 //
 // Every so many steps the watch is told the path D of the fastest node (the sum of the largest displacement between two
 // looks), the residual R, the work W of the loads and the stored energy S. With the marks a, b, c at a half, three quarters
@@ -44,7 +44,7 @@ public:
 
   void add(const StabilityLook&);
   bool failing() const { return suspicious_ >= 3; }
-  // Of the last look alone.
+  // From the last look alone.
   bool suspicious() const { return suspicious_ > 0; }
 
   // For a stage that goes on: numbers that a later add_to gives again.

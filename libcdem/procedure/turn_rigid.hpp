@@ -1,10 +1,10 @@
-// Meshed blocks that turn rigid and deformable again, between stages.
+// Makes meshed blocks rigid, and deformable again, between stages.
 //
-// Turning rigid keeps the shape of the moment, the stress in it, momentum and angular momentum; of the velocities what
-// deforms the block is lost. Turning deformable gives every node v + w x r with the spin w that has the angular
-// momentum, and turns the stress and the slip of broken faces with the block: R sigma R^T. Until then both stand in the
-// directions of the moment the block was made rigid. What this does to the energy, kinetic energy of deformation above
-// all, goes to EnergyLedger::fictitious, so that the balance stays closed.
+// A block that becomes rigid keeps its present shape, its stress, its momentum and its spin; the part of the velocities
+// that deforms the block is lost. A block that becomes deformable gives every node v + w x r with the spin w of its
+// angular momentum. R then turns its stress (R sigma R^T) and the slip of its broken faces; until then both are stored
+// in the directions in which the block was made rigid. The change of energy, mostly the kinetic energy of deformation,
+// goes to EnergyLedger::fictitious, so that the balance stays closed.
 #pragma once
 
 #include "libcdem/state/state.hpp"

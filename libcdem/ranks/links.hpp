@@ -1,4 +1,4 @@
-// Entries of arrays that ranks send each other in a step, since one computes them and others read them.
+// Entries of arrays that one rank computes and others read, and that are sent in each step.
 #pragma once
 
 #include "libcdem/ranks/ranks.hpp"

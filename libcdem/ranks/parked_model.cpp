@@ -1,5 +1,6 @@
 #include "libcdem/ranks/parked_model.hpp"
 
+#include "libcdem/parallel/pages.hpp"
 #include "libcdem/ranks/ranks.hpp"
 
 #include <algorithm>
@@ -28,15 +29,6 @@ struct Array {
   Range own;
 };
 
-std::size_t page_size() {
-  static const auto size = static_cast<std::size_t>(sysconf(_SC_PAGESIZE));
-  return size;
-}
-
-std::size_t in_page(const void* address) {
-  return reinterpret_cast<std::uintptr_t>(address) % page_size();
-}
-
 // What a step goes through from end to end stays with its owner, on large pages.
 std::vector<Array> arrays_of(const Model& model, const StateShares& shares) {
   std::vector<Array> arrays;
@@ -54,6 +46,7 @@ std::vector<Array> arrays_of(const Model& model, const StateShares& shares) {
               faces = shares.own(shares.face_begin());
   add(model.node_position, nodes);
   add(model.node_mass, nodes);
+  add(model.gravitational_mass);
   add(model.tets);
   add(model.tet_block);
   add(model.points, points);
@@ -82,18 +75,10 @@ std::vector<Array> arrays_of(const Model& model, const StateShares& shares) {
   return arrays;
 }
 
-// The first whole page of an array that is not the rank's own; null: none.
-const char* first_page(const Array& array) {
-  const std::size_t skipped = (page_size() - in_page(array.data)) % page_size();
-  for (const std::int64_t begin : {std::int64_t{0}, array.own.end}) {
-    const std::size_t first =
-        skipped + (static_cast<std::size_t>(begin) + page_size() - 1) / page_size() * page_size();
-    const auto end =
-        begin == 0 && array.own.end > 0 ? static_cast<std::size_t>(array.own.begin) : array.bytes;
-    if (first + page_size() <= end)
-      return array.data + first;
-  }
-  return nullptr;
+// The whole pages of an array on both sides of the rank's own part.
+std::array<Pages, 2> pages_of_others(const Array& array) {
+  return {Pages(array.data, 0, array.own.begin),
+          Pages(array.data, array.own.end, static_cast<std::int64_t>(array.bytes))};
 }
 
 bool all_parked(const std::vector<Array>& arrays) {
@@ -107,11 +92,14 @@ bool all_parked(const std::vector<Array>& arrays) {
       words >> std::hex >> begin >> dash >> end;
       mapped.emplace_back(begin, end);
     }
-  return std::all_of(arrays.begin(), arrays.end(), [&](const Array& array) {
-    const auto page = reinterpret_cast<std::uintptr_t>(first_page(array));
-    return page == 0 || std::any_of(mapped.begin(), mapped.end(), [&](const auto& range) {
-             return range.first <= page && page < range.second;
+  const auto is_mapped = [&](const Pages& pages) {
+    return pages.size() == 0 || std::any_of(mapped.begin(), mapped.end(), [&](const auto& range) {
+             return range.first <= pages.begin && pages.begin < range.second;
            });
+  };
+  return std::all_of(arrays.begin(), arrays.end(), [&](const Array& array) {
+    const auto [before, after] = pages_of_others(array);
+    return is_mapped(before.size() > 0 ? before : after);
   });
 }
 
@@ -171,17 +159,14 @@ std::string written(const std::vector<Array>& arrays) {
   return "";
 }
 
-// Maps the whole pages of [begin, end) where the file holds the same.
-void take_pages(const Array& array, std::size_t begin, std::size_t end, int file, const char* content) {
-  const std::size_t page = page_size(), shift = in_page(array.data);
-  const std::size_t first = (shift + begin + page - 1) / page * page, last = (shift + end) / page * page;
-  if (first >= last)
+// Maps these pages of an array where the file holds the same.
+void take_pages(const Array& array, const Pages& pages, int file, const char* content) {
+  if (pages.size() == 0)
     return;
-  const char* const here = array.data - shift + first;
-  if (std::memcmp(here, content + array.at + first, last - first) != 0)
-    return;
-  (void)mmap(const_cast<char*>(here), last - first, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_FIXED, file,
-             static_cast<off_t>(array.at + first));
+  const std::size_t at = array.at + (pages.data() - array.data) + in_page(array.data); // in the file
+  if (std::memcmp(pages.data(), content + at, pages.size()) == 0)
+    (void)mmap(pages.data(), pages.size(), PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_FIXED, file,
+               static_cast<off_t>(at));
 }
 
 void take(const std::vector<Array>& arrays, const std::string& path) {
@@ -192,11 +177,9 @@ void take(const std::vector<Array>& arrays, const std::string& path) {
   void* const mapped = mmap(nullptr, size, PROT_READ, MAP_SHARED, file.number(), 0);
   if (mapped == MAP_FAILED)
     return;
-  for (const Array& array : arrays) {
-    const auto* const content = static_cast<const char*>(mapped);
-    take_pages(array, 0, static_cast<std::size_t>(array.own.begin), file.number(), content);
-    take_pages(array, static_cast<std::size_t>(array.own.end), array.bytes, file.number(), content);
-  }
+  for (const Array& array : arrays)
+    for (const Pages& pages : pages_of_others(array))
+      take_pages(array, pages, file.number(), static_cast<const char*>(mapped));
   munmap(mapped, size);
 }
 

@@ -1,9 +1,9 @@
 // Large arrays of a Model that ranks on one machine share: one of them writes the arrays to a file without a name, and each
 // maps that file in place of the pages of its own that its share does not need. The arrays keep their addresses and their
-// values; what is read of others comes from the one copy in the machine's page cache, which the system may drop and read
-// again. A page that is written becomes the rank's own, as before.
+// values; pages of other ranks' data are read from the one copy in the machine's page cache, which the system may drop
+// and read again. A page that is written becomes the rank's own, as before.
 //
-// Nothing is parked where the temporary folder is memory itself (tmpfs) or full: then all pages stay.
+// If the temporary folder is in memory (tmpfs) or full, nothing is parked and all pages stay.
 #pragma once
 
 #include "libcdem/ranks/state_shares.hpp"

@@ -1,5 +1,5 @@
-// Which rank computes what: a run of consecutive chunks each, cut where a counted load is shared evenly. The load is
-// counted, never timed, so that a run can be repeated.
+// Assigns to each rank a run of consecutive chunks, such that a counted load is shared evenly. The load is counted,
+// never timed, so that a run can be repeated.
 #pragma once
 
 #include "libcdem/model/model.hpp"

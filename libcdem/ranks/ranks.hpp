@@ -36,7 +36,7 @@ public:
 
   // Returns what each gives, by rank. Messages on one subject should be about as long as the time before: they are sent
   // in one piece then.
-  enum class Subject { any, sums, contacts, drifts, count };
+  enum class Subject { any, sums, contacts, drifts, pressed, rigid, count };
   virtual std::vector<std::string> gather(const std::string& mine, Subject = Subject::any) = 0;
 
   // Sends each rank a text of its own, to[rank]; returns what each has sent this one, by rank.
@@ -47,6 +47,13 @@ public:
 
   // The largest of what each has, entry by entry. No rank may hold a NaN.
   virtual void largest(double* values, std::size_t count) = 0;
+
+  // True where it is so on any rank.
+  bool any(bool here) {
+    double said = here ? 1 : 0;
+    largest(&said, 1);
+    return said > 0;
+  }
 
   // Whole numbers, summed over the ranks entry by entry: their order does not matter.
   virtual void sum(std::int64_t* values, std::size_t count) = 0;

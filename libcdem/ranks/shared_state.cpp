@@ -1,5 +1,7 @@
 #include "libcdem/ranks/shared_state.hpp"
 
+#include "libcdem/ranks/bytes.hpp"
+
 #include <algorithm>
 #include <cstring>
 
@@ -17,7 +19,7 @@ std::vector<std::int32_t> nodes_read(const Model& model, const Partition& part) 
   const Range chunks = part.mesh_chunks();
   for (std::int64_t c = chunks.begin; c < chunks.end; ++c) {
     const MeshChunk& chunk = mesh.chunks[c];
-    if (is_rigid(model, chunk)) // moved by all
+    if (is_rigid(model, chunk)) // placed as wholes
       continue;
     nodes.insert(nodes.end(), mesh.others.begin() + chunk.others.begin,
                  mesh.others.begin() + chunk.others.end);
@@ -52,8 +54,9 @@ std::vector<std::int32_t> springs_read(const Model& model, const Partition& part
       springs.push_back(model.spring_ends[i].point());
   };
   take(part.nodes().begin, part.nodes().end);
-  for (const RigidBody& body : model.rigid) // all ranks move all of them
-    take(model.blocks[body.block].node_begin, model.blocks[body.block].node_end);
+  for (const RigidBody& body : model.rigid)
+    if (const Block& block = model.blocks[body.block]; part.owner_of_node(block.node_begin) == part.rank)
+      take(block.node_begin, block.node_end);
   return springs;
 }
 
@@ -122,6 +125,15 @@ SharedState::SharedState(const Model& model, const std::vector<std::int32_t>& re
                          const std::vector<double>& loads)
     : part_(model, loads, ranks().rank(), ranks().size()),
       shares_(std::make_shared<const StateShares>(model, part_)), nodes_(nodes_read(model, part_)) {
+  for (int rigid = 0; rigid < static_cast<int>(model.rigid.size()); ++rigid) {
+    const Block& block = model.blocks[model.rigid[rigid].block];
+    mover_.push_back(part_.owner_of_node(block.node_begin));
+    if (moves(rigid))
+      moved_bodies_.push_back(rigid);
+    if (block.node_begin < part_.nodes().end && part_.nodes().begin < block.node_end)
+      own_bodies_.push_back(rigid);
+  }
+  placed_bodies_ = own_bodies_;
   nodes_.insert(nodes_.end(), read_always.begin(), read_always.end());
   const MeshData& mesh = model.mesh;
   const auto along = [](const std::vector<std::int64_t>& begin) {
@@ -140,6 +152,28 @@ SharedState::SharedState(const Model& model, const std::vector<std::int32_t>& re
 void SharedState::set_further_nodes(std::vector<std::int32_t> nodes) {
   nodes.insert(nodes.end(), nodes_.begin(), nodes_.end());
   moved_.set(std::move(nodes), [&](std::int64_t node) { return part_.owner_of_node(node); });
+}
+
+void SharedState::set_further_bodies(std::vector<int> rigid) {
+  rigid.insert(rigid.end(), own_bodies_.begin(), own_bodies_.end());
+  std::sort(rigid.begin(), rigid.end());
+  rigid.erase(std::unique(rigid.begin(), rigid.end()), rigid.end());
+  placed_bodies_ = std::move(rigid);
+}
+
+void SharedState::share_rigid(State& state, std::vector<geom::Vec3>& angle) {
+  Pack own;
+  for (const int rigid : moved_bodies_) {
+    own(state.rigid[rigid]);
+    own(angle[rigid]);
+  }
+  const std::vector<std::string> heard = ranks().gather(own.text(), Ranks::Subject::rigid);
+  std::vector<Unpack> of_rank(heard.begin(), heard.end());
+  for (int rigid = 0; rigid < static_cast<int>(mover_.size()); ++rigid)
+    if (!moves(rigid)) {
+      of_rank[mover_[rigid]](state.rigid[rigid]);
+      of_rank[mover_[rigid]](angle[rigid]);
+    }
 }
 
 void SharedState::share_springs(std::vector<geom::Vec3>& spring_force,
@@ -180,9 +214,22 @@ void SharedState::gather_surfaces(State& state) {
   surfaces_whole_ = true;
 }
 
+void SharedState::part_contacts(State& state) {
+  state.parted = shares_;
+  contacts_whole_ = false;
+}
+
+void SharedState::gather_contacts(State& state) {
+  if (!contacts_whole_)
+    shares_->gather_contacts(state);
+  contacts_whole_ = true;
+}
+
 void SharedState::gather(State& state) {
-  if (state.parted)
+  if (state.parted && !whole_)
     shares_->gather(state);
+  gather_contacts(state);
+  state.parted.reset();
   whole_ = true;
 }
 

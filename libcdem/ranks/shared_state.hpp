@@ -1,9 +1,10 @@
-// A State that several ranks advance together. In a step each computes its share of the chunks and learns from the others
-// what its share reads; in between, and for whoever looks, all of them have the whole State.
+// A State that several ranks advance together. In a step each rank computes its share of the chunks and receives from
+// the others the data that its share reads. Between steps, when the State is read, all ranks have the whole State.
 //
-// A step sends (1) what springs bear, to the blocks they pull at; (2) the slices of partial forces, to the owners of
-// nodes; (3) where the nodes are then, to those who read them; and sums. A node is moved by its owner alone, since that
-// knows all that acts on it: one more message than if all who hold a copy moved it, and half the rules.
+// A step sends (1) the forces of springs, to the ranks of the blocks on which they act; (2) the slices of partial
+// forces, to the owners of nodes; (3) the new positions of nodes, to the ranks that read them; and sums. The owner
+// alone moves a node, since it knows all forces on it. This needs one message more than if every rank with a copy moved
+// the node, but half the rules.
 #pragma once
 
 #include "libcdem/ranks/links.hpp"
@@ -13,7 +14,7 @@ namespace cdem {
 
 class SharedState {
 public:
-  // Of a state that is whole. read_always: nodes that this rank reads whichever chunks are its own. loads: chunk_loads.
+  // The state must be whole. read_always: nodes that this rank reads for any share of chunks. loads: chunk_loads.
   SharedState(const Model&, const std::vector<std::int32_t>& read_always, const std::vector<double>& loads);
 
   const Partition& part() const { return part_; }
@@ -28,13 +29,25 @@ public:
   // together, where the state is whole.
   void set_further_nodes(std::vector<std::int32_t> nodes);
 
+  // Rigid bodies: one rank moves each and tells all how. Its nodes are placed by the ranks that own some of them or look at
+  // its contacts.
+  bool moves(int rigid) const { return mover_[rigid] == part_.rank; }
+  const std::vector<int>& moved_bodies() const { return moved_bodies_; }
+  const std::vector<int>& placed_bodies() const { return placed_bodies_; } // ascending
+  void set_further_bodies(std::vector<int> rigid); // to place, beside those of which it owns nodes
+  // angle: rad, per rigid body, by which each has turned in the step.
+  void share_rigid(State&, std::vector<geom::Vec3>& angle);
+
   // The state is not whole any more: each rank has its share and what it reads. Where nobody has looked at the whole for
   // some steps, the pages of others are given back: what is looked at often would only come and go.
   void parted(State&);
-  bool whole() const { return whole_; }
   // What a search for contacts reads is: where nodes are, and which bonds hold.
   bool surfaces_whole() const { return whole_ || surfaces_whole_; }
   void gather_surfaces(State&);
+  // This rank knows its own contacts of rigid bodies only, until they are gathered.
+  void part_contacts(State&);
+  bool contacts_whole() const { return contacts_whole_; }
+  void gather_contacts(State&);
   // Makes all of it whole.
   void gather(State&);
   const StateShares& shares() const { return *shares_; }
@@ -44,9 +57,11 @@ public:
 private:
   Partition part_;
   std::shared_ptr<const StateShares> shares_;
-  bool whole_ = true, surfaces_whole_ = true;
-  std::int64_t since_whole_ = 0, since_surfaces_ = 0; // calls of `parted` since it was so
-  std::vector<std::int32_t> nodes_;                   // that the model tells of, and read_always
+  bool whole_ = true, surfaces_whole_ = true, contacts_whole_ = true;
+  std::int64_t since_whole_ = 0, since_surfaces_ = 0;          // calls of `parted` since it was so
+  std::vector<std::int32_t> nodes_;                            // that the model tells of, and read_always
+  std::vector<int> mover_;                                     // rank, per rigid body
+  std::vector<int> moved_bodies_, own_bodies_, placed_bodies_; // rigid; own: of which it owns nodes
   Links springs_, partial_, moved_, stress_, faces_;
 };
 

@@ -77,6 +77,9 @@ StateShares::StateShares(const Model& model, const Partition& part)
   faces_ = along_mesh_chunks(model, part, static_cast<std::int64_t>(mesh.faces.size()),
                              [](const MeshChunk& chunk) { return chunk.face_batches.begin; });
   kept_nodes_ = nodes_kept(model, nodes());
+  if (!model.rigid.empty())
+    for (const ContactTriangle& triangle : model.surface.triangles)
+      is_rigid_.push_back(static_cast<char>(model.blocks[triangle.block].rigid >= 0));
 }
 
 void StateShares::gather(void* data, const std::vector<std::int64_t>& begin, std::size_t bytes,
@@ -109,7 +112,34 @@ void StateShares::gather(State& state) const {
   each_large(visit, state);
   each_small(visit, state);
   gather_slips(state);
-  state.parted.reset();
+}
+
+std::string StateShares::own_contacts(const State& state) const {
+  std::string text;
+  for (const Contact& c : state.contacts) {
+    const auto [source, target] = triangles_of(c);
+    if (is_rigid_[source] && is_rigid_[target])
+      text.append(reinterpret_cast<const char*>(&c), sizeof c);
+  }
+  return text;
+}
+
+void StateShares::add_contacts(const std::vector<std::string>& told, State& state) {
+  std::vector<Contact>& all = state.contacts;
+  for (const std::string& text : told) {
+    const std::size_t before = all.size();
+    all.resize(before + text.size() / sizeof(Contact));
+    std::memcpy(static_cast<void*>(all.data() + before), text.data(), text.size());
+  }
+  std::sort(all.begin(), all.end(), [](const Contact& a, const Contact& b) { return key(a) < key(b); });
+  all.erase(std::unique(all.begin(), all.end(),
+                        [](const Contact& a, const Contact& b) { return key(a) == key(b); }),
+            all.end());
+}
+
+void StateShares::gather_contacts(State& state) const {
+  if (!is_rigid_.empty())
+    add_contacts(ranks().gather(own_contacts(state)), state);
 }
 
 void StateShares::gather_on_lead(State& state) const {
@@ -119,6 +149,12 @@ void StateShares::gather_on_lead(State& state) const {
   each_large(visit, state);
   each_small(visit, state);
   gather_slips(state);
+  if (is_rigid_.empty())
+    return;
+  std::vector<std::string> to(static_cast<std::size_t>(size_));
+  to[0] = own_contacts(state);
+  if (const std::vector<std::string> told = ranks().deal(to); rank_ == 0)
+    add_contacts(told, state);
 }
 
 // They stand in the order in which faces broke, the same for all; their faces say whose they are.

@@ -1,5 +1,6 @@
-// What each rank keeps of a State that several advance: the entries of its own chunks. Arrays have their whole length on
-// every rank, so that all speak of an entry by the same number; the pages of others' entries are given back to the system.
+// The share of a State that each of several ranks keeps: the entries of its own chunks. Arrays have their whole length
+// on every rank, so that an entry has the same index everywhere. The pages of other ranks' entries are returned to the
+// system.
 //
 // `parted` in a State says that it holds one share only, and which; gather makes it whole.
 #pragma once
@@ -39,8 +40,9 @@ public:
   const std::vector<Range>& kept_nodes() const { return kept_nodes_; } // own, and those of rigid bodies
 
   // All ranks call these together. Afterwards all have all, or rank 0 has, which `parted` does not say.
-  void gather(State&) const;
+  void gather(State&) const;          // but contacts
   void gather_surfaces(State&) const; // where nodes are, and which bonds hold
+  void gather_contacts(State&) const; // of rigid bodies: those of others all know
   void gather_on_lead(State&) const;
   // The same for arrays beside the State.
   template <class T>
@@ -84,6 +86,8 @@ private:
   void gather_on_lead(void* data, const std::vector<std::int64_t>& begin, std::size_t bytes,
                       std::size_t entry) const;
   void gather_slips(State&) const;
+  std::string own_contacts(const State&) const;
+  static void add_contacts(const std::vector<std::string>& told, State&);
   template <class Visit, class... S>
   void each_motion(const Visit& visit, S&... states) const;
   template <class Visit, class... S>
@@ -93,6 +97,7 @@ private:
 
   int rank_ = 0, size_ = 1;
   std::vector<std::int64_t> nodes_, points_, batches_, faces_;
+  std::vector<char> is_rigid_;    // per triangle at which contacts act
   std::vector<Range> kept_nodes_; // own, and of rigid bodies; ascending
 };
 

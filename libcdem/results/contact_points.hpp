@@ -1,4 +1,4 @@
-// Contacts between bodies that move far, as they act now: where, how hard, between whom.
+// Present contacts between bodies that move far: their positions, forces and bodies.
 #pragma once
 
 #include "libgeom/core/types.hpp"

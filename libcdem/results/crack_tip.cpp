@@ -73,7 +73,7 @@ private:
   void join(int i, int j) {
     const int a = farthest_[sets_.find(i)], b = farthest_[sets_.find(j)];
     sets_.unite(i, j);
-    // Of two that are as far, the one that broke first.
+    // Of two points at the same distance, take the one that broke first.
     const bool first =
         position(a) > position(b) || (position(a) == position(b) && a != 0 && (b == 0 || a < b));
     farthest_[sets_.find(i)] = first ? a : b;

@@ -1,9 +1,9 @@
 // The tip of a crack along a path, and its speed, from the bonds that broke.
 //
 // A broken point belongs to the corridor when it lies within `width` of the path (undeformed). Points that lie within
-// `reach` of each other hang together. The tip is the position along the path, from its first corner, of the farthest
-// point that hangs together with the start: with a point within `reach` of the first corner. A microcrack ahead counts
-// once the crack has met it.
+// `reach` of each other are connected. The tip is the position along the path, from its first corner, of the farthest
+// point that is connected with the start, that is with a point within `reach` of the first corner. A microcrack ahead
+// counts once the crack has reached it.
 //
 // The tip s(t) rises in steps. Its speed is the slope of the straight line that fits s(t) best in the mean over the
 // time window of length T around tc (least squares over continuous time, exact for a staircase too):

@@ -1,4 +1,4 @@
-// How much of a model has cracked: the area of its cracks, and the energy they took, by mode.
+// Area of the cracks of a model, and the energy that they took, by mode.
 //
 //   area   = sum A (broken in tension) + sum A (broken in shear) + sum D A (damaged)
 //   energy = what breaking and damage took (state/crack_energy.hpp)

@@ -6,8 +6,7 @@
 
 namespace cdem {
 
-// Of bond/pieces.hpp. Largest first; equal ones in
-// the order of their first node.
+// Fragments as in bond/fragments.hpp, largest first; equal ones in the order of their first node.
 std::vector<Fragment> fragments(const Model&, const State&, const ResolvedConditions&);
 
 } // namespace cdem

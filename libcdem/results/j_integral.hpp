@@ -8,8 +8,8 @@
 // the inner radius take no part, so a notch may be blunt there.
 //
 // Valid for a body of one material at rest at small strains and rotations, with free crack faces parallel to the
-// growth, in a domain without supports (but across the thickness), loads, contacts or bonds that carry something. What is
-// not so is refused.
+// growth, in a domain without supports (except across the thickness), loads, contacts or bonds that carry a force.
+// Other cases are refused.
 #pragma once
 
 #include "libgeom/core/types.hpp"

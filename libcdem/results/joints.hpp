@@ -1,8 +1,8 @@
 // Tractions and movements of joints between blocks: point by point, summed by joint set, and as a surface.
 //
-// Tractions are those of the springs: effective where there is water (load/water.hpp). The utilisation of a point is the part
-// of its strength that its traction takes: of a whole bond the larger one of tension and shear, of the others the shear over
-// the strength that their pressure gives them; 1 where it slides, 0 where its faces are apart.
+// Tractions are those of the springs: effective where there is water (load/water.hpp). The utilisation of a point is
+// its traction over its strength: for a whole bond the larger value of tension and shear, for all others the shear over
+// the strength at their pressure. It is 1 where the joint slides and 0 where its faces are apart.
 #pragma once
 
 #include "libcdem/model/selection.hpp"
@@ -19,7 +19,7 @@ struct JointPoint {
   double water = 0;             // Pa
   double use = 0;               // utilisation
   double opening = 0,
-         slip = 0;    // m, jump across the joint since the beginning: along the normal, size of the rest
+         slip = 0;    // m, relative displacement since the beginning: along the normal, size of the rest
   bool apart = false; // carries nothing
 };
 

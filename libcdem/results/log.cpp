@@ -14,8 +14,9 @@ void RunLog::add(HistoryRow row) {
   every *= 2;
   std::vector<HistoryRow> kept;
   for (std::size_t i = 0; i < history.size(); ++i) {
-    const bool last_of_stage = i + 1 == history.size() || history[i + 1].stage != history[i].stage;
-    if (history[i].step % every == 0 || last_of_stage)
+    const bool first_of_stage = i == 0 || history[i - 1].stage != history[i].stage,
+               last_of_stage = i + 1 == history.size() || history[i + 1].stage != history[i].stage;
+    if (history[i].step % every == 0 || first_of_stage || last_of_stage)
       kept.push_back(std::move(history[i]));
   }
   history = std::move(kept);

@@ -2,6 +2,7 @@
 // them.
 #pragma once
 
+#include "libcdem/results/one_way_energies.hpp"
 #include "libcdem/results/snapshot.hpp"
 #include "libcdem/results/watch.hpp"
 
@@ -39,10 +40,10 @@ struct HistoryRow {
 struct Probe {
   std::string name, field;
   geom::Vec3 place; // m, undeformed
-  // Of cracks (results/cracks.hpp): the quantity, and of which body; -1: of all. Empty: the field at the place.
+  // The quantity of cracks (results/cracks.hpp), and the body; -1: all bodies. Empty: the field at the place.
   std::string crack = {};
   int body = -1;
-  // Of a support or a body: "reaction.x", "momentum.z" stand in `crack`, and this says where: a side or a body.
+  // For "reaction.x" or "momentum.z" in `crack`: the side of the support, or the body.
   std::string on = {};
 };
 
@@ -65,8 +66,10 @@ struct RunLog {
   std::int64_t broken_tension = 0, broken_shear = 0;
   std::int64_t told_tension = 0, told_shear = 0; // of these: told of when earlier stages ended
 
-  // Of all contacts so far: depth, m, and depth over the height of the lower of the two tets.
+  // Largest values of all contacts so far: depth, m, and depth over the height of the lower of the two tets.
   double deepest_contact = 0, deepest_over_height = 0;
+
+  OneWayEnergies one_way; // of the ledger after every step
 
   std::int64_t every = 10; // steps between samples
 

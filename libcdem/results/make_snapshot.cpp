@@ -46,7 +46,7 @@ bool broken(std::uint8_t mode) {
          mode == static_cast<std::uint8_t>(BondMode::broken_shear);
 }
 
-// Of one bond: 0 whole, 1 broken; a contact that was none has nothing to lose.
+// Damage of one bond: 0 whole, 1 broken. A contact that never was bonded has no damage.
 double damage_of(const State& state, std::size_t p) {
   if (broken(state.bond_mode[p]))
     return 1;

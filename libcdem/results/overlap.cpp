@@ -10,7 +10,7 @@
 namespace cdem {
 namespace {
 
-// Of the smaller part's size: less deep ones touch.
+// Depth over the smaller part's size: below it two parts only touch.
 constexpr double depth_tolerance = 1e-9;
 
 // A block, or a tetrahedron of one that is not convex, as it stands now.

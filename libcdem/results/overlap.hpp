@@ -1,4 +1,4 @@
-// Volume that two blocks occupy at once, as they stand now: what contact lets into each other.
+// Volume of the overlap of two blocks in their present positions, which contact allows.
 //
 // The common part of two convex bodies is convex: one cut by all the faces of the other. A mesh that is not convex is
 // taken tetrahedron by tetrahedron.

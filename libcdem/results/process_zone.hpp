@@ -1,4 +1,4 @@
-// Whether a mesh resolves the process zone of what softens in it.
+// Checks whether a mesh resolves the process zone of its softening faces.
 //
 //   l_ch = E' G_I / T^2,   E' = E / (1 - nu^2)          (Hillerborg, Modeer and Petersson 1976)
 //   cohesive zone of a full-grown crack: 0.88 l_ch      (Rice 1979: 9 pi / 32)
@@ -28,7 +28,8 @@ struct ProcessZone {
 // m; modulus: E', Pa.
 double process_zone_length(double modulus, double fracture_energy, double tensile_strength);
 
-// Of each body and pair of bodies with a law that softens, by body; one for each law of a body with several.
+// Process zones of each body and pair of bodies with a law that softens, by body; one for each law if a body has
+// several.
 std::vector<ProcessZone> process_zones(const Model&);
 
 } // namespace cdem

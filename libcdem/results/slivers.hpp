@@ -1,8 +1,8 @@
-// Flat or tiny elements that make the time step of everything short.
+// Finds flat or tiny elements that shorten the time step of the whole model.
 //
 // The stable step of a node is that of the Gershgorin bound (integrate/row_sums.hpp); that of a block is the least of its
 // nodes. A convex block is a sliver when its step is less than a third of the median of its body, a tetrahedron of a mesh
-// when its least height is. They are told of when everything else would allow at least twice the step.
+// when its least height is. The user is warned if all other elements would allow at least twice the step.
 #pragma once
 
 #include "libcdem/model/model.hpp"

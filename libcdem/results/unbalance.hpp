@@ -1,5 +1,6 @@
-// How far from balance a model is: the net forces of its free nodes over a reference force, the weight of the node's
-// block unless one is given. Held components, nodes of rigid bodies and velocities do not count.
+// Distance of a model from equilibrium: the net forces of its free nodes over a reference force. The reference is the
+// weight of the node's block unless another is given. Held components, nodes of rigid bodies and velocities do not
+// count.
 #pragma once
 
 #include "libcdem/load/conditions.hpp"

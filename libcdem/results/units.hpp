@@ -1,4 +1,4 @@
-// The units of a body, its blocks in their order, as they are now: where, how they have moved, whom they touch.
+// The units of a body, its blocks in their order: their present positions, displacements and contacts.
 #pragma once
 
 #include "libcdem/results/unit.hpp"

@@ -1,13 +1,13 @@
-// Which units of a pile have left their place, in order.
+// Finds the units of a pile that have left their position, in order.
 //
-// A unit has left when its centroid has moved by `leaves` relative to the mean motion of the blocks it touched when the
-// watch was made, so that a pile that sinks or slides as a whole loses none, and as far itself, so that one that its
-// neighbours leave behind has not left. Of these, units that have left count no
-// more: those they rested on would seem to move. One that touched nothing, or nothing that stays, is measured against
-// the ground.
+// A unit has left when its centroid has moved by `leaves` in two measures. The first is relative to the mean motion of
+// the blocks that it touched when the watch was made: so a pile that sinks or slides as a whole loses no unit. The
+// second is relative to the ground: so a unit whose neighbours move away has not left. Neighbours that have left do not
+// count in the mean, otherwise a unit on which they rested would seem to move. A unit without neighbours, or whose
+// neighbours have all left, is measured relative to the ground alone.
 //
-// A unit that breaks leaves piece by piece, by the same rule for each piece of at least a twentieth of it. It is gone when
-// less than that is left of it.
+// A unit that breaks leaves piece by piece, by the same rule for each piece of at least a twentieth of it. The unit is
+// gone when less than a twentieth is left.
 #pragma once
 
 #include "libcdem/state/state.hpp"
@@ -40,7 +40,7 @@ struct Watch {
   std::vector<std::int64_t> tet_left;
 };
 
-// Of a body of meshes; throws geom::InputError.
+// Begins a watch of a body of meshes; throws geom::InputError.
 Watch start_watch(const Model&, const State&, const std::string& body, double leaves);
 
 void look(const Model&, const State&, double flow_velocity, Watch&);

@@ -6,6 +6,8 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <tuple>
+#include <utility>
 
 namespace cdem {
 
@@ -13,8 +15,8 @@ struct Contact {
   enum Kind : std::uint32_t { spring, edge };
   std::uint32_t kind : 1;
   std::uint32_t source : 31; // 3 triangle + corner; of an edge where it starts on the first of its triangles
-  // Of a spring's target, one contact for each: its block, or its fragment once it has broken. Of an edge its own second
-  // triangle.
+  // For a spring: the target's block, or its fragment once the block has broken; one contact for each. For an edge: its
+  // own second triangle.
   std::int32_t fragment = 0;
   std::int32_t target = 0;                // triangle; of an edge as source
   std::int32_t beside = 0;                // of an edge the second triangle of the target
@@ -29,5 +31,16 @@ struct Contact {
 
   double effective_penetration() const { return std::max(0.0, depth - reference_penetration); } // m
 };
+
+// The two triangles of a contact, its source's first; of edges the first of each.
+inline std::pair<int, int> triangles_of(const Contact& c) {
+  return {static_cast<int>(c.source) / 3, c.kind == Contact::spring ? c.target : c.target / 3};
+}
+
+// Contacts are sorted by it: of a spring one for each fragment, of an edge one for each other edge.
+inline auto key(const Contact& c) {
+  return std::tuple(c.kind == Contact::edge, static_cast<int>(c.source), c.fragment,
+                    c.kind == Contact::edge ? c.target : 0);
+}
 
 } // namespace cdem

@@ -1,7 +1,7 @@
 // Energy that breaking and softening have taken, by mode: J of a body, or of the joints between bodies.
 //
-// The energy of a brittle bond is of the mode in which it breaks. That of a softening one is shared step by step like
-// what its stretch stores (joint/softening.hpp, shear_share).
+// The energy of a brittle bond belongs to the mode in which the bond breaks. The energy of a softening bond is divided
+// in each step in the ratio of its stored energies (joint/softening.hpp, shear_share).
 #pragma once
 
 namespace cdem {

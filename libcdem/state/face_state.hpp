@@ -1,4 +1,4 @@
-// How the faces of meshes stand that may break (bond/face_bonds.hpp, bond/cohesive_faces.hpp).
+// State of the faces of meshes that may break (bond/face_bonds.hpp, bond/cohesive_faces.hpp).
 #pragma once
 
 #include "libcdem/parallel/node.hpp"
@@ -19,7 +19,8 @@ inline bool holds(FaceStage stage) {
   return stage <= FaceStage::resumed;
 }
 
-// Of the three springs of eight faces; a spring's place in the whole is (batch * 3 + point) * lanes + lane.
+// State of the three springs of eight faces. The place of a spring in the whole array is (batch * 3 + point) * lanes +
+// lane.
 struct FaceStateBatch {
   std::uint8_t mode[3][lanes];     // BondMode
   std::uint8_t handed_over[lanes]; // 1: the springs carry nothing any more
@@ -33,7 +34,8 @@ inline bool handed_over(const FaceStateBatch& state, int lane) {
   return state.handed_over[lane] != 0;
 }
 
-// m, tangential gap at which the broken springs of a face carry no shear: point; along its first edge, across.
+// m, tangential relative displacement at which the broken springs of a face carry no shear: point; along its first
+// edge, across.
 struct FaceSlip {
   double value[3][2] = {};
 };

@@ -23,12 +23,17 @@ struct EnergyLedger {
   double external = 0;      // work of loads, gravity and moving supports
   double external_peak = 0; // largest |external| so far
 
+  // What is too little to be told from rounding: the least that `scale` is; written by energy().
+  double least = 0;
+
   double total() const {
     return elastic + springs + bolts + kinetic + damping + radiated + friction + breaking + plastic +
            yielding + cutting + fictitious;
   }
-  // |total - external| over the largest external work; 0 before anything happened.
-  double balance_error() const;
+  // The largest entry, J: what errors are measured against. A free body has external work for its first velocity alone,
+  // rock that gives way from its initial stress spends more than the loads give.
+  double scale() const;
+  double balance_error() const; // |total - external| over scale; 0 before anything happened
 };
 
 // A balance that is open by more than this says that the solution is not to be trusted.

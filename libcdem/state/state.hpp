@@ -21,7 +21,7 @@ namespace cdem {
 
 class StateShares; // ranks/state_shares.hpp
 
-// Of a node: its piece is where the model is, has left it and been told of, or is held where it was then.
+// Per node: its piece is inside the model, has left it (a warning has named it), or is held where it was then.
 enum class Escaped : std::uint8_t { inside, told, held };
 
 struct State {
@@ -33,14 +33,14 @@ struct State {
   std::vector<Node> displacement; // m (n_nodes); written by step_nodes, relax_nodes, move_rigid
   std::vector<Node> velocity;     // m/s, velocity_lag behind (n_nodes); likewise
   std::vector<geom::Vec3>
-      bond_offset; // m, jump at which the spring carries nothing: preload and slip (n_points)
+      bond_offset; // m, relative displacement without traction: preload and slip (n_points)
   std::vector<std::uint8_t>
       bond_mode; // BondMode (n_points); bond_offset and bond_mode: written by spring_forces
-  // Of bonds that soften (joint/softening.hpp), written by spring_forces; empty where no joint of the model does.
+  // For bonds that soften (joint/softening.hpp), written by spring_forces; empty if no joint of the model softens.
   std::vector<double> bond_damage; // D, 0 whole .. 1 separated (n_points)
   std::vector<geom::Vec3>
       bond_slip; // m, slip of the damaged part, added to bond_offset at separation (n_points)
-  // Of springs whose joint has a law (joint/joint_law.hpp), written by spring_forces; empty where no joint has one.
+  // For springs whose joint has a law (joint/joint_law.hpp), written by spring_forces; empty if no joint has one.
   std::vector<JointHistory> joint_history; // (n_points)
   // m, in the interface's undeformed directions, by which side b had slid past side a when the faces were last
   // intersected anew (n_points); for results only; empty until that happens; written by renew_interfaces
@@ -51,7 +51,7 @@ struct State {
   std::vector<std::uint8_t> released;
   std::vector<Stress>
       initial_stress; // Pa, of blocks of small strain (n small_strain_tets); written by initial_stress
-  // Of meshed bodies.
+  // For meshed bodies.
   std::vector<StressBatch> stress; // Pa (n mesh batches); written by mesh_forces
   // Pa, of the strain rate, beside it; as long, or empty where no material has stiffness damping.
   std::vector<StressBatch> viscous_stress;
@@ -140,7 +140,7 @@ struct StateField {
   void* data;
   std::size_t bytes; // of the whole array
   bool floating;     // made of doubles: watched for NaN
-  // Of an array: makes it so many bytes long; false when that is no whole number of entries. Null for the others.
+  // For an array: sets its length in bytes; false if this is not a whole number of entries. Null for other fields.
   std::function<bool(std::size_t bytes)> resize = {};
   bool shown_only = false; // says how results are shown, nothing about mechanics: no part of the hash
 };

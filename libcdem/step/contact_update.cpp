@@ -26,6 +26,7 @@ ContactUpdate::ContactUpdate(const StageContext& context)
 }
 
 void ContactUpdate::evaluate(const StageContext& context, ContactWork& work) {
+  const bool looks = work.due;
   const ContactSums sums = contact_forces(context.model, context.state, work, context.threads);
   context.state.spent.friction += sums.friction;
   context.state.spent.damping += sums.damping;
@@ -33,10 +34,10 @@ void ContactUpdate::evaluate(const StageContext& context, ContactWork& work) {
   context.log.deepest_over_height = std::max(context.log.deepest_over_height, sums.depth_over_height);
   if (sums.deepest > deepest_.deepest)
     deepest_ = sums;
-  const std::size_t contacts = context.state.contacts.size();
-  if (contacts != contacts_before_ || context.state.step % meetings_every == 0)
-    strike_out_met(context.model, context.state, context.log);
-  contacts_before_ = contacts;
+  if (looks && !work.due && (sums.contacts != contacts_before_ || context.state.step % meetings_every == 0)) {
+    strike_out_met(context.model, context.state, context.log, work.shared != nullptr);
+    contacts_before_ = sums.contacts;
+  }
 }
 
 double ContactUpdate::longest_step(const StageContext& context, const Workspace& work, double safety,
@@ -71,7 +72,6 @@ void ContactUpdate::start_anew(const Model& model, ContactWork& work, bool same_
   work.looks_at_all = before.looks_at_all;
   work.restitution = before.restitution;
   work.shared = before.shared;
-  work.rank_of_contact = std::move(before.rank_of_contact);
   work.history_complete = true; // those of the step before
   if (same_surfaces)
     keep_rigid_pairs(before, work);

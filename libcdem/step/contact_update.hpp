@@ -1,5 +1,5 @@
-// The contacts of a step: found and evaluated for where the nodes are before anything else of the step is, and again
-// where somebody looks between two steps.
+// The contacts of a step. They are found and evaluated for the present positions of the nodes before the other parts of
+// the step, and again when the state is read between two steps.
 #pragma once
 
 #include "libcdem/step/soundness.hpp"
@@ -29,7 +29,7 @@ private:
   std::vector<double> rigid_reach_;       // m, reaches_of_rigid
   std::vector<double> impact_frequency2_; // 1/s2, impact_frequencies2
   ContactSums deepest_;                   // since the last call of longest_step
-  std::size_t contacts_before_ = 0;
+  std::int64_t contacts_before_ = 0;
 };
 
 } // namespace cdem

@@ -1,9 +1,9 @@
-// Pieces that leave the model: they fall off what they lie on, or fly out. Each is told of once, and the rest goes on.
+// Pieces that leave the model, because they fall off their support or fly out. The user is warned once for each piece,
+// and the run goes on.
 //
 // The distance of a piece is that of the mean of its nodes from the model's undeformed box. Beyond `told_beyond` it has
-// left. Beyond `held_beyond` it is held where it is, for good: nothing out there can meet it, and it would only get
-// faster. Pieces that a support holds or moves never leave, nor does the last piece of all: there must be something to
-// leave.
+// left. Beyond `held_beyond` it is held where it is for the rest of the run, since it cannot meet anything there and
+// would only get faster. Pieces that a support holds or moves never leave, and neither does the last piece of a model.
 #pragma once
 
 #include "libcdem/load/resolve.hpp"

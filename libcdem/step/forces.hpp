@@ -5,11 +5,12 @@
 
 namespace cdem {
 
-// Of one chunk of star blocks: elements and springs, without loads, N, at its nodes; valid until the same thread's next
-// chunk. Its nodes belong to no other chunk, so nothing is shared and nothing races. spring_forces has run before.
+// Forces of the elements and springs of one chunk of star blocks, without loads, N, at its nodes; valid until the same
+// thread's next chunk. Its nodes belong to no other chunk, so nothing is shared and there are no races. spring_forces
+// has run before.
 const Node* block_forces(const Model&, const State&, const Workspace&, std::int64_t chunk);
 
-// N at every node, loads included, where the nodes are now (n_nodes); the workspace's loads are up to date.
+// N at every node, loads included, where the nodes are now (n_nodes), but contacts of rigid bodies (ContactWork::on_rigid); the workspace's loads are up to date.
 std::vector<Node> net_forces(const Model&, const State&, Workspace&);
 
 } // namespace cdem

@@ -24,7 +24,7 @@ struct NearArrays {
   Node *position, *displacement, *velocity, *force; // displacement: null where no bond asks for it
 };
 
-// Of one node. An undeformed place is three numbers: it is read one by one.
+// Reads one node. An undeformed position has three numbers, which are read one by one.
 CDEM_INLINE void fetch_node(const geom::Vec3& undeformed, const Node& displacement, const Node& velocity,
                             std::int64_t place, const NearArrays& near) {
   const simd::Quad x = {undeformed[0], undeformed[1], undeformed[2], 0};

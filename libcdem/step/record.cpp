@@ -15,19 +15,25 @@
 
 namespace cdem {
 
-void strike_out_met(const Model& model, const State& state, RunLog& log) {
+void strike_out_met(const Model& model, const State& state, RunLog& log, bool among_ranks) {
   if (log.unmet.empty())
     return;
+  std::vector<double> met(log.unmet.size(), 0.0);
   for (const Contact& contact : state.contacts) {
     const auto [one, other] = blocks_of(model, contact);
     const int a = model.blocks[one].body, b = model.blocks[other].body;
-    const auto met =
+    const auto here =
         std::find(log.unmet.begin(), log.unmet.end(), std::array{std::min(a, b), std::max(a, b)});
-    if (met != log.unmet.end())
-      log.unmet.erase(met);
-    if (log.unmet.empty())
-      return;
+    if (here != log.unmet.end())
+      met[here - log.unmet.begin()] = 1;
   }
+  if (among_ranks)
+    ranks().largest(met.data(), met.size());
+  std::size_t left = 0;
+  for (std::size_t i = 0; i < met.size(); ++i)
+    if (met[i] == 0)
+      log.unmet[left++] = log.unmet[i];
+  log.unmet.resize(left);
 }
 
 std::int64_t record_bond_breaks(const Model& model, State& state, const Workspace& work, RunLog& log,

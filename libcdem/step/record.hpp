@@ -25,7 +25,7 @@ void record_history(const Model&, const State&, const Conditions&, RunLog&, int 
                     double kinetic);
 
 // Bodies that touch now are taken out of RunLog::unmet.
-void strike_out_met(const Model&, const State&, RunLog&);
+void strike_out_met(const Model&, const State&, RunLog&, bool among_ranks);
 
 // Which watched units have left.
 void look_at_units(const Model&, const State&, const Conditions&, RunLog&);

@@ -1,4 +1,4 @@
-// A place where a stage that runs can be left, and taken up again to the same bits as one that was never left.
+// A point at which a running stage can be left, and continued later with the same bits as without the interruption.
 //
 // Every watch_every steps a stage synchronises everything and copies its state (Stage::keep_restart_point). From there it
 // can go on: the state is in last_good, and what the loop carries besides in the RestartPoint. A stage of several loops
@@ -24,7 +24,8 @@ struct RestartPoint {
   // Those of the BondWork: what broken and softening springs lose is counted from the step before.
   std::vector<geom::Vec3> spring_force, stretch; // N, m (n_points)
   double contact_step = 0; // s, the last time step: how thick the skins of the search are goes with it
-  // Of a stage of several loops: the numbers of the procedure around them, and which loop runs, as it has written them.
+  // For a stage of several loops: the data of the procedure around the loops, and the number of the running loop, as
+  // the procedure has written them.
   std::string procedure_state;
 };
 

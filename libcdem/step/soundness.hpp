@@ -1,4 +1,4 @@
-// What a stage does not go on with: each ends it with a SolutionError that names stage, step, block and place.
+// Faults that end a stage: each throws a SolutionError that names stage, step, block and place.
 #pragma once
 
 #include "libcdem/step/escape.hpp"
@@ -17,7 +17,8 @@ struct StageStep {
 // Every number is one, no node has gone further than run_away (m), no element is inside out.
 void require_sound(const Model&, const State&, double run_away, const StageStep&);
 
-// Of this rank's share of a State that several advance: neither require_sound nor require_neighbours finds anything there.
+// True if neither require_sound nor require_neighbours finds a fault in this rank's share of a State that several ranks
+// advance.
 bool share_is_sound(const Model&, const State&, const Workspace&, double run_away);
 
 // Throws SolutionError where a block of small strain has left a neighbour by more than the size of their face.
@@ -32,7 +33,7 @@ std::string in_words(const Escape&, const State&, const StageStep&);
 // The sides of broken faces are where their own springs can stand for the contact of the pieces.
 void require_followed(const Model&, const Workspace&, const StageStep&);
 
-// Of a contact that is deeper than it is to be trusted.
+// Ends the run for a contact that is too deep to be valid.
 [[noreturn]] void refuse_depth(const Model&, const State&, int source_triangle, int target_triangle,
                                const StageStep&);
 

@@ -1,12 +1,10 @@
 #include "libcdem/step/stage.hpp"
 
 #include "libcdem/bond/release.hpp"
-#include "libcdem/fracture/renew_interfaces.hpp"
 #include "libcdem/integrate/move_columns.hpp"
 #include "libcdem/parallel/huge_pages.hpp"
 #include "libcdem/parallel/instruction_set.hpp"
-#include "libcdem/parallel/residency.hpp"
-#include "libcdem/ranks/parked_model.hpp"
+#include "libcdem/results/energy.hpp"
 #include "libcdem/results/make_snapshot.hpp"
 #include "libcdem/step/errors.hpp"
 #include "libcdem/step/record.hpp"
@@ -21,8 +19,6 @@ namespace {
 
 // Steps between questions whether to stop, to write a checkpoint, to show the progress.
 constexpr std::int64_t poll_every = 16;
-// The largest load of a rank over the mean from which on chunks are shared anew.
-constexpr double uneven = 1.1;
 // Steps between looks at which faces a flow meets: they turn by next to nothing in between.
 constexpr std::int64_t flow_every = 100;
 static_assert(watch_every % flow_every == 0, "a stage that goes on looks anew where it did when it was left");
@@ -32,6 +28,7 @@ static_assert(watch_every % release_every == 0, "as above");
 // Steps between looks at which units have left their place.
 constexpr std::int64_t look_every = 50;
 static_assert(watch_every % look_every == 0, "as above");
+
 // What a step goes through from end to end.
 void ask_for_huge_pages_of(const Model& model, const State& state, const Workspace& work) {
   ask_for_huge_pages(state.displacement);
@@ -55,25 +52,9 @@ void ask_for_huge_pages_of(const Model& model, const State& state, const Workspa
   ask_for_huge_pages(work.bond.batches.interfaces);
 }
 
-// Nodes that loads need of whichever rank.
-std::vector<std::int32_t> nodes_of_bolts(const ResolvedConditions& r) {
-  std::vector<std::int32_t> nodes;
-  for (const ResolvedBolt& bolt : r.bolts)
-    for (const RockPlace& at : bolt.at)
-      if (at.inside)
-        nodes.insert(nodes.end(), at.nodes.begin(), at.nodes.end());
-  return nodes;
-}
-
 // A NaN anywhere shows in the sums over all forces or in the one over all velocities in the step it appears.
 bool finite(const NodeSums& sums) {
   return std::isfinite(sums.residual2) && std::isfinite(sums.kinetic) && std::isfinite(sums.reaction2);
-}
-
-bool any_rank(bool says_so) {
-  double said = says_so ? 1 : 0;
-  ranks().largest(&said, 1);
-  return said > 0;
 }
 
 } // namespace
@@ -129,91 +110,6 @@ Stage::~Stage() {
     shared_->shares().gather_on_lead(context_.last_good);
 }
 
-void Stage::share() {
-  if (ranks().alone())
-    return;
-  if (gave_back_) { // loads on nodes that others owned
-    ResolvedConditions whole = resolve(context_.model, context_.state, context_.conditions);
-    work.resolved.external = std::move(whole.external);
-    work.resolved.constant = std::move(whole.constant);
-    update_external(work.resolved, context_.state.time);
-    gave_back_ = false;
-  }
-  const Range all{0, static_cast<std::int64_t>(context_.model.chunks.size())};
-  shared_ = std::make_unique<SharedState>(context_.model, nodes_of_bolts(work.resolved),
-                                          chunk_loads(context_.model, context_.state, all));
-  work.shared = work.contact.shared = shared_.get();
-}
-
-void Stage::warn_of_idle_ranks() const {
-  static bool told = false; // once is enough
-  const auto chunks = static_cast<int>(context_.model.chunks.size()), idle = ranks().size() - chunks;
-  if (!shared_ || told || idle <= 0)
-    return;
-  told = true;
-  context_.observer.warning(
-      fmt::format("warning: the model has {} chunk{} for {} ranks: {} of them {} no elements to compute",
-                  chunks, chunks == 1 ? "" : "s", ranks().size(), idle, idle == 1 ? "has" : "have"));
-}
-
-// A body that breaks on one side costs more there. What is read of others is found anew with the contacts.
-void Stage::share_anew() {
-  if (!shared_)
-    return;
-  const Partition& part = shared_->part();
-  const std::vector<double> own = chunk_loads(context_.model, context_.state, part.chunks());
-  std::vector<double> loads(context_.model.chunks.size());
-  std::copy(own.begin(), own.end(), loads.begin() + part.chunks().begin);
-  std::vector<std::size_t> bytes;
-  for (const std::int64_t chunk : part.chunk_begin)
-    bytes.push_back(static_cast<std::size_t>(chunk) * sizeof(double));
-  ranks().share(loads.data(), bytes);
-  const double now = imbalance(loads, part.chunk_begin);
-  if (now < uneven || imbalance(loads, even_shares(loads, part.size)) > 0.5 * (1 + now))
-    return;
-  see_whole();
-  shared_->shares().gather_points(work.bond.spring_force);
-  shared_->shares().gather_points(work.bond.stretch);
-  if (carried)
-    shared_->shares().gather_nodes(*carried);
-  share();
-  work.contact.fragments_due = work.contact.all_due = true;
-  ++shared_anew_;
-  keep_last_good(); // of the share that is this rank's now
-}
-
-void Stage::give_back() {
-  if (!shared_ || gave_back_)
-    return;
-  gave_back_ = true;
-  park(context_.model, shared_->shares());
-  for (std::vector<Node>* of_nodes : {&work.resolved.external, &work.resolved.constant})
-    release_outside(*of_nodes, shared_->shares().kept_nodes());
-  release_zeros(work.partial);
-  release_zeros(work.contact.force);
-  release_zeros(work.contact.stiffness);
-  trim_heap(); // what building and looking at the whole has left
-}
-
-void Stage::keep_last_good() {
-  if (shared_)
-    shared_->keep(context_.state, context_.last_good);
-  else
-    context_.last_good = context_.state;
-}
-
-void Stage::see_whole() {
-  if (shared_)
-    shared_->gather(context_.state);
-}
-
-void Stage::see_surfaces(std::vector<Node>& by_node) {
-  if (!shared_)
-    return;
-  shared_->gather_surfaces(context_.state);
-  shared_->shares().gather_nodes(by_node);
-}
-
 void Stage::keep_restart_point(std::vector<double> loop_state, const std::vector<Node>& previous_force) {
   if (!context_.restart_point)
     return;
@@ -242,79 +138,6 @@ void Stage::keep_restart_point(std::vector<double> loop_state, const std::vector
     context_.checkpoints->marked();
 }
 
-bool Stage::free_nodes() {
-  if (freeing_.empty() || step % free_every != 0)
-    return false;
-  const Model& model = context_.model;
-  State& state = context_.state;
-  const auto due = freeing_.due(model, state, shared_.get(), context_.threads);
-  if (due) {
-    synchronise_to_leave();
-    see_whole();
-    Freed freed = cdem::free_nodes(model, state, *due);
-    *context_.changing = std::move(freed.model);
-    state = std::move(freed.state);
-    if (scale_masses)
-      scale_masses();
-    if (context_.renumbered)
-      context_.renumbered(freed.old_node);
-    Workspace before = std::move(work);
-    work = Workspace(model, state, context_.conditions);
-    work.damped = before.damped;
-    work.bond = std::move(before.bond);
-    for (std::size_t i = 0; i < work.bond.laws.size(); ++i) // of the new Model
-      work.bond.laws[i] = law_of_interface(model, model.interfaces[i]);
-    work.contact = std::move(before.contact);
-    gave_back_ = false;
-    share();
-    contacts_ = ContactUpdate(context_);
-    contacts_.start_anew(model, work.contact, false);
-    has_shared_nodes_ = has_shared_nodes(model);
-    update_external(work.resolved, state.time);
-    preload_faces(model, state, net_forces(model, state, work), freed.anew);
-    keep_last_good();
-  }
-  times_.end(StepLine::cracks);
-  return due.has_value();
-}
-
-bool Stage::renew_interfaces() {
-  if (slid_.empty() || !context_.changing)
-    return false;
-  const Model& model = context_.model;
-  State& state = context_.state;
-  synchronise_to_leave();
-  see_whole();
-  BondWork before = std::move(work.bond);
-  if (shared_) {
-    shared_->shares().gather_points(before.spring_force);
-    shared_->shares().gather_points(before.stretch);
-  }
-  for (const int i : slid_)
-    state.spent.friction += catch_up(model, state, before, model.interfaces[i]);
-  const RenewedInterfaces renewed =
-      cdem::renew_interfaces(*context_.changing, state, std::exchange(slid_, {}), context_.threads);
-  state.spent.friction += renewed.lost;
-  state.spent.external += renewed.water;
-  work.bond = BondWork(model, state);
-  start_spring_forces(model, state, work.bond);
-  for (std::size_t p = 0; p < renewed.old_point.size(); ++p)
-    if (const int old = renewed.old_point[p]; old >= 0) {
-      work.bond.spring_force[p] = before.spring_force[old];
-      if (!work.bond.stretch.empty())
-        work.bond.stretch[p] = before.stretch[old];
-    }
-  if (scale_masses)
-    scale_masses();
-  gave_back_ = false;
-  share();
-  contacts_ = ContactUpdate(context_);
-  contacts_.start_anew(model, work.contact, true);
-  keep_last_good();
-  times_.end(StepLine::bonds);
-  return true;
-}
-
 double Stage::update_contacts(double safety) {
   times_.end(StepLine::others);
   const std::int64_t searches = work.contact.searches;
@@ -329,7 +152,7 @@ void Stage::update_loads(double time, const Stepping& stepping) {
   advance_columns(work.resolved, context_.state, {time, stepping.time_step, stepping.kick});
   update_supports(work.resolved, time + 0.5 * stepping.time_step);
   advance_bolts();
-  update_external(work.resolved, time);
+  update_external(work.resolved, time, &context_.state.velocity);
   times_.end(StepLine::loads);
 }
 
@@ -337,7 +160,7 @@ void Stage::update_loads_at_rest() {
   if (work.resolved.bolts.empty())
     return;
   advance_bolts();
-  update_external(work.resolved, context_.state.time);
+  update_external(work.resolved, context_.state.time, moving());
   times_.end(StepLine::loads);
 }
 
@@ -354,10 +177,6 @@ void Stage::end_step(double time_step) {
   ++context_.state.step;
   threads_.stepped();
   context_.threads = threads_.threads();
-}
-
-bool Stage::left_alone() const {
-  return shared_ && std::uncaught_exceptions() > exceptions_ && !ranks().all_fail(Ranks::patience);
 }
 
 void Stage::synchronise() {
@@ -418,7 +237,7 @@ void Stage::keep_state() {
 
 // Each rank looks at its share; what is wrong is told of by all, as one that sees everything.
 void Stage::require_sound_state() {
-  if (shared_ && !any_rank(!share_is_sound(context_.model, context_.state, work, run_away_)))
+  if (shared_ && !ranks().any(!share_is_sound(context_.model, context_.state, work, run_away_)))
     return;
   see_whole();
   require_sound(context_.model, context_.state, run_away_, here());
@@ -426,7 +245,7 @@ void Stage::require_sound_state() {
 }
 
 void Stage::look_for_escapes() {
-  if (shared_ && !any_rank(any_is_out(context_.model, context_.state, escapes, shared_->part().nodes())))
+  if (shared_ && !ranks().any(any_is_out(context_.model, context_.state, escapes, shared_->part().nodes())))
     return;
   see_whole();
   bool holds = false;
@@ -441,10 +260,12 @@ void Stage::look_for_escapes() {
     return;
   gave_back_ = false;
   work.resolved = resolve(context_.model, context_.state, context_.conditions);
-  update_external(work.resolved, context_.state.time);
+  update_external(work.resolved, context_.state.time, moving());
 }
 
 void Stage::watch(const StepReport& report) {
+  if (std::exchange(sampled_start_, false))
+    context_.log.history.back().residual = report.residual;
   record_step(report);
   if (!finite(report.sums)) {
     see_whole();
@@ -461,7 +282,7 @@ void Stage::watch(const StepReport& report) {
   if (!work.resolved.flows.empty() && step % flow_every == 0) {
     see_whole();
     refresh_flows(context_.model, context_.state, work.resolved);
-    update_external(work.resolved, context_.state.time);
+    update_external(work.resolved, context_.state.time, moving());
   }
   if (context_.log.due(context_.state.step))
     sample(report);
@@ -486,6 +307,7 @@ void Stage::record_step(const StepReport& report) {
   spent.external_peak = std::max(spent.external_peak, std::abs(spent.external));
   spent.damping += report.sums.damping;
   spent.radiated += report.sums.radiated;
+  context_.log.one_way.look(spent, context_.state.time);
 }
 
 void Stage::release_parted_blocks() {
@@ -534,6 +356,16 @@ StageResult Stage::finish(const StepReport& step_report) {
   report(step_report, true);
   return {step, step_report.residual, context_.log.broken_tension - broken_tension_before_,
           context_.log.broken_shear - broken_shear_before_, wall_time()};
+}
+
+void Stage::sample_start() {
+  RunLog& log = context_.log;
+  if (!log.history.empty() && log.history.back().stage == context_.number)
+    return; // a stage of several loops, or one that goes on
+  see_whole();
+  record_history(context_.model, context_.state, context_.conditions, log, context_.number, 0,
+                 kinetic_energy(context_.model, context_.state));
+  sampled_start_ = true;
 }
 
 void Stage::sample(const StepReport& report) {

@@ -10,8 +10,8 @@
 //   end_step                 everything has moved on by the time step
 //   watch                    energies, breaks, soundness, histories, progress, stop
 //
-// Each is a line of StepTimes. The stress of meshes and the contacts stand a step behind the nodes between two steps:
-// synchronise brings them up, SynchronisedView for those who only look.
+// Each is a line of StepTimes. Between two steps, the stress of meshes and the contacts are a step behind the nodes.
+// synchronise advances them; SynchronisedView does so for code that only reads the state.
 #pragma once
 
 #include "libcdem/fracture/begin_cracks.hpp"
@@ -61,6 +61,10 @@ public:
   std::vector<Node>* carried = nullptr; // by node, that the loop carries beside the State; may be null
   EscapeLimits escapes;                 // where pieces have left the model
 
+  // The first row of the history: how things stand where the stage begins. Its residual comes with the first step, which
+  // finds the forces there.
+  void sample_start();
+
   // True at the head of a step before which the state has been kept: keep_restart_point there, with what the loop
   // carries from step to step.
   bool can_be_left() const { return context_.restart_point && step > 0 && step % watch_every == 0; }
@@ -78,13 +82,14 @@ public:
   double update_contacts(double safety = 1);
   // s, for rigid bodies in flight (contact/response/contact_bounds.hpp); after update_contacts.
   double longest_step_of_flight() const { return contacts_.longest_step_of_flight(context_, work); }
-  // Of the step from `time` (s) on: loads, supports that vary, free fields.
+  // Updates loads, supports that vary and free fields for the step that begins at `time` (s).
   void update_loads(double time, const Stepping&);
   void update_loads_at_rest(); // in a relaxation: of what follows the rock
-  // All forces where the nodes are, and move(nodes, forces, sums), move_rigid(rigid body, sums) (step_loops.hpp).
-  // Returns the sums over all chunks, added in order.
+  // All forces where the nodes are, and move(nodes, forces, sums), move_rigid(rigid body, sums), place_rigid(rigid body)
+  // (step_loops.hpp). Returns the sums over all chunks.
   template <class Move, class MoveRigid>
-  NodeSums advance(bool breaking, const Move& move, const MoveRigid& move_rigid);
+  NodeSums advance(bool breaking, const Move& move, const MoveRigid& move_rigid,
+                   const std::function<void(int)>& place_rigid = {});
   void end_step(double time_step); // s; steps of unit length in a relaxation
 
   // Throws SolutionError, Interrupted.
@@ -118,6 +123,8 @@ private:
   std::int64_t synchronise_stress(RunLog&); // returns how many springs broke, of which the log is told
 
   void advance_bolts();
+  // m/s, of the nodes, for loads that depend on it; null in a relaxation, whose velocities are lengths per step.
+  const std::vector<Node>* moving() const { return in_real_time ? &context_.state.velocity : nullptr; }
   double wall_time() const; // s
   StageStep here() const { return {context_.number, kind_, step}; }
   void record_step(const StepReport&); // energies and breaks
@@ -131,6 +138,7 @@ private:
 
   StageContext context_;
   std::unique_ptr<SharedState> shared_; // null where this rank is alone
+  bool sampled_start_ = false;          // the last row of the history waits for its residual
   bool gave_back_ = false;              // since it was last shared
   int exceptions_ = std::uncaught_exceptions();
   int shared_anew_ = 0; // how often
@@ -151,7 +159,8 @@ private:
 };
 
 template <class Move, class MoveRigid>
-NodeSums Stage::advance(bool breaking, const Move& move, const MoveRigid& move_rigid) {
+NodeSums Stage::advance(bool breaking, const Move& move, const MoveRigid& move_rigid,
+                        const std::function<void(int)>& place_rigid) {
   const Model& model = context_.model;
   State& state = context_.state;
   work.hand_over_due = step % hand_over_every == 0;
@@ -176,7 +185,7 @@ NodeSums Stage::advance(bool breaking, const Move& move, const MoveRigid& move_r
     times_.end(StepLine::shared_nodes);
   }
   if (!model.rigid.empty()) {
-    rigid_bodies(model, work, threads, move_rigid);
+    rigid_bodies(model, state, work, threads, move_rigid, place_rigid);
     times_.end(StepLine::rigid_bodies);
   }
   if (shared_)
@@ -190,7 +199,7 @@ NodeSums Stage::advance(bool breaking, const Move& move, const MoveRigid& move_r
   return sums;
 }
 
-// Of the threads allowed, as many as the model keeps busy.
+// Number of the allowed threads that the model keeps busy.
 int useful_threads(const Model&, int threads);
 
 // Out-of-balance over applied force norm; reactions stand in for the loads where supports move.

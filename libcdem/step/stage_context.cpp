@@ -2,6 +2,13 @@
 
 namespace cdem {
 
+StageContext stage_context(Model& model, State& state, const Conditions& conditions, RunLog& log,
+                           State& last_good, Observer& observer, int threads, int number) {
+  StageContext context{model, state, conditions, log, last_good, observer, threads, number};
+  context.changing = &model;
+  return context;
+}
+
 void keep_start_of_loop(const StageContext& context) {
   context.last_good = context.state;
   if (!context.restart_point)

@@ -22,10 +22,16 @@ NodeSums sums_of(const Workspace& work, std::int64_t& tellers) {
       work.shared ? work.shared->part().chunks() : Range{0, static_cast<std::int64_t>(work.node_sums.size())};
   using Exact = ExactSums<n_members>;
   Exact exact;
-  for (std::int64_t c = own.begin; c < own.end; ++c)
+  const auto add = [&](const NodeSums& sums) {
     for (std::size_t i = 0; i < n_members; ++i)
-      if (const double x = work.node_sums[c].*members[i]; x != 0)
+      if (const double x = sums.*members[i]; x != 0)
         exact.add(i, x);
+  };
+  for (std::int64_t c = own.begin; c < own.end; ++c)
+    add(work.node_sums[c]);
+  for (int rigid = 0; rigid < static_cast<int>(work.rigid_sums.size()); ++rigid)
+    if (!work.shared || work.shared->moves(rigid))
+      add(work.rigid_sums[rigid]);
   if (work.shared) {
     std::array<std::int64_t, Exact::size() + 1> told;
     std::copy_n(exact.data(), Exact::size(), told.begin());
@@ -35,11 +41,8 @@ NodeSums sums_of(const Workspace& work, std::int64_t& tellers) {
     tellers = told.back();
   }
   NodeSums sum;
-  for (std::size_t i = 0; i < n_members; ++i) {
+  for (std::size_t i = 0; i < n_members; ++i)
     sum.*members[i] = exact.value(i);
-    for (const NodeSums& rigid : work.rigid_sums) // all ranks know all
-      sum.*members[i] += rigid.*members[i];
-  }
   return sum;
 }
 

@@ -1,12 +1,15 @@
-// The loops of a step over chunks. What moves nodes is handed in: move(nodes, forces, sums) for a run of nodes once all
-// that reads where they are has done so; `forces` are those of elements and springs, the first node's first.
+// The loops of a step over chunks. The caller passes the function that moves nodes: move(nodes, forces, sums) is called
+// for a run of nodes once all code that reads their positions has run. `forces` are those of elements and springs,
+// beginning with the first node.
 //
-// Forces and motion of a chunk stand in one loop, since its forces are in a near cache then.
+// One loop computes the forces of a chunk and moves its nodes, since the forces are then still in the cache.
 #pragma once
 
 #include "libcdem/bond/spring_forces.hpp"
 #include "libcdem/step/forces.hpp"
 #include "libcdem/step/mesh_forces.hpp"
+
+#include <functional>
 
 namespace cdem {
 
@@ -56,7 +59,7 @@ inline bool has_shared_nodes(const Model& model) {
   });
 }
 
-// What all chunks left for the nodes that several of them touch, added in their order, and the motion of these. After
+// Adds the forces of all chunks on the nodes that several of them use, in their order, and moves these nodes. After
 // element_forces.
 template <class Move>
 void shared_node_forces(const Model& model, State& state, Workspace& work, int threads, const Move& move) {
@@ -75,17 +78,35 @@ void shared_node_forces(const Model& model, State& state, Workspace& work, int t
   });
 }
 
-// move_rigid(rigid body, sums): the nodes of rigid bodies move with them.
+// move_rigid(rigid body, sums) moves a body and writes work.rigid_angle; place_rigid(rigid body) then puts its nodes where it
+// is. Of relaxations, in which none moves, the latter is empty.
 template <class MoveRigid>
-void rigid_bodies(const Model& model, Workspace& work, int threads, const MoveRigid& move_rigid) {
-  for_chunks(static_cast<std::int64_t>(model.rigid.size()), threads, [&](std::int64_t body) {
+void rigid_bodies(const Model& model, State& state, Workspace& work, int threads, const MoveRigid& move_rigid,
+                  const std::function<void(int)>& place_rigid) {
+  const auto each = [&](const std::vector<int>& bodies, const auto& act) {
+    for_chunks(static_cast<std::int64_t>(bodies.size()), threads, [&](std::int64_t i) { act(bodies[i]); });
+  };
+  const auto move = [&](int body) {
     NodeSums sums;
-    move_rigid(static_cast<int>(body), sums);
+    move_rigid(body, sums);
     work.rigid_sums[body] = sums;
+  };
+  if (work.shared) {
+    each(work.shared->moved_bodies(), move);
+    if (!place_rigid)
+      return;
+    work.shared->share_rigid(state, work.rigid_angle);
+    each(work.shared->placed_bodies(), place_rigid);
+    return;
+  }
+  for_chunks(static_cast<std::int64_t>(model.rigid.size()), threads, [&](std::int64_t body) {
+    move(static_cast<int>(body));
+    if (place_rigid)
+      place_rigid(static_cast<int>(body));
   });
 }
 
-// Over all chunks of all ranks, exactly, then rounded, and over rigid bodies in their order. All ranks call it together;
+// Over all chunks and rigid bodies of all ranks, exactly, then rounded. All ranks call it together;
 // tellers: a number that is summed over them in the same message.
 NodeSums sums_of(const Workspace&, std::int64_t& tellers);
 

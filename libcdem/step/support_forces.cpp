@@ -1,6 +1,7 @@
 #include "libcdem/step/support_forces.hpp"
 
 #include "libcdem/element/rigid_motion.hpp"
+#include "libcdem/integrate/move_columns.hpp"
 #include "libcdem/state/places.hpp"
 #include "libcdem/step/forces.hpp"
 #include "libgeom/core/error.hpp"
@@ -10,9 +11,17 @@
 namespace cdem {
 
 SupportForces::SupportForces(const Model& model, const State& state, const Conditions& conditions)
-    : model_(model), work_(model, state, conditions) {
-  update_external(work_.resolved, state.time);
+    : model_(model), work_(model, state, conditions), boundary_(state.support_force), state_(state) {
+  find_side_forces(work_.resolved, state);
+  update_external(work_.resolved, state.time, &state.velocity);
   net_ = net_forces(model, state, work_);
+  for (const std::size_t i : work_.resolved.boundary_loads) {
+    const VaryingLoad& load = work_.resolved.varying[i];
+    const double factor = load.amplitude(state.time);
+    boundary_.resize(net_.size());
+    for (const auto& [node, force] : load.forces)
+      boundary_[node] = cdem::node(vec(boundary_[node]) + factor * force);
+  }
 }
 
 geom::Vec3 SupportForces::reaction(const Selection& on) const {
@@ -30,6 +39,7 @@ geom::Vec3 SupportForces::reaction(const Selection& on) const {
     const Block& block = model_.blocks[model_.rigid[rigid].block];
     for (int i = block.node_begin; i < block.node_end; ++i)
       sum -= vec(net_[i]);
+    sum -= work_.contact.on_rigid.empty() ? geom::Vec3(0, 0, 0) : work_.contact.on_rigid[rigid].force;
   }
   for (const HeldNode& h : work_.resolved.held) {
     if (!std::binary_search(nodes.begin(), nodes.end(), h.node) ||
@@ -37,7 +47,14 @@ geom::Vec3 SupportForces::reaction(const Selection& on) const {
       continue;
     const Node& f = net_[h.node];
     sum -= geom::Vec3((1 - h.free.x) * f.x, (1 - h.free.y) * f.y, (1 - h.free.z) * f.z);
+    if (h.dashpot >= 0) {
+      const geom::Vec3 pull = work_.resolved.dashpots[h.dashpot] * velocity_of(state_, h.node);
+      sum -= vec(h.free).cwiseProduct(pull);
+    }
   }
+  if (!boundary_.empty())
+    for (const int node : nodes)
+      sum += vec(boundary_[node]);
   return sum;
 }
 

@@ -6,7 +6,12 @@
 
 namespace cdem {
 
-// N, of the supports: what the nodes they hold would need else. Quiet boundaries are none.
+// N, of what holds the model from outside: supports, as their nodes would need it else; quiet boundaries and free fields,
+//
+//   R = R0 - C v + (loads of the waves that enter, stress and dashpots of the columns),
+//
+// R0 the reaction of the support whose place the boundary took, C its dashpots, v the velocity of the nodes (half a step
+// old in a run). A node of an edge counts in both its sides.
 class SupportForces {
 public:
   SupportForces(const Model&, const State&, const Conditions&);
@@ -15,7 +20,10 @@ public:
 private:
   const Model& model_;
   Workspace work_;
-  std::vector<Node> net_;
+  std::vector<Node> net_; // N (n_nodes)
+  std::vector<Node>
+      boundary_; // N, what boundaries do beside their dashpots (n_nodes); empty without boundaries
+  const State& state_;
 };
 
 geom::Vec3 momentum_of(const Model&, const State&, int body); // N s

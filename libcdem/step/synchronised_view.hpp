@@ -1,6 +1,6 @@
-// A stage between two steps as somebody sees it who only looks: contacts and the stress of meshes stand where the nodes
-// are while this lives; then bonds are as they were. Brought up twice, in this step and in the next, they would break
-// with other energies, and slide to other places in the last digit.
+// A stage between two steps, for code that only reads it. While this object lives, contacts and the stress of meshes
+// belong to the present positions of the nodes. Then stress and bonds are restored. If they were advanced twice, in
+// this step and in the next, bonds would break with other energies, and slip would differ in the last digit.
 #pragma once
 
 #include "libcdem/step/stage.hpp"

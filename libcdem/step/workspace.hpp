@@ -17,7 +17,7 @@ struct Workspace {
 
   ResolvedConditions resolved;
   BondWork bond;
-  // Of meshed bodies; empty without them.
+  // For meshed bodies; empty without them.
   std::vector<geom::Vec3>
       partial; // N, at the places of mesh chunks that others touch too; written by mesh_forces
   std::vector<FaceSums> face_sums; // per mesh chunk
@@ -27,7 +27,9 @@ struct Workspace {
       true; // broken faces that are gone go to contact in this step; a stage does so at times
   ContactWork contact;
   std::vector<NodeSums> node_sums;  // per chunk of blocks
-  std::vector<NodeSums> rigid_sums; // per rigid body
+  std::vector<NodeSums> rigid_sums; // per rigid body; of those that this rank moves
+  std::vector<geom::Vec3>
+      rigid_angle; // rad, per rigid body, by which it turns in the step; written by move_rigid
 
   // With several ranks, each of which computes a part; null: this one computes all. Contact knows it too.
   SharedState* shared = nullptr;
@@ -35,7 +37,7 @@ struct Workspace {
   Range mesh_chunks(const Model&) const;  // of MeshData::chunks, likewise
   Range point_chunks(const Model&) const; // of Model::point_chunks
 
-  ActingForces acting() const { return {resolved, contact.force, bond.force()}; }
+  ActingForces acting() const { return {resolved, contact.force, contact.on_rigid, bond.force()}; }
 };
 
 } // namespace cdem

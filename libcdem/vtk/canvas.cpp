@@ -26,7 +26,7 @@
 namespace cdem {
 namespace {
 
-// Of DejaVu Sans, in units of the font size.
+// Measures of DejaVu Sans, in units of the font size.
 constexpr double descent = 0.236, digit_height = 0.729, script_size = 0.7;
 constexpr double subscript_drop = 0.16, superscript_rise = 0.38;
 

@@ -50,7 +50,7 @@ std::string symbol_of(const std::string& name, const std::string& component) {
   return letter == letters.end() ? symbol + " " + component : symbol + "_{" + component + "}";
 }
 
-// Of a stress in the order xx yy zz xy yz xz.
+// Von Mises stress; s: stress in the order xx yy zz xy yz xz.
 double von_mises(const double* s) {
   const double a = s[0] - s[1], b = s[1] - s[2], c = s[2] - s[0];
   return std::sqrt(0.5 * (a * a + b * b + c * c) + 3 * (s[3] * s[3] + s[4] * s[4] + s[5] * s[5]));

@@ -17,7 +17,7 @@ struct Choice {
   bool bar_vertical, axes_left;
 };
 
-// Room that the other parts take from the body.
+// Space that the other parts take from the body.
 struct Room {
   double left, right, top, bottom;
 };

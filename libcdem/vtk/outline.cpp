@@ -139,8 +139,8 @@ std::vector<Vec3> deformed(const std::vector<Vec3>& points, const SnapshotField*
 
 namespace {
 
-// The springs of a mesh's face stand half way from its corners to its centroid; drawn from corner to corner its edges
-// show where the crack comes to the surface.
+// The springs of a mesh's face stand in the middle between its corners and its centroid; drawn from corner to corner
+// its edges show where the crack comes to the surface.
 void reach_corners(const geom::Triangle& springs, std::vector<geom::Vec3>& points) {
   geom::Vec3 centroid = geom::Vec3::Zero();
   for (const int p : springs)

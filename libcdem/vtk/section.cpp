@@ -3,6 +3,8 @@
 #include "libgeom/core/check.hpp"
 #include "libgeom/core/error.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <map>
 
 namespace cdem {
@@ -23,14 +25,23 @@ void add_seen_from_both_sides(Snapshot& s, const geom::Triangle& t, std::int64_t
   s.surface_tet.insert(s.surface_tet.end(), {cell, cell});
 }
 
-// Cuts tets one after the other; edges of one block are cut once.
+// Of the largest distance: nodes that are nearer to the plane lie on it. Otherwise a plane along faces of blocks would
+// cut off some of their nodes and not others, and leave holes.
+constexpr double rounding = 1e-9;
+
+// Cuts tets one after the other; edges of one block are cut once. What lies on the plane counts as above it.
 class Slicer {
 public:
   Slicer(const Snapshot& all, const CutPlane& plane) : all_(all), section_(empty_copy(all)) {
     for (const SnapshotField& field : all.point_fields)
       section_.point_fields.push_back({field.name, field.unit, field.components, {}, field.integer});
+    double reach = 0; // m
     for (const geom::Vec3& x : all.points)
-      height_.push_back((x - plane.point).dot(plane.normal));
+      reach = std::max(reach, (x - plane.point).norm());
+    for (const geom::Vec3& x : all.points) {
+      const double height = (x - plane.point).dot(plane.normal);
+      height_.push_back(std::abs(height) < rounding * reach ? 0 : height);
+    }
   }
 
   void cut(const geom::Tet& tet, std::int64_t cell) {

@@ -15,8 +15,9 @@
 namespace geom {
 namespace {
 
-// Facets nearer than this to a cell's faces lie on them; vertices nearer than a tenth of it to a plane lie on it. Of the
-// block's size: rounding of coordinates stays below, and so does what validate() calls a warped face.
+// Over the block's size: facets nearer than this to a cell's faces lie on them, and vertices nearer than a tenth of it
+// to a plane lie on the plane. The rounding of coordinates is smaller, and so is the warp of a face that validate()
+// refuses.
 constexpr double on_face = 1e-9, on_plane = 1e-10;
 constexpr double thin_part = 0.05; // of the block's 6 V / A
 constexpr std::size_t most_pieces = 20000;
@@ -133,7 +134,7 @@ private:
     for (std::size_t f = 0; f < shape.faces.size(); ++f)
       if (part.parent_face[f] == cut_face) {
         shape.faces[f].cut = options_.name;
-        shape.faces[f].glued = true;
+        shape.faces[f].glued = options_.glued;
       }
     return shape;
   }

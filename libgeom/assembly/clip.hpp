@@ -4,11 +4,11 @@
 //   pieces(cell, facets):   no facet in the cell's inside: the cell is a piece; its side is that of its centroid
 //                           all facets within `tolerance` of one plane: cut by that plane, two pieces
 //                           else cut by the plane of the largest facet, and go on with both parts
-//   two parts that are wholly on one side become one again
+//   two parts that are wholly on one side are merged again
 //
-// A point is inside where an upward ray leaves through the surface an odd number of times (the edge of two triangles counts
-// once: Simulation of Simplicity, Edelsbrunner and Muecke 1990). For a closed surface that is its inside, for the surface of
-// a terrain what lies below it: one rule for both.
+// A point is inside if an upward ray from it crosses the surface an odd number of times (the edge of two triangles
+// counts once: Simulation of Simplicity, Edelsbrunner and Muecke 1990). One rule serves both cases: the inside of a
+// closed surface, and the ground below a terrain.
 #pragma once
 
 #include "libgeom/assembly/assembly.hpp"
@@ -22,7 +22,8 @@ struct ClipOptions {
   ClipSide keep = ClipSide::inside;
   // m, >= 0: the surface that is cut may deviate from the given one by as much, and no piece is made thinner. 0: exact.
   double tolerance = 0;
-  std::string name = {}; // of the faces on the surface
+  std::string name = {}; // of the faces that are cut
+  bool glued = true;     // they are no joints
 };
 
 struct Clipped {
@@ -33,7 +34,8 @@ struct Clipped {
   Vec3 thinnest_place = Vec3::Zero();
 };
 
-// Pieces stand in the place of their block. Faces that a cut makes are glued: within the rock they are no joints. Throws
+// Pieces stand in the place of their block. Faces that a cut makes are glued as long as within the rock they are
+// no joints. Throws
 // InputError when an open surface ends over a block, when nothing is left, and when a block falls into more than 20000
 // pieces.
 Clipped clip(const Assembly&, const Surface&, const ClipOptions&);

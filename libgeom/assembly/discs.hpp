@@ -1,8 +1,8 @@
 // Joints of finite size: discs of a discrete fracture network cut the blocks they reach.
 //
-// A block that a disc reaches is cut by the disc's whole plane. A face that is cut so belongs to the disc's set where its
-// centroid lies in the disc; beyond it the face has no name: it is a bridge of rock, held by the body's own joint. Cut the
-// rock into smaller blocks first where bridges are to be finer.
+// A block that a disc reaches is cut by the disc's whole plane. A cut face with its centroid in the disc belongs to the
+// disc's set. A face beyond the disc has no name: it is a rock bridge with the body's own joint. For finer bridges cut
+// the rock into smaller blocks first.
 #pragma once
 
 #include "libgeom/assembly/assembly.hpp"

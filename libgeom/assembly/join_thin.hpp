@@ -1,8 +1,8 @@
-// Splinters that joint sets leave: blocks thinner than a given length become part of a neighbour.
+// Merges splinters that joint sets leave, blocks thinner than a given length, with a neighbour.
 //
-// The thickness of a block is its least height over one of its faces. A thin block that shares a whole face with a neighbour,
-// so that both together are convex, is united with it: the cut between them is undone. The largest such face is taken. Where
-// there is none its largest face to a neighbour is glued: the block stays and the joint there goes.
+// The thickness of a block is its least height over one of its faces. A thin block is merged with a neighbour if they
+// share a whole face and are convex together. The largest such face is taken. If there is none, the block's largest
+// face to a neighbour is glued: the block stays, and the joint there is removed.
 #pragma once
 
 #include "libgeom/assembly/assembly.hpp"

@@ -1,4 +1,4 @@
-// Discs of a fracture network at random, and what a network comes to.
+// Random discs of a fracture network, and the statistics of a network.
 //
 // Orientation after Fisher (1953, Proc. R. Soc. A 217): poles around the mean, at the angle t from it with the probability
 // density kappa sin t exp(kappa cos t) / (2 sinh kappa). Radii after one of four laws, with the mean square that links the
@@ -22,7 +22,7 @@ struct RadiusOptions {
   RadiusLaw law = RadiusLaw::constant;
   double mean = 0;      // m, of constant, exponential and lognormal
   double deviation = 0; // m, standard deviation of lognormal
-  // Of power: density ~ r^-(exponent + 1) between smallest and largest, m.
+  // For `power`: density ~ r^-(exponent + 1) between smallest and largest, m.
   double exponent = 0, smallest = 0, largest = 0;
 };
 double mean_square(const RadiusOptions&);         // m2

@@ -1,5 +1,5 @@
-// Values as bytes, for the pipe from a child process. Each count is checked against the bytes that are there: a child
-// that has read a forged file is no more to be trusted than the file.
+// Values as bytes, for the pipe from a child process. Each count is checked against the number of bytes, since a child
+// that has read a forged file can be trusted no more than the file.
 #pragma once
 
 #include "libgeom/core/types.hpp"

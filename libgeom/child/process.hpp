@@ -1,9 +1,9 @@
-// Work in a child process: a copy of this one (fork) that does the work, hands its result back as bytes over a pipe and
-// ends. What crashes, aborts or runs out of bounds there ends the child only, and is one InputError here.
+// Work in a child process: a copy of this process (fork) does the work, returns its result as bytes over a pipe, and
+// ends. A crash, an abort or a limit ends only the child, and becomes one InputError here.
 //
-// A helper program would have to be found, started (0.3 s for the libraries of gmsh) and be told all arguments as bytes;
-// a copy knows them. Only the calling thread lives on in a copy, so the work must not wait for another thread: it runs
-// with one OpenMP thread.
+// A separate program would have to be found and started (0.3 s for the libraries of gmsh), and would need all arguments
+// as bytes; a copy has them. Only the calling thread lives on in a copy, so the work must not wait for another thread:
+// it runs with one OpenMP thread.
 #pragma once
 
 #include <cstdint>
@@ -29,8 +29,8 @@ ChildLimits limits_of_file(const std::string& path);
 std::string run_in_child(const std::string& what, const ChildLimits& limits,
                          const std::function<std::string()>& work);
 
-// Of several processes that come to the same work one may do it and tell the others its bytes: `share` is given what does
-// it here and says what comes of it. Empty: everyone does it.
+// If several processes reach the same work, one of them may do it and send the bytes of its result to the others.
+// `share` receives the function that does the work here, and returns the result. Empty: every process does the work.
 void set_sharing(std::function<std::string(const std::function<std::string()>&)> share);
 
 } // namespace geom

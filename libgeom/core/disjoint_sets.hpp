@@ -1,4 +1,4 @@
-// Disjoint sets of 0 .. n - 1 by path halving; the smallest member stands for its set.
+// Disjoint sets of 0 .. n - 1 by path halving; the smallest member represents its set.
 #pragma once
 
 #include <algorithm>

@@ -1,9 +1,9 @@
 // exp, log, sin, cos, tan, atan2 and acos with the same bits on every processor.
 //
-// The C library picks a version of its own by what the processor has, and versions with and without fused operations
-// differ in the last digit. These use additions, multiplications, divisions and square roots alone, which every
-// processor rounds alike (IEEE 754). Whatever moves a body or decides about mechanics takes them. Up to 10 rad they are
-// right to 2 units of the last place, the tangent to 4.
+// The C library selects a version for the processor, and versions with and without fused operations differ in the last
+// digit. The functions here use only additions, multiplications, divisions and square roots, which every processor
+// rounds in the same way (IEEE 754). All code that affects the mechanics uses them. Up to 10 rad they are right to 2
+// units of the last place, the tangent to 4.
 #pragma once
 
 namespace geom::portable {

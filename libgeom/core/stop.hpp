@@ -1,4 +1,4 @@
-// How long work in libgeom learns that the user has asked to stop.
+// Tells long work in libgeom that the user has asked to stop.
 #pragma once
 
 #include <exception>

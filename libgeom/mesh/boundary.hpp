@@ -1,5 +1,5 @@
-// Faces of a tet mesh: which tets meet in one, which lie outside, where the outside has edges. Time goes with
-// the number of tets, and every list has an order that depends on the mesh's numbering alone.
+// Faces of a tet mesh: the tets at each face, the outer faces, and the edges of the outside. The time is proportional
+// to the number of tets, and the order of every list depends only on the mesh's numbering.
 #pragma once
 
 #include "libgeom/mesh/tet_mesh.hpp"

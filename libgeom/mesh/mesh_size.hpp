@@ -1,4 +1,4 @@
-// How large the tets of a solid's mesh shall be, place by place.
+// Size of the tets of a solid's mesh as a function of position.
 #pragma once
 
 #include "libgeom/core/types.hpp"

@@ -1,5 +1,5 @@
 // An order of tets and nodes in which neighbours in space are neighbours in memory: tets along a Hilbert curve
-// through their centroids, nodes as these tets touch them.
+// through their centroids, nodes in the order in which these tets use them.
 #pragma once
 
 #include "libgeom/core/hilbert.hpp"

@@ -1,4 +1,4 @@
-// Parts of a mesh: sets of tets that hang together, directly or through others, by nodes they share.
+// Parts of a mesh: sets of tets that are connected, directly or through others, by shared nodes.
 #pragma once
 
 #include "libgeom/mesh/tet_mesh.hpp"

@@ -213,8 +213,8 @@ Candidate lay_to_density(Pile& pile, int count, const Site& site, const LayerOpt
       best = {std::move(laying), error};
     widening = std::clamp(widening * density / options.density, 0.8, widest);
   }
-  now.doing = "seated otherwise";
-  best.laying->reseat(as_asked.columns);
+  now.doing = "repositioned";
+  best.laying->reposition_unsupported(as_asked.columns);
   return best;
 }
 

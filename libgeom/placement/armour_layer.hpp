@@ -3,14 +3,14 @@
 //
 // phi = N Dn^2 / A is the packing density: N units on an area A of the slope, Dn the side of a cube of their volume.
 // The pattern is a diamond, twice as wide along the contour as its rows are apart, so that rows are Dn / sqrt(2 phi)
-// apart. Units lie at rest under gravity with friction, slid down against the two below, and keep `gap` from all
-// others; then all but the lowest row, which is taken for held, come to rest together, and those that lean on fewer
-// than three things are seated otherwise (placement/laying.hpp). How far apart rows then are depends on how units
-// fit: the pattern is widened along the contour until the density in the middle of the pile (of rows and columns,
-// where it has no middle) is phi within 1 %, in six trials at most (two of a thousand units), of which the nearest is
-// taken. Between walls, where units slid off or lean on too little for all that or do not come to rest, another layer
-// with other attitudes is laid, up to four in all (three from 61 units on, two from 81, one from 121). The one with the
-// fewest such units is taken, but none of a density further off than 1 % and than that of those before.
+// apart. Units come to rest under gravity with friction, slide down against the two units below, and keep `gap` from
+// all others. Then all units but the lowest row, which is held, come to rest together. Units that lean on fewer than
+// three bodies are repositioned (placement/laying.hpp). The distance of the rows then depends on how the units fit. So
+// the pattern is widened along the contour until the density in the middle of the pile is phi within 1 % (of rows and
+// columns, if the pile has no middle). At most six trials are made (two of a thousand units), and the nearest is taken.
+// Between walls another layer with other attitudes is laid if units slid off, still have too few supports or do not
+// come to rest, up to four layers in all (three from 61 units on, two from 81, one from 121). The layer with the fewest
+// such units is taken, unless its density is off by more than 1 % and by more than that of the layers before.
 #pragma once
 
 #include "libgeom/placement/ground.hpp"
@@ -24,7 +24,7 @@ struct LayerProgress {
   int layer = 1, layers = 1;     // with other attitudes: this one, and how many there are at most
   int spacing = 1, spacings = 1; // of the layer's: the same
   int laid = 0;                  // units, with this spacing
-  const char* doing = "";        // "laid", and with all of them "come to rest together", "seated otherwise"
+  const char* doing = "";        // "laid", and with all of them "come to rest together", "repositioned"
 };
 
 struct LayerOptions {

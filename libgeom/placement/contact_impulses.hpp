@@ -1,9 +1,9 @@
-// One step of contact dynamics (Moreau 1988) begun at rest: the motions v of bodies, each pulled by s along gravity,
-// with impulses at all touches within reach so that normal . v + room >= 0, no impulse pulls, and friction keeps a
-// touch from sliding within mu times its normal impulse. The impulses are found one by one in turn (projected Gauss-
-// Seidel).
+// One step of contact dynamics (Moreau 1988) that begins at rest: the motions v of bodies, each pulled by s along
+// gravity. Impulses act at all contact points within reach such that normal . v + clearance >= 0. No impulse pulls, and
+// friction prevents sliding up to mu times the normal impulse. The impulses are computed one by one in turn (projected
+// Gauss-Seidel).
 //
-// Bodies are alike: of one mass and one radius of gyration about all axes.
+// All bodies have the same mass, and the same radius of gyration about all axes.
 #pragma once
 
 #include "libgeom/placement/features.hpp"
@@ -47,11 +47,11 @@ struct ImpulseOptions {
   double friction = 0;   // tangent of its angle
   double step = 0;       // m, s
   int sweeps = 60;       // over all impulses, at most
-  double compliance = 0; // m that a touch gives way by per m of impulse, along the face too
+  double compliance = 0; // m per m of impulse: compliance of a contact point, along the face too
 };
 
-// Of all bodies; the impulses are left in the rows of the touches, where those that they begin with are found. Touches
-// and bounds deeper than a step are taken for one.
+// Motions of all bodies. The impulses are written into the rows of the contact points; their starting values are read
+// there. Contact points and bounds deeper than a step count as one step deep.
 std::vector<Motion> motions(std::vector<BodyTouch>&, std::vector<BodyBound>&, std::size_t bodies,
                             const Vec3& pull, const ImpulseOptions&);
 

@@ -1,4 +1,5 @@
-// What bodies that come to rest by themselves (placement/rest.hpp) and together (placement/rest_together.hpp) share.
+// Common parts of the descent of a single body (placement/rest.hpp) and of many bodies together
+// (placement/rest_together.hpp).
 #pragma once
 
 #include "libgeom/core/rotation.hpp"

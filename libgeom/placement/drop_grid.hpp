@@ -1,5 +1,5 @@
-// Units hung over the ground on a grid, ready to be dropped: clear of each other whatever their attitude, which is
-// random. Rows run across the rise of the ground, the lowest first; layers of them stand on top of each other.
+// Units that hang over the ground on a grid, ready to be dropped. Their attitudes are random, and they do not meet in
+// any attitude. Rows run across the rise of the ground, the lowest first; layers of them stand on top of each other.
 //
 // Spheres around the units stand at least 2 R + gap apart, R the radius about the centroid. The lowest layer is
 // lowered along z until each unit is `gap` above the ground.

@@ -56,7 +56,7 @@ std::vector<int> inside(const std::vector<Boxed>& parts, const Box& box) {
   return found;
 }
 
-// Of a corner over a face; far when it is beside it.
+// Distance of a corner over a face; `far` if the corner is beside the face.
 constexpr double far = std::numeric_limits<double>::infinity();
 double level(const Vec3& x, const Features::Face& face, double reach) {
   const double gap = face.normal.dot(x - face.points[0]);
@@ -77,7 +77,7 @@ bool outward(const Features::Edge& edge, const Vec3& direction, double sign) {
          sign * edge.normals[1].dot(direction) > -sideways;
 }
 
-// Of the touches of each corner that is inside, the one of least depth.
+// For each corner that is inside, keeps the contact point of least depth.
 class Shallowest {
 public:
   void add(int corner, const Touch& touch, std::vector<Touch>& outside) {

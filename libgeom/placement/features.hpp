@@ -1,4 +1,4 @@
-// Where two solids touch, or will soon: corner on face, face on corner, edge across edge.
+// Contact points of two solids that touch or are near each other: corner on face, face on corner, edge across edge.
 //
 // Only corners and edges that stand out (the surface is convex across the edge) can touch first. Where a corner is over
 // a face, or two edges cross, the gap is signed: negative as far as one solid is inside the other.
@@ -45,7 +45,7 @@ public:
   NearFeatures() = default;
   NearFeatures(const Features& first, const Features& second, double reach);
 
-  // Adds the touches with a gap below `reach`, of the same two where they are now.
+  // Adds the contact points with a clearance below `reach`, of the same two bodies at their present positions.
   void touches(const Features& first, const Features& second, double reach, std::vector<Touch>&) const;
   bool empty() const { return corner_face_.empty() && face_corner_.empty() && edge_edge_.empty(); }
 

@@ -1,9 +1,9 @@
 // Attitudes in which units of one shape fit beside each other in the pattern of a layer.
 //
-// In the pattern each unit meets those already there at four places: to its left and right in the row below, to its
-// side in its own row and two rows below. The cost of an attitude is the height of its centroid when it stands on a
-// plane and ten times what it would have to be raised to stand over such neighbours of its own attitude: low ones lie
-// flat and side by side.
+// In the pattern each unit has four neighbours that are already laid: to its left and right in the row below, at its
+// side in its own row, and two rows below. The cost of an attitude has two terms. The first is the height of the
+// centroid when the unit stands on a plane. The second is ten times the height by which the unit must be raised to
+// stand over such neighbours in the same attitude. Units in attitudes of low cost lie flat and side by side.
 #pragma once
 
 #include "libgeom/mesh/surface.hpp"

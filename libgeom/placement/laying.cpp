@@ -21,7 +21,8 @@ constexpr std::size_t rested_tries = 10;    // at least; more while none of them
 
 // Over the height: from where on, and how finely, places up the slope are tried.
 constexpr double lowest_place = -0.3, highest_place = 1.5, place_step = 0.05;
-constexpr double seated = 0.03; // over the height: how far from the bare slope a lowered unit still is on it
+constexpr double on_slope =
+    0.03; // over the height: how far from the bare slope a lowered unit still is on it
 
 constexpr double sliding = 0.2;      // coefficient of friction, on the way
 constexpr double steeper = 0.1;      // friction over the slope's gradient, of what stands on it by itself
@@ -58,7 +59,7 @@ Surface upper_side(const Surface& ground) {
   return side;
 }
 
-// Of a solid whose inertia is the same about all axes.
+// Radius of gyration of a solid with the same inertia about all axes.
 double gyration_of(const Pile& pile) {
   const MassProperties solid = mass_properties(pile.unit);
   return std::sqrt(solid.inertia.trace() / (3 * solid.volume));
@@ -94,7 +95,7 @@ double Laying::ground_level(const Vec3& place) const {
   return z ? frame_.row(2).dot(Vec3(x.x(), x.y(), *z)) : 0;
 }
 
-// What a unit may meet on its way to rest.
+// Bodies that a unit may meet before it comes to rest.
 Laying::Near Laying::on_the_way(const Vec3& centroid, int except) const {
   return near(centroid, 2 * radius_ + (way + roll) * height_, except);
 }
@@ -207,17 +208,17 @@ Laying::Try Laying::lowered(const Mat3& rotation, const Site& site) const {
   for (double up = site.below.empty() ? 0 : lowest_place; up < highest_place; up += place_step) {
     Vec3 place(along, site.place.y() + up * height_, 0);
     const Vec3 offset(place.x(), place.y(), 0);
-    double room = clearance(profile, offset, ground_profile_, far);
-    if (room == far) // beside the ground
+    double nearest = clearance(profile, offset, ground_profile_, far);
+    if (nearest == far) // beside the ground
       continue;
     for (const Laid& other : laid_)
-      room = std::min(room, clearance(profile, offset, other.profile, room));
-    place.z() = gap_ - room;
+      nearest = std::min(nearest, clearance(profile, offset, other.profile, nearest));
+    place.z() = gap_ - nearest;
     const double over = (place.z() - ground_level(place) - bare) / height_;
-    const double cost = astray(place.y() - site.wanted) / height_ + 3 * std::max(0., over - seated);
+    const double cost = astray(place.y() - site.wanted) / height_ + 3 * std::max(0., over - on_slope);
     if (cost < best.cost)
       best = {{rotation, frame_.transpose() * place}, cost};
-    if (over <= seated)
+    if (over <= on_slope)
       break;
   }
   return best;

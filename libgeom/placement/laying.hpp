@@ -1,12 +1,12 @@
-// Laying one unit of an armour layer after the other, each at rest; then all of them come to rest together, and those
-// that lean on too little are seated otherwise (reseating.cpp).
+// Lays the units of an armour layer one after another, each at rest. Then all of them come to rest together, and units
+// with too few supports are repositioned (repositioning.cpp).
 //
 // A unit is tried in many attitudes: some in which it stands on the bare slope by itself, some that fit into the
 // pattern, any others. In each it is lowered along the normal of the slope as near to its place as it comes down to the
-// ground between the units there. The nearest go down to their rest (placement/rest.hpp): almost without friction and
-// held within `play` of their place along the contour, so that they slide against the units below; then with friction
-// alone. Taken is the one that lies best: at rest, on the ground, against the two units below, on three things or more,
-// near its place, turned otherwise than its neighbours.
+// ground between the units there. The attitudes nearest to the target come to rest (placement/rest.hpp). At first they
+// have almost no friction and are held within `play` of the target along the contour, so that they slide against the
+// units below; then friction alone acts. The best position is taken: at rest, on the ground, against the two units
+// below, with three supports or more, near the target, and in another attitude than its neighbours.
 #pragma once
 
 #include "libgeom/placement/armour_layer.hpp"
@@ -45,9 +45,9 @@ public:
   // Units from number `held` on come to rest once more, all together: those above press on those below. If they are not
   // clear of each other then, they are where they were.
   void rest_together(int held);
-  // After that: units on which fewer than three things press are seated otherwise, and all rest together again, until
+  // After that: units with fewer than three supports are repositioned, and all rest together again, until
   // there are none, or so many times.
-  void reseat(int held);
+  void reposition_unsupported(int held);
   const Rested& rested() const { return rested_; }
 
   const Pose& pose(int unit) const { return laid_[unit].pose; }
@@ -83,7 +83,7 @@ private:
   Near near(const Vec3& centroid, double reach, int except = -1) const;
   Near on_the_way(const Vec3& centroid, int except = -1) const;
   void rest_together(int held, double step, int steps);
-  bool seat_otherwise(int unit, int round);
+  bool reposition(int unit, int round);
   double ground_level(const Vec3& place) const;
   double standing() const;
   RestOptions resting(double friction) const;

@@ -1,4 +1,4 @@
-// Lowering one body on to others: how far it may go along a line before it touches.
+// Lowers one body on to others: the distance that it can move along a line before it touches them.
 #pragma once
 
 #include "libgeom/query/triangle_distance.hpp"

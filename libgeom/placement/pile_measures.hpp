@@ -1,4 +1,4 @@
-// How densely units lie on a slope: porosity, units per area, thickness of the layer.
+// Measures of a pile on a slope: porosity, units per area, thickness of the layer.
 //
 // Columns along the normal of the slope stand on a square grid over the middle of the pile: inside the convex hull of
 // the units' centroids as seen along the normal and at least H/2 from its edge, about one unit from the edge of the

@@ -1,5 +1,5 @@
-// Where a rigid body comes to rest among bodies that do not move: it goes down in small steps, each from rest, without
-// inertia, until friction holds it.
+// Finds the position at which a rigid body comes to rest among bodies that do not move. It moves down in small steps,
+// each from rest, without inertia, until friction holds it.
 //
 // A step is that of placement/contact_impulses.hpp, which keeps bodies the clear distance apart: v = 0 there is
 // equilibrium with friction.

@@ -15,14 +15,14 @@ namespace {
 constexpr int sweeps = 400;     // over all impulses, at most
 constexpr double creeps = 0.06; // of s, a step: what is slower rests
 constexpr double slides = 0.15; // and what is faster goes on with larger steps
-// Of the way a body may go. When one has gone further than that, the lowest of those beyond this stays, and all begin
-// again; after so many times what goes too far is put back at once.
+// Fraction of the displacement that a body may have. If a body has moved further than allowed, the lowest body beyond
+// this fraction is held, and all begin again. After so many beginnings a body that goes too far is put back at once.
 constexpr double goes_on = 0.8;
 constexpr int begins_again = 6;
 constexpr int bodies_times_beginnings = 600;
 constexpr double too_far = 2; // times what is needed: lists that reach further are made anew
 
-// Bodies that move, those that stay, and their touches.
+// Bodies that move, bodies that stay, and their contact points.
 class Together {
 public:
   Together(const Features& shape, const std::vector<Pose>& start, const std::vector<const Features*>& others,
@@ -43,7 +43,7 @@ public:
     pushed_.clear();
     listed_ = -1;
   }
-  // Of the way a body may go.
+  // Displacement over the displacement that a body may have.
   double gone(std::size_t body) const {
     return (poses[body].translation - start_[body].translation).norm() / options_.way;
   }

@@ -1,6 +1,6 @@
-// Walls around a pile, as of a flume: upright boxes whose inner faces stand at the ends of the pile's box, at both sides
-// and at the foot of the slope, on level ground all round. They stand on the ground, a little above it, so that the two
-// do not meet, and are equally high over it everywhere.
+// Walls around a pile, as in a flume: upright boxes whose inner faces stand at the ends of the pile's box. On a slope
+// there are walls at both sides and at the foot; on level ground they stand all round. Their lower edges are a little
+// above the ground, so that walls and ground do not meet. The height above the ground is the same everywhere.
 #pragma once
 
 #include "libgeom/placement/ground.hpp"

@@ -1,4 +1,4 @@
-// What two convex blocks have in common: one cut by all the faces of the other.
+// Common part of two convex blocks: one block cut by all the faces of the other.
 #pragma once
 
 #include "libgeom/polyhedron/polyhedron.hpp"

@@ -15,7 +15,7 @@
 namespace geom {
 namespace {
 
-// Of the session in this process, which is a child that makes one only.
+// Folder of the session in this process, which is a child that makes only one.
 std::string& session_folder() {
   static std::string path;
   return path;

@@ -1,7 +1,7 @@
 // What the wrappers of gmsh share: each operation in a child process, failures as our own errors, solids in and out.
-// gmsh is one global thing per process that stays "busy" after an error, throws std::string, changes the locale and the
-// number of threads, and both it and OpenCASCADE can crash on damaged files and odd shapes: neither ever runs in this
-// process.
+// gmsh has one global state per process. This state stays "busy" after an error. gmsh throws std::string, and changes
+// the locale and the number of threads. gmsh and OpenCASCADE can crash on damaged files and odd shapes. So neither ever
+// runs in this process.
 #pragma once
 
 #include "libgeom/child/bytes.hpp"
@@ -17,7 +17,7 @@ namespace geom {
 
 using Pieces = std::vector<std::pair<int, int>>; // (dimension, tag) in gmsh's model
 
-// Of a session, what its child hands back.
+// Packs and unpacks the results that the child of a session returns.
 void pack(std::string& out, const MassProperties&);
 void unpack(Unpacker&, MassProperties&);
 void pack(std::string& out, const TetMesh&); // without names of faces

@@ -197,7 +197,7 @@ private:
   std::map<std::string, int> others_;
 };
 
-// Of $INSUNITS; empty for metres and what is not known.
+// Note on the unit of $INSUNITS; empty for metres and for unknown units.
 std::string unit_note(int unit) {
   static const std::map<int, const char*> units{{1, "inches; scale = 0.0254"},
                                                 {2, "feet; scale = 0.3048"},

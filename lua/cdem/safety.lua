@@ -1,6 +1,6 @@
--- cdem.factor_of_safety: strength reduction by bisection. Trials go one after the other, each on all threads of the run:
--- where to try next depends on the verdict before, and the steps of a trial share the cores with the same bits for every
--- number of them. So the answer does not depend on the machine.
+-- cdem.factor_of_safety: strength reduction by bisection. Trials run one after another, each on all threads of the run,
+-- because the next trial depends on the last verdict. The steps of a trial share the cores, with the same bits for
+-- every number of threads. So the result does not depend on the machine.
 local cdem = ...
 
 local checked = cdem.factor_of_safety -- its arguments, tried

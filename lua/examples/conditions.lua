@@ -8,6 +8,7 @@ local model = cdem.model{ bodies = { { name = "plate", shape = cdem.grid{ size =
 model:fix{ on = "y-" }                                           -- held in x, y and z
 model:fix{ on = {"z-", "z+"}, axes = "z" }                       -- rollers
 model:fix{ on = "y+", axes = "y", velocity = {0, -0.01, 0} }     -- moved by model:run, m/s
+model:fix{ on = "x+", axes = "x", displacement = {1e-4, 0, 0} }  -- where it is at the end of the next run or relaxation
 
 -- example: model:release
 model:release{ on = "y+", axes = "y" }
@@ -24,9 +25,12 @@ model:force{ on = cdem.select.box{ min = {0.4, 1, 0}, max = {0.6, 1, 0.1} }, for
 model:gravity{ vector = {0, -9.81, 0} }
 model:gravity{ vector = {0, -9.81, 0}, water_density = 1025 }    -- under water
 
--- example: model:unbond
-local points = model:unbond{ on = cdem.select.box{ min = {0.5, 0.8, 0}, max = {0.5, 1, 0.1} } } -- a notch
+-- example: model:break_bonds
+local points = model:break_bonds{ on = cdem.select.box{ min = {0.5, 0.8, 0}, max = {0.5, 1, 0.1} } } -- a notch
 print(points)
+
+-- example: model:unbond
+model:unbond{ on = cdem.select.box{ min = {0.5, 0.6, 0}, max = {0.5, 0.8, 0.1} } } -- write break_bonds
 
 -- example: model:remove
 local blocks = model:remove{ on = cdem.select.box{ min = {0, 0.75, 0}, max = {0.25, 1, 0.1} } }

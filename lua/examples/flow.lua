@@ -12,6 +12,9 @@ print(cdem.flow_velocity(51250))  -- 10 m/s
 model:flow{ direction = {1, 0, 0}, velocity = 5 }
 model:fix{ on = "z-" }
 model:relax{ residual = 1e-4 }
+model:clear_loads()
+model:flow{ on = "x-", direction = {1, 0, 0}, velocity = function(t) return math.min(5, 100 * t) end,
+            relative = false } -- the pressure that stands still surfaces feel, also on ones that move
 
 -- example: model:critical_flow
 local other = cdem.model{ bodies = { { shape = mesh, material = concrete, joint = joint, bonds = "springs" } } }

@@ -19,6 +19,6 @@ for _, cut in ipairs(cuts) do print(cut.centroid[1], cut.normal[1], cut.normal[2
 
 -- example: model:grow
 local notched = plate(-3e6)
-notched:unbond{ on = cdem.select.box{ min = {0, 0.5, 0}, max = {0.25, 0.5, 0.25} }, whole_faces = true }
+notched:break_bonds{ on = cdem.select.box{ min = {0, 0.5, 0}, max = {0.25, 0.5, 0.25} }, whole_faces = true }
 local grown = notched:grow{ passes = 1, residual = 1e-4, max_rounds = 3 }
 print(#grown.passes, grown.state)

@@ -320,7 +320,8 @@ local cdem = {}
 ---@field external number J: work of loads, gravity and moving supports
 ---@field external_peak number J: largest |external| so far
 ---@field total number J: sum of all but external
----@field balance_error number |total - external| over external_peak
+---@field balance_error number |total - external| over the largest energy above
+---@field one_way_error number the largest so far of: how far damping, friction, breaking, plastic or yielding, which can only rise, fell; how far kinetic and stored energy were above what was given; over the largest energy above
 
 ---Volume that two blocks occupy at once, as they stand now.
 ---@class (exact) cdem.Overlap
@@ -838,8 +839,8 @@ function Model:box() end
 ---@class (exact) cdem.ModelFixOptions
 ---@field on cdem.Place where: a place or a list of places
 ---@field axes? "x"|"y"|"z"|"xy"|"xz"|"yz"|"xyz" default "xyz": components held
----@field displacement? number[] m: total value to be held; a relaxation moves there first
----@field velocity? number[] m/s: in real-time stepping; zero when left out
+---@field displacement? number[] m: total value to be held. A relaxation moves there in its first steps; a run moves there at a steady velocity and arrives at its end (one that `stop` ends earlier does not)
+---@field velocity? number[] m/s: in real-time stepping; zero when left out, and in a relaxation
 ---@field amplitude? cdem.Record|number[][]|fun(time: number): number factor over time (s): a cdem.record, a list { {time, value}, ... } with straight lines between and its first and last value outside, or a function, called once a step; a relaxation asks once at its start; 1 when left out
 ---@field since? number s: time of the model at which the amplitude's times begin, 0 when left out; since = model.time lets it begin now, in a later stage
 
@@ -925,11 +926,20 @@ function Model:make_rigid(options) end
 ---@return integer # how many changed
 function Model:make_deformable(options) end
 
----@class (exact) cdem.ModelUnbondOptions
+---@class (exact) cdem.ModelBreakBondsOptions
 ---@field on cdem.Place where: a place or a list of places
 ---@field whole_faces? boolean default false: only faces that are selected with all their points, so that faces that meet the notch at its tip stay bonded
 
 ---Breaks bonds before anything is loaded (a notch): those whose point is selected.
+---@param options cdem.ModelBreakBondsOptions
+---@return integer # how many
+function Model:break_bonds(options) end
+
+---@class (exact) cdem.ModelUnbondOptions
+---@field on cdem.Place where: a place or a list of places
+---@field whole_faces? boolean default false: only faces that are selected with all their points, so that faces that meet the notch at its tip stay bonded
+
+---The old name of model:break_bonds; it warns.
 ---@param options cdem.ModelUnbondOptions
 ---@return integer # how many
 function Model:unbond(options) end
@@ -1147,8 +1157,9 @@ function Model:save_bolts(options) end
 ---@field on? cdem.Place default "all": outer faces that may take it: one place
 ---@field water_density? number kg/m3, > 0, default 1025: sea water by default
 ---@field new_faces? boolean default false: faces opened by cracks take the pressure too
+---@field relative? boolean default true: in a run the water meets each point of the surface at its velocity less that of the surface, u, and the traction is rho/2 (u . n)+ u: a unit that the flow carries gains on it no more, and one that moves in still water is slowed down. false: the pressure of the flow alone, however the surface moves
 
----Pressure of a flow on the outer faces that look towards it, as they stand at each moment: alpha F along the flow, alpha the cosine to the inward normal (Feng 2014 eqs 19-20). Shielding is not modelled.
+---Pressure of a flow on the outer faces that look towards it, as they stand at each moment: alpha F along the flow, alpha the cosine to the inward normal (Feng 2014 eqs 19-20), on a surface at rest. Shielding is not modelled.
 ---@param options cdem.ModelFlowOptions
 function Model:flow(options) end
 
@@ -1172,7 +1183,7 @@ function Model:flow(options) end
 ---@field mass_scaling? cdem.ModelCriticalFlowOptionsMass_scaling for quasi-static stages: nodes that need a shorter time step get more inertia, not more weight; instead of time_step
 ---@field local_damping? number in [0, 1), default 0.1: above 0.2 it acts as added mass
 
----Raises a flow from 1 m/s until a held solid breaks: a piece of it comes off, or it has become compliant.
+---Raises a flow from 1 m/s until a held solid breaks: a piece of it comes off, or it has become compliant. The pressure is that on a surface at rest.
 ---@param options cdem.ModelCriticalFlowOptions
 ---@return cdem.CriticalFlowResult
 function Model:critical_flow(options) end
@@ -1231,7 +1242,7 @@ function Model:mean(field, on) end
 ---@return number
 function Model:at(field, place) end
 
----Force of the supports on a place.
+---Force of what holds a place from outside: of supports; of quiet boundaries and free fields the force of the support they took the place of, their dashpots, and the waves that enter. A node on an edge counts in both sides.
 ---@param on cdem.Place where: one place
 ---@return number[] # N, {x, y, z}
 function Model:reaction(on) end
@@ -1256,7 +1267,7 @@ function Model:blocks() end
 ---@return cdem.Break[]
 function Model:breaks() end
 
----Histories as lists by name: stage, step, time, residual, kinetic_energy, external_work, broken_tension, broken_shear and the probes. The same are in history.csv after each stage.
+---Histories as lists by name: stage, step, time, residual, kinetic_energy, external_work, broken_tension, broken_shear and the probes. The first sample of a run is its beginning. The same are in history.csv after each stage.
 ---@return table<string, number[]>
 function Model:history() end
 
@@ -1273,7 +1284,7 @@ function Model:probe(options) end
 ---@field name string
 ---@field on string "x-" .. "z+", or a body by name
 
----Samples the force of the supports on a side or a body into the history (N), as columns <name>_x, <name>_y and <name>_z. Each sample costs some steps.
+---Samples the force of the supports and boundaries (model:reaction) on a side or a body into the history (N), as columns <name>_x, <name>_y and <name>_z. Each sample costs some steps.
 ---@param options cdem.ModelRecordReactionOptions
 function Model:record_reaction(options) end
 
@@ -1534,7 +1545,7 @@ function Model:chart(options) end
 ---@field size? number[] default {1600, 1200}: {width, height} in pixels; height 0: as high as it needs to be
 ---@field dpi? number in [10, 2400], default 300: pixels in an inch where it is printed: 1600 pixels are 135 mm wide at 300
 
----Chart of the fragments by size: the part of the mass in fragments up to each diameter, that of the sphere with their volume.
+---Chart of the fragments by size: the part of the mass in fragments up to each diameter, that of the sphere with their volume. Held bodies in one piece, such as a floor, are left out.
 ---@param options cdem.ModelChartFragmentsOptions
 function Model:chart_fragments(options) end
 
@@ -2026,9 +2037,10 @@ function cdem.surface(options) end
 ---@field surface? cdem.Surface instead: closed, or open and single in height, a terrain
 ---@field keep "inside"|"outside"|"below"|"above"|"both" inside and outside of a closed surface or a solid, below and above an open one; both: only cut, the outline of a later excavation (model:remove)
 ---@field tolerance? number m, >= 0, default 0: how far the cuts may leave the surface; makes fewer pieces and no thinner ones. 0: exact; curved solids need one
----@field name? string of the faces that are cut, in pictures of joints and lists
+---@field name? string of the faces that are cut, in pictures of joints, lists and `joints` of a body
+---@field glued? boolean default true: the cuts are no joints; their faces never break. false: they are joints, as those of cdem.cut, also where a cut runs on through the rest of a block that the surface bends in: a fault that follows a surface
 
----Cuts blocks along a surface or the faces of a solid, and keeps those on one side. Each block is cut by planes into convex pieces; the cuts within it are glued, they are no joints.
+---Cuts blocks along a surface or the faces of a solid, and keeps those on one side. Each block is cut by planes into convex pieces; the cuts within it are glued unless told otherwise.
 ---@param options cdem.ClipOptions
 ---@return cdem.Assembly
 function cdem.clip(options) end
@@ -2287,7 +2299,7 @@ function cdem.flow_velocity(pressure, water_density) end
 ---@field time? string default "time": name of its column (s); the number of it, "1", where the file has no names
 ---@field value string name of its column
 ---@field scale? number default 1: factor on the values
----@field unit "m/s2"|"cm/s2"|"g"|"m/s"|"cm/s"|"Pa"|"kPa"|"MPa"|"1" of the values in the file
+---@field unit "m/s2"|"cm/s2"|"Gal"|"g"|"m/s"|"cm/s"|"Pa"|"kPa"|"MPa"|"1" of the values in the file
 ---@field to? "velocity" velocity: an acceleration is integrated
 ---@field baseline? "none"|"straight" default "none": straight: takes the line a0 + a1 t off the acceleration that brings the last velocity and the last displacement to zero
 ---@field longest_step? number s, > 0: two samples further apart are a gap; 2.5 times the median step when left out

@@ -63,7 +63,7 @@ double kernel_rate(const Model& model, int threads, double at_least) {
 double bytes_per_step(const Model& model, const State& state) {
   const auto bytes = [](const auto& array) { return static_cast<double>(array.size() * sizeof(array[0])); };
   return bytes(model.mesh.batches) + bytes(model.mesh.faces) + bytes(model.node_position) +
-         bytes(model.node_mass) +
+         bytes(model.node_mass) + bytes(model.gravitational_mass) +
          2 * (bytes(state.displacement) + bytes(state.velocity) + bytes(state.stress));
 }
 

@@ -40,9 +40,8 @@ void Phases::run(const char* name, double most_seconds, const std::function<bool
   const Stopwatch watch(1);
   options.stop = [&] { return ends() || watch.seconds() > most_seconds; };
   LastProgress observer;
-  StageContext context{model, state, conditions, log, last_good_, observer, 1, ++stage_};
-  context.changing = &model;
-  const RunResult r = cdem::run(context, options);
+  const RunResult r =
+      cdem::run(stage_context(model, state, conditions, log, last_good_, observer, 1, ++stage_), options);
   const double rate = static_cast<double>(r.steps) / watch.seconds();
   whole_ = whole_ > 0 ? whole_ : rate;
   const EnergyLedger now = energy(model, state);

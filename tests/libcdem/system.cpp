@@ -137,46 +137,22 @@ void note(const char* kind, const cdem::State& state) {
 
 } // namespace
 
+cdem::StageContext System::next_stage() {
+  return cdem::stage_context(model, state, conditions, log, last_good, observer, threads, ++stage);
+}
+
 cdem::RelaxResult System::relax(double residual, bool breaking) {
   cdem::RelaxOptions options;
   options.residual = residual;
   options.breaking = breaking;
   options.max_steps = 100000;
-  const cdem::RelaxResult result = cdem::relax({model,
-                                                state,
-                                                conditions,
-                                                log,
-                                                last_good,
-                                                observer,
-                                                threads,
-                                                ++stage,
-                                                nullptr,
-                                                nullptr,
-                                                nullptr,
-                                                {},
-                                                {},
-                                                &model},
-                                               options);
+  const cdem::RelaxResult result = cdem::relax(next_stage(), options);
   note("relax", state);
   return result;
 }
 
 cdem::RunResult System::run(const cdem::RunOptions& options) {
-  const cdem::RunResult result = cdem::run({model,
-                                            state,
-                                            conditions,
-                                            log,
-                                            last_good,
-                                            observer,
-                                            threads,
-                                            ++stage,
-                                            nullptr,
-                                            nullptr,
-                                            nullptr,
-                                            {},
-                                            {},
-                                            &model},
-                                           options);
+  const cdem::RunResult result = cdem::run(next_stage(), options);
   note("run", state);
   return result;
 }

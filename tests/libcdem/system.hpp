@@ -44,6 +44,7 @@ cdem::Gravity gravity(const geom::Vec3& acceleration = {0, 0, -9.81});        //
 struct System {
   explicit System(cdem::Model);
 
+  cdem::StageContext next_stage();
   cdem::RelaxResult relax(double residual, bool breaking = false);
   cdem::RunResult run(const cdem::RunOptions&);
   void hold(const cdem::Selection&, const std::string& names); // fixes where it is now

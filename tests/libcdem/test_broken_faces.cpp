@@ -158,7 +158,7 @@ TEST_CASE("broken faces: friction, breaking and unbonding are booked to where th
     s.fix(fixed(cdem::Selection::side("z-")));
     s.traction(traction(cdem::Selection::side("z+"), {2e6, 0, -1e6}));
     REQUIRE(s.relax({}).converged);
-    s.unbond(cdem::Selection::on_plane(geom::Plane::through({0, 0, half}, {0, 0, 1})), true);
+    s.break_bonds(cdem::Selection::on_plane(geom::Plane::through({0, 0, half}, {0, 0, 1})), true);
     const double cut = s.energy().cutting;
     CHECK(cut > 0);
     s.run(steps(1));

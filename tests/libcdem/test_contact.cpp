@@ -130,6 +130,7 @@ TEST_CASE("contact: bodies that collide keep their momentum and angular momentum
     s.state.velocity[i] =
         node(other ? Vec3(-6, 0.5, -1) + Vec3(0, 3, 5).cross(s.model.node_position[i]) : Vec3(2, 1, 0));
   }
+  s.state.spent.external = s.state.spent.external_peak = cdem::kinetic_energy(s.model, s.state);
   const Momentum before = momentum(s, Places::present);
   std::size_t contacts = 0;
   options.steps = 40000;

@@ -160,7 +160,7 @@ TEST_CASE("cracks: a cohesive plane has its section and its fracture energy", "[
   CHECK(all.projected == Approx(all.area()).epsilon(1e-3));
   CHECK(all.energy.tension == Approx(joint.fracture_energy_1 * side * side).epsilon(0.03));
   CHECK(all.energy.shear < 0.01 * all.energy.tension);
-  // The ledger has beside it the dying preload of freed nodes.
+  // The ledger has beside it what the faces stored before they cracked.
   CHECK(all.energy.tension + all.energy.shear == Approx(s.state.spent.breaking).epsilon(0.02));
 }
 
@@ -207,7 +207,7 @@ TEST_CASE("cracks: a saved model has its cracks and histories again", "[cracks][
 
 TEST_CASE("cracks: a notch made by hand is none", "[cracks]") {
   cdem::Simulation s = two_slabs(softening_joint(cdem::Softening::linear));
-  CHECK(s.unbond(cdem::Selection::everything()) > 0);
+  CHECK(s.break_bonds(cdem::Selection::everything()) > 0);
   CHECK(s.cracks().all().area() == 0);
   CHECK(s.crack_surface(true, "").bonds.triangles.empty());
 }

@@ -94,7 +94,7 @@ TEST_CASE("an unbonded section carries pressure and no tension", "[excavation]")
   const double bonded = move_end(1e-6);
   CHECK(bonded > 0);
   const std::int64_t bonds = s.counts().bonds;
-  CHECK(s.unbond(cdem::Selection::on_plane(geom::Plane::through({0.2, 0, 0}, {1, 0, 0}))) == bonds / 3);
+  CHECK(s.break_bonds(cdem::Selection::on_plane(geom::Plane::through({0.2, 0, 0}, {1, 0, 0}))) == bonds / 3);
   CHECK(s.counts().contacts == bonds / 3);
   CHECK(s.counts().intact == bonds - bonds / 3);
   CHECK(std::abs(move_end(1e-6)) < 1e-6 * bonded);

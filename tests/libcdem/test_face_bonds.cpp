@@ -161,16 +161,16 @@ TEST_CASE("face bonds: a body pulled apart breaks between its regions and falls 
   }
 }
 
-TEST_CASE("face bonds: unbond makes them contacts, which still carry pressure", "[bonds][mesh]") {
+TEST_CASE("face bonds: break_bonds makes them contacts, which still carry pressure", "[bonds][mesh]") {
   const bool whole_faces = GENERATE(false, true);
   cdem::Simulation s = simulation_of(halves_joint(), 2);
   s.fix(fixed(cdem::Selection::side("z-")));
   const auto left =
       cdem::Selection::where([](const Vec3& x) { return x.x() < 0.49 * side; }, "the left half");
   const auto plane = cdem::Selection::on_plane(geom::Plane::through({0, 0, half}, {0, 0, 1}));
-  CHECK(s.unbond(left, whole_faces) == 12);
+  CHECK(s.break_bonds(left, whole_faces) == 12);
   CHECK(s.fragments().size() == 1);
-  CHECK(s.unbond(plane, whole_faces) == 24);
+  CHECK(s.break_bonds(plane, whole_faces) == 24);
   CHECK(s.counts().contacts == 24);
   CHECK(s.counts().intact == 0);
   CHECK(s.fragments().size() == 2);

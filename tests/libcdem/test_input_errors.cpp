@@ -129,7 +129,7 @@ TEST_CASE("conditions that select nothing are refused and change nothing", "[inp
   CHECK_THAT(refusal([&] { s.initial_velocity(nowhere(), {1, 0, 0}); }), Contains("holds nodes"));
   CHECK_THAT(refusal([&] { s.remove(nowhere()); }), Contains("holds block centroids"));
   CHECK_THAT(refusal([&] { s.remove(all()); }), Contains("leaves nothing to solve"));
-  CHECK_THAT(refusal([&] { s.unbond(nowhere()); }), Contains("holds bonds"));
+  CHECK_THAT(refusal([&] { s.break_bonds(nowhere()); }), Contains("holds bonds"));
   CHECK_THAT(refusal([&] { fix.on = cdem::Selection::of_body("nobody"), s.fix(fix); }),
              Contains("body \"nobody\""));
   CHECK_THAT(refusal([] { cdem::Selection::side("w+"); }),

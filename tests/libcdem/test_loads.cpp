@@ -1,5 +1,6 @@
 // Loads and supports: what arrives at the nodes, and what comes back at the supports.
 #include "tests/libcdem/columns.hpp"
+#include "tests/libcdem/going_on.hpp"
 
 #include "libgeom/assembly/builders.hpp"
 #include "libgeom/assembly/edit.hpp"
@@ -274,4 +275,64 @@ TEST_CASE("thousands of fixes of different places take a time that grows with th
   };
   const double few = seconds(500);
   CHECK(seconds(4000) < 24 * few); // eight times as many; their square would be 64
+}
+
+namespace {
+
+cdem::Fix moved(const cdem::Selection& on, const Vec3& displacement) {
+  cdem::Fix fix = fixed(on, "x");
+  fix.displacement = displacement;
+  return fix;
+}
+
+// A bar of 1 m whose end x+ is pulled by 0.1 mm over many periods of it.
+cdem::Simulation pulled_bar(int threads, std::shared_ptr<cdem::Observer> observer) {
+  cdem::ModelSpec spec;
+  spec.bodies = {meshed("bar", geom::box_mesh({1, 0.1, 0.1}, {10, 1, 1}))};
+  cdem::Simulation s(spec, threads, std::move(observer));
+  s.fix(fixed(cdem::Selection::side("x-"), "x"));
+  s.fix(moved(cdem::Selection::side("x+"), {1e-4, 0, 0}));
+  return s;
+}
+
+} // namespace
+
+TEST_CASE("a displacement of a support is reached at a steady velocity at the end of a run, and held",
+          "[loads]") {
+  cdem::Simulation s = pulled_bar(1, nullptr);
+  cdem::RunOptions run;
+  run.duration = 0.02;
+  run.local_damping = 0.05;
+  double half = 0;
+  run.callback_every = 10;
+  run.callback = [&] {
+    if (half == 0 && s.time() >= 0.01)
+      half = s.mean("displacement.x", cdem::Selection::side("x+")) / s.time();
+  };
+  s.run(run);
+  CHECK(half == Approx(1e-4 / 0.02).epsilon(1e-3));
+  CHECK(s.mean("displacement.x", cdem::Selection::side("x+")) == Approx(1e-4).epsilon(1e-10));
+  const double force = rock().youngs_modulus * 0.01 * 1e-4; // E A u / L
+  CHECK(s.reaction(cdem::Selection::side("x+")).x() == Approx(force).epsilon(0.01));
+  run.duration = 0.002;
+  run.callback = {};
+  s.run(run);
+  CHECK(s.mean("displacement.x", cdem::Selection::side("x+")) == Approx(1e-4).epsilon(1e-10));
+}
+
+TEST_CASE("a run that moves a support to a displacement goes on to the same bits", "[loads][checkpoint]") {
+  const auto solve = [](cdem::Simulation& s, int) {
+    cdem::RunOptions run;
+    run.steps = 1000;
+    s.run(run);
+    return Figures{s.mean("displacement.x", cdem::Selection::side("x+")), s.energy().external};
+  };
+  check_going_on(pulled_bar, solve, {20, 40});
+}
+
+TEST_CASE("settle has no end at which a support could be somewhere", "[loads]") {
+  cdem::Simulation s = pulled_bar(1, nullptr);
+  s.gravity(gravity());
+  CHECK_THROWS_WITH(s.settle({}), Catch::Matchers::Contains("displacement of fix: settle") &&
+                                      Catch::Matchers::Contains("move it by model:relax or model:run"));
 }

@@ -3,6 +3,7 @@
 #include "libcdem/load/quiet.hpp"
 #include "libcdem/material/wave_speeds.hpp"
 #include "libcdem/results/energy.hpp"
+#include "libcdem/step/support_forces.hpp"
 #include "libgeom/assembly/builders.hpp"
 #include "libgeom/mesh/box_mesh.hpp"
 #include "tests/libcdem/boxes.hpp"
@@ -201,14 +202,47 @@ void stand_under_weight(cdem::Simulation& s, bool solve) {
 TEST_CASE("quiet boundaries and free fields take the place of supports without a jolt", "[quiet]") {
   cdem::Simulation s = layer(1, nullptr);
   stand_under_weight(s, true);
+  const Vec3 expected = s.reaction(foot), held = s.reaction(cdem::Selection::side("x-"));
   s.quiet({foot, Vec3::Zero(), Vec3::Zero(), {}});
   for (const char* side : {"x-", "x+"})
     s.free_field({cdem::Selection::side(side)});
   CHECK_THROWS_WITH(s.relax({}), Catch::Matchers::Contains("find the static balance with model:fix"));
   cdem::RunOptions run;
   run.steps = 500;
+  const Vec3 weight = s.reaction(foot), thrust = s.reaction(cdem::Selection::side("x-"));
+  CHECK(weight.z() == Approx(expected.z()).epsilon(1e-6));
+  CHECK(thrust.x() == Approx(held.x()).epsilon(1e-6));
   s.run(run);
   CHECK(s.max("velocity.magnitude").value < 1e-8);
+  CHECK(s.reaction(foot).z() == Approx(expected.z()).epsilon(1e-6));
+  CHECK(s.reaction(cdem::Selection::side("x-")).x() == Approx(held.x()).epsilon(1e-6));
+}
+
+TEST_CASE("the reaction of a quiet boundary is the traction of the waves there", "[quiet][mesh]") {
+  // A P wave of velocity v that enters at the foot and leaves at the top presses on both with rho c v A; the foot feels the
+  // model's side of it: the wave that it sends in.
+  System s(build({meshed("column", column_mesh(80))}));
+  hold_across(s, 2);
+  const double speed = speed_of(2), duration = wave_length / speed;
+  cdem::Quiet bottom;
+  bottom.on = cdem::Selection::side("z-");
+  bottom.velocity = Vec3::UnitZ();
+  bottom.amplitude = pulse(duration);
+  s.conditions.quiets = {bottom, {cdem::Selection::side("z+"), Vec3::Zero(), Vec3::Zero(), {}}};
+  double at_foot = 0, at_top = 0;
+  cdem::RunOptions options;
+  options.breaking = false;
+  options.duration = 2 * height / speed;
+  options.callback_every = 5;
+  options.callback = [&] {
+    const cdem::SupportForces forces(s.model, s.state, s.conditions);
+    at_foot = std::max(at_foot, forces.reaction(bottom.on).z());
+    at_top = std::min(at_top, forces.reaction(cdem::Selection::side("z+")).z());
+  };
+  s.run(options);
+  const double wave = rock().density * speed * width * width;
+  CHECK(at_foot == Approx(wave).epsilon(0.02));
+  CHECK(at_top == Approx(-wave).epsilon(0.02));
 }
 
 TEST_CASE("a run with a wave through a quiet boundary and free fields goes on to the same bits",

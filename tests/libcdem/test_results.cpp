@@ -72,7 +72,8 @@ TEST_CASE("a mean over a side weighs nodes by their area, not by their number", 
   CHECK(s.mean("velocity.x") == Approx(0.2 / 1.2).epsilon(1e-12)); // by volume
 }
 
-TEST_CASE("histories hold every tenth step, probes and the breaks so far", "[results]") {
+TEST_CASE("histories hold the beginning of a run, every tenth step, probes and the breaks so far",
+          "[results]") {
   cdem::Joint weak = rock_joint();
   weak.tensile_strength = 1e5;
   cdem::Simulation s = simulation(geom::grid({0.2, 0.1, 0.1}, {2, 1, 1}), rock(), weak);
@@ -81,14 +82,17 @@ TEST_CASE("histories hold every tenth step, probes and the breaks so far", "[res
   s.initial_velocity(cdem::Selection::in_box({{0.11, -1, -1}, {1, 1, 1}}), {1, 0, 0});
   cdem::RunOptions options;
   options.steps = 205;
+  const double kinetic = s.energy().kinetic;
   const cdem::RunResult run = s.run(options);
   REQUIRE(s.probe_names() == std::vector<std::string>{"end"});
-  REQUIRE(s.history().size() == 21); // 20 and the last
-  for (int i = 0; i < 20; ++i) {
-    CHECK(s.history()[i].step == 10 * (i + 1));
+  REQUIRE(s.history().size() == 22); // the beginning, 20 and the last
+  for (int i = 0; i <= 20; ++i) {
+    CHECK(s.history()[i].step == 10 * i);
     CHECK(s.history()[i].stage == 1);
-    CHECK(s.history()[i].time == Approx(10 * (i + 1) * run.time_step).epsilon(1e-12));
+    CHECK(s.history()[i].time == Approx(10 * i * run.time_step).epsilon(1e-12));
   }
+  CHECK(s.history().front().probes.at(0) == 1);
+  CHECK(s.history().front().kinetic == kinetic);
   CHECK(s.history().back().step == 205);
   CHECK(s.history().back().probes.at(0) == s.at("velocity.x", {0.19, 0.05, 0.05}));
   CHECK(s.history().back().broken_tension == run.broken_tension);

@@ -177,14 +177,15 @@ TEST_CASE("a cylinder is cut to within the tolerance, and told to need one", "[c
         Approx(6).epsilon(1e-9));
 }
 
-TEST_CASE("faces that a clip makes are glued and keep its name", "[clip]") {
+TEST_CASE("faces that a clip makes are glued or joints as told, and keep its name", "[clip]") {
   ClipOptions options;
+  options.glued = GENERATE(true, false);
   options.keep = ClipSide::both;
   options.name = "outline";
   const Clipped both = clip(grid({4, 4, 4}, {1, 1, 1}), surface_of(make_box({1, 1, 1}, {3, 3, 5})), options);
   CHECK(cut_names(both.assembly) == std::vector<std::string>{"outline"});
   for (const SharedFace& s : shared_faces(both.assembly.blocks, 1e-9)) {
-    CHECK(both.assembly.blocks[s.block_a].faces[s.face_a].glued);
-    CHECK(both.assembly.blocks[s.block_b].faces[s.face_b].glued);
+    CHECK(both.assembly.blocks[s.block_a].faces[s.face_a].glued == options.glued);
+    CHECK(both.assembly.blocks[s.block_b].faces[s.face_b].glued == options.glued);
   }
 }

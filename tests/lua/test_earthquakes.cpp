@@ -37,7 +37,9 @@ TEST_CASE("a record is read from a .csv, scaled and integrated", "[lua][earthqua
       "local cdem = require 'cdem'\n"
       "local r = cdem.record{ path = 'r.csv', value = 'a', unit = 'cm/s2', scale = 100, to = 'velocity' }\n"
       "assert(math.abs(r.peak - 0.1) < 1e-12 and r.unit == 'm/s' and r.outside == 'zero')\n"
-      "assert(math.abs(r.end_displacement - 0.02) < 1e-12)");
+      "assert(math.abs(r.end_displacement - 0.02) < 1e-12)\n"
+      "local gal = cdem.record{ path = 'r.csv', value = 'a', unit = 'Gal' }\n"
+      "assert(math.abs(gal.peak - 0.01) < 1e-12 and gal.unit == 'm/s2')");
   script.write("r.csv", good);
   CHECK_THAT(script.error(), Equals(""));
 }
@@ -150,4 +152,6 @@ TEST_CASE("bolts in a script", "[lua][bolts]") {
   CHECK_THAT(error_of(head + "m:bolts{ from = {0.5, 0.5, 2}, to = {0.5, 0.5, 3}, area = 5e-4 }"),
              Contains("bolt 1 of 1") && Contains("hangs in the air"));
   CHECK_THAT(error_of(head + "m:save_bolts{}"), Contains("no bolts"));
+  CHECK_THAT(Script(head + "m:bolts{ from = {0.5, 0.5, 2}, to = {0.5, 0.5, 0.5}, area = 490 }").printed(),
+             Contains("bolts: area = 490: no bolt is as thick; it is in m2"));
 }

@@ -61,6 +61,8 @@ TEST_CASE("a first line for the shell and a byte order mark do not shift lines",
 
 TEST_CASE("calling in the wrong way is explained", "[lua]") {
   CHECK_THAT(error_of(head + "cdem.elastic(30e9)"), Contains("takes a table with named values, not 3e+10"));
+  CHECK_THAT(error_of(column() + "model:run{ duration = 1, mass_scaling = 100 }"),
+             Contains("mass_scaling = 100: must be a table with named values; name the values: { "));
   CHECK_THAT(error_of(head + "cdem.elastic({}, 2)"), Contains("takes one table"));
   CHECK_THAT(error_of(head + "cdem.elastics{}"),
              Contains("case.lua:2: cdem.elastics: no such name; did you mean elastic?"));

@@ -89,6 +89,8 @@ TEST_CASE("water in joints: level, table, function, and what is refused", "[lua]
                           "local before = calls\nm:relax{}\nassert(before > 0 and calls == before)\n"
                           "assert(m:water{ pressure = 0 }.points == 0)"),
              Equals(""));
+  CHECK_THAT(Script(m + "m:water{ level = 0.25, weight = 9.81 }").printed(),
+             Contains("water: weight = 9.81: no water is as light; it is in N/m3"));
   CHECK_THAT(error_of(m + "m:water{}"), Contains("give one of level"));
   CHECK_THAT(error_of(m + "m:water{ level = 3 }"), Contains("at most the top of the model, 0.25 m"));
   CHECK_THAT(error_of(m + "m:water{ level = 0.25, joints = {'seem'} }"), Contains("(\"seam\")"));

@@ -52,7 +52,7 @@ TEST_CASE("bonds between regions alone let a body part there alone", "[lua]") {
                          "model:fix{ on = 'z-' }\n"
                          "assert(#model:fragments() == 1)\nclose(model:fragments()[1].volume, 2)\n"
                          "local plane = cdem.select.plane{ point = {0, 0, 1}, normal = {0, 0, 1} }\n"
-                         "assert(model:unbond{ on = plane } == c.bonds)\n"
+                         "assert(model:break_bonds{ on = plane } == c.bonds)\n"
                          "local pieces = model:fragments()\nassert(#pieces == 2)\n"
                          "for _, piece in ipairs(pieces) do\n"
                          "  close(piece.volume, 1)\n  assert(piece.held == (piece.centroid[3] < 1))\nend") ==

@@ -82,6 +82,10 @@ TEST_CASE("initial_stress says what it lacks", "[lua][rock]") {
              Contains("surface: goes with gradient"));
   CHECK_THAT(Script(model() + "m:initial_stress{ gradient = 25, k0 = 1 }").printed(),
              Contains("no rock is as light"));
+  CHECK_THAT(Script(model() + "m:initial_stress{ stress = {-2, -2, -5, 0, 0, 0} }").printed(),
+             Contains("it is in Pa, 1 MPa is 1e6"));
+  CHECK_THAT(Script(model() + "m:initial_stress{ stress = {2e6, 2e6, 5e6, 0, 0, 0} }").printed(),
+             Contains("tension in the mean; the ground is under pressure, which is negative"));
 }
 
 TEST_CASE("gravity_stress leaves the stress of the weight and no displacement", "[lua][rock]") {

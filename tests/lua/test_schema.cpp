@@ -103,7 +103,8 @@ TEST_CASE("a wrong type is named with what to do", "[lua]") {
   CHECK(error_for({{"ratio", "0.3"}}) == "ratio = \"0.3\": must be a number; write it without quotes");
   CHECK(error_for({{"ratio", true}}) == "ratio = true: must be a number");
   CHECK(error_for({{"count", 2.5}}) == "count = 2.5: must be a whole number");
-  CHECK(error_for({{"name", 3}}) == "name = 3: must be a string");
+  CHECK(error_for({{"name", 3}}) ==
+        "name = 3: must be a string; write it in quotes, or tostring(...) around it");
   CHECK(error_for({{"open", "yes"}}) == "open = \"yes\": must be true or false");
   CHECK_THAT(error_for({{"size", 2}}), Contains("three numbers {x, y, z}; write all three"));
   CHECK_THAT(error_for({{"size", list_of({1, 2})}}), Contains("size = {1, 2}: must be three numbers"));

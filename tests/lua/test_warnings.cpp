@@ -306,7 +306,7 @@ TEST_CASE(
     script.run();
     FAIL("the run went on");
   } catch (const cdem::SolutionError& error) {
-    CHECK_THAT(error.what(), Contains("the energy balance is open by 27.") &&
+    CHECK_THAT(error.what(), Contains("the energy balance is open by 21.5") &&
                                  Contains("J gained); most likely from contacts") &&
                                  Contains("take a smaller safety"));
   }

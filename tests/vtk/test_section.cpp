@@ -66,6 +66,21 @@ TEST_CASE("a section has the area of the cut, seen from both sides, and linear f
   CHECK_THROWS_AS(section_of(all, {{0, 0, 7}, {0, 0, 1}}), geom::InputError);
 }
 
+TEST_CASE("a section along faces of blocks has no holes, though their nodes lie on it only within rounding",
+          "[section]") {
+  Snapshot all = stretched();
+  for (std::size_t i = 0; i < all.points.size(); ++i)
+    all.points[i].x() += i % 3 == 0 ? 1e-15 : -1e-15;
+  for (const double x : {1., 2.}) {
+    const Snapshot cut = section_of(all, {{x, 0, 0}, {1, 0, 0}});
+    CHECK(area(cut) == Approx(2 * 2.));
+    double edges = 0;
+    for (const auto& e : cut.block_edges)
+      edges += (cut.points[e[1]] - cut.points[e[0]]).norm();
+    CHECK(edges == Approx(8)); // the outlines of two unit squares
+  }
+}
+
 TEST_CASE("joints alone are their triangles, seen from both sides, with their own fields", "[section]") {
   Snapshot all = stretched();
   sample::add_interface(all, {1, 0}, {1, 2}, 1, BondMode::broken_shear, 2);

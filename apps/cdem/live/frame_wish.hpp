@@ -38,7 +38,7 @@ void choose_view(const Snapshot&, FrameWish&);
 // A parallel camera fixed to `box` (m), so that the model keeps its place and scale from frame to frame.
 PictureOptions frame_options(const FrameWish&, const Snapshot&, const geom::Box& box);
 
-// Of the points as a frame shows them, m.
+// Box of the points as a frame shows them, m.
 geom::Box shown_box(const Snapshot&, double deformation);
 
 } // namespace cdem::app

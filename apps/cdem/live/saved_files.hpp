@@ -15,9 +15,9 @@ struct SavedFile {
   std::vector<std::filesystem::path> steps; // one state each
 };
 
-// A .vtu or .vtkhdf file gives itself, of a .pvd: its files. Of a folder: its series by name, then its files that stand in
-// none; without those of bonds and contacts, which are drawn or stand beside the blocks. Throws UsageError for anything
-// else and for a folder without any.
+// The files to show. A .vtu or .vtkhdf file gives itself, a .pvd its files. A folder gives its series by name, then its
+// files that are in no series. Files of bonds and contacts are left out: they are drawn with the blocks or are stored
+// beside them. Throws UsageError for anything else and for a folder without such files.
 std::vector<SavedFile> saved_files(const std::filesystem::path&);
 
 } // namespace cdem::app

@@ -1,7 +1,7 @@
-// How long a stage still takes. What has to fall to a goal, the residual of a relaxation or the kinetic energy of units
-// that settle, falls like exp(-rate step), with ripples: the rate is the median slope of its logarithm between samples
-// of the second half of the stage so far (Theil and Sen), which no ripple or outlier can turn. Other stages go by time
-// or steps done.
+// Remaining time of a stage. The residual of a relaxation, or the kinetic energy of units that settle, falls to its
+// goal like exp(-rate step), with ripples. The rate is the median slope of its logarithm between samples of the second
+// half of the stage so far (Theil and Sen), which ripples and outliers do not affect. For other stages the time or the
+// steps done give the estimate.
 #pragma once
 
 #include "libcdem/step/observer.hpp"

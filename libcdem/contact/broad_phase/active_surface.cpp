@@ -10,7 +10,7 @@
 namespace cdem {
 namespace {
 
-// Of the usual height of a tet at the surface: the thinnest and the thickest skin of a block.
+// Thinnest and thickest skin of a block, over the usual height of a tet at the surface.
 constexpr double thinnest = 0.001, thickest = 0.1;
 // Steps that a block can go on at its pace before it leaves its skin, and what of the fastest block's pace the others
 // are trusted to get to.
@@ -22,7 +22,7 @@ constexpr std::int64_t few_steps = 50, many_steps = 150;
 constexpr int most_doublings = 6;
 // Pairs of boxes that may be compared to find how far off the others are.
 constexpr std::size_t most_boxes_compared = 4000000;
-// Of the height of a tet: how deep a contact may get.
+// Largest depth of a contact, over the height of a tet.
 constexpr double depth_ratio = 0.25;
 
 double gap(const geom::Box& a, const geom::Box& b) {

@@ -1,5 +1,5 @@
-// What of the contact surfaces a search steps_since_search at: the triangles that are outside or on broken faces, by block, in boxes
-// that hold all that may touch them before the next search.
+// The part of the contact surfaces that a search uses: the outer triangles and those on broken faces, by block, in
+// boxes that contain everything that may touch them before the next search.
 #pragma once
 
 #include "libcdem/contact/data/contact_work.hpp"
@@ -37,7 +37,7 @@ double depth_of(const ContactWork&, const ContactTriangle&);
 // m, around triangles that belong together: those that were further from each other than both at first may meet.
 double far_at_first(const ContactWork&, const ContactTriangle&);
 
-// Of two blocks together: how deep a contact may stand that the search knows of, m.
+// Largest depth of a contact between two blocks for which the search allows, m.
 class SearchMargin {
 public:
   SearchMargin(const Model&, const State&, const ContactWork&);

@@ -1,19 +1,20 @@
-// Of pairs of triangles near each other, the semi-springs and semi-edges that can touch before a block leaves its skin.
+// Finds, for pairs of near triangles, the semi-springs and semi-edges that can touch before a block leaves its skin.
 //
-// A spring that stands outside a fragment by more than the two skins cannot get into it; of the fragment's triangles one can
-// become the nearest only if it is now nearer than the nearest one and twice the skins. Two edges cannot touch when they
-// are further apart than the skins and the depth of an edge contact, when they are parallel, and when neither of their
-// common normals lies in both fans of outward normals (Gauss map), each by more than they may turn.
+// A spring that stands outside a fragment by more than the two skins cannot get into it. A triangle of the fragment can
+// become the nearest only if its distance is now less than the least distance plus twice the skins. Two edges cannot
+// touch when they are further apart than the skins and the depth of an edge contact, when they are parallel, and when
+// neither of their common normals lies in both fans of outward normals (Gauss map), each by more than they may turn.
 #pragma once
 
 #include "libcdem/contact/broad_phase/near_triangles.hpp"
 
 namespace cdem {
 
-// Of the smaller block's size: bodies without a law that come nearer than this meet.
+// Bodies without a law meet when their distance is less than this fraction of the smaller block's size.
 inline constexpr double meeting_ratio = 1e-3;
 
-// m, how deep a contact of two edges may begin: deeper ones have slid past each other's ends. Of one block at most.
+// m, largest depth at which a contact of two edges may begin, for one of the two blocks: deeper edges have slid past
+// each other's ends.
 inline double edge_depth(const ContactWork& work, int block) {
   return 5 * work.shallow[block];
 }
@@ -29,10 +30,10 @@ struct Near {
 std::vector<Near> near_springs(const Model&, const ContactWork&, const SearchMargin&, const ActiveSurface&,
                                Pairs& pairs, const Skins&);
 
-// Of two blocks. The edge with the lower number is the source.
+// Near edges of two blocks. The edge with the lower number is the source.
 std::vector<Near> near_edges(const Model&, const State&, const ContactWork&, const SearchMargin&,
                              const ActiveSurface&, const SharedPart&, const Skins&);
-// Of one block: edges of triangles that meet, by pairs that stand each once.
+// Near edges within one block, of triangles that meet; each pair stands once.
 std::vector<Near> near_edges_within(const Model&, const State&, const ContactWork&, const SearchMargin&,
                                     const ActiveSurface&, const Pairs& meeting);
 // Pairs of edges of one broken block, of which one is `searched` (per edge), those of this rank's share.

@@ -24,8 +24,8 @@ int rank_of_fragment(const ContactWork&, std::int64_t fragment);
 void set_drifts(const Model&, const State&, ContactWork&, int threads);
 void begin_drifts(const Model&, const State&, const std::vector<char>& searched, ContactWork&);
 
-// m, at most, that a node of a mover is from where it was at its search. Of a fragment less than what it has travelled: a
-// piece that trembles stays where it is.
+// m, upper bound of the distance of a mover's nodes from their positions at its search. For a fragment it is less than
+// the distance that it has travelled, since a piece that trembles stays in place.
 inline double gone_at_most(const Model& model, const ContactWork& work, int mover) {
   return mover < static_cast<int>(model.blocks.size()) ? work.travelled[mover]
                                                        : work.drift[mover].norm() + work.swing[mover];

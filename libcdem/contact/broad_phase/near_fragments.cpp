@@ -57,7 +57,7 @@ public:
       movers.emplace_back(std::min(mover_, other), std::max(mover_, other));
   }
 
-  // Of all tetrahedra that were added.
+  // Near springs of all tetrahedra that were added.
   std::vector<Near> springs() {
     sources_.push_back({std::numeric_limits<int>::max(), pairs_.size()});
     Pairs sorted;
@@ -202,7 +202,7 @@ private:
     return std::sqrt(least2);
   }
 
-  // Of what hangs together, triangles that were far from each other at first.
+  // Triangles of one connected piece may meet only if they were apart in the undeformed body.
   bool may_meet(int source, int target) const {
     return mover(target) != mover_ ||
            (!work_.movers.one_piece[mover_] &&

@@ -1,4 +1,4 @@
-// Of a block that has broken: which triangles the semi-springs of one fragment may meet of another.
+// Finds, in a block that has broken, the triangles of one fragment that the semi-springs of another may meet.
 //
 // Fragments fill space: where a body has just broken, some twenty of them meet at every node, and the boxes of their
 // triangles all overlap there. Their tetrahedra do not. A semi-spring is further from a tetrahedron than it stands
@@ -14,7 +14,7 @@ struct NearFragments {
   Pairs movers;                           // within the skins, of each pair the lower one first, sorted
 };
 
-// Only pairs of which the mover of one is `searched` (per mover). Of the tetrahedra of this rank's share.
+// Only pairs in which at least one mover is `searched` (per mover), for the tetrahedra of this rank's share.
 NearFragments near_fragments(const Model&, const State&, const ContactWork&, const SearchMargin&,
                              const ActiveSurface&, int block, const std::vector<char>& searched, int threads);
 

@@ -17,7 +17,7 @@ double least_distance2(const geom::Vec3& x, const Corners& triangle) {
   return (low - x).cwiseMax(x - high).cwiseMax(0.0).squaredNorm();
 }
 
-// Of one source what it may meet of one fragment.
+// Springs of one source triangle that may meet one fragment.
 class SpringsOfSource {
 public:
   SpringsOfSource(const Model& model, const ContactWork& work, const SearchMargin& margins,

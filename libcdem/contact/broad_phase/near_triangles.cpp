@@ -23,7 +23,7 @@ bool parted(const SearchMargin& margins, const ActiveSurface& active, int i, int
   return beside(one.x, other, reach) || beside(other.x, one, reach);
 }
 
-// Of a block's triangles those whose boxes, grown by `by`, meet the region; it shrinks to what of it they hold.
+// Triangles of a block whose boxes, grown by `by`, meet the region. The region shrinks to the part that these boxes cover.
 std::vector<int> inside(const ActiveSurface& active, int block, double by, geom::Box& region) {
   std::vector<int> list;
   geom::Box box;

@@ -1,5 +1,5 @@
-// Which triangles of two blocks, or of one with itself, are near each other: by their boxes, and by their planes, as a box
-// says little of a large triangle that lies askew.
+// Which triangles of two blocks, or of one with itself, are near each other: by their boxes, and by their planes, since
+// the box of a large oblique triangle is much larger than the triangle.
 //
 // Within the skins and the depth of contacts two triangles may meet. A source whose semi-springs may get into a block
 // needs to know of all its triangles that may become the nearest to them: within two more skins of each block.
@@ -11,7 +11,7 @@ namespace cdem {
 
 using Pairs = std::vector<std::pair<int, int>>; // of triangles, by their places in ActiveSurface
 
-// Of two blocks the triangles that reach into what their boxes share, by their places in ActiveSurface, ascending.
+// Triangles of two blocks that reach into the common part of their boxes, by their places in ActiveSurface, ascending.
 struct SharedPart {
   int block_a = 0, block_b = 0;
   std::vector<int> of_a, of_b;
@@ -35,7 +35,8 @@ void find_boxes_at_first(const Model&, ContactWork&);
 // Whether two triangles of what hangs together were so far from each other at first that they may meet.
 bool apart_at_first(const Model&, const ContactWork&, int triangle_a, int triangle_b);
 
-// Of one block that has not broken: triangles of different fragments, and those of one that were far from each other at first.
+// Near pairs within one block: triangles of different fragments, and triangles of one fragment that were apart in the
+// undeformed body.
 struct NearWithin {
   Pairs meeting;   // each once
   Pairs looked_at; // (source, target), both ways

@@ -103,11 +103,13 @@ void start_contact(const Model& model, ContactWork& work) {
     work.restitution = work.restitution || model.joints[law].restitution < 1;
   work.force.assign(model.node_position.size(), Node{});
   work.stiffness.assign(model.node_position.size(), 0.0);
+  work.rigid_sums.resize(model.rigid.size());
+  work.on_rigid.assign(model.rigid.size(), {});
 }
 
 namespace {
 
-// Of two blocks of which only fragments of one are searched the others of that one.
+// Leaves out, where only fragments of one of two blocks are searched, the other fragments of that block.
 void leave_out_known(const ActiveSurface& active, const Renewed& renewed, SharedPart& part) {
   if (renewed.all || (renewed.blocks[part.block_a] && renewed.blocks[part.block_b]))
     return;
@@ -117,7 +119,7 @@ void leave_out_known(const ActiveSurface& active, const Renewed& renewed, Shared
                     of_searched.end());
 }
 
-// Of two blocks of which only some fragments are searched.
+// The same for pairs of two blocks of which only some fragments are searched.
 void leave_out_known(const ActiveSurface& active, const Renewed& renewed, Pairs& pairs,
                      std::vector<Near>& edges) {
   if (renewed.all)

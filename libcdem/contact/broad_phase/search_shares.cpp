@@ -1,5 +1,6 @@
 #include "libcdem/contact/broad_phase/search_shares.hpp"
 
+#include "libcdem/contact/data/row_owner.hpp"
 #include "libcdem/ranks/bytes.hpp"
 #include "libcdem/ranks/shared_state.hpp"
 
@@ -34,9 +35,10 @@ void cut_sources(const Model& model, ContactWork& work, const FoundNear& found) 
       static_cast<std::size_t>((triangles + triangles_per_count - 1) / triangles_per_count), 0);
   int source = -1, mover = -1;
   each_near(found, [&](Contact::Kind kind, const Near& near) {
-    const int of = work.movers.of_triangle[triangle_of(work, kind, static_cast<int>(near.target))];
+    const int from = triangle_of(work, kind, near.source),
+              to = triangle_of(work, kind, static_cast<int>(near.target)), of = work.movers.of_triangle[to];
     const bool of_row = near.source == source && of == mover;
-    counts[triangle_of(work, kind, near.source) / triangles_per_count] += of_row ? 1 : 1 + row_load;
+    counts[triangle_of_row(model, from, to) / triangles_per_count] += of_row ? 1 : 1 + row_load;
     source = near.source;
     mover = of;
   });
@@ -95,7 +97,9 @@ void share_found(const Model& model, ContactWork& work, bool all, FoundNear& fou
   const Partition& part = work.shared->part();
   std::vector<std::array<std::vector<Near>, 2>> to(static_cast<std::size_t>(part.size));
   each_near(found, [&](Contact::Kind kind, const Near& near) {
-    to[Partition::owner(work.triangle_begin, triangle_of(work, kind, near.source))][kind].push_back(near);
+    to[owner_of_row(model, work, triangle_of(work, kind, near.source),
+                    triangle_of(work, kind, static_cast<int>(near.target)))][kind]
+        .push_back(near);
   });
   std::vector<std::string> told;
   for (const auto& kinds : to) {

@@ -1,15 +1,15 @@
-// A search with several ranks. The pairs of blocks, and the parts of what has broken, are dealt to them by counted loads;
-// each sends what it finds near a source to the rank that keeps that source's rows. Rows are kept by runs of source
-// triangles, cut by the rows and candidates that a search of all movers has found; edges go with the first of their
-// triangles. One rank alone looks at all and keeps all.
+// A search with several ranks. The pairs of blocks, and the parts of broken bodies, are assigned to the ranks by
+// counted loads. Each rank sends the pairs that it finds near a source to the rank that keeps the row
+// (data/row_owner.hpp). Runs of triangles are cut by the rows and candidates that a search of all movers has found. A
+// single rank searches and keeps everything.
 #pragma once
 
 #include "libcdem/contact/broad_phase/candidates.hpp"
 
 namespace cdem {
 
-// Of items with these loads, those that this rank looks at, ascending: the heaviest first, each goes to the rank that has
-// least, so that neighbours, which weigh alike, go to different ones.
+// Items that this rank computes, ascending; load: of each item. The heaviest items come first, and each goes to the
+// rank with the least load. So neighbours, which have similar loads, go to different ranks.
 std::vector<std::int64_t> own_share(const ContactWork&, const std::vector<double>& load);
 
 // Triangles of the two blocks that stand where their boxes meet, as if they were spread evenly in these; of which a search
@@ -24,7 +24,7 @@ struct FoundNear {
   std::string wrong; // what is wrong with the first pair that is; empty: nothing
 };
 
-// Afterwards `springs` and `edges` are those of sources that this rank keeps, and the rest is known to all. all: of all
+// Afterwards `springs` and `edges` are those of rows that this rank keeps, and the rest is known to all. all: of all
 // movers, for which it writes ContactWork::triangle_begin.
 void share_found(const Model&, ContactWork&, bool all, FoundNear&);
 

@@ -1,15 +1,18 @@
-// What contact needs beside Model and State and throws away with its stage: which triangles and edges are near enough
-// to look at, and the forces of the step.
+// Data of contact that live for one stage, beside Model and State: the candidates, that is triangles and edges that are
+// near each other, and the forces of the step.
 //
-// A mover is what moves by itself: a block, or a fragment of a block some of whose faces have broken. A search finds what
-// can touch before a mover has gone further than its skin; none of it changes a force. A pair found near sleeps until its
-// two movers have moved as far as it was apart: `recheck_distance` is compared with the sum of the ways the two have gone
-// since the search. A row sleeps as long as all its pairs must. Two rigid convex blocks have rows of their own, which go by
-// the relative motion of the two (RigidPair) and stay as long as that is within the skin of the pair. Lengths kept as floats
-// are rounded to the side on which more is looked at.
+// A mover is a body that moves by itself: a block, or a fragment of a block with broken faces. A search finds the pairs
+// that can touch before a mover has moved further than its skin. The search never changes a force. A near pair is
+// skipped until its two movers have moved by its distance: `recheck_distance` is compared with the sum of the distances
+// that the two have moved since the search. A row is skipped as long as all its pairs are. Lengths stored as floats are
+// rounded such that more pairs are checked, never fewer. Two rigid convex
+// blocks have rows of their own. These rows depend on the relative motion of the two (RigidPair) and stay as long as that
+// motion is within the skin of the pair.
 #pragma once
 
 #include "libcdem/contact/data/rigid_pair.hpp"
+#include "libcdem/contact/data/rigid_sums.hpp"
+#include "libcdem/integrate/contact_on_rigid.hpp"
 #include "libcdem/model/contact_surface.hpp"
 #include "libcdem/parallel/chunks.hpp"
 #include "libcdem/parallel/node.hpp"
@@ -24,14 +27,14 @@ namespace cdem {
 class SharedState; // ranks/shared_state.hpp
 
 inline constexpr std::int64_t contact_rows_per_chunk = 64;
-// Of the usual height of a tet at a block's surface: how deep a contact may be before the pairs around it are all looked
-// at in every step.
+// Depth over the usual height of a tet at a block's surface: around a deeper contact all pairs are computed in every
+// step.
 inline constexpr double shallow_ratio = 0.01;
 
 struct ContactCandidate {
   std::uint32_t target : 29; // triangle or edge
-  // Of a triangle's row: which of its three semi-springs may come near the target. Of an edge's: 1 where it sleeps only as
-  // long as no contact stands on the edges around.
+  // In the row of a triangle: which of its three semi-springs may come near the target. In the row of an edge: 1 if the
+  // pair is skipped only as long as no contact stands on the neighbouring edges.
   std::uint32_t springs : 3;
   float recheck_distance; // m
 };
@@ -47,16 +50,16 @@ struct ContactRow {
   int block = 0;                      // of its targets
   int source_mover = 0, mover = 0;    // of the source, and of its targets
   std::uint32_t begin = 0, count = 0; // into candidates
-  // m, what is further off may sleep. Of springs: contacts are at most that deep; 0: not looked at yet. Of edges: as deep
-  // as any may get before the next search.
+  // m, candidates further away may be skipped. For springs: contacts are at most that deep; 0: not computed yet. For
+  // edges: the depth that any contact may reach before the next search.
   float reach = 0;
   float recheck_distance = 0; // m, of its targets the least
   bool hindered = false;      // of edges: some sleep only as long as no contact stands on the edges around
   std::uint8_t plane = 0;     // of springs: which of the planes of their target parted them best, from 0
   int pair = -1;              // of two rigid convex blocks, into ContactWork::rigid_pairs; -1: of others
   int place = -1;             // into RowsAsleep::of_pairs
-  // Of two fragments, when it was last looked at: m, how far they may go until it is again, and the difference of their
-  // drifts and the sum of their swings then.
+  // For two fragments, from the last check: m, the distance that they may move until the next check, and the difference
+  // of their drifts and the sum of their swings at that time.
   float allowed = 0, swings = 0;
   std::array<float, 3> drifts{};
   // Per semi-spring, of what was found when all its targets were last looked at: until the two movers have gone so far, m,
@@ -73,7 +76,7 @@ struct Movers {
   std::vector<int> of_fragment; // by its smallest node; -1: none
   std::vector<int> node_begin,
       nodes; // per fragment, from the first after the blocks on: the nodes of its triangles
-  // Per mover: no bond holds its tets together, as where it is a single one. Of fragments.
+  // Per mover, for fragments: no bond holds its tets together, as in a fragment of a single tet.
   std::vector<char> one_piece;
   // Per mover, of fragments that are a single tet: its triangles, by number; of all others -1. A semi-spring outside one of
   // their planes is outside the tet, by as much at least: that is looked at before anything else.
@@ -101,8 +104,8 @@ struct ContactForce {
 };
 
 struct ContactSums {
-  double friction = 0,
-         damping = 0; // J, this step: of contacts in their order, whichever chunks they stand in
+  double friction = 0, damping = 0; // J, this step, rounded once
+  std::int64_t contacts = 0;        // of all ranks
   // The deepest, in parts of the depth at which a contact is not to be trusted (depth_limit).
   double deepest = 0;
   double depth = 0, depth_over_height = 0;      // largest, m and in parts of the lower tet's height
@@ -122,7 +125,7 @@ struct EdgeBeyond {
   double direction = 1; // 1 or -1: the line runs along the edge's own direction or against it
 };
 
-// Of a block as a whole.
+// Motion of a block as a whole.
 struct BlockMotion {
   bool whole = false; // it has one
   geom::Vec3 centroid = geom::Vec3::Zero(), velocity = geom::Vec3::Zero(),
@@ -133,7 +136,7 @@ struct TouchedNode {
   int node = 0, block = 0;
 };
 
-// Of a fragment another one that may come near it before the two leave their skins.
+// A mover that may come near a fragment before the two leave their skins.
 struct NearMover {
   int fragment = 0; // by its smallest node
   int search = 0;   // that found it
@@ -195,8 +198,8 @@ struct ContactWork {
   std::vector<std::vector<int>> planes;
   std::vector<double> path;           // m, per block, of its fastest node, never less than it was
   std::vector<RigidPair> rigid_pairs; // of pairwise blocks near each other, by their two numbers
-  // Of fragments, since their last search, per mover: what their nodes have gone in the mean, and how far one of them is
-  // from that, m. By where they were then (n_nodes).
+  // For fragments, per mover, since their last search: mean displacement of their nodes, and largest deviation of a
+  // node from it, m. Measured from the positions at that search (n_nodes).
   std::vector<geom::Vec3> drift;
   std::vector<double> swing;
   std::vector<geom::Vec3> at_search;        // m
@@ -227,7 +230,7 @@ struct ContactWork {
   bool all_due = false;      // a search of all movers is due in which no rigid pair keeps its rows
   // A search goes on from here as if nothing of fragments had been known, as that of a stage that goes on from here does.
   bool anew = true;
-  // Of this look: contacts begin however deep they are, as it cannot be known which fragments are new. Otherwise those of
+  // In this step contacts begin at any depth, since it is not known which fragments are new. Otherwise only contacts of
   // movers that have changed do.
   bool any_depth_begins = false;
   double step = 0; // s, since then
@@ -242,18 +245,19 @@ struct ContactWork {
   std::int64_t steps = 0;              // since the stage began
   std::int64_t searches = 0;
 
-  // With several ranks, each of which keeps the rows of a run of source triangles, and of the edges of which these are the
-  // first; null: this one keeps all.
+  // With several ranks, each of which keeps the rows that stand at a run of triangles (data/row_owner.hpp); null:
+  // this one keeps all.
   SharedState* shared = nullptr;
   std::vector<std::int64_t> triangle_begin; // (ranks + 1)
-  // Per contact of State::contacts, and of `now`: the rank that found it.
-  std::vector<int> rank_of_contact, rank_now;
 
   std::vector<ContactChunk> chunks; // of as many chunks of rows as are computed at a time
   std::vector<Contact> now;         // those of the step, before they replace State::contacts
   std::vector<Node> force;          // N, of contacts (n_nodes); empty without; written by contact_forces
   std::vector<double> stiffness;    // N/m, of contacts at nodes, row sums (n_nodes)
-  std::vector<TouchedNode> touched; // nodes with a force, in the order of the contacts
+  std::vector<TouchedNode> touched; // nodes with a force, in the order of the contacts; none of rigid bodies
+  // Of rigid bodies, by number: the sums as contacts are added, and their values, which all ranks know.
+  std::vector<RigidSums> rigid_sums;
+  std::vector<ContactOnRigid> on_rigid;
 };
 
 } // namespace cdem

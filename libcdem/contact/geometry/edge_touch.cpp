@@ -3,7 +3,7 @@
 namespace cdem {
 namespace {
 
-// Of an edge's length: places nearer to each other than that have no direction.
+// Distance over an edge's length: two points nearer to each other than this have no direction between them.
 constexpr double same_place_of_ends = 1e-9;
 
 // The fan of an edge's outward normals: those that have both its faces behind.

@@ -8,8 +8,9 @@
 
 namespace cdem {
 
-// Two edges whose directions enclose an angle with a smaller sine are parallel.
-inline constexpr double parallel_edges = 0.05;
+// Two edges whose directions enclose an angle with a smaller sine are parallel: between their crossing and the next node
+// one goes into the other by half a hundredth of an edge at most before the semi-springs there do.
+inline constexpr double parallel_edges = 0.01;
 // Sine of the angle by which a normal may be outside a fan: where faces lie flat on each other it is at the border, and
 // rounding would put it in and out from step to step.
 inline constexpr double fan_slack = 0.01;
@@ -30,7 +31,8 @@ inline NearestOfEdges nearest_of_edges(const Model& model, const State& state, c
 }
 
 struct EdgeTouch {
-  // Unit, out of the second edge's body: at right angles to both edges, but at an end along the way of the two places.
+  // Unit, out of the second edge's body: at right angles to both edges, but at an end along the line between the two
+  // points.
   geom::Vec3 normal;
   double depth = 0; // m, > 0 where they touch
   double sense = 1; // of (first x second) . normal, 1 or -1

@@ -9,14 +9,15 @@
 
 namespace cdem {
 
-// Of a distance, and of a tet's height: places nearer than that to each other are one, as on the edge that two triangles
-// share. Tets that a bond holds together have edges of their own, which part by as much as the bond gives.
+// Two points nearer to each other than these fractions of a distance and of a tet's height are one point, as on an edge
+// that two triangles share. Tets that a bond holds together have edges of their own, which separate by the elastic
+// opening of the bond.
 inline constexpr double same_place = 1e-6, same_place_at_least = 1e-9, bond_gives = 3e-4;
 
-// The nearest place of a fragment to a spring, so far. Of the triangles that share it the one that the spring stands
-// highest over or lowest under is the target; whether the spring is inside their normals tell together, each weighted
-// by the angle that its triangle fills there (Baerentzen and Aanaes 2005): one alone may be wrong at a sharp corner or
-// the mouth of a crack.
+// The nearest point of a fragment to a spring, so far. Several triangles may share it. The target is the triangle whose
+// plane is furthest from the spring. The sum of the normals tells whether the spring is inside. Each normal is weighted
+// by the angle that its triangle fills there (Baerentzen and Aanaes 2005): a single normal may be wrong at a sharp
+// corner or at the mouth of a crack.
 struct Nearest {
   int target = -1;
   double distance2 = 0;

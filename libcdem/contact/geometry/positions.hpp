@@ -5,9 +5,10 @@
 
 namespace cdem {
 
-// Semi-springs stand in from their corners by this part of the way to each of the two others, and semi-edges do not meet
-// first in this part of them at an end: more than rock and concrete are pressed together before they break, so that
-// blocks set in rows do not meet those across their edges and corners, and the corners of cracks keep clear of each other.
+// Semi-springs stand in from their corners by this fraction of the distance to each of the two others, and semi-edges
+// do not meet first in this part of them at an end: more than rock and concrete are pressed together before they break,
+// so that blocks set in rows do not meet those across their edges and corners, and the corners of cracks keep clear of
+// each other.
 inline constexpr double drawn_in = 0.005;
 
 using Corners = std::array<geom::Vec3, 3>;

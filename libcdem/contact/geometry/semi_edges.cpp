@@ -61,7 +61,7 @@ void set_angles(const Model& model, Side* begin, Side* end) {
             });
 }
 
-// Of the sides of one edge of the mesh, some of them inner.
+// Adds the wedges between the sides of one edge of the mesh; some of the sides are inner.
 void add_wedges(const Model& model, Side* begin, Side* end, std::vector<ContactEdge>& edges) {
   set_angles(model, begin, end);
   const auto n = end - begin;

@@ -1,9 +1,9 @@
-// The semi-edges of the surfaces as they are now: those of the outside, and those that faces bring which have broken and
-// been handed over to contact.
+// The semi-edges of the present surfaces: edges of the outside, and edges of faces that have broken and been handed
+// over to contact.
 //
-// Around an edge of the mesh the triangles that are outside bound wedges of what holds together: seen along the edge,
-// undeformed, a wedge goes from a triangle with the inside at larger angles to the next with the inside at smaller ones.
-// It is a semi-edge when it is narrower than a flat angle.
+// Around an edge of the mesh, the outer triangles bound wedges of connected material. Seen along the undeformed edge, a
+// wedge reaches from a triangle with its inside at larger angles to the next triangle with its inside at smaller
+// angles. A wedge is a semi-edge if it is narrower than a flat angle.
 #pragma once
 
 #include "libcdem/contact/data/contact_work.hpp"

@@ -15,8 +15,8 @@
 namespace cdem {
 namespace {
 
-// Of the smaller block's size: how far meshes may stand in each other, as those of a pile at rest do, and how near they
-// must be to touch.
+// Over the smaller block's size: the depth by which meshes may overlap, as in a pile at rest, and the distance below
+// which they touch.
 constexpr double overlap_ratio = 0.01, touching_ratio = 1e-3;
 
 Corners corners(const Model& model, int triangle) {
@@ -24,8 +24,8 @@ Corners corners(const Model& model, int triangle) {
   return {model.node_position[n[0]], model.node_position[n[1]], model.node_position[n[2]]};
 }
 
-// The shortest way that draws two triangles apart, m; 0 when they do not meet. Over the axes that can separate them:
-// their normals and the common normals of their edges.
+// The shortest displacement that separates two triangles, m; 0 when they do not meet. Over the axes that can separate
+// them: their normals and the common normals of their edges.
 double depth_of(const Corners& x, const Corners& y) {
   double least = std::numeric_limits<double>::infinity();
   const auto along = [&](const geom::Vec3& axis) {

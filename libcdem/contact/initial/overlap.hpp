@@ -1,4 +1,4 @@
-// Meshed blocks that stand in each other before anything has moved.
+// Meshed blocks that overlap before anything has moved.
 #pragma once
 
 #include "libcdem/model/model.hpp"

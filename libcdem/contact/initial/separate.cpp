@@ -10,7 +10,7 @@
 namespace cdem {
 namespace {
 
-// Of a meshed block's size: bodies nearer than this touch.
+// Distance over a meshed block's size: bodies nearer than this touch.
 constexpr double touching_tolerance = 1e-3;
 
 // Blocks may reach this part of their size into each other, and share this part of their volume: rounding of

@@ -1,5 +1,5 @@
-// Blocks must not occupy the same place: springs act on faces that meet, so blocks that overlap would pass
-// through each other unseen.
+// Checks that blocks do not occupy the same space. Springs act on faces that meet, so blocks that overlap would pass
+// through each other without a force.
 #pragma once
 
 #include "libcdem/model/model.hpp"

@@ -7,10 +7,10 @@
 namespace cdem {
 namespace {
 
-// Of the distance of two edges: further from an end of both no other edges of their lines are as near. Edges that act
-// enclose an angle with a sine of 0.05 or more.
-constexpr double reach_of_ends = 40;
-// Of a tet's height: distances that differ by less are one, as at a node that two edges share.
+// Distance from the ends, over the distance of two edges: beyond it no other edges of their chains are as near. Edges
+// that act enclose an angle with a sine of parallel_edges or more.
+constexpr double reach_of_ends = 2 / parallel_edges;
+// Difference over a tet's height: distances that differ by less are equal, as at a node that two edges share.
 constexpr double same_distance = 1e-12;
 
 } // namespace
@@ -137,7 +137,7 @@ bool EdgeLines::any_of_line(int edge, const Does& does) const {
   return does(edge, 1.) || any_next(edge, 0, does) || any_next(edge, 1, does);
 }
 
-// The place is within the edge, or at an end of it where it goes on in one that touches the other edge as well.
+// The point is within the edge, or at an end where the edge continues in one that touches the other edge as well.
 bool EdgeLines::goes_on(int edge, double place, int other) const {
   return (place > 0 && place < 1) || any_next(edge, place < 0.5 ? 0 : 1, [&](int next, double) {
            if (next == other)

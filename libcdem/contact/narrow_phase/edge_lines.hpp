@@ -1,8 +1,9 @@
-// Semi-edges as the lines that they make up: which pairs of them act, and which go on with what another has stored.
+// Chains of semi-edges: which pairs of edges act, and which take over the stored energy of another pair.
 //
-// Edges go on in each other over a node where they enclose less than 45 degrees. Where two such lines cross the nearest
-// places act, as a spring acts with the nearest place of a surface: within both edges, or at an end where the line goes
-// on. Edges of a line that cross another from opposite sides, in and out again, are two crossings.
+// Two edges that meet at a node continue each other if the angle between them is less than 45 degrees. Where two chains
+// cross, their nearest points act, as a spring acts with the nearest point of a surface. These points lie within both
+// edges, or at an end where the chain continues. If a chain crosses another twice, in and out again, these are two
+// crossings.
 #pragma once
 
 #include "libcdem/contact/data/contact_work.hpp"
@@ -17,9 +18,9 @@ class EdgeLines {
 public:
   EdgeLines(const Model&, const State&, const ContactWork&);
 
-  // Two edges by their numbers, e < f. None where they do not touch, where one ends at their nearest places and its line
-  // does not go on, and where a pair of the same crossing is nearer: with one of the two edges, touching or not, or with
-  // two others that touch.
+  // Contact of two edges, by their numbers, e < f. None if they do not touch, if one ends at the nearest points and its
+  // chain does not continue, or if a pair of the same crossing is nearer: a pair with one of the two edges, touching or
+  // not, or a pair of two other edges that touch.
   std::optional<EdgeTouch> active(int e, int f, const NearestOfEdges&) const;
 
   // The contact that the two edges, or others which meet their ends, have just left behind, as if it were that of e and f:
@@ -35,8 +36,8 @@ public:
 private:
   const Contact* contact_of(int e, int f) const; // before the step
   NearestOfEdges nearest(int e, int f) const;
-  // Calls does(next, way) for the edges in which one goes on over an end of it, until it returns true; way: 1 or -1, with
-  // or against their own direction. Returns whether it did.
+  // Calls does(next, way) for the edges that continue an edge over one of its ends, until it returns true; way: 1 or
+  // -1, with or against their own direction. Returns whether it did.
   template <typename Does>
   bool any_next(int edge, int end, const Does& does) const;
   template <typename Does>
@@ -45,7 +46,8 @@ private:
   bool far_from_ends(int edge, double place, double distance) const;
   bool nearer(int e, int f, const NearestOfEdges&, int than_e, int than_f, const NearestOfEdges& than) const;
   std::vector<int> with_those_at_ends(int edge) const;
-  // Of all new contacts around that of `from` and `to` the one of e and f has the normal most like the one before.
+  // True if, among all new contacts around that of `from` and `to`, the contact of e and f has the normal most like the
+  // old one.
   bool takes_over(int e, int f, const geom::Vec3& normal, int from, int to, const geom::Vec3& before) const;
 
   const Model& model_;

@@ -1,4 +1,4 @@
-// What sources, triangles with their three semi-springs or semi-edges, do to what is near them.
+// Forces of sources (triangles with their three semi-springs, and semi-edges) on the targets near them.
 #pragma once
 
 #include "libcdem/contact/broad_phase/active_surface.hpp"
@@ -21,7 +21,7 @@ public:
   void edges(ContactRow&, ContactCandidate*);
 
 private:
-  // Of two blocks. between: their bodies; the blocks themselves where some have a law of their own.
+  // Contact law of two blocks. between: their bodies, or the blocks themselves where some have a law of their own.
   struct Law {
     std::pair<int, int> between{-1, -1};
     const Joint* joint = nullptr;
@@ -51,8 +51,8 @@ private:
   void add_contact(int source, int target, const NearestOfEdges&, const EdgeTouch&, bool may_begin);
   // Stores what the old one did before the step. Returns it, J: it is booked as lost with the old one, and is not.
   double take_over(Contact&, const Contact& old, const ContactLaw&, const ContactMotion&) const;
-  // Of one side of a contact: its velocity as restitution takes it, m/s, and what the forces on its block can change of it,
-  // m/s2. force: N, of this contact.
+  // Motion of one side of a contact: the velocity that restitution uses, m/s, and the acceleration that the forces on
+  // its block can give it, m/s2. force: N, of this contact.
   struct SideMotion {
     geom::Vec3 velocity;
     double acceleration = 0;

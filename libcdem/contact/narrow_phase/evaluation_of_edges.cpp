@@ -22,7 +22,7 @@ Hindrance hindrance_of(const Model& model, const State& state, const ContactEdge
   const geom::Vec3 a = place_of(model, state, e.nodes[1]) - place_of(model, state, e.nodes[0]),
                    b = place_of(model, state, f.nodes[1]) - place_of(model, state, f.nodes[0]);
   const double la = a.norm(), lb = b.norm(), sine = a.cross(b).norm() / (la * lb);
-  // An edge turns by at most twice the way of its ends over its length.
+  // An edge rotates by at most twice the displacement of its ends over its length.
   const double by_angle = 0.4 * (parallel_edges - sine) * std::min(la, lb);
   // The nearest places of two lines move by some times that over the sine between them.
   const auto left = [&](bool ends, double place, double length) {

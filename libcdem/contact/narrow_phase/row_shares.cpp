@@ -1,11 +1,11 @@
 #include "libcdem/contact/narrow_phase/row_shares.hpp"
 
 #include "libcdem/contact/broad_phase/movers.hpp"
-#include "libcdem/ranks/bytes.hpp"
+#include "libcdem/contact/data/row_owner.hpp"
 #include "libcdem/ranks/shared_state.hpp"
 
 #include <algorithm>
-#include <cstring>
+#include <utility>
 
 namespace cdem {
 namespace {
@@ -24,7 +24,8 @@ public:
       if (work_.active[t])
         add_triangle(t);
   }
-  // Of the movers of the block for which `read` holds, and of the edges on them: an edge may part two movers.
+  // Adds the nodes of the block's movers for which `read` holds, and of the edges on them: an edge may separate two
+  // movers.
   template <class Read>
   void add_movers(int block, const Read& read) {
     const auto reads = [&](int t) { return read(work_.movers.of_triangle[t]); };
@@ -57,8 +58,10 @@ private:
 } // namespace
 
 void begin_search(State& state, ContactWork& work) {
-  if (work.shared)
-    work.shared->gather_surfaces(state);
+  if (!work.shared)
+    return;
+  work.shared->gather_surfaces(state);
+  work.shared->gather_contacts(state);
 }
 
 void read_nodes_of_rows(const Model& model, ContactWork& work) {
@@ -74,10 +77,16 @@ void read_nodes_of_rows(const Model& model, ContactWork& work) {
     if (rank_of_fragment(work, m - blocks) == work.shared->part().rank)
       mover_read[m] = 1;
   NodesRead nodes(model, work);
+  std::vector<int> rigid;
   for (int b = 0; b < blocks; ++b) {
     const Block& block = model.blocks[b];
-    if (block.rigid >= 0 || !block.meshed) // rigid ones are moved by all
+    if (!block.meshed)
       continue;
+    if (block.rigid >= 0) { // placed here
+      if (read[b])
+        rigid.push_back(block.rigid);
+      continue;
+    }
     if (work.restitution)
       nodes.add_block(b);
     else if (work.broken[b])
@@ -86,59 +95,17 @@ void read_nodes_of_rows(const Model& model, ContactWork& work) {
       nodes.add_surface(b);
   }
   work.shared->set_further_nodes(nodes.take());
+  work.shared->set_further_bodies(std::move(rigid));
 }
 
-void add_depths(const ContactSums& more, ContactSums& sums) {
-  sums.depth = std::max(sums.depth, more.depth);
-  sums.depth_over_height = std::max(sums.depth_over_height, more.depth_over_height);
-  if (more.deepest > sums.deepest) {
-    sums.deepest = more.deepest;
-    sums.deepest_source = more.deepest_source;
-    sums.deepest_target = more.deepest_target;
-  }
-}
-
-void append(const ContactChunk& more, ContactChunk& sum) {
-  sum.contacts.insert(sum.contacts.end(), more.contacts.begin(), more.contacts.end());
-  sum.forces.insert(sum.forces.end(), more.forces.begin(), more.forces.end());
-  add_depths(more.sums, sum.sums);
-}
-
-std::array<std::vector<ContactChunk>, 2> found_by_all(const std::array<ContactChunk, 2>& own) {
-  Pack pack;
-  for (const ContactChunk& chunk : own) {
-    pack(chunk.sums);
-    pack(chunk.contacts);
-    pack(chunk.forces);
-  }
-  std::array<std::vector<ContactChunk>, 2> found;
-  for (const std::string& heard : ranks().gather(pack.text(), Ranks::Subject::contacts)) {
-    Unpack unpack(heard);
-    for (std::vector<ContactChunk>& of_kind : found) {
-      ContactChunk& of = of_kind.emplace_back();
-      unpack(of.sums);
-      unpack(of.contacts);
-      unpack(of.forces);
-    }
-  }
-  return found;
-}
-
-std::vector<double> of_finders(const ContactWork& work, const std::vector<std::size_t>& contacts,
-                               const std::function<double(std::size_t)>& number) {
-  std::vector<double> numbers(contacts.size(), 0.0);
-  const bool by_all = !work.shared || work.shared->surfaces_whole();
-  for (std::size_t i = 0; i < contacts.size(); ++i)
-    if (by_all || work.rank_of_contact[contacts[i]] == work.shared->part().rank)
-      numbers[i] = number(contacts[i]);
-  if (by_all || contacts.empty())
-    return numbers;
-  const std::vector<std::string> heard = ranks().gather(
-      std::string(reinterpret_cast<const char*>(numbers.data()), numbers.size() * sizeof(double)));
-  for (std::size_t i = 0; i < contacts.size(); ++i)
-    std::memcpy(&numbers[i], heard[work.rank_of_contact[contacts[i]]].data() + i * sizeof(double),
-                sizeof(double));
-  return numbers;
+void keep_own_contacts(const Model& model, State& state, ContactWork& work) {
+  if (!work.shared || !work.shared->contacts_whole())
+    return;
+  const auto of_others = [&](const Contact& c) {
+    return is_told_by_sums(model, c) && !keeps(model, work, c);
+  };
+  std::vector<Contact>& all = state.contacts;
+  all.erase(std::remove_if(all.begin(), all.end(), of_others), all.end());
 }
 
 } // namespace cdem

@@ -1,4 +1,4 @@
-// Which rows are looked at in a step, and which sleep on.
+// Which rows are computed in a step, and which are skipped.
 #pragma once
 
 #include "libcdem/contact/data/contact_work.hpp"

@@ -1,5 +1,8 @@
 #include "libcdem/contact/response/block_motion.hpp"
 
+#include "libcdem/contact/data/row_owner.hpp"
+#include "libcdem/contact/response/contact_point.hpp"
+#include "libcdem/ranks/bytes.hpp"
 #include "libcdem/state/places.hpp"
 
 #include <Eigen/LU>
@@ -30,6 +33,34 @@ BlockMotion motion_of(const Model& model, const State& state, const Block& block
 }
 
 } // namespace
+
+void sum_block_forces(const Model& model, const State& state, ContactWork& work) {
+  work.block_forces.assign(model.blocks.size(), 0.0);
+  std::vector<ExactSum> on_rigid(model.rigid.size());
+  for (const Contact& c : state.contacts) {
+    const double force = law_of(model, c).kn * c.effective_penetration();
+    const auto [a, b] = blocks_of(model, c);
+    for (const int block : {a, b})
+      if (const int rigid = model.blocks[block].rigid; rigid < 0)
+        work.block_forces[block] += force;
+      else if (keeps(model, work, c))
+        on_rigid[rigid].add(force);
+  }
+  if (work.shared && !on_rigid.empty()) {
+    Pack own;
+    for (const ExactSum& sum : on_rigid)
+      sum.tell(own);
+    const std::vector<std::string> heard = ranks().gather(own.text(), Ranks::Subject::pressed);
+    for (int rank = 0; rank < work.shared->part().size; ++rank) {
+      Unpack unpack(heard[rank]);
+      for (ExactSum& sum : on_rigid)
+        if (rank != work.shared->part().rank)
+          sum.add_told(unpack);
+    }
+  }
+  for (std::size_t i = 0; i < on_rigid.size(); ++i)
+    work.block_forces[model.rigid[i].block] = on_rigid[i].value();
+}
 
 void find_block_motions(const Model& model, const State& state, ContactWork& work, int threads) {
   work.block_motion.assign(model.blocks.size(), {});

@@ -1,11 +1,15 @@
-// Motion of blocks as wholes, for the restitution of contacts: it asks whether two bodies approach, not what waves do at
-// their surfaces. Of each block the velocity of its centroid and the spin that have its momentum and angular momentum.
+// Motion of blocks as wholes, for the restitution of contacts. Restitution depends on whether two bodies approach, not
+// on waves at their surfaces. Each block has the velocity of its centroid and the spin that correspond to its momentum
+// and angular momentum.
 #pragma once
 
 #include "libcdem/contact/data/contact_work.hpp"
 #include "libcdem/state/state.hpp"
 
 namespace cdem {
+
+// Writes ContactWork::block_forces, of State::contacts.
+void sum_block_forces(const Model&, const State&, ContactWork&);
 
 // Writes ContactWork::block_motion. A block with broken faces has none: its fragments move by themselves.
 void find_block_motions(const Model&, const State&, ContactWork&, int threads);

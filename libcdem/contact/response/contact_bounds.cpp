@@ -14,17 +14,18 @@
 namespace cdem {
 namespace {
 
-// Of a rigid body's surface: what touches at most, by the step that it starts with.
+// Largest fraction of a rigid body's surface in contact that the first time step allows for.
 constexpr double touching_part = 0.02;
-// Of the stable step, for the contacts of rigid bodies: they have no elements, so an impact is all in their stiffness,
-// and at 0.9 it takes three steps and gives back 0.75 to 1.5 of the energy, at 0.5 what it took within a tenth.
+// Fraction of the stable step, for the contacts of rigid bodies. Rigid bodies have no elements, so only the stiffness
+// of the contacts takes up an impact. At 0.9 an impact takes three steps and returns 0.75 to 1.5 of the energy. At 0.5
+// it returns the energy within a tenth.
 constexpr double most_of_rigid = 0.5;
-// Of the stable step of an impact, for rigid bodies in flight: its square is the part of the energy that an impact may gain
-// or lose.
+// Fraction of the stable step of an impact, for rigid bodies in flight. Its square is the part of the energy that an
+// impact may gain or lose.
 constexpr double most_of_impact = 0.1;
 // Parts of a unit normal, and of a block's size, in which triangles of one plane agree.
 constexpr double plane_grid = 500;
-// Of a tet's height, in a step.
+// Largest motion in a step, over a tet's height.
 constexpr double way_part = 0.1;
 
 // Pa/m, per body: the stiffest that any of its contacts is given to be; 0: all are as stiff as their tets.
@@ -66,23 +67,14 @@ double for_rigid(double safety) {
 double contact_time_step(const Model& model, const State& state, const ContactWork& own,
                          const ContactStep& step) {
   double least = std::numeric_limits<double>::infinity();
-  std::vector<double> rigid(model.rigid.size(), 0.0);
   for (const auto& [node, block] : own.touched) {
-    const int body = model.blocks[block].rigid;
-    if (body < 0) {
-      const double mass = moving_mass(model, state)[node];
-      const double beta = step.damped ? model.bodies[model.blocks[block].body].material.stiffness_damping : 0;
-      least =
-          std::min(least, step.safety * stable_time_step((step.row_sums[node] + own.stiffness[node]) / mass,
-                                                         beta * step.row_sums[node] / mass));
-      continue;
-    }
-    const std::array<double, 3>& c = state.rigid[body].centroid;
-    const double arm = (place_of(model, state, node) - geom::Vec3(c[0], c[1], c[2])).norm();
-    rigid[body] += own.stiffness[node] * rigid_inverse_mass(model.rigid[body], arm);
+    const double mass = moving_mass(model, state)[node];
+    const double beta = step.damped ? model.bodies[model.blocks[block].body].material.stiffness_damping : 0;
+    least = std::min(least, step.safety * stable_time_step((step.row_sums[node] + own.stiffness[node]) / mass,
+                                                           beta * step.row_sums[node] / mass));
   }
-  for (const double sum : rigid)
-    least = std::min(least, for_rigid(step.safety) * stable_time_step(sum, 0));
+  for (const ContactOnRigid& body : own.on_rigid)
+    least = std::min(least, for_rigid(step.safety) * stable_time_step(body.frequency2, 0));
   return least;
 }
 
@@ -174,10 +166,6 @@ std::vector<double> impact_frequencies2(const Model& model) {
 
 double flight_time_step(const Model& model, const State& state, const ContactWork& own,
                         const Flight& flight) {
-  std::vector<char> touches(model.rigid.size(), 0);
-  for (const auto& [node, block] : own.touched)
-    if (model.blocks[block].rigid >= 0)
-      touches[model.blocks[block].rigid] = 1;
   double flying = 0, any = 0; // 1/s2, the largest
   for (std::size_t i = 0; i < model.rigid.size(); ++i) {
     const double frequency2 = flight.impact_frequency2[i];
@@ -187,7 +175,7 @@ double flight_time_step(const Model& model, const State& state, const ContactWor
     const double spin = vec(state.rigid[i].angular_momentum).norm() / model.rigid[i].principal.minCoeff();
     const double speed = vec(state.rigid[i].velocity).norm() + spin * model.blocks[model.rigid[i].block].size;
     // Pressed by its weight it sinks in by g / w^2 and moves at g / w at most.
-    if (!touches[i] && speed * std::sqrt(frequency2) > flight.gravity)
+    if (!own.on_rigid[i].touches && speed * std::sqrt(frequency2) > flight.gravity)
       flying = std::max(flying, frequency2);
   }
   return flying > 0 ? most_of_impact * stable_time_step(flying + any, 0)

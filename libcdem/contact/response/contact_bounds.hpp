@@ -17,8 +17,8 @@ struct ContactStep {
 };
 double contact_time_step(const Model&, const State&, const ContactWork&, const ContactStep&);
 
-// s, likewise, of rigid bodies before anything touches, if a fiftieth of their surface does: a step that lets no more
-// than a few contacts close at once. contact_time_step shortens it when more do. Infinite without rigid bodies.
+// s, likewise, of rigid bodies before any contact, if a fiftieth of their surface comes into contact: a step that lets
+// no more than a few contacts close at once. contact_time_step shortens it when more do. Infinite without rigid bodies.
 double rigid_time_step(const Model&, double safety);
 
 // s, `safety` times the stable step of nodes at surfaces whose contacts are given a stiffness, as if all semi-springs of

@@ -4,16 +4,16 @@
 //   Fs = R Fs - ks du_s          R turns it with the normal, and about it with the two faces; du_s slip of this step
 //   |Fs| <= Fn tan(phi)
 //
-// With a coefficient of restitution e < 1 the normal force is larger while the two approach and smaller while they part,
-// so that of the energy 1/2 kn d^2 that goes in e^2 comes back:
+// With a coefficient of restitution e < 1 the normal force is larger while the two points approach and smaller while
+// they separate, so that the contact returns the fraction e^2 of the energy 1/2 kn d^2:
 //
 //   Fn = kn (d - d0)+ [(1 + e^2)/2 + (1 - e^2)/2 s],   s = v / v0 within -1 and 1,   v approach speed
 //
-// v0 is the speed that the forces of one step can turn round, so that what is at rest stays so. The first part is the
-// spring's, and stored; the second is damping.
+// v0 is the speed that the forces of one step can reverse, so that a body at rest stays at rest. The first term is the
+// spring, and its energy is stored; the second term is damping.
 //
-// An overlap that is there before anything moved (d0 > 0) carries nothing: at the stiffness of concrete a tenth of a
-// millimetre would throw a unit into the air.
+// An overlap that exists before anything has moved (d0 > 0) carries no force: with the stiffness of concrete a tenth of
+// a millimetre would throw a unit into the air.
 #pragma once
 
 #include "libcdem/joint/coulomb_friction.hpp"
@@ -45,7 +45,7 @@ struct ContactLoss {
   double friction = 0, damping = 0;
 };
 
-// A vector at right angles to the unit vector `from`, turned the shortest way to `to`.
+// A vector at right angles to the unit vector `from`, rotated by the smallest rotation from `from` to `to`.
 inline geom::Vec3 turned_with(const geom::Vec3& v, const geom::Vec3& from, const geom::Vec3& to) {
   const double c = from.dot(to);
   if (c < -0.5) // not a motion but another face
@@ -103,8 +103,8 @@ inline double energy(double pressed, double shear_force, const ContactLaw& law) 
   return 0.5 * law.kn * pressed * pressed + (law.ks > 0 ? 0.5 * shear_force * shear_force / law.ks : 0);
 }
 
-// J, that a contact loses which acts no more, having slid by this in its last step: what it stored, less the work of its
-// force in that step. Of the normal spring that is nothing when it opened.
+// J, loss of a contact that has ended; slid: slip in its last step. The loss is the stored energy less the work of its
+// force in that step. The normal spring loses nothing if the contact opened.
 inline double end_loss(const Contact& c, const ContactLaw& law, const geom::Vec3& slid) {
   const double pressed = c.effective_penetration(), opened = std::min(slid.dot(c.normal), pressed);
   return 0.5 * law.kn * pressed * (pressed - opened) - 0.5 * c.damping * opened +

@@ -42,10 +42,6 @@ void set_normal_weight(ContactArms& arms, int node, double weight) {
 
 } // namespace
 
-std::pair<int, int> triangles_of(const Contact& c) {
-  return {c.source / 3, c.kind == Contact::spring ? c.target : c.target / 3};
-}
-
 ContactLaw law_of(const Model& model, const Contact& c) {
   const ContactSurface& s = model.surface;
   const auto [source, target] = triangles_of(c);

@@ -1,4 +1,4 @@
-// Of a contact that acts: its law, its two blocks, and the nodes on which its forces act.
+// A contact that acts: its law, its two blocks, and the nodes on which its forces act.
 #pragma once
 
 #include "libcdem/contact/data/contact_work.hpp"
@@ -6,30 +6,21 @@
 #include "libcdem/state/state.hpp"
 #include "libgeom/query/closest.hpp"
 
-#include <tuple>
-
 namespace cdem {
-
-// Contacts are sorted by it: of a spring one for each fragment, of an edge one for each other edge.
-inline auto key(const Contact& c) {
-  return std::tuple(c.kind == Contact::edge, static_cast<int>(c.source), c.fragment,
-                    c.kind == Contact::edge ? c.target : 0);
-}
 
 ContactLaw law_of(const Model&, const Contact&);
 
-// Of a spring, by its triangle and the one it is pressed into; of two edges, each by its two triangles, with the means of
-// both. The joint is that between their bodies.
+// Law of a spring, from its triangle and the triangle it is pressed into; law of two edges, each with the means of its
+// two triangles. The joint is that between their bodies.
 ContactLaw spring_law(const Joint&, double tan_friction, const ContactTriangle& from,
                       const ContactTriangle& to);
 ContactLaw edge_law(const Joint&, double tan_friction, const ContactSurface&, const std::array<int, 2>& from,
                     const std::array<int, 2>& to);
 
-// The two blocks of a contact, its source's first; its two triangles, of edges the first of each.
+// The two blocks of a contact, its source's first.
 std::pair<int, int> blocks_of(const Model&, const Contact&);
-std::pair<int, int> triangles_of(const Contact&);
 
-// Of a triangle's corners, where the semi-spring of one of them stands.
+// Weights of a triangle's corners at the position of the semi-spring of one of them.
 geom::Vec3 spring_weights(int corner);
 
 // nearest: weights of the target's corners.

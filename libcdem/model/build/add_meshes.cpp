@@ -24,7 +24,7 @@ int chunk_size(const SplitMesh& split, const Bonding& bonding) {
   return std::clamp(tets / chunks_per_mesh / lanes * lanes, tets_per_chunk, most_tets_per_chunk);
 }
 
-// Gives the nodes a chunk touches their places: its own first, the others as they come.
+// Gives the nodes that a chunk uses their places: its own first, the others as they come.
 class Places {
 public:
   explicit Places(std::size_t nodes) : place_(nodes, -1) {}
@@ -101,7 +101,7 @@ void add_tets(MeshData& data, Range tets, const std::vector<geom::Tet>& all, Pla
   }
 }
 
-// Those a chunk is the first to touch follow each other.
+// Nodes that a chunk is the first to use follow each other.
 int nodes_end(const std::vector<geom::Tet>& tets, Range range, int begin) {
   int end = begin;
   for (std::int64_t t = range.begin; t < range.end; ++t)
@@ -132,6 +132,8 @@ void add_nodes(Model& model, const geom::TetMesh& mesh, const SplitMesh& split, 
     model.tets.push_back(tet);
     model.tet_block.push_back(block);
   }
+  model.gravitational_mass.insert(model.gravitational_mass.end(), model.node_mass.begin() + first,
+                                  model.node_mass.end());
 }
 
 void add_boundary(Model& model, const std::vector<geom::OuterFace>& outer, int block) {
@@ -293,7 +295,7 @@ void add_shares(Model& model) {
     for (std::int64_t node = chunk.inner_end; node < chunk.nodes.end; ++node)
       rank[node - first] = shared++;
   }
-  // Of the partial forces, in their order: visit(rank of the node, place).
+  // Visits the partial forces in their order: visit(rank of the node, place).
   const auto each = [&](const auto& visit) {
     for (const MeshChunk& chunk : data.chunks) {
       auto place = static_cast<int>(chunk.partial.begin);
@@ -311,7 +313,7 @@ void add_shares(Model& model) {
   each([&](int node, int place) { data.shares[next[node]++] = place; });
 }
 
-// Of the last block that has been added: its tets' laws. regions: of its tets; empty: of one region.
+// Adds the laws of the tets of the last block that was added. regions: of its tets; empty: one region.
 void add_plastic_laws(Model& model, int block, const std::vector<int>& regions) {
   const Block& b = model.blocks[block];
   const PlasticLaws& laws = model.bodies[b.body].plasticity;

@@ -5,6 +5,7 @@
 
 #include "libcdem/model/build/contact_surface.hpp"
 #include "libcdem/model/build/rigid_bodies.hpp"
+#include "libcdem/model/build/star_inertia.hpp"
 #include "libgeom/assembly/assembly.hpp"
 #include "libgeom/core/error.hpp"
 #include "libgeom/core/portable.hpp"
@@ -54,7 +55,12 @@ void add_block(Model& model, BlockSeed&& seed, const geom::BlockMesh& mesh) {
     model.tets.push_back(tet);
     model.tet_block.push_back(index);
   }
+  const bool turns = block.star() && model.bodies[block.body].element == Element::finite_volume;
+  model.gravitational_mass.insert(model.gravitational_mass.end(), model.node_mass.begin() + block.node_begin,
+                                  model.node_mass.end());
   model.blocks.push_back(std::move(block));
+  if (turns)
+    match_star_inertia(model, index);
 }
 
 // Zones of the seeds that have none yet, of all those of a body at once: the mesher is slow to start.
@@ -339,9 +345,9 @@ geom::BlockMesh zones_of(const Model& model, int block) {
 
 namespace {
 
-// Of two blocks of one body, the law of the joint set or cut that made the faces; -1: none of its own. Where both sides
-// have one, as when another joint runs along a face, that of the first counts; a face is glued on both sides or not at
-// all.
+// The law of the joint set or cut that made two faces of two blocks of one body; -1: none of its own. If both sides
+// have one, as when another joint runs along a face, that of the first block counts. A face is glued on both sides or
+// not at all.
 int joint_of_cut(const Body& body, const geom::PolyhedronFace& a, const geom::PolyhedronFace& b) {
   if (a.glued && b.glued)
     return body.glued_joint;

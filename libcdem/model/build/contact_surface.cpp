@@ -100,7 +100,7 @@ std::vector<BlockPairLaw> pair_laws(const Model& model) {
     if (const auto left = model.surface.left_by.find(interface.joint);
         interface.frame >= 0 && left != model.surface.left_by.end())
       pairs.push_back({{interface.block_a, interface.block_b}, left->second});
-  // Of two interfaces between the same blocks the first counts.
+  // If there are two interfaces between the same blocks, the first counts.
   std::stable_sort(pairs.begin(), pairs.end(),
                    [](const BlockPairLaw& a, const BlockPairLaw& b) { return a.blocks < b.blocks; });
   pairs.erase(std::unique(pairs.begin(), pairs.end(),

@@ -1,4 +1,4 @@
-// From the meshes of a Model to what of them can touch.
+// Builds the contact surface from the meshes of a Model.
 #pragma once
 
 #include "libcdem/model/model.hpp"

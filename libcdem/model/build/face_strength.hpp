@@ -21,7 +21,7 @@ struct FaceStrength {
 FaceStrength face_strength(const Body&, int region_a, int region_b, const std::array<geom::Vec3, 3>& corners,
                            double volumes);
 
-// Of an interface between blocks at these centroids; the pyramids from it to both belong to it, m3.
+// Strength of an interface between blocks with these centroids. Its volume is that of the pyramids from it to both, m3.
 double interface_strength(const Joint&, const geom::Vec3& centroid_a, const geom::Vec3& centroid_b,
                           double volume);
 

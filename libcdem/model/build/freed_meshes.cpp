@@ -20,6 +20,7 @@ Model without_meshes(const Model& old, std::size_t first) {
   cut(model.blocks, first);
   cut(model.node_position, nodes);
   cut(model.node_mass, nodes);
+  cut(model.gravitational_mass, nodes);
   cut(model.tets, tets);
   cut(model.tet_block, tets);
   const auto before = [&](const auto& entry) { return entry.block < static_cast<int>(first); };

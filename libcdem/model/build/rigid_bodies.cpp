@@ -1,5 +1,7 @@
 #include "libcdem/model/build/rigid_bodies.hpp"
 
+#include "libcdem/model/build/second_moments.hpp"
+
 #include <Eigen/Eigenvalues>
 
 namespace cdem {
@@ -20,26 +22,13 @@ RigidShape rigid_shape(const Model& model, int block, const Node* displacement) 
     shape.centroid += model.node_mass[node] * (place(node) - origin);
   }
   shape.centroid = origin + shape.centroid / shape.body.mass;
-  geom::Mat3 nodal = geom::Mat3::Zero(), solid = geom::Mat3::Zero(); // sums of m r r^T
+  geom::Mat3 nodal = geom::Mat3::Zero(); // sum of m r r^T
   for (int node = b.node_begin; node < b.node_end; ++node) {
     const geom::Vec3 r = place(node) - shape.centroid;
     nodal += model.node_mass[node] * r * r.transpose();
   }
-  const double density = model.bodies[b.body].material.density;
-  for (int tet = b.tet_begin; tet < b.tet_end; ++tet) {
-    const auto edge = [&](int corner) -> geom::Vec3 { // undeformed: the mass stays
-      return model.node_position[model.tets[tet][corner]] - model.node_position[model.tets[tet][0]];
-    };
-    const double mass = density * edge(1).dot(edge(2).cross(edge(3))) / 6;
-    geom::Vec3 sum = geom::Vec3::Zero();
-    geom::Mat3 squares = geom::Mat3::Zero();
-    for (const int node : model.tets[tet]) {
-      const geom::Vec3 r = place(node) - shape.centroid;
-      sum += r;
-      squares += r * r.transpose();
-    }
-    solid += mass / 20 * (squares + sum * sum.transpose());
-  }
+  const geom::Mat3 solid =
+      second_moments(model, block, [&](int node) -> geom::Vec3 { return place(node) - shape.centroid; });
   const auto about_centroid = [](const geom::Mat3& moments) {
     return geom::Mat3(moments.trace() * geom::Mat3::Identity() - moments);
   };

@@ -1,5 +1,5 @@
-// A mesh on its way into the model, in its own numbers: its nodes are split where faces may part, and numbered by the chunk
-// that is the first to touch them.
+// A mesh before it becomes part of the model, with its own numbers. Its nodes are split where faces may separate, and
+// numbered by the first chunk that uses them.
 #pragma once
 
 #include "libcdem/model/build/face_strength.hpp"
@@ -43,7 +43,7 @@ std::vector<BondedFace> bonded_faces(const geom::TetMesh&, const std::vector<geo
 // Throws geom::InputError where a face that may crack would store more at its strength than its fracture energy.
 void require_fracture_energy(const geom::TetMesh&, const std::vector<geom::InnerFace>&, const Body&);
 
-// Numbers the copies anew, chunk by chunk: first those that no other chunk touches. Returns for each chunk how many.
+// Numbers the copies again, chunk by chunk: first those that no other chunk uses. Returns their number for each chunk.
 // both_sides: the tets of side b ask for the nodes of side a too.
 std::vector<std::int64_t> inner_first(SplitMesh&, const std::vector<BondedFace>&, int chunk_tets,
                                       bool both_sides);

@@ -14,6 +14,8 @@ using geom::InputError;
 using geom::Vec3;
 
 constexpr double degree = 3.14159265358979323846 / 180;
+// m2; a bar of 36 cm: a unit is wrong.
+constexpr double thickest = 0.1;
 
 Bolt steel_of(const Arguments& a) {
   Bolt bolt;
@@ -51,7 +53,7 @@ std::vector<std::pair<Vec3, Vec3>> ends_of(const Arguments& pattern) {
   return ends;
 }
 
-Value bolts(Session&, ModelObject& model, const Arguments& a) {
+Value bolts(Session& session, ModelObject& model, const Arguments& a) {
   model.require_idle("bolts");
   if (a.has("pattern") == a.has("from") || a.has("from") != a.has("to"))
     throw InputError("give from and to, or pattern");
@@ -61,6 +63,9 @@ Value bolts(Session&, ModelObject& model, const Arguments& a) {
   else
     ends.emplace_back(a.vec3("from"), a.vec3("to"));
   Bolt bolt = steel_of(a);
+  if (bolt.area > thickest)
+    session.warn("bolts: area = " + describe(a.value("area")) +
+                 ": no bolt is as thick; it is in m2, a bar of 25 mm has 4.9e-4");
   for (std::size_t i = 0; i < ends.size(); ++i) {
     std::tie(bolt.from, bolt.to) = ends[i];
     try {

@@ -120,6 +120,18 @@ Value chart_of_histories(Session& session, ModelObject& model, const Arguments& 
   return {};
 }
 
+// Without held bodies in one piece, such as a floor on which others shatter; all of them where nothing else is there.
+std::vector<FragmentMotion> fragments_of_broken(const std::vector<FragmentMotion>& all) {
+  const auto in_one_piece = [&](int body) {
+    return std::count_if(all.begin(), all.end(), [&](const FragmentMotion& f) { return f.body == body; }) ==
+           1;
+  };
+  std::vector<FragmentMotion> some;
+  std::copy_if(all.begin(), all.end(), std::back_inserter(some),
+               [&](const FragmentMotion& f) { return !(f.held && f.body >= 0 && in_one_piece(f.body)); });
+  return some.empty() ? all : some;
+}
+
 // Steps at the diameters of the fragments.
 Value chart_of_fragments(Session& session, ModelObject& model, const Arguments& a) {
   require_drawing(a.text("file"));
@@ -130,7 +142,7 @@ Value chart_of_fragments(Session& session, ModelObject& model, const Arguments& 
     options.y_label = "mass passing (%)";
   if (!options.y_range)
     options.y_range = {{0, 100}};
-  const std::vector<PassingRow> rows = mass_passing(model.simulation.fragment_motions());
+  const std::vector<PassingRow> rows = mass_passing(fragments_of_broken(model.simulation.fragment_motions()));
   Series series;
   series.name = std::to_string(rows.size()) + (rows.size() == 1 ? " fragment" : " fragments");
   series.style = rows.size() == 1 ? "points" : "line";
@@ -177,12 +189,12 @@ void bind_charts(Module& m) {
   for (Field& field : fragments)
     if (field.name == "log_x")
       field = flag("log_x").standard(true);
-  m.the_class("Model").methods.push_back({"chart_fragments",
-                                          "Chart of the fragments by size: the part of the mass in fragments "
-                                          "up to each diameter, that of the sphere "
-                                          "with their volume.",
-                                          fragments, false, "", "", method<ModelObject>(chart_of_fragments),
-                                          false, Replay::standard, true});
+  m.the_class("Model").methods.push_back(
+      {"chart_fragments",
+       "Chart of the fragments by size: the part of the mass in fragments "
+       "up to each diameter, that of the sphere "
+       "with their volume. Held bodies in one piece, such as a floor, are left out.",
+       fragments, false, "", "", method<ModelObject>(chart_of_fragments), false, Replay::standard, true});
 }
 
 } // namespace cdem::script

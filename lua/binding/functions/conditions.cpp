@@ -183,13 +183,19 @@ Value make_deformable(Session&, ModelObject& model, const Arguments& a) {
   return count;
 }
 
-Value unbond(Session&, ModelObject& model, const Arguments& a) {
-  model.require_idle("unbond");
+Value break_bonds(Session&, ModelObject& model, const Arguments& a) {
+  model.require_idle("break_bonds");
   std::int64_t count = 0;
   for (const Selection& on : selections(model, a.value("on"), "on"))
-    count += model.simulation.unbond(on, a.flag("whole_faces"));
-  note(model, std::to_string(count) + (count == 1 ? " bond undone" : " bonds undone"));
+    count += model.simulation.break_bonds(on, a.flag("whole_faces"));
+  note(model, std::to_string(count) + (count == 1 ? " bond broken" : " bonds broken"));
   return count;
+}
+
+// The name of break_bonds until 0.2.
+Value unbond(Session& session, ModelObject& model, const Arguments& a) {
+  session.warn("model:unbond is named model:break_bonds now; the next release no longer knows the old name");
+  return break_bonds(session, model, a);
 }
 
 Field on() {
@@ -213,9 +219,12 @@ void bind_conditions(Module& m) {
   const auto again = [&] { model.methods.back().replay = Replay::again; };
   add("fix", "Holds nodes, or moves them as told. A later call wins over an earlier one where they meet.",
       {on(), axes(),
-       vec3("displacement").unit("m").doc("total value to be held; a relaxation moves there first"),
-       vec3("velocity").unit("m/s").doc("in real-time stepping; zero when left out"), amplitude_field(),
-       since_field()},
+       vec3("displacement")
+           .unit("m")
+           .doc("total value to be held. A relaxation moves there in its first steps; a run moves there at a "
+                "steady velocity and arrives at its end (one that `stop` ends earlier does not)"),
+       vec3("velocity").unit("m/s").doc("in real-time stepping; zero when left out, and in a relaxation"),
+       amplitude_field(), since_field()},
       fix);
   again();
   add("release", "Undoes fixes.", {on(), axes().doc("components set free")}, release);
@@ -273,12 +282,17 @@ void bind_conditions(Module& m) {
   add("make_deformable",
       "Rigid bodies deform again, with the motion they have: those whose undeformed centroid is selected.",
       {on()}, make_deformable, "integer", "how many changed");
-  add("unbond", "Breaks bonds before anything is loaded (a notch): those whose point is selected.",
-      {on(), flag("whole_faces")
-                 .standard(false)
-                 .doc("only faces that are selected with all their points, so that faces that meet the notch "
-                      "at its tip stay bonded")},
-      unbond, "integer", "how many");
+  const auto whole_faces = [] {
+    return flag("whole_faces")
+        .standard(false)
+        .doc("only faces that are selected with all their points, so that faces that meet the notch at its "
+             "tip "
+             "stay bonded");
+  };
+  add("break_bonds", "Breaks bonds before anything is loaded (a notch): those whose point is selected.",
+      {on(), whole_faces()}, break_bonds, "integer", "how many");
+  add("unbond", "The old name of model:break_bonds; it warns.", {on(), whole_faces()}, unbond, "integer",
+      "how many");
 }
 
 } // namespace cdem::script

@@ -15,9 +15,9 @@ namespace {
 using geom::InputError;
 using geom::Vec3;
 
-// Of `reach` left out, over the usual distance of broken points: about the edge of a tetrahedron.
+// Default of `reach`, over the usual distance of broken points: about the edge of a tetrahedron.
 constexpr double usual_reach = 1.5;
-// Of `window` left out, over the time that the crack has run.
+// Default of `window`, over the time that the crack has run.
 constexpr double usual_window = 0.1;
 
 Table row_of(const Cracks& some) {

@@ -43,6 +43,7 @@ Value flow(Session& session, ModelObject& model, const Arguments& a) {
   model.require_idle("flow");
   Flow flow = flow_of(model, a);
   flow.velocity = velocity_of(a);
+  flow.relative = a.flag("relative");
   if (model.simulation.flow(flow))
     session.warn("model:flow: it meets faces that another flow already meets; their pressures add up");
   model.notes->conditions.push_back("flow along " + describe(a.value("direction")) + " on " + flow.on.text);
@@ -215,10 +216,19 @@ void bind_flow(Module& m) {
   std::vector<Field> steady = flow_fields();
   steady.insert(steady.begin() + 1,
                 number_or_function("velocity", "(time: number): number").at_least(0).required().unit("m/s"));
+  steady.push_back(flag("relative")
+                       .standard(true)
+                       .doc("in a run the water meets each point of the surface at its velocity less that of "
+                            "the surface, u, and the "
+                            "traction is rho/2 (u . n)+ u: a unit that the flow carries gains on it no more, "
+                            "and one that moves in "
+                            "still water is slowed down. false: the pressure of the flow alone, however the "
+                            "surface moves"));
   add("flow",
       "Pressure of a flow on the outer faces that look towards it, as they stand at each moment: alpha F "
       "along the "
-      "flow, alpha the cosine to the inward normal (Feng 2014 eqs 19-20). Shielding is not modelled.",
+      "flow, alpha the cosine to the inward normal (Feng 2014 eqs 19-20), on a surface at rest. Shielding is "
+      "not modelled.",
       steady, "", "", flow);
   model.methods.back().replay = Replay::again;
   std::vector<Field> search = flow_fields();
@@ -248,7 +258,7 @@ void bind_flow(Module& m) {
     search.push_back(field);
   add("critical_flow",
       "Raises a flow from 1 m/s until a held solid breaks: a piece of it comes off, or it has become "
-      "compliant.",
+      "compliant. The pressure is that on a surface at rest.",
       search, "cdem.CriticalFlowResult", "", critical_flow);
 }
 

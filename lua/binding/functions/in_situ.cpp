@@ -15,6 +15,8 @@ using geom::InputError;
 
 // Pa/m; less than half of the weight of snow: a unit is wrong.
 constexpr double lightest = 1e3;
+// Pa; the weight of 4 cm of rock: a unit is wrong.
+constexpr double least = 1e3;
 
 double ratio_of(const Value& given, const Value& one) {
   if (!one.is_number() || !(one.number() >= 0) || !std::isfinite(one.number()))
@@ -48,6 +50,16 @@ InitialStress field_of(Session& session, ModelObject& model, const Arguments& a)
     if (given.size() != 6)
       throw InputError("stress", describe(a.value("stress")), "six numbers {xx, yy, zz, xy, yz, xz}");
     std::copy(given.begin(), given.end(), field.stress.begin());
+    double largest = 0; // Pa
+    for (const double component : given)
+      largest = std::fmax(largest, std::abs(component));
+    const bool alone = !a.has("gradient");
+    if (alone && largest > 0 && largest < least)
+      session.warn("initial_stress: stress = " + describe(a.value("stress")) +
+                   ": no ground has as little; it is in Pa, 1 MPa is 1e6");
+    if (alone && given[0] + given[1] + given[2] > 0)
+      session.warn("initial_stress: stress = " + describe(a.value("stress")) +
+                   ": tension in the mean; the ground is under pressure, which is negative");
   }
   if (a.has("gradient")) {
     field.gradient = a.number("gradient");

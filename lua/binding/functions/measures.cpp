@@ -51,14 +51,23 @@ Value fields(Session&, ModelObject&, const Arguments&) {
 
 Value energy(Session&, ModelObject& model, const Arguments&) {
   const EnergyLedger e = model.simulation.energy();
-  return Table{{"elastic", e.elastic},   {"springs", e.springs},
-               {"bolts", e.bolts},       {"kinetic", e.kinetic},
-               {"damping", e.damping},   {"radiated", e.radiated},
-               {"friction", e.friction}, {"breaking", e.breaking},
-               {"plastic", e.plastic},   {"yielding", e.yielding},
-               {"cutting", e.cutting},   {"fictitious", e.fictitious},
-               {"external", e.external}, {"external_peak", e.external_peak},
-               {"total", e.total()},     {"balance_error", e.balance_error()}};
+  return Table{{"elastic", e.elastic},
+               {"springs", e.springs},
+               {"bolts", e.bolts},
+               {"kinetic", e.kinetic},
+               {"damping", e.damping},
+               {"radiated", e.radiated},
+               {"friction", e.friction},
+               {"breaking", e.breaking},
+               {"plastic", e.plastic},
+               {"yielding", e.yielding},
+               {"cutting", e.cutting},
+               {"fictitious", e.fictitious},
+               {"external", e.external},
+               {"external_peak", e.external_peak},
+               {"total", e.total()},
+               {"balance_error", e.balance_error()},
+               {"one_way_error", model.simulation.impossible_energy().part}};
 }
 
 Value overlap(Session&, ModelObject& model, const Arguments&) {
@@ -165,7 +174,14 @@ void bind_rows(Module& m) {
         number("external").unit("J").required().doc("work of loads, gravity and moving supports"),
         number("external_peak").unit("J").required().doc("largest |external| so far"),
         number("total").unit("J").required().doc("sum of all but external"),
-        number("balance_error").required().doc("|total - external| over external_peak")}});
+        number("balance_error").required().doc("|total - external| over the largest energy above"),
+        number("one_way_error")
+            .required()
+            .doc("the largest so far of: how far damping, friction, breaking, plastic or yielding, which can "
+                 "only "
+                 "rise, fell; how far kinetic and stored energy were above what was given; over the largest "
+                 "energy "
+                 "above")}});
   m.records.push_back(
       {"Overlap",
        "Volume that two blocks occupy at once, as they stand now.",
@@ -216,8 +232,13 @@ void bind_measures(Module& m) {
   add("mean", "Mean of a field: over nodes, or over blocks by volume.", {field, on}, "number", "", mean);
   add("at", "Value of a field at an undeformed place, interpolated in the block there.",
       {field, vec3("place").unit("m").required()}, "number", "", at);
-  add("reaction", "Force of the supports on a place.", {place("on").required().doc("where: one place")},
-      "number[]", "N, {x, y, z}", reaction);
+  add("reaction",
+      "Force of what holds a place from outside: of supports; of quiet boundaries and free fields the force "
+      "of "
+      "the support they took the place of, their dashpots, and the waves that enter. A node on an edge "
+      "counts in "
+      "both sides.",
+      {place("on").required().doc("where: one place")}, "number[]", "N, {x, y, z}", reaction);
   add("fields", "Names that max, min, mean, at and probe understand.", {}, "string[]", "", fields);
   add("energy", "Energy ledger.", {}, "cdem.Energy", "", energy);
   add("overlap", "How far contacts let blocks into each other, as a volume.", {}, "cdem.Overlap", "",
@@ -226,14 +247,17 @@ void bind_measures(Module& m) {
   add("breaks", "One table per broken bond, the oldest first.", {}, "cdem.Break[]", "", breaks);
   add("history",
       "Histories as lists by name: stage, step, time, residual, kinetic_energy, external_work, "
-      "broken_tension, broken_shear and the probes. The same are in history.csv after each stage.",
+      "broken_tension, broken_shear and the probes. The first sample of a run is its beginning. The same are "
+      "in "
+      "history.csv after each stage.",
       {}, "table<string, number[]>", "", history);
   add("probe", "Samples a field at a place into the history.",
       {text("name").required().doc("of the column"), field,
        vec3("at").unit("m").required().doc("undeformed place")},
       "", "", probe, false);
   add("record_reaction",
-      "Samples the force of the supports on a side or a body into the history (N), as columns <name>_x, "
+      "Samples the force of the supports and boundaries (model:reaction) on a side or a body into the "
+      "history (N), as columns <name>_x, "
       "<name>_y and "
       "<name>_z. Each sample costs some steps.",
       {text("name").required(), text("on").required().doc("\"x-\" .. \"z+\", or a body by name")}, "", "",

@@ -7,8 +7,8 @@
 
 namespace cdem::script {
 
-// Of function(x, y, z); an answer that is no finite number, or below `least`, is an error that names the place.
-// allowed: in words.
+// Calls function(x, y, z) of the script. An answer that is not a finite number, or is below `least`, is an error that
+// names the position. allowed: the range in words.
 std::function<double(const geom::Vec3&)>
 number_at_place(const std::shared_ptr<Reference>& function, const std::string& field,
                 const std::string& allowed, double least = -std::numeric_limits<double>::infinity());

@@ -104,7 +104,7 @@ std::string numbers_text(const std::vector<int>& units) {
   return (units.size() == 1 ? "unit " : "units ") + text;
 }
 
-// Of a settled layer the density is to be the one asked for within this part.
+// Relative difference of a settled layer's density from the density asked for, above which the user is warned.
 constexpr double density_told_of = 0.05;
 
 void tell(Session& session, const geom::Layer& layer, double density) {

@@ -1,6 +1,7 @@
 // Block assemblies: the builders of libgeom.
 #include "lua/binding/functions/angles.hpp"
 #include "lua/binding/functions/discs.hpp"
+#include "lua/binding/functions/solving_warnings.hpp"
 #include "lua/binding/objects/objects.hpp"
 #include "lua/binding/objects/solid_objects.hpp"
 #include "lua/binding/runtime/module.hpp"
@@ -70,7 +71,7 @@ Value cut_by_joints(Session& session, Object*, const Arguments& a) {
                       a.number("smallest"));
   if (joined.united + joined.glued > 0)
     session.message("cut_by_joints: " + std::to_string(joined.united) + " blocks thinner than " +
-                    describe(a.value("smallest")) + " m united with a neighbour, " +
+                    three_digits(a.number("smallest")) + " m united with a neighbour, " +
                     std::to_string(joined.glued) + " glued to one");
   return made(std::move(joined.assembly));
 }

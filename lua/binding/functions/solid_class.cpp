@@ -18,7 +18,7 @@ namespace {
 
 using geom::InputError;
 
-// Of a mesh's volume that differs by more than this part from its solid's.
+// Relative difference of a mesh's volume from its solid's, above which the user is warned.
 constexpr double volume_told_of = 0.03;
 
 // The same unit in another place: it keeps its name, density and, unless scaled, its sizes.

@@ -1,9 +1,11 @@
 #include "lua/binding/functions/solving_warnings.hpp"
 
+#include "libcdem/results/one_way_energies.hpp"
 #include "libcdem/state/ledger.hpp"
 #include "libcdem/step/errors.hpp"
 #include "lua/binding/functions/angles.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 
@@ -16,7 +18,7 @@ constexpr double small_turn = 1;        // degree
 constexpr double small_departure = 0.1; // of a face's size
 // An open energy balance is told of again when it has grown by this.
 constexpr double tell_again = 1.5;
-// Of an element's height: contacts deeper than this may well be what opens the balance.
+// Depth over an element's height: deeper contacts are a likely cause of an open energy balance.
 constexpr double deep_contact = 0.05;
 
 std::string of_stage(const Stage& stage) {
@@ -159,23 +161,29 @@ void warn_after_stage(Session& session, ModelObject& model, const Stage& stage) 
         "their places and names, or leave it out");
 }
 
-// The ledger has to close: what is stored and spent is the work of the loads. A relaxation that stopped short of its
-// balance is told of anyway.
+// The ledger has to close: what is stored and spent is the work of the loads. Where it closes, energies that cannot be
+// (results/one_way_energies.hpp) tell that two errors hide each other in it. The larger of the two is told. A relaxation
+// that stopped short of its balance is told of anyway.
 void check_energy(Session& session, ModelObject& model, const Stage& stage) {
   if (stopped_short(stage.result))
     return;
   const EnergyLedger energy = model.simulation.energy();
-  const double open = energy.balance_error();
-  if (open <= open_balance || (open <= broken_balance && open < tell_again * model.told_open))
+  const ImpossibleEnergy impossible = model.simulation.impossible_energy();
+  const double open = energy.balance_error(), worst = std::max(open, impossible.part);
+  if (worst <= open_balance || (worst <= broken_balance && worst < tell_again * model.told_open))
     return;
-  model.told_open = open;
+  model.told_open = worst;
   const double gained = energy.total() - energy.external;
+  const std::string percent = three_digits(100 * worst) + " % of the largest energy in the ledger (";
+  const std::string found =
+      of_stage(stage) + (worst > open
+                             ? impossible.what + " by " + percent + three_digits(impossible.energy) +
+                                   " J at " + three_digits(impossible.time) + " s"
+                             : "the energy balance is open by " + percent + three_digits(std::abs(gained)) +
+                                   " J " + (gained > 0 ? "gained" : "lost"));
   const Cause cause = likely_cause(model);
-  const std::string found = of_stage(stage) + "the energy balance is open by " + three_digits(100 * open) +
-                            " % of the largest work of the loads (" + three_digits(std::abs(gained)) + " J " +
-                            (gained > 0 ? "gained" : "lost");
   const std::string why = "); most likely from " + cause.what + ": " + cause.advice;
-  if (open > broken_balance)
+  if (worst > broken_balance)
     throw SolutionError(found + why);
   session.warn(found + ", more than 1 %" + why);
 }

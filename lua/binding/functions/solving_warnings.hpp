@@ -20,7 +20,8 @@ void note_process_zones(Session&, ModelObject&);
 // After a stage: what small strain cannot hold, what left the model, which laws acted on nothing so far.
 void warn_after_stage(Session&, ModelObject&, const Stage&);
 
-// After a stage: warns of an energy balance that is open by more than 1 %, and throws SolutionError from 10 %.
+// After a stage: warns of an energy balance that is open by more than 1 %, and of energies that cannot be
+// (results/one_way_energies.hpp) by more than that; throws SolutionError from 10 %.
 void check_energy(Session&, ModelObject&, const Stage&);
 
 // "contact of "a" and "b"", or "joint of "a"" between its own blocks.

@@ -60,6 +60,7 @@ Value clip(Session& session, Object*, const Arguments& a) {
                  : keep == "inside" || keep == "below" ? geom::ClipSide::inside
                                                        : geom::ClipSide::outside;
   options.name = a.text_or("name", "");
+  options.glued = a.flag("glued");
   options.tolerance = a.number("tolerance");
   const bool curved = solid && geom::has_curved_faces(solid->solid);
   if (curved && !(options.tolerance > 0))
@@ -125,7 +126,7 @@ void bind_surfaces(Module& m) {
        "Cuts blocks along a surface or the faces of a solid, and keeps those on one side. Each block is cut "
        "by "
        "planes "
-       "into convex pieces; the cuts within it are glued, they are no joints.",
+       "into convex pieces; the cuts within it are glued unless told otherwise.",
        {object("shape", "Assembly").required().doc("left as it is; the result is a new one"),
         object("solid", "Solid"),
         object("surface", "Surface").doc("instead: closed, or open and single in height, a terrain"),
@@ -139,7 +140,12 @@ void bind_surfaces(Module& m) {
             .standard(0.0)
             .doc("how far the cuts may leave the surface; makes fewer pieces and no thinner ones. 0: exact; "
                  "curved solids need one"),
-        text("name").doc("of the faces that are cut, in pictures of joints and lists")},
+        text("name").doc("of the faces that are cut, in pictures of joints, lists and `joints` of a body"),
+        flag("glued").standard(true).doc("the cuts are no joints; their faces never break. false: they are "
+                                         "joints, as those of cdem.cut, also "
+                                         "where a "
+                                         "cut runs on through the rest of a block that the surface bends in: "
+                                         "a fault that follows a surface")},
        false,
        "cdem.Assembly",
        "",

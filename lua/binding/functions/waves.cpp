@@ -115,9 +115,11 @@ struct Unit {
   const char* si;
 };
 constexpr double standard_gravity = 9.80665; // m/s2
-constexpr Unit units[] = {{"m/s2", 1, "m/s2"}, {"cm/s2", 0.01, "m/s2"}, {"g", standard_gravity, "m/s2"},
-                          {"m/s", 1, "m/s"},   {"cm/s", 0.01, "m/s"},   {"Pa", 1, "Pa"},
-                          {"kPa", 1000, "Pa"}, {"MPa", 1e6, "Pa"},      {"1", 1, "1"}};
+constexpr Unit units[] = {{"m/s2", 1, "m/s2"},   {"cm/s2", 0.01, "m/s2"},
+                          {"Gal", 0.01, "m/s2"}, {"g", standard_gravity, "m/s2"},
+                          {"m/s", 1, "m/s"},     {"cm/s", 0.01, "m/s"},
+                          {"Pa", 1, "Pa"},       {"kPa", 1000, "Pa"},
+                          {"MPa", 1e6, "Pa"},    {"1", 1, "1"}};
 
 const Unit& unit_of(const std::string& name) {
   for (const Unit& unit : units)
@@ -243,7 +245,7 @@ void bind_waves(Module& m) {
             "name of its column (s); the number of it, \"1\", where the file has no names"),
         text("value").required().doc("name of its column"),
         number("scale").standard(1.0).doc("factor on the values"),
-        choice("unit", {"m/s2", "cm/s2", "g", "m/s", "cm/s", "Pa", "kPa", "MPa", "1"})
+        choice("unit", {"m/s2", "cm/s2", "Gal", "g", "m/s", "cm/s", "Pa", "kPa", "MPa", "1"})
             .required()
             .doc("of the values in the file"),
         choice("to", {"velocity"}).doc("velocity: an acceleration is integrated"),

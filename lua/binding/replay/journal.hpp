@@ -1,6 +1,6 @@
-// What a script was told, in order: results of calls that read or change a model, how stages went, which callbacks
-// were called. A resumed script is run from its beginning and told the same again, without solving anything, up to
-// where its checkpoint was written; so its own variables come back as well.
+// Answers that a script got, in order: results of calls that read or change a model, outcomes of stages, and callbacks
+// that were called. A resumed script runs from its beginning and gets the same answers again, without solving anything,
+// up to the point where its checkpoint was written. So its own variables come back as well.
 #pragma once
 
 #include "lua/binding/schema/value.hpp"

@@ -1,6 +1,6 @@
-// Work that rank 0 does for all ranks (libcdem/ranks/ranks.hpp): what reads or writes files, asks the clock, starts
-// processes. All of them call it at the same place of the same script; the others are told its result or its error, so
-// that the script goes the same way everywhere. One process alone just does it.
+// Work that rank 0 does for all ranks (libcdem/ranks/ranks.hpp): it reads or writes files, asks the clock, or starts
+// processes. All ranks call it at the same place of the same script. Rank 0 sends its result or its error to the
+// others, so that the script takes the same branches everywhere. A single process just does the work.
 #pragma once
 
 #include "lua/binding/schema/value.hpp"

@@ -1,4 +1,4 @@
-// Calls of a script on their way through the journal, and what a session keeps for its checkpoints.
+// Passes the calls of a script through the journal, and keeps the data of a session for its checkpoints.
 #pragma once
 
 #include "lua/binding/replay/journal.hpp"
@@ -97,7 +97,7 @@ private:
   bool keeps_ = false, replaying_ = false, resumed_ = false, in_replayed_callback_ = false, asked_ = false;
   bool stopped_ = false, told_ = false, told_full_ = false, keep_call_ = false, mended_ = false;
   std::size_t mark_ = 0; // of the journal, where the running stage can be left
-  // Of all models: when the running stage began, and where it can be left.
+  // Steps of all models when the running stage began, and where it can be left.
   std::int64_t begin_steps_ = 0, mark_steps_ = 0;
   std::size_t kept_ = 0;   // of the journal, behind the last call that is not done again by a mended script
   std::string unfinished_; // checkpoint of a stage that a callback has ended, until the script goes on

@@ -1,6 +1,6 @@
 // Which files a script may touch: it writes below the output folder only, and reads beside itself, below the
-// output folder, below the results and, when it is a run of a sweep, below the sweep's folder. `..` and symbolic
-// links are followed before the place is judged. Of several ranks the first alone looks, reads and writes.
+// output folder, below the results and, when it is a run of a sweep, below the sweep's folder. `..` and symbolic links
+// are resolved before the path is checked. With several ranks only the first checks, reads and writes.
 #pragma once
 
 #include <filesystem>

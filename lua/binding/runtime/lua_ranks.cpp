@@ -1,6 +1,6 @@
-// Lua's own functions in a script that several ranks run: the clock, chance and the system are asked by rank 0 and told
-// to the others; a file is opened by rank 0, and the others open a copy in memory of what it holds, so that reading,
-// writing and seeking go alike on all. Nothing of this is used by one process alone.
+// Lua's own functions in a script that several ranks run. Rank 0 asks the clock, the random seed and the system, and
+// sends the answers to the others. Rank 0 opens a file; the others open a copy of its content in memory, so that
+// reading, writing and seeking are the same on all. A single process uses none of this.
 #include "lua/binding/runtime/lua_library.hpp"
 
 #include "libcdem/ranks/ranks.hpp"

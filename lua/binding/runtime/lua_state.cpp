@@ -73,7 +73,8 @@ int set_in_memory(lua_State* L) {
   return lua_error(L);
 }
 
-// Of the table on top of the stack. Lua asks for new keys only; the rest is looked at when a stage begins and ends.
+// Guards the table on top of the stack. Lua calls the guard for new keys only; other changes are checked when a stage
+// begins and ends.
 void guard_memory(lua_State* L) {
   lua_newtable(L);
   lua_pushcfunction(L, set_in_memory);

@@ -24,8 +24,9 @@ struct Function {
   // In a resumed script. A method of Model that keeps a place, a condition or a function of the script is `again`; a
   // function that reads or writes files or the clock is `recorded`.
   Replay replay = Replay::standard;
-  // Of several ranks the first alone does it and tells the others its plain result: what draws, writes files by a library,
-  // asks the clock or starts processes. Its fields hold no functions of the script.
+  // With several ranks only the first executes the function and sends its plain result to the others. This holds for
+  // functions that draw, write files by a library, ask the clock or start processes. Their fields contain no functions
+  // of the script.
   bool led = false;
 };
 

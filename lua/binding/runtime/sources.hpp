@@ -1,5 +1,5 @@
-// The Lua text of a sweep: its script and the files that it requires, as they are when the sweep begins, so that
-// every run of it runs the same, whatever is edited meanwhile.
+// The Lua text of a sweep: its script and the files that it requires, as they are when the sweep begins. So all runs
+// execute the same text, even if the files are edited meanwhile.
 #pragma once
 
 #include <filesystem>
@@ -8,7 +8,7 @@
 
 namespace cdem::script {
 
-// Of the output folder of a sweep: holds the text that its runs run.
+// Folder in the output folder of a sweep: holds the scripts that its runs execute.
 inline constexpr const char* sources_folder = "swept";
 
 // Where the file of `require "a.b"` stands, from the script's folder: a/b.lua.

@@ -22,8 +22,11 @@ using geom::InputError;
     advice = "write all three, e.g. {0, 0, " + describe(given) + "}";
   else if (type.kind == Kind::list && !given.is_nil() && !given.table())
     advice = "put it in braces: {" + describe(given) + "}";
-  else if (type.kind == Kind::record && given.get<std::string>())
-    advice = "name the values: { name = value, ... }";
+  else if (type.kind == Kind::text && given.is_number())
+    advice = "write it in quotes, or tostring(...) around it";
+  else if (type.kind == Kind::record && !type.fields.empty() &&
+           (given.get<std::string>() || given.is_number()))
+    advice = "name the values: { " + type.fields.front().name + " = value, ... }";
   throw InputError(path, describe(given), type.words(), advice);
 }
 

@@ -1,4 +1,4 @@
-// What passes between a script and the toolkit, as plain C++: the binding files see these and never a Lua
+// Values that pass between a script and the toolkit, as plain C++: the binding files include these and never a Lua
 // header.
 #pragma once
 

@@ -1,4 +1,4 @@
-// Laying, second part: all units come to rest together, and those that lean on too little are seated otherwise.
+// Laying, second part: all units come to rest together, and units with too few supports are repositioned.
 #include "libgeom/placement/laying.hpp"
 
 #include "libgeom/core/random.hpp"
@@ -10,22 +10,22 @@
 namespace geom {
 namespace {
 
-// Of all units at once.
+// When all units come to rest at once.
 constexpr int first_steps = 1000, later_steps = 400;    // at most
 constexpr double first_step = 0.01, later_step = 0.003; // over the height
 
-// Of seating otherwise units that too few others press on.
+// When units with too few supports are repositioned.
 constexpr int most_rounds = 40, most_in_vain = 20; // the latter in a row
 constexpr int units_times_rounds = 4000;           // at most: every round takes all to rest again
-constexpr std::uint64_t seats_tried = 20;
-constexpr int without_seat = 5; // rounds in which a unit found none: it is left alone
-constexpr int seats_wanted = 4;
-constexpr double same_seat = 0.01;                   // over the height: nearer is the seat it had
+constexpr std::uint64_t positions_tried = 20;
+constexpr int without_position = 5; // rounds in which a unit found none: it is left alone
+constexpr int positions_wanted = 4;
+constexpr double same_position = 0.01;               // over the height: nearer is the position it had
 constexpr double least_turn = 0.1, turn_step = 0.02; // radians
-constexpr double seat_lift = 0.3;                    // over the height
-constexpr double seat_shift = 0.3;                   // over the height, for each radian
+constexpr double lift = 0.3;                         // over the height
+constexpr double shift_per_radian = 0.3;             // over the height, for each radian
 
-constexpr std::uint64_t seat_id = std::uint64_t{1} << 45; // random numbers of its own
+constexpr std::uint64_t position_id = std::uint64_t{1} << 45; // random numbers of its own
 
 } // namespace
 
@@ -76,31 +76,31 @@ void Laying::rest_together(int held, double step, int steps) {
   }
 }
 
-// The best, and nearest, of some other seats near by where three things carry it by itself: turned and shifted, more in
+// The best of some other positions near by in which three bodies support the unit: it is rotated and shifted, more in
 // each round, or lifted and in any attitude. False where there is none.
-bool Laying::seat_otherwise(int unit, int round) {
+bool Laying::reposition(int unit, int round) {
   const Pose here = laid_[unit].pose;
   const std::vector<Mat3> rotations = attitudes(sites_[unit]);
   const std::uint64_t id =
-      seat_id + static_cast<std::uint64_t>(unit) + (static_cast<std::uint64_t>(round) << 32);
+      position_id + static_cast<std::uint64_t>(unit) + (static_cast<std::uint64_t>(round) << 32);
   Try best{here, std::numeric_limits<double>::infinity()};
   int found = 0;
-  for (std::uint64_t k = 0; k < seats_tried && found < seats_wanted; ++k) {
+  for (std::uint64_t k = 0; k < positions_tried && found < positions_wanted; ++k) {
     const auto draw = [&](std::uint64_t i) { return 2 * uniform(options_.seed, id, 6 * k + i) - 1; };
     const double angle = least_turn * (1 + round) + turn_step * static_cast<double>(k);
     const Vec3 turn = angle * Vec3(draw(0), draw(1), draw(2));
-    const Vec3 shift = seat_shift * height_ * angle * Vec3(draw(3), draw(4), draw(5));
+    const Vec3 shift = shift_per_radian * height_ * angle * Vec3(draw(3), draw(4), draw(5));
     Pose start{turned(here.rotation, turn), here.translation + shift};
     const bool anew = k % 2 == 1;
     if (anew) {
-      const std::uint64_t number = (k + seats_tried * static_cast<std::uint64_t>(round)) / 2;
+      const std::uint64_t number = (k + positions_tried * static_cast<std::uint64_t>(round)) / 2;
       start.rotation = turned(rotations[number % rotations.size()], turn);
-      start.translation += seat_lift * height_ * frame_.row(2);
+      start.translation += lift * height_ * frame_.row(2);
     }
     const Near around = on_the_way(start.translation, unit);
     const Try one = rested({start}, sites_[unit], around);
     const double away = (one.pose.translation - here.translation).norm();
-    if (!one.good || (!anew && away < same_seat * height_) || !clear(one.pose, around))
+    if (!one.good || (!anew && away < same_position * height_) || !clear(one.pose, around))
       continue;
     ++found;
     const double cost = one.cost + away / height_;
@@ -112,7 +112,7 @@ bool Laying::seat_otherwise(int unit, int round) {
   return found > 0;
 }
 
-void Laying::reseat(int held) {
+void Laying::reposition_unsupported(int held) {
   const int rounds = std::clamp(units_times_rounds / static_cast<int>(laid_.size()), 4, most_rounds);
   const int rounds_in_vain = std::min(most_in_vain, (rounds + 1) / 2);
   int in_vain = 0; // rounds in a row
@@ -122,10 +122,10 @@ void Laying::reseat(int held) {
     const Rested rested = rested_;
     bool any = false;
     for (const int unit : rested.leaning) {
-      if (found_none[unit] == without_seat)
+      if (found_none[unit] == without_position)
         continue;
       poll_();
-      if (seat_otherwise(unit, round))
+      if (reposition(unit, round))
         any = true;
       else
         ++found_none[unit];

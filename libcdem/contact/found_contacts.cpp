@@ -1,0 +1,243 @@
+#include "libcdem/contact/found_contacts.hpp"
+
+#include "libcdem/contact/data/row_owner.hpp"
+#include "libcdem/contact/geometry/positions.hpp"
+#include "libcdem/contact/response/contact_point.hpp"
+#include "libcdem/element/rigid_motion.hpp"
+#include "libcdem/model/build/rigid_bodies.hpp"
+#include "libcdem/ranks/bytes.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <tuple>
+
+namespace cdem {
+namespace {
+
+void add(const geom::Vec3& more, std::array<ExactSum, 3>& sums) {
+  for (int axis = 0; axis < 3; ++axis)
+    sums[axis].add(more[axis]);
+}
+
+geom::Vec3 values(const std::array<ExactSum, 3>& sums) {
+  return {sums[0].value(), sums[1].value(), sums[2].value()};
+}
+
+// The deepest; of equals the one of the first triangle, whichever rank has found it.
+void add_depths(const ContactSums& more, ContactSums& sums) {
+  sums.depth = std::max(sums.depth, more.depth);
+  sums.depth_over_height = std::max(sums.depth_over_height, more.depth_over_height);
+  if (std::tuple(-more.deepest, more.deepest_source, more.deepest_target) <
+      std::tuple(-sums.deepest, sums.deepest_source, sums.deepest_target))
+    std::tie(sums.deepest, sums.deepest_source, sums.deepest_target) =
+        std::tuple(more.deepest, more.deepest_source, more.deepest_target);
+}
+
+// Those of one source stand by fragment, then corner: next to their places.
+void insert(const Contact& c, std::vector<Contact>& contacts) {
+  contacts.push_back(c);
+  for (std::size_t i = contacts.size() - 1; i > 0 && key(contacts[i]) < key(contacts[i - 1]); --i)
+    std::swap(contacts[i], contacts[i - 1]);
+}
+
+} // namespace
+
+FoundContacts::FoundContacts(const Model& model, State& state, ContactWork& work)
+    : model_(model), state_(state), work_(work) {
+  for (const TouchedNode& at : work.touched) {
+    work.force[at.node] = {};
+    work.stiffness[at.node] = 0;
+  }
+  work.touched.clear();
+  for (RigidSums& sums : work.rigid_sums)
+    if (sums.touches) {
+      sums.each([](ExactSum& sum) { sum.clear(); });
+      sums.touches = false;
+    }
+  work.now.clear();
+  work.now.reserve(state.contacts.size() + state.contacts.size() / 8 + 64);
+}
+
+void FoundContacts::add(const ContactChunk& found, Contact::Kind kind) {
+  add_depths(found.sums, sums_);
+  sums_.contacts += static_cast<std::int64_t>(found.contacts.size());
+  for (std::size_t i = 0; i < found.contacts.size(); ++i) {
+    const ContactForce& force = found.forces[i];
+    friction_.add(force.friction);
+    damping_.add(force.damping);
+    insert(found.contacts[i], work_.now);
+    add_on_rigid(force);
+    if (both_rigid(model_, force.source_block, force.target_block))
+      continue;
+    if (!work_.shared) {
+      add_at_nodes(force);
+      continue;
+    }
+    told_[kind].contacts.push_back(found.contacts[i]);
+    told_[kind].forces.push_back(force);
+  }
+}
+
+void FoundContacts::add_at_nodes(const ContactForce& f) {
+  const auto add = [&](int node, int block, const geom::Vec3& force, double stiffness) {
+    Node& sum = work_.force[node];
+    sum.x += force.x();
+    sum.y += force.y();
+    sum.z += force.z();
+    if (work_.stiffness[node] == 0 && stiffness != 0)
+      work_.touched.push_back({node, block});
+    work_.stiffness[node] += 2 * stiffness; // the weights of both sides sum to 2
+  };
+  const ContactArms& arms = f.arms;
+  if (model_.blocks[f.source_block].rigid < 0)
+    for (int i = 0; i < 3; ++i)
+      if (arms.on_source[i] != 0)
+        add(arms.source[i], f.source_block, arms.on_source[i] * (f.normal + f.shear),
+            arms.on_source[i] * f.stiffness);
+  if (model_.blocks[f.target_block].rigid < 0)
+    for (int i = 0; i < 4; ++i)
+      add(arms.target[i], f.target_block, -arms.normal[i] * f.normal - arms.shear[i] * f.shear,
+          std::max(arms.normal[i], std::abs(arms.shear[i])) * f.stiffness);
+}
+
+RigidSums& FoundContacts::touched(int rigid) {
+  work_.rigid_sums[rigid].touches = true;
+  return work_.rigid_sums[rigid];
+}
+
+// Forces at nodes move and turn the body as their resultant does; stiffness counts as if each node moved by itself.
+void FoundContacts::add_on_rigid(const ContactForce& f) {
+  const ContactArms& arms = f.arms;
+  const auto arm = [&](int node, int rigid) -> geom::Vec3 {
+    return place_of(model_, state_, node) - vec(state_.rigid[rigid].centroid);
+  };
+  if (const int rigid = model_.blocks[f.source_block].rigid; rigid >= 0) {
+    geom::Vec3 at = geom::Vec3::Zero();
+    double frequency2 = 0;
+    for (int i = 0; i < 3; ++i)
+      if (arms.on_source[i] != 0) {
+        const geom::Vec3 here = arm(arms.source[i], rigid);
+        at += arms.on_source[i] * here;
+        frequency2 += arms.on_source[i] * rigid_inverse_mass(model_.rigid[rigid], here.norm());
+      }
+    RigidSums& sums = touched(rigid);
+    cdem::add(f.normal + f.shear, sums.force);
+    cdem::add(at.cross(f.normal + f.shear), sums.torque);
+    sums.frequency2.add(2 * f.stiffness * frequency2);
+  }
+  if (const int rigid = model_.blocks[f.target_block].rigid; rigid >= 0) {
+    geom::Vec3 pressed = geom::Vec3::Zero(), sheared = geom::Vec3::Zero();
+    double frequency2 = 0;
+    for (int i = 0; i < 4; ++i) {
+      const geom::Vec3 here = arm(arms.target[i], rigid);
+      pressed += arms.normal[i] * here;
+      sheared += arms.shear[i] * here;
+      frequency2 += std::max(arms.normal[i], std::abs(arms.shear[i])) *
+                    rigid_inverse_mass(model_.rigid[rigid], here.norm());
+    }
+    RigidSums& sums = touched(rigid);
+    cdem::add(-f.normal - f.shear, sums.force);
+    cdem::add(-pressed.cross(f.normal) - sheared.cross(f.shear), sums.torque);
+    sums.frequency2.add(2 * f.stiffness * frequency2);
+  }
+}
+
+// What contacts stored and did not give back that act no more: those that opened gave it back, the other side of the rest
+// has gone round an edge or off the end of another. Both lists are sorted.
+void FoundContacts::add_losses() {
+  auto next = work_.now.begin();
+  for (const Contact& c : state_.contacts) {
+    while (next != work_.now.end() && key(*next) < key(c))
+      ++next;
+    if ((next == work_.now.end() || key(*next) != key(c)) && keeps(model_, work_, c))
+      friction_.add(
+          end_loss(c, law_of(model_, c), work_.step * velocity_past(state_, arms_of(model_, state_, c))));
+  }
+}
+
+void FoundContacts::exchange() {
+  Pack pack;
+  pack(sums_);
+  friction_.tell(pack);
+  damping_.tell(pack);
+  for (const Told& told : told_) {
+    pack(told.contacts);
+    pack(told.forces);
+  }
+  for (std::size_t rigid = 0; rigid < work_.rigid_sums.size(); ++rigid)
+    if (RigidSums& sums = work_.rigid_sums[rigid]; sums.touches) {
+      pack(static_cast<int>(rigid));
+      sums.each([&](const ExactSum& sum) { sum.tell(pack); });
+    }
+  pack(-1);
+  const std::vector<std::string> heard = ranks().gather(pack.text(), Ranks::Subject::contacts);
+  std::vector<std::array<Told, 2>> told_by(heard.size());
+  for (int rank = 0; rank < static_cast<int>(heard.size()); ++rank) {
+    if (rank == work_.shared->part().rank) {
+      std::swap(told_by[rank], told_);
+      continue;
+    }
+    Unpack unpack(heard[rank]);
+    ContactSums sums;
+    unpack(sums);
+    add_depths(sums, sums_);
+    sums_.contacts += sums.contacts;
+    friction_.add_told(unpack);
+    damping_.add_told(unpack);
+    for (Told& told : told_by[rank]) {
+      unpack(told.contacts);
+      unpack(told.forces);
+    }
+    for (int rigid = 0;;) {
+      unpack(rigid);
+      if (rigid < 0)
+        break;
+      touched(rigid).each([&](ExactSum& sum) { sum.add_told(unpack); });
+    }
+  }
+  const auto own = static_cast<std::ptrdiff_t>(work_.now.size());
+  for (const Contact::Kind kind : {Contact::spring, Contact::edge})
+    for (int rank = 0; rank < static_cast<int>(told_by.size()); ++rank) {
+      const Told& told = told_by[rank][kind];
+      for (const ContactForce& force : told.forces)
+        add_at_nodes(force);
+      if (rank != work_.shared->part().rank)
+        work_.now.insert(work_.now.end(), told.contacts.begin(), told.contacts.end());
+    }
+  std::inplace_merge(work_.now.begin(), work_.now.begin() + own, work_.now.end(),
+                     [](const Contact& a, const Contact& b) { return key(a) < key(b); });
+}
+
+// Forces only of bodies that this rank moves.
+void FoundContacts::set_values() {
+  sums_.friction = friction_.value();
+  sums_.damping = damping_.value();
+  for (std::size_t rigid = 0; rigid < work_.rigid_sums.size(); ++rigid) {
+    RigidSums& sums = work_.rigid_sums[rigid];
+    ContactOnRigid& on = work_.on_rigid[rigid];
+    on = {};
+    if (!sums.touches)
+      continue;
+    on.touches = true;
+    on.frequency2 = sums.frequency2.value();
+    if (work_.shared && !work_.shared->moves(static_cast<int>(rigid)))
+      continue;
+    on.force = values(sums.force);
+    on.torque = values(sums.torque);
+  }
+}
+
+ContactSums FoundContacts::end() {
+  add_losses();
+  if (work_.shared)
+    exchange();
+  set_values();
+  if (work_.now.capacity() > 2 * work_.now.size() + 64)
+    work_.now.shrink_to_fit();
+  std::swap(state_.contacts, work_.now);
+  if (work_.shared)
+    work_.shared->part_contacts(state_);
+  return sums_;
+}
+
+} // namespace cdem

@@ -1,0 +1,43 @@
+// Adds up what the rows have found in a step: the contacts that State has next, forces at nodes, resultants on rigid bodies,
+// energies, depths. Serial, as it is little beside finding them.
+//
+// Energies and resultants are summed exactly by the rank that finds a contact, so that no order changes a bit. Forces at
+// nodes are added in the order of contacts, by all ranks alike.
+#pragma once
+
+#include "libcdem/contact/data/contact_work.hpp"
+#include "libcdem/state/state.hpp"
+
+namespace cdem {
+
+class FoundContacts {
+public:
+  FoundContacts(const Model&, State&, ContactWork&);
+
+  // Of this rank, first all springs, then edges, in the order of their rows.
+  void add(const ContactChunk&, Contact::Kind);
+
+  // Tells the other ranks, and puts the contacts into State.
+  ContactSums end();
+
+private:
+  struct Told { // to all ranks: contacts of what deforms
+    std::vector<Contact> contacts;
+    std::vector<ContactForce> forces;
+  };
+  void add_at_nodes(const ContactForce&);
+  void add_on_rigid(const ContactForce&);
+  RigidSums& touched(int rigid);
+  void add_losses();
+  void exchange();
+  void set_values();
+
+  const Model& model_;
+  State& state_;
+  ContactWork& work_;
+  ContactSums sums_;
+  ExactSum friction_, damping_; // J
+  std::array<Told, 2> told_;
+};
+
+} // namespace cdem

@@ -1,0 +1,36 @@
+// Whole pages of memory in a range of addresses.
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+
+#include <unistd.h>
+
+namespace cdem {
+
+inline std::uintptr_t page_size() {
+  static const auto size = static_cast<std::uintptr_t>(sysconf(_SC_PAGESIZE));
+  return size;
+}
+
+inline std::uintptr_t in_page(const void* address) { // bytes behind its begin
+  return reinterpret_cast<std::uintptr_t>(address) % page_size();
+}
+
+// Of bytes [from, to) of an array at `data`; empty where there is none.
+struct Pages {
+  std::uintptr_t begin = 0, end = 0;
+
+  Pages(const void* data, std::int64_t from, std::int64_t to, std::uintptr_t page = page_size()) {
+    const auto first = reinterpret_cast<std::uintptr_t>(data) + static_cast<std::uintptr_t>(from),
+               last = reinterpret_cast<std::uintptr_t>(data) + static_cast<std::uintptr_t>(to);
+    begin = (first + page - 1) / page * page;
+    end = std::max(begin, last / page * page);
+  }
+  std::size_t size() const { return end - begin; }
+  char* data() const {
+    return reinterpret_cast<char*>(begin);
+  } // NOLINT(performance-no-int-to-ptr): whole pages
+};
+
+} // namespace cdem

@@ -1,0 +1,115 @@
+// A stage among several ranks: which chunks are whose, who keeps what of the State, when all of it is gathered.
+#include "libcdem/parallel/residency.hpp"
+#include "libcdem/ranks/parked_model.hpp"
+#include "libcdem/step/stage.hpp"
+
+#include <fmt/format.h>
+
+namespace cdem {
+namespace {
+
+// The largest load of a rank over the mean from which on chunks are shared anew.
+constexpr double uneven = 1.1;
+
+// Nodes that loads need of whichever rank.
+std::vector<std::int32_t> nodes_of_bolts(const ResolvedConditions& r) {
+  std::vector<std::int32_t> nodes;
+  for (const ResolvedBolt& bolt : r.bolts)
+    for (const RockPlace& at : bolt.at)
+      if (at.inside)
+        nodes.insert(nodes.end(), at.nodes.begin(), at.nodes.end());
+  return nodes;
+}
+
+} // namespace
+
+void Stage::share() {
+  if (ranks().alone())
+    return;
+  if (gave_back_) { // loads on nodes that others owned
+    ResolvedConditions whole = resolve(context_.model, context_.state, context_.conditions);
+    work.resolved.external = std::move(whole.external);
+    work.resolved.constant = std::move(whole.constant);
+    update_external(work.resolved, context_.state.time, moving());
+    gave_back_ = false;
+  }
+  const Range all{0, static_cast<std::int64_t>(context_.model.chunks.size())};
+  shared_ = std::make_unique<SharedState>(context_.model, nodes_of_bolts(work.resolved),
+                                          chunk_loads(context_.model, context_.state, all));
+  work.shared = work.contact.shared = shared_.get();
+}
+
+void Stage::warn_of_idle_ranks() const {
+  static bool told = false; // once is enough
+  const auto chunks = static_cast<int>(context_.model.chunks.size()), idle = ranks().size() - chunks;
+  if (!shared_ || told || idle <= 0)
+    return;
+  told = true;
+  context_.observer.warning(
+      fmt::format("warning: the model has {} chunk{} for {} ranks: {} of them {} no elements to compute",
+                  chunks, chunks == 1 ? "" : "s", ranks().size(), idle, idle == 1 ? "has" : "have"));
+}
+
+// A body that breaks on one side costs more there. What is read of others is found anew with the contacts.
+void Stage::share_anew() {
+  if (!shared_)
+    return;
+  const Partition& part = shared_->part();
+  const std::vector<double> own = chunk_loads(context_.model, context_.state, part.chunks());
+  std::vector<double> loads(context_.model.chunks.size());
+  std::copy(own.begin(), own.end(), loads.begin() + part.chunks().begin);
+  std::vector<std::size_t> bytes;
+  for (const std::int64_t chunk : part.chunk_begin)
+    bytes.push_back(static_cast<std::size_t>(chunk) * sizeof(double));
+  ranks().share(loads.data(), bytes);
+  const double now = imbalance(loads, part.chunk_begin);
+  if (now < uneven || imbalance(loads, even_shares(loads, part.size)) > 0.5 * (1 + now))
+    return;
+  see_whole();
+  shared_->shares().gather_points(work.bond.spring_force);
+  shared_->shares().gather_points(work.bond.stretch);
+  if (carried)
+    shared_->shares().gather_nodes(*carried);
+  share();
+  work.contact.fragments_due = work.contact.all_due = true;
+  ++shared_anew_;
+  keep_last_good(); // of the share that is this rank's now
+}
+
+void Stage::give_back() {
+  if (!shared_ || gave_back_)
+    return;
+  gave_back_ = true;
+  park(context_.model, shared_->shares());
+  for (std::vector<Node>* of_nodes : {&work.resolved.external, &work.resolved.constant})
+    release_outside(*of_nodes, shared_->shares().kept_nodes());
+  release_zeros(work.partial);
+  release_zeros(work.contact.force);
+  release_zeros(work.contact.stiffness);
+  trim_heap(); // what building and looking at the whole has left
+}
+
+void Stage::keep_last_good() {
+  if (shared_)
+    shared_->keep(context_.state, context_.last_good);
+  else
+    context_.last_good = context_.state;
+}
+
+void Stage::see_whole() {
+  if (shared_)
+    shared_->gather(context_.state);
+}
+
+void Stage::see_surfaces(std::vector<Node>& by_node) {
+  if (!shared_)
+    return;
+  shared_->gather_surfaces(context_.state);
+  shared_->shares().gather_nodes(by_node);
+}
+
+bool Stage::left_alone() const {
+  return shared_ && std::uncaught_exceptions() > exceptions_ && !ranks().all_fail(Ranks::patience);
+}
+
+} // namespace cdem
