@@ -6,7 +6,10 @@ local element = cdem.parameter{ name = "element", default = "rigid", choices = {
 local young = cdem.parameter{ name = "youngs_modulus", default = 2e8, range = {1e6, 1e11}, unit = "Pa" }
 local friction = cdem.parameter{ name = "friction_angle", default = 30.0, range = {1, 80}, unit = "degrees" }
 
-local d, length, width, drop = 0.25, 0.8, 1.2, 0.8 -- m; d: cube root of a block's volume
+local d, length, drop = 0.25, 0.8, 0.8 -- m; d: cube root of a block's volume
+-- More blocks make the heap wider and higher, not longer: the pusher moves all of it over the edge.
+local scale = math.max(1, math.sqrt(count / 30))
+local width = 1.2 * scale
 local scene = { held = {"ledge", "floor", "unit_1", "unit_2"} }
 
 function scene.model()
@@ -26,7 +29,7 @@ function scene.model()
     loose("heap", cdem.voronoi{ size = {length, width, height}, count = count, origin = {-length - 0.2, -width / 2, 0} }),
     loose("bricks", cdem.bricks{ size = {0.2, width, 0.4}, brick = {0.2, 0.4, 0.2}, origin = {-0.2, -width / 2, 0} }),
     stiff("ledge", cdem.box{ size = {1.6, width + 0.4, 0.3}, origin = {-1.6, -width / 2 - 0.2, -0.3} }),
-    stiff("floor", cdem.box{ size = {12, 14, 0.2}, origin = {-4, -7, -drop - 0.2} }),
+    stiff("floor", cdem.box{ size = {12 * scale, 14 * scale, 0.2}, origin = {-4 * scale, -7 * scale, -drop - 0.2} }),
     stiff("pusher", cdem.box{ size = {0.2, width + 0.2, 0.8 * height}, origin = {-length - 0.4, -width / 2 - 0.1, 0.02} }),
     stiff("unit_1", unit(0.5, -0.4, 20)),
     stiff("unit_2", unit(0.8, 0.4, 75)),
@@ -37,7 +40,7 @@ function scene.draw(model, name)
   model:picture{ file = name, colour = "velocity.magnitude", range = {0, 5}, deformation = 1, broken_bonds = false,
                  axes = false, title = string.format("A heap pushed off a ledge, %.2f s", model.time),
                  plain = {"ledge", "floor", "pusher", "unit_1", "unit_2"},
-                 camera = { position = {5, -4.5, 2}, focal_point = {0.2, 0, -0.4}, up = {0, 0, 1}, view_angle = 30 } }
+                 camera = { position = {5 * scale, -4.5 * scale, 2 * scale}, focal_point = {0.2, 0, -0.4}, up = {0, 0, 1}, view_angle = 30 } }
   return name
 end
 

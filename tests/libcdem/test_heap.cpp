@@ -69,7 +69,7 @@ cdem::ModelSpec rigid(std::vector<cdem::BodySpec> bodies) {
 struct Outcome {
   std::uint64_t hash = 0;
   std::size_t contacts = 0; // at most
-  double balance = 0;
+  double open = 0;          // of the energy balance, over the energy at the beginning
 };
 
 struct Case {
@@ -91,9 +91,11 @@ Outcome fall(const Case& c, int threads, bool looks_at_all) {
   options.callback_every = 50;
   Outcome outcome;
   options.callback = [&] { outcome.contacts = std::max(outcome.contacts, s.state.contacts.size()); };
+  const double given = cdem::energy(s.model, s.state).total();
   s.run(options);
   outcome.hash = cdem::hash(s.state);
-  outcome.balance = cdem::energy(s.model, s.state).balance_error();
+  const cdem::EnergyLedger energy = cdem::energy(s.model, s.state);
+  outcome.open = std::abs(energy.total() - energy.external - given) / given;
   return outcome;
 }
 
@@ -107,7 +109,7 @@ cdem::RigidState& state_of(System& s, const std::string& body) {
 void require_same_bits(const Case& c, std::size_t contacts) {
   const Outcome all = fall(c, 1, true);
   CHECK(all.contacts >= contacts);
-  CHECK(all.balance < 1e-3);
+  CHECK(all.open < 0.01);
   CHECK(fall(c, 1, false).hash == all.hash);
   CHECK(fall(c, 3, false).hash == all.hash);
 }
@@ -168,15 +170,15 @@ TEST_CASE("a heap that strikes a tilted floor: pairs that are skipped change no 
   geom::Assembly floor = geom::grid({3, 3, 0.2}, {1, 1, 1}, {-1.5, -1.5, -0.2});
   for (geom::Polyhedron& block : floor.blocks)
     for (Vec3& x : block.vertices)
-      x = tilt * x + Vec3(0, 0, -0.35);
+      x = tilt * x + Vec3(0, 0, -0.09);
   Case c;
   c.spec = rigid({body("heap", cells({0.3, 0.3, 0.3}, 6, {-0.15, -0.15, 0}), soft_stone(), friction(20)),
                   body("floor", floor, soft_stone(), friction(20))});
-  c.steps = 3000;
+  c.steps = 1200;
   c.push = [](System& s) {
     for (std::size_t i = 0; i < s.model.rigid.size(); ++i)
       if (const int block = s.model.rigid[i].block; s.model.bodies[s.model.blocks[block].body].name == "heap")
-        s.state.rigid[i].velocity = cdem::triple(4 * centroid(s, block) + Vec3(0, 0, -4));
+        s.state.rigid[i].velocity = cdem::triple(4 * centroid(s, block) + Vec3(0, 0, -8));
   };
   require_same_bits(c, 5);
 }

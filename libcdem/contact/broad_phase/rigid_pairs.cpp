@@ -4,7 +4,6 @@
 #include "libcdem/contact/broad_phase/renewed.hpp"
 #include "libcdem/contact/geometry/nearest.hpp"
 #include "libcdem/element/rigid_motion.hpp"
-#include "libcdem/model/names.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -78,9 +77,11 @@ std::vector<int> planes_of(const Model& model, const State& state, int b) {
 }
 
 double radius_of(const Model& model, const State& state, int b) {
+  const Block& block = model.blocks[b];
+  const geom::Vec3 centre = vec(state.rigid[block.rigid].centroid);
   double radius2 = 0;
-  for (int node = model.blocks[b].node_begin; node < model.blocks[b].node_end; ++node)
-    radius2 = std::max(radius2, vec(state.rigid_offset[node]).squaredNorm());
+  for (int node = block.node_begin; node < block.node_end; ++node)
+    radius2 = std::max(radius2, (place_of(model, state, node) - centre).squaredNorm());
   return std::sqrt(radius2) * (1 + rounding);
 }
 
