@@ -7,8 +7,9 @@
 //
 //   k_s (|e_s| - x) = strength(p(x), path + x),    p(x) the pressure after the rise of the slip x
 //
-// The slip is added to o_s, the rise to o_n. Faces that are apart carry no traction, and o_s follows their relative
-// displacement.
+// The slip is added to o_s, the rise to o_n. Faces that are apart carry no traction. There o_s follows their relative
+// displacement, and o_n the rise without pressure until they touch: their asperities have moved past each other all the
+// same.
 #pragma once
 
 #include "libcdem/joint/barton_bandis.hpp"
@@ -110,8 +111,12 @@ JointResponse response(const Law& law, const JointSpring& spring, const geom::Ve
   if (open > 0) {
     r.history.parted = std::max(history.parted, open);
     if (!(law.pull(spring, open, r.history.parted) > 0)) {
-      r.offset += shear;
+      const double before = history.slip.norm();
       r.history.slip += shear;
+      const double rise = std::min(
+          open, dilation_after(law, spring, history, 0, before, r.history.slip.norm()) - history.dilation);
+      r.history.dilation += rise;
+      r.offset += shear + rise * normal;
       return r;
     }
   }

@@ -283,6 +283,32 @@ TEST_CASE("a block between smooth platens bears 2 c cos(phi) / (1 - sin(phi)) an
   }
 }
 
+TEST_CASE("relaxed in increments a block ends on its strength: what a relaxation swings past comes back "
+          "elastically",
+          "[plasticity][relax]") {
+  Plasticity law = soil(30, 0, 1e6);
+  law.cohesion = law.residual_cohesion = 10e6;
+  const double strength = 2 * 10e6 * std::sqrt(3.0), elastic = strength / rock().youngs_modulus;
+  const auto short_of = [&](int increments) { // of its strength
+    cdem::Simulation s = between_platens(law, {2, 2, 2});
+    cdem::RelaxOptions options;
+    options.residual = 1e-6;
+    for (int i = 1; i <= increments; ++i) {
+      cdem::Fix platen = fixed(cdem::Selection::side("z+"), "z");
+      platen.displacement = Vec3(0, 0, -0.1 * 2 * elastic * i / increments);
+      s.fix(platen);
+      REQUIRE(s.relax(options).converged);
+    }
+    return 1 + stress_zz(s) / strength;
+  };
+  const double one = short_of(1), four = short_of(4), sixteen = short_of(16);
+  CAPTURE(one, four, sixteen);
+  CHECK(one > 0);
+  CHECK(four < 0.6 * one);
+  CHECK(sixteen < 0.4 * four);
+  CHECK(std::abs(sixteen) < 0.01);
+}
+
 TEST_CASE("softening ends at the residual strength", "[plasticity]") {
   Plasticity law = soil(30, 0, 1e6);
   law.cohesion = 10e6;

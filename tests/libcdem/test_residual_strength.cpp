@@ -133,6 +133,22 @@ TEST_CASE("held apart no wider a dilating joint presses: all of its rise is clos
   CHECK(spring.ks * (0.01 - slip) == Approx(s.traction.x()));
 }
 
+TEST_CASE("faces that slide apart ride up too, until they touch", "[joint_law]") {
+  const double dilation = std::tan(0.2);
+  Spring open{residual(0.5, dilation, 0.05)};
+  open.go_to({0, 0, 0.01}, 1);
+  open.go_to({0.03, 0, 0.01}); // 6 mm of 10
+  CHECK(open.history.dilation == Approx(0.03 * dilation).epsilon(1e-9));
+  CHECK(open.traction.isZero(0));
+  open.go_to({0.03, 0, 0.03 * dilation - 1e-3});
+  CHECK(open.traction.z() == Approx(-1e-3 * spring.kn).epsilon(1e-6));
+  Spring near{residual(0.5, dilation, 0.05)};
+  near.go_to({0, 0, 1e-3}, 1);
+  near.go_to({0.03, 0, 1e-3}, 1);
+  CHECK(near.history.dilation == Approx(1e-3).epsilon(1e-9));
+  CHECK(near.traction.isZero(0));
+}
+
 TEST_CASE("residual strength that is no residual is refused", "[joint_law]") {
   cdem::Joint joint;
   joint.cohesion = 1e6;
