@@ -144,6 +144,8 @@ void beside_threads(const Case& of, const Settings& settings) {
               static_cast<double>(memory.memory.anonymous) / 1e6,
               static_cast<double>(memory.memory.most) / 1e6);
   std::printf("%10s ranks: %s\n%10s one:   %s\n", "", together.times.c_str(), "", one.times.c_str());
+  if (of.begins_anew) // what piles tell goes to all ranks, not through surfaces
+    return;
   const double per_tet = size * together.clock / n * (1 - together.waited);
   const double sums = bytes_of_sums * (size - 1);
   const double per_surface =
