@@ -70,7 +70,8 @@ public:
   // Messages sent since the program began, and the time spent waiting for other ranks.
   struct Traffic {
     std::int64_t messages = 0, bytes = 0;
-    double waited = 0; // s
+    double waited = 0;           // s, by the clock
+    double waited_processor = 0; // s, of processor time of the thread that waits
   };
   const Traffic& traffic() const { return traffic_; }
 

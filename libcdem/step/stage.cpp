@@ -391,6 +391,8 @@ void Stage::report(const StepReport& report, bool last) {
         times_.text() + (shared_anew_ > 0 ? fmt::format("; chunks shared anew: {}", shared_anew_) : "");
   if (details)
     details(progress);
+  if (shared_)
+    progress.note += (progress.note.empty() ? "" : ", ") + ("loads of the ranks " + loads_);
   progress_(std::move(progress), last);
 }
 

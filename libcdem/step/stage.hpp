@@ -142,6 +142,7 @@ private:
   bool gave_back_ = false;              // since it was last shared
   int exceptions_ = std::uncaught_exceptions();
   int shared_anew_ = 0; // how often
+  std::string loads_;   // of the ranks, when they were last counted
   ThreadChoice threads_;
   ContactUpdate contacts_;
   StepTimes times_;

@@ -3,13 +3,39 @@
 #include "libcdem/ranks/parked_model.hpp"
 #include "libcdem/step/stage.hpp"
 
+#include <algorithm>
 #include <fmt/format.h>
+#include <numeric>
 
 namespace cdem {
 namespace {
 
 // The largest load of a rank over the mean from which on chunks are shared anew.
 constexpr double uneven = 1.1;
+
+// Per rank, in parts of all.
+std::vector<double> shares_of_load(const std::vector<double>& load, const std::vector<std::int64_t>& begin) {
+  const double all = std::accumulate(load.begin(), load.end(), 0.0);
+  std::vector<double> shares;
+  for (std::size_t rank = 0; rank + 1 < begin.size(); ++rank) {
+    const double own = std::accumulate(load.begin() + begin[rank], load.begin() + begin[rank + 1], 0.0);
+    shares.push_back(all > 0 ? own / all : 1.0 / static_cast<double>(begin.size() - 1));
+  }
+  return shares;
+}
+
+// "61, 39 %"; of many ranks "64 ranks, the largest 1.08 of the mean".
+std::string in_words(const std::vector<double>& shares) {
+  constexpr std::size_t most_named = 8;
+  const double most = *std::max_element(shares.begin(), shares.end());
+  if (shares.size() > most_named)
+    return fmt::format("{} ranks, the largest {:.2f} of the mean", shares.size(),
+                       most * static_cast<double>(shares.size()));
+  std::string text;
+  for (const double share : shares)
+    text += fmt::format("{}{:.0f}", text.empty() ? "" : ", ", 100 * share);
+  return text + " %";
+}
 
 // Nodes that loads need of whichever rank.
 std::vector<std::int32_t> nodes_of_bolts(const ResolvedConditions& r) {
@@ -34,8 +60,9 @@ void Stage::share() {
     gave_back_ = false;
   }
   const Range all{0, static_cast<std::int64_t>(context_.model.chunks.size())};
-  shared_ = std::make_unique<SharedState>(context_.model, nodes_of_bolts(work.resolved),
-                                          chunk_loads(context_.model, context_.state, all));
+  const std::vector<double> loads = chunk_loads(context_.model, context_.state, all);
+  shared_ = std::make_unique<SharedState>(context_.model, nodes_of_bolts(work.resolved), loads);
+  loads_ = in_words(shares_of_load(loads, shared_->part().chunk_begin));
   work.shared = work.contact.shared = shared_.get();
 }
 
@@ -62,9 +89,11 @@ void Stage::share_anew() {
   for (const std::int64_t chunk : part.chunk_begin)
     bytes.push_back(static_cast<std::size_t>(chunk) * sizeof(double));
   ranks().share(loads.data(), bytes);
+  loads_ = in_words(shares_of_load(loads, part.chunk_begin));
   const double now = imbalance(loads, part.chunk_begin);
   if (now < uneven || imbalance(loads, even_shares(loads, part.size)) > 0.5 * (1 + now))
     return;
+  const std::string before = loads_;
   see_whole();
   shared_->shares().gather_points(work.bond.spring_force);
   shared_->shares().gather_points(work.bond.stretch);
@@ -73,6 +102,9 @@ void Stage::share_anew() {
   share();
   work.contact.fragments_due = work.contact.all_due = true;
   ++shared_anew_;
+  context_.observer.message(
+      fmt::format("stage {} {}, step {}: chunks are shared anew, loads of the ranks {} before, {} now",
+                  context_.number, kind_, step, before, loads_));
   keep_last_good(); // of the share that is this rank's now
 }
 

@@ -56,7 +56,7 @@ constexpr const char* help =
     R"(Usage: cdem bench [--sizes 100,10000,100000] [--tets 10000,105000] [--bodies 1000,10000]
                   [--body-divisions 1] [--settle 1000] [--shatter 6000] [--discs 6000] [--prisms 5000]
                   [--threads 1,2] [--seconds 1]
-       cdem bench --ranks 2 [--tets 105000] [--threads 1] [--seconds 1]
+       cdem bench --ranks 2 [--tets 105000] [--settle 200] [--threads 1] [--seconds 1]
 
 Steps plates of bonded blocks, meshed cubes, continuous and with every face bonded, lattices of cubes that touch,
 and discs and prisms that crack, and prints rates beside the bare element kernels and a copy of memory.
@@ -71,7 +71,8 @@ and discs and prisms that crack, and prints rates beside the bare element kernel
   --prisms   tetrahedra in a prism that is crushed between two plates, e.g. 5000,50000; 0: none
   --threads  thread counts to compare
   --seconds  stepping time per figure, at least
-  --ranks    processes that step the cubes of --tets together, by mpirun, beside as many threads of one process
+  --ranks    processes that step the cubes of --tets and the units of --settle, rigid, together, by mpirun, beside as many
+             threads of one process
 )";
 
 // This program again, by mpirun.

@@ -1,11 +1,13 @@
 #include "tests/bench/measure.hpp"
 
 #include "libcdem/procedure/run.hpp"
+#include "libcdem/ranks/ranks.hpp"
 
 #include <cmath>
 #include <ctime>
 #include <fstream>
 #include <malloc.h>
+#include <optional>
 #include <unistd.h>
 
 namespace bench {
@@ -28,19 +30,23 @@ double Stopwatch::now() const {
 
 namespace {
 
+struct Moment {
+  double clock = Stopwatch(2).now(), processor = Stopwatch(1).now(); // s
+  Ranks::Traffic traffic = ranks().traffic();
+};
+
 struct FirstStep : Observer {
-  const Stopwatch* watch = nullptr;
-  double seconds = -1;
+  std::optional<Moment> at;
   void progress(const Progress& p) override {
-    if (seconds < 0 && p.step == 1)
-      seconds = watch->seconds();
+    if (!at && p.step == 1)
+      at.emplace();
     if (p.last)
       times = p.times;
-    else if (memory)
-      *memory = resident();
+    else
+      memory = resident();
   }
   std::string times;
-  Resident* memory = nullptr;
+  Resident memory;
 };
 
 } // namespace
@@ -52,31 +58,38 @@ State shaken(const Model& model) {
   return state;
 }
 
-double stepping_seconds(const Model& model, State& state, int threads, std::int64_t steps, bool by_clock,
-                        std::string* times, Resident* memory) {
-  const Conditions none;
+Stepped stepped(const Model& model, const Conditions& conditions, State& state, int threads,
+                std::int64_t steps) {
   RunLog log;
   State last_good;
-  const Stopwatch watch(by_clock ? 2 : threads);
   FirstStep first;
-  first.watch = &watch;
-  first.memory = memory;
-  double last = 0; // s
+  Moment last;
   RunOptions options;
   options.steps = steps + 1;
   options.callback_every =
       steps + 1; // once: what callbacks read has to be brought to one moment, a kernel's work
-  options.callback = [&] { last = watch.seconds(); };
-  run({model, state, none, log, last_good, first, threads, 1}, options);
-  if (times)
-    *times = first.times;
-  return last - first.seconds;
+  options.callback = [&] { last = Moment(); };
+  run({model, state, conditions, log, last_good, first, threads, 1}, options);
+  const auto n = static_cast<double>(steps);
+  const Ranks::Traffic &before = first.at->traffic, &after = last.traffic;
+  const double clock = last.clock - first.at->clock;
+  return {clock / n,
+          (last.processor - first.at->processor - (after.waited_processor - before.waited_processor)) / n,
+          static_cast<double>(after.messages - before.messages) / n,
+          static_cast<double>(after.bytes - before.bytes) / n,
+          (after.waited - before.waited) / clock,
+          first.memory,
+          first.times};
 }
 
 double step_rate(const Model& model, int threads, double at_least, std::string* times) {
   State state = shaken(model);
-  return rate(at_least,
-              [&](std::int64_t n) { return stepping_seconds(model, state, threads, n, false, times); });
+  return rate(at_least, [&](std::int64_t n) {
+    const Stepped one = stepped(model, {}, state, threads, n);
+    if (times)
+      *times = one.times;
+    return static_cast<double>(n) * (threads == 1 ? one.processor : one.clock);
+  });
 }
 
 } // namespace bench

@@ -1,9 +1,12 @@
 // What the benchmarks share: rates, memory, and the solver's own step from outside.
 #pragma once
 
+#include "libcdem/load/conditions.hpp"
 #include "libcdem/parallel/residency.hpp"
 #include "libcdem/state/state.hpp"
 #include "tests/bench/bench.hpp"
+
+#include <string>
 
 namespace bench {
 
@@ -15,8 +18,9 @@ public:
   explicit Stopwatch(int threads) : own_(threads == 1), start_(now()) {}
   double seconds() const { return now() - start_; }
 
-private:
   double now() const;
+
+private:
   bool own_;
   double start_;
 };
@@ -33,11 +37,16 @@ double rate(double at_least, const Repeat& repeat) {
 
 cdem::State shaken(const cdem::Model&); // at velocities far below what breaks a bond
 
-// How long so many steps of `run` take, breaking on. From the first step to the last: what a stage does once, at its start
-// and end, is left out. times: where that time went, by lines of the step. by_clock: for one thread too. memory: of this
-// process between two steps, when it was last asked.
-double stepping_seconds(const cdem::Model&, cdem::State&, int threads, std::int64_t steps, bool by_clock,
-                        std::string* times = nullptr, cdem::Resident* memory = nullptr);
+// Of a step of `run`, breaking on. From the first step to the last: what a stage does once, at its start and end, is left
+// out. All is this rank's.
+struct Stepped {
+  double clock = 0, processor = 0; // s; the latter of this thread, without waiting for other ranks
+  double messages = 0, bytes = 0;  // that it sends
+  double waited = 0;               // share of the clock
+  cdem::Resident memory{};         // between two steps, when it was last asked
+  std::string times{};             // where the time of all steps went, by lines of the step
+};
+Stepped stepped(const cdem::Model&, const cdem::Conditions&, cdem::State&, int threads, std::int64_t steps);
 
 // Steps per second of a shaken model.
 double step_rate(const cdem::Model&, int threads, double at_least, std::string* times = nullptr);

@@ -7,6 +7,7 @@
 #include "libgeom/mesh/solid_mesh.hpp"
 #include "libgeom/placement/armour_layer.hpp"
 #include "libgeom/solid/armour_units.hpp"
+#include "tests/bench/laid_units.hpp"
 #include "tests/bench/measure.hpp"
 
 #include <algorithm>
@@ -22,12 +23,6 @@ using namespace cdem;
 constexpr double mass = 5000, density = 2500, water = 1025, gradient = 1 / 1.5,
                  friction_angle = 40; // kg .. degrees
 constexpr double fineness = 3;        // of a unit: height over the edge length of its tets
-
-struct Laid {
-  ModelSpec spec;
-  Conditions conditions;
-  std::size_t tets_per_unit = 0;
-};
 
 PairSpec contact(const char* a, const char* b) {
   Joint law;
@@ -64,8 +59,10 @@ geom::TetMesh slope_mesh(double length, double width, double height) {
   return geom::mesh_solid(geom::slope(gradient, length, width), size);
 }
 
+} // namespace
+
 // Square bars, as the units of examples/armour_pile; the lowest row is held.
-Laid laid(int count) {
+Laid laid_units(int count, bool rigid) {
   geom::AccropodeShape shape = geom::AccropodeShape::slender();
   shape.width = 0.40;
   shape.corner = 0;
@@ -93,7 +90,7 @@ Laid laid(int count) {
   units.name = "units";
   units.meshes = geom::meshes(pile);
   units.material = concrete;
-  units.element = Element::finite_volume;
+  units.element = rigid ? Element::rigid : Element::finite_volume;
   Laid made;
   made.tets_per_unit = unit.tets.size();
   made.spec = {{rigid_body("slope", {slope_mesh(length, width, height)}, concrete),
@@ -123,11 +120,9 @@ Laid laid(int count) {
   return made;
 }
 
-} // namespace
-
 void piles(const Settings& settings) {
   for (const int count : settings.units) {
-    const auto [spec, conditions, tets_per_unit] = laid(count);
+    const auto [spec, conditions, tets_per_unit] = laid_units(count, false);
     const double before = resident_bytes();
     Model model = first_model(spec);
     const auto n = static_cast<double>(count) * static_cast<double>(tets_per_unit);

@@ -6,6 +6,7 @@
 #include <array>
 #include <chrono>
 #include <cstring>
+#include <ctime>
 #include <mpi.h>
 #include <thread>
 
@@ -177,14 +178,22 @@ public:
 private:
   class Waiting {
   public:
-    explicit Waiting(MpiRanks& ranks) : ranks_(ranks), start_(MPI_Wtime()) {}
-    ~Waiting() { ranks_.traffic_.waited += MPI_Wtime() - start_; }
+    explicit Waiting(MpiRanks& ranks) : ranks_(ranks), start_(MPI_Wtime()), processor_(processor_time()) {}
+    ~Waiting() {
+      ranks_.traffic_.waited += MPI_Wtime() - start_;
+      ranks_.traffic_.waited_processor += processor_time() - processor_;
+    }
     Waiting(const Waiting&) = delete;
     Waiting& operator=(const Waiting&) = delete;
 
   private:
+    static double processor_time() {
+      timespec t{};
+      clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
+      return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
+    }
     MpiRanks& ranks_;
-    double start_;
+    double start_, processor_; // s
   };
 
   template <class Number>
