@@ -25,6 +25,25 @@ int body_index(const Model& model, const std::string& name) {
   throw geom::InputError("contacts", "\"" + name + "\"", "the name of a body (" + names + ")");
 }
 
+// Springs between blocks of small strain have no damping of their own.
+void require_no_damping(const Joint& joint, const std::string& field, const std::string& of) {
+  if (joint.stiffness_damping > 0)
+    throw geom::InputError(field + ".stiffness_damping", number(joint.stiffness_damping),
+                           "0 " + of + ", where it would do nothing",
+                           "give the material viscosity, or leave element = \"small_strain\" out");
+}
+
+// Contacts of meshes have no interface: no blocks whose size a thickness is a part of, and no springs that are damped.
+void require_law_of_meshes(const Joint& joint, const std::string& field, const std::string& value) {
+  if (joint.stiffness_damping > 0)
+    throw geom::InputError(field + " " + value + ": stiffness_damping", number(joint.stiffness_damping),
+                           "0 for meshes, whose contacts it would not damp",
+                           "give the contact restitution, or the materials stiffness_damping");
+  if (joint.thickness_ratio != Joint().thickness_ratio)
+    throw geom::InputError(field + " " + value + ": thickness_ratio", number(joint.thickness_ratio),
+                           "left out for meshes, which have no block size", "give thickness (m)");
+}
+
 // The laws between the bodies of a spec. Faces of blocks that touch get the pair's joint. Bodies that move far get a
 // contact as well: between blocks the friction of their joint, else the law itself.
 class PairLaws {
@@ -45,8 +64,10 @@ public:
                                "what holds a body's own blocks together is the body's joint");
       if (a != b && !add_to(frame_.pair_joint, a, b, joint))
         throw geom::InputError(field, value, "given once", "two bodies have one joint between them");
-      if (is_small(a))
+      if (is_small(a)) {
+        require_no_damping(joint, field + " " + value, "between bodies of small strain");
         return;
+      }
     }
     if (has_law(joint.law) && !are_blocks(a, b))
       throw geom::InputError(
@@ -56,6 +77,8 @@ public:
       throw geom::InputError(
           field, value, "cdem.coulomb{ friction_angle = ... } between meshes",
           "meshed bodies are not bonded to each other; unite them to one solid before meshing");
+    if (!are_blocks(a, b))
+      require_law_of_meshes(joint, field, value);
     if (!add_to(frame_.surface.joint, a, b, contact_of(a, b, joint)))
       throw geom::InputError(field, value, "given once", "two bodies have one law between them");
   }
@@ -111,10 +134,15 @@ private:
       frame_.joints.push_back(law);
     return fresh;
   }
-  // Between blocks as stiff as the joint that held them, so that nothing sinks when an interface is handed over.
+  // Between blocks as stiff as the joint that held them, so that nothing sinks when an interface is handed over; between
+  // meshes as stiff as a layer of the joint's thickness where it gives one.
   Joint contact_of(int a, int b, const Joint& joint) const {
-    if (!are_blocks(a, b) && !joint.bonded)
-      return joint;
+    if (!are_blocks(a, b) && !joint.bonded) {
+      Joint contact = joint;
+      if (joint.thickness)
+        give_stiffness(contact, joint, a, b, *joint.thickness);
+      return contact;
+    }
     Joint contact;
     contact.bonded = false;
     contact.restitution = joint.restitution;
@@ -122,15 +150,18 @@ private:
         has_law(joint.law) ? geom::portable::atan2(friction_left(joint), 1) : joint.friction_angle;
     if (!are_blocks(a, b))
       return contact;
+    give_stiffness(contact, joint, a, b,
+                   joint.thickness.value_or(joint.thickness_ratio * 0.5 * (block_size(a) + block_size(b))));
+    return contact;
+  }
+  // E/L and G/L, L the thickness (m), with the moduli of both bodies in series, unless the joint gives them.
+  void give_stiffness(Joint& contact, const Joint& joint, int a, int b, double thickness) const {
     const Elastic &one = spec_.bodies[a].material, &other = spec_.bodies[b].material;
-    const double thickness =
-        joint.thickness.value_or(joint.thickness_ratio * 0.5 * (block_size(a) + block_size(b)));
     const auto series = [&](double p, double q) { return 2 / (thickness * (1 / p + 1 / q)); };
     contact.normal_stiffness =
         joint.normal_stiffness.value_or(series(one.youngs_modulus, other.youngs_modulus));
     contact.shear_stiffness =
         joint.shear_stiffness.value_or(series(one.shear_modulus(), other.shear_modulus()));
-    return contact;
   }
 
   Model& frame_;
@@ -252,6 +283,12 @@ Model first_model(const ModelSpec& spec) {
       require_no_rate_effect(body.joint, "blocks of body \"" + body.name + "\"");
     require_zones(body);
     require_plasticity(body);
+    if (body.element == Element::small_strain) {
+      const std::string of = "between blocks of small strain";
+      require_no_damping(body.joint, "joint of body \"" + body.name + "\"", of);
+      for (const auto& [name, joint] : body.set_joints)
+        require_no_damping(joint, "joints." + name + " of body \"" + body.name + "\"", of);
+    }
     const int index = static_cast<int>(frame.bodies.size());
     frame.bodies.push_back(
         {body.name, body.material, body.joint, body.bonding, body.element, body.zone_size, body.region_laws});

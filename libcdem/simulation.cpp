@@ -5,6 +5,7 @@
 #include "libcdem/element/rigid_motion.hpp"
 #include "libcdem/element/small_strain.hpp"
 #include "libcdem/first_model.hpp"
+#include "libcdem/load/flow.hpp"
 #include "libcdem/procedure/critical_flow.hpp"
 #include "libcdem/procedure/give_motion.hpp"
 #include "libcdem/procedure/grow.hpp"
@@ -138,7 +139,7 @@ bool Simulation::flow(const Flow& flow) {
     return false;
   }
   const ResolvedConditions resolved = resolve(impl_->model, impl_->state, changed);
-  if (!flow.new_faces && resolved.varying[resolved.flows.back().load].forces.empty())
+  if (!flow.new_faces && flow_pattern(impl_->model, impl_->state, resolved.flows.back()).empty())
     throw geom::InputError(
         "direction",
         fmt::format("({:g}, {:g}, {:g})", flow.direction.x(), flow.direction.y(), flow.direction.z()),

@@ -7,6 +7,7 @@
 #include "libcdem/vtk/scene.hpp"
 #include "libgeom/core/check.hpp"
 #include "libgeom/core/error.hpp"
+#include "libgeom/core/place_text.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -24,6 +25,39 @@ void check_options(const PictureOptions& options) {
   for (const Polyline& line : options.polylines)
     for (const geom::Vec3& x : line.points)
       geom::require_finite("polylines.points", x);
+  if (!options.fit)
+    return;
+  geom::require_finite("fit.min", options.fit->min);
+  geom::require_finite("fit.max", options.fit->max);
+  if (options.camera)
+    throw geom::InputError("fit: goes with view; a camera stands where it is told");
+  if (!((options.fit->max - options.fit->min).minCoeff() >= 0 && options.fit->max != options.fit->min))
+    throw geom::InputError("fit.max", geom::place_text(options.fit->max),
+                           "at least fit.min in x, y and z, and not the same");
+}
+
+// Of what is drawn, in view axes; of the box that is to be shown where one is given.
+geom::Box extent_of(const View& view, const PictureOptions& options, const std::vector<geom::Vec3>& points,
+                    const BrokenInterfaces& broken) {
+  geom::Box extent;
+  if (const auto& fit = options.fit) {
+    for (const double x : {fit->min.x(), fit->max.x()})
+      for (const double y : {fit->min.y(), fit->max.y()})
+        for (const double z : {fit->min.z(), fit->max.z()})
+          extent.extend(view.in_view({x, y, z}));
+    return extent;
+  }
+  extent = view.extent(points);
+  for (const auto* part : {&broken.tension, &broken.shear})
+    for (const geom::Triangle& t : part->triangles)
+      for (const int v : t)
+        extent.extend(view.in_view(broken.points[static_cast<std::size_t>(v)]));
+  for (const Marker& marker : options.markers)
+    extent.extend(view.in_view(marker.position));
+  for (const Polyline& line : options.polylines)
+    for (const geom::Vec3& x : line.points)
+      extent.extend(view.in_view(x));
+  return extent;
 }
 
 std::vector<LegendEntry> legend_entries(const PictureOptions& options, const BrokenInterfaces& broken,
@@ -73,16 +107,7 @@ void draw(const Snapshot& snapshot, const PictureOptions& options, const Finish&
   View view = options.camera          ? View::from(*options.camera)
               : options.view == "iso" ? View::iso(options.up, snapshot.points, snapshot.surface)
                                       : View::named(options.view, options.up);
-  geom::Box extent = view.extent(points);
-  for (const auto* part : {&broken.tension, &broken.shear})
-    for (const geom::Triangle& t : part->triangles)
-      for (const int v : t)
-        extent.extend(view.in_view(broken.points[static_cast<std::size_t>(v)]));
-  for (const Marker& marker : options.markers)
-    extent.extend(view.in_view(marker.position));
-  for (const Polyline& line : options.polylines)
-    for (const geom::Vec3& x : line.points)
-      extent.extend(view.in_view(x));
+  const geom::Box extent = extent_of(view, options, points, broken);
 
   const double pixel = std::min(options.size[0] / 1600., free_height ? 1e9 : options.size[1] / 1200.);
   Canvas canvas;
@@ -106,10 +131,10 @@ void draw(const Snapshot& snapshot, const PictureOptions& options, const Finish&
   input.pixel = pixel;
   input.title = !options.title.empty();
   input.bar = bar.has_value();
-  // Pictures from a camera of their own are frames of a film: they keep the room of a legend that is still empty, so that
-  // nothing moves when the first bond breaks.
-  input.legend = !legend.empty() ||
-                 (view.literal && options.legend && options.broken_bonds && !snapshot.bonds.points.empty());
+  // Pictures from a camera of their own, or fitted to a box, are frames of a film: they keep the room of a legend that is
+  // still empty, so that nothing moves when the first bond breaks.
+  input.legend = !legend.empty() || ((view.literal || options.fit) && options.legend &&
+                                     options.broken_bonds && !snapshot.bonds.points.empty());
   input.bar_column = bar ? bar_column_width(canvas, *bar, pixel) : 0;
   input.axes = axes.size;
   const Layout layout = arrange(input);

@@ -50,6 +50,8 @@ struct PictureOptions {
   std::string view = "front";
   std::string up = "y"; // "z": front looks along y with z up, and the other views turn with it
   std::optional<Camera> camera;
+  // m, present places: a box to which a view is fitted instead of what is drawn, so that the frames of a film show the same
+  std::optional<geom::Box> fit;
   std::array<int, 2> size = {1600, 1200};     // pixels; height 0: as high as the picture needs
   double dpi = 300;                           // pixels in an inch of the printed picture
   std::optional<std::array<double, 2>> range; // of the colours, SI units

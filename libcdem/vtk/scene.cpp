@@ -28,6 +28,8 @@ namespace {
 using geom::Vec3;
 
 constexpr Colour edge_colour = {0.13, 0.13, 0.13};
+// Of a coloured face's light: from all round, and from the lamps. A face that looks away from both keeps the first.
+constexpr double coloured_ambient = 0.82, coloured_diffuse = 0.2;
 constexpr double broken_width = 6; // pixels of a 1600 x 1200 picture
 
 void set_points(vtkPolyData* mesh, const std::vector<Vec3>& points) {
@@ -202,12 +204,12 @@ void Scene::Impl::add_body(const SceneInput& in, const View& view) {
   property->BackfaceCullingOn(); // blocks are closed: nobody sees the inside of a face
   property->SetOpacity(in.opacity);
   property->SetColor(plain_block_colour[0], plain_block_colour[1], plain_block_colour[2]);
-  // Colours that stand for numbers are those of the colour bar; plain blocks are shaded, ids a little.
-  if ((in.field && in.scale.map != "categorical") || flat_to_viewer(in.snapshot, in.points, view)) {
+  // Plain blocks are shaded; coloured ones so little that their colours are found on the colour bar, and their shape seen.
+  if (flat_to_viewer(in.snapshot, in.points, view)) {
     property->LightingOff();
   } else {
-    property->SetAmbient(in.field ? 0.86 : 0.6);
-    property->SetDiffuse(in.field ? 0.16 : 0.45);
+    property->SetAmbient(in.field ? coloured_ambient : 0.6);
+    property->SetDiffuse(in.field ? coloured_diffuse : 0.45);
   }
   if (!in.field)
     return;

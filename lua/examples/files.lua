@@ -25,6 +25,7 @@ model:picture{ file = "iso.png", colour = "displacement.magnitude", view = "iso"
 local frames = {}
 for i = 1, 3 do
   frames[i] = ("frame_%d.png"):format(i)
-  model:picture{ file = frames[i], colour = "displacement.y", deformation = 500 * i, size = {400, 300} }
+  model:picture{ file = frames[i], colour = "displacement.y", deformation = 500 * i, size = {400, 300},
+                 range = {-1e-4, 0}, fit = { min = {0, 0, 0}, max = {1, 1, 0.1} } } -- the same in all frames
 end
 cdem.film{ file = "film.ogv", frames = frames, frames_per_second = 2 }

@@ -716,6 +716,10 @@ function TetMesh:save(options) end
 ---@field view_angle? number deg, in (0, 180), default 30: over the height of the picture
 ---@field perspective? boolean default true
 
+---@class (exact) cdem.TetMeshPictureOptionsFit
+---@field min number[] m
+---@field max number[] m
+
 ---@class (exact) cdem.TetMeshPictureOptionsMarkers
 ---@field at number[] m: undeformed place
 ---@field label? string
@@ -735,6 +739,7 @@ function TetMesh:save(options) end
 ---@field view? "front"|"back"|"left"|"right"|"top"|"bottom"|"iso" default "front": front looks along -z at the x-y plane
 ---@field up? "y"|"z" default "y": z: front looks along y with z up
 ---@field camera? cdem.TetMeshPictureOptionsCamera instead of view
+---@field fit? cdem.TetMeshPictureOptionsFit a box that the view shows, in place of what is drawn: give it to all frames of a film, so that the camera does not move with what falls
 ---@field size? number[] default {1600, 1200}: {width, height} in pixels; height 0: as high as it needs to be
 ---@field dpi? number in [10, 2400], default 300: pixels in an inch where it is printed: 1600 pixels are 135 mm wide at 300
 ---@field range? number[] {lowest, highest} of the colours, SI units
@@ -1439,6 +1444,10 @@ function Model:save_joints(options) end
 ---@field view_angle? number deg, in (0, 180), default 30: over the height of the picture
 ---@field perspective? boolean default true
 
+---@class (exact) cdem.ModelPictureOptionsFit
+---@field min number[] m
+---@field max number[] m
+
 ---@class (exact) cdem.ModelPictureOptionsMarkers
 ---@field at number[] m: undeformed place
 ---@field label? string
@@ -1463,6 +1472,7 @@ function Model:save_joints(options) end
 ---@field view? "front"|"back"|"left"|"right"|"top"|"bottom"|"iso" default "front": front looks along -z at the x-y plane
 ---@field up? "y"|"z" default "y": z: front looks along y with z up
 ---@field camera? cdem.ModelPictureOptionsCamera instead of view
+---@field fit? cdem.ModelPictureOptionsFit a box that the view shows, in place of what is drawn: give it to all frames of a film, so that the camera does not move with what falls
 ---@field size? number[] default {1600, 1200}: {width, height} in pixels; height 0: as high as it needs to be
 ---@field dpi? number in [10, 2400], default 300: pixels in an inch where it is printed: 1600 pixels are 135 mm wide at 300
 ---@field range? number[] {lowest, highest} of the colours, SI units
@@ -1629,10 +1639,10 @@ function cdem.plastic(options) end
 ---@field weibull? cdem.MohrCoulombOptionsWeibull strength that scatters from face to face after Weibull: tensile strength and cohesion of a face are multiplied by one draw, in the mean (reference_volume / volume of the face)^(1/m); fracture energies and friction stay. A draw depends on the seed and on where the face lies
 ---@field rate_effect? cdem.MohrCoulombOptionsRate_effect strength raised by the rate of strain at which a face of a cohesive body begins to crack, (rate / reference_rate)^exponent; fib Model Code 2010 for concrete in tension: 1e-6, 0.018, 10, 1/3
 ---@field thickness_ratio? number > 0, default 0.02: equivalent thickness of the joint over the block size (cube root of its volume), which sets the stiffness E/L and G/L
----@field thickness? number m, > 0: equivalent thickness itself; wins over the ratio
+---@field thickness? number m, > 0: equivalent thickness itself; wins over the ratio. Contacts of meshes take it too
 ---@field normal_stiffness? number Pa/m, > 0: instead of E/L
 ---@field shear_stiffness? number Pa/m, > 0: instead of G/L
----@field stiffness_damping? number s, >= 0, default 0: beta of Rayleigh damping, of joints between blocks that move far in real-time stepping
+---@field stiffness_damping? number s, >= 0, default 0: beta of Rayleigh damping, of joints between blocks that move far in real-time stepping, as long as their faces have not parted; refused where it would do nothing
 
 ---Bond between block faces: breaks in tension above the tensile strength and in shear above cohesion + normal pressure x tan(friction angle); then it is a contact with the same friction angle, or with what residual strength it has (Han 2010 eqs 8-11). With softening it loses its strength along a curve whose area is the fracture energy.
 ---@param options cdem.MohrCoulombOptions
@@ -1645,10 +1655,10 @@ function cdem.mohr_coulomb(options) end
 ---@field dilation_angle? number deg, in [0, 90): between blocks: slip opens the joint at this angle; at most the residual friction angle
 ---@field dilation_limit? number m, >= 0: slip at which dilation ends; without it it does not end
 ---@field thickness_ratio? number > 0, default 0.02: equivalent thickness of the joint over the block size (cube root of its volume), which sets the stiffness E/L and G/L
----@field thickness? number m, > 0: equivalent thickness itself; wins over the ratio
+---@field thickness? number m, > 0: equivalent thickness itself; wins over the ratio. Contacts of meshes take it too
 ---@field normal_stiffness? number Pa/m, > 0: instead of E/L
 ---@field shear_stiffness? number Pa/m, > 0: instead of G/L
----@field stiffness_damping? number s, >= 0, default 0: beta of Rayleigh damping, of joints between blocks that move far in real-time stepping
+---@field stiffness_damping? number s, >= 0, default 0: beta of Rayleigh damping, of joints between blocks that move far in real-time stepping, as long as their faces have not parted; refused where it would do nothing
 ---@field restitution? number in [0.01, 1], default 1: coefficient of restitution of the contact of bodies that move far: speed after over speed before an impact, as far as the contact and not waves within the bodies decide it; 1: the contact loses nothing but by friction
 
 ---Contact that never was bonded: no tension, friction only (Han 2010 eq 9).
@@ -1658,10 +1668,10 @@ function cdem.coulomb(options) end
 
 ---@class (exact) cdem.GluedOptions
 ---@field thickness_ratio? number > 0, default 0.005: equivalent thickness of the joint over the block size (cube root of its volume), which sets the stiffness E/L and G/L
----@field thickness? number m, > 0: equivalent thickness itself; wins over the ratio
+---@field thickness? number m, > 0: equivalent thickness itself; wins over the ratio. Contacts of meshes take it too
 ---@field normal_stiffness? number Pa/m, > 0: instead of E/L
 ---@field shear_stiffness? number Pa/m, > 0: instead of G/L
----@field stiffness_damping? number s, >= 0, default 0: beta of Rayleigh damping, of joints between blocks that move far in real-time stepping
+---@field stiffness_damping? number s, >= 0, default 0: beta of Rayleigh damping, of joints between blocks that move far in real-time stepping, as long as their faces have not parted; refused where it would do nothing
 
 ---Bond that never breaks, of faces that are no joint, such as those of an excavation outline. It is four times as stiff as a joint by default.
 ---@param options? cdem.GluedOptions
@@ -1678,10 +1688,10 @@ function cdem.glued(options) end
 ---@field sample_length? number m, > 0, default 0.1: of the samples
 ---@field peak_slip? number m, > 0: slip at the peak; wins over that of the length
 ---@field thickness_ratio? number > 0, default 0.02: equivalent thickness of the joint over the block size (cube root of its volume), which sets the stiffness E/L and G/L
----@field thickness? number m, > 0: equivalent thickness itself; wins over the ratio
+---@field thickness? number m, > 0: equivalent thickness itself; wins over the ratio. Contacts of meshes take it too
 ---@field normal_stiffness? number Pa/m, > 0: instead of E/L
 ---@field shear_stiffness? number Pa/m, > 0: instead of G/L
----@field stiffness_damping? number s, >= 0, default 0: beta of Rayleigh damping, of joints between blocks that move far in real-time stepping
+---@field stiffness_damping? number s, >= 0, default 0: beta of Rayleigh damping, of joints between blocks that move far in real-time stepping, as long as their faces have not parted; refused where it would do nothing
 
 ---Rough joint between blocks that never was bonded (Barton and Choubey 1977, Bandis et al. 1983): it closes on a hyperbola and slips above pressure x tan(residual angle + JRC log10(JCS / pressure)). With a length, or peak_slip, the roughness is mobilised and worn with slip, and the joint dilates.
 ---@param options cdem.BartonBandisOptions
@@ -1692,10 +1702,10 @@ function cdem.barton_bandis(options) end
 ---@field normal? [number, number][] rows {closure (m), pressure (Pa)} that rise, one of them {0, 0}; rows below it are {-opening, -pull}, up to the opening at which the joint parts. Without rows it is linear
 ---@field shear [number, number][] rows {pressure (Pa), strength (Pa)}, the first {0, strength without pressure}
 ---@field thickness_ratio? number > 0, default 0.02: equivalent thickness of the joint over the block size (cube root of its volume), which sets the stiffness E/L and G/L
----@field thickness? number m, > 0: equivalent thickness itself; wins over the ratio
+---@field thickness? number m, > 0: equivalent thickness itself; wins over the ratio. Contacts of meshes take it too
 ---@field normal_stiffness? number Pa/m, > 0: instead of E/L
 ---@field shear_stiffness? number Pa/m, > 0: instead of G/L
----@field stiffness_damping? number s, >= 0, default 0: beta of Rayleigh damping, of joints between blocks that move far in real-time stepping
+---@field stiffness_damping? number s, >= 0, default 0: beta of Rayleigh damping, of joints between blocks that move far in real-time stepping, as long as their faces have not parted; refused where it would do nothing
 
 ---Joint between blocks that never was bonded, by tables: straight between rows, straight on beyond the last.
 ---@param options cdem.JointTableOptions

@@ -1,8 +1,10 @@
 // Contact between meshed bodies: an incline, a drop, momentum, energy, bits.
 #include "libcdem/results/energy.hpp"
 #include "libcdem/step/errors.hpp"
+#include "libgeom/assembly/builders.hpp"
 #include "libgeom/core/error.hpp"
 #include "tests/libcdem/boxes.hpp"
+#include "tests/support/refusal.hpp"
 
 #include <catch2/catch.hpp>
 
@@ -493,4 +495,46 @@ TEST_CASE("a velocity that nodes are held at is work of what holds them", "[ener
   s.run(options);
   CHECK(s.state.spent.external == Approx(0.5 * rock().density * 0.25).epsilon(1e-6));
   CHECK(cdem::energy(s.model, s.state).total() == Approx(s.state.spent.external).epsilon(1e-6));
+}
+
+TEST_CASE("contact: the thickness of a law between meshes gives its stiffness", "[contact]") {
+  // E / L and G / L of both bodies in series, as between blocks.
+  cdem::Joint thin = friction(30), stiff = friction(30);
+  thin.thickness = 0.01;
+  stiff.normal_stiffness = rock().youngs_modulus / 0.01;
+  stiff.shear_stiffness = rock().shear_modulus() / 0.01;
+  const auto of = [](const cdem::Joint& joint) {
+    return build({meshed("a", geom::box_mesh({1, 1, 1}, {1, 1, 1})),
+                  meshed("b", box_at({1, 1, 1}, {1, 1, 1}, Mat3::Identity(), {0.5, 0.5, 2.5}))},
+                 {{"a", "b", joint}});
+  };
+  const auto law = [](const cdem::Model& m) { return m.joints[m.surface.joint.at({0, 1})]; };
+  CHECK(*law(of(thin)).normal_stiffness == Approx(*law(of(stiff)).normal_stiffness));
+  CHECK(*law(of(thin)).shear_stiffness == Approx(*law(of(stiff)).shear_stiffness));
+}
+
+TEST_CASE("contact: what a law between meshes or blocks of small strain would ignore is refused",
+          "[contact]") {
+  const auto refused = [](const std::vector<cdem::BodySpec>& bodies, const cdem::Joint& law) {
+    return refusal([&] { (void)build(bodies, {{"a", "b", law}}); });
+  };
+  const std::vector<cdem::BodySpec> meshes{
+      meshed("a", geom::box_mesh({1, 1, 1}, {1, 1, 1})),
+      meshed("b", box_at({1, 1, 1}, {1, 1, 1}, Mat3::Identity(), {0.5, 0.5, 2.5}))};
+  cdem::Joint damped = friction(30);
+  damped.stiffness_damping = 1e-5;
+  CHECK_THAT(refused(meshes, damped), Catch::Matchers::Contains("stiffness_damping") &&
+                                          Catch::Matchers::Contains("give the contact restitution"));
+  cdem::Joint ratio = friction(30);
+  ratio.thickness_ratio = 0.1;
+  CHECK_THAT(refused(meshes, ratio), Catch::Matchers::Contains("give thickness (m)"));
+  const std::vector<cdem::BodySpec> blocks{body("a", geom::grid({1, 1, 1}, {1, 1, 1})),
+                                           body("b", geom::grid({1, 1, 1}, {1, 1, 1}, {0, 0, 1}))};
+  CHECK_THAT(refused(blocks, damped), Catch::Matchers::Contains("between bodies of small strain"));
+  cdem::Joint own = rock_joint();
+  own.stiffness_damping = 1e-5;
+  CHECK_THAT(refusal([&] {
+               (void)build({body("a", geom::grid({1, 1, 1}, {2, 1, 1}), rock(), own)});
+             }),
+             Catch::Matchers::Contains("joint of body \"a\".stiffness_damping"));
 }

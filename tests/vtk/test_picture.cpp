@@ -12,9 +12,9 @@
 
 #include <algorithm>
 #include <catch2/catch.hpp>
-
 #include <cmath>
 #include <limits>
+#include <map>
 
 using namespace cdem;
 using Catch::Matchers::Contains;
@@ -434,7 +434,7 @@ TEST_CASE("options that cannot be used are refused before anything is drawn") {
   CHECK(folder.names().empty());
 }
 
-TEST_CASE("colours of numbers are those of the colour bar from every side") {
+TEST_CASE("colours of numbers are those of the colour bar, at most a fifth darker where a face looks aside") {
   const TemporaryFolder folder;
   Snapshot s = three_blocks();
   for (double& level : s.cell_fields.back().values)
@@ -445,15 +445,48 @@ TEST_CASE("colours of numbers are those of the colour bar from every side") {
   render(s, o, folder / "p.png");
   const Image image = read_png(folder / "p.png");
   const int middle = (40 + 245) / 2;
-  int inside = 0, other = 0;
+  std::map<int, int> greys; // how many pixels of each
   for (int y = 0; y < image.height; ++y)
-    for (int x = 0; x < image.width; ++x) {
-      const int grey = image.at(x, y)[0];
-      inside += std::abs(grey - middle) <= 1 ? 1 : 0;
-      other += std::abs(grey - middle) > 1 && grey < middle ? 1 : 0; // the rim is mixed with white
-    }
+    for (int x = 0; x < image.width; ++x)
+      ++greys[image.at(x, y)[0]];
+  int inside = 0, other = 0, faces = 0;
+  for (const auto& [grey, count] : greys) {
+    inside += grey >= 0.8 * middle - 1 && grey <= middle + 1 ? count : 0;
+    other += grey < 0.8 * middle - 1 || grey > 1.03 * middle ? (grey < middle ? count : 0)
+                                                             : 0; // the rim is mixed with white
+    faces += count > 1000 && grey < 250 ? 1 : 0;
+  }
   CHECK(inside > 5000);
   CHECK(other == 0);
+  CHECK(faces == (o.view == "iso" ? 3 : 1)); // each side of a block is told from the others
+}
+
+TEST_CASE("pictures fitted to one box show the same place at the same pixel, whatever is drawn") {
+  const TemporaryFolder folder;
+  Snapshot s = three_blocks();
+  PictureOptions o = bare("");
+  o.fit = geom::Box{{-2, -2, -2}, {6, 6, 2}};
+  o.markers = {{{1, 1, 0}, "", {1, 0, 0}, 20}};
+  const auto seen_at = [&](const Snapshot& drawn, const char* name) {
+    render(drawn, o, folder / name);
+    const Image image = read_png(folder / name);
+    double x_sum = 0, y_sum = 0, n = 0;
+    for (int y = 0; y < image.height; ++y)
+      for (int x = 0; x < image.width; ++x)
+        if (const auto c = image.at(x, y); c[0] > 200 && c[1] < 60 && c[2] < 60) {
+          x_sum += x;
+          y_sum += y;
+          ++n;
+        }
+    REQUIRE(n > 10);
+    return std::array<double, 2>{x_sum / n, y_sum / n};
+  };
+  const auto before = seen_at(s, "a.png");
+  for (geom::Vec3& x : s.points) // all of it has flown off a little
+    x += geom::Vec3(1.5, 2.5, 0);
+  CHECK(seen_at(s, "b.png") == before);
+  o.fit = geom::Box{{1, 0, 0}, {0, 1, 1}};
+  CHECK_THROWS_WITH(render(s, o, folder / "c.png"), Contains("fit.max"));
 }
 
 TEST_CASE("edges that their own block hides leave no trace") {

@@ -76,12 +76,19 @@ void SolvingOptions::add_watching(Command& command) {
   add_quiet(command, quiet);
 }
 
-double SolvingOptions::checkpoint_minutes() const {
-  const double minutes = real_number("--checkpoint-every", checkpoint_every);
-  if (minutes < 0)
+SolvingCommand SolvingOptions::command(const TypedLine& line) const {
+  SolvingCommand c;
+  c.threads = threads_of(threads);
+  c.memory = memory_of(memory);
+  c.unsafe = unsafe;
+  c.progress = quiet ? ProgressStyle::none : ProgressStyle::automatic;
+  c.checkpoint_minutes = real_number("--checkpoint-every", checkpoint_every);
+  if (c.checkpoint_minutes < 0)
     throw UsageError("--checkpoint-every " + checkpoint_every +
                      ": must be a number of minutes >= 0; 0 writes none");
-  return minutes;
+  c.live = live;
+  c.line = line.text;
+  return c;
 }
 
 Action SolvingOptions::among_ranks(Action here, const TypedLine& line) const {

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "apps/cdem/command_line/command.hpp"
-#include "apps/cdem/progress/run_observer.hpp"
+#include "apps/cdem/commands/commands.hpp"
 
 namespace cdem::app {
 
@@ -32,7 +32,7 @@ struct SolvingOptions {
 
   void add_computing(Command&); // threads, ranks, memory
   void add_watching(Command&);  // checkpoints, the page, progress
-  double checkpoint_minutes() const;
+  SolvingCommand command(const TypedLine&) const;
   // `here`, or as the several ranks that --ranks asks for.
   Action among_ranks(Action here, const TypedLine&) const;
 };

@@ -33,14 +33,8 @@ Command resume_command() {
   command.action = [typed, name = command.name](const TypedLine& line) -> Action {
     require_file(typed->folder, name, "FOLDER");
     ResumeCommand c;
+    static_cast<SolvingCommand&>(c) = typed->solving.command(line);
     c.folder = typed->folder;
-    c.threads = threads_of(typed->solving.threads);
-    c.memory = memory_of(typed->solving.memory);
-    c.unsafe = typed->solving.unsafe;
-    c.progress = typed->solving.quiet ? ProgressStyle::none : ProgressStyle::automatic;
-    c.checkpoint_minutes = typed->solving.checkpoint_minutes();
-    c.live = typed->solving.live;
-    c.line = line.text;
     return typed->solving.among_ranks([c] { return resume(c); }, line);
   };
   return command;

@@ -45,20 +45,14 @@ Command run_command() {
   command.action = [typed, name = command.name](const TypedLine& line) -> Action {
     require_file(typed->file, name, "FILE.lua");
     RunCommand c;
+    static_cast<SolvingCommand&>(c) = typed->solving.command(line);
     c.script = typed->file;
     c.sources = typed->sources;
     c.ends_with_parent = !typed->sources.empty();
     c.output = typed->output;
-    c.threads = threads_of(typed->solving.threads);
-    c.memory = memory_of(typed->solving.memory);
-    c.unsafe = typed->solving.unsafe;
     c.set = settings_of(typed->set);
-    c.progress = typed->machine         ? ProgressStyle::machine
-                 : typed->solving.quiet ? ProgressStyle::none
-                                        : ProgressStyle::automatic;
-    c.checkpoint_minutes = typed->solving.checkpoint_minutes();
-    c.live = typed->solving.live;
-    c.line = line.text;
+    if (typed->machine)
+      c.progress = ProgressStyle::machine;
     return typed->solving.among_ranks([c] { return run(c); }, line);
   };
   return command;

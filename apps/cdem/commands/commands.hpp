@@ -15,32 +15,29 @@ namespace cdem::app {
 
 using Settings = std::map<std::string, std::string>; // --set name=value, as typed
 
-struct RunCommand {
-  std::filesystem::path script;
-  std::filesystem::path sources; // folder with the text that a sweep kept of it; empty: none did
-  std::filesystem::path output;  // empty: results/<case>
-  int threads = 0;               // 0: every core this process may use
-  Settings set;
-  bool unsafe = false;
+// How a script is to be solved, whether it begins or goes on.
+struct SolvingCommand {
+  int threads = 0;     // 0: every core this process may use
+  bool unsafe = false; // the user's word, never a file's
   ProgressStyle progress = ProgressStyle::automatic;
   std::size_t memory = 0;         // bytes; 0: most of the machine's
   double checkpoint_minutes = 10; // between checkpoints of a long stage; 0: none
   bool live = false;              // shown in a browser while it goes on
-  std::filesystem::path resume;   // checkpoint to go on from; empty: from the start
   std::string line;               // the command line, for the log
+};
+
+struct RunCommand : SolvingCommand {
+  std::filesystem::path script;
+  std::filesystem::path sources; // folder with the text that a sweep kept of it; empty: none did
+  std::filesystem::path output;  // empty: results/<case>
+  Settings set;
+  std::filesystem::path resume; // checkpoint to go on from; empty: from the start
   bool ends_with_parent = false;
 };
 ExitCode run(const RunCommand&);
 
-struct ResumeCommand {
+struct ResumeCommand : SolvingCommand {
   std::filesystem::path folder; // the output folder of the run
-  int threads = 0;
-  ProgressStyle progress = ProgressStyle::automatic;
-  std::size_t memory = 0;
-  double checkpoint_minutes = 10;
-  bool unsafe = false; // the user's word, never the file's
-  bool live = false;
-  std::string line;
 };
 // Goes on from the folder's newest checkpoint, with the script and settings it tells of. A run that was --unsafe is
 // refused without it: a file does not open the machine to a script.

@@ -40,6 +40,7 @@ RunCommand run_of(const ResumeCommand& command) {
 
 ExitCode resume(const ResumeCommand& command) {
   RunCommand run_on;
+  static_cast<SolvingCommand&>(run_on) = command;
   const script::Value told = script::led("the folder of the run", [&]() -> script::Value {
     const RunCommand found = run_of(command);
     script::Table set;
@@ -53,13 +54,6 @@ ExitCode resume(const ResumeCommand& command) {
   for (const auto& [name, value] : known.at("set").table()->named)
     run_on.set[name] = *value.get<std::string>();
   run_on.output = command.folder;
-  run_on.threads = command.threads;
-  run_on.memory = command.memory;
-  run_on.unsafe = command.unsafe;
-  run_on.progress = command.progress;
-  run_on.checkpoint_minutes = command.checkpoint_minutes;
-  run_on.live = command.live;
-  run_on.line = command.line;
   return run(run_on);
 }
 

@@ -155,14 +155,19 @@ std::vector<Field> joint_stiffness_fields() {
               .doc("equivalent thickness of the joint over the block size (cube root of its volume), which "
                    "sets the "
                    "stiffness E/L and G/L"),
-          number("thickness").above(0).unit("m").doc("equivalent thickness itself; wins over the ratio"),
+          number("thickness")
+              .above(0)
+              .unit("m")
+              .doc("equivalent thickness itself; wins over the ratio. Contacts of meshes take it too"),
           number("normal_stiffness").above(0).unit("Pa/m").doc("instead of E/L"),
           number("shear_stiffness").above(0).unit("Pa/m").doc("instead of G/L"),
           number("stiffness_damping")
               .at_least(0)
               .standard(0.0)
               .unit("s")
-              .doc("beta of Rayleigh damping, of joints between blocks that move far in real-time stepping")};
+              .doc("beta of Rayleigh damping, of joints between blocks that move far in real-time stepping, "
+                   "as long as "
+                   "their faces have not parted; refused where it would do nothing")};
 }
 
 void read_joint_stiffness(const Arguments& a, Joint& joint) {

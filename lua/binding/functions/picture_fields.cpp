@@ -82,6 +82,10 @@ std::vector<Field> view_fields(const std::string& colour_doc) {
               .doc("front looks along -z at the x-y plane"),
           choice("up", {"y", "z"}).standard("y").doc("z: front looks along y with z up"),
           record("camera", camera).doc("instead of view"),
+          record("fit", {vec3("min").unit("m").required(), vec3("max").unit("m").required()})
+              .doc("a box that the view shows, in place of what is drawn: give it to all frames of a film, "
+                   "so that the "
+                   "camera does not move with what falls"),
           size_field(),
           dpi_field(),
           list("range", number_type(), 2).doc("{lowest, highest} of the colours, SI units"),
@@ -101,6 +105,8 @@ PictureOptions view_options(const Arguments& a) {
   options.field = a.text_or("colour", "");
   options.view = a.text("view");
   options.up = a.text("up");
+  if (const auto fit = a.record("fit"))
+    options.fit = geom::Box{fit->vec3("min"), fit->vec3("max")};
   if (const auto camera = a.record("camera")) {
     options.camera.emplace();
     options.camera->position = camera->vec3("position");
