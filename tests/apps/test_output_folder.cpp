@@ -190,8 +190,8 @@ TEST_CASE("a folder or file without permission is named with the reason") {
   const auto denied = Contains("Permission denied");
   CHECK_THAT(says([&] { info(closed / "out"); }), denied);
   CHECK_THAT(says([&] { info(unreadable); }), denied);
-  CHECK_THAT(says([&] { resume({closed / "out"}); }), denied);
-  CHECK_THAT(says([&] { resume({unreadable}); }), denied);
+  CHECK_THAT(says([&] { resume({{}, closed / "out"}); }), denied);
+  CHECK_THAT(says([&] { resume({{}, unreadable}); }), denied);
   CHECK_THAT(says([&] { require_script(closed / "case.lua"); }), denied);
   for (const fs::path& place : {closed, closed / "out", read_only, read_only / "out", unreadable})
     CHECK_THAT(says([&] { OutputFolder(place, folder / "case.lua", "a run"); }), denied);
