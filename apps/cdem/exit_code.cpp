@@ -9,7 +9,7 @@ std::string exit_code_table() {
          "  3    the solution failed: NaN, an inverted element, a run-away displacement\n"
          "  4    a file cannot be read or written\n"
          "  5    ./cdem only: packages, configuration or build failed\n"
-         "  6    of several ranks one was killed, and all have ended\n"
+         "  6    one of several ranks was killed, and all have ended\n"
          "  130  stopped by Ctrl-C\n"
          "  143  stopped by SIGTERM\n";
 }

@@ -1,5 +1,6 @@
 // Sums that keep every bit: those of whole numbers are known, and no order changes a bit of any.
 #include "libcdem/parallel/exact_sum.hpp"
+#include "libcdem/ranks/bytes.hpp"
 
 #include <algorithm>
 #include <catch2/catch.hpp>
@@ -69,4 +70,30 @@ TEST_CASE("exact sum: any order and any parts give the same bits, and whole numb
       all.data()[i] += part.data()[i];
     CHECK(all.value(0) == once);
   }
+}
+
+TEST_CASE("exact sum: one that keeps to the digits it has touched is told in parts with the same bits") {
+  std::mt19937 random(11);
+  cdem::ExactSum used; // cleared, as in every step
+  for (int turn = 0; turn < 50; ++turn) {
+    used.clear();
+    CHECK(used.value() == 0);
+    std::vector<double> values;
+    for (int i = 0; i < 40; ++i)
+      values.push_back(std::ldexp(static_cast<double>(static_cast<std::int32_t>(random())),
+                                  static_cast<int>(random() % 300) - 150 + 10 * turn));
+    cdem::ExactSum part;
+    for (std::size_t i = 0; i < values.size(); ++i)
+      (i % 3 == 0 ? part : used).add(values[i]);
+    cdem::Pack told;
+    part.tell(told);
+    cdem::Unpack heard(told.text());
+    used.add_told(heard);
+    CHECK(used.value() == exact(values));
+  }
+  used.add(std::numeric_limits<double>::quiet_NaN());
+  CHECK(std::isnan(used.value()));
+  used.clear();
+  used.add(-2.5);
+  CHECK(used.value() == -2.5);
 }
