@@ -11,9 +11,9 @@ namespace cdem {
 template <class A>
 void archive(A& a, RestartPoint& restart_point) {
   auto& [step, breaks, wall_time, tension_before, shear_before, loop_state, previous_force, spring_force,
-         stretch, contact_step, procedure_state] = restart_point;
+         stretch, one_way, contact_step, procedure_state] = restart_point;
   archive_all(a, step, breaks, wall_time, tension_before, shear_before, loop_state, previous_force,
-              spring_force, stretch, contact_step, procedure_state);
+              spring_force, stretch, one_way, contact_step, procedure_state);
 }
 
 std::string Simulation::Impl::saved() const {
@@ -31,7 +31,10 @@ std::string Simulation::Impl::saved() const {
   write(a, then);
   archive_const(a, last_residual);
   archive_const(a, restart_point ? stage - 1 : stage);
-  write(a, log, then.step, restart_point ? restart_point->breaks : log.breaks.size());
+  if (restart_point)
+    write(a, log, then.step, restart_point->breaks, restart_point->one_way);
+  else
+    write(a, log, then.step, log.breaks.size(), log.one_way);
   const bool midway = restart_point && (restart_point->step > 0 || !restart_point->procedure_state.empty());
   archive_const(a, midway);
   if (midway)

@@ -6,6 +6,7 @@
 #include "libcdem/checkpoint/xxh64.hpp"
 #include "libcdem/parallel/chunks.hpp"
 #include "libcdem/parallel/node.hpp"
+#include "libcdem/results/one_way_energies.hpp"
 #include "libgeom/core/error.hpp"
 #include "libgeom/core/types.hpp"
 
@@ -74,6 +75,8 @@ template <>
 struct Flat<Node> : std::true_type {};
 template <>
 struct Flat<Range> : std::true_type {};
+template <>
+struct Flat<OneWayEnergies> : std::true_type {};
 template <class T, std::size_t n>
 struct Flat<std::array<T, n>> : Flat<T> {};
 template <class T, std::size_t n>

@@ -286,21 +286,6 @@ void archive(A& a, EscapeRow& x) {
 }
 
 template <class A>
-void archive(A& a, OneWayEnergies::Fall& x) {
-  auto& [energy, time] = x;
-  archive_all(a, energy, time);
-}
-
-template <class A>
-void archive(A& a, OneWayEnergies& x) {
-  auto& [largest, fallen, surplus] = x;
-  archive(a, largest);
-  for (OneWayEnergies::Fall& fall : fallen)
-    archive(a, fall);
-  archive(a, surplus);
-}
-
-template <class A>
 void archive(A& a, RunLog& x) {
   auto& [breaks, history, probes, watches, escapes, unmet, broken_tension, broken_shear, told_tension,
          told_shear, deepest_contact, deepest_over_height, one_way, every] = x;
@@ -346,8 +331,10 @@ void read(Reader& a, State& state) {
   }
 }
 
-void write(Writer& a, const RunLog& log, std::int64_t last_step, std::size_t breaks) {
+void write(Writer& a, const RunLog& log, std::int64_t last_step, std::size_t breaks,
+           const OneWayEnergies& one_way) {
   RunLog then = log;
+  then.one_way = one_way;
   then.breaks.resize(std::min(breaks, then.breaks.size()));
   then.broken_tension = then.broken_shear = 0;
   for (const BreakRow& row : then.breaks)

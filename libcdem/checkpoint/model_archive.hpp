@@ -16,7 +16,7 @@ void write(Writer&, const State&);
 void read(Reader&, State&);
 
 // Rows after `last_step` (over all stages) and breaks beyond the first `breaks` are left out: the log as it was then.
-void write(Writer&, const RunLog&, std::int64_t last_step, std::size_t breaks);
+void write(Writer&, const RunLog&, std::int64_t last_step, std::size_t breaks, const OneWayEnergies&);
 void read(Reader&, RunLog&);
 
 } // namespace cdem

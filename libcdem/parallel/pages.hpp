@@ -2,16 +2,12 @@
 #pragma once
 
 #include <algorithm>
+#include <cstddef>
 #include <cstdint>
-
-#include <unistd.h>
 
 namespace cdem {
 
-inline std::uintptr_t page_size() {
-  static const auto size = static_cast<std::uintptr_t>(sysconf(_SC_PAGESIZE));
-  return size;
-}
+std::uintptr_t page_size(); // bytes
 
 inline std::uintptr_t in_page(const void* address) { // bytes behind its begin
   return reinterpret_cast<std::uintptr_t>(address) % page_size();

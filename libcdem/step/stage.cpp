@@ -118,6 +118,7 @@ void Stage::keep_restart_point(std::vector<double> loop_state, const std::vector
     return;
   point.step = step;
   point.breaks = context_.log.breaks.size();
+  point.one_way = context_.log.one_way;
   point.wall_time = wall_time();
   point.loop_state = std::move(loop_state);
   if (shared_) {

@@ -15,6 +15,7 @@ void keep_start_of_loop(const StageContext& context) {
     return;
   RestartPoint point;
   point.breaks = context.log.breaks.size();
+  point.one_way = context.log.one_way;
   point.broken_tension_before = context.log.broken_tension;
   point.broken_shear_before = context.log.broken_shear;
   if (context.procedure_state)

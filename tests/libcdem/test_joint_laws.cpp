@@ -205,6 +205,7 @@ TEST_CASE("the energy balance of sliding joints closes: friction, closure and li
   s.fix(move);
   cdem::RunOptions options;
   options.duration = 0.03;
+  options.safety = 0.8;
   s.run(options);
   const cdem::EnergyLedger ledger = s.energy();
   CHECK(ledger.friction > 0.1 * ledger.external_peak);
