@@ -30,7 +30,7 @@ local points = model:break_bonds{ on = cdem.select.box{ min = {0.5, 0.8, 0}, max
 print(points)
 
 -- example: model:unbond
-model:unbond{ on = cdem.select.box{ min = {0.5, 0.6, 0}, max = {0.5, 0.8, 0.1} } } -- write break_bonds
+model:break_bonds{ on = cdem.select.box{ min = {0.5, 0.6, 0}, max = {0.5, 0.8, 0.1} } } -- model:unbond was its name
 
 -- example: model:remove
 local blocks = model:remove{ on = cdem.select.box{ min = {0, 0.75, 0}, max = {0.25, 1, 0.1} } }

@@ -1,9 +1,9 @@
--- Four blocks and a row of bricks pushed off a ledge: none passes through, and energy is kept until damping begins.
+-- Five blocks and a row of bricks pushed off a ledge: none passes through, and energy is kept until damping begins.
 local cdem = require "cdem"
 local expect = require "expect"
 
 local result = cdem.sweep{ script = "../../examples/collapse/case.lua", jobs = 1,
-                           set = { { blocks = 4, fall = 0.7, rest = 0, every = 10.0 } } }[1]
+                           set = { { blocks = 5, fall = 0.7, rest = 0, every = 10.0 } } }[1]
 if result.exit_code ~= 0 then error("the example ended with exit code " .. result.exit_code) end
 local figures = result.figures
 expect.equal(figures, "blocks_below_the_floor", 0)
