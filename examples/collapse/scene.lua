@@ -40,7 +40,8 @@ function scene.draw(model, name)
   model:picture{ file = name, colour = "velocity.magnitude", range = {0, 5}, deformation = 1, broken_bonds = false,
                  axes = false, title = string.format("A heap pushed off a ledge, %.2f s", model.time),
                  plain = {"ledge", "floor", "pusher", "unit_1", "unit_2"},
-                 camera = { position = {5 * scale, -4.5 * scale, 2 * scale}, focal_point = {0.2, 0, -0.4}, up = {0, 0, 1}, view_angle = 30 } }
+                 camera = { position = {5 * scale, -4.5 * scale, 2 * scale}, focal_point = {0.2, 0, -0.4}, up = {0, 0, 1},
+                            view_angle = 30 } }
   return name
 end
 

@@ -50,7 +50,8 @@ Simulation notched_beam(double load, const Joint& joint = brittle()) {
   hold(edge(0, 0), {true, true, false});
   hold(edge(length, 0), {true, true, false});
   s.force({edge(length / 2, height), {0, -load, 0}, {}});
-  s.break_bonds(Selection::in_box({{length / 2 - tolerance, 0, 0}, {length / 2 + tolerance, notch, depth}}), true);
+  s.break_bonds(Selection::in_box({{length / 2 - tolerance, 0, 0}, {length / 2 + tolerance, notch, depth}}),
+                true);
   return s;
 }
 

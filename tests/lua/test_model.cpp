@@ -105,12 +105,12 @@ TEST_CASE("a broken bond is told with its mode and place", "[lua]") {
 }
 
 TEST_CASE("a notch is unbonded and an excavation removed, and told how many", "[lua]") {
-  CHECK(error_of(
-            column("{3, 1, 1}", "{3, 1, 1}") +
-            "assert(model:break_bonds{ on = cdem.select.plane{ point = {1, 0, 0}, normal = {1, 0, 0} } } == 5)\n"
-            "assert(model:counts().intact == 5)\n"
-            "assert(model:remove{ on = cdem.select.box{ min = {2, 0, 0}, max = {3, 1, 1} } } == 1)\n"
-            "assert(model:counts().blocks == 2)") == "");
+  CHECK(error_of(column("{3, 1, 1}", "{3, 1, 1}") +
+                 "assert(model:break_bonds{ on = cdem.select.plane{ point = {1, 0, 0}, normal = {1, 0, 0} } "
+                 "} == 5)\n"
+                 "assert(model:counts().intact == 5)\n"
+                 "assert(model:remove{ on = cdem.select.box{ min = {2, 0, 0}, max = {3, 1, 1} } } == 1)\n"
+                 "assert(model:counts().blocks == 2)") == "");
 }
 
 TEST_CASE("histories and probes come as lists of one length and as history.csv", "[lua]") {
