@@ -104,7 +104,7 @@ geom::Vec3 move_rigid(const Model& model, State& state, const ActingForces& acti
         0.5 * body.mass * velocity.squaredNorm() + 0.5 * cdem::vec(motion.angular_momentum).dot(turning);
   }
 
-  const geom::Vec3 angle = s.time_step * turning;
+  geom::Vec3 angle = s.time_step * turning;
   motion.centroid = triple(cdem::vec(motion.centroid) + s.time_step * cdem::vec(motion.velocity));
   turn_by(motion, angle);
   return angle;

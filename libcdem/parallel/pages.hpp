@@ -24,9 +24,8 @@ struct Pages {
     end = std::max(begin, last / page * page);
   }
   std::size_t size() const { return end - begin; }
-  char* data() const {
-    return reinterpret_cast<char*>(begin);
-  } // NOLINT(performance-no-int-to-ptr): whole pages
+  // Whole pages have no other name than their address.
+  char* data() const { return reinterpret_cast<char*>(begin); } // NOLINT(performance-no-int-to-ptr)
 };
 
 } // namespace cdem
