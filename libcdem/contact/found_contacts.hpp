@@ -14,7 +14,7 @@ class FoundContacts {
 public:
   FoundContacts(const Model&, State&, ContactWork&);
 
-  // Of this rank, first all springs, then edges, in the order of their rows.
+  // Found by this rank: first all springs, then edges, in the order of their rows.
   void add(const ContactChunk&, Contact::Kind);
 
   // Tells the other ranks, and puts the contacts into State.

@@ -22,7 +22,7 @@ void require_columns(const ResolvedConditions& r, const State& state) {
         "model have changed since free_field was called");
 }
 
-// Of each layer, with Rayleigh's beta times its rate.
+// Stress of each layer, with Rayleigh's beta times its rate.
 std::vector<geom::Vec3> layer_strains(const Column& column, const Node* u, const Node* v) {
   std::vector<geom::Vec3> strain;
   for (std::size_t i = 0; i < column.layers.size(); ++i)

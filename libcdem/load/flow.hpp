@@ -8,7 +8,7 @@ namespace cdem {
 // Nodal forces at a pressure of 1 Pa, N: a third of each facing face's A (d . n) d at its corners.
 std::vector<std::pair<int, geom::Vec3>> flow_pattern(const Model&, const State&, const ResolvedFlow&);
 
-// Of all its faces, whichever way they look, m2: a third of each face's area along its inward normal at its corners.
+// Areas of all its faces, whichever way they look, m2: a third of each face's area along its inward normal at its corners.
 std::vector<std::pair<int, geom::Vec3>> inward_areas(const Model&, const State&, const ResolvedFlow&);
 
 } // namespace cdem

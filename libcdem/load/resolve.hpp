@@ -20,7 +20,7 @@ struct ResolvedFlow {
   std::vector<int> faces;                    // Model::outer_faces
   bool new_faces = false;
   std::size_t load = 0; // its place in ResolvedConditions::varying
-  // Of a flow relative to the surface, whose forces are found anew in every step; the amplitude of its load is 1.
+  // For a flow relative to the surface: its forces are found anew in every step; the amplitude of its load is 1.
   std::function<double(double time)> velocity; // m/s; empty: the pattern times the pressure
   double water_density = 0;                    // kg/m3
   std::vector<std::pair<int, geom::Vec3>>

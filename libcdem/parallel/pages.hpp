@@ -13,7 +13,7 @@ inline std::uintptr_t in_page(const void* address) { // bytes behind its begin
   return reinterpret_cast<std::uintptr_t>(address) % page_size();
 }
 
-// Of bytes [from, to) of an array at `data`; empty where there is none.
+// The whole pages within bytes [from, to) of an array at `data`; empty if there is none.
 struct Pages {
   std::uintptr_t begin = 0, end = 0;
 

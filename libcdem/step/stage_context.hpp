@@ -31,7 +31,7 @@ struct StageContext {
   Model* changing = nullptr; // the model itself, where nodes of cohesive bodies may be freed; null: none are
 };
 
-// Of a model that may change in the stage, and cannot be left.
+// For a model that may change in the stage; such a stage cannot be left.
 StageContext stage_context(Model&, State&, const Conditions&, RunLog&, State& last_good, Observer&,
                            int threads, int number);
 

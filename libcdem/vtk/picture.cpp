@@ -36,7 +36,7 @@ void check_options(const PictureOptions& options) {
                            "at least fit.min in x, y and z, and not the same");
 }
 
-// Of what is drawn, in view axes; of the box that is to be shown where one is given.
+// Extent in view axes of the drawn bodies, or of the box to be shown if one is given.
 geom::Box extent_of(const View& view, const PictureOptions& options, const std::vector<geom::Vec3>& points,
                     const BrokenInterfaces& broken) {
   geom::Box extent;

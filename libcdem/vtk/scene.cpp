@@ -28,7 +28,7 @@ namespace {
 using geom::Vec3;
 
 constexpr Colour edge_colour = {0.13, 0.13, 0.13};
-// Of a coloured face's light: from all round, and from the lamps. A face that looks away from both keeps the first.
+// Shares of the light on a coloured face: from all round, and from the lamps. A face that looks away from both keeps the first.
 constexpr double coloured_ambient = 0.82, coloured_diffuse = 0.2;
 constexpr double broken_width = 6; // pixels of a 1600 x 1200 picture
 

@@ -25,7 +25,7 @@ void add_seen_from_both_sides(Snapshot& s, const geom::Triangle& t, std::int64_t
   s.surface_tet.insert(s.surface_tet.end(), {cell, cell});
 }
 
-// Of the largest distance: nodes that are nearer to the plane lie on it. Otherwise a plane along faces of blocks would
+// Over the largest distance: nodes that are nearer to the plane lie on it. Otherwise a plane along faces of blocks would
 // cut off some of their nodes and not others, and leave holes.
 constexpr double rounding = 1e-9;
 

@@ -9,7 +9,7 @@
 namespace cdem {
 
 // Writes ContactWork::skin: thin for what hardly moves, so that little is near; thick for what flies by itself. Movers are
-// known; Of those that are searched (per mover); all: of all. Returns how far each mover moves in a step, m.
+// known; those that are searched (per mover); all: of all. Returns how far each mover moves in a step, m.
 std::vector<double> choose_skins(const Model&, const State&, ContactWork&, const std::vector<char>& searched,
                                  bool all);
 

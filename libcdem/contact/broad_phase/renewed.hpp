@@ -17,7 +17,7 @@ struct Renewed {
   std::vector<int> pair_now;
 };
 
-// Of its skin: what has less left is searched with the first that leaves its own.
+// Share of a skin: a fragment with less left is searched with the first that leaves its own.
 inline constexpr double searched_with_others = 0.6;
 
 // Those that are new, and those that have left their skins or soon will; or all.

@@ -14,9 +14,9 @@ namespace {
 
 using Quaternion = std::array<double, 4>;
 
-// Of a body's size: what rounding makes of its place.
+// Rounding error of a position, over the size of the body.
 constexpr double rounding = 1e-12;
-// Of the usual height of a tet: the thinnest skin of a pair, and the thickest. Steps that a pair can go on at its pace.
+// The thinnest skin of a pair and the thickest, over the usual height of a tet. Steps that a pair can go on at its pace.
 constexpr double thinnest = 0.01, thickest = 0.2, steps_ahead = 250;
 // A pair that leaves its skin within fewer steps than this gets one twice as thick, after more one half as thick.
 constexpr std::int64_t few_steps = 50, many_steps = 150;

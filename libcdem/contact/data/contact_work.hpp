@@ -255,7 +255,7 @@ struct ContactWork {
   std::vector<Node> force;          // N, of contacts (n_nodes); empty without; written by contact_forces
   std::vector<double> stiffness;    // N/m, of contacts at nodes, row sums (n_nodes)
   std::vector<TouchedNode> touched; // nodes with a force, in the order of the contacts; none of rigid bodies
-  // Of rigid bodies, by number: the sums as contacts are added, and their values, which all ranks know.
+  // Per rigid body: the sums as contacts are added, and their values, which all ranks know.
   std::vector<RigidSums> rigid_sums;
   std::vector<ContactOnRigid> on_rigid;
 };

@@ -1,6 +1,6 @@
 // With several ranks: who keeps the row of a source and a target. All contacts of two rigid bodies stand at the later one,
 // so that edges know of each other, and ground that many bodies lie on is shared out by them; others stand at their
-// source. Each rank keeps what stands at a run of triangles.
+// source. Each rank keeps the rows of a run of triangles.
 #pragma once
 
 #include "libcdem/contact/data/contact_work.hpp"
