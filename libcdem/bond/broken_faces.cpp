@@ -75,10 +75,6 @@ BondMode due(const FaceLaw& law, double area, double normal_force, double shear_
                 shear_force);
 }
 
-bool is_intact(std::uint8_t mode) {
-  return mode == static_cast<std::uint8_t>(BondMode::intact);
-}
-
 // One face some of whose springs are broken or may break now: replaces their force on side a.
 class OneFace {
 public:

@@ -29,10 +29,6 @@ double penalty(const FaceBatch& batch, int lane) { // k, Pa/m
   return batch.kn[lane] / batch.area[lane];
 }
 
-bool is_intact(std::uint8_t mode) {
-  return mode == static_cast<std::uint8_t>(BondMode::intact);
-}
-
 // The laws of cracked faces of a chunk, but for the lengths that hang on the penalty of each.
 struct ChunkLaw {
   const FaceJoints& joints;

@@ -7,6 +7,7 @@
 namespace cdem {
 namespace {
 
+using simd::Mask;
 using simd::Oct;
 using simd::Vec;
 
@@ -43,14 +44,6 @@ CDEM_INLINE bool all_intact(const FaceStateBatch& state) {
   return (modes[0] | modes[1] | modes[2]) == 0;
 }
 
-using Mask = decltype(Oct{} < Oct{});
-
-CDEM_INLINE bool any(const Mask& mask) {
-  const auto four =
-      __builtin_shufflevector(mask, mask, 0, 1, 2, 3) | __builtin_shufflevector(mask, mask, 4, 5, 6, 7);
-  return (four[0] | four[1] | four[2] | four[3]) != 0;
-}
-
 // Strengths of the faces of a batch.
 struct Strengths {
   Oct tension, cohesion, tan_friction;
@@ -63,14 +56,11 @@ CDEM_INLINE Strengths strengths_of(const FaceLaw& law, std::int64_t batch) {
   return {simd::load(own.tensile_strength), simd::load(own.cohesion), simd::load(own.tan_friction)};
 }
 
-// Fraction of a spring's strength: below it no spring breaks, for any rounding. Above it one_by_one decides.
-constexpr double margin = 0.98;
-
 // Some spring of the batch carries a force that would break it in the worst of all directions, which is
 // F = A min(T, C cos(phi)): a look that needs no normal.
 CDEM_INLINE bool under_load(const FaceBatch& batch, const Gaps& gaps, const FaceLaw& law,
                             const Strengths& s) {
-  const double part = margin / std::max(1.0, law.shear_ratio);
+  const double part = unbreakable_part / std::max(1.0, law.shear_ratio);
   const Oct area = part * simd::load(batch.area), kn = simd::load(batch.kn), kn2 = kn * kn;
   const Oct tension2 = s.tension * s.tension,
             shear2 = s.cohesion * s.cohesion / (1.0 + s.tan_friction * s.tan_friction);
@@ -78,7 +68,7 @@ CDEM_INLINE bool under_load(const FaceBatch& batch, const Gaps& gaps, const Face
   Mask over{};
   for (const Vec& gap : gaps.point)
     over |= kn2 * dot(gap, gap) >= most2;
-  return any(over);
+  return simd::any(over);
 }
 
 // The faces of the batch of which some spring may be at its strength, a bit each. Judged without roots: the length of the normal from the face's area,
@@ -90,8 +80,9 @@ CDEM_INLINE unsigned near_strength(const FaceBatch& batch, const Gaps& gaps, con
   const Oct n2 = dot(normal, normal);
   const Oct once = guess * (1.5 - 0.5 * n2 * guess * guess);
   const Oct inverse = once * (1.5 - 0.5 * n2 * once * once); // 1 / |n|, by Newton
-  const Oct tension = (margin * s.tension) * area, cohesion = (margin * s.cohesion) * area,
-            tan_friction = margin * s.tan_friction;
+  const Oct tension = (unbreakable_part * s.tension) * area,
+            cohesion = (unbreakable_part * s.cohesion) * area,
+            tan_friction = unbreakable_part * s.tan_friction;
   Mask near{};
   for (const Vec& gap : gaps.point) {
     const Oct gn = dot(gap, normal) * inverse;
@@ -102,7 +93,7 @@ CDEM_INLINE unsigned near_strength(const FaceBatch& batch, const Gaps& gaps, con
     near |= (fn >= tension) | (shear2 >= left * left) | (left <= Oct{});
   }
   unsigned bits = 0;
-  if (any(near))
+  if (simd::any(near))
     for (int lane = 0; lane < lanes; ++lane)
       bits |= static_cast<unsigned>(near[lane] != 0) << lane;
   return bits;

@@ -15,7 +15,7 @@ constexpr double drained = 0.05; // of the interface's size
 
 bool any_intact(const State& state, const Interface& interface) {
   for (int p = interface.point_begin; p < interface.point_end; ++p)
-    if (state.bond_mode[p] == static_cast<std::uint8_t>(BondMode::intact))
+    if (is_intact(state.bond_mode[p]))
       return true;
   return false;
 }
@@ -110,7 +110,7 @@ std::vector<std::pair<int, int>> held_pairs(const Model& model, const State& sta
 std::vector<char> blocks_with_broken_bonds(const Model& model, const State& state) {
   std::vector<char> loose(model.blocks.size(), 0);
   for (std::size_t p = 0; p < model.points.size(); ++p)
-    if (state.bond_mode[p] != static_cast<std::uint8_t>(BondMode::intact)) {
+    if (!is_intact(state.bond_mode[p])) {
       const Interface& interface = model.interfaces[model.points[p].interface];
       loose[interface.block_a] = loose[interface.block_b] = 1;
     }

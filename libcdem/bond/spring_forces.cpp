@@ -23,10 +23,6 @@ CDEM_INLINE geom::Vec3 jump_at(const Model& model, std::int64_t p, const Node* u
   return model.point_apart.empty() ? j : geom::Vec3(j + model.point_apart[p]);
 }
 
-bool is_intact(std::uint8_t mode) {
-  return mode == static_cast<std::uint8_t>(BondMode::intact);
-}
-
 // A bond that softens, up to its separation; a contact from the next step on.
 void softening_spring(const BondPoint& point, State& state, BondWork& work, std::int64_t p,
                       const geom::Vec3& stretch, SpringSums& sums, bool grows) {

@@ -6,12 +6,10 @@
 namespace cdem {
 namespace {
 
+using simd::Mask;
 using simd::Oct;
 using Triples = Triple<Oct>;
-using Mask = decltype(Oct{} < Oct{});
 
-// Part of its strength below which no spring breaks, whatever the rounding; above it the law of one spring decides.
-constexpr double margin = 0.98;
 constexpr int numbers = 9; // of a rotation
 
 CDEM_INLINE Triples load(const double (&p)[3][lanes]) {
@@ -47,15 +45,9 @@ CDEM_INLINE void store_triples(geom::Vec3* to, const Triples& t) {
   std::memcpy(to->data(), out, sizeof out);
 }
 
-CDEM_INLINE bool any(const Mask& mask) {
-  const auto four =
-      __builtin_shufflevector(mask, mask, 0, 1, 2, 3) | __builtin_shufflevector(mask, mask, 4, 5, 6, 7);
-  return (four[0] | four[1] | four[2] | four[3]) != 0;
-}
-
 CDEM_INLINE unsigned bits(const Mask& mask) {
   unsigned bits = 0;
-  if (!any(mask))
+  if (!simd::any(mask))
     return bits;
   for (int lane = 0; lane < lanes; ++lane)
     bits |= static_cast<unsigned>(mask[lane] != 0) << lane;
@@ -143,21 +135,22 @@ CDEM_INLINE void spring_kernel(const SpringBatches& all, const SpringBatch& batc
   Mask contact{};
   if (!all_intact(springs.mode))
     for (int lane = 0; lane < lanes; ++lane)
-      contact[lane] = springs.mode[lane] == static_cast<std::uint8_t>(BondMode::intact) ? 0 : -1;
+      contact[lane] = is_intact(springs.mode[lane]) ? 0 : -1;
   Mask leaves{};
   if (springs.breaking) {
-    const Oct strength = shear_strength<Oct>(margin * (area * stiffness.w), margin * tan, normal_force);
-    leaves = ~contact & ((normal_force >= margin * (area * stiffness.z)) | (strength <= Oct{}) |
+    const Oct strength =
+        shear_strength<Oct>(unbreakable_part * (area * stiffness.w), unbreakable_part * tan, normal_force);
+    leaves = ~contact & ((normal_force >= unbreakable_part * (area * stiffness.z)) | (strength <= Oct{}) |
                          (shear2 >= strength * strength));
   }
   left = bits(leaves);
   Triples force = normal_force * n + ks * shear;
-  if (any(contact)) {
+  if (simd::any(contact)) {
     const Oct one = Oct{} + 1.0;
     HeldByContact<Oct> held = held_by_contact<Oct>(kn, ks, tan, open, root(dot(shear, shear)));
     held = {contact ? held.normal : one, contact ? held.shear : one};
     const Triples slip = (one - held.shear) * shear;
-    if (any((held.shear < one) & ~leaves)) {
+    if (simd::any((held.shear < one) & ~leaves)) {
       const Triples before = load_triples(springs.force), shear_before = before - dot(before, n) * n;
       const Triples shear_after = (held.shear * ks) * shear;
       const Oct lost = 0.5 * dot(shear_before + shear_after, slip);

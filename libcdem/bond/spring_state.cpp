@@ -8,10 +8,6 @@
 namespace cdem {
 namespace {
 
-bool is_intact(std::uint8_t mode) {
-  return mode == static_cast<std::uint8_t>(BondMode::intact);
-}
-
 bool damaged(const State& state, int p) {
   return !state.bond_damage.empty() && is_intact(state.bond_mode[p]) && state.bond_damage[p] > 0;
 }

@@ -13,10 +13,6 @@ SpringStrength strength_of(const Model& model, const Interface& interface) {
   return {joint.cohesion, geom::portable::tan(joint.friction_angle), joint.tensile_strength};
 }
 
-bool is_intact(const State& state, int point) {
-  return state.bond_mode[point] == static_cast<std::uint8_t>(BondMode::intact);
-}
-
 double over(double load, double strength) {
   if (load <= 0)
     return 0;
@@ -41,7 +37,7 @@ std::vector<FaceLoad> face_loads(const Model& model, const State& state) {
     double area = 0;
     geom::Vec3 force = geom::Vec3::Zero();
     for (int p = interface.point_begin; p < interface.point_end; ++p)
-      if (is_intact(state, p)) {
+      if (is_intact(state.bond_mode[p])) {
         area += model.points[p].area;
         force += model.points[p].area * traction(model, state, p);
       }
@@ -77,7 +73,7 @@ CrackFace break_face(const Model& model, State& state, RunLog& log, int stage, c
   face.normal = interface.normal;
   face.ratio = load.ratio.value;
   for (int p = interface.point_begin; p < interface.point_end; ++p) {
-    if (!is_intact(state, p))
+    if (!is_intact(state.bond_mode[p]))
       continue;
     const BondPoint& point = model.points[p];
     const geom::Vec3 t = traction(model, state, p);

@@ -13,7 +13,7 @@ namespace {
 using geom::Vec3;
 
 // Principal stresses nearer than this part of sigma_1 - sigma_3 count as equal.
-constexpr double equal_stress = 0.02;
+constexpr double nearly_equal = 0.02;
 
 struct Uses {
   double tension = 0, shear = 0;
@@ -57,12 +57,12 @@ std::optional<WorkingPlane> working_plane(const geom::Mat3& stress, const RockSt
     return std::nullopt;
   const Vec3 axis3 = solver.eigenvectors().col(0), axis2 = solver.eigenvectors().col(1),
              axis1 = solver.eigenvectors().col(2);
-  const double equal = equal_stress * (s[2] - s[0]);
+  const double equal = nearly_equal * (s[2] - s[0]);
   const Vec3 free1 = s[2] - s[1] <= equal ? nearest_in(axis1, axis2, face) : axis1;
   WorkingPlane plane;
   if (u.tension >= u.shear) {
     plane.normal = free1;
-    if (s[2] - s[0] <= equal_stress * std::abs(s[2])) // all-round
+    if (s[2] - s[0] <= nearly_equal * std::abs(s[2])) // all-round
       plane.normal = face;
   } else {
     plane.mode = BondMode::broken_shear;

@@ -41,6 +41,9 @@ inline BondMode breaks(const SpringStrength& s, double normal, double shear) {
   return BondMode::intact;
 }
 
+// Below this part of its strength no spring breaks, whatever the rounding of kernels that take several side by side.
+constexpr double unbreakable_part = 0.98;
+
 // f, Pa, > 0 where the rock fails.
 inline double mohr_coulomb(double p1, double p3, double cohesion, double cos_friction, double tan_friction) {
   return (p1 - p3) / (2 * cos_friction) - (p1 + p3) * tan_friction / 2 - cohesion;

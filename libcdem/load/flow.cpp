@@ -66,7 +66,7 @@ geom::Vec3 present_normal(const Model& model, const State& state, const OuterFac
 
 bool open(const FaceStateBatch& state, int lane) {
   for (const auto& point : state.mode)
-    if (point[lane] == static_cast<std::uint8_t>(BondMode::intact))
+    if (is_intact(point[lane]))
       return false;
   return true;
 }

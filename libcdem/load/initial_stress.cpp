@@ -130,10 +130,10 @@ void add_initial_stress(const Model& model, State& state, const InitialStress& f
 }
 
 BeyondStrength beyond_strength(const Model& model, const State& state) {
-  struct Traction {
+  struct JointTraction {
     double normal, shear;
   };
-  std::vector<Traction> tractions;
+  std::vector<JointTraction> tractions;
   double largest = 0;
   for (int p = 0; p < static_cast<int>(model.points.size()); ++p) {
     const BondPoint& point = model.points[p];
@@ -155,7 +155,7 @@ BeyondStrength beyond_strength(const Model& model, const State& state) {
     const auto [normal, shear] = tractions[p];
     if (std::max(normal, shear) <= rounding * largest)
       continue;
-    const bool intact = state.bond_mode[p] == static_cast<std::uint8_t>(BondMode::intact);
+    const bool intact = is_intact(state.bond_mode[p]);
     if (intact && !interface.may_break)
       continue;
     const double path = state.joint_history.empty() ? 0 : state.joint_history[p].path;

@@ -12,7 +12,6 @@
 namespace cdem {
 namespace {
 
-constexpr double pi = 3.14159265358979323846;
 // Rounding error of f = 0, over the largest stress or strength.
 constexpr double rounding = 1e-10;
 
@@ -245,7 +244,7 @@ Plasticity reduced(Plasticity rock, double factor) {
 }
 
 void validate(const Plasticity& rock) {
-  const auto degrees = [](double radians) { return fmt::format("{:g}", radians * 180 / pi); };
+  const auto degrees = [](double radians) { return fmt::format("{:g}", radians * 180 / M_PI); };
   const auto require = [](const char* field, const std::string& value, bool good, const std::string& range,
                           const std::string& advice = "") {
     if (!good)
@@ -256,7 +255,7 @@ void validate(const Plasticity& rock) {
   };
   require_pressure("cohesion", rock.cohesion);
   require_pressure("tensile_strength", rock.tensile_strength);
-  const double most = pi / 2 * (1 - 1e-6);
+  const double most = M_PI / 2 * (1 - 1e-6);
   require("friction_angle", degrees(rock.friction_angle),
           rock.friction_angle >= 0 && rock.friction_angle < most, "in [0, 90) degrees");
   require("dilation_angle", degrees(rock.dilation_angle),

@@ -14,6 +14,7 @@ namespace simd {
 
 using Quad = double __attribute__((vector_size(32)));
 using Oct = double __attribute__((vector_size(64)));
+using Mask = decltype(Oct{} < Oct{});
 
 CDEM_INLINE Quad load(const Node& n) {
   Quad q;
@@ -33,6 +34,12 @@ CDEM_INLINE Oct load(const double (&p)[lanes]) {
 
 CDEM_INLINE void store(double (&p)[lanes], const Oct& v) {
   std::memcpy(p, &v, sizeof v);
+}
+
+CDEM_INLINE bool any(const Mask& mask) {
+  const auto four =
+      __builtin_shufflevector(mask, mask, 0, 1, 2, 3) | __builtin_shufflevector(mask, mask, 4, 5, 6, 7);
+  return (four[0] | four[1] | four[2] | four[3]) != 0;
 }
 
 struct Vec {

@@ -22,7 +22,7 @@ constexpr std::int64_t steps_per_look = 20; // at new breaks
 constexpr std::int64_t looks_per_judgement = 5;
 
 // The loops of the stage, one after the other.
-enum class Part : std::uint8_t { other_loads, reference, search };
+enum class SearchPart : std::uint8_t { other_loads, reference, search };
 
 void require_held(const ResolvedConditions& r) {
   if (r.held.empty())
@@ -61,8 +61,8 @@ void require_held_there(const Model& model, const ResolvedConditions& r, const S
 }
 
 // What the search keeps around the loops of its parts.
-struct ProcedureState {
-  Part part = Part::other_loads;
+struct SearchState {
+  SearchPart part = SearchPart::other_loads;
   NodeForces pattern;               // N at 1 Pa, where the faces were when the stage began
   std::vector<Node> start;          // m, displacement before the flow (n_nodes)
   double start_time = 0;            // s, when the pressure begins to rise
@@ -73,7 +73,7 @@ struct ProcedureState {
 };
 
 template <class A>
-void archive(A& a, ProcedureState& x) {
+void archive(A& a, SearchState& x) {
   auto& [part, pattern, start, start_time, first_break, seen, looks, pressure, result] = x;
   auto& [base_time, base, rate, limit, resume] = pressure;
   archive_all(a, part, pattern, start, start_time, first_break, seen, looks, base_time, base, rate, limit,
@@ -95,7 +95,8 @@ public:
     Flow flow = options.flow;
     flow.relative = false; // the paper's: the solid is held
     flow.velocity = [this, density](double time) {
-      return now_.part == Part::search ? flow_velocity(now_.pressure.at(time), density) : first_velocity;
+      return now_.part == SearchPart::search ? flow_velocity(now_.pressure.at(time), density)
+                                             : first_velocity;
     };
     conditions_.flows.push_back(flow);
     resolved_ = resolve(model_, state_, conditions_);
@@ -116,7 +117,7 @@ private:
   }
   void start();
   void renumber(const std::vector<int>& old_node);
-  void begin(Part);
+  void begin(SearchPart);
   StageContext with_flow() const {
     const StageContext& c = without_flow_;
     return {c.model,  c.state,       conditions_,     c.log,  c.last_good,       c.observer,   c.threads,
@@ -134,7 +135,7 @@ private:
   ResolvedConditions resolved_;
   double volume_; // m3
   bool ended_ = false;
-  ProcedureState now_;
+  SearchState now_;
 };
 
 // Copies of a node share its force by their mass.
@@ -164,10 +165,10 @@ void Search::start() {
   if (now_.pattern.empty())
     throw geom::InputError(
         "critical_flow: no outer face of the place looks towards the flow; turn its direction");
-  begin(Part::other_loads);
+  begin(SearchPart::other_loads);
 }
 
-void Search::begin(Part part) {
+void Search::begin(SearchPart part) {
   now_.part = part;
   without_flow_.from = nullptr;
   keep_start_of_loop(without_flow_);
@@ -257,16 +258,16 @@ CriticalFlowResult Search::operator()() {
   } else {
     start();
   }
-  if (now_.part == Part::other_loads) {
+  if (now_.part == SearchPart::other_loads) {
     if (without_flow_.conditions.load()) // what they do is none of the flow's
       find_balance(without_flow_, "critical_flow: other loads");
     now_.start = state_.displacement;
-    begin(Part::reference);
+    begin(SearchPart::reference);
   }
-  if (now_.part == Part::reference) {
+  if (now_.part == SearchPart::reference) {
     find_balance(with_flow(), "critical_flow: reference");
     measure();
-    begin(Part::search);
+    begin(SearchPart::search);
   }
   return raise();
 }

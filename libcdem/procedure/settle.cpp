@@ -16,14 +16,14 @@ namespace {
 
 // Steps between looks at the kinetic energy, and how many in a row must find it low: a body at the top of a bounce
 // stands still for a moment.
-constexpr std::int64_t steps_per_look = 20;
+constexpr std::int64_t settle_look = 20;
 constexpr int quiet_looks = 25;
 // Units that deform again have taken up their weight when the forces out of balance are this part of the loads; slow
 // motion alone does not tell: what a stiff unit moves by is little from the start.
 constexpr double balanced = 0.01;
 
 // The loops of the stage, of which it goes through one or two.
-enum class Part : std::uint8_t { rigid, free, last };
+enum class SettlePart : std::uint8_t { rigid, free, last };
 
 // Looks at the kinetic energy of a stage.
 struct Calm {
@@ -64,8 +64,8 @@ void take_velocities_as_present(const Model& model, State& state) {
 }
 
 // What settling keeps around the loops of its phases.
-struct ProcedureState {
-  Part part = Part::rigid;
+struct SettleState {
+  SettlePart part = SettlePart::rigid;
   double start = 0, part_start = 0; // s
   std::int64_t looks = 0;           // in this part
   std::vector<int> turned;          // blocks that are rigid while they fall
@@ -74,7 +74,7 @@ struct ProcedureState {
 };
 
 template <class A>
-void archive(A& a, ProcedureState& x) {
+void archive(A& a, SettleState& x) {
   auto& [part, start, part_start, looks, turned, calm, result] = x;
   archive_all(a, part, start, part_start, looks, turned, calm.peak, calm.ratio, calm.quiet, result.steps,
               result.made_rigid, result.wall_time);
@@ -105,14 +105,14 @@ private:
                        [](const Block& block) { return block.rigid < 0; });
   }
   void start();
-  void begin(Part);
+  void begin(SettlePart);
   void phase(const std::string& name, double time_step, Until);
 
   Model& model_;
   State& state_;
   const SettleOptions& options_;
   StageContext context_;
-  ProcedureState now_;
+  SettleState now_;
 };
 
 void Settling::start() {
@@ -133,13 +133,13 @@ void Settling::start() {
   now_.result.made_rigid = static_cast<std::int64_t>(now_.turned.size());
   if (!now_.turned.empty()) {
     set_rigid(model_, state_, now_.turned);
-    begin(Part::rigid);
+    begin(SettlePart::rigid);
   } else {
-    begin(deforms() && state_.contacts.empty() ? Part::free : Part::last);
+    begin(deforms() && state_.contacts.empty() ? SettlePart::free : SettlePart::last);
   }
 }
 
-void Settling::begin(Part part) {
+void Settling::begin(SettlePart part) {
   now_.part = part;
   now_.part_start = state_.time;
   now_.looks = 0;
@@ -161,8 +161,8 @@ void Settling::phase(const std::string& name, double time_step, Until until) {
   if (options_.friction_angle)
     stepping.most_friction = geom::portable::tan(*options_.friction_angle);
   const std::int64_t looks_per_call =
-      options_.callback ? (options_.callback_every + steps_per_look - 1) / steps_per_look : 0;
-  stepping.callback_every = steps_per_look;
+      options_.callback ? (options_.callback_every + settle_look - 1) / settle_look : 0;
+  stepping.callback_every = settle_look;
   stepping.callback = [&] {
     now_.calm.look(kinetic_energy(model_, state_), options_.kinetic_energy_ratio);
     ++now_.looks;
@@ -172,7 +172,7 @@ void Settling::phase(const std::string& name, double time_step, Until until) {
   stepping.stop = [&] {
     return until == Until::touch ? !state_.contacts.empty() : now_.calm.quiet >= quiet_looks;
   };
-  const bool takes_up_loads = now_.part == Part::last && deforms() && context_.conditions.load();
+  const bool takes_up_loads = now_.part == SettlePart::last && deforms() && context_.conditions.load();
   if (takes_up_loads)
     stepping.stop_residual = balanced;
   stepping.details = [&](Progress& progress) {
@@ -205,15 +205,15 @@ SettleResult Settling::operator()() {
   } else {
     start();
   }
-  if (now_.part == Part::rigid) {
+  if (now_.part == SettlePart::rigid) {
     phase("rigid fall", options_.time_step, Until::rest);
     set_deformable(model_, state_, now_.turned);
     take_velocities_as_present(model_, state_);
-    begin(Part::last);
+    begin(SettlePart::last);
   }
-  if (now_.part == Part::free) {
+  if (now_.part == SettlePart::free) {
     phase("free fall", 0, Until::touch);
-    begin(Part::last);
+    begin(SettlePart::last);
   }
   const bool soft = deforms();
   phase(soft ? "deformable" : "rigid fall", soft ? 0 : options_.time_step, Until::rest);

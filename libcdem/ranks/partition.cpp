@@ -22,9 +22,8 @@ int broken_faces(const State& state, const MeshChunk& chunk) {
   for (int face = 0; face < chunk.faces; ++face) {
     const FaceStateBatch& batch = state.faces[chunk.face_batches.begin + face / lanes];
     const int lane = face % lanes;
-    const bool holds = std::all_of(std::begin(batch.mode), std::end(batch.mode), [&](const auto& point) {
-      return point[lane] == static_cast<std::uint8_t>(BondMode::intact);
-    });
+    const bool holds = std::all_of(std::begin(batch.mode), std::end(batch.mode),
+                                   [&](const auto& point) { return is_intact(point[lane]); });
     broken += !holds && !handed_over(batch, lane) ? 1 : 0;
   }
   return broken;

@@ -34,7 +34,7 @@ OnPath nearest(const std::vector<Vec3>& corners, const Vec3& x) {
 // Points that hang together, found by cells as wide as the reach. Set 0 is the start.
 class Chain {
 public:
-  Chain(const CrackPath& path, std::size_t points) : path_(path), sets_(points + 1) {
+  Chain(const CrackLine& path, std::size_t points) : path_(path), sets_(points + 1) {
     place_.push_back(path.corners.front());
     farthest_.push_back(0);
     cells_[cell_of(place_[0])].push_back(0);
@@ -79,7 +79,7 @@ private:
     farthest_[sets_.find(i)] = first ? a : b;
   }
 
-  const CrackPath& path_;
+  const CrackLine& path_;
   geom::DisjointSets sets_;
   std::vector<Vec3> place_;
   std::vector<double> position_; // m, of points from 1
@@ -94,7 +94,7 @@ double moment(double a, double b, double centre, double s) {
 
 } // namespace
 
-std::vector<CrackTipRow> crack_tip(const std::vector<BreakRow>& breaks, const CrackPath& path) {
+std::vector<CrackTipRow> crack_tip(const std::vector<BreakRow>& breaks, const CrackLine& path) {
   Chain chain(path, breaks.size());
   std::vector<CrackTipRow> rows;
   int last = 0;

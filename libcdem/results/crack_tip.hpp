@@ -17,7 +17,7 @@
 
 namespace cdem {
 
-struct CrackPath {
+struct CrackLine {
   std::vector<geom::Vec3> corners; // m, undeformed, at least two; the first where the crack starts
   double width = 0;                // m, > 0
   double reach = 0;                // m, > 0
@@ -33,7 +33,7 @@ struct CrackTipRow {
 };
 
 // Where the tip moved on, in order: one row for each step at which it did.
-std::vector<CrackTipRow> crack_tip(const std::vector<BreakRow>&, const CrackPath&);
+std::vector<CrackTipRow> crack_tip(const std::vector<BreakRow>&, const CrackLine&);
 
 // Fills in the speeds; window: s, > 0.
 void add_speeds(std::vector<CrackTipRow>&, double window);

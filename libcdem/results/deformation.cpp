@@ -40,7 +40,7 @@ double departure(const Model& model, const State& state, const Interface& interf
   if (begin >= end)
     return 0;
   for (auto p = static_cast<int>(begin); p < end; ++p) {
-    if (state.bond_mode[p] == static_cast<std::uint8_t>(BondMode::intact))
+    if (is_intact(state.bond_mode[p]))
       return 0;
     least = std::min(least, jump(model, state.displacement, p).norm());
   }

@@ -23,7 +23,7 @@ double use_of(const Model& model, const State& state, int p, double normal, doub
   const Interface& interface = model.interfaces[model.points[p].interface];
   const Joint& joint = model.joints[interface.joint];
   const double tan_friction = geom::portable::tan(joint.friction_angle);
-  if (state.bond_mode[p] == static_cast<std::uint8_t>(BondMode::intact)) {
+  if (is_intact(state.bond_mode[p])) {
     if (!interface.may_break)
       return 0;
     return std::max(

@@ -167,7 +167,7 @@ constexpr double flat = 0.866;
 
 bool opened(const FaceStateBatch& state, int lane) {
   for (const auto& point : state.mode)
-    if (point[lane] == static_cast<std::uint8_t>(BondMode::intact))
+    if (is_intact(point[lane]))
       return false;
   return true;
 }

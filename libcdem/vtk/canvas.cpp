@@ -2,6 +2,7 @@
 
 #include "libcdem/vtk/offscreen.hpp"
 
+#include <algorithm>
 #include <vtkActor.h>
 #include <vtkCamera.h>
 #include <vtkCellArray.h>
@@ -194,6 +195,13 @@ double Canvas::text_width(const std::string& markup, double size) const {
   for (const Run& run : runs_of(markup))
     width += run_width(run.text, supersampling * size * run.size);
   return width / supersampling;
+}
+
+double Canvas::widest(const std::vector<std::string>& texts, double size) const {
+  double width = 0;
+  for (const std::string& text : texts)
+    width = std::max(width, text_width(text, size));
+  return width;
 }
 
 void Canvas::text(const std::string& markup, const Point& anchor, double size, HorizontalAlign horizontal,

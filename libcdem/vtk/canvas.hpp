@@ -35,6 +35,7 @@ public:
   void text(const std::string&, const Point& anchor, double size, HorizontalAlign, VerticalAlign,
             const Colour& = {0, 0, 0}, double degrees = 0);
   double text_width(const std::string&, double size) const;
+  double widest(const std::vector<std::string>&, double size) const; // of these texts; 0 of none
 
   VectorPage page(const std::array<int, 2>& size) const; // the same as shapes and text
 

@@ -17,8 +17,8 @@
 namespace cdem {
 namespace {
 
-constexpr Colour black = {0, 0, 0}, grid_colour = {0.88, 0.88, 0.88}, frame_colour = {0.35, 0.35, 0.35};
-constexpr double margin = 36, tick_length = 10, minor_length = 6, label_gap = 10, line_width = 4.5,
+constexpr Colour grid_colour = {0.88, 0.88, 0.88}, frame_colour = {0.35, 0.35, 0.35};
+constexpr double chart_margin = 36, chart_tick = 10, minor_length = 6, chart_gap = 10, chart_line = 4.5,
                  point_size = 15;
 constexpr double sample_length = 70, sample_gap = 14, entry_gap = 54;
 
@@ -53,13 +53,6 @@ std::vector<double> gather(const std::vector<Series>& series, bool right_axis) {
     if (s.right_axis == right_axis)
       values.insert(values.end(), s.y.begin(), s.y.end());
   return values;
-}
-
-double widest(const Canvas& canvas, const std::vector<std::string>& texts, double font) {
-  double width = 0;
-  for (const std::string& text : texts)
-    width = std::max(width, canvas.text_width(text, font));
-  return width;
 }
 
 // The part of a segment inside the rectangle (Liang and Barsky 1984); false when there is none.
@@ -160,7 +153,7 @@ std::vector<std::vector<std::size_t>> ChartDrawing::legend_rows() const {
   std::vector<std::vector<std::size_t>> rows;
   if (options_.legend != "auto")
     return rows;
-  const double room = options_.size[0] - 2 * margin * pixel_;
+  const double room = options_.size[0] - 2 * chart_margin * pixel_;
   double used = 0;
   for (const std::size_t i : named()) {
     const double width = entry_width(i) + entry_gap * pixel_;
@@ -176,20 +169,21 @@ std::vector<std::vector<std::size_t>> ChartDrawing::legend_rows() const {
 
 void ChartDrawing::place_plot() {
   const double s = pixel_, row = 1.5 * font_;
-  const double ticks = (tick_length + label_gap) * s;
-  double left = margin * s + ticks + widest(canvas_, left_.labels, font_);
+  const double ticks = (chart_tick + chart_gap) * s;
+  double left = chart_margin * s + ticks + canvas_.widest(left_.labels, font_);
   if (!options_.y_label.empty())
     left += 1.6 * font_;
-  double right = margin * s + 0.5 * canvas_.text_width(x_.labels.empty() ? "" : x_.labels.back(), font_);
+  double right =
+      chart_margin * s + 0.5 * canvas_.text_width(x_.labels.empty() ? "" : x_.labels.back(), font_);
   if (any_right_) {
-    right = margin * s + ticks + widest(canvas_, right_.labels, font_);
+    right = chart_margin * s + ticks + canvas_.widest(right_.labels, font_);
     if (!options_.right_label.empty())
       right += 1.6 * font_;
   }
-  double bottom = margin * s + ticks + 0.8 * font_;
+  double bottom = chart_margin * s + ticks + 0.8 * font_;
   if (!options_.x_label.empty() || !x_.multiplier.empty())
     bottom += 1.6 * font_;
-  double top = margin * s + 0.4 * font_;
+  double top = chart_margin * s + 0.4 * font_;
   if (!options_.title.empty())
     top += 1.6 * title_font * s;
   top += row * static_cast<double>(legend_rows().size());
@@ -205,20 +199,21 @@ void ChartDrawing::draw_vertical_axis(const ChartAxis& axis, bool right, const s
   for (const auto* ticks : {&axis.major, &axis.minor})
     for (const double tick : *ticks) {
       const double y = plot_.bottom + axis.place(tick) * plot_.height;
-      const double length = (ticks == &axis.major ? tick_length : minor_length) * s;
+      const double length = (ticks == &axis.major ? chart_tick : minor_length) * s;
       canvas_.line({x, y}, {x + out * length, y}, 2 * s, frame_colour);
     }
   for (std::size_t i = 0; i < axis.major.size(); ++i)
     canvas_.text(
         axis.labels[i],
-        {x + out * (tick_length + label_gap) * s, plot_.bottom + axis.place(axis.major[i]) * plot_.height},
+        {x + out * (chart_tick + chart_gap) * s, plot_.bottom + axis.place(axis.major[i]) * plot_.height},
         font_, right ? HorizontalAlign::left : HorizontalAlign::right, VerticalAlign::middle, ink);
   if (!axis.multiplier.empty())
     canvas_.text(axis.multiplier, {x, plot_.top() + 0.5 * font_}, font_,
                  right ? HorizontalAlign::right : HorizontalAlign::left, VerticalAlign::baseline, ink);
   if (label.empty())
     return;
-  const double edge = right ? options_.size[0] - margin * s - 0.05 * font_ : margin * s + 0.75 * font_;
+  const double edge =
+      right ? options_.size[0] - chart_margin * s - 0.05 * font_ : chart_margin * s + 0.75 * font_;
   canvas_.text(shown_label(label, axis), {edge, plot_.centre_y()}, font_, HorizontalAlign::centre,
                VerticalAlign::baseline, ink, 90);
 }
@@ -237,14 +232,14 @@ void ChartDrawing::draw_axes() {
   for (const auto* ticks : {&x_.major, &x_.minor})
     for (const double tick : *ticks) {
       const double x = plot_.left + x_.place(tick) * plot_.width;
-      const double length = (ticks == &x_.major ? tick_length : minor_length) * s;
+      const double length = (ticks == &x_.major ? chart_tick : minor_length) * s;
       canvas_.line({x, plot_.bottom}, {x, plot_.bottom - length}, 2 * s, frame_colour);
     }
-  const double under = plot_.bottom - (tick_length + label_gap) * s;
+  const double under = plot_.bottom - (chart_tick + chart_gap) * s;
   for (std::size_t i = 0; i < x_.major.size(); ++i)
     canvas_.text(x_.labels[i], {plot_.left + x_.place(x_.major[i]) * plot_.width, under}, font_,
                  HorizontalAlign::centre, VerticalAlign::top);
-  const double label_line = margin * s + 0.1 * font_;
+  const double label_line = chart_margin * s + 0.1 * font_;
   canvas_.text(shown_label(options_.x_label, x_), {plot_.centre_x(), label_line}, font_,
                HorizontalAlign::centre, VerticalAlign::baseline);
   canvas_.text(x_.multiplier, {plot_.right(), label_line}, font_, HorizontalAlign::right,
@@ -258,7 +253,7 @@ void ChartDrawing::draw_run(std::vector<Canvas::Point>& points, const Series& s,
   // Consecutive pieces that stay inside are drawn as one line with round corners.
   std::vector<Canvas::Point> piece;
   const auto finish = [&] {
-    canvas_.polyline(piece, line_width * pixel_, ink, s.style == "dashed");
+    canvas_.polyline(piece, chart_line * pixel_, ink, s.style == "dashed");
     piece.clear();
   };
   for (std::size_t i = 0; i + 1 < points.size(); ++i) {
@@ -317,7 +312,7 @@ void ChartDrawing::draw_entry(std::size_t i, double x, double y) {
   const Series& s = series_[i];
   const double length = sample_length * pixel_;
   if (has_line(s))
-    canvas_.polyline({{x, y}, {x + length, y}}, line_width * pixel_, colour(i), s.style == "dashed");
+    canvas_.polyline({{x, y}, {x + length, y}}, chart_line * pixel_, colour(i), s.style == "dashed");
   if (has_points(s))
     canvas_.disc({x + 0.5 * length, y}, 0.5 * point_size * pixel_, colour(i));
   canvas_.text(s.name, {x + length + sample_gap * pixel_, y}, font_, HorizontalAlign::left,
@@ -335,8 +330,8 @@ void ChartDrawing::draw_legend() {
       double width = -entry_gap * pixel_;
       for (const std::size_t i : entries)
         width += entry_width(i) + entry_gap * pixel_;
-      const double room = options_.size[0] - margin * pixel_;
-      double x = std::max(margin * pixel_, std::min(plot_.centre_x() - 0.5 * width, room - width));
+      const double room = options_.size[0] - chart_margin * pixel_;
+      double x = std::max(chart_margin * pixel_, std::min(plot_.centre_x() - 0.5 * width, room - width));
       for (const std::size_t i : entries) {
         draw_entry(i, x, y);
         x += entry_width(i) + entry_gap * pixel_;
@@ -378,7 +373,7 @@ void ChartDrawing::draw(const std::string& path) {
     const double half = 0.5 * std::min(wanted, room);
     canvas_.text(options_.title,
                  {std::clamp(plot_.centre_x(), 20 * pixel_ + half, options_.size[0] - 20 * pixel_ - half),
-                  options_.size[1] - margin * pixel_ - 0.9 * title_font * pixel_},
+                  options_.size[1] - chart_margin * pixel_ - 0.9 * title_font * pixel_},
                  title_font * pixel_ * std::min(1., room / std::max(wanted, 1.)), HorizontalAlign::centre,
                  VerticalAlign::baseline);
   }

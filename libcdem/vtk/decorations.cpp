@@ -9,7 +9,6 @@
 namespace cdem {
 namespace {
 
-constexpr Colour black = {0, 0, 0};
 constexpr std::size_t most_swatches = 12;
 constexpr double tick_length = 10, label_gap = 10, line_width = 2;
 
@@ -30,13 +29,6 @@ std::vector<double> bar_ticks(const BarContent& bar, int count) {
   for (std::size_t i = 0; i < bar.ids.size(); ++i)
     ticks.push_back(static_cast<double>(i) + 0.5);
   return ticks;
-}
-
-double widest(const Canvas& canvas, const std::vector<std::string>& labels, double font) {
-  double width = 0;
-  for (const std::string& label : labels)
-    width = std::max(width, canvas.text_width(label, font));
-  return width;
 }
 
 } // namespace
@@ -69,7 +61,7 @@ std::optional<BarContent> bar_content(const FieldValues& field, const ColourScal
 
 double bar_column_width(const Canvas& canvas, const BarContent& bar, double pixel) {
   const double font = label_font * pixel;
-  const double labels = widest(canvas, bar_labels(bar, bar_ticks(bar, 8)), font);
+  const double labels = canvas.widest(bar_labels(bar, bar_ticks(bar, 8)), font);
   const double strip = (44 + 36) * pixel;
   return std::max(strip + (tick_length + label_gap) * pixel + labels,
                   44 * pixel + canvas.text_width(bar.title, font));
@@ -121,7 +113,7 @@ void draw_bar(Canvas& canvas, const BarContent& bar, const Layout& layout, doubl
 
   // As many ticks as their labels leave room for.
   const double label_room =
-      vertical ? 2.4 * font : 1.3 * widest(canvas, bar_labels(bar, bar_ticks(bar, 6)), font) + font;
+      vertical ? 2.4 * font : 1.3 * canvas.widest(bar_labels(bar, bar_ticks(bar, 6)), font) + font;
   const std::vector<double> ticks = bar_ticks(bar, std::clamp(static_cast<int>(length / label_room), 2, 8));
   const std::vector<std::string> labels = bar_labels(bar, ticks);
   const double low = swatches ? 0 : bar.factor * bar.scale.low;

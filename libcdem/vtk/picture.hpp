@@ -13,6 +13,7 @@ namespace cdem {
 inline constexpr int least_picture_side = 64, most_picture_side = 8000; // pixels
 
 using Colour = std::array<double, 3>; // red, green, blue in 0 .. 1
+inline constexpr Colour black = {0, 0, 0};
 
 // A camera taken literally; without one the named view is fitted to the body.
 struct Camera {

@@ -64,7 +64,7 @@ struct Piece {
   bool inside = false;
 };
 
-double thickness(const Polyhedron& shape) { // 6 V / A
+double mean_thickness(const Polyhedron& shape) { // 6 V / A
   double area = 0;
   for (int f = 0; f < static_cast<int>(shape.faces.size()); ++f)
     area += face_area(shape, f);
@@ -338,12 +338,12 @@ Clipped clip(const Assembly& assembly, const Surface& surface, const ClipOptions
     std::vector<Piece> pieces;
     cutting.pieces(block, cutting.facets_in(block, std::move(own)), pieces);
     result.cut_blocks += pieces.size() > 1 ? 1 : 0;
-    const double whole = pieces.size() > 1 ? thickness(block) : 0;
+    const double whole = pieces.size() > 1 ? mean_thickness(block) : 0;
     for (Piece& piece : pieces) {
       if (options.keep != ClipSide::both && piece.inside != (options.keep == ClipSide::inside))
         continue;
       if (pieces.size() > 1)
-        if (const double own_thickness = thickness(piece.shape); own_thickness < thin_part * whole) {
+        if (const double own_thickness = mean_thickness(piece.shape); own_thickness < thin_part * whole) {
           ++result.thin;
           if (own_thickness < result.thinnest) {
             result.thinnest = own_thickness;

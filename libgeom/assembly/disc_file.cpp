@@ -13,7 +13,7 @@ namespace geom {
 namespace {
 
 constexpr double degree = 3.14159265358979323846 / 180;
-constexpr std::size_t most_discs = 100000, longest_name = 64;
+constexpr std::size_t longest_name = 64;
 constexpr std::array names{"id", "x", "y", "z", "dip", "dip_direction", "radius", "set"};
 
 std::vector<std::string> cells_of(const std::string& line) {

@@ -13,16 +13,15 @@
 namespace geom {
 namespace {
 
-constexpr double pi = 3.14159265358979323846;
 constexpr double clearance = 1e-3; // of a block's diagonal, between a plane and the block's vertices
 
 void check(const Disc& disc) {
   const std::string name = "disc " + std::to_string(disc.id) + ": ";
   require_finite(name + "centre", disc.centre);
-  if (!(disc.dip >= 0 && disc.dip <= pi / 2 * (1 + 1e-12)))
-    throw InputError(name + "dip", text(disc.dip * 180 / pi), "from 0 to 90 degrees");
-  if (!(disc.dip_direction >= 0 && disc.dip_direction <= 2 * pi * (1 + 1e-12)))
-    throw InputError(name + "dip_direction", text(disc.dip_direction * 180 / pi), "from 0 to 360 degrees");
+  if (!(disc.dip >= 0 && disc.dip <= M_PI / 2 * (1 + 1e-12)))
+    throw InputError(name + "dip", text(disc.dip * 180 / M_PI), "from 0 to 90 degrees");
+  if (!(disc.dip_direction >= 0 && disc.dip_direction <= 2 * M_PI * (1 + 1e-12)))
+    throw InputError(name + "dip_direction", text(disc.dip_direction * 180 / M_PI), "from 0 to 360 degrees");
   if (!(std::isfinite(disc.radius) && disc.radius > 0))
     throw InputError(name + "radius", text(disc.radius), "a finite number > 0 m");
 }

@@ -11,6 +11,8 @@
 
 namespace geom {
 
+inline constexpr std::size_t most_discs = 100000; // of a model
+
 struct Disc {
   std::int64_t id = 0;
   Vec3 centre = Vec3::Zero(); // m

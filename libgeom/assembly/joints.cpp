@@ -17,7 +17,6 @@
 namespace geom {
 namespace {
 
-constexpr double pi = 3.14159265358979323846;
 constexpr double least_gap = 0.05;     // of the spacing; scatter brings no two planes nearer than this
 constexpr double widest_draw = 5;      // standard deviations of dip and direction
 constexpr double most_planes = 1e6;    // of one set
@@ -28,19 +27,19 @@ constexpr std::array clearances{
 void require_angle(const std::string& field, double value, double high) {
   if (!(value >= 0 && value <= high * (1 + 1e-12))) {
     char degrees[32];
-    std::snprintf(degrees, sizeof degrees, "%.10g", value * 180 / pi);
-    throw InputError(field, degrees, "from 0 to " + text(std::round(high * 180 / pi)) + " degrees");
+    std::snprintf(degrees, sizeof degrees, "%.10g", value * 180 / M_PI);
+    throw InputError(field, degrees, "from 0 to " + text(std::round(high * 180 / M_PI)) + " degrees");
   }
 }
 
 void check(const JointSet& set) {
-  require_angle("dip", set.dip, pi / 2);
-  require_angle("dip_direction", set.dip_direction, 2 * pi);
+  require_angle("dip", set.dip, M_PI / 2);
+  require_angle("dip_direction", set.dip_direction, 2 * M_PI);
   require_positive("spacing", set.spacing);
   if (!(set.spacing_scatter >= 0 && set.spacing_scatter < 0.5))
     throw InputError("spacing_scatter", text(set.spacing_scatter), ">= 0 and < 0.5 (of the spacing)");
-  require_angle("dip_scatter", set.dip_scatter, pi / 4);
-  require_angle("direction_scatter", set.direction_scatter, pi / 4);
+  require_angle("dip_scatter", set.dip_scatter, M_PI / 4);
+  require_angle("direction_scatter", set.direction_scatter, M_PI / 4);
 }
 
 // About how many blocks come out: each set cuts a block into 1 + width / spacing parts.
@@ -70,7 +69,7 @@ void check_count(const Assembly& assembly, const std::vector<JointSet>& sets) {
 std::vector<Plane> planes_of(const JointSet& set, std::uint64_t id, std::uint64_t seed, const Box& box) {
   const Vec3 mean = normal_of_dip(set.dip, set.dip_direction), centre = box.centre();
   const bool scattered = set.spacing_scatter > 0 || set.dip_scatter > 0 || set.direction_scatter > 0;
-  const double tilt = std::min(widest_draw * (set.dip_scatter + set.direction_scatter), pi / 3);
+  const double tilt = std::min(widest_draw * (set.dip_scatter + set.direction_scatter), M_PI / 3);
   const double half =
       tilt > 0 ? 0.5 * box.size().norm() / portable::cos(tilt) // a tilted plane leans in from outside
                : 0.5 * mean.cwiseAbs().dot(box.size());

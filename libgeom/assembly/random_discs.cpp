@@ -14,9 +14,6 @@
 namespace geom {
 namespace {
 
-constexpr double pi = 3.14159265358979323846;
-constexpr double most_discs = 100000;
-
 double power(double x, double exponent) {
   return portable::exp(exponent * portable::log(x));
 }
@@ -54,7 +51,7 @@ DipAngles angles_of(Vec3 pole) {
     pole = -pole;
   const double direction = portable::atan2(pole.x(), pole.y());
   const double flat = std::hypot(pole.x(), pole.y());
-  return {portable::atan2(flat, pole.z()), direction < 0 ? direction + 2 * pi : direction};
+  return {portable::atan2(flat, pole.z()), direction < 0 ? direction + 2 * M_PI : direction};
 }
 
 using Point = Eigen::Vector2d;
@@ -209,7 +206,7 @@ std::vector<Disc> random_discs(const std::vector<RandomDiscs>& sets, const Box& 
     check(set);
     all += set.p30 * volume;
   }
-  if (!(all <= most_discs))
+  if (!(all <= static_cast<double>(most_discs)))
     throw InputError("sets", std::to_string(static_cast<long long>(std::min(all, 1e15))) + " discs",
                      "such that there are at most 100000 discs",
                      "use a lower density, larger discs or a smaller box");
@@ -231,8 +228,8 @@ std::vector<Disc> random_discs(const std::vector<RandomDiscs>& sets, const Box& 
       if (set.kappa) {
         const double k2 = *set.kappa;
         const double cos_t = 1 + portable::log(1 - draw(4) * (1 - portable::exp(-2 * k2))) / k2;
-        const DipAngles angles = angles_of(about(mean, std::max(cos_t, -1.0), 2 * pi * draw(5)));
-        disc.dip = std::min(angles.dip, pi / 2);
+        const DipAngles angles = angles_of(about(mean, std::max(cos_t, -1.0), 2 * M_PI * draw(5)));
+        disc.dip = std::min(angles.dip, M_PI / 2);
         disc.dip_direction = angles.direction;
       }
       discs.push_back(std::move(disc));
@@ -291,7 +288,7 @@ std::vector<DiscStatistics> disc_statistics(const std::vector<Disc>& discs, cons
     for (const Vec3& pole : s.poles)
       sum += pole.dot(main) < 0 ? Vec3(-pole) : pole;
     const DipAngles angles = angles_of(sum.normalized());
-    s.out.dip = std::min(angles.dip, pi / 2);
+    s.out.dip = std::min(angles.dip, M_PI / 2);
     s.out.dip_direction = angles.direction;
     if (s.out.count >= 3 && n - sum.norm() > 1e-12 * n)
       s.out.kappa = (n - 1) / (n - sum.norm());

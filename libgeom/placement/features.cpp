@@ -57,18 +57,18 @@ std::vector<int> inside(const std::vector<Boxed>& parts, const Box& box) {
 }
 
 // Distance of a corner over a face; `far` if the corner is beside the face.
-constexpr double far = std::numeric_limits<double>::infinity();
+constexpr double endless = std::numeric_limits<double>::infinity();
 double level(const Vec3& x, const Features::Face& face, double reach) {
   const double gap = face.normal.dot(x - face.points[0]);
   if (std::abs(gap) > reach)
-    return far;
-  double least = far, size = 0;
+    return endless;
+  double least = endless, size = 0;
   for (int i = 0; i < 3; ++i) {
     const Vec3 side = face.points[(i + 1) % 3] - face.points[i];
     least = std::min(least, face.normal.dot(side.cross(x - face.points[i])));
     size = std::max(size, side.squaredNorm());
   }
-  return least >= -seam * size ? gap : far;
+  return least >= -seam * size ? gap : endless;
 }
 
 // Whether a direction leads away from both faces of an edge.

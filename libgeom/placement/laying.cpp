@@ -10,7 +10,7 @@
 namespace geom {
 namespace {
 
-constexpr double far = 1e30;
+constexpr double unreached = 1e30;
 
 constexpr std::uint64_t stands_tried = 300;
 constexpr std::size_t stands_wanted = 16;
@@ -204,12 +204,12 @@ Laying::Try Laying::lowered(const Mat3& rotation, const Site& site) const {
   double along = site.place.x();
   if (walls_)
     along = std::max(std::min(along, walls_->high - gap_ - right), walls_->low + gap_ + left);
-  Try best{{rotation, Vec3::Zero()}, far};
+  Try best{{rotation, Vec3::Zero()}, unreached};
   for (double up = site.below.empty() ? 0 : lowest_place; up < highest_place; up += place_step) {
     Vec3 place(along, site.place.y() + up * height_, 0);
     const Vec3 offset(place.x(), place.y(), 0);
-    double nearest = clearance(profile, offset, ground_profile_, far);
-    if (nearest == far) // beside the ground
+    double nearest = clearance(profile, offset, ground_profile_, unreached);
+    if (nearest == unreached) // beside the ground
       continue;
     for (const Laid& other : laid_)
       nearest = std::min(nearest, clearance(profile, offset, other.profile, nearest));
@@ -302,31 +302,31 @@ void Laying::lay(const Site& site) {
   for (const Mat3& rotation : rotations)
     tries.push_back(lowered(rotation, site));
   std::stable_sort(tries.begin(), tries.end(), [](const Try& a, const Try& b) { return a.cost < b.cost; });
-  if (tries.front().cost == far)
+  if (tries.front().cost == unreached)
     throw InputError(
         "unit " + std::to_string(site.unit + 1) +
         " of the layer: there is no ground where it is to lie; give a larger ground, or a region "
         "within it");
   const auto fits = std::find_if(tries.begin(), tries.end(), [&](const Try& t) {
-    return t.cost < far && within_walls(surface_at(t.pose));
+    return t.cost < unreached && within_walls(surface_at(t.pose));
   });
-  Try best{fits == tries.end() ? tries.front().pose : fits->pose, far};
+  Try best{fits == tries.end() ? tries.front().pose : fits->pose, unreached};
   for (std::size_t i = 0; options_.nudges > 0 && i < tries.size(); ++i) {
-    if ((i >= rested_tries && best.good) || tries[i].cost == far)
+    if ((i >= rested_tries && best.good) || tries[i].cost == unreached)
       break;
     const Near around = on_the_way(tries[i].pose.translation);
     const Try one = rested(tries[i], site, around);
     if (one.cost < best.cost && clear(one.pose, around))
       best = one;
   }
-  if (best.cost == far && fits == tries.end())
+  if (best.cost == unreached && fits == tries.end())
     throw InputError(
         "unit " + std::to_string(site.unit + 1) +
         " of the layer: it fits between the walls in none of its attitudes; ask for more columns or "
         "a lower density, or leave the walls out");
   const Near around = near(best.pose.translation, 2 * radius_ + height_);
   sites_.push_back(site);
-  laid_.push_back(laid_at(best.cost < far ? best.pose : raised(best.pose, around)));
+  laid_.push_back(laid_at(best.cost < unreached ? best.pose : raised(best.pose, around)));
 }
 
 Laying::Laid Laying::laid_at(const Pose& pose) const {

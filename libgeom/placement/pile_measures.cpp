@@ -16,7 +16,7 @@ constexpr double columns_per_height = 40;
 constexpr std::int64_t least_columns = 400; // a square of H/2
 constexpr double none = -std::numeric_limits<double>::infinity();
 
-double cross(const Point& a, const Point& b) {
+double cross_in_plan(const Point& a, const Point& b) {
   return a.x() * b.y() - a.y() * b.x();
 }
 
@@ -41,7 +41,8 @@ std::vector<Point> hull_of(std::vector<Point> points) {
   for (int pass = 0; pass < 2; ++pass) {
     const std::size_t begin = hull.size();
     for (const Point& p : points) {
-      while (hull.size() >= begin + 2 && cross(hull.back() - hull[hull.size() - 2], p - hull.back()) <= 0)
+      while (hull.size() >= begin + 2 &&
+             cross_in_plan(hull.back() - hull[hull.size() - 2], p - hull.back()) <= 0)
         hull.pop_back();
       hull.push_back(p);
     }
@@ -54,7 +55,7 @@ std::vector<Point> hull_of(std::vector<Point> points) {
 bool inside(const std::vector<Point>& hull, const Point& p, double margin) {
   for (std::size_t i = 0; i < hull.size(); ++i) {
     const Point along = hull[(i + 1) % hull.size()] - hull[i];
-    if (cross(along.normalized(), p - hull[i]) < margin)
+    if (cross_in_plan(along.normalized(), p - hull[i]) < margin)
       return false;
   }
   return true;
@@ -81,7 +82,7 @@ std::pair<double, bool> side_of(Point a, Point b, const Point& p) {
   const bool swapped = a.x() != b.x() ? a.x() > b.x() : a.y() > b.y();
   if (swapped)
     std::swap(a, b);
-  const double area = cross(b - a, p - a);
+  const double area = cross_in_plan(b - a, p - a);
   return {swapped ? -area : area, swapped != (area >= 0)};
 }
 
@@ -90,7 +91,7 @@ std::pair<double, bool> side_of(Point a, Point b, const Point& p) {
 template <class Visit>
 void cross_columns(const Columns& columns, const TrianglePoints& t, const Visit& visit) {
   const Point a = t[0].head<2>(), b = t[1].head<2>(), c = t[2].head<2>();
-  const double twice_area = cross(b - a, c - a);
+  const double twice_area = cross_in_plan(b - a, c - a);
   if (twice_area == 0)
     return;
   const int turn = twice_area > 0 ? 1 : -1;

@@ -12,9 +12,9 @@
 namespace geom {
 namespace {
 
-constexpr int sweeps = 400;     // over all impulses, at most
-constexpr double creeps = 0.06; // of s, a step: what is slower rests
-constexpr double slides = 0.15; // and what is faster goes on with larger steps
+constexpr int pile_sweeps = 400; // over all impulses, at most
+constexpr double creeps = 0.06;  // of s, a step: what is slower rests
+constexpr double slides = 0.15;  // and what is faster goes on with larger steps
 // Fraction of the displacement that a body may have. If a body has moved further than allowed, the lowest body beyond
 // this fraction is held, and all begin again. After so many beginnings a body that goes too far is put back at once.
 constexpr double goes_on = 0.8;
@@ -200,7 +200,7 @@ void Together::move(const std::vector<Motion>& v) {
 std::vector<Motion> Together::step(const Vec3& down, double s) {
   std::vector<BodyTouch> touches = this->touches(s);
   begin(touches, s);
-  std::vector<Motion> v = motions(touches, s * down, {options_.friction, s, sweeps});
+  std::vector<Motion> v = motions(touches, s * down, {options_.friction, s, pile_sweeps});
   remember(touches, s);
   move(v);
   return v;
@@ -214,12 +214,12 @@ void Together::push_clear() {
       break;
     for (BodyTouch& touch : made)
       touch.room -= slack;
-    move(motions(made, Vec3::Zero(), {0, options_.clear, sweeps}));
+    move(motions(made, Vec3::Zero(), {0, options_.clear, pile_sweeps}));
   }
 }
 
 std::vector<int> Together::pressed_by() {
-  const ImpulseOptions probing = geom::probing(options_, sweeps);
+  const ImpulseOptions probing = geom::probing(options_, pile_sweeps);
   std::vector<BodyTouch> made = touches(probing.step);
   for (BodyTouch& touch : made) // what pushes it out of another does not carry it
     touch.room = std::max(0., touch.room);

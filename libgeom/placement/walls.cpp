@@ -10,12 +10,12 @@
 namespace geom {
 namespace {
 
-constexpr double level = 1e-3;      // slope below which ground has no foot
-constexpr int samples = 8;          // of the ground's height below a cell of a wall, along it
-constexpr int most_cells = 400;     // along a wall
-constexpr double least_heights = 2; // of a wall, in units
+constexpr double least_slope = 1e-3; // slope below which ground has no foot
+constexpr int samples = 8;           // of the ground's height below a cell of a wall, along it
+constexpr int most_cells = 400;      // along a wall
+constexpr double least_heights = 2;  // of a wall, in units
 
-struct Site {
+struct WallSite {
   const Ground& ground;
   double base;      // m, where there is no ground: its lowest place
   double clearance; // m, of the walls above it
@@ -23,12 +23,12 @@ struct Site {
   double cell;      // m
 };
 
-double ground_at(const Site& site, double x, double y) {
+double ground_at(const WallSite& site, double x, double y) {
   return site.ground.height(x, y).value_or(site.base);
 }
 
 // The highest ground across a wall of this plan, at `along` on the axis.
-double highest_across(const Site& site, const PlanBox& plan, int axis, double along) {
+double highest_across(const WallSite& site, const PlanBox& plan, int axis, double along) {
   double highest = site.base;
   for (const double part : {0., 0.25, 0.5, 0.75, 1.}) {
     Eigen::Vector2d p = plan.min + part * plan.size();
@@ -39,7 +39,7 @@ double highest_across(const Site& site, const PlanBox& plan, int axis, double al
 }
 
 // The lower edge of a wall: above the ground at its cells' ends, and raised where the ground is higher between them.
-std::vector<double> lower_edge(const Site& site, const PlanBox& plan, int axis, int cells) {
+std::vector<double> lower_edge(const WallSite& site, const PlanBox& plan, int axis, int cells) {
   const double step = plan.size()[axis] / cells;
   const auto ground = [&](double cell) {
     return highest_across(site, plan, axis, plan.min[axis] + cell * step);
@@ -60,7 +60,7 @@ std::vector<double> lower_edge(const Site& site, const PlanBox& plan, int axis, 
   return raised;
 }
 
-void add_wall(const Site& site, const PlanBox& plan, int axis, TetMesh& walls) {
+void add_wall(const WallSite& site, const PlanBox& plan, int axis, TetMesh& walls) {
   const Eigen::Vector2d size = plan.size();
   const auto cells_of = [&](double length) {
     return std::clamp(static_cast<int>(std::ceil(length / site.cell)), 1, most_cells);
@@ -83,7 +83,7 @@ void add_wall(const Site& site, const PlanBox& plan, int axis, TetMesh& walls) {
   }
 }
 
-double highest_over_ground(const Pile& pile, const Site& site) {
+double highest_over_ground(const Pile& pile, const WallSite& site) {
   double highest = 0;
   for (const TetMesh& unit : meshes(pile)) {
     const Box box = bounding_box(unit);
@@ -106,14 +106,14 @@ TetMesh walls_around(const Pile& pile, const Ground& ground, const WallOptions& 
   for (const Vec3& x : ground.surface().points)
     if (const auto z = ground.height(x.x(), x.y()))
       base = std::min(base, *z);
-  Site site{ground, base, clearance, 0, pile.height};
+  WallSite site{ground, base, clearance, 0, pile.height};
   site.height =
       options.height.value_or(std::max(least_heights * pile.height, highest_over_ground(pile, site)));
   require_positive("height", site.height);
 
   const Vec3 normal = ground.normal(inside);
   const int rise = std::abs(normal.x()) >= std::abs(normal.y()) ? 0 : 1, across = 1 - rise;
-  const bool sloped = std::abs(normal[rise]) > level;
+  const bool sloped = std::abs(normal[rise]) > least_slope;
   // Walls across the rise stand between those along it, which are longer by the thickness at both ends.
   TetMesh walls;
   for (const bool low : {true, false}) {

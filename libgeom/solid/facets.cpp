@@ -14,13 +14,12 @@
 namespace geom {
 namespace {
 
-constexpr double pi = 3.14159265358979323846;
 constexpr double most_chords = 2000; // of a circle
 
 // Chords of a circle as large as the solid: smaller ones are cut as often.
 double chords(double radius, double tolerance) {
   const double part = std::min(tolerance / 3 / radius, 1.0);
-  return std::clamp(std::ceil(pi / std::acos(1 - part)), 6.0, most_chords);
+  return std::clamp(std::ceil(M_PI / std::acos(1 - part)), 6.0, most_chords);
 }
 
 // Inside a session: the faces that bound the model's volumes from outside, with their triangles.

@@ -4,7 +4,7 @@ local expect = require "expect"
 
 local g, phi = 9.81, math.rad(30)
 local results = cdem.sweep{ script = "../../examples/sliding_block/case.lua", jobs = 2,
-                            set = { { size = 1.0 }, { size = 0.01 } } }
+                            set = { { size = 1.0 }, { size = 0.1 } } }
 for i = 1, 2 do
   if results[i].exit_code ~= 0 then error("the example ended with exit code " .. results[i].exit_code) end
   local figures = results[i].figures

@@ -32,7 +32,7 @@ std::vector<BreakRow> front(int points, double v = speed) {
   return rows;
 }
 
-cdem::CrackPath along_x() {
+cdem::CrackLine along_x() {
   return {{Vec3::Zero(), Vec3(2, 0, 0)}, spacing, 1.5 * spacing};
 }
 
@@ -77,7 +77,7 @@ TEST_CASE("a microcrack ahead counts once the crack has met it, and one beside t
 }
 
 TEST_CASE("what does not begin at the start of the path has no tip", "[crack_tip]") {
-  cdem::CrackPath path = along_x();
+  cdem::CrackLine path = along_x();
   path.corners[0] = Vec3(-5 * spacing, 0, 0);
   CHECK(cdem::crack_tip(front(20), path).empty());
 }
@@ -86,7 +86,7 @@ TEST_CASE("positions run along the corners of a path", "[crack_tip]") {
   std::vector<BreakRow> breaks = front(11);
   for (int i = 1; i <= 10; ++i)
     breaks.push_back(broken({0.1, spacing * i, 0}, 1e-3 + 1e-5 * i, 20 + i));
-  const cdem::CrackPath path{{Vec3::Zero(), Vec3(0.1, 0, 0), Vec3(0.1, 1, 0)}, spacing, 1.5 * spacing};
+  const cdem::CrackLine path{{Vec3::Zero(), Vec3(0.1, 0, 0), Vec3(0.1, 1, 0)}, spacing, 1.5 * spacing};
   CHECK(cdem::crack_tip(breaks, path).back().position == Approx(0.2));
 }
 

@@ -8,7 +8,7 @@ namespace cdem::app {
 
 namespace {
 
-struct Typed {
+struct TypedCheck {
   std::string file, threads, memory;
   std::vector<std::string> set;
   bool unsafe = false;
@@ -17,7 +17,7 @@ struct Typed {
 } // namespace
 
 Command check_command() {
-  const auto typed = std::make_shared<Typed>();
+  const auto typed = std::make_shared<TypedCheck>();
   Command command("check", "build and validate what a script describes, without solving");
   add_script(command, typed->file);
   add_unsafe(command, typed->unsafe);

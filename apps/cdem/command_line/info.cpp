@@ -7,14 +7,14 @@ namespace cdem::app {
 
 namespace {
 
-struct Typed {
+struct TypedInfo {
   std::string path;
 };
 
 } // namespace
 
 Command info_command() {
-  const auto typed = std::make_shared<Typed>();
+  const auto typed = std::make_shared<TypedInfo>();
   Command command("info", "describe this program, a saved file, a script or a results folder");
   command.argument("PATH", typed->path,
                    "a .vtu or .vtkhdf file, a .lua script or a folder of results; none: this program");

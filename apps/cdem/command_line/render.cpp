@@ -8,7 +8,7 @@ namespace cdem::app {
 
 namespace {
 
-struct Typed {
+struct TypedRender {
   std::string file, output, colour, deformation = "0", view = "front", up = "y", size = "1600x1200", range,
                                     hidden, colour_map = "auto", title, dpi = "300";
   bool colour_given = false, no_edges = false, no_broken_bonds = false, no_colour_bar = false,
@@ -18,7 +18,7 @@ struct Typed {
 } // namespace
 
 Command render_command() {
-  const auto typed = std::make_shared<Typed>();
+  const auto typed = std::make_shared<TypedRender>();
   Command command("render", "draw a picture of a saved file");
   command.argument("FILE", typed->file, "the .vtu or .vtkhdf file");
   command.value("--colour,--color,-c", typed->colour, "FIELD",

@@ -7,7 +7,7 @@ namespace cdem::app {
 
 namespace {
 
-struct Typed {
+struct TypedRepl {
   std::string threads, memory;
   bool unsafe = false;
 };
@@ -15,7 +15,7 @@ struct Typed {
 } // namespace
 
 Command repl_command() {
-  const auto typed = std::make_shared<Typed>();
+  const auto typed = std::make_shared<TypedRepl>();
   Command command("repl", "type Lua with the cdem module at hand");
   add_threads(command, typed->threads, "threads (every core)");
   add_memory(command, typed->memory);

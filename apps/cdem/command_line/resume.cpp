@@ -7,7 +7,7 @@ namespace cdem::app {
 
 namespace {
 
-struct Typed {
+struct TypedResume {
   std::string folder;
   SolvingOptions solving;
 };
@@ -15,7 +15,7 @@ struct Typed {
 } // namespace
 
 Command resume_command() {
-  const auto typed = std::make_shared<Typed>();
+  const auto typed = std::make_shared<TypedResume>();
   Command command("resume", "continue a run that was stopped or killed");
   command.argument("FOLDER", typed->folder, "its output folder");
   add_unsafe(command, typed->solving.unsafe);

@@ -8,7 +8,7 @@ namespace cdem::app {
 
 namespace {
 
-struct Typed {
+struct TypedRun {
   std::string file, output, sources;
   std::vector<std::string> set;
   SolvingOptions solving;
@@ -18,7 +18,7 @@ struct Typed {
 } // namespace
 
 Command run_command() {
-  const auto typed = std::make_shared<Typed>();
+  const auto typed = std::make_shared<TypedRun>();
   Command command("run", "run a case script");
   add_script(command, typed->file);
   add_unsafe(command, typed->solving.unsafe);

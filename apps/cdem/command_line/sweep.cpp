@@ -11,7 +11,7 @@ namespace {
 
 constexpr int most_points = 100000;
 
-struct Typed {
+struct TypedSweep {
   std::string file, jobs, threads, memory, output, ranks, point;
   std::vector<std::string> set;
   bool unsafe = false, slurm = false, quiet = false;
@@ -20,7 +20,7 @@ struct Typed {
 } // namespace
 
 Command sweep_command() {
-  const auto typed = std::make_shared<Typed>();
+  const auto typed = std::make_shared<TypedSweep>();
   Command command("sweep", "run a script with every combination of values, side by side");
   add_script(command, typed->file);
   add_unsafe(command, typed->unsafe);

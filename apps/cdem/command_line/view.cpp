@@ -7,14 +7,14 @@ namespace cdem::app {
 
 namespace {
 
-struct Typed {
+struct TypedView {
   std::string path;
 };
 
 } // namespace
 
 Command view_command() {
-  const auto typed = std::make_shared<Typed>();
+  const auto typed = std::make_shared<TypedView>();
   Command command("view", "look at saved files in a browser page of this machine");
   command.argument("PATH", typed->path, "a .vtu or .vtkhdf file, a .pvd series or a folder of results");
   command.examples = "  cdem view results/plate\n  cdem view results/plate/run.pvd\n";

@@ -10,16 +10,16 @@
 namespace cdem {
 namespace {
 
-// Thinnest and thickest skin of a block, over the usual height of a tet at the surface.
-constexpr double thinnest = 0.001, thickest = 0.1;
+// Thinnest and thickest_skin skin of a block, over the usual height of a tet at the surface.
+constexpr double thinnest_skin = 0.001, thickest_skin = 0.1;
 // Steps that a block can go on at its pace before it leaves its skin, and what of the fastest block's pace the others
 // are trusted to get to.
-constexpr double steps_ahead = 250, pace_of_others = 0.25;
+constexpr double skin_steps = 250, pace_of_others = 0.25;
 // The same of fragments, by themselves and relative to those around them, with which they mostly move.
 constexpr double steps_of_fragments = 150, steps_relative = 16;
 // Searches that follow each other within fewer steps than this make skins twice as thick, those after more halve them.
-constexpr std::int64_t few_steps = 50, many_steps = 150;
-constexpr int most_doublings = 6;
+constexpr std::int64_t early = 50, late = 150;
+constexpr int most_widenings = 6;
 // Pairs of boxes that may be compared to find how far off the others are.
 constexpr std::size_t most_boxes_compared = 4000000;
 // Largest depth of a contact, over the height of a tet.
@@ -69,23 +69,23 @@ namespace {
 void choose_skins_of_blocks(const Model& model, const State& state, const std::vector<double>& pace,
                             ContactWork& work) {
   const auto blocks = static_cast<int>(model.blocks.size());
-  const double most = thickest * work.usual_height;
+  const double most = thickest_skin * work.usual_height;
   bool too_thin = false;
   for (int b = 0; b < blocks; ++b)
     too_thin = too_thin || (!work.broken[b] && work.travelled[b] > work.skin[b] && work.skin[b] < most);
-  if (work.searches > 0 && work.steps_since_search < few_steps && too_thin)
-    work.skin_doublings = std::min(work.skin_doublings + 1, most_doublings);
-  else if (work.steps_since_search > many_steps)
+  if (work.searches > 0 && work.steps_since_search < early && too_thin)
+    work.skin_doublings = std::min(work.skin_doublings + 1, most_widenings);
+  else if (work.steps_since_search > late)
     work.skin_doublings = std::max(work.skin_doublings - 1, 0);
-  const std::vector<double> alone = clearance_of_fast_bodies(model, state, work, pace, most / steps_ahead);
+  const std::vector<double> alone = clearance_of_fast_bodies(model, state, work, pace, most / skin_steps);
   double fastest = 0;
   for (int b = 0; b < blocks; ++b)
     if (alone[b] <= most)
       fastest = std::max(fastest, pace[b]);
-  const double least = std::max(thinnest * work.usual_height, pace_of_others * steps_ahead * fastest) *
+  const double least = std::max(thinnest_skin * work.usual_height, pace_of_others * skin_steps * fastest) *
                        static_cast<double>(1 << work.skin_doublings);
   for (int b = 0; b < blocks; ++b)
-    work.skin[b] = std::min(std::max(least, steps_ahead * pace[b]), std::max(most, alone[b]));
+    work.skin[b] = std::min(std::max(least, skin_steps * pace[b]), std::max(most, alone[b]));
 }
 
 } // namespace
@@ -100,15 +100,15 @@ std::vector<double> choose_skins(const Model& model, const State& state, Contact
   const auto blocks = static_cast<int>(model.blocks.size());
   for (int b = 0; b < blocks; ++b)
     if (work.broken[b])
-      work.skin[b] = 0; // the thickest of its fragments
+      work.skin[b] = 0; // the thickest_skin of its fragments
   double mean = 0;      // m in a step, of fragments
   for (int m = blocks; m < work.movers.count(); ++m)
     mean += pace[m] / (work.movers.count() - blocks);
   for (int m = blocks; m < work.movers.count(); ++m) {
     if (searched[m]) {
       const auto within = [&](double steps) {
-        return std::clamp(steps * std::max(pace[m], mean), thinnest * work.usual_height,
-                          thickest * work.usual_height);
+        return std::clamp(steps * std::max(pace[m], mean), thinnest_skin * work.usual_height,
+                          thickest_skin * work.usual_height);
       };
       work.skin[m] = within(steps_of_fragments);
       work.inner_skin[m] = within(steps_relative);
@@ -124,7 +124,7 @@ double depth_of(const ContactWork& work, const ContactTriangle& t) {
 }
 
 double far_at_first(const ContactWork& work, const ContactTriangle& t) {
-  return depth_of(work, t) + thickest * usual(work, t);
+  return depth_of(work, t) + thickest_skin * usual(work, t);
 }
 
 SearchMargin::SearchMargin(const Model& model, const State& state, const ContactWork& work)

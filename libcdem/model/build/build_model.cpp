@@ -21,7 +21,7 @@ namespace {
 // Places nearer than this part of a block's size are one.
 constexpr double relative_tolerance = 1e-7;
 // Blocks of a chunk: enough tets to fill the caches' lines, few enough to share a small model among threads.
-constexpr int tets_per_chunk = 384;
+constexpr int blocks_chunk_tets = 384;
 
 void add_block(Model& model, BlockSeed&& seed, const geom::BlockMesh& mesh) {
   Block block;
@@ -112,7 +112,7 @@ void add_chunks(Model& model) {
   for (std::int64_t begin = 0; begin < n_blocks;) {
     std::int64_t end = begin;
     const int tet_begin = model.blocks[begin].tet_begin;
-    while (end < n_blocks && model.blocks[end].tet_end - tet_begin <= tets_per_chunk)
+    while (end < n_blocks && model.blocks[end].tet_end - tet_begin <= blocks_chunk_tets)
       ++end;
     end = std::max(end, begin + 1);
     BlockChunk chunk;

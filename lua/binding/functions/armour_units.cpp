@@ -11,7 +11,8 @@ namespace {
 
 using geom::InputError;
 
-Value made(const Arguments& a, const std::string& kind, const std::function<geom::Solid(double)>& build) {
+Value made_unit(const Arguments& a, const std::string& kind,
+                const std::function<geom::Solid(double)>& build) {
   const auto mass = a.optional_number("mass"), density = a.optional_number("density");
   auto height = a.optional_number("height");
   if (height && mass)
@@ -57,26 +58,26 @@ Value accropode(Session&, Object*, const Arguments& a) {
         {"taper", &geom::AccropodeShape::taper},
         {"corner", &geom::AccropodeShape::corner}})
     shape.*member = a.optional_number(name).value_or(shape.*member);
-  return made(a, "accropode", [&](double height) { return geom::accropode(height, shape); });
+  return made_unit(a, "accropode", [&](double height) { return geom::accropode(height, shape); });
 }
 
 Value dolos(Session&, Object*, const Arguments& a) {
   const geom::DolosShape shape{a.number("tip"), a.number("waist"), a.number("root")};
-  return made(a, "dolos", [&](double height) { return geom::dolos(height, shape); });
+  return made_unit(a, "dolos", [&](double height) { return geom::dolos(height, shape); });
 }
 
 Value tetrapod(Session&, Object*, const Arguments& a) {
   const geom::TetrapodShape shape{a.number("tip"), a.number("root")};
-  return made(a, "tetrapod", [&](double height) { return geom::tetrapod(height, shape); });
+  return made_unit(a, "tetrapod", [&](double height) { return geom::tetrapod(height, shape); });
 }
 
 Value cube(Session&, Object*, const Arguments& a) {
-  return made(a, "cube", [](double height) { return geom::cube(height); });
+  return made_unit(a, "cube", [](double height) { return geom::cube(height); });
 }
 
 Value antifer(Session&, Object*, const Arguments& a) {
   const geom::AntiferShape shape{a.number("bottom"), a.number("top"), a.number("groove")};
-  return made(a, "antifer cube", [&](double height) { return geom::antifer(height, shape); });
+  return made_unit(a, "antifer cube", [&](double height) { return geom::antifer(height, shape); });
 }
 
 Value slope(Session&, Object*, const Arguments& a) {

@@ -78,7 +78,7 @@ Value rayleigh_of(const ModelObject& model, const Arguments& a) {
 
 Value crack_tip(Session&, ModelObject& model, const Arguments& a) {
   const auto& breaks = model.simulation.breaks();
-  CrackPath path{corners_of(model, a), a.number("width"), 0};
+  CrackLine path{corners_of(model, a), a.number("width"), 0};
   const double distance = usual_distance(breaks, path.corners, path.width);
   path.reach = a.optional_number("reach").value_or(distance > 0 ? usual_reach * distance : path.width);
   std::vector<CrackTipRow> rows = cdem::crack_tip(breaks, path);
@@ -123,7 +123,7 @@ std::vector<Field> crack_fields() {
       number("shear_energy").unit("J").required()};
 }
 
-void bind_records(Module& m) {
+void bind_crack_records(Module& m) {
   std::vector<Field> all = crack_fields();
   m.records.push_back({"CrackSum", "How much has cracked, and what it took.", all});
   all.push_back(plain("bodies").required().doc("a cdem.CrackSum for each body, by its name"));
@@ -178,7 +178,7 @@ void bind_tip(Class& model) {
 } // namespace
 
 void bind_cracks(Module& m) {
-  bind_records(m);
+  bind_crack_records(m);
   m.functions.push_back(
       {"rayleigh_speed",
        "Speed of waves along the free surface of a material, m/s: the exact root of Rayleigh's "

@@ -77,7 +77,7 @@ void add_place(const geom::Box& box, const std::string& held, const CriticalFlow
   row.named["part"] = std::string(third(from_held));
 }
 
-Value result_of(const CriticalFlowResult& r, const geom::Box& box, const std::string& held) {
+Value flow_result(const CriticalFlowResult& r, const geom::Box& box, const std::string& held) {
   static const char* const reasons[] = {"fragment", "compliance", "limit"};
   Values curve;
   for (const CriticalFlowSample& s : r.curve)
@@ -123,14 +123,14 @@ Value critical_flow(Session& session, ModelObject& model, const Arguments& a) {
   if (!held.empty())
     options.held = Selection::side(held);
   warn_of_slivers(session, model);
-  return stage(session, model, "critical_flow", a, result_of({}, {}, held), [&](Simulation& simulation) {
+  return stage(session, model, "critical_flow", a, flow_result({}, {}, held), [&](Simulation& simulation) {
     const CriticalFlowResult result = simulation.critical_flow(options);
     if (result.reason == CriticalFlowResult::Reason::limit)
       session.warn(
           "critical_flow: nothing broke off up to max_velocity = " + number_text(options.max_velocity) +
           (simulation.counts().bonds > 0 ? " m/s; raise it"
                                          : " m/s: the model has no bonds; give its bodies a joint"));
-    Value row = result_of(result, simulation.box(), held);
+    Value row = flow_result(result, simulation.box(), held);
     add_mass_scaling(session, "critical_flow", options.mass_scaling, result.time_step, result.scaled, row);
     return row;
   });
@@ -154,7 +154,7 @@ std::vector<Field> flow_fields() {
           flag("new_faces").standard(false).doc("faces opened by cracks take the pressure too")};
 }
 
-void bind_records(Module& m) {
+void bind_flow_records(Module& m) {
   m.records.push_back({"Fragment",
                        "A piece of a model that unbroken bonds hold together.",
                        {number("volume").unit("m3").required(), vec3("centroid").unit("m").required(),
@@ -196,7 +196,7 @@ void bind_records(Module& m) {
 } // namespace
 
 void bind_flow(Module& m) {
-  bind_records(m);
+  bind_flow_records(m);
   const auto convert = [&](std::string name, std::string doc, Field given, auto body) {
     m.functions.push_back(
         {std::move(name), std::move(doc), {std::move(given), water_density()}, false, "number", "", body});

@@ -14,7 +14,7 @@ namespace {
 using geom::InputError;
 
 // Pa/m; less than half of the weight of snow: a unit is wrong.
-constexpr double lightest = 1e3;
+constexpr double least_gradient = 1e3;
 // Pa; the weight of 4 cm of rock: a unit is wrong.
 constexpr double least = 1e3;
 
@@ -65,7 +65,7 @@ InitialStress field_of(Session& session, ModelObject& model, const Arguments& a)
     field.gradient = a.number("gradient");
     field.k0 = k0_of(a.value("k0"));
     field.surface = a.optional_number("surface");
-    if (field.gradient > 0 && field.gradient < lightest)
+    if (field.gradient > 0 && field.gradient < least_gradient)
       session.warn("initial_stress: gradient = " + describe(a.value("gradient")) +
                    ": no rock is as light; it is in Pa per metre of depth, rock has 2e4 to 3e4");
   }

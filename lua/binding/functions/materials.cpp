@@ -16,7 +16,7 @@ namespace {
 // Softer than gelatine or stiffer than diamond: a unit is wrong.
 constexpr double softest = 1e5, stiffest = 1e13; // Pa
 
-constexpr double lightest = 10; // kg/m3
+constexpr double least_density = 10; // kg/m3
 // Below the cohesion of loose soil.
 constexpr double weakest = 1e3; // Pa
 // The radians of any usual angle are fewer.
@@ -68,7 +68,7 @@ Value elastic(Session& session, Object*, const Arguments& a) {
   if (object->elastic.youngs_modulus < softest || object->elastic.youngs_modulus > stiffest)
     session.warn("cdem.elastic: youngs_modulus = " + describe(a.value("youngs_modulus")) +
                  ": no rock is like that; it is in Pa, rock has 1e9 to 1e11");
-  if (object->elastic.density < lightest)
+  if (object->elastic.density < least_density)
     session.warn("cdem.elastic: density = " + describe(a.value("density")) +
                  ": lighter than any solid; it is in kg/m3, rock has 2000 to 3000");
   return object;

@@ -54,7 +54,7 @@ Value counts(Session&, ModelObject& model, const Arguments&) {
                {"damaged", c.damaged}};
 }
 
-Value box(Session&, ModelObject& model, const Arguments&) {
+Value model_box(Session&, ModelObject& model, const Arguments&) {
   const geom::Box box = model.simulation.box();
   return Table{{"min", box.min}, {"max", box.max}};
 }
@@ -153,7 +153,7 @@ void bind_model_class(Module& m) {
                     true,
                     "cdem.Box",
                     "",
-                    method<ModelObject>(box)}};
+                    method<ModelObject>(model_box)}};
   m.classes.push_back(model);
 }
 

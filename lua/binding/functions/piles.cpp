@@ -164,7 +164,7 @@ Value read_pile(Session& session, Object*, const Arguments& a) {
   return std::make_shared<PileObject>(pile_from(read_file(path), a.text("file")));
 }
 
-Value save(Session& session, PileObject& self, const Arguments& a) {
+Value save_pile(Session& session, PileObject& self, const Arguments& a) {
   require_ending(a.text("file"), ".json");
   if (!session.settings.check_only)
     write_file(session.files.to_write(a.text("file")), pile_text(self.pile));
@@ -206,7 +206,7 @@ Value poses(Session&, PileObject& self, const Arguments&) {
   return Table::list(std::move(rows));
 }
 
-Value box(Session&, PileObject& self, const Arguments&) {
+Value pile_box(Session&, PileObject& self, const Arguments&) {
   const geom::Box box = geom::bounding_box(self.pile);
   return Table{{"min", box.min}, {"max", box.max}};
 }
@@ -280,14 +280,14 @@ void bind_class(Module& m) {
        true,
        "cdem.Box",
        "",
-       method<PileObject>(box)},
+       method<PileObject>(pile_box)},
       {"save",
        "Writes the pile, for cdem.read_pile in another script.",
        {text("file").required().doc("ends in .json; in the output folder")},
        false,
        "",
        "",
-       method<PileObject>(save)}};
+       method<PileObject>(save_pile)}};
   m.classes.push_back(pile);
 }
 

@@ -20,7 +20,7 @@ Value plane(Session&, Object*, const Arguments& a) {
   return object;
 }
 
-Value box(Session&, Object*, const Arguments& a) {
+Value select_box(Session&, Object*, const Arguments& a) {
   geom::Box box;
   box.min = a.vec3("min");
   box.max = a.vec3("max");
@@ -84,7 +84,7 @@ void bind_selections(Module& m) {
                          false,
                          "cdem.Selection",
                          "",
-                         box});
+                         select_box});
   Type whole_number;
   whole_number.kind = Kind::integer;
   whole_number.range = {1, 1e7};

@@ -28,7 +28,7 @@ Value grid(Session&, Object*, const Arguments& a) {
   return made(geom::grid(a.vec3("size"), a.ivec3("divisions"), a.vec3("origin")));
 }
 
-Value box(Session&, Object*, const Arguments& a) {
+Value one_box(Session&, Object*, const Arguments& a) {
   return made(geom::grid(a.vec3("size"), {1, 1, 1}, a.vec3("origin")));
 }
 
@@ -97,7 +97,7 @@ Value blocks_of_mesh(Session&, Object*, const Arguments& a) {
   return made(geom::tet_blocks(a.object<TetMeshObject>("mesh")->mesh));
 }
 
-Value solid_of(Session&, AssemblyObject& self, const Arguments&) {
+Value assembly_solid(Session&, AssemblyObject& self, const Arguments&) {
   auto object = std::make_shared<SolidObject>(geom::make_solid(self.assembly));
   object->kind = "blocks";
   return object;
@@ -125,7 +125,7 @@ std::optional<geom::Box> optional_box(const Arguments& a, const std::string& nam
   return box;
 }
 
-Value keep(Session&, Object*, const Arguments& a) {
+Value keep_blocks(Session&, Object*, const Arguments& a) {
   return made(geom::kept(a.object<AssemblyObject>("shape")->assembly, *optional_box(a, "inside")));
 }
 
@@ -166,7 +166,7 @@ double volume(const geom::Assembly& assembly) {
   return sum;
 }
 
-Value blocks(Session&, AssemblyObject& self, const Arguments&) {
+Value assembly_blocks(Session&, AssemblyObject& self, const Arguments&) {
   Values rows;
   for (const geom::Polyhedron& block : self.assembly.blocks) {
     const geom::MassProperties mass = geom::mass_properties(block);
@@ -179,7 +179,7 @@ Value blocks(Session&, AssemblyObject& self, const Arguments&) {
   return Table::list(std::move(rows));
 }
 
-Field size_field() {
+Field block_size_field() {
   return vec3("size").above(0).unit("m").required();
 }
 Field origin_field() {
@@ -195,13 +195,13 @@ void bind_builders(Module& m) {
         {std::move(name), std::move(doc), std::move(fields), false, "cdem.Assembly", "", body});
   };
   add("grid", "A box of equal boxes in rows.",
-      {size_field().doc("of the whole"),
+      {block_size_field().doc("of the whole"),
        ivec3("divisions").at_least(1).required().doc("boxes along x, y and z"), origin_field()},
       grid);
-  add("box", "One box.", {size_field(), origin_field()}, box);
+  add("box", "One box.", {block_size_field(), origin_field()}, one_box);
   add("voronoi", "A box of Voronoi cells about seeded random points.",
-      {size_field().doc("of the whole"), integer("count").at_least(1).required().doc("number of blocks"),
-       seed_field(),
+      {block_size_field().doc("of the whole"),
+       integer("count").at_least(1).required().doc("number of blocks"), seed_field(),
        integer("relaxations")
            .within(0, 1000)
            .standard(3)
@@ -209,7 +209,7 @@ void bind_builders(Module& m) {
        flag("extruded").standard(false).doc("cells in x and y, one block through z"), origin_field()},
       voronoi);
   add("bricks", "A wall in running bond: courses laid along z, bricks running along x, the end bricks cut.",
-      {size_field().doc("of the wall"), vec3("brick").above(0).unit("m").required().doc("one brick"),
+      {block_size_field().doc("of the wall"), vec3("brick").above(0).unit("m").required().doc("one brick"),
        number("shift").from(0, 1).standard(0.5).doc(
            "of each course against the one below, as a fraction of the brick's length"),
        origin_field()},
@@ -291,7 +291,8 @@ void bind_edits(Module& m) {
                                          "unbreakable, whatever the body's joint. Where it runs along a "
                                          "joint that is there already, the joint stays")},
       cut_by_plane);
-  add("keep", "The blocks whose centroid lies in a box.", {shape, box_field("inside").required()}, keep);
+  add("keep", "The blocks whose centroid lies in a box.", {shape, box_field("inside").required()},
+      keep_blocks);
   add("translate", "Moves blocks.", {shape, vec3("shift").unit("m").required()}, translate);
   add("rotate", "Turns blocks, right-handed, about an axis through `centre`.",
       {shape, vec3("axis").required().doc("of any length"), number("angle").unit("deg").required(),
@@ -353,7 +354,13 @@ void bind_shapes(Module& m) {
            names.emplace_back(name);
          return Table::list(std::move(names));
        })},
-      {"blocks", "One table per block.", {}, true, "cdem.Block[]", "", method<AssemblyObject>(blocks)},
+      {"blocks",
+       "One table per block.",
+       {},
+       true,
+       "cdem.Block[]",
+       "",
+       method<AssemblyObject>(assembly_blocks)},
       {"solid",
        "The blocks as one solid with a region for each, in their order; its mesh{} shares nodes on the faces "
        "between "
@@ -365,7 +372,7 @@ void bind_shapes(Module& m) {
        false,
        "cdem.Solid",
        "",
-       method<AssemblyObject>(solid_of)}};
+       method<AssemblyObject>(assembly_solid)}};
   m.classes.push_back(assembly);
 }
 

@@ -92,7 +92,7 @@ Value mesh(Session& session, SolidObject& self, const Arguments& a) {
   return object;
 }
 
-Value save(Session& session, SolidObject& self, const Arguments& a) {
+Value save_solid(Session& session, SolidObject& self, const Arguments& a) {
   require_ending(a.text("file"), ".step");
   if (!session.settings.check_only)
     geom::write_step(self.solid, session.files.to_write(a.text("file")).string());
@@ -190,7 +190,7 @@ std::vector<Function> solid_methods() {
        false,
        "",
        "",
-       method<SolidObject>(save),
+       method<SolidObject>(save_solid),
        false,
        Replay::standard,
        true}};

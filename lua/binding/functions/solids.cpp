@@ -45,7 +45,7 @@ Value read_solid(Session& session, Object*, const Arguments& a) {
   return made(solid, path.stem().string());
 }
 
-void bind_builders(Module& m) {
+void bind_solid_builders(Module& m) {
   const auto add = [&](std::string name, std::string doc, std::vector<Field> fields, auto body) {
     m.functions.push_back(
         {std::move(name), std::move(doc), std::move(fields), false, "cdem.Solid", "", body});
@@ -117,7 +117,7 @@ void bind_booleans(Module& m) {
 } // namespace
 
 void bind_solids(Module& m) {
-  bind_builders(m);
+  bind_solid_builders(m);
   bind_booleans(m);
   bind_solid_class(m);
 }

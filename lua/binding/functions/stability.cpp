@@ -81,7 +81,7 @@ Field reduce() {
            "strength of joints, bonds and contacts), blocks (those of plasticity)");
 }
 
-void bind_records(Module& m) {
+void bind_stability_records(Module& m) {
   m.records.push_back(
       {"SafetyTrial",
        "One trial of a search for the factor of safety.",
@@ -103,7 +103,7 @@ void bind_records(Module& m) {
 } // namespace
 
 void bind_stability(Module& m) {
-  bind_records(m);
+  bind_stability_records(m);
   Class& model = m.the_class("Model");
   model.methods.push_back(
       {"copy",

@@ -20,7 +20,7 @@ namespace {
 
 using geom::InputError;
 
-Value read_mesh(Session& session, Object*, const Arguments& a) {
+Value read_tet_mesh(Session& session, Object*, const Arguments& a) {
   const std::filesystem::path path = session.files.to_read(a.text("file"));
   static const std::set<std::string> endings = {".msh", ".mesh", ".bdf", ".unv", ".vtk", ".vtu"};
   if (endings.count(path.extension().string()) == 0)
@@ -78,7 +78,7 @@ std::vector<int> picked(const TetMeshObject& self, const Arguments& a) {
                               geom::Plane::through(plane.vec3("point"), plane.vec3("normal")), tolerance);
 }
 
-Value faces(Session&, TetMeshObject& self, const Arguments& a) {
+Value mesh_faces(Session&, TetMeshObject& self, const Arguments& a) {
   const std::vector<int> chosen = picked(self, a);
   if (chosen.empty())
     throw InputError("no outer face of the mesh lies there" +
@@ -96,7 +96,7 @@ Value faces(Session&, TetMeshObject& self, const Arguments& a) {
                {"area_vector", group.area_vector}};
 }
 
-Value save(Session& session, TetMeshObject& self, const Arguments& a) {
+Value save_mesh(Session& session, TetMeshObject& self, const Arguments& a) {
   require_ending(a.text("file"), ".vtu");
   if (session.settings.check_only)
     return {};
@@ -106,7 +106,7 @@ Value save(Session& session, TetMeshObject& self, const Arguments& a) {
   return {};
 }
 
-Value picture(Session& session, TetMeshObject& self, const Arguments& a) {
+Value mesh_picture(Session& session, TetMeshObject& self, const Arguments& a) {
   require_drawing(a.text("file"));
   PictureOptions options = view_options(a);
   options.edges = a.text("edges") != "none";
@@ -122,7 +122,7 @@ Value picture(Session& session, TetMeshObject& self, const Arguments& a) {
   return {};
 }
 
-std::vector<Field> picture_declaration() {
+std::vector<Field> mesh_picture_declaration() {
   std::vector<Field> fields = view_fields("\"region\", \"radius_ratio\", \"min_dihedral\", \"volume\" of the "
                                           "tetrahedra, \"on_<name>\" of named faces; plain when left out");
   fields.push_back(
@@ -142,7 +142,7 @@ Field cubic_metres(std::string name) {
   return number(std::move(name)).unit("m3").required();
 }
 
-void bind_records(Module& m) {
+void bind_mesh_records(Module& m) {
   m.records.push_back(
       {"MeshQuality",
        "How good the tetrahedra of a mesh are.",
@@ -171,7 +171,7 @@ void bind_tet_meshes(Module& m) {
                          false,
                          "cdem.TetMesh",
                          "",
-                         read_mesh});
+                         read_tet_mesh});
   m.functions.push_back({"box_mesh",
                          "A box of nx ny nz cells with six tetrahedra each; lower corner at the origin.",
                          {vec3("size").above(0).unit("m").required(),
@@ -185,7 +185,7 @@ void bind_tet_meshes(Module& m) {
                          "cdem.TetMesh",
                          "",
                          box_mesh});
-  bind_records(m);
+  bind_mesh_records(m);
   Class mesh{"TetMesh", "Tetrahedra, made by solid:mesh{} or cdem.read_mesh."};
   const auto of = [](const Object& self) -> const TetMeshObject& {
     return static_cast<const TetMeshObject&>(self);
@@ -256,19 +256,19 @@ void bind_tet_meshes(Module& m) {
        false,
        "cdem.FaceGroup",
        "",
-       method<TetMeshObject>(faces)},
+       method<TetMeshObject>(mesh_faces)},
       {"save",
        "Writes the mesh for ParaView.",
        {text("file").required().doc("ends in .vtu; in the output folder")},
        false,
        "",
        "",
-       method<TetMeshObject>(save),
+       method<TetMeshObject>(save_mesh),
        false,
        Replay::standard,
        true},
-      {"picture", "Draws the mesh, without a display.", picture_declaration(), false, "", "",
-       method<TetMeshObject>(picture), false, Replay::standard, true}};
+      {"picture", "Draws the mesh, without a display.", mesh_picture_declaration(), false, "", "",
+       method<TetMeshObject>(mesh_picture), false, Replay::standard, true}};
   m.classes.push_back(mesh);
 }
 

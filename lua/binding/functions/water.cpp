@@ -15,7 +15,7 @@ namespace {
 using geom::InputError;
 
 // N/m3; lighter than any liquid: a unit is wrong, or it is the density.
-constexpr double lightest = 5e3;
+constexpr double least_weight = 5e3;
 
 std::function<double(const geom::Vec3&)> pressure_of(const Arguments& a) {
   if (const Value& given = a.value("pressure"); given.is_number())
@@ -58,7 +58,7 @@ Water water_of(const ModelObject& model, const Arguments& a, std::string& line) 
 Value water(Session& session, ModelObject& model, const Arguments& a) {
   model.require_idle("water");
   std::string line;
-  if (a.number("weight") < lightest)
+  if (a.number("weight") < least_weight)
     session.warn("water: weight = " + describe(a.value("weight")) +
                  ": no water is as light; it is in N/m3, density times 9.81, water has 9810");
   const WaterInJoints sum = model.simulation.water(water_of(model, a, line));

@@ -115,17 +115,17 @@ struct Unit {
   const char* si;
 };
 constexpr double standard_gravity = 9.80665; // m/s2
-constexpr Unit units[] = {{"m/s2", 1, "m/s2"},   {"cm/s2", 0.01, "m/s2"},
-                          {"Gal", 0.01, "m/s2"}, {"g", standard_gravity, "m/s2"},
-                          {"m/s", 1, "m/s"},     {"cm/s", 0.01, "m/s"},
-                          {"Pa", 1, "Pa"},       {"kPa", 1000, "Pa"},
-                          {"MPa", 1e6, "Pa"},    {"1", 1, "1"}};
+constexpr Unit known_units[] = {{"m/s2", 1, "m/s2"},   {"cm/s2", 0.01, "m/s2"},
+                                {"Gal", 0.01, "m/s2"}, {"g", standard_gravity, "m/s2"},
+                                {"m/s", 1, "m/s"},     {"cm/s", 0.01, "m/s"},
+                                {"Pa", 1, "Pa"},       {"kPa", 1000, "Pa"},
+                                {"MPa", 1e6, "Pa"},    {"1", 1, "1"}};
 
 const Unit& unit_of(const std::string& name) {
-  for (const Unit& unit : units)
+  for (const Unit& unit : known_units)
     if (name == unit.name)
       return unit;
-  return units[0]; // the schema has let through what stands there only
+  return known_units[0]; // the schema has let through what stands there only
 }
 
 // An acceleration becomes a velocity. Tells what the baseline took off, and where the motion ends.
