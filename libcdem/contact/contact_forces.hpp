@@ -7,7 +7,7 @@
 // faces meet in a re-entrant edge it finds no face.
 //
 // A semi-edge acts on an edge of another fragment where their common normal lies in the fans of outward normals of both
-// (Gauss map), and their nearest places within both. Near-parallel edges (sin < 0.05) are left to the semi-springs.
+// (Gauss map), and their nearest places within both. Near-parallel edges (sin < 0.01) are left to the semi-springs.
 // Both act at the same time. The paper switches the edges off where a spring of the same faces acts. This would remove
 // their stored energy, and return it when the contact of the spring ends.
 #pragma once

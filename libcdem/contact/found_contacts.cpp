@@ -8,6 +8,7 @@
 #include "libcdem/ranks/bytes.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <tuple>
 
@@ -33,10 +34,14 @@ void add_depths(const ContactSums& more, ContactSums& sums) {
         std::tuple(more.deepest, more.deepest_source, more.deepest_target);
 }
 
+bool stands_before(const Contact& a, const Contact& b) {
+  return key(a) < key(b);
+}
+
 // Those of one source stand by fragment, then corner: next to their places.
 void insert(const Contact& c, std::vector<Contact>& contacts) {
   contacts.push_back(c);
-  for (std::size_t i = contacts.size() - 1; i > 0 && key(contacts[i]) < key(contacts[i - 1]); --i)
+  for (std::size_t i = contacts.size() - 1; i > 0 && stands_before(contacts[i], contacts[i - 1]); --i)
     std::swap(contacts[i], contacts[i - 1]);
 }
 
@@ -73,8 +78,7 @@ void FoundContacts::add(const ContactChunk& found, Contact::Kind kind) {
       add_at_nodes(force);
       continue;
     }
-    told_[kind].contacts.push_back(found.contacts[i]);
-    told_[kind].forces.push_back(force);
+    told_[kind].push_back(force);
   }
 }
 
@@ -155,14 +159,25 @@ void FoundContacts::add_losses() {
   }
 }
 
+// A rank keeps the rows of a run of triangles. So the forces of all ranks, rank by rank, stand in the order of all rows,
+// and the contacts, of which each rank tells its own by key, stand by key.
 void FoundContacts::exchange() {
+  struct Told { // contacts of what deforms, per kind
+    std::array<std::vector<Contact>, 2> contacts;
+    std::array<std::vector<ContactForce>, 2> forces;
+  };
   Pack pack;
   pack(sums_);
   friction_.tell(pack);
   damping_.tell(pack);
-  for (const Told& told : told_) {
-    pack(told.contacts);
-    pack(told.forces);
+  Told own;
+  std::swap(own.forces, told_);
+  for (const Contact& c : work_.now)
+    if (!is_told_by_sums(model_, c))
+      own.contacts[c.kind].push_back(c);
+  for (const Contact::Kind kind : {Contact::spring, Contact::edge}) {
+    pack(own.contacts[kind]);
+    pack(own.forces[kind]);
   }
   for (std::size_t rigid = 0; rigid < work_.rigid_sums.size(); ++rigid)
     if (RigidSums& sums = work_.rigid_sums[rigid]; sums.touches) {
@@ -170,11 +185,12 @@ void FoundContacts::exchange() {
       sums.each([&](const ExactSum& sum) { sum.tell(pack); });
     }
   pack(-1);
+  const int here = work_.shared->part().rank;
   const std::vector<std::string> heard = ranks().gather(pack.text(), Ranks::Subject::contacts);
-  std::vector<std::array<Told, 2>> told_by(heard.size());
+  std::vector<Told> told_by(heard.size());
   for (int rank = 0; rank < static_cast<int>(heard.size()); ++rank) {
-    if (rank == work_.shared->part().rank) {
-      std::swap(told_by[rank], told_);
+    if (rank == here) {
+      std::swap(told_by[rank], own);
       continue;
     }
     Unpack unpack(heard[rank]);
@@ -184,9 +200,9 @@ void FoundContacts::exchange() {
     sums_.contacts += sums.contacts;
     friction_.add_told(unpack);
     damping_.add_told(unpack);
-    for (Told& told : told_by[rank]) {
-      unpack(told.contacts);
-      unpack(told.forces);
+    for (const Contact::Kind kind : {Contact::spring, Contact::edge}) {
+      unpack(told_by[rank].contacts[kind]);
+      unpack(told_by[rank].forces[kind]);
     }
     for (int rigid = 0;;) {
       unpack(rigid);
@@ -195,17 +211,16 @@ void FoundContacts::exchange() {
       touched(rigid).each([&](ExactSum& sum) { sum.add_told(unpack); });
     }
   }
-  const auto own = static_cast<std::ptrdiff_t>(work_.now.size());
+  const auto found_here = static_cast<std::ptrdiff_t>(work_.now.size());
   for (const Contact::Kind kind : {Contact::spring, Contact::edge})
     for (int rank = 0; rank < static_cast<int>(told_by.size()); ++rank) {
-      const Told& told = told_by[rank][kind];
-      for (const ContactForce& force : told.forces)
+      const std::vector<Contact>& contacts = told_by[rank].contacts[kind];
+      for (const ContactForce& force : told_by[rank].forces[kind])
         add_at_nodes(force);
-      if (rank != work_.shared->part().rank)
-        work_.now.insert(work_.now.end(), told.contacts.begin(), told.contacts.end());
+      if (rank != here)
+        work_.now.insert(work_.now.end(), contacts.begin(), contacts.end());
     }
-  std::inplace_merge(work_.now.begin(), work_.now.begin() + own, work_.now.end(),
-                     [](const Contact& a, const Contact& b) { return key(a) < key(b); });
+  std::inplace_merge(work_.now.begin(), work_.now.begin() + found_here, work_.now.end(), stands_before);
 }
 
 // Forces only of bodies that this rank moves.
@@ -232,6 +247,7 @@ ContactSums FoundContacts::end() {
   if (work_.shared)
     exchange();
   set_values();
+  assert(std::is_sorted(work_.now.begin(), work_.now.end(), stands_before));
   if (work_.now.capacity() > 2 * work_.now.size() + 64)
     work_.now.shrink_to_fit();
   std::swap(state_.contacts, work_.now);

@@ -21,10 +21,6 @@ public:
   ContactSums end();
 
 private:
-  struct Told { // to all ranks: contacts of what deforms
-    std::vector<Contact> contacts;
-    std::vector<ContactForce> forces;
-  };
   void add_at_nodes(const ContactForce&);
   void add_on_rigid(const ContactForce&);
   RigidSums& touched(int rigid);
@@ -37,7 +33,8 @@ private:
   ContactWork& work_;
   ContactSums sums_;
   ExactSum friction_, damping_; // J
-  std::array<Told, 2> told_;
+  std::array<std::vector<ContactForce>, 2>
+      told_; // to all ranks: of what deforms, per kind, in the order of rows
 };
 
 } // namespace cdem

@@ -1,6 +1,7 @@
 #include "libcdem/ranks/ranks.hpp"
 
 #include <cstdlib>
+#include <cstring>
 #include <dlfcn.h>
 #include <filesystem>
 #include <fmt/format.h>
@@ -86,9 +87,11 @@ void join_ranks() {
   void* const module = dlopen(path.c_str(), RTLD_NOW | RTLD_GLOBAL);
   if (!module)
     throw std::runtime_error(fmt::format("cannot load {}: {}", path.filename().string(), dlerror()));
+  const auto* const declaration = static_cast<const char*>(dlsym(module, "cdem_declaration_of_ranks"));
   auto* const join = reinterpret_cast<Ranks* (*)()>(dlsym(module, "cdem_join_ranks"));
-  if (!join)
-    throw std::runtime_error(fmt::format("{} is not the module of this program", path.filename().string()));
+  if (!join || !declaration || std::strcmp(declaration, CDEM_DECLARATION_OF_RANKS) != 0)
+    throw std::runtime_error(
+        fmt::format("{} is of another build than this program: build or install both anew", path.string()));
   // Large arrays have pages of their own, so that what a rank frees or does not need goes back to the system.
   mallopt(M_MMAP_THRESHOLD, 4 << 20);
   mallopt(M_TRIM_THRESHOLD, 8 << 20);

@@ -9,6 +9,7 @@
 #include <csignal>
 #include <fstream>
 #include <future>
+#include <regex>
 #include <thread>
 
 #include <sys/resource.h>
@@ -257,6 +258,25 @@ TEST_CASE("ranks: only rank 0 needs to see the script and the output folder, and
   const Outcome refused = both(other.string(), place.folder.path().string());
   CHECK(refused.exit_code == 2);
   CHECK_THAT(refused.err, Contains("cdem: error: rank 1: the program differs from that of rank 0"));
+}
+
+TEST_CASE("ranks: a module of another build is refused in one line") {
+  if (no_mpirun())
+    return;
+  Place place;
+  const TempFolder elsewhere;
+  fs::copy_file(CDEM_PROGRAM, elsewhere / "cdem");
+  std::string module = read_file(fs::path(CDEM_PROGRAM).parent_path() / "cdem_mpi.so");
+  std::smatch checksum; // of the declaration with which it was compiled
+  REQUIRE(std::regex_search(module, checksum, std::regex("[0-9a-f]{64}")));
+  module.replace(static_cast<std::size_t>(checksum.position()), 64, std::string(64, '0'));
+  write_file(elsewhere / "cdem_mpi.so", module);
+  const Outcome outcome =
+      run_program({(elsewhere / "cdem").string(), "run", "plate/case.lua", "--output", "out", "--ranks", "2"},
+                  place.start);
+  CHECK(outcome.exit_code == 2);
+  CHECK_THAT(outcome.err, Contains("cdem_mpi.so is of another build than this program"));
+  CHECK(lines_of(outcome.err).size() == 1);
 }
 
 TEST_CASE("ranks: an error of the script is told once, with its exit code") {

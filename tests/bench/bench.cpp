@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
+#include <exception>
 #include <string>
 #include <thread>
 
@@ -95,9 +96,19 @@ and discs and prisms that crack, and prints rates beside the bare element kernel
   std::exit(1);
 }
 
-} // namespace
+// Where all ranks fail alike the first one says it; an error of one rank alone ends all.
+int fail(const char* why) {
+  const bool alike = cdem::ranks().all_fail(cdem::Ranks::patience);
+  const char* const rank = std::getenv("OMPI_COMM_WORLD_RANK");
+  if (!alike || !rank || std::atoi(rank) == 0)
+    std::fprintf(stderr, "cdem bench: error: %s\n", why);
+  if (!alike)
+    cdem::ranks().abort(1);
+  cdem::leave_ranks();
+  return 1;
+}
 
-int main(int argc, char** argv) {
+int run(int argc, char** argv) {
   bench::Settings settings;
   std::string ranks;
   for (int i = 1; i < argc; ++i) {
@@ -168,4 +179,14 @@ int main(int argc, char** argv) {
   if (!settings.discs.empty() || !settings.prisms.empty())
     bench::cracking(settings);
   return 0;
+}
+
+} // namespace
+
+int main(int argc, char** argv) {
+  try {
+    return run(argc, argv);
+  } catch (const std::exception& error) {
+    return fail(error.what());
+  }
 }

@@ -6,11 +6,13 @@
 #include "libcdem/first_model.hpp"
 #include "libcdem/results/energy.hpp"
 
+#include <algorithm>
+
 using namespace testing;
 
 namespace {
 
-cdem::ModelSpec cube_on_floor() {
+cdem::ModelSpec cube_on_floor(cdem::Element floor = cdem::Element::rigid) {
   cdem::Joint weak = rock_joint();
   weak.tensile_strength = 5e6;
   weak.cohesion = 8e6;
@@ -25,7 +27,7 @@ cdem::ModelSpec cube_on_floor() {
   cdem::ModelSpec spec;
   spec.bodies = {meshed("cube", standing({0.2, 0.2, 0.2}, {3, 3, 3}, 1e-4, 0.15), everywhere, rock(), weak),
                  meshed("floor", standing({0.6, 0.6, 0.1}, {3, 3, 1}, -0.1, 0), {}, rock())};
-  spec.bodies[1].element = cdem::Element::rigid;
+  spec.bodies[1].element = floor;
   spec.pairs = {{"cube", "cube", friction(30)}, {"cube", "floor", friction(30)}};
   return spec;
 }
@@ -71,6 +73,32 @@ TEST_CASE("shattering: what is skipped changes no bit, nor do threads or a searc
   CHECK(shatter(1, false).hash == all.hash);
   CHECK(shatter(2, false).hash == all.hash);
   CHECK(shatter(4, false, true).hash == all.hash);
+}
+
+TEST_CASE("shattering: contacts stand by their keys after each step, whichever rank has found them",
+          "[contact][fracture][ranks]") {
+  System s(cdem::first_model(cube_on_floor(cdem::Element::finite_volume)));
+  s.hold(body_of("floor"), "xyz");
+  for (int i = 0; i < static_cast<int>(s.state.velocity.size()); ++i)
+    if (block_of(s.model, i) == 0)
+      s.state.velocity[i] = node({1, 0, -speed});
+  std::int64_t unsorted = 0;
+  std::size_t most = 0, edges = 0;
+  cdem::RunOptions options;
+  options.steps = 600;
+  options.callback_every = 5;
+  options.callback = [&] {
+    const std::vector<cdem::Contact>& all = s.state.contacts;
+    const auto stands_before = [](const cdem::Contact& a, const cdem::Contact& b) { return key(a) < key(b); };
+    unsorted += std::is_sorted(all.begin(), all.end(), stands_before) ? 0 : 1;
+    most = std::max(most, all.size());
+    for (const cdem::Contact& c : all)
+      edges += c.kind == cdem::Contact::edge ? 1 : 0;
+  };
+  s.run(options);
+  CHECK(unsorted == 0);
+  CHECK(most > 100);
+  CHECK(edges > 0);
 }
 
 TEST_CASE("checkpoint: a body that shatters goes on to the same bits", "[checkpoint][fracture]") {

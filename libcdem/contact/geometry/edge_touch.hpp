@@ -9,8 +9,8 @@
 namespace cdem {
 
 // Two edges whose directions enclose an angle with a smaller sine are parallel: between their crossing and the next node
-// one goes into the other by 2.5 hundredths of an edge at most before the semi-springs there do.
-inline constexpr double parallel_edges = 0.05;
+// one goes into the other by half a hundredth of an edge at most before the semi-springs there do.
+inline constexpr double parallel_edges = 0.01;
 // Sine of the angle by which a normal may be outside a fan: where faces lie flat on each other it is at the border, and
 // rounding would put it in and out from step to step.
 inline constexpr double fan_slack = 0.01;

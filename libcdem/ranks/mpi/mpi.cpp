@@ -227,6 +227,9 @@ private:
 
 } // namespace
 
+// ranks.cpp compares it with its own: a module of another build would have other members in other places.
+extern "C" const char cdem_declaration_of_ranks[] = CDEM_DECLARATION_OF_RANKS;
+
 // Errors of MPI itself end the job, which is what MPI does unasked.
 extern "C" cdem::Ranks* cdem_join_ranks() {
   int granted = 0, rank = 0, size = 1;
