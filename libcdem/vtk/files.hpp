@@ -11,14 +11,18 @@
 
 namespace cdem {
 
+// Cells in one file that Model:save writes, unless it is asked for others: some GB of memory while they are written.
+inline constexpr std::size_t usual_cells_per_file = 2000000;
+
 // Points, tets and all fields, values to the bit; time ("TimeValue", where ParaView looks for it), step, title and names
-// of bodies as field data. Binary, zlib. Throws geom::InputError for a name that ends in neither, FileError
-// when the file cannot be written.
-void write_vtu(const Snapshot&, const std::string& path);
+// of bodies as field data. Binary, zlib. A .vtu of more than cells_per_file cells (0: of any number) is written in pieces
+// (pieces.hpp). Returns the file to open: the path, or the .pvtu of the pieces. Throws geom::InputError for a name that
+// ends in neither, FileError when a file cannot be written.
+std::string write_vtu(const Snapshot&, const std::string& path, std::size_t cells_per_file = 0);
 
 // The triangles of the interfaces with mode, opening, slip, traction. The picture of a .vtu finds its bonds
 // when they are written to bonds_path(path of the .vtu).
-void write_bonds(const Snapshot&, const std::string& path);
+std::string write_bonds(const Snapshot&, const std::string& path, std::size_t cells_per_file = 0);
 std::string bonds_path(const std::string& vtu_path); // "out/plate.vtu" -> "out/plate_bonds.vtu"
 
 // The triangles of the bonds alone as a surface (.vtp; .vtu for programs that know no .vtp), as results/crack_surface
@@ -27,7 +31,8 @@ void write_surface(const Snapshot&, const std::string& path);
 
 // Contacts as points with force (on the source), depth and who touches; time, step and title of the header. Throws as
 // write_vtu.
-void write_contacts(const std::vector<ContactPoint>&, const Snapshot& header, const std::string& path);
+std::string write_contacts(const std::vector<ContactPoint>&, const Snapshot& header, const std::string& path,
+                           std::size_t cells_per_file = 0);
 std::string contacts_path(const std::string& vtu_path); // "out/plate.vtu" -> "out/plate_contacts.vtu"
 
 struct SeriesEntry {
@@ -42,7 +47,7 @@ void write_pvd(const std::string& path, const std::vector<SeriesEntry>&);
 // geom::InputError when it is damaged, lists nothing, or names a file outside its folder.
 std::vector<std::string> read_pvd(const std::string& path);
 
-// A snapshot written by write_vtu, with its bonds when bonds_path(path) is there. The surface and the block
+// A snapshot written by write_vtu, of pieces by their .pvtu, with its bonds when they are beside it. The surface and the block
 // edges are found again from the tets and "block_id": the outside of each block, and the edges where that
 // outside has a corner. Throws FileError when there is no such file,
 // geom::InputError when it is damaged or not one of ours.

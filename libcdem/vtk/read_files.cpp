@@ -1,8 +1,10 @@
-// .vtu and .vtkhdf files of ours back to snapshots, with every number in them checked before it is used.
+// .vtu, .pvtu and .vtkhdf files of ours back to snapshots, with every number in them checked before it is used.
+#include "libcdem/vtk/cells.hpp"
 #include "libcdem/vtk/checksum.hpp"
 #include "libcdem/vtk/file_error.hpp"
 #include "libcdem/vtk/files.hpp"
 #include "libcdem/vtk/header_names.hpp"
+#include "libcdem/vtk/listed_files.hpp"
 #include "libcdem/vtk/outline.hpp"
 #include "libcdem/vtk/vtkhdf.hpp"
 #include "libgeom/core/error.hpp"
@@ -25,10 +27,10 @@ namespace cdem {
 namespace {
 
 [[noreturn]] void refuse(const std::string& path, const std::string& what) {
-  throw geom::InputError("file", '"' + path + '"', "a .vtu or .vtkhdf file written by cdem", what);
+  throw geom::InputError("file", '"' + path + '"', "a .vtu, .pvtu or .vtkhdf file written by cdem", what);
 }
 
-vtkSmartPointer<vtkUnstructuredGrid> read_grid(const std::string& path) {
+void require_whole(const std::string& path) {
   std::error_code ignored;
   if (!std::filesystem::is_regular_file(path, ignored))
     throw FileError('"' + path + "\" cannot be read: there is no such file");
@@ -40,6 +42,10 @@ vtkSmartPointer<vtkUnstructuredGrid> read_grid(const std::string& path) {
   case Checksum::right:
     break;
   }
+}
+
+vtkSmartPointer<vtkUnstructuredGrid> read_grid(const std::string& path) {
+  require_whole(path);
   vtkNew<vtkXMLUnstructuredGridReader> reader;
   const std::string hdf = ".vtkhdf";
   if (path.size() > hdf.size() && path.compare(path.size() - hdf.size(), hdf.size(), hdf) == 0) {
@@ -66,7 +72,7 @@ std::vector<geom::Vec3> points_of(vtkUnstructuredGrid* grid) {
 }
 
 template <std::size_t N>
-std::vector<std::array<int, N>> cells_of(vtkUnstructuredGrid* grid, int type, const std::string& path) {
+std::vector<std::array<int, N>> corners_of(vtkUnstructuredGrid* grid, int type, const std::string& path) {
   std::vector<std::array<int, N>> cells(static_cast<std::size_t>(grid->GetNumberOfCells()));
   for (std::size_t i = 0; i < cells.size(); ++i) {
     const auto id = static_cast<vtkIdType>(i);
@@ -109,16 +115,6 @@ std::vector<SnapshotField> fields_of(vtkFieldData* data, std::size_t rows, const
   return fields;
 }
 
-BondSnapshot read_bonds(const std::string& path) {
-  const auto grid = read_grid(path);
-  BondSnapshot bonds;
-  bonds.points = points_of(grid);
-  bonds.triangles = cells_of<3>(grid, VTK_TRIANGLE, path);
-  bonds.point_fields = fields_of(grid->GetPointData(), bonds.points.size(), path);
-  bonds.triangle_fields = fields_of(grid->GetCellData(), bonds.triangles.size(), path);
-  return bonds;
-}
-
 // Empty when there are none of the name. Files of version 0.1.0 have them as strings.
 std::vector<std::string> texts_of(vtkFieldData* header, const char* name) {
   std::vector<std::string> texts;
@@ -133,18 +129,8 @@ std::vector<std::string> texts_of(vtkFieldData* header, const char* name) {
   return texts;
 }
 
-} // namespace
-
-Snapshot read_vtu(const std::string& path) {
-  const auto grid = read_grid(path);
-  Snapshot snapshot;
-  snapshot.points = points_of(grid);
-  snapshot.tets = cells_of<4>(grid, VTK_TETRA, path);
-  if (snapshot.tets.empty())
-    refuse(path, "it holds no tetrahedra");
-  snapshot.point_fields = fields_of(grid->GetPointData(), snapshot.points.size(), path);
-  snapshot.cell_fields = fields_of(grid->GetCellData(), snapshot.tets.size(), path);
-  vtkFieldData* header = grid->GetFieldData();
+// What a file says about the moment, into what is no cell of the snapshot.
+void read_header(vtkFieldData* header, Snapshot& snapshot) {
   if (vtkDataArray* time = header->GetArray(time_name); time && time->GetNumberOfTuples() > 0)
     snapshot.time = time->GetComponent(0, 0);
   if (vtkDataArray* step = header->GetArray(step_name); step && step->GetNumberOfTuples() > 0)
@@ -152,9 +138,81 @@ Snapshot read_vtu(const std::string& path) {
   if (const auto titles = texts_of(header, title_name); !titles.empty())
     snapshot.title = titles[0];
   snapshot.body_names = texts_of(header, bodies_name);
+}
+
+template <std::size_t N>
+Cells<N> cells_of(const std::string& path, int type, Snapshot& header) {
+  const auto grid = read_grid(path);
+  Cells<N> cells;
+  cells.points = points_of(grid);
+  cells.corners = corners_of<N>(grid, type, path);
+  cells.point_fields = fields_of(grid->GetPointData(), cells.points.size(), path);
+  cells.cell_fields = fields_of(grid->GetCellData(), cells.corners.size(), path);
+  read_header(grid->GetFieldData(), header);
+  return cells;
+}
+
+bool is_list_of_pieces(const std::filesystem::path& path) {
+  return path.extension() == ".pvtu";
+}
+
+// Of one file, or joined from pieces, which must be of one moment.
+template <std::size_t N>
+Cells<N> read_cells(const std::string& path, int type, Snapshot& header) {
+  if (!is_list_of_pieces(path))
+    return cells_of<N>(path, type, header);
+  require_whole(path);
+  std::vector<Cells<N>> pieces;
+  for (const std::string& file : listed_files(path, pieces_of_file)) {
+    Snapshot of_piece;
+    pieces.push_back(
+        cells_of<N>((std::filesystem::path(path).parent_path() / file).string(), type, of_piece));
+    if (pieces.size() > 1 && (of_piece.time != header.time || of_piece.step != header.step))
+      refuse(path, "its pieces are of different moments");
+    header = std::move(of_piece);
+  }
+  Cells<N> all;
+  if (const std::string wrong = join(pieces, all); !wrong.empty())
+    refuse(path, wrong);
+  return all;
+}
+
+// "" where there are none. Bonds are fewer or more than tets: they may be in pieces where these are not.
+std::string bonds_beside(const std::string& path) {
+  std::filesystem::path bonds = bonds_path(path);
+  if (std::filesystem::exists(bonds))
+    return bonds.string();
+  if (bonds.extension() == ".vtkhdf")
+    return "";
+  bonds.replace_extension(is_list_of_pieces(bonds) ? ".vtu" : ".pvtu");
+  return std::filesystem::exists(bonds) ? bonds.string() : "";
+}
+
+BondSnapshot read_bonds(const std::string& path) {
+  Snapshot header;
+  Cells<3> cells = read_cells<3>(path, VTK_TRIANGLE, header);
+  BondSnapshot bonds;
+  bonds.points = std::move(cells.points);
+  bonds.triangles = std::move(cells.corners);
+  bonds.point_fields = std::move(cells.point_fields);
+  bonds.triangle_fields = std::move(cells.cell_fields);
+  return bonds;
+}
+
+} // namespace
+
+Snapshot read_vtu(const std::string& path) {
+  Snapshot snapshot;
+  Cells<4> cells = read_cells<4>(path, VTK_TETRA, snapshot);
+  if (cells.corners.empty())
+    refuse(path, "it holds no tetrahedra");
+  snapshot.points = std::move(cells.points);
+  snapshot.tets = std::move(cells.corners);
+  snapshot.point_fields = std::move(cells.point_fields);
+  snapshot.cell_fields = std::move(cells.cell_fields);
   find_surface(snapshot);
-  if (std::filesystem::exists(bonds_path(path)))
-    snapshot.bonds = read_bonds(bonds_path(path));
+  if (const std::string bonds = bonds_beside(path); !bonds.empty())
+    snapshot.bonds = read_bonds(bonds);
   return snapshot;
 }
 

@@ -1,8 +1,11 @@
 // Snapshots to .vtu and .vtp (VTK XML, appended raw data, zlib, which every reader knows: meshio has no LZ4), and to .vtkhdf.
 #include "libcdem/vtk/atomic_file.hpp"
+#include "libcdem/vtk/cells.hpp"
 #include "libcdem/vtk/checksum.hpp"
+#include "libcdem/vtk/component_names.hpp"
 #include "libcdem/vtk/files.hpp"
 #include "libcdem/vtk/header_names.hpp"
+#include "libcdem/vtk/pieces.hpp"
 #include "libcdem/vtk/quiet.hpp"
 #include "libcdem/vtk/vtkhdf.hpp"
 #include "libcdem/vtk/xml_text.hpp"
@@ -25,6 +28,7 @@
 
 #include <cassert>
 #include <cmath>
+#include <filesystem>
 
 namespace cdem {
 namespace {
@@ -51,15 +55,9 @@ void add_fields(vtkFieldData* data, const std::vector<SnapshotField>& fields, st
     array->SetName(field.name.c_str());
     if (!field.unit.empty()) // written as an information key of the array, and read back
       array->GetInformation()->Set(vtkDataArray::UNITS_LABEL(), field.unit);
-    const char* const vector_names[] = {"x", "y", "z"};
-    const char* const tensor_names[] = {"XX", "YY", "ZZ", "XY", "YZ", "XZ"}; // ParaView's symmetric tensor
-    const bool principal = field.name.find("principal") != std::string::npos;
-    const char* const principal_names[] = {"1", "2", "3"};
     for (int c = 0; c < field.components; ++c)
-      if (field.components == 3)
-        array->SetComponentName(c, principal ? principal_names[c] : vector_names[c]);
-      else if (field.components == 6)
-        array->SetComponentName(c, tensor_names[c]);
+      if (const std::string name = component_name(field, c); !name.empty())
+        array->SetComponentName(c, name.c_str());
     data->AddArray(array);
   }
 }
@@ -89,11 +87,12 @@ vtkSmartPointer<vtkCellArray> to_cells(const std::vector<std::array<int, N>>& ce
 }
 
 template <std::size_t N>
-vtkSmartPointer<vtkUnstructuredGrid> to_grid(const std::vector<geom::Vec3>& points,
-                                             const std::vector<std::array<int, N>>& cells, int type) {
+vtkSmartPointer<vtkUnstructuredGrid> to_grid(const CellsView<N>& cells, int type) {
   auto grid = vtkSmartPointer<vtkUnstructuredGrid>::New();
-  grid->SetPoints(to_points(points));
-  grid->SetCells(type, to_cells(cells));
+  grid->SetPoints(to_points(cells.points));
+  grid->SetCells(type, to_cells(cells.corners));
+  add_fields(grid->GetPointData(), cells.point_fields, cells.points.size());
+  add_fields(grid->GetCellData(), cells.cell_fields, cells.corners.size());
   return grid;
 }
 
@@ -167,26 +166,49 @@ void write_grid(vtkUnstructuredGrid* grid, const Snapshot& header, const std::st
   });
 }
 
+// One file, or pieces of so many cells at most. Returns the file to open.
+template <std::size_t N>
+std::string write_cells(const CellsView<N>& all, int type, const Snapshot& header, const std::string& path,
+                        std::size_t limit) {
+  const std::size_t cells = all.corners.size(),
+                    pieces = extension_of_grid(path) == ".vtu" ? number_of_pieces(cells, limit) : 1;
+  if (pieces == 1) {
+    write_grid(to_grid(all, type), header, path);
+    remove_superseded(path, 0);
+    return path;
+  }
+  std::error_code told_by_the_file;
+  std::filesystem::create_directory(std::filesystem::path(piece_path(path, 0)).parent_path(),
+                                    told_by_the_file);
+  std::vector<SnapshotField> point_fields, cell_fields;
+  for (std::size_t i = 0; i < pieces; ++i) {
+    Cells<N> piece = piece_of(all, i * cells / pieces, (i + 1) * cells / pieces);
+    const CellsView<N> view{piece.points, piece.corners, piece.point_fields, piece.cell_fields};
+    write_grid(to_grid(view, type), header, piece_path(path, i));
+    point_fields = std::move(piece.point_fields);
+    cell_fields = std::move(piece.cell_fields);
+  }
+  remove_superseded(path, pieces);
+  write_list_of_pieces(path, pieces, point_fields, cell_fields);
+  return list_of_pieces(path);
+}
+
 std::string beside(const std::string& path, const std::string& what) {
-  const std::string extension = extension_of_grid(path);
+  const std::string extension = ends_with(path, ".pvtu") ? ".pvtu" : extension_of_grid(path);
   return path.substr(0, path.size() - extension.size()) + what + extension;
 }
 
 } // namespace
 
-void write_vtu(const Snapshot& snapshot, const std::string& path) {
-  const auto grid = to_grid(snapshot.points, snapshot.tets, VTK_TETRA);
-  add_fields(grid->GetPointData(), snapshot.point_fields, snapshot.points.size());
-  add_fields(grid->GetCellData(), snapshot.cell_fields, snapshot.tets.size());
-  write_grid(grid, snapshot, path);
+std::string write_vtu(const Snapshot& s, const std::string& path, std::size_t cells_per_file) {
+  return write_cells<4>({s.points, s.tets, s.point_fields, s.cell_fields}, VTK_TETRA, s, path,
+                        cells_per_file);
 }
 
-void write_bonds(const Snapshot& snapshot, const std::string& path) {
+std::string write_bonds(const Snapshot& snapshot, const std::string& path, std::size_t cells_per_file) {
   const BondSnapshot& bonds = snapshot.bonds;
-  const auto grid = to_grid(bonds.points, bonds.triangles, VTK_TRIANGLE);
-  add_fields(grid->GetPointData(), bonds.point_fields, bonds.points.size());
-  add_fields(grid->GetCellData(), bonds.triangle_fields, bonds.triangles.size());
-  write_grid(grid, snapshot, path);
+  return write_cells<3>({bonds.points, bonds.triangles, bonds.point_fields, bonds.triangle_fields},
+                        VTK_TRIANGLE, snapshot, path, cells_per_file);
 }
 
 void write_surface(const Snapshot& snapshot, const std::string& path) {
@@ -207,8 +229,8 @@ void write_surface(const Snapshot& snapshot, const std::string& path) {
   });
 }
 
-void write_contacts(const std::vector<ContactPoint>& contacts, const Snapshot& header,
-                    const std::string& path) {
+std::string write_contacts(const std::vector<ContactPoint>& contacts, const Snapshot& header,
+                           const std::string& path, std::size_t cells_per_file) {
   std::vector<geom::Vec3> places;
   std::vector<std::array<int, 1>> cells;
   SnapshotField force{"force", "N", 3, {}}, normal{"normal_force", "N", 1, {}},
@@ -229,11 +251,12 @@ void write_contacts(const std::vector<ContactPoint>& contacts, const Snapshot& h
     source_block.values.push_back(static_cast<double>(contact.source_block));
     target_block.values.push_back(static_cast<double>(contact.target_block));
   }
-  const auto grid = to_grid(places, cells, VTK_VERTEX);
-  add_fields(grid->GetPointData(),
-             {force, normal, shear, depth, edge, source_body, target_body, source_block, target_block},
-             places.size());
-  write_grid(grid, header, path);
+  return write_cells<1>(
+      {places,
+       cells,
+       {force, normal, shear, depth, edge, source_body, target_body, source_block, target_block},
+       {}},
+      VTK_VERTEX, header, path, cells_per_file);
 }
 
 std::string bonds_path(const std::string& vtu_path) {

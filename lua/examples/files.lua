@@ -10,6 +10,7 @@ model:relax{ residual = 1e-4 }
 -- example: model:save
 model:save{ file = "plate.vtu", series = "plate.pvd" } -- ParaView; the series has the times
 model:save{ file = "plate.vtkhdf" } -- the same as HDF5
+model:save{ file = "large.vtu", cells_per_file = 100 } -- large.pvtu, which lists large/large_0.vtu and others
 
 -- example: model:save_cracks
 model:save_cracks{ file = "cracks.vtp" }

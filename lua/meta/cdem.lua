@@ -1413,6 +1413,7 @@ function Model:highest_units(options) end
 ---@class (exact) cdem.ModelSaveOptions
 ---@field file string ends in .vtu, or .vtkhdf for programs that read HDF5; in the output folder
 ---@field series? string ends in .pvd: a time series this file is added to; run.pvd has run_bonds.pvd and run_contacts.pvd beside it. One axis: time where it rises from file to file, else steps
+---@field cells_per_file? integer >= 1, default 2000000: a .vtu of more cells is written in pieces, result/result_0.vtu, result/result_1.vtu, ..., and result.pvtu takes its place
 
 ---Writes the model for ParaView: blocks to the file, bonds beside it (result.vtu, result_bonds.vtu), and of bodies that move far the contacts that carry (result_contacts.vtu: points with force on the source body, normal_force, shear_force, depth, bodies and blocks).
 ---@param options cdem.ModelSaveOptions

@@ -218,7 +218,7 @@ TEST_CASE("what cannot be viewed is one line") {
   CHECK_THAT(said("none.pvd", 2), Contains("lists no file"));
   CHECK_THAT(said("junk.pvd", 2), Contains("it is none, or it is damaged"));
   CHECK_THAT(said("lost.pvd", 4), Contains("lost.vtu") && Contains("no such file"));
-  CHECK_THAT(said("text.txt", 2), Contains("must be a .vtu or .vtkhdf file"));
+  CHECK_THAT(said("text.txt", 2), Contains("must be a .vtu, .pvtu or .vtkhdf file"));
   CHECK_THAT(said("empty", 2), Contains("nothing to look at"));
   CHECK_THAT(said("nothing.vtu", 4), Contains("no such file"));
 }

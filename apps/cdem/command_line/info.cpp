@@ -17,7 +17,7 @@ Command info_command() {
   const auto typed = std::make_shared<TypedInfo>();
   Command command("info", "describe this program, a saved file, a script or a results folder");
   command.argument("PATH", typed->path,
-                   "a .vtu or .vtkhdf file, a .lua script or a folder of results; none: this program");
+                   "a .vtu, .pvtu or .vtkhdf file, a .lua script or a folder of results; none: this program");
   command.examples = "  cdem info\n  cdem info case.lua\n  cdem info results/plate\n";
   command.action = [typed](const TypedLine&) -> Action {
     return [path = typed->path] { return info(path); };

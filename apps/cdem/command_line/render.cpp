@@ -20,7 +20,7 @@ struct TypedRender {
 Command render_command() {
   const auto typed = std::make_shared<TypedRender>();
   Command command("render", "draw a picture of a saved file");
-  command.argument("FILE", typed->file, "the .vtu or .vtkhdf file");
+  command.argument("FILE", typed->file, "the .vtu, .pvtu or .vtkhdf file");
   command.value("--colour,--color,-c", typed->colour, "FIELD",
                 "field to colour by (displacement.magnitude); \"\": plain blocks", &typed->colour_given);
   command.value("--deformation,-d", typed->deformation, "S", "scale of the displacement (0: undeformed)");

@@ -16,7 +16,8 @@ struct TypedView {
 Command view_command() {
   const auto typed = std::make_shared<TypedView>();
   Command command("view", "look at saved files in a browser page of this machine");
-  command.argument("PATH", typed->path, "a .vtu or .vtkhdf file, a .pvd series or a folder of results");
+  command.argument("PATH", typed->path,
+                   "a .vtu, .pvtu or .vtkhdf file, a .pvd series or a folder of results");
   command.examples = "  cdem view results/plate\n  cdem view results/plate/run.pvd\n";
   command.notes =
       "Prints the address of a page that shows the model: choose the file, the field and the step, turn\n"

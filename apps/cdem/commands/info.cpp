@@ -209,7 +209,7 @@ ExitCode info(const fs::path& path) {
     about_script(path);
   else
     throw UsageError(path.string() +
-                     ": must be a .vtu or .vtkhdf file, a .lua script or a folder of results");
+                     ": must be a .vtu, .pvtu or .vtkhdf file, a .lua script or a folder of results");
   return ExitCode::success;
 }
 

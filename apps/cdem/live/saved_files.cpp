@@ -19,13 +19,15 @@ SavedFile series(const fs::path& file) {
   return one;
 }
 
-// "run_bonds.vtu" beside "run.vtu".
+// "run_bonds.vtu" beside "run.vtu" or "run.pvtu".
 bool goes_with_another(const fs::path& file, const std::set<fs::path>& all) {
   const std::string stem = file.stem().string();
   for (const std::string end : {"_bonds", "_contacts"})
     if (stem.size() > end.size() && stem.compare(stem.size() - end.size(), end.size(), end) == 0)
-      return all.count(file.parent_path() /
-                       (stem.substr(0, stem.size() - end.size()) + file.extension().string())) > 0;
+      for (const std::string extension :
+           {file.extension().string(), std::string(".vtu"), std::string(".pvtu")})
+        if (all.count(file.parent_path() / (stem.substr(0, stem.size() - end.size()) + extension)) > 0)
+          return true;
   return false;
 }
 
@@ -43,14 +45,15 @@ std::vector<SavedFile> files_of_folder(const fs::path& folder) {
     if (is_saved_state(file) && listed.count(file) == 0 && !goes_with_another(file, all))
       found.push_back({file.filename().string(), {file}});
   if (found.empty())
-    throw UsageError(folder.string() + " holds no .vtu or .vtkhdf file and no series: nothing to look at");
+    throw UsageError(folder.string() +
+                     " holds no .vtu, .pvtu or .vtkhdf file and no series: nothing to look at");
   return found;
 }
 
 } // namespace
 
 bool is_saved_state(const fs::path& file) {
-  return file.extension() == ".vtu" || file.extension() == ".vtkhdf";
+  return file.extension() == ".vtu" || file.extension() == ".pvtu" || file.extension() == ".vtkhdf";
 }
 
 std::vector<SavedFile> saved_files(const fs::path& path) {
@@ -61,7 +64,8 @@ std::vector<SavedFile> saved_files(const fs::path& path) {
     return {series(path)};
   if (is_saved_state(path))
     return {{path.filename().string(), {path}}};
-  throw UsageError(path.string() + ": must be a .vtu or .vtkhdf file, a .pvd series or a folder of results");
+  throw UsageError(path.string() +
+                   ": must be a .vtu, .pvtu or .vtkhdf file, a .pvd series or a folder of results");
 }
 
 } // namespace cdem::app

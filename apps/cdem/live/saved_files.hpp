@@ -7,7 +7,7 @@
 
 namespace cdem::app {
 
-// A .vtu or .vtkhdf by its name.
+// A .vtu, .pvtu or .vtkhdf by its name.
 bool is_saved_state(const std::filesystem::path&);
 
 struct SavedFile {
@@ -15,7 +15,7 @@ struct SavedFile {
   std::vector<std::filesystem::path> steps; // one state each
 };
 
-// The files to show. A .vtu or .vtkhdf file gives itself, a .pvd its files. A folder gives its series by name, then its
+// The files to show. A .vtu, .pvtu or .vtkhdf file gives itself, a .pvd its files. A folder gives its series by name, then its
 // files that are in no series. Files of bonds and contacts are left out: they are drawn with the blocks or are stored
 // beside them. Throws UsageError for anything else and for a folder without such files.
 std::vector<SavedFile> saved_files(const std::filesystem::path&);

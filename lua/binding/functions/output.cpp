@@ -9,6 +9,7 @@
 #include "libcdem/vtk/block_marks.hpp"
 #include "libcdem/vtk/field_values.hpp"
 #include "libcdem/vtk/film.hpp"
+#include "libcdem/vtk/pieces.hpp"
 #include "libcdem/vtk/section.hpp"
 #include "libcdem/vtk/without_bodies.hpp"
 #include "libgeom/core/check.hpp"
@@ -28,10 +29,23 @@ void add_to_series(Session& session, ModelObject& model, const std::string& name
   const fs::path series = session.files.to_write(name);
   auto& entries = model.series[series.string()];
   const std::string file = path.lexically_relative(series.parent_path()).generic_string();
-  const auto same = [&](const SeriesEntry& e) { return e.file == file; };
+  const auto same = [&](const SeriesEntry& e) { // .vtu or .pvtu
+    return fs::path(e.file).replace_extension() == fs::path(file).replace_extension();
+  };
   entries.erase(std::remove_if(entries.begin(), entries.end(), same), entries.end());
   entries.push_back({snapshot.time, snapshot.step, file});
   write_pvd(series.string(), entries);
+}
+
+// The path of a file of so many cells; of the pieces that it becomes where they are more than the limit each is allowed.
+fs::path to_write(const Session& session, const std::string& name, std::size_t cells, std::size_t limit) {
+  const std::size_t pieces = fs::path(name).extension() == ".vtu" ? number_of_pieces(cells, limit) : 1;
+  if (pieces == 1)
+    return session.files.to_write(name);
+  session.files.to_write(list_of_pieces(name));
+  for (std::size_t piece = 0; piece < pieces; ++piece)
+    session.files.to_write(piece_path(name, piece));
+  return session.files.would_write(name);
 }
 
 Value save(Session& session, ModelObject& model, const Arguments& a) {
@@ -47,23 +61,22 @@ Value save(Session& session, ModelObject& model, const Arguments& a) {
   if (session.settings.check_only)
     return {};
   const Snapshot snapshot = model.simulation.snapshot(model.title(session));
-  const fs::path path = session.files.to_write(a.text("file"));
-  write_vtu(snapshot, path.string());
-  const fs::path bonds = session.files.to_write(bonds_path(a.text("file")));
-  write_bonds(snapshot, bonds.string());
+  const auto limit = static_cast<std::size_t>(a.integer("cells_per_file"));
   // A series is of one kind of file, so that ParaView shows each with its own fields.
-  const auto add = [&](const char* what, const fs::path& file) {
+  const auto add = [&](const char* what, const std::string& file) {
     if (!a.has("series"))
       return;
     const std::string& name = a.text("series");
     add_to_series(session, model, name.substr(0, name.size() - 4) + what + ".pvd", file, snapshot);
   };
-  add("", path);
-  add("_bonds", bonds);
+  const std::string &name = a.text("file"), bonds = bonds_path(name), contacts = contacts_path(name);
+  add("", write_vtu(snapshot, to_write(session, name, snapshot.tets.size(), limit), limit));
+  add("_bonds",
+      write_bonds(snapshot, to_write(session, bonds, snapshot.bonds.triangles.size(), limit), limit));
   if (model.simulation.can_touch()) {
-    const fs::path contacts = session.files.to_write(contacts_path(a.text("file")));
-    write_contacts(model.simulation.contact_points(), snapshot, contacts.string());
-    add("_contacts", contacts);
+    const std::vector<ContactPoint> points = model.simulation.contact_points();
+    add("_contacts",
+        write_contacts(points, snapshot, to_write(session, contacts, points.size(), limit), limit));
   }
   return {};
 }
@@ -254,7 +267,13 @@ void bind_output(Module& m) {
         text("series").doc(
             "ends in .pvd: a time series this file is added to; run.pvd has run_bonds.pvd and "
             "run_contacts.pvd beside it. One axis: time where it rises from file to file, else "
-            "steps")},
+            "steps"),
+        integer("cells_per_file")
+            .at_least(1)
+            .standard(static_cast<std::int64_t>(usual_cells_per_file))
+            .doc("a .vtu of more cells is written in pieces, result/result_0.vtu, result/result_1.vtu, ..., "
+                 "and "
+                 "result.pvtu takes its place")},
        false,
        "",
        "",
