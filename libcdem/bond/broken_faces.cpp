@@ -102,7 +102,7 @@ public:
     if (kept >= 0)
       slips[kept] = slip;
     if (whole_face)
-      leave(spring / (3 * lanes) * lanes + lane_, state, force, sums);
+      leave(spring / (3 * lanes) * lanes + lane_, state, sums);
   }
 
 private:
@@ -144,23 +144,34 @@ private:
   }
 
   // A face without any bond left: handed over, or looked at whether it still may be two planes without end.
-  void leave(std::int64_t face, FaceStateBatch& state, Vec (&force)[3], FaceSums& sums) {
+  void leave(std::int64_t face, FaceStateBatch& state, FaceSums& sums) {
     const double size = std::sqrt(3 * batch_.area[lane_]);
+    if (leaves(state, lane_)) {
+      hand_over(face, state, sums);
+      return;
+    }
     if (law_.hands_over) {
       if (!law_.hand_over_due || !is_gone(now_, size))
         return;
-      state.handed_over[lane_] = 1;
+      const bool open = response_[0].opening > 0 && response_[1].opening > 0 && response_[2].opening > 0;
+      set_hand_over(state, lane_, open ? HandOver::done : HandOver::leaving);
       sums.hands_over = true;
-      for (int point = 0; point < 3; ++point) {
-        const Response& r = response_[point];
-        sums.breaking += r.energy - 0.5 * r.force.dot(moved(point));
-        set_lane(force[point], lane_, geom::Vec3::Zero());
-      }
       return;
     }
     for (int point = 0; point < 3; ++point)
       if (response_[point].opening < 0 && now_.gap[point].squaredNorm() > size * size)
         sums.astray = face;
+  }
+
+  void hand_over(std::int64_t face, FaceStateBatch& state, FaceSums& sums) {
+    geom::Vec3 pull[3];
+    double energy = 0;
+    for (int point = 0; point < 3; ++point) {
+      pull[point] = response_[point].force;
+      energy += response_[point].energy;
+    }
+    sums.left.push_back({face, at_corners(pull), kn(), energy});
+    set_hand_over(state, lane_, HandOver::done);
   }
 
   const FaceBatch& batch_;

@@ -89,11 +89,10 @@ double stored_at(const SofteningLaw& law, const CohesiveFace& face, int point, c
 
 // What the three points of a face pull with (N, in space), shared out to its corners.
 void share(const FaceNodes& at, const Vec3 (&pull)[3], Node* force) {
-  const Vec3 common = (pull[0] + pull[1] + pull[2]) / 6;
+  const std::array<Vec3, 3> at_corner = at_corners(pull);
   for (int corner = 0; corner < 3; ++corner) {
-    const Vec3 f = common + 0.5 * pull[corner];
-    add(force, at.a[corner], f);
-    add(force, at.b[corner], -f);
+    add(force, at.a[corner], at_corner[corner]);
+    add(force, at.b[corner], -at_corner[corner]);
   }
 }
 
@@ -113,9 +112,14 @@ public:
       pull[point] = advance_point(point, breaking, spring + point * lanes, sums, open);
       without = without && face_.damage[point] >= 1;
     }
-    const bool gone = to_contact && without && is_gone(now_, std::sqrt(3 * batch_.area[lane_]));
-    if (without && (open || gone))
+    if (without && open) {
       part(pull, sums);
+    } else if (leaves(state_, lane_)) {
+      hand_over(spring / (3 * lanes) * lanes + lane_, pull, sums);
+    } else if (without && to_contact && is_gone(now_, std::sqrt(3 * batch_.area[lane_]))) {
+      set_hand_over(state_, lane_, HandOver::leaving);
+      sums.hands_over = true;
+    }
     share(places_of(batch_, lane_), pull, force);
   }
 
@@ -150,18 +154,27 @@ private:
     return now_.in_space(area * r.traction);
   }
 
+  double stored_at_point(int point) const { // J
+    const Vec3 stretch = now_.in_axes(now_.gap[point]) + vec(face_.offset[point]);
+    const SofteningResponse r = softening_response(law_, vec(face_.plane), stretch, face_.damage[point],
+                                                   vec(face_.slip[point]), false);
+    return batch_.area[lane_] * stored_at(law_, face_, point, stretch, r);
+  }
+
   // What it still carries is let go of, less the half step of work that it would have done.
   void part(Vec3 (&pull)[3], FaceSums& sums) {
     for (int point = 0; point < 3; ++point) {
-      const Vec3 m = vec(face_.plane);
-      const Vec3 stretch = now_.in_axes(now_.gap[point]) + vec(face_.offset[point]);
-      const SofteningResponse r =
-          softening_response(law_, m, stretch, face_.damage[point], vec(face_.slip[point]), false);
-      sums.breaking += batch_.area[lane_] * stored_at(law_, face_, point, stretch, r) -
-                       0.5 * pull[point].dot(now_.gap[point] - before_.gap[point]);
+      sums.breaking += stored_at_point(point) - 0.5 * pull[point].dot(now_.gap[point] - before_.gap[point]);
       pull[point] = Vec3::Zero();
     }
     state_.stage[lane_] = FaceStage::parted;
+  }
+
+  void hand_over(std::int64_t face, const Vec3 (&pull)[3], FaceSums& sums) {
+    sums.left.push_back({face, at_corners(pull), batch_.kn[lane_],
+                         stored_at_point(0) + stored_at_point(1) + stored_at_point(2)});
+    state_.stage[lane_] = FaceStage::parted;
+    set_hand_over(state_, lane_, HandOver::done);
   }
 
   const FaceBatch& batch_;
@@ -261,7 +274,7 @@ void cohesive_face_forces(const FaceBatch* batches, int faces, const FaceMotion&
       hold_resumed(batch, lane, motion, cohesive[i], force);
     if (at.stage[lane] == FaceStage::parted) {
       if (to_contact && !handed_over(at, lane)) {
-        at.handed_over[lane] = 1;
+        set_hand_over(at, lane, HandOver::done);
         sums.hands_over = true;
       }
     } else if (at.preloaded[lane] != 0 && holds(at.stage[lane])) { // in a crack it would work without end

@@ -38,6 +38,12 @@ FaceFrame face_frame(const FaceNodes& at, const Place& place, const Moved& moved
   return f;
 }
 
+// What the forces of its points make at its corners.
+inline std::array<geom::Vec3, 3> at_corners(const geom::Vec3 (&pull)[3]) {
+  const geom::Vec3 common = (pull[0] + pull[1] + pull[2]) / 6;
+  return {common + 0.5 * pull[0], common + 0.5 * pull[1], common + 0.5 * pull[2]};
+}
+
 inline FaceNodes places_of(const FaceBatch& batch, int lane) { // of the chunk
   FaceNodes places;
   for (int k = 0; k < 3; ++k) {

@@ -22,9 +22,11 @@ struct Contact {
   std::int32_t beside = 0;                // of an edge the second triangle of the target
   geom::Vec3 normal = geom::Vec3::Zero(); // unit, out of the target
   geom::Vec3 shear = geom::Vec3::Zero();  // Fs, N, on the source
-  double reference_penetration = 0;       // m, depth at which it carries nothing: it was found that deep
-  double depth = 0;                       // m, below the target's surface
-  double damping = 0;                     // N, what restitution adds to the spring's normal force
+  // m, depth at which it carries nothing: it was found that deep; below 0 where it has taken over the force of a face.
+  double reference_penetration = 0;
+  double depth = 0;     // m, below the target's surface
+  double damping = 0;   // N, what restitution adds to the spring's normal force
+  double stiffness = 0; // N/m, of a normal spring that has taken over the force of a face; 0: that of its law
 
   explicit Contact(Kind of = spring, int from = 0)
       : kind(of & 1u), source(static_cast<std::uint32_t>(from) & 0x7fffffffu) {}

@@ -5,6 +5,7 @@
 #include "libcdem/bond/spring_forces.hpp"
 #include "libcdem/bond/water_work.hpp"
 #include "libcdem/contact/response/contact_point.hpp"
+#include "libcdem/contact/response/taken_over.hpp"
 #include "libcdem/model/build/add_meshes.hpp"
 #include "libcdem/results/cracks.hpp"
 #include "libcdem/results/fields.hpp"
@@ -92,6 +93,9 @@ std::int64_t record_face_breaks(const Model& model, State& state, Workspace& wor
     state.spent.damping += sums.damping;
     state.spent.plastic += sums.plastic;
     work.contact.fragments_due = work.contact.fragments_due || sums.hands_over;
+    for (const FaceLeft& left : sums.left)
+      state.spent.breaking += take_over(model, state, work.contact,
+                                        {left.face + chunk.face_batches.begin * lanes, chunk.block, left});
     for (const FaceBreak& broken : sums.broken) {
       const FaceSpringPlace at{chunk.face_batches.begin + broken.spring / (3 * lanes),
                                static_cast<int>(broken.spring / lanes % 3),

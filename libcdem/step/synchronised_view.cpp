@@ -13,6 +13,7 @@ SynchronisedView::SynchronisedView(Stage& stage) : stage_(stage) {
     viscous_stress_ = state.viscous_stress;
     plastic_strain_ = state.plastic_strain;
     faces_ = state.faces;
+    contacts_ = state.contacts;
     face_slip_ = state.face_slip;
     cohesive_ = state.cohesive;
     crack_energy_ = state.crack_energy;
@@ -34,12 +35,15 @@ SynchronisedView::~SynchronisedView() {
   state.viscous_stress = viscous_stress_;
   state.plastic_strain = plastic_strain_;
   state.faces = faces_;
+  state.contacts = contacts_;
   state.face_slip = face_slip_;
   state.cohesive = cohesive_;
   state.crack_energy = crack_energy_;
   state.spent = spent_;
-  if (stage_.shared_) // of others, stresses are those of when they were last gathered
+  if (stage_.shared_) { // of others, stresses are those of when they were last gathered
     stage_.shared_->parted(state);
+    stage_.shared_->part_contacts(state);
+  }
 }
 
 } // namespace cdem

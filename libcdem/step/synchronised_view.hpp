@@ -21,6 +21,7 @@ private:
   std::vector<StressBatch> stress_, viscous_stress_;
   std::vector<PlasticStrainBatch> plastic_strain_;
   std::vector<FaceStateBatch> faces_;
+  std::vector<Contact> contacts_; // they may take over the force of faces
   std::vector<FaceSlip> face_slip_;
   std::vector<CohesiveFace> cohesive_;
   std::vector<CrackEnergy> crack_energy_;

@@ -70,7 +70,9 @@ TEST_CASE("broken faces: parted or slid away they are handed over to the contact
   SECTION("slid away") {
     CHECK(halves.lead(press + Vec3(0.99 * limit, 0, 0)).norm() > 0);
     CHECK(halves.handed_over() == 0);
-    CHECK((halves.lead(press + Vec3(1.01 * limit, 0, 0)).norm() > 0) == !covered);
+    // Its springs act once more, while contacts begin, which then take over.
+    CHECK(halves.lead(press + Vec3(1.01 * limit, 0, 0)).norm() > 0);
+    halves.lead(press + Vec3(1.01 * limit, 0, 0));
   }
   CHECK(halves.handed_over() == (covered ? 2 : 0));
   CHECK((halves.lead(press).norm() > 0) == !covered);

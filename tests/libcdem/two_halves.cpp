@@ -82,7 +82,8 @@ int Halves::with_mode(cdem::BondMode mode) const {
 int Halves::handed_over() const {
   int count = 0;
   each_face_spring(system.model.mesh, [&](const cdem::MeshChunk&, const cdem::FaceSpringPlace& at) {
-    count += at.point == 0 && cdem::handed_over(system.state.faces[at.batch], at.lane);
+    count += at.point == 0 && (cdem::handed_over(system.state.faces[at.batch], at.lane) ||
+                               cdem::leaves(system.state.faces[at.batch], at.lane));
   });
   return count;
 }

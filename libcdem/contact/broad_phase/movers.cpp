@@ -17,7 +17,7 @@ char activity(const State& state, int face) {
     return 1;
   const FaceStateBatch& batch = state.faces[face / lanes];
   const int lane = face % lanes;
-  if (handed_over(batch, lane))
+  if (handed_over(batch, lane) || leaves(batch, lane))
     return 2;
   return static_cast<char>(!is_untouched(state, face / lanes, lane));
 }

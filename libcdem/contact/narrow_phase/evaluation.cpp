@@ -287,8 +287,11 @@ double Evaluation::narrow_phase(ContactRow& row, ContactCandidate* candidates, b
 
 bool Evaluation::held_by_face(int source, int target) const {
   const ContactTriangle& from = surface_.triangles[source];
-  return target >= 0 && from.mate == target &&
-         !handed_over(state_.faces[from.face / lanes], from.face % lanes);
+  if (target < 0 || from.mate != target)
+    return false;
+  const FaceStateBatch& faces = state_.faces[from.face / lanes];
+  const int lane = from.face % lanes;
+  return !handed_over(faces, lane) && !leaves(faces, lane);
 }
 
 bool Evaluation::add_contact(int source, int corner, const geom::Vec3& spring, int fragment,
@@ -315,9 +318,13 @@ bool Evaluation::add_contact(int source, int corner, const geom::Vec3& spring, i
   motion.turned =
       0.5 * work_.step *
       (spin(x, velocities(from.nodes), motion.normal) + spin(y.x, velocities(to.nodes), motion.normal));
-  const Law& law = law_between(from.block, to.block);
-  finish(c, old, motion, spring_arms(model_, state_, from, corner, to, nearest.at.weights),
-         spring_law(*law.joint, law.tan_friction, from, to), from, to);
+  const Law& between = law_between(from.block, to.block);
+  ContactLaw law = spring_law(*between.joint, between.tan_friction, from, to);
+  if (old) {
+    c.stiffness = old->stiffness;
+    law = as_stiff_as(c, law);
+  }
+  finish(c, old, motion, spring_arms(model_, state_, from, corner, to, nearest.at.weights), law, from, to);
   return true;
 }
 

@@ -30,6 +30,15 @@ struct ContactLaw {
   double damping_ratio = 0; // (1 - e^2) / (1 + e^2)
 };
 
+// A contact that has taken over the force of a face keeps the stiffness with which it did.
+inline ContactLaw as_stiff_as(const Contact& c, ContactLaw law) {
+  if (c.stiffness > 0) {
+    law.ks *= c.stiffness / law.kn;
+    law.kn = c.stiffness;
+  }
+  return law;
+}
+
 // What has happened to a contact since it was last looked at.
 struct ContactMotion {
   geom::Vec3 normal = geom::Vec3::Zero(); // unit, out of the target, now

@@ -49,7 +49,7 @@ ContactLaw law_of(const Model& model, const Contact& c) {
   const Joint& joint = *contact_joint(model, from.block, to.block);
   const double tan_friction = geom::portable::tan(joint.friction_angle);
   return c.kind == Contact::spring
-             ? spring_law(joint, tan_friction, from, to)
+             ? as_stiff_as(c, spring_law(joint, tan_friction, from, to))
              : edge_law(joint, tan_friction, s, {source, c.fragment}, {target, c.beside});
 }
 

@@ -1,0 +1,146 @@
+// Broken joints that are handed over to contact while they are pressed and sheared: the contacts carry on with the forces.
+#include "tests/libcdem/boxes.hpp"
+#include "tests/libcdem/two_halves.hpp"
+
+#include "libcdem/results/energy.hpp"
+
+#include <catch2/catch.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+using namespace testing;
+using geom::Mat3;
+using geom::Vec3;
+
+namespace {
+
+const Mat3 straight = Mat3::Identity(), odd = rotation({1, 2, -0.5}, 37 * degree);
+constexpr double friction_angle = 20 * degree, steep = 15 * degree;
+const Vec3 gravity_on_slope = 1000 * Vec3(std::sin(steep), 0, -std::cos(steep)); // m/s2
+constexpr double edge = 0.1;                                                     // m, of a cell
+const Vec3 lower(1.4, 0.4, 0.2), upper(0.6, 0.4, 0.2);                           // m
+constexpr double begins = 0.3; // m, where the upper part does
+
+// A long lower part and a short upper part, regions of one mesh; jittered, but flat where they meet.
+geom::TetMesh two_parts(double jitter) {
+  const int high = static_cast<int>(std::lround((lower.z() + upper.z()) / edge));
+  geom::TetMesh box = geom::box_mesh({lower.x(), lower.y(), high * edge},
+                                     {static_cast<int>(std::lround(lower.x() / edge)),
+                                      static_cast<int>(std::lround(lower.y() / edge)), high},
+                                     jitter);
+  geom::TetMesh mesh;
+  std::vector<int> number(box.nodes.size(), -1);
+  for (const geom::Tet& tet : box.tets) {
+    Vec3 centre = Vec3::Zero();
+    for (const int node : tet)
+      centre += box.nodes[node] / 4;
+    const bool above = centre.z() > lower.z();
+    if (above && (centre.x() < begins || centre.x() > begins + upper.x()))
+      continue;
+    geom::Tet now = tet;
+    for (int& node : now) {
+      if (number[node] < 0) {
+        number[node] = static_cast<int>(mesh.nodes.size());
+        mesh.nodes.push_back(box.nodes[node]);
+      }
+      node = number[node];
+    }
+    mesh.tets.push_back(now);
+    mesh.region.push_back(above ? 1 : 0);
+  }
+  const double near = 0.4 * edge;
+  for (Vec3& x : mesh.nodes) {
+    if (std::abs(x.z() - lower.z()) < near)
+      x.z() = lower.z();
+    for (const double end : {begins, begins + upper.x()})
+      if (std::abs(x.x() - end) < near && x.z() > lower.z() - near)
+        x.x() = end;
+  }
+  return mesh;
+}
+
+cdem::Elastic soft() {
+  cdem::Elastic m = rock();
+  m.youngs_modulus = 1e9;
+  return m;
+}
+
+// The upper part lies on a slope, pressed by its weight and held by friction.
+System leaning(const Mat3& turn, double jitter, int threads) {
+  cdem::Joint joint = halves_joint(false);
+  joint.friction_angle = friction_angle;
+  System s(
+      build({meshed("unit", placed(two_parts(jitter), turn, Vec3::Zero()), between_halves(), soft(), joint)},
+            {{"unit", "unit", friction(friction_angle / degree)}}));
+  s.threads = threads;
+  const Vec3 up = turn.col(2);
+  s.hold(cdem::Selection::where([=](const Vec3& x) { return x.dot(up) < 1e-6; }, "the foot"), "xyz");
+  s.conditions.gravity = gravity(turn * gravity_on_slope);
+  REQUIRE(s.relax(1e-6).converged);
+  return s;
+}
+
+void let_faces_leave(System& s) {
+  each_face_spring(s.model.mesh, [&](const cdem::MeshChunk&, const cdem::FaceSpringPlace& at) {
+    set_hand_over(s.state.faces[at.batch], at.lane, cdem::HandOver::leaving);
+  });
+}
+
+// Of all contacts, on the upper part: against the slope and along it, N.
+std::array<double, 2> carried(const System& s, const Mat3& turn) {
+  Vec3 sum = Vec3::Zero();
+  for (const cdem::Contact& c : s.state.contacts) {
+    const Vec3 force = normal_force(s, c) * c.normal + c.shear;
+    sum += c.normal.dot(turn.col(2)) > 0 ? force : Vec3(-force);
+  }
+  return {sum.dot(turn.col(2)), -sum.dot(turn.col(0))};
+}
+
+} // namespace
+
+TEST_CASE("hand-over: contacts take over the force of a pressed, sheared joint, and nothing moves",
+          "[contact][hand_over][energy]") {
+  const auto [turn, jitter] = GENERATE(std::pair(straight, 0.0), std::pair(odd, 0.15));
+  System s = leaning(turn, jitter, 1);
+  const double weight = rock().density * upper.prod() * gravity_on_slope.norm();
+  const double pressed = weight * std::cos(steep), sheared = weight * std::sin(steep);
+  const double stored = cdem::energy(s.model, s.state).springs,
+               before = cdem::energy(s.model, s.state).total();
+  let_faces_leave(s);
+  cdem::RunOptions options;
+  options.duration = 1e-3; // of a fall from 0.5 mm
+  options.callback_every = 1;
+  int looks = 0;
+  options.callback = [&] {
+    if (++looks < 3)
+      return;
+    const auto [normal, shear] = carried(s, turn);
+    if (std::abs(normal / pressed - 1) > 0.03 || std::abs(shear / sheared - 1) > 0.03)
+      FAIL("look " << looks << ": normal " << normal / pressed << ", shear " << shear / sheared);
+  };
+  s.run(options);
+  const cdem::EnergyLedger e = cdem::energy(s.model, s.state);
+  const auto [normal, shear] = carried(s, turn);
+  INFO("stored " << stored << " J, breaking " << e.breaking << ", kinetic " << e.kinetic << ", carried "
+                 << normal / pressed << " and " << shear / sheared << ", balance " << e.balance_error());
+  CHECK(looks > 20);
+  for (const cdem::FaceStateBatch& faces : s.state.faces)
+    CHECK(std::count(std::begin(faces.handed_over), std::end(faces.handed_over), 2) == 0);
+  CHECK(normal == Approx(pressed).epsilon(0.03));
+  CHECK(shear == Approx(sheared).epsilon(0.03));
+  CHECK(e.kinetic < 1e-3 * stored);
+  CHECK(e.balance_error() < 1e-3);
+}
+
+TEST_CASE("hand-over: the same bits for every number of threads", "[contact][hand_over][threads]") {
+  const auto hash_with = [](int threads) {
+    System s = leaning(odd, 0.15, threads);
+    let_faces_leave(s);
+    cdem::RunOptions options;
+    options.steps = 300;
+    s.run(options);
+    return cdem::hash(s.state);
+  };
+  CHECK(hash_with(1) == hash_with(2));
+}
