@@ -15,6 +15,7 @@ TetShape shape_of(const Model& model, const std::array<int, 4>& triangles) {
   shape.nodes = model.tets[s.triangles[triangles[0]].tet];
   for (int k = 0; k < 4; ++k) {
     const ContactTriangle& triangle = s.triangles[triangles[k]];
+    shape.mates[k] = triangle.mate;
     shape.height = std::max(shape.height, triangle.height);
     for (int corner = 0; corner < 3; ++corner)
       shape.corners[k][corner] = static_cast<std::uint8_t>(

@@ -21,7 +21,8 @@ struct TetShape {
   std::array<int, 4> nodes{};                           // of the model
   std::array<int, 4> triangles{-1, -1, -1, -1};         // by number; -1: no single tetrahedron
   std::array<std::array<std::uint8_t, 3>, 4> corners{}; // of each triangle, into nodes
-  double height = 0;                                    // m, the largest behind a triangle, undeformed
+  std::array<int, 4> mates{}; // of triangles: on the other side of their faces, by number
+  double height = 0;          // m, the largest behind a triangle, undeformed
 };
 
 // Where it is now.

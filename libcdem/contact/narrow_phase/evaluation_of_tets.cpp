@@ -58,38 +58,46 @@ double Evaluation::springs_of_tet(int source_mover, int mover, const Eigen::Matr
   const TetShape &from = pairs.shape[source_mover], &to = pairs.shape[mover];
   const bool all = work_.looks_at_all;
   double until = std::numeric_limits<double>::infinity();
+  // Semi-springs at a node are about as far outside as the node: of most nodes this is all that is asked.
+  std::array<bool, 4> near{};
+  for (int i = 0; i < 4; ++i) {
+    int plane = 0;
+    const double most = h.col(i).maxCoeff(&plane),
+                 outside = most - 2 * drawn_in * (most - std::min(most, h.row(plane).minCoeff()));
+    near[i] = all || outside < shallow_ratio * to.height;
+    if (!near[i])
+      until = std::min(until, less_rounding(outside, to.height));
+  }
   for (int t = 0; t < 4; ++t) {
     const int source = from.triangles[t];
     if (!keeps_tet_triangle(own_triangles_, source))
       continue;
-    int held = -1; // the plane of the triangle that the source's face still holds
-    for (int k = 0; k < 4; ++k)
-      if (held_by_face(source, to.triangles[k]))
-        held = k;
+    // The plane of the triangle that the source's face still holds; -1: none.
+    const auto mate = std::find(to.triangles.begin(), to.triangles.end(), from.mates[t]);
+    const int held = mate != to.triangles.end() && held_by_face(source, *mate)
+                         ? static_cast<int>(mate - to.triangles.begin())
+                         : -1;
     for (int corner = 0; corner < 3; ++corner) {
-      const int i = from.corners[t][corner], j = from.corners[t][(corner + 1) % 3],
-                l = from.corners[t][(corner + 2) % 3];
+      const int i = from.corners[t][corner];
+      if (!near[i])
+        continue;
+      const int j = from.corners[t][(corner + 1) % 3], l = from.corners[t][(corner + 2) % 3];
       const Eigen::Vector4d here = h.col(i) + drawn_in * ((h.col(j) - h.col(i)) + (h.col(l) - h.col(i)));
       int nearest = 0;
       const double most = here.maxCoeff(&nearest);
+      const auto most_without = [&](int plane) {
+        Eigen::Vector4d others = here;
+        others[plane] = -std::numeric_limits<double>::infinity();
+        return others.maxCoeff();
+      };
       double waits = less_rounding(most, to.height);
-      if (!all && held >= 0) {
-        double second = -std::numeric_limits<double>::infinity();
-        for (int k = 0; k < 4; ++k)
-          if (k != held)
-            second = std::max(second, here[k]);
-        // Nearest to the held triangle, on whichever side of it.
-        waits = std::max(waits, 0.5 * less_rounding(-second - std::abs(here[held]), to.height));
-      }
+      if (held >= 0) // nearest to the held triangle, on whichever side of it
+        waits = std::max(waits, 0.5 * less_rounding(-most_without(held) - std::abs(here[held]), to.height));
       if (!all && waits > 0) {
         until = std::min(until, waits);
         continue;
       }
-      double second = -std::numeric_limits<double>::infinity();
-      for (int k = 0; k < 4; ++k)
-        if (k != nearest)
-          second = std::max(second, here[k]);
-      const bool known = !all && most < 0 && less_rounding(most - second, to.height) > 0;
+      const bool known = !all && most < 0 && less_rounding(most - most_without(nearest), to.height) > 0;
       until = std::min(
           until, spring_in_tet(source_mover, mover, source, corner, known ? to.triangles[nearest] : -1));
     }
