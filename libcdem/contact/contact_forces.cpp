@@ -8,6 +8,7 @@
 #include "libcdem/contact/narrow_phase/evaluation.hpp"
 #include "libcdem/contact/narrow_phase/row_shares.hpp"
 #include "libcdem/contact/narrow_phase/rows_asleep.hpp"
+#include "libcdem/contact/narrow_phase/tets_awake.hpp"
 #include "libcdem/contact/response/block_motion.hpp"
 #include "libcdem/contact/response/contact_point.hpp"
 
@@ -49,6 +50,29 @@ bool add_displacements(const Model& model, const State& state, ContactWork& work
   if (any_left_skin(work))
     out = work.pairs_due = true;
   return find_leavers(model, work) || out;
+}
+
+// Finds the contacts of pairs of single tetrahedra. Their order follows from the model alone.
+void compute_tets(const Model& model, const State& state, ContactWork& work, int threads) {
+  if (!work.tet_pairs || work.tet_pairs->count() == 0)
+    return;
+  TetPairs& pairs = *work.tet_pairs;
+  const auto count = static_cast<std::int64_t>(pairs.count());
+  pairs.found.resize(static_cast<std::size_t>((count + tet_pairs_per_chunk - 1) / tet_pairs_per_chunk));
+  for_chunks(static_cast<std::int64_t>(pairs.found.size()), threads, [&](std::int64_t chunk) {
+    ContactChunk& out = pairs.found[chunk];
+    out.contacts.clear();
+    out.forces.clear();
+    out.sums = {};
+    Evaluation evaluation(model, state, work, Contact::spring, out);
+    const std::int64_t end = std::min(count, (chunk + 1) * tet_pairs_per_chunk);
+    for (std::int64_t first = chunk * tet_pairs_per_chunk; first < end; first += contact_rows_per_chunk)
+      for (std::uint64_t bits = pairs.awake[first / contact_rows_per_chunk]; bits != 0; bits &= bits - 1) {
+        const auto p = static_cast<std::size_t>(first + __builtin_ctzll(bits));
+        fall_asleep(work, pairs, p, evaluation.tets(pairs.a[p], pairs.b[p]));
+      }
+  });
+  order_found(model.surface.triangles.size(), pairs);
 }
 
 // Marks the edges that have a contact before the step.
@@ -107,6 +131,8 @@ ContactSums contact_forces(const Model& model, State& state, ContactWork& own, i
     find_block_motions(model, state, own, threads);
   }
   find_awake(model, state, own);
+  find_tets_awake(model, state, own, threads);
+  compute_tets(model, state, own, threads);
   FoundContacts found(model, state, own);
   for (std::int64_t first = 0; first < n_chunks; first += chunks_at_a_time * threads) {
     const std::int64_t count = std::min(n_chunks - first, chunks_at_a_time * threads);

@@ -2,6 +2,7 @@
 
 #include "libcdem/contact/data/row_owner.hpp"
 #include "libcdem/contact/geometry/positions.hpp"
+#include "libcdem/contact/narrow_phase/tets_awake.hpp"
 #include "libcdem/contact/response/contact_point.hpp"
 #include "libcdem/element/rigid_motion.hpp"
 #include "libcdem/model/build/rigid_bodies.hpp"
@@ -59,27 +60,50 @@ FoundContacts::FoundContacts(const Model& model, State& state, ContactWork& work
       sums.each([](ExactSum& sum) { sum.clear(); });
       sums.touches = false;
     }
+  if (work.tet_pairs)
+    for (const ContactChunk& chunk : work.tet_pairs->found)
+      add_depths(chunk.sums, sums_);
   work.now.clear();
   work.now.reserve(state.contacts.size() + state.contacts.size() / 8 + 64);
 }
 
 void FoundContacts::add(const ContactChunk& found, Contact::Kind kind) {
   add_depths(found.sums, sums_);
-  sums_.contacts += static_cast<std::int64_t>(found.contacts.size());
+  if (kind == Contact::edge)
+    add_of_tets_before(nullptr);
   for (std::size_t i = 0; i < found.contacts.size(); ++i) {
-    const ContactForce& force = found.forces[i];
-    friction_.add(force.friction);
-    damping_.add(force.damping);
-    insert(found.contacts[i], work_.now);
-    add_on_rigid(force);
-    if (both_rigid(model_, force.source_block, force.target_block))
-      continue;
-    if (!work_.shared) {
-      add_at_nodes(force);
-      continue;
-    }
-    told_[kind].push_back(force);
+    if (kind == Contact::spring)
+      add_of_tets_before(&found.contacts[i]);
+    add(found.contacts[i], found.forces[i], kind);
   }
+}
+
+void FoundContacts::add_of_tets_before(const Contact* next) {
+  if (!work_.tet_pairs)
+    return;
+  const TetPairs& pairs = *work_.tet_pairs;
+  for (; next_of_tets_ < pairs.ordered.size(); ++next_of_tets_) {
+    const PlaceOfFound& at = pairs.ordered[next_of_tets_];
+    const ContactChunk& chunk = pairs.found[at.chunk];
+    if (next && !(order_of(chunk.contacts[at.number]) < order_of(*next)))
+      return;
+    add(chunk.contacts[at.number], chunk.forces[at.number], Contact::spring);
+  }
+}
+
+void FoundContacts::add(const Contact& contact, const ContactForce& force, Contact::Kind kind) {
+  ++sums_.contacts;
+  friction_.add(force.friction);
+  damping_.add(force.damping);
+  insert(contact, work_.now);
+  add_on_rigid(force);
+  if (both_rigid(model_, force.source_block, force.target_block))
+    return;
+  if (!work_.shared) {
+    add_at_nodes(force);
+    return;
+  }
+  told_[kind].push_back(force);
 }
 
 void FoundContacts::add_at_nodes(const ContactForce& f) {
@@ -243,6 +267,7 @@ void FoundContacts::set_values() {
 }
 
 ContactSums FoundContacts::end() {
+  add_of_tets_before(nullptr);
   add_losses();
   if (work_.shared)
     exchange();

@@ -127,9 +127,18 @@ double far_at_first(const ContactWork& work, const ContactTriangle& t) {
   return depth_of(work, t) + thickest_skin * usual(work, t);
 }
 
-SearchMargin::SearchMargin(const Model& model, const State& state, const ContactWork& work)
+SearchMargin::SearchMargin(const Model& model, const State& state, const ContactWork& work,
+                           const std::vector<char>& searched)
     : surface_(model.surface), work_(work), whole_(work.broken), deepest_(model.blocks.size(), 0.0),
-      at_least_(model.blocks.size()) {
+      at_least_(model.blocks.size()), allowed_(work.skin) {
+  // A fragment stays within its skin around where it was searched, and may go back all the way through that place.
+  for (int m = static_cast<int>(model.blocks.size()); m < work.movers.count(); ++m)
+    if (!searched[m])
+      allowed_[m] += gone_at_most(model, work, m);
+  for (int m = static_cast<int>(model.blocks.size()); m < work.movers.count(); ++m) {
+    double& most = allowed_[work.movers.block[m]]; // of a block the most of its fragments
+    most = std::max(most, allowed_[m]);
+  }
   if (!work.history_complete)
     std::fill(whole_.begin(), whole_.end(), 1);
   for (const Contact& c : state.contacts) {

@@ -40,7 +40,11 @@ double far_at_first(const ContactWork&, const ContactTriangle&);
 // Largest depth of a contact between two blocks for which the search allows, m.
 class SearchMargin {
 public:
-  SearchMargin(const Model&, const State&, const ContactWork&);
+  // searched: per mover, those of which the skin counts from now on.
+  SearchMargin(const Model&, const State&, const ContactWork&, const std::vector<char>& searched);
+
+  // m, per mover: no node of it goes further from where it is now before it is searched next.
+  const std::vector<double>& allowed() const { return allowed_; }
 
   double operator()(const ContactTriangle& t) const {
     return std::max(whole_[t.block] ? depth_of(work_, t) : 0, at_least_[t.block]);
@@ -49,7 +53,7 @@ public:
   double known(int block_a, int block_b) const { return std::min(deepest_[block_a], deepest_[block_b]); }
   // What a triangle's box has to hold around it for it to meet another before the next search.
   double margin(int triangle) const {
-    return work_.skin[work_.movers.of_triangle[triangle]] + (*this)(surface_.triangles[triangle]);
+    return allowed_[work_.movers.of_triangle[triangle]] + (*this)(surface_.triangles[triangle]);
   }
 
 private:
@@ -58,6 +62,7 @@ private:
   std::vector<char> whole_;     // per block: anything may stand in it, as where a stage begins or faces break
   std::vector<double> deepest_; // m, per block, of the contacts that are known
   std::vector<double> at_least_; // m, per block
+  std::vector<double> allowed_;
 };
 
 // A triangle where it is now.

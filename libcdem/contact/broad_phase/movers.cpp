@@ -1,6 +1,7 @@
 #include "libcdem/contact/broad_phase/movers.hpp"
 
 #include "libcdem/bond/fragments.hpp"
+#include "libcdem/contact/broad_phase/tet_pairs.hpp"
 #include "libcdem/ranks/bytes.hpp"
 #include "libcdem/ranks/shared_state.hpp"
 #include "libcdem/state/places.hpp"
@@ -122,6 +123,11 @@ void carry_over(const Model& model, ContactWork& before, ContactWork& work) {
       if (!work.changed[m] && old[m] >= 0 && old[m] < static_cast<int>(then.size()))
         now[m] = std::move(then[old[m]]);
   };
+  std::vector<int> now_of(before.movers.count(), -1);
+  for (int m = 0; m < work.movers.count(); ++m)
+    if (!work.changed[m] && old[m] >= 0)
+      now_of[old[m]] = m;
+  renumber_tet_pairs(now_of, work);
   carry(&ContactWork::travelled);
   carry(&ContactWork::skin);
   carry(&ContactWork::inner_skin);

@@ -157,7 +157,7 @@ std::vector<Near> near_edges_within(const Model& model, const State& state, cons
   }
   std::sort(triangles.begin(), triangles.end());
   triangles.erase(std::unique(triangles.begin(), triangles.end()), triangles.end());
-  Bars bars(model, state, work, Skins(work.skin));
+  Bars bars(model, state, work, Skins(margins.allowed()));
   geom::Box everywhere;
   std::swap(everywhere.min, everywhere.max);
   for (const int t : triangles)
@@ -186,7 +186,7 @@ std::vector<Near> near_edges_of_fragments(const Model& model, const State& state
                                           const std::vector<char>& searched) {
   const ContactSurface& s = model.surface;
   const double depth = std::max(edge_depth(work, block), margins.known(block, block));
-  Bars bars(model, state, work, Skins(work.skin));
+  Bars bars(model, state, work, Skins(margins.allowed()));
   geom::Box everywhere;
   std::swap(everywhere.min, everywhere.max);
   std::vector<geom::Box> boxes;
@@ -195,7 +195,7 @@ std::vector<Near> near_edges_of_fragments(const Model& model, const State& state
     bars.add(t, everywhere);
   for (std::size_t k = 0; k < bars.edges().size(); ++k) {
     boxes.push_back(
-        grown(bars.boxes()[k], 0.5 * depth + work.skin[work.movers.of_triangle[bars.triangle(k)]]));
+        grown(bars.boxes()[k], 0.5 * depth + margins.allowed()[work.movers.of_triangle[bars.triangle(k)]]));
     wanted.push_back(searched[bars.edges()[k]]);
   }
   std::vector<Near> out;

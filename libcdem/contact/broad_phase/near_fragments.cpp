@@ -4,6 +4,7 @@
 #include "libcdem/contact/broad_phase/search.hpp"
 #include "libcdem/contact/broad_phase/search_shares.hpp"
 #include "libcdem/contact/broad_phase/solid_grid.hpp"
+#include "libcdem/contact/broad_phase/tet_pairs.hpp"
 #include "libcdem/contact/geometry/nearest.hpp"
 #include "libcdem/contact/response/contact_point.hpp"
 
@@ -28,6 +29,7 @@ struct Surroundings {
   const std::vector<Solid>& solids;
   const SolidGrid &all, &searched; // of tetrahedra
   const std::vector<char>& is_searched;
+  const std::vector<double>& allowed;      // m, may_still_go
   double skin = 0, inner = 0, tallest = 0; // m, the thickest skins and the highest tetrahedron of the block
 };
 
@@ -117,7 +119,7 @@ private:
     around_.clear();
     const double most = 8 * bond_gives * all_.tallest + drawn;
     const double reach =
-        std::max({work_.skin[mover_] + all_.skin, 3 * (work_.inner_skin[mover_] + all_.inner),
+        std::max({all_.allowed[mover_] + all_.skin, 3 * (work_.inner_skin[mover_] + all_.inner),
                   work_.movers.one_piece[mover_] ? 0 : 3 * skins(mover_)});
     ++asked_;
     grid_->each_near(x[k], reach + most, [&](int i) {
@@ -127,11 +129,15 @@ private:
       const Solid& solid = all_.solids[i];
       if (solid.mover == mover_ && work_.movers.one_piece[mover_])
         return;
-      const double outside = solid.outside(x[k]) - drawn;
-      if (outside >
-          std::max(work_.skin[mover_] + work_.skin[solid.mover], 3 * skins(solid.mover) + slack(solid.mover)))
+      if (both_tets(solid.mover) && met_[solid.mover] == own_)
         return;
-      around_.push_back({solid.mover, i, outside});
+      const double outside = solid.outside(x[k]) - drawn;
+      const double near = all_.allowed[mover_] + all_.allowed[solid.mover];
+      if (outside >
+          (both_tets(solid.mover) ? near : std::max(near, 3 * skins(solid.mover) + slack(solid.mover))))
+        return;
+      if (!both_tets(solid.mover)) // else the narrow phase goes by the pair
+        around_.push_back({solid.mover, i, outside});
       if (solid.mover != mover_ && met_[solid.mover] != own_) {
         met_[solid.mover] = own_;
         near_.push_back(solid.mover);
@@ -164,7 +170,7 @@ private:
       }
       if (least > near)
         continue;
-      if (of != mover_ && is_tet(of)) {
+      if (of != mover_ && is_single_tet(work_, of)) {
         const auto known =
             std::find_if(tets.begin(), tets.end(), [&](const NearTet& t) { return t.mover == of; });
         if (known == tets.end())
@@ -214,6 +220,8 @@ private:
                        [&](int target) { return target >= 0 && may_meet(source, target); });
   }
 
+  bool both_tets(int of) const { return is_single_tet(work_, mover_) && is_single_tet(work_, of); }
+
   void add_triangles(int source, int solid, std::vector<int>& targets) const {
     for (const int target : all_.solids[solid].triangles)
       if (target >= 0 && may_meet(source, target))
@@ -230,8 +238,6 @@ private:
     for (const int target : targets)
       pairs_.emplace_back(source, target);
   }
-
-  bool is_tet(int mover) const { return work_.movers.triangles_of_tet[mover][0] >= 0; }
 
   // All triangles of such tets: the narrow phase tells by their planes whether they are any.
   void keep_tets(int source, const std::vector<NearTet>& tets) {
@@ -276,19 +282,20 @@ NearFragments near_fragments(const Model& model, const State& state, const Conta
                              const std::vector<char>& searched, int threads) {
   const std::vector<Solid> solids = solids_of(model, state, work, active, block);
   std::vector<int> all, of_searched;
-  double inner = 0, tallest = 0;
+  double skin = 0, inner = 0, tallest = 0;
   for (int i = 0; i < static_cast<int>(solids.size()); ++i) {
     all.push_back(i);
     if (searched[solids[i].mover])
       of_searched.push_back(i);
+    skin = std::max(skin, margins.allowed()[solids[i].mover]);
     inner = std::max(inner, work.inner_skin[solids[i].mover]);
   }
   for (int i = active.block_begin[block]; i < active.block_begin[block + 1]; ++i)
     tallest = std::max(tallest, model.surface.triangles[active.triangles[i]].height);
   const SolidGrid grid(model, state, solids, all), grid_of_searched(model, state, solids, of_searched);
   const Surroundings around{
-      model, work,   margins, active, solids, grid, grid_of_searched, searched, work.skin[block],
-      inner, tallest};
+      model, work,  margins, active, solids, grid, grid_of_searched, searched, margins.allowed(),
+      skin,  inner, tallest};
   constexpr std::int64_t solids_per_chunk = 64;
   const std::vector<Range> chunks = split(static_cast<std::int64_t>(solids.size()), solids_per_chunk);
   std::vector<Pairs> movers(chunks.size());

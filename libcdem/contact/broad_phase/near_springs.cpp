@@ -23,7 +23,7 @@ public:
   SpringsOfSource(const Model& model, const ContactWork& work, const SearchMargin& margins,
                   const ActiveSurface& active, const Skins& skins)
       : s_(model.surface), model_(model), work_(work), margins_(margins), active_(active), skins_(skins),
-        own_skins_(skins.of_pair() ? skins : Skins(work.skin)) {}
+        own_skins_(skins.of_pair() ? skins : Skins(margins.allowed())) {}
 
   // pairs [begin, end)
   void add(const Pairs& pairs, std::size_t begin, std::size_t end, std::vector<Near>& out) {
@@ -31,7 +31,7 @@ public:
     const ContactTriangle &from = triangle(source), &first = triangle(pairs[begin].second);
     const int own = mover(source), other = mover(pairs[begin].second);
     // What a mover does relative to itself is not watched: until it leaves its skin.
-    const double skins = own == other ? 2 * work_.skin[own] : skins_.between(own, other);
+    const double skins = own == other ? 2 * margins_.allowed()[own] : skins_.between(own, other);
     bonded_ = bonded(model_, work_, first.block, other);
     double margin_of_targets = 0, one_place_of_targets = 0; // the largest
     for (std::size_t i = begin; i < end; ++i) {

@@ -8,6 +8,7 @@
 #include "libcdem/contact/broad_phase/rigid_pairs.hpp"
 #include "libcdem/contact/broad_phase/rows.hpp"
 #include "libcdem/contact/broad_phase/search_shares.hpp"
+#include "libcdem/contact/broad_phase/tet_pairs.hpp"
 #include "libcdem/contact/geometry/positions.hpp"
 #include "libcdem/contact/geometry/semi_edges.hpp"
 #include "libcdem/model/build/contact_surface.hpp"
@@ -180,7 +181,7 @@ bool search_contacts(const Model& model, const State& state, ContactWork& work, 
                                          (fragments_due && fragments_only));
   edges_to_search(work, edges_before, fragments_due, renewed);
   const std::vector<double> pace = choose_skins(model, state, work, renewed.movers, renewed.all);
-  const SearchMargin margins(model, state, work);
+  const SearchMargin margins(model, state, work, renewed.movers);
   const ActiveSurface active = active_surface(model, state, work, margins, renewed.movers, threads);
   if (!active.finite())
     return false;
@@ -226,7 +227,7 @@ bool search_contacts(const Model& model, const State& state, ContactWork& work, 
     std::vector<Near>&springs = found.springs[place], &edges = found.edges[place];
     if (i >= n_pairs + n_alone) {
       const RigidPair& pair = pairs.pairs[pairs.searched[i - n_pairs - n_alone]];
-      const Skins skins(work.skin, pair.skin);
+      const Skins skins(margins.allowed(), pair.skin);
       const auto [a, b] = std::minmax(pair.a, pair.b);
       const SharedPart part = shared_part(active, a, b, skins);
       edges = near_edges(model, state, work, margins, active, part, skins);
@@ -234,7 +235,7 @@ bool search_contacts(const Model& model, const State& state, ContactWork& work, 
       springs = near_springs(model, work, margins, active, near, skins);
       return;
     }
-    const Skins skins(work.skin);
+    const Skins skins(margins.allowed());
     if (i >= n_pairs) {
       NearWithin near = near_within(model, work, margins, active, alone[i - n_pairs]);
       edges = near_edges_within(model, state, work, margins, active, near.meeting);
@@ -285,9 +286,12 @@ bool search_contacts(const Model& model, const State& state, ContactWork& work, 
   begin_drifts(model, state, renewed.movers, work);
   set_drifts(model, state, work, threads);
   ++work.searches;
+  keep_tet_pairs(model, renewed.movers, found.movers, work);
   keep_near_movers(model, found.movers, renewed.movers, work);
-  if (work.anew) // whatever is known, all is looked at
+  if (work.anew) { // whatever is known, all is looked at
     let_all_wake(work, any_bonded_faces(model, state));
+    let_tet_pairs_wake(work);
+  }
   if (renewed.all)
     work.steps_since_search = 0;
   work.fragments_due = work.blocks_due = work.pairs_due = work.all_due = work.anew = false;

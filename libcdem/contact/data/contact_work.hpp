@@ -20,11 +20,13 @@
 
 #include <array>
 #include <limits>
+#include <memory>
 #include <vector>
 
 namespace cdem {
 
 class SharedState; // ranks/shared_state.hpp
+struct TetPairs;   // contact/data/tet_pairs.hpp
 
 inline constexpr std::int64_t contact_rows_per_chunk = 64;
 // Depth over the usual height of a tet at a block's surface: around a deeper contact all pairs are computed in every
@@ -203,7 +205,8 @@ struct ContactWork {
   std::vector<geom::Vec3> drift;
   std::vector<double> swing;
   std::vector<geom::Vec3> at_search;        // m
-  std::vector<std::vector<NearMover>> near; // per mover
+  std::vector<std::vector<NearMover>> near; // per mover; none of two single tets
+  std::shared_ptr<TetPairs> tet_pairs;      // of two single tets; null: none has been found yet
   // Per mover, of fragments: the last search of it; how far it may travel before the others near it are looked at; the
   // part that is left of what it may go relative to the one that is worst off.
   std::vector<int> search_of;

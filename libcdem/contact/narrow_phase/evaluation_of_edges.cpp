@@ -11,7 +11,7 @@ namespace cdem {
 namespace {
 
 // How far, m, two edges may go, both together, before a pair that may not begin now can do so: because they are nearly
-// parallel or, of rigid blocks, their common normal lies outside a fan; or because their nearest places stay at the last end
+// parallel or their common normal lies outside a fan; or because their nearest places stay at the last end
 // of one of their lines.
 struct Hindrance {
   double by_angle = 0, last_end = 0;
@@ -31,7 +31,7 @@ Hindrance hindrance_of(const Model& model, const State& state, const ContactEdge
   return {std::max(0., by_angle), std::max({0., left(e_ends, at.s, la), left(f_ends, at.t, lb)})};
 }
 
-// m: until two edges of rigid blocks have moved so far they do not touch: either normal lies outside a fan (the Gauss map),
+// m: until two edges have moved so far they do not touch: either normal lies outside a fan (the Gauss map),
 // or it tells that they are apart. Along a common normal of two lines any two places of them are as far from each other.
 double apart_until(const Model& model, const State& state, const ContactEdge& e, const ContactEdge& f,
                    const geom::Vec3& way) {
@@ -69,6 +69,12 @@ double apart_until(const Model& model, const State& state, const ContactEdge& e,
 
 } // namespace
 
+// The motion of its mover bounds that of both its faces. Not so of a wedge of several fragments that still hold together.
+bool Evaluation::moves_as_one(const ContactEdge& edge) const {
+  const std::vector<int>& of = work_.movers.of_triangle;
+  return of[edge.triangles[0]] == of[edge.triangles[1]];
+}
+
 void Evaluation::edges(ContactRow& row, ContactCandidate* candidates) {
   const ContactEdge& e = work_.edges[row.source];
   const ContactTriangle& from = surface_.triangles[e.triangles[0]];
@@ -103,7 +109,7 @@ void Evaluation::edges(ContactRow& row, ContactCandidate* candidates) {
     const bool may_begin = distance <= limit && !e_ends && !f_ends;
     if (apart <= 0) {
       Hindrance hindrance = hindrance_of(model_, state_, e, f, nearest.at, e_ends, f_ends);
-      if (row.pair >= 0)
+      if (moves_as_one(e) && moves_as_one(f))
         hindrance.by_angle = std::max(hindrance.by_angle, apart_until(model_, state_, e, f, nearest.way));
       candidate.recheck_distance = rounded_down(from_here + std::max(hindrance.by_angle, hindrance.last_end));
       candidate.springs = hindrance.last_end > hindrance.by_angle ? 1 : 0;

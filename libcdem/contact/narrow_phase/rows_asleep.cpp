@@ -11,11 +11,8 @@
 namespace cdem {
 namespace {
 
-// Marks the rows that do not sleep.
-CDEM_INLINE void awake_kernel(const double* travelled, const RowsAsleep& rows, std::uint64_t* awake) {
-  const auto count = static_cast<std::int64_t>(rows.mover.size());
-  const float* const recheck = rows.recheck_distance.data();
-  const int *const source = rows.source_mover.data(), *const mover = rows.mover.data();
+CDEM_INLINE void awake_kernel(const double* travelled, const float* recheck, const int* source,
+                              const int* mover, std::int64_t count, std::uint64_t* awake) {
   for (std::int64_t begin = 0; begin < count; begin += contact_rows_per_chunk) {
     const std::int64_t end = std::min(count, begin + contact_rows_per_chunk);
     std::uint64_t bits = 0;
@@ -86,10 +83,16 @@ void wake_all(RowsAsleep& rows) {
 
 } // namespace
 
+void find_awake(const double* travelled, const float* until, const int* mover_a, const int* mover_b,
+                std::size_t count, std::uint64_t* awake) {
+  simd::best<awake_kernel>(travelled, until, mover_a, mover_b, static_cast<std::int64_t>(count), awake);
+}
+
 void find_awake(const Model& model, const State& state, ContactWork& work) {
   for (RowsAsleep& rows : work.asleep) {
     rows.awake.resize((rows.mover.size() + contact_rows_per_chunk - 1) / contact_rows_per_chunk);
-    simd::best<awake_kernel>(work.travelled.data(), rows, rows.awake.data());
+    find_awake(work.travelled.data(), rows.recheck_distance.data(), rows.source_mover.data(),
+               rows.mover.data(), rows.mover.size(), rows.awake.data());
   }
   for (std::size_t p = 0; p < work.rigid_pairs.size(); ++p)
     if (work.looks_at_all || path_of(work, work.rigid_pairs[p]) >= work.rigid_pairs[p].look_at)
