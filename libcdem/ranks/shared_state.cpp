@@ -225,6 +225,13 @@ void SharedState::gather_contacts(State& state) {
   contacts_whole_ = true;
 }
 
+void SharedState::show_lead(State& state) {
+  if (!state.parted || whole_)
+    return;
+  shares_->gather_fields_on_lead(state);
+  since_whole_ = since_surfaces_ = 0; // the pages that rank 0 has filled are given back with those of others
+}
+
 void SharedState::gather(State& state) {
   if (state.parted && !whole_)
     shares_->gather(state);

@@ -142,13 +142,17 @@ void StateShares::gather_contacts(State& state) const {
     add_contacts(ranks().gather(own_contacts(state)), state);
 }
 
-void StateShares::gather_on_lead(State& state) const {
+void StateShares::gather_fields_on_lead(State& state) const {
   const auto visit = [&](const std::vector<std::int64_t>& begin, std::size_t entries, auto& values) {
     gather_on_lead(values.data(), begin, values.size() * sizeof values[0], entries * sizeof values[0]);
   };
   each_large(visit, state);
   each_small(visit, state);
   gather_slips(state);
+}
+
+void StateShares::gather_on_lead(State& state) const {
+  gather_fields_on_lead(state);
   if (is_rigid_.empty())
     return;
   std::vector<std::string> to(static_cast<std::size_t>(size_));

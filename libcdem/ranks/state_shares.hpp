@@ -44,6 +44,7 @@ public:
   void gather_surfaces(State&) const; // where nodes are, and which bonds hold
   void gather_contacts(State&) const; // of rigid bodies: those of others all know
   void gather_on_lead(State&) const;
+  void gather_fields_on_lead(State&) const; // but contacts
   // The same for arrays beside the State.
   template <class T>
   void gather_nodes(std::vector<T>& values) const {

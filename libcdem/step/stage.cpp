@@ -345,8 +345,9 @@ void Stage::poll(const StepReport& step_report) {
 void Stage::show() {
   if (!context_.observer.wants_view())
     return;
-  const SynchronisedView view(*this);
-  context_.observer.view(make_snapshot(context_.model, context_.state, ""));
+  const SynchronisedView view(*this, SynchronisedView::For::lead);
+  if (ranks().leads())
+    context_.observer.view(make_snapshot(context_.model, context_.state, ""));
 }
 
 StageResult Stage::finish(const StepReport& step_report) {

@@ -2,7 +2,7 @@
 
 namespace cdem {
 
-SynchronisedView::SynchronisedView(Stage& stage) : stage_(stage) {
+SynchronisedView::SynchronisedView(Stage& stage, For whom) : stage_(stage) {
   stage.synchronise_contacts();
   const State& state = stage.context_.state;
   if (!state.faces.empty() && stage.work.strain_step > 0) {
@@ -21,7 +21,7 @@ SynchronisedView::SynchronisedView(Stage& stage) : stage_(stage) {
   }
   RunLog of_view;
   stage.synchronise_stress(of_view);
-  stage.see_whole();
+  whom == For::all ? stage.see_whole() : stage.show_lead();
 }
 
 SynchronisedView::~SynchronisedView() {

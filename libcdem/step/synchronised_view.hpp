@@ -9,7 +9,9 @@ namespace cdem {
 
 class SynchronisedView {
 public:
-  explicit SynchronisedView(Stage&);
+  // With several ranks the State is whole for all of them, or its fields are for rank 0.
+  enum class For { all, lead };
+  explicit SynchronisedView(Stage&, For = For::all);
   ~SynchronisedView();
   SynchronisedView(const SynchronisedView&) = delete;
   SynchronisedView& operator=(const SynchronisedView&) = delete;

@@ -136,6 +136,42 @@ TEST_CASE("a limit of memory ends in one line") {
     CHECK_THAT(run_cdem({"check", "case.lua", "--memory", wrong}, start).err, Contains("--memory = "));
 }
 
+TEST_CASE("a model that needs more memory than there may be is warned of before it is built or cut, for each "
+          "rank") {
+  const TempFolder folder;
+  Start start;
+  start.folder = folder.path();
+  write_file(
+      folder / "case.lua",
+      module +
+          "local n = cdem.parameter{ name = 'n', default = 14 }\n"
+          "local rock = cdem.elastic{ youngs_modulus = 1e9, poissons_ratio = 0.2, density = 2500 }\n"
+          "local joint = cdem.mohr_coulomb{ cohesion = 6e5, friction_angle = 30, tensile_strength = 2e5 }\n"
+          "local model = cdem.model{ bodies = { { shape = cdem.grid{ size = {1, 1, 1}, divisions = {n, n, n} "
+          "},\n"
+          "  material = rock, joint = joint, name = 'plate', element = 'small_strain' } } }\n"
+          "model:fix{ on = 'y-' }\n"
+          "model:refine{ tension_threshold = 0.5, shear_threshold = 0.5 }");
+  const auto warned = [&](const std::string& memory, const std::string& ranks) {
+    return run_cdem({"run", "case.lua", "--output", "out", "--memory", memory, "--ranks", ranks}, start).err;
+  };
+  // 2744 blocks of 24 tets: 64 MB to build, 105 MB to cut.
+  CHECK(warned("2G", "1").empty());
+  CHECK_THAT(warned("90M", "1"),
+             !Contains("building this model takes") &&
+                 Contains("case.lua:8: warning: cutting this model takes some 105 MB of memory in this "
+                          "process, which may take 94 MB"));
+  // Whether it is enough in the end or not.
+  CHECK_THAT(run_cdem({"check", "case.lua", "--memory", "90M", "--set", "n=17"}, start).err,
+             Contains("warning: building this model takes some 114 MB"));
+  if (no_mpirun())
+    return;
+  CHECK(warned("2G", "2").empty());
+  CHECK_THAT(warned("180M", "2"), !Contains("building this model takes") &&
+                                      Contains("in each of 2 ranks, which may take 94 MB") &&
+                                      Contains("start fewer ranks on a machine"));
+}
+
 TEST_CASE("runs of a sweep share what it may take") {
   const TempFolder folder;
   Start start;
@@ -158,6 +194,7 @@ TEST_CASE("a picture for which memory is short is left out with a warning, and t
   const TempFolder folder;
   write_file(folder / "case.lua",
              module +
+                 "local n = cdem.parameter{ name = 'n', default = 14 }\n"
                  "local rock = cdem.elastic{ youngs_modulus = 1e9, poissons_ratio = 0, density = 2000 }\n"
                  "local model = cdem.model{ bodies = { { shape = cdem.box_mesh{ size = {1, 1, 1}, divisions "
                  "= {2, 2, 2} "

@@ -2,8 +2,10 @@
 #include "lua/binding/functions/angles.hpp"
 #include "lua/binding/functions/selections.hpp"
 #include "lua/binding/functions/solving_stage.hpp"
+#include "lua/binding/functions/solving_warnings.hpp"
 #include "lua/binding/runtime/module.hpp"
 
+#include "libcdem/memory_needed.hpp"
 #include "libgeom/core/error.hpp"
 
 #include <algorithm>
@@ -62,6 +64,7 @@ Value refine(Session& session, ModelObject& model, const Arguments& a) {
   RefineOptions options = refine_options(model, a);
   options.may_break = may_break_of(a.text("may_break"));
   return stage(session, model, "refine", a, Table(), [&](Simulation& simulation) {
+    warn_of_memory(session, "cutting this model", memory_to_cut(simulation.counts().tets));
     const std::vector<BlockCut> cuts = simulation.refine(options);
     const auto shear = std::count_if(cuts.begin(), cuts.end(),
                                      [](const BlockCut& cut) { return cut.mode == CutMode::shear; });
@@ -124,6 +127,7 @@ Value grow(Session& session, ModelObject& model, const Arguments& a) {
     };
   return stage(session, model, "grow", a, grow_result({}),
                [&](Simulation& simulation) {
+                 warn_of_memory(session, "cutting this model", memory_to_cut(simulation.counts().tets));
                  const GrowResult result = simulation.grow(options);
                  if (result.state == GrowState::stuck)
                    session.warn("grow: stuck in pass " + std::to_string(result.passes.size()) +

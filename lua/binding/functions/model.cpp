@@ -7,6 +7,7 @@
 #include "lua/binding/runtime/module.hpp"
 #include "lua/binding/schema/nearest.hpp"
 
+#include "libcdem/memory_needed.hpp"
 #include "libgeom/core/error.hpp"
 #include "libgeom/mesh/parts.hpp"
 
@@ -230,6 +231,7 @@ Value make_model(Session& session, Object*, const Arguments& a) {
   read_pairs(a, spec);
   // Lua sees only the few bytes it holds of a model, and would keep finished ones for long.
   session.collect_garbage();
+  warn_of_memory(session, "building this model", memory_to_build(spec));
   auto model =
       std::make_shared<ModelObject>(Simulation(spec, session.settings.threads, session.settings.observer));
   for (const BodySpec& body : spec.bodies)

@@ -1,5 +1,7 @@
 #include "lua/binding/functions/solving_warnings.hpp"
 
+#include "libcdem/memory_needed.hpp"
+#include "libcdem/ranks/ranks.hpp"
 #include "libcdem/results/one_way_energies.hpp"
 #include "libcdem/state/ledger.hpp"
 #include "libcdem/step/errors.hpp"
@@ -186,6 +188,17 @@ void check_energy(Session& session, ModelObject& model, const Stage& stage) {
   if (worst > broken_balance)
     throw SolutionError(found + why);
   session.warn(found + ", more than 1 %" + why);
+}
+
+void warn_of_memory(const Session& session, const std::string& what, double bytes) {
+  const EngineSettings& settings = session.settings;
+  if (settings.memory == 0 || session.checkpoints.silent())
+    return;
+  double least = -static_cast<double>(settings.memory); // of any machine
+  ranks().largest(&least, 1);
+  const std::string text = memory_warning(what, bytes, -least, ranks().size());
+  if (!text.empty() && settings.observer)
+    settings.observer->warning((session.where ? session.where() + ": " : "") + "warning: " + text);
 }
 
 } // namespace cdem::script

@@ -27,4 +27,8 @@ void check_energy(Session&, ModelObject&, const Stage&);
 // "contact of "a" and "b"", or "joint of "a"" between its own blocks.
 std::string shown_pair(const std::string& body_a, const std::string& body_b);
 
+// Where what comes next takes more memory than a rank may. Not in the report, which is the same for any number of ranks. All
+// ranks call it together. what: "building this model"; bytes: in each rank.
+void warn_of_memory(const Session&, const std::string& what, double bytes);
+
 } // namespace cdem::script
