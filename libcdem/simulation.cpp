@@ -87,7 +87,23 @@ void Simulation::release(const Selection& on, std::array<bool, 3> axes) {
   });
 }
 
-void Simulation::traction(const Traction& traction) {
+namespace {
+
+// Whether a load acts where one of those before it does. chosen: the faces or nodes of a selection, ascending.
+template <class Load>
+bool meets_earlier(std::vector<int> (*chosen)(const Model&, const Selection&), const Model& model,
+                   const std::vector<Load>& before, const Load& load) {
+  const std::vector<int> here = chosen(model, load.on);
+  return std::any_of(before.begin(), before.end(), [&](const Load& earlier) {
+    const std::vector<int> there = chosen(model, earlier.on);
+    return std::any_of(there.begin(), there.end(),
+                       [&](int place) { return std::binary_search(here.begin(), here.end(), place); });
+  });
+}
+
+} // namespace
+
+bool Simulation::traction(const Traction& traction) {
   require_finite("stress", traction.stress);
   if (traction.pressure && traction.pressure->level) {
     if (!std::isfinite(*traction.pressure->level))
@@ -97,12 +113,16 @@ void Simulation::traction(const Traction& traction) {
       throw geom::InputError("weight", fmt::format("{:g}", traction.pressure->weight),
                              "a finite number > 0 N/m3", "water has 9810");
   }
+  const std::vector<Traction> before = impl_->conditions.tractions;
   impl_->add_condition([&](Conditions& c) { c.tractions.push_back(traction); });
+  return !impl_->replaying && meets_earlier(selected_outer_faces, impl_->model, before, traction);
 }
 
-void Simulation::force(const PointForce& force) {
+bool Simulation::force(const PointForce& force) {
   require_finite("force", force.force);
+  const std::vector<PointForce> before = impl_->conditions.forces;
   impl_->add_condition([&](Conditions& c) { c.forces.push_back(force); });
+  return !impl_->replaying && meets_earlier(selected_nodes, impl_->model, before, force);
 }
 
 void Simulation::gravity(const Gravity& gravity) {

@@ -108,8 +108,9 @@ public:
   // Conditions; each throws geom::InputError when it selects nothing or a value cannot be used.
   void fix(const Fix&);
   void release(const Selection&, std::array<bool, 3> axes); // undo fixes there
-  void traction(const Traction&);
-  void force(const PointForce&);
+  // True when it acts on faces or nodes that an earlier one of its kind loads: they add up.
+  bool traction(const Traction&);
+  bool force(const PointForce&);
   void gravity(const Gravity&);
   // Each takes the place of a fix of the same place: what this holds stays as a load (State::support_force).
   void quiet(const Quiet&);

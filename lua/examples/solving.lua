@@ -14,6 +14,7 @@ local balance = model:relax{ residual = 1e-4 }
 print(balance.verdict, balance.converged, balance.steps) -- "stable", true
 
 -- example: model:run
+model:clear_loads() -- otherwise the two tractions add up
 model:traction{ on = "y+", stress = {0, -2e6, 0} } -- all at once: the plate rings
 model:run{ duration = 1e-3, every = 20, callback = function() print(model:at("displacement.y", {0.5, 1, 0.05})) end }
 

@@ -870,7 +870,7 @@ function Model:release(options) end
 ---@field amplitude? cdem.Record|number[][]|fun(time: number): number factor over time (s): a cdem.record, a list { {time, value}, ... } with straight lines between and its first and last value outside, or a function, called once a step; a relaxation asks once at its start; 1 when left out
 ---@field since? number s: time of the model at which the amplitude's times begin, 0 when left out; since = model.time lets it begin now, in a later stage
 
----Force per undeformed area on outer faces: a stress, or a pressure along their inward normals, such as that of a reservoir. It acts on faces that are free as the stage begins and does not follow them.
+---Force per undeformed area on outer faces: a stress, or a pressure along their inward normals, such as that of a reservoir. It acts on faces that are free as the stage begins and does not follow them. Several tractions on a face add up.
 ---@param options cdem.ModelTractionOptions
 function Model:traction(options) end
 
@@ -880,7 +880,7 @@ function Model:traction(options) end
 ---@field amplitude? cdem.Record|number[][]|fun(time: number): number factor over time (s): a cdem.record, a list { {time, value}, ... } with straight lines between and its first and last value outside, or a function, called once a step; a relaxation asks once at its start; 1 when left out
 ---@field since? number s: time of the model at which the amplitude's times begin, 0 when left out; since = model.time lets it begin now, in a later stage
 
----A total force, shared among the nodes of a place.
+---A total force, shared among the nodes of a place. Several forces on a node add up.
 ---@param options cdem.ModelForceOptions
 function Model:force(options) end
 

@@ -311,3 +311,23 @@ TEST_CASE(
                                  Contains("take a smaller safety"));
   }
 }
+
+TEST_CASE("a second load on a place adds to the first, and that is told", "[lua]") {
+  const std::string push = "model:force{ on = 'x+', force = {1, 0, 0} }\n";
+  const auto warnings = warnings_of(column() + pull + pull + push + push);
+  REQUIRE(warnings.size() == 2);
+  CHECK_THAT(warnings[0], Contains("traction: it acts on faces that an earlier traction already loads"));
+  CHECK_THAT(warnings[1], Contains("force: it acts on nodes that an earlier force already loads"));
+  CHECK(warnings_of(column() + pull + push + "model:clear_loads()\n" + pull + push).empty());
+}
+
+TEST_CASE("a density that no water has is told of", "[lua]") {
+  const auto in_water = [](const char* density) {
+    return warnings_of(column() + "model:gravity{ vector = {0, 0, -9.81}, water_density = " + density + " }")
+        .size();
+  };
+  CHECK(in_water("1") == 1);
+  CHECK(in_water("10250") == 1);
+  CHECK(in_water("1000") == 0);
+  CHECK(in_water("0") == 0);
+}

@@ -67,7 +67,13 @@ FacePressure face_pressure_of(const Arguments& a) {
   return pressure;
 }
 
-Value traction(Session&, ModelObject& model, const Arguments& a) {
+void warn_of_sum(Session& session, const char* call, const char* what) {
+  session.warn(std::string("model:") + call + ": it acts on " + what + " that an earlier " + call +
+               " already loads; the two add up. To replace it call model:clear_loads() first, which takes "
+               "gravity and flows away too");
+}
+
+Value traction(Session& session, ModelObject& model, const Arguments& a) {
   model.require_idle("traction");
   const Amplitude amplitude = amplitude_of(a);
   if (static_cast<int>(a.has("stress")) + static_cast<int>(a.has("pressure")) +
@@ -90,24 +96,26 @@ Value traction(Session&, ModelObject& model, const Arguments& a) {
              : a.value("pressure").is_number() ? "pressure " + describe(a.value("pressure")) + " Pa"
                                                : std::string("pressure after a function");
     }
-    model.simulation.traction(traction);
+    if (model.simulation.traction(traction))
+      warn_of_sum(session, "traction", "faces");
     note(model, line + " on " + shown(on));
   }
   return {};
 }
 
-Value force(Session&, ModelObject& model, const Arguments& a) {
+Value force(Session& session, ModelObject& model, const Arguments& a) {
   model.require_idle("force");
   PointForce force;
   force.on = one_selection(model, a.value("on"), "on");
   force.force = a.vec3("force");
   force.amplitude = amplitude_of(a);
-  model.simulation.force(force);
+  if (model.simulation.force(force))
+    warn_of_sum(session, "force", "nodes");
   note(model, "force " + describe(a.value("force")) + " N on " + shown(force.on));
   return {};
 }
 
-Value gravity(Session&, ModelObject& model, const Arguments& a) {
+Value gravity(Session& session, ModelObject& model, const Arguments& a) {
   model.require_idle("gravity");
   Gravity gravity;
   if (a.value("vector").reference())
@@ -116,6 +124,9 @@ Value gravity(Session&, ModelObject& model, const Arguments& a) {
     gravity.acceleration = a.vec3("vector");
   gravity.water_density = a.number("water_density");
   gravity.amplitude = amplitude_of(a);
+  if (gravity.water_density > 0 && (gravity.water_density < 500 || gravity.water_density > 2000))
+    session.warn("gravity: water_density = " + describe(a.value("water_density")) +
+                 ": no water has it; it is in kg/m3, fresh water has 1000, sea water 1025");
   model.simulation.gravity(gravity);
   note(model,
        "gravity " + describe(a.value("vector")) + " m/s2" +
@@ -230,7 +241,8 @@ void bind_conditions(Module& m) {
   add("traction",
       "Force per undeformed area on outer faces: a stress, or a pressure along their inward normals, such as "
       "that of a "
-      "reservoir. It acts on faces that are free as the stage begins and does not follow them.",
+      "reservoir. It acts on faces that are free as the stage begins and does not follow them. Several tractions "
+      "on a face add up.",
       {on(), vec3("stress").unit("Pa").doc("force over area"),
        number_or_function("pressure", "(x: number, y: number, z: number): number")
            .unit("Pa")
@@ -241,7 +253,7 @@ void bind_conditions(Module& m) {
        since_field()},
       traction);
   again();
-  add("force", "A total force, shared among the nodes of a place.",
+  add("force", "A total force, shared among the nodes of a place. Several forces on a node add up.",
       {one_place(), vec3("force").unit("N").required().doc("total"), amplitude_field(), since_field()},
       force);
   again();
