@@ -24,7 +24,7 @@ bool goes_with_another(const fs::path& file, const std::set<fs::path>& all) {
   const std::string stem = file.stem().string();
   for (const std::string end : {"_bonds", "_contacts"})
     if (stem.size() > end.size() && stem.compare(stem.size() - end.size(), end.size(), end) == 0)
-      for (const std::string extension :
+      for (const std::string& extension :
            {file.extension().string(), std::string(".vtu"), std::string(".pvtu")})
         if (all.count(file.parent_path() / (stem.substr(0, stem.size() - end.size()) + extension)) > 0)
           return true;
