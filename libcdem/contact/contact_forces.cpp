@@ -54,7 +54,7 @@ bool add_displacements(const Model& model, const State& state, ContactWork& work
 
 // Finds the contacts of pairs of single tetrahedra. Their order follows from the model alone.
 void compute_tets(const Model& model, const State& state, ContactWork& work, int threads) {
-  if (!work.tet_pairs || work.tet_pairs->count() == 0)
+  if (!work.tet_pairs)
     return;
   TetPairs& pairs = *work.tet_pairs;
   const auto count = static_cast<std::int64_t>(pairs.count());

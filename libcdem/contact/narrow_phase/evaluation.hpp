@@ -46,8 +46,8 @@ private:
   // All of them stand outside a fragment that is a single tet, or outside the other block of a rigid pair, and so they
   // touch nothing until they have moved.
   bool stand_outside(ContactRow&, const Springs&);
-  // heights: m, of the source's nodes (columns) over the planes of the other's triangles (rows).
-  double springs_of_tet(int source_mover, int mover, const Eigen::Matrix4d& heights);
+  // heights: m, over the planes of the other's triangles, of the source's nodes.
+  double springs_of_tet(int source_mover, int mover, const std::array<std::array<double, 4>, 4>& heights);
   double spring_in_tet(int source_mover, int mover, int source, int corner, int known);
   // The nearest places of one fragment to them, of all targets that do not sleep.
   void find_nearest(ContactRow&, ContactCandidate*, bool all, const Springs&, std::array<Nearest, 3>&);

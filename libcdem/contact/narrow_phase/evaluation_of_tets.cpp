@@ -17,20 +17,40 @@
 namespace cdem {
 namespace {
 
-using Heights = Eigen::Matrix<double, 4, 4>; // m, of nodes (columns) over planes (rows)
+using Heights = std::array<std::array<double, 4>, 4>; // m, over each plane, of each node
 
 Heights heights_over(const TetShape& shape, const TetPlanes& planes, const TetPlanes& other) {
   Heights h;
   for (int k = 0; k < 4; ++k) {
-    const geom::Vec3& foot = planes.x[shape.corners[k][0]];
+    const geom::Vec3 &foot = planes.x[shape.corners[k][0]], &n = planes.normal[k];
     for (int i = 0; i < 4; ++i)
-      h(k, i) = (other.x[i] - foot).dot(planes.normal[k]);
+      h[k][i] = (other.x[i].x() - foot.x()) * n.x() + (other.x[i].y() - foot.y()) * n.y() +
+                (other.x[i].z() - foot.z()) * n.z();
   }
   return h;
 }
 
+double least_of(const std::array<double, 4>& h) {
+  return std::min(std::min(h[0], h[1]), std::min(h[2], h[3]));
+}
+double most_of(const std::array<double, 4>& h) {
+  return std::max(std::max(h[0], h[1]), std::max(h[2], h[3]));
+}
+
 double parted(const Heights& h) {
-  return h.rowwise().minCoeff().maxCoeff();
+  return std::max(std::max(least_of(h[0]), least_of(h[1])), std::max(least_of(h[2]), least_of(h[3])));
+}
+
+// m, by which all semi-springs at each node stand outside, at least.
+std::array<double, 4> outside_at_nodes(const Heights& h) {
+  std::array<double, 4> outside;
+  outside.fill(-std::numeric_limits<double>::infinity());
+  for (int k = 0; k < 4; ++k) {
+    const double others = 2 * drawn_in * least_of(h[k]);
+    for (int i = 0; i < 4; ++i)
+      outside[i] = std::max(outside[i], (1 - 2 * drawn_in) * h[k][i] + others);
+  }
+  return outside;
 }
 
 // m, of what rounding takes from distances.
@@ -53,43 +73,44 @@ double Evaluation::tets(int a, int b) {
   return std::min(springs_of_tet(a, b, of_a_over_b), springs_of_tet(b, a, of_b_over_a));
 }
 
-double Evaluation::springs_of_tet(int source_mover, int mover, const Eigen::Matrix4d& h) {
+double Evaluation::springs_of_tet(int source_mover, int mover,
+                                  const std::array<std::array<double, 4>, 4>& h) {
   const TetPairs& pairs = *work_.tet_pairs;
   const TetShape &from = pairs.shape[source_mover], &to = pairs.shape[mover];
   const bool all = work_.looks_at_all;
   double until = std::numeric_limits<double>::infinity();
   // Semi-springs at a node are about as far outside as the node: of most nodes this is all that is asked.
+  const std::array<double, 4> outside = outside_at_nodes(h);
   std::array<bool, 4> near{};
   for (int i = 0; i < 4; ++i) {
-    int plane = 0;
-    const double most = h.col(i).maxCoeff(&plane),
-                 outside = most - 2 * drawn_in * (most - std::min(most, h.row(plane).minCoeff()));
-    near[i] = all || outside < shallow_ratio * to.height;
+    near[i] = all || outside[i] < shallow_ratio * to.height;
     if (!near[i])
-      until = std::min(until, less_rounding(outside, to.height));
+      until = std::min(until, less_rounding(outside[i], to.height));
   }
   for (int t = 0; t < 4; ++t) {
+    const std::array<std::uint8_t, 3>& corners = from.corners[t];
     const int source = from.triangles[t];
-    if (!keeps_tet_triangle(own_triangles_, source))
+    if (!(near[corners[0]] || near[corners[1]] || near[corners[2]]) ||
+        !keeps_tet_triangle(own_triangles_, source))
       continue;
     // The plane of the triangle that the source's face still holds; -1: none.
-    const auto mate = std::find(to.triangles.begin(), to.triangles.end(), from.mates[t]);
-    const int held = mate != to.triangles.end() && held_by_face(source, *mate)
-                         ? static_cast<int>(mate - to.triangles.begin())
-                         : -1;
+    int held = -1;
+    for (int k = 0; k < 4; ++k)
+      if (to.triangles[k] == from.mates[t] && held_by_face(source, to.triangles[k]))
+        held = k;
     for (int corner = 0; corner < 3; ++corner) {
-      const int i = from.corners[t][corner];
+      const int i = corners[corner], j = corners[(corner + 1) % 3], l = corners[(corner + 2) % 3];
       if (!near[i])
         continue;
-      const int j = from.corners[t][(corner + 1) % 3], l = from.corners[t][(corner + 2) % 3];
-      const Eigen::Vector4d here = h.col(i) + drawn_in * ((h.col(j) - h.col(i)) + (h.col(l) - h.col(i)));
-      int nearest = 0;
-      const double most = here.maxCoeff(&nearest);
+      std::array<double, 4> here;
+      for (int k = 0; k < 4; ++k)
+        here[k] = (1 - 2 * drawn_in) * h[k][i] + drawn_in * (h[k][j] + h[k][l]);
       const auto most_without = [&](int plane) {
-        Eigen::Vector4d others = here;
+        std::array<double, 4> others = here;
         others[plane] = -std::numeric_limits<double>::infinity();
-        return others.maxCoeff();
+        return most_of(others);
       };
+      const double most = most_of(here);
       double waits = less_rounding(most, to.height);
       if (held >= 0) // nearest to the held triangle, on whichever side of it
         waits = std::max(waits, 0.5 * less_rounding(-most_without(held) - std::abs(here[held]), to.height));
@@ -97,6 +118,7 @@ double Evaluation::springs_of_tet(int source_mover, int mover, const Eigen::Matr
         until = std::min(until, waits);
         continue;
       }
+      const auto nearest = static_cast<int>(std::find(here.begin(), here.end(), most) - here.begin());
       const bool known = !all && most < 0 && less_rounding(most - most_without(nearest), to.height) > 0;
       until = std::min(
           until, spring_in_tet(source_mover, mover, source, corner, known ? to.triangles[nearest] : -1));
