@@ -19,8 +19,9 @@ print(j.j) -- J/m2
 model:record_cracks{ name = "crack" } -- columns crack_area, crack_energy ... of history.csv
 
 -- example: model:cracks
-model:traction{ on = "y+", stress = {0, 2e6, 0} }
-model:traction{ on = "y-", stress = {0, -2e6, 0} }
+model:clear_loads() -- otherwise the new tractions add to the old ones
+model:traction{ on = "y+", stress = {0, 2.04e6, 0} }
+model:traction{ on = "y-", stress = {0, -2.04e6, 0} }
 model:run{ duration = 6e-5 }
 local cracks = model:cracks()
 print(cracks.area, cracks.energy) -- m2, J
