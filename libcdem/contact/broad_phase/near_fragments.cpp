@@ -170,7 +170,7 @@ private:
       }
       if (least > near)
         continue;
-      if (of != mover_ && is_single_tet(work_, of)) {
+      if (of != mover_ && is_single_tet(all_.model, work_, of)) {
         const auto known =
             std::find_if(tets.begin(), tets.end(), [&](const NearTet& t) { return t.mover == of; });
         if (known == tets.end())
@@ -220,7 +220,9 @@ private:
                        [&](int target) { return target >= 0 && may_meet(source, target); });
   }
 
-  bool both_tets(int of) const { return is_single_tet(work_, mover_) && is_single_tet(work_, of); }
+  bool both_tets(int of) const {
+    return is_single_tet(all_.model, work_, mover_) && is_single_tet(all_.model, work_, of);
+  }
 
   void add_triangles(int source, int solid, std::vector<int>& targets) const {
     for (const int target : all_.solids[solid].triangles)

@@ -44,7 +44,7 @@ void cut_sources(const Model& model, ContactWork& work, const FoundNear& found) 
     mover = of;
   });
   for (const auto& [a, b] : found.movers)
-    if (is_single_tet(work, a) && is_single_tet(work, b))
+    if (is_single_tet(model, work, a) && is_single_tet(model, work, b))
       for (const int mover : {a, b})
         for (const int triangle : work.movers.triangles_of_tet[mover])
           ++counts[triangle / triangles_per_count];

@@ -64,7 +64,7 @@ void renumber_tet_pairs(const std::vector<int>& now_of, ContactWork& work) {
 void keep_tet_pairs(const Model& model, const std::vector<char>& searched, Pairs& pairs, ContactWork& work) {
   const auto of_tets =
       std::stable_partition(pairs.begin(), pairs.end(), [&](const std::pair<int, int>& pair) {
-        return !is_single_tet(work, pair.first) || !is_single_tet(work, pair.second);
+        return !is_single_tet(model, work, pair.first) || !is_single_tet(model, work, pair.second);
       });
   Pairs found(of_tets, pairs.end());
   if (!std::is_sorted(found.begin(), found.end()))
@@ -79,7 +79,7 @@ void keep_tet_pairs(const Model& model, const std::vector<char>& searched, Pairs
   const std::array<int, 2> own = own_triangles(work);
   std::vector<char> keeps(work.movers.count(), 0); // this rank a triangle of it
   for (int m = 0; m < work.movers.count(); ++m)
-    if (is_single_tet(work, m)) {
+    if (is_single_tet(model, work, m)) {
       before.shape[m] = shape_of(model, work.movers.triangles_of_tet[m]);
       for (const int triangle : before.shape[m].triangles)
         keeps[m] = static_cast<char>(keeps[m] || keeps_tet_triangle(own, triangle));
@@ -103,6 +103,7 @@ void keep_tet_pairs(const Model& model, const std::vector<char>& searched, Pairs
   add_found({std::numeric_limits<int>::max(), 0});
   take_lists(now, before);
   before.awake.assign((before.count() + contact_rows_per_chunk - 1) / contact_rows_per_chunk, 0);
+  before.movers_awake.clear();
   before.in_awake.assign(work.movers.count(), 0);
   before.now.resize(work.movers.count());
 }

@@ -6,8 +6,10 @@
 
 namespace cdem {
 
-inline bool is_single_tet(const ContactWork& work, int mover) {
-  return work.movers.triangles_of_tet[mover][0] >= 0;
+// Not of cohesive bodies, in which pairs changed the energy of a disc that cracks: their fragments keep their rows.
+inline bool is_single_tet(const Model& model, const ContactWork& work, int mover) {
+  const Block& block = model.blocks[work.movers.block[mover]];
+  return !model.bodies[block.body].bonding.is_cohesive() && work.movers.triangles_of_tet[mover][0] >= 0;
 }
 
 // Movers have new numbers. now_of: per mover by the number before; -1: it has changed, or is no more.
