@@ -194,7 +194,6 @@ TEST_CASE("a picture for which memory is short is left out with a warning, and t
   const TempFolder folder;
   write_file(folder / "case.lua",
              module +
-                 "local n = cdem.parameter{ name = 'n', default = 14 }\n"
                  "local rock = cdem.elastic{ youngs_modulus = 1e9, poissons_ratio = 0, density = 2000 }\n"
                  "local model = cdem.model{ bodies = { { shape = cdem.box_mesh{ size = {1, 1, 1}, divisions "
                  "= {2, 2, 2} "
