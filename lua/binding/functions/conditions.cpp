@@ -241,7 +241,8 @@ void bind_conditions(Module& m) {
   add("traction",
       "Force per undeformed area on outer faces: a stress, or a pressure along their inward normals, such as "
       "that of a "
-      "reservoir. It acts on faces that are free as the stage begins and does not follow them. Several tractions "
+      "reservoir. It acts on faces that are free as the stage begins and does not follow them. Several "
+      "tractions "
       "on a face add up.",
       {on(), vec3("stress").unit("Pa").doc("force over area"),
        number_or_function("pressure", "(x: number, y: number, z: number): number")
@@ -282,8 +283,10 @@ void bind_conditions(Module& m) {
        vec3("about").unit("m").doc(
            "the point that w turns about; the centroid of what is selected when left out")},
       initial_velocity);
-  add("remove", "Takes blocks out of the model (an excavation): those whose centroid is selected. Not where a body is a mesh.", {on()},
-      remove, "integer", "how many");
+  add("remove",
+      "Takes blocks out of the model (an excavation): those whose centroid is selected. Not where a body is "
+      "a mesh.",
+      {on()}, remove, "integer", "how many");
   add("make_rigid",
       "Meshed bodies keep the shape and the stress of this moment from now on, and move as a whole: those "
       "whose "
