@@ -63,16 +63,20 @@ public:
   std::vector<Near> springs() {
     sources_.push_back({std::numeric_limits<int>::max(), pairs_.size()});
     Pairs sorted;
+    std::vector<std::uint8_t> of_springs;
     sorted.reserve(pairs_.size());
+    of_springs.reserve(pairs_.size());
     std::vector<std::size_t> order(sources_.size() - 1);
     std::iota(order.begin(), order.end(), std::size_t{0});
     std::sort(order.begin(), order.end(),
               [&](std::size_t a, std::size_t b) { return sources_[a].place < sources_[b].place; });
     for (const std::size_t i : order)
-      sorted.insert(sorted.end(), pairs_.begin() + static_cast<std::ptrdiff_t>(sources_[i].begin),
-                    pairs_.begin() + static_cast<std::ptrdiff_t>(sources_[i + 1].begin));
-    std::vector<Near> found =
-        near_springs(all_.model, work_, all_.margins, all_.active, sorted, Skins(work_.inner_skin));
+      for (std::size_t k = sources_[i].begin; k < sources_[i + 1].begin; ++k) {
+        sorted.push_back(pairs_[k]);
+        of_springs.push_back(of_springs_[k]);
+      }
+    std::vector<Near> found = near_springs(all_.model, work_, all_.margins, all_.active, sorted, of_springs,
+                                           Skins(work_.inner_skin));
     found.insert(found.end(), of_tets_.begin(), of_tets_.end());
     return found;
   }
@@ -148,13 +152,19 @@ private:
     });
   }
 
+  // A triangle, by its place, and which semi-springs of a triangle look at it.
+  struct Target {
+    int place;
+    std::uint8_t springs;
+  };
+
   // A mover that is a single tet, and which of a triangle's semi-springs may come near it.
   struct NearTet {
     int mover;
     std::uint32_t springs;
   };
 
-  void add_spring(int source, int corner, std::vector<int>& targets, std::vector<NearTet>& tets) {
+  void add_spring(int source, int corner, std::vector<Target>& targets, std::vector<NearTet>& tets) {
     const Vec3 spring = weighted(all_.active.facets[source].x, spring_weights(corner));
     for (std::size_t begin = 0, end = 0; begin < around_.size(); begin = end) {
       const int of = around_[begin].mover;
@@ -179,19 +189,23 @@ private:
           known->springs |= 1u << corner;
         continue;
       }
-      const double nearest = least > 0 ? 0 : least_distance(spring, begin, end);
-      if (of != mover_ && nearest <= skins(of)) {
+      // Whether a semi-spring is inside is told by the nearest triangle of the fragment's closed surface. The planes of
+      // tetrahedra give no distance: behind an edge of the fragment tetrahedra that only touch the edge count as nearer
+      // than the one of the triangle behind which the semi-spring is. So triangles are chosen by the distance of one of
+      // them: the nearest is no further away.
+      const double nearest = least_distance(spring, begin, end);
+      if (of != mover_ && nearest <= near) {
         for (std::size_t i = begin; i < end; ++i)
-          if (all_.solids[around_[i].solid].outside(spring) <= 3 * skins(of) + slack(of))
-            add_triangles(source, around_[i].solid, targets);
+          if (all_.solids[around_[i].solid].outside(spring) <= nearest + 2 * near + slack(of))
+            add_triangles(source, corner, around_[i].solid, targets);
         continue;
       }
-      // Inside a fragment by more than the skins: all that are not much further than the nearest.
-      const double deepest = 2 * depth_of(work_, triangle(source)) + skins(of);
-      const double reach = (of == mover_ ? deepest : std::min(nearest, deepest)) + 2 * skins(of) + slack(of);
+      // Further from the surface than the skins.
+      const double deepest = 2 * depth_of(work_, triangle(source)) + near;
+      const double reach = (of == mover_ ? deepest : std::min(nearest, deepest)) + 2 * near + slack(of);
       grid_->each_near(spring, reach, [&](int i) {
         if (all_.solids[i].mover == of && all_.solids[i].outside(spring) <= reach)
-          add_triangles(source, i, targets);
+          add_triangles(source, corner, i, targets);
       });
     }
   }
@@ -224,21 +238,27 @@ private:
     return is_single_tet(all_.model, work_, mover_) && is_single_tet(all_.model, work_, of);
   }
 
-  void add_triangles(int source, int solid, std::vector<int>& targets) const {
+  void add_triangles(int source, int corner, int solid, std::vector<Target>& targets) const {
     for (const int target : all_.solids[solid].triangles)
       if (target >= 0 && may_meet(source, target))
-        targets.push_back(target);
+        targets.push_back({target, static_cast<std::uint8_t>(1u << corner)});
   }
 
-  void keep(int source, std::vector<int>& targets) {
-    std::sort(targets.begin(), targets.end(),
-              [&](int a, int b) { return std::pair(fragment(a), a) < std::pair(fragment(b), b); });
-    targets.erase(std::unique(targets.begin(), targets.end()), targets.end());
+  void keep(int source, std::vector<Target>& targets) {
+    std::sort(targets.begin(), targets.end(), [&](const Target& a, const Target& b) {
+      return std::pair(fragment(a.place), a.place) < std::pair(fragment(b.place), b.place);
+    });
     if (targets.empty())
       return;
-    sources_.push_back({source, pairs_.size()});
-    for (const int target : targets)
-      pairs_.emplace_back(source, target);
+    const std::size_t begin = pairs_.size();
+    sources_.push_back({source, begin});
+    for (const Target& target : targets) {
+      if (pairs_.size() == begin || pairs_.back().second != target.place) {
+        pairs_.emplace_back(source, target.place);
+        of_springs_.push_back(0);
+      }
+      of_springs_.back() |= target.springs;
+    }
   }
 
   // All triangles of such tets: the narrow phase tells by their planes whether they are any.
@@ -261,15 +281,17 @@ private:
     int mover, solid;
     double outside; // m, at least, that all semi-springs at the corner stand outside it
   };
-  std::vector<Around> around_;               // by mover
-  std::vector<int> near_;                    // movers
-  std::array<std::vector<int>, 4> targets_;  // of each triangle of the tetrahedron
-  std::array<std::vector<NearTet>, 4> tets_; // the same, of movers that are single tets
+  std::vector<Around> around_;                 // by mover
+  std::vector<int> near_;                      // movers
+  std::array<std::vector<Target>, 4> targets_; // of each triangle of the tetrahedron
+  std::array<std::vector<NearTet>, 4> tets_;   // the same, of movers that are single tets
   std::vector<Near> of_tets_;
   std::vector<int> seen_; // per solid: the last question that met it
   std::vector<int> met_;  // per mover: the last tetrahedron added that met it
   int asked_ = 0, own_ = 0;
   Pairs pairs_;
+  std::vector<std::uint8_t>
+      of_springs_; // per pair: which semi-springs of the source look at the target, a bit each
   struct Source {
     int place;
     std::size_t begin; // into pairs_, up to that of the next

@@ -25,8 +25,9 @@ public:
       : s_(model.surface), model_(model), work_(work), margins_(margins), active_(active), skins_(skins),
         own_skins_(skins.of_pair() ? skins : Skins(margins.allowed())) {}
 
-  // pairs [begin, end)
-  void add(const Pairs& pairs, std::size_t begin, std::size_t end, std::vector<Near>& out) {
+  // pairs [begin, end); of_springs: per pair, which semi-springs look at the target, a bit each; empty: all
+  void add(const Pairs& pairs, const std::vector<std::uint8_t>& of_springs, std::size_t begin,
+           std::size_t end, std::vector<Near>& out) {
     const int source = pairs[begin].first;
     const ContactTriangle &from = triangle(source), &first = triangle(pairs[begin].second);
     const int own = mover(source), other = mover(pairs[begin].second);
@@ -40,7 +41,8 @@ public:
       one_place_of_targets = std::max(one_place_of_targets, one_place(to));
     }
     const double deepest = std::min(2 * depth_of(work_, from), margins_(from) + margin_of_targets);
-    find_nearest(pairs, begin, end, (1 + 8 * same_place) * (deepest + 3 * skins) + 8 * one_place_of_targets);
+    find_nearest(pairs, of_springs, begin, end,
+                 (1 + 8 * same_place) * (deepest + 3 * skins) + 8 * one_place_of_targets);
     std::array<double, 3> need{};
     for (int corner = 0; corner < 3; ++corner) {
       const Nearest& found = nearest_[corner];
@@ -78,7 +80,8 @@ private:
   }
 
   // What is further off than `reach` is left out: nothing comes of it, nor is it one place with what something comes of.
-  void find_nearest(const Pairs& pairs, std::size_t begin, std::size_t end, double reach) {
+  void find_nearest(const Pairs& pairs, const std::vector<std::uint8_t>& of_springs, std::size_t begin,
+                    std::size_t end, double reach) {
     const Corners& x = active_.facets[pairs[begin].first].x;
     std::array<geom::Vec3, 3> spring;
     std::array<bool, 3> gets_in{};
@@ -96,7 +99,8 @@ private:
       auto& each = distance_.emplace_back();
       for (int corner = 0; corner < 3; ++corner) {
         each[corner] = std::numeric_limits<double>::infinity();
-        if (!gets_in[corner] || least_distance2(spring[corner], to.x) > reach * reach)
+        const bool looks = of_springs.empty() || (of_springs[i] >> corner & 1u) != 0;
+        if (!looks || !gets_in[corner] || least_distance2(spring[corner], to.x) > reach * reach)
           continue;
         const Nearest found = nearest_of(target, spring[corner], to.x, to.normal);
         each[corner] = std::sqrt(found.distance2);
@@ -152,19 +156,26 @@ void sort_by_source(Pairs& pairs, const Piece& fragment) {
 
 std::vector<Near> near_springs(const Model& model, const ContactWork& work, const SearchMargin& margins,
                                const ActiveSurface& active, Pairs& pairs, const Skins& skins) {
+  sort_by_source(pairs,
+                 [&](const std::pair<int, int>& p) { return work.fragment[active.triangles[p.second]]; });
+  return near_springs(model, work, margins, active, pairs, {}, skins);
+}
+
+std::vector<Near> near_springs(const Model& model, const ContactWork& work, const SearchMargin& margins,
+                               const ActiveSurface& active, const Pairs& sorted,
+                               const std::vector<std::uint8_t>& of_springs, const Skins& skins) {
   const auto fragment = [&](const std::pair<int, int>& p) {
     return work.fragment[active.triangles[p.second]];
   };
-  sort_by_source(pairs, fragment);
   std::vector<Near> out;
-  if (pairs.empty())
+  if (sorted.empty())
     return out;
   SpringsOfSource springs(model, work, margins, active, skins);
-  for (std::size_t begin = 0, end = 0; begin < pairs.size(); begin = end) {
-    while (end < pairs.size() && pairs[end].first == pairs[begin].first &&
-           fragment(pairs[end]) == fragment(pairs[begin]))
+  for (std::size_t begin = 0, end = 0; begin < sorted.size(); begin = end) {
+    while (end < sorted.size() && sorted[end].first == sorted[begin].first &&
+           fragment(sorted[end]) == fragment(sorted[begin]))
       ++end;
-    springs.add(pairs, begin, end, out);
+    springs.add(sorted, of_springs, begin, end, out);
   }
   return out;
 }
