@@ -112,9 +112,14 @@ public:
       pull[point] = advance_point(point, breaking, spring + point * lanes, sums, open);
       without = without && face_.damage[point] >= 1;
     }
-    const bool gone = to_contact && without && is_gone(now_, std::sqrt(3 * batch_.area[lane_]));
-    if (without && (open || gone))
+    if (without && open) {
       part(pull, sums);
+    } else if (leaves(state_, lane_)) {
+      hand_over(spring / (3 * lanes) * lanes + lane_, pull, sums);
+    } else if (without && to_contact && is_gone(now_, std::sqrt(3 * batch_.area[lane_]))) {
+      set_hand_over(state_, lane_, HandOver::leaving);
+      sums.hands_over = true;
+    }
     share(places_of(batch_, lane_), pull, force);
   }
 
@@ -163,6 +168,13 @@ private:
       pull[point] = Vec3::Zero();
     }
     state_.stage[lane_] = FaceStage::parted;
+  }
+
+  void hand_over(std::int64_t face, const Vec3 (&pull)[3], FaceSums& sums) {
+    sums.left.push_back({face, at_corners(pull), batch_.kn[lane_],
+                         stored_at_point(0) + stored_at_point(1) + stored_at_point(2)});
+    state_.stage[lane_] = FaceStage::parted;
+    set_hand_over(state_, lane_, HandOver::done);
   }
 
   const FaceBatch& batch_;
