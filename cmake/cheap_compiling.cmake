@@ -24,7 +24,7 @@ function(cdem_compile_cold target)
 endfunction()
 
 # Compiles the sources of a folder together, at most `most` at a time: the headers they share are read once. So names in
-# their unnamed namespaces must differ within a folder. What wraps a large library stays alone.
+# their unnamed namespaces must differ within a folder. Wrappers of large libraries stay alone.
 option(CDEM_COMPILE_TOGETHER "compile the sources of a folder together" ON)
 function(cdem_compile_together target most)
   if(NOT CDEM_COMPILE_TOGETHER)

@@ -14,7 +14,7 @@ constexpr double of_mesh = 340, of_bonded_mesh = 1550, of_blocks = 970;
 // Cutting over building: the old blocks and the new ones are there at once (1.29 and 1.64 measured, nothing being cut).
 constexpr double cutting = 1.65;
 
-// Of the star mesh of a block, or of a mesh of zones of this size, m.
+// Number of tetrahedra in the star mesh of a block, or in a mesh of zones of this size (m).
 double tets_of(const geom::Polyhedron& block, double zone_size) {
   if (zone_size > 0)
     return 6 * std::sqrt(2.0) * geom::mass_properties(block).volume / std::pow(zone_size, 3);

@@ -38,7 +38,7 @@ FaceFrame face_frame(const FaceNodes& at, const Place& place, const Moved& moved
   return f;
 }
 
-// What the forces of its points make at its corners.
+// The forces at the corners of a face that those at its points make.
 inline std::array<geom::Vec3, 3> at_corners(const geom::Vec3 (&pull)[3]) {
   const geom::Vec3 common = (pull[0] + pull[1] + pull[2]) / 6;
   return {common + 0.5 * pull[0], common + 0.5 * pull[1], common + 0.5 * pull[2]};

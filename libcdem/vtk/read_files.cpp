@@ -129,7 +129,7 @@ std::vector<std::string> texts_of(vtkFieldData* header, const char* name) {
   return texts;
 }
 
-// What a file says about the moment, into what is no cell of the snapshot.
+// Reads the moment that a file tells into the fields of the snapshot that belong to no cell.
 void read_header(vtkFieldData* header, Snapshot& snapshot) {
   if (vtkDataArray* time = header->GetArray(time_name); time && time->GetNumberOfTuples() > 0)
     snapshot.time = time->GetComponent(0, 0);
@@ -156,7 +156,7 @@ bool is_list_of_pieces(const std::filesystem::path& path) {
   return path.extension() == ".pvtu";
 }
 
-// Of one file, or joined from pieces, which must be of one moment.
+// A snapshot of one file, or joined from pieces, which must be of one moment.
 template <std::size_t N>
 Cells<N> read_cells(const std::string& path, int type, Snapshot& header) {
   if (!is_list_of_pieces(path))

@@ -87,7 +87,7 @@ void let_faces_leave(System& s) {
   });
 }
 
-// Of all contacts, on the upper part: against the slope and along it, N.
+// Forces of all contacts on the upper part, against the slope and along it, N.
 std::array<double, 2> carried(const System& s, const Mat3& turn) {
   Vec3 sum = Vec3::Zero();
   for (const cdem::Contact& c : s.state.contacts) {

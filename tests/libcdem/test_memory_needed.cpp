@@ -1,4 +1,4 @@
-// What building and cutting a model are said to take, and when it is too much.
+// Estimates of the memory that building and cutting a model take, and when it is too much.
 #include "libcdem/memory_needed.hpp"
 #include "libcdem/simulation.hpp"
 #include "libgeom/assembly/builders.hpp"

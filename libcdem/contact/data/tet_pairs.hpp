@@ -25,7 +25,7 @@ struct TetShape {
   double height = 0;          // m, the largest behind a triangle, undeformed
 };
 
-// Where it is now.
+// The places of its nodes, and its planes, in this step.
 struct TetPlanes {
   std::array<geom::Vec3, 4> x;      // m, of nodes
   std::array<geom::Vec3, 4> normal; // unit, outwards, of triangles

@@ -15,7 +15,7 @@ void fall_asleep(const ContactWork&, TetPairs&, std::size_t pair, double until);
 // Writes TetPairs::ordered.
 void order_found(std::size_t n_triangles, TetPairs&);
 
-// Of contacts of semi-springs, the order in which forces are added: by triangle, fragment and corner.
+// The order in which forces of contacts of semi-springs are added: by triangle, fragment and corner.
 inline std::tuple<int, int, int> order_of(const Contact& c) {
   return {static_cast<int>(c.source) / 3, c.fragment, static_cast<int>(c.source) % 3};
 }
