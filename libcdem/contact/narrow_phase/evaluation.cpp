@@ -3,6 +3,7 @@
 #include "libcdem/contact/broad_phase/rigid_pairs.hpp"
 #include "libcdem/contact/broad_phase/search.hpp"
 #include "libcdem/contact/broad_phase/tet_pairs.hpp"
+#include "libcdem/contact/narrow_phase/rows_asleep.hpp"
 #include "libcdem/contact/response/contact_point.hpp"
 #include "libcdem/model/build/contact_surface.hpp"
 #include "libgeom/core/portable.hpp"
@@ -27,7 +28,7 @@ void Evaluation::springs(ContactRow& row, ContactCandidate* candidates) {
   go_to(3 * row.source);
   const std::size_t contacts = out_.contacts.size(), forces = out_.forces.size();
   const ContactSums sums = out_.sums;
-  const bool all = row.reach == 0 || work_.looks_at_all;
+  const bool all = row.reach == 0 || row.several_movers || work_.looks_at_all;
   const auto shallow = static_cast<float>(
       std::min(work_.shallow[surface_.triangles[row.source].block], work_.shallow[row.block]));
   row.reach = std::max(row.reach, shallow);
@@ -54,8 +55,7 @@ const Evaluation::Law& Evaluation::law_between(int block_a, int block_b) {
 }
 
 double Evaluation::moved(const ContactRow& row) const {
-  return row.pair >= 0 ? work_.rigid_pairs[row.pair].moved
-                       : work_.travelled[row.source_mover] + work_.travelled[row.mover];
+  return row.pair >= 0 ? work_.rigid_pairs[row.pair].moved : travelled(work_, row);
 }
 
 double Evaluation::from(const ContactRow& row) const {
@@ -63,7 +63,10 @@ double Evaluation::from(const ContactRow& row) const {
 }
 
 double Evaluation::moved_in_step(const ContactRow& row) const {
-  return work_.last_displacement[row.source_mover] + work_.last_displacement[row.mover];
+  double of_targets = 0;
+  each_mover(work_, row,
+             [&](int mover) { of_targets = std::max(of_targets, work_.last_displacement[mover]); });
+  return work_.last_displacement[row.source_mover] + of_targets;
 }
 
 void Evaluation::go_to(int source) {
@@ -258,7 +261,8 @@ double Evaluation::narrow_phase(ContactRow& row, ContactCandidate* candidates, b
       continue;
     }
     // With some asleep, what is further in than a step can have brought it is not inside: nearer ones sleep.
-    const double shallow = std::min(work_.shallow[source.block], work_.shallow[row.block]);
+    const double shallow =
+        std::min(work_.shallow[source.block], work_.shallow[surface_.triangles[found.target].block]);
     const auto sleep_without_contact = [&] { // too deep to begin, by the motion of the step too
       sleeps = std::min(
           sleeps, rounded_down(from(row) + std::max(0.0, 0.5 * (std::sqrt(found.distance2) - shallow))));
