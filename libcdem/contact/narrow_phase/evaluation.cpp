@@ -172,6 +172,8 @@ void Evaluation::find_nearest(ContactRow& row, ContactCandidate* candidates, boo
                               std::array<Nearest, 3>& nearest) {
   const double moved = this->moved(row), from = this->from(row);
   const bool bonded = cdem::bonded(model_, work_, row.block, row.mover);
+  const bool of_tets = of_several_tets(model_, work_, row.mover);
+  std::array<NearestOfTets, 3> of_surface;
   std::array<Distances, 3> distances;
   float recheck_distance = std::numeric_limits<float>::infinity();
   for (std::uint32_t i = row.begin; i < row.begin + row.count; ++i) {
@@ -193,12 +195,19 @@ void Evaluation::find_nearest(ContactRow& row, ContactCandidate* candidates, boo
       const Nearest found = nearest_of(target, spring[corner], y.x, y.normal);
       least2 = std::min(least2, found.distance2);
       distances[corner].add(std::sqrt(found.distance2), target, triangle.height);
-      take_nearer(nearest[corner], found, y.x, y.normal, triangle.height, bonded);
+      if (!of_tets) {
+        take_nearer(nearest[corner], found, y.x, y.normal, triangle.height, bonded);
+        continue;
+      }
+      of_surface[corner].add(found, y.x, y.normal, triangle.height, bonded, spring[corner],
+                             [&] { return apex_of(model_, state_, triangle); });
     }
     candidate.recheck_distance = rounded_down(from + std::max(0.0, std::sqrt(least2) - row.reach));
     recheck_distance = std::min(recheck_distance, candidate.recheck_distance);
   }
   row.recheck_distance = recheck_distance;
+  for (int corner = 0; of_tets && corner < 3; ++corner)
+    nearest[corner] = of_surface[corner].found();
   for (int corner = 0; corner < 3; ++corner) {
     const Distances& d = distances[corner];
     const double least = std::min(d.least, d.second);
