@@ -27,14 +27,14 @@ struct Near {
 };
 
 // pairs: (source, target), of one or two blocks; they are sorted by source, fragment of the target and target.
-std::vector<Near> near_springs(const Model&, const ContactWork&, const SearchMargin&, const ActiveSurface&,
-                               Pairs& pairs, const Skins&);
+std::vector<Near> near_springs(const Model&, const State&, const ContactWork&, const SearchMargin&,
+                               const ActiveSurface&, Pairs& pairs, const Skins&);
 // The same of sorted pairs, each for some of the semi-springs of its source (a bit each; an empty list: all for all).
 // Whether a semi-spring is inside a fragment is told by the nearest triangle of the fragment. So a semi-spring may look at
 // a fragment only if the triangle nearest to it is among the pairs it looks at, however near the others of its source are.
-std::vector<Near> near_springs(const Model&, const ContactWork&, const SearchMargin&, const ActiveSurface&,
-                               const Pairs& sorted, const std::vector<std::uint8_t>& of_springs,
-                               const Skins&);
+std::vector<Near> near_springs(const Model&, const State&, const ContactWork&, const SearchMargin&,
+                               const ActiveSurface&, const Pairs& sorted,
+                               const std::vector<std::uint8_t>& of_springs, const Skins&);
 
 // Near edges of two blocks. The edge with the lower number is the source.
 std::vector<Near> near_edges(const Model&, const State&, const ContactWork&, const SearchMargin&,

@@ -40,6 +40,11 @@ double gone_since(const ContactWork&, int mover_a, int mover_b, const std::array
 // skins. True when there is one.
 bool find_leavers(const Model&, ContactWork&);
 
+// A fragment of a broken block that is more than a single tet.
+inline bool of_several_tets(const Model& model, const ContactWork& work, int mover) {
+  return mover >= static_cast<int>(model.blocks.size()) && work.movers.triangles_of_tet[mover][0] < 0;
+}
+
 // Bonds hold a target's tets together, which part the edges of its triangles.
 inline bool bonded(const Model& model, const ContactWork& work, int block, int mover) {
   return !work.movers.one_piece[mover] && has_bonds(model, block);

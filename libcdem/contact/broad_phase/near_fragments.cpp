@@ -60,7 +60,7 @@ public:
   }
 
   // Near springs of all tetrahedra that were added.
-  std::vector<Near> springs() {
+  std::vector<Near> springs(const State& state) {
     sources_.push_back({std::numeric_limits<int>::max(), pairs_.size()});
     Pairs sorted;
     std::vector<std::uint8_t> of_springs;
@@ -75,8 +75,8 @@ public:
         sorted.push_back(pairs_[k]);
         of_springs.push_back(of_springs_[k]);
       }
-    std::vector<Near> found = near_springs(all_.model, work_, all_.margins, all_.active, sorted, of_springs,
-                                           Skins(work_.inner_skin));
+    std::vector<Near> found = near_springs(all_.model, state, work_, all_.margins, all_.active, sorted,
+                                           of_springs, Skins(work_.inner_skin));
     found.insert(found.end(), of_tets_.begin(), of_tets_.end());
     return found;
   }
@@ -334,7 +334,7 @@ NearFragments near_fragments(const Model& model, const State& state, const Conta
     NearSolid near(around);
     for (std::int64_t i = chunks[c].begin; i < chunks[c].end; ++i)
       near.add(state, solids[i], movers[c]);
-    found.springs[c] = near.springs();
+    found.springs[c] = near.springs(state);
   });
   std::vector<std::vector<int>> others(work.movers.count()); // of which the number is higher
   for (const Pairs& part : movers)

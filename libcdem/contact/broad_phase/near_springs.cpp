@@ -20,10 +20,10 @@ double least_distance2(const geom::Vec3& x, const Corners& triangle) {
 // Springs of one source triangle that may meet one fragment.
 class SpringsOfSource {
 public:
-  SpringsOfSource(const Model& model, const ContactWork& work, const SearchMargin& margins,
-                  const ActiveSurface& active, const Skins& skins)
-      : s_(model.surface), model_(model), work_(work), margins_(margins), active_(active), skins_(skins),
-        own_skins_(skins.of_pair() ? skins : Skins(margins.allowed())) {}
+  SpringsOfSource(const Model& model, const State& state, const ContactWork& work,
+                  const SearchMargin& margins, const ActiveSurface& active, const Skins& skins)
+      : s_(model.surface), model_(model), state_(state), work_(work), margins_(margins), active_(active),
+        skins_(skins), own_skins_(skins.of_pair() ? skins : Skins(margins.allowed())) {}
 
   // pairs [begin, end); of_springs: per pair, which semi-springs look at the target, a bit each; empty: all
   void add(const Pairs& pairs, const std::vector<std::uint8_t>& of_springs, std::size_t begin,
@@ -91,6 +91,8 @@ private:
           may_get_into(model_, work_, active_, spring[corner], triangle(pairs[begin].first).block,
                        triangle(pairs[begin].second).block, own_skins_);
     }
+    const bool of_tets = of_several_tets(model_, work_, mover(pairs[begin].second));
+    std::array<NearestOfTets, 3> of_surface;
     nearest_ = {};
     distance_.clear();
     for (std::size_t i = begin; i < end; ++i) {
@@ -104,13 +106,21 @@ private:
           continue;
         const Nearest found = nearest_of(target, spring[corner], to.x, to.normal);
         each[corner] = std::sqrt(found.distance2);
-        take_nearer(nearest_[corner], found, to.x, to.normal, triangle(target).height, bonded_);
+        if (!of_tets) {
+          take_nearer(nearest_[corner], found, to.x, to.normal, triangle(target).height, bonded_);
+          continue;
+        }
+        of_surface[corner].add(found, to.x, to.normal, triangle(target).height, bonded_, spring[corner],
+                               [&] { return apex_of(model_, state_, triangle(target)); });
       }
     }
+    for (int corner = 0; of_tets && corner < 3; ++corner)
+      nearest_[corner] = of_surface[corner].found();
   }
 
   const ContactSurface& s_;
   const Model& model_;
+  const State& state_;
   const ContactWork& work_;
   const SearchMargin& margins_;
   const ActiveSurface& active_;
@@ -154,15 +164,16 @@ void sort_by_source(Pairs& pairs, const Piece& fragment) {
 
 } // namespace
 
-std::vector<Near> near_springs(const Model& model, const ContactWork& work, const SearchMargin& margins,
-                               const ActiveSurface& active, Pairs& pairs, const Skins& skins) {
+std::vector<Near> near_springs(const Model& model, const State& state, const ContactWork& work,
+                               const SearchMargin& margins, const ActiveSurface& active, Pairs& pairs,
+                               const Skins& skins) {
   sort_by_source(pairs,
                  [&](const std::pair<int, int>& p) { return work.fragment[active.triangles[p.second]]; });
-  return near_springs(model, work, margins, active, pairs, {}, skins);
+  return near_springs(model, state, work, margins, active, pairs, {}, skins);
 }
 
-std::vector<Near> near_springs(const Model& model, const ContactWork& work, const SearchMargin& margins,
-                               const ActiveSurface& active, const Pairs& sorted,
+std::vector<Near> near_springs(const Model& model, const State& state, const ContactWork& work,
+                               const SearchMargin& margins, const ActiveSurface& active, const Pairs& sorted,
                                const std::vector<std::uint8_t>& of_springs, const Skins& skins) {
   const auto fragment = [&](const std::pair<int, int>& p) {
     return work.fragment[active.triangles[p.second]];
@@ -170,7 +181,7 @@ std::vector<Near> near_springs(const Model& model, const ContactWork& work, cons
   std::vector<Near> out;
   if (sorted.empty())
     return out;
-  SpringsOfSource springs(model, work, margins, active, skins);
+  SpringsOfSource springs(model, state, work, margins, active, skins);
   for (std::size_t begin = 0, end = 0; begin < sorted.size(); begin = end) {
     while (end < sorted.size() && sorted[end].first == sorted[begin].first &&
            fragment(sorted[end]) == fragment(sorted[begin]))

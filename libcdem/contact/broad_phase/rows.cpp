@@ -142,6 +142,9 @@ private:
   void place(ContactRow row, const ContactCandidate* targets, std::uint32_t count) {
     row.source_mover = mover(row.source);
     row.mover = mover(static_cast<int>(targets->target));
+    row.several_movers = std::any_of(targets, targets + count, [&](const ContactCandidate& target) {
+      return mover(static_cast<int>(target.target)) != row.mover;
+    });
     row.begin = static_cast<std::uint32_t>(candidates_.size());
     row.count = count;
     candidates_.insert(candidates_.end(), targets, targets + count);
@@ -192,8 +195,9 @@ void make_rows(const Model& model, ContactWork& work, const SearchMargin& margin
   asleep.mover.resize(rows.size());
   asleep.hindered.assign((rows.size() + contact_rows_per_chunk - 1) / contact_rows_per_chunk, 0);
   for (std::size_t r = 0; r < rows.size(); ++r) {
-    asleep.recheck_distance[r] =
-        rows[r].pair < 0 ? rows[r].recheck_distance : std::numeric_limits<float>::infinity();
+    asleep.recheck_distance[r] = rows[r].pair >= 0        ? std::numeric_limits<float>::infinity()
+                                 : rows[r].several_movers ? 0
+                                                          : rows[r].recheck_distance;
     asleep.hindered[r / contact_rows_per_chunk] |= static_cast<std::uint64_t>(rows[r].hindered)
                                                    << (r % contact_rows_per_chunk);
     asleep.source_mover[r] = rows[r].source_mover;

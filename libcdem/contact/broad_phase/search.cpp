@@ -232,14 +232,14 @@ bool search_contacts(const Model& model, const State& state, ContactWork& work, 
       const SharedPart part = shared_part(active, a, b, skins);
       edges = near_edges(model, state, work, margins, active, part, skins);
       Pairs near = looked_at(model, work, active, part, skins);
-      springs = near_springs(model, work, margins, active, near, skins);
+      springs = near_springs(model, state, work, margins, active, near, skins);
       return;
     }
     const Skins skins(margins.allowed());
     if (i >= n_pairs) {
       NearWithin near = near_within(model, work, margins, active, alone[i - n_pairs]);
       edges = near_edges_within(model, state, work, margins, active, near.meeting);
-      springs = near_springs(model, work, margins, active, near.looked_at, skins);
+      springs = near_springs(model, state, work, margins, active, near.looked_at, skins);
       return;
     }
     const auto [a, b] = blocks[i];
@@ -258,7 +258,7 @@ bool search_contacts(const Model& model, const State& state, ContactWork& work, 
     edges = near_edges(model, state, work, margins, active, part, skins);
     Pairs near = looked_at(model, work, active, part, skins);
     leave_out_known(active, renewed, near, edges);
-    springs = near_springs(model, work, margins, active, near, skins);
+    springs = near_springs(model, state, work, margins, active, near, skins);
   });
   for (std::size_t i = 0; i < n_own; ++i) {
     found.may_go = std::min(found.may_go, may_go[i]);

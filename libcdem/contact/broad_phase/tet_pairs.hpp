@@ -6,7 +6,7 @@
 
 namespace cdem {
 
-// Not of cohesive bodies, in which pairs changed the energy of a disc that cracks: their fragments keep their rows.
+// Not of cohesive bodies, which gain nothing by pairs: their fragments keep their rows.
 inline bool is_single_tet(const Model& model, const ContactWork& work, int mover) {
   const Block& block = model.blocks[work.movers.block[mover]];
   return !model.bodies[block.body].bonding.is_cohesive() && work.movers.triangles_of_tet[mover][0] >= 0;

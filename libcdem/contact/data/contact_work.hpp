@@ -57,9 +57,11 @@ struct ContactRow {
   float reach = 0;
   float recheck_distance = 0; // m, of its targets the least
   bool hindered = false;      // of edges: some sleep only as long as no contact stands on the edges around
-  std::uint8_t plane = 0;     // of springs: which of the planes of their target parted them best, from 0
-  int pair = -1;              // of two rigid convex blocks, into ContactWork::rigid_pairs; -1: of others
-  int place = -1;             // into RowsAsleep::of_pairs
+  // Of springs: its targets belong to several blocks, which bonds hold together. `mover` is that of the first of them.
+  bool several_movers = false;
+  std::uint8_t plane = 0; // of springs: which of the planes of their target parted them best, from 0
+  int pair = -1;          // of two rigid convex blocks, into ContactWork::rigid_pairs; -1: of others
+  int place = -1;         // into RowsAsleep::of_pairs
   // For two fragments, from the last check: m, the distance that they may move until the next check, and the difference
   // of their drifts and the sum of their swings at that time.
   float allowed = 0, swings = 0;

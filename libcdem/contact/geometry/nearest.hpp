@@ -26,9 +26,12 @@ struct Nearest {
   geom::Vec3 place = geom::Vec3::Zero();
   geom::Vec3 outward = geom::Vec3::Zero(); // sum of the normals, weighted
   geom::Vec3 from = geom::Vec3::Zero();    // m, the spring from the place
+  bool in_tet = false;                     // the spring is in a tet of the fragment
 
   // A place within a triangle must be under that one, too: pushed out along its normal, what is over it would go further.
-  bool inside() const { return target >= 0 && outward.dot(from) < 0 && (!at.inside || height < 0); }
+  bool inside() const {
+    return target >= 0 && (in_tet || (outward.dot(from) < 0 && (!at.inside || height < 0)));
+  }
 };
 
 // rad, that the triangle fills around a place of it.
@@ -79,5 +82,40 @@ inline void take_nearer(Nearest& nearest, Nearest other, const Corners& x, const
   else
     nearest = other;
 }
+
+// The tet that a triangle bounds, by its corner that is not the triangle's, holds the place.
+inline bool holds(const Corners& x, const geom::Vec3& apex, const geom::Vec3& place) {
+  for (int i = 0; i < 3; ++i) {
+    const geom::Vec3 &a = x[i], &b = x[(i + 1) % 3];
+    if ((b - a).cross(apex - a).dot(place - a) < 0)
+      return false;
+  }
+  return true;
+}
+
+// The nearest place of a fragment of several tets. Both sides of a crack may be equally near to a spring, and near the
+// crack's end they belong to one fragment: then the nearest triangle does not tell on which side of the surface the spring
+// is. But a spring in one of the tets is inside, and gets out only where it is behind a triangle.
+struct NearestOfTets {
+  Nearest of_all, behind; // behind: without triangles that the spring stands over
+  bool in_tet = false;
+
+  // apex: gives the corner of the triangle's tet that is not the triangle's.
+  template <class Apex>
+  void add(const Nearest& found, const Corners& x, const geom::Vec3& normal, double size, bool bonded,
+           const geom::Vec3& spring, const Apex& apex) {
+    take_nearer(of_all, found, x, normal, size, bonded);
+    if (!found.at.inside || found.height < 0)
+      take_nearer(behind, found, x, normal, size, bonded);
+    in_tet = in_tet || (found.height < 0 && holds(x, apex(), spring));
+  }
+  Nearest found() const {
+    if (!in_tet)
+      return of_all;
+    Nearest found = behind;
+    found.in_tet = true;
+    return found;
+  }
+};
 
 } // namespace cdem

@@ -3,6 +3,7 @@
 #include "libcdem/contact/broad_phase/rigid_pairs.hpp"
 #include "libcdem/contact/broad_phase/search.hpp"
 #include "libcdem/contact/broad_phase/tet_pairs.hpp"
+#include "libcdem/contact/narrow_phase/rows_asleep.hpp"
 #include "libcdem/contact/response/contact_point.hpp"
 #include "libcdem/model/build/contact_surface.hpp"
 #include "libgeom/core/portable.hpp"
@@ -27,7 +28,7 @@ void Evaluation::springs(ContactRow& row, ContactCandidate* candidates) {
   go_to(3 * row.source);
   const std::size_t contacts = out_.contacts.size(), forces = out_.forces.size();
   const ContactSums sums = out_.sums;
-  const bool all = row.reach == 0 || work_.looks_at_all;
+  const bool all = row.reach == 0 || row.several_movers || work_.looks_at_all;
   const auto shallow = static_cast<float>(
       std::min(work_.shallow[surface_.triangles[row.source].block], work_.shallow[row.block]));
   row.reach = std::max(row.reach, shallow);
@@ -54,8 +55,7 @@ const Evaluation::Law& Evaluation::law_between(int block_a, int block_b) {
 }
 
 double Evaluation::moved(const ContactRow& row) const {
-  return row.pair >= 0 ? work_.rigid_pairs[row.pair].moved
-                       : work_.travelled[row.source_mover] + work_.travelled[row.mover];
+  return row.pair >= 0 ? work_.rigid_pairs[row.pair].moved : travelled(work_, row);
 }
 
 double Evaluation::from(const ContactRow& row) const {
@@ -63,7 +63,10 @@ double Evaluation::from(const ContactRow& row) const {
 }
 
 double Evaluation::moved_in_step(const ContactRow& row) const {
-  return work_.last_displacement[row.source_mover] + work_.last_displacement[row.mover];
+  double of_targets = 0;
+  each_mover(work_, row,
+             [&](int mover) { of_targets = std::max(of_targets, work_.last_displacement[mover]); });
+  return work_.last_displacement[row.source_mover] + of_targets;
 }
 
 void Evaluation::go_to(int source) {
@@ -169,6 +172,8 @@ void Evaluation::find_nearest(ContactRow& row, ContactCandidate* candidates, boo
                               std::array<Nearest, 3>& nearest) {
   const double moved = this->moved(row), from = this->from(row);
   const bool bonded = cdem::bonded(model_, work_, row.block, row.mover);
+  const bool of_tets = of_several_tets(model_, work_, row.mover);
+  std::array<NearestOfTets, 3> of_surface;
   std::array<Distances, 3> distances;
   float recheck_distance = std::numeric_limits<float>::infinity();
   for (std::uint32_t i = row.begin; i < row.begin + row.count; ++i) {
@@ -190,12 +195,19 @@ void Evaluation::find_nearest(ContactRow& row, ContactCandidate* candidates, boo
       const Nearest found = nearest_of(target, spring[corner], y.x, y.normal);
       least2 = std::min(least2, found.distance2);
       distances[corner].add(std::sqrt(found.distance2), target, triangle.height);
-      take_nearer(nearest[corner], found, y.x, y.normal, triangle.height, bonded);
+      if (!of_tets) {
+        take_nearer(nearest[corner], found, y.x, y.normal, triangle.height, bonded);
+        continue;
+      }
+      of_surface[corner].add(found, y.x, y.normal, triangle.height, bonded, spring[corner],
+                             [&] { return apex_of(model_, state_, triangle); });
     }
     candidate.recheck_distance = rounded_down(from + std::max(0.0, std::sqrt(least2) - row.reach));
     recheck_distance = std::min(recheck_distance, candidate.recheck_distance);
   }
   row.recheck_distance = recheck_distance;
+  for (int corner = 0; of_tets && corner < 3; ++corner)
+    nearest[corner] = of_surface[corner].found();
   for (int corner = 0; corner < 3; ++corner) {
     const Distances& d = distances[corner];
     const double least = std::min(d.least, d.second);
@@ -258,7 +270,8 @@ double Evaluation::narrow_phase(ContactRow& row, ContactCandidate* candidates, b
       continue;
     }
     // With some asleep, what is further in than a step can have brought it is not inside: nearer ones sleep.
-    const double shallow = std::min(work_.shallow[source.block], work_.shallow[row.block]);
+    const double shallow =
+        std::min(work_.shallow[source.block], work_.shallow[surface_.triangles[found.target].block]);
     const auto sleep_without_contact = [&] { // too deep to begin, by the motion of the step too
       sleeps = std::min(
           sleeps, rounded_down(from(row) + std::max(0.0, 0.5 * (std::sqrt(found.distance2) - shallow))));

@@ -105,6 +105,8 @@ void find_awake(const Model& model, const State& state, ContactWork& work) {
 }
 
 bool sleeps_on(const ContactWork& work, const ContactRow& row, float& recheck_distance) {
+  if (row.several_movers)
+    return travelled(work, row) < row.recheck_distance;
   if (row.allowed <= 0)
     return false;
   constexpr double worth_while = 0.05; // of what it was allowed
@@ -116,7 +118,7 @@ bool sleeps_on(const ContactWork& work, const ContactRow& row, float& recheck_di
 }
 
 void fall_asleep(const ContactWork& work, int blocks, ContactRow& row, float& recheck_distance) {
-  recheck_distance = row.recheck_distance;
+  recheck_distance = row.several_movers ? 0 : row.recheck_distance;
   const int a = row.source_mover, b = row.mover;
   row.allowed = 0;
   if (a < blocks || b < blocks)

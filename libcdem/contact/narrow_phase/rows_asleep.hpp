@@ -14,6 +14,30 @@ void find_awake(const Model&, const State&, ContactWork&);
 void find_awake(const double* travelled, const float* until, const int* mover_a, const int* mover_b,
                 std::size_t count, std::uint64_t* awake);
 
+// The movers of a row's targets. visit: takes the number of one.
+template <class Visit>
+void each_mover(const ContactWork& work, const ContactRow& row, const Visit& visit) {
+  if (!row.several_movers) {
+    visit(row.mover);
+    return;
+  }
+  int last = -1; // triangles stand by block
+  for (std::uint32_t i = row.begin; i < row.begin + row.count; ++i) {
+    const int mover = work.movers.of_triangle[work.candidates[Contact::spring][i].target];
+    if (mover != last)
+      visit(mover);
+    last = mover;
+  }
+}
+
+// m, since the search: what recheck distances of a row of no rigid pair are compared with. No target comes nearer to the
+// source than by its increase.
+inline double travelled(const ContactWork& work, const ContactRow& row) {
+  double sum = work.travelled[row.source_mover];
+  each_mover(work, row, [&](int mover) { sum += work.travelled[mover]; });
+  return sum;
+}
+
 // Whether a row whose movers have travelled far enough to be looked at may sleep on, since they did so together.
 bool sleeps_on(const ContactWork&, const ContactRow&, float& recheck_distance);
 
