@@ -382,6 +382,10 @@ bool Simulation::has_gravity() const {
   return impl_->conditions.gravity.has_value();
 }
 
+geom::Vec3 Simulation::gravity_vector() const {
+  return has_gravity() ? impl_->conditions.gravity->acceleration : geom::Vec3::Zero();
+}
+
 bool Simulation::anything_acts() const {
   const Conditions& c = impl_->conditions;
   if (c.load() || !c.quiets.empty())

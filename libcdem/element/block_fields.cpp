@@ -1,6 +1,7 @@
 // Strain and stress of tets and blocks, outside the step: for results, criteria and the stiffness bound.
 #include "libcdem/element/mesh_fields.hpp"
 #include "libcdem/element/small_strain.hpp"
+#include "libcdem/model/build/star_row_sums.hpp"
 #include "libcdem/state/places.hpp"
 
 #include <Eigen/SVD>
@@ -31,18 +32,6 @@ Stress mean_initial_stress(const Model& model, const State& state, const Block& 
 }
 
 } // namespace
-
-TetGradients tet_gradients(const std::array<geom::Vec3, 4>& x) {
-  TetGradients g;
-  const geom::Vec3 e1 = x[1] - x[0], e2 = x[2] - x[0], e3 = x[3] - x[0];
-  const double six_volume = e1.dot(e2.cross(e3));
-  g.volume = six_volume / 6;
-  g.gradient[1] = e2.cross(e3) / six_volume;
-  g.gradient[2] = e3.cross(e1) / six_volume;
-  g.gradient[3] = e1.cross(e2) / six_volume;
-  g.gradient[0] = -(g.gradient[1] + g.gradient[2] + g.gradient[3]);
-  return g;
-}
 
 geom::Mat3 matrix(const Stress& s) {
   geom::Mat3 m;
@@ -138,30 +127,10 @@ void add_stress_forces(const Model& model, int tet, const Stress& stress, std::v
 
 std::vector<double> stiffness_row_sums(const Model& model) {
   std::vector<double> sums(model.node_position.size(), 0.0);
-  Eigen::MatrixXd k;
-  for (const Block& block : model.blocks) {
-    if (block.meshed)
-      continue;
-    const Elastic& material = model.bodies[block.body].material;
-    const double lambda = material.lame_lambda(), shear = material.shear_modulus();
-    const int n = block.node_end - block.node_begin;
-    k.setZero(3 * n, 3 * n);
-    for (int tet = block.tet_begin; tet < block.tet_end; ++tet) {
-      const TetGradients g = geometry(model, tet);
-      for (int a = 0; a < 4; ++a)
-        for (int b = 0; b < 4; ++b) {
-          const geom::Vec3 &p = g.gradient[a], &q = g.gradient[b];
-          const int row = 3 * (model.tets[tet][a] - block.node_begin);
-          const int column = 3 * (model.tets[tet][b] - block.node_begin);
-          k.block<3, 3>(row, column) += g.volume * (lambda * p * q.transpose() + shear * (q * p.transpose()) +
-                                                    shear * p.dot(q) * geom::Mat3::Identity());
-        }
-    }
-    for (int node = 0; node < n; ++node)
-      for (int axis = 0; axis < 3; ++axis)
-        sums[block.node_begin + node] =
-            std::max(sums[block.node_begin + node], k.row(3 * node + axis).cwiseAbs().sum());
-  }
+  for (const Block& block : model.blocks)
+    if (!block.meshed)
+      std::copy_n(star_row_sums(model, block).begin(), block.node_end - block.node_begin,
+                  sums.begin() + block.node_begin);
   return sums;
 }
 

@@ -105,13 +105,6 @@ struct Reach {
   }
 };
 
-// Block of the stiffness between two nodes of a tet, by the gradients there.
-geom::Mat3 stiffness_block(const Elastic& material, double volume, const geom::Vec3& p, const geom::Vec3& q) {
-  const double lambda = material.lame_lambda(), shear = material.shear_modulus();
-  return volume * (lambda * p * q.transpose() + shear * (q * p.transpose()) +
-                   shear * p.dot(q) * geom::Mat3::Identity());
-}
-
 std::array<geom::Vec3, 4> undeformed(const Model& model, int tet) {
   std::array<geom::Vec3, 4> x;
   for (int k = 0; k < 4; ++k)

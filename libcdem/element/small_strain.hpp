@@ -2,6 +2,7 @@
 //   grad u = sum_k (u_k - u_0) (x) g_k,   sigma = lambda tr(eps) I + 2 G eps,   f_k = -V sigma g_k,  f_0 = -sum f_k.
 #pragma once
 
+#include "libcdem/material/tet_stiffness.hpp"
 #include "libcdem/parallel/read_ahead.hpp"
 #include "libcdem/state/state.hpp"
 
@@ -13,13 +14,6 @@ void add_small_strain_forces(const TetBatch* batches, std::int64_t count, const 
 
 // Nodal forces of a stress in a tet.
 void add_stress_forces(const Model&, int tet, const Stress&, std::vector<Node>& force);
-
-// Volume and gradients of the shape functions of a tet at given places.
-struct TetGradients {
-  double volume = 0;
-  geom::Vec3 gradient[4]; // 1/m
-};
-TetGradients tet_gradients(const std::array<geom::Vec3, 4>&);
 
 geom::Mat3 displacement_gradient(const Model&, const std::vector<Node>& displacement, int tet); // du_i / dx_j
 Stress elastic_stress(const Elastic&, const geom::Mat3& gradient); // without initial stress

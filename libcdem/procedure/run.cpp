@@ -39,9 +39,12 @@ double choose_time_step(const StageContext& context, const RunOptions& options) 
                    stable_time_step(model, resolve_bolts(model, context.state, context.conditions.bolts)),
                infinite = std::numeric_limits<double>::infinity();
   require_scalable(model, options);
-  if (options.mass_scaling.on()) // the masses follow the step
-    return options.mass_scaling.step > 0 ? options.mass_scaling.step
-                                         : options.mass_scaling.factor * options.safety * stable;
+  if (options.mass_scaling.on()) { // the masses follow the step, but those of rigid bodies
+    const double asked = options.mass_scaling.step > 0
+                             ? options.mass_scaling.step
+                             : options.mass_scaling.factor * options.safety * stable;
+    return model.surface.empty() ? asked : std::min(asked, rigid_time_step(model, options.safety));
+  }
   // Rigid bodies have a stable step only where they may touch.
   const double touching = model.surface.empty() ? infinite
                                                 : std::min(rigid_time_step(model, options.safety),

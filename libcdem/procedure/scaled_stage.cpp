@@ -3,7 +3,6 @@
 #include "libcdem/contact/response/contact_bounds.hpp"
 #include "libcdem/integrate/mass_scaling.hpp"
 #include "libcdem/integrate/row_sums.hpp"
-#include "libcdem/model/names.hpp"
 #include "libcdem/results/energy.hpp"
 #include "libgeom/core/error.hpp"
 
@@ -67,10 +66,9 @@ void ScaledStage::take(const std::vector<double>& loop_state) {
 void require_scalable(const Model& model, const RunOptions& options) {
   if (!options.mass_scaling.on())
     return;
-  for (const RigidBody& body : model.rigid)
-    throw geom::InputError("mass_scaling: " + block_name(model, body.block) +
-                           " is rigid, and the mass of rigid bodies is not scaled; model:make_deformable{} "
-                           "them first, or leave mass_scaling out");
+  if (model.rigid.size() == model.blocks.size())
+    throw geom::InputError(
+        "mass_scaling: all bodies are rigid, and the mass of rigid bodies is not scaled; leave it out");
 }
 
 } // namespace cdem

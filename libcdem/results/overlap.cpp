@@ -13,7 +13,7 @@ namespace {
 // Depth over the smaller part's size: below it two parts only touch.
 constexpr double depth_tolerance = 1e-9;
 
-// A block, or a tetrahedron of one that is not convex, as it stands now.
+// A rigid convex block, or a tetrahedron of any other block, as it stands now.
 struct ConvexPart {
   int block = 0;
   geom::Polyhedron shape;
@@ -43,7 +43,7 @@ std::vector<ConvexPart> convex_parts(const Model& model, const State& state) {
   };
   for (int b = 0; b < static_cast<int>(model.blocks.size()); ++b) {
     const Block& block = model.blocks[b];
-    if (block.convex())
+    if (block.convex() && block.rigid >= 0)
       add(b, block_now(model, state, block));
     else
       for (int tet = block.tet_begin; tet < block.tet_end; ++tet)

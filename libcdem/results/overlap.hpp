@@ -1,7 +1,7 @@
 // Volume of the overlap of two blocks in their present positions, which contact allows.
 //
-// The common part of two convex bodies is convex: one cut by all the faces of the other. A mesh that is not convex is
-// taken tetrahedron by tetrahedron.
+// The common part of two convex bodies is convex: one cut by all the faces of the other. A block that has deformed need not
+// be convex any more, and is taken tetrahedron by tetrahedron, as a mesh is.
 #pragma once
 
 #include "libcdem/state/state.hpp"

@@ -170,6 +170,26 @@ TEST_CASE("mass scaling: a stage left in the middle goes on to the same bits", "
   check_going_on(build_bar, solve, {8, 14});
 }
 
+TEST_CASE("mass scaling: a cube settles on a rigid floor with its true weight", "[mass_scaling][rigid]") {
+  cdem::ModelSpec spec;
+  geom::TetMesh cube = cube_with_slivers(), floor = geom::box_mesh({3, 3, 0.5}, {2, 2, 1});
+  for (Vec3& x : floor.nodes)
+    x += Vec3(-1, -1, -0.5);
+  spec.bodies = {meshed("cube", cube), meshed("floor", floor)};
+  spec.pairs = {{"cube", "floor", friction(30)}};
+  cdem::Simulation s(spec, 1, nullptr);
+  s.make_rigid(cdem::Selection::of_body("floor"));
+  s.fix(fixed(cdem::Selection::of_body("floor")));
+  s.gravity(gravity());
+  cdem::RunOptions options = scaled_to(0, 8000);
+  options.mass_scaling = {0, 4}; // the factor
+  options.local_damping = 0.5;
+  const cdem::RunResult result = s.run(options);
+  CHECK(result.scaled.added_share > 0.01);
+  const double weight = 9.81 * rock().density * (1 + 3 * 3 * 0.5); // N, of the floor too
+  CHECK(s.reaction(cdem::Selection::of_body("floor")).z() == Approx(weight).epsilon(1e-4));
+}
+
 TEST_CASE("mass scaling: wrong input is refused", "[mass_scaling][input]") {
   cdem::ModelSpec spec;
   spec.bodies = {meshed("cube", geom::box_mesh({1, 1, 1}, {2, 2, 2}))};
@@ -186,5 +206,5 @@ TEST_CASE("mass scaling: wrong input is refused", "[mass_scaling][input]") {
   refused({1e-5, 2}, 0, "not both");
   refused({1e-5, 0}, 1e-6, "leave time_step out");
   s.make_rigid(cdem::Selection::everything());
-  refused({1e-5, 0}, 0, "\"cube\" is rigid");
+  refused({1e-5, 0}, 0, "all bodies are rigid");
 }

@@ -55,3 +55,19 @@ TEST_CASE("overlap of a turned block with a mesh is that of their shapes", "[ove
   CHECK(found.pairs == 1);
   CHECK(found.volume == Approx(0.1 * 0.1).epsilon(1e-9));
 }
+
+TEST_CASE("overlap with a block that is dented is less by the dent", "[overlap]") {
+  cdem::BodySpec soft = block("a", {0, 0, 0}, {1, 1, 1});
+  soft.element = cdem::Element::finite_volume;
+  System s(build({soft, block("b", {2, -1, -1}, {4, 2, 2})}));
+  move(s, 1, {-1.5, 0, 0}); // covers a from x = 0.5 on
+  CHECK(cdem::overlap(s.model, s.state).volume == Approx(0.5));
+  int dented = 0;
+  for (int n = s.model.blocks[0].node_begin; n < s.model.blocks[0].node_end; ++n)
+    if ((s.model.node_position[n] - Vec3(1, 0.5, 0.5)).norm() < 1e-12) { // the centre of a face
+      s.state.displacement[n] = cdem::node({-0.3, 0, 0});
+      ++dented;
+    }
+  REQUIRE(dented == 1);
+  CHECK(cdem::overlap(s.model, s.state).volume == Approx(0.5 - 0.3 / 3));
+}

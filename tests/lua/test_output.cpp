@@ -38,6 +38,17 @@ TEST_CASE("save writes the contacts of bodies that move far, and their series", 
   CHECK_THAT(script.read("all_contacts.pvd"), Contains("a_contacts.vtu"));
 }
 
+TEST_CASE("a picture has z up where gravity acts along z, unless the script says otherwise", "[lua]") {
+  Script script(column() + "local function draw(name, up)\n"
+                           "  model:picture{ file = name, up = up, size = {320, 240} }\nend\n"
+                           "model:gravity{ vector = {0, -9.81, 0} }\ndraw('first.png')\ndraw('y.png', 'y')\n"
+                           "model:gravity{ vector = {0, 0, -9.81} }\ndraw('second.png')\ndraw('z.png', 'z')");
+  CHECK(script.error() == "");
+  CHECK(script.read("first.png") == script.read("y.png"));
+  CHECK(script.read("second.png") == script.read("z.png"));
+  CHECK(script.read("y.png") != script.read("z.png"));
+}
+
 TEST_CASE("pictures and charts are written as PNG, SVG and PDF", "[lua]") {
   Script script(
       column() +

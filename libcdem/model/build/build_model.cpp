@@ -4,6 +4,7 @@
 #include "libcdem/model/build/interface_springs.hpp"
 
 #include "libcdem/model/build/contact_surface.hpp"
+#include "libcdem/model/build/light_corners.hpp"
 #include "libcdem/model/build/rigid_bodies.hpp"
 #include "libcdem/model/build/star_inertia.hpp"
 #include "libgeom/assembly/assembly.hpp"
@@ -59,8 +60,10 @@ void add_block(Model& model, BlockSeed&& seed, const geom::BlockMesh& mesh) {
   model.gravitational_mass.insert(model.gravitational_mass.end(), model.node_mass.begin() + block.node_begin,
                                   model.node_mass.end());
   model.blocks.push_back(std::move(block));
-  if (turns)
+  if (turns) {
+    raise_light_corners(model, index);
     match_star_inertia(model, index);
+  }
 }
 
 // Zones of the seeds that have none yet, of all those of a body at once: the mesher is slow to start.

@@ -17,6 +17,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 namespace cdem::script {
 
@@ -189,6 +190,9 @@ Value picture(Session& session, ModelObject& model, const Arguments& a) {
   require_drawing(a.text("file"));
   require_together(a);
   PictureOptions options = picture_options(a);
+  const geom::Vec3 gravity = model.simulation.gravity_vector();
+  if (!a.has("up") && std::abs(gravity.z()) > std::max(std::abs(gravity.x()), std::abs(gravity.y())))
+    options.up = "z";
   for (const Value& body : a.list("plain"))
     options.plain.push_back(model.simulation.body_number(*body.get<std::string>(), "plain"));
   std::vector<int> hidden;

@@ -80,7 +80,8 @@ std::vector<Field> view_fields(const std::string& colour_doc) {
           choice("view", {"front", "back", "left", "right", "top", "bottom", "iso"})
               .standard("front")
               .doc("front looks along -z at the x-y plane"),
-          choice("up", {"y", "z"}).standard("y").doc("z: front looks along y with z up"),
+          choice("up", {"y", "z"})
+              .doc("z: front looks along y with z up; default: z where gravity acts along z, else y"),
           record("camera", camera).doc("instead of view"),
           record("fit", {vec3("min").unit("m").required(), vec3("max").unit("m").required()})
               .doc("a box that the view shows, in place of what is drawn: give it to all frames of a film, "
@@ -104,7 +105,7 @@ PictureOptions view_options(const Arguments& a) {
   PictureOptions options;
   options.field = a.text_or("colour", "");
   options.view = a.text("view");
-  options.up = a.text("up");
+  options.up = a.text_or("up", options.up);
   if (const auto fit = a.record("fit"))
     options.fit = geom::Box{fit->vec3("min"), fit->vec3("max")};
   if (const auto camera = a.record("camera")) {
