@@ -2,12 +2,14 @@
 
 #include "libcdem/model/build/star_row_sums.hpp"
 
+#include <Eigen/LU>
+
 #include <algorithm>
 
 namespace cdem {
 namespace {
 
-constexpr double most_moved = 1e-3;     // of the block's mass
+constexpr double most_moved = 1e-3;    // of the block's mass
 constexpr double part_of_median = 0.5; // of the nodes' steps
 
 struct Corner {
@@ -43,11 +45,20 @@ void raise_light_corners(Model& model, int block) {
   const double goal = part_of_median * part_of_median * corners[corners.size() / 2].own();
   const double mass = model.bodies[b.body].material.density * b.mass.volume;
   const double q = reachable(corners, goal, most_moved * mass);
-  double& centroid = model.node_mass[b.centroid_node()];
+  const auto arm = [&](int node) -> geom::Vec3 { return model.node_position[node] - b.mass.centroid; };
+  geom::Vec3 off = geom::Vec3::Zero(); // kg m, sum m r
+  geom::Mat3 moments = geom::Mat3::Zero();
   for (int node = b.node_begin; node < b.centroid_node(); ++node) {
-    const double raised = std::max(model.node_mass[node], q * sums[node - b.node_begin]);
-    centroid -= raised - model.node_mass[node];
-    model.node_mass[node] = raised;
+    model.node_mass[node] = std::max(model.node_mass[node], q * sums[node - b.node_begin]);
+    off += model.node_mass[node] * arm(node);
+    moments += model.node_mass[node] * arm(node) * arm(node).transpose();
+  }
+  const geom::Vec3 tilt = moments.inverse() * off;
+  double& centroid = model.node_mass[b.centroid_node()];
+  centroid = mass;
+  for (int node = b.node_begin; node < b.centroid_node(); ++node) {
+    model.node_mass[node] *= 1 - tilt.dot(arm(node));
+    centroid -= model.node_mass[node];
   }
 }
 
