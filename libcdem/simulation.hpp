@@ -181,7 +181,7 @@ public:
   // a state that is deformed already.
   bool anything_acts() const;
   bool has_gravity() const;
-  geom::Vec3 gravity_vector() const; // m/s2; zero without
+  geom::Vec3 gravity_vector() const;                    // m/s2; zero without
   bool has_buoyancy() const;                            // gravity with a water_density
   std::vector<Fragment> fragments() const;              // largest first
   std::vector<FragmentMotion> fragment_motions() const; // the same, with their motion
