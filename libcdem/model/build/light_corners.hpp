@@ -9,9 +9,9 @@ namespace cdem {
 // than the step t, with
 //   m_i >= K_i t^2 / 4,   K_i: row sum of |K| of the block's own tetrahedra
 // t is half the median step of the block's nodes, or less, where a thousandth of the block's mass does not suffice for it. A
-// corner at a short edge is light and stiff: that little mass lengthens the step of Voronoi cells 15 to 30 times. All masses are then
-// tilted, m (1 - a . r), so that the centre of mass stays in the centroid. The mass of the block stays, and weights stay as
-// they are.
+// corner at a short edge is light and stiff: that little mass lengthens the step of Voronoi cells 15 to 30 times. All masses
+// are then tilted, m (1 - a . r), so that the centre of mass stays in the centroid. The mass of the block stays, and weights
+// stay as they are.
 void raise_light_corners(Model&, int block);
 
 } // namespace cdem
