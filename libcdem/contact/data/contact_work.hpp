@@ -57,7 +57,7 @@ struct ContactRow {
   float reach = 0;
   float recheck_distance = 0; // m, of its targets the least
   bool hindered = false;      // of edges: some sleep only as long as no contact stands on the edges around
-  // Of springs: its targets belong to several blocks, which bonds hold together. `mover` is that of the first of them.
+  // The targets of this row of springs belong to several blocks, which bonds hold together; `mover` is that of the first.
   bool several_movers = false;
   std::uint8_t plane = 0; // of springs: which of the planes of their target parted them best, from 0
   int pair = -1;          // of two rigid convex blocks, into ContactWork::rigid_pairs; -1: of others
