@@ -258,6 +258,30 @@ void add_seeds(Model& frame, int index, const geom::Assembly& shape, std::vector
   frame.next_id += static_cast<std::int64_t>(shape.blocks.size());
 }
 
+// The springs of interfaces are damped; contact, which is all that bodies have that touch later, is not.
+void require_damps(const ModelSpec& spec, const Model& model) {
+  std::set<std::pair<int, int>> touch;
+  bool any_touch = false;
+  for (const Interface& interface : model.interfaces) {
+    const auto pair =
+        std::minmax({model.blocks[interface.block_a].body, model.blocks[interface.block_b].body});
+    touch.insert(pair);
+    any_touch = any_touch || pair.first != pair.second;
+  }
+  const auto refuse = [](const std::string& field, const Joint& joint, const char* which) {
+    throw geom::InputError(field + ": stiffness_damping", number(joint.stiffness_damping),
+                           std::string("0 for bodies ") + which + ", whose contacts it would not damp",
+                           "give the contact restitution, or the materials stiffness_damping");
+  };
+  for (const PairSpec& pair : spec.pairs)
+    if (pair.joint.stiffness_damping > 0 &&
+        touch.count(std::minmax(body_index(model, pair.body_a), body_index(model, pair.body_b))) == 0)
+      refuse("contacts {\"" + pair.body_a + "\", \"" + pair.body_b + "\"}", pair.joint,
+             "that do not touch when the model is built");
+  if (spec.default_contact && spec.default_contact->stiffness_damping > 0 && !any_touch)
+    refuse("contacts.default", *spec.default_contact, "of which none touch when the model is built");
+}
+
 } // namespace
 
 Model first_model(const ModelSpec& spec) {
@@ -329,6 +353,7 @@ Model first_model(const ModelSpec& spec) {
   };
   Model model = build_model(frame, std::move(seeds), rule, std::move(meshes));
   require_separate(model);
+  require_damps(spec, model);
   return model;
 }
 

@@ -1,6 +1,7 @@
 #include "libcdem/procedure/give_motion.hpp"
 
 #include "libcdem/element/rigid_motion.hpp"
+#include "libcdem/load/resolve.hpp"
 #include "libcdem/state/places.hpp"
 #include "libgeom/core/error.hpp"
 
@@ -28,6 +29,25 @@ geom::Vec3 centroid_of(const Model& model, const State& state, const std::vector
     mass += model.node_mass[i];
   }
   return origin + moment / mass;
+}
+
+bool fixes_stop(const std::vector<Fix>& fixes, const Model& model, const State& state,
+                const std::vector<int>& nodes, const RigidMotion& given) {
+  Conditions supports;
+  supports.fixes = fixes;
+  const ResolvedConditions resolved = resolve(model, state, supports);
+  std::vector<geom::Vec3> free(model.node_position.size(), geom::Vec3::Ones());
+  for (const HeldNode& h : resolved.held)
+    free[h.node] = vec(h.free);
+  bool moves = false;
+  for (const int i : nodes) {
+    const geom::Vec3 velocity =
+        given.velocity + given.angular_velocity.cross(place_of(model, state, i) - given.about);
+    moves = moves || !velocity.isZero(0);
+    if (!velocity.cwiseProduct(free[i]).isZero(0))
+      return false;
+  }
+  return moves;
 }
 
 double give_motion(const Model& model, State& state, const std::vector<int>& nodes, const RigidMotion& given,

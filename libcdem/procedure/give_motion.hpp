@@ -4,6 +4,7 @@
 // exp(-[w] lag) (x - about) from the point that they turn about; a rigid body gets the angular momentum of that moment.
 #pragma once
 
+#include "libcdem/load/conditions.hpp"
 #include "libcdem/state/state.hpp"
 
 #include <string>
@@ -17,6 +18,10 @@ struct RigidMotion {
 };
 
 geom::Vec3 centroid_of(const Model&, const State&, const std::vector<int>& nodes); // m, where it is now
+
+// The fixes hold every node in each direction in which that motion would move it.
+bool fixes_stop(const std::vector<Fix>&, const Model&, const State&, const std::vector<int>& nodes,
+                const RigidMotion&);
 
 // Gives the nodes that motion; rigid bodies take it as a whole. Returns the kinetic energy that they gain, J. Throws
 // geom::InputError when a part of a rigid body is among them; on: what the user selected.

@@ -5,7 +5,9 @@
 #include "libgeom/core/rotation.hpp"
 #include "libgeom/polyhedron/cut.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace geom {
 
@@ -29,6 +31,15 @@ bool reaches_into(const Polyhedron& block, const Box& box) {
   return true;
 }
 
+// m; vertices nearer to a plane than this part of the smallest block lie on it, so that no block is left that is thinner.
+double cut_tolerance(const Assembly& assembly) {
+  constexpr double part = 1e-9;
+  double smallest = std::numeric_limits<double>::infinity();
+  for (const Polyhedron& block : assembly.blocks)
+    smallest = std::min(smallest, bounding_box(block).size().norm());
+  return part * smallest;
+}
+
 void mark_cut_face(Part& part, const PlaneCutOptions& options) {
   for (std::size_t f = 0; f < part.shape.faces.size(); ++f)
     if (part.parent_face[f] == cut_face) {
@@ -49,6 +60,7 @@ Assembly cut_by_plane(Assembly assembly, const Plane& given, const PlaneCutOptio
     throw InputError("clearance", text(options.clearance), "finite and >= 0 m");
   const Plane plane{given.normal / length, given.offset / length};
 
+  const double tolerance = cut_tolerance(assembly);
   Assembly result;
   result.blocks.reserve(assembly.blocks.size());
   for (Polyhedron& block : assembly.blocks) {
@@ -60,8 +72,9 @@ Assembly cut_by_plane(Assembly assembly, const Plane& given, const PlaneCutOptio
       result.blocks.push_back(std::move(block));
       continue;
     }
-    Cut halves = cut(block, options.clearance > 0 ? shifted_clear_of_vertices(block, plane, options.clearance)
-                                                  : plane);
+    Cut halves = options.clearance > 0
+                     ? cut(block, shifted_clear_of_vertices(block, plane, options.clearance))
+                     : cut(block, plane, tolerance);
     for (std::optional<Part>* part : {&halves.below, &halves.above}) {
       if (!*part)
         continue;

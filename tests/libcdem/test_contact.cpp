@@ -531,6 +531,17 @@ TEST_CASE("contact: what a law between meshes or blocks of small strain would ig
   const std::vector<cdem::BodySpec> blocks{body("a", geom::grid({1, 1, 1}, {1, 1, 1})),
                                            body("b", geom::grid({1, 1, 1}, {1, 1, 1}, {0, 0, 1}))};
   CHECK_THAT(refused(blocks, damped), Catch::Matchers::Contains("between bodies of small strain"));
+  // Blocks that move far and touch have damped springs between them; what meets later has contact alone.
+  std::vector<cdem::BodySpec> touch = blocks, apart = blocks;
+  for (std::vector<cdem::BodySpec>* bodies : {&touch, &apart})
+    for (cdem::BodySpec& one : *bodies)
+      one.element = cdem::Element::finite_volume;
+  for (Vec3& x : apart[1].shape.blocks[0].vertices)
+    x.z() += 0.5;
+  CHECK(refused(touch, damped).empty());
+  CHECK_THAT(refused(apart, damped),
+             Catch::Matchers::Contains("contacts {\"a\", \"b\"}: stiffness_damping") &&
+                 Catch::Matchers::Contains("do not touch when the model is built"));
   cdem::Joint own = rock_joint();
   own.stiffness_damping = 1e-5;
   CHECK_THAT(refusal([&] {

@@ -167,3 +167,27 @@ TEST_CASE("spin of bodies that have moved and turned is about where they are now
   CHECK(now.kinetic > (1 - 1e-9) * expected);
   CHECK(now.kinetic < (rigid ? 1 + 1e-9 : 2.5) * expected);
 }
+
+TEST_CASE("a velocity given to what supports hold against it is refused", "[initial_motion]") {
+  const bool rigid = GENERATE(false, true);
+  cdem::ModelSpec spec;
+  spec.bodies = {body("left", geom::grid({1, 1, 1}, {1, 1, 1}, {0, 0, 0})),
+                 body("right", geom::grid({1, 1, 1}, {1, 1, 1}, {3, 0, 0}))};
+  spec.bodies[0].element = rigid ? cdem::Element::rigid : cdem::Element::finite_volume;
+  cdem::Simulation s(spec, 1, nullptr);
+  s.fix(fixed(body_of("left")));
+  s.fix(fixed(body_of("right"), "x"));
+  const auto refusal = [&](const char* on, const Vec3& velocity) {
+    try {
+      s.initial_velocity(body_of(on), velocity, Vec3::Zero());
+    } catch (const geom::InputError& e) {
+      return std::string(e.what());
+    }
+    return std::string();
+  };
+  CHECK_THAT(refusal("left", {1, 0, 0}), Catch::Matchers::Contains("model:fix holds every node there"));
+  CHECK_THAT(refusal("right", {1, 0, 0}), Catch::Matchers::Contains("model:fix holds every node there"));
+  CHECK(refusal("right", {1, 0, 2}).empty()); // it may move along z
+  CHECK(refusal("left", {0, 0, 0}).empty());
+  CHECK_NOTHROW(s.initial_velocity(cdem::Selection::everything(), {0, 0, 1}, Vec3::Zero()));
+}

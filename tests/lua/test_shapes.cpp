@@ -51,6 +51,26 @@ TEST_CASE("assemblies are cut, moved, turned and joined into new ones", "[lua]")
                  "assert(#cdem.merge{ shapes = { a, cut } } == 3)") == "");
 }
 
+TEST_CASE("a cut within rounding of a face leaves a block whole, and one that leaves a splinter is told of",
+          "[lua]") {
+  const auto lines = [](const std::string& z) {
+    Script script("local cdem = require 'cdem'\n"
+                  "local cut = cdem.cut_by_plane{ shape = cdem.box{ size = {2, 1, 1} }, point = {0, 0, " +
+                  z + "}, normal = {0, 0, 1} }\nprint('blocks ' .. #cut)");
+    script.run();
+    std::string all;
+    for (const std::string& line : script.listener->lines)
+      all += line + "\n";
+    return all;
+  };
+  const std::string in_face = lines("1 - 1e-12"), splinter = lines("1 - 1e-6"), plain = lines("0.99");
+  CHECK_THAT(in_face, Contains("blocks 1") && !Contains("warning"));
+  CHECK_THAT(splinter, Contains("blocks 2") &&
+                           Contains("1 block thinner than a ten-thousandth of its size") &&
+                           Contains("1e-06 m at"));
+  CHECK_THAT(plain, Contains("blocks 2") && !Contains("warning"));
+}
+
 TEST_CASE("builders refuse what cannot be built", "[lua]") {
   CHECK_THAT(error_of(head + "cdem.grid{ size = {1, 1, 1}, divisions = {1, 1, 0} }"),
              Contains("divisions[3] = 0: must be >= 1"));

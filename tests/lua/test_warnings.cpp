@@ -331,3 +331,34 @@ TEST_CASE("a density that no water has is told of", "[lua]") {
   CHECK(in_water("1000") == 0);
   CHECK(in_water("0") == 0);
 }
+
+TEST_CASE("dips and angles of bolts that look like radians are warned of", "[lua]") {
+  const auto of = [](const std::string& dips) {
+    return warnings_of("local cdem = require 'cdem'\n"
+                       "cdem.cut_by_joints{ shape = cdem.box{ size = {1, 1, 1} }, sets = { " +
+                       dips + " } }");
+  };
+  const auto radians = of("{ dip = 0.6, dip_direction = 1.5, spacing = 0.4 }");
+  REQUIRE(radians.size() == 1);
+  CHECK_THAT(radians[0],
+             Contains("cut_by_joints: dip and dip_direction of sets") && Contains("angles are in degrees"));
+  CHECK(of("{ dip = 0.6, dip_direction = 90, spacing = 0.4 }").empty());
+  CHECK(of("{ dip = 0, dip_direction = 0, spacing = 0.4 }").empty());
+  CHECK(of("{ dip = 1, dip_direction = 0, spacing = 0.4 }").empty());
+  CHECK(of("{ dip = 0.6, dip_direction = 0, spacing = 0.4 }, { dip = 85, dip_direction = 0, spacing = 0.4 }")
+            .empty());
+  const auto discs =
+      warnings_of("local cdem = require 'cdem'\n"
+                  "cdem.cut_by_discs{ shape = cdem.box{ size = {1, 1, 1} }, discs = { { centre = "
+                  "{0.5, 0.5, 0.5}, dip = 0.7, dip_direction = 3.1, radius = 2, set = 'a' } } }");
+  REQUIRE(discs.size() == 1);
+  CHECK_THAT(discs[0], Contains("dip and dip_direction of discs"));
+  const auto bolts = [](const std::string& angles) {
+    return warnings_of(column() +
+                       "model:bolts{ pattern = { axis = 'y', at = {0}, centre = {0, 0, 0.4}, radius = "
+                       "0.01, length = 0.1, angles = " +
+                       angles + " }, area = 1e-4, youngs_modulus = 2e11, grout_stiffness = 1e9 }");
+  };
+  CHECK(bolts("{0, 30}").empty());
+  CHECK(bolts("{0, 0.52}").size() == 1);
+}

@@ -1,4 +1,5 @@
 // Bolts and cables in scripts.
+#include "lua/binding/functions/radians_given.hpp"
 #include "lua/binding/objects/model_object.hpp"
 #include "lua/binding/runtime/module.hpp"
 
@@ -58,9 +59,10 @@ Value bolts(Session& session, ModelObject& model, const Arguments& a) {
   if (a.has("pattern") == a.has("from") || a.has("from") != a.has("to"))
     throw InputError("give from and to, or pattern");
   std::vector<std::pair<Vec3, Vec3>> ends;
-  if (const auto pattern = a.record("pattern"))
+  if (const auto pattern = a.record("pattern")) {
+    warn_of_radians(session, "bolts: pattern.angles", pattern->numbers("angles"));
     ends = ends_of(*pattern);
-  else
+  } else
     ends.emplace_back(a.vec3("from"), a.vec3("to"));
   Bolt bolt = steel_of(a);
   if (bolt.area > thickest)

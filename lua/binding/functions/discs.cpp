@@ -2,6 +2,7 @@
 #include "lua/binding/functions/discs.hpp"
 
 #include "lua/binding/functions/angles.hpp"
+#include "lua/binding/functions/radians_given.hpp"
 #include "lua/binding/objects/objects.hpp"
 #include "lua/binding/runtime/module.hpp"
 
@@ -59,7 +60,8 @@ Value disc_table(const geom::Disc& disc) {
                {"set", disc.set}};
 }
 
-Value random_discs(Session&, Object*, const Arguments& a) {
+Value random_discs(Session& session, Object*, const Arguments& a) {
+  std::vector<double> dips, directions; // deg
   std::vector<geom::RandomDiscs> sets;
   for (const Arguments& given : a.records("sets")) {
     const std::string path = "sets[" + std::to_string(sets.size() + 1) + "]";
@@ -74,7 +76,10 @@ Value random_discs(Session&, Object*, const Arguments& a) {
     set.p30 =
         given.has("p30") ? given.number("p30") : given.number("p32") / (pi * geom::mean_square(set.radius));
     sets.push_back(std::move(set));
+    dips.push_back(given.number("dip"));
+    directions.push_back(given.number("dip_direction"));
   }
+  warn_of_radians(session, "random_discs: dip and dip_direction of sets", dips, directions);
   Values rows;
   for (const geom::Disc& disc :
        geom::random_discs(sets, box_of(a), static_cast<std::uint64_t>(a.integer("seed"))))
@@ -82,7 +87,7 @@ Value random_discs(Session&, Object*, const Arguments& a) {
   return Table::list(std::move(rows));
 }
 
-Value disc_statistics(Session&, Object*, const Arguments& a) {
+Value disc_statistics(Session& session, Object*, const Arguments& a) {
   geom::DiscWindow window;
   window.box = box_of(a);
   if (const auto plane = a.record("plane")) {
@@ -93,7 +98,7 @@ Value disc_statistics(Session&, Object*, const Arguments& a) {
   if (const auto line = a.record("line"))
     window.line = {line->vec3("from"), line->vec3("to")};
   Values rows;
-  for (const geom::DiscStatistics& s : geom::disc_statistics(discs_of(a), window)) {
+  for (const geom::DiscStatistics& s : geom::disc_statistics(discs_of(session, a), window)) {
     Table row{{"set", s.set},
               {"count", s.count},
               {"mean_radius", s.mean_radius},
@@ -118,8 +123,9 @@ Field box_field() {
 
 } // namespace
 
-std::vector<geom::Disc> discs_of(const Arguments& a) {
+std::vector<geom::Disc> discs_of(Session& session, const Arguments& a) {
   std::vector<geom::Disc> discs;
+  std::vector<double> dips, directions; // deg
   for (const Arguments& given : a.records("discs")) {
     geom::Disc disc;
     disc.id = given.has("id") ? given.integer("id") : static_cast<std::int64_t>(discs.size()) + 1;
@@ -129,7 +135,10 @@ std::vector<geom::Disc> discs_of(const Arguments& a) {
     disc.radius = given.number("radius");
     disc.set = given.text("set");
     discs.push_back(disc);
+    dips.push_back(given.number("dip"));
+    directions.push_back(given.number("dip_direction"));
   }
+  warn_of_radians(session, "dip and dip_direction of discs", dips, directions);
   return discs;
 }
 

@@ -8,6 +8,6 @@
 namespace cdem::script {
 
 std::vector<Field> disc_fields();
-std::vector<geom::Disc> discs_of(const Arguments&); // of the list "discs"
+std::vector<geom::Disc> discs_of(Session&, const Arguments&); // of the list "discs"
 
 } // namespace cdem::script

@@ -1,6 +1,7 @@
 // Block assemblies: the builders of libgeom.
 #include "lua/binding/functions/angles.hpp"
 #include "lua/binding/functions/discs.hpp"
+#include "lua/binding/functions/radians_given.hpp"
 #include "lua/binding/functions/solving_warnings.hpp"
 #include "lua/binding/objects/objects.hpp"
 #include "lua/binding/objects/solid_objects.hpp"
@@ -13,6 +14,8 @@
 #include "libgeom/assembly/join_thin.hpp"
 #include "libgeom/core/error.hpp"
 #include "libgeom/mesh/tet_blocks.hpp"
+
+#include <limits>
 
 namespace cdem::script {
 
@@ -54,6 +57,7 @@ Value bricks(Session&, Object*, const Arguments& a) {
 
 Value cut_by_joints(Session& session, Object*, const Arguments& a) {
   std::vector<geom::JointSet> sets;
+  std::vector<double> dips, directions; // deg
   for (const Arguments& given : a.records("sets")) {
     geom::JointSet set;
     set.dip = radians(given.number("dip"));
@@ -64,7 +68,10 @@ Value cut_by_joints(Session& session, Object*, const Arguments& a) {
     set.direction_scatter = radians(given.number("direction_scatter"));
     set.name = given.text_or("name", "");
     sets.push_back(set);
+    dips.push_back(given.number("dip"));
+    directions.push_back(given.number("dip_direction"));
   }
+  warn_of_radians(session, "cut_by_joints: dip and dip_direction of sets", dips, directions);
   geom::JoinedThin joined =
       geom::join_thin(geom::cut_by_joints(a.object<AssemblyObject>("shape")->assembly, sets,
                                           static_cast<std::uint64_t>(a.integer("seed"))),
@@ -89,8 +96,8 @@ Value read_discs(Session& session, Object*, const Arguments& a) {
   return Table::list(std::move(rows));
 }
 
-Value cut_by_discs(Session&, Object*, const Arguments& a) {
-  return made(geom::cut_by_discs(a.object<AssemblyObject>("shape")->assembly, discs_of(a)));
+Value cut_by_discs(Session& session, Object*, const Arguments& a) {
+  return made(geom::cut_by_discs(a.object<AssemblyObject>("shape")->assembly, discs_of(session, a)));
 }
 
 Value blocks_of_mesh(Session&, Object*, const Arguments& a) {
@@ -129,7 +136,28 @@ Value keep_blocks(Session&, Object*, const Arguments& a) {
   return made(geom::kept(a.object<AssemblyObject>("shape")->assembly, *optional_box(a, "inside")));
 }
 
-Value cut_by_plane(Session&, Object*, const Arguments& a) {
+// Blocks whose least height is below `thin` times their extent, m.
+struct Splinters {
+  std::int64_t count = 0;
+  double thinnest = std::numeric_limits<double>::infinity();
+  geom::Vec3 place = geom::Vec3::Zero();
+};
+Splinters splinters_of(const geom::Assembly& assembly) {
+  constexpr double thin = 1e-4;
+  Splinters found;
+  for (const geom::Polyhedron& block : assembly.blocks)
+    if (const double height = geom::thickness(block);
+        height < thin * geom::bounding_box(block).size().norm()) {
+      ++found.count;
+      if (height < found.thinnest) {
+        found.thinnest = height;
+        found.place = geom::bounding_box(block).centre();
+      }
+    }
+  return found;
+}
+
+Value cut_by_plane(Session& session, Object*, const Arguments& a) {
   const geom::Vec3 normal = a.vec3("normal");
   if (!(normal.norm() > 0))
     throw geom::InputError("normal", describe(a.value("normal")), "longer than zero");
@@ -139,8 +167,15 @@ Value cut_by_plane(Session&, Object*, const Arguments& a) {
   options.clearance = a.number("clearance");
   options.name = a.text_or("name", "");
   options.glued = a.flag("glued");
-  return made(geom::cut_by_plane(a.object<AssemblyObject>("shape")->assembly,
-                                 geom::Plane::through(a.vec3("point"), normal), options));
+  const geom::Assembly& whole = a.object<AssemblyObject>("shape")->assembly;
+  geom::Assembly parts = geom::cut_by_plane(whole, geom::Plane::through(a.vec3("point"), normal), options);
+  const Splinters splinters = splinters_of(parts);
+  if (const std::int64_t made_here = splinters.count - splinters_of(whole).count; made_here > 0)
+    session.warn("cut_by_plane: " + std::to_string(made_here) + (made_here == 1 ? " block" : " blocks") +
+                 " thinner than a ten-thousandth of its size, down to " + three_digits(splinters.thinnest) +
+                 " m at " + place_text(splinters.place) +
+                 " m: the plane runs along a face; move it, or give clearance");
+  return made(std::move(parts));
 }
 
 Value translate(Session&, Object*, const Arguments& a) {
