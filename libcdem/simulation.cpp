@@ -15,6 +15,7 @@
 #include "libcdem/procedure/settle.hpp"
 #include "libcdem/procedure/turn_rigid.hpp"
 #include "libcdem/results/units.hpp"
+#include "libcdem/results/watch_carried.hpp"
 #include "libcdem/simulation_checks.hpp"
 #include "libcdem/step/forces.hpp"
 #include "libcdem/step/mesh_forces.hpp"
@@ -216,9 +217,13 @@ void Simulation::initial_velocity(const Selection& on, const geom::Vec3& velocit
   const std::vector<int> nodes = selected_nodes(s.model, on);
   if (nodes.empty())
     throw geom::InputError("on", on.text, "a place that holds nodes", "nothing of the model lies there");
-  const double given = give_motion(
-      s.model, s.state, nodes,
-      {velocity, angular_velocity, about ? *about : centroid_of(s.model, s.state, nodes)}, on.text);
+  const RigidMotion motion{velocity, angular_velocity, about ? *about : centroid_of(s.model, s.state, nodes)};
+  if (!s.replaying && fixes_stop(s.conditions.fixes, s.model, s.state, nodes, motion))
+    throw geom::InputError(
+        "on", on.text, "a place that may move as it is told",
+        "model:fix holds every node there in these directions; release them first, or give the "
+        "fix a velocity");
+  const double given = give_motion(s.model, s.state, nodes, motion, on.text);
   s.state.spent.external += given;
   s.state.spent.external_peak = std::max(s.state.spent.external_peak, std::abs(s.state.spent.external));
 }
@@ -245,11 +250,13 @@ const std::vector<Departure>& Simulation::departures(std::size_t watch) const {
 
 std::int64_t Simulation::remove(const Selection& on) {
   Impl& s = *impl_;
-  s.require_blocks("remove");
   std::vector<Successor> left;
+  std::vector<int> new_block(s.model.blocks.size(), -1);
   for (int b = 0; b < static_cast<int>(s.model.blocks.size()); ++b)
-    if (!selects_block(s.model, on, b))
+    if (!selects_block(s.model, on, b)) {
+      new_block[b] = static_cast<int>(left.size());
       left.push_back(whole_block(s.model, b));
+    }
   const auto removed = static_cast<std::int64_t>(s.model.blocks.size() - left.size());
   if (removed == 0)
     throw geom::InputError("on", on.text, "a place that holds block centroids",
@@ -257,6 +264,14 @@ std::int64_t Simulation::remove(const Selection& on) {
   if (left.empty())
     throw geom::InputError("on", on.text, "a part of the model",
                            "removing everything leaves nothing to solve");
+  for (const Watch& watch : s.log.watches)
+    for (const int unit : watch.blocks)
+      if (new_block[unit] < 0)
+        throw geom::InputError("on", on.text, "a place without units that are watched",
+                               "block " + std::to_string(s.model.blocks[unit].id) + " of body \"" +
+                                   s.model.bodies[s.model.blocks[unit].body].name + "\" is");
+  for (Watch& watch : s.log.watches)
+    carry_over(watch, new_block);
   s.adopt(rebuild(s.model, s.state, std::move(left), {}, MayBreak::all));
   return removed;
 }

@@ -5,6 +5,7 @@
 #include "libcdem/bond/water_work.hpp"
 #include "libcdem/element/mesh_fields.hpp"
 #include "libcdem/fracture/rebuild.hpp"
+#include "libcdem/load/gone_body.hpp"
 #include "libcdem/ranks/state_shares.hpp"
 #include "libcdem/results/energy.hpp"
 #include "libcdem/simulation.hpp"
@@ -87,6 +88,9 @@ struct Simulation::Impl {
       Conditions tried;
       if (!model.rigid.empty())
         tried.fixes = conditions.fixes;
+      Conditions own;
+      add(own);
+      refuse_gone(model, own);
       add(tried);
       resolve(model, state, tried);
     }
@@ -99,12 +103,12 @@ struct Simulation::Impl {
     return elastic_energy(model, state) + spring_energy(model, state) + mesh_spring_energy(model, state);
   }
 
-  // Cutting and removing know convex blocks only.
+  // Cutting knows convex blocks only.
   void require_blocks(const char* call) const {
     if (!std::all_of(model.blocks.begin(), model.blocks.end(), [](const Block& b) { return b.convex(); }))
       throw geom::InputError(std::string(call) +
                              ": the model has meshed bodies; only a model of convex blocks alone "
-                             "can be cut or lose blocks");
+                             "can be cut");
   }
 
   // Turns the selected blocks rigid or deformable.
@@ -133,8 +137,7 @@ struct Simulation::Impl {
     return count;
   }
 
-  // A change of topology between stages: the ledger counts what it does to the stored and the kinetic energy. Smaller
-  // tets carry less of the mass at their corners, so that a block that spins has less of it once it is cut.
+  // A change of topology between stages: the ledger counts what it does to the stored and the kinetic energy.
   void adopt(Rebuilt&& rebuilt) {
     const double before = cdem::energy(model, state).total(), water = water_work(model, state);
     model = std::move(rebuilt.model);

@@ -4,9 +4,37 @@
 #include "libcdem/checkpoint/require_whole.hpp"
 #include "libcdem/simulation_impl.hpp"
 
+#include <algorithm>
 #include <fmt/format.h>
+#include <map>
 
 namespace cdem {
+namespace {
+
+int first_boundary(const Model& model, int block) {
+  const auto& all = model.mesh.boundary; // by block
+  return static_cast<int>(std::partition_point(all.begin(), all.end(),
+                                               [&](const BoundaryTriangle& t) { return t.block < block; }) -
+                          all.begin());
+}
+
+// The named faces of meshes, which are not saved, in a model that has lost blocks since it was built: a mesh keeps its id and
+// the order of its outer faces.
+void take_names(const Model& built, Model& then) {
+  std::map<std::int64_t, int> first; // by the id of a block
+  for (int b = 0; b < static_cast<int>(then.blocks.size()); ++b)
+    if (!then.blocks[b].convex())
+      first[then.blocks[b].id] = first_boundary(then, b);
+  then.mesh.named.clear();
+  for (const auto& [name, faces] : built.mesh.named)
+    for (const int face : faces) {
+      const int block = built.mesh.boundary[face].block;
+      if (const auto found = first.find(built.blocks[block].id); found != first.end())
+        then.mesh.named[name].push_back(found->second + face - first_boundary(built, block));
+    }
+}
+
+} // namespace
 
 template <class A>
 void archive(A& a, RestartPoint& restart_point) {
@@ -67,7 +95,7 @@ void Simulation::Impl::take(std::string_view saved, bool state_only) {
   require_fits(as_built ? model : model_then, state_then);
   archive(a, last_residual);
   if (!as_built) {
-    model_then.mesh.named = std::move(model.mesh.named); // of the same meshes
+    take_names(model, model_then);
     model = std::move(model_then);
   }
   state = std::move(state_then);

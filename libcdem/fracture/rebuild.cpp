@@ -6,7 +6,9 @@
 #include "libcdem/contact/response/contact_point.hpp"
 #include "libcdem/element/mesh_fields.hpp"
 #include "libcdem/element/small_strain.hpp"
+#include "libcdem/fracture/cut_motion.hpp"
 #include "libcdem/fracture/renew_interfaces.hpp"
+#include "libcdem/model/build/freed_meshes.hpp"
 #include "libgeom/polyhedron/cut.hpp"
 
 #include <algorithm>
@@ -113,9 +115,10 @@ public:
 
   Rebuilt operator()() {
     Rebuilt result;
-    result.model = build_model(old_, seeds(), [this](const Model& model, int a, int fa, int b, int fb) {
-      return traits(model, a, fa, b, fb);
-    });
+    result.model = build_model(
+        old_, seeds(),
+        [this](const Model& model, int a, int fa, int b, int fb) { return traits(model, a, fa, b, fb); },
+        mesh_seeds());
     result.state = initial_state(result.model);
     if (!from_.water_pressure.empty())
       result.state.water_pressure.assign(result.model.points.size(), 0);
@@ -130,6 +133,7 @@ public:
     for (const Successor& s : successors_)
       result.old_block.push_back(s.old_block);
     carry_blocks(result);
+    carry_faces(result);
     carry_support(result);
     carry_rigid(result);
     for (const Interface& interface : result.model.interfaces)
@@ -144,6 +148,8 @@ private:
     std::vector<BlockSeed> seeds;
     for (const Successor& s : successors_) {
       const Block& parent = old_.blocks[s.old_block];
+      if (!parent.convex())
+        continue;
       BlockSeed seed;
       seed.id = s.whole ? parent.id : 0;
       seed.parent = s.whole ? parent.parent : parent.id;
@@ -155,6 +161,14 @@ private:
         seed.zones = zones_of(old_, s.old_block);
       seeds.push_back(std::move(seed));
     }
+    return seeds;
+  }
+
+  std::vector<MeshSeed> mesh_seeds() const {
+    std::vector<MeshSeed> seeds;
+    for (const Successor& s : successors_)
+      if (!old_.blocks[s.old_block].convex())
+        seeds.push_back(mesh_seed(old_, s.old_block));
     return seeds;
   }
 
@@ -196,6 +210,7 @@ private:
   }
 
   void carry_blocks(Rebuilt& r) const {
+    std::map<int, std::vector<int>> parts; // of a cut block: the nodes of its parts
     for (std::size_t b = 0; b < r.model.blocks.size(); ++b) {
       const Block& now = r.model.blocks[b];
       const Block& before = old_.blocks[successors_[b].old_block];
@@ -217,6 +232,7 @@ private:
           const Eigen::Vector4d w = weights(old_, tet, place);
           r.state.displacement[node] = blend(from_.displacement, old_.tets[tet], w);
           r.state.velocity[node] = blend(from_.velocity, old_.tets[tet], w);
+          parts[successors_[b].old_block].push_back(node);
         }
       }
       for (int tet = now.tet_begin; tet < now.tet_end; ++tet) {
@@ -230,6 +246,39 @@ private:
           r.state.initial_stress[tet] = from_.initial_stress[source];
       }
     }
+    for (const auto& [block, nodes] : parts)
+      keep_motion(old_, from_, block, r.model, nodes, r.state);
+  }
+
+  // Of meshes, which stay whole: their faces stand in the same order as before.
+  void carry_faces(Rebuilt& r) const {
+    struct Place {
+      std::int64_t batch;
+      int lane;
+    };
+    std::map<int, std::vector<Place>> before; // by block
+    each_face(old_.mesh, [&](const MeshChunk& chunk, std::int64_t batch, int lane) {
+      before[chunk.block].push_back({batch, lane});
+    });
+    std::map<int, std::size_t> next;
+    each_face(r.model.mesh, [&](const MeshChunk& chunk, std::int64_t batch, int lane) {
+      const int old_block = successors_[chunk.block].old_block;
+      const Place was = before.at(old_block)[next[old_block]++];
+      const FaceStateBatch& from = from_.faces[was.batch];
+      FaceStateBatch& to = r.state.faces[batch];
+      for (int point = 0; point < 3; ++point)
+        to.mode[point][lane] = from.mode[point][was.lane];
+      to.handed_over[lane] = from.handed_over[was.lane];
+      to.stage[lane] = from.stage[was.lane];
+      to.preloaded[lane] = from.preloaded[was.lane];
+      if (const FaceSlip* slip = slip_of(from_, was.batch, was.lane))
+        slip_of(r.state, batch, lane) = *slip;
+      const std::int64_t old_face = was.batch * lanes + was.lane, face = batch * lanes + lane;
+      if (!from_.cohesive.empty())
+        r.state.cohesive[face] = from_.cohesive[old_face];
+      if (!from_.rate_factor.empty())
+        r.state.rate_factor[face] = from_.rate_factor[old_face];
+    });
   }
 
   void carry_zero(Rebuilt& r, std::size_t b) const {

@@ -1,10 +1,11 @@
 // The only function that changes topology between steps: it takes the old Model and State and returns new ones, with
 // every field transferred.
 //
-// A successor block is a whole old block, or a part of one. Its nodes take displacement and velocity from the
-// old block's tets at their place. Springs of an interface that was there before take mode, offset (preload,
-// slip) and damage from the nearest old spring. Springs on a new cut start intact with the traction the
-// parent's stress has there, as an offset. Without it the cut would shake the model.
+// A successor block is a whole old block, or a part of one; meshes are kept whole or left out. Its nodes take displacement
+// and velocity from the old block's tets at their place, its parts together the old momenta (cut_motion.hpp). Springs of an
+// interface that was there before take mode, offset (preload, slip) and damage from the nearest old spring. Springs on a
+// new cut start intact with the traction the parent's stress has there, as an offset. Without it the cut would shake the
+// model.
 #pragma once
 
 #include "libcdem/fracture/options.hpp"

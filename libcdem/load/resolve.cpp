@@ -4,6 +4,7 @@
 #include "libcdem/load/face_pressure.hpp"
 #include "libcdem/load/flow.hpp"
 #include "libcdem/load/free_field.hpp"
+#include "libcdem/load/gone_body.hpp"
 #include "libcdem/state/places.hpp"
 #include "libgeom/core/error.hpp"
 
@@ -39,6 +40,8 @@ HeldNode free_node(int node) {
 }
 
 void hold(const Model& model, const Fix& fix, HeldNodes& held, ResolvedConditions& r) {
+  if (is_gone(model, fix.on))
+    return;
   const std::vector<int> nodes = selected_nodes(model, fix.on);
   if (nodes.empty())
     selects_nothing("nodes", fix.on);
@@ -114,6 +117,8 @@ std::optional<geom::Vec3> hold_rigid(const Model& model, const Block& block, int
 using Pattern = std::vector<std::pair<int, geom::Vec3>>;
 
 Pattern traction_pattern(const Model& model, const Traction& traction) {
+  if (is_gone(model, traction.on))
+    return {};
   const std::vector<int> faces = selected_outer_faces(model, traction.on);
   if (faces.empty())
     selects_nothing("outer faces", traction.on);
@@ -129,6 +134,8 @@ Pattern traction_pattern(const Model& model, const Traction& traction) {
 // Shared in proportion to the volume around each node, so that the nodes of blocks that meet in one place move
 // together and a finer block does not attract more load.
 Pattern force_pattern(const Model& model, const PointForce& force) {
+  if (is_gone(model, force.on))
+    return {};
   const std::vector<int> nodes = selected_nodes(model, force.on);
   if (nodes.empty())
     selects_nothing("nodes", force.on);
@@ -274,7 +281,8 @@ ResolvedConditions resolve(const Model& model, const State& state, const Conditi
   if (conditions.gravity)
     add_gravity(model, *conditions.gravity, r);
   for (const Flow& flow : conditions.flows)
-    add_flow(model, flow, r);
+    if (!is_gone(model, flow.on))
+      add_flow(model, flow, r);
   if (!conditions.bolts.empty()) {
     r.bolts = resolve_bolts(model, state, conditions.bolts);
     r.bolt_load = r.varying.size();

@@ -910,7 +910,7 @@ function Model:initial_velocity(options) end
 ---@class (exact) cdem.ModelRemoveOptions
 ---@field on cdem.Place where: a place or a list of places
 
----Takes blocks out of the model (an excavation): those whose centroid is selected. Not where a body is a mesh.
+---Takes blocks and whole meshes out of the model (an excavation): those whose undeformed centroid is selected.
 ---@param options cdem.ModelRemoveOptions
 ---@return integer # how many
 function Model:remove(options) end

@@ -1,8 +1,11 @@
 // Cutting and removing blocks: every field goes over to the new model.
+#include "tests/libcdem/boxes.hpp"
+#include "tests/libcdem/cohesive_concrete.hpp"
 #include "tests/libcdem/random_cuts.hpp"
 #include "tests/libcdem/system.hpp"
 
 #include "libcdem/fracture/rebuild.hpp"
+#include "libcdem/results/energy.hpp"
 #include "libgeom/assembly/builders.hpp"
 
 #include <catch2/catch.hpp>
@@ -152,6 +155,104 @@ TEST_CASE("parts of a cut block inherit its field where it is linear, and its br
       CHECK(s.state.bond_offset[p] == Vec3(1e-5, 2e-5, 3e-5));
     }
   CHECK(area == Approx(0.25).epsilon(1e-12));
+}
+
+TEST_CASE("a cut of moving blocks keeps momentum and angular momentum, and gives no energy", "[carry]") {
+  cdem::BodySpec spec = body("rock", geom::voronoi([] {
+                               geom::VoronoiOptions cells;
+                               cells.count = 6;
+                               cells.origin = {20, -10, 5};
+                               return cells;
+                             }()));
+  spec.element = cdem::Element::finite_volume;
+  System s(build({spec}));
+  const geom::Mat3 turn = rotation({1, 2, 0.5}, 0.8);
+  const bool spins_alone = GENERATE(true, false);
+  const Vec3 w(3, -1, 2), centre(20.5, -9.5, 5.5);
+  for (std::size_t i = 0; i < s.model.node_position.size(); ++i) {
+    const Vec3 x = turn * (s.model.node_position[i] - centre) + centre;
+    s.state.displacement[i] = node(x - s.model.node_position[i]);
+    Vec3 v = Vec3(5, 1, -2) + w.cross(x - centre);
+    if (!spins_alone) // it rings as well, in no smooth way
+      v += 2 * Vec3(std::sin(40 * x.x()), std::cos(31 * x.y() + x.z()), std::sin(57 * x.z() * x.x()));
+    s.state.velocity[i] = node(v);
+  }
+  const Momentum before = momentum(s, Places::present);
+  const double energy = cdem::energy(s.model, s.state).kinetic;
+  cut_at_random(s, all_blocks(s.model), 8);
+  REQUIRE(s.model.blocks.size() > 6);
+  const Momentum after = momentum(s, Places::present);
+  CHECK((after.linear - before.linear).norm() < 1e-9 * before.linear.norm());
+  CHECK((after.angular - before.angular).norm() < 1e-8 * before.angular.norm());
+  const double left = cdem::energy(s.model, s.state).kinetic;
+  CHECK(left < (1 + 1e-9) * energy);
+  if (spins_alone)
+    CHECK(left > (1 - 1e-8) * energy);
+}
+
+TEST_CASE(
+    "removing what touches nothing leaves blocks and meshes, cracked ones too, to go on as they would have",
+    "[carry]") {
+  const auto scene = [] {
+    cdem::Bonding springs;
+    springs.everywhere = true;
+    const geom::Mat3 upright = geom::Mat3::Identity();
+    const auto box = [&](double x, double z) {
+      return box_at({0.3, 0.3, 0.3}, {3, 3, 3}, upright, {x, 0, z});
+    };
+    std::vector<cdem::BodySpec> bodies{
+        body("away", geom::grid({1, 1, 1}, {2, 1, 1}, {0, 20, 0})),
+        body("blocks", geom::grid({0.3, 0.3, 0.3}, {2, 1, 1}, {0.9, -0.15, 0.0005})),
+        meshed("floor", box_at({3, 1, 0.1}, {6, 2, 1}, upright, {0.5, 0, -0.05})),
+        meshed("far mesh", box_at({1, 1, 1}, {1, 1, 1}, upright, {0, -20, 0})),
+        meshed("cohesive", box(0, 0.1505), cohesive(), concrete(), concrete_joint(cdem::Softening::linear)),
+        meshed("springs", box(0.5, 0.1505), springs, concrete(), concrete_joint(cdem::Softening::none)),
+        meshed("whole", box(-0.4, 0.1505))};
+    bodies[1].element = cdem::Element::finite_volume;
+    bodies[2].element = cdem::Element::rigid;
+    std::vector<cdem::PairSpec> pairs;
+    for (const char* on : {"blocks", "cohesive", "springs", "whole"})
+      pairs.push_back({on, "floor", friction(30)});
+    System s(build(bodies, pairs));
+    s.hold(body_of("floor"), "xyz");
+    for (std::size_t i = 0; i < s.state.velocity.size(); ++i) {
+      const cdem::Block& block = s.model.blocks[cdem::block_of(s.model, static_cast<int>(i))];
+      if (block.rigid < 0 && std::abs(block.mass.centroid.y()) < 1)
+        s.state.velocity[i] = {1, 0.5, -6, 0};
+    }
+    return s;
+  };
+  cdem::RunOptions options;
+  options.steps = 400;
+  options.time_step = 1e-6;
+  System stays = scene(), loses = scene();
+  stays.run(options);
+  loses.run(options);
+  const std::size_t cracks = loses.log.breaks.size();
+  REQUIRE(cracks > 0);
+  REQUIRE(!loses.state.contacts.empty());
+  std::vector<cdem::Successor> left;
+  for (int b = 0; b < static_cast<int>(loses.model.blocks.size()); ++b)
+    if (std::abs(loses.model.blocks[b].mass.centroid.y()) < 1)
+      left.push_back(cdem::whole_block(loses.model, b));
+  cdem::Rebuilt r = cdem::rebuild(loses.model, loses.state, left, {}, cdem::MayBreak::all);
+  REQUIRE(r.old_block.size() + 3 == loses.model.blocks.size());
+  CHECK(r.state.contacts.size() == loses.state.contacts.size());
+  loses.adopt(std::move(r.model), std::move(r.state));
+  loses.last_good = loses.state;
+  for (System* s : {&stays, &loses})
+    s->run(options);
+  CHECK(loses.log.breaks.size() > cracks);
+  CHECK(loses.log.breaks.size() == stays.log.breaks.size());
+  for (const cdem::Block& now : loses.model.blocks) {
+    const auto same = std::find_if(stays.model.blocks.begin(), stays.model.blocks.end(),
+                                   [&](const cdem::Block& b) { return b.id == now.id; });
+    REQUIRE(same->node_end - same->node_begin == now.node_end - now.node_begin);
+    INFO("body " << loses.model.bodies[now.body].name);
+    for (const auto member : {&cdem::State::displacement, &cdem::State::velocity})
+      CHECK(same_bits(&(loses.state.*member)[now.node_begin], &(stays.state.*member)[same->node_begin],
+                      now.node_end - now.node_begin));
+  }
 }
 
 TEST_CASE("the map from new to old blocks names the block each part lies in", "[carry]") {

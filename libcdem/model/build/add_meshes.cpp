@@ -373,8 +373,8 @@ void add_convex_blocks(Model& model, const std::vector<geom::BlockMesh>& meshes)
 }
 
 void add_meshes(Model& model, std::vector<MeshSeed>&& seeds) {
-  const bool keeps_regions = std::any_of(model.bodies.begin(), model.bodies.end(),
-                                         [](const Body& body) { return body.bonding.is_cohesive(); });
+  const bool keeps_freed = std::any_of(model.bodies.begin(), model.bodies.end(),
+                                       [](const Body& body) { return body.bonding.is_cohesive(); });
   for (MeshSeed& seed : seeds) {
     const geom::TetMesh mesh = seed.ordered ? std::move(seed.mesh) : geom::ordered(seed.mesh);
     seed.mesh = {};
@@ -403,10 +403,11 @@ void add_meshes(Model& model, std::vector<MeshSeed>&& seeds) {
     block.tet_end = block.tet_begin + static_cast<int>(mesh.tets.size());
     model.blocks.push_back(std::move(block));
     add_nodes(model, mesh, split, index);
-    if (keeps_regions) {
-      model.mesh.region.resize(static_cast<std::size_t>(model.blocks.back().tet_begin - model.mesh.first_tet),
-                               0);
-      model.mesh.region.insert(model.mesh.region.end(), mesh.region.begin(), mesh.region.end());
+    model.mesh.region.resize(static_cast<std::size_t>(model.blocks.back().tet_begin - model.mesh.first_tet),
+                             0);
+    model.mesh.region.insert(model.mesh.region.end(), mesh.region.begin(), mesh.region.end());
+    model.mesh.region.resize(static_cast<std::size_t>(model.blocks.back().tet_end - model.mesh.first_tet), 0);
+    if (keeps_freed) {
       model.mesh.freed.resize(model.node_position.size() - static_cast<std::size_t>(model.mesh.first_node),
                               0);
       if (!seed.freed.empty())

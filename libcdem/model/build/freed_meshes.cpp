@@ -1,6 +1,5 @@
 #include "libcdem/model/build/freed_meshes.hpp"
 
-#include "libcdem/model/build/add_meshes.hpp"
 #include "libcdem/model/build/contact_surface.hpp"
 
 #include <algorithm>
@@ -53,8 +52,9 @@ Model without_meshes(const Model& old, std::size_t first) {
   return model;
 }
 
-// The mesh that a block was made of, in the order it has in the model.
-MeshSeed seed_of(const Model& old, int block, const std::vector<char>& freed) {
+} // namespace
+
+MeshSeed mesh_seed(const Model& old, int block, const std::vector<char>& freed) {
   const Block& b = old.blocks[block];
   const MeshData& data = old.mesh;
   MeshSeed seed;
@@ -70,7 +70,7 @@ MeshSeed seed_of(const Model& old, int block, const std::vector<char>& freed) {
     seed.freed.resize(static_cast<std::size_t>(count), 0);
   for (int node = b.node_begin; node < b.node_end; ++node) {
     seed.mesh.nodes[original[node] - first] = old.node_position[node];
-    if (cohesive && (freed[node] != 0 || data.freed[node - data.first_node] != 0))
+    if (cohesive && ((!freed.empty() && freed[node] != 0) || data.freed[node - data.first_node] != 0))
       seed.freed[original[node] - first] = 1;
   }
   for (int tet = b.tet_begin; tet < b.tet_end; ++tet) {
@@ -93,8 +93,6 @@ MeshSeed seed_of(const Model& old, int block, const std::vector<char>& freed) {
   return seed;
 }
 
-} // namespace
-
 Model with_freed_nodes(const Model& old, const std::vector<char>& freed) {
   const auto first = static_cast<std::size_t>(
       std::find_if(old.blocks.begin(), old.blocks.end(), [](const Block& b) { return !b.convex(); }) -
@@ -107,7 +105,7 @@ Model with_freed_nodes(const Model& old, const std::vector<char>& freed) {
         model.mesh.named[key].push_back(face);
   std::vector<MeshSeed> seeds;
   for (std::size_t b = first; b < old.blocks.size(); ++b)
-    seeds.push_back(seed_of(old, static_cast<int>(b), freed));
+    seeds.push_back(mesh_seed(old, static_cast<int>(b), freed));
   add_meshes(model, std::move(seeds));
   for (std::size_t b = first; b < old.blocks.size(); ++b)
     model.blocks[b].rigid = old.blocks[b].rigid;

@@ -284,8 +284,8 @@ void bind_conditions(Module& m) {
            "the point that w turns about; the centroid of what is selected when left out")},
       initial_velocity);
   add("remove",
-      "Takes blocks out of the model (an excavation): those whose centroid is selected. Not where a body is "
-      "a mesh.",
+      "Takes blocks and whole meshes out of the model (an excavation): those whose undeformed centroid is "
+      "selected.",
       {on()}, remove, "integer", "how many");
   add("make_rigid",
       "Meshed bodies keep the shape and the stress of this moment from now on, and move as a whole: those "
