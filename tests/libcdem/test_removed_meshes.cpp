@@ -1,4 +1,5 @@
 // Whole meshed bodies, and blocks beside meshes, are taken out of the model.
+#include "libgeom/assembly/builders.hpp"
 #include "libgeom/mesh/boundary.hpp"
 #include "tests/libcdem/boxes.hpp"
 #include "tests/support/refusal.hpp"
