@@ -65,7 +65,7 @@ void keep_motion(const Model& old, const State& from, int block, const Model& no
     rest += 0.5 * now.node_mass[i] * rest_of(i).squaredNorm();
   const double flight = 0.5 * after.mass * velocity.squaredNorm(),
                rotation = 0.5 * spin.dot(after.inertia * spin), room = before.energy - flight;
-  if (rotation > room && rotation > 0)
+  if (b.meshed && rotation > room && rotation > 0)
     spin *= std::sqrt(std::max(0.0, room) / rotation);
   const double kept = rest > 0 ? std::sqrt(std::clamp((room - rotation) / rest, 0.0, 1.0)) : 0;
   for (const int i : nodes)
