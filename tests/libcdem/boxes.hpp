@@ -19,6 +19,20 @@ inline geom::TetMesh box_at(const geom::Vec3& size, const std::array<int, 3>& di
   return placed(placed(geom::box_mesh(size, divisions), geom::Mat3::Identity(), -0.5 * size), turn, shift);
 }
 
+inline cdem::Elastic soft_rock(double youngs_modulus = 1e8) {
+  cdem::Elastic material = rock();
+  material.youngs_modulus = youngs_modulus;
+  return material;
+}
+
+// m, the lowest node of a block.
+inline double lowest(const System& s, int block) {
+  double z = 1e300;
+  for (int n = s.model.blocks[block].node_begin; n < s.model.blocks[block].node_end; ++n)
+    z = std::min(z, s.model.node_position[n].z() + s.state.displacement[n].z);
+  return z;
+}
+
 inline cdem::Joint friction(double angle) {
   cdem::Joint joint;
   joint.bonded = false;

@@ -1,5 +1,6 @@
 // Rough joints after Barton and Bandis: the formulas of the papers, evaluated here by themselves.
 #include "libcdem/joint/joint_law.hpp"
+#include "tests/libcdem/system.hpp"
 
 #include <catch2/catch.hpp>
 
@@ -8,9 +9,10 @@
 using Catch::Matchers::Contains;
 using geom::Vec3;
 
+using testing::degree;
+
 namespace {
 
-constexpr double degree = 3.14159265358979323846 / 180;
 const cdem::JointSpring stiff{1e12, 1e11, 0};
 
 cdem::BartonBandis

@@ -23,7 +23,7 @@ cdem::BodySpec box(const std::string& name, const Vec3& size, const Vec3& corner
   return spec;
 }
 
-cdem::Joint friction(double restitution = 1) {
+cdem::Joint floor_law(double restitution = 1) {
   cdem::Joint law;
   law.bonded = false;
   law.friction_angle = 30 * degree;
@@ -48,7 +48,7 @@ TEST_CASE("a block of one body rebounds from a block of another with the restitu
           "[contact][moving]") {
   const cdem::Element element = GENERATE(cdem::Element::rigid, cdem::Element::finite_volume);
   const double restitution = GENERATE(0.3, 0.8);
-  cdem::Joint law = friction(restitution);
+  cdem::Joint law = floor_law(restitution);
   law.normal_stiffness = 2e7; // soft beside the block, E / 0.5 m = 2e9 Pa/m: waves keep next to nothing
   cdem::Simulation s = on_held_floor({box("floor", {3, 3, 1}, {-1.3, -1.2, -1}, element),
                                       box("block", {0.5, 0.5, 0.5}, {-0.25, -0.25, 0.01}, element)},
@@ -68,7 +68,7 @@ TEST_CASE("the reaction of a floor is its weight and that of what stands on it",
   cdem::ModelSpec spec;
   spec.bodies = {box("floor", {3, 3, 1}, {-1, -1, -1}, floor),
                  box("block", {1, 1, 1}, {0, 0, 0}, cdem::Element::finite_volume)};
-  spec.default_contact = friction();
+  spec.default_contact = floor_law();
   cdem::Simulation s(spec, 1, nullptr);
   const cdem::Selection foot = by_its_foot ? cdem::Selection::side("z-") : cdem::Selection::of_body("floor");
   s.fix(fixed(foot));
@@ -86,7 +86,7 @@ TEST_CASE("a vertex in the middle of a coarse floor is no spring of the whole fl
   cdem::Simulation s = on_held_floor(
       {box("floor", {width, width, 1}, {-width / 2, -width / 2, -1}, cdem::Element::finite_volume),
        box("block", {1, 1, 1}, {-0.5, -0.5, 0.05}, element)},
-      friction());
+      floor_law());
   s.gravity(gravity());
   cdem::RunOptions options;
   options.duration = 0.4;
@@ -102,7 +102,7 @@ TEST_CASE("rigid blocks stacked on interfaces keep their energy at the default t
   std::vector<cdem::BodySpec> bodies{box("floor", {3, 3, 1}, {-1, -1, -1}, cdem::Element::rigid)};
   for (int i = 0; i < 10; ++i)
     bodies.push_back(box("slab " + std::to_string(i), {1, 1, 0.1}, {0, 0, 0.1 * i}, cdem::Element::rigid));
-  cdem::Simulation s = on_held_floor(std::move(bodies), friction());
+  cdem::Simulation s = on_held_floor(std::move(bodies), floor_law());
   s.gravity(gravity());
   cdem::RunOptions options;
   options.duration = 0.2;
@@ -119,7 +119,7 @@ TEST_CASE("two copies of a mesh, and one pushed into the other along a face, are
   for (Vec3& x : upper.nodes)
     x.z() += up;
   spec.bodies = {meshed("lower", lower), meshed("upper", upper)};
-  spec.default_contact = friction();
+  spec.default_contact = floor_law();
   CAPTURE(up);
   if (up < 0.99) // a hundredth of its size may be shared, as by units of a pile at rest
     CHECK_THROWS_AS(cdem::Simulation(spec, 1, nullptr), geom::InputError);

@@ -105,7 +105,7 @@ TEST_CASE("a chain unloads elastically and keeps what has yielded", "[bolts]") {
 namespace {
 
 // A bar that is drawn out at its top, with a bolt along its axis or without.
-cdem::Simulation bar(int threads, std::shared_ptr<cdem::Observer> observer) {
+cdem::Simulation bolted_bar(int threads, std::shared_ptr<cdem::Observer> observer) {
   cdem::Elastic soft = rock();
   soft.youngs_modulus = 1e9;
   soft.poissons_ratio = 0;
@@ -120,7 +120,7 @@ const cdem::Selection foot = cdem::Selection::side("z-"), top = cdem::Selection:
 
 TEST_CASE("a bolt stiffens the rock it runs through, and relaxation books its energy", "[bolts]") {
   const auto elongation = [](bool bolted) {
-    cdem::Simulation s = bar(1, nullptr);
+    cdem::Simulation s = bolted_bar(1, nullptr);
     s.fix(fixed(foot, "z"));
     s.fix(fixed(at_place({0, 0, 0}), "xy"));
     s.fix(fixed(at_place({1, 0, 0}), "y"));
@@ -148,7 +148,7 @@ TEST_CASE("a bolt stiffens the rock it runs through, and relaxation books its en
 }
 
 TEST_CASE("a pretensioned bolt presses the rock between plate and anchor", "[bolts]") {
-  cdem::Simulation s = bar(1, nullptr);
+  cdem::Simulation s = bolted_bar(1, nullptr);
   s.fix(fixed(at_place({0, 0, 0}), "xyz"));
   s.fix(fixed(at_place({1, 0, 0}), "yz"));
   s.fix(fixed(at_place({0, 1, 0}), "z"));
@@ -192,11 +192,11 @@ TEST_CASE("a bolt that swings with the rock goes on to the same bits, its energy
     CHECK(e.yielding + e.friction > 0);
     return Figures{e.bolts, e.yielding, e.friction, s.bolts().front().slip};
   };
-  check_going_on(bar, solve, {30});
+  check_going_on(bolted_bar, solve, {30});
 }
 
 TEST_CASE("a bolt outside the rock is refused, and numbers that are none", "[bolts]") {
-  cdem::Simulation s = bar(1, nullptr);
+  cdem::Simulation s = bolted_bar(1, nullptr);
   cdem::Bolt out = a_bolt(10);
   out.to = {0.5, 0.5, length + 1};
   CHECK_THROWS_WITH(s.bolt(out), Catch::Matchers::Contains("to = (0.5, 0.5, 5)") &&

@@ -60,19 +60,13 @@ geom::TetMesh two_parts(double jitter) {
   return mesh;
 }
 
-cdem::Elastic soft() {
-  cdem::Elastic m = rock();
-  m.youngs_modulus = 1e9;
-  return m;
-}
-
 // The upper part lies on a slope, pressed by its weight and held by friction.
 System leaning(const Mat3& turn, double jitter, int threads, const Vec3& pull = gravity_on_slope) {
   cdem::Joint joint = halves_joint(false);
   joint.friction_angle = friction_angle;
-  System s(
-      build({meshed("unit", placed(two_parts(jitter), turn, Vec3::Zero()), between_halves(), soft(), joint)},
-            {{"unit", "unit", friction(friction_angle / degree)}}));
+  System s(build({meshed("unit", placed(two_parts(jitter), turn, Vec3::Zero()), between_halves(),
+                         soft_rock(1e9), joint)},
+                 {{"unit", "unit", friction(friction_angle / degree)}}));
   s.threads = threads;
   const Vec3 up = turn.col(2);
   s.hold(cdem::Selection::where([=](const Vec3& x) { return x.dot(up) < 1e-6; }, "the foot"), "xyz");

@@ -11,7 +11,7 @@ using geom::Vec3;
 
 namespace {
 
-const std::array<double, 6> in_situ = {-3e6, -5e6, -8e6, 5e5, -4e5, 3e5};
+const std::array<double, 6> pre_stress = {-3e6, -5e6, -8e6, 5e5, -4e5, 3e5};
 const geom::Mat3 in_situ_tensor = symmetric(-3e6, -5e6, -8e6, 5e5, -4e5, 3e5);
 
 geom::Assembly cells() {
@@ -29,7 +29,7 @@ void load_sides(cdem::Simulation& s, const geom::Mat3& stress) {
 
 TEST_CASE("initial stress in equilibrium with the tractions moves nothing", "[initial_stress]") {
   cdem::Simulation s = simulation(cells());
-  s.initial_stress(cdem::Selection::everything(), in_situ);
+  s.initial_stress(cdem::Selection::everything(), pre_stress);
   load_sides(s, in_situ_tensor);
   const cdem::RelaxResult r = s.relax({});
   CHECK(r.converged);
@@ -39,7 +39,7 @@ TEST_CASE("initial stress in equilibrium with the tractions moves nothing", "[in
   CHECK(s.max("displacement.magnitude").value < 1e-10 * 8e6 / rock().youngs_modulus);
   for (const auto& row : s.blocks())
     for (int c = 0; c < 6; ++c)
-      CHECK(row.stress[c] == Approx(in_situ[c]).epsilon(1e-9));
+      CHECK(row.stress[c] == Approx(pre_stress[c]).epsilon(1e-9));
 }
 
 TEST_CASE("a body let go of its initial stress moves back by the strain of that stress", "[initial_stress]") {

@@ -15,12 +15,6 @@ using geom::Vec3;
 
 namespace {
 
-cdem::Elastic soft() {
-  cdem::Elastic material = rock();
-  material.youngs_modulus = 1e8;
-  return material;
-}
-
 // A cube of bonded tetrahedra, a heap of bonded blocks and a rigid block that spins, thrown onto a floor.
 System thrown() {
   cdem::Joint weak = rock_joint();
@@ -28,14 +22,14 @@ System thrown() {
   cdem::Bonding bonding;
   bonding.everywhere = true;
   bonding.shear_ratio = 0.4;
-  cdem::Elastic damped = soft();
+  cdem::Elastic damped = soft_rock();
   damped.stiffness_damping = 1e-5;
   damped.viscosity = 10;
   geom::VoronoiOptions cells;
   cells.count = 8;
   cells.origin = {1.2, 0, 0.01};
-  cdem::BodySpec heap = body("heap", geom::voronoi(cells), soft(), weak);
-  cdem::BodySpec top = body("top", geom::grid({0.4, 0.4, 0.4}, {1, 1, 1}, {2.4, 0.3, 0.05}), soft());
+  cdem::BodySpec heap = body("heap", geom::voronoi(cells), soft_rock(), weak);
+  cdem::BodySpec top = body("top", geom::grid({0.4, 0.4, 0.4}, {1, 1, 1}, {2.4, 0.3, 0.05}), soft_rock());
   cdem::BodySpec ground = body("floor", geom::grid({6, 4, 0.5}, {1, 1, 1}, {-1.5, -1.5, -0.5}));
   heap.element = cdem::Element::finite_volume;
   top.element = ground.element = cdem::Element::rigid;

@@ -27,12 +27,6 @@ geom::TetMesh together(const std::vector<geom::TetMesh>& meshes) {
   return all;
 }
 
-cdem::Elastic soft() {
-  cdem::Elastic material = rock();
-  material.youngs_modulus = 1e8;
-  return material;
-}
-
 // Three boxes at odd angles, one above the other, over a plate.
 geom::TetMesh loose_units() {
   const auto unit = [](double x, double z, double angle) {
@@ -43,23 +37,16 @@ geom::TetMesh loose_units() {
 
 cdem::BodySpec floor_plate() {
   cdem::BodySpec plate =
-      meshed("floor", box_at({4, 4, 0.3}, {4, 4, 1}, geom::Mat3::Identity(), {0, 0, -0.15}), {}, soft());
+      meshed("floor", box_at({4, 4, 0.3}, {4, 4, 1}, geom::Mat3::Identity(), {0, 0, -0.15}), {}, soft_rock());
   plate.element = cdem::Element::rigid;
   return plate;
-}
-
-double lowest(const System& s, int block) {
-  double z = 1e300;
-  for (int n = s.model.blocks[block].node_begin; n < s.model.blocks[block].node_end; ++n)
-    z = std::min(z, s.model.node_position[n].z() + s.state.displacement[n].z);
-  return z;
 }
 
 } // namespace
 
 TEST_CASE("the parts of a mesh are blocks of their own, of the same body", "[mesh_parts]") {
   const bool rigid = GENERATE(false, true);
-  cdem::BodySpec spec = meshed("units", loose_units(), {}, soft());
+  cdem::BodySpec spec = meshed("units", loose_units(), {}, soft_rock());
   if (rigid)
     spec.element = cdem::Element::rigid;
   System s(build({spec}));
@@ -76,7 +63,7 @@ TEST_CASE("the parts of a mesh are blocks of their own, of the same body", "[mes
 TEST_CASE("loose units of one mesh fall, land on each other and on the floor, and come to rest",
           "[mesh_parts]") {
   const bool rigid = GENERATE(false, true);
-  cdem::BodySpec units = meshed("units", loose_units(), {}, soft());
+  cdem::BodySpec units = meshed("units", loose_units(), {}, soft_rock());
   if (rigid)
     units.element = cdem::Element::rigid;
   System s(
@@ -106,7 +93,7 @@ TEST_CASE("parts of one mesh that touch from the start rest on each other, at an
   const auto slab = [&](double z) {
     return placed(geom::box_mesh({1, 1, 0.4}, {3, 3, 2}, 0.1), turn, turn * Vec3(0.02 * z, 0, z));
   };
-  System s(build({meshed("stack", together({slab(0), slab(0.4), slab(0.8)}), {}, soft())},
+  System s(build({meshed("stack", together({slab(0), slab(0.4), slab(0.8)}), {}, soft_rock())},
                  {{"stack", "stack", friction(30)}}));
   REQUIRE(s.model.blocks.size() == 3);
   s.hold(cdem::Selection::where([turn](const Vec3& x) { return (turn.transpose() * x).z() < 0.01; }, "foot"),
@@ -133,7 +120,7 @@ TEST_CASE("two parts of a mesh that meet without a law say which is missing, and
     cdem::ModelSpec spec;
     cdem::Joint strong = rock_joint();
     strong.cohesion = strong.tensile_strength = 1e12;
-    spec.bodies = {meshed("pair", together({cube(0), cube(1.05)}), bonding, soft(), strong)};
+    spec.bodies = {meshed("pair", together({cube(0), cube(1.05)}), bonding, soft_rock(), strong)};
     cdem::Simulation s(spec, 1, nullptr);
     s.initial_velocity(cdem::Selection::in_box({{-1, -1, -1}, {0.52, 1, 1}}), {2, 0, 0});
     cdem::RunOptions options;
@@ -153,7 +140,7 @@ TEST_CASE("parts of a mesh keep the faces that were named on it", "[mesh_parts]"
   mesh.named["all"] = {};
   for (int f = 0; f < static_cast<int>(outer.size()); ++f)
     mesh.named["all"].push_back(f);
-  System s(build({meshed("units", mesh, {}, soft())}));
+  System s(build({meshed("units", mesh, {}, soft_rock())}));
   const auto& named = s.model.mesh.named.at({0, "all"});
   CHECK(named.size() == s.model.mesh.boundary.size());
   CHECK(std::set<int>(named.begin(), named.end()).size() == outer.size());

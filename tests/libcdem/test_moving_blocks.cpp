@@ -32,20 +32,6 @@ geom::Assembly cells(int count, const Vec3& origin = {0, 0, 0}) {
   return geom::voronoi(options);
 }
 
-cdem::Elastic soft() {
-  cdem::Elastic material = rock();
-  material.youngs_modulus = 1e8;
-  return material;
-}
-
-// Lowest node of a block, m.
-double lowest(const System& s, int block) {
-  double z = 1e300;
-  for (int n = s.model.blocks[block].node_begin; n < s.model.blocks[block].node_end; ++n)
-    z = std::min(z, s.model.node_position[n].z() + s.state.displacement[n].z);
-  return z;
-}
-
 double balance(const System& s) {
   return cdem::energy(s.model, s.state).balance_error();
 }
@@ -105,9 +91,9 @@ TEST_CASE("a preload between blocks turns with them", "[moving]") {
 
 TEST_CASE("a block that slides off a ledge falls, lands on the floor and comes to rest there", "[moving]") {
   const bool deforms = GENERATE(true, false);
-  cdem::BodySpec block = deforms
-                             ? moving("block", geom::grid({0.5, 0.5, 0.5}, {1, 1, 1}, {1.4, 0.25, 0}), soft())
-                             : rigid("block", geom::grid({0.5, 0.5, 0.5}, {1, 1, 1}, {1.4, 0.25, 0}));
+  cdem::BodySpec block =
+      deforms ? moving("block", geom::grid({0.5, 0.5, 0.5}, {1, 1, 1}, {1.4, 0.25, 0}), soft_rock())
+              : rigid("block", geom::grid({0.5, 0.5, 0.5}, {1, 1, 1}, {1.4, 0.25, 0}));
   System s(build({rigid("ledge", geom::grid({2, 1, 0.5}, {1, 1, 1}, {0, 0, -0.5})),
                   rigid("floor", geom::grid({8, 3, 0.5}, {1, 1, 1}, {0, -1, -2})), block},
                  {{"ledge", "block", friction(20)}, {"floor", "block", friction(40)}}));
@@ -135,7 +121,7 @@ TEST_CASE("a heap that falls apart on a floor stays above it, and its energy clo
   cdem::Joint weak = rock_joint();
   weak.cohesion = weak.tensile_strength = 2e3;
   System s(build({rigid("floor", geom::grid({6, 6, 0.5}, {1, 1, 1}, {-2.5, -2.5, -0.5})),
-                  moving("heap", cells(12, {0, 0, 0.3}), soft(), weak)},
+                  moving("heap", cells(12, {0, 0, 0.3}), soft_rock(), weak)},
                  {{"floor", "heap", friction(30)}}));
   s.hold(body_of("floor"), "xyz");
   s.conditions.gravity = gravity();
@@ -154,10 +140,11 @@ TEST_CASE("a heap that falls apart on a floor stays above it, and its energy clo
 TEST_CASE("a block lands on a meshed body, and the other way round", "[moving]") {
   const bool block_below = GENERATE(false, true);
   const auto blocks = [](const Vec3& origin) {
-    return moving("blocks", geom::grid({1, 1, 0.4}, {1, 1, 1}, origin), soft());
+    return moving("blocks", geom::grid({1, 1, 0.4}, {1, 1, 1}, origin), soft_rock());
   };
   const auto mesh = [](const Vec3& centre) {
-    return meshed("mesh", box_at({0.8, 0.8, 0.4}, {3, 3, 2}, geom::Mat3::Identity(), centre), {}, soft());
+    return meshed("mesh", box_at({0.8, 0.8, 0.4}, {3, 3, 2}, geom::Mat3::Identity(), centre), {},
+                  soft_rock());
   };
   System s(build({block_below ? blocks({-0.5, -0.5, 0}) : blocks({-0.5, -0.5, 0.45}),
                   block_below ? mesh({0.03, 0.02, 0.65}) : mesh({0.03, 0.02, 0.2})},
@@ -177,7 +164,7 @@ TEST_CASE("blocks that move far end in the same bits for every number of threads
     cdem::Joint weak = rock_joint();
     weak.cohesion = weak.tensile_strength = 2e3;
     System s(build({rigid("floor", geom::grid({6, 6, 0.5}, {1, 1, 1}, {-2.5, -2.5, -0.5})),
-                    moving("heap", cells(15, {0, 0, 0.05}), soft(), weak)},
+                    moving("heap", cells(15, {0, 0, 0.05}), soft_rock(), weak)},
                    {{"floor", "heap", friction(30)}}));
     s.threads = threads;
     s.hold(body_of("floor"), "xyz");

@@ -3,7 +3,7 @@
 #include "libcdem/contact/broad_phase/search.hpp"
 #include "libcdem/contact/geometry/semi_edges.hpp"
 #include "libgeom/mesh/box_mesh.hpp"
-#include "tests/libcdem/system.hpp"
+#include "tests/libcdem/boxes.hpp"
 
 #include <algorithm>
 #include <catch2/catch.hpp>
@@ -15,12 +15,6 @@ using geom::Vec3;
 namespace {
 
 constexpr double width = 0.4; // m
-
-cdem::Elastic soft() {
-  cdem::Elastic material = rock();
-  material.youngs_modulus = 1e9;
-  return material;
-}
 
 cdem::Joint rough(double friction_angle) {
   cdem::Joint joint;
@@ -41,7 +35,8 @@ System broken_in_two(double friction_angle = 20) {
   }
   cdem::Bonding between;
   between.between_regions = true;
-  System s(build({meshed("cubes", mesh, between, soft())}, {{"cubes", "cubes", rough(friction_angle)}}));
+  System s(
+      build({meshed("cubes", mesh, between, soft_rock(1e9))}, {{"cubes", "cubes", rough(friction_angle)}}));
   each_face(s.model.mesh, [&](const cdem::MeshChunk&, std::int64_t batch, int lane) {
     cdem::slip_of(s.state, batch, lane);
     for (auto& point : s.state.faces[batch].mode)
@@ -58,7 +53,7 @@ System never_one(double friction_angle = 20) {
   geom::TetMesh upper = lower;
   for (Vec3& x : upper.nodes)
     x.z() += width + gap;
-  System s(build({meshed("lower", lower, {}, soft()), meshed("upper", upper, {}, soft())},
+  System s(build({meshed("lower", lower, {}, soft_rock(1e9)), meshed("upper", upper, {}, soft_rock(1e9))},
                  {{"lower", "upper", rough(friction_angle)}}));
   for (std::size_t i = 0; i < s.model.node_position.size(); ++i)
     if (s.model.node_position[i].z() > width + 0.5 * gap)

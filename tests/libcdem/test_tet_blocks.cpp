@@ -13,12 +13,6 @@ using geom::Vec3;
 
 namespace {
 
-cdem::Elastic soft() {
-  cdem::Elastic material = rock();
-  material.youngs_modulus = 1e8;
-  return material;
-}
-
 cdem::Joint weak() {
   cdem::Joint joint = rock_joint();
   joint.cohesion = joint.tensile_strength = 2e3;
@@ -63,7 +57,7 @@ TEST_CASE("a mesh of blocks that hits a floor at an odd angle breaks up and stay
   cdem::BodySpec plate = body("floor", geom::grid({4, 4, 0.3}, {1, 1, 1}, {-2, -2, -0.3}));
   plate.element = cdem::Element::rigid;
   System s(build({plate, moving("box", tets({1, 1, 2}, rotation({1, 2, -0.5}, 130 * degree), {0, 0, 0.5}),
-                                soft(), weak())},
+                                soft_rock(), weak())},
                  {{"floor", "box", friction(30)}}));
   s.hold(body_of("floor"), "xyz");
   s.conditions.gravity = gravity();
@@ -82,7 +76,7 @@ TEST_CASE("blocks of a mesh are cut after they have turned, without a kick", "[t
   cdem::ModelSpec spec;
   cdem::Joint strong = rock_joint();
   strong.cohesion = strong.tensile_strength = 1e9;
-  spec.bodies = {moving("box", tets({1, 1, 1}, geom::Mat3::Identity(), {0, 0, 0}), soft(), strong)};
+  spec.bodies = {moving("box", tets({1, 1, 1}, geom::Mat3::Identity(), {0, 0, 0}), soft_rock(), strong)};
   cdem::Simulation s(spec, 1, nullptr);
   const auto all = cdem::Selection::everything();
   s.initial_velocity(all, {1, 0, 0}, spins ? Vec3(20, 10, -5) : Vec3(0, 0, 0));

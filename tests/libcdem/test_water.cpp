@@ -25,7 +25,7 @@ geom::Assembly cut(const geom::Assembly& a, const Vec3& point, const Vec3& norma
   return geom::cut_by_plane(a, geom::Plane::through(point, normal), options);
 }
 
-cdem::Joint friction(double angle) {
+cdem::Joint coulomb(double angle) {
   cdem::Joint joint;
   joint.bonded = false;
   joint.friction_angle = angle;
@@ -96,8 +96,8 @@ struct Slide {
       const bool below = c.z() < (foot() - c.x()) * std::tan(dip);
       spec.bodies[below ? 0 : c.x() > crack() ? 1 : 2].shape.blocks.push_back(block);
     }
-    const cdem::Joint plane = friction(std::atan(tan_friction));
-    spec.pairs = {{"base", "slider", plane}, {"base", "back", plane}, {"slider", "back", friction(0)}};
+    const cdem::Joint plane = coulomb(std::atan(tan_friction));
+    spec.pairs = {{"base", "slider", plane}, {"base", "back", plane}, {"slider", "back", coulomb(0)}};
     cdem::Simulation s(spec, 1, nullptr);
     s.fix(fixed(cdem::Selection::of_body("base")));
     s.fix(fixed(cdem::Selection::of_body("back")));
@@ -120,7 +120,7 @@ struct Slide {
 
 TEST_CASE("a joint bears the effective stress: what water takes, the spring does not", "[water]") {
   const auto element = GENERATE(from_range(elements));
-  cdem::Simulation s = column(friction(30 * degree), element);
+  cdem::Simulation s = column(coulomb(30 * degree), element);
   CHECK(s.water(at_pressure(0.4e6)).force == Approx(0.4e6));
   REQUIRE(s.relax({}).converged);
   const cdem::JointSum seam = s.joints({{"seam"}, {}}).at(0);
@@ -136,7 +136,7 @@ TEST_CASE("friction is that of the effective stress", "[water]") {
   const auto element = GENERATE(from_range(elements));
   const double tan_phi = std::tan(30 * degree), p = 0.4e6;
   const double part = GENERATE(0.97, 1.03); // of what friction holds
-  cdem::Simulation s = column(friction(30 * degree), element);
+  cdem::Simulation s = column(coulomb(30 * degree), element);
   s.water(at_pressure(p));
   cdem::Fix lower =
       fixed(cdem::Selection::where([](const Vec3& x) { return x.z() < 0.99; }, "the lower block"));
@@ -151,7 +151,7 @@ TEST_CASE("friction is that of the effective stress", "[water]") {
 
 TEST_CASE("water tears a bonded joint at its effective strength, and loads the open crack", "[water]") {
   const auto element = GENERATE(from_range(elements));
-  cdem::Joint bond = friction(30 * degree);
+  cdem::Joint bond = coulomb(30 * degree);
   bond.bonded = true;
   bond.cohesion = 10e6;
   bond.tensile_strength = 0.5e6;
@@ -171,7 +171,7 @@ TEST_CASE("water tears a bonded joint at its effective strength, and loads the o
 
 TEST_CASE("the energy balance counts the work of water that opens a joint", "[water]") {
   const auto element = GENERATE(from_range(elements));
-  cdem::Joint soft = friction(30 * degree); // opens and closes in many steps
+  cdem::Joint soft = coulomb(30 * degree); // opens and closes in many steps
   soft.normal_stiffness = soft.shear_stiffness = 5e9;
   cdem::Simulation s = column(soft, element);
   REQUIRE(s.relax({}).converged);
@@ -266,7 +266,7 @@ TEST_CASE("a table of pressures over height is straight between rows", "[water]"
 }
 
 TEST_CASE("water where there can be none is refused", "[water]") {
-  cdem::Simulation s = column(friction(30 * degree), cdem::Element::small_strain);
+  cdem::Simulation s = column(coulomb(30 * degree), cdem::Element::small_strain);
   cdem::Water water;
   water.level = 2.5;
   CHECK_THROWS_WITH(s.water(water),

@@ -26,12 +26,6 @@ geom::Assembly cells(int count) {
   return geom::voronoi(options);
 }
 
-cdem::Elastic soft() {
-  cdem::Elastic material = rock();
-  material.youngs_modulus = 1e8;
-  return material;
-}
-
 // A cantilever of `blocks` blocks in a row, held at x = 0, a shear stress on its end.
 struct Deflection {
   double measured, exact; // m
@@ -130,7 +124,7 @@ TEST_CASE("a zoned block slides on a slope by the law of friction, and stays whe
   const geom::Assembly upper = geom::grid({0.4, 0.4, 0.3}, {1, 1, 1}, {0.2, 0.3, 0});
   cdem::BodySpec plate = body("slope", geom::grid({4, 1, 0.3}, {1, 1, 1}, {0, 0, -0.3}));
   plate.element = cdem::Element::rigid;
-  System s(build({plate, zoned("block", upper, 0.15, soft())}, {{"slope", "block", friction(phi)}}));
+  System s(build({plate, zoned("block", upper, 0.15, soft_rock())}, {{"slope", "block", friction(phi)}}));
   s.hold(body_of("slope"), "xyz");
   s.conditions.gravity = gravity(9.81 * Vec3(std::sin(slope), 0, -std::cos(slope)));
   const double start = centroid(s, 1).x();
@@ -157,7 +151,7 @@ TEST_CASE("zoned blocks that come apart fall, land and stay above the floor", "[
   geom::VoronoiOptions options;
   options.count = 8;
   options.origin = {0, 0, 0.2};
-  System s(build({plate, zoned("heap", geom::voronoi(options), 0.35, soft(), weak)},
+  System s(build({plate, zoned("heap", geom::voronoi(options), 0.35, soft_rock(), weak)},
                  {{"floor", "heap", friction(30)}}));
   s.hold(body_of("floor"), "xyz");
   s.conditions.gravity = gravity();
@@ -176,7 +170,7 @@ TEST_CASE("zoned blocks end in the same bits for every number of threads", "[zon
   const auto hash_with = [](int threads) {
     cdem::Joint weak = rock_joint();
     weak.cohesion = weak.tensile_strength = 2e3;
-    System s(build({zoned("cells", cells(6), 0.3, soft(), weak)}));
+    System s(build({zoned("cells", cells(6), 0.3, soft_rock(), weak)}));
     s.threads = threads;
     s.hold(cdem::Selection::side("x-"), "xyz");
     s.conditions.gravity = gravity();
