@@ -5,6 +5,7 @@
 #include "libcdem/bond/water_work.hpp"
 #include "libcdem/element/mesh_fields.hpp"
 #include "libcdem/fracture/rebuild.hpp"
+#include "libcdem/procedure/catch_up.hpp"
 #include "libcdem/ranks/state_shares.hpp"
 #include "libcdem/results/energy.hpp"
 #include "libcdem/simulation.hpp"
@@ -124,7 +125,11 @@ struct Simulation::Impl {
                              "nothing of the model lies there");
     Model changed = model;
     State moved = state;
+    if (!replaying)
+      catch_up_velocities(model, moved, conditions);
     const std::int64_t count = set(changed, moved, blocks);
+    if (count == 0)
+      return 0;
     if (!replaying)
       resolve(changed, moved, conditions); // a rigid body cannot be held in part
     model = std::move(changed);
