@@ -235,7 +235,7 @@ RunResult run(const StageContext& context, const RunOptions& options, const std:
     if (stage.step % ask_every == 0) {
       std::optional<SynchronisedView> view; // what they read is of one moment
       if (options.callback || options.stop)
-        view.emplace(stage);
+        view.emplace(stage, SynchronisedView::Of::shares);
       if (options.callback && options.callback_every > 0)
         options.callback();
       stopped = options.stop && options.stop() && report.residual <= options.stop_residual;
