@@ -34,8 +34,8 @@ Simulation::Simulation(const ModelSpec& spec, int threads, std::shared_ptr<Obser
   impl_->observer = observer ? std::move(observer) : std::make_shared<Observer>();
   impl_->model = first_model(spec);
   impl_->built = hash(impl_->model);
-  impl_->state = initial_state(impl_->model);
-  impl_->last_good = impl_->state;
+  impl_->whole() = initial_state(impl_->model);
+  impl_->last_good = impl_->whole();
   impl_->log.unmet = pairs_without_interface(spec, impl_->model);
 }
 
@@ -47,8 +47,8 @@ Simulation& Simulation::operator=(Simulation&&) noexcept = default;
 Simulation Simulation::copy() const {
   auto other = std::make_unique<Impl>();
   other->model = impl_->model;
-  other->state = impl_->state;
-  other->last_good = impl_->state;
+  other->kept = impl_->whole();
+  other->last_good = impl_->whole();
   other->conditions = impl_->conditions;
   other->log.unmet = impl_->log.unmet;
   other->observer = impl_->observer;
@@ -159,8 +159,8 @@ bool Simulation::flow(const Flow& flow) {
     impl_->conditions = std::move(changed);
     return false;
   }
-  const ResolvedConditions resolved = resolve(impl_->model, impl_->state, changed);
-  if (!flow.new_faces && flow_pattern(impl_->model, impl_->state, resolved.flows.back()).empty())
+  const ResolvedConditions resolved = resolve(impl_->model, impl_->whole(), changed);
+  if (!flow.new_faces && flow_pattern(impl_->model, impl_->whole(), resolved.flows.back()).empty())
     throw geom::InputError(
         "direction",
         fmt::format("({:g}, {:g}, {:g})", flow.direction.x(), flow.direction.y(), flow.direction.z()),
@@ -180,11 +180,11 @@ void Simulation::clear_loads() {
 BeyondStrength Simulation::initial_stress(const InitialStress& field) {
   Impl& s = *impl_;
   const double before = s.stored_energy();
-  State changed = s.state;
+  State changed = s.whole();
   add_initial_stress(s.model, changed, field);
-  s.state = std::move(changed);
-  s.state.spent.cutting += before - s.stored_energy();
-  return beyond_strength(s.model, s.state);
+  s.whole() = std::move(changed);
+  s.whole().spent.cutting += before - s.stored_energy();
+  return beyond_strength(s.model, s.whole());
 }
 
 void Simulation::initial_stress(const Selection& on, const std::array<double, 6>& stress) {
@@ -195,15 +195,15 @@ void Simulation::initial_stress(const Selection& on, const std::array<double, 6>
 }
 
 WaterInJoints Simulation::water(const Water& water) {
-  State changed = impl_->state;
+  State changed = impl_->whole();
   const WaterInJoints sum = set_water(impl_->model, changed, water);
-  impl_->state = std::move(changed);
+  impl_->whole() = std::move(changed);
   return sum;
 }
 
 void Simulation::reset_displacement() {
-  impl_->state.displacement_zero = impl_->state.displacement;
-  impl_->last_good = impl_->state;
+  impl_->whole().displacement_zero = impl_->whole().displacement;
+  impl_->last_good = impl_->whole();
 }
 
 void Simulation::initial_velocity(const Selection& on, const geom::Vec3& velocity,
@@ -217,15 +217,16 @@ void Simulation::initial_velocity(const Selection& on, const geom::Vec3& velocit
   const std::vector<int> nodes = selected_nodes(s.model, on);
   if (nodes.empty())
     throw geom::InputError("on", on.text, "a place that holds nodes", "nothing of the model lies there");
-  const RigidMotion motion{velocity, angular_velocity, about ? *about : centroid_of(s.model, s.state, nodes)};
-  if (!s.replaying && fixes_stop(s.conditions.fixes, s.model, s.state, nodes, motion))
+  const RigidMotion motion{velocity, angular_velocity,
+                           about ? *about : centroid_of(s.model, s.whole(), nodes)};
+  if (!s.replaying && fixes_stop(s.conditions.fixes, s.model, s.whole(), nodes, motion))
     throw geom::InputError(
         "on", on.text, "a place that may move as it is told",
         "model:fix holds every node there in these directions; release them first, or give the "
         "fix a velocity");
-  const double given = give_motion(s.model, s.state, nodes, motion, on.text);
-  s.state.spent.external += given;
-  s.state.spent.external_peak = std::max(s.state.spent.external_peak, std::abs(s.state.spent.external));
+  const double given = give_motion(s.model, s.whole(), nodes, motion, on.text);
+  s.whole().spent.external += given;
+  s.whole().spent.external_peak = std::max(s.whole().spent.external_peak, std::abs(s.whole().spent.external));
 }
 
 std::int64_t Simulation::make_rigid(const Selection& on) {
@@ -238,7 +239,7 @@ std::int64_t Simulation::make_deformable(const Selection& on) {
 
 std::size_t Simulation::watch(const std::string& body, double leaves) {
   Impl& s = *impl_;
-  Watch watch = start_watch(s.model, s.state, body, leaves);
+  Watch watch = start_watch(s.model, s.whole(), body, leaves);
   if (s.watches == s.log.watches.size()) // else it has been restored
     s.log.watches.push_back(std::move(watch));
   return s.watches++;
@@ -272,7 +273,7 @@ std::int64_t Simulation::remove(const Selection& on) {
                                    s.model.bodies[s.model.blocks[unit].body].name + "\" is");
   for (Watch& watch : s.log.watches)
     carry_over(watch, new_block);
-  s.adopt(rebuild(s.model, s.state, std::move(left), {}, MayBreak::all));
+  s.adopt(rebuild(s.model, s.whole(), std::move(left), {}, MayBreak::all));
   return removed;
 }
 
@@ -292,16 +293,16 @@ std::int64_t Simulation::break_bonds(const Selection& on, bool whole_faces) {
   const double before = s.stored_energy();
   for (int p = 0; p < static_cast<int>(s.model.points.size()); ++p)
     if (selected[p]) {
-      s.state.bond_mode[p] = static_cast<std::uint8_t>(BondMode::contact);
-      if (!s.state.bond_damage.empty()) {
-        s.state.bond_damage[p] = 0;
-        s.state.bond_offset[p] += s.state.bond_slip[p];
-        s.state.bond_slip[p].setZero();
+      s.whole().bond_mode[p] = static_cast<std::uint8_t>(BondMode::contact);
+      if (!s.whole().bond_damage.empty()) {
+        s.whole().bond_damage[p] = 0;
+        s.whole().bond_offset[p] += s.whole().bond_slip[p];
+        s.whole().bond_slip[p].setZero();
       }
-      cdem::settle(s.model, s.state, p);
+      cdem::settle(s.model, s.whole(), p);
       ++count;
     }
-  const std::vector<Node> position = present_places(s.model, s.state);
+  const std::vector<Node> position = present_places(s.model, s.whole());
   each_face_spring(s.model.mesh, [&](const MeshChunk& chunk, FaceSpringPlace at) {
     const auto holds = [&](int point) {
       at.point = point;
@@ -310,17 +311,17 @@ std::int64_t Simulation::break_bonds(const Selection& on, bool whole_faces) {
     const int point = at.point;
     if (whole_faces ? !(holds(0) && holds(1) && holds(2)) : !holds(point))
       return;
-    s.state.faces[at.batch].mode[point][at.lane] = static_cast<std::uint8_t>(BondMode::contact);
+    s.whole().faces[at.batch].mode[point][at.lane] = static_cast<std::uint8_t>(BondMode::contact);
     cdem::settle(s.model.mesh.faces[at.batch], face_nodes(s.model.mesh, chunk, at.batch, at.lane), point,
-                 at.lane, position.data(), s.state.displacement.data(),
-                 face_law(s.model, chunk, at.batch, at.lane), slip_of(s.state, at.batch, at.lane));
+                 at.lane, position.data(), s.whole().displacement.data(),
+                 face_law(s.model, chunk, at.batch, at.lane), slip_of(s.whole(), at.batch, at.lane));
     ++count;
   });
   if (count == 0)
     throw geom::InputError("on", on.text,
                            whole_faces ? "a place that holds whole interfaces" : "a place that holds bonds",
                            "nothing of the model lies there");
-  s.state.spent.cutting += before - s.stored_energy();
+  s.whole().spent.cutting += before - s.stored_energy();
   return count;
 }
 
@@ -364,7 +365,7 @@ std::vector<BlockCut> Simulation::refine(const RefineOptions& options) {
       throw geom::InputError("region", options.region->text, "a place that holds block centroids",
                              "nothing of the model lies there");
   }
-  Refined refined = cdem::refine(impl_->model, impl_->state, options);
+  Refined refined = cdem::refine(impl_->model, impl_->whole(), options);
   ++impl_->stage;
   impl_->adopt(std::move(refined.rebuilt));
   return std::move(refined.cuts);
@@ -379,14 +380,14 @@ GrowResult Simulation::grow(const GrowOptions& options) {
       s.last_residual = result.residual;
       return result;
     };
-    return cdem::grow({s.model, s.state, s.log, *s.observer, context.number, relax,
+    return cdem::grow({s.model, s.whole(), s.log, *s.observer, context.number, relax,
                        [&](Rebuilt&& r) { s.adopt(std::move(r)); }},
                       options);
   });
 }
 
 Deformation Simulation::deformation() const {
-  return largest_deformation(impl_->model, impl_->state);
+  return largest_deformation(impl_->model, impl_->whole());
 }
 
 bool Simulation::has_buoyancy() const {
@@ -405,7 +406,7 @@ bool Simulation::anything_acts() const {
   const Conditions& c = impl_->conditions;
   if (c.load() || !c.quiets.empty())
     return true;
-  const State& s = impl_->state;
+  const State& s = impl_->whole();
   if (!s.water_pressure.empty())
     return true;
   const auto moves = [](const Fix& fix) { return fix.displacement || fix.velocity; };

@@ -24,6 +24,7 @@
 #include "libcdem/results/joints.hpp"
 #include "libcdem/results/log.hpp"
 #include "libcdem/results/overlap.hpp"
+#include "libcdem/results/picture_snapshot.hpp"
 #include "libcdem/results/process_zone.hpp"
 #include "libcdem/results/slivers.hpp"
 #include "libcdem/results/snapshot.hpp"
@@ -273,7 +274,13 @@ public:
   // meant for is not there yet.
   void set_replaying(bool);
 
+  // With several ranks, in a callback: rank 0 alone sees the whole model while what this returns lives, and the others
+  // look at nothing. All of them call it.
+  std::shared_ptr<void> show_lead() const;
+
   Snapshot snapshot(const std::string& title) const;
+  // What a picture shows. Among several ranks all call it, and the first alone gets values.
+  Snapshot picture_snapshot(const PictureWish&, const std::string& title) const;
   // The last state that passed the checks before a SolutionError.
   Snapshot last_good_snapshot(const std::string& title) const;
 

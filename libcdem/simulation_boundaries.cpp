@@ -43,6 +43,7 @@ void Simulation::Impl::add_boundary(const Selection& on, const std::function<voi
     conditions = std::move(changed);
     return;
   }
+  State& state = whole();
   Workspace work(model, state, conditions);
   update_external(work.resolved, state.time, &state.velocity);
   const std::vector<Node> net = net_forces(model, state, work);
@@ -76,10 +77,10 @@ void Simulation::free_field(const FreeField& field) {
 void Simulation::bolt(const Bolt& bolt) {
   Impl& s = *impl_;
   if (!s.replaying) {
-    State with = s.state;
+    State with = s.whole();
     set_bolt(s.model, with, bolt);
-    s.state = std::move(with);
-    s.last_good = s.state;
+    s.whole() = std::move(with);
+    s.last_good = s.whole();
   }
   s.conditions.bolts.push_back(bolt);
 }
@@ -88,10 +89,10 @@ std::vector<Simulation::BoltRow> Simulation::bolts() const {
   const Impl& s = *impl_;
   std::vector<BoltRow> rows;
   int number = 0;
-  for (const ResolvedBolt& bolt : resolve_bolts(s.model, s.state, s.conditions.bolts)) {
+  for (const ResolvedBolt& bolt : resolve_bolts(s.model, s.kept, s.conditions.bolts)) {
     const Bolt& given = s.conditions.bolts[static_cast<std::size_t>(number++)];
     const auto n = static_cast<int>(bolt.at.size());
-    const BoltNode* const nodes = s.state.bolts.data() + bolt.first;
+    const BoltNode* const nodes = s.kept.bolts.data() + bolt.first;
     for (int i = 0; i < n; ++i) {
       BoltRow row;
       row.bolt = number;

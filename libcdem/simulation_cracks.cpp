@@ -5,7 +5,7 @@
 namespace cdem {
 
 CracksByBody Simulation::cracks() const {
-  return cdem::cracks(impl_->model, impl_->state);
+  return cdem::cracks(impl_->model, impl_->whole());
 }
 
 void Simulation::record_cracks(const std::string& name, const std::string& body) {
@@ -22,30 +22,30 @@ void Simulation::record_cracks(const std::string& name, const std::string& body)
 }
 
 Snapshot Simulation::crack_surface(bool damaged, const std::string& title) const {
-  return cdem::crack_surface(impl_->model, impl_->state, impl_->log.breaks, damaged, title);
+  return cdem::crack_surface(impl_->model, impl_->whole(), impl_->log.breaks, damaged, title);
 }
 
 std::vector<JointSum> Simulation::joints(const JointChoice& choice) const {
-  return joint_sums(impl_->model, impl_->state, choice);
+  return joint_sums(impl_->model, impl_->whole(), choice);
 }
 
 std::vector<std::pair<std::string, JointPoint>> Simulation::joint_points(const JointChoice& choice) const {
-  return cdem::joint_points(impl_->model, impl_->state, choice);
+  return cdem::joint_points(impl_->model, impl_->whole(), choice);
 }
 
 Snapshot Simulation::joint_surface(const JointChoice& choice, const std::string& title) const {
-  return cdem::joint_surface(impl_->model, impl_->state, choice, title);
+  return cdem::joint_surface(impl_->model, impl_->whole(), choice, title);
 }
 
 JIntegral Simulation::j_integral(const std::string& body, JFront front,
                                  const std::vector<JDomain>& domains) const {
-  const Impl& s = *impl_;
+  Impl& s = *impl_;
   if (body.empty() && s.model.bodies.size() > 1)
     throw geom::InputError("body: left out: the model has several bodies; name the one with the crack");
   front.body = body.empty() ? 0 : body_number(body);
-  ResolvedConditions conditions = resolve(s.model, s.state, s.conditions);
-  update_external(conditions, s.state.time, &s.state.velocity);
-  return cdem::j_integral(s.model, s.state, conditions, front, domains);
+  ResolvedConditions conditions = resolve(s.model, s.whole(), s.conditions);
+  update_external(conditions, s.whole().time, &s.whole().velocity);
+  return cdem::j_integral(s.model, s.whole(), conditions, front, domains);
 }
 
 const Elastic& Simulation::material(const std::string& body) const {
@@ -53,8 +53,8 @@ const Elastic& Simulation::material(const std::string& body) const {
 }
 
 std::vector<FragmentMotion> Simulation::fragment_motions() const {
-  return cdem::fragment_motions(impl_->model, impl_->state,
-                                resolve(impl_->model, impl_->state, impl_->conditions));
+  return cdem::fragment_motions(impl_->model, impl_->whole(),
+                                resolve(impl_->model, impl_->whole(), impl_->conditions));
 }
 
 } // namespace cdem

@@ -6,6 +6,7 @@
 #include "libcdem/element/mesh_fields.hpp"
 #include "libcdem/fracture/rebuild.hpp"
 #include "libcdem/load/gone_body.hpp"
+#include "libcdem/procedure/catch_up.hpp"
 #include "libcdem/ranks/state_shares.hpp"
 #include "libcdem/results/energy.hpp"
 #include "libcdem/simulation.hpp"
@@ -19,7 +20,7 @@ namespace cdem {
 
 struct Simulation::Impl {
   Model model;
-  State state;
+  State kept; // in a stage among several ranks: the share of this one, until somebody looks at more
   State last_good;
   Conditions conditions;
   RunLog log;
@@ -36,9 +37,15 @@ struct Simulation::Impl {
   std::optional<RestartPoint> from;          // of a restored stage, until it is taken up
   std::string at_start; // saved before a stage that can be begun again only; empty: none runs
 
+  // All ranks call it together.
+  State& whole() {
+    make_whole(kept);
+    return kept;
+  }
+
   StageContext next_stage() {
     StageContext context =
-        stage_context(model, state, conditions, log, last_good, *observer, threads, ++stage);
+        stage_context(model, kept, conditions, log, last_good, *observer, threads, ++stage);
     context.checkpoints = checkpoints;
     return context;
   }
@@ -56,7 +63,7 @@ struct Simulation::Impl {
     context.restart_point = &restart_point;
     context.from = entry ? &*entry : nullptr;
     if (entry) {
-      last_good = state;
+      last_good = kept;
       restart_point = entry;
     } else {
       keep_start_of_loop(context);
@@ -92,14 +99,15 @@ struct Simulation::Impl {
       add(own);
       refuse_gone(model, own);
       add(tried);
-      resolve(model, state, tried);
+      resolve(model, whole(), tried);
     }
     add(conditions);
   }
 
   void add_boundary(const Selection& on, const std::function<void(Conditions&)>& add); // of waves
 
-  double stored_energy() const {
+  double stored_energy() { // callers change the whole state
+    const State& state = kept;
     return elastic_energy(model, state) + spring_energy(model, state) + mesh_spring_energy(model, state);
   }
 
@@ -127,18 +135,23 @@ struct Simulation::Impl {
       throw geom::InputError("on", on.text, "a place that holds the centroids of meshed bodies",
                              "nothing of the model lies there");
     Model changed = model;
-    State moved = state;
+    State moved = whole();
+    if (!replaying)
+      catch_up_velocities(model, moved, conditions);
     const std::int64_t count = set(changed, moved, blocks);
+    if (count == 0)
+      return 0;
     if (!replaying)
       resolve(changed, moved, conditions); // a rigid body cannot be held in part
     model = std::move(changed);
-    state = std::move(moved);
-    last_good = state;
+    kept = std::move(moved);
+    last_good = kept;
     return count;
   }
 
   // A change of topology between stages: the ledger counts what it does to the stored and the kinetic energy.
   void adopt(Rebuilt&& rebuilt) {
+    State& state = whole();
     const double before = cdem::energy(model, state).total(), water = water_work(model, state);
     model = std::move(rebuilt.model);
     state = std::move(rebuilt.state);

@@ -16,11 +16,12 @@
 namespace cdem {
 
 std::vector<Fragment> Simulation::fragments() const {
-  return cdem::fragments(impl_->model, impl_->state, resolve(impl_->model, impl_->state, impl_->conditions));
+  return cdem::fragments(impl_->model, impl_->whole(),
+                         resolve(impl_->model, impl_->whole(), impl_->conditions));
 }
 
 ContactSummary Simulation::contacts() const {
-  return {static_cast<std::int64_t>(impl_->state.contacts.size()), impl_->log.deepest_contact,
+  return {static_cast<std::int64_t>(impl_->whole().contacts.size()), impl_->log.deepest_contact,
           impl_->log.deepest_over_height};
 }
 
@@ -29,7 +30,7 @@ bool Simulation::can_touch() const {
 }
 
 std::vector<ContactPoint> Simulation::contact_points() const {
-  return cdem::contact_points(impl_->model, impl_->state);
+  return cdem::contact_points(impl_->model, impl_->whole());
 }
 
 std::vector<ProcessZone> Simulation::process_zones() const {
@@ -41,7 +42,7 @@ std::vector<Slivers> Simulation::slivers() const {
 }
 
 Overlap Simulation::overlap() const {
-  return cdem::overlap(impl_->model, impl_->state);
+  return cdem::overlap(impl_->model, impl_->whole());
 }
 
 std::vector<std::array<std::string, 2>> Simulation::unmet() const {
@@ -65,22 +66,22 @@ ModelCounts Simulation::counts() const {
   c.interfaces = static_cast<std::int64_t>(m.interfaces.size());
   c.bonds = static_cast<std::int64_t>(m.points.size());
   std::int64_t* const by_mode[] = {&c.intact, &c.broken_tension, &c.broken_shear, &c.contacts};
-  for (const std::uint8_t mode : impl_->state.bond_mode)
+  for (const std::uint8_t mode : impl_->whole().bond_mode)
     ++*by_mode[mode];
   each_face_spring(m.mesh, [&](const MeshChunk&, const FaceSpringPlace& at) {
     ++c.bonds;
-    const std::uint8_t mode = impl_->state.faces[at.batch].mode[at.point][at.lane];
+    const std::uint8_t mode = impl_->whole().faces[at.batch].mode[at.point][at.lane];
     ++*by_mode[mode];
-    if (!impl_->state.cohesive.empty())
-      c.damaged += mode == 0 && impl_->state.cohesive[at.batch * lanes + at.lane].damage[at.point] > 0;
+    if (!impl_->whole().cohesive.empty())
+      c.damaged += mode == 0 && impl_->whole().cohesive[at.batch * lanes + at.lane].damage[at.point] > 0;
   });
-  for (std::size_t p = 0; p < impl_->state.bond_damage.size(); ++p)
-    c.damaged += impl_->state.bond_damage[p] > 0 && impl_->state.bond_mode[p] == 0;
+  for (std::size_t p = 0; p < impl_->whole().bond_damage.size(); ++p)
+    c.damaged += impl_->whole().bond_damage[p] > 0 && impl_->whole().bond_mode[p] == 0;
   return c;
 }
 
 double Simulation::time() const {
-  return impl_->state.time;
+  return impl_->kept.time;
 }
 double Simulation::residual() const {
   return impl_->last_residual;
@@ -92,17 +93,17 @@ int Simulation::stage() const {
   return impl_->stage;
 }
 std::int64_t Simulation::steps() const {
-  return impl_->state.step;
+  return impl_->kept.step;
 }
 ImpossibleEnergy Simulation::impossible_energy() const {
-  return cdem::impossible_energy(energy(), impl_->state.time, impl_->log.one_way);
+  return cdem::impossible_energy(energy(), impl_->kept.time, impl_->log.one_way);
 }
 
 EnergyLedger Simulation::energy() const {
-  return cdem::energy(impl_->model, impl_->state);
+  return cdem::energy(impl_->model, impl_->whole());
 }
 std::uint64_t Simulation::state_hash() const {
-  return hash(impl_->state);
+  return hash(impl_->whole());
 }
 geom::Box Simulation::box() const {
   return impl_->model.box;
@@ -112,58 +113,58 @@ std::vector<std::string> Simulation::field_names() {
 }
 
 FieldValue Simulation::max(const std::string& field, const Selection& on) const {
-  const auto list = values(impl_->model, impl_->state, field, on);
+  const auto list = values(impl_->model, impl_->whole(), field, on);
   return *std::max_element(list.begin(), list.end(),
                            [](const auto& a, const auto& b) { return a.value < b.value; });
 }
 
 FieldValue Simulation::min(const std::string& field, const Selection& on) const {
-  const auto list = values(impl_->model, impl_->state, field, on);
+  const auto list = values(impl_->model, impl_->whole(), field, on);
   return *std::min_element(list.begin(), list.end(),
                            [](const auto& a, const auto& b) { return a.value < b.value; });
 }
 
 double Simulation::mean(const std::string& field, const Selection& on) const {
-  return mean_value(impl_->model, impl_->state, field, on);
+  return mean_value(impl_->model, impl_->whole(), field, on);
 }
 
 double Simulation::at(const std::string& field, const geom::Vec3& place) const {
-  return value_at(impl_->model, impl_->state, field, place);
+  return value_at(impl_->model, impl_->whole(), field, place);
 }
 
 Unbalance Simulation::unbalance(std::optional<double> reference) const {
-  const Impl& s = *impl_;
-  Workspace work(s.model, s.state, s.conditions);
-  update_external(work.resolved, s.state.time, &s.state.velocity);
-  return cdem::unbalance(s.model, work.resolved, net_forces(s.model, s.state, work), s.conditions.gravity,
+  Impl& s = *impl_;
+  Workspace work(s.model, s.whole(), s.conditions);
+  update_external(work.resolved, s.whole().time, &s.whole().velocity);
+  return cdem::unbalance(s.model, work.resolved, net_forces(s.model, s.whole(), work), s.conditions.gravity,
                          reference);
 }
 
 geom::Vec3 Simulation::reaction(const Selection& on) const {
-  const Impl& s = *impl_;
-  return SupportForces(s.model, s.state, s.conditions).reaction(on);
+  Impl& s = *impl_;
+  return SupportForces(s.model, s.whole(), s.conditions).reaction(on);
 }
 
 std::vector<Simulation::BlockRow> Simulation::blocks() const {
-  const Impl& s = *impl_;
+  Impl& s = *impl_;
   std::vector<BlockRow> rows;
   for (const int b : blocks_by_id(s.model)) {
     const Block& block = s.model.blocks[b];
     rows.push_back({block.id, block.parent, block.generation, s.model.bodies[block.body].name,
-                    block.mass.centroid, shown_centroid_displacement(s.model, s.state, b), block.mass.volume,
-                    block_stress(s.model, s.state, b)});
+                    block.mass.centroid, shown_centroid_displacement(s.model, s.whole(), b),
+                    block.mass.volume, block_stress(s.model, s.whole(), b)});
   }
   return rows;
 }
 
 std::vector<Unit> Simulation::units(const std::string& body) const {
-  return units_of(impl_->model, impl_->state, body);
+  return units_of(impl_->model, impl_->whole(), body);
 }
 std::vector<geom::Surface> Simulation::surfaces(const std::string& body) const {
-  return surfaces_of(impl_->model, impl_->state, body);
+  return surfaces_of(impl_->model, impl_->whole(), body);
 }
 std::vector<int> Simulation::touching(const std::string& body) const {
-  return cdem::touching(impl_->model, impl_->state, body);
+  return cdem::touching(impl_->model, impl_->whole(), body);
 }
 
 int Simulation::body_number(const std::string& body, const std::string& field) const {
@@ -192,15 +193,39 @@ std::vector<std::string> Simulation::probe_names() const {
 }
 
 void Simulation::probe(const std::string& name, const std::string& field, const geom::Vec3& place) {
-  value_at(impl_->model, impl_->state, field, place); // throws for a wrong field or place
+  value_at(impl_->model, impl_->whole(), field, place); // throws for a wrong field or place
   for (const Probe& probe : impl_->log.probes)
     if (probe.name == name)
       throw geom::InputError("name", "\"" + name + "\"", "unique among the probes");
   impl_->log.probes.push_back({name, field, place});
 }
 
+Snapshot Simulation::picture_snapshot(const PictureWish& wish, const std::string& title) const {
+  const State& state = needs_whole(wish) ? impl_->whole() : impl_->kept;
+  return make_picture_snapshot(impl_->model, state, wish, title);
+}
+
+std::shared_ptr<void> Simulation::show_lead() const {
+  State& state = impl_->kept;
+  if (!state.parted)
+    return nullptr;
+  struct Shown {
+    State& state;
+    std::shared_ptr<const StateShares> parted;
+    std::vector<Contact> contacts;
+    ~Shown() {
+      state.contacts = std::move(contacts);
+      state.parted = std::move(parted);
+    }
+  };
+  auto shown = std::shared_ptr<Shown>(new Shown{state, state.parted, state.contacts});
+  state.parted->gather_on_lead(state);
+  state.parted.reset();
+  return shown;
+}
+
 Snapshot Simulation::snapshot(const std::string& title) const {
-  return make_snapshot(impl_->model, impl_->state, title);
+  return make_snapshot(impl_->model, impl_->whole(), title);
 }
 
 Snapshot Simulation::last_good_snapshot(const std::string& title) const {

@@ -47,7 +47,7 @@ void archive(A& a, RestartPoint& restart_point) {
 std::string Simulation::Impl::saved() const {
   if (!at_start.empty())
     return at_start;
-  const State& then = restart_point ? last_good : state;
+  const State& then = restart_point ? last_good : kept;
   Writer a;
   archive_const(a, built);
   archive_const(a, model.blocks.size());
@@ -98,8 +98,8 @@ void Simulation::Impl::take(std::string_view saved, bool state_only) {
     take_names(model, model_then);
     model = std::move(model_then);
   }
-  state = std::move(state_then);
-  last_good = state;
+  kept = std::move(state_then);
+  last_good = kept;
   from.reset();
   if (state_only)
     return;

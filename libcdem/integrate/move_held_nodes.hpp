@@ -13,6 +13,21 @@ void step_held_node(const MovingNodes& node, const HeldNode&, const Stepping&, N
 // the node alone.
 void step_dashpot_node(const MovingNodes& node, const HeldNode&, const geom::Mat3& dashpot, const Stepping&,
                        NodeSums&);
+// The nodes `range` of a model; nodes(part) gives the MovingNodes of a part of it.
+template <class Nodes>
+void step_nodes_and_held(const ResolvedConditions& r, Range range, const Nodes& nodes, const Stepping& s,
+                         NodeSums& sums) {
+  each_node(
+      r, range, [&](Range part) { step_nodes(nodes(part), s, sums); },
+      [&](const HeldNode& h) {
+        const MovingNodes node = nodes(Range{h.node, h.node + 1});
+        if (h.dashpot < 0)
+          step_held_node(node, h, s, sums);
+        else
+          step_dashpot_node(node, h, r.dashpots[h.dashpot], s, sums);
+      });
+}
+
 // previous_force: N, of the step before; replaced.
 void relax_held_node(const MovingNodes& node, const HeldNode&, double damping, Node& previous_force,
                      NodeSums&);

@@ -14,11 +14,14 @@
 namespace cdem {
 namespace {
 
+// New pages take their place: those of a heap on which a file was once mapped (ranks/parked_model.cpp) would read as that
+// file again, not as zeros. Where the system has none to give they stay as they are.
 void release(const Pages& pages) {
   if (pages.size() == 0)
     return;
-  (void)madvise(pages.data(), pages.size(), MADV_NOHUGEPAGE);
-  (void)madvise(pages.data(), pages.size(), MADV_DONTNEED);
+  if (mmap(pages.data(), pages.size(), PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS | MAP_FIXED, -1,
+           0) != MAP_FAILED)
+    (void)madvise(pages.data(), pages.size(), MADV_NOHUGEPAGE);
 }
 
 } // namespace

@@ -6,6 +6,7 @@
 #include "libcdem/procedure/held_pressure.hpp"
 #include "libcdem/procedure/relax.hpp"
 #include "libcdem/procedure/run.hpp"
+#include "libcdem/ranks/state_shares.hpp"
 #include "libcdem/results/fragments.hpp"
 #include "libcdem/step/errors.hpp"
 #include "libgeom/core/error.hpp"
@@ -203,6 +204,7 @@ void Search::look() {
   now_.seen = broken();
   if (++now_.looks % looks_per_judgement != 0)
     return;
+  make_whole(state_);
   const double now = now_.pressure.at(state_.time),
                moved = displacement_along(now_.pattern, state_, now_.start);
   result.curve.push_back({state_.time - now_.start_time, now, flow_velocity(now, density), moved, now_.seen});

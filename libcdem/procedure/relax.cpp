@@ -257,7 +257,7 @@ RelaxResult relax(const StageContext& context, const RelaxOptions& options, cons
       settled.start_anew();
     converged = settled.reached(0.5 * damping);
     if (options.callback && options.callback_every > 0 && stage.step % options.callback_every == 0) {
-      const SynchronisedView view(stage); // what it reads is of one moment
+      const SynchronisedView view(stage, SynchronisedView::Of::shares); // what it reads is of one moment
       options.callback();
     }
   };

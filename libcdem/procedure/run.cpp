@@ -5,6 +5,7 @@
 #include "libcdem/integrate/move_held_nodes.hpp"
 #include "libcdem/integrate/move_rigid.hpp"
 #include "libcdem/integrate/row_sums.hpp"
+#include "libcdem/integrate/viscous_forces.hpp"
 #include "libcdem/procedure/scaled_stage.hpp"
 #include "libcdem/step/synchronised_view.hpp"
 #include "libgeom/core/error.hpp"
@@ -19,19 +20,6 @@ namespace {
 // Distance from the model's box, over its size: beyond it a piece has left the model, or has run away if it is the only
 // one.
 constexpr double left_lengths = 1, run_away_lengths = 100;
-
-// mu V of every node, N s/m; empty when nothing is viscous.
-std::vector<double> viscous_forces(const Model& model) {
-  std::vector<double> viscous;
-  if (std::all_of(model.bodies.begin(), model.bodies.end(),
-                  [](const Body& body) { return body.material.viscosity == 0; }))
-    return viscous;
-  viscous.reserve(model.node_position.size());
-  for (int i = 0; i < static_cast<int>(model.node_position.size()); ++i)
-    viscous.push_back(model.bodies[model.blocks[block_of(model, i)].body].material.viscosity *
-                      node_volume(model, i));
-  return viscous;
-}
 
 double choose_time_step(const StageContext& context, const RunOptions& options) {
   const Model& model = context.model;
@@ -226,15 +214,7 @@ RunResult run(const StageContext& context, const RunOptions& options, const std:
         moving.viscous = viscous.empty() ? nullptr : viscous.data() + part.begin;
         return moving;
       };
-      each_node(
-          stage.work.resolved, range, [&](Range part) { step_nodes(nodes(part), stepping, sums); },
-          [&](const HeldNode& h) {
-            const MovingNodes node = nodes({h.node, h.node + 1});
-            if (h.dashpot < 0)
-              step_held_node(node, h, stepping, sums);
-            else
-              step_dashpot_node(node, h, stage.work.resolved.dashpots[h.dashpot], stepping, sums);
-          });
+      step_nodes_and_held(stage.work.resolved, range, nodes, stepping, sums);
     };
     std::vector<geom::Vec3>& angle = stage.work.rigid_angle;
     report.sums = stage.advance(
@@ -255,7 +235,7 @@ RunResult run(const StageContext& context, const RunOptions& options, const std:
     if (stage.step % ask_every == 0) {
       std::optional<SynchronisedView> view; // what they read is of one moment
       if (options.callback || options.stop)
-        view.emplace(stage);
+        view.emplace(stage, SynchronisedView::Of::shares);
       if (options.callback && options.callback_every > 0)
         options.callback();
       stopped = options.stop && options.stop() && report.residual <= options.stop_residual;

@@ -4,6 +4,7 @@
 #include "libcdem/model/names.hpp"
 #include "libcdem/procedure/run.hpp"
 #include "libcdem/procedure/turn_rigid.hpp"
+#include "libcdem/ranks/state_shares.hpp"
 #include "libcdem/results/energy.hpp"
 #include "libgeom/core/portable.hpp"
 
@@ -164,12 +165,14 @@ void Settling::phase(const std::string& name, double time_step, Until until) {
       options_.callback ? (options_.callback_every + settle_look - 1) / settle_look : 0;
   stepping.callback_every = settle_look;
   stepping.callback = [&] {
+    make_whole(state_);
     now_.calm.look(kinetic_energy(model_, state_), options_.kinetic_energy_ratio);
     ++now_.looks;
     if (looks_per_call > 0 && now_.looks % looks_per_call == 0)
       options_.callback();
   };
   stepping.stop = [&] {
+    make_whole(state_);
     return until == Until::touch ? !state_.contacts.empty() : now_.calm.quiet >= quiet_looks;
   };
   const bool takes_up_loads = now_.part == SettlePart::last && deforms() && context_.conditions.load();

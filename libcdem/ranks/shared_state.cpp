@@ -198,8 +198,9 @@ void SharedState::share_nodes(State& state) {
 }
 
 void SharedState::parted(State& state) {
-  since_whole_ = whole_ ? 0 : since_whole_ + 1;
-  since_surfaces_ = surfaces_whole() ? 0 : since_surfaces_ + 1;
+  const bool filled = shares_->filled(); // maybe on rank 0 alone
+  since_whole_ = whole_ || filled ? 0 : since_whole_ + 1;
+  since_surfaces_ = surfaces_whole() || filled ? 0 : since_surfaces_ + 1;
   state.parted = shares_;
   whole_ = surfaces_whole_ = false;
   if (since_whole_ != release_after && since_surfaces_ != release_after)
@@ -225,11 +226,9 @@ void SharedState::gather_contacts(State& state) {
   contacts_whole_ = true;
 }
 
-void SharedState::show_lead(State& state) {
-  if (!state.parted || whole_)
-    return;
-  shares_->gather_fields_on_lead(state);
-  since_whole_ = since_surfaces_ = 0; // the pages that rank 0 has filled are given back with those of others
+void SharedState::look_at(const State& state) {
+  if (!state.parted)
+    whole_ = contacts_whole_ = true;
 }
 
 void SharedState::gather(State& state) {

@@ -48,10 +48,10 @@ public:
   void part_contacts(State&);
   bool contacts_whole() const { return contacts_whole_; }
   void gather_contacts(State&);
-  // Rank 0 alone sees all of it but contacts, until the next step; for all it stays as parted as it is.
-  void show_lead(State&);
   // Makes all of it whole.
   void gather(State&);
+  // Somebody may have done so by make_whole.
+  void look_at(const State&);
   const StateShares& shares() const { return *shares_; }
   // Copies the own share.
   void keep(State& state, State& copy) const;

@@ -33,6 +33,17 @@ std::vector<Range> nodes_kept(const Model& model, Range own) {
   return runs;
 }
 
+// The first tet of each rank's chunks, and the end of the last one's.
+std::vector<std::int64_t> first_tets(const Model& model, const Partition& part) {
+  std::vector<std::int64_t> tets =
+      along_mesh_chunks(model, part, static_cast<std::int64_t>(model.tets.size()),
+                        [](const MeshChunk& chunk) { return chunk.tets.begin; });
+  for (std::size_t rank = 0; rank < tets.size(); ++rank)
+    if (const std::int64_t chunk = part.chunk_begin[rank]; chunk < part.stars)
+      tets[rank] = model.blocks[model.chunks[chunk].blocks.begin].tet_begin;
+  return tets;
+}
+
 } // namespace
 
 // visit(first entry of each rank, numbers of the array for each of those, the array in each state): those whose pages a
@@ -72,6 +83,7 @@ StateShares::StateShares(const Model& model, const Partition& part)
                           ? model.point_chunks[chunk].begin
                           : static_cast<std::int64_t>(model.points.size()));
   const MeshData& mesh = model.mesh;
+  tets_ = first_tets(model, part);
   batches_ = along_mesh_chunks(model, part, static_cast<std::int64_t>(mesh.batches.size()),
                                [](const MeshChunk& chunk) { return chunk.batches.begin; });
   faces_ = along_mesh_chunks(model, part, static_cast<std::int64_t>(mesh.faces.size()),
@@ -106,6 +118,7 @@ void StateShares::gather_on_lead(void* data, const std::vector<std::int64_t>& be
 }
 
 void StateShares::gather(State& state) const {
+  filled_ = true;
   const auto visit = [&](const std::vector<std::int64_t>& begin, std::size_t entries, auto& values) {
     gather(values, begin, entries);
   };
@@ -142,17 +155,14 @@ void StateShares::gather_contacts(State& state) const {
     add_contacts(ranks().gather(own_contacts(state)), state);
 }
 
-void StateShares::gather_fields_on_lead(State& state) const {
+void StateShares::gather_on_lead(State& state) const {
+  filled_ = true;
   const auto visit = [&](const std::vector<std::int64_t>& begin, std::size_t entries, auto& values) {
     gather_on_lead(values.data(), begin, values.size() * sizeof values[0], entries * sizeof values[0]);
   };
   each_large(visit, state);
   each_small(visit, state);
   gather_slips(state);
-}
-
-void StateShares::gather_on_lead(State& state) const {
-  gather_fields_on_lead(state);
   if (is_rigid_.empty())
     return;
   std::vector<std::string> to(static_cast<std::size_t>(size_));
@@ -232,6 +242,15 @@ void StateShares::copy(State& from, State& to) const {
       },
       from, to);
   release(to); // it may have been whole
+}
+
+void make_whole(State& state) {
+  const std::shared_ptr<const StateShares> shares = state.parted;
+  if (!shares)
+    return;
+  shares->gather(state);
+  shares->gather_contacts(state);
+  state.parted.reset();
 }
 
 } // namespace cdem

@@ -10,6 +10,7 @@
 #include "libcdem/state/state.hpp"
 
 #include <algorithm>
+#include <utility>
 
 namespace cdem {
 
@@ -30,6 +31,8 @@ public:
   StateShares(const Model&, const Partition&);
 
   // The first entry of each rank, and the end of the last one's.
+  const std::vector<std::int64_t>& node_begin() const { return nodes_; }
+  const std::vector<std::int64_t>& tet_begin() const { return tets_; }
   const std::vector<std::int64_t>& point_begin() const { return points_; }
   const std::vector<std::int64_t>& batch_begin() const { return batches_; }
   const std::vector<std::int64_t>& face_begin() const { return faces_; }
@@ -44,7 +47,8 @@ public:
   void gather_surfaces(State&) const; // where nodes are, and which bonds hold
   void gather_contacts(State&) const; // of rigid bodies: those of others all know
   void gather_on_lead(State&) const;
-  void gather_fields_on_lead(State&) const; // but contacts
+  // Since this was last asked, some State was filled with what others own.
+  bool filled() const { return std::exchange(filled_, false); }
   // The same for arrays beside the State.
   template <class T>
   void gather_nodes(std::vector<T>& values) const {
@@ -97,9 +101,13 @@ private:
   void each_small(const Visit& visit, S&... states) const;
 
   int rank_ = 0, size_ = 1;
-  std::vector<std::int64_t> nodes_, points_, batches_, faces_;
+  std::vector<std::int64_t> nodes_, tets_, points_, batches_, faces_;
+  mutable bool filled_ = false;   // the same on all ranks
   std::vector<char> is_rigid_;    // per triangle at which contacts act
   std::vector<Range> kept_nodes_; // own, and of rigid bodies; ascending
 };
+
+// Makes a State whole on all ranks, who call it together; one that is stays as it is.
+void make_whole(State&);
 
 } // namespace cdem

@@ -1,5 +1,6 @@
 // One moment of a model, ready to be drawn or written: plain arrays and names, nothing of the solver and nothing of
-// VTK. results/ makes it, vtk/ reads it.
+// VTK. results/ makes it, vtk/ reads it. For files it is the whole model (make_snapshot), for a picture what that shows
+// (picture_snapshot): fields that it does not show are named there and have no values.
 #pragma once
 
 #include "libcdem/joint/bond_mode.hpp"
@@ -25,6 +26,7 @@ struct BondSnapshot {
   // "mode", "damage", "opening" m, "slip" m, "traction" Pa, "displacement" m.
   std::vector<SnapshotField> point_fields;
   std::vector<SnapshotField> triangle_fields; // "interface_id", "mode": the worst of its three points
+  bool left_out = false;                      // there are bonds that do not stand here: those that hold
 };
 
 struct Snapshot {

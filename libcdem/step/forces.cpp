@@ -43,7 +43,7 @@ const Node* block_forces(const Model& model, const State& state, const Workspace
   return force.data();
 }
 
-std::vector<Node> net_forces(const Model& model, const State& state, Workspace& work) {
+std::vector<Node> inner_forces(const Model& model, const State& state, Workspace& work) {
   State copy = state; // bookkeeping of springs and faces stays as it is
   work.strain_step = 0;
   work.contact.due = true;
@@ -70,6 +70,11 @@ std::vector<Node> net_forces(const Model& model, const State& state, Workspace& 
     const Node* const at = block_forces(model, copy, work, static_cast<std::int64_t>(c));
     std::copy(at, at + model.chunks[c].nodes.size(), force.begin() + model.chunks[c].nodes.begin);
   }
+  return force;
+}
+
+std::vector<Node> net_forces(const Model& model, const State& state, Workspace& work) {
+  std::vector<Node> force = inner_forces(model, state, work);
   const ResolvedConditions& r = work.resolved;
   for (std::size_t i = 0; i < force.size(); ++i) {
     if (!work.contact.force.empty())

@@ -10,7 +10,12 @@ namespace cdem {
 // has run before.
 const Node* block_forces(const Model&, const State&, const Workspace&, std::int64_t chunk);
 
-// N at every node, loads included, where the nodes are now (n_nodes), but contacts of rigid bodies (ContactWork::on_rigid); the workspace's loads are up to date.
+// N, of elements and springs at every node, where the nodes are now (n_nodes), without loads. The workspace gets the
+// forces of contacts.
+std::vector<Node> inner_forces(const Model&, const State&, Workspace&);
+
+// The same with loads and contacts, but for contacts of rigid bodies (ContactWork::on_rigid); the workspace's loads are up
+// to date.
 std::vector<Node> net_forces(const Model&, const State&, Workspace&);
 
 } // namespace cdem

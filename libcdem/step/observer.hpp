@@ -48,9 +48,10 @@ public:
   // What an earlier run came to that this one goes on from: spring points broken in stages that had ended, warnings.
   virtual void goes_on(std::int64_t /*broken_tension*/, std::int64_t /*broken_shear*/,
                        std::int64_t /*warnings*/) {}
-  // Asked every few steps; true: view() is given the model as it is. Looking changes no bit. Several ranks must be told
-  // the same, since all of them give their share.
+  // Asked every few steps; true: view() is given what a picture shows of the model as it is. Looking changes no bit.
+  // Several ranks must be told the same, since all of them give their share.
   virtual bool wants_view() { return false; }
+  virtual std::string wanted_field() { return ""; } // "stress.xx"; of several ranks the first is asked
   virtual void view(const Snapshot&) {}
   // Polled every few steps: true ends the stage cleanly by throwing Interrupted.
   virtual bool stop_requested() { return false; }

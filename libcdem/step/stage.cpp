@@ -5,7 +5,7 @@
 #include "libcdem/parallel/huge_pages.hpp"
 #include "libcdem/parallel/instruction_set.hpp"
 #include "libcdem/results/energy.hpp"
-#include "libcdem/results/make_snapshot.hpp"
+#include "libcdem/results/picture_snapshot.hpp"
 #include "libcdem/step/errors.hpp"
 #include "libcdem/step/record.hpp"
 #include "libcdem/step/synchronised_view.hpp"
@@ -345,9 +345,15 @@ void Stage::poll(const StepReport& step_report) {
 void Stage::show() {
   if (!context_.observer.wants_view())
     return;
-  const SynchronisedView view(*this, SynchronisedView::For::lead);
+  PictureWish wish;
+  wish.field = context_.observer.wanted_field();
+  if (shared_)
+    ranks().broadcast(wish.field); // rank 0 draws
+  const SynchronisedView view(*this,
+                              needs_whole(wish) ? SynchronisedView::Of::whole : SynchronisedView::Of::shares);
+  const Snapshot shown = make_picture_snapshot(context_.model, context_.state, wish, "");
   if (ranks().leads())
-    context_.observer.view(make_snapshot(context_.model, context_.state, ""));
+    context_.observer.view(shown);
 }
 
 StageResult Stage::finish(const StepReport& step_report) {
@@ -374,7 +380,7 @@ void Stage::sample_start() {
 void Stage::sample(const StepReport& report) {
   std::optional<SynchronisedView> view;
   if (!context_.log.probes.empty())
-    view.emplace(*this);
+    view.emplace(*this, SynchronisedView::Of::whole);
   else if (!context_.state.water_pressure.empty())
     see_whole();
   record_history(context_.model, context_.state, context_.conditions, context_.log, context_.number,

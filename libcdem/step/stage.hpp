@@ -104,7 +104,6 @@ public:
 
   // The state of all ranks, for who looks at the whole of it, or at what a search for contacts reads and an array by node beside it.
   void see_whole();
-  void show_lead();                              // rank 0 sees all fields, for who only looks at them
   void see_surfaces(std::vector<Node>& by_node); // where nodes are, and which bonds hold
 
   // Brings contacts and the stress of meshes up to where the nodes are; before a state is kept or handed out.

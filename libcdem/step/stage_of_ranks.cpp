@@ -133,11 +133,6 @@ void Stage::see_whole() {
     shared_->gather(context_.state);
 }
 
-void Stage::show_lead() {
-  if (shared_)
-    shared_->show_lead(context_.state);
-}
-
 void Stage::see_surfaces(std::vector<Node>& by_node) {
   if (!shared_)
     return;

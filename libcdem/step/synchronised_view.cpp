@@ -2,7 +2,7 @@
 
 namespace cdem {
 
-SynchronisedView::SynchronisedView(Stage& stage, For whom) : stage_(stage) {
+SynchronisedView::SynchronisedView(Stage& stage, Of what) : stage_(stage) {
   stage.synchronise_contacts();
   const State& state = stage.context_.state;
   if (!state.faces.empty() && stage.work.strain_step > 0) {
@@ -21,10 +21,13 @@ SynchronisedView::SynchronisedView(Stage& stage, For whom) : stage_(stage) {
   }
   RunLog of_view;
   stage.synchronise_stress(of_view);
-  whom == For::all ? stage.see_whole() : stage.show_lead();
+  if (what == Of::whole)
+    stage.see_whole();
 }
 
 SynchronisedView::~SynchronisedView() {
+  if (stage_.shared_)
+    stage_.shared_->look_at(stage_.context_.state);
   if (strain_step_ == 0)
     return;
   State& state = stage_.context_.state;

@@ -9,9 +9,9 @@ namespace cdem {
 
 class SynchronisedView {
 public:
-  // With several ranks the State is whole for all of them, or its fields are for rank 0.
-  enum class For { all, lead };
-  explicit SynchronisedView(Stage&, For = For::all);
+  // With several ranks the State is whole, or each has its share: who reads more makes it whole (make_whole).
+  enum class Of { whole, shares };
+  SynchronisedView(Stage&, Of);
   ~SynchronisedView();
   SynchronisedView(const SynchronisedView&) = delete;
   SynchronisedView& operator=(const SynchronisedView&) = delete;

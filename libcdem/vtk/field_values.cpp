@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <stdexcept>
 
 namespace cdem {
 namespace {
@@ -123,6 +124,18 @@ void leave_plain(const Snapshot& snapshot, const std::vector<int>& bodies, Field
   }
 }
 
+void leave_inside(const Snapshot& snapshot, FieldValues& field) {
+  if (!field.on_points)
+    return;
+  std::vector<char> shown(field.values.size(), 0);
+  for (const geom::Triangle& triangle : snapshot.surface)
+    for (const int point : triangle)
+      shown[static_cast<std::size_t>(point)] = 1;
+  for (std::size_t i = 0; i < shown.size(); ++i)
+    if (!shown[i])
+      field.values[i] = std::nan("");
+}
+
 FieldValues field_values(const Snapshot& snapshot, const std::string& name) {
   const auto dot = name.find('.');
   const std::string base = name.substr(0, dot);
@@ -153,6 +166,8 @@ FieldValues field_values(const Snapshot& snapshot, const std::string& name) {
   result.integer = field->integer;
   result.id = field->integer && (ends_with(base, "_id") || base == "body" || base == "unit");
 
+  if (field->values.empty() && !snapshot.surface.empty())
+    throw std::logic_error("the field " + base + " is named in this result, but has no values");
   const auto n = static_cast<std::size_t>(field->components);
   const std::size_t chosen = components.empty() ? 0 : static_cast<std::size_t>(place - components.begin());
   const auto value = [&](std::size_t row) {

@@ -22,6 +22,8 @@ FieldValues field_values(const Snapshot&, const std::string& field);
 
 // Takes the values of these bodies away (NaN): they are drawn without colour.
 void leave_plain(const Snapshot&, const std::vector<int>& bodies, FieldValues&);
+// The same of points inside: colours reach over what is seen.
+void leave_inside(const Snapshot&, FieldValues&);
 
 // The field of that name, or nullptr.
 const SnapshotField* find_field(const std::vector<SnapshotField>&, const std::string& name);

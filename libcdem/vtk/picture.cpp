@@ -101,6 +101,7 @@ void draw(const Snapshot& snapshot, const PictureOptions& options, const Finish&
   if (!options.field.empty()) {
     field = field_values(snapshot, options.field);
     leave_plain(snapshot, options.plain, *field);
+    leave_inside(snapshot, *field);
     scale = colour_scale(field->values, field->id, options.colour_map, options.range);
   }
 
@@ -133,8 +134,9 @@ void draw(const Snapshot& snapshot, const PictureOptions& options, const Finish&
   input.bar = bar.has_value();
   // Pictures from a camera of their own, or fitted to a box, are frames of a film: they keep the room of a legend that is
   // still empty, so that nothing moves when the first bond breaks.
-  input.legend = !legend.empty() || ((view.literal || options.fit) && options.legend &&
-                                     options.broken_bonds && !snapshot.bonds.points.empty());
+  input.legend =
+      !legend.empty() || ((view.literal || options.fit) && options.legend && options.broken_bonds &&
+                          (snapshot.bonds.left_out || !snapshot.bonds.points.empty()));
   input.bar_column = bar ? bar_column_width(canvas, *bar, pixel) : 0;
   input.axes = axes.size;
   const Layout layout = arrange(input);

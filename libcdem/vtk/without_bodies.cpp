@@ -9,6 +9,8 @@ namespace {
 // The values of those places that have a new number (not -1).
 SnapshotField kept_values(const SnapshotField& field, const std::vector<int>& number) {
   SnapshotField kept{field.name, field.unit, field.components, {}, field.integer};
+  if (field.values.empty()) // named only
+    return kept;
   const auto width = static_cast<std::size_t>(field.components);
   for (std::size_t place = 0; place < number.size(); ++place)
     if (number[place] >= 0)
@@ -39,7 +41,7 @@ std::vector<int> numbers_of(const std::vector<bool>& stays) {
 Snapshot without_bodies(const Snapshot& all, const std::vector<int>& bodies) {
   const auto is_body = [](const SnapshotField& field) { return field.name == "body"; };
   const auto body = std::find_if(all.cell_fields.begin(), all.cell_fields.end(), is_body);
-  if (bodies.empty() || body == all.cell_fields.end())
+  if (bodies.empty() || body == all.cell_fields.end() || all.tets.empty())
     return all;
 
   std::vector<bool> tet_stays(all.tets.size()), point_stays(all.points.size());

@@ -149,6 +149,64 @@ TEST_CASE("settle: a fall of rigid units is ballistic until they touch", "[settl
   CHECK(s.blocks()[1].displacement.z() == Approx(0.5 * g.z() * t * t).epsilon(1e-6));
 }
 
+TEST_CASE("settle: rigid units at rest that may deform from then on are not kicked by half a step of the "
+          "rigid ones",
+          "[settle][rigid]") {
+  const cdem::Selection units = cdem::Selection::of_body("units");
+  cdem::Simulation s =
+      units_over_floor(geom::box_mesh({3, 1.5, 0.5}, {6, 3, 1}),
+                       {cube_at({0.6, 0.75, 0.5 + 0.25}, Mat3::Identity())}, rock(), 1, nullptr);
+  s.make_rigid(units);
+  cdem::SettleOptions options;
+  options.max_time = 10;
+  REQUIRE(s.settle(options).converged);
+  const auto open_balance = [](const cdem::Simulation& of) {
+    return of.energy().total() - of.energy().external;
+  };
+  const double stored = s.energy().springs, open = open_balance(s);
+  CHECK(stored > 0);
+  s.make_deformable(units);
+  CHECK(s.energy().springs == Approx(stored).epsilon(1e-6));
+  CHECK(open_balance(s) == Approx(open).margin(1e-4 * stored));
+  CHECK(s.energy().kinetic < 1e-4 * stored);
+  // From rest the first step gives v = F dt / 2m, which is dt^2 / 8 sum F^2 / m of kinetic energy, whatever the steps
+  // were before. The balance of central differences is off by as much: the velocity counts in it for the whole of the
+  // half step through which it grows from 0.
+  const double steps[] = {1e-5, 1e-6}; // small against the stable one
+  double kinetic[2];
+  for (int i = 0; i < 2; ++i) {
+    cdem::Simulation first = s.copy();
+    cdem::RunOptions one;
+    one.steps = 1;
+    one.time_step = steps[i];
+    first.run(one);
+    kinetic[i] = first.energy().kinetic;
+    CHECK(open_balance(first) - open == Approx(-kinetic[i]).epsilon(0.1));
+  }
+  CHECK(kinetic[0] == Approx(100 * kinetic[1]).epsilon(0.01));
+  CHECK(kinetic[1] < 1e-3 * stored);
+}
+
+TEST_CASE("a rigid unit that flies and may deform from then on keeps its parabola", "[settle][rigid]") {
+  const cdem::Selection units = cdem::Selection::of_body("units");
+  cdem::Simulation s = units_over_floor(geom::box_mesh({3, 1.5, 0.5}, {6, 3, 1}),
+                                        {cube_at({0.6, 0.75, 3}, Mat3::Identity())}, rock(), 1, nullptr);
+  s.make_rigid(units);
+  const Vec3 thrown(0.3, 0, 2);
+  s.initial_velocity(units, thrown);
+  cdem::RunOptions steps;
+  steps.steps = 500;
+  steps.time_step = 8e-5;
+  s.run(steps);
+  s.make_deformable(units);
+  steps.time_step = 0;
+  steps.steps = 300;
+  s.run(steps);
+  const double t = s.time();
+  const Vec3 moved = s.blocks()[1].displacement, should = t * thrown + 0.5 * t * t * g;
+  CHECK((moved - should).norm() < 1e-9);
+}
+
 TEST_CASE("settle: with less friction a cube slides while it settles, and no longer", "[settle]") {
   // A plate of 20 degrees (gravity is turned), friction of 30, of 10 while the cube settles.
   const double slope = 20 * degree, time = 0.2;

@@ -33,10 +33,15 @@ bool LiveView::wants_frame() {
   return draws_ && shown_.was_read() && (Clock::now() >= next_frame_ || shown_.wishes_changed());
 }
 
+std::string LiveView::wanted_field() {
+  wish_ = shown_.wish();
+  return wish_.colour;
+}
+
 void LiveView::frame(const Snapshot& snapshot) {
   const auto start = Clock::now();
   try {
-    FrameWish wish = shown_.wish();
+    FrameWish wish = wish_;
     choose_view(snapshot, wish);
     const PictureOptions options = frame_options(wish, snapshot, shown_box(snapshot, wish.deformation));
     wish.colour = options.field;

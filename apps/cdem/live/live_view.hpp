@@ -24,6 +24,7 @@ public:
   }
   void add_line(const std::string& line) { shown_.add_line(line); }
   bool wants_frame();
+  std::string wanted_field();  // of the next frame
   void frame(const Snapshot&); // what cannot be drawn is told of in the log and tried no more
   void ended(const std::string& text) { shown_.ended(text); }
 
@@ -33,6 +34,7 @@ private:
   PageState shown_;
   LiveServer server_; // last: its threads use the others
   Clock::time_point next_frame_;
+  FrameWish wish_; // of the next frame
   bool draws_ = true;
 };
 

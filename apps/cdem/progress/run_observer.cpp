@@ -160,6 +160,10 @@ bool RunObserver::wants_view() {
   return live_ && script::agreed(page_ && page_->wants_frame() ? 1 : 0) > 0;
 }
 
+std::string RunObserver::wanted_field() {
+  return page_ ? page_->wanted_field() : "";
+}
+
 void RunObserver::view(const Snapshot& snapshot) {
   if (page_)
     told([&] { page_->frame(snapshot); });

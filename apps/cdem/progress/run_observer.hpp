@@ -36,6 +36,7 @@ public:
   Activity doing(Activity) override;
 
   bool wants_view() override;
+  std::string wanted_field() override;
   void view(const Snapshot&) override;
 
   // From now on a page of the browser shows the run too; null on ranks other than 0, which give their share to its frames.

@@ -150,20 +150,18 @@ void add_bolts(const Simulation& simulation, PictureOptions& options) {
   }
 }
 
-// The part of the model that is drawn: its blocks, a section through them, or its joints.
-Snapshot drawn_part(const ModelObject& model, const Arguments& a, const std::vector<int>& hidden,
-                    const std::string& title) {
-  if (a.flag("joints")) {
-    JointChoice choice;
-    for (const Value& set : a.list("joint_sets"))
-      choice.sets.push_back(*set.get<std::string>());
-    return joints_of(model.simulation.joint_surface(choice, title));
-  }
-  Snapshot shown = without_bodies(model.simulation.snapshot(title), hidden);
+JointChoice chosen_joints(const Arguments& a) {
+  JointChoice choice;
+  for (const Value& set : a.list("joint_sets"))
+    choice.sets.push_back(*set.get<std::string>());
+  return choice;
+}
+
+// Of all that is shown.
+Snapshot without_hidden(const Snapshot& all, const std::vector<int>& hidden) {
+  Snapshot shown = without_bodies(all, hidden);
   if (shown.tets.empty())
     throw geom::InputError("hidden: holds every body; leave one to draw");
-  if (const auto section = a.record("section"))
-    return section_of(shown, {section->vec3("point"), section->vec3("normal")});
   return shown;
 }
 
@@ -198,18 +196,36 @@ Value picture(Session& session, ModelObject& model, const Arguments& a) {
   std::vector<int> hidden;
   for (const Value& body : a.list("hidden"))
     hidden.push_back(model.simulation.body_number(*body.get<std::string>(), "hidden"));
+  const bool inside = a.flag("joints") || a.record("section"); // else the surface is all that it shows
+  const std::string title = session.settings.check_only ? "" : model.title(session);
+  PictureWish wish;
+  wish.field = options.field;
+  wish.stress = a.flag("crosses");
+  wish.broken_bonds = options.broken_bonds;
   if (session.settings.check_only) {
-    if (!options.field.empty() && !a.record("section"))
-      field_values(drawn_part(model, a, hidden, ""), options.field);
+    if (!options.field.empty() && !inside)
+      field_values(without_hidden(model.simulation.picture_snapshot(wish, title), hidden), options.field);
     return {};
   }
-  const Snapshot shown = drawn_part(model, a, hidden, model.title(session));
-  if (a.flag("joints") || a.record("section"))
-    options.broken_bonds = false;
+  // Every rank has its part in what is drawn, and the first draws it.
   if (a.flag("bolts"))
     add_bolts(model.simulation, options);
-  add_marks(shown, a, options);
-  draw(session, a.text("file"), [&](const std::string& path) { render(shown, options, path); });
+  const std::shared_ptr<void> whole = inside ? model.simulation.show_lead() : nullptr;
+  const Snapshot surface = inside ? Snapshot() : model.simulation.picture_snapshot(wish, title);
+  led_act("picture", [&] {
+    Snapshot shown;
+    if (a.flag("joints"))
+      shown = joints_of(model.simulation.joint_surface(chosen_joints(a), title));
+    else if (const auto section = a.record("section"))
+      shown = section_of(without_hidden(model.simulation.snapshot(title), hidden),
+                         {section->vec3("point"), section->vec3("normal")});
+    else
+      shown = without_hidden(surface, hidden);
+    if (inside)
+      options.broken_bonds = false;
+    add_marks(shown, a, options);
+    draw(session, a.text("file"), [&](const std::string& path) { render(shown, options, path); });
+  });
   return {};
 }
 
@@ -315,7 +331,7 @@ void bind_output(Module& m) {
        "contact) of faces.",
        joint_file, false, "", "", method<ModelObject>(save_joints)});
   model.methods.push_back({"picture", "Draws the model, without a display.", picture_declaration(), false, "",
-                           "", method<ModelObject>(picture), false, Replay::standard, true});
+                           "", method<ModelObject>(picture)});
   m.functions.push_back(
       {"film",
        "A film from pictures of one size: Ogg/Theora, or H.264 by the program ffmpeg.",

@@ -65,6 +65,9 @@ Value answer(Session& session, const Bound& bound, Object* self, const Arguments
         if (model)
           model->touched = false;
         const auto body = [&] { return bound.function->body(session, self, arguments); };
+        // Rank 0 alone looks at the model then.
+        const std::shared_ptr<void> whole =
+            model && bound.function->led && with_others() ? model->simulation.show_lead() : nullptr;
         Value result = bound.function->led ? led(bound.shown, body) : body();
         if (model && model->touched)
           session.checkpoints.keep_call();

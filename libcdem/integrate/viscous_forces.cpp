@@ -1,0 +1,19 @@
+#include "libcdem/integrate/viscous_forces.hpp"
+
+#include <algorithm>
+
+namespace cdem {
+
+std::vector<double> viscous_forces(const Model& model) {
+  std::vector<double> viscous;
+  if (std::all_of(model.bodies.begin(), model.bodies.end(),
+                  [](const Body& body) { return body.material.viscosity == 0; }))
+    return viscous;
+  viscous.reserve(model.node_position.size());
+  for (int i = 0; i < static_cast<int>(model.node_position.size()); ++i)
+    viscous.push_back(model.bodies[model.blocks[block_of(model, i)].body].material.viscosity *
+                      node_volume(model, i));
+  return viscous;
+}
+
+} // namespace cdem
