@@ -155,21 +155,25 @@ geom::Vec3 water_force(const State& state, const BondPoint& point, std::int64_t 
 }
 
 // Stiffness damping of a spring that holds or presses, beside its own force; rate: m/s, of its stretch in undeformed
-// directions. A contact takes no tension from it, none at all while it is open, and no shear while it slides.
+// directions. A contact takes no tension from it, none at all while it is open, no shear while it slides, and no more shear
+// than friction leaves.
 geom::Vec3 viscous_force(const BondPoint& point, const Interface& interface, std::uint8_t mode,
-                         const geom::Vec3& spring, const geom::Vec3& rate, double beta, bool slid) {
-  const double opening = rate.dot(point.normal);
-  double normal = beta * interface.kn * point.area * opening;
-  if (!is_intact(mode)) {
-    const double pressing = spring.dot(point.normal);
-    if (pressing >= 0)
-      return geom::Vec3::Zero();
-    normal = std::min(normal, -pressing);
+                         const geom::Vec3& spring, const geom::Vec3& rate, double beta, double tan_friction,
+                         bool slid) {
+  const double opening = rate.dot(point.normal), normal = beta * interface.kn * point.area * opening;
+  const geom::Vec3 shear = beta * interface.ks * point.area * (rate - opening * point.normal);
+  if (is_intact(mode))
+    return normal * point.normal + shear;
+  const double pressing = spring.dot(point.normal);
+  if (pressing >= 0)
+    return geom::Vec3::Zero();
+  double part = 0;
+  if (!slid) {
+    const double own = (spring - pressing * point.normal).norm(),
+                 left = std::max(0.0, friction_limit(-pressing, tan_friction) - own);
+    part = held_by_friction(shear.norm(), left);
   }
-  geom::Vec3 viscous = normal * point.normal;
-  if (!slid)
-    viscous += beta * interface.ks * point.area * (rate - opening * point.normal);
-  return viscous;
+  return std::min(normal, -pressing) * point.normal + part * shear;
 }
 
 // s, of a spring: that of its joint, and of a contact at least what the step asks for.
@@ -220,7 +224,7 @@ void one_spring(const SpringsOfChunk& c, std::int64_t p, const geom::Mat3& rotat
   const geom::Vec3 before = viscous;
   viscous = viscous_force(point, interface, state.bond_mode[p], work.spring_force[p], rate,
                           damping_of_spring(work, point.interface, state.bond_mode[p]),
-                          state.bond_offset[p] != offset_before);
+                          work.strength[point.interface].tan_friction, state.bond_offset[p] != offset_before);
   work.acting_force[p] += rotation * viscous;
   c.sums.damping += 0.5 * (before + viscous).dot(rate) * work.damping_step;
 }

@@ -117,15 +117,16 @@ struct ContactLanes {
 CDEM_INLINE Triples viscous_forces(const SpringBatches& all, const SpringBatch& batch,
                                    const SpringsOfBatch& springs, const Rotation<Oct>& rotation,
                                    const Triples& n, const Oct& kn, const Oct& ks, const Oct& normal_force,
-                                   const ContactLanes& is, double& damping) {
+                                   const Oct& friction_left, const ContactLanes& is, double& damping) {
   const Oct none{};
   const Triples rate = turned_back(rotation, jumps_of(all, batch, springs.velocity)),
                 before = load_triples(springs.viscous);
   const Oct opening = dot(rate, n), pressing = none - normal_force,
             wanted = (springs.contact_damping * kn) * opening,
             normal = is.press ? (wanted < pressing ? wanted : pressing) : none,
-            shear = is.stick ? springs.contact_damping * ks : none;
-  const Triples viscous = normal * n + shear * (rate - opening * n);
+            part = is.stick ? springs.contact_damping * ks : none;
+  const Triples shear = part * (rate - opening * n),
+                viscous = normal * n + held_by_friction(root(dot(shear, shear)), friction_left) * shear;
   const Oct lost = (0.5 * springs.damping_step) * dot(before + viscous, rate);
   for (int lane = 0; lane < lanes; ++lane)
     if (is.here[lane] != 0)
@@ -188,8 +189,10 @@ CDEM_INLINE void spring_kernel(const SpringBatches& all, const SpringBatch& batc
     }
     force = (held.normal * normal_force) * n + (held.shear * ks) * shear;
     if (springs.viscous) {
+      const Oct left_over = friction_limit<Oct>(Oct{} - normal_force, tan) - ks * root(dot(shear, shear));
       const Mask here = contact & ~leaves, press = here & (normal_force < Oct{});
       viscous = viscous_forces(all, batch, springs, rotation, n, kn, ks, normal_force,
+                               (left_over > Oct{} ? left_over : Oct{}),
                                {here, press, press & ~(held.shear < one)}, spent.damping);
     }
   }

@@ -105,5 +105,5 @@ TEST_CASE("dry joints: their damping leaves the step stable", "[dry_joints]") {
     CHECK(beta >= 0);
     CHECK(s * s * (1 + 2 * beta / step) <= 1 + 1e-12); // dt^2 K / 4 + beta dt K / 2 over M
   }
-  CHECK(cdem::contact_damping(1, std::numeric_limits<double>::infinity()) == 0.1);
+  CHECK(cdem::contact_damping(1, std::numeric_limits<double>::infinity()) == 0.5);
 }
