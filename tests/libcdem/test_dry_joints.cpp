@@ -22,7 +22,7 @@ struct FlushBlock {
   cdem::Simulation s;
   double slope;
 
-  FlushBlock(double steep, const geom::Mat3& turned) : turn(turned), s(spec(turned)), slope(steep) {
+  FlushBlock(double steep, const geom::Mat3& turned) : turn(turned), s(spec(turned), 1, nullptr), slope(steep) {
     s.fix(fixed(cdem::Selection::of_body("plane")));
     cdem::Gravity gravity;
     gravity.acceleration = turn * Vec3(g * std::sin(slope), 0, -g * std::cos(slope));
@@ -89,7 +89,7 @@ TEST_CASE("dry joints: a wall without mortar keeps its energy at the usual step"
   spec.bodies[0].element = cdem::Element::finite_volume;
   spec.bodies[1].element = cdem::Element::rigid;
   spec.pairs = {{"wall", "ground", friction(35)}};
-  cdem::Simulation s(spec, 1);
+  cdem::Simulation s(spec, 1, nullptr);
   s.fix(fixed(cdem::Selection::of_body("ground")));
   cdem::Gravity gravity;
   gravity.acceleration = Vec3(0, 0, -g);
