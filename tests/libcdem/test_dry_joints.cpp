@@ -22,7 +22,8 @@ struct FlushBlock {
   cdem::Simulation s;
   double slope;
 
-  FlushBlock(double steep, const geom::Mat3& turned) : turn(turned), s(spec(turned), 1, nullptr), slope(steep) {
+  FlushBlock(double steep, const geom::Mat3& turned)
+      : turn(turned), s(spec(turned), 1, nullptr), slope(steep) {
     s.fix(fixed(cdem::Selection::of_body("plane")));
     cdem::Gravity gravity;
     gravity.acceleration = turn * Vec3(g * std::sin(slope), 0, -g * std::cos(slope));
