@@ -156,10 +156,11 @@ geom::Vec3 water_force(const State& state, const BondPoint& point, std::int64_t 
 
 // Stiffness damping of a spring that holds or presses, beside its own force; rate: m/s, of its stretch in undeformed
 // directions. A contact takes no tension from it, none at all while it is open, no shear while it slides, and no more shear
-// than friction leaves.
+// than friction leaves. strength: Pa, in shear under a pressure.
+template <class Strength>
 geom::Vec3 viscous_force(const BondPoint& point, const Interface& interface, std::uint8_t mode,
-                         const geom::Vec3& spring, const geom::Vec3& rate, double beta, double tan_friction,
-                         bool slid) {
+                         const geom::Vec3& spring, const geom::Vec3& rate, double beta,
+                         const Strength& strength, bool slid) {
   const double opening = rate.dot(point.normal), normal = beta * interface.kn * point.area * opening;
   const geom::Vec3 shear = beta * interface.ks * point.area * (rate - opening * point.normal);
   if (is_intact(mode))
@@ -170,7 +171,7 @@ geom::Vec3 viscous_force(const BondPoint& point, const Interface& interface, std
   double part = 0;
   if (!slid) {
     const double own = (spring - pressing * point.normal).norm(),
-                 left = std::max(0.0, friction_limit(-pressing, tan_friction) - own);
+                 left = std::max(0.0, point.area * strength(-pressing / point.area) - own);
     part = held_by_friction(shear.norm(), left);
   }
   return std::min(normal, -pressing) * point.normal + part * shear;
@@ -220,11 +221,19 @@ void one_spring(const SpringsOfChunk& c, std::int64_t p, const geom::Mat3& rotat
     return;
   // What damping takes over a step is the mean of its forces before and after it times the motion.
   const geom::Vec3 rate = rotation.transpose() * jump_at(point, state.velocity.data());
+  const auto strength = [&](double pressure) {
+    if constexpr (special)
+      if (!work.laws.empty() && work.laws[point.interface].law) {
+        const InterfaceLaw& own = work.laws[point.interface];
+        return joint_strength(*own.law, own.spring, pressure, state.joint_history[p].path);
+      }
+    return friction_limit(pressure, work.strength[point.interface].tan_friction);
+  };
   geom::Vec3& viscous = work.viscous[p];
   const geom::Vec3 before = viscous;
   viscous = viscous_force(point, interface, state.bond_mode[p], work.spring_force[p], rate,
-                          damping_of_spring(work, point.interface, state.bond_mode[p]),
-                          work.strength[point.interface].tan_friction, state.bond_offset[p] != offset_before);
+                          damping_of_spring(work, point.interface, state.bond_mode[p]), strength,
+                          state.bond_offset[p] != offset_before);
   work.acting_force[p] += rotation * viscous;
   c.sums.damping += 0.5 * (before + viscous).dot(rate) * work.damping_step;
 }
