@@ -39,9 +39,9 @@ void take_names(const Model& built, Model& then) {
 template <class A>
 void archive(A& a, RestartPoint& restart_point) {
   auto& [step, breaks, wall_time, tension_before, shear_before, loop_state, previous_force, spring_force,
-         stretch, one_way, contact_step, procedure_state] = restart_point;
+         stretch, viscous, one_way, contact_step, procedure_state] = restart_point;
   archive_all(a, step, breaks, wall_time, tension_before, shear_before, loop_state, previous_force,
-              spring_force, stretch, one_way, contact_step, procedure_state);
+              spring_force, stretch, viscous, one_way, contact_step, procedure_state);
 }
 
 std::string Simulation::Impl::saved() const {
@@ -126,6 +126,7 @@ void Simulation::gather_to_save() {
   shares->gather_nodes_on_lead(s.restart_point->previous_force);
   shares->gather_points_on_lead(s.restart_point->spring_force);
   shares->gather_points_on_lead(s.restart_point->stretch);
+  shares->gather_points_on_lead(s.restart_point->viscous);
 }
 
 std::string Simulation::save() const {

@@ -17,6 +17,7 @@ BondWork::BondWork(const Model& model, const State& state)
     : spring_force(model.points.size(), geom::Vec3::Zero()),
       acting_force(model.frames.empty() && state.water_pressure.empty() ? 0 : model.points.size(),
                    geom::Vec3::Zero()),
+      viscous(model.frames.empty() ? 0 : model.points.size(), geom::Vec3::Zero()),
       stretch(std::max(state.bond_damage.size(), state.joint_history.size()), geom::Vec3::Zero()),
       sums(model.point_chunks.size()) {
   std::vector<char> plain;

@@ -2,7 +2,7 @@
 // each other. Once none of its bonds is whole it is handed over to the contact of the surfaces when
 //   1. its springs carry nothing and have opened at every point (by 1e-3 of the interface's size), or
 //   2. its faces have opened like a hinge (by more than 0.02 rad).
-// An interface that has slid, at any of its points, by 0.02 of its size gets new springs where its faces lie on each other
+// An interface that has slid, at any of its points, by 0.005 of its size gets new springs where its faces lie on each other
 // now (fracture/renew_interfaces.hpp).
 // The pressure of water acts on the faces until the interface is left to contact and the faces have moved relative to
 // each other, at every point, by 0.05 of the size. Then the water is lost.
@@ -12,7 +12,9 @@
 
 namespace cdem {
 
-inline constexpr double slid_too_far = 0.02; // of the interface's size
+// Of the interface's size. The two forces of a spring that has slid do not lie in one line: the couple of them does a work
+// that no spring gives.
+inline constexpr double slid_too_far = 0.005;
 
 struct Released {
   std::int64_t interfaces = 0;

@@ -155,19 +155,32 @@ geom::Vec3 water_force(const State& state, const BondPoint& point, std::int64_t 
 }
 
 // Stiffness damping of a spring that holds or presses, beside its own force; rate: m/s, of its stretch in undeformed
-// directions. A contact takes no tension from it, and none at all while it slides or is open.
+// directions. A contact takes no tension from it, none at all while it is open, no shear while it slides, and no more shear
+// than friction leaves. strength: Pa, in shear under a pressure.
+template <class Strength>
 geom::Vec3 viscous_force(const BondPoint& point, const Interface& interface, std::uint8_t mode,
-                         const geom::Vec3& spring, const geom::Vec3& rate, double beta) {
-  const double opening = rate.dot(point.normal);
-  double normal = beta * interface.kn * point.area * opening;
-  geom::Vec3 shear = beta * interface.ks * point.area * (rate - opening * point.normal);
-  if (!is_intact(mode)) {
-    const double pressing = spring.dot(point.normal);
-    if (pressing >= 0)
-      return geom::Vec3::Zero();
-    normal = std::min(normal, -pressing);
+                         const geom::Vec3& spring, const geom::Vec3& rate, double beta,
+                         const Strength& strength, bool slid) {
+  const double opening = rate.dot(point.normal), normal = beta * interface.kn * point.area * opening;
+  const geom::Vec3 shear = beta * interface.ks * point.area * (rate - opening * point.normal);
+  if (is_intact(mode))
+    return normal * point.normal + shear;
+  const double pressing = spring.dot(point.normal);
+  if (pressing >= 0)
+    return geom::Vec3::Zero();
+  double part = 0;
+  if (!slid) {
+    const double own = (spring - pressing * point.normal).norm(),
+                 left = std::max(0.0, point.area * strength(-pressing / point.area) - own);
+    part = held_by_friction(shear.norm(), left);
   }
-  return normal * point.normal + shear;
+  return std::min(normal, -pressing) * point.normal + part * shear;
+}
+
+// s, of a spring: that of its joint, and of a contact at least what the step asks for.
+double damping_of_spring(const BondWork& work, int interface, std::uint8_t mode) {
+  const double own = work.damping.empty() ? 0 : work.damping[interface];
+  return is_intact(mode) ? own : std::max(own, work.contact_damping);
 }
 
 // What the springs of a chunk share.
@@ -204,15 +217,25 @@ void one_spring(const SpringsOfChunk& c, std::int64_t p, const geom::Mat3& rotat
   update_spring<special>(point, interface, state, work, p, rotation.transpose() * jump_at(c.model, p, u),
                          c.sums, c.breaking);
   work.acting_force[p] = rotation * (work.spring_force[p] + water_force(state, point, p));
-  if (!c.damped || work.damping[point.interface] == 0)
+  if (!c.damped)
     return;
+  // What damping takes over a step is the mean of its forces before and after it times the motion.
   const geom::Vec3 rate = rotation.transpose() * jump_at(point, state.velocity.data());
-  const bool slid = state.bond_offset[p] != offset_before;
-  const geom::Vec3 viscous = slid ? geom::Vec3(geom::Vec3::Zero())
-                                  : viscous_force(point, interface, state.bond_mode[p], work.spring_force[p],
-                                                  rate, work.damping[point.interface]);
+  const auto strength = [&](double pressure) {
+    if constexpr (special)
+      if (!work.laws.empty() && work.laws[point.interface].law) {
+        const InterfaceLaw& own = work.laws[point.interface];
+        return joint_strength(*own.law, own.spring, pressure, state.joint_history[p].path);
+      }
+    return friction_limit(pressure, work.strength[point.interface].tan_friction);
+  };
+  geom::Vec3& viscous = work.viscous[p];
+  const geom::Vec3 before = viscous;
+  viscous = viscous_force(point, interface, state.bond_mode[p], work.spring_force[p], rate,
+                          damping_of_spring(work, point.interface, state.bond_mode[p]), strength,
+                          state.bond_offset[p] != offset_before);
   work.acting_force[p] += rotation * viscous;
-  c.sums.damping += viscous.dot(rate) * work.damping_step;
+  c.sums.damping += 0.5 * (before + viscous).dot(rate) * work.damping_step;
 }
 
 bool some_released(const Model& model, const State& state, const SpringBatch& batch) {
@@ -265,14 +288,15 @@ void forces_of_springs(std::int64_t chunk, const SpringsOfChunk& c) {
     rotations.work_out(batches,
                        {c.model.points[range.begin].interface, c.model.points[range.end - 1].interface + 1},
                        state.displacement.data());
-  const bool plain = state.water_pressure.empty() && !c.damped;
+  const bool plain = state.water_pressure.empty() && !(c.damped && !c.work.damping.empty());
   ReadAhead ahead = reads_of(c, chunk + 1);
   ahead.spread(batches.first[chunk + 1] - batches.first[chunk]);
   std::int64_t p = range.begin;
   for (std::int64_t b = batches.first[chunk]; b < batches.first[chunk + 1]; ++b) {
     const SpringBatch& batch = batches.springs[b];
     unsigned one_by_one = (1u << batch.count) - 1;
-    if (plain && batch.plain && batch.count == lanes && !some_released(c.model, state, batch)) {
+    if (plain && batch.plain && batch.count == lanes && !some_released(c.model, state, batch) &&
+        (!c.damped || batch.all_turn || !batch.turns)) {
       SpringsOfBatch springs;
       springs.displacement = state.displacement.data();
       springs.rotation = turns ? rotations.numbers.data() : nullptr;
@@ -282,7 +306,16 @@ void forces_of_springs(std::int64_t chunk, const SpringsOfChunk& c) {
       springs.force = c.work.spring_force.data() + p;
       springs.acting = c.acts_otherwise ? c.work.acting_force.data() + p : nullptr;
       springs.breaking = c.breaking;
-      one_by_one = plain_springs(batches, batch, springs, c.sums.friction);
+      if (c.damped && batch.turns) {
+        springs.contact_damping = c.work.contact_damping;
+        springs.damping_step = c.work.damping_step;
+        springs.velocity = state.velocity.data();
+        springs.viscous = c.work.viscous.data() + p;
+      }
+      SpringSpent spent{c.sums.friction, c.sums.damping};
+      one_by_one = plain_springs(batches, batch, springs, spent);
+      c.sums.friction = spent.friction;
+      c.sums.damping = spent.damping;
     }
     for (int lane = 0; one_by_one != 0; ++lane, one_by_one >>= 1u)
       if (one_by_one & 1u) {
@@ -317,7 +350,7 @@ void spring_forces(const Model& model, State& state, BondWork& work, std::int64_
                                sums,
                                breaking,
                                !work.acting_force.empty(),
-                               !work.damping.empty() && work.damping_step > 0};
+                               work.damping_step > 0 && !work.viscous.empty()};
   if (state.bond_damage.empty() && state.joint_history.empty())
     forces_of_springs<false>(chunk, springs);
   else

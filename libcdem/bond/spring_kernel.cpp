@@ -108,8 +108,36 @@ CDEM_INLINE Triples jumps_of(const SpringBatches& all, const SpringBatch& batch,
   return j;
 }
 
+struct ContactLanes {
+  Mask here, press,
+      stick; // to be looked at; of these, those that are closed; of these, those that do not slide
+};
+
+// Damping of contacts beside their own force, as viscous_force of bond/spring_forces.cpp says it.
+CDEM_INLINE Triples viscous_forces(const SpringBatches& all, const SpringBatch& batch,
+                                   const SpringsOfBatch& springs, const Rotation<Oct>& rotation,
+                                   const Triples& n, const Oct& kn, const Oct& ks, const Oct& normal_force,
+                                   const Oct& friction_left, const ContactLanes& is, double& damping) {
+  const Oct none{};
+  const Triples rate = turned_back(rotation, jumps_of(all, batch, springs.velocity)),
+                before = load_triples(springs.viscous);
+  const Oct opening = dot(rate, n), pressing = none - normal_force,
+            wanted = (springs.contact_damping * kn) * opening,
+            normal = is.press ? (wanted < pressing ? wanted : pressing) : none,
+            part = is.stick ? springs.contact_damping * ks : none;
+  const Triples shear = part * (rate - opening * n),
+                viscous = normal * n + held_by_friction(root(dot(shear, shear)), friction_left) * shear;
+  const Oct lost = (0.5 * springs.damping_step) * dot(before + viscous, rate);
+  for (int lane = 0; lane < lanes; ++lane)
+    if (is.here[lane] != 0)
+      damping += lost[lane];
+  store_triples(springs.viscous, {is.here ? viscous.x : before.x, is.here ? viscous.y : before.y,
+                                  is.here ? viscous.z : before.z});
+  return viscous;
+}
+
 CDEM_INLINE void spring_kernel(const SpringBatches& all, const SpringBatch& batch,
-                               const SpringsOfBatch& given, unsigned& left, double& friction) {
+                               const SpringsOfBatch& given, unsigned& left, SpringSpent& spent) {
   const SpringsOfBatch springs = given;
   const bool turns = batch.turns && springs.rotation;
   Rotation<Oct> rotation{};
@@ -144,7 +172,7 @@ CDEM_INLINE void spring_kernel(const SpringBatches& all, const SpringBatch& batc
                          (shear2 >= strength * strength));
   }
   left = bits(leaves);
-  Triples force = normal_force * n + ks * shear;
+  Triples force = normal_force * n + ks * shear, viscous{};
   if (simd::any(contact)) {
     const Oct one = Oct{} + 1.0;
     HeldByContact<Oct> held = held_by_contact<Oct>(kn, ks, tan, open, root(dot(shear, shear)));
@@ -156,10 +184,17 @@ CDEM_INLINE void spring_kernel(const SpringBatches& all, const SpringBatch& batc
       const Oct lost = 0.5 * dot(shear_before + shear_after, slip);
       for (int lane = 0; lane < lanes; ++lane)
         if (contact[lane] != 0)
-          friction += lost[lane];
+          spent.friction += lost[lane];
       store_triples(springs.offset, offset + slip);
     }
     force = (held.normal * normal_force) * n + (held.shear * ks) * shear;
+    if (springs.viscous) {
+      const Oct left_over = friction_limit<Oct>(Oct{} - normal_force, tan) - ks * root(dot(shear, shear));
+      const Mask here = contact & ~leaves, press = here & (normal_force < Oct{});
+      viscous = viscous_forces(all, batch, springs, rotation, n, kn, ks, normal_force,
+                               (left_over > Oct{} ? left_over : Oct{}),
+                               {here, press, press & ~(held.shear < one)}, spent.damping);
+    }
   }
   if (left != 0) { // their forces of the step before are still asked for
     const Triples before = load_triples(springs.force);
@@ -167,7 +202,7 @@ CDEM_INLINE void spring_kernel(const SpringBatches& all, const SpringBatch& batc
   }
   store_triples(springs.force, force);
   if (springs.acting)
-    store_triples(springs.acting, turns ? turned(rotation, force) : force);
+    store_triples(springs.acting, turns ? turned(rotation, force + viscous) : force);
 }
 
 } // namespace
@@ -178,9 +213,9 @@ void interface_rotations(const SpringBatches& batches, Range frames, const Node*
 }
 
 unsigned plain_springs(const SpringBatches& all, const SpringBatch& batch, const SpringsOfBatch& springs,
-                       double& friction) {
+                       SpringSpent& spent) {
   unsigned left = 0;
-  simd::best<spring_kernel>(all, batch, springs, left, friction);
+  simd::best<spring_kernel>(all, batch, springs, left, spent);
   return left;
 }
 

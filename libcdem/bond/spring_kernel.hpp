@@ -18,9 +18,17 @@ struct SpringsOfBatch {
   const std::uint8_t* mode = nullptr;                                // the first spring's
   geom::Vec3 *offset = nullptr, *force = nullptr, *acting = nullptr; // acting: null where force acts
   bool breaking = false;
+  double contact_damping = 0; // s, as in BondWork; 0: none
+  double damping_step = 0;    // s
+  const Node* velocity = nullptr;
+  geom::Vec3* viscous = nullptr;
 };
 
-// Returns the lanes that it has left alone, a bit each. friction: J, added to.
-unsigned plain_springs(const SpringBatches&, const SpringBatch&, const SpringsOfBatch&, double& friction);
+struct SpringSpent {
+  double friction = 0, damping = 0; // J, added to
+};
+
+// Returns the lanes that it has left alone, a bit each.
+unsigned plain_springs(const SpringBatches&, const SpringBatch&, const SpringsOfBatch&, SpringSpent&);
 
 } // namespace cdem

@@ -170,8 +170,8 @@ struct Model {
   std::map<std::pair<int, int>, int> pair_joint; // bodies (smaller first) -> joint between them
 
   std::vector<geom::Vec3> node_position; // undeformed, m (n_nodes)
-  // kg (n_nodes). What moves, and what weighs: a quarter of each tet around a node. They differ in star blocks that move
-  // far (build/star_inertia).
+  // kg (n_nodes). What moves, and what weighs: a quarter of each tet around a node. They differ in convex blocks that move
+  // far (build/convex_inertia).
   std::vector<double> node_mass;
   std::vector<double> gravitational_mass;
 

@@ -1,5 +1,6 @@
 #include "libcdem/procedure/run.hpp"
 
+#include "libcdem/bond/contact_damping.hpp"
 #include "libcdem/contact/response/contact_bounds.hpp"
 #include "libcdem/integrate/move_columns.hpp"
 #include "libcdem/integrate/move_held_nodes.hpp"
@@ -177,12 +178,18 @@ RunResult run(const StageContext& context, const RunOptions& options, const std:
       options.local_damping == 0 && options.damp_flight && options.time_step == 0;
   const std::int64_t ask_every = options.callback_every > 0 ? options.callback_every : 100;
 
+  const auto stable_of_all = [&] { // s; rigid bodies take half of their stable step at most
+    const double stable = stable_time_step(context.model, stage.work.resolved.bolts);
+    return context.model.surface.empty() ? stable : std::min(stable, 2 * rigid_time_step(context.model, 1));
+  };
+  double stable_now = context.model.frames.empty() ? 0 : stable_of_all();
   bool stopped = false;
   while (stage.step < clock.steps() && !stopped) {
     const bool renewed = stage.renew_interfaces(),
                freed = (options.breaking && stage.free_nodes()) || renewed;
     if (freed) {
       viscous = viscous_forces(context.model);
+      stable_now = context.model.frames.empty() ? 0 : stable_of_all();
       if (const double stable = options.safety * stable_time_step(context.model, stage.work.resolved.bolts);
           stable < stepping.time_step && !scaled.on()) {
         stepping.time_step = stable;
@@ -207,6 +214,8 @@ RunResult run(const StageContext& context, const RunOptions& options, const std:
     stepping.kick = state.velocity_lag + 0.5 * stepping.time_step;
     stage.update_loads(state.time, stepping);
     stage.work.bond.damping_step = stepping.time_step;
+    stage.work.bond.contact_damping =
+        contact_damping(stepping.time_step, scaled.on() ? stepping.time_step / options.safety : stable_now);
     const auto move = [&](Range range, const Node* force, NodeSums& sums) {
       const auto nodes = [&](Range part) {
         MovingNodes moving = moving_nodes(state, stage.work.acting(), moving_mass(context.model, state), part,

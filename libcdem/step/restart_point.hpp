@@ -23,8 +23,8 @@ struct RestartPoint {
   std::vector<double> loop_state;                                  // numbers of the stage's own loop
   std::vector<Node> previous_force;                                // N, of a relaxation (n_nodes)
   // Those of the BondWork: what broken and softening springs lose is counted from the step before.
-  std::vector<geom::Vec3> spring_force, stretch; // N, m (n_points)
-  OneWayEnergies one_way;                        // in the log so far
+  std::vector<geom::Vec3> spring_force, stretch, viscous; // N, m, N (n_points)
+  OneWayEnergies one_way;                                 // in the log so far
   double contact_step = 0; // s, the last time step: how thick the skins of the search are goes with it
   // For a stage of several loops: the data of the procedure around the loops, and the number of the running loop, as
   // the procedure has written them.

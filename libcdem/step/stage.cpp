@@ -90,6 +90,7 @@ Stage::Stage(const StageContext& context, std::string kind, double run_away)
     broken_shear_before_ = from->broken_shear_before;
     work.bond.spring_force = from->spring_force;
     work.bond.stretch = from->stretch;
+    work.bond.viscous = from->viscous;
     work.contact.last_step = from->contact_step;
     start_ -= std::chrono::duration_cast<std::chrono::steady_clock::duration>(
         std::chrono::duration<double>(from->wall_time));
@@ -126,10 +127,12 @@ void Stage::keep_restart_point(std::vector<double> loop_state, const std::vector
     StateShares::copy(previous_force, point.previous_force, shares.nodes());
     StateShares::copy(work.bond.spring_force, point.spring_force, shares.points());
     StateShares::copy(work.bond.stretch, point.stretch, shares.points());
+    StateShares::copy(work.bond.viscous, point.viscous, shares.points());
   } else {
     point.previous_force = previous_force;
     point.spring_force = work.bond.spring_force;
     point.stretch = work.bond.stretch;
+    point.viscous = work.bond.viscous;
   }
   point.contact_step = work.contact.last_step;
   if (context_.procedure_state)

@@ -56,6 +56,7 @@ bool Stage::renew_interfaces() {
   if (shared_) {
     shared_->shares().gather_points(before.spring_force);
     shared_->shares().gather_points(before.stretch);
+    shared_->shares().gather_points(before.viscous);
   }
   for (const int i : slid_)
     state.spent.friction += catch_up(model, state, before, model.interfaces[i]);
@@ -70,6 +71,8 @@ bool Stage::renew_interfaces() {
       work.bond.spring_force[p] = before.spring_force[old];
       if (!work.bond.stretch.empty())
         work.bond.stretch[p] = before.stretch[old];
+      if (!work.bond.viscous.empty())
+        work.bond.viscous[p] = before.viscous[old];
     }
   if (scale_masses)
     scale_masses();

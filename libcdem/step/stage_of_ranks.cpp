@@ -97,6 +97,7 @@ void Stage::share_anew() {
   see_whole();
   shared_->shares().gather_points(work.bond.spring_force);
   shared_->shares().gather_points(work.bond.stretch);
+  shared_->shares().gather_points(work.bond.viscous);
   if (carried)
     shared_->shares().gather_nodes(*carried);
   share();

@@ -181,7 +181,13 @@ TEST_CASE("a broken joint keeps its residual cohesion", "[joint_laws]") {
   CHECK(s.counts().intact == s.counts().bonds);
   slide_by(s, 5e-3);
   CHECK(s.counts().broken_shear == s.counts().bonds);
-  CHECK(s.reaction(top).x() == Approx(0.2e6 + pressure * std::tan(20 * degree)).epsilon(0.01));
+  double mean = 0; // the blocks vibrate: single moments differ by 1 %
+  constexpr int moments = 20;
+  for (int i = 0; i < moments; ++i) {
+    slide_by(s, 0.1e-3);
+    mean += s.reaction(top).x() / moments;
+  }
+  CHECK(mean == Approx(0.2e6 + pressure * std::tan(20 * degree)).epsilon(0.005));
 }
 
 TEST_CASE("the energy balance of sliding joints closes: friction, closure and lifting", "[joint_laws]") {
@@ -262,15 +268,18 @@ TEST_CASE("blocks that have parted rub with the friction of the set that held th
   s.initial_velocity(cdem::Selection::of_units("rock", {2}), {0, 0, 0.2}, Vec3::Zero(), {});
   s.run(options);
   REQUIRE(s.joints({{"joint"}, {}}).at(0).parted == 1);
-  // m dvx = m g sin t - tan(phi) int N dt,  m dvz = int N dt - m g cos t
-  const cdem::Selection upper = cdem::Selection::of_units("rock", {2});
-  const auto momentum = [&] {
-    return s.mean("velocity.x", upper) + std::tan(phi) * s.mean("velocity.z", upper);
+  // Of the centre of mass: m dvx = m g sin t - tan(phi) int N dt,  m dvz = int N dt - m g cos t, so x + tan(phi) z has a
+  // constant acceleration through all hops. (A mean velocity of the block would add how it vibrates.)
+  const auto place = [&] {
+    const Vec3 centre = s.units("rock").at(1).motion(Vec3(0.5, 0.5, 0.225));
+    return centre.x() + std::tan(phi) * centre.z();
   };
-  const double before = momentum();
+  options.duration = 0.125;
+  const double first = place(), before = s.run(options).time, middle = place();
   const cdem::RunResult run = s.run(options);
+  const double half = run.time - before;
   const double a = 9.81 * (std::sin(steepness) - std::tan(phi) * std::cos(steepness));
-  CHECK((momentum() - before) / 0.25 == Approx(a).epsilon(0.02));
+  CHECK((place() - 2 * middle + first) / (half * half) == Approx(a).epsilon(0.01));
   CHECK(run.time > 0.49);
 }
 

@@ -74,6 +74,7 @@ void require_whole(const Model& model, const RunLog& log, const RestartPoint& po
   length("restart.previous_force", point.previous_force.size(), model.node_position.size());
   length("restart.spring_force", point.spring_force.size(), model.points.size());
   length("restart.stretch", point.stretch.size(), model.points.size());
+  length("restart.viscous", point.viscous.size(), model.points.size());
 }
 
 } // namespace cdem

@@ -79,12 +79,13 @@ double contact_time_step(const Model& model, const State& state, const ContactWo
 }
 
 double rigid_time_step(const Model& model, double safety) {
-  double largest = 0; // 1/s2
+  double largest = 0, damped = 0; // 1/s2, 1/s
   const std::vector<double> given = given_stiffness(model);
   std::vector<double> springs(model.node_mass.size(), 0.0); // N/m, of interfaces
   add_spring_row_sums(model, springs);
   for (const RigidBody& body : model.rigid) {
-    double stiffness = 0, arm = 0, held = 0; // held: 1/s2, by the springs of interfaces
+    double stiffness = 0, arm = 0, held = 0,
+           rate = 0; // held: 1/s2, by the springs of interfaces; rate: 1/s, likewise
     const Block& block = model.blocks[body.block];
     for (int t = model.surface.block_begin[body.block]; t < model.surface.block_begin[body.block + 1]; ++t) {
       const ContactTriangle& triangle = model.surface.triangles[t];
@@ -94,12 +95,15 @@ double rigid_time_step(const Model& model, double safety) {
     for (int node = block.node_begin; node < block.node_end; ++node) {
       const double away = (model.node_position[node] - block.mass.centroid).norm();
       arm = std::max(arm, away);
-      held += springs[node] * rigid_inverse_mass(body, away);
+      const double here = springs[node] * rigid_inverse_mass(body, away);
+      held += here;
+      rate += here > 0 ? damping_of(model, node) * here : 0;
     }
+    damped = std::max(damped, rate);
     largest = std::max(largest, held);
     largest = std::max(largest, 2 * touching_part * stiffness * rigid_inverse_mass(body, arm));
   }
-  return largest > 0 ? for_rigid(safety) * stable_time_step(largest, 0)
+  return largest > 0 ? for_rigid(safety) * stable_time_step(largest, damped)
                      : std::numeric_limits<double>::infinity();
 }
 

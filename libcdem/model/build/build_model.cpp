@@ -4,9 +4,9 @@
 #include "libcdem/model/build/interface_springs.hpp"
 
 #include "libcdem/model/build/contact_surface.hpp"
+#include "libcdem/model/build/convex_inertia.hpp"
 #include "libcdem/model/build/light_corners.hpp"
 #include "libcdem/model/build/rigid_bodies.hpp"
-#include "libcdem/model/build/star_inertia.hpp"
 #include "libgeom/assembly/assembly.hpp"
 #include "libgeom/core/error.hpp"
 #include "libgeom/core/portable.hpp"
@@ -56,14 +56,15 @@ void add_block(Model& model, BlockSeed&& seed, const geom::BlockMesh& mesh) {
     model.tets.push_back(tet);
     model.tet_block.push_back(index);
   }
-  const bool turns = block.star() && model.bodies[block.body].element == Element::finite_volume;
+  const bool turns = model.bodies[block.body].element == Element::finite_volume;
   model.gravitational_mass.insert(model.gravitational_mass.end(), model.node_mass.begin() + block.node_begin,
                                   model.node_mass.end());
   model.blocks.push_back(std::move(block));
-  if (turns) {
+  if (!turns)
+    return;
+  if (model.blocks.back().star())
     raise_light_corners(model, index);
-    match_star_inertia(model, index);
-  }
+  match_convex_inertia(model, index);
 }
 
 // Zones of the seeds that have none yet, of all those of a body at once: the mesher is slow to start.

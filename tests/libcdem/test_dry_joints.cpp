@@ -1,0 +1,110 @@
+// Dry joints at the usual step: the rattle of few steps dies out (bond/contact_damping.hpp), so masonry keeps its energy and
+// a block slides on a joint by Coulomb's law.
+#include "tests/libcdem/boxes.hpp"
+
+#include "libcdem/bond/contact_damping.hpp"
+#include "libgeom/assembly/builders.hpp"
+#include "libgeom/assembly/edit.hpp"
+
+#include <cmath>
+#include <limits>
+
+using namespace testing;
+using geom::Vec3;
+
+namespace {
+
+constexpr double g = 9.81;
+
+// A rigid cube of 1 m that was built flush on a rigid plane, as a whole turned by `turn`; gravity acts as on a slope.
+struct FlushBlock {
+  geom::Mat3 turn;
+  cdem::Simulation s;
+  double slope;
+
+  FlushBlock(double steep, const geom::Mat3& turned)
+      : turn(turned), s(spec(turned), 1, nullptr), slope(steep) {
+    s.fix(fixed(cdem::Selection::of_body("plane")));
+    cdem::Gravity gravity;
+    gravity.acceleration = turn * Vec3(g * std::sin(slope), 0, -g * std::cos(slope));
+    s.gravity(gravity);
+  }
+  double slid() const { // m
+    const cdem::Selection block = cdem::Selection::of_body("block");
+    return turn.col(0).dot(Vec3(s.mean("displacement.x", block), s.mean("displacement.y", block),
+                                s.mean("displacement.z", block)));
+  }
+
+private:
+  static cdem::ModelSpec spec(const geom::Mat3& turn) {
+    const Eigen::AngleAxisd by(turn);
+    const auto turned = [&](const geom::Assembly& shape) {
+      return geom::rotated(shape, by.axis(), by.angle());
+    };
+    cdem::ModelSpec spec;
+    spec.bodies = {
+        body("plane", turned(geom::grid({4, 2, 0.2}, {1, 1, 1}, {-1, -1, -0.2})), rock(), friction(30)),
+        body("block", turned(geom::grid({1, 1, 1}, {1, 1, 1}, {-0.5, -0.5, 0})), rock(), friction(30))};
+    for (cdem::BodySpec& of : spec.bodies)
+      of.element = cdem::Element::rigid;
+    spec.pairs = {{"plane", "block", friction(30)}};
+    return spec;
+  }
+};
+
+cdem::RunOptions for_time(double duration, double safety = 0.9) {
+  cdem::RunOptions options;
+  options.duration = duration;
+  options.safety = safety;
+  return options;
+}
+
+} // namespace
+
+TEST_CASE(
+    "dry joints: a rigid block built flush on a plane stays below the friction angle and slides above it",
+    "[dry_joints]") {
+  const geom::Mat3 turn = GENERATE(geom::Mat3(geom::Mat3::Identity()), rotation({1, 2, -0.5}, 37 * degree));
+  const double time = 0.3;
+  {
+    FlushBlock block(29 * degree, turn);
+    block.s.run(for_time(time));
+    CHECK(std::abs(block.slid()) < 1e-4);
+  }
+  FlushBlock block(31 * degree, turn);
+  block.s.run(for_time(time));
+  const double a = g * (std::sin(block.slope) - std::tan(30 * degree) * std::cos(block.slope));
+  CHECK(block.slid() == Approx(0.5 * a * time * time).epsilon(0.05));
+  CHECK(block.s.energy().balance_error() < 1e-3);
+}
+
+TEST_CASE("dry joints: a wall without mortar keeps its energy at the usual step", "[dry_joints][energy]") {
+  cdem::Elastic stone = rock();
+  stone.youngs_modulus = 1e10;
+  geom::BrickOptions bricks;
+  bricks.size = {2, 0.25, 2};
+  bricks.brick = {0.5, 0.25, 0.25};
+  cdem::ModelSpec spec;
+  spec.bodies = {body("wall", geom::bricks(bricks), stone, friction(35)),
+                 body("ground", geom::grid({4, 2, 0.5}, {1, 1, 1}, {-1, -0.875, -0.5}), stone, friction(35))};
+  spec.bodies[0].element = cdem::Element::finite_volume;
+  spec.bodies[1].element = cdem::Element::rigid;
+  spec.pairs = {{"wall", "ground", friction(35)}};
+  cdem::Simulation s(spec, 1, nullptr);
+  s.fix(fixed(cdem::Selection::of_body("ground")));
+  cdem::Gravity gravity;
+  gravity.acceleration = Vec3(0, 0, -g);
+  s.gravity(gravity);
+  s.run(for_time(0.04));
+  CHECK(s.energy().balance_error() < 0.01);
+}
+
+TEST_CASE("dry joints: their damping leaves the step stable", "[dry_joints]") {
+  for (const double s : {0.1, 0.5, 0.9, 0.97, 1.0}) {
+    const double step = 1e-5, beta = cdem::contact_damping(step, step / s);
+    CAPTURE(s);
+    CHECK(beta >= 0);
+    CHECK(s * s * (1 + 2 * beta / step) <= 1 + 1e-12); // dt^2 K / 4 + beta dt K / 2 over M
+  }
+  CHECK(cdem::contact_damping(1, std::numeric_limits<double>::infinity()) == 0.5);
+}
