@@ -737,7 +737,7 @@ function TetMesh:save(options) end
 ---@field file string ends in .png, .svg or .pdf; in the output folder
 ---@field colour? string "region", "radius_ratio", "min_dihedral", "volume" of the tetrahedra, "on_<name>" of named faces; plain when left out
 ---@field view? "front"|"back"|"left"|"right"|"top"|"bottom"|"iso" default "front": front looks along -z at the x-y plane
----@field up? "y"|"z" z: front looks along y with z up; default: z where gravity acts along z, else y
+---@field up? "y"|"z" z: front looks along y with z up; default: y
 ---@field camera? cdem.TetMeshPictureOptionsCamera instead of view
 ---@field fit? cdem.TetMeshPictureOptionsFit a box that the view shows, in place of what is drawn: give it to all frames of a film, so that the camera does not move with what falls
 ---@field size? number[] default {1600, 1200}: {width, height} in pixels; height 0: as high as it needs to be

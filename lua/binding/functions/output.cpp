@@ -243,7 +243,8 @@ Value film(Session& session, Object*, const Arguments& a) {
 std::vector<Field> picture_declaration() {
   std::vector<Field> fields =
       view_fields("field to colour by, e.g. \"displacement.x\", \"stress.yy\", \"von_mises\", \"block_id\"; "
-                  "plain blocks when left out");
+                  "plain blocks when left out",
+                  "z where gravity acts along z, else y");
   fields.insert(fields.begin() + 2,
                 number("deformation")
                     .standard(0.0)

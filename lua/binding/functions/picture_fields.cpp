@@ -63,7 +63,7 @@ std::optional<std::array<double, 2>> limits_of(const Arguments& a, const std::st
   return std::array<double, 2>{limits[0], limits[1]};
 }
 
-std::vector<Field> view_fields(const std::string& colour_doc) {
+std::vector<Field> view_fields(const std::string& colour_doc, const std::string& usual_up) {
   const std::vector<Field> camera{
       vec3("position").unit("m").required(), vec3("focal_point").unit("m").required(),
       vec3("up").standard(Value(geom::Vec3(0, 1, 0))),
@@ -80,8 +80,7 @@ std::vector<Field> view_fields(const std::string& colour_doc) {
           choice("view", {"front", "back", "left", "right", "top", "bottom", "iso"})
               .standard("front")
               .doc("front looks along -z at the x-y plane"),
-          choice("up", {"y", "z"})
-              .doc("z: front looks along y with z up; default: z where gravity acts along z, else y"),
+          choice("up", {"y", "z"}).doc("z: front looks along y with z up; default: " + usual_up),
           record("camera", camera).doc("instead of view"),
           record("fit", {vec3("min").unit("m").required(), vec3("max").unit("m").required()})
               .doc("a box that the view shows, in place of what is drawn: give it to all frames of a film, "

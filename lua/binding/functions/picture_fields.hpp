@@ -22,7 +22,8 @@ std::optional<std::array<double, 2>> limits_of(const Arguments&,
                                                const std::string& name); // {lowest, highest}
 
 // What every picture takes: file, colour, where to look from, and what is written around the body.
-std::vector<Field> view_fields(const std::string& colour_doc);
+// usual_up: the axis that is up where the script names none.
+std::vector<Field> view_fields(const std::string& colour_doc, const std::string& usual_up);
 PictureOptions view_options(const Arguments&);
 
 // Draws a file of the output folder with the body. Where the memory for it is short the script goes on with a warning:

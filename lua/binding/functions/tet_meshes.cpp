@@ -124,7 +124,8 @@ Value mesh_picture(Session& session, TetMeshObject& self, const Arguments& a) {
 
 std::vector<Field> mesh_picture_declaration() {
   std::vector<Field> fields = view_fields("\"region\", \"radius_ratio\", \"min_dihedral\", \"volume\" of the "
-                                          "tetrahedra, \"on_<name>\" of named faces; plain when left out");
+                                          "tetrahedra, \"on_<name>\" of named faces; plain when left out",
+                                          "y");
   fields.push_back(
       choice("edges", {"creases", "mesh", "none"}).standard("creases").doc("lines on the surface"));
   fields.push_back(number("crease").within(0, 180).unit("deg").standard(25.0).doc(
