@@ -1,7 +1,7 @@
 // Short edges do not set the time step of blocks that move far: a cube without a tiny corner beside the whole cube.
 #include "libcdem/element/mesh_fields.hpp"
 #include "libcdem/integrate/row_sums.hpp"
-#include "libcdem/model/build/star_inertia.hpp"
+#include "libcdem/model/build/convex_inertia.hpp"
 #include "libgeom/assembly/builders.hpp"
 #include "libgeom/polyhedron/cut.hpp"
 #include "tests/libcdem/boxes.hpp"
@@ -62,7 +62,7 @@ TEST_CASE("a block with heavier corners vibrates as before", "[moving]") {
     System s = system_of({cube_without(0.003)});
     if (!raised) {
       s.model.node_mass = s.model.gravitational_mass;
-      cdem::match_star_inertia(s.model, 0);
+      cdem::match_convex_inertia(s.model, 0);
     }
     for (std::size_t i = 0; i < s.state.velocity.size(); ++i) // it stretches along x
       s.state.velocity[i] = cdem::node({0.1 * (s.model.node_position[i].x() - 0.5), 0, 0});

@@ -14,7 +14,9 @@ namespace cdem {
 //      sums are the solid's; where q is below 0.7 it is 0.7, and the others make up for it
 //
 // The stable step goes with the square root of a node's mass, hence the bound. Where too few nodes are left above it, all go
-// towards that q until the first comes to 0.7: so it is with zones that have no node inside. A box needs no step 2. Weights keep the quarters: they alone balance a stress that rises with depth.
+// towards that q until the first comes to 0.7: so it is with zones that have no node inside. A box needs no step 2. Weights
+// keep the quarters: they alone balance a stress that rises with depth. Corners of a star block that are too light have
+// been raised before (build/light_corners).
 void match_convex_inertia(Model&, int block);
 
 } // namespace cdem
