@@ -14,7 +14,7 @@ using testing::softening_joint;
 
 namespace {
 
-const Vec3 n = Vec3(1, 2, -2) / 3.0, s = Vec3(2, 1, 2) / 3.0;
+const Vec3 across = Vec3(1, 2, -2) / 3.0, along = Vec3(2, 1, 2) / 3.0;
 
 // One spring led along a path, with the work done on it and what it lost.
 struct Walker {
@@ -26,8 +26,8 @@ struct Walker {
   explicit Walker(const SofteningLaw& l) : law(l) {}
 
   void step(const Vec3& to) {
-    const SofteningResponse r = softening_response(law, n, to, damage, slip, mode == BondMode::intact);
-    const SofteningLoss loss = softening_loss(law, n, stretch, damage, slip, to, r);
+    const SofteningResponse r = softening_response(law, across, to, damage, slip, mode == BondMode::intact);
+    const SofteningLoss loss = softening_loss(law, across, stretch, damage, slip, to, r);
     work += 0.5 * (traction + r.traction).dot(to - stretch);
     friction += loss.friction;
     breaking += loss.breaking;
@@ -41,7 +41,7 @@ struct Walker {
       mode = r.mode;
     traction = r.traction;
     contact = r.contact;
-    peak_shear = std::max(peak_shear, (traction - traction.dot(n) * n).norm());
+    peak_shear = std::max(peak_shear, (traction - traction.dot(across) * across).norm());
     stretch = to;
   }
 
@@ -51,7 +51,7 @@ struct Walker {
       step(from + (to - from) * i / steps);
   }
 
-  double stored() const { return softening_stored(law, n, stretch, damage, contact); }
+  double stored() const { return softening_stored(law, across, stretch, damage, contact); }
 };
 
 Softening any_curve() {
@@ -64,7 +64,7 @@ TEST_CASE("opening a bond to separation takes G_I, whatever its stiffness") {
   const Joint j = softening_joint(any_curve());
   const double kn = GENERATE(2e10, 1e12, 1e14);
   Walker w(softening_law(j, kn, 0.4 * kn));
-  w.go(2 * (w.law.opening + j.tensile_strength / kn) * n, 20000);
+  w.go(2 * (w.law.opening + j.tensile_strength / kn) * across, 20000);
   CHECK(w.mode == BondMode::broken_tension);
   CHECK(w.work == Approx(j.fracture_energy_1).epsilon(1e-3));
   CHECK(w.breaking == Approx(j.fracture_energy_1).epsilon(1e-3));
@@ -79,11 +79,11 @@ TEST_CASE(
   const double p = GENERATE(0.0, 1e6, 2e7);
   const double kn = 2.5 * ks, friction = p * std::tan(j.friction_angle);
   Walker w(softening_law(j, kn, ks));
-  const Vec3 pressed = -p / kn * n;
+  const Vec3 pressed = -p / kn * across;
   w.step(pressed);
   const double end = (friction + j.cohesion) / ks + 1.5 * w.law.slip;
   w.work = 0;
-  w.go(pressed + end * s, 40000);
+  w.go(pressed + end * along, 40000);
   CHECK(w.mode == BondMode::broken_shear);
   CHECK(w.peak_shear == Approx(j.cohesion + friction).epsilon(1e-3));
   CHECK(w.breaking == Approx(j.fracture_energy_2).epsilon(1e-3));
@@ -91,7 +91,7 @@ TEST_CASE(
         Approx(friction * (end - friction / ks)).epsilon(2e-3).margin(1e-6)); // slip beyond the elastic
   const double rubbing = friction * friction / (2 * ks) + friction * (end - friction / ks);
   CHECK(w.work == Approx(j.fracture_energy_2 + rubbing).epsilon(1e-3));
-  CHECK((w.traction - (-p * n + friction * s)).norm() <= 1e-6 * j.cohesion);
+  CHECK((w.traction - (-p * across + friction * along)).norm() <= 1e-6 * j.cohesion);
 }
 
 TEST_CASE("separation at a fixed ratio of opening to slip takes t0.e0/2 + S t0.d / |d/w|") {
@@ -99,7 +99,7 @@ TEST_CASE("separation at a fixed ratio of opening to slip takes t0.e0/2 + S t0.d
   const double kn = 1e12, ks = 4e11, angle = GENERATE(5, 20, 45, 60, 80) * pi / 180;
   Walker w(softening_law(j, kn, ks));
   const double dn = std::cos(angle), ds = std::sin(angle);
-  w.go((w.law.opening + w.law.slip) * (dn * n + ds * s), 40000);
+  w.go((w.law.opening + w.law.slip) * (dn * across + ds * along), 40000);
 
   const double area = j.softening == Softening::linear ? 0.5 : 0.2 - 1 / (std::exp(5.0) - 1);
   const double w1 = (50 - 1e12 / (2 * kn)) / (1e6 * area), w2 = (200 - 4e12 / (2 * ks)) / (2e6 * area);
@@ -116,22 +116,22 @@ TEST_CASE("the traction stays on the shrinking strength surface while damage gro
   const Joint j = softening_joint(any_curve());
   const double kn = 1e12, ks = 4e11, p = 3e6;
   Walker w(softening_law(j, kn, ks));
-  const Vec3 pressed = -p / kn * n;
+  const Vec3 pressed = -p / kn * across;
   w.step(pressed);
   const double part = GENERATE(0.1, 0.5, 0.9);
   const double elastic = (j.cohesion + p * std::tan(j.friction_angle)) / ks;
-  w.go(pressed + (elastic + part * w.law.slip) * s, 5000);
+  w.go(pressed + (elastic + part * w.law.slip) * along, 5000);
   const double left = j.softening == Softening::linear
                           ? 1 - part
                           : (std::exp(-5 * part) - std::exp(-5.0)) / (1 - std::exp(-5.0));
-  CHECK(w.traction.dot(s) == Approx(left * j.cohesion + p * std::tan(j.friction_angle)).epsilon(1e-9));
-  CHECK(w.traction.dot(n) == Approx(-p).epsilon(1e-12));
+  CHECK(w.traction.dot(along) == Approx(left * j.cohesion + p * std::tan(j.friction_angle)).epsilon(1e-9));
+  CHECK(w.traction.dot(across) == Approx(-p).epsilon(1e-12));
 }
 
 TEST_CASE("a damaged bond unloads to the origin along its secant and loses nothing on the way") {
   const Joint j = softening_joint(any_curve());
   Walker w(softening_law(j, 1e12, 4e11));
-  const Vec3 far = 0.3 * w.law.opening * n + 0.2 * w.law.opening * s;
+  const Vec3 far = 0.3 * w.law.opening * across + 0.2 * w.law.opening * along;
   w.go(far, 4000);
   REQUIRE(w.damage > 0.3);
   REQUIRE(w.damage < 1);
@@ -145,32 +145,32 @@ TEST_CASE("a damaged bond unloads to the origin along its secant and loses nothi
   CHECK((w.traction - traction).norm() <= 1e-9 * traction.norm());
   CHECK(w.damage == Approx(damage).epsilon(1e-12));
   CHECK(w.breaking == Approx(breaking).epsilon(1e-9));
-  w.go(4 * w.law.opening * n, 1000);
+  w.go(4 * w.law.opening * across, 1000);
   CHECK(w.mode == BondMode::broken_tension);
 }
 
 TEST_CASE("a damaged bond is as stiff as a whole one when it is pressed") {
   const Joint j = softening_joint(any_curve());
   Walker w(softening_law(j, 1e12, 4e11));
-  w.go(0.5 * w.law.opening * n, 1000);
+  w.go(0.5 * w.law.opening * across, 1000);
   REQUIRE(w.damage > 0.3);
-  w.go(-5e-6 * n, 100);
-  CHECK((w.traction + 5e6 * n).norm() <= 1e-6 * 5e6);
+  w.go(-5e-6 * across, 100);
+  CHECK((w.traction + 5e6 * across).norm() <= 1e-6 * 5e6);
 }
 
 TEST_CASE("sliding a damaged bond to and fro dissipates by friction alone, in its damaged part") {
   const Joint j = softening_joint(any_curve());
   const double kn = 1e12, ks = 4e11, p = 1e6, limit = p * std::tan(j.friction_angle);
   Walker w(softening_law(j, kn, ks));
-  const Vec3 pressed = -p / kn * n;
+  const Vec3 pressed = -p / kn * across;
   w.step(pressed);
   const double far = (j.cohesion + limit) / ks + 0.4 * w.law.slip;
-  w.go(pressed + far * s, 4000);
+  w.go(pressed + far * along, 4000);
   const double damage = w.damage, breaking = w.breaking, friction = w.friction;
   REQUIRE(damage > 0.3);
   REQUIRE(damage < 1);
-  w.go(pressed - 0.5 * far * s, 3000);
-  w.go(pressed + far * s, 3000);
+  w.go(pressed - 0.5 * far * along, 3000);
+  w.go(pressed + far * along, 3000);
   CHECK(w.damage == Approx(damage).epsilon(1e-12));
   CHECK(w.breaking == Approx(breaking).epsilon(1e-9));
   // Each way the rubbing part slips the whole way but for turning its shear round, 2 limit / ks.
@@ -185,9 +185,9 @@ TEST_CASE("damage never heals and never gives energy, on random paths, the books
   for (int leg = 0; leg < 12; ++leg) {
     const auto draw = [&](int k) { return geom::uniform(seed, leg, k); };
     const double turn = 2 * pi * draw(2);
-    const Vec3 other = n.cross(s);
-    w.go(w.law.opening * (0.6 * draw(0) - 0.1) * n +
-             0.3 * w.law.slip * draw(1) * (std::cos(turn) * s + std::sin(turn) * other),
+    const Vec3 other = across.cross(along);
+    w.go(w.law.opening * (0.6 * draw(0) - 0.1) * across +
+             0.3 * w.law.slip * draw(1) * (std::cos(turn) * along + std::sin(turn) * other),
          4000);
     CHECK(w.damage >= damage);
     damage = w.damage;
@@ -205,13 +205,13 @@ TEST_CASE("with the least fracture energy a bond breaks at its strength like a b
   j.fracture_energy_2 = 4e12 / (2 * ks);
   validate(j, kn, ks);
   Walker opened(softening_law(j, kn, ks)), sheared(softening_law(j, kn, ks));
-  opened.step(0.999999 * 1e6 / kn * n);
+  opened.step(0.999999 * 1e6 / kn * across);
   CHECK(opened.damage == 0);
-  opened.step(1.000001 * 1e6 / kn * n);
+  opened.step(1.000001 * 1e6 / kn * across);
   CHECK(opened.mode == BondMode::broken_tension);
-  sheared.step(0.999999 * 2e6 / ks * s);
+  sheared.step(0.999999 * 2e6 / ks * along);
   CHECK(sheared.damage == 0);
-  sheared.step(1.000001 * 2e6 / ks * s);
+  sheared.step(1.000001 * 2e6 / ks * along);
   CHECK(sheared.mode == BondMode::broken_shear);
 }
 

@@ -51,7 +51,7 @@ cdem::Simulation slope(double steepness, double cohesion = 0, double friction_an
   return s;
 }
 
-cdem::RelaxResult relax(cdem::Simulation& s, double residual = 1e-6, std::int64_t max_steps = 200000) {
+cdem::RelaxResult relax_slope(cdem::Simulation& s, double residual = 1e-6, std::int64_t max_steps = 200000) {
   cdem::RelaxOptions options;
   options.residual = residual;
   options.max_steps = max_steps;
@@ -109,14 +109,14 @@ TEST_CASE("a block on an incline is stable below its friction angle and failing 
   for (const double apart : {-5.0, -1.0, -0.2}) {
     CAPTURE(apart);
     cdem::Simulation s = slope(phi + apart * degree);
-    const cdem::RelaxResult r = relax(s);
+    const cdem::RelaxResult r = relax_slope(s);
     CHECK(r.verdict == Verdict::stable);
     CHECK(r.converged);
   }
   for (const double apart : {0.2, 1.0, 5.0, 30.0}) {
     CAPTURE(apart);
     cdem::Simulation s = slope(phi + apart * degree);
-    const cdem::RelaxResult r = relax(s);
+    const cdem::RelaxResult r = relax_slope(s);
     CAPTURE(r.steps);
     CHECK(r.verdict == Verdict::failing);
     CHECK_FALSE(r.converged);
@@ -130,7 +130,7 @@ TEST_CASE("a block on an incline is stable below its friction angle and failing 
 
 TEST_CASE("a relaxation that ends before it knows is undecided", "[stability]") {
   cdem::Simulation s = slope(phi + 5 * degree);
-  const cdem::RelaxResult r = relax(s, 1e-6, 50);
+  const cdem::RelaxResult r = relax_slope(s, 1e-6, 50);
   CHECK(r.verdict == Verdict::undecided);
   CHECK(r.steps == 50);
 }
@@ -157,17 +157,17 @@ TEST_CASE("reduced strengths are c / F, tan(phi) / F and sigma_t / F", "[stabili
 
 TEST_CASE("a copy goes its own way, and reduced strength makes it slide", "[stability]") {
   cdem::Simulation s = slope(25 * degree);
-  REQUIRE(relax(s).verdict == Verdict::stable);
+  REQUIRE(relax_slope(s).verdict == Verdict::stable);
   const std::uint64_t before = s.state_hash();
   cdem::Simulation other = s.copy();
   CHECK(other.state_hash() == before);
   const double exact = std::tan(phi) / std::tan(25 * degree);
   other.reduce_strength(1.01 * exact, {true, false});
-  CHECK(relax(other).verdict == Verdict::failing);
+  CHECK(relax_slope(other).verdict == Verdict::failing);
   CHECK(s.state_hash() == before);
   cdem::Simulation third = s.copy();
   third.reduce_strength(0.99 * exact, {true, false});
-  CHECK(relax(third).verdict == Verdict::stable);
+  CHECK(relax_slope(third).verdict == Verdict::stable);
 }
 
 TEST_CASE("a model without strength cannot be reduced", "[stability]") {
