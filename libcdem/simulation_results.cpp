@@ -6,6 +6,7 @@
 #include "libcdem/model/names.hpp"
 #include "libcdem/model/unit_order.hpp"
 #include "libcdem/procedure/run.hpp"
+#include "libcdem/ranks/looks.hpp"
 #include "libcdem/results/fragments.hpp"
 #include "libcdem/results/make_snapshot.hpp"
 #include "libcdem/results/units.hpp"
@@ -113,22 +114,26 @@ std::vector<std::string> Simulation::field_names() {
 }
 
 FieldValue Simulation::max(const std::string& field, const Selection& on) const {
+  check_field(field); // before the others are asked for their shares
   const auto list = values(impl_->model, impl_->whole(), field, on);
   return *std::max_element(list.begin(), list.end(),
                            [](const auto& a, const auto& b) { return a.value < b.value; });
 }
 
 FieldValue Simulation::min(const std::string& field, const Selection& on) const {
+  check_field(field); // before the others are asked for their shares
   const auto list = values(impl_->model, impl_->whole(), field, on);
   return *std::min_element(list.begin(), list.end(),
                            [](const auto& a, const auto& b) { return a.value < b.value; });
 }
 
 double Simulation::mean(const std::string& field, const Selection& on) const {
+  check_field(field);
   return mean_value(impl_->model, impl_->whole(), field, on);
 }
 
 double Simulation::at(const std::string& field, const geom::Vec3& place) const {
+  check_field(field);
   return value_at(impl_->model, impl_->whole(), field, place);
 }
 
@@ -202,6 +207,8 @@ void Simulation::probe(const std::string& name, const std::string& field, const 
 
 Snapshot Simulation::picture_snapshot(const PictureWish& wish, const std::string& title) const {
   const State& state = needs_whole(wish) ? impl_->whole() : impl_->kept;
+  if (state.parted)
+    agree_on_look(Look::surface);
   return make_picture_snapshot(impl_->model, state, wish, title);
 }
 
@@ -209,6 +216,7 @@ std::shared_ptr<void> Simulation::show_lead() const {
   State& state = impl_->kept;
   if (!state.parted)
     return nullptr;
+  agree_on_look(Look::state_on_rank_0);
   struct Shown {
     State& state;
     std::shared_ptr<const StateShares> parted;

@@ -259,6 +259,7 @@ RelaxResult relax(const StageContext& context, const RelaxOptions& options, cons
     if (options.callback && options.callback_every > 0 && stage.step % options.callback_every == 0) {
       const SynchronisedView view(stage, SynchronisedView::Of::shares); // what it reads is of one moment
       options.callback();
+      view.require_same_looks();
     }
   };
   {

@@ -248,6 +248,8 @@ RunResult run(const StageContext& context, const RunOptions& options, const std:
       if (options.callback && options.callback_every > 0)
         options.callback();
       stopped = options.stop && options.stop() && report.residual <= options.stop_residual;
+      if (view)
+        view->require_same_looks();
     }
   }
   RunResult result{stage.finish(report), state.time, stepping.time_step, {}};

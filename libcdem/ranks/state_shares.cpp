@@ -1,6 +1,7 @@
 #include "libcdem/ranks/state_shares.hpp"
 
 #include "libcdem/parallel/residency.hpp"
+#include "libcdem/ranks/looks.hpp"
 #include "libcdem/ranks/ranks.hpp"
 
 #include <algorithm>
@@ -248,6 +249,7 @@ void make_whole(State& state) {
   const std::shared_ptr<const StateShares> shares = state.parted;
   if (!shares)
     return;
+  agree_on_look(Look::state);
   shares->gather(state);
   shares->gather_contacts(state);
   state.parted.reset();

@@ -174,6 +174,7 @@ private:
         broken_faces(model_, state_, shares_.range(&StateShares::face_begin, model_.mesh.faces.size()));
     const auto each = [&](const std::vector<BrokenFace>& list, const auto& visit) {
       std::vector<std::int64_t> places;
+      places.reserve(list.size());
       for (const BrokenFace& face : list)
         places.push_back(face.face);
       auto next = list.begin();

@@ -1,5 +1,7 @@
 #include "libcdem/step/synchronised_view.hpp"
 
+#include "libcdem/ranks/looks.hpp"
+
 namespace cdem {
 
 SynchronisedView::SynchronisedView(Stage& stage, Of what) : stage_(stage) {
@@ -23,6 +25,11 @@ SynchronisedView::SynchronisedView(Stage& stage, Of what) : stage_(stage) {
   stage.synchronise_stress(of_view);
   if (what == Of::whole)
     stage.see_whole();
+}
+
+void SynchronisedView::require_same_looks() const {
+  if (stage_.shared_)
+    agree_on_look(Look::ended);
 }
 
 SynchronisedView::~SynchronisedView() {

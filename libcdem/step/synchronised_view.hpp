@@ -13,6 +13,8 @@ public:
   enum class Of { whole, shares };
   SynchronisedView(Stage&, Of);
   ~SynchronisedView();
+  // After code of others has read the state: with several ranks it must have asked for the same on all (ranks/looks.hpp).
+  void require_same_looks() const;
   SynchronisedView(const SynchronisedView&) = delete;
   SynchronisedView& operator=(const SynchronisedView&) = delete;
 

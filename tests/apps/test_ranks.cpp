@@ -379,6 +379,11 @@ TEST_CASE("ranks: an error on one rank alone, in a step, ends all with its messa
                      "cdem: error: rank 1: plate/case.lua:", "2");
   require_end_of_all("if on_rank_0 then error('here alone') end", caught, 2, "here alone", "3");
   require_end_of_all("if not on_rank_0 then model:max('no.field') end", caught, 2, "no.field", "2");
+  const std::string other_way = "a callback goes another way on rank 1, which ";
+  require_end_of_all("if not on_rank_0 then model:max('velocity.x') end", "solve()", 2,
+                     other_way + "looks at the state where rank 0 ended its callback", "2");
+  require_end_of_all("if on_rank_0 then model:picture{ file = 'alone.png' } end", "solve()", 2,
+                     other_way + "ended its callback where rank 0 draws a picture", "2");
   // What is solved inside is not the same either.
   require_end_of_all(
       "if on_rank_0 then cdem.elastic{ youngs_modulus = -1, poissons_ratio = 0, density = 1 } end", "solve()",

@@ -60,9 +60,9 @@ inline double balance(const System& s) {
 // The ends along x move apart, each at half of `speed` (m/s).
 template <class Fixes>
 void lead_apart(Fixes& to, double speed) {
-  for (const double side : {-1.0, 1.0}) {
-    cdem::Fix lead = fixed(cdem::Selection::side(side < 0 ? "x-" : "x+"), "x");
-    lead.velocity = geom::Vec3(0.5 * side * speed, 0, 0);
+  for (const double way : {-1.0, 1.0}) {
+    cdem::Fix lead = fixed(cdem::Selection::side(way < 0 ? "x-" : "x+"), "x");
+    lead.velocity = geom::Vec3(0.5 * way * speed, 0, 0);
     to.push_back(lead);
   }
 }

@@ -16,9 +16,9 @@ using testing::softening_joint;
 
 namespace {
 
-constexpr double side = 0.1, height = 0.02; // m, of the face between the two bodies; of each body
+constexpr double face_side = 0.1, height = 0.02; // m, of the face between the two bodies; of each body
 
-Elastic rock(double youngs_modulus = 30e9) {
+Elastic elastic_rock(double youngs_modulus = 30e9) {
   Elastic m;
   m.youngs_modulus = youngs_modulus;
   m.poissons_ratio = 0.2;
@@ -31,10 +31,10 @@ Simulation two_slabs(const Joint& joint, int blocks, double youngs_modulus = 30e
   Joint strong;
   strong.cohesion = strong.tensile_strength = 1e12;
   ModelSpec spec;
-  BodySpec lower{"lower", geom::grid({side, side, height}, {blocks, blocks, 1}), rock(youngs_modulus),
-                 strong};
-  BodySpec upper{"upper", geom::grid({side, side, height}, {blocks, blocks, 1}, {0, 0, height}),
-                 rock(youngs_modulus), strong};
+  BodySpec lower{"lower", geom::grid({face_side, face_side, height}, {blocks, blocks, 1}),
+                 elastic_rock(youngs_modulus), strong};
+  BodySpec upper{"upper", geom::grid({face_side, face_side, height}, {blocks, blocks, 1}, {0, 0, height}),
+                 elastic_rock(youngs_modulus), strong};
   lower.element = upper.element = Element::small_strain;
   spec.bodies = {lower, upper};
   spec.pairs = {{"lower", "upper", joint}};
@@ -72,7 +72,7 @@ TEST_CASE("pulling two slabs apart dissipates G_I x area, whatever the block siz
   CHECK(s.counts().broken_tension > 0);
   CHECK(s.counts().broken_shear == 0);
   CHECK(s.counts().damaged == 0);
-  CHECK(s.energy().breaking == Approx(joint.fracture_energy_1 * side * side).epsilon(0.02));
+  CHECK(s.energy().breaking == Approx(joint.fracture_energy_1 * face_side * face_side).epsilon(0.02));
   CHECK(s.energy().balance_error() < 1e-3);
 }
 
@@ -93,7 +93,7 @@ TEST_CASE("shearing two pressed slabs dissipates G_II x area beyond friction, wh
   // Last a crawl: a relaxation that stops a moving slab lets it swing back a little from the limit of
   // friction.
   lead(s, {true, true, false}, {end, 0, 0}, {end + 2e-6, 0, 0}, 5);
-  const double area = side * side, friction = pressure * std::tan(joint.friction_angle);
+  const double area = face_side * face_side, friction = pressure * std::tan(joint.friction_angle);
   CHECK(s.counts().broken_shear > 0);
   CHECK(s.counts().broken_tension == 0);
   CHECK(s.energy().breaking == Approx(joint.fracture_energy_2 * area).epsilon(0.02));
@@ -121,7 +121,7 @@ TEST_CASE("opening and slipping at one ratio dissipates what the mixed law says,
   const double energy = 0.5 * k * e0 * e0 + half * k * e0 / std::hypot(d / w1, d / w2);
   CHECK(s.counts().damaged == 0);
   CHECK(s.counts().intact == s.counts().bonds - s.counts().broken_tension - s.counts().broken_shear);
-  CHECK(s.energy().breaking == Approx(energy * side * side).epsilon(0.02));
+  CHECK(s.energy().breaking == Approx(energy * face_side * face_side).epsilon(0.02));
   CHECK(s.energy().balance_error() < 1e-3);
 }
 
@@ -166,7 +166,7 @@ TEST_CASE("the real-time step keeps the books of softening as the relaxation doe
   o.duration = 3e-4 / 0.05;
   s.run(o);
   CHECK(s.counts().broken_tension == s.counts().bonds);
-  CHECK(s.energy().breaking == Approx(50 * side * side).epsilon(0.02));
+  CHECK(s.energy().breaking == Approx(50 * face_side * face_side).epsilon(0.02));
   CHECK(s.energy().balance_error() < 1e-3);
 }
 
@@ -200,13 +200,13 @@ TEST_CASE("a cut carries damage and slip over to the springs that take the place
   const Joint joint = softening_joint(Softening::linear);
   ModelSpec spec;
   Model frame;
-  frame.bodies = {{"lower", rock(), joint}};
+  frame.bodies = {{"lower", elastic_rock(), joint}};
   frame.joints = {joint};
   frame.pair_joint[{0, 0}] = 0;
   std::vector<BlockSeed> seeds;
   for (const double z : {0.0, height}) {
     BlockSeed seed;
-    seed.shape = geom::grid({side, side, height}, {1, 1, 1}, {0, 0, z}).blocks[0];
+    seed.shape = geom::grid({face_side, face_side, height}, {1, 1, 1}, {0, 0, z}).blocks[0];
     seeds.push_back(std::move(seed));
   }
   const Model model = build_model(frame, std::move(seeds), default_traits);
@@ -263,12 +263,12 @@ TEST_CASE("a brittle model keeps no damage arrays") {
   Joint joint = softening_joint(Softening::none);
   joint.fracture_energy_1 = joint.fracture_energy_2 = 0;
   Model frame;
-  frame.bodies = {{"one", rock(), joint}};
+  frame.bodies = {{"one", elastic_rock(), joint}};
   frame.joints = {joint};
   frame.pair_joint[{0, 0}] = 0;
   std::vector<BlockSeed> seeds(2);
   for (int i = 0; i < 2; ++i)
-    seeds[i].shape = geom::grid({side, side, height}, {1, 1, 1}, {0, 0, i * height}).blocks[0];
+    seeds[i].shape = geom::grid({face_side, face_side, height}, {1, 1, 1}, {0, 0, i * height}).blocks[0];
   const Model model = build_model(frame, std::move(seeds), default_traits);
   REQUIRE_FALSE(model.points.empty());
   CHECK(initial_state(model).bond_damage.empty());

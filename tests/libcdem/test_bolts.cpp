@@ -12,14 +12,14 @@ using geom::Vec3;
 
 namespace {
 
-constexpr double area = 5e-4, youngs_modulus = 200e9, grout = 1e9, length = 4;
+constexpr double bolt_area = 5e-4, youngs_modulus = 200e9, grout = 1e9, length = 4;
 
 cdem::Bolt a_bolt(int segments) {
   cdem::Bolt bolt;
   bolt.from = {0.5, 0.5, 0};
   bolt.to = {0.5, 0.5, length};
   bolt.segments = segments;
-  bolt.area = area;
+  bolt.area = bolt_area;
   bolt.youngs_modulus = youngs_modulus;
   bolt.grout_stiffness = grout;
   return bolt;
@@ -69,7 +69,7 @@ double bridged(const cdem::Bolt& bolt, double gap, cdem::ChainLoss* loss = nullp
 
 TEST_CASE("a bolt across a joint carries gap sqrt(EA k) / 2 tanh(L / 2 sqrt(k / EA))", "[bolts]") {
   // EA a'' = k (a - u) on both sides of the joint; each side is a spring of sqrt(EA k) tanh(half / l0).
-  const double ea = youngs_modulus * area, l0 = std::sqrt(ea / grout), gap = 1e-3,
+  const double ea = youngs_modulus * bolt_area, l0 = std::sqrt(ea / grout), gap = 1e-3,
                expected = 0.5 * gap * std::sqrt(ea * grout) * std::tanh(0.5 * length / l0);
   CHECK(bridged(a_bolt(401), gap) == Approx(expected).epsilon(0.005));
 }
@@ -140,11 +140,13 @@ TEST_CASE("a bolt stiffens the rock it runs through, and relaxation books its en
       for (const auto& row : s.bolts())
         most = std::max(most, row.tension);
       // Rock and steel side by side: the steel takes EA / (EA + E_rock) of 1e6 N in the middle.
-      CHECK(most == Approx(1e6 * youngs_modulus * area / (youngs_modulus * area + 1e9)).epsilon(0.03));
+      CHECK(most ==
+            Approx(1e6 * youngs_modulus * bolt_area / (youngs_modulus * bolt_area + 1e9)).epsilon(0.03));
     }
     return s.mean("displacement.z", top);
   };
-  CHECK(elongation(true) / elongation(false) == Approx(1 / (1 + youngs_modulus * area / 1e9)).epsilon(0.02));
+  CHECK(elongation(true) / elongation(false) ==
+        Approx(1 / (1 + youngs_modulus * bolt_area / 1e9)).epsilon(0.02));
 }
 
 TEST_CASE("a pretensioned bolt presses the rock between plate and anchor", "[bolts]") {

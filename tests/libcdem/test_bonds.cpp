@@ -11,7 +11,7 @@ using geom::Vec3;
 
 namespace {
 
-constexpr double area = 0.3 * 0.2;       // m2
+constexpr double joint_area = 0.3 * 0.2; // m2
 constexpr double kn = 4e11, ks = 1.5e11; // Pa/m
 
 cdem::Joint joint(bool bonded = true) {
@@ -41,7 +41,7 @@ public:
     fix.displacement = Vec3(traction.x() / ks, traction.y() / ks, traction.z() / kn);
     simulation_.fix(fix);
     REQUIRE(simulation_.relax({}).converged);
-    return -simulation_.reaction(fix.on) / area;
+    return -simulation_.reaction(fix.on) / joint_area;
   }
 
   cdem::ModelCounts counts() const { return simulation_.counts(); }

@@ -12,7 +12,7 @@ using geom::Vec3;
 
 namespace {
 
-constexpr double speed = 5, thickness = 0.1; // m/s, m
+constexpr double impact_speed = 5, thickness = 0.1; // m/s, m
 
 // A slab of 1 x 1 m that falls on a rod which stands still.
 System slab_on_rod(geom::TetMesh mesh) {
@@ -25,11 +25,11 @@ System slab_on_rod(geom::TetMesh mesh) {
   s.hold(body_of("rod"), "xyz");
   for (int i = 0; i < static_cast<int>(s.state.velocity.size()); ++i)
     if (block_of(s.model, i) == 0)
-      s.state.velocity[i] = node({0, 0, -speed});
+      s.state.velocity[i] = node({0, 0, -impact_speed});
   return s;
 }
 
-const double given = 0.5 * concrete().density * thickness * speed * speed; // J
+const double given = 0.5 * concrete().density * thickness * impact_speed * impact_speed; // J
 
 // Runs on, looking at the ledger all along; the kinetic energy at the end, J.
 double fall(System& s, double safety, double duration) {

@@ -173,7 +173,7 @@ System cube_in_flow(bool rigid) {
   return s;
 }
 
-double mean_velocity_x(const System& s) {
+double mean_x_velocity(const System& s) {
   double gained = 0, mass = 0;
   for (std::size_t i = 0; i < s.state.velocity.size(); ++i) {
     gained += s.model.node_mass[i] * s.state.velocity[i].x;
@@ -196,7 +196,7 @@ TEST_CASE("a flow that carries a free unit approaches its velocity and never pas
   options.duration = rigid ? 15 : 0.5; // the rigid one to 0.97 V
   options.callback_every = 10;
   options.callback = [&] {
-    const double t = s.state.time - s.state.velocity_lag, v = mean_velocity_x(s);
+    const double t = s.state.time - s.state.velocity_lag, v = mean_x_velocity(s);
     most = std::max(most, v);
     worst = std::max(worst, std::abs(v - (speed - speed / (1 + k * speed * t))));
   };
@@ -217,7 +217,7 @@ TEST_CASE("a flow that is not relative pushes a unit on past its velocity, and s
     s.conditions.flows[0].relative = false;
     options.duration = 2 / (density / (2 * rock().density) * speed);
     s.run(options);
-    CHECK(mean_velocity_x(s) == Approx(2 * speed).epsilon(0.01));
+    CHECK(mean_x_velocity(s) == Approx(2 * speed).epsilon(0.01));
   }
   SECTION("v = v0 / (1 + k v0 t), on the face that leads") {
     s.conditions.flows[0].velocity = [](double) { return 0.0; };
@@ -226,6 +226,6 @@ TEST_CASE("a flow that is not relative pushes a unit on past its velocity, and s
     s.state.rigid[0].velocity[0] = speed;
     s.run(options);
     const double k = density / (2 * rock().density);
-    CHECK(mean_velocity_x(s) == Approx(speed / (1 + k * speed)).epsilon(2e-3));
+    CHECK(mean_x_velocity(s) == Approx(speed / (1 + k * speed)).epsilon(2e-3));
   }
 }

@@ -12,11 +12,11 @@ using geom::Vec3;
 
 namespace {
 
-const Vec3 acceleration(0.3, -0.5, -9.81); // m/s2
+const Vec3 falling(0.3, -0.5, -9.81); // m/s2
 
 System falling_grid(const Vec3& v0) {
   System s(build({body("block", geom::grid({0.2, 0.1, 0.1}, {2, 1, 1}))}));
-  s.conditions.gravity = gravity(acceleration);
+  s.conditions.gravity = gravity(falling);
   for (cdem::Node& v : s.state.velocity)
     v = node(v0);
   return s;
@@ -24,7 +24,7 @@ System falling_grid(const Vec3& v0) {
 
 double largest_error(const System& s, const Vec3& v0) {
   const double t = s.state.time;
-  const Vec3 way = v0 * t + 0.5 * t * t * acceleration;
+  const Vec3 way = v0 * t + 0.5 * t * t * falling;
   double error = 0;
   for (const cdem::Node& u : s.state.displacement)
     error = std::max(error, (vec(u) - way).norm() / way.norm());
@@ -60,7 +60,7 @@ TEST_CASE("what falls from rest has the work of gravity as kinetic energy from t
   s.run(run_for(GENERATE(1, 2, 25)));
   const cdem::EnergyLedger e = cdem::energy(s.model, s.state);
   const double mass = rock().density * 2e-3, t = s.state.time - s.state.velocity_lag;
-  CHECK(e.kinetic == Approx(0.5 * mass * acceleration.squaredNorm() * t * t).epsilon(1e-12));
+  CHECK(e.kinetic == Approx(0.5 * mass * falling.squaredNorm() * t * t).epsilon(1e-12));
   CHECK(e.external == Approx(e.kinetic).epsilon(1e-12));
 }
 
@@ -75,5 +75,5 @@ TEST_CASE("a run after a relaxation starts from rest, with half a kick", "[run]"
   s.run(run_for(20));
   const double t = s.state.time - start;
   for (const cdem::Node& u : s.state.displacement)
-    CHECK((vec(u) - 0.5 * t * t * acceleration).norm() < 1e-12 * t * t * acceleration.norm());
+    CHECK((vec(u) - 0.5 * t * t * falling).norm() < 1e-12 * t * t * falling.norm());
 }

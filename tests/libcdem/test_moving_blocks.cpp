@@ -32,7 +32,7 @@ geom::Assembly cells(int count, const Vec3& origin = {0, 0, 0}) {
   return geom::voronoi(options);
 }
 
-double balance(const System& s) {
+double balance_of(const System& s) {
   return cdem::energy(s.model, s.state).balance_error();
 }
 
@@ -131,7 +131,7 @@ TEST_CASE("a heap that falls apart on a floor stays above it, and its energy clo
   s.run(options);
   const auto parted = std::count(s.state.released.begin(), s.state.released.end(), 1);
   CHECK(parted > 3);
-  CHECK(balance(s) < 1e-2);
+  CHECK(balance_of(s) < 1e-2);
   for (int b = 0; b < static_cast<int>(s.model.blocks.size()); ++b)
     if (s.model.blocks[b].body == 1)
       CHECK(lowest(s, b) > -0.01);

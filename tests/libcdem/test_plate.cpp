@@ -13,11 +13,11 @@ using geom::Vec3;
 
 namespace {
 
-constexpr double side = 0.3;
+constexpr double plate_side = 0.3;
 constexpr double fine_fe_head = -2.7375e-4, fine_fe_side = 4.665e-5; // m
 
 geom::Assembly blocks(int divisions) {
-  return geom::grid({side, side, side / divisions}, {divisions, divisions, 1});
+  return geom::grid({plate_side, plate_side, plate_side / divisions}, {divisions, divisions, 1});
 }
 
 cdem::Simulation plate(int divisions, double thickness_ratio, double pressure) {
@@ -44,13 +44,14 @@ double head(int divisions, double thickness_ratio) {
 double tied_head(int divisions) {
   const cdem::Model model = build({body("rock", blocks(divisions))});
   TiedProblem problem;
-  const double depth = side / divisions;
+  const double depth = plate_side / divisions;
   problem.held = [=](const Vec3& x) -> std::array<bool, 3> {
-    const bool foot = x.y()<1e-9, top = x.y()> side - 1e-9, flank = x.z() < 1e-9 || x.z() > depth - 1e-9;
+    const bool foot = x.y()<1e-9, top = x.y()> plate_side - 1e-9,
+               flank = x.z() < 1e-9 || x.z() > depth - 1e-9;
     return {foot || top, foot, foot || top || flank};
   };
   problem.traction = [](const Vec3& centre, const Vec3&) {
-    return centre.y() > side - 1e-9 ? Vec3(0, -30e6, 0) : Vec3(0, 0, 0);
+    return centre.y() > plate_side - 1e-9 ? Vec3(0, -30e6, 0) : Vec3(0, 0, 0);
   };
   const std::vector<Vec3> u = tied_solution(model, problem);
   double sum = 0, area = 0;
@@ -71,9 +72,11 @@ TEST_CASE("the plate's head settles within 2 % of fine finite elements at L = 0.
   options.breaking = false;
   REQUIRE(s.relax(options).converged);
   CHECK(s.mean("displacement.y", cdem::Selection::side("y+")) == Approx(fine_fe_head).epsilon(0.02));
-  CHECK(s.at("displacement.x", {side, side / 2, side / 20}) == Approx(fine_fe_side).epsilon(0.02));
+  CHECK(s.at("displacement.x", {plate_side, plate_side / 2, plate_side / 20}) ==
+        Approx(fine_fe_side).epsilon(0.02));
   // Reactions carry the load: side * depth * 30 MPa.
-  CHECK(s.reaction(cdem::Selection::side("y-")).y() == Approx(30e6 * side * side / 10).epsilon(1e-5));
+  CHECK(s.reaction(cdem::Selection::side("y-")).y() ==
+        Approx(30e6 * plate_side * plate_side / 10).epsilon(1e-5));
 }
 
 TEST_CASE("as L over h goes to 0 the plate goes to the solution without springs", "[plate]") {
@@ -136,7 +139,7 @@ TEST_CASE("under 30 MPa 56 blocks of the plate are cut in shear along an X and t
     CHECK(from_vertical > 29);
     CHECK(from_vertical < 33);
     const bool leans_back = n.x() * n.y() > 0; // like a backslash
-    const bool left = cut.centroid.x()<side / 2, upper = cut.centroid.y()> side / 2;
+    const bool left = cut.centroid.x()<plate_side / 2, upper = cut.centroid.y()> plate_side / 2;
     CHECK(leans_back == (left == upper));
   }
   CHECK(s.counts().blocks == 100 + 3 * 56);

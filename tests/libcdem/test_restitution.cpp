@@ -10,10 +10,11 @@ using geom::Vec3;
 
 namespace {
 
-const double side = 0.4, gap = 1e-4; // m
+const double cube_side = 0.4, gap = 1e-4; // m
 const double stiffness =
     2e9; // Pa/m of the contact: the cube has E / side = 1e11, so waves in it keep nothing
-const double period = 2 * pi * std::sqrt(2700 * side / stiffness); // s, of the cube on its contact, at most
+const double period =
+    2 * pi * std::sqrt(2700 * cube_side / stiffness); // s, of the cube on its contact, at most
 
 cdem::Joint bouncy(double restitution) {
   cdem::Joint joint;
@@ -34,9 +35,9 @@ geom::TetMesh box(const Vec3& size, const std::array<int, 3>& divisions, const V
 // A cube over a held floor, with its corners anywhere over the floor's triangles.
 cdem::Simulation cube_over_floor(const cdem::Joint& law, cdem::Element element, int divisions) {
   cdem::ModelSpec spec;
-  spec.bodies = {
-      meshed("floor", box({1, 1, 0.2}, {3, 3, 1}, {0, 0, -0.2})),
-      meshed("cube", box({side, side, side}, {divisions, divisions, divisions}, {0.313, 0.278, gap}))};
+  spec.bodies = {meshed("floor", box({1, 1, 0.2}, {3, 3, 1}, {0, 0, -0.2})),
+                 meshed("cube", box({cube_side, cube_side, cube_side}, {divisions, divisions, divisions},
+                                    {0.313, 0.278, gap}))};
   spec.bodies[0].element = cdem::Element::rigid;
   spec.bodies[1].element = element;
   spec.default_contact = law;

@@ -13,13 +13,13 @@ using geom::Vec3;
 
 namespace {
 
-constexpr double side = 0.5; // m, of the cubes
+constexpr double unit_side = 0.5; // m, of the cubes
 const Vec3 g(0, 0, -9.81);
 
 geom::TetMesh cube_at(const Vec3& centre, const Mat3& turn) {
-  geom::TetMesh mesh = geom::box_mesh({side, side, side}, {2, 2, 2});
+  geom::TetMesh mesh = geom::box_mesh({unit_side, unit_side, unit_side}, {2, 2, 2});
   for (Vec3& x : mesh.nodes)
-    x = turn * (x - Vec3::Constant(0.5 * side)) + centre;
+    x = turn * (x - Vec3::Constant(0.5 * unit_side)) + centre;
   return mesh;
 }
 
@@ -74,7 +74,7 @@ TEST_CASE("settle: dropped cubes come to rest on their faces, one on another, an
     // Pressed in and together by parts of a millimetre.
     CHECK((block.centroid + block.displacement).z() - 0.5 == Approx(heights[unit]).margin(1e-3));
   }
-  const double weight = rock().density * 3 * side * side * side * -g.z();
+  const double weight = rock().density * 3 * unit_side * unit_side * unit_side * -g.z();
   CHECK(s.reaction(cdem::Selection::of_body("floor")).z() ==
         Approx(weight + rock().density * 3 * 1.5 * 0.5 * -g.z()).epsilon(1e-3));
   CHECK(s.energy().balance_error() < 0.01);
@@ -215,7 +215,7 @@ TEST_CASE("settle: with less friction a cube slides while it settles, and no lon
   friction.friction_angle = 30 * degree;
   cdem::BodySpec plate = meshed("plate", geom::box_mesh({3, 1.5, 0.5}, {6, 3, 1}));
   plate.element = cdem::Element::rigid;
-  const Vec3 start(0.7, 0.75, 0.5 + 0.5 * side);
+  const Vec3 start(0.7, 0.75, 0.5 + 0.5 * unit_side);
   cdem::ModelSpec spec;
   // Without damping what slides with friction comes to rattle, by 0.1 mm, and creeps down for a while once it has stopped.
   cdem::Elastic damped = rock();

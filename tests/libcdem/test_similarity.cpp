@@ -49,7 +49,7 @@ struct Story {
   std::vector<cdem::Departure> left = {};
 };
 
-void check_same(const Story& a, const Story& b) {
+void check_same_story(const Story& a, const Story& b) {
   const double k = b.of.time / a.of.time, length = k * k, stress = length, energy = std::pow(k, 8);
   CHECK(b.model.steps() == a.model.steps());
   CHECK(b.model.time() == k * a.model.time());
@@ -180,7 +180,7 @@ TEST_CASE("similarity: a bar that breaks and whose pieces collide is the same mo
   CHECK(one.model.energy().friction > 0);
   for (const double k : {2.0, 0.5}) {
     INFO("times " << k);
-    check_same(one, bar_thrown(k));
+    check_same_story(one, bar_thrown(k));
   }
 }
 
@@ -190,7 +190,7 @@ TEST_CASE("similarity: units that settle and leave in a flow do so alike at ever
   CHECK(one.left.size() >= 2);
   for (const double k : {2.0, 0.5}) {
     INFO("times " << k);
-    check_same(one, cubes_in_a_flow(k));
+    check_same_story(one, cubes_in_a_flow(k));
   }
 }
 
@@ -199,6 +199,6 @@ TEST_CASE("similarity: blocks that are cut and break do so alike at every scale"
   CHECK(one.model.breaks().size() > 10);
   for (const double k : {2.0, 0.5}) {
     INFO("times " << k);
-    check_same(one, plate_cut(k));
+    check_same_story(one, plate_cut(k));
   }
 }

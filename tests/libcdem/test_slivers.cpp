@@ -21,7 +21,7 @@ cdem::BodySpec plates(const std::vector<double>& thickness) {
   return body;
 }
 
-cdem::BodySpec meshed(std::vector<geom::TetMesh> meshes) {
+cdem::BodySpec meshed_parts(std::vector<geom::TetMesh> meshes) {
   cdem::BodySpec body{"meshes", {}, rock(), {}};
   body.meshes = std::move(meshes);
   return body;
@@ -51,14 +51,14 @@ TEST_CASE("slivers among the tetrahedra of a mesh", "[slivers]") {
   for (Vec3& x : flat.nodes) // the top layer is 0.025 m thick
     if (x.z() > 0.7 && x.z() < 0.8)
       x.z() = 0.975;
-  const auto found = cdem::find_slivers(build({meshed({flat})}));
+  const auto found = cdem::find_slivers(build({meshed_parts({flat})}));
   REQUIRE(found.size() == 1);
   CHECK(found[0].elements);
   CHECK(found[0].of == static_cast<std::int64_t>(flat.tets.size()));
   CHECK(found[0].count == found[0].of / 4);
   CHECK(found[0].place.z() > 0.975);
   CHECK(found[0].other_step > 2 * found[0].step);
-  CHECK(cdem::find_slivers(build({meshed({geom::box_mesh({1, 1, 1}, {4, 4, 4})})})).empty());
+  CHECK(cdem::find_slivers(build({meshed_parts({geom::box_mesh({1, 1, 1}, {4, 4, 4})})})).empty());
 }
 
 TEST_CASE("rigid blocks have no slivers", "[slivers]") {

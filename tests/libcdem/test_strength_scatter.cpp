@@ -30,7 +30,7 @@ cdem::Joint scattered(double modulus, std::uint64_t seed, cdem::Softening soften
   return joint;
 }
 
-cdem::Bonding springs() {
+cdem::Bonding face_springs() {
   cdem::Bonding bonding;
   bonding.everywhere = true;
   return bonding;
@@ -118,7 +118,7 @@ TEST_CASE("strength scatter: the weakest face of a body is weaker by V^(-1/m), w
   std::vector<double> weakest;
   double volume = 0;
   for (int seed = 0; seed < n; ++seed) {
-    const cdem::Model model = build({meshed("bar", mesh, springs(), concrete(), scattered(m, seed))});
+    const cdem::Model model = build({meshed("bar", mesh, face_springs(), concrete(), scattered(m, seed))});
     weakest.push_back(face_strengths(model).front());
     volume = volume_of_faces(model);
   }
@@ -134,7 +134,7 @@ TEST_CASE("strength scatter: draws follow the seed and the place of a face, not 
           "[scatter][mesh]") {
   const geom::TetMesh mesh = unstructured({0.3, 0.2, 0.2}, 0.1);
   const auto strengths = [&](const geom::TetMesh& of, std::uint64_t seed) {
-    return face_strengths(build({meshed("bar", of, springs(), concrete(), scattered(8, seed))}));
+    return face_strengths(build({meshed("bar", of, face_springs(), concrete(), scattered(8, seed))}));
   };
   const std::vector<double> before = strengths(mesh, 3);
   CHECK(strengths(mesh, 3) == before);

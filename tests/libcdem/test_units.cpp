@@ -13,7 +13,7 @@ namespace {
 
 constexpr double gap = 1e-5; // m, between cubes that stand on each other
 
-geom::TetMesh box_at(const Vec3& size, const Vec3& corner) {
+geom::TetMesh unit_at(const Vec3& size, const Vec3& corner) {
   geom::TetMesh mesh = geom::box_mesh(size, {1, 1, 1});
   for (Vec3& x : mesh.nodes)
     x += corner;
@@ -22,11 +22,11 @@ geom::TetMesh box_at(const Vec3& size, const Vec3& corner) {
 
 // Three cubes of 1 m: two on top of each other, one beside them, on a held slab.
 System cubes_on_slab() {
-  cdem::BodySpec slab = meshed("slab", box_at({6, 6, 1}, {-1, -1, -1}));
+  cdem::BodySpec slab = meshed("slab", unit_at({6, 6, 1}, {-1, -1, -1}));
   slab.element = cdem::Element::rigid;
-  cdem::BodySpec units = meshed("units", box_at({1, 1, 1}, {0, 0, gap}));
-  units.meshes.push_back(box_at({1, 1, 1}, {0.1, 0.2, 1 + 2 * gap}));
-  units.meshes.push_back(box_at({1, 1, 1}, {2, 2, gap}));
+  cdem::BodySpec units = meshed("units", unit_at({1, 1, 1}, {0, 0, gap}));
+  units.meshes.push_back(unit_at({1, 1, 1}, {0.1, 0.2, 1 + 2 * gap}));
+  units.meshes.push_back(unit_at({1, 1, 1}, {2, 2, gap}));
   cdem::Joint law;
   law.bonded = false;
   law.friction_angle = 35 * degree;
@@ -68,7 +68,7 @@ TEST_CASE("a unit that was turned and moved as a rigid body is found where it is
   const std::vector<geom::Surface> surfaces = cdem::surfaces_of(s.model, s.state, "units");
   CHECK(surfaces[1].triangles.size() == 12);
   geom::Box box;
-  for (const Vec3& corner : box_at({1, 1, 1}, {0.1, 0.2, 1 + 2 * gap}).nodes)
+  for (const Vec3& corner : unit_at({1, 1, 1}, {0.1, 0.2, 1 + 2 * gap}).nodes)
     box.extend(motion(corner));
   CHECK((geom::bounding_box(surfaces[1]).min - box.min).norm() < 1e-12);
 }
