@@ -245,11 +245,11 @@ RunResult run(const StageContext& context, const RunOptions& options, const std:
       std::optional<SynchronisedView> view; // what they read is of one moment
       if (options.callback || options.stop)
         view.emplace(stage, SynchronisedView::Of::shares);
-      if (options.callback && options.callback_every > 0)
+      if (options.callback && options.callback_every > 0) {
         options.callback();
-      stopped = options.stop && options.stop() && report.residual <= options.stop_residual;
-      if (view)
         view->require_same_looks();
+      }
+      stopped = options.stop && options.stop() && report.residual <= options.stop_residual;
     }
   }
   RunResult result{stage.finish(report), state.time, stepping.time_step, {}};

@@ -25,11 +25,12 @@ const char* name_of(char look) {
 void agree_on_look(Look look) {
   const std::vector<std::string> looks =
       ranks().gather(std::string(1, static_cast<char>(look)), Ranks::Subject::looks);
-  for (std::size_t rank = 1; rank < looks.size(); ++rank)
-    if (looks[rank] != looks[0])
-      throw geom::InputError("a callback goes another way on rank " + std::to_string(rank) + ", which " +
-                             name_of(looks[rank][0]) + " where rank 0 " + name_of(looks[0][0]) +
-                             "; a script must do the same on all ranks");
+  const int rank = ranks().rank();
+  const char own = looks[static_cast<std::size_t>(rank)][0], first = looks[0][0];
+  if (own != first)
+    throw geom::InputError("a callback goes another way on rank " + std::to_string(rank) + ", which " +
+                           name_of(own) + " where rank 0 " + name_of(first) +
+                           "; a script must do the same on all ranks");
 }
 
 } // namespace cdem

@@ -9,7 +9,8 @@ namespace cdem {
 
 enum class Look : char { ended, state, state_on_rank_0, surface };
 
-// All ranks call it together. Throws geom::InputError, on all of them, where they do not look at the same.
+// All ranks call it together. Throws geom::InputError on a rank that does not ask for what rank 0 asks for: it fails alone, and
+// so ends all.
 void agree_on_look(Look);
 
 } // namespace cdem
