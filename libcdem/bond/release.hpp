@@ -12,8 +12,8 @@
 
 namespace cdem {
 
-// Of the interface's size. The two forces of a spring that has slid do not lie in one line: the couple of them does a work
-// that no spring gives.
+// A part of the interface's size. The two forces of a spring that has slid do not lie in one line, and their couple does a
+// work that no spring stores or takes.
 inline constexpr double slid_too_far = 0.005;
 
 struct Released {

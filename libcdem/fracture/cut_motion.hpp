@@ -16,9 +16,9 @@ namespace cdem {
 //
 // has the old momenta; a <= 1 is the largest with which the kinetic energy is no larger than before. Blocks that move far
 // have the moments of inertia of their solid, cut or not (model/build/convex_inertia): one that moves as a rigid body goes
-// on so. With zones that have not, w is made smaller where the spin alone had more energy than there was. Of a block of
-// small strain w is that of the old nodes, so that a rigid motion is kept; its angular momentum is not, as its parts have
-// less moment of inertia.
+// on so. With zones that have not, w is made smaller where the spin alone had more energy than there was. A block
+// of small strain keeps the w of the old nodes, and so a rigid motion; it does not keep its angular momentum, since its
+// parts have less moment of inertia.
 void keep_motion(const Model& old, const State& from, int block, const Model& now,
                  const std::vector<int>& nodes, State& state);
 
