@@ -8,7 +8,7 @@ local scene = require "scene"
 local fall = cdem.parameter{ name = "fall", default = 1.0, range = {0, 100}, unit = "s", doc = "without damping" }
 local rest = cdem.parameter{ name = "rest", default = 5.0, range = {0, 100}, unit = "s",
                              doc = "at most, with local damping, afterwards" }
-local safety = cdem.parameter{ name = "safety", default = 0.2, range = {0.01, 1}, doc = "time step over the stable one" }
+local safety = cdem.parameter{ name = "safety", default = 0.8, range = {0.01, 1}, doc = "time step over the stable one" }
 local every = cdem.parameter{ name = "every", default = 0.05, range = {1e-3, 10}, unit = "s", doc = "between pictures" }
 
 local model = scene.model()

@@ -3,7 +3,8 @@ local cdem = require "cdem"
 
 local count = cdem.parameter{ name = "blocks", default = 30, range = {1, 5000}, doc = "of the heap" }
 local element = cdem.parameter{ name = "element", default = "rigid", choices = {"finite_volume", "rigid"} }
-local young = cdem.parameter{ name = "youngs_modulus", default = 2e8, range = {1e6, 1e11}, unit = "Pa" }
+local stiffness = cdem.parameter{ name = "contact_stiffness", default = 2e10, range = {1e8, 1e13}, unit = "Pa/m",
+                                  doc = "pressure over depth of a contact" }
 local friction = cdem.parameter{ name = "friction_angle", default = 30.0, range = {1, 80}, unit = "degrees" }
 
 local d, length, drop = 0.25, 0.8, 0.8 -- m; d: cube root of a block's volume
@@ -14,8 +15,8 @@ local scene = { held = {"ledge", "floor", "unit_1", "unit_2"} }
 
 function scene.model()
   local height = count * d ^ 3 / (length * width)
-  local stone = cdem.elastic{ youngs_modulus = young, poissons_ratio = 0.2, density = 2500 }
-  local rough = cdem.coulomb{ friction_angle = friction }
+  local stone = cdem.elastic{ youngs_modulus = 1e9, poissons_ratio = 0.2, density = 2500 }
+  local rough = cdem.coulomb{ friction_angle = friction, normal_stiffness = stiffness, shear_stiffness = stiffness }
   local solid = cdem.accropode{ height = 0.7, corner = 0 }
   local function loose(name, shape)
     return { name = name, shape = shape, material = stone, joint = rough, element = element }
@@ -37,11 +38,12 @@ function scene.model()
 end
 
 function scene.draw(model, name)
+  local away = 0.55 + 0.45 * scale -- of the camera
   model:picture{ file = name, colour = "velocity.magnitude", range = {0, 5}, deformation = 1, broken_bonds = false,
                  axes = false, title = string.format("A heap pushed off a ledge, %.2f s", model.time),
                  plain = {"ledge", "floor", "pusher", "unit_1", "unit_2"},
-                 camera = { position = {5 * scale, -4.5 * scale, 2 * scale}, focal_point = {0.2, 0, -0.4}, up = {0, 0, 1},
-                            view_angle = 30 } }
+                 camera = { position = {5 * away, -4.5 * away, 2 * away}, focal_point = {0.4 * away - 0.2, 0, -0.4},
+                            up = {0, 0, 1}, view_angle = 30 } }
   return name
 end
 

@@ -20,8 +20,8 @@ bool any_intact(const State& state, const Interface& interface) {
   return false;
 }
 
-// What an interface without a whole bond does next.
-enum class Fate : char { stays, slides, leaves };
+// What an interface without a whole bond does next; slips: so far that it gets new springs if another one slides.
+enum class Fate : char { stays, slips, slides, leaves };
 
 Fate fate_of(const Model& model, const State& state, const Interface& interface) {
   if (interface_opening_angle(model, state.displacement.data(), interface) > opened)
@@ -37,7 +37,9 @@ Fate fate_of(const Model& model, const State& state, const Interface& interface)
     open = open && (gap - state.bond_offset[p]).dot(interface.normal) > parted * size &&
            traction(model, state, p).isZero(0);
   }
-  return open ? Fate::leaves : slid > slid_too_far * size ? Fate::slides : Fate::stays;
+  if (open)
+    return Fate::leaves;
+  return slid > slid_too_far * size ? Fate::slides : slid > slid_enough * size ? Fate::slips : Fate::stays;
 }
 
 double stored_in(const Model& model, const State& state, const Interface& interface) {
@@ -84,8 +86,9 @@ Released release_interfaces(const Model& model, State& state, int threads) {
     if (interface.frame >= 0 && !released(state, interface) && !any_intact(state, interface))
       fate[i] = fate_of(model, state, interface);
   });
+  const bool any_slides = std::find(fate.begin(), fate.end(), Fate::slides) != fate.end();
   for (std::int64_t i = 0; i < n; ++i)
-    if (fate[i] == Fate::slides) {
+    if (fate[i] == Fate::slides || (fate[i] == Fate::slips && any_slides)) {
       sum.slid.push_back(static_cast<int>(i));
     } else if (fate[i] == Fate::leaves) {
       const Interface& interface = model.interfaces[i];

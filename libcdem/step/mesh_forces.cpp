@@ -11,7 +11,7 @@ namespace cdem {
 namespace {
 
 // The nodes of a chunk side by side: they stay in a near cache while its tets and faces ask for them again and again.
-struct Near {
+struct Around {
   std::vector<Node> position, displacement, velocity, force; // per place
   std::vector<JumpBatch> jumps;                              // per batch of tets
 };
@@ -45,7 +45,7 @@ CDEM_INLINE void fetch_kernel(const geom::Vec3* undeformed, const Node* displace
     fetch_node(undeformed[others[i]], displacement[others[i]], velocity[others[i]], own.size() + i, near);
 }
 
-NearArrays fetch(const Model& model, const State& state, const MeshChunk& chunk, Near& near) {
+NearArrays fetch(const Model& model, const State& state, const MeshChunk& chunk, Around& near) {
   const auto places = static_cast<std::size_t>(chunk.places());
   if (near.force.size() < places)
     for (std::vector<Node>* array : {&near.position, &near.displacement, &near.velocity, &near.force})
@@ -59,7 +59,7 @@ NearArrays fetch(const Model& model, const State& state, const MeshChunk& chunk,
 }
 
 // What the chunk before `index` will read from afar: the step goes through chunks from the last to the first.
-ReadAhead reads_before(const Model& model, const State& state, const Workspace& work, std::int64_t index) {
+ReadAhead reads_of_chunk_before(const Model& model, const State& state, const Workspace& work, std::int64_t index) {
   ReadAhead ahead;
   if (index == 0)
     return ahead;
@@ -125,11 +125,11 @@ ReadAhead shared_reads_of(const Model& model, const State& state, const Workspac
 
 const Node* mesh_forces(const Model& model, State& state, Workspace& work, std::int64_t index,
                         bool breaking) {
-  thread_local Near near;
+  thread_local Around near;
   const MeshChunk& chunk = model.mesh.chunks[index];
   const Body& body = model.bodies[model.blocks[chunk.block].body];
   const NearArrays at = fetch(model, state, chunk, near);
-  ReadAhead ahead = reads_before(model, state, work, index);
+  ReadAhead ahead = reads_of_chunk_before(model, state, work, index);
   ahead.spread(chunk.batches.size() + chunk.face_batches.size());
   const int last_lanes = static_cast<int>(chunk.tets.size() - (chunk.batches.size() - 1) * lanes);
   TetDamping damping;

@@ -8,7 +8,7 @@ if result.exit_code ~= 0 then error("the example ended with exit code " .. resul
 local figures = result.figures
 expect.equal(figures, "blocks_below_the_floor", 0)
 expect.between(figures, "blocks_off_the_ledge", 1, 100)
-expect.between(figures, "deepest_over_block_size", 0, 0.1)
-expect.between(figures, "energy_balance_error_undamped", 0, 3e-3)
-expect.between(figures, "overlap_over_volume", 0, 1e-4)
+expect.between(figures, "deepest_over_block_size", 0, 0.03)
+expect.between(figures, "energy_balance_error_undamped", 0, 1e-3)
+expect.between(figures, "overlap_over_volume", 0, 1e-5)
 expect.done()

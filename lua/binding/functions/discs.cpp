@@ -15,8 +15,6 @@ namespace {
 
 using geom::InputError;
 
-constexpr double pi = 3.14159265358979323846;
-
 geom::Box box_of(const Arguments& a) {
   const auto given = a.record("box");
   geom::Box box;

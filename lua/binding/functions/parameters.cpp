@@ -1,4 +1,5 @@
 // cdem.parameter: a value of the script that --set can change.
+#include "lua/binding/runtime/csv.hpp"
 #include "lua/binding/runtime/module.hpp"
 #include "lua/binding/runtime/session.hpp"
 #include "lua/binding/schema/nearest.hpp"
@@ -14,12 +15,6 @@ namespace cdem::script {
 namespace {
 
 using geom::InputError;
-
-std::string trimmed(const std::string& text) {
-  const auto first = text.find_first_not_of(" \t");
-  const auto last = text.find_last_not_of(" \t");
-  return first == std::string::npos ? std::string() : text.substr(first, last - first + 1);
-}
 
 std::string type_of(const Value& value) {
   if (value.get<bool>())

@@ -1,15 +1,12 @@
 #include "lua/binding/runtime/csv.hpp"
 
 namespace cdem::script {
-namespace {
 
 std::string trimmed(const std::string& text) {
   const auto first = text.find_first_not_of(" \t\r");
   const auto last = text.find_last_not_of(" \t\r");
   return first == std::string::npos ? std::string() : text.substr(first, last - first + 1);
 }
-
-} // namespace
 
 std::string csv_cell(const std::string& text) {
   if (text.find_first_of(",\"\r\n") == std::string::npos && text == trimmed(text))

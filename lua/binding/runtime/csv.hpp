@@ -7,6 +7,9 @@
 
 namespace cdem::script {
 
+// Without blanks, tabs and carriage returns at its ends.
+std::string trimmed(const std::string& text);
+
 std::string csv_cell(const std::string& text);
 
 // The cells of one line, without blanks around those that are not in quotes.

@@ -19,7 +19,7 @@ struct Examples {
 };
 
 // No blank line at the beginning, one end of line at the end.
-std::string trimmed(const std::string& text) {
+std::string without_blank_ends(const std::string& text) {
   const auto first = text.find_first_not_of('\n');
   if (first == std::string::npos)
     return "";
@@ -36,9 +36,9 @@ Examples read_examples() {
     std::string text;
     const auto keep = [&] {
       if (names.empty())
-        out.preambles[topic] = trimmed(text);
+        out.preambles[topic] = without_blank_ends(text);
       for (const std::string& name : names)
-        out.by_name[name] = trimmed(text);
+        out.by_name[name] = without_blank_ends(text);
       text.clear();
     };
     for (std::string line; std::getline(lines, line);) {
