@@ -42,6 +42,7 @@ BondWork::BondWork(const Model& model, const State& state)
   };
   for (const BlockChunk& chunk : model.chunks)
     new_springs.push_back({first_behind(chunk.nodes.begin), first_behind(chunk.nodes.end)});
+  find_idle_springs(model, state, *this);
 }
 
 } // namespace cdem

@@ -2,6 +2,7 @@
 // their laws.
 #pragma once
 
+#include "libcdem/bond/idle_springs.hpp"
 #include "libcdem/bond/spring_batches.hpp"
 #include "libcdem/joint/softening.hpp"
 #include "libcdem/state/state.hpp"
@@ -59,6 +60,7 @@ struct BondWork {
   std::vector<geom::Vec3> stretch;
   std::vector<SpringSums> sums; // per chunk of springs
   SpringBatches batches;        // of the same springs, with their strengths
+  IdleSprings idle;             // written by find_idle_springs
   // Springs whose side b is in the chunk, of each Model::chunks: no earlier chunk reads them in a step, which goes through
   // them from the last to the first.
   std::vector<Range> new_springs;

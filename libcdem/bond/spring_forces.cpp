@@ -6,6 +6,8 @@
 #include "libcdem/state/places.hpp"
 #include "libgeom/core/portable.hpp"
 
+#include <algorithm>
+
 namespace cdem {
 namespace {
 
@@ -284,6 +286,10 @@ void forces_of_springs(std::int64_t chunk, const SpringsOfChunk& c) {
   State& state = c.state;
   const SpringBatches& batches = c.work.batches;
   const bool turns = !batches.frames.empty();
+  const std::vector<char>& idle = c.work.idle.batch;
+  if (!idle.empty() && std::find(idle.begin() + batches.first[chunk], idle.begin() + batches.first[chunk + 1],
+                                 char{0}) == idle.begin() + batches.first[chunk + 1])
+    return;
   if (turns)
     rotations.work_out(batches,
                        {c.model.points[range.begin].interface, c.model.points[range.end - 1].interface + 1},
@@ -294,6 +300,11 @@ void forces_of_springs(std::int64_t chunk, const SpringsOfChunk& c) {
   std::int64_t p = range.begin;
   for (std::int64_t b = batches.first[chunk]; b < batches.first[chunk + 1]; ++b) {
     const SpringBatch& batch = batches.springs[b];
+    if (!idle.empty() && idle[b]) {
+      p += batch.count;
+      ahead.some();
+      continue;
+    }
     unsigned one_by_one = (1u << batch.count) - 1;
     if (plain && batch.plain && batch.count == lanes && !some_released(c.model, state, batch) &&
         (!c.damped || batch.all_turn || !batch.turns)) {

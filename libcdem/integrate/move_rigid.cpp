@@ -56,7 +56,8 @@ RigidForces rigid_forces(const Model& model, const State& state, const ActingFor
     forces.contact = acting.contact_on_rigid[rigid].force;
     forces.contact_torque = acting.contact_on_rigid[rigid].torque;
   }
-  if (block.convex() && !model.points.empty()) {
+  const bool idle = !acting.idle.empty() && acting.idle[model.rigid[rigid].block];
+  if (block.convex() && !model.points.empty() && !idle) {
     const std::vector<geom::Vec3>& bonds = acting.bond;
     for (int i = block.node_begin; i < block.node_end; ++i) {
       Node f;

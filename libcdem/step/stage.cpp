@@ -321,6 +321,8 @@ void Stage::release_parted_blocks() {
   see_whole();
   Released released = release_interfaces(context_.model, context_.state, context_.threads);
   slid_ = std::move(released.slid);
+  if (released.interfaces > 0 || !context_.state.water_pressure.empty())
+    find_idle_springs(context_.model, context_.state, work.bond);
   context_.state.spent.breaking += released.stored;
   context_.state.spent.external += released.water;
   work.contact.fragments_due = work.contact.fragments_due || released.interfaces > 0;

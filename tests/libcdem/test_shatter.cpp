@@ -48,7 +48,7 @@ Outcome shatter(int threads, bool looks_at_all, bool anew_every_200_steps = fals
     if (block_of(s.model, i) == 0)
       s.state.velocity[i] = node({1, 0, -speed});
   cdem::RunOptions options;
-  options.steps = 1250;
+  options.steps = 750;
   options.looks_at_all_contacts = looks_at_all;
   Outcome outcome;
   options.callback_every = 50;

@@ -4,6 +4,7 @@
 #include "apps/cdem/commands/script_run.hpp"
 #include "apps/cdem/commands/sweep_plan.hpp"
 #include "apps/cdem/failure.hpp"
+#include "apps/cdem/quoted.hpp"
 #include "apps/cdem/run_log.hpp"
 #include "lua/binding/replay/led.hpp"
 #include "lua/binding/runtime/files.hpp"
@@ -19,13 +20,6 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr int seconds_to_save = 300; // between SIGTERM and the end of the time that Slurm has granted
-
-std::string quoted(const std::string& word) {
-  std::string text = "'";
-  for (const char c : word)
-    text += c == '\'' ? std::string("'\\''") : std::string(1, c);
-  return text + "'";
-}
 
 bool has_ended(const SweptRun& run) {
   std::error_code none;

@@ -1,5 +1,7 @@
 #include "apps/cdem/shell/completion.hpp"
 
+#include "apps/cdem/quoted.hpp"
+
 #include <functional>
 
 namespace cdem::app {
@@ -25,14 +27,6 @@ std::string command_names(const Declared& all) {
   for (const DeclaredCommand& command : all.commands)
     words.push_back(command.name);
   return joined(words, " ");
-}
-
-// A word in single quotes of a shell.
-std::string quoted(const std::string& text) {
-  std::string out;
-  for (const char c : text)
-    out += c == '\'' ? std::string("'\\''") : std::string(1, c);
-  return "'" + out + "'";
 }
 
 // As quoted(), for a part of a specification of _arguments, where : and [] have a meaning.

@@ -39,7 +39,7 @@ std::string italic(const std::string& text) {
   return "\\fI" + roff(text) + "\\fR";
 }
 
-std::string head(const std::string& name, const std::string& text) {
+std::string page_head(const std::string& name, const std::string& text) {
   return ".TH " + upper(roff(name)) + " 1 \"\" \"cdem " + version() + "\" \"cdem\"\n.SH NAME\n" + roff(name) +
          " \\- " + roff(text) + "\n";
 }
@@ -88,7 +88,7 @@ std::string sections(const std::string& footer) {
 }
 
 std::string page_of(const DeclaredCommand& command) {
-  std::string text = head("cdem-" + command.name, command.text) + ".SH SYNOPSIS\n" +
+  std::string text = page_head("cdem-" + command.name, command.text) + ".SH SYNOPSIS\n" +
                      bold("cdem " + command.name) +
                      (command.argument.empty() ? "" : " " + italic(command.argument)) +
                      (command.options.empty() ? "\n" : " [" + italic("OPTIONS") + "]\n");
@@ -101,7 +101,7 @@ std::string page_of(const DeclaredCommand& command) {
 
 std::map<std::string, std::string> manual_pages(const Declared& all) {
   std::map<std::string, std::string> pages;
-  std::string text = head("cdem", "continuum-based discrete element method");
+  std::string text = page_head("cdem", "continuum-based discrete element method");
   text += ".SH SYNOPSIS\n" + bold("cdem") + " " + italic("COMMAND") + " [...]\n.SH DESCRIPTION\n" +
           roff(all.program.text) + "\n.SH COMMANDS\n";
   std::string also;
