@@ -180,7 +180,8 @@ double contact_energy(const Model& model, const State& state, double lag) {
     const double pressed =
         c.effective_penetration() > 0 ? std::max(0.0, c.effective_penetration() + along) : 0;
     const double shear_force = (c.shear + law.ks * (ago - along * c.normal)).norm();
-    sum += energy(pressed, std::min(shear_force, friction_limit(law.kn * pressed, law.tan_friction)), law);
+    sum += energy(pressed, stiffness_now(c, law),
+                  std::min(shear_force, friction_limit(law.kn * pressed, law.tan_friction)), law);
   }
   return sum;
 }

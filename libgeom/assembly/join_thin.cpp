@@ -83,7 +83,7 @@ void drop_needless_vertices(Polyhedron& p) {
   p.vertices = std::move(left);
 }
 
-struct Candidate {
+struct Joining {
   double area = 0;
   int thin = 0, face = 0, other = 0, other_face = 0;
 };
@@ -172,7 +172,7 @@ JoinedThin join_thin(Assembly assembly, double smallest) {
         thin.push_back(thickness(block) < smallest ? 1 : 0);
         size = std::max(size, bounding_box(block).size().norm());
       }
-      std::vector<Candidate> candidates;
+      std::vector<Joining> candidates;
       for (const SharedFace& s : shared_faces(blocks, thin, same * std::min(size, smallest))) {
         const double area =
             std::min(face_area(blocks[s.block_a], s.face_a), face_area(blocks[s.block_b], s.face_b));
@@ -181,11 +181,11 @@ JoinedThin join_thin(Assembly assembly, double smallest) {
         if (thin[s.block_b])
           candidates.push_back({area, s.block_b, s.face_b, s.block_a, s.face_a});
       }
-      std::sort(candidates.begin(), candidates.end(), [](const Candidate& x, const Candidate& y) {
+      std::sort(candidates.begin(), candidates.end(), [](const Joining& x, const Joining& y) {
         return std::tuple(-x.area, x.thin, x.face, x.other) < std::tuple(-y.area, y.thin, y.face, y.other);
       });
       std::vector<char> done(blocks.size(), 0), gone(blocks.size(), 0);
-      for (const Candidate& c : candidates) {
+      for (const Joining& c : candidates) {
         if (done[c.thin] || done[c.other])
           continue;
         auto both = united(blocks[c.other], c.other_face, blocks[c.thin], c.face);
@@ -197,7 +197,7 @@ JoinedThin join_thin(Assembly assembly, double smallest) {
         changed = true;
       }
       if (!changed) // what is left is glued
-        for (const Candidate& c : candidates) {
+        for (const Joining& c : candidates) {
           PolyhedronFace &one = blocks[c.thin].faces[c.face], &other = blocks[c.other].faces[c.other_face];
           if (done[c.thin])
             continue;

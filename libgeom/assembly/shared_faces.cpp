@@ -52,10 +52,6 @@ struct FaceTable {
   }
 };
 
-bool touch(const Box& a, const Box& b) {
-  return (a.min.array() <= b.max.array()).all() && (b.min.array() <= a.max.array()).all();
-}
-
 // Part of the convex polygon left of the line from a to b.
 void clip(std::vector<Point>& polygon, const Point& a, const Point& b, std::vector<Point>& scratch) {
   scratch.clear();

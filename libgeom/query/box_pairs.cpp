@@ -7,10 +7,6 @@
 namespace geom {
 namespace {
 
-bool touch(const Box& a, const Box& b) {
-  return (a.min.array() <= b.max.array()).all() && (b.min.array() <= a.max.array()).all();
-}
-
 using Cell = Eigen::Vector3i;
 
 struct Grid {

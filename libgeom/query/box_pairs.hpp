@@ -7,6 +7,10 @@
 
 namespace geom {
 
+inline bool touch(const Box& a, const Box& b) {
+  return (a.min.array() <= b.max.array()).all() && (b.min.array() <= a.max.array()).all();
+}
+
 // Pairs (i < j) of boxes that overlap or touch, sorted. Found on a uniform grid filled by a counting sort:
 // the cost grows with the number of boxes and pairs. When `wanted` is not empty, only pairs with at least one
 // wanted box.

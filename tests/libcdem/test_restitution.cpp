@@ -83,6 +83,25 @@ TEST_CASE("bodies bounce with the restitution of their contact, rigid and deform
     }
 }
 
+// While it goes down as a whole, waves in it move its surface up and down, with and against the contact's force.
+TEST_CASE("what restitution takes of a body that rings never comes back", "[contact][energy]") {
+  for (const double restitution : {0.1, 0.5}) {
+    INFO("restitution " << restitution);
+    cdem::Joint law = bouncy(restitution);
+    law.normal_stiffness.reset(); // as soft as the body
+    cdem::Simulation s = cube_over_floor(law, cdem::Element::finite_volume, 3);
+    s.initial_velocity(cdem::Selection::of_body("cube"), {0.5, 0, -2}, {3, 5, 1});
+    cdem::RunOptions options;
+    options.duration = 0.01;
+    options.safety = 0.5;
+    s.run(options);
+    const cdem::EnergyLedger energy = s.energy();
+    CHECK(energy.damping > 0.1 * energy.external);
+    CHECK(s.impossible_energy().part < 2e-3);
+    CHECK(energy.balance_error() < 2e-3);
+  }
+}
+
 TEST_CASE("a body comes to rest on a contact with restitution and presses with its weight", "[contact]") {
   cdem::Simulation s = cube_over_floor(bouncy(0.3), cdem::Element::rigid, 2);
   s.gravity(gravity());

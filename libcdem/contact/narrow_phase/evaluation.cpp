@@ -382,6 +382,7 @@ void Evaluation::finish(Contact& c, const Contact* old, ContactMotion& motion, c
       c.shear = old->shear;
       c.damping = old->damping;
     }
+    c.depth = own ? old->depth : 0;
     c.reference_penetration = own ? old->reference_penetration : first_reference_penetration(motion);
     if (old && !own)
       force.friction -= take_over(c, *old, law, motion);

@@ -159,14 +159,14 @@ double Evaluation::take_over(Contact& c, const Contact& old, const ContactLaw& l
   const ContactLaw before = law_of(model_, old);
   const double depth = std::max(0.0, motion.depth + motion.slid.dot(motion.normal)), // before the step
       pressed = std::min(depth, old.effective_penetration() * std::sqrt(before.kn / law.kn));
+  c.depth = depth;
   c.reference_penetration = depth - pressed;
   if (before.ks > 0)
     c.shear *= std::sqrt(law.ks / before.ks);
   // contact_forces counts the old contact as ended; what it gave back in the step this one gives.
   const geom::Vec3 slid = work_.step * velocity_past(state_, arms_of(model_, state_, old));
-  const double given_back =
-      energy(old.effective_penetration(), old.shear.norm(), before) - end_loss(old, before, slid);
-  return energy(pressed, c.shear.norm(), law) - given_back;
+  const double given_back = energy(old, before) - end_loss(old, before, slid);
+  return energy(c, law) - given_back;
 }
 
 } // namespace cdem

@@ -9,8 +9,8 @@
 //
 //   Fn = kn (d - d0)+ [(1 + e^2)/2 + (1 - e^2)/2 s],   s = v / v0 within -1 and 1,   v approach speed
 //
-// v0 is the speed that the forces of one step can reverse, so that a body at rest stays at rest. The first term is the
-// spring, and its energy is stored; the second term is damping.
+// v0 is the speed that the forces of one step can reverse, so that a body at rest stays at rest. While s stays, the force is
+// that of a spring, whose energy is stored. Damping is what a change of s takes, (1 - e^2)/4 kn (d - d0)^2 as s falls by 1.
 //
 // An overlap that exists before anything has moved (d0 > 0) carries no force: with the stiffness of concrete a tenth of
 // a millimetre would throw a unit into the air.
@@ -75,14 +75,20 @@ inline double contact_damping(double elastic, const ContactLaw& law, double spee
   return law.damping_ratio * elastic * part;
 }
 
+// J, stored in the part of the normal force that depends on s.
+inline double stored_by_damping(const Contact& c) {
+  return 0.5 * c.damping * c.effective_penetration();
+}
+
 // Advances the contact. Returns the energy that friction and damping took: the work of shear force and damping by the
-// trapezoidal rule, which is what central differences do, of friction less what the spring stores more. With F0 the
-// turned force before the step, T the trial force and F1 = T limit / |T| that is (F0 + F1) . (T - F1) / (2 ks), and what
-// turning took off the stored energy. A step in which the slip turns back may give energy.
+// trapezoidal rule, which is what central differences do, less what they store more. With F0 the turned force before the
+// step, T the trial force and F1 = T limit / |T| that of friction is (F0 + F1) . (T - F1) / (2 ks), and what turning took
+// off the stored energy. A step in which the slip turns back may give energy.
 inline ContactLoss advance(Contact& c, const ContactLaw& law, const ContactMotion& m) {
   geom::Vec3 shear = turned_with(c.shear, c.normal, m.normal);
   shear += m.turned * m.normal.cross(shear);
   const geom::Vec3 turned = shear;
+  const double stored_before = stored_by_damping(c);
   shear -= law.ks * (m.slid - m.slid.dot(m.normal) * m.normal);
   c.reference_penetration =
       std::min(c.reference_penetration,
@@ -94,6 +100,7 @@ inline ContactLoss advance(Contact& c, const ContactLaw& law, const ContactMotio
   const double damping = contact_damping(elastic, law, m.speed, m.turning_speed);
   loss.damping = -0.5 * (c.damping + damping) * m.slid.dot(m.normal);
   c.damping = damping;
+  loss.damping += stored_before - stored_by_damping(c);
   const double trial = shear.norm(), limit = friction_limit(elastic + damping, law.tan_friction);
   const double by_turning = c.shear.squaredNorm() - turned.squaredNorm();
   c.shear = shear;
@@ -107,16 +114,25 @@ inline ContactLoss advance(Contact& c, const ContactLaw& law, const ContactMotio
   return loss;
 }
 
-// J, stored.
-inline double energy(double pressed, double shear_force, const ContactLaw& law) {
-  return 0.5 * law.kn * pressed * pressed + (law.ks > 0 ? 0.5 * shear_force * shear_force / law.ks : 0);
+// N/m, of the normal force over the depth that it acts at.
+inline double stiffness_now(const Contact& c, const ContactLaw& law) {
+  const double pressed = c.effective_penetration();
+  return pressed > 0 ? law.kn + c.damping / pressed : law.kn;
+}
+
+// J, stored. normal: N/m.
+inline double energy(double pressed, double normal, double shear_force, const ContactLaw& law) {
+  return 0.5 * normal * pressed * pressed + (law.ks > 0 ? 0.5 * shear_force * shear_force / law.ks : 0);
+}
+inline double energy(const Contact& c, const ContactLaw& law) {
+  return energy(c.effective_penetration(), stiffness_now(c, law), c.shear.norm(), law);
 }
 
 // J, loss of a contact that has ended; slid: slip in its last step. The loss is the stored energy less the work of its
 // force in that step. The normal spring loses nothing if the contact opened.
 inline double end_loss(const Contact& c, const ContactLaw& law, const geom::Vec3& slid) {
   const double pressed = c.effective_penetration(), opened = std::min(slid.dot(c.normal), pressed);
-  return 0.5 * law.kn * pressed * (pressed - opened) - 0.5 * c.damping * opened +
+  return 0.5 * stiffness_now(c, law) * pressed * (pressed - opened) +
          (law.ks > 0 ? 0.5 * c.shear.squaredNorm() / law.ks - 0.5 * c.shear.dot(slid) : 0);
 }
 

@@ -27,7 +27,7 @@ Contact* contact_of(std::vector<Contact>& contacts, int triangle, int corner, in
 }
 
 double stored(const Model& model, const Contact& c) {
-  return energy(c.effective_penetration(), c.shear.norm(), law_of(model, c));
+  return energy(c, law_of(model, c));
 }
 
 // force: N, on the source. Returns the energy that the contact stores more, J.
