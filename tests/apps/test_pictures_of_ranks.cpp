@@ -69,7 +69,8 @@ std::map<std::string, std::string> results_of(const CaseFolder& place, const std
 } // namespace
 
 TEST_CASE(
-    "ranks: pictures and files from a callback have the bytes of one process, and change none of the model") {
+    "ranks: pictures and files from a callback have the bytes of one process, and change none of the model",
+    "[busy]") {
   if (no_mpirun())
     return;
   CaseFolder place({{"case.lua", falls}});

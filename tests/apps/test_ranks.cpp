@@ -12,7 +12,7 @@ using namespace testing;
 using Catch::Matchers::Contains;
 namespace fs = std::filesystem;
 
-TEST_CASE("ranks: the report is that of one process, told once") {
+TEST_CASE("ranks: the report is that of one process, told once", "[busy]") {
   if (no_mpirun())
     return;
   for (const char* const ranks : {"2", "3"}) {
@@ -66,7 +66,7 @@ const std::string& physics_of_one() {
   return report;
 }
 
-TEST_CASE("ranks: every kind of model ends in the bits of one process") {
+TEST_CASE("ranks: every kind of model ends in the bits of one process", "[busy]") {
   if (no_mpirun())
     return;
   for (const auto& [ranks, threads] : {std::pair(1, 2), std::pair(2, 1), std::pair(2, 2), std::pair(3, 1),
@@ -90,8 +90,8 @@ std::string figures_of(const std::string& report) {
   return figures;
 }
 
-TEST_CASE(
-    "ranks: every kind of model, left in each of its stages, goes on with the same bits on other ranks") {
+TEST_CASE("ranks: every kind of model, left in each of its stages, goes on with the same bits on other ranks",
+          "[busy]") {
   if (no_mpirun())
     return;
   Place place(physics());
@@ -117,7 +117,7 @@ TEST_CASE(
 }
 
 // A column that a floor breaks from below, in several chunks.
-TEST_CASE("ranks: chunks change hands where a body breaks on one side, and no bit does") {
+TEST_CASE("ranks: chunks change hands where a body breaks on one side, and no bit does", "[busy]") {
   if (no_mpirun())
     return;
   const std::string text = R"(local cdem = require "cdem"

@@ -68,13 +68,13 @@ void lead_apart(Fixes& to, double speed) {
 }
 
 // Mean traction on the side x+ of a box, Pa.
-inline double end_traction(const System& s, double area) {
+inline double end_traction(const System& s, double section) {
   const std::vector<geom::Vec3> forces = s.net_forces();
   double sum = 0;
   for (std::size_t i = 0; i < forces.size(); ++i)
     if (std::abs(s.model.node_position[i].x() - s.model.box.max.x()) < 1e-9)
       sum -= forces[i].x();
-  return sum / area;
+  return sum / section;
 }
 
 } // namespace testing

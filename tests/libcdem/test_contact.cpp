@@ -428,7 +428,7 @@ TEST_CASE("contact: a block whose mesh may break slides on a plate as one that m
     s.conditions.fixes.back().velocity = Vec3(speed, 0, 0);
     const double before = s.state.spent.external;
     options.steps = 0;
-    options.duration = 0.15 / speed;
+    options.duration = 0.1 / speed;
     s.run(options);
     return std::pair(s.log.deepest_contact, std::abs(s.state.spent.external - before));
   };

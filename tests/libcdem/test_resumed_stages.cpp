@@ -13,8 +13,8 @@ cdem::Simulation dropped_at(double x, int threads, std::shared_ptr<cdem::Observe
   const double side = 0.5;
   const auto cube = [&](const Vec3& centre, double turn) {
     geom::TetMesh mesh = geom::box_mesh(Vec3::Constant(side), {2, 2, 2});
-    for (Vec3& x : mesh.nodes)
-      x = rotation({0, 1, 0}, turn) * (x - Vec3::Constant(0.5 * side)) + centre;
+    for (Vec3& node : mesh.nodes)
+      node = rotation({0, 1, 0}, turn) * (node - Vec3::Constant(0.5 * side)) + centre;
     return mesh;
   };
   cdem::Elastic soft = rock(); // large steps

@@ -45,8 +45,8 @@ void cut_sources(const Model& model, ContactWork& work, const FoundNear& found) 
   });
   for (const auto& [a, b] : found.movers)
     if (is_single_tet(model, work, a) && is_single_tet(model, work, b))
-      for (const int mover : {a, b})
-        for (const int triangle : work.movers.triangles_of_tet[mover])
+      for (const int single : {a, b})
+        for (const int triangle : work.movers.triangles_of_tet[single])
           ++counts[triangle / triangles_per_count];
   ranks().sum(counts.data(), counts.size());
   work.triangle_begin =
