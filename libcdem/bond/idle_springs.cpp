@@ -40,8 +40,9 @@ void find_idle_springs(const Model& model, const State& state, BondWork& work) {
   }
   idle.batch.clear();
   for (const SpringBatch& batch : work.batches.springs)
-    idle.batch.push_back(static_cast<char>(std::all_of(
-        batch.interface, batch.interface + batch.count, [&](int interface) { return of_interface[interface]; })));
+    idle.batch.push_back(
+        static_cast<char>(std::all_of(batch.interface, batch.interface + batch.count,
+                                      [&](int interface) { return of_interface[interface]; })));
 }
 
 } // namespace cdem

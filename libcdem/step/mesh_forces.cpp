@@ -59,7 +59,8 @@ NearArrays fetch(const Model& model, const State& state, const MeshChunk& chunk,
 }
 
 // What the chunk before `index` will read from afar: the step goes through chunks from the last to the first.
-ReadAhead reads_of_chunk_before(const Model& model, const State& state, const Workspace& work, std::int64_t index) {
+ReadAhead reads_of_chunk_before(const Model& model, const State& state, const Workspace& work,
+                                std::int64_t index) {
   ReadAhead ahead;
   if (index == 0)
     return ahead;

@@ -37,7 +37,9 @@ struct Workspace {
   Range mesh_chunks(const Model&) const;  // of MeshData::chunks, likewise
   Range point_chunks(const Model&) const; // of Model::point_chunks
 
-  ActingForces acting() const { return {resolved, contact.force, contact.on_rigid, bond.force(), bond.idle.block}; }
+  ActingForces acting() const {
+    return {resolved, contact.force, contact.on_rigid, bond.force(), bond.idle.block};
+  }
 };
 
 } // namespace cdem
