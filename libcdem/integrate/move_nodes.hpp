@@ -26,7 +26,7 @@ struct ActingForces {
   const std::vector<Node>& contact; // N, of contacts, where nodes deform (n_nodes); empty without
   const std::vector<ContactOnRigid>& contact_on_rigid; // per rigid body; empty without
   const std::vector<geom::Vec3>& bond;                 // N, of springs of interfaces on side a (n_points)
-  const std::vector<char>& idle; // per block: no spring acts on it; empty without interfaces that turn
+  const std::vector<char>& idle_blocks; // per block: no spring acts on it; empty without interfaces that turn
 };
 
 // Arrays of the nodes that move, first of them first. force: of elements and springs, without loads.

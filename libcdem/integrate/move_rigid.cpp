@@ -56,7 +56,7 @@ RigidForces rigid_forces(const Model& model, const State& state, const ActingFor
     forces.contact = acting.contact_on_rigid[rigid].force;
     forces.contact_torque = acting.contact_on_rigid[rigid].torque;
   }
-  const bool idle = !acting.idle.empty() && acting.idle[model.rigid[rigid].block];
+  const bool idle = !acting.idle_blocks.empty() && acting.idle_blocks[model.rigid[rigid].block];
   if (block.convex() && !model.points.empty() && !idle) {
     const std::vector<geom::Vec3>& bonds = acting.bond;
     for (int i = block.node_begin; i < block.node_end; ++i) {
