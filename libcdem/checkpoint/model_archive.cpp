@@ -310,7 +310,7 @@ std::uint64_t hash(const Model& model) {
 
 void write(Writer& a, const State& state) {
   for (const StateField& field : fields(const_cast<State&>(state))) {
-    archive_const(a, std::string(field.name));
+    archive_const(a, std::string(field.row.name));
     archive_const(a, static_cast<std::uint64_t>(field.bytes));
     a.raw(field.data, field.bytes);
   }
@@ -323,7 +323,7 @@ void read(Reader& a, State& state) {
     std::string name;
     std::uint64_t bytes = 0;
     archive_all(a, name, bytes);
-    if (name != field.name || bytes > a.left() || (bytes != field.bytes && !field.resize))
+    if (name != field.row.name || bytes > a.left() || (bytes != field.bytes && !field.resize))
       Reader::refuse();
     if (field.resize && !field.resize(static_cast<std::size_t>(bytes)))
       Reader::refuse();

@@ -13,12 +13,6 @@ namespace {
                          "; the file was changed, or written by another version of cdem");
 }
 
-void require_entries(const std::string& field, std::size_t length, std::size_t wanted,
-                     bool may_be_empty = false) {
-  if (length != wanted && !(may_be_empty && length == 0))
-    refuse_state(field, std::to_string(length) + " entries where there must be " + std::to_string(wanted));
-}
-
 template <class Integer>
 void require_below(const std::string& field, Integer value, std::size_t end) {
   if (value < 0 || static_cast<std::size_t>(value) >= end)
@@ -70,50 +64,35 @@ void check_contacts(const Model& model, const State& state) {
 } // namespace
 
 void require_fits(const Model& model, const State& state) {
-  const std::size_t nodes = model.node_position.size(), points = model.points.size();
-  require_entries("displacement", state.displacement.size(), nodes);
-  require_entries("velocity", state.velocity.size(), nodes);
-  require_entries("bond_offset", state.bond_offset.size(), points);
-  require_entries("bond_mode", state.bond_mode.size(), points);
-  const State fresh = initial_state(model); // says which of the others the model has at all
-  require_entries("bond_damage", state.bond_damage.size(), fresh.bond_damage.size());
-  require_entries("bond_slip", state.bond_slip.size(), fresh.bond_slip.size());
-  require_entries("joint_history", state.joint_history.size(), fresh.joint_history.size());
+  each_field(
+      [&](const FieldRow& row, const auto& field) {
+        if constexpr (is_array<decltype(field)>) {
+          const std::size_t wanted = entries_of(row, model).value_or(field.size());
+          if (field.size() != wanted && !(row.need == FieldNeed::later && field.empty()))
+            refuse_state(row.name, std::to_string(field.size()) + " entries where there must be " +
+                                       std::to_string(wanted));
+        }
+      },
+      state);
+  if (state.column_velocity.size() != state.column_displacement.size())
+    refuse_state("column_velocity", "its length is not that of column_displacement");
   for (const JointHistory& history : state.joint_history)
     if (!(history.path >= 0 && history.parted >= 0))
       refuse_state("joint_history",
                    std::to_string(std::min(history.path, history.parted)) + " is out of range");
-  require_entries("slid_before", state.slid_before.size(), points, true);
-  require_entries("water_pressure", state.water_pressure.size(), points, true);
   for (const double pressure : state.water_pressure)
     if (!(pressure >= 0))
       refuse_state("water_pressure", std::to_string(pressure) + " is out of range");
-  require_entries("released", state.released.size(), model.frames.size());
-  require_entries("initial_stress", state.initial_stress.size(), small_strain_tets(model));
-  require_entries("displacement_zero", state.displacement_zero.size(), nodes, true);
-  require_entries("stress", state.stress.size(), model.mesh.batches.size());
-  require_entries("viscous_stress", state.viscous_stress.size(), fresh.viscous_stress.size());
-  require_entries("plastic_strain", state.plastic_strain.size(), fresh.plastic_strain.size());
   for (const PlasticStrainBatch& batch : state.plastic_strain)
     for (const double strain : batch.strain)
       if (!(strain >= 0))
         refuse_state("plastic_strain", std::to_string(strain) + " is out of range");
-  require_entries("faces", state.faces.size(), model.mesh.faces.size());
-  require_entries("cohesive", state.cohesive.size(), fresh.cohesive.size());
-  require_entries("rate_factor", state.rate_factor.size(), fresh.rate_factor.size());
   for (const double factor : state.rate_factor)
     if (!(factor >= 1))
       refuse_state("rate_factor", std::to_string(factor) + " is out of range");
-  require_entries("rigid", state.rigid.size(), model.rigid.size());
-  require_entries("rigid_offset", state.rigid_offset.size(), nodes, model.rigid.empty());
-  require_entries("support_force", state.support_force.size(), nodes, true);
-  require_entries("column_velocity", state.column_velocity.size(), state.column_displacement.size());
-  require_entries("moving_mass", state.moving_mass.size(), nodes, true);
   for (const double mass : state.moving_mass)
     if (!(mass > 0))
       refuse_state("moving_mass", std::to_string(mass) + " is out of range");
-  require_entries("escaped", state.escaped.size(), nodes, true);
-  require_entries("crack_energy", state.crack_energy.size(), model.bodies.size() + 1, true);
   for (const std::uint8_t mode : state.bond_mode)
     require_below("bond_mode", mode, modes);
   for (const std::uint8_t escaped : state.escaped)

@@ -8,6 +8,7 @@
 #include "libcdem/model/build/freed_meshes.hpp"
 #include "libcdem/parallel/simd.hpp"
 #include "libcdem/ranks/shared_state.hpp"
+#include "libcdem/state/carry.hpp"
 #include "libcdem/state/places.hpp"
 #include "libgeom/mesh/boundary.hpp"
 
@@ -46,138 +47,51 @@ bool may_use(const std::vector<UseBound>& bounds, const geom::Mat3& s) {
                      [&](const UseBound& bound) { return bound.beyond(components) > 0; });
 }
 
-class Carrier {
-public:
-  Carrier(const Model& old, const State& from, Freed& to) : old_(old), from_(from), to_(to) {}
+using Tets = std::pair<int, int>;
+Tets tets_at(const MeshData& mesh, std::int64_t face) {
+  return {mesh.face_tets[face].tet_a, mesh.face_tets[face].tet_b};
+}
 
-  void operator()() {
-    to_.state = initial_state(to_.model);
-    State& s = to_.state;
-    s.time = from_.time;
-    s.step = from_.step;
-    s.velocity_lag = from_.velocity_lag;
-    s.spent = from_.spent;
-    s.crack_energy = from_.crack_energy;
-    s.bond_offset = from_.bond_offset;
-    s.bond_mode = from_.bond_mode;
-    s.bond_damage = from_.bond_damage;
-    s.bond_slip = from_.bond_slip;
-    s.joint_history = from_.joint_history;
-    s.slid_before = from_.slid_before;
-    s.water_pressure = from_.water_pressure;
-    s.released = from_.released;
-    s.initial_stress = from_.initial_stress;
-    s.stress = from_.stress; // tets keep their places
-    s.viscous_stress = from_.viscous_stress;
-    s.face_slip = from_.face_slip;
-    s.rigid = from_.rigid;
-    s.column_displacement = from_.column_displacement;
-    s.column_velocity = from_.column_velocity;
-    s.bolts = from_.bolts;
-    carry_nodes();
-    carry_faces();
-    carry_contacts();
+// Tets keep their corners, so they tell which node each was.
+void map_nodes(const Model& old, const Model& now, TopologyMap& map) {
+  std::vector<int>& was = map.node.emplace(now.node_position.size());
+  for (int node = 0; node < old.mesh.first_node; ++node)
+    was[node] = node;
+  for (auto t = static_cast<std::size_t>(old.mesh.first_tet); t < old.tets.size(); ++t)
+    for (int k = 0; k < 4; ++k)
+      was[now.tets[t][k]] = old.tets[t][k];
+  for (int node = 0; node < static_cast<int>(was.size()); ++node)
+    map.divided.push_back({was[node], node, now.node_mass[node] / old.node_mass[was[node]]});
+}
+
+void map_faces(const Model& old, const Model& now, TopologyMap& map) {
+  std::map<Tets, std::int64_t> old_face;
+  each_face(old.mesh, [&](const MeshChunk&, std::int64_t batch, int lane) {
+    old_face[tets_at(old.mesh, batch * lanes + lane)] = batch * lanes + lane;
+  });
+  std::vector<std::int64_t>& was = map.face.emplace(now.mesh.face_tets.size(), -1);
+  each_face(now.mesh, [&](const MeshChunk&, std::int64_t batch, int lane) {
+    const std::int64_t face = batch * lanes + lane;
+    if (const auto found = old_face.find(tets_at(now.mesh, face)); found != old_face.end())
+      was[face] = found->second;
+  });
+}
+
+// Outer triangles keep their numbers within their block; the sides of freed faces follow them.
+void map_triangles(const Model& old, const Model& now, TopologyMap& map) {
+  const ContactSurface &was = old.surface, &is = now.surface;
+  std::vector<int>& new_triangle = map.new_triangle.emplace();
+  std::map<std::pair<Tets, int>, int> inner; // of which side
+  for (int t = 0; t < static_cast<int>(is.triangles.size()); ++t)
+    if (is.triangles[t].face >= 0)
+      inner[{tets_at(now.mesh, is.triangles[t].face), is.triangles[t].tet}] = t;
+  for (int t = 0; t < static_cast<int>(was.triangles.size()); ++t) {
+    const ContactTriangle& triangle = was.triangles[t];
+    new_triangle.push_back(triangle.face < 0
+                               ? t - was.block_begin[triangle.block] + is.block_begin[triangle.block]
+                               : inner.at({tets_at(old.mesh, triangle.face), triangle.tet}));
   }
-
-private:
-  void carry_nodes() {
-    std::vector<int>& before = to_.old_node;
-    before.resize(to_.model.node_position.size());
-    const int first = old_.mesh.first_node;
-    for (int node = 0; node < first; ++node)
-      before[node] = node;
-    for (std::size_t t = static_cast<std::size_t>(old_.mesh.first_tet); t < old_.tets.size(); ++t)
-      for (int k = 0; k < 4; ++k)
-        before[to_.model.tets[t][k]] = old_.tets[t][k];
-    const auto carry = [&](const auto& from, auto& to) {
-      if (from.empty())
-        return;
-      to.resize(before.size());
-      for (std::size_t i = 0; i < before.size(); ++i)
-        to[i] = from[before[i]];
-    };
-    carry(from_.displacement, to_.state.displacement);
-    carry(from_.velocity, to_.state.velocity);
-    carry(from_.displacement_zero, to_.state.displacement_zero);
-    carry(from_.support_force, to_.state.support_force);
-    for (std::size_t i = 0; i < to_.state.support_force.size(); ++i) { // shared by the copies of a node
-      const double share = to_.model.node_mass[i] / old_.node_mass[before[i]];
-      Node& force = to_.state.support_force[i];
-      force = {share * force.x, share * force.y, share * force.z, 0};
-    }
-    carry(from_.rigid_offset, to_.state.rigid_offset);
-    carry(from_.escaped, to_.state.escaped);
-  }
-
-  using Tets = std::pair<int, int>;
-  static Tets tets_at(const MeshData& mesh, std::int64_t face) {
-    return {mesh.face_tets[face].tet_a, mesh.face_tets[face].tet_b};
-  }
-
-  void carry_faces() {
-    std::map<Tets, std::int64_t> old_face;
-    each_face(old_.mesh, [&](const MeshChunk&, std::int64_t batch, int lane) {
-      old_face[tets_at(old_.mesh, batch * lanes + lane)] = batch * lanes + lane;
-    });
-    each_face(to_.model.mesh, [&](const MeshChunk&, std::int64_t batch, int lane) {
-      const std::int64_t now = batch * lanes + lane;
-      const auto found = old_face.find(tets_at(to_.model.mesh, now));
-      if (found == old_face.end())
-        return;
-      const std::int64_t was = found->second;
-      const FaceStateBatch& from = from_.faces[was / lanes];
-      FaceStateBatch& to = to_.state.faces[batch];
-      for (int point = 0; point < 3; ++point)
-        to.mode[point][lane] = from.mode[point][was % lanes];
-      to.handed_over[lane] = from.handed_over[was % lanes];
-      to.stage[lane] = from.stage[was % lanes];
-      to.preloaded[lane] = from.preloaded[was % lanes];
-      if (lane == was % lanes)
-        to.slip = from.slip; // of faces with springs, which keep their batches
-      to_.state.cohesive[now] = from_.cohesive[was];
-      if (!from_.rate_factor.empty())
-        to_.state.rate_factor[now] = from_.rate_factor[was];
-    });
-  }
-
-  // Outer triangles keep their numbers within their block; the sides of freed faces follow them.
-  void carry_contacts() {
-    if (from_.contacts.empty())
-      return;
-    const ContactSurface &was = old_.surface, &now = to_.model.surface;
-    std::map<std::pair<Tets, int>, int> inner; // of which side
-    for (int t = 0; t < static_cast<int>(now.triangles.size()); ++t)
-      if (now.triangles[t].face >= 0)
-        inner[{tets_at(to_.model.mesh, now.triangles[t].face), now.triangles[t].tet}] = t;
-    const auto triangle_now = [&](int t) {
-      const ContactTriangle& triangle = was.triangles[t];
-      if (triangle.face < 0)
-        return t - was.block_begin[triangle.block] + now.block_begin[triangle.block];
-      return inner.at({tets_at(old_.mesh, triangle.face), triangle.tet});
-    };
-    const std::vector<int> pieces = fragments_of_nodes(to_.model, to_.state);
-    for (Contact c : from_.contacts) {
-      const bool edge = c.kind == Contact::edge;
-      const auto [source, target] = triangles_of(c);
-      c.source =
-          static_cast<std::uint32_t>(3 * triangle_now(source) + static_cast<int>(c.source) % 3) & 0x7fffffffu;
-      c.target = edge ? 3 * triangle_now(target) + c.target % 3 : triangle_now(target);
-      if (edge) {
-        c.beside = triangle_now(c.beside);
-        c.fragment = triangle_now(c.fragment);
-      } else {
-        c.fragment = pieces[now.triangles[c.target].nodes[0]];
-      }
-      to_.state.contacts.push_back(c);
-    }
-    std::sort(to_.state.contacts.begin(), to_.state.contacts.end(),
-              [](const Contact& a, const Contact& b) { return key(a) < key(b); });
-  }
-
-  const Model& old_;
-  const State& from_;
-  Freed& to_;
-};
+}
 
 } // namespace
 
@@ -293,9 +207,14 @@ std::optional<std::vector<char>> FreeingWatch::due(const Model& model, const Sta
 }
 
 Freed free_nodes(const Model& model, const State& state, const std::vector<char>& nodes) {
-  Freed freed;
-  freed.model = with_freed_nodes(model, nodes);
-  Carrier(model, state, freed)();
+  Freed freed{with_freed_nodes(model, nodes), state, {}, {}};
+  TopologyMap map;
+  map_nodes(model, freed.model, map);
+  map_faces(model, freed.model, map);
+  map_triangles(model, freed.model, map);
+  map.fragments_of_nodes = [](const Model& m, const State& s) { return fragments_of_nodes(m, s); };
+  carry(model, freed.model, map, freed.state);
+  freed.old_node = std::move(*map.node);
   freed.anew.resize(freed.old_node.size(), 0);
   const auto first = static_cast<std::size_t>(model.mesh.first_node);
   for (std::size_t i = first; i < freed.anew.size(); ++i)

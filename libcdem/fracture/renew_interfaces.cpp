@@ -5,6 +5,7 @@
 #include "libcdem/bond/spring_forces.hpp"
 #include "libcdem/bond/water_work.hpp"
 #include "libcdem/model/build/interface_springs.hpp"
+#include "libcdem/state/carry.hpp"
 #include "libcdem/state/places.hpp"
 #include "libgeom/mesh/star_mesh.hpp"
 
@@ -72,27 +73,6 @@ void renew_frame(Model& model, const State& state, const Interface& interface, c
   frame.along_b = in_edges(model, state, frame.nodes_b, along);
   frame.area = area;
   frame.renewed = true;
-}
-
-template <class T>
-void carry(std::vector<T>& values, const std::vector<int>& old_point, const T& none) {
-  if (values.empty())
-    return;
-  std::vector<T> now(old_point.size(), none);
-  for (std::size_t p = 0; p < now.size(); ++p)
-    if (old_point[p] >= 0)
-      now[p] = values[old_point[p]];
-  values = std::move(now);
-}
-
-void carry_all(State& state, const std::vector<int>& old_point) {
-  carry(state.bond_offset, old_point, geom::Vec3(geom::Vec3::Zero()));
-  carry(state.bond_mode, old_point, static_cast<std::uint8_t>(BondMode::contact));
-  carry(state.bond_damage, old_point, 0.0);
-  carry(state.bond_slip, old_point, geom::Vec3(geom::Vec3::Zero()));
-  carry(state.joint_history, old_point, JointHistory{});
-  carry(state.slid_before, old_point, geom::Vec3(geom::Vec3::Zero()));
-  carry(state.water_pressure, old_point, 0.0);
 }
 
 // Springs that have ridden up by different amounts stand apart by much more than they are closed, and what lies between
@@ -223,7 +203,9 @@ RenewedInterfaces renew_interfaces(Model& model, State& state, const std::vector
   result.old_point = replace_springs(model, renewed, overlaps);
   if (state.slid_before.empty())
     state.slid_before.assign(state.bond_offset.size(), geom::Vec3::Zero());
-  carry_all(state, result.old_point);
+  TopologyMap map;
+  map.bond = result.old_point;
+  carry(model, model, map, state);
   for (std::size_t k = 0; k < list.size(); ++k) {
     if (overlaps[k].points.empty())
       continue;

@@ -5,6 +5,7 @@
 #include "libcdem/ranks/ranks.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <cstring>
 #include <utility>
 
@@ -47,34 +48,44 @@ std::vector<std::int64_t> first_tets(const Model& model, const Partition& part) 
 
 } // namespace
 
-// visit(first entry of each rank, numbers of the array for each of those, the array in each state): those whose pages a
-// rank gives back.
+const std::vector<std::int64_t>& StateShares::begin_of(FieldPlace place) const {
+  switch (place) {
+  case FieldPlace::node:
+    return nodes_;
+  case FieldPlace::bond:
+    return points_;
+  case FieldPlace::tet_batch:
+    return batches_;
+  default:
+    assert(place == FieldPlace::face_batch || place == FieldPlace::face);
+    return faces_;
+  }
+}
+
+// visit(first entry of each rank, numbers of the array for each of those, the array in each state): the fields of which
+// the table says so.
+template <class Visit, class... S>
+void StateShares::each_shared(std::initializer_list<FieldShared> as, const Visit& visit, S&... s) const {
+  each_field(
+      [&](const FieldRow& row, auto&... field) {
+        if constexpr ((is_array<decltype(field)> && ...))
+          if (std::find(as.begin(), as.end(), row.shared) != as.end())
+            visit(begin_of(row.place), row.place == FieldPlace::face ? lanes : 1, field...);
+      },
+      s...);
+}
+
 template <class Visit, class... S>
 void StateShares::each_motion(const Visit& visit, S&... s) const {
-  visit(nodes_, 1, s.displacement...);
-  visit(nodes_, 1, s.velocity...);
+  each_shared({FieldShared::motion}, visit, s...);
 }
-
 template <class Visit, class... S>
 void StateShares::each_large(const Visit& visit, S&... s) const {
-  each_motion(visit, s...);
-  visit(points_, 1, s.bond_offset...);
-  visit(points_, 1, s.slid_before...);
-  visit(points_, 1, s.bond_damage...);
-  visit(points_, 1, s.bond_slip...);
-  visit(points_, 1, s.joint_history...);
-  visit(batches_, 1, s.stress...);
-  visit(batches_, 1, s.viscous_stress...);
-  visit(batches_, 1, s.plastic_strain...);
-  visit(faces_, lanes, s.cohesive...);
-  visit(faces_, lanes, s.rate_factor...);
+  each_shared({FieldShared::motion, FieldShared::large}, visit, s...);
 }
-
-// Those that are so small that all keep them whole, though not up to date. All know which faces have slips.
 template <class Visit, class... S>
 void StateShares::each_small(const Visit& visit, S&... s) const {
-  visit(points_, 1, s.bond_mode...);
-  visit(faces_, 1, s.faces...);
+  each_shared({FieldShared::small}, visit, s...);
 }
 
 StateShares::StateShares(const Model& model, const Partition& part)

@@ -10,6 +10,7 @@
 #include "libcdem/state/state.hpp"
 
 #include <algorithm>
+#include <initializer_list>
 #include <utility>
 
 namespace cdem {
@@ -93,6 +94,9 @@ private:
   void gather_slips(State&) const;
   std::string own_contacts(const State&) const;
   static void add_contacts(const std::vector<std::string>& told, State&);
+  const std::vector<std::int64_t>& begin_of(FieldPlace) const;
+  template <class Visit, class... S>
+  void each_shared(std::initializer_list<FieldShared>, const Visit& visit, S&... states) const;
   template <class Visit, class... S>
   void each_motion(const Visit& visit, S&... states) const;
   template <class Visit, class... S>

@@ -34,7 +34,7 @@ struct FaceStateBatch {
   std::uint8_t handed_over[lanes]; // HandOver
   FaceStage stage[lanes];          // of cohesive bodies; holding in others
   std::uint8_t preloaded[lanes];   // 1: CohesiveFace::preload has not died away
-  std::int32_t slip; // of the first lane in State::face_slip; -1: no spring of the batch is broken
+  std::int32_t slip = -1; // of the first lane in State::face_slip; -1: no spring of the batch is broken
 };
 
 // The springs carry nothing any more: what meets there is found by search (contact/).

@@ -6,22 +6,90 @@
 #include <algorithm>
 
 namespace cdem {
+
+// A member of State that is not in the table does not compile.
+static_assert(sizeof(State) == sizeof(State::parted)
+#define FIELD(type, name, unit, place, need, carried, shared, looked, writer) +sizeof(type)
+#include "libcdem/state/fields.inc"
+#undef FIELD
+                  ,
+              "every field of State is in state/fields.inc");
+
 namespace {
 
 // At rest; displacement and velocity are there.
-void add_rigid_states(const Model& model, State& state) {
-  if (model.rigid.empty())
-    return;
-  state.rigid_offset.resize(model.node_position.size());
-  for (const RigidBody& body : model.rigid) {
-    const Block& block = model.blocks[body.block];
-    const geom::Vec3 centroid = rigid_shape(model, body.block, state.displacement.data()).centroid;
+void set_rigid_states(const Model& model, State& state) {
+  for (std::size_t r = 0; r < model.rigid.size(); ++r) {
+    const Block& block = model.blocks[model.rigid[r].block];
+    const geom::Vec3 centroid = rigid_shape(model, model.rigid[r].block, state.displacement.data()).centroid;
     for (int i = block.node_begin; i < block.node_end; ++i)
       state.rigid_offset[i] = node(place_of(model, state, i) - centroid);
-    RigidState motion;
-    motion.centroid = {centroid.x(), centroid.y(), centroid.z()};
-    state.rigid.push_back(motion);
+    state.rigid[r].centroid = {centroid.x(), centroid.y(), centroid.z()};
   }
+}
+
+template <class Is>
+bool any_body(const Model& model, const Is& is) {
+  return std::any_of(model.bodies.begin(), model.bodies.end(), is);
+}
+template <class Is>
+bool any_joint(const Model& model, const Is& is) {
+  return std::any_of(model.joints.begin(), model.joints.end(), is);
+}
+
+bool has(FieldNeed need, const Model& model) {
+  switch (need) {
+  case FieldNeed::always:
+    return true;
+  case FieldNeed::softening_joints:
+    return any_joint(model, [](const Joint& joint) { return joint.softening != Softening::none; });
+  case FieldNeed::joint_laws:
+    return any_joint(model, [](const Joint& joint) { return has_law(joint.law); });
+  case FieldNeed::stiffness_damping:
+    return any_body(model, [](const Body& body) { return body.material.stiffness_damping > 0; });
+  case FieldNeed::plastic_bodies:
+    return !model.mesh.plastic_law.empty();
+  case FieldNeed::cohesive_bodies:
+    return any_body(model, [](const Body& body) { return body.bonding.is_cohesive(); });
+  case FieldNeed::rate_effect:
+    return any_body(model, [](const Body& body) { return body.has_rate_effect(); });
+  case FieldNeed::rigid_bodies:
+    return !model.rigid.empty();
+  case FieldNeed::later:
+    break;
+  }
+  return false;
+}
+
+// Number of entries that belong to a place; nothing where the model does not say.
+std::optional<std::size_t> places(FieldPlace place, const Model& model) {
+  switch (place) {
+  case FieldPlace::node:
+    return model.node_position.size();
+  case FieldPlace::bond:
+    return model.points.size();
+  case FieldPlace::frame:
+    return model.frames.size();
+  case FieldPlace::small_strain_tet:
+    return small_strain_tets(model);
+  case FieldPlace::tet_batch:
+    return model.mesh.batches.size();
+  case FieldPlace::face_batch:
+    return model.mesh.faces.size();
+  case FieldPlace::face:
+    return model.mesh.face_tets.size();
+  case FieldPlace::rigid_body:
+    return model.rigid.size();
+  case FieldPlace::body:
+    return model.bodies.size() + 1;
+  case FieldPlace::model:
+  case FieldPlace::slip:
+  case FieldPlace::contact:
+  case FieldPlace::column:
+  case FieldPlace::bolt:
+    break;
+  }
+  return std::nullopt;
 }
 
 } // namespace
@@ -88,110 +156,56 @@ CrackEnergy& crack_energy_of(const Model& model, State& state, int body) {
   return state.crack_energy[body];
 }
 
+std::optional<std::size_t> entries_of(const FieldRow& row, const Model& model) {
+  if (row.need != FieldNeed::later && !has(row.need, model))
+    return 0;
+  return places(row.place, model);
+}
+
 State initial_state(const Model& model) {
   State state;
-  state.displacement.resize(model.node_position.size());
-  state.velocity.resize(model.node_position.size());
-  state.bond_offset.assign(model.points.size(), geom::Vec3::Zero());
-  state.bond_mode.resize(model.points.size());
+  each_field(
+      [&](const FieldRow& row, auto& field) {
+        if constexpr (is_array<decltype(field)>)
+          if (row.need != FieldNeed::later)
+            field.assign(entries_of(row, model).value_or(0), first_entry(field));
+      },
+      state);
+  std::fill(state.rate_factor.begin(), state.rate_factor.end(), 1.0);
   for (std::size_t p = 0; p < model.points.size(); ++p) {
     const bool bonded = model.joints[model.interfaces[model.points[p].interface].joint].bonded;
     state.bond_mode[p] = static_cast<std::uint8_t>(bonded ? BondMode::intact : BondMode::contact);
   }
-  const bool softens = std::any_of(model.joints.begin(), model.joints.end(),
-                                   [](const Joint& joint) { return joint.softening != Softening::none; });
-  state.bond_damage.assign(softens ? model.points.size() : 0, 0.0);
-  state.bond_slip.assign(softens ? model.points.size() : 0, geom::Vec3::Zero());
-  const bool laws = std::any_of(model.joints.begin(), model.joints.end(),
-                                [](const Joint& joint) { return has_law(joint.law); });
-  state.joint_history.assign(laws ? model.points.size() : 0, JointHistory{});
-  state.released.assign(model.frames.size(), 0);
-  state.initial_stress.assign(small_strain_tets(model), Stress{});
-  state.stress.assign(model.mesh.batches.size(), StressBatch{});
-  if (std::any_of(model.bodies.begin(), model.bodies.end(),
-                  [](const Body& body) { return body.material.stiffness_damping > 0; }))
-    state.viscous_stress = state.stress;
-  if (!model.mesh.plastic_law.empty())
-    state.plastic_strain.assign(model.mesh.batches.size(), PlasticStrainBatch{});
-  if (std::any_of(model.bodies.begin(), model.bodies.end(),
-                  [](const Body& body) { return body.bonding.is_cohesive(); }))
-    state.cohesive.resize(model.mesh.face_tets.size());
-  if (std::any_of(model.bodies.begin(), model.bodies.end(),
-                  [](const Body& body) { return body.has_rate_effect(); }))
-    state.rate_factor.assign(model.mesh.face_tets.size(), 1.0);
-  FaceStateBatch whole{};
-  whole.slip = -1;
-  state.faces.assign(model.mesh.faces.size(), whole);
   each_face_spring(model.mesh, [&](const MeshChunk& chunk, const FaceSpringPlace& at) {
     if (model.bodies[model.blocks[chunk.block].body].joint.bonded)
       return;
     state.faces[at.batch].mode[at.point][at.lane] = static_cast<std::uint8_t>(BondMode::contact);
     slip_of(state, at.batch, at.lane);
   });
-  add_rigid_states(model, state);
+  set_rigid_states(model, state);
   return state;
 }
 
-std::vector<StateField> fields(State& s) {
-  const auto field = [](const char* name, const char* unit, FieldPlace place, const char* writer, auto& array,
-                        bool floating) {
-    const auto resize = [&array](std::size_t bytes) {
-      array.resize(bytes / sizeof(array[0]));
-      return bytes % sizeof(array[0]) == 0;
-    };
-    return StateField{name,     unit,  place, writer, array.data(), array.size() * sizeof(array[0]),
-                      floating, resize};
-  };
-  const auto shown = [](StateField of_results) {
-    of_results.shown_only = true;
-    return of_results;
-  };
-  return {
-      {"time", "s", FieldPlace::model, "run", &s.time, sizeof s.time, true},
-      {"step", "1", FieldPlace::model, "end_step", &s.step, sizeof s.step, false},
-      {"velocity_lag", "s", FieldPlace::model, "run, relax", &s.velocity_lag, sizeof s.velocity_lag, true},
-      field("displacement", "m", FieldPlace::node, "step_nodes, relax_nodes, move_rigid", s.displacement,
-            true),
-      field("velocity", "m/s", FieldPlace::node, "step_nodes, relax_nodes, move_rigid", s.velocity, true),
-      field("bond_offset", "m", FieldPlace::bond, "spring_forces", s.bond_offset, true),
-      field("bond_mode", "1", FieldPlace::bond, "spring_forces", s.bond_mode, false),
-      field("bond_damage", "1", FieldPlace::bond, "spring_forces", s.bond_damage, true),
-      field("bond_slip", "m", FieldPlace::bond, "spring_forces", s.bond_slip, true),
-      field("joint_history", "m", FieldPlace::bond, "spring_forces", s.joint_history, true),
-      field("slid_before", "m", FieldPlace::bond, "renew_interfaces", s.slid_before, true),
-      field("water_pressure", "Pa", FieldPlace::bond, "set_water", s.water_pressure, true),
-      field("released", "1", FieldPlace::frame, "release_interfaces", s.released, false),
-      field("initial_stress", "Pa", FieldPlace::tet, "initial_stress", s.initial_stress, true),
-      field("stress", "Pa", FieldPlace::tet, "mesh_forces", s.stress, true),
-      field("viscous_stress", "Pa", FieldPlace::tet, "mesh_forces", s.viscous_stress, true),
-      field("plastic_strain", "1", FieldPlace::tet, "mesh_forces", s.plastic_strain, true),
-      field("faces", "1", FieldPlace::face, "mesh_forces", s.faces, false),
-      field("face_slip", "m", FieldPlace::face, "mesh_forces, record_face_breaks", s.face_slip, true),
-      field("cohesive", "record", FieldPlace::face, "begin_cracks, mesh_forces", s.cohesive, true),
-      field("rate_factor", "1", FieldPlace::face, "begin_cracks", s.rate_factor, true),
-      field("contacts", "record", FieldPlace::contact, "contact_forces", s.contacts, false),
-      field("rigid", "record", FieldPlace::rigid_body, "move_rigid, set_rigid", s.rigid, true),
-      field("rigid_offset", "m", FieldPlace::node, "set_rigid", s.rigid_offset, true),
-      shown(
-          field("displacement_zero", "m", FieldPlace::node, "reset_displacement", s.displacement_zero, true)),
-      field("support_force", "N", FieldPlace::node, "quiet, free_field", s.support_force, true),
-      field("column_displacement", "m", FieldPlace::column, "advance_columns", s.column_displacement, true),
-      field("column_velocity", "m/s", FieldPlace::column, "advance_columns", s.column_velocity, true),
-      field("bolts", "record", FieldPlace::bolt, "set_bolt, advance_bolts", s.bolts, true),
-      field("moving_mass", "kg", FieldPlace::node, "run", s.moving_mass, true),
-      field("escaped", "1", FieldPlace::node, "find_escapes", s.escaped, false),
-      field("crack_energy", "J", FieldPlace::body,
-            "record_bond_breaks, record_face_breaks, record_begun_cracks", s.crack_energy, true),
-      {"spent", "J", FieldPlace::model,
-       "record_bond_breaks, record_face_breaks, ContactUpdate, record_step, relax", &s.spent, sizeof s.spent,
-       true},
-  };
+std::vector<StateField> fields(State& state) {
+  std::vector<StateField> all;
+  each_field(
+      [&](const FieldRow& row, auto& field) {
+        if constexpr (is_array<decltype(field)>)
+          all.push_back({row, field.data(), field.size() * sizeof field[0], [&field](std::size_t bytes) {
+                           field.resize(bytes / sizeof field[0], first_entry(field));
+                           return bytes % sizeof field[0] == 0;
+                         }});
+        else
+          all.push_back({row, &field, sizeof field});
+      },
+      state);
+  return all;
 }
 
 std::uint64_t hash(const State& state) {
   std::uint64_t h = 14695981039346656037ull;
   for (const StateField& field : fields(const_cast<State&>(state))) {
-    if (field.shown_only)
+    if (field.row.looked == FieldLooked::shown)
       continue;
     const auto* byte = static_cast<const unsigned char*>(field.data);
     for (std::size_t i = 0; i < field.bytes; ++i)
