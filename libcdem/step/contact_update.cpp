@@ -25,17 +25,17 @@ ContactUpdate::ContactUpdate(const StageContext& context)
   impact_frequency2_ = impact_frequencies2(context.model);
 }
 
-void ContactUpdate::evaluate(const StageContext& context, ContactWork& work) {
+void ContactUpdate::evaluate(const StageContext& context, ContactWork& work, RunLog& log) {
   const bool looks = work.due;
   const ContactSums sums = contact_forces(context.model, context.state, work, context.threads);
   context.state.spent.friction += sums.friction;
   context.state.spent.damping += sums.damping;
-  context.log.deepest_contact = std::max(context.log.deepest_contact, sums.depth);
-  context.log.deepest_over_height = std::max(context.log.deepest_over_height, sums.depth_over_height);
+  log.deepest_contact = std::max(log.deepest_contact, sums.depth);
+  log.deepest_over_height = std::max(log.deepest_over_height, sums.depth_over_height);
   if (sums.deepest > deepest_.deepest)
     deepest_ = sums;
   if (looks && !work.due && (sums.contacts != contacts_before_ || context.state.step % meetings_every == 0)) {
-    strike_out_met(context.model, context.state, context.log, work.shared != nullptr);
+    strike_out_met(context.model, context.state, log, work.shared != nullptr);
     contacts_before_ = sums.contacts;
   }
 }

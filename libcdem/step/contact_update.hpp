@@ -12,8 +12,9 @@ class ContactUpdate {
 public:
   explicit ContactUpdate(const StageContext&);
 
-  // The forces of contacts, and what they spend. Nothing is done where nothing has moved since.
-  void evaluate(const StageContext&, ContactWork&);
+  // The forces of contacts, and what they spend; the log is told of depths and of bodies that have met. Nothing is done
+  // where nothing has moved since.
+  void evaluate(const StageContext&, ContactWork&, RunLog&);
   // The longest step that the contacts evaluated last leave, s, `safety` times the stable one; infinite without
   // contacts. Throws SolutionError where one has gone too deep since the last call.
   double longest_step(const StageContext&, const Workspace&, double safety, const StageStep&);

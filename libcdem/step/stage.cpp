@@ -112,6 +112,10 @@ Stage::~Stage() {
 }
 
 void Stage::keep_restart_point(std::vector<double> loop_state, const std::vector<Node>& previous_force) {
+  if (can_be_left())
+    share_anew();
+  keep_last_good();
+  give_back();
   if (!context_.restart_point)
     return;
   RestartPoint& point = **context_.restart_point;
@@ -145,7 +149,7 @@ void Stage::keep_restart_point(std::vector<double> loop_state, const std::vector
 double Stage::update_contacts(double safety) {
   times_.end(StepLine::others);
   const std::int64_t searches = work.contact.searches;
-  contacts_.evaluate(context_, work.contact);
+  contacts_.evaluate(context_, work.contact, context_.log);
   const double longest = contacts_.longest_step(context_, work, safety, here());
   if (!context_.model.surface.empty())
     times_.end(work.contact.searches > searches ? StepLine::contact_search : StepLine::contacts);
@@ -186,14 +190,14 @@ void Stage::end_step(double time_step) {
 void Stage::synchronise() {
   if (left_alone())
     return;
-  synchronise_contacts();
+  synchronise_contacts(context_.log);
   broken_between_ += synchronise_stress(context_.log);
   see_whole();
 }
 
-void Stage::synchronise_contacts() {
+void Stage::synchronise_contacts(RunLog& log) {
   try {
-    contacts_.evaluate(context_, work.contact);
+    contacts_.evaluate(context_, work.contact, log);
   } catch (const SolutionError&) { // the next step meets it again, and says so
   }
 }
@@ -209,6 +213,7 @@ std::int64_t Stage::synchronise_stress(RunLog& log) {
         mesh_forces(context_.model, context_.state, work, c, breaking_);
     });
     if (shared_) {
+      shared_->share_nodes(context_.state); // the stress that faces of others read
       BegunCracks none;
       std::int64_t tellers = has_to_tell(work, none) ? 1 : 0;
       ranks().sum(&tellers, 1);
@@ -229,15 +234,14 @@ std::int64_t Stage::synchronise_stress(RunLog& log) {
 void Stage::synchronise_to_leave() {
   if (!context_.state.face_slip.empty() || !context_.model.mesh.sides.empty())
     work.contact.fragments_due = work.contact.anew = true;
-  synchronise_contacts();
+  synchronise_contacts(context_.log);
   broken_between_ += synchronise_stress(context_.log);
 }
 
-void Stage::keep_state() {
+void Stage::look_over() {
   require_sound_state();
   synchronise_to_leave();
   look_for_escapes();
-  keep_last_good();
 }
 
 // Each rank looks at its share; what is wrong is told of by all, as one that sees everything.
@@ -279,11 +283,8 @@ void Stage::watch(const StepReport& report) {
   if (follows_fragments)
     require_followed(context_.model, work, here());
   release_parted_blocks();
-  if (step % watch_every == 0) {
-    keep_state();
-    share_anew();
-    give_back();
-  }
+  if (step % watch_every == 0)
+    look_over();
   if (!work.resolved.flows.empty() && step % flow_every == 0) {
     see_whole();
     refresh_flows(context_.model, context_.state, work.resolved);
@@ -329,8 +330,7 @@ void Stage::release_parted_blocks() {
 }
 
 void Stage::poll(const StepReport& step_report) {
-  // Not between the keeping of a state and its restart point: the two would be of different moments.
-  if (step % poll_every == 0 && !can_be_left()) {
+  if (step % poll_every == 0) {
     CheckpointWriter* const checkpoints = context_.checkpoints;
     if (context_.observer.stop_requested()) {
       if (checkpoints)
@@ -362,12 +362,13 @@ void Stage::show() {
 }
 
 StageResult Stage::finish(const StepReport& step_report) {
-  keep_state();
+  look_over();
   see_whole();
   look_at_units(context_.model, context_.state, context_.conditions, context_.log);
   sample(step_report);
   times_.end(StepLine::watch);
   report(step_report, true);
+  keep_last_good(); // last: whoever ends a stage before goes on from the restart point and the state that stood there
   return {step, step_report.residual, context_.log.broken_tension - broken_tension_before_,
           context_.log.broken_shear - broken_shear_before_, wall_time()};
 }

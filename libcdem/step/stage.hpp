@@ -65,9 +65,9 @@ public:
   // finds the forces there.
   void sample_start();
 
-  // True at the head of a step before which the state has been kept: keep_restart_point there, with what the loop
-  // carries from step to step.
-  bool can_be_left() const { return context_.restart_point && step > 0 && step % watch_every == 0; }
+  // True at the head of a step at which the loop calls keep_restart_point, with what it carries from step to step.
+  bool can_be_left() const { return step > 0 && step % watch_every == 0; }
+  // Keeps the state and, where the stage may be left, the restart point that goes with it: both or neither.
   void keep_restart_point(std::vector<double> loop_state, const std::vector<Node>& previous_force = {});
 
   // Frees the nodes whose time it is. True when it has: arrays by node are others now, the stable step is shorter, and the
@@ -119,7 +119,7 @@ private:
   void keep_last_good();       // of this rank's share
   void give_back();            // memory of what other ranks own
   void synchronise_to_leave(); // where a run may go on
-  void synchronise_contacts();
+  void synchronise_contacts(RunLog&);
   std::int64_t synchronise_stress(RunLog&); // returns how many springs broke, of which the log is told
 
   void advance_bolts();
@@ -129,7 +129,7 @@ private:
   StageStep here() const { return {context_.number, kind_, step}; }
   void record_step(const StepReport&); // energies and breaks
   void release_parted_blocks();
-  void keep_state();
+  void look_over();               // the state is sound and up to date
   void look_for_escapes();        // the state is caught up
   void sample(const StepReport&); // a row of the history
   void poll(const StepReport&);   // stop, checkpoints, progress

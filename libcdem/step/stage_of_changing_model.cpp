@@ -39,7 +39,6 @@ bool Stage::free_nodes() {
     has_shared_nodes_ = has_shared_nodes(model);
     update_external(work.resolved, state.time, moving());
     preload_faces(model, state, net_forces(model, state, work), freed.anew);
-    keep_last_good();
   }
   times_.end(StepLine::cracks);
   return due.has_value();
@@ -80,7 +79,6 @@ bool Stage::renew_interfaces() {
   share();
   contacts_ = ContactUpdate(context_);
   contacts_.start_anew(model, work.contact, true);
-  keep_last_good();
   times_.end(StepLine::bonds);
   return true;
 }

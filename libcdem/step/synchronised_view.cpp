@@ -1,27 +1,43 @@
 #include "libcdem/step/synchronised_view.hpp"
 
+#include "libcdem/contact/data/tet_pairs.hpp"
 #include "libcdem/ranks/looks.hpp"
 
 namespace cdem {
+namespace {
+
+void copy_advancing_fields(const State& from, State& to) {
+  each_field(
+      [](const FieldRow& row, const auto& source, auto& target) {
+        if (row.looked == FieldLooked::advances)
+          target = source; // arrays keep their places in memory: the step knows where they lie
+      },
+      from, to);
+}
+
+} // namespace
+
+struct SynchronisedView::Kept {
+  State state; // the advancing fields
+  ContactWork contact;
+  ContactUpdate contacts;
+  std::vector<FaceSums> face_sums;
+  double strain_step;
+  bool hand_over_due;
+};
 
 SynchronisedView::SynchronisedView(Stage& stage, Of what) : stage_(stage) {
-  stage.synchronise_contacts();
-  const State& state = stage.context_.state;
-  if (!state.faces.empty() && stage.work.strain_step > 0) {
-    strain_step_ = stage.work.strain_step;
-    contact_due_ = stage.work.contact.due;
-    pieces_due_ = stage.work.contact.fragments_due;
-    stress_ = state.stress;
-    viscous_stress_ = state.viscous_stress;
-    plastic_strain_ = state.plastic_strain;
-    faces_ = state.faces;
-    contacts_ = state.contacts;
-    face_slip_ = state.face_slip;
-    cohesive_ = state.cohesive;
-    crack_energy_ = state.crack_energy;
-    spent_ = state.spent;
+  State& state = stage.context_.state;
+  Workspace& work = stage.work;
+  if (work.contact.due || work.strain_step > 0) {
+    kept_.reset(
+        new Kept{{}, work.contact, stage.contacts_, work.face_sums, work.strain_step, work.hand_over_due});
+    if (work.contact.tet_pairs)
+      kept_->contact.tet_pairs = std::make_shared<TetPairs>(*work.contact.tet_pairs);
+    copy_advancing_fields(state, kept_->state);
   }
   RunLog of_view;
+  stage.synchronise_contacts(of_view);
   stage.synchronise_stress(of_view);
   if (what == Of::whole)
     stage.see_whole();
@@ -35,21 +51,16 @@ void SynchronisedView::require_same_looks() const {
 SynchronisedView::~SynchronisedView() {
   if (stage_.shared_)
     stage_.shared_->look_at(stage_.context_.state);
-  if (strain_step_ == 0)
+  if (!kept_)
     return;
   State& state = stage_.context_.state;
-  stage_.work.strain_step = strain_step_;
-  stage_.work.contact.due = contact_due_;
-  stage_.work.contact.fragments_due = pieces_due_;
-  state.stress = stress_; // copied: the step knows where these lie
-  state.viscous_stress = viscous_stress_;
-  state.plastic_strain = plastic_strain_;
-  state.faces = faces_;
-  state.contacts = contacts_;
-  state.face_slip = face_slip_;
-  state.cohesive = cohesive_;
-  state.crack_energy = crack_energy_;
-  state.spent = spent_;
+  Workspace& work = stage_.work;
+  work.contact = std::move(kept_->contact);
+  stage_.contacts_ = std::move(kept_->contacts);
+  work.face_sums = std::move(kept_->face_sums);
+  work.strain_step = kept_->strain_step;
+  work.hand_over_due = kept_->hand_over_due;
+  copy_advancing_fields(kept_->state, state);
   if (stage_.shared_) { // of others, stresses are those of when they were last gathered
     stage_.shared_->parted(state);
     stage_.shared_->part_contacts(state);

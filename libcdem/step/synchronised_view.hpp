@@ -1,6 +1,7 @@
 // A stage between two steps, for code that only reads it. While this object lives, contacts and the stress of meshes
-// belong to the present positions of the nodes. Then stress and bonds are restored. If they were advanced twice, in
-// this step and in the next, bonds would break with other energies, and slip would differ in the last digit.
+// belong to the present positions of the nodes. Then everything that was written to bring them there is put back, bit for
+// bit: the fields that the table of State marks as advancing, and the stage's own notes. So a step never knows whether
+// anybody has looked.
 #pragma once
 
 #include "libcdem/step/stage.hpp"
@@ -19,17 +20,9 @@ public:
   SynchronisedView& operator=(const SynchronisedView&) = delete;
 
 private:
+  struct Kept; // what the stage was like
   Stage& stage_;
-  double strain_step_ = 0; // s; 0: nothing to put back
-  bool contact_due_ = false, pieces_due_ = false;
-  std::vector<StressBatch> stress_, viscous_stress_;
-  std::vector<PlasticStrainBatch> plastic_strain_;
-  std::vector<FaceStateBatch> faces_;
-  std::vector<Contact> contacts_; // they may take over the force of faces
-  std::vector<FaceSlip> face_slip_;
-  std::vector<CohesiveFace> cohesive_;
-  std::vector<CrackEnergy> crack_energy_;
-  EnergyLedger spent_;
+  std::unique_ptr<Kept> kept_; // null: nothing had to be brought up to date
 };
 
 } // namespace cdem
