@@ -6,8 +6,9 @@ namespace cdem {
 
 SynchronisedView::SynchronisedView(Stage& stage, Of what) : stage_(stage) {
   stage.synchronise_contacts();
+  near_ = stage.work.near;
   const State& state = stage.context_.state;
-  if (!state.faces.empty() && stage.work.strain_step > 0) {
+  if ((!state.faces.empty() || stage.work.watch) && stage.work.strain_step > 0) {
     strain_step_ = stage.work.strain_step;
     contact_due_ = stage.work.contact.due;
     pieces_due_ = stage.work.contact.fragments_due;
@@ -18,6 +19,7 @@ SynchronisedView::SynchronisedView(Stage& stage, Of what) : stage_(stage) {
     contacts_ = state.contacts;
     face_slip_ = state.face_slip;
     cohesive_ = state.cohesive;
+    rate_factor_ = state.rate_factor;
     crack_energy_ = state.crack_energy;
     spent_ = state.spent;
   }
@@ -35,6 +37,7 @@ void SynchronisedView::require_same_looks() const {
 SynchronisedView::~SynchronisedView() {
   if (stage_.shared_)
     stage_.shared_->look_at(stage_.context_.state);
+  stage_.work.near = near_;
   if (strain_step_ == 0)
     return;
   State& state = stage_.context_.state;
@@ -48,6 +51,7 @@ SynchronisedView::~SynchronisedView() {
   state.contacts = contacts_;
   state.face_slip = face_slip_;
   state.cohesive = cohesive_;
+  state.rate_factor = rate_factor_;
   state.crack_energy = crack_energy_;
   state.spent = spent_;
   if (stage_.shared_) { // of others, stresses are those of when they were last gathered

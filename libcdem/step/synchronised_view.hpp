@@ -28,7 +28,9 @@ private:
   std::vector<Contact> contacts_; // they may take over the force of faces
   std::vector<FaceSlip> face_slip_;
   std::vector<CohesiveFace> cohesive_;
+  std::vector<double> rate_factor_;
   std::vector<CrackEnergy> crack_energy_;
+  NearStrength near_;
   EnergyLedger spent_;
 };
 
