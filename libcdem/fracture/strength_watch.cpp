@@ -10,6 +10,7 @@
 #include "libgeom/mesh/boundary.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <optional>
 
@@ -36,14 +37,41 @@ CDEM_INLINE bool beyond_any(const simd::Oct (&s)[6], const UseBound* bounds, int
   return any;
 }
 
+// Pa2, s : s below which no stress is beyond any of the bounds: its mean is at most |s| / sqrt(3), its q at most |s| / sqrt(2).
+double harmless_norm2(const std::vector<UseBound>& bounds) {
+  const auto may = [&](double norm) {
+    const double mean = norm / std::sqrt(3.0);
+    const double worst[6] = {mean, mean, mean, norm / std::sqrt(2.0), 0, 0};
+    return std::any_of(bounds.begin(), bounds.end(),
+                       [&](const UseBound& bound) { return bound.coarsely_beyond(worst) > 0; });
+  };
+  double low = 1e-3, high = 1e15; // Pa
+  for (int i = 0; i < 12; ++i) {
+    const double middle = std::sqrt(low * high);
+    (may(middle) ? high : low) = middle;
+  }
+  return low * low;
+}
+
 // steps_ahead: how many steps to go on at the rate of the last one.
 CDEM_INLINE void near_kernel(const StressBatch* stress, const StressBatch* before, std::int64_t count,
-                             const UseBound* bounds, int bound_count, double steps_ahead,
+                             const UseBound* bounds, int bound_count, double harmless, double steps_ahead,
                              std::uint8_t* bits) {
+  // |s + a d|^2 <= 2 |s|^2 + 2 a^2 |d|^2, and twice what stands off the diagonal.
+  const double of_rise = steps_ahead * steps_ahead;
+  const simd::Oct most = simd::Oct{} + harmless;
   for (std::int64_t i = 0; i < count; ++i) {
-    simd::Oct s[6];
-    for (int c = 0; c < 6; ++c)
+    simd::Oct s[6], sum{};
+    for (int c = 0; c < 6; ++c) {
       s[c] = simd::load(stress[i].component[c]);
+      const simd::Oct d = before ? s[c] - simd::load(before[i].component[c]) : simd::Oct{};
+      const simd::Oct part = s[c] * s[c] + of_rise * d * d;
+      sum += (c < 3 ? 2.0 : 4.0) * part;
+    }
+    if (!simd::any(sum > most)) {
+      bits[i] = 0;
+      continue;
+    }
     std::uint8_t found =
         beyond_any(s, bounds, bound_count) ? NearStrength::may_crack | NearStrength::may_be_due : 0;
     if (before && found == 0) {
@@ -260,7 +288,7 @@ void StrengthWatch::look(const MeshChunk& chunk, std::int64_t index, const Stres
   constexpr double steps_ahead = 2; // the stress is that of a step ago, and the next look is a step away
   const std::vector<UseBound>& bounds = bounds_[static_cast<std::size_t>(index)].at_strength;
   simd::best<near_kernel>(stress, before, chunk.batches.size(), bounds.data(),
-                          static_cast<int>(bounds.size()), steps_ahead,
+                          static_cast<int>(bounds.size()), harmless_norm2(bounds), steps_ahead,
                           near.bits.data() + chunk.batches.begin);
 }
 
