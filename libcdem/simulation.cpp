@@ -5,6 +5,7 @@
 #include "libcdem/element/rigid_motion.hpp"
 #include "libcdem/element/small_strain.hpp"
 #include "libcdem/first_model.hpp"
+#include "libcdem/fracture/notch.hpp"
 #include "libcdem/load/flow.hpp"
 #include "libcdem/procedure/critical_flow.hpp"
 #include "libcdem/procedure/give_motion.hpp"
@@ -302,8 +303,13 @@ std::int64_t Simulation::break_bonds(const Selection& on, bool whole_faces) {
       cdem::settle(s.model, s.whole(), p);
       ++count;
     }
+  count += notch(s.model, s.whole(), [&](const geom::Vec3& place, int block) {
+    return selects_place(s.model, on, place, block);
+  });
   const std::vector<Node> position = present_places(s.model, s.whole());
   each_face_spring(s.model.mesh, [&](const MeshChunk& chunk, FaceSpringPlace at) {
+    if (s.model.bodies[s.model.blocks[chunk.block].body].bonding.is_cohesive())
+      return;
     const auto holds = [&](int point) {
       at.point = point;
       return selects_place(s.model, on, face_point(s.model, chunk, at), chunk.block);
@@ -319,9 +325,12 @@ std::int64_t Simulation::break_bonds(const Selection& on, bool whole_faces) {
   });
   if (count == 0)
     throw geom::InputError("on", on.text,
-                           whole_faces ? "a place that holds whole interfaces" : "a place that holds bonds",
+                           whole_faces
+                               ? "a place that holds whole interfaces"
+                               : "a place that holds bonds, of a cohesive body whole faces of its mesh",
                            "nothing of the model lies there");
   s.whole().spent.cutting += before - s.stored_energy();
+  s.last_good = s.whole();
   return count;
 }
 

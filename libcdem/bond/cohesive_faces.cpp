@@ -67,7 +67,9 @@ PointResponse respond(const SofteningLaw& law, const CohesiveFace& face, int poi
 // Energies of one point of a cracking face, J per area. The law begins stretched by w0 = offset (+ a gap of next to nothing),
 // as if its spring had been drawn there: k w0^2 / 2, which the body never stored. Damage can take
 //   P = k (<w0_n>^2 + <|w0_s| - friction>^2) / 2
-// of it. The rest, of pressure and friction, stays until the face parts.
+// of it. The rest, of pressure and friction, goes with the last of the strength, as D^8: where damage takes most per D. So a
+// face that has lost its strength stores what its contact stores, and what breaking takes grows all along. The springs of a
+// brittle face, which loses its strength at once, keep this rest until it parts.
 double taken_by_damage(const SofteningLaw& law, const Vec3& m, const Vec3& offset) {
   const double open = offset.dot(m), shear = (offset - open * m).norm();
   const double slip = std::max(0.0, shear - friction_limit(std::max(0.0, -open), law.strength.tan_friction));
@@ -75,7 +77,9 @@ double taken_by_damage(const SofteningLaw& law, const Vec3& m, const Vec3& offse
 }
 
 double never_stored(const SofteningLaw& law, const Vec3& m, const Vec3& offset, double damage) {
-  return 0.5 * law.kn * offset.squaredNorm() - damage * taken_by_damage(law, m, offset);
+  const double all = 0.5 * law.kn * offset.squaredNorm(), taken = taken_by_damage(law, m, offset);
+  const double d2 = damage * damage, d4 = d2 * d2, late = law.softens() ? d4 * d4 : 0;
+  return all - damage * taken - late * (all - taken);
 }
 
 // r0 stores (1 - D) r0.j.
@@ -136,7 +140,9 @@ private:
                             r.law);
     sums.friction += area * m[2] * lost.friction;
     const double grown = r.law.damage - face_.damage[point];
-    const double taken = area * m[2] * (lost.breaking - grown * taken_by_damage(law_, m, offset));
+    const double begun_with =
+        never_stored(law_, m, offset, face_.damage[point]) - never_stored(law_, m, offset, r.law.damage);
+    const double taken = area * m[2] * (lost.breaking - begun_with);
     sums.breaking += taken + 0.5 * area * grown * vec(face_.rest[point]).dot(gap + gap0);
     if (grown > 0)
       sums.crack.add(std::max(0.0, taken), shear_share(law_, m, gap + offset));
@@ -313,10 +319,11 @@ double stored(const FaceBatch& batch, int lane, const FaceFrame& f, const Joint&
 
 } // namespace
 
-double begin_crack(const FaceBatch& batch, int lane, const FaceFrame& f, const Joint& joint,
-                   const geom::Mat3& stress, const geom::Vec3& m, BondMode mode, FaceStateBatch& state,
-                   CohesiveFace& face) {
+double begin_crack(const FaceBatch& batch, int lane, const FaceMoment& at, const Joint& joint, const Vec3& m,
+                   BondMode mode, FaceStateBatch& state, CohesiveFace& face) {
+  const FaceFrame& f = at.frame;
   const double k = penalty(batch, lane), before = stored(batch, lane, f, joint, state, face);
+  const geom::Mat3 stress = at.stress + at.relieved;
   const Vec3 on_plane = f.in_axes(stress * m), on_face = f.in_axes(stress * f.normal);
   state.stage[lane] = FaceStage::cracking;
   face.plane = array(f.in_axes(m));
@@ -325,23 +332,41 @@ double begin_crack(const FaceBatch& batch, int lane, const FaceFrame& f, const J
     const Vec3 gap = f.in_axes(f.gap[point]), pulls = on_face + k * (gap + vec(face.offset[point]));
     face.offset[point] = array(on_plane / k - gap);
     face.rest[point] = {};
-    if (law.softens()) { // it may be damaged by a crack that ended
-      face.rest[point] =
-          array((pulls - respond(law, face, point, gap, false).traction) / (1 - face.damage[point]));
-    } else {
-      face.damage[point] = 1;
+    // It may be damaged by a crack that ended.
+    face.rest[point] =
+        array((pulls - respond(law, face, point, gap, false).traction) / (1 - face.damage[point]));
+    if (!law.softens())
       state.mode[point][lane] = static_cast<std::uint8_t>(mode);
-    }
   }
-  return before - stored(batch, lane, f, joint, state, face);
+  double work = 0;
+  for (const Vec3& moved : at.moved)
+    work += 0.5 * batch.area[lane] * (at.relieved * f.normal).dot(moved);
+  return before - stored(batch, lane, f, joint, state, face) - work;
+}
+
+double let_go(const FaceBatch& batch, int lane, const FaceMoment& at, const Joint& joint,
+              FaceStateBatch& state, CohesiveFace& face) {
+  const SofteningLaw law = cohesive_law(joint, penalty(batch, lane));
+  const double before = stored(batch, lane, at.frame, joint, state, face);
+  double work = 0;
+  for (int point = 0; point < 3; ++point) {
+    const Vec3 gap = at.frame.in_axes(at.frame.gap[point]);
+    const Vec3 carried = respond(law, face, point, gap, false).traction;
+    face.damage[point] = 1;
+    face.rest[point] = {};
+    const Vec3 lost = carried - respond(law, face, point, gap, false).traction;
+    work += 0.5 * batch.area[lane] * at.frame.in_space(lost).dot(at.moved[point]);
+  }
+  return before - stored(batch, lane, at.frame, joint, state, face) + work;
 }
 
 bool may_end(const CohesiveFace& face) {
   return damage_of(face) <= hardly_damaged;
 }
 
-std::optional<double> end_crack(const FaceBatch& batch, int lane, const FaceFrame& f, const Joint& joint,
-                                const geom::Mat3& stress, FaceStateBatch& state, CohesiveFace& face) {
+std::optional<double> end_crack(const FaceBatch& batch, int lane, const FaceMoment& at, const Joint& joint,
+                                FaceStateBatch& state, CohesiveFace& face) {
+  const FaceFrame& f = at.frame;
   const SofteningLaw law = cohesive_law(joint, penalty(batch, lane));
   const Vec3 m = vec(face.plane);
   for (int point = 0; point < 3; ++point) {
@@ -353,7 +378,7 @@ std::optional<double> end_crack(const FaceBatch& batch, int lane, const FaceFram
       return std::nullopt;
   }
   const double before = stored(batch, lane, f, joint, state, face);
-  const Vec3 on_face = f.in_axes(stress * f.normal);
+  const Vec3 on_face = f.in_axes(at.stress * f.normal);
   for (int point = 0; point < 3; ++point) {
     const Vec3 gap = f.in_axes(f.gap[point]);
     const Vec3 traction = respond(law, face, point, gap, false).traction;

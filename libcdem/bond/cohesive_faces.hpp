@@ -7,7 +7,7 @@
 // stress of the tets:
 //   t = (m.n) law(j + w0) + (1 - D) r0
 // law: joint/softening.hpp with kn = ks = k on the plane m, D its damage; brittle: the contact that is left. w0 = s m / k - j
-// makes the law begin with the present traction s m. r0 is the traction of the face less (m.n) s m, so that the
+// makes the law begin with the traction s m, brought back to the strength where it is beyond it. r0 is the traction of the face less (m.n) s m, so that the
 // traction is continuous. A crack takes G times its area projected on m, for any faces that it follows. On the faces'
 // own planes a crack that zigzags would lock.
 //
@@ -42,17 +42,30 @@ void cohesive_face_forces(const FaceBatch*, int faces, const FaceMotion&, const 
 FaceSpring cohesive_spring(const FaceBatch&, int lane, const FaceFrame& f, int point, const Joint&,
                            const FaceStateBatch&, const CohesiveFace&);
 
-// Begins a crack on the plane with the unit normal m; stress: s above, Pa, in space. A brittle face breaks at once, in this
-// mode. Returns the energy that the face no longer stores, J (negative where it stores more).
-double begin_crack(const FaceBatch&, int lane, const FaceFrame& f, const Joint&, const geom::Mat3& stress,
-                   const geom::Vec3& m, BondMode, FaceStateBatch&, CohesiveFace&);
+// A face at the moment of its stress, and what its sides have done since.
+struct FaceMoment {
+  FaceFrame frame;
+  std::array<geom::Vec3, 3> moved{geom::Vec3::Zero(), geom::Vec3::Zero(),
+                                  geom::Vec3::Zero()}; // m, in space, change of `gap` since then
+  geom::Mat3 stress = geom::Mat3::Zero();              // Pa, in space, s above
+  geom::Mat3 relieved = geom::Mat3::Zero(); // Pa, change of the stress where a crack begins at the strength
+};
 
-// Hardly damaged yet: it goes back to holding once it has unloaded.
+// Begins a crack on the plane with the unit normal m; a brittle face is broken, in this mode, and lets go in the next step.
+// Returns the energy that the face no longer stores, J (negative where it stores more), with the half step's work that its
+// traction has done since then and no store has got.
+double begin_crack(const FaceBatch&, int lane, const FaceMoment&, const Joint&, const geom::Vec3& m, BondMode,
+                   FaceStateBatch&, CohesiveFace&);
+
+// A brittle face that has begun to crack carries nothing but contact from now on. The same returned.
+double let_go(const FaceBatch&, int lane, const FaceMoment&, const Joint&, FaceStateBatch&, CohesiveFace&);
+
+// Hardly damaged yet: it goes back to holding once it has unloaded; a brittle one lets go.
 bool may_end(const CohesiveFace&);
 
 // Goes back to holding where a face that may end has unloaded. The same returned.
-std::optional<double> end_crack(const FaceBatch&, int lane, const FaceFrame& f, const Joint&,
-                                const geom::Mat3& stress, FaceStateBatch&, CohesiveFace&);
+std::optional<double> end_crack(const FaceBatch&, int lane, const FaceMoment&, const Joint&, FaceStateBatch&,
+                                CohesiveFace&);
 
 // Largest damage of its points.
 double damage_of(const CohesiveFace&);

@@ -3,7 +3,6 @@
 #include "libcdem/bond/cohesive_faces.hpp"
 #include "libcdem/element/small_strain.hpp"
 #include "libcdem/fracture/own_rocks.hpp"
-#include "libcdem/parallel/simd.hpp"
 #include "libcdem/state/places.hpp"
 
 #include <algorithm>
@@ -12,90 +11,42 @@
 namespace cdem {
 namespace {
 
-// Steps between two looks at the same eight faces: a wave needs more to cross a freed tet.
-constexpr std::int64_t look_every = 4;
+using geom::Mat3;
+using geom::Vec3;
 
-// Eight faces side by side.
-struct FaceStress {
-  double component[6][lanes]; // Pa, in the order of Stress: the mean of both tets
-  bool may_fail[lanes];
-};
+// A crack ends where no more than this part of the strength that is left is asked of its face.
+constexpr double unloaded_part = 0.97;
 
-CDEM_INLINE void stress_kernel(const StressBatch* stress, const std::int32_t (&slot_a)[lanes],
-                               const std::int32_t (&slot_b)[lanes], const double (&left)[lanes],
-                               const std::vector<UseBound>& bounds, FaceStress& to) {
-  using simd::Oct;
-  Oct s[6];
-  for (int c = 0; c < 6; ++c) {
-    for (int lane = 0; lane < lanes; ++lane)
-      s[c][lane] = stress[slot_a[lane] / lanes].component[c][slot_a[lane] % lanes] +
-                   stress[slot_b[lane] / lanes].component[c][slot_b[lane] % lanes];
-    s[c] *= 0.5;
-    simd::store(to.component[c], s[c]);
-  }
-  const Oct part = simd::load(left);
-  for (Oct& c : s)
-    c /= part;
-  for (bool& may_fail : to.may_fail)
-    may_fail = false;
-  for (const UseBound& bound : bounds) {
-    const Oct beyond = bound.beyond(s);
-    for (int lane = 0; lane < lanes; ++lane)
-      to.may_fail[lane] = to.may_fail[lane] || beyond[lane] > 0;
-  }
-}
-
-geom::Mat3 stress_in(const FaceStress& of, int lane) {
-  Stress s{};
-  for (int c = 0; c < 6; ++c)
-    s[c] = of.component[c][lane];
-  return matrix(s);
+// 1/s, rate of deformation of a tet.
+Mat3 rate_of_strain(const Model& model, const State& state, int tet) {
+  const Mat3 f = Mat3::Identity() + displacement_gradient(model, state.displacement, tet);
+  const Mat3 rate = displacement_gradient(model, state.velocity, tet) * f.inverse();
+  return 0.5 * (rate + rate.transpose());
 }
 
 // 1/s, sqrt(d : d) of the rate of deformation d, in the mean of the two tets.
 double strain_rate(const Model& model, const State& state, const FaceTets& tets) {
-  double sum = 0;
-  for (const int tet : {tets.tet_a, tets.tet_b}) {
-    const geom::Mat3 f = geom::Mat3::Identity() + displacement_gradient(model, state.displacement, tet);
-    const geom::Mat3 rate = displacement_gradient(model, state.velocity, tet) * f.inverse();
-    sum += 0.5 * (rate + rate.transpose()).norm();
-  }
-  return 0.5 * sum;
+  return 0.5 *
+         (rate_of_strain(model, state, tets.tet_a).norm() + rate_of_strain(model, state, tets.tet_b).norm());
 }
 
 class ChunkCracks {
 public:
-  ChunkCracks(const Model& model, State& state, std::int64_t index, double moved_for, bool in_real_time)
-      : model_(model), state_(state), index_(index), moved_for_(moved_for), in_real_time_(in_real_time),
-        chunk_(model.mesh.chunks[index]), body_(model.bodies[model.blocks[chunk_.block].body]),
-        least_cosine_(body_.bonding.everywhere ? among_all_faces : among_a_border),
-        joints_(model, state, chunk_), rocks_(body_) {
-    if (!joints_.own())
-      rocks_.take(-1, rock_strength(body_.joint));
-    else
-      for (int face = 0; face < chunk_.faces; ++face)
-        rocks_.take(joints_.law(face), rock(face));
-  }
+  ChunkCracks(const Model& model, State& state, const StrengthWatch& watch, const NearStrength& near,
+              std::int64_t index, const CrackingStep& step)
+      : model_(model), state_(state), watch_(watch), near_(near), index_(index), step_(step),
+        chunk_(model.mesh.chunks[index]), body_(model.bodies[model.blocks[chunk_.block].body]), rocks_(body_),
+        joints_(model, state, chunk_) {}
 
   BegunCracks operator()() {
-    const std::vector<UseBound> bounds = rocks_.bounds(1);
-    for (int first = 0; first < chunk_.faces; first += lanes) {
-      const std::int64_t batch = chunk_.face_batches.begin + first / lanes;
-      const int faces = std::min(lanes, chunk_.faces - first);
-      if ((state_.step + batch) % look_every != 0 || all_parted(batch, faces))
-        continue;
-      std::int32_t slot_a[lanes], slot_b[lanes];
-      double left[lanes];
-      for (int lane = 0; lane < lanes; ++lane) {
-        const FaceTets& tets = model_.mesh.face_tets[batch * lanes + (lane < faces ? lane : 0)];
-        slot_a[lane] = model_.mesh.tet_slot[tets.tet_a - model_.mesh.first_tet];
-        slot_b[lane] = model_.mesh.tet_slot[tets.tet_b - model_.mesh.first_tet];
-        left[lane] = lane < faces ? strength_left(batch, lane) : 1;
-      }
-      FaceStress stress;
-      simd::best<stress_kernel>(state_.stress.data(), slot_a, slot_b, left, bounds, stress);
-      for (int lane = 0; lane < faces; ++lane)
-        one_face(batch, lane, stress);
+    for (int face = 0; face < chunk_.faces; ++face) {
+      const std::int64_t batch = chunk_.face_batches.begin + face / lanes;
+      const int lane = face % lanes;
+      const FaceStage stage = state_.faces[batch].stage[lane];
+      if (stage == FaceStage::cracking)
+        go_on(batch, lane);
+      else if (holds(stage) && is_near(batch * lanes + lane))
+        look_at(batch, lane);
     }
     if (breaking_ != 0)
       begun_.breaking.emplace_back(index_, breaking_);
@@ -105,106 +56,183 @@ public:
   }
 
 private:
-  bool all_parted(std::int64_t batch, int faces) const {
-    const auto& stage = state_.faces[batch].stage;
-    return std::all_of(stage, stage + faces, [](FaceStage s) { return s == FaceStage::parted; });
+  bool is_near(std::int64_t face) const {
+    const FaceTets& tets = model_.mesh.face_tets[face];
+    const auto bits = [&](int tet) {
+      return near_.bits[model_.mesh.tet_slot[tet - model_.mesh.first_tet] / lanes];
+    };
+    return ((bits(tets.tet_a) | bits(tets.tet_b)) & NearStrength::may_crack) != 0;
   }
 
-  // When the stress was computed.
-  FaceFrame frame(std::int64_t batch, int lane) const {
-    const auto since = [&](int node) { return geom::Vec3(moved_for_ * velocity_of(state_, node)); };
+  Mat3 stress_at(std::int64_t face) const {
+    const FaceTets& tets = model_.mesh.face_tets[face];
+    return 0.5 * (matrix(mesh_stress(model_, state_, tets.tet_a)) +
+                  matrix(mesh_stress(model_, state_, tets.tet_b)));
+  }
+
+  // behind: s, before now.
+  FaceFrame frame(std::int64_t batch, int lane, double behind) const {
+    const auto since = [&](int node) { return Vec3(behind * velocity_of(state_, node)); };
     return face_frame(
         face_nodes(model_.mesh, chunk_, batch, lane),
-        [&](int node) { return geom::Vec3(place_of(model_, state_, node) - since(node)); },
-        [&](int node) { return geom::Vec3(vec(state_.displacement[node]) - since(node)); });
+        [&](int node) { return Vec3(place_of(model_, state_, node) - since(node)); },
+        [&](int node) { return Vec3(vec(state_.displacement[node]) - since(node)); });
   }
-
-  void one_face(std::int64_t batch, int lane, const FaceStress& of_batch) {
-    FaceStateBatch& face = state_.faces[batch];
-    CohesiveFace& cohesive = state_.cohesive[batch * lanes + lane];
-    const FaceBatch& at = model_.mesh.faces[batch];
-    if (face.stage[lane] == FaceStage::cracking && may_end(cohesive))
-      breaking_ += end_crack(at, lane, frame(batch, lane), joints_.of(place(batch, lane), room_),
-                             stress_in(of_batch, lane), face, cohesive)
-                       .value_or(0);
-    else if (holds(face.stage[lane]) && of_batch.may_fail[lane])
-      begin(batch, lane, stress_in(of_batch, lane), strength_left(batch, lane));
+  FaceMoment moment(std::int64_t batch, int lane, const Mat3& stress) const {
+    FaceMoment at{frame(batch, lane, step_.moved_for), {}, stress};
+    const FaceFrame now = frame(batch, lane, 0);
+    for (int point = 0; point < 3; ++point)
+      at.moved[point] = now.gap[point] - at.frame.gap[point];
+    return at;
   }
 
   // Among the faces of the chunk.
   int place(std::int64_t batch, int lane) const {
     return static_cast<int>(batch - chunk_.face_batches.begin) * lanes + lane;
   }
-  RockStrength rock(int face) const {
-    return rocks_.of(joints_.law(face), joints_.tensile_strength(face), joints_.cohesion(face));
+
+  // A face that cracks.
+  void go_on(std::int64_t batch, int lane) {
+    CohesiveFace& face = state_.cohesive[batch * lanes + lane];
+    if (!may_end(face))
+      return;
+    const Joint& joint = joints_.of(place(batch, lane), room_);
+    const FaceBatch& at = model_.mesh.faces[batch];
+    if (joint.softening != Softening::none) {
+      const std::int64_t number = batch * lanes + lane;
+      const FaceMoment now = moment(batch, lane, stress_at(number));
+      RockStrength rock = rock_of(place(batch, lane));
+      raise(rock, unloaded_part * (1 - damage_of(face)));
+      if (strength_use(now.stress, rock, now.frame.normal, plane_of_face(number)) < 1)
+        breaking_ += end_crack(at, lane, now, joint, state_.faces[batch], face).value_or(0);
+    } else if (step_.moved_for > 0) {
+      const double taken =
+          let_go(at, lane, moment(batch, lane, Mat3::Zero()), joint, state_.faces[batch], face);
+      breaking_ += taken;
+      crack_.add(std::max(0.0, taken),
+                 state_.faces[batch].mode[0][lane] == static_cast<std::uint8_t>(BondMode::broken_shear) ? 1
+                                                                                                        : 0);
+    }
   }
 
-  // Fraction of the strength: a crack that did not continue took the rest. At least the fraction that may_end leaves.
-  double strength_left(std::int64_t batch, int lane) const {
-    return state_.faces[batch].stage[lane] == FaceStage::resumed
-               ? 1 - damage_of(state_.cohesive[batch * lanes + lane])
-               : 1;
-  }
-
-  void begin(std::int64_t batch, int lane, const geom::Mat3& stress, double left) {
-    const FaceFrame at = frame(batch, lane);
+  // A face that holds.
+  void look_at(std::int64_t batch, int lane) {
+    const std::int64_t number = batch * lanes + lane;
     const int face = place(batch, lane);
-    auto plane = working_plane(stress / left, rock(face), at.normal, least_cosine_);
+    const Mat3 stress = stress_at(number);
+    RockStrength rock = rock_of(face);
+    // A crack that did not continue took the rest: at most the part that may_end allows.
+    const double left =
+        state_.faces[batch].stage[lane] == FaceStage::resumed ? 1 - damage_of(state_.cohesive[number]) : 1;
+    raise(rock, left);
+    const double components[6] = {stress(0, 0), stress(1, 1), stress(2, 2),
+                                  stress(0, 1), stress(1, 2), stress(0, 2)};
+    if (!(UseBound(rock, 1).beyond(components) > 0))
+      return;
+    const FaceMoment at = moment(batch, lane, stress);
+    const FaceTets& tets = model_.mesh.face_tets[number];
+    const FacePlane kind = plane_of_face(number);
+    auto plane = working_plane(stress, rock, at.frame.normal, kind);
     if (plane && !state_.rate_factor.empty()) {
-      const double factor =
-          in_real_time_ ? dynamic_increase_factor(
-                              joints_.before_rate(face).rate,
-                              strain_rate(model_, state_, model_.mesh.face_tets[batch * lanes + lane]))
-                        : 1;
-      plane = working_plane(stress / (left * factor), rock(face), at.normal, least_cosine_);
+      const double factor = step_.in_real_time ? dynamic_increase_factor(joints_.before_rate(face).rate,
+                                                                         strain_rate(model_, state_, tets))
+                                               : 1;
+      raise(rock, factor);
+      plane = working_plane(stress, rock, at.frame.normal, kind);
       if (plane)
-        state_.rate_factor[batch * lanes + lane] = factor;
+        state_.rate_factor[number] = factor;
     }
     if (!plane)
       return;
-    const Joint& joint = joints_.of(face, room_);
-    const double taken = begin_crack(model_.mesh.faces[batch], lane, at, joint, stress, plane->normal,
-                                     plane->mode, state_.faces[batch], state_.cohesive[batch * lanes + lane]);
-    breaking_ += taken;
+    const bool was_beyond = strength_use(stress - rise(tets), rock, at.frame.normal, kind) >= 1;
+    begin(batch, lane, at, *plane, was_beyond);
+  }
+
+  RockStrength rock_of(int face) const {
+    return rocks_.of(joints_.law(face), joints_.tensile_strength(face), joints_.cohesion(face));
+  }
+  FacePlane plane_of_face(std::int64_t number) const {
+    const FaceTets& tets = model_.mesh.face_tets[number];
+    return watch_.plane_between(model_, tets.tet_a, tets.tet_b);
+  }
+  // Pa, in the last step.
+  Mat3 rise(const FaceTets& tets) const {
+    const auto rate = [&](int tet) {
+      return matrix(elastic_stress(body_.material, rate_of_strain(model_, state_, tet)));
+    };
+    return 0.5 * step_.length * (rate(tets.tet_a) + rate(tets.tet_b));
+  }
+
+  static void raise(RockStrength& rock, double factor) {
+    rock.tensile_strength *= factor;
+    rock.cohesion *= factor;
+  }
+
+  void begin(std::int64_t batch, int lane, FaceMoment at, const WorkingPlane& plane, bool was_beyond) {
+    const std::int64_t number = batch * lanes + lane;
+    const Vec3 change = plane.traction - at.stress * plane.normal;
+    if (!was_beyond && change.norm() > 1e-9 * plane.traction.norm()) {
+      const Elastic& m = body_.material;
+      const Mat3 relieved = relief(change, plane.normal, m.lame_lambda(), m.shear_modulus());
+      const FaceTets& tets = model_.mesh.face_tets[number];
+      const Stress stress{relieved(0, 0), relieved(1, 1), relieved(2, 2),
+                          relieved(0, 1), relieved(1, 2), relieved(0, 2)};
+      begun_.reliefs.push_back({tets.tet_a, stress});
+      begun_.reliefs.push_back({tets.tet_b, stress});
+      at.relieved = relieved;
+    }
+    const Joint& joint = joints_.of(place(batch, lane), room_);
+    breaking_ += begin_crack(model_.mesh.faces[batch], lane, at, joint, plane.normal, plane.mode,
+                             state_.faces[batch], state_.cohesive[number]);
     if (joint.softening != Softening::none)
       return;
-    crack_.add(std::max(0.0, taken), plane->mode == BondMode::broken_shear ? 1 : 0);
-    const geom::Vec3 traction = stress * plane->normal;
-    const double normal = traction.dot(plane->normal);
+    const double normal = plane.traction.dot(plane.normal);
     for (int point = 0; point < 3; ++point)
       begun_.broken.push_back({index_,
                                {batch, point, lane},
-                               plane->mode,
-                               plane->normal,
+                               plane.mode,
+                               plane.normal,
                                normal,
-                               (traction - normal * plane->normal).norm()});
+                               (plane.traction - normal * plane.normal).norm()});
   }
 
   const Model& model_;
   State& state_;
+  const StrengthWatch& watch_;
+  const NearStrength& near_;
   std::int64_t index_;
-  double moved_for_; // s
-  bool in_real_time_;
+  CrackingStep step_;
   const MeshChunk& chunk_;
   const Body& body_;
-  double least_cosine_; // between a face and the plane that fails
-  FaceJoints joints_;
   OwnRocks rocks_;
+  FaceJoints joints_;
   Joint room_;
   BegunCracks begun_;
   double breaking_ = 0; // J, of the chunk
   CrackEnergy crack_;   // J, of the chunk
 };
 
+// J/m3.
+double elastic_energy(const Elastic& m, const Mat3& s) {
+  const double trace = s.trace();
+  return (s.squaredNorm() - m.poissons_ratio / (1 + m.poissons_ratio) * trace * trace) /
+         (4 * m.shear_modulus());
+}
+
+bool is_larger(const Stress& a, const Stress& b) {
+  const double x = matrix(a).squaredNorm(), y = matrix(b).squaredNorm();
+  return x != y ? x > y : std::lexicographical_compare(b.begin(), b.end(), a.begin(), a.end());
+}
+
 } // namespace
 
-BegunCracks begin_cracks(const Model& model, State& state, Range chunks, double moved_for, int threads,
-                         bool in_real_time) {
+BegunCracks begin_cracks(const Model& model, State& state, const StrengthWatch& watch,
+                         const NearStrength& near, Range chunks, const CrackingStep& step) {
   std::vector<BegunCracks> of_chunks(static_cast<std::size_t>(chunks.size()));
-  for_chunks(chunks, threads, [&](std::int64_t c) {
+  for_chunks(chunks, step.threads, [&](std::int64_t c) {
     const MeshChunk& chunk = model.mesh.chunks[c];
     if (chunk.side_batches.size() > 0 && !is_rigid(model, chunk))
-      of_chunks[c - chunks.begin] = ChunkCracks(model, state, c, moved_for, in_real_time)();
+      of_chunks[c - chunks.begin] = ChunkCracks(model, state, watch, near, c, step)();
   });
   BegunCracks all;
   for (const BegunCracks& some : of_chunks)
@@ -212,10 +240,46 @@ BegunCracks begin_cracks(const Model& model, State& state, Range chunks, double 
   return all;
 }
 
+void relieve(const Model& model, State& state, BegunCracks& begun, Range chunks, const CrackingStep& step) {
+  std::vector<BegunCracks::Relief>& all = begun.reliefs;
+  std::sort(all.begin(), all.end(), [](const auto& a, const auto& b) {
+    return a.tet != b.tet ? a.tet < b.tet : is_larger(a.change, b.change);
+  });
+  all.erase(std::unique(all.begin(), all.end(), [](const auto& a, const auto& b) { return a.tet == b.tet; }),
+            all.end());
+  std::int64_t chunk = 0;
+  for (const BegunCracks::Relief& relief : all) {
+    while (relief.tet >= model.mesh.chunks[chunk].tets.end)
+      ++chunk;
+    const Elastic& material = model.bodies[model.blocks[model.mesh.chunks[chunk].block].body].material;
+    const Mat3 before = matrix(mesh_stress(model, state, relief.tet)), change = matrix(relief.change),
+               after = before + change;
+    const double taken = elastic_energy(material, before) - elastic_energy(material, after);
+    if (!(taken > 0)) // relief of a face beside, not of this tet
+      continue;
+    set_mesh_stress(model, state, relief.tet,
+                    {after(0, 0), after(1, 1), after(2, 2), after(0, 1), after(1, 2), after(0, 2)});
+    if (chunk < chunks.begin || chunk >= chunks.end)
+      continue;
+    const Mat3 f = Mat3::Identity() + displacement_gradient(model, state.displacement, relief.tet);
+    // Half a step's work of what is taken has gone into no store.
+    const double work =
+        -0.5 * step.moved_for * change.cwiseProduct(rate_of_strain(model, state, relief.tet)).sum();
+    const double energy = tet_volume(model, relief.tet) * f.determinant() * (taken + work);
+    if (!begun.relieved.empty() && begun.relieved.back().first == chunk)
+      begun.relieved.back().second += energy;
+    else
+      begun.relieved.emplace_back(chunk, energy);
+  }
+  all.clear();
+}
+
 void append(const BegunCracks& more, BegunCracks& all) {
   all.breaking.insert(all.breaking.end(), more.breaking.begin(), more.breaking.end());
+  all.relieved.insert(all.relieved.end(), more.relieved.begin(), more.relieved.end());
   all.energies.insert(all.energies.end(), more.energies.begin(), more.energies.end());
   all.broken.insert(all.broken.end(), more.broken.begin(), more.broken.end());
+  all.reliefs.insert(all.reliefs.end(), more.reliefs.begin(), more.reliefs.end());
 }
 
 } // namespace cdem

@@ -2,15 +2,9 @@
 
 #include "libcdem/bond/fragments.hpp"
 #include "libcdem/contact/response/contact_point.hpp"
-#include "libcdem/element/small_strain.hpp"
-#include "libcdem/fracture/own_rocks.hpp"
-#include "libcdem/model/build/face_strength.hpp"
 #include "libcdem/model/build/freed_meshes.hpp"
-#include "libcdem/parallel/simd.hpp"
-#include "libcdem/ranks/shared_state.hpp"
 #include "libcdem/state/carry.hpp"
 #include "libcdem/state/places.hpp"
-#include "libgeom/mesh/boundary.hpp"
 
 #include <Eigen/QR>
 #include <algorithm>
@@ -18,34 +12,6 @@
 
 namespace cdem {
 namespace {
-
-bool has_cohesive_bodies(const Model& model) {
-  return std::any_of(model.bodies.begin(), model.bodies.end(),
-                     [](const Body& body) { return body.bonding.is_cohesive(); });
-}
-
-// Faces of one chunk that may part and use more of their strength than freed_at.
-struct NearStrength {
-  double most = 0;
-  std::vector<int> nodes;
-};
-
-// Whether some of eight tets may use so much of their strength.
-CDEM_INLINE void any_beyond_kernel(const StressBatch& stress, const UseBound& bound, bool& any) {
-  simd::Oct s[6];
-  for (int c = 0; c < 6; ++c)
-    s[c] = simd::load(stress.component[c]);
-  const simd::Oct beyond = bound.beyond(s);
-  any = false;
-  for (int lane = 0; lane < lanes; ++lane)
-    any = any || beyond[lane] > 0;
-}
-
-bool may_use(const std::vector<UseBound>& bounds, const geom::Mat3& s) {
-  const double components[6] = {s(0, 0), s(1, 1), s(2, 2), s(0, 1), s(1, 2), s(0, 2)};
-  return std::any_of(bounds.begin(), bounds.end(),
-                     [&](const UseBound& bound) { return bound.beyond(components) > 0; });
-}
 
 using Tets = std::pair<int, int>;
 Tets tets_at(const MeshData& mesh, std::int64_t face) {
@@ -94,117 +60,6 @@ void map_triangles(const Model& old, const Model& now, TopologyMap& map) {
 }
 
 } // namespace
-
-FreeingWatch::FreeingWatch(const Model& model) {
-  if (!has_cohesive_bodies(model))
-    return;
-  neighbours_ = mesh_neighbours(model);
-  if (!has_own_strengths(model))
-    return;
-  const MeshData& mesh = model.mesh;
-  own_.resize(neighbours_.size());
-  bounds_.resize(mesh.chunks.size());
-  for (std::size_t c = 0; c < mesh.chunks.size(); ++c) {
-    const MeshChunk& chunk = mesh.chunks[c];
-    const Body& body = model.bodies[model.blocks[chunk.block].body];
-    if (!body.bonding.is_cohesive())
-      continue;
-    OwnRocks rocks(body);
-    for (auto i = static_cast<std::size_t>(4 * (chunk.tets.begin - mesh.first_tet));
-         i < static_cast<std::size_t>(4 * (chunk.tets.end - mesh.first_tet)); ++i) {
-      if (neighbours_[i] < 0)
-        continue;
-      const int tet = static_cast<int>(i / 4), beyond = neighbours_[i] / 4;
-      std::array<geom::Vec3, 3> corners;
-      for (int k = 0; k < 3; ++k)
-        corners[k] = model.node_position[model.tets[mesh.first_tet + tet][geom::tet_faces[i % 4][k]]];
-      const FaceStrength face =
-          face_strength(body, mesh.region[tet], mesh.region[beyond], corners,
-                        tet_volume(model, mesh.first_tet + tet) + tet_volume(model, mesh.first_tet + beyond));
-      own_[i] = rocks.of(face.joint, face.tensile_strength, face.cohesion);
-      rocks.take(face.joint, own_[i]);
-    }
-    bounds_[c] = rocks.bounds(freed_at);
-  }
-}
-
-std::optional<std::vector<char>> FreeingWatch::due(const Model& model, const State& state,
-                                                   const SharedState* shared, int threads,
-                                                   double from) const {
-  const MeshData& mesh = model.mesh;
-  std::vector<NearStrength> found(mesh.chunks.size());
-  const Range own =
-      shared ? shared->part().mesh_chunks() : Range{0, static_cast<std::int64_t>(mesh.chunks.size())};
-  for_chunks(own, threads, [&](std::int64_t c) {
-    const MeshChunk& chunk = mesh.chunks[c];
-    const Body& body = model.bodies[model.blocks[chunk.block].body];
-    if (!body.bonding.is_cohesive() || is_rigid(model, chunk))
-      return;
-    const RockStrength of_body = rock_strength(body.joint);
-    const auto rock_of = [&](std::int64_t face) -> const RockStrength& { // of the mesh, as in neighbours_
-      return own_.empty() ? of_body : own_[static_cast<std::size_t>(face)];
-    };
-    // The bounds are convex: if two stresses are below them, so is their mean.
-    const std::vector<UseBound> bounds = own_.empty() ? std::vector<UseBound>{UseBound(of_body, freed_at)}
-                                                      : bounds_[static_cast<std::size_t>(c)];
-    const auto stress_of = [&](std::int64_t tet) {
-      return matrix(mesh_stress(model, state, static_cast<int>(tet)));
-    };
-    for (std::int64_t t = chunk.tets.begin; t < chunk.tets.end; ++t) {
-      const std::int64_t place = t - chunk.tets.begin;
-      if (place % lanes == 0) {
-        bool any = false;
-        for (const UseBound& bound : bounds)
-          if (!any)
-            simd::best<any_beyond_kernel>(state.stress[chunk.batches.begin + place / lanes], bound, any);
-        if (!any) {
-          t += lanes - 1;
-          continue;
-        }
-      }
-      const geom::Mat3 s = stress_of(t);
-      if (!may_use(bounds, s))
-        continue;
-      for (int face = 0; face < 4; ++face) {
-        const int beyond = neighbours_[4 * (t - mesh.first_tet) + face];
-        if (beyond < 0)
-          continue;
-        const std::int64_t other = mesh.first_tet + beyond / 4;
-        if (!body.bonding.bonds(mesh.region[t - mesh.first_tet], mesh.region[other - mesh.first_tet]))
-          continue;
-        bool freed = true;
-        for (const int corner : geom::tet_faces[face])
-          freed = freed && mesh.freed[model.tets[t][corner] - mesh.first_node] != 0;
-        if (freed)
-          continue;
-        const geom::Mat3 mean = 0.5 * (s + stress_of(other));
-        const double use =
-            may_use(bounds, mean) ? strength_use(mean, rock_of(4 * (t - mesh.first_tet) + face)) : 0;
-        if (!(use >= freed_at))
-          continue;
-        found[c].most = std::max(found[c].most, use);
-        for (const int corner : geom::tet_faces[face])
-          found[c].nodes.push_back(model.tets[t][corner]);
-      }
-    }
-  });
-  double most = 0;
-  for (const NearStrength& of : found)
-    most = std::max(most, of.most);
-  if (shared)
-    ranks().largest(&most, 1);
-  if (most < from)
-    return std::nullopt;
-  std::string near(model.node_position.size(), 0);
-  for (const NearStrength& of : found)
-    for (const int node : of.nodes)
-      near[node] = 1;
-  std::vector<char> nodes(near.size(), 0);
-  for (const std::string& of_rank : shared ? ranks().gather(near) : std::vector<std::string>{near})
-    for (std::size_t i = 0; i < nodes.size(); ++i)
-      nodes[i] = nodes[i] || of_rank[i];
-  return nodes;
-}
 
 Freed free_nodes(const Model& model, const State& state, const std::vector<char>& nodes) {
   Freed freed{with_freed_nodes(model, nodes), state, {}, {}};

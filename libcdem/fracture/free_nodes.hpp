@@ -1,39 +1,15 @@
 // Frees the nodes of cohesive bodies where a face nears its strength: each node gets a copy for every tet around it
 // that a breakable face separates from the others, so that the faces between them can open (element/face_jumps.hpp,
 // bond/cohesive_faces.hpp). Freeing moves nothing. The stress stays, and each copy takes the position, the velocity and
-// its share of the mass. A preload on the faces between the copies keeps the acceleration; it decays with time. Faces
-// are freed at half their strength, so that a crack finds freed nodes wherever it goes.
+// its share of the mass. A preload on the faces between the copies keeps the acceleration; it decays with time. Which
+// faces are freed, and when, says fracture/strength_watch.hpp.
 #pragma once
 
-#include "libcdem/fracture/working_plane.hpp"
 #include "libcdem/state/state.hpp"
 
-#include <optional>
+#include <vector>
 
 namespace cdem {
-
-class SharedState; // ranks/shared_state.hpp
-
-// Part of its strength at which a face is freed, and from where on it is high time.
-inline constexpr double freed_at = 0.5, due_at = 0.7;
-
-class FreeingWatch {
-public:
-  FreeingWatch() = default; // frees nothing
-  explicit FreeingWatch(const Model&);
-  bool empty() const { return neighbours_.empty(); } // no body is cohesive
-
-  // Per node of the model, 1 for those of faces between tets whose mean stress uses more than `freed_at` of the strength
-  // and which are not freed yet; none unless one uses more than `from`. Stress: that of the state.
-  // shared: with several ranks, which look at their own chunks each; null: all are looked at.
-  std::optional<std::vector<char>> due(const Model&, const State&, const SharedState* shared, int threads,
-                                       double from = due_at) const;
-
-private:
-  std::vector<int> neighbours_;   // per tet of the mesh and face of it: 4 tet + face on the other side, or -1
-  std::vector<RockStrength> own_; // of the same; empty: all are as their body's joint says
-  std::vector<std::vector<UseBound>> bounds_; // of the faces of each chunk; empty likewise
-};
 
 struct Freed {
   Model model;

@@ -1,15 +1,18 @@
 #include "libcdem/fracture/working_plane.hpp"
 
+#include "libcdem/fracture/crack_faces.hpp"
 #include "libcdem/joint/mohr_coulomb.hpp"
 #include "libgeom/core/portable.hpp"
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace cdem {
 namespace {
 
+using geom::Mat3;
 using geom::Vec3;
 
 // Principal stresses nearer than this part of sigma_1 - sigma_3 count as equal.
@@ -23,6 +26,52 @@ struct Uses {
 Uses uses(const Vec3& s, const RockStrength& rock) {
   return {s[2] / rock.tensile_strength,
           mohr_coulomb_use(-s[0], -s[2], rock.cohesion, rock.cos_friction, rock.sin_friction)};
+}
+
+// Whether the strength was reached in tension first, on the way from no stress.
+bool tension_comes_first(const Vec3& s, const RockStrength& rock) {
+  const double shear = 0.5 * (s[2] - s[0]) + 0.5 * (s[2] + s[0]) * rock.sin_friction;
+  return s[2] / rock.tensile_strength >= shear / (rock.cohesion * rock.cos_friction);
+}
+
+struct TractionParts {
+  double normal = 0, shear = 0; // Pa
+  Vec3 along = Vec3::Zero();    // of the shear, unit
+};
+
+TractionParts traction_on(const Mat3& stress, const Vec3& m) {
+  const Vec3 t = stress * m;
+  TractionParts parts;
+  parts.normal = t.dot(m);
+  const Vec3 shear = t - parts.normal * m;
+  parts.shear = shear.norm();
+  if (parts.shear > 0)
+    parts.along = shear / parts.shear;
+  return parts;
+}
+
+SpringStrength plane_strength(const RockStrength& rock) {
+  return {rock.cohesion, rock.sin_friction / rock.cos_friction, rock.tensile_strength};
+}
+
+double use_of(const TractionParts& t, const RockStrength& rock) {
+  const SpringStrength s = plane_strength(rock);
+  const double most = shear_strength(s.cohesion, s.tan_friction, t.normal);
+  const double shear = t.shear <= 0 ? 0 : most > 0 ? t.shear / most : std::numeric_limits<double>::infinity();
+  return std::max(t.normal / s.tensile_strength, shear);
+}
+
+LoadRatio ratio_of(const TractionParts& t, const RockStrength& rock) {
+  return load_ratio(plane_strength(rock), t.normal, t.shear);
+}
+
+Vec3 on_strength(const TractionParts& t, const Vec3& m, const RockStrength& rock) {
+  if (t.normal >= 0) {
+    const double ratio = std::max(1.0, ratio_of(t, rock).value);
+    return (t.normal * m + t.shear * t.along) / ratio;
+  }
+  const SpringStrength s = plane_strength(rock);
+  return t.normal * m + std::min(t.shear, shear_strength(s.cohesion, s.tan_friction, t.normal)) * t.along;
 }
 
 // What of v lies in the plane of two axes, as a unit vector; the first axis where that is nothing.
@@ -40,17 +89,25 @@ RockStrength rock_strength(const Joint& joint) {
 
 UseBound::UseBound(const RockStrength& rock, double u)
     : tensile_(u * rock.tensile_strength), shear_(u * rock.cohesion * rock.cos_friction),
-      slope_(u * rock.sin_friction), reach2_(1 + slope_ * slope_ / 3) {}
+      slope_(u * rock.sin_friction), least_(1e-24 * (tensile_ * tensile_ + shear_ * shear_)) {}
 
-double strength_use(const geom::Mat3& stress, const RockStrength& rock) {
+double strength_use(const Mat3& stress, const RockStrength& rock, const Vec3& face, FacePlane kind) {
+  if (kind == FacePlane::own)
+    return use_of(traction_on(stress, face), rock);
   const Uses u =
-      uses(Eigen::SelfAdjointEigenSolver<geom::Mat3>(stress, Eigen::EigenvaluesOnly).eigenvalues(), rock);
+      uses(Eigen::SelfAdjointEigenSolver<Mat3>(stress, Eigen::EigenvaluesOnly).eigenvalues(), rock);
   return std::max(u.tension, u.shear);
 }
 
-std::optional<WorkingPlane> working_plane(const geom::Mat3& stress, const RockStrength& rock,
-                                          const geom::Vec3& face, double least_cosine) {
-  const Eigen::SelfAdjointEigenSolver<geom::Mat3> solver(stress);
+std::optional<WorkingPlane> working_plane(const Mat3& stress, const RockStrength& rock, const Vec3& face,
+                                          FacePlane kind) {
+  if (kind == FacePlane::own) {
+    const TractionParts t = traction_on(stress, face);
+    if (!(use_of(t, rock) >= 1))
+      return std::nullopt;
+    return WorkingPlane{face, ratio_of(t, rock).mode, on_strength(t, face, rock)};
+  }
+  const Eigen::SelfAdjointEigenSolver<Mat3> solver(stress);
   const Vec3& s = solver.eigenvalues();
   const Uses u = uses(s, rock);
   if (!(std::max(u.tension, u.shear) >= 1))
@@ -60,7 +117,7 @@ std::optional<WorkingPlane> working_plane(const geom::Mat3& stress, const RockSt
   const double equal = nearly_equal * (s[2] - s[0]);
   const Vec3 free1 = s[2] - s[1] <= equal ? nearest_in(axis1, axis2, face) : axis1;
   WorkingPlane plane;
-  if (u.tension >= u.shear) {
+  if (tension_comes_first(s, rock)) {
     plane.normal = free1;
     if (s[2] - s[0] <= nearly_equal * std::abs(s[2])) // all-round
       plane.normal = face;
@@ -76,11 +133,18 @@ std::optional<WorkingPlane> working_plane(const geom::Mat3& stress, const RockSt
         plane.normal = normal;
   }
   const double along = plane.normal.dot(face);
-  if (std::abs(along) < least_cosine)
+  if (std::abs(along) < (kind == FacePlane::of_ragged_border ? least_cosine_of_ragged_border : least_cosine))
     return std::nullopt;
   if (along < 0)
     plane.normal = -plane.normal;
+  plane.traction = on_strength(traction_on(stress, plane.normal), plane.normal, rock);
   return plane;
+}
+
+Mat3 relief(const Vec3& change, const Vec3& m, double lambda, double g) {
+  const double normal = change.dot(m);
+  const Vec3 w = (change - normal * m) / g + normal / (lambda + 2 * g) * m; // of the opposite sign
+  return lambda * w.dot(m) * Mat3::Identity() + g * (w * m.transpose() + m * w.transpose());
 }
 
 } // namespace cdem

@@ -12,6 +12,34 @@ namespace {
 // a relaxation.
 constexpr std::int64_t release_after = 32;
 
+bool is_cohesive(const Model& model, const MeshChunk& chunk) {
+  return model.bodies[model.blocks[chunk.block].body].bonding.is_cohesive();
+}
+
+// visit(tet of the mesh) for those beyond the faces of the chunks of this rank in cohesive bodies, freed or not.
+template <class Visit>
+void each_tet_beyond(const Model& model, const Partition& part, const Visit& visit) {
+  const MeshData& mesh = model.mesh;
+  if (std::none_of(mesh.chunks.begin(), mesh.chunks.end(),
+                   [&](const MeshChunk& chunk) { return is_cohesive(model, chunk); }))
+    return;
+  const std::vector<int> neighbours = mesh_neighbours(model);
+  const Range chunks = part.mesh_chunks();
+  for (std::int64_t c = chunks.begin; c < chunks.end; ++c) {
+    const MeshChunk& chunk = mesh.chunks[c];
+    if (!is_cohesive(model, chunk))
+      continue;
+    for (std::int64_t face = 4 * (chunk.tets.begin - mesh.first_tet);
+         face < 4 * (chunk.tets.end - mesh.first_tet); ++face)
+      if (neighbours[face] >= 0)
+        visit(neighbours[face] / 4);
+    for (std::int64_t slot = chunk.face_batches.begin * lanes; slot < chunk.face_batches.end * lanes; ++slot)
+      for (const int tet : {mesh.face_tets[slot].tet_a, mesh.face_tets[slot].tet_b})
+        if (tet >= 0)
+          visit(tet - mesh.first_tet);
+  }
+}
+
 // Nodes that the chunks and springs of this rank read.
 std::vector<std::int32_t> nodes_read(const Model& model, const Partition& part) {
   std::vector<std::int32_t> nodes;
@@ -23,13 +51,11 @@ std::vector<std::int32_t> nodes_read(const Model& model, const Partition& part) 
       continue;
     nodes.insert(nodes.end(), mesh.others.begin() + chunk.others.begin,
                  mesh.others.begin() + chunk.others.end);
-    if (chunk.side_batches.size() > 0) // rates of strain on both sides of faces
-      for (std::int64_t slot = chunk.face_batches.begin * lanes; slot < chunk.face_batches.end * lanes;
-           ++slot)
-        for (const int tet : {mesh.face_tets[slot].tet_a, mesh.face_tets[slot].tet_b})
-          if (tet >= 0)
-            nodes.insert(nodes.end(), model.tets[tet].begin(), model.tets[tet].end());
   }
+  each_tet_beyond(model, part, [&](int tet) { // rates of strain on both sides of faces
+    const geom::Tet& corners = model.tets[mesh.first_tet + tet];
+    nodes.insert(nodes.end(), corners.begin(), corners.end());
+  });
   const Range points = part.point_chunks();
   for (std::int64_t c = points.begin; c < points.end; ++c)
     for (std::int64_t p = model.point_chunks[c].begin; p < model.point_chunks[c].end; ++p) {
@@ -76,33 +102,10 @@ std::vector<std::int32_t> partial_forces_read(const Model& model, const Partitio
   return places;
 }
 
-bool is_cohesive(const Model& model, const MeshChunk& chunk) {
-  return model.bodies[model.blocks[chunk.block].body].bonding.is_cohesive();
-}
-
 // Batches of tets beyond the faces of its own, in cohesive bodies.
 std::vector<std::int32_t> stress_read(const Model& model, const Partition& part) {
   std::vector<std::int32_t> batches;
-  const MeshData& mesh = model.mesh;
-  if (std::none_of(mesh.chunks.begin(), mesh.chunks.end(),
-                   [&](const MeshChunk& chunk) { return is_cohesive(model, chunk); }))
-    return batches;
-  const std::vector<int> neighbours = mesh_neighbours(model);
-  const auto take = [&](int tet_of_mesh) { batches.push_back(mesh.tet_slot[tet_of_mesh] / lanes); };
-  const Range chunks = part.mesh_chunks();
-  for (std::int64_t c = chunks.begin; c < chunks.end; ++c) {
-    const MeshChunk& chunk = mesh.chunks[c];
-    if (!is_cohesive(model, chunk))
-      continue;
-    for (std::int64_t face = 4 * (chunk.tets.begin - mesh.first_tet);
-         face < 4 * (chunk.tets.end - mesh.first_tet); ++face)
-      if (neighbours[face] >= 0)
-        take(neighbours[face] / 4);
-    for (std::int64_t slot = chunk.face_batches.begin * lanes; slot < chunk.face_batches.end * lanes; ++slot)
-      for (const int tet : {mesh.face_tets[slot].tet_a, mesh.face_tets[slot].tet_b})
-        if (tet >= 0)
-          take(tet - mesh.first_tet);
-  }
+  each_tet_beyond(model, part, [&](int tet) { batches.push_back(model.mesh.tet_slot[tet] / lanes); });
   return batches;
 }
 

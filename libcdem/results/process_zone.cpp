@@ -1,7 +1,6 @@
 #include "libcdem/results/process_zone.hpp"
 
 #include "libcdem/element/small_strain.hpp"
-#include "libcdem/model/build/face_strength.hpp"
 #include "libgeom/mesh/boundary.hpp"
 
 #include <cmath>
@@ -104,17 +103,14 @@ void add_mesh_faces(const Model& model, Zones& zones) {
     std::array<geom::Vec3, 3> corners;
     for (int k = 0; k < 3; ++k)
       corners[k] = x[model.tets[mesh.first_tet + own][geom::tet_faces[i % 4][k]]];
-    const double volumes =
-        tet_volume(model, mesh.first_tet + own) + tet_volume(model, mesh.first_tet + other);
-    const FaceStrength strength = face_strength(body, a, b, corners, volumes);
-    const Joint& joint = body.joint_of(strength.joint);
+    const int law = body.region_laws.between(a, b);
+    const Joint& joint = body.joint_of(law); // the mean strength, where it scatters
     if (joint.softening == Softening::none)
       continue;
     const double area = 0.5 * (corners[1] - corners[0]).cross(corners[2] - corners[0]).norm();
-    zones.add(in_words(body, strength.joint),
-              {std::sqrt(4 * area / std::sqrt(3.0)),
-               process_zone_length(plane_modulus(body.material), joint.fracture_energy_1,
-                                   strength.tensile_strength)});
+    zones.add(in_words(body, law), {std::sqrt(4 * area / std::sqrt(3.0)),
+                                    process_zone_length(plane_modulus(body.material), joint.fracture_energy_1,
+                                                        joint.tensile_strength)});
   }
 }
 

@@ -14,6 +14,7 @@ namespace {
 struct Around {
   std::vector<Node> position, displacement, velocity, force; // per place
   std::vector<JumpBatch> jumps;                              // per batch of tets
+  std::vector<StressBatch> stress_before;                    // Pa, likewise
 };
 
 std::int64_t first_mesh_chunk(const Model& model) {
@@ -155,10 +156,16 @@ const Node* mesh_forces(const Model& model, State& state, Workspace& work, std::
   if (plastic.laws)
     add_volume_averages(averaged, at.velocity, work.strain_step, near.jumps.data());
   StressBatch* const stress = state.stress.data() + chunk.batches.begin;
+  const bool watched = breaking && work.watch && work.watch->looks_at(index);
+  const bool rises = watched && work.strain_step > 0 && work.watch->has_held_faces(index);
+  if (rises)
+    near.stress_before.assign(stress, stress + chunk.batches.size());
   sums.damping = finite_volume_forces(
       model.mesh.batches.data() + chunk.batches.begin, chunk.batches.size(), last_lanes, at.position,
       at.velocity, changes_strain ? near.jumps.data() : nullptr, work.strain_step,
       tet_stiffness(body.material), damping, plastic, stress, at.force, ahead);
+  if (watched)
+    work.watch->look(chunk, index, stress, rises ? near.stress_before.data() : nullptr, work.near);
   if (plastic.laws)
     add_pressure_averages(averaged, stress, at.force);
   if (sides.count > 0)

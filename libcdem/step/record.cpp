@@ -127,6 +127,8 @@ std::int64_t record_begun_cracks(const Model& model, State& state, const BegunCr
   double stored = 0;
   for (const auto& [chunk, energy] : begun.breaking)
     stored += energy;
+  for (const auto& [chunk, energy] : begun.relieved)
+    stored += energy;
   state.spent.breaking += stored;
   for (const auto& [chunk, energy] : begun.energies)
     crack_energy_of(model, state, model.blocks[model.mesh.chunks[chunk].block].body) += energy;

@@ -80,7 +80,21 @@ bool has_to_tell(const Workspace& work, const BegunCracks& begun) {
     return false;
   const Partition& part = work.shared->part();
   return any_in(work.face_sums, part.mesh_chunks()) || any_in(work.bond.sums, part.point_chunks()) ||
-         !begun.broken.empty() || !begun.breaking.empty() || !begun.energies.empty();
+         !begun.empty();
+}
+
+void share_reliefs(BegunCracks& begun) {
+  if (!ranks().any(!begun.reliefs.empty()))
+    return;
+  Pack pack;
+  pack(begun.reliefs);
+  begun.reliefs.clear();
+  for (const std::string& heard : ranks().gather(pack.text())) {
+    BegunCracks of_rank;
+    Unpack unpack(heard);
+    unpack(of_rank.reliefs);
+    append(of_rank, begun);
+  }
 }
 
 void share_sums(Workspace& work, BegunCracks& begun, std::int64_t tellers) {
@@ -102,6 +116,7 @@ void share_sums(Workspace& work, BegunCracks& begun, std::int64_t tellers) {
   pack_list(work.bond.sums, work.bond.sums.empty() ? Range() : points, pack);
   pack(begun.broken);
   pack(begun.breaking);
+  pack(begun.relieved);
   pack(begun.energies);
   const std::vector<std::string> heard = ranks().gather(pack.text(), Ranks::Subject::sums);
   BegunCracks all;
@@ -116,6 +131,7 @@ void share_sums(Workspace& work, BegunCracks& begun, std::int64_t tellers) {
     unpack_list(unpack, work.bond.sums);
     unpack(of_rank.broken);
     unpack(of_rank.breaking);
+    unpack(of_rank.relieved);
     unpack(of_rank.energies);
     append(of_rank, all);
   }

@@ -12,6 +12,9 @@ namespace cdem {
 // Whether this rank has anything to tell.
 bool has_to_tell(const Workspace&, const BegunCracks&);
 
+// The reliefs of all ranks, for all; a rank needs those of the tets that it computes or reads.
+void share_reliefs(BegunCracks&);
+
 // tellers: of how many ranks that is so. Does nothing where one rank computes all.
 void share_sums(Workspace&, BegunCracks&, std::int64_t tellers);
 

@@ -68,12 +68,12 @@ double relative_residual(const NodeSums& sums) {
 
 Stage::Stage(const StageContext& context, std::string kind, double run_away)
     : work(context.model, context.state, context.conditions), context_(context),
-      threads_(useful_threads(context.model, context.threads)), contacts_(context),
-      freeing_(context.changing ? FreeingWatch(context.model) : FreeingWatch()),
+      threads_(useful_threads(context.model, context.threads)), contacts_(context), watch_(context.model),
       has_shared_nodes_(has_shared_nodes(context.model)), kind_(std::move(kind)), run_away_(run_away),
       broken_tension_before_(context.log.broken_tension), broken_shear_before_(context.log.broken_shear),
       start_(std::chrono::steady_clock::now()),
       progress_(context.observer, context.log, context.from ? context.from->step : 0) {
+  start_watch();
   (void)instruction_set(); // a bad name of one is told of here, not by a thread
   context_.threads = threads_.threads();
   ask_for_huge_pages_of(context_.model, context_.state, work);
@@ -212,21 +212,28 @@ std::int64_t Stage::synchronise_stress(RunLog& log) {
       if (!is_rigid(context_.model, context_.model.mesh.chunks[c]))
         mesh_forces(context_.model, context_.state, work, c, breaking_);
     });
+    work.strain_step = 0;
+    if (shared_)
+      shared_->share_nodes(context_.state); // for the stress beside faces of others
+    BegunCracks begun;
+    if (breaking_ && !context_.model.mesh.sides.empty()) {
+      work.near.forget();
+      begun = begin_cracks();
+    }
     if (shared_) {
-      shared_->share_nodes(context_.state); // the stress that faces of others read
-      BegunCracks none;
-      std::int64_t tellers = has_to_tell(work, none) ? 1 : 0;
+      std::int64_t tellers = has_to_tell(work, begun) ? 1 : 0;
       ranks().sum(&tellers, 1);
-      share_sums(work, none, tellers);
+      share_sums(work, begun, tellers);
     }
     // Faces break and slide to where the nodes are too; the next step finds nothing left to do.
-    broken = record_face_breaks(context_.model, context_.state, work, log, context_.number, step - 1);
+    broken = record_face_breaks(context_.model, context_.state, work, log, context_.number, step - 1) +
+             record_begun_cracks(context_.model, context_.state, begun, log, context_.number, step - 1);
     for (const FaceSums& sums : work.face_sums)
       if (sums.hands_over ||
           !sums.left.empty()) // what is handed over now is looked for where things stand now
         work.contact.due = true;
   }
-  work.strain_step = 0;
+  work.near.forget();
   return broken;
 }
 

@@ -39,10 +39,6 @@ inline constexpr std::int64_t watch_every = 200;
 inline constexpr std::int64_t hand_over_every = 20;
 static_assert(watch_every % hand_over_every == 0,
               "a stage that goes on looks anew where it did when it was left");
-// Steps between looks at which faces of cohesive bodies near their strength: a wave crosses a tet in about as many.
-inline constexpr std::int64_t free_every = 10;
-static_assert(watch_every % free_every == 0, "as above");
-
 class Stage {
 public:
   // run_away: displacement that ends the stage with a SolutionError, m.
@@ -71,8 +67,8 @@ public:
   void keep_restart_point(std::vector<double> loop_state, const std::vector<Node>& previous_force = {});
 
   // Frees the nodes whose time it is. True when it has: arrays by node are others now, the stable step is shorter, and the
-  // stage can be left here (keep_restart_point).
-  bool free_nodes();
+  // stage can be left here (keep_restart_point). time_step: s, of the steps to come.
+  bool free_nodes(double time_step);
   // Gives interfaces that have slid new springs (fracture/renew_interfaces.hpp). True when it has: the stable step is
   // another one, and the stage can be left here.
   bool renew_interfaces();
@@ -112,6 +108,7 @@ public:
 private:
   friend class SynchronisedView;
   void share(); // with other ranks, when there are any
+  void start_watch();
   void warn_of_idle_ranks() const;
   void share_anew();           // where the loads of ranks are uneven
   bool left_alone() const;     // by an error that the other ranks, which are elsewhere, do not have
@@ -121,6 +118,7 @@ private:
   void synchronise_to_leave(); // where a run may go on
   void synchronise_contacts(RunLog&);
   std::int64_t synchronise_stress(RunLog&); // returns how many springs broke, of which the log is told
+  BegunCracks begin_cracks();               // what share_sums sends
 
   void advance_bolts();
   // m/s, of the nodes, for loads that depend on it; null in a relaxation, whose velocities are lengths per step.
@@ -146,7 +144,8 @@ private:
   ThreadChoice threads_;
   ContactUpdate contacts_;
   StepTimes times_;
-  FreeingWatch freeing_;
+  StrengthWatch watch_;   // empty without cohesive bodies
+  double time_step_ = 0;  // s, of the step to come
   BegunCracks begun_;     // in this step
   std::vector<int> slid_; // interfaces to renew before the next step
   bool has_shared_nodes_;
@@ -170,9 +169,7 @@ NodeSums Stage::advance(bool breaking, const Move& move, const MoveRigid& move_r
   if (shared_)
     shared_->parted(state);
   if (breaking && !model.mesh.sides.empty()) {
-    begun_ = begin_cracks(model, state, work.mesh_chunks(model), work.strain_step, threads, in_real_time);
-    if (shared_)
-      shared_->share_faces(state);
+    begun_ = begin_cracks();
     times_.end(StepLine::cracks);
   }
   if (!model.point_chunks.empty()) {
@@ -185,6 +182,8 @@ NodeSums Stage::advance(bool breaking, const Move& move, const MoveRigid& move_r
     shared_node_forces(model, state, work, threads, move);
     times_.end(StepLine::shared_nodes);
   }
+  work.near.crack_known = breaking && work.watch;
+  work.near.due_known = work.near.crack_known && work.strain_step > 0;
   if (!model.rigid.empty()) {
     rigid_bodies(model, state, work, threads, move_rigid, place_rigid);
     times_.end(StepLine::rigid_bodies);

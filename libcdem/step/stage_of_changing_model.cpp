@@ -5,20 +5,31 @@
 #include "libcdem/step/forces.hpp"
 #include "libcdem/step/stage.hpp"
 
+#include <algorithm>
 #include <utility>
 
 namespace cdem {
 
-bool Stage::free_nodes() {
-  if (freeing_.empty() || step % free_every != 0)
+bool Stage::free_nodes(double time_step) {
+  time_step_ = time_step;
+  if (watch_.empty() || !context_.changing)
     return false;
   const Model& model = context_.model;
   State& state = context_.state;
-  const auto due = freeing_.due(model, state, shared_.get(), context_.threads);
+  const double ahead = 2 * time_step;
+  if (!work.near.crack_known)
+    watch_.look(model, state, work.mesh_chunks(model), context_.threads, work.near);
+  const bool rates_unknown = step <= 1; // how stresses rise is known from velocities alone
+  bool due = watch_.any_due(model, state, work.near, shared_.get(), context_.threads, ahead, rates_unknown);
+  std::vector<char> nodes;
   if (due) {
     synchronise_to_leave();
     see_whole();
-    Freed freed = cdem::free_nodes(model, state, *due);
+    nodes = watch_.to_free(model, state, nullptr, context_.threads, ahead);
+    due = std::find(nodes.begin(), nodes.end(), 1) != nodes.end();
+  }
+  if (due) {
+    Freed freed = cdem::free_nodes(model, state, nodes);
     *context_.changing = std::move(freed.model);
     state = std::move(freed.state);
     if (scale_masses)
@@ -32,6 +43,8 @@ bool Stage::free_nodes() {
     for (std::size_t i = 0; i < work.bond.laws.size(); ++i) // of the new Model
       work.bond.laws[i] = law_of_interface(model, model.interfaces[i]);
     work.contact = std::move(before.contact);
+    watch_.freed(model);
+    start_watch();
     gave_back_ = false;
     share();
     contacts_ = ContactUpdate(context_);
@@ -41,7 +54,29 @@ bool Stage::free_nodes() {
     preload_faces(model, state, net_forces(model, state, work), freed.anew);
   }
   times_.end(StepLine::cracks);
-  return due.has_value();
+  return due;
+}
+
+void Stage::start_watch() {
+  work.watch = watch_.empty() ? nullptr : &watch_;
+  work.near = {};
+  work.near.bits.assign(context_.model.mesh.batches.size(), NearStrength::may_crack);
+}
+
+BegunCracks Stage::begin_cracks() {
+  const Model& model = context_.model;
+  State& state = context_.state;
+  const Range chunks = work.mesh_chunks(model);
+  if (!work.near.crack_known)
+    watch_.look(model, state, chunks, context_.threads, work.near);
+  const CrackingStep cracking{work.strain_step, time_step_, in_real_time, context_.threads};
+  BegunCracks begun = cdem::begin_cracks(model, state, watch_, work.near, chunks, cracking);
+  if (shared_)
+    share_reliefs(begun);
+  relieve(model, state, begun, chunks, cracking);
+  if (shared_)
+    shared_->share_faces(state);
+  return begun;
 }
 
 bool Stage::renew_interfaces() {

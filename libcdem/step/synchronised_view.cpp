@@ -22,6 +22,7 @@ struct SynchronisedView::Kept {
   ContactWork contact;
   ContactUpdate contacts;
   std::vector<FaceSums> face_sums;
+  NearStrength near;
   double strain_step;
   bool hand_over_due;
 };
@@ -30,8 +31,8 @@ SynchronisedView::SynchronisedView(Stage& stage, Of what) : stage_(stage) {
   State& state = stage.context_.state;
   Workspace& work = stage.work;
   if (work.contact.due || work.strain_step > 0) {
-    kept_.reset(
-        new Kept{{}, work.contact, stage.contacts_, work.face_sums, work.strain_step, work.hand_over_due});
+    kept_.reset(new Kept{
+        {}, work.contact, stage.contacts_, work.face_sums, work.near, work.strain_step, work.hand_over_due});
     if (work.contact.tet_pairs)
       kept_->contact.tet_pairs = std::make_shared<TetPairs>(*work.contact.tet_pairs);
     copy_advancing_fields(state, kept_->state);
@@ -58,6 +59,7 @@ SynchronisedView::~SynchronisedView() {
   work.contact = std::move(kept_->contact);
   stage_.contacts_ = std::move(kept_->contacts);
   work.face_sums = std::move(kept_->face_sums);
+  work.near = std::move(kept_->near);
   work.strain_step = kept_->strain_step;
   work.hand_over_due = kept_->hand_over_due;
   copy_advancing_fields(kept_->state, state);

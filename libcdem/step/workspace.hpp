@@ -5,6 +5,7 @@
 #include "libcdem/bond/bond_work.hpp"
 #include "libcdem/bond/face_bonds.hpp"
 #include "libcdem/contact/data/contact_work.hpp"
+#include "libcdem/fracture/strength_watch.hpp"
 #include "libcdem/integrate/move_nodes.hpp"
 #include "libcdem/load/resolve.hpp"
 #include "libcdem/ranks/shared_state.hpp"
@@ -20,9 +21,11 @@ struct Workspace {
   // For meshed bodies; empty without them.
   std::vector<geom::Vec3>
       partial; // N, at the places of mesh chunks that others touch too; written by mesh_forces
-  std::vector<FaceSums> face_sums; // per mesh chunk
-  double strain_step = 0;          // s, by which their stress stands behind the nodes
-  bool damped = false;             // stiffness damping acts
+  std::vector<FaceSums> face_sums;      // per mesh chunk
+  double strain_step = 0;               // s, by which their stress stands behind the nodes
+  bool damped = false;                  // stiffness damping acts
+  const StrengthWatch* watch = nullptr; // of cohesive bodies, where they may break; null: none
+  NearStrength near;                    // written by mesh_forces
   bool hand_over_due =
       true; // broken faces that are gone go to contact in this step; a stage does so at times
   ContactWork contact;

@@ -6,18 +6,13 @@
 #include <algorithm>
 #include <fmt/format.h>
 #include <numeric>
+#include <optional>
 
 namespace cdem {
 namespace {
 
 std::array<geom::Vec3, 3> corners_of(const geom::TetMesh& mesh, const geom::InnerFace& face) {
   return {mesh.nodes[face.nodes[0]], mesh.nodes[face.nodes[1]], mesh.nodes[face.nodes[2]]};
-}
-
-FaceStrength strength_of(const geom::TetMesh& mesh, const geom::InnerFace& face, const Body& body) {
-  const auto [a, b] = face.tets;
-  return face_strength(body, mesh.region[a], mesh.region[b], corners_of(mesh, face),
-                       tet_volume(mesh, a) + tet_volume(mesh, b));
 }
 
 BondedFace bonded_face(const geom::TetMesh& mesh, const geom::InnerFace& face, const Body& body) {
@@ -74,11 +69,14 @@ SplitMesh split_nodes(const geom::TetMesh& mesh, const std::vector<geom::InnerFa
 std::vector<BondedFace> bonded_faces(const geom::TetMesh& mesh, const std::vector<geom::InnerFace>& inner,
                                      const Body& body, const Splitting& splitting, bool with_strength) {
   std::vector<BondedFace> bonded;
+  std::optional<FaceStrengths> strengths;
+  if (with_strength)
+    strengths.emplace(body, mesh, inner);
   for (const geom::InnerFace& face : inner)
     if (splitting.parts(face)) {
       bonded.push_back(bonded_face(mesh, face, body));
-      if (with_strength)
-        bonded.back().strength = strength_of(mesh, face, body);
+      if (strengths)
+        bonded.back().strength = strengths->of(face.tets[0], face.tets[1]);
     }
   return bonded;
 }
@@ -87,6 +85,7 @@ void require_fracture_energy(const geom::TetMesh& mesh, const std::vector<geom::
                              const Body& body) {
   if (!body.bonding.is_cohesive())
     return;
+  const FaceStrengths strengths(body, mesh, inner);
   const auto require = [&](const char* field, double energy, double strength, double stored) {
     if (energy < stored)
       throw geom::InputError(
@@ -115,7 +114,7 @@ void require_fracture_energy(const geom::TetMesh& mesh, const std::vector<geom::
       if (!body.bonding.bonds(a, b) || body.region_laws.between(a, b) != law)
         continue;
       const BondedFace f = bonded_face(mesh, face, body);
-      const FaceStrength own = strength_of(mesh, face, body);
+      const FaceStrength own = strengths.of(face.tets[0], face.tets[1]);
       opening.take(own.tensile_strength, f.kn / f.area);
       slip.take(own.cohesion, f.kn / f.area);
     }

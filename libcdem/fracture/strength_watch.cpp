@@ -1,0 +1,372 @@
+#include "libcdem/fracture/strength_watch.hpp"
+
+#include "libcdem/element/small_strain.hpp"
+#include "libcdem/fracture/own_rocks.hpp"
+#include "libcdem/model/build/face_strength.hpp"
+#include "libcdem/model/build/freed_meshes.hpp"
+#include "libcdem/parallel/simd.hpp"
+#include "libcdem/ranks/shared_state.hpp"
+#include "libcdem/state/places.hpp"
+#include "libgeom/mesh/boundary.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <optional>
+
+namespace cdem {
+namespace {
+
+// What may be asked of a face that has resumed holding is at least this part of its strength (may_end, cohesive_faces.cpp).
+constexpr double looked_at_from = 0.9;
+
+bool has_cohesive_bodies(const Model& model) {
+  return std::any_of(model.bodies.begin(), model.bodies.end(),
+                     [](const Body& body) { return body.bonding.is_cohesive(); });
+}
+
+CDEM_INLINE bool beyond_any(const simd::Oct (&s)[6], const UseBound* bounds, int count) {
+  bool any = false;
+  for (int i = 0; i < count; ++i) {
+    const simd::Oct coarse = bounds[i].coarsely_beyond(s);
+    if (!simd::any(coarse > simd::Oct{}))
+      continue;
+    const simd::Oct fine = bounds[i].beyond(s);
+    any = any || simd::any(fine > simd::Oct{});
+  }
+  return any;
+}
+
+// Pa2, s : s below which no stress is beyond any of the bounds: its mean is at most |s| / sqrt(3), its q at most |s| / sqrt(2).
+double harmless_norm2(const std::vector<UseBound>& bounds) {
+  const auto may = [&](double norm) {
+    const double mean = norm / std::sqrt(3.0);
+    const double worst[6] = {mean, mean, mean, norm / std::sqrt(2.0), 0, 0};
+    return std::any_of(bounds.begin(), bounds.end(),
+                       [&](const UseBound& bound) { return bound.coarsely_beyond(worst) > 0; });
+  };
+  double low = 1e-3, high = 1e15; // Pa
+  for (int i = 0; i < 12; ++i) {
+    const double middle = std::sqrt(low * high);
+    (may(middle) ? high : low) = middle;
+  }
+  return low * low;
+}
+
+// steps_ahead: how many steps to go on at the rate of the last one.
+CDEM_INLINE void near_kernel(const StressBatch* stress, const StressBatch* before, std::int64_t count,
+                             const UseBound* bounds, int bound_count, double harmless, double steps_ahead,
+                             std::uint8_t* bits) {
+  // |s + a d|^2 <= 2 |s|^2 + 2 a^2 |d|^2, and twice what stands off the diagonal.
+  const double of_rise = steps_ahead * steps_ahead;
+  const simd::Oct most = simd::Oct{} + harmless;
+  for (std::int64_t i = 0; i < count; ++i) {
+    simd::Oct s[6], sum{};
+    for (int c = 0; c < 6; ++c) {
+      s[c] = simd::load(stress[i].component[c]);
+      const simd::Oct d = before ? s[c] - simd::load(before[i].component[c]) : simd::Oct{};
+      const simd::Oct part = s[c] * s[c] + of_rise * d * d;
+      sum += (c < 3 ? 2.0 : 4.0) * part;
+    }
+    if (!simd::any(sum > most)) {
+      bits[i] = 0;
+      continue;
+    }
+    std::uint8_t found =
+        beyond_any(s, bounds, bound_count) ? NearStrength::may_crack | NearStrength::may_be_due : 0;
+    if (before && found == 0) {
+      for (int c = 0; c < 6; ++c)
+        s[c] += steps_ahead * (s[c] - simd::load(before[i].component[c]));
+      found = beyond_any(s, bounds, bound_count) ? NearStrength::may_be_due : 0;
+    }
+    bits[i] = found;
+  }
+}
+
+bool may_use(const std::vector<UseBound>& bounds, const geom::Mat3& s) {
+  const double components[6] = {s(0, 0), s(1, 1), s(2, 2), s(0, 1), s(1, 2), s(0, 2)};
+  return std::any_of(bounds.begin(), bounds.end(),
+                     [&](const UseBound& bound) { return bound.beyond(components) > 0; });
+}
+
+} // namespace
+
+StrengthWatch::StrengthWatch(const Model& model) {
+  if (!has_cohesive_bodies(model))
+    return;
+  neighbours_ = mesh_neighbours(model);
+  find_planes(model);
+  const MeshData& mesh = model.mesh;
+  const bool own = has_own_strengths(model);
+  if (own)
+    own_.resize(neighbours_.size());
+  bounds_.resize(mesh.chunks.size());
+  MeshSeed seed; // of the block of the chunk
+  std::optional<FaceStrengths> strengths;
+  int seed_of = -1;
+  for (std::size_t c = 0; c < mesh.chunks.size(); ++c) {
+    const MeshChunk& chunk = mesh.chunks[c];
+    const Body& body = model.bodies[model.blocks[chunk.block].body];
+    if (!body.bonding.is_cohesive() || is_rigid(model, chunk))
+      continue;
+    if (own && seed_of != chunk.block) {
+      seed_of = chunk.block;
+      strengths.reset();
+      seed = mesh_seed(model, seed_of);
+      strengths.emplace(body, seed.mesh, geom::inner_faces(seed.mesh));
+    }
+    const int first = model.blocks[chunk.block].tet_begin - mesh.first_tet;
+    OwnRocks rocks(body);
+    if (!own)
+      rocks.take(-1, rock_strength(body.joint));
+    for (auto i = static_cast<std::size_t>(4 * (chunk.tets.begin - mesh.first_tet));
+         own && i < static_cast<std::size_t>(4 * (chunk.tets.end - mesh.first_tet)); ++i) {
+      if (neighbours_[i] < 0)
+        continue;
+      const int tet = static_cast<int>(i / 4), beyond = neighbours_[i] / 4;
+      if (!body.bonding.bonds(mesh.region[tet], mesh.region[beyond]))
+        continue;
+      const FaceStrength face = strengths->of(tet - first, beyond - first);
+      own_[i] = rocks.of(face.joint, face.tensile_strength, face.cohesion);
+      rocks.take(face.joint, own_[i]);
+    }
+    bounds_[c] = {rocks.bounds(std::min(looked_at_from, due_at)), rocks.bounds(freed_at)};
+  }
+  freed(model);
+}
+
+FacePlane StrengthWatch::plane_between(const Model& model, int tet_a, int tet_b) const {
+  if (plane_.empty())
+    return FacePlane::of_material;
+  const int first = model.mesh.first_tet;
+  for (int face = 0; face < 4; ++face)
+    if (const int i = 4 * (tet_a - first) + face; neighbours_[i] >= 0 && neighbours_[i] / 4 == tet_b - first)
+      return plane_[static_cast<std::size_t>(i)];
+  return FacePlane::of_material;
+}
+
+// A border that a mesh follows is smooth: of the three faces beyond the edges of a face at most one stands far off it, where
+// the border has an edge. A ragged border, which only says to which region each tet belongs, has no plane of its own: its
+// faces, and those beside them, are judged as faces of the material; all of the border's, where most are ragged.
+void StrengthWatch::find_planes(const Model& model) {
+  // Least cosine between faces side by side, of 20 degrees: a circle of 18 edges is smooth.
+  constexpr double smooth = 0.93969262078590838;
+  const MeshData& mesh = model.mesh;
+  struct BorderFace {
+    std::size_t at;
+    geom::Vec3 normal;
+    std::array<std::pair<int, int>, 3> edges; // by the numbers that all copies of a node have
+    std::array<int, 3> between;               // body and regions
+    bool ragged;
+  };
+  std::vector<BorderFace> border;
+  std::map<std::pair<int, int>, std::vector<std::size_t>> around; // of each edge: into border
+  for (std::size_t i = 0; i < neighbours_.size(); ++i) {
+    const int tet = static_cast<int>(i / 4), beyond = neighbours_[i] / 4;
+    if (neighbours_[i] < 0 || beyond < tet)
+      continue;
+    const Body& body = model.bodies[model.blocks[model.tet_block[mesh.first_tet + tet]].body];
+    if (!body.bonding.is_cohesive())
+      continue;
+    const int a = mesh.region[tet], b = mesh.region[beyond];
+    if (a == b || (body.bonding.everywhere && body.region_laws.between(a, b) < 0))
+      continue;
+    std::array<int, 3> corners{};
+    for (int k = 0; k < 3; ++k)
+      corners[k] = model.tets[mesh.first_tet + tet][geom::tet_faces[i % 4][k]];
+    const auto place = [&](int k) { return model.node_position[corners[k]]; };
+    BorderFace face{
+        i,
+        (place(1) - place(0)).cross(place(2) - place(0)).normalized(),
+        {},
+        {model.blocks[model.tet_block[mesh.first_tet + tet]].body, std::min(a, b), std::max(a, b)},
+        false};
+    for (int k = 0; k < 3; ++k) {
+      const int one = mesh.original[corners[k] - mesh.first_node],
+                other = mesh.original[corners[(k + 1) % 3] - mesh.first_node];
+      face.edges[k] = std::minmax(one, other);
+      around[face.edges[k]].push_back(border.size());
+    }
+    border.push_back(face);
+  }
+  if (border.empty())
+    return;
+  const auto count_beside = [&](const BorderFace& face, const auto& is) { // edges beyond which one is
+    return std::count_if(face.edges.begin(), face.edges.end(), [&](const auto& edge) {
+      const std::vector<std::size_t>& beside = around.at(edge);
+      return std::any_of(beside.begin(), beside.end(), [&](std::size_t other) { return is(border[other]); });
+    });
+  };
+  for (BorderFace& face : border)
+    face.ragged = count_beside(face, [&](const BorderFace& other) {
+                    return std::abs(other.normal.dot(face.normal)) < smooth;
+                  }) > 1;
+  std::map<std::array<int, 3>, std::int64_t> most; // > 0: more ragged faces than others
+  for (const BorderFace& face : border)
+    most[face.between] += face.ragged ? 1 : -1;
+  plane_.assign(neighbours_.size(), FacePlane::of_material);
+  for (const BorderFace& face : border)
+    plane_[face.at] = plane_[static_cast<std::size_t>(neighbours_[face.at])] =
+        most[face.between] <= 0 &&
+                count_beside(face, [](const BorderFace& other) { return other.ragged; }) == 0
+            ? FacePlane::own
+            : FacePlane::of_ragged_border;
+}
+
+// The faces of one chunk that may crack and are not freed yet.
+class StrengthWatch::ChunkFaces {
+public:
+  ChunkFaces(const StrengthWatch& watch, const Model& model, const MeshChunk& chunk)
+      : watch_(watch), model_(model), chunk_(chunk), body_(model.bodies[model.blocks[chunk.block].body]),
+        of_body_(rock_strength(body_.joint)) {}
+
+  bool is_open(std::int64_t tet, int face) const {
+    const MeshData& mesh = model_.mesh;
+    const int beyond = watch_.neighbours_[4 * (tet - mesh.first_tet) + face];
+    if (beyond < 0 || !body_.bonding.bonds(mesh.region[tet - mesh.first_tet], mesh.region[beyond / 4]))
+      return false;
+    for (const int corner : geom::tet_faces[face])
+      if (mesh.freed[model_.tets[tet][corner] - mesh.first_node] == 0)
+        return true;
+    return false;
+  }
+  std::int64_t beyond(std::int64_t tet, int face) const {
+    return model_.mesh.first_tet + watch_.neighbours_[4 * (tet - model_.mesh.first_tet) + face] / 4;
+  }
+
+  // The larger use of the mean stress of both tets, now and ahead (s).
+  double use(const State& state, std::int64_t tet, int face, double ahead) const {
+    const MeshData& mesh = model_.mesh;
+    const std::int64_t other = beyond(tet, face), at = 4 * (tet - mesh.first_tet) + face;
+    const RockStrength& rock = watch_.own_.empty() ? of_body_ : watch_.own_[static_cast<std::size_t>(at)];
+    const FacePlane kind =
+        watch_.plane_.empty() ? FacePlane::of_material : watch_.plane_[static_cast<std::size_t>(at)];
+    const geom::Tet& nodes = model_.tets[tet];
+    const auto place = [&](int k) { return place_of(model_, state, nodes[geom::tet_faces[face][k]]); };
+    const geom::Vec3 normal = (place(1) - place(0)).cross(place(2) - place(0)).normalized();
+    const geom::Mat3 now = 0.5 * (stress_of(state, tet) + stress_of(state, other));
+    const geom::Mat3 rise = ahead * 0.5 * (rate_of(state, tet) + rate_of(state, other));
+    return std::max(strength_use(now, rock, normal, kind), strength_use(now + rise, rock, normal, kind));
+  }
+  geom::Mat3 stress_of(const State& state, std::int64_t tet) const {
+    return matrix(mesh_stress(model_, state, static_cast<int>(tet)));
+  }
+  // Pa/s, without the turning.
+  geom::Mat3 rate_of(const State& state, std::int64_t tet) const {
+    const auto t = static_cast<int>(tet);
+    const geom::Mat3 f = geom::Mat3::Identity() + displacement_gradient(model_, state.displacement, t);
+    return matrix(
+        elastic_stress(body_.material, displacement_gradient(model_, state.velocity, t) * f.inverse()));
+  }
+
+private:
+  const StrengthWatch& watch_;
+  const Model& model_;
+  const MeshChunk& chunk_;
+  const Body& body_;
+  RockStrength of_body_;
+};
+
+void StrengthWatch::freed(const Model& model) {
+  const MeshData& mesh = model.mesh;
+  open_.assign(mesh.batches.size(), 0);
+  held_.assign(mesh.chunks.size(), 0);
+  for (std::size_t c = 0; c < mesh.chunks.size(); ++c) {
+    if (!looks_at(static_cast<std::int64_t>(c)))
+      continue;
+    const MeshChunk& chunk = mesh.chunks[c];
+    const ChunkFaces faces(*this, model, chunk);
+    for (std::int64_t t = chunk.tets.begin; t < chunk.tets.end; ++t)
+      for (int face = 0; face < 4; ++face)
+        if (faces.is_open(t, face))
+          open_[chunk.batches.begin + (t - chunk.tets.begin) / lanes] = held_[c] = 1;
+  }
+}
+
+void StrengthWatch::look(const MeshChunk& chunk, std::int64_t index, const StressBatch* stress,
+                         const StressBatch* before, NearStrength& near) const {
+  constexpr double steps_ahead = 2; // the stress is that of a step ago, and the next look is a step away
+  const std::vector<UseBound>& bounds = bounds_[static_cast<std::size_t>(index)].at_strength;
+  simd::best<near_kernel>(stress, before, chunk.batches.size(), bounds.data(),
+                          static_cast<int>(bounds.size()), harmless_norm2(bounds), steps_ahead,
+                          near.bits.data() + chunk.batches.begin);
+}
+
+void StrengthWatch::look(const Model& model, const State& state, Range chunks, int threads,
+                         NearStrength& near) const {
+  // Tets of other ranks count as near: nobody has looked at them here.
+  near.bits.assign(model.mesh.batches.size(), NearStrength::may_crack);
+  for_chunks(chunks, threads, [&](std::int64_t c) {
+    const MeshChunk& chunk = model.mesh.chunks[c];
+    if (looks_at(c))
+      look(chunk, c, state.stress.data() + chunk.batches.begin, nullptr, near);
+  });
+  near.crack_known = true;
+}
+
+namespace {
+
+Range own_chunks(const Model& model, const SharedState* shared) {
+  return shared ? shared->part().mesh_chunks()
+                : Range{0, static_cast<std::int64_t>(model.mesh.chunks.size())};
+}
+
+} // namespace
+
+bool StrengthWatch::any_due(const Model& model, const State& state, const NearStrength& near,
+                            const SharedState* shared, int threads, double ahead, bool everywhere) const {
+  const Range own = own_chunks(model, shared);
+  std::vector<char> due(model.mesh.chunks.size(), 0);
+  for_chunks(own, threads, [&](std::int64_t c) {
+    if (!looks_at(c) || !has_held_faces(c))
+      return;
+    const MeshChunk& chunk = model.mesh.chunks[c];
+    const ChunkFaces faces(*this, model, chunk);
+    for (std::int64_t b = chunk.batches.begin; b < chunk.batches.end && due[c] == 0; ++b) {
+      if (open_[b] == 0 || !(everywhere || (near.bits[b] & NearStrength::may_be_due) != 0))
+        continue;
+      const std::int64_t first = chunk.tets.begin + (b - chunk.batches.begin) * lanes;
+      for (std::int64_t t = first; t < std::min(first + lanes, chunk.tets.end); ++t)
+        for (int face = 0; face < 4; ++face)
+          if (faces.is_open(t, face) && faces.use(state, t, face, ahead) >= due_at)
+            due[c] = 1;
+    }
+  });
+  const bool any = std::any_of(due.begin(), due.end(), [](char is) { return is != 0; });
+  return shared ? ranks().any(any) : any;
+}
+
+std::vector<char> StrengthWatch::to_free(const Model& model, const State& state, const SharedState* shared,
+                                         int threads, double ahead) const {
+  std::vector<std::vector<int>> found(model.mesh.chunks.size());
+  for_chunks(own_chunks(model, shared), threads, [&](std::int64_t c) {
+    if (!looks_at(c) || !has_held_faces(c))
+      return;
+    const MeshChunk& chunk = model.mesh.chunks[c];
+    const ChunkFaces faces(*this, model, chunk);
+    const std::vector<UseBound>& bounds = bounds_[static_cast<std::size_t>(c)].at_half;
+    for (std::int64_t t = chunk.tets.begin; t < chunk.tets.end; ++t) {
+      if (open_[chunk.batches.begin + (t - chunk.tets.begin) / lanes] == 0)
+        continue;
+      // The bounds are convex: if two stresses are below them, so is their mean.
+      const geom::Mat3 now = faces.stress_of(state, t);
+      if (!may_use(bounds, now) && !may_use(bounds, now + ahead * faces.rate_of(state, t)))
+        continue;
+      for (int face = 0; face < 4; ++face)
+        if (faces.is_open(t, face) && faces.use(state, t, face, ahead) >= freed_at)
+          for (const int corner : geom::tet_faces[face])
+            found[c].push_back(model.tets[t][corner]);
+    }
+  });
+  std::string near(model.node_position.size(), 0);
+  for (const std::vector<int>& of : found)
+    for (const int node : of)
+      near[node] = 1;
+  std::vector<char> nodes(near.size(), 0);
+  for (const std::string& of_rank : shared ? ranks().gather(near) : std::vector<std::string>{near})
+    for (std::size_t i = 0; i < nodes.size(); ++i)
+      nodes[i] = nodes[i] || of_rank[i];
+  return nodes;
+}
+
+} // namespace cdem

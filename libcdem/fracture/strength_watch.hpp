@@ -1,0 +1,74 @@
+// Which faces of cohesive bodies are near their strength. Every step, the stress that the elements have just got, still in
+// the cache, is compared with a bound on the use of strength, eight tets side by side. Only faces beside tets above that
+// bound are looked at one by one, and they are looked at in every step: when a face is freed or cracks follows from its
+// own stress alone, not from the number of the face or of the step.
+//
+//   crack   the use of a face is 1 (begin_cracks.hpp)
+//   free    the use of a face that is not freed yet is above `due_at`, now or in two steps at the present rate of strain;
+//           then all faces above `freed_at` are freed together, since freeing is dear
+#pragma once
+
+#include "libcdem/fracture/working_plane.hpp"
+#include "libcdem/model/model.hpp"
+#include "libcdem/state/state.hpp"
+
+#include <vector>
+
+namespace cdem {
+
+class SharedState; // ranks/shared_state.hpp
+
+// Parts of its strength at which a face is freed: it is high time; it is freed with others.
+inline constexpr double due_at = 0.9, freed_at = 0.5;
+
+// What is known of the tets, eight by eight. Kept between steps; it follows from the State and is found again where it is
+// not known.
+struct NearStrength {
+  static constexpr std::uint8_t may_crack = 1, may_be_due = 2;
+  std::vector<std::uint8_t> bits; // per batch of tets
+  bool crack_known = false, due_known = false;
+
+  void forget() { crack_known = due_known = false; }
+};
+
+class StrengthWatch {
+public:
+  StrengthWatch() = default; // sees nothing
+  explicit StrengthWatch(const Model&);
+  bool empty() const { return neighbours_.empty(); } // no body is cohesive
+  void freed(const Model&);                          // nodes have been freed, all else is as it was
+
+  // Some face in the chunk may crack. before: the stress of its batches a step ago; null: unknown.
+  bool looks_at(std::int64_t chunk) const { return !bounds_.empty() && !bounds_[chunk].at_strength.empty(); }
+  // On which plane the face between two tets of the model is judged. On its own where it belongs to a border between regions
+  // that has a joint of its own, or beside which nothing else may crack, unless the border is ragged there.
+  FacePlane plane_between(const Model&, int tet_a, int tet_b) const;
+  bool has_held_faces(std::int64_t chunk) const { return held_[static_cast<std::size_t>(chunk)] != 0; }
+  void look(const MeshChunk&, std::int64_t chunk, const StressBatch* stress, const StressBatch* before,
+            NearStrength&) const;
+  void look(const Model&, const State&, Range chunks, int threads, NearStrength&) const; // at all of them
+
+  // Whether a face is due to be freed. ahead: s, two steps. everywhere: at every face, not only beside the tets known to be
+  // near. shared: with several ranks, which look at their own chunks each; null: all are looked at.
+  bool any_due(const Model&, const State&, const NearStrength&, const SharedState* shared, int threads,
+               double ahead, bool everywhere) const;
+  // Per node of the model, 1 for those of faces above `freed_at` that are not freed yet, now or ahead.
+  std::vector<char> to_free(const Model&, const State&, const SharedState* shared, int threads,
+                            double ahead) const;
+
+private:
+  struct Bounds {
+    std::vector<UseBound> at_strength, at_half;
+  };
+  class ChunkFaces;
+  void find_planes(const Model&);
+
+  std::vector<int> neighbours_;   // per tet of the mesh and face of it: 4 tet + face on the other side, or -1
+  std::vector<FacePlane> plane_;  // of the same; empty: all are of the material
+  std::vector<RockStrength> own_; // of the same; empty: all are as their body's joint says
+  std::vector<Bounds> bounds_;    // of the faces of each chunk; none: it is of no cohesive body
+  std::vector<char> open_;        // per batch of tets, 1: some face may crack and is not freed
+  std::vector<char> held_;        // per chunk, likewise
+};
+
+} // namespace cdem

@@ -1,0 +1,102 @@
+// When a crack begins follows from the stress of its face alone: not from the rate, the step or the numbering.
+#include "tests/libcdem/cohesive_concrete.hpp"
+#include "tests/libcdem/going_on.hpp"
+
+#include <catch2/catch.hpp>
+
+#include <numeric>
+#include <random>
+
+using namespace testing;
+using geom::Vec3;
+
+namespace {
+
+constexpr double long_side = 0.1, short_side = 0.02; // m
+
+// A bar without Poisson's effect, stretched uniformly from the start: no wave runs through.
+System stretched_bar(double rate, const geom::TetMesh& mesh) {
+  cdem::BodySpec body = concrete_body(mesh, cdem::Softening::none);
+  body.material.poissons_ratio = 0;
+  System s(build({body}));
+  for (std::size_t i = 0; i < s.state.velocity.size(); ++i)
+    s.state.velocity[i] = node({rate * (s.model.node_position[i].x() - long_side / 2), 0, 0});
+  lead_apart(s.conditions.fixes, rate * long_side);
+  return s;
+}
+
+} // namespace
+
+TEST_CASE("begin cracks: a bar breaks at its strength at any rate and step", "[cohesive][breaking]") {
+  const double rate = GENERATE(1.0, 10.0, 100.0), safety = GENERATE(0.9, 0.2);
+  System s = stretched_bar(rate, geom::box_mesh({long_side, short_side, short_side}, {10, 2, 2}));
+  double first = 0, most = 0;
+  cdem::RunOptions options;
+  options.steps = 1 << 30;
+  options.safety = safety;
+  options.callback_every = 1;
+  options.callback = [&] {
+    const double traction = end_traction(s, short_side * short_side);
+    most = std::max(most, traction);
+    bool broken = false;
+    cdem::each_face(s.model.mesh, [&](const cdem::MeshChunk&, std::int64_t batch, int lane) {
+      broken = broken || !cdem::holds(s.state.faces[batch].stage[lane]);
+    });
+    if (first == 0 && broken)
+      first = traction;
+  };
+  options.stop = [&] { return first > 0; };
+  s.run(options);
+  INFO("rate " << rate << ", safety " << safety << ", first " << first / tension << ", most "
+               << most / tension);
+  CHECK(first == Approx(tension).epsilon(0.02));
+  CHECK(most == Approx(tension).epsilon(0.02));
+}
+
+TEST_CASE("begin cracks: a body with other numbers breaks in the same way", "[cohesive][breaking]") {
+  const geom::TetMesh mesh = unstructured({long_side, 2 * short_side, 2 * short_side}, 0.015);
+  geom::TetMesh shuffled = mesh;
+  std::mt19937 draw(5);
+  std::vector<int> number(mesh.nodes.size());
+  std::iota(number.begin(), number.end(), 0);
+  std::shuffle(number.begin(), number.end(), draw);
+  for (std::size_t i = 0; i < number.size(); ++i)
+    shuffled.nodes[number[i]] = mesh.nodes[i];
+  for (geom::Tet& tet : shuffled.tets)
+    tet = {number[tet[1]], number[tet[2]], number[tet[0]], number[tet[3]]};
+  std::shuffle(shuffled.tets.begin(), shuffled.tets.end(), draw);
+  const auto broken = [&](const geom::TetMesh& of) {
+    System s(build({concrete_body(of)}));
+    for (std::size_t i = 0; i < s.state.velocity.size(); ++i) {
+      const double side = s.model.node_position[i].x() > long_side / 2 ? 1 : -1;
+      s.state.velocity[i] = node({side * 0.9, 0.1, 0.1 * side});
+    }
+    cdem::RunOptions options;
+    options.steps = 30;
+    options.safety = 0.3;
+    s.run(options);
+    std::int64_t cracked = 0;
+    cdem::each_face(s.model.mesh, [&](const cdem::MeshChunk&, std::int64_t batch, int lane) {
+      cracked += cdem::holds(s.state.faces[batch].stage[lane]) ? 0 : 1;
+    });
+    return std::pair(cracked, cdem::energy(s.model, s.state).kinetic);
+  };
+  const auto [cracked, kinetic] = broken(mesh);
+  const auto [cracked_then, kinetic_then] = broken(shuffled);
+  CHECK(cracked > 20);
+  CHECK(cracked == cracked_then);
+  CHECK(kinetic == Approx(kinetic_then).epsilon(1e-6));
+}
+
+TEST_CASE("begin cracks: a notch along faces of a cohesive body carries nothing", "[cohesive][breaking]") {
+  cdem::ModelSpec spec;
+  spec.bodies = {concrete_body(geom::box_mesh({0.2, 0.1, 0.1}, {4, 2, 2}))};
+  cdem::Simulation s(spec, 1, nullptr);
+  const int bonds = 8 * 3; // two triangles of each of four squares
+  CHECK(s.break_bonds(cdem::Selection::on_plane(geom::Plane::through({0.1, 0, 0}, {1, 0, 0}))) == bonds);
+  CHECK(s.counts().contacts == bonds);
+  CHECK(s.counts().broken_tension + s.counts().broken_shear == 0);
+  CHECK(s.fragments().size() == 2);
+  CHECK_THROWS_WITH(s.break_bonds(cdem::Selection::on_plane(geom::Plane::through({0.11, 0, 0}, {1, 0, 0}))),
+                    Catch::Contains("of a cohesive body whole faces"));
+}
