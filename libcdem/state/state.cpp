@@ -4,6 +4,7 @@
 #include "libcdem/state/places.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace cdem {
 
@@ -184,6 +185,26 @@ State initial_state(const Model& model) {
   });
   set_rigid_states(model, state);
   return state;
+}
+
+const char* field_with_nan(const State& state) {
+  const char* found = nullptr;
+  each_field(
+      [&](const FieldRow& row, const auto& field) {
+        if constexpr (is_array<decltype(field)>) {
+          using Entry = std::remove_cv_t<std::remove_reference_t<decltype(field[0])>>;
+          if constexpr (is_all_doubles<Entry>) {
+            static_assert(sizeof(Entry) % sizeof(double) == 0);
+            const auto* number = reinterpret_cast<const double*>(field.data());
+            if (!found && row.place != FieldPlace::tet_batch &&
+                !std::all_of(number, number + field.size() * (sizeof(Entry) / sizeof(double)),
+                             [](double x) { return std::isfinite(x); }))
+              found = row.name;
+          }
+        }
+      },
+      state);
+  return found;
 }
 
 std::vector<StateField> fields(State& state) {

@@ -64,6 +64,14 @@ State initial_state(const Model&);
 // be empty instead.
 std::optional<std::size_t> entries_of(const FieldRow&, const Model&);
 
+// Whether entries of an array are nothing but doubles, which can be looked through for numbers that are none.
+template <class Entry>
+inline constexpr bool is_all_doubles =
+    !std::is_integral_v<Entry> && !std::is_same_v<Entry, Contact> && !std::is_same_v<Entry, FaceStateBatch>;
+// The first field in which something is not a number; null: there is none. Batches of tets are left out, as lanes without
+// a tet hold anything.
+const char* field_with_nan(const State&);
+
 // A field as bytes: for checkpoints and comparisons.
 struct StateField {
   FieldRow row;

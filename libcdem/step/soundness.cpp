@@ -101,6 +101,9 @@ void require_sound_part(const Model& model, const State& state, double run_away,
 
 void require_sound(const Model& model, const State& state, double run_away, const StageStep& at) {
   require_sound_part(model, state, run_away, at, whole(model));
+  if (const char* field = field_with_nan(state))
+    throw SolutionError(fmt::format("{}: {} of the state is not a number somewhere; look at loads and laws",
+                                    in_words(at), field));
 }
 
 bool share_is_sound(const Model& model, const State& state, const Workspace& work, double run_away) {
@@ -110,6 +113,8 @@ bool share_is_sound(const Model& model, const State& state, const Workspace& wor
   } catch (const SolutionError&) {
     return false;
   }
+  if (field_with_nan(state))
+    return false;
   const Range points = work.shared->shares().points();
   return std::none_of(model.interfaces.begin(), model.interfaces.end(), [&](const Interface& interface) {
     return departure(model, state, interface, points) > 1;
