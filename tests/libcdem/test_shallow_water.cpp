@@ -82,7 +82,7 @@ TEST_CASE("a lake over an uneven bed with islands stays at rest to rounding", "[
   for (int i = 0; i < 500; ++i)
     w.step(0, w.longest_step());
   double after = 0;
-  for (std::size_t i = 0; i < w.h.size(); ++i) {
+  for (int i = 0; i < static_cast<int>(w.h.size()); ++i) {
     after += w.h[i];
     CHECK(std::abs(w.q[i]) < 1e-13);
     if (w.h[i] > 0)
@@ -98,7 +98,7 @@ TEST_CASE("a dam breaks as Ritter found: h = (2 c0 - x / t)^2 / (9 g), depths st
   w.still_depth = 1;
   advance(w, 0, t);
   double error = 0, volume = 0;
-  for (std::size_t i = 0; i < w.h.size(); ++i) {
+  for (int i = 0; i < static_cast<int>(w.h.size()); ++i) {
     const double x = -10 + (i + 0.5) * w.cell, s = x / t;
     const double exact = s <= -c0 ? 1 : s >= 2 * c0 ? 0 : (2 * c0 - s) * (2 * c0 - s) / (9 * g);
     CHECK(w.h[i] >= 0);
@@ -125,7 +125,7 @@ TEST_CASE("a standing wave on a plane beach moves its shore as Carrier and Green
     advance(w, now - std::acos(-1.0) / 4, now);
     double shore = from;
     double error = 0, sum = 0;
-    for (std::size_t i = 0; i < w.h.size(); ++i) {
+    for (int i = 0; i < static_cast<int>(w.h.size()); ++i) {
       const double x = from + (i + 0.5) * w.cell;
       if (w.h[i] > 1e-3)
         shore = x + 0.5 * w.cell;
