@@ -171,7 +171,8 @@ Value slope(Session& session, Object*, const Arguments& a) {
   if (made->run_up() >= top)
     session.warn("cdem.water.slope: the water reaches the end of the bed at z = " + number_text(top) +
                  " m, which is a wall; let the bed go on");
-  auto object = holding(made, "waves that run up a slope to z = " + number_text(made->run_up()) + " m");
+  auto object = holding(
+      made, "waves that run up a slope to z = " + number_text(std::round(1e3 * made->run_up()) / 1e3) + " m");
   object->slope = made;
   return object;
 }
