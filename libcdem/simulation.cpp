@@ -141,13 +141,15 @@ namespace {
 
 // The last flow pushes on a face that another pushes on too, as the faces stand undeformed.
 bool flows_meet(const Model& model, const ResolvedConditions& r) {
+  const auto meets = [&](const ResolvedFlow& flow, int f) { // a field may push from anywhere
+    return flow.water || model.outer_faces[f].normal.dot(flow.direction) < 0;
+  };
   const ResolvedFlow& last = r.flows.back();
   std::vector<char> met(model.outer_faces.size(), 0);
   for (std::size_t i = 0; i + 1 < r.flows.size(); ++i)
     for (const int f : r.flows[i].faces)
-      met[f] = met[f] || model.outer_faces[f].normal.dot(r.flows[i].direction) < 0;
-  return std::any_of(last.faces.begin(), last.faces.end(),
-                     [&](int f) { return met[f] && model.outer_faces[f].normal.dot(last.direction) < 0; });
+      met[f] = met[f] || meets(r.flows[i], f);
+  return std::any_of(last.faces.begin(), last.faces.end(), [&](int f) { return met[f] && meets(last, f); });
 }
 
 } // namespace
@@ -161,7 +163,8 @@ bool Simulation::flow(const Flow& flow) {
     return false;
   }
   const ResolvedConditions resolved = resolve(impl_->model, impl_->whole(), changed);
-  if (!flow.new_faces && flow_pattern(impl_->model, impl_->whole(), resolved.flows.back()).empty())
+  if (!flow.water && !flow.new_faces &&
+      flow_pattern(impl_->model, impl_->whole(), resolved.flows.back()).empty())
     throw geom::InputError(
         "direction",
         fmt::format("({:g}, {:g}, {:g})", flow.direction.x(), flow.direction.y(), flow.direction.z()),

@@ -168,6 +168,12 @@ void check(const SettleOptions& o) {
 }
 
 void check(const Flow& flow) {
+  if (flow.water) {
+    for (const auto& [name, value] : {std::pair("drag", flow.drag), std::pair("added_mass", flow.added_mass)})
+      if (!(value >= 0 && value <= 100))
+        throw geom::InputError(name, number(value), "from 0 to 100");
+    return;
+  }
   require_finite("direction", flow.direction);
   if (!(flow.direction.norm() > 0))
     throw geom::InputError("direction", "(0, 0, 0)", "longer than zero");

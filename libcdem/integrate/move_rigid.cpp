@@ -3,6 +3,7 @@
 #include "libcdem/bond/spring_forces.hpp"
 #include "libcdem/element/rigid_motion.hpp"
 #include "libcdem/integrate/central_difference.hpp"
+#include "libcdem/state/carried_mass.hpp"
 #include "libcdem/state/places.hpp"
 
 #include <cmath>
@@ -10,14 +11,15 @@
 namespace cdem {
 namespace {
 
-void kick(const Model& model, const RigidBody& body, RigidState& motion, const geom::Vec3& force,
+// mass: kg, of the body and of the water that moves with it; its moments of inertia are those of the body.
+void kick(const Model& model, const RigidBody& body, double mass, RigidState& motion, const geom::Vec3& force,
           const geom::Vec3& torque, const Stepping& s, NodeSums& sums) {
   const Elastic& material = model.bodies[model.blocks[body.block].body].material;
   const double viscous = material.viscosity / material.density; // 1/s
   geom::Vec3 l = cdem::vec(motion.angular_momentum);
   if (viscous == 0 && s.local_damping == 0) {
-    motion.velocity = triple(central_difference::velocity_after<geom::Vec3>(cdem::vec(motion.velocity), force,
-                                                                            body.mass / s.kick));
+    motion.velocity = triple(
+        central_difference::velocity_after<geom::Vec3>(cdem::vec(motion.velocity), force, mass / s.kick));
     motion.angular_momentum = triple(l + s.kick * torque); // kept to the last bit without a torque
     return;
   }
@@ -28,7 +30,7 @@ void kick(const Model& model, const RigidBody& body, RigidState& motion, const g
     return after.velocity;
   };
   for (int axis = 0; axis < 3; ++axis)
-    motion.velocity[axis] = kicked(motion.velocity[axis], force[axis], body.mass);
+    motion.velocity[axis] = kicked(motion.velocity[axis], force[axis], mass);
   // Component by component where they do not mix.
   const geom::Mat3 axes = rotation(motion) * body.axes;
   l = axes.transpose() * l;
@@ -77,15 +79,17 @@ geom::Vec3 move_rigid(const Model& model, State& state, const ActingForces& acti
   const geom::Vec3 force = f.load + f.contact, torque = f.load_torque + f.contact_torque;
   const geom::Vec3 velocity_before = cdem::vec(motion.velocity);
   const double ahead = 0.5 * s.time_step;
+  const double carried = carried_mass(model, state, model.blocks[body.block]), mass = body.mass + carried;
 
   geom::Vec3 turning = geom::Vec3::Zero(); // w, half a step ahead
   if (const auto& held = acting.resolved.rigid[rigid]) {
-    const double before = kinetic_energy(body, motion, s.kick - ahead);
+    const double before =
+        kinetic_energy(body, motion, s.kick - ahead) + 0.5 * carried * velocity_before.squaredNorm();
     motion.velocity = triple(*held);
     motion.angular_momentum = {};
     sums.reaction2 += force.squaredNorm();
     // The support gives what the contacts do not, and what the body moves with.
-    const double after = 0.5 * body.mass * held->squaredNorm();
+    const double after = 0.5 * mass * held->squaredNorm();
     sums.external += after - before - f.contact.dot((s.kick - ahead) * velocity_before + ahead * *held);
     sums.kinetic += after;
   } else {
@@ -93,7 +97,7 @@ geom::Vec3 move_rigid(const Model& model, State& state, const ActingForces& acti
     Stepping here = s;
     if (!s.damp_flight && f.contact.isZero(0) && f.contact_torque.isZero(0))
       here.local_damping = 0;
-    kick(model, body, motion, force, torque, here, sums);
+    kick(model, body, mass, motion, force, torque, here, sums);
     turning = spin(body, motion, ahead);
     const geom::Vec3 velocity = cdem::vec(motion.velocity);
     const double arm2 = body.principal[2] / body.mass;
@@ -102,7 +106,7 @@ geom::Vec3 move_rigid(const Model& model, State& state, const ActingForces& acti
     sums.external +=
         0.5 * s.kick * (f.load.dot(velocity_before + velocity) + f.load_torque.dot(turning_before + turning));
     sums.kinetic +=
-        0.5 * body.mass * velocity.squaredNorm() + 0.5 * cdem::vec(motion.angular_momentum).dot(turning);
+        0.5 * mass * velocity.squaredNorm() + 0.5 * cdem::vec(motion.angular_momentum).dot(turning);
   }
 
   geom::Vec3 angle = s.time_step * turning;

@@ -3,6 +3,7 @@
 
 #include "libcdem/bolt/bolt.hpp"
 #include "libcdem/model/selection.hpp"
+#include "libcdem/water/water_field.hpp"
 
 #include <array>
 #include <cmath>
@@ -80,6 +81,11 @@ struct Flow {
   std::function<double(double time)> velocity; // V, m/s, >= 0
   bool new_faces = false;                      // faces opened by cracks take the pressure too
   bool relative = true;                        // to the velocity of the surface, in real-time stepping
+  // A field of water in place of direction, density and velocity (load/water_forces.hpp); always relative.
+  std::shared_ptr<const WaterField> water;
+  std::vector<Selection> also; // further places
+  double drag = 1; // C_D of a convex body: scales the traction, which integrates to 1 over its silhouette
+  double added_mass = 0; // C_A = C_M - 1, of the volume under water
 };
 
 inline double flow_pressure(double velocity, double water_density) { // F, Pa

@@ -1,54 +1,74 @@
 #include "libcdem/load/flow.hpp"
 
+#include "libcdem/load/gone_body.hpp"
 #include "libcdem/state/places.hpp"
+#include "libgeom/core/error.hpp"
+
+#include <algorithm>
 
 namespace cdem {
 namespace {
 
 using Pattern = std::vector<std::pair<int, geom::Vec3>>;
 
-using NodeArea = std::vector<std::pair<int, double>>; // node, m2
-
 // What faces give to a pattern: forces at 1 Pa of what looks towards the flow ...
 struct Facing {
   const geom::Vec3& direction;
   Pattern pattern = {};
 
-  void triangle(const geom::Triangle& nodes, const geom::Vec3& outward) {
-    const double facing = -outward.dot(direction); // A alpha
-    if (facing <= 0)
-      return;
-    for (const int node : nodes)
-      pattern.emplace_back(node, facing / 3 * direction);
-  }
-  void block_face(const NodeArea& node_area, const geom::Vec3& normal) {
-    const double alpha = -normal.dot(direction);
-    if (alpha <= 0)
-      return;
-    for (const auto& [node, area] : node_area)
-      pattern.emplace_back(node, area * alpha * direction);
+  void corner(int node, double area, const geom::Vec3& outward) {
+    const double facing = -area * outward.dot(direction); // A alpha
+    if (facing > 0)
+      pattern.emplace_back(node, facing * direction);
   }
 };
 
 // ... or areas along the inward normal.
 struct Inward {
-  Pattern pattern = {};
+  std::vector<FlowCorner> corners = {};
 
-  void triangle(const geom::Triangle& nodes, const geom::Vec3& outward) {
-    for (const int node : nodes)
-      pattern.emplace_back(node, outward / -3);
-  }
-  void block_face(const NodeArea& node_area, const geom::Vec3& normal) {
-    for (const auto& [node, area] : node_area)
-      pattern.emplace_back(node, -area * normal);
+  void corner(int node, double area, const geom::Vec3& outward) {
+    corners.push_back({node, -area * outward, geom::Vec3::Zero()});
   }
 };
 
-// Area times the outward normal; nodes: counter-clockwise seen from outside.
-geom::Vec3 outward_area(const Model& model, const State& state, const geom::Triangle& nodes) {
-  const geom::Vec3 x0 = place_of(model, state, nodes[0]);
-  return 0.5 * (place_of(model, state, nodes[1]) - x0).cross(place_of(model, state, nodes[2]) - x0);
+template <class Add>
+void each_flow_face(const Model& model, const State& state, const ResolvedFlow& flow, Add& add) {
+  const auto corners = [&](const geom::Triangle& nodes) {
+    return std::array<geom::Vec3, 3>{place_of(model, state, nodes[0]), place_of(model, state, nodes[1]),
+                                     place_of(model, state, nodes[2])};
+  };
+  for (std::size_t i = 0; i < flow.faces.size(); ++i) {
+    const OuterFace& face = model.outer_faces[flow.faces[i]];
+    if (face.boundary >= 0) {
+      const geom::Triangle& nodes = model.mesh.boundary[face.boundary].nodes;
+      const std::array<geom::Vec3, 3> x = corners(nodes);
+      const double area = 0.5 * (x[1] - x[0]).cross(x[2] - x[0]).norm();
+      const CornerNormals normals = turned_with(flow.normals[i], x);
+      for (int k = 0; k < 3; ++k)
+        add.corner(nodes[k], area / 3, normals[k]);
+    } else { // the part of it that no other block covered when the model was made
+      const geom::Vec3 normal = present_normal(model, state, face);
+      for (const auto& [node, area] : face.node_area)
+        add.corner(node, area, normal);
+    }
+  }
+  if (!flow.new_faces)
+    return;
+  each_face(model.mesh, [&](const MeshChunk& chunk, std::int64_t batch, int lane) {
+    if (!is_open(state.faces[batch], lane))
+      return;
+    const FaceNodes pair = face_nodes(model.mesh, chunk, batch, lane);
+    for (const geom::Triangle& nodes : {pair.a, pair.outward_b()}) {
+      const std::array<geom::Vec3, 3> x = corners(nodes);
+      const geom::Vec3 outward = 0.5 * (x[1] - x[0]).cross(x[2] - x[0]);
+      for (const int node : nodes)
+        add.corner(node, 1, outward / 3);
+    }
+  });
 }
+
+} // namespace
 
 // Outward, unit, of a face of a convex block where it stands now; a block of small strain hardly turns.
 geom::Vec3 present_normal(const Model& model, const State& state, const OuterFace& face) {
@@ -64,37 +84,12 @@ geom::Vec3 present_normal(const Model& model, const State& state, const OuterFac
   return twice_area.normalized();
 }
 
-bool open(const FaceStateBatch& state, int lane) {
+bool is_open(const FaceStateBatch& state, int lane) {
   for (const auto& point : state.mode)
     if (is_intact(point[lane]))
       return false;
   return true;
 }
-
-template <class Add>
-void each_flow_face(const Model& model, const State& state, const ResolvedFlow& flow, Add& add) {
-  const auto triangle = [&](const geom::Triangle& nodes) {
-    add.triangle(nodes, outward_area(model, state, nodes));
-  };
-  for (const int f : flow.faces) {
-    const OuterFace& face = model.outer_faces[f];
-    if (face.boundary >= 0)
-      triangle(model.mesh.boundary[face.boundary].nodes);
-    else // the part of it that no other block covered when the model was made
-      add.block_face(face.node_area, present_normal(model, state, face));
-  }
-  if (!flow.new_faces)
-    return;
-  each_face(model.mesh, [&](const MeshChunk& chunk, std::int64_t batch, int lane) {
-    if (!open(state.faces[batch], lane))
-      return;
-    const FaceNodes nodes = face_nodes(model.mesh, chunk, batch, lane);
-    triangle(nodes.a);
-    triangle(nodes.outward_b());
-  });
-}
-
-} // namespace
 
 Pattern flow_pattern(const Model& model, const State& state, const ResolvedFlow& flow) {
   Facing facing{flow.direction};
@@ -102,10 +97,29 @@ Pattern flow_pattern(const Model& model, const State& state, const ResolvedFlow&
   return std::move(facing.pattern);
 }
 
-Pattern inward_areas(const Model& model, const State& state, const ResolvedFlow& flow) {
+std::vector<FlowCorner> flow_corners(const Model& model, const State& state, const ResolvedFlow& flow) {
   Inward inward;
   each_flow_face(model, state, flow, inward);
-  return std::move(inward.pattern);
+  return std::move(inward.corners);
+}
+
+std::vector<int> flow_faces(const Model& model, const Flow& flow) {
+  std::vector<int> faces;
+  const auto take = [&](const Selection& on) {
+    if (is_gone(model, on))
+      return;
+    const std::vector<int> here = selected_outer_faces(model, on);
+    if (here.empty())
+      throw geom::InputError("on", on.text, "a place that holds outer faces",
+                             "nothing of the model lies there; `cdem check` prints the model's box");
+    faces.insert(faces.end(), here.begin(), here.end());
+  };
+  take(flow.on);
+  for (const Selection& on : flow.also)
+    take(on);
+  std::sort(faces.begin(), faces.end());
+  faces.erase(std::unique(faces.begin(), faces.end()), faces.end());
+  return faces;
 }
 
 } // namespace cdem

@@ -8,7 +8,16 @@ namespace cdem {
 // Nodal forces at a pressure of 1 Pa, N: a third of each facing face's A (d . n) d at its corners.
 std::vector<std::pair<int, geom::Vec3>> flow_pattern(const Model&, const State&, const ResolvedFlow&);
 
-// Areas of all its faces, whichever way they look, m2: a third of each face's area along its inward normal at its corners.
-std::vector<std::pair<int, geom::Vec3>> inward_areas(const Model&, const State&, const ResolvedFlow&);
+// All its faces, whichever way they look: a third of each face's area along its inward normal at its corners.
+std::vector<FlowCorner> flow_corners(const Model&, const State&, const ResolvedFlow&);
+
+// Outer faces that a flow may meet, ascending. Throws geom::InputError where a place has none.
+std::vector<int> flow_faces(const Model&, const Flow&);
+
+// The three springs of a bonded face inside a mesh are broken.
+bool is_open(const FaceStateBatch&, int lane);
+
+// Outward, unit, of a face of a convex block where it stands now; a block of small strain hardly turns.
+geom::Vec3 present_normal(const Model&, const State&, const OuterFace&);
 
 } // namespace cdem

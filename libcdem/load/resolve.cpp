@@ -5,10 +5,13 @@
 #include "libcdem/load/flow.hpp"
 #include "libcdem/load/free_field.hpp"
 #include "libcdem/load/gone_body.hpp"
+#include "libcdem/load/water_forces.hpp"
 #include "libcdem/state/places.hpp"
 #include "libgeom/core/error.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <fmt/format.h>
 #include <limits>
 #include <map>
 
@@ -209,17 +212,27 @@ void add_boundaries(const Model& model, const Conditions& conditions, HeldNodes&
 
 void add_flow(const Model& model, const Flow& flow, ResolvedConditions& r) {
   ResolvedFlow resolved;
-  resolved.direction = flow.direction.normalized();
-  resolved.faces = selected_outer_faces(model, flow.on);
-  if (resolved.faces.empty())
-    selects_nothing("outer faces", flow.on);
+  resolved.faces = flow_faces(model, flow);
+  resolved.normals = smooth_normals(model, resolved.faces);
   resolved.new_faces = flow.new_faces;
   resolved.load = r.varying.size();
-  if (flow.relative) {
+  if (flow.water) {
+    resolved.water = flow.water;
+    resolved.water_density = flow.water->density();
+    resolved.drag = flow.drag;
+    resolved.added_mass = flow.added_mass;
+    for (const int f : resolved.faces)
+      resolved.blocks.push_back(model.outer_faces[f].block);
+    std::sort(resolved.blocks.begin(), resolved.blocks.end());
+    resolved.blocks.erase(std::unique(resolved.blocks.begin(), resolved.blocks.end()), resolved.blocks.end());
+    r.varying.push_back({{}, [](double) { return 1; }});
+  } else if (flow.relative) {
+    resolved.direction = flow.direction.normalized();
     resolved.velocity = flow.velocity;
     resolved.water_density = flow.water_density;
     r.varying.push_back({{}, [](double) { return 1; }});
   } else {
+    resolved.direction = flow.direction.normalized();
     const double density = flow.water_density;
     const auto velocity = flow.velocity;
     r.varying.push_back(
@@ -228,36 +241,57 @@ void add_flow(const Model& model, const Flow& flow, ResolvedConditions& r) {
   r.flows.push_back(std::move(resolved));
 }
 
-// Forces of a flow that meets each node at u = V d - v: rho/2 (u . A)+ u, A the node's share of a face, inward.
+// Forces of a flow that meets each corner at u, the velocity of the water less that of the surface: rho/2 C_D (u . A)+ u, A
+// the corner's share of a face, inward.
 void add_relative_flow(const ResolvedFlow& flow, double time, const std::vector<Node>* velocity,
                        std::vector<std::pair<int, geom::Vec3>>& forces) {
-  const geom::Vec3 water = flow.velocity(time) * flow.direction;
-  for (std::size_t i = 0; i < flow.inward.size(); ++i) {
-    const auto& [node, area] = flow.inward[i];
-    const geom::Vec3 u = velocity ? geom::Vec3(water - vec((*velocity)[node])) : water;
-    forces[i].second = 0.5 * flow.water_density * std::max(0.0, u.dot(area)) * u;
+  const geom::Vec3 water =
+      flow.velocity ? geom::Vec3(flow.velocity(time) * flow.direction) : geom::Vec3::Zero();
+  for (std::size_t i = 0; i < flow.corners.size(); ++i) {
+    const FlowCorner& corner = flow.corners[i];
+    geom::Vec3 u = flow.water ? corner.stream : water;
+    if (velocity)
+      u -= vec((*velocity)[corner.node]);
+    forces[i].second = 0.5 * flow.drag * flow.water_density * std::max(0.0, u.dot(corner.inward)) * u;
   }
+}
+
+void require_buoyancy_once(const Conditions& conditions) {
+  if (!conditions.gravity || conditions.gravity->water_density == 0)
+    return;
+  for (const Flow& flow : conditions.flows)
+    if (flow.water && flow.water->has_pressure())
+      throw geom::InputError("gravity: water_density", fmt::format("{:g}", conditions.gravity->water_density),
+                             "left out beside a flow whose water has a pressure",
+                             "that pressure is the buoyancy already");
 }
 
 } // namespace
 
 void refresh_flows(const Model& model, const State& state, ResolvedConditions& r) {
+  r.water_mass.clear();
   for (ResolvedFlow& flow : r.flows) {
+    std::vector<std::pair<int, geom::Vec3>>& forces = r.varying[flow.load].forces;
     // What the pattern leaves keeps no force of it.
-    for (const auto& [node, force] : r.varying[flow.load].forces)
+    for (const auto& [node, force] : forces)
       r.external[node] = r.constant[node];
-    if (flow.velocity) {
-      flow.inward = inward_areas(model, state, flow);
-      r.varying[flow.load].forces.assign(flow.inward.size(), {});
-      for (std::size_t i = 0; i < flow.inward.size(); ++i)
-        r.varying[flow.load].forces[i].first = flow.inward[i].first;
-    } else {
-      r.varying[flow.load].forces = flow_pattern(model, state, flow);
+    if (!flow.relative()) {
+      forces = flow_pattern(model, state, flow);
+      continue;
     }
+    WaterForces water;
+    if (flow.water)
+      water = water_forces(model, state, flow, r.water_mass);
+    flow.corners = flow.water ? std::move(water.corners) : flow_corners(model, state, flow);
+    forces.clear();
+    for (const FlowCorner& corner : flow.corners)
+      forces.emplace_back(corner.node, geom::Vec3::Zero());
+    forces.insert(forces.end(), water.steady.begin(), water.steady.end());
   }
 }
 
 ResolvedConditions resolve(const Model& model, const State& state, const Conditions& conditions) {
+  require_buoyancy_once(conditions);
   ResolvedConditions r;
   const std::size_t n = model.node_position.size();
   HeldNodes held;
@@ -334,7 +368,7 @@ bool has_way_to_go(const Model& model, const State& state, const ResolvedConditi
 
 void update_external(ResolvedConditions& r, double time, const std::vector<Node>* velocity) {
   for (const ResolvedFlow& flow : r.flows)
-    if (flow.velocity)
+    if (flow.relative())
       add_relative_flow(flow, time, velocity, r.varying[flow.load].forces);
   for (const VaryingLoad& load : r.varying)
     for (const auto& [node, force] : load.forces)

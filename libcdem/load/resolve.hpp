@@ -4,6 +4,7 @@
 #include "libcdem/load/bolts.hpp"
 #include "libcdem/load/conditions.hpp"
 #include "libcdem/load/free_field_column.hpp"
+#include "libcdem/load/smooth_normals.hpp"
 #include "libcdem/state/state.hpp"
 
 namespace cdem {
@@ -14,17 +15,30 @@ struct VaryingLoad {
   Amplitude amplitude;
 };
 
+// A share of a face that meets a flow: the area of a corner along the inward normal.
+struct FlowCorner {
+  int node = 0;
+  geom::Vec3 inward = geom::Vec3::Zero(); // m2
+  geom::Vec3 stream = geom::Vec3::Zero(); // m/s, velocity of the water there; of a field
+};
+
 // A flow's pattern follows the faces: it is found again now and then.
 struct ResolvedFlow {
   geom::Vec3 direction = geom::Vec3::Zero(); // unit
   std::vector<int> faces;                    // Model::outer_faces
+  std::vector<CornerNormals> normals;        // of these
   bool new_faces = false;
   std::size_t load = 0; // its place in ResolvedConditions::varying
   // For a flow relative to the surface: its forces are found anew in every step; the amplitude of its load is 1.
   std::function<double(double time)> velocity; // m/s; empty: the pattern times the pressure
   double water_density = 0;                    // kg/m3
-  std::vector<std::pair<int, geom::Vec3>>
-      inward; // node, its share of a face's area along the inward normal, m2
+  std::vector<FlowCorner> corners;             // the first of the load's forces, in this order
+  // Of a field of water (load/water_forces.hpp).
+  std::shared_ptr<const WaterField> water;
+  std::vector<int> blocks; // those whose faces it meets
+  double drag = 1, added_mass = 0;
+
+  bool relative() const { return velocity || water; }
 };
 
 // A node of which a component at least is held.
@@ -60,6 +74,7 @@ struct ResolvedConditions {
   std::vector<VaryingLoad> varying;
   std::vector<std::size_t> boundary_loads; // of these: what enters through quiet boundaries and from columns
   std::vector<ResolvedFlow> flows;
+  std::vector<double> water_mass; // kg, of water that moves with a node (n_nodes); empty without
   bool has_target = false;
 };
 

@@ -173,6 +173,11 @@ RunResult run(const StageContext& context, const RunOptions& options, const std:
   };
   if (scaled.on())
     stage.scale_masses = [&] { scaled.scale(); };
+  else
+    stage.carry_water();
+  if (scaled.on() && !stage.work.resolved.water_mass.empty())
+    throw geom::InputError(
+        "mass_scaling: not beside a flow with added_mass, which is inertia too; leave one out");
   // Where damping takes the energy anyway, and where the user has chosen the step, impacts are as coarse as the step.
   const bool keeps_energy_of_impacts =
       options.local_damping == 0 && options.damp_flight && options.time_step == 0;
@@ -252,6 +257,8 @@ RunResult run(const StageContext& context, const RunOptions& options, const std:
       stopped = options.stop && options.stop() && report.residual <= options.stop_residual;
     }
   }
+  if (!scaled.on())
+    stage.drop_water();
   RunResult result{stage.finish(report), state.time, stepping.time_step, {}};
   if (scaled.on()) {
     if (stage.step % watch_every != 0)

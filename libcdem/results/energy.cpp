@@ -6,6 +6,7 @@
 #include "libcdem/element/mesh_fields.hpp"
 #include "libcdem/element/rigid_motion.hpp"
 #include "libcdem/element/small_strain.hpp"
+#include "libcdem/state/carried_mass.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -65,7 +66,9 @@ double kinetic_energy(const Model& model, const State& state) {
     kinetic += 0.5 * mass[i] * (v.x * v.x + v.y * v.y + v.z * v.z);
   }
   for (std::size_t i = 0; i < model.rigid.size(); ++i)
-    kinetic += kinetic_energy(model.rigid[i], state.rigid[i], state.velocity_lag);
+    kinetic += kinetic_energy(model.rigid[i], state.rigid[i], state.velocity_lag) +
+               0.5 * carried_mass(model, state, model.blocks[model.rigid[i].block]) *
+                   vec(state.rigid[i].velocity).squaredNorm();
   return kinetic;
 }
 

@@ -193,7 +193,8 @@ void look_at_units(const Model& model, const State& state, const Conditions& con
     return;
   double velocity = std::numeric_limits<double>::quiet_NaN();
   for (const Flow& flow : conditions.flows)
-    velocity = std::fmax(velocity, flow.velocity(state.time));
+    if (flow.velocity)
+      velocity = std::fmax(velocity, flow.velocity(state.time));
   for (Watch& watch : log.watches)
     look(model, state, velocity, watch);
 }

@@ -19,9 +19,10 @@ namespace {
 
 // Steps between questions whether to stop, to write a checkpoint, to show the progress.
 constexpr std::int64_t poll_every = 16;
-// Steps between looks at which faces a flow meets: they turn by next to nothing in between.
-constexpr std::int64_t flow_every = 100;
-static_assert(watch_every % flow_every == 0, "a stage that goes on looks anew where it did when it was left");
+// Steps between looks at which faces a flow meets: they turn by next to nothing in between. And at water, which moves.
+constexpr std::int64_t flow_every = 100, water_every = 20;
+static_assert(watch_every % flow_every == 0 && watch_every % water_every == 0,
+              "a stage that goes on looks anew where it did when it was left");
 // Steps between looks at which interfaces of blocks have parted.
 constexpr std::int64_t release_every = 20;
 static_assert(watch_every % release_every == 0, "as above");
@@ -164,6 +165,28 @@ void Stage::update_loads(double time, const Stepping& stepping) {
   times_.end(StepLine::loads);
 }
 
+void Stage::carry_water() {
+  carry(work.resolved.water_mass);
+}
+
+void Stage::drop_water() {
+  carry({});
+}
+
+void Stage::carry(const std::vector<double>& water) {
+  State& state = context_.state;
+  if (water.empty() && state.moving_mass.empty())
+    return;
+  std::vector<double> masses = water.empty() ? std::vector<double>() : context_.model.node_mass;
+  for (std::size_t i = 0; i < water.size(); ++i)
+    masses[i] += water[i];
+  if (masses == state.moving_mass)
+    return;
+  const double before = kinetic_energy(context_.model, state);
+  state.moving_mass = std::move(masses);
+  state.spent.external += kinetic_energy(context_.model, state) - before;
+}
+
 void Stage::update_loads_at_rest() {
   if (work.resolved.bolts.empty())
     return;
@@ -292,9 +315,14 @@ void Stage::watch(const StepReport& report) {
   release_parted_blocks();
   if (step % watch_every == 0)
     look_over();
-  if (!work.resolved.flows.empty() && step % flow_every == 0) {
+  const std::vector<ResolvedFlow>& flows = work.resolved.flows;
+  const bool of_water =
+      std::any_of(flows.begin(), flows.end(), [](const ResolvedFlow& f) { return f.water; });
+  if (!flows.empty() && step % (of_water ? water_every : flow_every) == 0) {
     see_whole();
     refresh_flows(context_.model, context_.state, work.resolved);
+    if (in_real_time && !scale_masses)
+      carry_water();
     update_external(work.resolved, context_.state.time, moving());
   }
   if (context_.log.due(context_.state.step))

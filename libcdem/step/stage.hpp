@@ -94,6 +94,10 @@ public:
     double residual = 0;
     Progress goals; // residual_goal, time_start, time_goal, max_steps
   };
+  // In real time the water that moves with the nodes (load/water_forces.hpp) adds to their inertia; the kinetic energy
+  // that changes with it is work of the water. Not beside scaled masses.
+  void carry_water();
+  void drop_water(); // at the end of a stage
   void watch(const StepReport&);
   StageResult finish(const StepReport&); // last history row and progress
   std::int64_t broken_in_step() const { return broken_in_step_; }
@@ -121,6 +125,7 @@ private:
   BegunCracks begin_cracks();               // what share_sums sends
 
   void advance_bolts();
+  void carry(const std::vector<double>& water); // kg (n_nodes); empty: none
   // m/s, of the nodes, for loads that depend on it; null in a relaxation, whose velocities are lengths per step.
   const std::vector<Node>* moving() const { return in_real_time ? &context_.state.velocity : nullptr; }
   double wall_time() const; // s

@@ -50,6 +50,8 @@ bool Stage::free_nodes(double time_step) {
     contacts_ = ContactUpdate(context_);
     contacts_.start_anew(model, work.contact, false);
     has_shared_nodes_ = has_shared_nodes(model);
+    if (!scale_masses)
+      carry_water();
     update_external(work.resolved, state.time, moving());
     preload_faces(model, state, net_forces(model, state, work), freed.anew);
   }

@@ -157,6 +157,19 @@ Solid cube(double height) {
   return box(Vec3::Constant(height), Vec3::Constant(-0.5 * height));
 }
 
+Solid cubipod(double height, const CubipodShape& shape) {
+  require_fraction("cube", shape.cube, 0.4, 0.95);
+  require_between("root", shape.root, 0.1, shape.cube - 0.02, "and narrower than the cube");
+  require_between("tip", shape.tip, 0.05, shape.root, "and as narrow as root");
+  const auto section = [](double place, double width) { return Section{place, 0.5 * width, 0.5 * width, 0}; };
+  const std::vector<Section> bar_through{section(-0.5, shape.tip), section(-0.5 * shape.cube, shape.root),
+                                         section(0.5 * shape.cube, shape.root), section(0.5, shape.tip)};
+  std::vector<Solid> parts{cube(shape.cube)};
+  for (int axis = 0; axis < 3; ++axis)
+    parts.push_back(bar(bar_through, Vec3::Zero(), Vec3::Unit((axis + 1) % 3), Vec3::Unit((axis + 2) % 3)));
+  return sized(united(parts), height);
+}
+
 Solid antifer(double height, const AntiferShape& shape) {
   require_fraction("bottom", shape.bottom, 0.5, 2);
   require_fraction("top", shape.top, 0.5, 2);

@@ -47,6 +47,15 @@ Solid tetrapod(double height, const TetrapodShape& = {});
 
 Solid cube(double height);
 
+// A cube with a truncated pyramid of square section on each side, V = 0.544 H^3, H from tip to tip. The topology is that of
+// the Cubipod (Gomez-Martin and Medina 2008); no dimensioned drawing is public: the proportions are ours.
+struct CubipodShape {
+  double cube = 0.74; // side of the cube
+  double root = 0.48; // width of a pyramid where it stands on the cube
+  double tip = 0.36;  // width of its end
+};
+Solid cubipod(double height, const CubipodShape& = {});
+
 // A cube whose sides lean in towards the top, with a round groove down the middle of each.
 struct AntiferShape {
   double bottom = 1.086;  // width of the lower face

@@ -20,6 +20,10 @@ print(cube.height)
 local antifer = cdem.antifer{ height = 2 }
 print(antifer:volume())
 
+-- example: cdem.cubipod
+local cubipod = cdem.cubipod{ mass = 16e3, density = 2400 }
+print(cubipod.height) -- 2.31 m
+
 -- example: cdem.slope
 local ground = cdem.slope{ gradient = 1 / 1.5, length = 12, width = 8 }
 print(ground:box().max[3]) -- 8 m

@@ -8,6 +8,28 @@ local model = cdem.model{ bodies = { { name = "column", shape = mesh, material =
 print(cdem.flow_pressure(10))     -- 51250 Pa
 print(cdem.flow_velocity(51250))  -- 10 m/s
 
+-- example: cdem.water.uniform
+local current = cdem.water.uniform{ velocity = {2, 0, 0}, level = 1 }
+print(current:at({0, 0, 0}).pressure) -- 10055 Pa
+
+-- example: cdem.water.field
+local eddy = cdem.water.field{ velocity = function(x, y) return {-y, x, 0} end,
+                               surface = function() return 2 end }
+print(eddy:at({1, 0, 0}).acceleration[1]) -- -1 m/s2, towards the middle
+
+-- example: cdem.water.wave water:at
+local wave = cdem.water.wave{ height = 2, period = 8, depth = 10 }
+local crest = wave:at({0, 0, -1}, 0)
+print(crest.surface, crest.velocity[1])
+
+-- example: cdem.water.sea
+local sea = cdem.water.sea{ significant_height = 2, peak_period = 8, depth = 10, seed = 3 }
+print(sea:at({0, 0, 0}, 100).surface)
+
+-- example: cdem.water.slope
+local surf = cdem.water.slope{ bed = { {0, -6}, {20, -6}, {44, 10} }, waves = wave, ramp = 8, duration = 20 }
+print(surf.run_up, surf.run_down)
+
 -- example: model:flow
 model:flow{ direction = {1, 0, 0}, velocity = 5 }
 model:fix{ on = "z-" }
@@ -15,6 +37,8 @@ model:relax{ residual = 1e-4 }
 model:clear_loads()
 model:flow{ on = "x-", direction = {1, 0, 0}, velocity = function(t) return math.min(5, 100 * t) end,
             relative = false } -- the pressure that stands still surfaces feel, also on ones that move
+model:clear_loads()
+model:flow{ water = cdem.water.wave{ height = 0.3, period = 3, depth = 1, level = 1 }, drag = 1, added_mass = 0.67 }
 
 -- example: model:critical_flow
 local other = cdem.model{ bodies = { { shape = mesh, material = concrete, joint = joint, bonds = "springs" } } }

@@ -241,6 +241,13 @@ local cdem = {}
 ---@field slip number m: of the bolt past the grout
 ---@field yielded number strain of the next segment that stays
 
+---Water at a place and time.
+---@class (exact) cdem.WaterPoint
+---@field velocity number[] m/s
+---@field acceleration number[] m/s2: of the particles
+---@field pressure number Pa: above that of the air
+---@field surface? number m: z of the free surface; nil where it is dry or water is everywhere
+
 ---A piece of a model that unbroken bonds hold together.
 ---@class (exact) cdem.Fragment
 ---@field volume number m3
@@ -1157,15 +1164,18 @@ function Model:bolt_forces() end
 function Model:save_bolts(options) end
 
 ---@class (exact) cdem.ModelFlowOptions
----@field direction number[] of the flow; made a unit vector
----@field velocity number|fun(time: number): number m/s, >= 0
----@field on? cdem.Place default "all": outer faces that may take it: one place
+---@field direction? number[] of the flow; made a unit vector
+---@field velocity? number|fun(time: number): number m/s, >= 0
+---@field on? cdem.Place default "all": outer faces that may take it: one place; of water: a place or a list of places
 ---@field water_density? number kg/m3, > 0, default 1025: sea water by default
----@field new_faces? boolean default false: faces opened by cracks take the pressure too
+---@field new_faces? boolean default false: faces opened by cracks take the pressure too; always with water
+---@field water? cdem.Water a field of water in place of direction, velocity and density: drag, pressure and with it buoyancy on the wet part of each face, and added mass, as far as the field knows them
+---@field drag? number in [0, 100], default 1: C_D; scales the traction, which by itself gives a convex body C_D = 1 of its silhouette
+---@field added_mass? number in [0, 100], default 0: C_A = C_M - 1, of the volume under water: sphere 0.5, cylinder across the stream 1, cube 0.67
 ---@field relative? boolean default true: in a run the water meets each point of the surface at its velocity less that of the surface, u, and the traction is rho/2 (u . n)+ u: a unit that the flow carries gains on it no more, and one that moves in still water is slowed down. false: the pressure of the flow alone, however the surface moves
 
----Pressure of a flow on the outer faces that look towards it, as they stand at each moment: alpha F along the flow, alpha the cosine to the inward normal (Feng 2014 eqs 19-20), on a surface at rest. Shielding is not modelled.
----@param options cdem.ModelFlowOptions
+---Pressure of a flow on the outer faces that look towards it, as they stand at each moment: alpha F along the flow, alpha the cosine to the inward normal (Feng 2014 eqs 19-20), on a surface at rest. With water = a field, the forces of waves. Shielding is not modelled.
+---@param options? cdem.ModelFlowOptions
 function Model:flow(options) end
 
 ---@class (exact) cdem.ModelCriticalFlowOptionsMass_scaling
@@ -1565,6 +1575,19 @@ function Model:chart_fragments(options) end
 ---@field [integer] cdem.Departure
 ---@operator len: integer
 local Watch = {}
+
+---A field of water, made by cdem.water.*; what model:flow takes as `water`.
+---@class cdem.Water
+---@field density number kg/m3
+---@field run_up? number m: highest z that is wet at any time; on a slope only
+---@field run_down? number m: lowest z of the water line; on a slope only
+local Water = {}
+
+---Velocity, acceleration, pressure and surface at a place and time.
+---@param place number[] m
+---@param time? number s, default 0
+---@return cdem.WaterPoint
+function Water:at(place, time) end
 
 ---@class (exact) cdem.ParameterOptions
 ---@field name string a word, as in --set pressure=24e6
@@ -2126,6 +2149,20 @@ function cdem.cube(options) end
 ---@return cdem.Solid
 function cdem.antifer(options) end
 
+---@class (exact) cdem.CubipodOptions
+---@field height? number m, > 0
+---@field mass? number kg, > 0: with density, instead of height: the volume is met exactly
+---@field density? number kg/m3, > 0
+---@field mesh_size? number m, > 0: what solid:mesh{} takes when it is given no size
+---@field cube? number > 0, default 0.74: side of the cube
+---@field root? number > 0, default 0.48: width of a pyramid on the cube
+---@field tip? number > 0, default 0.36: width of its end
+
+---A cube with a truncated pyramid on each side, as the Cubipod has; V = 0.544 H^3, H from tip to tip. Proportions are fractions of the height, and ours.
+---@param options? cdem.CubipodOptions
+---@return cdem.Solid
+function cdem.cubipod(options) end
+
 ---@class (exact) cdem.SlopeOptions
 ---@field gradient number > 0: rise over run: 1/1.5
 ---@field length number m, > 0: along x
@@ -2292,6 +2329,82 @@ function cdem.model(options) end
 ---@param options cdem.FactorOfSafetyOptions
 ---@return cdem.FactorOfSafety
 function cdem.factor_of_safety(options) end
+
+cdem.water = {}
+
+---@class (exact) cdem.WaterUniformOptions
+---@field velocity number[]|fun(time: number): number[] m/s
+---@field level? number m: z of the free surface, below which the pressure is hydrostatic; left out: water everywhere, no buoyancy
+---@field density? number kg/m3, > 0, default 1025: sea water by default
+
+---Water of one velocity everywhere below its level.
+---@param options cdem.WaterUniformOptions
+---@return cdem.Water
+function cdem.water.uniform(options) end
+
+---@class (exact) cdem.WaterFieldOptions
+---@field velocity fun(x: number, y: number, z: number, time: number): number[] m/s
+---@field acceleration? fun(x: number, y: number, z: number, time: number): number[] m/s2
+---@field pressure? fun(x: number, y: number, z: number, time: number): number Pa: that of the motion included
+---@field surface? fun(x: number, y: number, z: number, time: number): number m: z of the free surface; water everywhere when left out
+---@field density? number kg/m3, > 0, default 1025: sea water by default
+
+---Water that functions of place and time describe, each called at every node of a unit. Without a pressure it is hydrostatic below the surface; without an acceleration it is found from the velocity.
+---@param options cdem.WaterFieldOptions
+---@return cdem.Water
+function cdem.water.field(options) end
+
+---@class (exact) cdem.WaterWaveOptions
+---@field theory? "stream_function"|"stokes"|"airy" default "stream_function"
+---@field height number m, > 0: crest over trough
+---@field period? number s, > 0: give it or length
+---@field length? number m, > 0
+---@field depth number m, > 0: of still water
+---@field level? number m, default 0: z of still water
+---@field direction? number[] default {1, 0, 0}: of travel, horizontal
+---@field crest_at? number[] m, default {0, 0, 0}: where a crest stands at time 0
+---@field current? number m/s, default 0: along the direction, mean under water
+---@field order? integer in [3, 50], default 20: of the stream function
+---@field density? number kg/m3, > 0, default 1025: sea water by default
+
+---A regular wave over a flat bed that keeps its shape. stream_function: order N, any depth (Rienecker and Fenton 1981); stokes: fifth order (Fenton 1985), for waves that are not long; airy: small waves. A wave beyond breaking is an error.
+---@param options cdem.WaterWaveOptions
+---@return cdem.Water
+function cdem.water.wave(options) end
+
+---@class (exact) cdem.WaterSeaOptions
+---@field significant_height number m, > 0
+---@field peak_period number s, > 0
+---@field depth number m, > 0: of still water
+---@field level? number m, default 0: z of still water
+---@field peak_enhancement? number in [1, 20], default 3.3: gamma; 1: Pierson and Moskowitz
+---@field direction? number[] default {1, 0, 0}: of travel, horizontal
+---@field origin? number[] m, default {0, 0, 0}
+---@field components? integer in [10, 10000], default 100
+---@field seed? integer >= 0, default 1
+---@field density? number kg/m3, > 0, default 1025: sea water by default
+
+---An irregular sea of long crests: Airy waves whose energy follows the JONSWAP spectrum, with frequencies and phases drawn from the seed. Best as the waves of cdem.water.slope: at each node it sums all components.
+---@param options cdem.WaterSeaOptions
+---@return cdem.Water
+function cdem.water.sea(options) end
+
+---@class (exact) cdem.WaterSlopeOptions
+---@field bed [number, number][] points {x, z} (m) from the sea up the slope, x along the direction from the origin
+---@field waves cdem.Water|fun(time: number): number that enter over the first point: waves of the same level, or the height over still water (m)
+---@field duration number s, > 0: a run may not go on beyond it
+---@field level? number m, default 0: z of still water
+---@field cell? number m, > 0: a 300th of the bed when left out
+---@field ramp? number s, >= 0, default 0: over which the waves grow from nothing
+---@field friction? number in [0, 10], default 0.01: f of the bed's resistance rho f u |u|: smooth 0.005, armour 0.02 to 0.1
+---@field direction? number[] default {1, 0, 0}: of travel, horizontal
+---@field origin? number[] m, default {0, 0, 0}
+---@field density? number kg/m3, > 0, default 1025: sea water by default
+
+---Waves that run up and down a slope: shallow water along the bed, computed once here. Velocity along the bed and the free surface, hydrostatic pressure. A breaking wave is a bore, without jet and without the pressure of its impact.
+---@param options cdem.WaterSlopeOptions
+---@return cdem.Water
+function cdem.water.slope(options) end
 
 ---Pressure of a stream, rho V^2 / 2 (Feng 2014 eq 20), Pa.
 ---@param velocity number m/s, >= 0

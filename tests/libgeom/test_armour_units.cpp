@@ -70,6 +70,16 @@ TEST_CASE("a tetrapod has the inertia of a body with its symmetry, equal about e
   CHECK((inertia - inertia(0, 0) * Mat3::Identity()).norm() < 1e-6 * inertia(0, 0));
 }
 
+TEST_CASE("a cubipod is a cube with six truncated pyramids, H from tip to tip") {
+  const CubipodShape shape{0.7, 0.5, 0.3};
+  const double rise = 0.5 * (1 - shape.cube);
+  const double pyramid =
+      rise / 3 * (shape.root * shape.root + shape.root * shape.tip + shape.tip * shape.tip);
+  CHECK(volume(cubipod(1, shape)) == Approx(std::pow(shape.cube, 3) + 6 * pyramid).epsilon(1e-9));
+  CHECK(volume(cubipod(2)) == Approx(0.544 * 8).epsilon(1e-3));
+  CHECK_THROWS_WITH(cubipod(1, {0.5, 0.6, 0.3}), Catch::Contains("root"));
+}
+
 TEST_CASE("an antifer cube is a frustum less four half cylinders") {
   const AntiferShape s;
   const double frustum = (s.bottom * s.bottom + s.bottom * s.top + s.top * s.top) / 3;

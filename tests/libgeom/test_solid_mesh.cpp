@@ -78,8 +78,8 @@ TEST_CASE("the mesh of a ball lacks the segments between chords and sphere, an e
 }
 
 TEST_CASE("meshes of armour units have no slivers") {
-  for (const Solid& unit :
-       {accropode(1), accropode(1, AccropodeShape::stocky()), dolos(1), tetrapod(1), antifer(1)}) {
+  for (const Solid& unit : {accropode(1), accropode(1, AccropodeShape::stocky()), dolos(1), tetrapod(1),
+                            antifer(1), cubipod(1)}) {
     const MeshQuality q = quality(mesh_solid(unit, {0.08}));
     CHECK(q.min_radius_ratio > 0.15);
     CHECK(q.mean_radius_ratio > 0.65);

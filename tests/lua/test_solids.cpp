@@ -15,7 +15,7 @@ const std::string head = opening + "local cube = cdem.box_mesh{ size = {1, 1, 1}
 
 TEST_CASE("a unit by mass and density has that volume, whatever its shape", "[lua]") {
   CHECK(error_of(head + "for _, make in ipairs{ cdem.accropode, cdem.dolos, cdem.tetrapod, cdem.cube, "
-                        "cdem.antifer } do\n"
+                        "cdem.antifer, cdem.cubipod } do\n"
                         "  local unit = make{ mass = 5000, density = 2500 }\n"
                         "  close(unit:volume(), 2, 1e-8)\n  assert(unit.density == 2500)\n"
                         "  close(unit:inertia{}.mass, 5000, 1e-8)\n"

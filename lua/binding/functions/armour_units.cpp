@@ -80,6 +80,11 @@ Value antifer(Session&, Object*, const Arguments& a) {
   return made_unit(a, "antifer cube", [&](double height) { return geom::antifer(height, shape); });
 }
 
+Value cubipod(Session&, Object*, const Arguments& a) {
+  const geom::CubipodShape shape{a.number("cube"), a.number("root"), a.number("tip")};
+  return made_unit(a, "cubipod", [&](double height) { return geom::cubipod(height, shape); });
+}
+
 Value slope(Session&, Object*, const Arguments& a) {
   auto object =
       std::make_shared<SolidObject>(geom::slope(a.number("gradient"), a.number("length"), a.number("width")));
@@ -127,6 +132,14 @@ void bind_armour_units(Module& m) {
                    share("top", "width of the upper face").standard(1.005),
                    number("groove").at_least(0).standard(0.1047).doc("radius of the grooves; 0: none")}),
       antifer);
+  add("cubipod",
+      "A cube with a truncated pyramid on each side, as the Cubipod has; V = 0.544 H^3, H from tip to tip. "
+      "Proportions are "
+      "fractions of the height, and ours.",
+      unit_fields({share("cube", "side of the cube").standard(0.74),
+                   share("root", "width of a pyramid on the cube").standard(0.48),
+                   share("tip", "width of its end").standard(0.36)}),
+      cubipod);
   add("slope", "A wedge that rises along +x from x = 0, z = 0; y from -width/2 to width/2.",
       {number("gradient").above(0).required().doc("rise over run: 1/1.5"),
        number("length").above(0).unit("m").required().doc("along x"),

@@ -2,6 +2,7 @@
 #include "lua/binding/functions/mass_scaling.hpp"
 #include "lua/binding/functions/selections.hpp"
 #include "lua/binding/functions/solving_stage.hpp"
+#include "lua/binding/objects/water_object.hpp"
 #include "lua/binding/runtime/module.hpp"
 
 #include "libgeom/core/error.hpp"
@@ -39,14 +40,45 @@ Flow flow_of(const ModelObject& model, const Arguments& a) {
   return flow;
 }
 
-Value flow(Session& session, ModelObject& model, const Arguments& a) {
-  model.require_idle("flow");
+Flow flow_of_water(const ModelObject& model, const Arguments& a) {
+  for (const char* const own : {"direction", "velocity"})
+    if (a.has(own))
+      throw InputError(std::string(own) + ": goes without water, whose field has its own");
+  if (!a.flag("relative"))
+    throw InputError("relative", "false", "left out beside water",
+                     "drag depends on the motion of the surface");
+  Flow flow;
+  const std::vector<Selection> places = selections(model, a.value("on"), "on");
+  flow.on = places.front();
+  flow.also.assign(places.begin() + 1, places.end());
+  flow.water = a.object<WaterObject>("water")->field;
+  flow.drag = a.number("drag");
+  flow.added_mass = a.number("added_mass");
+  flow.new_faces = true; // a piece floats by all its faces
+  return flow;
+}
+
+Flow flow_of_stream(const ModelObject& model, const Arguments& a) {
+  for (const char* const own : {"direction", "velocity"})
+    if (!a.has(own))
+      throw InputError(std::string(own) + ": give it, or water = a field of cdem.water");
   Flow flow = flow_of(model, a);
   flow.velocity = velocity_of(a);
   flow.relative = a.flag("relative");
+  flow.drag = 1;
+  if (a.number("drag") != 1 || a.number("added_mass") != 0)
+    throw InputError("drag and added_mass: go with water = a field, such as cdem.water.uniform");
+  return flow;
+}
+
+Value flow(Session& session, ModelObject& model, const Arguments& a) {
+  model.require_idle("flow");
+  const auto water = a.object<WaterObject>("water");
+  const Flow flow = water ? flow_of_water(model, a) : flow_of_stream(model, a);
   if (model.simulation.flow(flow))
     session.warn("model:flow: it meets faces that another flow already meets; their pressures add up");
-  model.notes->conditions.push_back("flow along " + describe(a.value("direction")) + " on " + flow.on.text);
+  model.notes->conditions.push_back((water ? water->words : "flow along " + describe(a.value("direction"))) +
+                                    " on " + flow.on.text);
   return {};
 }
 
@@ -214,8 +246,22 @@ void bind_flow(Module& m) {
                              std::move(returns_doc), method<ModelObject>(body)});
   };
   std::vector<Field> steady = flow_fields();
+  steady[0] = vec3("direction").doc("of the flow; made a unit vector");
+  steady[1].doc("outer faces that may take it: one place; of water: a place or a list of places");
+  steady[3].doc("faces opened by cracks take the pressure too; always with water");
   steady.insert(steady.begin() + 1,
-                number_or_function("velocity", "(time: number): number").at_least(0).required().unit("m/s"));
+                number_or_function("velocity", "(time: number): number").at_least(0).unit("m/s"));
+  steady.push_back(object("water", "Water")
+                       .doc("a field of water in place of direction, velocity and density: drag, pressure "
+                            "and with it buoyancy on the wet part "
+                            "of each face, and added mass, as far as the field knows them"));
+  steady.push_back(number("drag").within(0, 100).standard(1.0).doc(
+      "C_D; scales the traction, which by itself gives a convex body C_D = 1 of its silhouette"));
+  steady.push_back(number("added_mass")
+                       .within(0, 100)
+                       .standard(0.0)
+                       .doc("C_A = C_M - 1, of the volume under water: sphere 0.5, cylinder across the "
+                            "stream 1, cube 0.67"));
   steady.push_back(flag("relative")
                        .standard(true)
                        .doc("in a run the water meets each point of the surface at its velocity less that of "
@@ -227,8 +273,9 @@ void bind_flow(Module& m) {
   add("flow",
       "Pressure of a flow on the outer faces that look towards it, as they stand at each moment: alpha F "
       "along the "
-      "flow, alpha the cosine to the inward normal (Feng 2014 eqs 19-20), on a surface at rest. Shielding is "
-      "not modelled.",
+      "flow, alpha the cosine to the inward normal (Feng 2014 eqs 19-20), on a surface at rest. With water = "
+      "a field, "
+      "the forces of waves. Shielding is not modelled.",
       steady, "", "", flow);
   model.methods.back().replay = Replay::again;
   std::vector<Field> search = flow_fields();

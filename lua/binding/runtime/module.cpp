@@ -72,7 +72,7 @@ const Declared& declared() {
     declare(d, "settling", "Settling", {bind_settling});
     declare(d, "fracture", "Cutting and crack growth", {bind_fracture});
     declare(d, "bolts", "Bolts", {bind_bolts});
-    declare(d, "flow", "Flow", {bind_flow});
+    declare(d, "flow", "Flow and waves", {bind_water_fields, bind_flow});
     declare(d, "earthquakes", "Earthquakes", {bind_waves});
     declare(d, "results", "Results", {bind_measures});
     declare(d, "cracks", "Cracks", {bind_cracks, bind_j_integral});

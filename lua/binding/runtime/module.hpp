@@ -101,7 +101,8 @@ void bind_stability(Module&);
 void bind_settling(Module&);
 void bind_fracture(Module&);
 void bind_bolts(Module&);
-void bind_flow(Module&);
+void bind_water_fields(Module&);
+void bind_flow(Module&); // after water_fields
 void bind_waves(Module&);
 void bind_measures(Module&);
 void bind_cracks(Module&);

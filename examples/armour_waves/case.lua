@@ -1,0 +1,140 @@
+-- Armour units on a slope of 1:1.5 under waves that grow: one layer is laid, comes to rest in still water, and then meets
+-- groups of regular waves, each group higher than the one before, with still water between them. After each group it says
+-- how far every unit has moved, and the damage N_od: units that left their places per width of one nominal diameter.
+--
+--   ./cdem run examples/armour_waves/case.lua [--set count=50] [--set drag=0.7] [--set deformable=true] [--seed 2]
+local cdem = require "cdem"
+
+local count = cdem.parameter{ name = "count", default = 8, range = {8, 200}, doc = "units" }
+local columns = cdem.parameter{ name = "columns", default = 4, range = {2, 20}, doc = "units in a row" }
+local mass = cdem.parameter{ name = "mass", default = 5000.0, range = {100, 1e5}, unit = "kg", doc = "of a unit" }
+local first = cdem.parameter{ name = "first_ns", default = 2.5, range = {0.1, 10}, doc = "stability number of the first group" }
+local step = cdem.parameter{ name = "ns_step", default = 0.5, range = {0.05, 5}, doc = "by which it grows" }
+local groups = cdem.parameter{ name = "groups", default = 7, range = {1, 50}, doc = "at most" }
+local waves = cdem.parameter{ name = "waves", default = 1, range = {1, 1000}, doc = "in a group" }
+local period = cdem.parameter{ name = "period", default = 8.0, range = {2, 30}, unit = "s", doc = "for 5 t; Froude scales it" }
+local rest = cdem.parameter{ name = "rest", default = 3.0, range = {0, 1000}, unit = "s", doc = "still water after a group" }
+local drag = cdem.parameter{ name = "drag", default = 1.0, range = {0, 10}, doc = "C_D" }
+local added = cdem.parameter{ name = "added_mass", default = 0.5, range = {0, 5}, doc = "C_A" }
+local friction = cdem.parameter{ name = "bed_friction", default = 0.05, range = {0, 1}, doc = "f of the slope" }
+local deformable = cdem.parameter{ name = "deformable", default = false, doc = "units deform; false: rigid" }
+local fineness = cdem.parameter{ name = "fineness", default = 3.0, range = {2, 20}, doc = "height over edge of the tetrahedra" }
+local ends_at = cdem.parameter{ name = "ends_at", default = 2.0, range = {0.1, 100}, doc = "N_od at which it ends" }
+local longest = cdem.parameter{ name = "time", default = 1e6, range = {0.01, 1e6}, unit = "s", doc = "of waves, at most" }
+local draw = cdem.parameter{ name = "pictures", default = true, doc = "draw them" }
+local g, sea, gradient = 9.81, 1025, 1 / 1.5
+
+local concrete = cdem.elastic{ youngs_modulus = 30e9, poissons_ratio = 0.2, density = 2400, stiffness_damping = 1e-5 }
+local solid = cdem.accropode{ mass = mass, density = concrete.density, width = 0.40, corner = 0 }
+local unit, H = solid:mesh{ size = solid.height / fineness }, solid.height
+local Dn = (mass / concrete.density) ^ (1 / 3)
+local scale = (mass / 5000) ^ (1 / 6) -- Froude's law: times go with the root of lengths
+period, rest = period * scale, rest * scale
+local length, width = (0.55 * math.ceil(count / columns) + 2.5) * H, (1.4 * columns + 2) * H
+local ground = cdem.slope{ gradient = gradient, length = length, width = width }:mesh{ size = 2 * H }
+local pile = cdem.place{ unit = unit, count = count, columns = columns, onto = ground, friction_angle = 12, walls = true }
+local model = cdem.model{
+  bodies = { { name = "units", shape = pile, material = concrete },
+             { name = "slope", shape = ground, material = concrete, element = "rigid" },
+             { name = "walls", shape = pile:walls{ onto = ground }, material = concrete, element = "rigid" } },
+  contacts = { default = cdem.coulomb{ friction_angle = 35 } } }
+model:fix{ on = {"slope", "walls"} }
+local lowest = model:lowest_units{ body = "units", count = columns }
+model:fix{ on = cdem.select.units{ body = "units", numbers = lowest } }
+
+-- Still water stands at the middle of the layer while it comes to rest.
+local box = pile:box()
+local level = 0.5 * (box.min[3] + box.max[3])
+model:gravity{ vector = {0, 0, -g} }
+model:flow{ on = "units", water = cdem.water.uniform{ velocity = {0, 0, 0}, level = level }, drag = drag, added_mass = added }
+local settled = model:settle{ kinetic_energy_ratio = 1e-4, friction_angle = 15 }
+if not deformable then model:make_rigid{ on = "units" } end
+model:reset_displacement()
+
+-- The slope goes on below the layer to deep water; the waves enter there.
+local highest = (first + step * (groups - 1)) * (concrete.density / sea - 1) * Dn
+local depth = 2.2 * highest
+local toe = -(depth - level) / gradient
+local bed = { {toe - 3 * Dn, level - depth}, {toe, level - depth}, {3 * length, 3 * length * gradient} }
+local start, group_time = model.time, waves * period + rest
+local ns, regular = {}, {}
+for k = 1, groups do
+  ns[k] = first + step * (k - 1)
+  regular[k] = cdem.water.wave{ height = ns[k] * (concrete.density / sea - 1) * Dn, period = period, depth = depth,
+                                level = level, crest_at = {toe - 3 * Dn, 0, 0} }
+end
+local function entering(time)
+  local k = math.floor((time - start) / group_time) + 1
+  local t = (time - start) - (k - 1) * group_time
+  if k < 1 or k > groups or t > waves * period then return 0 end
+  local grown = math.min(1, 2 * t / period, 2 * (waves * period - t) / period)
+  return grown * (regular[k]:at({toe - 3 * Dn, 0, 0}, t - 0.25 * period).surface - level)
+end
+local water = cdem.water.slope{ bed = bed, level = level, waves = entering, friction = friction,
+                                duration = start + groups * group_time + 1 }
+model:clear_loads()
+model:gravity{ vector = {0, 0, -g} }
+model:flow{ on = "units", water = water, drag = drag, added_mass = added }
+
+local function places() return model:pile{ body = "units" }:poses() end
+local function picture(name, title)
+  if draw then
+    model:picture{ file = name, title = title, colour = "displacement.magnitude", range = {0, H}, plain = {"slope"},
+                   hidden = {"walls"}, view = "iso", up = "z", deformation = 1, size = {1600, 0} }
+  end
+end
+picture("rest.png", "At rest in still water")
+
+local before, moved, rows = places(), {}, { ns = {}, nod = {}, largest = {}, out = {}, mean = {} }
+local first_out, damaged
+for k = 1, groups do
+  model:run{ duration = math.min(group_time, longest) }
+  local now, largest, mean, gone = places(), 0, 0, 0
+  for i, pose in ipairs(now) do
+    local d2 = 0
+    for axis = 1, 3 do d2 = d2 + (pose.centroid[axis] - before[i].centroid[axis]) ^ 2 end
+    moved[i] = math.sqrt(d2)
+    largest, mean = math.max(largest, moved[i]), mean + moved[i] / count
+    if moved[i] > Dn then gone = gone + 1 end
+  end
+  local nod = gone / ((box.max[2] - box.min[2]) / Dn)
+  rows.ns[k], rows.nod[k], rows.largest[k], rows.mean[k], rows.out[k] = ns[k], nod, largest / Dn, mean / Dn, gone
+  cdem.log(string.format("Ns = %.2f, H = %.2f m: %d units have left, N_od = %.2f, largest movement %.2f Dn, mean %.3f Dn",
+                         ns[k], ns[k] * (concrete.density / sea - 1) * Dn, gone, nod, largest / Dn, mean / Dn))
+  if gone > 0 and not first_out then
+    first_out = ns[k]
+    picture("first_out.png", string.format("The first unit has left: Ns = %.2f", ns[k]))
+  end
+  if nod >= 0.5 and not damaged then damaged = ns[k] end
+  if nod >= ends_at or group_time > longest then break end
+end
+picture("end.png", "After the highest waves")
+local numbers = {}
+for i = 1, count do numbers[i] = i end
+for i = 1, count do moved[i] = moved[i] / Dn end
+cdem.write_csv{ file = "groups.csv", columns = { { name = "ns", values = rows.ns }, { name = "n_od", values = rows.nod },
+                                                 { name = "units_out", values = rows.out },
+                                                 { name = "largest_movement_over_dn", values = rows.largest },
+                                                 { name = "mean_movement_over_dn", values = rows.mean } } }
+cdem.write_csv{ file = "units.csv", columns = { { name = "unit", values = numbers },
+                                                { name = "movement_over_dn", values = moved } } }
+cdem.chart{ file = "damage.png", title = "Damage under growing waves", x_label = "Ns = H / (Delta Dn)",
+            y_label = "N_od; movement over Dn",
+            series = { { name = "N_od", x = rows.ns, y = rows.nod, style = "both" },
+                       { name = "largest movement", x = rows.ns, y = rows.largest, style = "both" },
+                       { name = "start of damage 3.7 (Van der Meer 1988)", x = {3.7, 3.7}, y = {0, 1} } } }
+cdem.report{
+  { name = "kinetic_ratio_at_rest", value = settled.kinetic_ratio },
+  { name = "first_unit_out_ns", value = first_out, reference = 3.7, kind = "paper",
+    source = "Van der Meer 1988: start of damage of Accropodes" },
+  { name = "damage_ns", value = damaged, reference = 4.1, kind = "paper", source = "Van der Meer 1988: failure" },
+  { name = "largest_movement_over_dn", value = rows.largest[#rows.largest] },
+  { name = "run_up", value = water.run_up - level, unit = "m" },
+  { name = "run_down", value = water.run_down - level, unit = "m" },
+  { name = "deepest_contact_over_height", value = model:contacts().deepest / H, reference = 0, kind = "formula",
+    source = "nothing passes through", tolerance_absolute = 0.01 },
+  { name = "energy_balance_error", value = model:energy().balance_error, reference = 0, kind = "formula",
+    source = "energy is conserved", tolerance_absolute = 0.01 },
+  { name = "tets_per_unit", value = unit.tets },
+  { name = "wall_time_s", value = cdem.elapsed(), unit = "s" },
+}

@@ -1,0 +1,94 @@
+#include "libcdem/water/plain_water.hpp"
+
+#include "libgeom/core/check.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace cdem {
+namespace {
+
+constexpr double small_time = 1e-4, small_length = 1e-4; // s, m
+
+class Uniform final : public WaterField {
+public:
+  explicit Uniform(UniformWater given) : given_(std::move(given)) {}
+
+  WaterPoint at(const geom::Vec3& place, double time) const override {
+    WaterPoint point;
+    point.velocity = given_.velocity(time);
+    point.acceleration =
+        (given_.velocity(time + small_time) - given_.velocity(std::max(0.0, time - small_time))) /
+        (small_time + std::min(small_time, time));
+    if (given_.level) {
+      point.surface = *given_.level;
+      point.pressure = std::max(0.0, given_.density * given_.gravity * (*given_.level - place.z()));
+    }
+    return point;
+  }
+  double density() const override { return given_.density; }
+  bool has_dynamic_pressure() const override { return false; }
+  bool has_pressure() const override { return given_.level.has_value(); }
+
+private:
+  UniformWater given_;
+};
+
+class OfFunctions final : public WaterField {
+public:
+  explicit OfFunctions(FunctionWater given) : given_(std::move(given)) {}
+
+  WaterPoint at(const geom::Vec3& given_place, double time) const override {
+    WaterPoint point;
+    geom::Vec3 place = given_place;
+    if (given_.surface) {
+      point.surface = given_.surface(place, time);
+      place.z() = std::min(place.z(), point.surface);
+    }
+    point.velocity = given_.velocity(place, time);
+    point.acceleration =
+        given_.acceleration ? given_.acceleration(place, time) : along_path(place, time, point.velocity);
+    if (given_.pressure)
+      point.pressure = given_place.z() <= point.surface ? given_.pressure(place, time) : 0;
+    else if (given_.surface)
+      point.pressure = std::max(0.0, given_.density * given_.gravity * (point.surface - given_place.z()));
+    return point;
+  }
+  double density() const override { return given_.density; }
+  bool has_dynamic_pressure() const override { return has_pressure(); }
+  bool has_pressure() const override { return given_.pressure || given_.surface; }
+
+private:
+  geom::Vec3 along_path(const geom::Vec3& place, double time, const geom::Vec3& velocity) const {
+    const double before = std::min(small_time, std::max(0.0, time));
+    geom::Vec3 rate = (given_.velocity(place, time + small_time) - given_.velocity(place, time - before)) /
+                      (small_time + before);
+    for (int axis = 0; axis < 3; ++axis) {
+      const geom::Vec3 aside = small_length * geom::Vec3::Unit(axis);
+      rate += velocity[axis] / (2 * small_length) *
+              (given_.velocity(place + aside, time) - given_.velocity(place - aside, time));
+    }
+    return rate;
+  }
+
+  FunctionWater given_;
+};
+
+void check_liquid(double density, double gravity) {
+  geom::require_positive("density", density, "kg/m3");
+  geom::require_positive("gravity", gravity, "m/s2");
+}
+
+} // namespace
+
+std::shared_ptr<const WaterField> uniform_water(const UniformWater& given) {
+  check_liquid(given.density, given.gravity);
+  return std::make_shared<Uniform>(given);
+}
+
+std::shared_ptr<const WaterField> function_water(const FunctionWater& given) {
+  check_liquid(given.density, given.gravity);
+  return std::make_shared<OfFunctions>(given);
+}
+
+} // namespace cdem

@@ -1,0 +1,180 @@
+#include "libcdem/water/slope_water.hpp"
+
+#include "libgeom/core/check.hpp"
+#include "libgeom/core/error.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+
+namespace cdem {
+namespace {
+
+constexpr double frames_per_second = 50;
+constexpr double wet_depth = 1e-3; // of still water: thinner films neither load nor count as run-up
+
+double bed_at(const std::vector<std::array<double, 2>>& bed, double x) {
+  std::size_t i = 1;
+  while (i + 1 < bed.size() && x > bed[i][0])
+    ++i;
+  const double part = (x - bed[i - 1][0]) / (bed[i][0] - bed[i - 1][0]);
+  return bed[i - 1][1] + part * (bed[i][1] - bed[i - 1][1]);
+}
+
+void check_slope(const SlopeGiven& g) {
+  geom::require_positive("duration", g.duration, "s");
+  geom::require_positive("cell", g.cell);
+  geom::require_positive("density", g.density, "kg/m3");
+  geom::require_positive("gravity", g.gravity, "m/s2");
+  geom::require_between("friction", g.friction, 0, 10);
+  if (g.bed.size() < 2)
+    throw geom::InputError("bed", fmt::format("{} points", g.bed.size()), "at least two points {x, z} (m)");
+  for (std::size_t i = 1; i < g.bed.size(); ++i)
+    if (!(g.bed[i][0] > g.bed[i - 1][0]))
+      throw geom::InputError(fmt::format("bed[{}]", i + 1), fmt::format("{:g}", g.bed[i][0]),
+                             fmt::format("beyond the x of the point before, {:g} m", g.bed[i - 1][0]),
+                             "points go from the sea up the slope");
+  if (const double depth = g.level - g.bed[0][1]; !(depth > 0))
+    throw geom::InputError("bed[1]", fmt::format("{:g}", g.bed[0][1]),
+                           fmt::format("below the level of still water, {:g} m", g.level),
+                           fmt::format("the depth there would be {:g} m", depth));
+  const double cells = (g.bed.back()[0] - g.bed[0][0]) / g.cell;
+  if (!(cells >= 10 && cells <= 20000))
+    throw geom::InputError(
+        "cell", fmt::format("{:g}", g.cell),
+        fmt::format("one that gives 10 to 20000 cells over {:g} m", g.bed.back()[0] - g.bed[0][0]));
+  if (cells * g.duration * frames_per_second > 1.2e8)
+    throw geom::InputError(
+        "duration", fmt::format("{:g}", g.duration),
+        fmt::format("at most {:.3g} s with this cell", 1.2e8 / (cells * frames_per_second)),
+        "the solution would take more than 2 GB");
+  if (!(geom::Vec3(g.direction.x(), g.direction.y(), 0).norm() > 0))
+    throw geom::InputError("direction", geom::text(g.direction), "a vector with a horizontal part");
+}
+
+} // namespace
+
+SlopeWater::SlopeWater(const SlopeGiven& given) : given_(given) {
+  check_slope(given_);
+  along_ = geom::Vec3(given_.direction.x(), given_.direction.y(), 0).normalized();
+  const auto n =
+      static_cast<std::size_t>(std::ceil((given_.bed.back()[0] - given_.bed[0][0]) / given_.cell - 1e-9));
+  ShallowWater water;
+  water.cell = given_.cell;
+  water.gravity = given_.gravity;
+  water.friction = given_.friction;
+  water.entering = given_.entering;
+  for (std::size_t i = 0; i < n; ++i) {
+    bed_.push_back(bed_at(given_.bed, given_.bed[0][0] + (static_cast<double>(i) + 0.5) * given_.cell));
+    water.bed.push_back(bed_.back());
+    water.h.push_back(std::max(0.0, given_.level - bed_.back()));
+    water.q.push_back(0);
+  }
+  water.still_depth = water.h[0];
+  run_up_ = run_down_ = given_.level;
+  compute(water);
+  given_.entering = nullptr;
+}
+
+void SlopeWater::compute(ShallowWater& water) {
+  const int frames = static_cast<int>(std::ceil(given_.duration * frames_per_second));
+  frame_ = given_.duration / frames;
+  keep(water);
+  for (int i = 0; i < frames; ++i) {
+    double left = frame_;
+    while (left > 1e-12 * frame_) {
+      double dt = water.longest_step();
+      dt = dt >= left ? left : std::min(dt, 0.5 * left);
+      water.step((i + 1) * frame_ - left, dt);
+      left -= dt;
+    }
+    keep(water);
+  }
+}
+
+void SlopeWater::keep(const ShallowWater& water) {
+  std::vector<double>&h = h_.emplace_back(), &u = u_.emplace_back();
+  double line = -std::numeric_limits<double>::infinity();
+  const double film = wet_depth * water.still_depth;
+  bool joined = true; // to the sea
+  for (std::size_t i = 0; i < bed_.size(); ++i) {
+    h.push_back(water.h[i]);
+    u.push_back(water.velocity(i));
+    joined = joined && water.h[i] > film;
+    if (joined)
+      line = bed_[i] + water.h[i];
+  }
+  run_up_ = std::max(run_up_, line);
+  run_down_ = std::min(run_down_, line);
+}
+
+SlopeWater::Column SlopeWater::column(std::size_t frame, double s) const {
+  const double at =
+      std::clamp((s - given_.bed[0][0]) / given_.cell - 0.5, 0.0, static_cast<double>(bed_.size() - 1));
+  const std::size_t i = std::min(static_cast<std::size_t>(at), bed_.size() - 2);
+  const double part = at - static_cast<double>(i), film = wet_depth * (given_.level - given_.bed[0][1]);
+  const std::vector<double>&h = h_[frame], &u = u_[frame];
+  const auto mix = [part](double a, double b) { return a + part * (b - a); };
+  Column c;
+  c.bed = mix(bed_[i], bed_[i + 1]);
+  const bool first = h[i] > film, second = h[i + 1] > film;
+  c.wet = first || second;
+  if (first && second) {
+    c.surface = mix(bed_[i] + h[i], bed_[i + 1] + h[i + 1]);
+    c.u = mix(u[i], u[i + 1]);
+  } else if (c.wet) { // the water line: its surface goes on until it meets the bed
+    const std::size_t k = first ? i : i + 1;
+    c.surface = bed_[k] + h[k];
+    c.u = u[k];
+    c.wet = c.surface > c.bed;
+  }
+  return c;
+}
+
+WaterPoint SlopeWater::at(const geom::Vec3& place, double time) const {
+  if (!(time >= 0 && time <= given_.duration * (1 + 1e-9)))
+    throw geom::InputError(
+        fmt::format("water on the slope at {:g} s: it is known from 0 to {:g} s; give a longer "
+                    "duration",
+                    time, given_.duration));
+  const double s = (place - given_.origin).dot(along_), g = given_.gravity;
+  const double at = time / frame_;
+  const std::size_t i = std::min(static_cast<std::size_t>(at), h_.size() - 2);
+  const double part = std::min(1.0, at - static_cast<double>(i));
+  const auto mix = [part](double a, double b) { return a + part * (b - a); };
+  const Column a = column(i, s), b = column(i + 1, s);
+  WaterPoint point;
+  if (!a.wet && !b.wet) {
+    point.surface = -std::numeric_limits<double>::infinity();
+    return point;
+  }
+  const double surface = mix(a.wet ? a.surface : a.bed, b.wet ? b.surface : b.bed), bed = a.bed;
+  point.surface = surface;
+  point.pressure = std::max(0.0, given_.density * g * (surface - place.z()));
+  const double u = mix(a.u, b.u);
+  // Slopes of bed and surface, rates, over a cell to both sides.
+  const double d = given_.cell;
+  const Column al = column(i, s - d), ar = column(i, s + d), bl = column(i + 1, s - d),
+               br = column(i + 1, s + d);
+  const double bed_slope = (ar.bed - al.bed) / (2 * d);
+  double w_top = u * bed_slope, along = 0;
+  if (a.wet && b.wet && al.wet && ar.wet && bl.wet && br.wet) {
+    const double surface_slope = (mix(ar.surface, br.surface) - mix(al.surface, bl.surface)) / (2 * d);
+    w_top = (b.surface - a.surface) / frame_ + u * surface_slope;
+    along = (b.u - a.u) / frame_ + u * (mix(ar.u, br.u) - mix(al.u, bl.u)) / (2 * d);
+  }
+  const double height = std::clamp(surface > bed ? (place.z() - bed) / (surface - bed) : 0.0, 0.0, 1.0);
+  point.velocity = u * along_ + (u * bed_slope + height * (w_top - u * bed_slope)) * geom::Vec3::UnitZ();
+  point.acceleration = along * (along_ + bed_slope * (1 - height) * geom::Vec3::UnitZ());
+  return point;
+}
+
+double SlopeWater::mass_at(double time) const {
+  const auto frame = std::min(static_cast<std::size_t>(time / frame_ + 0.5), h_.size() - 1);
+  double sum = 0;
+  for (const double h : h_[frame])
+    sum += h * given_.cell;
+  return sum;
+}
+
+} // namespace cdem

@@ -1,0 +1,309 @@
+// cdem.water.*: fields of water that loads take.
+#include "lua/binding/functions/over_time.hpp"
+#include "lua/binding/objects/water_object.hpp"
+#include "lua/binding/runtime/module.hpp"
+#include "lua/binding/runtime/session.hpp"
+
+#include "libcdem/water/irregular_sea.hpp"
+#include "libcdem/water/plain_water.hpp"
+#include "libcdem/water/steady_wave.hpp"
+#include "libgeom/core/error.hpp"
+#include "libgeom/core/portable.hpp"
+
+#include <cmath>
+
+namespace cdem::script {
+
+namespace {
+
+using geom::InputError;
+
+constexpr double half_turn = 3.141592653589793;
+
+std::shared_ptr<WaterObject> holding(std::shared_ptr<const WaterField> field, std::string words) {
+  auto object = std::make_shared<WaterObject>();
+  object->field = std::move(field);
+  object->words = std::move(words);
+  return object;
+}
+
+Value uniform(Session&, Object*, const Arguments& a) {
+  UniformWater water;
+  if (const auto function = a.function("velocity"))
+    water.velocity = vector_over_time(function, "velocity");
+  else
+    water.velocity = [v = a.vec3("velocity")](double) { return v; };
+  water.level = a.optional_number("level");
+  water.density = a.number("density");
+  return holding(uniform_water(water), "water of one velocity");
+}
+
+std::string in_place(double x, double y, double z, double t) {
+  return "(" + number_text(x) + ", " + number_text(y) + ", " + number_text(z) + ", " + number_text(t) + ")";
+}
+
+std::function<geom::Vec3(const geom::Vec3&, double)> vector_in_water(const std::shared_ptr<Reference>& f,
+                                                                     const std::string& field) {
+  if (!f)
+    return nullptr;
+  return [f, field](const geom::Vec3& x, double t) {
+    const Values answer = f->call({x.x(), x.y(), x.z(), t});
+    const Table* const three = answer.empty() ? nullptr : answer[0].table();
+    geom::Vec3 v(std::nan(""), 0, 0);
+    if (three && three->items.size() == 3)
+      for (int axis = 0; axis < 3; ++axis)
+        v[axis] = three->items[axis].is_number() ? three->items[axis].number() : std::nan("");
+    if (!v.allFinite())
+      throw InputError(field + in_place(x.x(), x.y(), x.z(), t) + " of " + f->place(),
+                       answer.empty() ? "nothing" : describe(answer[0]), "three finite numbers {x, y, z}");
+    return v;
+  };
+}
+
+std::function<double(const geom::Vec3&, double)> number_in_water(const std::shared_ptr<Reference>& f,
+                                                                 const std::string& field) {
+  if (!f)
+    return nullptr;
+  return [f, field](const geom::Vec3& x, double t) {
+    const Values answer = f->call({x.x(), x.y(), x.z(), t});
+    if (answer.empty() || !answer[0].is_number() || !std::isfinite(answer[0].number()))
+      throw InputError(field + in_place(x.x(), x.y(), x.z(), t) + " of " + f->place(),
+                       answer.empty() ? "nothing" : describe(answer[0]), "a finite number");
+    return answer[0].number();
+  };
+}
+
+Value field(Session&, Object*, const Arguments& a) {
+  FunctionWater water;
+  water.velocity = vector_in_water(a.function("velocity"), "velocity");
+  water.acceleration = vector_in_water(a.function("acceleration"), "acceleration");
+  water.pressure = number_in_water(a.function("pressure"), "pressure");
+  water.surface = number_in_water(a.function("surface"), "surface");
+  water.density = a.number("density");
+  auto object = holding(function_water(water), "water of functions");
+  object->field->at(geom::Vec3::Zero(), 0); // so that a slip in them is an error of the line that gave them
+  return object;
+}
+
+Value wave(Session&, Object*, const Arguments& a) {
+  WaveGiven given;
+  const std::string& theory = a.text("theory");
+  given.theory = theory == "airy"     ? WaveTheory::airy
+                 : theory == "stokes" ? WaveTheory::stokes
+                                      : WaveTheory::stream_function;
+  given.height = a.number("height");
+  given.period = a.optional_number("period");
+  given.length = a.optional_number("length");
+  given.depth = a.number("depth");
+  given.level = a.number("level");
+  given.direction = a.vec3("direction");
+  given.crest_at = a.vec3("crest_at");
+  given.current = a.number("current");
+  given.order = a.count("order");
+  given.density = a.number("density");
+  const auto made = std::make_shared<WaveField>(given);
+  return holding(made, "waves of " + number_text(given.height) + " m and " +
+                           number_text(given.period.value_or(made->period())) + " s");
+}
+
+Value sea(Session&, Object*, const Arguments& a) {
+  SeaGiven given;
+  given.significant_height = a.number("significant_height");
+  given.peak_period = a.number("peak_period");
+  given.depth = a.number("depth");
+  given.level = a.number("level");
+  given.peak_enhancement = a.number("peak_enhancement");
+  given.direction = a.vec3("direction");
+  given.origin = a.vec3("origin");
+  given.components = a.count("components");
+  given.seed = static_cast<std::uint64_t>(a.integer("seed"));
+  given.density = a.number("density");
+  return holding(std::make_shared<IrregularSea>(given),
+                 "an irregular sea of " + number_text(given.significant_height) + " m");
+}
+
+// The waves that enter over the foot of the slope, grown from nothing over the ramp.
+std::function<double(double)> entering(const Arguments& a, const SlopeGiven& slope) {
+  std::function<double(double)> height;
+  if (const auto waves = a.object<WaterObject>("waves")) {
+    const geom::Vec3 along = geom::Vec3(slope.direction.x(), slope.direction.y(), 0).normalized();
+    geom::Vec3 foot = slope.origin + slope.bed[0][0] * along;
+    foot.z() = slope.level;
+    height = [field = waves->field, foot, level = slope.level](double time) {
+      return field->at(foot, time).surface - level;
+    };
+    if (!std::isfinite(height(0)))
+      throw InputError("waves", "water without a free surface there", "waves of the same level");
+  } else {
+    const auto function = a.function("waves");
+    height = [function](double time) {
+      const Values answer = function->call({time});
+      if (answer.empty() || !answer[0].is_number() || !std::isfinite(answer[0].number()))
+        throw InputError("waves(" + number_text(time) + ") of " + function->place(),
+                         answer.empty() ? "nothing" : describe(answer[0]),
+                         "a finite height over still water (m)");
+      return answer[0].number();
+    };
+  }
+  const double ramp = a.number("ramp");
+  return [height, ramp](double time) {
+    if (time >= ramp)
+      return height(time);
+    return 0.5 * (1 - geom::portable::cos(half_turn * time / ramp)) * height(time);
+  };
+}
+
+Value slope(Session& session, Object*, const Arguments& a) {
+  SlopeGiven given;
+  for (const Value& point : a.list("bed"))
+    given.bed.push_back({point.table()->items[0].number(), point.table()->items[1].number()});
+  given.level = a.number("level");
+  given.direction = a.vec3("direction");
+  given.origin = a.vec3("origin");
+  given.duration = a.number("duration");
+  given.friction = a.number("friction");
+  given.density = a.number("density");
+  given.cell = a.optional_number("cell").value_or((given.bed.back()[0] - given.bed[0][0]) / 300);
+  if (geom::Vec3(given.direction.x(), given.direction.y(), 0).norm() > 0)
+    given.entering = entering(a, given);
+  auto made = std::make_shared<SlopeWater>(given);
+  const double top = given.bed.back()[1];
+  if (made->run_up() >= top)
+    session.warn("cdem.water.slope: the water reaches the end of the bed at z = " + number_text(top) +
+                 " m, which is a wall; let the bed go on");
+  auto object = holding(
+      made, "waves that run up a slope to z = " + number_text(std::round(1e3 * made->run_up()) / 1e3) + " m");
+  object->slope = made;
+  return object;
+}
+
+Value at(Session&, WaterObject& water, const Arguments& a) {
+  const WaterPoint point = water.field->at(a.vec3("place"), a.number("time"));
+  Table row{{"velocity", point.velocity}, {"acceleration", point.acceleration}, {"pressure", point.pressure}};
+  if (std::isfinite(point.surface))
+    row.named["surface"] = point.surface;
+  return row;
+}
+
+Field density_field() {
+  return number("density").above(0).standard(1025.0).unit("kg/m3").doc("sea water by default");
+}
+Field direction_field() {
+  return vec3("direction").standard(geom::Vec3(1, 0, 0)).doc("of travel, horizontal");
+}
+Field level_field() {
+  return number("level").standard(0.0).unit("m").doc("z of still water");
+}
+
+void bind_water_class(Module& m) {
+  m.records.push_back({"WaterPoint",
+                       "Water at a place and time.",
+                       {vec3("velocity").unit("m/s").required(),
+                        vec3("acceleration").unit("m/s2").required().doc("of the particles"),
+                        number("pressure").unit("Pa").required().doc("above that of the air"),
+                        number("surface").unit("m").doc(
+                            "z of the free surface; nil where it is dry or water is everywhere")}});
+  Class water{"Water", "A field of water, made by cdem.water.*; what model:flow takes as `water`."};
+  water.properties = {
+      {"density", "number", "kg/m3", "",
+       [](Session&, Object& self) -> Value { return static_cast<WaterObject&>(self).field->density(); }},
+      {"run_up", "number?", "m", "highest z that is wet at any time; on a slope only",
+       [](Session&, Object& self) -> Value {
+         const auto& slope = static_cast<WaterObject&>(self).slope;
+         return slope ? Value(slope->run_up()) : Value();
+       }},
+      {"run_down", "number?", "m", "lowest z of the water line; on a slope only",
+       [](Session&, Object& self) -> Value {
+         const auto& slope = static_cast<WaterObject&>(self).slope;
+         return slope ? Value(slope->run_down()) : Value();
+       }}};
+  water.methods.push_back({"at",
+                           "Velocity, acceleration, pressure and surface at a place and time.",
+                           {vec3("place").unit("m").required(), number("time").unit("s").standard(0.0)},
+                           true,
+                           "cdem.WaterPoint",
+                           "",
+                           method<WaterObject>(at)});
+  water.text = [](const Object& self) {
+    return "cdem.Water: " + static_cast<const WaterObject&>(self).words;
+  };
+  m.classes.push_back(water);
+}
+
+} // namespace
+
+void bind_water_fields(Module& m) {
+  bind_water_class(m);
+  const auto add = [&](std::string name, std::string doc, std::vector<Field> fields, auto body) {
+    m.functions.push_back(
+        {"water." + name, std::move(doc), std::move(fields), false, "cdem.Water", "", body});
+  };
+  add("uniform", "Water of one velocity everywhere below its level.",
+      {vec3_or_function("velocity", "(time: number): number[]").unit("m/s").required(),
+       number("level").unit("m").doc("z of the free surface, below which the pressure is hydrostatic; left "
+                                     "out: water everywhere, no buoyancy"),
+       density_field()},
+      uniform);
+  const std::string of_vector = "(x: number, y: number, z: number, time: number): number[]",
+                    of_number = "(x: number, y: number, z: number, time: number): number";
+  add("field",
+      "Water that functions of place and time describe, each called at every node of a unit. Without a "
+      "pressure it is "
+      "hydrostatic below the surface; without an acceleration it is found from the velocity.",
+      {function("velocity", of_vector).unit("m/s").required(),
+       function("acceleration", of_vector).unit("m/s2"),
+       function("pressure", of_number).unit("Pa").doc("that of the motion included"),
+       function("surface", of_number).unit("m").doc("z of the free surface; water everywhere when left out"),
+       density_field()},
+      field);
+  add("wave",
+      "A regular wave over a flat bed that keeps its shape. stream_function: order N, any depth (Rienecker "
+      "and Fenton "
+      "1981); stokes: fifth order (Fenton 1985), for waves that are not long; airy: small waves. A wave "
+      "beyond breaking "
+      "is an error.",
+      {choice("theory", {"stream_function", "stokes", "airy"}).standard("stream_function"),
+       number("height").above(0).unit("m").required().doc("crest over trough"),
+       number("period").above(0).unit("s").doc("give it or length"), number("length").above(0).unit("m"),
+       number("depth").above(0).unit("m").required().doc("of still water"), level_field(), direction_field(),
+       vec3("crest_at").standard(geom::Vec3(0, 0, 0)).unit("m").doc("where a crest stands at time 0"),
+       number("current").standard(0.0).unit("m/s").doc("along the direction, mean under water"),
+       integer("order").within(3, 50).standard(20).doc("of the stream function"), density_field()},
+      wave);
+  add("sea",
+      "An irregular sea of long crests: Airy waves whose energy follows the JONSWAP spectrum, with "
+      "frequencies and "
+      "phases drawn from the seed. Best as the waves of cdem.water.slope: at each node it sums all "
+      "components.",
+      {number("significant_height").above(0).unit("m").required(),
+       number("peak_period").above(0).unit("s").required(),
+       number("depth").above(0).unit("m").required().doc("of still water"), level_field(),
+       number("peak_enhancement").within(1, 20).standard(3.3).doc("gamma; 1: Pierson and Moskowitz"),
+       direction_field(), vec3("origin").standard(geom::Vec3(0, 0, 0)).unit("m"),
+       integer("components").within(10, 10000).standard(100), integer("seed").at_least(0).standard(1),
+       density_field()},
+      sea);
+  add("slope",
+      "Waves that run up and down a slope: shallow water along the bed, computed once here. Velocity along "
+      "the bed and the "
+      "free surface, hydrostatic pressure. A breaking wave is a bore, without jet and without the pressure "
+      "of its impact.",
+      {list("bed", tuple_type({number_type(), number_type()}), 2)
+           .required()
+           .doc("points {x, z} (m) from the sea up the slope, x along the direction from the origin"),
+       object_or_function("waves", "Water", "(time: number): number")
+           .required()
+           .doc("that enter over the first point: waves of the same level, or the height over still water "
+                "(m)"),
+       number("duration").above(0).unit("s").required().doc("a run may not go on beyond it"), level_field(),
+       number("cell").above(0).unit("m").doc("a 300th of the bed when left out"),
+       number("ramp").at_least(0).standard(0.0).unit("s").doc("over which the waves grow from nothing"),
+       number("friction")
+           .within(0, 10)
+           .standard(0.01)
+           .doc("f of the bed's resistance rho f u |u|: smooth 0.005, armour 0.02 to 0.1"),
+       direction_field(), vec3("origin").standard(geom::Vec3(0, 0, 0)).unit("m"), density_field()},
+      slope);
+}
+
+} // namespace cdem::script

@@ -1,0 +1,13 @@
+-- Units in waves, shortened: two seconds of low waves on eight units. Nothing leaves its place, the water runs up the slope,
+-- nothing passes through the ground, and the energy is kept.
+local cdem = require "cdem"
+local expect = require "expect"
+
+local result = cdem.sweep{ script = "../../examples/armour_waves/case.lua",
+                           set = { { count = 8, groups = 1, time = 2.0, pictures = false } } }[1]
+if result.exit_code ~= 0 then error("the example ended with exit code " .. result.exit_code) end
+expect.between(result.figures, "largest_movement_over_dn", 0, 0.2)
+expect.between(result.figures, "run_up", 0.5, 10)
+expect.between(result.figures, "deepest_contact_over_height", 0, 0.01)
+expect.between(result.figures, "energy_balance_error", 0, 0.01)
+expect.done()

@@ -1,0 +1,175 @@
+// Shallow water along a slope against exact solutions, and the field made of it.
+#include "libcdem/water/slope_water.hpp"
+
+#include <catch2/catch.hpp>
+#include <cmath>
+
+namespace {
+
+constexpr double g = 9.81;
+
+cdem::ShallowWater channel(double from, double to, int cells, const std::function<double(double)>& bed,
+                           const std::function<double(double)>& surface) {
+  cdem::ShallowWater w;
+  w.cell = (to - from) / cells;
+  for (int i = 0; i < cells; ++i) {
+    const double x = from + (i + 0.5) * w.cell;
+    w.bed.push_back(bed(x));
+    w.h.push_back(std::max(0.0, surface(x) - w.bed.back()));
+    w.q.push_back(0);
+  }
+  return w;
+}
+
+void advance(cdem::ShallowWater& w, double from, double to) {
+  double time = from;
+  while (time < to) {
+    const double dt = std::min(w.longest_step(), to - time);
+    w.step(time, dt);
+    time = to - time - dt < 1e-12 * to ? to : time + dt;
+  }
+}
+
+// Carrier and Greenspan 1958, J. Fluid Mech. 4:97-109: potential A J0(sigma) cos(lambda), in units of the beach: bed z = x,
+// gravity 1. At (x, t): surface and velocity, by Newton's method for (sigma, lambda).
+struct Beach {
+  double a = 0.6;
+
+  struct Water {
+    double surface, velocity;
+  };
+  double j1_over(double s) const { return s < 1e-6 ? 0.5 - s * s / 16 : std::cyl_bessel_j(1, s) / s; }
+  double velocity(double s, double l) const { return -a * j1_over(s) * std::cos(l); }
+  double place(double s, double l) const {
+    const double v = velocity(s, l);
+    return -a / 4 * std::cyl_bessel_j(0, s) * std::sin(l) - s * s / 16 - v * v / 2;
+  }
+  double phase(double t, double s) const { // lambda = 2 (t + v)
+    double l = 2 * t;
+    for (int i = 0; i < 30; ++i)
+      l = 2 * (t + velocity(s, l));
+    return l;
+  }
+  double shore(double t) const { return place(0, phase(t, 0)); }
+  Water at(double x, double t) const {
+    double low = 0, high = 100; // the place falls as sigma grows
+    for (int i = 0; i < 50; ++i) {
+      const double middle = 0.5 * (low + high);
+      (place(middle, phase(t, middle)) > x ? low : high) = middle;
+    }
+    const double l = phase(t, low);
+    return {x + low * low / 16, velocity(low, l)};
+  }
+};
+
+cdem::SlopeGiven slope_of(double cot, double depth) {
+  cdem::SlopeGiven given;
+  given.bed = {{0, -depth}, {depth * (cot + 0.35 * cot), 0.35 * depth}};
+  given.friction = 0;
+  return given;
+}
+
+} // namespace
+
+TEST_CASE("a lake over an uneven bed with islands stays at rest to rounding", "[water]") {
+  cdem::ShallowWater w = channel(
+      0, 10, 100, [](double x) { return 0.3 * std::sin(7 * x) + 0.1 * x; }, [](double) { return 0.55; });
+  w.entering = [](double) { return 0.0; };
+  w.still_depth = w.h[0];
+  double volume = 0;
+  for (const double h : w.h)
+    volume += h;
+  for (int i = 0; i < 500; ++i)
+    w.step(0, w.longest_step());
+  double after = 0;
+  for (int i = 0; i < static_cast<int>(w.h.size()); ++i) {
+    after += w.h[i];
+    CHECK(std::abs(w.q[i]) < 1e-13);
+    if (w.h[i] > 0)
+      CHECK(std::abs(w.h[i] + w.bed[i] - 0.55) < 1e-13);
+  }
+  CHECK(std::abs(after - volume) < 1e-12);
+}
+
+TEST_CASE("a dam breaks as Ritter found: h = (2 c0 - x / t)^2 / (9 g), depths stay above zero", "[water]") {
+  const double t = 1.5, c0 = std::sqrt(g);
+  cdem::ShallowWater w = channel(
+      -10, 12, 880, [](double) { return 0.0; }, [](double x) { return x < 0 ? 1.0 : 0.0; });
+  w.still_depth = 1;
+  advance(w, 0, t);
+  double error = 0, volume = 0;
+  for (int i = 0; i < static_cast<int>(w.h.size()); ++i) {
+    const double x = -10 + (i + 0.5) * w.cell, s = x / t;
+    const double exact = s <= -c0 ? 1 : s >= 2 * c0 ? 0 : (2 * c0 - s) * (2 * c0 - s) / (9 * g);
+    CHECK(w.h[i] >= 0);
+    error += std::abs(w.h[i] - exact) * w.cell;
+    volume += w.h[i] * w.cell;
+  }
+  CHECK(error < 0.003 * 10);
+  CHECK(volume == Approx(10).epsilon(1e-12));
+}
+
+TEST_CASE("a standing wave on a plane beach moves its shore as Carrier and Greenspan found", "[water]") {
+  const Beach beach;
+  // From the highest run-up, of no velocity, to the lowest: half a period, pi / 2 in units of the beach.
+  const double start = -std::acos(-1.0) / 4, from = -6, to = 0.6;
+  cdem::ShallowWater w = channel(
+      from, to, 660, [](double x) { return x; },
+      [&](double x) { return x < beach.shore(start) ? beach.at(x, start).surface : x; });
+  w.gravity = 1;
+  w.still_depth = 1e-3; // sets what counts as dry
+  REQUIRE(std::abs(beach.at(-1, start).velocity) < 1e-12);
+  CHECK(beach.shore(start) == Approx(beach.a / 4).epsilon(1e-9));
+  for (int part = 1; part <= 2; ++part) {
+    const double now = start + part * std::acos(-1.0) / 4;
+    advance(w, now - std::acos(-1.0) / 4, now);
+    double shore = from;
+    double error = 0, sum = 0;
+    for (int i = 0; i < static_cast<int>(w.h.size()); ++i) {
+      const double x = from + (i + 0.5) * w.cell;
+      if (w.h[i] > 1e-3)
+        shore = x + 0.5 * w.cell;
+      if (x > -1.5 && x < beach.shore(now) - 0.02) { // no news from the wall has come there
+        const Beach::Water exact = beach.at(x, now);
+        error += std::abs(w.h[i] + w.bed[i] - exact.surface);
+        sum += std::abs(exact.surface);
+      }
+    }
+    CHECK(shore == Approx(beach.shore(now)).margin(0.02 * beach.a));
+    CHECK(error < 0.02 * sum);
+  }
+}
+
+TEST_CASE("a solitary wave runs up a plane beach to 2.831 sqrt(cot b) (H/d)^(5/4) d", "[water]") {
+  // Synolakis 1987, J. Fluid Mech. 185:523-545, for waves that do not break.
+  const double depth = 1;
+  const auto [cot, height] = GENERATE(std::pair(19.85, 0.0185), std::pair(15.0, 0.03), std::pair(30.0, 0.01));
+  cdem::SlopeGiven given = slope_of(cot, depth);
+  given.cell = 0.05;
+  const double c = std::sqrt(g * depth), k = std::sqrt(0.75 * height), arrives = 4 / (k * c);
+  given.entering = [=](double t) {
+    const double s = 1 / std::cosh(k * c * (t - arrives));
+    return height * s * s;
+  };
+  given.duration = arrives + 2 * 2 * cot * depth / c;
+  const cdem::SlopeWater water(given);
+  CHECK(water.run_up() / depth == Approx(2.831 * std::sqrt(cot) * std::pow(height, 1.25)).epsilon(0.03));
+}
+
+TEST_CASE("the field on a slope: still water is flat, hydrostatic and at rest", "[water]") {
+  cdem::SlopeGiven given = slope_of(1.5, 8);
+  given.level = 2;
+  for (auto& point : given.bed)
+    point[1] += 2;
+  given.cell = 0.25;
+  given.duration = 1;
+  given.entering = [](double) { return 0.0; };
+  const cdem::SlopeWater water(given);
+  const cdem::WaterPoint point = water.at({5, 3, 0.7}, 0.5);
+  CHECK(point.surface == Approx(2).margin(1e-12));
+  CHECK(point.pressure == Approx(1025 * g * 1.3).epsilon(1e-12));
+  CHECK(point.velocity.norm() < 1e-12);
+  CHECK(point.acceleration.norm() < 1e-11);
+  CHECK(std::isinf(water.at({15, 0, 3}, 0.5).surface)); // on the dry slope
+  CHECK_THROWS_WITH(water.at({5, 0, 0}, 1.5), Catch::Contains("known from 0 to 1 s"));
+}

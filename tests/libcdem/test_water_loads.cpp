@@ -1,0 +1,242 @@
+// Forces of fields of water on bodies: buoyancy, drag on silhouettes, Morison's inertia, each counted once.
+#include "libcdem/load/water_forces.hpp"
+#include "libcdem/procedure/turn_rigid.hpp"
+#include "libcdem/results/energy.hpp"
+#include "libcdem/water/plain_water.hpp"
+#include "libcdem/water/steady_wave.hpp"
+#include "libgeom/assembly/builders.hpp"
+#include "libgeom/mesh/box_mesh.hpp"
+#include "libgeom/polyhedron/cut.hpp"
+#include "tests/libcdem/going_on.hpp"
+#include "tests/libcdem/system.hpp"
+
+#include <catch2/catch.hpp>
+#include <cmath>
+
+using namespace testing;
+using geom::Vec3;
+
+namespace {
+
+constexpr double density = 1025, weight = 1025 * 9.81;
+
+cdem::UniformWater still(double level) {
+  cdem::UniformWater water;
+  water.velocity = [](double) { return Vec3(0, 0, 0); };
+  water.level = level;
+  return water;
+}
+
+cdem::Flow in_water(std::shared_ptr<const cdem::WaterField> water, double drag = 1, double added_mass = 0) {
+  cdem::Flow flow;
+  flow.water = std::move(water);
+  flow.drag = drag;
+  flow.added_mass = added_mass;
+  flow.new_faces = true;
+  return flow;
+}
+
+struct Wrench {
+  Vec3 force = Vec3::Zero(), moment = Vec3::Zero(); // N; N m about the origin
+};
+
+Wrench wrench(System& s) {
+  cdem::ResolvedConditions r = cdem::resolve(s.model, s.state, s.conditions);
+  cdem::update_external(r, s.state.time, &s.state.velocity);
+  Wrench sum;
+  for (std::size_t i = 0; i < r.external.size(); ++i) {
+    sum.force += vec(r.external[i]);
+    sum.moment += cdem::place_of(s.model, s.state, static_cast<int>(i)).cross(vec(r.external[i]));
+  }
+  return sum;
+}
+
+// A box of divisions n, its surface moved to a sphere of radius 0.5, or its sides to a cylinder of diameter and height 1,
+// whose points wander along the axis, so that no triangle of the side is parallel to it.
+enum class Shape { cube, sphere, cylinder };
+geom::TetMesh shaped(Shape shape, int n) {
+  geom::TetMesh mesh = geom::box_mesh({1, 1, 1}, {n, n, n});
+  for (Vec3& x : mesh.nodes) {
+    x -= Vec3(0.5, 0.5, 0.5);
+    if (shape == Shape::sphere) {
+      const double cube = x.cwiseAbs().maxCoeff(), length = x.norm();
+      if (length > 0)
+        x *= cube / length;
+    } else if (shape == Shape::cylinder) {
+      const double square = std::max(std::abs(x.x()), std::abs(x.y())), length = std::hypot(x.x(), x.y());
+      if (length > 0)
+        x.x() *= square / length, x.y() *= square / length;
+      x.z() += 0.2 / n * std::sin(5 * std::atan2(x.y(), x.x()) + 40 * x.z()) * (1 - 4 * x.z() * x.z());
+    }
+  }
+  return mesh;
+}
+
+std::shared_ptr<const cdem::WaterField> stream(const Vec3& velocity,
+                                               const Vec3& acceleration = Vec3::Zero()) {
+  cdem::UniformWater water;
+  water.velocity = [=](double t) { return Vec3(velocity + (t - 1) * acceleration); };
+  return cdem::uniform_water(water);
+}
+
+} // namespace
+
+TEST_CASE("still water carries a body as Archimedes said, at any attitude and draught", "[water]") {
+  const Vec3 size(1, 0.6, 1.7);
+  const bool rigid = GENERATE(false, true);
+  System s(build({meshed("unit", geom::box_mesh(size, {2, 2, 3}))}));
+  if (rigid)
+    cdem::set_rigid(s.model, s.state, {0});
+  for (const double angle : {0.0, 33.0, 100.0})
+    for (const double level : {-3.0, 0.1, 0.45, 0.9, 5.0}) {
+      const geom::Mat3 turn = rotation({1, -2, 0.5}, angle * degree);
+      geom::Polyhedron box = geom::grid(size, {1, 1, 1}).blocks.at(0);
+      for (std::size_t i = 0; i < s.state.displacement.size(); ++i)
+        s.state.displacement[i] = node(turn * s.model.node_position[i] - s.model.node_position[i]);
+      for (Vec3& x : box.vertices)
+        x = turn * x;
+      s.conditions.flows = {in_water(cdem::uniform_water(still(level)))};
+      const Wrench sum = wrench(s);
+      const geom::Cut parts = geom::cut(box, geom::Plane{Vec3::UnitZ(), level});
+      Wrench expected;
+      if (parts.below || !parts.above) {
+        const geom::MassProperties wet = geom::mass_properties(parts.below ? parts.below->shape : box);
+        expected.force = wet.volume * weight * Vec3::UnitZ();
+        expected.moment = wet.centroid.cross(expected.force);
+      }
+      CHECK((sum.force - expected.force).norm() < 1e-12 * weight);
+      CHECK((sum.moment - expected.moment).norm() < 1e-12 * weight);
+    }
+}
+
+TEST_CASE("drag on a convex body is that of its silhouette, the side along a stream takes nothing",
+          "[water][flow]") {
+  const double speed = 3, pressure = 0.5 * density * speed * speed;
+  const auto drag = [&](Shape shape, const Vec3& along, bool field) {
+    System s(build({meshed("unit", shaped(shape, 8))}));
+    if (field) {
+      s.conditions.flows = {in_water(stream(speed * along), 1)};
+    } else {
+      cdem::Flow flow;
+      flow.direction = along;
+      flow.velocity = [=](double) { return speed; };
+      flow.relative = false;
+      s.conditions.flows = {flow};
+    }
+    s.state.time = 1;
+    const Vec3 force = wrench(s).force;
+    CHECK((force - force.dot(along) * along).norm() < 1e-9 * force.norm());
+    return force.dot(along) / pressure;
+  };
+  const bool field = GENERATE(true, false);
+  CHECK(drag(Shape::cube, Vec3::UnitX(), field) == Approx(1).epsilon(1e-12));
+  CHECK(drag(Shape::cube, Vec3(1, 1, 1).normalized(), field) == Approx(std::sqrt(3)).epsilon(1e-12));
+  CHECK(drag(Shape::sphere, Vec3(1, 2, 0.3).normalized(), field) == Approx(pi / 4).epsilon(0.02));
+  CHECK(drag(Shape::cylinder, Vec3::UnitX(), field) == Approx(1).epsilon(0.02));
+  double end = 0; // m2, of the mesh
+  System cylinder(build({meshed("unit", shaped(Shape::cylinder, 8))}));
+  for (const cdem::OuterFace& face : cylinder.model.outer_faces)
+    if (face.normal.z() < -0.999)
+      end += face.area;
+  CHECK(drag(Shape::cylinder, Vec3::UnitZ(), field) == Approx(end).epsilon(0.01));
+}
+
+TEST_CASE("a body at rest in accelerated water takes Morison's force", "[water]") {
+  const Shape shape = GENERATE(Shape::cube, Shape::sphere, Shape::cylinder);
+  const double cd = 0.8, ca = 0.6, area = shape == Shape::sphere ? pi / 4 : 1;
+  const Vec3 u(2, 0, 0), a(-0.7, 0, 0);
+  System s(build({meshed("unit", shaped(shape, 6))}));
+  s.conditions.flows = {in_water(stream(u, a), cd, ca)};
+  s.state.time = 1;
+  double volume = 0;
+  for (int i = 0; i < static_cast<int>(s.model.node_position.size()); ++i)
+    volume += cdem::node_volume(s.model, i);
+  const Vec3 inertia = density * volume * (1 + ca) * a, drag = 0.5 * density * cd * area * u.norm() * u;
+  const Wrench sum = wrench(s);
+  CHECK((sum.force - inertia - drag).norm() < 0.03 * drag.norm());
+  s.conditions.flows[0].drag = 0;
+  CHECK((wrench(s).force - inertia).norm() < 1e-9 * inertia.norm());
+}
+
+TEST_CASE("a field with pressure and one with acceleration give the same force, neither twice", "[water]") {
+  cdem::WaveGiven given;
+  given.height = 3;
+  given.period = 9;
+  given.depth = 15;
+  const auto wave = std::make_shared<cdem::WaveField>(given);
+  cdem::FunctionWater without;
+  without.velocity = [&](const Vec3& x, double t) { return wave->at(x, t).velocity; };
+  without.acceleration = [&](const Vec3& x, double t) { return wave->at(x, t).acceleration; };
+  geom::TetMesh cube = shaped(Shape::cube, 3);
+  for (Vec3& x : cube.nodes)
+    x += Vec3(4, 0, -6);
+  System s(build({meshed("unit", cube)}));
+  const double ca = GENERATE(0.0, 0.67);
+  for (const double time : {0.0, 1.7, 4.0}) {
+    s.state.time = time;
+    s.conditions.flows = {in_water(wave, 0, ca)};
+    const Vec3 by_pressure = wrench(s).force - weight * Vec3::UnitZ();
+    s.conditions.flows = {in_water(cdem::function_water(without), 0, ca)};
+    const Vec3 by_acceleration = wrench(s).force;
+    CHECK(by_acceleration.norm() > 300);
+    CHECK((by_pressure - by_acceleration).norm() < 0.01 * by_acceleration.norm());
+  }
+}
+
+TEST_CASE("a body sinks with its weight less buoyancy over its mass and the added one", "[water][rigid]") {
+  const bool rigid = GENERATE(false, true);
+  const double ca = 0.67, rock_density = rock().density;
+  System s(build({meshed("unit", geom::box_mesh({1, 1, 1}, {2, 2, 2}))}));
+  if (rigid)
+    cdem::set_rigid(s.model, s.state, {0});
+  s.conditions.gravity = gravity();
+  s.conditions.flows = {in_water(cdem::uniform_water(still(1.5)), 0, ca)};
+  cdem::RunOptions options;
+  options.duration = 0.01;
+  options.time_step = 5e-5;
+  s.run(options);
+  const double expected = -9.81 * (rock_density - density) / (rock_density + ca * density);
+  double mean = 0; // m, of the mass
+  for (int i = 0; i < static_cast<int>(s.state.displacement.size()); ++i)
+    mean += s.state.displacement[i].z * cdem::node_volume(s.model, i);
+  CHECK(mean == Approx(0.5 * expected * 1e-4).epsilon(0.003));
+  CHECK(s.state.moving_mass.empty());
+  CHECK(cdem::energy(s.model, s.state).balance_error() < 1e-3);
+}
+
+TEST_CASE("a run in waves that is left and goes on ends in the same bits", "[water][resume]") {
+  cdem::WaveGiven given;
+  given.height = 0.4;
+  given.period = 3;
+  given.depth = 2;
+  given.level = 0.7;
+  const auto wave = std::make_shared<cdem::WaveField>(given);
+  const bool rigid = GENERATE(false, true);
+  const auto unit_in_waves = [&](int threads, std::shared_ptr<cdem::Observer> observer) {
+    cdem::ModelSpec spec;
+    spec.bodies = {meshed("unit", geom::box_mesh({1, 1, 1}, {2, 2, 2}))};
+    cdem::Simulation s(spec, threads, std::move(observer));
+    if (rigid)
+      s.make_rigid(cdem::Selection::everything());
+    s.gravity(gravity());
+    s.flow(in_water(wave, 1, 0.67));
+    return s;
+  };
+  const auto solve = [](cdem::Simulation& s, int done) {
+    cdem::RunOptions options;
+    options.steps = 450;
+    options.time_step = 1e-5;
+    if (done == 0)
+      s.run(options);
+    return Figures{s.energy().total(), s.energy().external};
+  };
+  check_going_on(unit_in_waves, solve, {3, 14, 26});
+}
+
+TEST_CASE("buoyancy may not be given twice", "[water][input]") {
+  System s(build({meshed("unit", geom::box_mesh({1, 1, 1}, {2, 2, 2}))}));
+  s.conditions.gravity = gravity();
+  s.conditions.gravity->water_density = 1000;
+  s.conditions.flows = {in_water(cdem::uniform_water(still(0.5)))};
+  CHECK_THROWS_WITH(cdem::resolve(s.model, s.state, s.conditions), Catch::Contains("buoyancy already"));
+}
