@@ -79,10 +79,10 @@ CDEM_INLINE bool under_load(const FaceBatch& batch, const Gaps& gaps, const Face
   return simd::any(over);
 }
 
-// The faces of the batch of which some spring may be at its strength, a bit each. Judged without roots: the length of the normal from the face's area,
-// a unit vector to 1e-4 while strains stay under some per cent, and with a margin above that.
+// The faces of the batch of which some whole spring may be at its strength, a bit each. Judged without roots: the length of
+// the normal from the face's area, a unit vector to 1e-4 while strains stay under some per cent, and with a margin above that.
 CDEM_INLINE unsigned near_strength(const FaceBatch& batch, const Gaps& gaps, const Vec& normal,
-                                   const FaceLaw& law, const Strengths& s) {
+                                   const FaceLaw& law, const Strengths& s, const FaceStateBatch& state) {
   const Oct area = simd::load(batch.area), kn = simd::load(batch.kn);
   const Oct guess = 1.0 / (12.0 * area);
   const Oct n2 = dot(normal, normal);
@@ -92,19 +92,17 @@ CDEM_INLINE unsigned near_strength(const FaceBatch& batch, const Gaps& gaps, con
             cohesion = (unbreakable_part * s.cohesion) * area,
             tan_friction = unbreakable_part * s.tan_friction;
   Mask near{};
-  for (const Vec& gap : gaps.point) {
+  for (int point = 0; point < 3; ++point) {
+    const Vec& gap = gaps.point[point];
     const Oct gn = dot(gap, normal) * inverse;
     const Oct g2 = dot(gap, gap);
     const Oct fn = kn * gn;
     const Oct shear2 = (law.shear_ratio * law.shear_ratio) * kn * kn * (g2 - gn * gn);
     const Oct left = shear_strength(cohesion, tan_friction, fn);
-    near |= (fn >= tension) | (shear2 >= left * left) | (left <= Oct{});
+    near |= ((fn >= tension) | (shear2 >= left * left) | (left <= Oct{})) &
+            lanes_with(state.mode[point], static_cast<std::uint8_t>(BondMode::intact));
   }
-  unsigned bits = 0;
-  if (simd::any(near))
-    for (int lane = 0; lane < lanes; ++lane)
-      bits |= static_cast<unsigned>(near[lane] != 0) << lane;
-  return bits;
+  return simd::any(near) ? bits_of(near) : 0;
 }
 
 // Batches by which reading runs ahead.
@@ -137,7 +135,7 @@ CDEM_INLINE void face_bond_kernel(const FaceBatch* batches, std::int64_t count, 
           force[point] = plus(force[point], scaled(difference * dot(gaps.point[point], normal), normal));
       }
       if (looks)
-        may_break = near_strength(batch, gaps, normal, law, strengths);
+        may_break = near_strength(batch, gaps, normal, law, strengths, state[i]);
     }
     if (may_break != 0 || !all_intact(state[i])) {
       const unsigned used = (1u << std::min<std::int64_t>(lanes, faces - i * lanes)) - 1;
