@@ -1,4 +1,5 @@
 #include "libcdem/bond/broken_faces.hpp"
+#include "libcdem/bond/sliding_faces.hpp"
 #include "libcdem/joint/mohr_coulomb.hpp"
 #include "libgeom/core/portable.hpp"
 
@@ -44,6 +45,13 @@ CDEM_INLINE bool all_intact(const FaceStateBatch& state) {
   return (modes[0] | modes[1] | modes[2]) == 0;
 }
 
+CDEM_INLINE bool all_handed_over(const FaceStateBatch& state) {
+  constexpr std::uint64_t done = 0x0101010101010101u * static_cast<std::uint64_t>(HandOver::done);
+  std::uint64_t now = 0;
+  std::memcpy(&now, state.handed_over, sizeof now);
+  return now == done;
+}
+
 // Strengths of the faces of a batch.
 struct Strengths {
   Oct tension, cohesion, tan_friction;
@@ -71,10 +79,10 @@ CDEM_INLINE bool under_load(const FaceBatch& batch, const Gaps& gaps, const Face
   return simd::any(over);
 }
 
-// The faces of the batch of which some spring may be at its strength, a bit each. Judged without roots: the length of the normal from the face's area,
-// a unit vector to 1e-4 while strains stay under some per cent, and with a margin above that.
+// The faces of the batch of which some whole spring may be at its strength, a bit each. Judged without roots: the length of
+// the normal from the face's area, a unit vector to 1e-4 while strains stay under some per cent, and with a margin above that.
 CDEM_INLINE unsigned near_strength(const FaceBatch& batch, const Gaps& gaps, const Vec& normal,
-                                   const FaceLaw& law, const Strengths& s) {
+                                   const FaceLaw& law, const Strengths& s, const FaceStateBatch& state) {
   const Oct area = simd::load(batch.area), kn = simd::load(batch.kn);
   const Oct guess = 1.0 / (12.0 * area);
   const Oct n2 = dot(normal, normal);
@@ -84,19 +92,17 @@ CDEM_INLINE unsigned near_strength(const FaceBatch& batch, const Gaps& gaps, con
             cohesion = (unbreakable_part * s.cohesion) * area,
             tan_friction = unbreakable_part * s.tan_friction;
   Mask near{};
-  for (const Vec& gap : gaps.point) {
+  for (int point = 0; point < 3; ++point) {
+    const Vec& gap = gaps.point[point];
     const Oct gn = dot(gap, normal) * inverse;
     const Oct g2 = dot(gap, gap);
     const Oct fn = kn * gn;
     const Oct shear2 = (law.shear_ratio * law.shear_ratio) * kn * kn * (g2 - gn * gn);
     const Oct left = shear_strength(cohesion, tan_friction, fn);
-    near |= (fn >= tension) | (shear2 >= left * left) | (left <= Oct{});
+    near |= ((fn >= tension) | (shear2 >= left * left) | (left <= Oct{})) &
+            lanes_with(state.mode[point], static_cast<std::uint8_t>(BondMode::intact));
   }
-  unsigned bits = 0;
-  if (simd::any(near))
-    for (int lane = 0; lane < lanes; ++lane)
-      bits |= static_cast<unsigned>(near[lane] != 0) << lane;
-  return bits;
+  return simd::any(near) ? bits_of(near) : 0;
 }
 
 // Batches by which reading runs ahead.
@@ -111,6 +117,8 @@ CDEM_INLINE void face_bond_kernel(const FaceBatch* batches, std::int64_t count, 
   for (std::int64_t i = 0; i < count; ++i) {
     const FaceBatch& batch = batches[i];
     ahead.some();
+    if (all_handed_over(state[i]))
+      continue;
     simd::prefetch(batches + i + batches_ahead, sizeof batch);
     simd::prefetch(state + i + batches_ahead, sizeof *state);
     const Gaps gaps = gaps_of(batch.place_a, batch.place_b, motion.displacement);
@@ -127,18 +135,29 @@ CDEM_INLINE void face_bond_kernel(const FaceBatch* batches, std::int64_t count, 
           force[point] = plus(force[point], scaled(difference * dot(gaps.point[point], normal), normal));
       }
       if (looks)
-        may_break = near_strength(batch, gaps, normal, law, strengths);
+        may_break = near_strength(batch, gaps, normal, law, strengths, state[i]);
     }
     if (may_break != 0 || !all_intact(state[i])) {
-      // What is handed on by reference does not stay in registers.
-      Vec changed[3] = {force[0], force[1], force[2]};
+      const unsigned used = (1u << std::min<std::int64_t>(lanes, faces - i * lanes)) - 1;
       FaceLaw here = law;
       if (law.own)
         here.own = law.own + i;
-      one_by_one(batch, static_cast<int>(std::min<std::int64_t>(lanes, faces - i * lanes)), motion, here,
-                 breaking, may_break, i * 3 * lanes, state[i], slips, changed, sums);
-      for (int point = 0; point < 3; ++point)
-        force[point] = changed[point];
+      unsigned lane_by_lane = may_break & used;
+      for (int lane = 0; lane < lanes; ++lane)
+        lane_by_lane = leaves(state[i], lane)        ? lane_by_lane | 1u << lane
+                       : handed_over(state[i], lane) ? lane_by_lane & ~(1u << lane)
+                                                     : lane_by_lane;
+      if (state[i].slip >= 0)
+        lane_by_lane |= slide_eight(batch, motion, here, strengths.tan_friction, lane_by_lane, i * lanes,
+                                    state[i], slips + state[i].slip, force, sums);
+      if (lane_by_lane != 0) {
+        // What is handed on by reference does not stay in registers.
+        Vec changed[3] = {force[0], force[1], force[2]};
+        one_by_one(batch, lane_by_lane, motion, here, breaking, i * 3 * lanes, state[i], slips, changed,
+                   sums);
+        for (int point = 0; point < 3; ++point)
+          force[point] = changed[point];
+      }
     }
     const Oct sixth = Oct{} + 1.0 / 6, half = Oct{} + 0.5;
     const Vec common = scaled(sixth, plus(plus(force[0], force[1]), force[2]));
