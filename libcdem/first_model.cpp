@@ -211,33 +211,15 @@ void add_set_joints(Model& frame, int index, const BodySpec& body) {
     frame.joints.push_back(joint);
     return static_cast<int>(frame.joints.size()) - 1;
   };
+  require_set_names(body);
   Body& made = frame.bodies[index];
-  std::map<std::string, bool> glued; // by name, all faces
-  bool any_glued = false;
-  for (const geom::Polyhedron& block : body.shape.blocks)
-    for (const geom::PolyhedronFace& face : block.faces) {
-      any_glued = any_glued || face.glued;
-      if (!face.cut.empty())
-        glued[face.cut] = glued.emplace(face.cut, true).first->second && face.glued;
-    }
-  for (const auto& [name, joint] : body.set_joints) {
-    const auto found = glued.find(name);
-    if (found == glued.end()) {
-      std::string names;
-      for (const auto& known : glued)
-        names += (names.empty() ? "\"" : ", \"") + known.first + (known.second ? "\", which is glued" : "\"");
-      throw geom::InputError("joints of body \"" + body.name + "\"", "\"" + name + "\"",
-                             names.empty() ? "the name of a joint set or cut; none of its cuts has a name"
-                                           : "the name of a joint set or cut of its shape (" + names + ")",
-                             names.empty() ? "give the set or cut a name = \"" + name + "\"" : "");
-    }
-    if (found->second)
-      throw geom::InputError("joints of body \"" + body.name + "\"", "\"" + name + "\"",
-                             "a cut that is not glued",
-                             "leave glued = true out of the cut, or the law out here");
+  for (const auto& [name, joint] : body.set_joints)
     made.set_joint[name] = add(joint);
-  }
-  if (any_glued)
+  const auto& blocks = body.shape.blocks;
+  if (std::any_of(blocks.begin(), blocks.end(), [](const geom::Polyhedron& block) {
+        return std::any_of(block.faces.begin(), block.faces.end(),
+                           [](const auto& face) { return face.glued; });
+      }))
     made.glued_joint = add(glued_joint());
 }
 
@@ -283,6 +265,31 @@ void require_damps(const ModelSpec& spec, const Model& model) {
 }
 
 } // namespace
+
+void require_set_names(const BodySpec& body) {
+  std::map<std::string, bool> glued; // by name, all faces
+  for (const geom::Polyhedron& block : body.shape.blocks)
+    for (const geom::PolyhedronFace& face : block.faces)
+      if (!face.cut.empty())
+        glued[face.cut] = glued.emplace(face.cut, true).first->second && face.glued;
+  for (const auto& set : body.set_joints) {
+    const std::string& name = set.first;
+    const auto found = glued.find(name);
+    if (found == glued.end()) {
+      std::string names;
+      for (const auto& known : glued)
+        names += (names.empty() ? "\"" : ", \"") + known.first + (known.second ? "\", which is glued" : "\"");
+      throw geom::InputError("joints of body \"" + body.name + "\"", "\"" + name + "\"",
+                             names.empty() ? "the name of a joint set or cut; none of its cuts has a name"
+                                           : "the name of a joint set or cut of its shape (" + names + ")",
+                             names.empty() ? "give the set or cut a name = \"" + name + "\"" : "");
+    }
+    if (found->second)
+      throw geom::InputError("joints of body \"" + body.name + "\"", "\"" + name + "\"",
+                             "a cut that is not glued",
+                             "leave glued = true out of the cut, or the law out here");
+  }
+}
 
 Model first_model(const ModelSpec& spec) {
   if (spec.bodies.empty())

@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <fmt/format.h>
+#include <set>
 
 namespace cdem {
 
@@ -53,40 +54,45 @@ void validate_mesh_joint(const BodySpec& body, const Joint& joint, const std::st
                            body.name + "\"");
 }
 
-// Some two tets of these regions share a face.
-bool regions_meet(const BodySpec& body, int region_a, int region_b) {
+// Regions that share a face; twice the same: two tets of it do.
+std::set<std::pair<int, int>> regions_that_meet(const BodySpec& body) {
+  std::set<std::pair<int, int>> meet;
   for (const geom::TetMesh& mesh : body.meshes)
     for (const geom::InnerFace& face : geom::inner_faces(mesh))
-      if (std::minmax(mesh.region[face.tets[0]], mesh.region[face.tets[1]]) ==
-          std::minmax(region_a, region_b))
-        return true;
-  return false;
+      meet.insert(std::minmax(mesh.region[face.tets[0]], mesh.region[face.tets[1]]));
+  return meet;
 }
 
-void validate_region_law(const BodySpec& body, std::size_t row) {
-  const auto [a, b] = body.region_laws.regions[row];
-  const std::string field = "region_joints[" + std::to_string(row + 1) + "]";
-  int regions = 0;
+void validate_region_laws(const BodySpec& body) {
+  if (body.region_laws.empty())
+    return;
+  int count = 0;
   for (const geom::TetMesh& mesh : body.meshes)
-    regions = std::max(regions, *std::max_element(mesh.region.begin(), mesh.region.end()) + 1);
-  for (const int region : {a, b})
-    if (region < 0 || region >= regions)
-      throw geom::InputError(field, std::to_string(region + 1),
-                             "regions of the mesh of body \"" + body.name + "\" (1 to " +
-                                 std::to_string(regions) + ")");
-  const std::string value = "{" + std::to_string(a + 1) + ", " + std::to_string(b + 1) + "}";
-  if (body.region_laws.between(a, b) != static_cast<int>(row))
-    throw geom::InputError(field, value, "given once", "another row has the same regions");
-  if (!body.bonding.bonds(a, b))
-    throw geom::InputError(field, value, "regions whose faces are bonded",
-                           "bonded_faces = \"all\" bonds every face of the mesh");
-  if (!regions_meet(body, a, b))
-    throw geom::InputError(field, value, "regions that share faces", "these two do not touch");
-  const Joint& joint = body.region_laws.joints[row];
-  validate(joint);
-  if (!joint.bonded)
-    throw geom::InputError(field, "a contact", "cdem.mohr_coulomb{...}", "the faces of a mesh are bonded");
-  validate_mesh_joint(body, joint, field);
+    count = std::max(count, *std::max_element(mesh.region.begin(), mesh.region.end()) + 1);
+  const std::set<std::pair<int, int>> meet = regions_that_meet(body);
+  std::set<std::pair<int, int>> given;
+  for (std::size_t row = 0; row < body.region_laws.regions.size(); ++row) {
+    const auto [a, b] = body.region_laws.regions[row];
+    const std::string field = "region_joints[" + std::to_string(row + 1) + "]";
+    for (const int region : {a, b})
+      if (region < 0 || region >= count)
+        throw geom::InputError(field, std::to_string(region + 1),
+                               "regions of the mesh of body \"" + body.name + "\" (1 to " +
+                                   std::to_string(count) + ")");
+    const std::string value = "{" + std::to_string(a + 1) + ", " + std::to_string(b + 1) + "}";
+    if (!given.insert({a, b}).second)
+      throw geom::InputError(field, value, "given once", "another row has the same regions");
+    if (!body.bonding.bonds(a, b))
+      throw geom::InputError(field, value, "regions whose faces are bonded",
+                             "bonded_faces = \"all\" bonds every face of the mesh");
+    if (meet.count({a, b}) == 0)
+      throw geom::InputError(field, value, "regions that share faces", "these two do not touch");
+    const Joint& joint = body.region_laws.joints[row];
+    validate(joint);
+    if (!joint.bonded)
+      throw geom::InputError(field, "a contact", "cdem.mohr_coulomb{...}", "the faces of a mesh are bonded");
+    validate_mesh_joint(body, joint, field);
+  }
 }
 
 } // namespace
@@ -102,8 +108,7 @@ void validate_meshed(const BodySpec& body) {
   if (!(b.shear_ratio > 0 && b.shear_ratio <= 100))
     throw geom::InputError("shear_ratio", number(b.shear_ratio), "in (0, 100]", "1 is usual");
   validate_mesh_joint(body, body.joint, "joint");
-  for (std::size_t i = 0; i < body.region_laws.joints.size(); ++i)
-    validate_region_law(body, i);
+  validate_region_laws(body);
   if (!body.shape.blocks.empty())
     throw geom::InputError("shape", "blocks and meshes in one body", "one of them", "make two bodies");
   for (std::size_t i = 0; i < body.meshes.size(); ++i) {

@@ -2,6 +2,7 @@
 // other in one plane is clipped to its common polygon.
 #include "libgeom/assembly/assembly.hpp"
 #include "libgeom/query/box_pairs.hpp"
+#include "libgeom/query/clip_polygon.hpp"
 
 #include <algorithm>
 #include <cassert>
@@ -10,8 +11,6 @@
 
 namespace geom {
 namespace {
-
-using Point = Eigen::Vector2d;
 
 struct FaceData {
   Vec3 normal, centre;
@@ -52,22 +51,6 @@ struct FaceTable {
   }
 };
 
-// Part of the convex polygon left of the line from a to b.
-void clip(std::vector<Point>& polygon, const Point& a, const Point& b, std::vector<Point>& scratch) {
-  scratch.clear();
-  const Point along = b - a;
-  const auto side = [&](const Point& p) { return along.x() * (p.y() - a.y()) - along.y() * (p.x() - a.x()); };
-  for (std::size_t i = 0; i < polygon.size(); ++i) {
-    const Point &p = polygon[i], &q = polygon[(i + 1) % polygon.size()];
-    const double sp = side(p), sq = side(q);
-    if (sp >= 0)
-      scratch.push_back(p);
-    if ((sp > 0 && sq < 0) || (sp < 0 && sq > 0))
-      scratch.push_back(p + sp / (sp - sq) * (q - p));
-  }
-  polygon.swap(scratch);
-}
-
 class Matcher {
 public:
   Matcher(const std::vector<Polyhedron>& blocks, const FaceTable& table, double tolerance)
@@ -105,20 +88,14 @@ public:
         return false;
       start = end;
     }
-    double twice_area = 0, perimeter = 0;
-    for (std::size_t i = 0; i < polygon_.size(); ++i) {
-      const Point p = polygon_[i] - polygon_[0], q = polygon_[(i + 1) % polygon_.size()] - polygon_[0];
-      twice_area += p.x() * q.y() - p.y() * q.x();
-      perimeter += (q - p).norm();
-    }
-    return std::abs(twice_area) > tolerance_ * perimeter;
+    return wider_than(tolerance_, polygon_);
   }
 
 private:
   const std::vector<Polyhedron>& blocks_;
   const FaceTable& table_;
   double tolerance_;
-  std::vector<Point> polygon_, scratch_;
+  Polygon polygon_, scratch_;
 };
 
 } // namespace

@@ -13,10 +13,8 @@
 #include <unordered_map>
 
 namespace geom {
-namespace {
 
-// The tets of gmsh's model, each volume a region, and the nodes they use in the order they are met.
-TetMesh collect(const std::string& what) {
+TetMesh tets_of_volumes(const std::string& what) {
   constexpr int linear_tet = 4; // gmsh's number of the element
   std::vector<std::size_t> tags;
   std::vector<double> coordinates, ignored;
@@ -63,8 +61,6 @@ TetMesh collect(const std::string& what) {
   return mesh;
 }
 
-} // namespace
-
 TetMesh mesh_solid(const Solid& solid, const MeshSize& sizes) {
   validate(sizes);
   const double expected = expected_tets(sizes, bounding_box(solid), mass_properties(solid).volume);
@@ -93,7 +89,7 @@ TetMesh mesh_solid(const Solid& solid, const MeshSize& sizes) {
       if (line.compare(0, 6, "Error:") == 0)
         throw InputError("mesh: the solid cannot be meshed with this size:" + line.substr(6) +
                          "; try another size, and make sure that no faces nearly touch");
-    return collect("mesh");
+    return tets_of_volumes("mesh");
   });
   validate(mesh, "mesh");
   return mesh;
@@ -128,7 +124,7 @@ TetMesh read_mesh(const std::string& path) {
       if (ending == ".msh")
         require_first_line(copy, path);
       gmsh::merge(copy);
-      return collect(path);
+      return tets_of_volumes(path);
     });
   });
   validate(mesh, path);

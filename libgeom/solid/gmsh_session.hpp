@@ -108,6 +108,8 @@ auto with_copy(const std::string& user_file, const std::string& ending, Body bod
 // Inside a session only. `what` begins the messages.
 Pieces load(const Solid&);
 Pieces load_all(const std::vector<Solid>&, std::size_t from);
+// The tets of the mesh of the model, each volume a region, and the nodes they use in the order they are met.
+TetMesh tets_of_volumes(const std::string& what);
 Solid store(const std::string& what); // the model's volumes; throws InputError when there are none
 
 void require_place(const std::string& field, const Vec3&);    // finite, within max_coordinate

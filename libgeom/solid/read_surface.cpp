@@ -3,6 +3,7 @@
 
 #include "libgeom/core/check.hpp"
 #include "libgeom/core/error.hpp"
+#include "libgeom/query/welder.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -17,40 +18,6 @@ namespace {
 
 constexpr std::size_t header = 84,
                       record = 50; // bytes: title and count; a normal, three corners and two more
-
-// Gives corners nearer than the tolerance one number, in the order they are met.
-class Welder {
-public:
-  explicit Welder(double tolerance) : tolerance_(tolerance) {}
-
-  int number(const Vec3& x, std::vector<Vec3>& vertices) {
-    const Cell home = cell(x);
-    for (std::int64_t i = -1; i <= 1; ++i)
-      for (std::int64_t j = -1; j <= 1; ++j)
-        for (std::int64_t k = -1; k <= 1; ++k) {
-          const auto at = cells_.find({home[0] + i, home[1] + j, home[2] + k});
-          if (at == cells_.end())
-            continue;
-          for (const int v : at->second)
-            if ((vertices[v] - x).norm() <= tolerance_)
-              return v;
-        }
-    vertices.push_back(x);
-    const int added = static_cast<int>(vertices.size()) - 1;
-    cells_[home].push_back(added);
-    return added;
-  }
-
-private:
-  using Cell = std::array<std::int64_t, 3>;
-  Cell cell(const Vec3& x) const {
-    return {static_cast<std::int64_t>(std::floor(x[0] / tolerance_)),
-            static_cast<std::int64_t>(std::floor(x[1] / tolerance_)),
-            static_cast<std::int64_t>(std::floor(x[2] / tolerance_))};
-  }
-  double tolerance_;
-  std::map<Cell, std::vector<int>> cells_;
-};
 
 constexpr double same_corner = 1e-6; // of the surface's size
 

@@ -5,6 +5,7 @@
 #include <Eigen/LU>
 
 #include <algorithm>
+#include <numeric>
 
 namespace cdem {
 namespace {
@@ -34,32 +35,44 @@ double reachable(const std::vector<Corner>& corners, double goal, double mass) {
 
 } // namespace
 
-void raise_light_corners(Model& model, int block) {
-  const Block& b = model.blocks[block];
-  const std::vector<double> sums = star_row_sums(model, b);
+void raise_light_corners(const Elastic& material, StarMasses& star) {
+  const std::vector<double> sums = star_row_sums(material, star.nodes, star.tets);
+  const std::size_t centre = star.nodes.size() - 1;
+  const double mass = std::accumulate(star.mass.begin(), star.mass.end(), 0.0);
   std::vector<Corner> corners;
-  for (int node = b.node_begin; node < b.centroid_node(); ++node)
-    corners.push_back({sums[node - b.node_begin], model.node_mass[node]});
+  for (std::size_t i = 0; i < centre; ++i)
+    corners.push_back({sums[i], star.mass[i]});
   std::sort(corners.begin(), corners.end(),
             [](const Corner& l, const Corner& r) { return l.own() < r.own(); });
   const double goal = part_of_median * part_of_median * corners[corners.size() / 2].own();
-  const double mass = model.bodies[b.body].material.density * b.mass.volume;
   const double q = reachable(corners, goal, most_moved * mass);
-  const auto arm = [&](int node) -> geom::Vec3 { return model.node_position[node] - b.mass.centroid; };
+  const auto arm = [&](std::size_t i) -> geom::Vec3 { return star.nodes[i] - star.nodes[centre]; };
   geom::Vec3 off = geom::Vec3::Zero(); // kg m, sum m r
   geom::Mat3 moments = geom::Mat3::Zero();
-  for (int node = b.node_begin; node < b.centroid_node(); ++node) {
-    model.node_mass[node] = std::max(model.node_mass[node], q * sums[node - b.node_begin]);
-    off += model.node_mass[node] * arm(node);
-    moments += model.node_mass[node] * arm(node) * arm(node).transpose();
+  for (std::size_t i = 0; i < centre; ++i) {
+    star.mass[i] = std::max(star.mass[i], q * sums[i]);
+    off += star.mass[i] * arm(i);
+    moments += star.mass[i] * arm(i) * arm(i).transpose();
   }
   const geom::Vec3 tilt = moments.inverse() * off;
-  double& centroid = model.node_mass[b.centroid_node()];
-  centroid = mass;
-  for (int node = b.node_begin; node < b.centroid_node(); ++node) {
-    model.node_mass[node] *= 1 - tilt.dot(arm(node));
-    centroid -= model.node_mass[node];
+  star.mass[centre] = mass;
+  for (std::size_t i = 0; i < centre; ++i) {
+    star.mass[i] *= 1 - tilt.dot(arm(i));
+    star.mass[centre] -= star.mass[i];
   }
+}
+
+void raise_light_corners(Model& model, int block) {
+  const Block& b = model.blocks[block];
+  StarMasses star;
+  star.nodes.assign(model.node_position.begin() + b.node_begin, model.node_position.begin() + b.node_end);
+  star.mass.assign(model.node_mass.begin() + b.node_begin, model.node_mass.begin() + b.node_end);
+  star.tets.assign(model.tets.begin() + b.tet_begin, model.tets.begin() + b.tet_end);
+  for (geom::Tet& tet : star.tets)
+    for (int& node : tet)
+      node -= b.node_begin;
+  raise_light_corners(model.bodies[b.body].material, star);
+  std::copy(star.mass.begin(), star.mass.end(), model.node_mass.begin() + b.node_begin);
 }
 
 } // namespace cdem

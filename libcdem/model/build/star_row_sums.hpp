@@ -5,7 +5,9 @@
 
 namespace cdem {
 
-// N/m (n_nodes of the block), of each node the largest of its three rows; for blocks of few nodes.
-std::vector<double> star_row_sums(const Model&, const Block&);
+// N/m, of each node the largest of its three rows; tets: over nodes (m), which are few.
+std::vector<double> star_row_sums(const Elastic&, const std::vector<geom::Vec3>& nodes,
+                                  const std::vector<geom::Tet>& tets);
+std::vector<double> star_row_sums(const Model&, const Block&); // (n_nodes of the block)
 
 } // namespace cdem

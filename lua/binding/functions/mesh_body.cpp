@@ -66,6 +66,10 @@ void read_mesh(Session& session, const Arguments& given, const std::string& path
     body.region_laws.regions.emplace_back(std::minmax({region(0), region(1)}));
     body.region_laws.joints.push_back(static_cast<const JointObject&>(*items[2].object()).joint);
   }
+  if (bonds == "springs" && body.joint.bonded && body.joint.tensile_strength > 0 && body.joint.cohesion > 0)
+    session.warn(
+        path + ".bonds = \"springs\" softens the body to about E / (1 + 1/stiffness_ratio) and breaks at 0.6 "
+               "to 0.9 of its strength; bonds = \"cohesive\" keeps both");
   if (bonds == "cohesive") {
     body.bonding.kind = BondKind::cohesive;
     body.bonding.stiffness_ratio = 1;

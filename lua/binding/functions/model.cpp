@@ -7,6 +7,7 @@
 #include "lua/binding/runtime/module.hpp"
 #include "lua/binding/schema/nearest.hpp"
 
+#include "libcdem/join_blocks.hpp"
 #include "libcdem/memory_needed.hpp"
 #include "libgeom/core/error.hpp"
 #include "libgeom/mesh/parts.hpp"
@@ -33,9 +34,14 @@ std::optional<geom::Pile> pile_shape(const Arguments& given) {
 }
 
 void require_blocks(const Arguments& given, const std::string& path) {
+  const std::string bonds = given.text_or("bonds", "springs");
+  if (bonds != "springs" && bonds != "cohesive")
+    throw InputError(path + ".bonds", "\"" + bonds + "\"", "cohesive or springs for an assembly");
+  if (given.has("bonds") && !given.has("joint"))
+    throw InputError(path + ".joint: missing; bonds = \"" + bonds + "\" needs to know what holds the faces");
   for (const char* const only :
-       {"bonds", "bonded_faces", "bonded_regions", "region_joints", "stiffness_ratio", "shear_ratio"})
-    if (given.has(only))
+       {"bonded_faces", "bonded_regions", "region_joints", "stiffness_ratio", "shear_ratio"})
+    if (given.has(only) && (bonds == "springs" || std::string(only) != "stiffness_ratio"))
       throw InputError(path + "." + only + ": only for a meshed body; an assembly's faces are all bonded");
   if (const auto material = given.object<MaterialObject>("material");
       given.text_or("element", "finite_volume") == "small_strain" && material &&
@@ -145,6 +151,10 @@ std::vector<std::string> read_bodies(Session& session, const Arguments& a, Model
         read_joint(joint, path + ".joints." + name, body, body.set_joints[name], body.set_joints_at[name]);
     if (given.has("joint"))
       read_joint(given.value("joint"), path + ".joint", body, body.joint, body.joint_at);
+    if (given.text_or("bonds", "springs") == "cohesive") {
+      body.bonding.kind = BondKind::cohesive;
+      body.bonding.stiffness_ratio = given.optional_number("stiffness_ratio").value_or(1);
+    }
     for (auto at = body.set_joints_at.begin(); at != body.set_joints_at.end();)
       at = at->second ? std::next(at) : body.set_joints_at.erase(at);
     if (!given.has("joint") && body.shape.blocks.size() > 1)
@@ -152,6 +162,8 @@ std::vector<std::string> read_bodies(Session& session, const Arguments& a, Model
                        " blocks: say what holds them together, cdem.mohr_coulomb{...} or cdem.coulomb{...}");
     if (!given.has("joint"))
       unjointed.push_back(body.name);
+    if (body.bonding.kind == BondKind::cohesive)
+      join_blocks(body);
     spec.bodies.push_back(std::move(body));
   }
   return unjointed;
@@ -292,14 +304,23 @@ void bind_model(Module& m) {
                "as they "
                "are"),
       choice("bonds", {"cohesive", "springs", "none", "all", "regions", "listed"})
-          .doc("of a mesh with a joint, what holds its tetrahedra together. cohesive, the default: the body "
-               "is "
-               "continuous, with shared nodes, until a face nears its strength, and then follows the joint's "
-               "softening or "
-               "brittle law on the plane that fails. springs: three on every bonded face (Feng 2014), which "
-               "soften the "
-               "body and break at 0.6 to 0.9 of its strength. (all, regions and listed of older scripts mean "
-               "springs)"),
+          .doc("of a body with a joint, what holds its parts together. cohesive, the default of a mesh: the "
+               "body "
+               "is continuous, with shared nodes, until a face nears its strength, and then follows the "
+               "joint's "
+               "softening or brittle law. Of an assembly it is recommended for bonded blocks: they become "
+               "one mesh in "
+               "which each block is a region, and its joints are the borders; a uniform stress stays "
+               "uniform, and the "
+               "blocks part at the strength of the joint. springs, the default of an assembly: at the "
+               "corners of "
+               "faces (Han 2010), with a thickness; where three or more blocks meet in an edge they carry "
+               "0.9 to 1.7 "
+               "of a uniform traction, so that the first bond breaks at about half the strength. Of a mesh: "
+               "three on "
+               "every bonded face (Feng 2014), which soften the body and break at 0.6 to 0.9 of its "
+               "strength. (all, "
+               "regions and listed of older scripts mean springs)"),
       choice("bonded_faces", {"all", "regions"})
           .doc("of a mesh with a joint, the inner faces that may break: all, the default, or those between "
                "different "

@@ -1,0 +1,174 @@
+// Bonded blocks with bonds = "cohesive": one mesh, whose joints carry exactly the uniform traction and break at T.
+#include "libcdem/bond/fragments.hpp"
+#include "libcdem/fracture/free_nodes.hpp"
+#include "libcdem/join_blocks.hpp"
+#include "libcdem/results/energy.hpp"
+#include "libgeom/assembly/builders.hpp"
+#include "libgeom/assembly/edit.hpp"
+#include "tests/libcdem/system.hpp"
+
+#include <catch2/catch.hpp>
+
+using namespace testing;
+using geom::Mat3;
+using geom::Vec3;
+
+namespace {
+
+geom::Assembly cells(int count) {
+  geom::VoronoiOptions options;
+  options.size = {1, 0.8, 1.2};
+  options.count = count;
+  options.seed = 2;
+  return geom::voronoi(options);
+}
+
+geom::Assembly wall() {
+  geom::BrickOptions options;
+  options.size = {2, 0.25, 1};
+  options.brick = {0.5, 0.25, 0.25};
+  return geom::bricks(options);
+}
+
+cdem::BodySpec joined(geom::Assembly shape, double zone_size = 0) {
+  cdem::BodySpec spec = body("rock", std::move(shape));
+  spec.element = cdem::Element::finite_volume;
+  spec.joint.tensile_strength = 2e6;
+  spec.joint.cohesion = 50e6;
+  spec.bonding.kind = cdem::BondKind::cohesive;
+  spec.bonding.stiffness_ratio = 1;
+  spec.zone_size = zone_size;
+  cdem::join_blocks(spec);
+  return spec;
+}
+
+void free_all(System& s) {
+  cdem::Freed freed = cdem::free_nodes(s.model, s.state, std::vector<char>(s.model.node_position.size(), 1));
+  s.adopt(std::move(freed.model), std::move(freed.state));
+}
+
+// A tension that grows evenly: the body stretches with it at a constant velocity, and no wave disturbs the stress.
+struct Stretched {
+  Stretched(const geom::Assembly& shape, const Mat3& per_pascal, double strength)
+      : s(build({joined(shape)})), rate(strength / duration) {
+    s.conditions.tractions = on_six_sides(rate * per_pascal);
+    for (cdem::Traction& traction : s.conditions.tractions)
+      traction.amplitude = [](double time) { return time; };
+    const cdem::Elastic m = rock();
+    const Mat3 strain =
+        ((1 + m.poissons_ratio) * per_pascal - m.poissons_ratio * per_pascal.trace() * Mat3::Identity()) /
+        m.youngs_modulus;
+    for (std::size_t i = 0; i < s.state.velocity.size(); ++i)
+      s.state.velocity[i] = node(rate * strain * s.model.node_position[i]);
+  }
+  void until(double part) {
+    cdem::RunOptions options;
+    options.duration = part * duration - s.state.time;
+    s.run(options);
+  }
+  std::int64_t broken() const { return s.log.broken_tension + s.log.broken_shear; }
+
+  static constexpr double duration = 2e-3; // s, until the strength
+  System s;
+  double rate; // Pa/s
+};
+
+} // namespace
+
+TEST_CASE("joined blocks: under a uniform stress every joint carries its traction, freed or not",
+          "[joined][patch]") {
+  const auto [shape, zone] = GENERATE(values<std::pair<geom::Assembly, double>>(
+      {{cells(20), 0}, {cells(60), 0}, {cells(200), 0}, {wall(), 0}, {cells(20), 0.2}, {wall(), 0.12}}));
+  Mat3 gradient;
+  gradient << 4e-7, 1e-7, -2e-7, 1e-7, -3e-7, 1e-7, -2e-7, 1e-7,
+      2e-7; // the areas are those of now: second order
+  System s(build({joined(shape, zone)}));
+  const Mat3 stress = hooke(rock(), gradient);
+  for (std::size_t i = 0; i < s.state.displacement.size(); ++i)
+    s.state.displacement[i] = node(gradient * s.model.node_position[i]);
+  for (int t = 0; t < static_cast<int>(s.model.tets.size()); ++t)
+    set_mesh_stress(s.model, s.state, t,
+                    {stress(0, 0), stress(1, 1), stress(2, 2), stress(0, 1), stress(1, 2), stress(0, 2)});
+  free_all(s);
+  CHECK_FALSE(s.model.mesh.sides.empty());
+  // Balance at every copy of every node: all that is left are the tractions of the outer faces.
+  std::vector<Vec3> left = s.net_forces();
+  double scale = 0;
+  for (const cdem::OuterFace& face : s.model.outer_faces) {
+    scale = std::max(scale, face.area * stress.norm());
+    cdem::each_face_node(s.model, face,
+                         [&](int node, double area) { left[node] += area * stress * face.normal; });
+  }
+  double worst = 0;
+  for (const Vec3& f : left)
+    worst = std::max(worst, f.norm());
+  CHECK(worst < 1e-6 * scale);
+}
+
+TEST_CASE("joined blocks: an even tension breaks and parts them at T, however many there are", "[joined]") {
+  const int count = GENERATE(20, 60);
+  const Mat3 pull = GENERATE(values<Mat3>({Mat3::Identity(), symmetric(0, 0, 1, 0, 0, 0)}));
+  const double strength = 2e6;
+  Stretched cells_of(cells(count), pull, strength);
+  cells_of.until(0.98);
+  CHECK(cells_of.broken() == 0);
+  CHECK(stress_error(cells_of.s, 0.98 * strength * pull) < 1e-3);
+  // Uniaxial: the faces nearest to square to the axis are first, and the cells part along others.
+  cells_of.until(pull(0, 0) > 0 ? 1.02 : 1.1);
+  CHECK(cells_of.broken() > 0);
+  if (pull(0, 0) > 0)
+    CHECK(cdem::fragments_of_nodes(cells_of.s.model, cells_of.s.state) !=
+          std::vector<int>(cells_of.s.model.node_position.size(), 0));
+}
+
+TEST_CASE("joined blocks: short edges do not set the time step", "[joined]") {
+  cdem::BodySpec apart = body("rock", cells(60));
+  apart.element = cdem::Element::finite_volume;
+  const auto step = [](System s) {
+    cdem::RunOptions options;
+    options.steps = 1;
+    s.run(options);
+    return s.state.time;
+  };
+  CHECK(step(System(build({joined(cells(60))}))) > step(System(build({apart}))));
+}
+
+TEST_CASE("joined blocks: glued faces hold, named joints have their own strength", "[joined]") {
+  geom::PlaneCutOptions glue, seam;
+  glue.glued = true;
+  seam.name = "seam";
+  geom::Assembly shape = geom::cut_by_plane(geom::grid({1, 1, 2}, {1, 1, 1}),
+                                            geom::Plane::through({0, 0, 0.6}, {0, 0.2, 1}), glue);
+  shape = geom::cut_by_plane(shape, geom::Plane::through({0, 0, 1.4}, {0.2, 0, 1}), seam);
+  cdem::BodySpec spec = body("rock", shape);
+  spec.element = cdem::Element::finite_volume;
+  spec.bonding.kind = cdem::BondKind::cohesive;
+  spec.bonding.stiffness_ratio = 1;
+  spec.set_joints["seam"] = spec.joint;
+  spec.set_joints["seam"].tensile_strength = 1e6;
+  cdem::join_blocks(spec);
+  CHECK(spec.region_laws.regions.size() == 2);
+  System s(build({spec}));
+  free_all(s);
+  std::map<double, double> area; // m2, by tensile strength, Pa
+  each_face(s.model.mesh, [&](const cdem::MeshChunk&, std::int64_t batch, int lane) {
+    area[s.model.mesh.strength[batch].tensile_strength[lane]] += 3 * s.model.mesh.faces[batch].area[lane];
+  });
+  CHECK(area[1e6] == Approx(std::sqrt(1 + 0.04)));
+  CHECK(area.rbegin()->first > 1e12); // glued
+  CHECK(area.rbegin()->second == Approx(std::sqrt(1 + 0.04)));
+}
+
+TEST_CASE("joined blocks: what cannot be one mesh is refused with the reason", "[joined][input]") {
+  const auto refused = [](const auto& change, const char* says) {
+    cdem::BodySpec spec = body("rock", wall());
+    spec.element = cdem::Element::finite_volume;
+    spec.bonding.kind = cdem::BondKind::cohesive;
+    change(spec);
+    CHECK_THROWS_WITH(cdem::join_blocks(spec), Catch::Contains(says));
+  };
+  refused([](auto& b) { b.element = cdem::Element::small_strain; }, "small_strain");
+  refused([](auto& b) { b.joint.bonded = false; }, "a contact");
+  refused([](auto& b) { b.joint_at = [](const Vec3&) { return rock_joint(); }; }, "a function");
+  refused([](auto& b) { b.set_joints["none"] = rock_joint(); }, "none of its cuts has a name");
+}
