@@ -14,7 +14,7 @@ namespace {
 
 using geom::InputError;
 
-std::function<double(double)> velocity_of(const Arguments& a) {
+std::function<double(double)> velocity_of(const Arguments& a, double now) {
   if (const Value& given = a.value("velocity"); given.is_number())
     return [v = given.number()](double) { return v; };
   const auto function = a.function("velocity");
@@ -26,7 +26,7 @@ std::function<double(double)> velocity_of(const Arguments& a) {
                        answer.empty() ? "nothing" : describe(answer[0]), "a finite number >= 0 m/s");
     return answer[0].number();
   };
-  velocity(0); // so that a slip in it is an error of the line that gave it
+  velocity(now); // so that a slip in it is an error of the line that gave it
   return velocity;
 }
 
@@ -42,7 +42,7 @@ Flow flow_of(const ModelObject& model, const Arguments& a) {
 Value flow(Session& session, ModelObject& model, const Arguments& a) {
   model.require_idle("flow");
   Flow flow = flow_of(model, a);
-  flow.velocity = velocity_of(a);
+  flow.velocity = velocity_of(a, model.simulation.time());
   flow.relative = a.flag("relative");
   if (model.simulation.flow(flow))
     session.warn("model:flow: it meets faces that another flow already meets; their pressures add up");
