@@ -202,6 +202,7 @@ WaterInJoints Simulation::water(const Water& water) {
   State changed = impl_->whole();
   const WaterInJoints sum = set_water(impl_->model, changed, water);
   impl_->whole() = std::move(changed);
+  impl_->warn_of_open_water(water);
   return sum;
 }
 
@@ -278,6 +279,7 @@ std::int64_t Simulation::remove(const Selection& on) {
   for (Watch& watch : s.log.watches)
     carry_over(watch, new_block);
   s.adopt(rebuild(s.model, s.whole(), std::move(left), {}, MayBreak::all));
+  s.warn_of_lost_probes();
   return removed;
 }
 

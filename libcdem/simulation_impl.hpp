@@ -14,6 +14,7 @@
 #include "libgeom/core/error.hpp"
 
 #include <algorithm>
+#include <set>
 #include <string_view>
 
 namespace cdem {
@@ -37,6 +38,11 @@ struct Simulation::Impl {
   std::optional<RestartPoint> from;          // of a restored stage, until it is taken up
   std::string at_start; // saved before a stage that can be begun again only; empty: none runs
 
+  std::set<std::string> told; // warnings that the user has
+  void warn_of_loads_on_supports();
+  void warn_of_lost_probes();
+  void warn_of_open_water(const Water&);
+
   // All ranks call it together.
   State& whole() {
     make_whole(kept);
@@ -44,6 +50,7 @@ struct Simulation::Impl {
   }
 
   StageContext next_stage() {
+    warn_of_loads_on_supports();
     StageContext context =
         stage_context(model, kept, conditions, log, last_good, *observer, threads, ++stage);
     context.checkpoints = checkpoints;

@@ -4,11 +4,13 @@
 #include "apps/cdem/progress/terminal.hpp"
 #include "libcdem/step/errors.hpp"
 #include "libgeom/core/error.hpp"
+#include "libgeom/core/plain_reason.hpp"
 #include "lua/binding/runtime/engine.hpp"
 
 #include <cstdio>
 #include <filesystem>
 #include <new>
+#include <stdexcept>
 
 namespace cdem::app {
 
@@ -48,9 +50,11 @@ Failure current_failure() {
     return make_failure(ExitCode::file_error, error.path1().string() + ": " + error.code().message());
   } catch (const std::bad_alloc&) {
     return make_failure(ExitCode::bad_input, not_enough_memory);
+  } catch (const std::length_error&) { // a list as long as no memory can hold
+    return make_failure(ExitCode::bad_input, not_enough_memory);
   } catch (const std::exception& error) {
     return make_failure(ExitCode::internal_error,
-                        std::string("internal error, please report it: ") + error.what());
+                        std::string("internal error, please report it: ") + geom::plain_reason(error));
   } catch (...) {
     return make_failure(ExitCode::internal_error, "internal error, please report it: unknown exception");
   }

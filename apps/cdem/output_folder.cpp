@@ -1,6 +1,7 @@
 #include "apps/cdem/output_folder.hpp"
 
 #include "lua/binding/runtime/engine.hpp"
+#include "lua/binding/runtime/files.hpp"
 
 #include <algorithm>
 #include <cctype>
@@ -84,15 +85,6 @@ std::string system_reason() {
   return std::strerror(errno);
 }
 
-std::string read_file(const fs::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  std::ostringstream text;
-  text << in.rdbuf();
-  if (!in)
-    throw FileError(file.string() + " cannot be read: " + system_reason());
-  return text.str();
-}
-
 } // namespace
 
 std::string case_name(const fs::path& script, const std::map<std::string, std::string>& settings) {
@@ -125,7 +117,7 @@ OutputFolder::OutputFolder(fs::path folder, const fs::path& script, const std::s
     throw FileError("output folder " + shown + " is a file; choose another with --output");
   if (!place_below(script_, folder_).empty())
     throw FileError("output folder " + shown + " holds the script itself; choose another with --output");
-  script_text_ = read_file(source.empty() ? script_ : source);
+  script_text_ = script::read_file_here(source.empty() ? script_ : source);
   for (fs::path made = fs::absolute(folder_).lexically_normal();
        !made.empty() && !fs::exists(made, error) && made != made.parent_path(); made = made.parent_path())
     first_made_ = made;

@@ -1,9 +1,11 @@
 #include "apps/cdem/records.hpp"
 
+#include "lua/binding/runtime/files.hpp"
+#include "lua/binding/runtime/json.hpp"
+
 #include <cerrno>
 #include <cstring>
 #include <fstream>
-#include <nlohmann/json.hpp>
 
 namespace cdem::app {
 
@@ -13,11 +15,9 @@ using json = nlohmann::ordered_json;
 using script::FileError;
 
 json read(const std::filesystem::path& file) {
-  std::ifstream in(file);
-  if (!in)
-    throw FileError(file.string() + " cannot be read");
+  const std::string text = script::read_file_here(file);
   try {
-    return json::parse(in);
+    return script::parse_json(text);
   } catch (const json::exception&) {
     throw FileError(file.string() + " is not a JSON file");
   }
@@ -37,8 +37,11 @@ std::string member(const json& object, const char* name) {
 json value_of(const std::string& type, const std::string& text) {
   if (type == "string")
     return text;
-  const json value = json::parse(text, nullptr, false);
-  return value.is_discarded() ? json(text) : value;
+  try {
+    return script::parse_json(text);
+  } catch (const json::exception&) {
+    return text;
+  }
 }
 
 } // namespace

@@ -36,6 +36,9 @@ std::string message_of(const std::string& line) {
 } // namespace
 
 bool is_run_log(const fs::path& log) {
+  std::error_code none;
+  if (std::filesystem::exists(log, none) && !std::filesystem::is_regular_file(log, none))
+    return false;
   errno = 0;
   std::ifstream in(log);
   if (!in && errno == EACCES)

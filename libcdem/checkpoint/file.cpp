@@ -2,11 +2,11 @@
 
 #include "libcdem/checkpoint/archive.hpp"
 #include "libcdem/vtk/file_error.hpp"
+#include "libgeom/core/regular_file.hpp"
 
 #include <cerrno>
 #include <fcntl.h>
-#include <fstream>
-#include <sstream>
+#include <stdexcept>
 #include <unistd.h>
 
 namespace cdem {
@@ -85,13 +85,12 @@ void write_saved(const fs::path& path, SavedKind kind, const std::string& conten
 }
 
 std::string read_saved(const fs::path& path, SavedKind kind) {
-  std::ifstream in(path, std::ios::binary);
-  std::ostringstream out;
-  if (in)
-    out << in.rdbuf();
-  if (!in)
-    throw FileError(path.string() + ": cannot be read");
-  const std::string text = out.str();
+  std::string text;
+  try {
+    text = geom::read_regular(path);
+  } catch (const std::runtime_error& error) {
+    throw FileError(error.what());
+  }
   const std::string word = magic(kind);
   if (text.compare(0, word.size(), word) != 0)
     throw FileError(path.string() + ": not " + name(kind));

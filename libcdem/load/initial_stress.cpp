@@ -120,9 +120,12 @@ void add_initial_stress(const Model& model, State& state, const InitialStress& f
       add_to_block(model, state, model.blocks[b], field, top);
   for (std::size_t p = 0; p < model.points.size(); ++p) {
     const Interface& interface = model.interfaces[model.points[p].interface];
-    if (selected[interface.block_a] == 0 || selected[interface.block_b] == 0)
+    // The traction is the mean of the stress on both sides, so that layers that are given one by one load the faces
+    // between them, in whatever order they come.
+    const double share = 0.5 * (selected[interface.block_a] + selected[interface.block_b]);
+    if (share == 0)
       continue;
-    const geom::Mat3 sigma = matrix(stress_at(field, top, model.point_position[p]));
+    const geom::Mat3 sigma = share * matrix(stress_at(field, top, model.point_position[p]));
     const geom::Mat3 turn = interface_rotation(model, state.displacement.data(), interface);
     const geom::Vec3 t = turn.transpose() * sigma * turn * interface.normal;
     add_traction(model, state, static_cast<int>(p), t);

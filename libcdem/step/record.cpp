@@ -9,12 +9,26 @@
 #include "libcdem/model/build/add_meshes.hpp"
 #include "libcdem/results/cracks.hpp"
 #include "libcdem/results/fields.hpp"
+#include "libgeom/core/error.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <optional>
 
 namespace cdem {
+
+namespace {
+
+// nan where no rock is any more.
+double value_or_nan(const Model& model, const State& state, const Probe& probe) {
+  try {
+    return value_at(model, state, probe.field, probe.place);
+  } catch (const geom::InputError&) {
+    return std::nan("");
+  }
+}
+
+} // namespace
 
 void strike_out_met(const Model& model, const State& state, RunLog& log, bool among_ranks) {
   if (log.unmet.empty())
@@ -177,7 +191,7 @@ void record_history(const Model& model, const State& state, const Conditions& co
       continue;
     }
     if (probe.crack.empty()) {
-      row.probes.push_back(value_at(model, state, probe.field, probe.place));
+      row.probes.push_back(value_or_nan(model, state, probe));
       continue;
     }
     if (!cracked)

@@ -2,80 +2,81 @@
 #include "libgeom/assembly/discs.hpp"
 
 #include "libgeom/core/error.hpp"
+#include "libgeom/core/text_table.hpp"
 
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <set>
-#include <sstream>
 
 namespace geom {
 namespace {
 
 constexpr double degree = 3.14159265358979323846 / 180;
 constexpr std::size_t longest_name = 64;
-constexpr std::array names{"id", "x", "y", "z", "dip", "dip_direction", "radius", "set"};
+constexpr const char* all_names = "id, x, y, z, dip, dip_direction, radius and set";
 
-std::vector<std::string> cells_of(const std::string& line) {
-  std::vector<std::string> cells{""};
-  for (const char c : line)
-    if (c == ',')
-      cells.emplace_back();
-    else
-      cells.back() += c;
-  for (std::string& cell : cells) {
-    const auto first = cell.find_first_not_of(" \t\r\""), last = cell.find_last_not_of(" \t\r\"");
-    cell = first == std::string::npos ? "" : cell.substr(first, last - first + 1);
-  }
-  return cells;
+// Other names of a column that surveys use; a unit in brackets may follow the name.
+struct DiscColumn {
+  const char* name;
+  std::vector<std::string> other_names, units;
+};
+
+const std::array<DiscColumn, 8>& disc_columns() {
+  static const std::vector<std::string> length{"(m)", "[m]"},
+      angle{"(deg)", "[deg]", "(\xc2\xb0)", "[\xc2\xb0]"};
+  static const std::array<DiscColumn, 8> all{{{"id", {}, {}},
+                                              {"x", {}, length},
+                                              {"y", {}, length},
+                                              {"z", {}, length},
+                                              {"dip", {}, angle},
+                                              {"dip_direction", {"dipdir"}, angle},
+                                              {"radius", {}, length},
+                                              {"set", {}, {}}}};
+  return all;
 }
 
-// The column of each name.
-std::array<std::size_t, names.size()> columns_of(const std::vector<std::string>& head,
-                                                 const std::string& file) {
-  std::array<std::size_t, names.size()> column{};
-  for (std::size_t n = 0; n < names.size(); ++n) {
-    std::size_t found = 0;
-    for (std::size_t c = 0; c < head.size(); ++c)
-      if (head[c] == names[n]) {
-        column[n] = c;
-        ++found;
-      }
-    if (found != 1)
-      throw InputError("file \"" + file + "\": " + (found == 0 ? "no" : "more than one") + " column \"" +
-                       names[n] +
-                       "\"; its first row must name id, x, y, z, dip, dip_direction, radius and set");
-  }
-  return column;
+std::size_t find_column(const TextTable& table, const DiscColumn& wanted) {
+  std::vector<std::string> spellings{wanted.name};
+  spellings.insert(spellings.end(), wanted.other_names.begin(), wanted.other_names.end());
+  const std::size_t bare = spellings.size();
+  for (std::size_t i = 0; i < bare; ++i)
+    for (const std::string& unit : wanted.units)
+      spellings.push_back(spellings[i] + unit);
+  std::optional<std::size_t> found;
+  for (const std::string& spelling : spellings)
+    if (const auto column = table.find(spelling)) {
+      if (found)
+        table.refuse("more than one column \"" + std::string(wanted.name) + "\"");
+      found = column;
+    }
+  if (!found)
+    table.refuse("no column \"" + std::string(wanted.name) + "\"; its first row must name " + all_names);
+  return *found;
 }
 
-struct Row {
-  const std::string& file;
-  int number;
-  const std::vector<std::string>& cells;
-  const std::array<std::size_t, names.size()>& column;
+struct DiscRow {
+  const TextTable& table;
+  std::size_t row;
+  const std::array<std::size_t, 8>& column;
 
-  const std::string& cell(std::size_t name) const { return cells[column[name]]; }
   [[noreturn]] void refuse(std::size_t name, const std::string& allowed) const {
-    throw InputError("file \"" + file + "\": row " + std::to_string(number) + ", " + names[name] + " = \"" +
-                     cell(name).substr(0, longest_name) + "\": must be " + allowed);
+    table.refuse(row, column[name], allowed);
   }
+  const std::string& cell(std::size_t name) const { return table.cell(row, column[name]); }
   double value(std::size_t name, double least, double most, const std::string& allowed) const {
-    const std::string& text = cell(name);
-    double x = 0;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), x);
-    if (text.empty() || error != std::errc() || end != text.data() + text.size() ||
-        !(x >= least && x <= most))
+    const double x = table.number(row, column[name]);
+    if (!(x >= least && x <= most))
       refuse(name, allowed);
     return x;
   }
 };
 
-Disc disc_of(const Row& row) {
+Disc disc_of(const DiscRow& row) {
   constexpr double far = 1e8; // m
   Disc disc;
-  disc.id = static_cast<std::int64_t>(row.value(0, 0, 1e15, "a whole number >= 0"));
-  if (static_cast<double>(disc.id) != row.value(0, 0, 1e15, ""))
+  const double id = row.value(0, 0, 1e15, "a whole number >= 0");
+  disc.id = static_cast<std::int64_t>(id);
+  if (static_cast<double>(disc.id) != id)
     row.refuse(0, "a whole number >= 0");
   for (int axis = 0; axis < 3; ++axis)
     disc.centre[axis] = row.value(static_cast<std::size_t>(axis) + 1, -far, far, "a number within 1e8 m");
@@ -94,33 +95,24 @@ Disc disc_of(const Row& row) {
 } // namespace
 
 std::vector<Disc> read_discs(const std::string& text, const std::string& file) {
-  std::istringstream in(text);
-  std::string line;
-  if (!std::getline(in, line))
-    throw InputError("file \"" + file +
-                     "\": empty; its first row must name id, x, y, z, dip, dip_direction, radius and set");
-  const std::size_t width = cells_of(line).size();
-  const auto column = columns_of(cells_of(line), file);
+  const TextTable table(text, file);
+  if (table.names().empty())
+    table.refuse(std::string("has no names of columns; its first row must name ") + all_names);
+  std::array<std::size_t, 8> column{};
+  for (std::size_t n = 0; n < column.size(); ++n)
+    column[n] = find_column(table, disc_columns()[n]);
+  if (table.rows() == 0)
+    table.refuse("no disc; a row for each must follow the names");
+  if (table.rows() > most_discs)
+    table.refuse("more than " + std::to_string(most_discs) + " discs; leave the small ones out");
   std::vector<Disc> discs;
   std::set<std::int64_t> ids;
-  for (int row = 2; std::getline(in, line); ++row) {
-    if (line.find_first_not_of(" \t\r") == std::string::npos)
-      continue;
-    const std::vector<std::string> cells = cells_of(line);
-    if (cells.size() != width)
-      throw InputError("file \"" + file + "\": row " + std::to_string(row) + " has " +
-                       std::to_string(cells.size()) + " values: must be " + std::to_string(width) +
-                       ", as many as there are names");
-    const Row here{file, row, cells, column};
+  for (std::size_t row = 0; row < table.rows(); ++row) {
+    const DiscRow here{table, row, column};
     discs.push_back(disc_of(here));
     if (!ids.insert(discs.back().id).second)
       here.refuse(0, "an id that no other disc has");
-    if (discs.size() > most_discs)
-      throw InputError("file \"" + file + "\": more than " + std::to_string(most_discs) +
-                       " discs; leave the small ones out");
   }
-  if (discs.empty())
-    throw InputError("file \"" + file + "\": no disc; a row for each must follow the names");
   return discs;
 }
 

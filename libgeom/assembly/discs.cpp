@@ -13,7 +13,7 @@
 namespace geom {
 namespace {
 
-constexpr double clearance = 1e-3; // of a block's diagonal, between a plane and the block's vertices
+constexpr double usual_clearance = 1e-3; // of a block's diagonal, between a plane and the block's vertices
 
 void check(const Disc& disc) {
   const std::string name = "disc " + std::to_string(disc.id) + ": ";
@@ -67,7 +67,18 @@ int cut_face_of(const Part& part) {
   return -1;
 }
 
-void cut_all(std::vector<Polyhedron>& blocks, const Disc& disc, std::size_t number) {
+// The two faces of a cut that the disc reaches.
+std::optional<std::pair<int, int>> reaching(const Disc& disc, const Vec3& normal, const Cut& halves) {
+  if (!halves.below || !halves.above)
+    return std::nullopt;
+  const int lower = cut_face_of(*halves.below), upper = cut_face_of(*halves.above);
+  if (lower < 0 || upper < 0 || !reaches(disc, normal, halves.below->shape, halves.below->shape.faces[lower]))
+    return std::nullopt;
+  return std::pair(lower, upper);
+}
+
+void cut_all(std::vector<Polyhedron>& blocks, const Disc& disc, std::size_t number,
+             const std::optional<double>& clearance, MovedCuts& moved) {
   const Vec3 normal = normal_of_dip(disc.dip, disc.dip_direction);
   const Plane plane = Plane::through(disc.centre, normal);
   const std::size_t before = blocks.size();
@@ -75,13 +86,19 @@ void cut_all(std::vector<Polyhedron>& blocks, const Disc& disc, std::size_t numb
     const Box box = bounding_box(blocks[b]);
     if (!near(disc, normal, box))
       continue;
-    Cut halves = cut(blocks[b], shifted_clear_of_vertices(blocks[b], plane, clearance * box.size().norm()));
-    if (!halves.below || !halves.above)
+    const double clear = clearance.value_or(usual_clearance * box.size().norm());
+    const Plane at = clear > 0 ? shifted_clear_of_vertices(blocks[b], plane, clear) : plane;
+    const double shift = std::abs(at.offset - plane.offset);
+    const bool crosses = shift > 0 && reaching(disc, normal, cut(blocks[b], plane)).has_value();
+    Cut halves = cut(blocks[b], at);
+    const auto faces = reaching(disc, normal, halves);
+    if (shift > 0 && (faces || crosses)) { // moved, or on to a face that is there
+      ++moved.count;
+      moved.farthest = std::max(moved.farthest, shift);
+    }
+    if (!faces)
       continue;
-    const int lower = cut_face_of(*halves.below), upper = cut_face_of(*halves.above);
-    if (lower < 0 || upper < 0 ||
-        !reaches(disc, normal, halves.below->shape, halves.below->shape.faces[lower]))
-      continue;
+    const auto [lower, upper] = *faces;
     halves.below->shape.faces[lower].cut = halves.above->shape.faces[upper].cut = marked(number);
     blocks[b] = std::move(halves.below->shape);
     blocks.push_back(std::move(halves.above->shape));
@@ -101,7 +118,11 @@ void name_faces(Polyhedron& block, const std::vector<Disc>& discs) {
 
 } // namespace
 
-Assembly cut_by_discs(const Assembly& assembly, std::vector<Disc> discs) {
+Assembly cut_by_discs(const Assembly& assembly, std::vector<Disc> discs, std::optional<double> clearance,
+                      MovedCuts* moved) {
+  if (clearance && !(*clearance >= 0 && std::isfinite(*clearance)))
+    throw InputError("clearance", text(*clearance), "finite and >= 0 m");
+  MovedCuts cuts;
   std::stable_sort(discs.begin(), discs.end(), [](const Disc& a, const Disc& b) { return a.id < b.id; });
   for (std::size_t i = 0; i < discs.size(); ++i) {
     check(discs[i]);
@@ -112,12 +133,14 @@ Assembly cut_by_discs(const Assembly& assembly, std::vector<Disc> discs) {
   Assembly result = assembly;
   for (std::size_t i = 0; i < discs.size(); ++i) {
     throw_if_stopped();
-    cut_all(result.blocks, discs[i], i);
+    cut_all(result.blocks, discs[i], i, clearance, cuts);
     require_block_count("discs", std::to_string(discs.size()), static_cast<double>(result.blocks.size()),
                         "use fewer or smaller discs, or fewer blocks");
   }
   for (Polyhedron& block : result.blocks)
     name_faces(block, discs);
+  if (moved != nullptr)
+    *moved = cuts;
   return result;
 }
 

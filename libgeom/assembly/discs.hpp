@@ -8,6 +8,7 @@
 #include "libgeom/assembly/assembly.hpp"
 
 #include <cstdint>
+#include <optional>
 
 namespace geom {
 
@@ -25,8 +26,17 @@ struct Disc {
 // Upward normal of a plane that dips towards dip_direction: x east, y north, z up.
 Vec3 normal_of_dip(double dip, double dip_direction);
 
-// The discs in the order of their ids. Throws InputError naming the disc.
-Assembly cut_by_discs(const Assembly&, std::vector<Disc>);
+// Cuts that were moved, so that no corner of the block lay nearer to the plane than the clearance without lying on it.
+struct MovedCuts {
+  std::size_t count = 0;
+  double farthest = 0; // m
+};
+
+// The discs in the order of their ids. `clearance` in m; 0 cuts exactly where the discs are; 1e-3 of each block's diagonal
+// when left out: blocks thinner than that fail before the rock does and shorten the time step. Throws InputError naming the
+// disc.
+Assembly cut_by_discs(const Assembly&, std::vector<Disc>, std::optional<double> clearance = {},
+                      MovedCuts* moved = nullptr);
 
 // From a table with a first row of names, id, x, y, z, dip, dip_direction, radius, set in any order, commas between, angles
 // in degrees. Throws InputError naming `file`, row and column.

@@ -1,6 +1,7 @@
 #include "libgeom/child/process.hpp"
 
 #include "libgeom/core/error.hpp"
+#include "libgeom/core/plain_reason.hpp"
 #include "libgeom/core/stop.hpp"
 
 #include <algorithm>
@@ -90,7 +91,7 @@ void send(int pipe, Answer kind, const std::string& bytes) {
   } catch (const std::bad_alloc&) {
     send(pipe, no_memory, "");
   } catch (const std::exception& error) {
-    send(pipe, failure, error.what());
+    send(pipe, failure, plain_reason(error));
   } catch (...) {
     send(pipe, unknown, "");
   }

@@ -7,14 +7,35 @@
 
 #include <gmsh.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <map>
+#include <sstream>
 #include <unordered_map>
 
 namespace geom {
+namespace {
 
-TetMesh tets_of_volumes(const std::string& what) {
+struct Collected {
+  TetMesh mesh;
+  std::vector<CellLabels> labels; // "physical" groups and "volumes"
+};
+
+// The first physical group of a volume and its name; 0 without one.
+std::pair<int, std::string> group_of(int volume) {
+  std::vector<int> groups;
+  gmsh::model::getPhysicalGroupsForEntity(3, volume, groups);
+  if (groups.empty())
+    return {0, "in no group"};
+  std::string name;
+  gmsh::model::getPhysicalName(3, groups.front(), name);
+  return {groups.front(), name.empty() ? std::to_string(groups.front()) : name};
+}
+
+// The tets of gmsh's model, each volume a region, and the nodes they use in the order they are met.
+Collected collect(const std::string& what) {
   constexpr int linear_tet = 4; // gmsh's number of the element
   std::vector<std::size_t> tags;
   std::vector<double> coordinates, ignored;
@@ -23,12 +44,16 @@ TetMesh tets_of_volumes(const std::string& what) {
   for (std::size_t i = 0; i < tags.size(); ++i)
     place[tags[i]] = i;
 
-  TetMesh mesh;
+  Collected all;
+  TetMesh& mesh = all.mesh;
+  CellLabels physical{"physical", {}, {}}, numbers{"volumes", {}, {}};
   std::unordered_map<std::size_t, int> node_of; // by tag
   Pieces volumes;
   gmsh::model::getEntities(volumes, 3);
   int region = 0;
   for (const auto& [dim, tag] : volumes) {
+    const auto [group, name] = group_of(tag);
+    physical.names[group] = name;
     std::vector<int> types;
     std::vector<std::vector<std::size_t>> elements, corners;
     gmsh::model::mesh::getElements(types, elements, corners, dim, tag);
@@ -52,13 +77,22 @@ TetMesh tets_of_volumes(const std::string& what) {
         }
         mesh.tets.push_back(tet);
         mesh.region.push_back(region);
+        physical.values.push_back(group);
+        numbers.values.push_back(tag);
       }
     }
     if (mesh.region.empty() || mesh.region.back() != region)
       throw InputError(what + ": volume " + std::to_string(region + 1) + " has no tetrahedra");
     ++region;
   }
-  return mesh;
+  all.labels = {std::move(physical), std::move(numbers)};
+  return all;
+}
+
+} // namespace
+
+TetMesh tets_of_volumes(const std::string& what) {
+  return collect(what).mesh;
 }
 
 TetMesh mesh_solid(const Solid& solid, const MeshSize& sizes) {
@@ -89,7 +123,7 @@ TetMesh mesh_solid(const Solid& solid, const MeshSize& sizes) {
       if (line.compare(0, 6, "Error:") == 0)
         throw InputError("mesh: the solid cannot be meshed with this size:" + line.substr(6) +
                          "; try another size, and make sure that no faces nearly touch");
-    return tets_of_volumes("mesh");
+    return collect("mesh").mesh;
   });
   validate(mesh, "mesh");
   return mesh;
@@ -103,8 +137,8 @@ std::string require_mesh_format(const std::string& path) {
   if (!std::filesystem::is_regular_file(path))
     throw InputError("file", '"' + path + '"', "an existing mesh file");
   std::string ending = std::filesystem::path(path).extension().string();
-  if (ending != ".msh" && ending != ".mesh" && ending != ".bdf" && ending != ".unv" && ending != ".vtk")
-    throw InputError("file", '"' + path + '"', "a name that ends in .msh, .mesh, .bdf, .unv or .vtk");
+  if (ending != ".msh" && ending != ".mesh" && ending != ".bdf" && ending != ".unv" && ending != ".inp")
+    throw InputError("file", '"' + path + '"', "a name that ends in .msh, .mesh, .bdf, .unv or .inp");
   return ending;
 }
 
@@ -115,20 +149,77 @@ void require_first_line(const std::string& copy, const std::string& path) {
     throw InputError("file", '"' + path + '"', "a gmsh mesh", "its first line must be $MeshFormat");
 }
 
+// In format 2 a volume may stand in several groups, element by element: then the groups are read as volumes.
+bool any_in_several_groups() {
+  Pieces volumes;
+  gmsh::model::getEntities(volumes, 3);
+  return std::any_of(volumes.begin(), volumes.end(), [](const std::pair<int, int>& volume) {
+    std::vector<int> groups;
+    gmsh::model::getPhysicalGroupsForEntity(3, volume.second, groups);
+    return groups.size() > 1;
+  });
+}
+
+Collected read_by_gmsh(const std::string& path, const std::string& ending) {
+  return with_copy(path, ending, [&](const std::string& copy) {
+    if (ending == ".msh")
+      require_first_line(copy, path);
+    gmsh::merge(copy);
+    if (ending != ".msh" || !any_in_several_groups())
+      return collect(path);
+    std::map<std::int64_t, std::string> names;
+    Pieces groups;
+    gmsh::model::getPhysicalGroups(groups, 3);
+    for (const auto& [dim, tag] : groups) {
+      std::string name;
+      gmsh::model::getPhysicalName(dim, tag, name);
+      names[tag] = name.empty() ? std::to_string(tag) : name;
+    }
+    gmsh::clear();
+    gmsh::option::setNumber("Mesh.SwitchElementTags", 1);
+    gmsh::merge(copy);
+    Collected all = collect(path);
+    all.labels[0].values = all.labels[1].values; // numbers of volumes are those of groups now
+    all.labels[0].names = std::move(names);
+    all.labels.pop_back();
+    return all;
+  });
+}
+
+std::string whole_text(const std::string& path) {
+  std::ostringstream text;
+  text << std::ifstream(path, std::ios::binary).rdbuf();
+  return text.str();
+}
+
 } // namespace
 
-TetMesh read_mesh(const std::string& path) {
+void pack(std::string& out, const MeshFile& x) {
+  pack(out, x.mesh);
+  pack(out, x.told);
+  pack(out, x.doubtful);
+}
+void unpack(Unpacker& in, MeshFile& x) {
+  unpack(in, x.mesh);
+  unpack(in, x.told);
+  unpack(in, x.doubtful);
+}
+
+MeshFile read_mesh_file(const std::string& path, const std::string& regions) {
   const std::string ending = require_mesh_format(path);
-  TetMesh mesh = in_session("reading " + path, limits_of_file(path), [&] {
-    return with_copy(path, ending, [&](const std::string& copy) {
-      if (ending == ".msh")
-        require_first_line(copy, path);
-      gmsh::merge(copy);
-      return tets_of_volumes(path);
-    });
+  MeshFile file = in_session("reading " + path, limits_of_file(path), [&] {
+    Collected all;
+    if (ending == ".inp")
+      all.mesh = read_inp(whole_text(path), path, all.labels);
+    else
+      all = read_by_gmsh(path, ending);
+    MeshFile read;
+    read.mesh = std::move(all.mesh);
+    label_regions(read, all.labels, regions, path);
+    return read;
   });
-  validate(mesh, path);
-  return mesh;
+  validate(file.mesh, path);
+  return file;
 }
 
 } // namespace geom

@@ -7,7 +7,9 @@
 #include "libgeom/child/bytes.hpp"
 #include "libgeom/child/process.hpp"
 #include "libgeom/core/error.hpp"
+#include "libgeom/core/plain_reason.hpp"
 #include "libgeom/mesh/block_mesh.hpp"
+#include "libgeom/mesh/read_mesh.hpp"
 #include "libgeom/mesh/tet_mesh.hpp"
 #include "libgeom/solid/solid.hpp"
 
@@ -22,6 +24,8 @@ void pack(std::string& out, const MassProperties&);
 void unpack(Unpacker&, MassProperties&);
 void pack(std::string& out, const TetMesh&); // without names of faces
 void unpack(Unpacker&, TetMesh&);
+void pack(std::string& out, const MeshFile&);
+void unpack(Unpacker&, MeshFile&);
 void pack(std::string& out, const BlockMesh&);
 void unpack(Unpacker&, BlockMesh&);
 void pack(std::string& out, const Solid&);
@@ -58,7 +62,7 @@ auto in_session(const std::string& what, const ChildLimits& limits, Body body) {
     } catch (const std::string& message) {
       throw InputError(what + ": the geometry kernel cannot do it: " + message);
     } catch (const std::logic_error& error) { // of the standard library: a length or an index that cannot be
-      throw InputError(what + ": " + limits.blame + ": " + error.what());
+      throw InputError(what + ": " + limits.blame + ": " + plain_reason(error));
     }
   });
   decltype(body()) result{};

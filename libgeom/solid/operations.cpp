@@ -173,8 +173,8 @@ Solid tried(Solid solid) {
   for (const auto& [dim, tag] : load(solid)) {
     double volume = 0;
     occ::getMass(dim, tag, volume);
-    if (!std::isfinite(volume))
-      throw std::string("a volume of it is not a finite number");
+    if (!(std::isfinite(volume) && volume > 0))
+      throw std::string("a volume of it is " + text(volume) + " m3");
   }
   return solid;
 }

@@ -6,6 +6,7 @@
 #include <gmsh.h>
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 
 namespace geom {
@@ -48,11 +49,40 @@ FacetedSurface surface_of(const Polyhedron& polyhedron) {
 
 } // namespace
 
+namespace {
+
+// By the divergence theorem over the triangles of each loop, m3.
+double enclosed_volume(const FacetedSurface& surface) {
+  const Vec3 origin = surface.vertices.front();
+  double volume = 0;
+  for (const auto& loops : surface.faces)
+    for (const auto& loop : loops)
+      for (std::size_t i = 2; i < loop.size(); ++i)
+        volume +=
+            (surface.vertices[loop[0]] - origin)
+                .dot((surface.vertices[loop[i - 1]] - origin).cross(surface.vertices[loop[i]] - origin)) /
+            6;
+  return volume;
+}
+
+constexpr double same_volume = 1e-5; // of it: OpenCASCADE's rounding and no more
+
+} // namespace
+
 Solid make_solid(const FacetedSurface& surface) {
   for (const Vec3& x : surface.vertices)
     require_place("vertices", x);
   return in_session("solid of flat faces", [&] {
-    add_volume(surface);
+    const int volume = add_volume(surface);
+    const double expected = enclosed_volume(surface);
+    double made = 0;
+    occ::synchronize();
+    occ::getMass(3, volume, made);
+    if (!(std::abs(made - expected) <= same_volume * std::abs(expected)))
+      throw InputError("solid of flat faces: its faces enclose " + text(expected) +
+                       " m3, but the geometry kernel makes a solid of " + text(made) +
+                       " m3 of them; some of its faces touch or cover each other, or are far thinner than "
+                       "the rest: mend them in the program that made the surface");
     return store("solid of flat faces");
   });
 }

@@ -55,8 +55,11 @@ void require_closed(const std::vector<Vec3>& vertices, const std::vector<Triangl
 
 } // namespace
 
-FacetedSurface read_stl(const std::string& path, double scale) {
-  const Surface read = read_surface(path, scale, max_stl_triangles).surface;
+FacetedSurface read_stl(const std::string& path, double scale, const Vec3& shift, std::string* mended) {
+  const FileSurface file = read_surface(path, scale, max_stl_triangles, shift);
+  const Surface& read = file.surface;
+  if (mended != nullptr)
+    *mended = file.mended;
   FacetedSurface surface;
   surface.vertices = read.points;
   if (read.triangles.size() < 4)

@@ -3,13 +3,14 @@
 
 #include "libgeom/core/check.hpp"
 #include "libgeom/core/error.hpp"
+#include "libgeom/core/regular_file.hpp"
+#include "libgeom/mesh/sound_surface.hpp"
 #include "libgeom/query/welder.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <filesystem>
-#include <fstream>
 #include <map>
 #include <sstream>
 
@@ -19,7 +20,9 @@ namespace {
 constexpr std::size_t header = 84,
                       record = 50; // bytes: title and count; a normal, three corners and two more
 
-constexpr double same_corner = 1e-6; // of the surface's size
+bool is_polygon_file(const std::string& ending) {
+  return ending == ".obj" || ending == ".off" || ending == ".ply" || ending == ".ts";
+}
 
 } // namespace
 
@@ -55,26 +58,30 @@ FileTriangles stl_triangles(const std::string& bytes, const std::string& path) {
   return {std::move(corners), ""};
 }
 
-FileSurface read_surface(const std::string& path, double scale, std::size_t most) {
+FileSurface read_surface(const std::string& path, double scale, std::size_t most, const Vec3& shift) {
   std::string ending = std::filesystem::path(path).extension().string();
   for (char& c : ending)
     c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  if (ending != ".stl" && ending != ".dxf")
-    throw InputError("file", '"' + path + '"', "a name that ends in .stl or .dxf");
-  const std::string format = ending == ".stl" ? "STL" : "DXF";
-  if (!std::filesystem::is_regular_file(path))
+  if (ending != ".stl" && ending != ".dxf" && !is_polygon_file(ending))
+    throw InputError("file", '"' + path + '"', "a name that ends in .stl, .dxf, .obj, .off, .ply or .ts");
+  if (!std::filesystem::is_regular_file(path)) {
+    std::string format = ending.substr(1);
+    for (char& c : format)
+      c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
     throw InputError("file", '"' + path + '"', "an existing " + format + " file");
+  }
   require_positive("scale", scale, "");
-  std::ostringstream bytes;
-  bytes << std::ifstream(path, std::ios::binary).rdbuf();
-  FileTriangles file = ending == ".stl" ? stl_triangles(bytes.str(), path) : dxf_triangles(bytes.str(), path);
+  require_finite("shift", shift);
+  FileTriangles file = is_polygon_file(ending) ? polygon_triangles(path)
+                       : ending == ".stl"      ? stl_triangles(read_regular(path), path)
+                                               : dxf_triangles(read_regular(path), path);
   std::vector<Vec3>& corners = file.corners;
   if (corners.size() > 3 * most)
     throw InputError("file", '"' + path + '"', "one of at most " + std::to_string(most) + " triangles",
                      "it has " + std::to_string(corners.size() / 3) + "; make it coarser");
   Box box;
   for (std::size_t i = 0; i < corners.size(); ++i) {
-    corners[i] *= scale;
+    corners[i] = scale * corners[i] + shift;
     if (!corners[i].allFinite())
       throw InputError("file", '"' + path + '"', "one of finite coordinates",
                        "triangle " + std::to_string(i / 3 + 1) + " has a corner at " + text(corners[i]));
@@ -103,7 +110,11 @@ FileSurface read_surface(const std::string& path, double scale, std::size_t most
   if (surface.triangles.empty())
     throw InputError("file", '"' + path + '"', "one with triangles",
                      "it has none" + (result.note.empty() ? "" : "; " + result.note));
+  result.mended = mended_text(mend(surface, same_corner * size));
+  if (surface.triangles.empty())
+    throw InputError("file", '"' + path + '"', "one with triangles", "none of its triangles has an area");
   require_single(surface, "file \"" + path + "\"");
+  require_uncrossed(surface, "file \"" + path + "\"", same_corner * size);
   return result;
 }
 

@@ -669,6 +669,7 @@ function Surface:box() end
 ---@class cdem.TetMesh
 ---@field nodes integer how many
 ---@field tets integer how many
+---@field regions integer how many; they are numbered from 1
 ---@field parts integer how many sets of tetrahedra share no node; in a model each moves by itself
 local TetMesh = {}
 
@@ -1810,6 +1811,7 @@ function cdem.cut_by_joints(options) end
 ---@class (exact) cdem.CutByDiscsOptions
 ---@field shape cdem.Assembly
 ---@field discs cdem.CutByDiscsOptionsDiscs[]
+---@field clearance? number m, >= 0: a cut that comes nearer to a corner of its block than this without running through it is moved away, since thin blocks fail early and shorten the time step; 0 cuts exactly; 1e-3 of each block's diagonal when left out. What is moved is told
 
 ---Joints of finite size: every block that a disc reaches is cut by the disc's plane. Faces with their centroid in the disc belong to its set; beyond it they are bridges of rock, which the body's joint holds.
 ---@param options cdem.CutByDiscsOptions
@@ -2005,10 +2007,11 @@ function cdem.solid.cone(options) end
 function cdem.solid.sphere(options) end
 
 ---@class (exact) cdem.SolidReadOptions
----@field file string ends in .step, .stp or .stl
----@field scale? number in [1e-06, 1e+06], default 1: 0.001 for an STL in millimetres
+---@field file string ends in .step, .stp, .stl, .obj, .off, .ply, .dxf or .ts
+---@field scale? number in [1e-06, 1e+06], default 1: 0.001 for a file in millimetres
+---@field shift? number[] m, default {0, 0, 0}: is added to the coordinates: a survey far from the origin loses its digits
 
----A solid from a STEP file (in the file's units) or from a closed STL surface, whose triangles become its faces and bound the mesh size from above.
+---A solid from a STEP file (in the file's units), or from a closed surface of triangles (STL, OBJ, OFF, PLY, DXF, GOCAD). Each triangle becomes a face of the solid, so no element of its mesh is larger than the triangles. Triangles without area and T-junctions are mended, which is told.
 ---@param options cdem.SolidReadOptions
 ---@return cdem.Solid
 function cdem.solid.read(options) end
@@ -2048,10 +2051,11 @@ function cdem.solid.common(options) end
 function cdem.solid.fragments(options) end
 
 ---@class (exact) cdem.ReadSurfaceOptions
----@field file string ends in .stl or .dxf
+---@field file string ends in .stl, .dxf, .obj, .off, .ply or .ts
 ---@field scale? number in [1e-06, 1e+06], default 1: 0.001 for a file in millimetres
+---@field shift? number[] m, default {0, 0, 0}: is added to the coordinates: a survey far from the origin loses its digits
 
----A surface of triangles from an STL file or an ASCII DXF file (3DFACE, polyface and polygon meshes): a terrain, an excavation.
+---A surface of triangles from a file: STL, ASCII DXF (3DFACE, polyface and polygon meshes), OBJ, OFF, PLY or GOCAD; a terrain, an excavation. Triangles without area and T-junctions are mended, which is told.
 ---@param options cdem.ReadSurfaceOptions
 ---@return cdem.Surface
 function cdem.read_surface(options) end
@@ -2176,9 +2180,11 @@ function cdem.slope(options) end
 
 ---@class (exact) cdem.ReadMeshOptions
 ---@field file string
+---@field regions? string what parts the mesh into regions: "physical" groups or "volumes" of gmsh, "sections" or element "sets" of Abaqus, the name of a cell array of VTK; chosen and told when left out
 ---@field scale? number in [1e-06, 1e+06], default 1: 0.001 for a mesh in millimetres
+---@field shift? number[] m, default {0, 0, 0}: is added to the coordinates: a survey far from the origin loses its digits
 
----Linear tetrahedra from a file: gmsh .msh, Medit .mesh, Nastran .bdf, I-deas .unv, legacy .vtk, or a .vtu written by cdem. What is wrong with them is said.
+---Linear tetrahedra from a file: gmsh .msh, Medit .mesh, Nastran .bdf, I-deas .unv, Abaqus .inp, .vtk or .vtu. What is wrong with them is said.
 ---@param options cdem.ReadMeshOptions
 ---@return cdem.TetMesh
 function cdem.read_mesh(options) end
@@ -2421,14 +2427,14 @@ function cdem.flow_velocity(pressure, water_density) end
 ---@class (exact) cdem.RecordOptions
 ---@field path string beside the script, in the output folder or below the results
 ---@field time? string default "time": name of its column (s); the number of it, "1", where the file has no names
----@field value string name of its column
+---@field value? string name of its column; left out for a file .AT2
 ---@field scale? number default 1: factor on the values
 ---@field unit "m/s2"|"cm/s2"|"Gal"|"g"|"m/s"|"cm/s"|"Pa"|"kPa"|"MPa"|"1" of the values in the file
 ---@field to? "velocity" velocity: an acceleration is integrated
 ---@field baseline? "none"|"straight" default "none": straight: takes the line a0 + a1 t off the acceleration that brings the last velocity and the last displacement to zero
 ---@field longest_step? number s, > 0: two samples further apart are a gap; 2.5 times the median step when left out
 
----Reads a record over time from two columns of a .csv, in SI units from then on; outside its times it is 0. Times must grow without gaps. With to = "velocity" an acceleration is integrated by the trapezoidal rule.
+---Reads a record over time from two columns of a table as spreadsheets write it, or from a file .AT2 of the PEER data base (unit = "g"), in SI units from then on; outside its times it is 0. Times must grow without gaps. With to = "velocity" an acceleration is integrated by the trapezoidal rule.
 ---@param options cdem.RecordOptions
 ---@return cdem.Record
 function cdem.record(options) end
@@ -2490,7 +2496,7 @@ function cdem.chart(options) end
 ---@param figures cdem.ReportOptionsfigures[] the figures, in order
 function cdem.report(figures) end
 
----Reads columns of numbers; the first row has their names. Empty cells are nan.
+---Reads columns of numbers from a table as spreadsheets write it (docs/output-files.md); its first row has their names. Empty cells are nan.
 ---@param file string beside the script, in the output folder or below the results
 ---@return table<string, number[]> # lists by name
 function cdem.read_csv(file) end

@@ -11,6 +11,7 @@
 #include <catch2/catch.hpp>
 #include <csignal>
 #include <sstream>
+#include <sys/stat.h>
 
 using namespace testing;
 using Catch::Matchers::Contains;
@@ -227,4 +228,52 @@ TEST_CASE("output that cannot be written ends with exit code 4") {
     CHECK_THAT(outcome.err, Contains("output folder"));
   }
   CHECK(read_file(folder / "mine/thesis.txt") == "years of work");
+}
+
+TEST_CASE("folders, named pipes and devices are refused wherever a file is wanted") {
+  const TempFolder folder;
+  REQUIRE(mkfifo((folder / "pipe.lua").c_str(), 0600) == 0);
+  for (const std::string ending : {"csv", "msh", "stl", "json", "cdem", "step", "dxf"})
+    REQUIRE(mkfifo((folder / ("pipe." + ending)).c_str(), 0600) == 0);
+  fs::create_directory(folder / "folder.csv");
+  Start start;
+  start.folder = folder.path();
+  start.limit = 20;
+  const auto said = [&](const std::vector<std::string>& arguments) {
+    const Outcome outcome = run_cdem(arguments, start);
+    INFO(outcome.err);
+    CHECK_FALSE(outcome.timed_out);
+    CHECK((outcome.exit_code == 2 || outcome.exit_code == 4));
+    CHECK(lines_of(outcome.err).size() == 1);
+    return outcome.err;
+  };
+  CHECK_THAT(said({"run", "pipe.lua"}), Contains("is a named pipe, not a file"));
+  CHECK_THAT(said({"check", "/dev/zero"}), Contains("is a device, not a file"));
+  for (const std::string call :
+       {"read_csv('pipe.csv')", "record{ path = 'pipe.csv', value = 'a', unit = 'g' }",
+        "read_discs('pipe.csv')", "read_mesh{ file = 'pipe.msh' }", "solid.read{ file = 'pipe.stl' }",
+        "solid.read{ file = 'pipe.step' }", "read_surface{ file = 'pipe.dxf' }",
+        "read_pile{ file = 'pipe.json' }", "read_csv('folder.csv')"}) {
+    INFO(call);
+    write_file(folder / "case.lua", "require('cdem')." + call);
+    CHECK_THAT(said({"check", "case.lua"}),
+               Contains(call.find("folder") == std::string::npos ? "is a named pipe" : "is a folder"));
+  }
+  // The checkpoint of a run, its log.
+  write_file(
+      folder / "case.lua",
+      "local cdem = require 'cdem'\n"
+      "local m = cdem.model{ bodies = { { shape = cdem.box_mesh{ size = {1, 1, 1}, divisions = {1, 1, 1} }, "
+      "material = cdem.elastic{ youngs_modulus = 1e9, poissons_ratio = 0.2, density = 2000 } } } }\n"
+      "m:run{ steps = 10 }\nerror 'stops here'\n");
+  REQUIRE(run_cdem({"run", "case.lua", "--output", "out"}, start).exit_code == 2);
+  for (const char* name : {"out/checkpoint_1.cdem", "out/checkpoint_2.cdem"}) {
+    fs::remove(folder / name);
+    REQUIRE(mkfifo((folder / name).c_str(), 0600) == 0);
+  }
+  CHECK_THAT(said({"resume", "out"}), Contains("is a named pipe"));
+  fs::remove(folder / "out/cdem.log");
+  REQUIRE(mkfifo((folder / "out/cdem.log").c_str(), 0600) == 0);
+  CHECK_THAT(said({"resume", "out"}), Contains("is not the output folder of a run"));
+  CHECK_THAT(said({"info", "out"}), !Contains("internal"));
 }

@@ -4,7 +4,15 @@
 #include <catch2/catch.hpp>
 
 #include <algorithm>
+#include <chrono>
 #include <cstdlib>
+#include <memory>
+#include <thread>
+
+#include <arpa/inet.h>
+#include <netinet/in.h>
+#include <sys/socket.h>
+#include <unistd.h>
 
 using namespace testing;
 using Catch::Matchers::Contains;
@@ -246,4 +254,62 @@ TEST_CASE("a .vtkhdf is drawn and described as the .vtu of the same state") {
   CHECK(pictures[0] == pictures[1]);
   CHECK_THAT(described[0], Contains("stress.zz"));
   CHECK(described[0] == described[1]);
+}
+
+namespace {
+
+// A connection that asks slowly or without end.
+class Attacker {
+public:
+  explicit Attacker(int port) : socket_(socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0)) {
+    sockaddr_in to{};
+    to.sin_family = AF_INET;
+    to.sin_port = htons(static_cast<std::uint16_t>(port));
+    to.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+    connected_ = connect(socket_, reinterpret_cast<const sockaddr*>(&to), sizeof to) == 0;
+  }
+  ~Attacker() { close(socket_); }
+  Attacker(const Attacker&) = delete;
+  Attacker& operator=(const Attacker&) = delete;
+  bool say(const std::string& bytes) const { // false: it was sent away
+    return connected_ && send(socket_, bytes.data(), bytes.size(), MSG_NOSIGNAL | MSG_DONTWAIT) ==
+                             static_cast<ssize_t>(bytes.size());
+  }
+
+private:
+  int socket_;
+  bool connected_ = false;
+};
+
+} // namespace
+
+TEST_CASE("neither slow nor endless requests take memory, the page or the end of a run") {
+  LiveRun run;
+  std::vector<std::unique_ptr<Attacker>> slow;
+  for (int i = 0; i < 300; ++i) {
+    slow.push_back(std::make_unique<Attacker>(run.port));
+    slow.back()->say("GET / HTTP/1.1\r\nX: ");
+  }
+  // A head without end is cut off after some kB.
+  const Attacker endless_head(run.port);
+  endless_head.say("GET / HTTP/1.1\r\n");
+  std::string lines;
+  for (int i = 0; i < 200; ++i)
+    lines += "X" + std::to_string(i) + ": a\r\n";
+  bool sent_away = false;
+  for (int i = 0; i < 2000 && !sent_away; ++i) {
+    sent_away = !endless_head.say(lines);
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
+  CHECK(sent_away);
+  // The owner's page is answered at once among 300 that ask for ever.
+  const auto start = std::chrono::steady_clock::now();
+  CHECK_THAT(run.ask(run.here("")), Contains("200 OK"));
+  CHECK_THAT(run.ask(run.here("page.css")), Contains("200 OK"));
+  CHECK(std::chrono::steady_clock::now() - start < std::chrono::seconds(2));
+  const auto asked_to_stop = std::chrono::steady_clock::now();
+  for (const auto& attacker : slow)
+    attacker->say("a");
+  CHECK(run.stop().exit_code == 130);
+  CHECK(std::chrono::steady_clock::now() - asked_to_stop < std::chrono::seconds(5));
 }

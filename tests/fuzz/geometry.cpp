@@ -1,6 +1,7 @@
 // Files of shapes. gmsh and OpenCASCADE read theirs in a child process: a crash of the child is an InputError.
 #include "tests/fuzz/targets.hpp"
 
+#include "libcdem/vtk/read_vtk_mesh.hpp"
 #include "libgeom/core/error.hpp"
 #include "libgeom/mesh/read_mesh.hpp"
 #include "libgeom/solid/gmsh_session.hpp"
@@ -20,8 +21,21 @@ void read_dxf(const std::string& bytes) {
   geom::read_surface(as_file("ground.dxf", bytes), 1, geom::max_surface_triangles);
 }
 
+void read_polygons(const std::string& bytes) {
+  static const std::array<const char*, 4> endings = {".obj", ".off", ".ply", ".ts"};
+  if (bytes.empty())
+    return;
+  const std::size_t which = static_cast<unsigned char>(bytes[0]) % endings.size();
+  geom::read_surface(as_file(std::string("part") + endings[which], bytes.substr(1)), 1,
+                     geom::max_surface_triangles);
+}
+
+void read_vtk(const std::string& bytes) {
+  cdem::read_vtk_mesh(as_file("part.vtk", bytes), "");
+}
+
 void read_mesh(const std::string& bytes) {
-  static const std::array<const char*, 5> endings = {".msh", ".mesh", ".bdf", ".unv", ".vtk"};
+  static const std::array<const char*, 5> endings = {".msh", ".mesh", ".bdf", ".unv", ".inp"};
   if (bytes.empty())
     return;
   const std::size_t which = static_cast<unsigned char>(bytes[0]) % endings.size();

@@ -138,6 +138,13 @@ void csv(const std::string& bytes) {
   run_script("require('cdem').read_csv{ file = 'table.csv' }");
 }
 
+void record(const std::string& bytes) {
+  const bool peer = !bytes.empty() && static_cast<unsigned char>(bytes[0]) % 2 == 1;
+  as_file(peer ? "table.AT2" : "table.csv", bytes.empty() ? bytes : bytes.substr(1));
+  run_script(peer ? "require('cdem').record{ path = 'table.AT2', unit = 'g' }"
+                  : "require('cdem').record{ path = 'table.csv', time = '1', value = '2', unit = 'g' }");
+}
+
 void arguments(const std::string& bytes) {
   const auto& module = cdem::script::module();
   std::string text = before;

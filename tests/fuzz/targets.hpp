@@ -39,15 +39,18 @@ private:
 
 void read_stl(const std::string&);
 void read_dxf(const std::string&);
-void read_mesh(const std::string&);    // the first byte chooses the format
-void read_step(const std::string&);    // in a child
-void child_answer(const std::string&); // what a child process hands back
-void saved_file(const std::string&);   // head and checksum
-void state(const std::string&);        // changes of a whole state
-void cut_model(const std::string&);    // changes of a whole checkpoint with its model
-void journal(const std::string&);      // of a checkpoint
-void pile(const std::string&);         // pile.json
-void csv(const std::string&);          // cdem.read_csv
-void arguments(const std::string&);    // tables of calls of the module
+void read_polygons(const std::string&); // the first byte chooses the format; in a child
+void read_vtk(const std::string&);      // in a child
+void record(const std::string&);        // cdem.record, the first byte chooses .csv or .AT2
+void read_mesh(const std::string&);     // the first byte chooses the format
+void read_step(const std::string&);     // in a child
+void child_answer(const std::string&);  // what a child process hands back
+void saved_file(const std::string&);    // head and checksum
+void state(const std::string&);         // changes of a whole state
+void cut_model(const std::string&);     // changes of a whole checkpoint with its model
+void journal(const std::string&);       // of a checkpoint
+void pile(const std::string&);          // pile.json
+void csv(const std::string&);           // cdem.read_csv
+void arguments(const std::string&);     // tables of calls of the module
 
 } // namespace fuzz

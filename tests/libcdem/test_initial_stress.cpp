@@ -74,3 +74,22 @@ TEST_CASE("initial stress adds up and belongs to the selected blocks alone", "[i
   CHECK(s.blocks()[0].stress == std::array<double, 6>{3e6, 0, 0, 3e6, 0, 0});
   CHECK(s.blocks()[1].stress == std::array<double, 6>{2e6, 0, 0, 3e6, 0, 0});
 }
+
+TEST_CASE("initial stress given layer by layer is that given at once, in any order", "[initial_stress]") {
+  const auto stressed = [](const std::vector<int>& order) {
+    cdem::Simulation s = simulation(geom::grid({0.2, 0.1, 0.3}, {2, 1, 3}));
+    cdem::InitialStress field;
+    field.gradient = 25e3;
+    field.k0 = {0.6, 0.8};
+    if (order.empty())
+      s.initial_stress(field);
+    for (const int layer : order) {
+      field.on = cdem::Selection::in_box({{0, 0, 0.1 * layer}, {0.2, 0.1, 0.1 * (layer + 1)}});
+      s.initial_stress(field);
+    }
+    return s.state_hash();
+  };
+  const auto whole = stressed({});
+  CHECK(stressed({0, 1, 2}) == whole);
+  CHECK(stressed({2, 0, 1}) == whole);
+}

@@ -33,6 +33,6 @@ inline std::vector<std::pair<std::string, std::string>> one_tet_files() {
        "         4         1         1        11\n   0.0D+00   0.0D+00   1.0D+00\n    -1\n    -1\n  2412\n"
        "         1       111         1         1         7         4\n"
        "         1         2         3         4\n    -1\n"},
-      {"a.vtk", "# vtk DataFile Version 2.0\ntet\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 4 double\n"
-                "0 0 0\n1 0 0\n0 1 0\n0 0 1\nCELLS 1 5\n4 0 1 2 3\nCELL_TYPES 1\n10\n"}};
+      {"a.inp", "*Heading\n** one\n*Node\n1, 0, 0, 0\n2, 1., 0, 0\n3, 0, 1, 0\n4, 0, 0, 1\n"
+                "*Element, type=C3D4, elset=Rock\n7, 1, 2, 3, 4\n*Elset, elset=all, generate\n7, 7, 1\n"}};
 }

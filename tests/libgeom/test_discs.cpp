@@ -6,6 +6,7 @@
 
 #include <catch2/catch.hpp>
 
+#include <algorithm>
 #include <map>
 
 using namespace geom;
@@ -94,6 +95,32 @@ TEST_CASE("the order in which discs are given does not matter, and an id twice i
   CHECK_THROWS_WITH(cut_by_discs(grid({2, 2, 2}, {1, 1, 1}), {a, a}), Contains("disc 1: given twice"));
 }
 
+TEST_CASE("two discs near each other cut off exactly what lies between them with no clearance", "[discs]") {
+  // Planes that meet in one line at an angle: the wedges between them have h L^2 / 2 each, h the slope of the second.
+  const double slope = 1e-3, half = 2, width = 3;
+  const Assembly block = grid({2 * half, width, 4}, {1, 1, 1});
+  std::vector<Disc> discs{{1, {half, width / 2, 2}, 0, 90 * degree, 50, "a"},
+                          {2, {half, width / 2, 2}, std::atan(slope), 90 * degree, 50, "a"}};
+  MovedCuts moved;
+  const Assembly exact = cut_by_discs(block, discs, 0, &moved);
+  REQUIRE(exact.blocks.size() == 4);
+  CHECK(moved.count == 0);
+  std::vector<double> volumes;
+  for (const Polyhedron& part : exact.blocks)
+    volumes.push_back(mass_properties(part).volume);
+  std::sort(volumes.begin(), volumes.end());
+  for (int i : {0, 1})
+    CHECK(volumes[static_cast<std::size_t>(i)] == Approx(slope * half * half / 2 * width).epsilon(1e-9));
+  // With one, the second goes on to the face that is there already, and says how far it went.
+  discs[1].dip = 0;
+  discs[1].centre.z() += 1e-4;
+  const Assembly apart = cut_by_discs(block, discs, 0.01, &moved);
+  CHECK(apart.blocks.size() == 2);
+  CHECK(moved.count == 1);
+  CHECK(moved.farthest == Approx(1e-4));
+  CHECK_THROWS_WITH(cut_by_discs(block, discs, -1), Contains("clearance = -1"));
+}
+
 TEST_CASE("tables of discs are read by the names of their columns", "[discs]") {
   const auto discs = read_discs("set,id,z,y,x,radius,dip,dip_direction\nbedding,3,30,20,10,1.5,45,180\n\n"
                                 "\"faults\" , 4, 1,2,3, 2,90,360\r\n",
@@ -107,22 +134,24 @@ TEST_CASE("tables of discs are read by the names of their columns", "[discs]") {
 }
 
 TEST_CASE("tables of discs that are damaged or hostile are refused in one line", "[discs]") {
-  CHECK_THAT(refusal(""), Contains("file \"dfn.csv\": empty"));
+  CHECK_THAT(refusal(""), Contains("file \"dfn.csv\": is empty"));
   CHECK_THAT(refusal(head), Contains("no disc"));
   CHECK_THAT(refusal("id,x,y,z,dip,radius,set\n1,1,1,1,1,1,a\n"), Contains("no column \"dip_direction\""));
   CHECK_THAT(refusal("id,id,x,y,z,dip,dip_direction,radius,set\n"), Contains("more than one column \"id\""));
-  CHECK_THAT(refusal(head + "1,0,0,0,30\n"), Contains("row 2 has 5 values: must be 8"));
+  CHECK_THAT(refusal(head + "1,0,0,0,30\n"), Contains("line 2 has 5 values: must be 8"));
   CHECK_THAT(refusal(head + "1,0,0,0,91,0,1,a\n"),
-             Contains("row 2, dip = \"91\": must be a number from 0 to 90"));
-  CHECK_THAT(refusal(head + "1,0,0,0,30,-1,1,a\n"), Contains("dip_direction = \"-1\""));
-  CHECK_THAT(refusal(head + "1,0,0,0,30,0,0,a\n"), Contains("radius = \"0\""));
-  CHECK_THAT(refusal(head + "1,nan,0,0,30,0,1,a\n"), Contains("x = \"nan\""));
-  CHECK_THAT(refusal(head + "1,1e300,0,0,30,0,1,a\n"), Contains("x = \"1e300\""));
-  CHECK_THAT(refusal(head + "1,0x,0,0,30,0,1,a\n"), Contains("x = \"0x\""));
-  CHECK_THAT(refusal(head + "1.5,0,0,0,30,0,1,a\n"), Contains("id = \"1.5\": must be a whole number"));
-  CHECK_THAT(refusal(head + "1,0,0,0,30,0,1,\n"), Contains("set = \"\""));
+             Contains("line 2, column \"dip\": \"91\": must be a number from 0 to 90"));
+  CHECK_THAT(refusal(head + "1,0,0,0,30,-1,1,a\n"), Contains("column \"dip_direction\": \"-1\""));
+  CHECK_THAT(refusal(head + "1,0,0,0,30,0,0,a\n"), Contains("column \"radius\": \"0\""));
+  CHECK_THAT(refusal(head + "1,nan,0,0,30,0,1,a\n"), Contains("column \"x\": \"nan\""));
+  CHECK_THAT(refusal(head + "1,1e300,0,0,30,0,1,a\n"), Contains("column \"x\": \"1e300\""));
+  CHECK_THAT(refusal(head + "1,0x,0,0,30,0,1,a\n"), Contains("column \"x\": \"0x\""));
+  CHECK_THAT(refusal(head + "1.5,0,0,0,30,0,1,a\n"),
+             Contains("column \"id\": \"1.5\": must be a whole number"));
+  CHECK_THAT(refusal(head + "1,0,0,0,30,0,1,\n"), Contains("column \"set\": an empty cell"));
   CHECK_THAT(refusal(head + "1,0,0,0,30,0,1," + std::string(100000, 'a') + "\n"),
              Contains("1 to 64 letters"));
-  CHECK_THAT(refusal(head + "1,0,0,0,30,0,1,a\n1,1,1,1,30,0,1,a\n"), Contains("row 3, id = \"1\""));
-  CHECK_THAT(refusal(std::string("\0\1\2\n", 4)), Contains("no column \"id\""));
+  CHECK_THAT(refusal(head + "1,0,0,0,30,0,1,a\n1,1,1,1,30,0,1,a\n"),
+             Contains("line 3, column \"id\": \"1\""));
+  CHECK_THAT(refusal(std::string("\0\1\2\n", 4)), Contains("bytes that are no text"));
 }

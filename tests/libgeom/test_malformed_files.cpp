@@ -124,7 +124,7 @@ TEST_CASE("counts that say far more than the file holds end in one line") {
     CHECK_THAT(said, Contains(name));
     CHECK(said.find('\n') == std::string::npos);
   };
-  const std::string vtk = one_tet_files().back().second;
+  const std::string inp = one_tet_files().back().second;
   for (const char* count : {"-1", "2147483647", "99999999999999"}) {
     const std::string n = count;
     refuses("a.msh", msh4, "$Nodes\n1 4 1 4", "$Nodes\n1 " + n + " 1 4");
@@ -132,8 +132,7 @@ TEST_CASE("counts that say far more than the file holds end in one line") {
     refuses("a.msh", msh4, "3 1 0 4\n", "3 1 0 " + n + "\n");
     refuses("a.msh", msh4, "$Elements\n1 1 1 1", "$Elements\n" + n + " 1 1 1");
     refuses("a.msh", msh4, "3 1 4 1\n", "3 1 4 " + n + "\n");
-    refuses("a.vtk", vtk, "POINTS 4", "POINTS " + n);
-    refuses("a.vtk", vtk, "CELLS 1 5\n4 0 1 2 3", "CELLS 1 5\n" + n + " 0 1 2 3");
-    refuses("a.vtk", vtk, "4 0 1 2 3", "4 0 1 2 " + n);
+    refuses("a.inp", inp, "7, 1, 2, 3, 4", "7, 1, 2, 3, " + n);
+    refuses("a.inp", inp, "7, 7, 1", "7, " + n + ", 1");
   }
 }

@@ -194,3 +194,35 @@ TEST_CASE("a script that fails with nothing solved, or in a check, leaves no che
   CHECK_THAT(checked.error(), Contains("color"));
   CHECK_FALSE(checked.checkpoint());
 }
+
+TEST_CASE("a call that is refused half-way leaves nothing behind, so that the mended script goes on",
+          "[checkpoint]") {
+  const std::string rock =
+      column("{4, 1, 1}", "{4, 1, 1}") +
+      "local helper = require 'helper'\nlocal calls = 0\nmodel:fix{ on = 'x-' }\n"
+      "model:traction{ on = 'x+', stress = {1e5, 0, 0} }\nmodel:relax{ max_steps = 200 }\n";
+  const auto bolts = [](const std::string& angles) {
+    return "model:bolts{ pattern = { centre = {2, 0, 0.1}, axis = 'y', radius = 0.2, length = 0.5, at = "
+           "{0.5}, "
+           "angles = {" +
+           angles + "} }, area = 5e-4 }\n";
+  };
+  const std::string dig =
+      "model:remove{ on = {function(x) return x > 3 end, function(x) return x > FAR end} }\n";
+  const auto dug = [&](const std::string& far) {
+    std::string text = dig;
+    return text.replace(text.find("FAR"), 3, far);
+  };
+  const std::string after = "model:relax{ max_steps = 200 }\n" + told;
+  for (const auto& [bad, good] :
+       {std::pair(bolts("20, 90, 270"), bolts("20, 90")), std::pair(dug("9"), dug("2"))}) {
+    INFO(bad);
+    Mended whole(rock + good + after);
+    whole.run();
+    Mended script(rock + bad + after);
+    CHECK_FALSE(script.error().empty());
+    script.mend(rock + good + after);
+    CHECK(script.error() == "");
+    CHECK(script.report() == whole.report());
+  }
+}

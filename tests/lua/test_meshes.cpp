@@ -255,3 +255,30 @@ TEST_CASE("a search that cannot be is refused", "[lua]") {
   CHECK_THAT(refused("local_damping = 1"), Contains("local_damping = 1"));
   CHECK_THAT(refused("velocity = 3"), Contains("velocity"));
 }
+
+TEST_CASE("cell data of a .vtk are the regions of its mesh, and a joint without faces is told", "[lua]") {
+  const std::string
+      head = "# vtk DataFile Version 2.0\nx\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 5 double\n"
+             "0 0 0\n1 0 0\n0 1 0\n0 0 1\n1 1 1\nCELLS 3 14\n3 0 1 2\n4 0 1 2 3\n4 1 2 3 4\n"
+             "CELL_TYPES 3\n5\n10\n10\n",
+      material = "SCALARS material int 1\nLOOKUP_TABLE default\n9\n4\n7\n",
+      age = "SCALARS age int 1\nLOOKUP_TABLE default\n0\n1\n2\n",
+      body =
+          "local cdem = require 'cdem'\n"
+          "local mesh = cdem.read_mesh{ file = 'a.vtk' MORE }\nprint(mesh.regions)\n"
+          "cdem.model{ bodies = { { shape = mesh, bonds = 'springs', bonded_faces = 'regions', "
+          "material = cdem.elastic{ youngs_modulus = 1e9, poissons_ratio = 0.2, density = 2000 },\n"
+          "  joint = cdem.mohr_coulomb{ cohesion = 1e6, tensile_strength = 1e6, friction_angle = 30 } } } }";
+  const auto said = [&](const std::string& data, const std::string& more) {
+    std::string text = body;
+    Script script(text.replace(text.find("MORE"), 4, more));
+    script.write("a.vtk", head + data);
+    return script.printed();
+  };
+  CHECK_THAT(said("CELL_DATA 3\n" + material, ""), Contains("2 regions by \"material\": 4, 7"));
+  CHECK_THAT(said("CELL_DATA 3\n" + material + age, ""),
+             Contains("\"age\", which regions = NAME takes instead"));
+  CHECK_THAT(said("CELL_DATA 3\n" + material + age, ", regions = 'age'"),
+             Contains("2 regions by \"age\": 1, 2"));
+  CHECK_THAT(said("", ""), Contains("the mesh has one region, so the joint holds no face"));
+}

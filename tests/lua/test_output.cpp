@@ -116,9 +116,19 @@ TEST_CASE("tables that do not fit are refused with their row", "[lua]") {
     script.write("t.csv", text);
     return script.error();
   };
-  CHECK_THAT(error_for("a,b\n1,2\n3\n"), Contains("row 3 has 1 value: must be 2"));
-  CHECK_THAT(error_for("a,b\n1,two\n"), Contains("row 2: \"two\": must be a number"));
-  CHECK_THAT(error_for(""), Contains("must begin with a row of column names"));
+  CHECK_THAT(error_for("a,b\n1,2\n3\n"), Contains("line 3 has 1 value: must be 2"));
+  CHECK_THAT(error_for("a,b\n1,two\n"), Contains("line 2, column \"b\": \"two\": must be a number"));
+  CHECK_THAT(error_for(""), Contains("is empty"));
+}
+
+TEST_CASE("a table without names of columns is refused, as is one with a name twice", "[lua]") {
+  const auto error_for = [](const std::string& text) {
+    Script script("require('cdem').read_csv('t.csv')");
+    script.write("t.csv", text);
+    return script.error();
+  };
+  CHECK_THAT(error_for("1,2\n3,4\n"), Contains("first row holds numbers"));
+  CHECK_THAT(error_for("a,a\n3,4\n"), Contains("two columns are named \"a\""));
 }
 
 TEST_CASE("numbers at equal distances include both ends", "[lua]") {

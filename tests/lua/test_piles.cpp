@@ -304,3 +304,19 @@ TEST_CASE("a pile's file that is none is refused, and units inside each other", 
                      model),
              Contains("body_1"));
 }
+
+TEST_CASE("lists nested without end in a pile are refused before they are parsed", "[lua]") {
+  const auto refused = [](const std::string& text) {
+    Script script("require('cdem').read_pile{ file = 'pile.json' }");
+    script.write("pile.json", text);
+    return script.error();
+  };
+  for (const std::size_t depth : {std::size_t{65}, std::size_t{1000000}}) {
+    INFO(depth);
+    CHECK_THAT(refused("{\"format\":" + std::string(depth, '[') + std::string(depth, ']') + "}"),
+               Contains("nests lists too deeply"));
+    CHECK_THAT(refused(std::string(depth, '[')), Contains("nests lists too deeply"));
+  }
+  // Brackets within a text nest nothing.
+  CHECK_THAT(refused("{\"format\":\"" + std::string(100, '[') + "\\\"[\"}"), Contains("format = "));
+}

@@ -362,3 +362,66 @@ TEST_CASE("dips and angles of bolts that look like radians are warned of", "[lua
   CHECK(bolts("{0, 30}").empty());
   CHECK(bolts("{0, 0.52}").size() == 1);
 }
+
+TEST_CASE("a force that a support takes is told once, one beside it is not", "[lua]") {
+  const std::string foot = column() + "model:fix{ on = 'z-', axes = 'z' }\n";
+  const auto warnings = warnings_of(
+      foot + "model:force{ on = 'z-', force = {0, 0, 1e3} }\nmodel:force{ on = 'x+', force = {1e3, 0, 0} }\n"
+             "model:relax{ max_steps = 20 }\nmodel:relax{ max_steps = 20 }");
+  CHECK(std::count_if(warnings.begin(), warnings.end(), [](const std::string& line) {
+          return line.find("the support takes it") != std::string::npos;
+        }) == 1);
+}
+
+TEST_CASE("a probe in rock that is removed gives nan, with one warning", "[lua]") {
+  const auto warnings = warnings_of(
+      column("{2, 1, 2}", "{2, 1, 2}") +
+      "model:fix{ on = 'z-' }\nmodel:gravity{ vector = {0, 0, -9.81} }\n"
+      "model:probe{ name = 'corner', field = 'displacement.z', at = {1.5, 0.5, 1.5} }\n"
+      "model:relax{ max_steps = 50 }\n"
+      "model:remove{ on = function(x, y, z) return x > 1 and z > 1 end }\nmodel:relax{ max_steps = 50 }\n"
+      "local row = model:history().corner\nassert(row[1] == row[1] and row[#row] ~= row[#row])");
+  CHECK(std::count_if(warnings.begin(), warnings.end(), [](const std::string& line) {
+          return line.find("\"corner\": the rock at (1.5, 0.5, 1.5) m was removed") != std::string::npos;
+        }) == 1);
+}
+
+TEST_CASE("water above a dug floor is told, water below it and under a lake is not", "[lua]") {
+  const auto told = [](const std::string& more) {
+    const auto warnings = warnings_of(
+        column("{4, 1, 4}", "{4, 1, 4}") +
+        "model:fix{ on = 'z-' }\nmodel:remove{ on = function(x, y, z) return x > 2 and z > 1 end }\n" + more);
+    return std::any_of(warnings.begin(), warnings.end(), [](const std::string& line) {
+      return line.find("stands above 2 m2 of open ground, up to 2.9 m") != std::string::npos;
+    });
+  };
+  CHECK(told("model:water{ level = 3.9 }"));
+  CHECK_FALSE(told("model:water{ level = 1 }"));
+  CHECK_FALSE(told("model:traction{ on = 'all', level = 3.9 }\nmodel:water{ level = 3.9 }"));
+}
+
+TEST_CASE("a function of time is tried at the model's time", "[lua]") {
+  Script script(column() +
+                "model:fix{ on = 'x-' }\nmodel:run{ duration = 1e-4 }\nlocal start = model.time\n"
+                "local least = math.huge\n"
+                "model:flow{ direction = {1, 0, 0}, velocity = function(t) least = math.min(least, t) return "
+                "1 + (t - start) end }\n"
+                "model:force{ on = 'x+', force = {1, 0, 0}, amplitude = function(t) least = math.min(least, "
+                "t) return t end }\n"
+                "model:gravity{ vector = function(t) least = math.min(least, t) return {0, 0, -t} end }\n"
+                "assert(least == start and start > 0)");
+  CHECK(script.error() == "");
+}
+
+TEST_CASE("residual cohesion without residual tension is told", "[lua]") {
+  const auto law = [](const std::string& more) {
+    return warnings_of(
+               "require('cdem').mohr_coulomb{ cohesion = 1e6, tensile_strength = 1e5, friction_angle = 30, "
+               "residual_cohesion = 5e5" +
+               more + " }")
+        .size();
+  };
+  CHECK(law("") == 1);
+  CHECK(law(", residual_tension = 0") == 0);
+  CHECK(law(", residual_tension = 5e4") == 0);
+}

@@ -9,6 +9,7 @@
 #include "apps/cdem/ranks/rank.hpp"
 #include "apps/cdem/records.hpp"
 #include "libcdem/ranks/ranks.hpp"
+#include "libgeom/core/plain_reason.hpp"
 #include "lua/binding/replay/led.hpp"
 #include "lua/binding/runtime/sources.hpp"
 
@@ -27,7 +28,7 @@ void save_last_states(script::Engine& engine, RunObserver& observer) {
     if (engine.model_saved_after_failure())
       observer.message("the last good state is in last_good.vtu");
   } catch (const std::exception& error) {
-    observer.message(std::string("the last good state could not be saved: ") + error.what());
+    observer.message(std::string("the last good state could not be saved: ") + geom::plain_reason(error));
   }
 }
 

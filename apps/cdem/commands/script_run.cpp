@@ -2,6 +2,7 @@
 
 #include "apps/cdem/failure.hpp"
 #include "apps/cdem/text.hpp"
+#include "libgeom/core/regular_file.hpp"
 #include "lua/binding/schema/nearest.hpp"
 
 #include <algorithm>
@@ -47,6 +48,8 @@ void require_script(const fs::path& script) {
         script.string() + " is a folder, not a script" +
         (fs::exists(inside, none) ? "; did you mean '" + inside.string() + "'?" : std::string()));
   }
+  if (const std::string why = geom::why_not_regular(script); !why.empty())
+    throw script::FileError(script.string() + ": " + why);
   if (access(script.c_str(), R_OK) != 0)
     throw script::FileError(script.string() + " cannot be read: " + std::strerror(errno));
 }

@@ -12,6 +12,7 @@
 #include "apps/cdem/run_log.hpp"
 #include "apps/cdem/text.hpp"
 #include "libcdem/step/errors.hpp"
+#include "libgeom/core/plain_reason.hpp"
 #include "lua/binding/runtime/csv.hpp"
 #include "lua/binding/runtime/files.hpp"
 #include "lua/binding/runtime/process_pool.hpp"
@@ -182,7 +183,7 @@ ExitCode sweep(const SweepCommand& command) {
     if (!charts.empty())
       say((charts.size() == 1 ? "chart: " : "charts: ") + script::joined(charts, " "));
   } catch (const std::exception& error) { // the table stands
-    say(std::string("no charts: ") + error.what());
+    say(std::string("no charts: ") + geom::plain_reason(error));
   }
   const std::string verdict = std::to_string(failed) + " of " + std::to_string(runs.size()) +
                               " runs failed; see " + (root / run_log_name).string();

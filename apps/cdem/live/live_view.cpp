@@ -1,6 +1,7 @@
 #include "apps/cdem/live/live_view.hpp"
 
 #include "libcdem/vtk/picture.hpp"
+#include "libgeom/core/plain_reason.hpp"
 
 #include <algorithm>
 #include <csignal>
@@ -48,7 +49,7 @@ void LiveView::frame(const Snapshot& snapshot) {
     shown_.frame(render_png(snapshot, options), picture_fields(snapshot), wish);
   } catch (const std::exception& error) {
     draws_ = false;
-    shown_.add_line(std::string("no more frames: ") + error.what());
+    shown_.add_line(std::string("no more frames: ") + geom::plain_reason(error));
   }
   next_frame_ = Clock::now() + std::max<Clock::duration>(shortest_between_frames,
                                                          computing_over_drawing * (Clock::now() - start));

@@ -3,6 +3,7 @@
 #include "apps/cdem/text.hpp"
 #include "libcdem/vtk/files.hpp"
 #include "libcdem/vtk/picture.hpp"
+#include "libgeom/core/plain_reason.hpp"
 
 #include <exception>
 
@@ -49,7 +50,7 @@ void SavedView::show(const std::function<bool()>& stop) {
     try {
       draw(shown_.wish());
     } catch (const std::exception& error) {
-      shown_.refuse(error.what());
+      shown_.refuse(geom::plain_reason(error));
     }
   }
   shown_.ended("the viewer has ended");

@@ -1,20 +1,20 @@
 #include "apps/cdem/live/server.hpp"
 
+#include "apps/cdem/live/doorway.hpp"
 #include "apps/cdem/live/page.hpp"
 #include "lua/binding/runtime/engine.hpp"
 
 #include <httplib.h>
 
+#include <algorithm>
+#include <cstring>
 #include <sys/random.h>
-#include <thread>
 
 namespace cdem::app {
 namespace {
 
 constexpr const char* loopback = "127.0.0.1";
 constexpr std::size_t longest_body = 4096; // bytes
-constexpr int seconds_to_read = 5;
-constexpr std::size_t threads = 16; // a browser holds up to six connections
 
 std::string random_token() {
   unsigned char bytes[16];
@@ -39,14 +39,52 @@ bool same(const std::string& a, const std::string& b) {
   return difference == 0;
 }
 
+// A request and its answer in memory: the doorway has received the one and sends the other.
+class InMemory final : public httplib::Stream {
+public:
+  explicit InMemory(const std::string& request) : request_(request) {}
+  std::string answer;
+
+  bool is_readable() const override { return read_ < request_.size(); }
+  bool is_writable() const override { return true; }
+  ssize_t read(char* to, std::size_t size) override {
+    const std::size_t count = std::min(size, request_.size() - read_);
+    std::memcpy(to, request_.data() + read_, count);
+    read_ += count;
+    return static_cast<ssize_t>(count);
+  }
+  ssize_t write(const char* from, std::size_t size) override {
+    answer.append(from, size);
+    return static_cast<ssize_t>(size);
+  }
+  void get_remote_ip_and_port(std::string&, int&) const override {}
+  void get_local_ip_and_port(std::string&, int&) const override {}
+  socket_t socket() const override { return -1; }
+
+private:
+  const std::string& request_;
+  std::size_t read_ = 0;
+};
+
+// The library's reading of requests and its routes, without its sockets.
+class Routes final : public httplib::Server {
+public:
+  std::string answer(const std::string& request) {
+    InMemory both(request);
+    bool closed = false;
+    process_request(both, true, closed, nullptr);
+    return both.answer;
+  }
+};
+
 } // namespace
 
 struct LiveServer::Impl {
   Answers answers;
   std::string token = random_token(), url;
   int port = 0;
-  httplib::Server server;
-  std::thread thread;
+  Routes server;
+  Doorway doorway; // the last: its threads use the rest
 
   bool is_own_host(const std::string& host) const {
     const std::string number = ":" + std::to_string(port);
@@ -106,11 +144,7 @@ LiveServer::LiveServer(Answers answers) : impl_(std::make_unique<Impl>()) {
   Impl& all = *impl_;
   all.answers = std::move(answers);
   httplib::Server& server = all.server;
-  server.new_task_queue = [] { return new httplib::ThreadPool(threads); };
   server.set_payload_max_length(longest_body);
-  server.set_read_timeout(seconds_to_read);
-  server.set_write_timeout(seconds_to_read);
-  server.set_keep_alive_timeout(seconds_to_read);
   server.set_default_headers(
       {{"Cache-Control", "no-store"},
        {"Content-Security-Policy", "default-src 'none'; script-src 'self'; style-src 'self' 'unsafe-inline'; "
@@ -132,19 +166,12 @@ LiveServer::LiveServer(Answers answers) : impl_(std::make_unique<Impl>()) {
     response.status = 500;
   });
   all.set_routes();
-  all.port = server.bind_to_any_port(loopback);
-  if (all.port <= 0)
-    throw script::FileError("the page: no port of the loopback address can be had");
+  all.port = all.doorway.port();
   all.url = "http://" + std::string(loopback) + ":" + std::to_string(all.port) + "/" + all.token + "/";
-  all.thread = std::thread([&server] { server.listen_after_bind(); });
+  all.doorway.open([&all](const std::string& request) { return all.server.answer(request); });
 }
 
-LiveServer::~LiveServer() {
-  while (!impl_->server.is_running()) // it listens for signals to stop only then
-    std::this_thread::yield();
-  impl_->server.stop();
-  impl_->thread.join();
-}
+LiveServer::~LiveServer() = default;
 
 const std::string& LiveServer::url() const {
   return impl_->url;

@@ -5,7 +5,8 @@
 //   them.
 // - The Host of a request must be the loopback address with the port: a page of another site whose name was made to point
 //   here (DNS rebinding) is refused. So is a POST from another origin.
-// - A request may be 4 kB long and take 5 s. Nothing is read from or written to files.
+// - Requests are bounded in bytes and time, and connections in number (doorway.hpp). Nothing is read from or written to
+//   files.
 #pragma once
 
 #include <functional>

@@ -1,5 +1,6 @@
 // Bolts and cables in scripts.
 #include "lua/binding/functions/radians_given.hpp"
+#include "lua/binding/functions/solving_warnings.hpp"
 #include "lua/binding/objects/model_object.hpp"
 #include "lua/binding/runtime/module.hpp"
 
@@ -68,15 +69,15 @@ Value bolts(Session& session, ModelObject& model, const Arguments& a) {
   if (bolt.area > thickest)
     session.warn("bolts: area = " + describe(a.value("area")) +
                  ": no bolt is as thick; it is in m2, a bar of 25 mm has 4.9e-4");
-  for (std::size_t i = 0; i < ends.size(); ++i) {
+  all_or_none(session, model, ends.size(), [&](Simulation& simulation, std::size_t i) {
     std::tie(bolt.from, bolt.to) = ends[i];
     try {
-      model.simulation.bolt(bolt);
+      simulation.bolt(bolt);
     } catch (const InputError& e) {
       throw InputError("bolt " + std::to_string(i + 1) + " of " + std::to_string(ends.size()) + ": " +
                        e.what());
     }
-  }
+  });
   model.notes->conditions.push_back(std::to_string(ends.size()) + (ends.size() == 1 ? " bolt" : " bolts") +
                                     " set");
   return static_cast<std::int64_t>(ends.size());

@@ -2,6 +2,7 @@
 #include "lua/binding/functions/over_place.hpp"
 #include "lua/binding/functions/over_time.hpp"
 #include "lua/binding/functions/selections.hpp"
+#include "lua/binding/functions/solving_warnings.hpp"
 #include "lua/binding/objects/model_object.hpp"
 #include "lua/binding/runtime/module.hpp"
 
@@ -28,7 +29,7 @@ std::string shown(const Selection& s) {
 
 Value fix(Session&, ModelObject& model, const Arguments& a) {
   model.require_idle("fix");
-  const Amplitude amplitude = amplitude_of(a);
+  const Amplitude amplitude = amplitude_of(a, model.simulation.time());
   if (amplitude && !a.has("velocity"))
     throw InputError("amplitude: goes with velocity, which it multiplies");
   for (const Selection& on : selections(model, a.value("on"), "on")) {
@@ -75,7 +76,7 @@ void warn_of_sum(Session& session, const char* call, const char* what) {
 
 Value traction(Session& session, ModelObject& model, const Arguments& a) {
   model.require_idle("traction");
-  const Amplitude amplitude = amplitude_of(a);
+  const Amplitude amplitude = amplitude_of(a, model.simulation.time());
   if (static_cast<int>(a.has("stress")) + static_cast<int>(a.has("pressure")) +
           static_cast<int>(a.has("level")) !=
       1)
@@ -108,7 +109,7 @@ Value force(Session& session, ModelObject& model, const Arguments& a) {
   PointForce force;
   force.on = one_selection(model, a.value("on"), "on");
   force.force = a.vec3("force");
-  force.amplitude = amplitude_of(a);
+  force.amplitude = amplitude_of(a, model.simulation.time());
   if (model.simulation.force(force))
     warn_of_sum(session, "force", "nodes");
   note(model, "force " + describe(a.value("force")) + " N on " + shown(force.on));
@@ -119,11 +120,11 @@ Value gravity(Session& session, ModelObject& model, const Arguments& a) {
   model.require_idle("gravity");
   Gravity gravity;
   if (a.value("vector").reference())
-    gravity.turning = vector_over_time(a.function("vector"), "vector");
+    gravity.turning = vector_over_time(a.function("vector"), "vector", model.simulation.time());
   else
     gravity.acceleration = a.vec3("vector");
   gravity.water_density = a.number("water_density");
-  gravity.amplitude = amplitude_of(a);
+  gravity.amplitude = amplitude_of(a, model.simulation.time());
   if (gravity.water_density > 0 && (gravity.water_density < 500 || gravity.water_density > 2000))
     session.warn("gravity: water_density = " + describe(a.value("water_density")) +
                  ": no water has it; it is in kg/m3, fresh water has 1000, sea water 1025");
@@ -165,38 +166,51 @@ Value initial_velocity(Session&, ModelObject& model, const Arguments& a) {
   return {};
 }
 
-Value remove(Session&, ModelObject& model, const Arguments& a) {
-  model.require_idle("remove");
+// Acts on each of the places of `on`, or on none.
+template <class Act>
+std::int64_t sum_over_places(const Session& session, ModelObject& model, const Arguments& a, const Act& act) {
+  const std::vector<Selection> places = selections(model, a.value("on"), "on");
   std::int64_t count = 0;
-  for (const Selection& on : selections(model, a.value("on"), "on"))
-    count += model.simulation.remove(on);
+  all_or_none(session, model, places.size(), [&](Simulation& simulation, std::size_t i) {
+    const std::int64_t here = act(simulation, places[i]);
+    count += &simulation == &model.simulation ? here : 0;
+  });
+  return count;
+}
+
+Value remove(Session& session, ModelObject& model, const Arguments& a) {
+  model.require_idle("remove");
+  const std::int64_t count = sum_over_places(
+      session, model, a, [&](Simulation& simulation, const Selection& on) { return simulation.remove(on); });
   note(model, std::to_string(count) + (count == 1 ? " block removed" : " blocks removed"));
   return count;
 }
 
-Value make_rigid(Session&, ModelObject& model, const Arguments& a) {
+Value make_rigid(Session& session, ModelObject& model, const Arguments& a) {
   model.require_idle("make_rigid");
-  std::int64_t count = 0;
-  for (const Selection& on : selections(model, a.value("on"), "on"))
-    count += model.simulation.make_rigid(on);
+  const std::int64_t count =
+      sum_over_places(session, model, a,
+                      [&](Simulation& simulation, const Selection& on) { return simulation.make_rigid(on); });
   note(model, std::to_string(count) + (count == 1 ? " body" : " bodies") + " made rigid");
   return count;
 }
 
-Value make_deformable(Session&, ModelObject& model, const Arguments& a) {
+Value make_deformable(Session& session, ModelObject& model, const Arguments& a) {
   model.require_idle("make_deformable");
-  std::int64_t count = 0;
-  for (const Selection& on : selections(model, a.value("on"), "on"))
-    count += model.simulation.make_deformable(on);
+  const std::int64_t count =
+      sum_over_places(session, model, a, [&](Simulation& simulation, const Selection& on) {
+        return simulation.make_deformable(on);
+      });
   note(model, std::to_string(count) + (count == 1 ? " body" : " bodies") + " made deformable");
   return count;
 }
 
-Value break_bonds(Session&, ModelObject& model, const Arguments& a) {
+Value break_bonds(Session& session, ModelObject& model, const Arguments& a) {
   model.require_idle("break_bonds");
-  std::int64_t count = 0;
-  for (const Selection& on : selections(model, a.value("on"), "on"))
-    count += model.simulation.break_bonds(on, a.flag("whole_faces"));
+  const std::int64_t count =
+      sum_over_places(session, model, a, [&](Simulation& simulation, const Selection& on) {
+        return simulation.break_bonds(on, a.flag("whole_faces"));
+      });
   note(model, std::to_string(count) + (count == 1 ? " bond broken" : " bonds broken"));
   return count;
 }

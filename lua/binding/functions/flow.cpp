@@ -15,7 +15,7 @@ namespace {
 
 using geom::InputError;
 
-std::function<double(double)> velocity_of(const Arguments& a) {
+std::function<double(double)> velocity_of(const Arguments& a, double now) {
   if (const Value& given = a.value("velocity"); given.is_number())
     return [v = given.number()](double) { return v; };
   const auto function = a.function("velocity");
@@ -27,7 +27,7 @@ std::function<double(double)> velocity_of(const Arguments& a) {
                        answer.empty() ? "nothing" : describe(answer[0]), "a finite number >= 0 m/s");
     return answer[0].number();
   };
-  velocity(0); // so that a slip in it is an error of the line that gave it
+  velocity(now); // so that a slip in it is an error of the line that gave it
   return velocity;
 }
 
@@ -63,7 +63,7 @@ Flow flow_of_stream(const ModelObject& model, const Arguments& a) {
     if (!a.has(own))
       throw InputError(std::string(own) + ": give it, or water = a field of cdem.water");
   Flow flow = flow_of(model, a);
-  flow.velocity = velocity_of(a);
+  flow.velocity = velocity_of(a, model.simulation.time());
   flow.relative = a.flag("relative");
   flow.drag = 1;
   if (a.number("drag") != 1 || a.number("added_mass") != 0)

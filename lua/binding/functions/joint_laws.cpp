@@ -124,7 +124,7 @@ std::vector<Field> residual_strength_fields() {
               .doc("between blocks: pull of a broken joint, however far it opens; at most tensile_strength")};
 }
 
-void read_residual_strength(const Arguments& a, Joint& joint) {
+void read_residual_strength(Session& session, const Arguments& a, Joint& joint) {
   static const char* const names[] = {"residual_friction_angle", "dilation_angle", "dilation_limit",
                                       "residual_cohesion", "residual_tension"};
   bool any = false;
@@ -144,6 +144,12 @@ void read_residual_strength(const Arguments& a, Joint& joint) {
   if (joint.bonded) {
     law.cohesion = a.optional_number("residual_cohesion").value_or(0);
     law.tension = a.optional_number("residual_tension").value_or(0);
+    if (law.cohesion > 0 && !a.has("residual_tension") && joint.tensile_strength > 0)
+      session.warn(
+          "residual_cohesion = " + describe(a.value("residual_cohesion")) +
+          " without residual_tension: a point that breaks loses all its tension, also where the joint only "
+          "peels at an edge, so slopes and blocks are less safe than by c and phi; give "
+          "residual_tension, 0 where that is meant");
   }
   joint.law = law;
 }

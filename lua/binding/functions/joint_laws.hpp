@@ -11,7 +11,7 @@ std::vector<Field> dilation_fields();          // of both
 std::vector<Field> residual_strength_fields(); // of a bond only
 
 // Gives the joint its law where some of them are given; the peak stands in it.
-void read_residual_strength(const Arguments&, Joint&);
+void read_residual_strength(Session&, const Arguments&, Joint&);
 
 std::vector<Field> joint_stiffness_fields();
 void read_joint_stiffness(const Arguments&, Joint&);

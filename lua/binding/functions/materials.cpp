@@ -164,7 +164,7 @@ Value mohr_coulomb(Session& session, Object*, const Arguments& a) {
   warn_of_angle(session, a, "cdem.mohr_coulomb");
   read_softening(a, object->joint);
   read_strength(a, object->joint);
-  read_residual_strength(a, object->joint);
+  read_residual_strength(session, a, object->joint);
   read_joint_stiffness(a, object->joint);
   validate(object->joint);
   return object;
@@ -175,7 +175,7 @@ Value coulomb(Session& session, Object*, const Arguments& a) {
   object->joint.bonded = false;
   object->joint.friction_angle = radians(a.number("friction_angle"));
   object->joint.restitution = a.number("restitution");
-  read_residual_strength(a, object->joint);
+  read_residual_strength(session, a, object->joint);
   warn_of_angle(session, a, "cdem.coulomb");
   read_joint_stiffness(a, object->joint);
   validate(object->joint);

@@ -21,7 +21,7 @@ Amplitude of_table(const Arguments& given) {
   return [table = std::move(table)](double time) { return table.at(time); };
 }
 
-Amplitude of_function(const std::shared_ptr<Reference>& function) {
+Amplitude of_function(const std::shared_ptr<Reference>& function, double now) {
   Amplitude amplitude = [function](double time) {
     const Values answer = function->call({time});
     if (answer.empty() || !answer[0].is_number() || !std::isfinite(answer[0].number()))
@@ -29,7 +29,7 @@ Amplitude of_function(const std::shared_ptr<Reference>& function) {
                        answer.empty() ? "nothing" : describe(answer[0]), "a finite number");
     return answer[0].number();
   };
-  amplitude(0); // so that a slip in it is an error of the line that gave it
+  amplitude(now); // so that a slip in it is an error of the line that gave it
   return amplitude;
 }
 
@@ -50,13 +50,13 @@ Field since_field() {
       "begin now, in a later stage");
 }
 
-Amplitude amplitude_of(const Arguments& a) {
+Amplitude amplitude_of(const Arguments& a, double now) {
   Amplitude amplitude;
+  const auto since = a.optional_number("since");
   if (const auto table = a.value("amplitude").table() ? a.record("amplitude") : std::nullopt)
     amplitude = of_table(*table);
   else if (const auto function = a.function("amplitude"))
-    amplitude = of_function(function);
-  const auto since = a.optional_number("since");
+    amplitude = of_function(function, now - since.value_or(0));
   if (since && !amplitude)
     throw InputError("since: goes with amplitude, whose times begin there");
   if (!since)
@@ -65,7 +65,7 @@ Amplitude amplitude_of(const Arguments& a) {
 }
 
 std::function<geom::Vec3(double)> vector_over_time(const std::shared_ptr<Reference>& function,
-                                                   const std::string& field) {
+                                                   const std::string& field, double now) {
   const auto vector = [function, field](double time) {
     const Values answer = function->call({time});
     const Table* const three = answer.empty() ? nullptr : answer[0].table();
@@ -78,7 +78,7 @@ std::function<geom::Vec3(double)> vector_over_time(const std::shared_ptr<Referen
                        answer.empty() ? "nothing" : describe(answer[0]), "three finite numbers {x, y, z}");
     return v;
   };
-  vector(0);
+  vector(now);
   return vector;
 }
 

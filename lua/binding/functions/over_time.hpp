@@ -11,10 +11,11 @@ namespace cdem::script {
 Field amplitude_field();
 // "since": when its times begin (s), beside every amplitude.
 Field since_field();
-Amplitude amplitude_of(const Arguments&);
+// A function is tried at the model's time `now`, s, so that a slip in it is an error of the line that gave it.
+Amplitude amplitude_of(const Arguments&, double now);
 
-// A vector that a function of time gives, asked once at time 0 so that a slip in it is an error of the line that gave it.
+// A vector that a function of time gives, asked once at the time `now` so that a slip in it is an error of the line that gave it.
 std::function<geom::Vec3(double)> vector_over_time(const std::shared_ptr<Reference>&,
-                                                   const std::string& field);
+                                                   const std::string& field, double now);
 
 } // namespace cdem::script

@@ -2,6 +2,7 @@
 
 #include "libcdem/vtk/picture_room.hpp"
 #include "libgeom/core/error.hpp"
+#include "libgeom/core/plain_reason.hpp"
 #include "lua/binding/runtime/session.hpp"
 
 #include <cmath>
@@ -150,7 +151,7 @@ void draw(Session& session, const std::string& file,
   try {
     body(path);
   } catch (const NoRoomForPicture& error) {
-    session.warn(file + " is not drawn: " + error.what());
+    session.warn(file + " is not drawn: " + geom::plain_reason(error));
   }
 }
 

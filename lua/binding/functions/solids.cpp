@@ -33,15 +33,21 @@ Value read_solid(Session& session, Object*, const Arguments& a) {
   std::string ending = std::filesystem::path(a.text("file")).extension().string();
   for (char& c : ending)
     c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  if (ending != ".stl" && ending != ".step" && ending != ".stp")
-    throw InputError("file", '"' + a.text("file") + '"', "a name that ends in .step, .stp or .stl");
+  const bool step = ending == ".step" || ending == ".stp";
   const std::filesystem::path path = session.files.to_read(a.text("file"));
   const double scale = a.number("scale");
-  if (ending == ".stl")
-    return made(geom::make_solid(geom::read_stl(path.string(), scale)), path.stem().string());
+  if (!step) {
+    std::string mended;
+    const geom::FacetedSurface surface = geom::read_stl(path.string(), scale, a.vec3("shift"), &mended);
+    if (!mended.empty())
+      session.message("solid.read: " + path.filename().string() + ": mended " + mended);
+    return made(geom::make_solid(surface), path.stem().string());
+  }
   geom::Solid solid = geom::read_step(path.string());
   if (scale != 1)
     solid = geom::scaled(solid, scale, geom::Vec3::Zero());
+  if (!a.vec3("shift").isZero(0))
+    solid = geom::translated(solid, a.vec3("shift"));
   return made(solid, path.stem().string());
 }
 
@@ -77,11 +83,13 @@ void bind_solid_builders(Module& m) {
         return made(geom::sphere(a.vec3("centre"), a.number("radius")), "sphere");
       });
   add("solid.read",
-      "A solid from a STEP file (in the file's units) or from a closed STL surface, whose triangles become "
-      "its "
-      "faces and bound the mesh size from above.",
-      {text("file").required().doc("ends in .step, .stp or .stl"),
-       number("scale").within(1e-6, 1e6).standard(1.0).doc("0.001 for an STL in millimetres")},
+      "A solid from a STEP file (in the file's units), or from a closed surface of triangles (STL, OBJ, OFF, "
+      "PLY, "
+      "DXF, GOCAD). Each triangle becomes a face of the solid, so no element of its mesh is larger than the "
+      "triangles. Triangles without area and T-junctions are mended, which is told.",
+      {text("file").required().doc("ends in .step, .stp, .stl, .obj, .off, .ply, .dxf or .ts"),
+       number("scale").within(1e-6, 1e6).standard(1.0).doc("0.001 for a file in millimetres"),
+       place("shift").doc("is added to the coordinates: a survey far from the origin loses its digits")},
       read_solid);
 }
 

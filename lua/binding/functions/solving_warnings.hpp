@@ -31,4 +31,19 @@ std::string shown_pair(const std::string& body_a, const std::string& body_b);
 // ranks call it together. what: "building this model"; bytes: in each rank.
 void warn_of_memory(const Session&, const std::string& what, double bytes);
 
+// Does each of several acts on a model, or none: what is refused half-way must leave the model as the journal knows it, or
+// a mended script cannot go on from there. act(simulation, number from 0).
+template <class Act>
+void all_or_none(const Session& session, ModelObject& model, std::size_t count, const Act& act) {
+  const auto each = [&](Simulation& simulation) {
+    for (std::size_t i = 0; i < count; ++i)
+      act(simulation, i);
+  };
+  if (count > 1 && !session.checkpoints.replaying()) {
+    Simulation trial = model.simulation.copy();
+    each(trial);
+  }
+  each(model.simulation);
+}
+
 } // namespace cdem::script

@@ -7,6 +7,7 @@
 
 #include "libgeom/assembly/clip.hpp"
 #include "libgeom/core/error.hpp"
+#include "libgeom/mesh/sound_surface.hpp"
 #include "libgeom/solid/facets.hpp"
 #include "libgeom/solid/read_surface.hpp"
 
@@ -21,14 +22,17 @@ using geom::InputError;
 Value read_surface(Session& session, Object*, const Arguments& a) {
   const std::filesystem::path path = session.files.to_read(a.text("file"));
   auto object = std::make_shared<SurfaceObject>();
-  geom::FileSurface read = geom::read_surface(path.string(), a.number("scale"), geom::max_surface_triangles);
+  geom::FileSurface read =
+      geom::read_surface(path.string(), a.number("scale"), geom::max_surface_triangles, a.vec3("shift"));
   object->surface = std::move(read.surface);
+  if (!read.mended.empty())
+    session.message("read_surface: " + path.filename().string() + ": mended " + read.mended);
   if (!read.note.empty() && a.number("scale") == 1)
     session.warn("read_surface: " + path.filename().string() + ": " + read.note);
   return object;
 }
 
-Value surface(Session&, Object*, const Arguments& a) {
+Value surface(Session& session, Object*, const Arguments& a) {
   auto object = std::make_shared<SurfaceObject>();
   for (const Value& point : a.list("points"))
     object->surface.points.push_back(to_vec3(point));
@@ -45,7 +49,13 @@ Value surface(Session&, Object*, const Arguments& a) {
     }
     object->surface.triangles.push_back(triangle);
   }
+  const double same = geom::same_corner * geom::bounding_box(object->surface).size().norm();
+  if (const auto mended = geom::mended_text(geom::mend(object->surface, same)); !mended.empty())
+    session.message("surface: mended " + mended);
+  if (object->surface.triangles.empty())
+    throw InputError("triangles: none of them has an area");
   geom::require_single(object->surface, "triangles");
+  geom::require_uncrossed(object->surface, "triangles", same);
   return object;
 }
 
@@ -102,11 +112,15 @@ double area(const geom::Surface& surface) {
 void bind_surfaces(Module& m) {
   m.functions.push_back(
       {"read_surface",
-       "A surface of triangles from an STL file or an ASCII DXF file (3DFACE, polyface and polygon meshes): "
-       "a "
-       "terrain, an excavation.",
-       {text("file").required().doc("ends in .stl or .dxf"),
-        number("scale").within(1e-6, 1e6).standard(1.0).doc("0.001 for a file in millimetres")},
+       "A surface of triangles from a file: STL, ASCII DXF (3DFACE, polyface and polygon meshes), OBJ, OFF, "
+       "PLY or "
+       "GOCAD; a terrain, an excavation. Triangles without area and T-junctions are mended, which is told.",
+       {text("file").required().doc("ends in .stl, .dxf, .obj, .off, .ply or .ts"),
+        number("scale").within(1e-6, 1e6).standard(1.0).doc("0.001 for a file in millimetres"),
+        vec3("shift")
+            .unit("m")
+            .standard(Value(geom::Vec3(0, 0, 0)))
+            .doc("is added to the coordinates: a survey far from the origin loses its digits")},
        false,
        "cdem.Surface",
        "",

@@ -4,10 +4,7 @@
 #include "lua/binding/runtime/module.hpp"
 
 #include "libgeom/core/error.hpp"
-
-#include <charconv>
-#include <cmath>
-#include <sstream>
+#include "libgeom/core/text_table.hpp"
 
 namespace cdem::script {
 
@@ -15,38 +12,17 @@ namespace {
 
 using geom::InputError;
 
-// An empty cell is nan, so that every column keeps one value per row.
-Value number_in(const std::string& cell, const std::string& file, int row) {
-  double x = std::nan("");
-  const auto [end, error] = std::from_chars(cell.data(), cell.data() + cell.size(), x);
-  if (!cell.empty() && (error != std::errc() || end != cell.data() + cell.size()))
-    throw InputError("file \"" + file + "\": row " + std::to_string(row) + ": \"" + cell +
-                     "\": must be a number");
-  return x;
-}
-
 Value read_csv(Session& session, Object*, const Arguments& a) {
   const std::string& name = a.text("file");
-  std::istringstream in(read_file(session.files.to_read(name)));
-  std::string line;
-  if (!std::getline(in, line))
-    throw InputError("file \"" + name + "\": empty; must begin with a row of column names");
-  const std::vector<std::string> names = csv_cells(line);
-  std::vector<Values> columns(names.size());
-  for (int row = 2; std::getline(in, line); ++row) {
-    if (line.find_first_not_of(" \t\r") == std::string::npos)
-      continue;
-    const auto cells = csv_cells(line);
-    if (cells.size() != names.size())
-      throw InputError("file \"" + name + "\": row " + std::to_string(row) + " has " +
-                       std::to_string(cells.size()) + (cells.size() == 1 ? " value" : " values") +
-                       ": must be " + std::to_string(names.size()) + ", as many as there are names");
-    for (std::size_t c = 0; c < names.size(); ++c)
-      columns[c].push_back(number_in(cells[c], name, row));
-  }
+  const geom::TextTable read(read_file(session.files.to_read(name)), name);
+  if (read.names().empty())
+    read.refuse("its first row holds numbers; it must name the columns");
   Table table;
-  for (std::size_t c = 0; c < names.size(); ++c)
-    table.named[names[c]] = Table::list(std::move(columns[c]));
+  for (std::size_t c = 0; c < read.columns(); ++c) {
+    const std::vector<double> values = read.numbers(c);
+    if (!table.named.emplace(read.names()[c], Table::list(Values(values.begin(), values.end()))).second)
+      read.refuse("two columns are named " + read.column_text(c) + "; give each a name of its own");
+  }
   return table;
 }
 
@@ -84,7 +60,9 @@ Value log(Session& session, Object*, const Arguments& a) {
 void bind_tables(Module& m) {
   m.functions.push_back(
       {"read_csv",
-       "Reads columns of numbers; the first row has their names. Empty cells are nan.",
+       "Reads columns of numbers from a table as spreadsheets write it (docs/output-files.md); its first row "
+       "has "
+       "their names. Empty cells are nan.",
        {text("file").required().doc("beside the script, in the output folder or below the results")},
        true,
        "table<string, number[]>",

@@ -7,11 +7,13 @@
 
 #include "libcdem/vtk/field_values.hpp"
 #include "libcdem/vtk/files.hpp"
+#include "libcdem/vtk/read_vtk_mesh.hpp"
 #include "libgeom/core/error.hpp"
 #include "libgeom/mesh/box_mesh.hpp"
 #include "libgeom/mesh/read_mesh.hpp"
 #include "libgeom/mesh/tet_quality.hpp"
 
+#include <algorithm>
 #include <set>
 
 namespace cdem::script {
@@ -22,14 +24,25 @@ using geom::InputError;
 
 Value read_tet_mesh(Session& session, Object*, const Arguments& a) {
   const std::filesystem::path path = session.files.to_read(a.text("file"));
-  static const std::set<std::string> endings = {".msh", ".mesh", ".bdf", ".unv", ".vtk", ".vtu"};
+  static const std::set<std::string> endings = {".msh", ".mesh", ".bdf", ".unv", ".inp", ".vtk", ".vtu"};
   if (endings.count(path.extension().string()) == 0)
     throw InputError("file", describe(a.value("file")),
-                     "a name that ends in .msh, .mesh, .bdf, .unv, .vtk or .vtu");
-  geom::TetMesh mesh =
-      path.extension() == ".vtu" ? read_vtu_mesh(path.string()) : geom::read_mesh(path.string());
+                     "a name that ends in .msh, .mesh, .bdf, .unv, .inp, .vtk or .vtu");
+  const std::string regions = a.text_or("regions", "");
+  geom::MeshFile file;
+  if (path.extension() == ".vtu" && is_vtu_of_ours(path.string()))
+    file.mesh = read_vtu_mesh(path.string());
+  else if (path.extension() == ".vtu" || path.extension() == ".vtk")
+    file = read_vtk_mesh(path.string(), regions);
+  else
+    file = geom::read_mesh_file(path.string(), regions);
+  if (!file.told.empty())
+    session.message("read_mesh: " + path.filename().string() + ": " + file.told);
+  if (!file.doubtful.empty())
+    session.warn("read_mesh: " + path.filename().string() + ": " + file.doubtful);
+  geom::TetMesh mesh = std::move(file.mesh);
   for (geom::Vec3& x : mesh.nodes)
-    x *= a.number("scale");
+    x = a.number("scale") * x + a.vec3("shift");
   auto object = std::make_shared<TetMeshObject>(std::move(mesh));
   object->title = path.stem().string();
   return object;
@@ -163,16 +176,24 @@ void bind_mesh_records(Module& m) {
 } // namespace
 
 void bind_tet_meshes(Module& m) {
-  m.functions.push_back({"read_mesh",
-                         "Linear tetrahedra from a file: gmsh .msh, Medit .mesh, Nastran .bdf, I-deas .unv, "
-                         "legacy .vtk, or a .vtu "
-                         "written by cdem. What is wrong with them is said.",
-                         {text("file").required(), number("scale").within(1e-6, 1e6).standard(1.0).doc(
-                                                       "0.001 for a mesh in millimetres")},
-                         false,
-                         "cdem.TetMesh",
-                         "",
-                         read_tet_mesh});
+  m.functions.push_back(
+      {"read_mesh",
+       "Linear tetrahedra from a file: gmsh .msh, Medit .mesh, Nastran .bdf, I-deas .unv, "
+       "Abaqus .inp, .vtk or .vtu. What is wrong with them is said.",
+       {text("file").required(),
+        text("regions").doc("what parts the mesh into regions: \"physical\" groups or "
+                            "\"volumes\" of gmsh, \"sections\" or element \"sets\" of "
+                            "Abaqus, the name of a cell array of VTK; chosen and told when "
+                            "left out"),
+        number("scale").within(1e-6, 1e6).standard(1.0).doc("0.001 for a mesh in millimetres"),
+        vec3("shift")
+            .unit("m")
+            .standard(Value(geom::Vec3(0, 0, 0)))
+            .doc("is added to the coordinates: a survey far from the origin loses its digits")},
+       false,
+       "cdem.TetMesh",
+       "",
+       read_tet_mesh});
   m.functions.push_back({"box_mesh",
                          "A box of nx ny nz cells with six tetrahedra each; lower corner at the origin.",
                          {vec3("size").above(0).unit("m").required(),
@@ -199,6 +220,12 @@ void bind_tet_meshes(Module& m) {
       {"tets", "integer", "", "how many",
        [of](Session&, Object& self) -> Value {
          return static_cast<std::int64_t>(of(self).mesh.tets.size());
+       }},
+      {"regions", "integer", "", "how many; they are numbered from 1",
+       [of](Session&, Object& self) -> Value {
+         const std::vector<int>& region = of(self).mesh.region;
+         return static_cast<std::int64_t>(
+             region.empty() ? 1 : *std::max_element(region.begin(), region.end()) + 1);
        }},
       {"parts", "integer", "", "how many sets of tetrahedra share no node; in a model each moves by itself",
        [of](Session&, Object& self) -> Value { return static_cast<std::int64_t>(of(self).parts); }}};

@@ -7,11 +7,12 @@
 
 #include "libcdem/load/record.hpp"
 #include "libgeom/core/error.hpp"
+#include "libgeom/core/text_table.hpp"
 
-#include <algorithm>
-#include <charconv>
 #include <cmath>
-#include <optional>
+#include <cstdlib>
+#include <filesystem>
+#include <regex>
 #include <sstream>
 
 namespace cdem::script {
@@ -20,94 +21,85 @@ namespace {
 
 using geom::InputError;
 
-// Two columns of a .csv, by the names in its first row, or by number where it has no names.
-class CsvColumns {
-public:
-  CsvColumns(std::string name, const std::string& text) : name_(std::move(name)) {
-    std::istringstream in(text);
-    int number = 0;
-    for (std::string line; std::getline(in, line);) {
-      ++number;
-      if (line.find_first_not_of(" \t\r,") == std::string::npos || line[0] == '#')
-        continue;
-      std::vector<std::string> cells = split(line);
-      if (rows_.empty() && names_.empty() && !number_in(cells[0])) {
-        names_ = std::move(cells);
-        continue;
-      }
-      rows_.push_back({number, std::move(cells)});
-    }
-    if (rows_.empty())
-      refuse("holds no rows of numbers");
-  }
-
-  std::vector<int> lines() const { // of the rows, in the file
-    std::vector<int> numbers;
-    for (const Row& row : rows_)
-      numbers.push_back(row.line);
-    return numbers;
-  }
-
-  std::size_t find(const std::string& column, const char* field) const {
-    const auto named = std::find(names_.begin(), names_.end(), column);
-    if (named != names_.end())
-      return static_cast<std::size_t>(named - names_.begin());
-    if (const auto number = number_in(column); names_.empty() && number && *number >= 1)
-      return static_cast<std::size_t>(*number) - 1;
-    std::string have;
-    for (const std::string& n : names_)
-      have += (have.empty() ? "" : ", ") + n;
+// A column by its name, or by its number where the file has no names.
+std::size_t find_column(const geom::TextTable& table, const std::string& column, const char* field,
+                        const std::string& file) {
+  if (const auto found = table.find(column))
+    return *found;
+  const auto number = geom::plain_number(column);
+  if (table.names().empty() && number && *number >= 1 && *number <= static_cast<double>(table.columns()) &&
+      *number == std::floor(*number))
+    return static_cast<std::size_t>(*number) - 1;
+  if (table.names().empty())
     throw InputError(field, "\"" + column + "\"",
-                     names_.empty()
-                         ? "the number of a column, from \"1\", as the file \"" + name_ + "\" has no names"
-                         : "a column of the file \"" + name_ + "\"",
-                     names_.empty() ? "" : "it has: " + have);
-  }
+                     "the number of a column, from \"1\" to \"" + std::to_string(table.columns()) +
+                         "\", as the file \"" + file + "\" has no names");
+  std::string have;
+  for (const std::string& name : table.names())
+    have += (have.empty() ? "" : ", ") + name;
+  throw InputError(field, "\"" + column + "\"", "a column of the file \"" + file + "\"", "it has: " + have);
+}
 
-  std::vector<double> column(std::size_t index) const {
-    std::vector<double> values;
-    for (const auto& [line, cells] : rows_) {
-      const auto number = index < cells.size() ? number_in(cells[index]) : std::nullopt;
-      if (!number || !std::isfinite(*number))
-        refuse(
-            "line " + std::to_string(line) + ": " +
-            (index < cells.size() && !cells[index].empty() ? "\"" + cells[index] + "\"" : "an empty cell") +
-            " in column " + (names_.empty() ? std::to_string(index + 1) : "\"" + names_[index] + "\"") +
-            ": must be a finite number; drop the row, or fill in what was not measured");
-      values.push_back(*number);
-    }
-    return values;
-  }
+std::vector<double> finite_column(const geom::TextTable& table, std::size_t column) {
+  std::vector<double> values = table.numbers(column);
+  for (std::size_t row = 0; row < values.size(); ++row)
+    if (!std::isfinite(values[row]))
+      table.refuse(row, column, "a finite number; drop the row, or fill in what was not measured");
+  return values;
+}
 
-private:
-  [[noreturn]] void refuse(const std::string& text) const {
-    throw InputError("file \"" + name_ + "\": " + text);
-  }
-  static std::vector<std::string> split(const std::string& line) {
-    std::vector<std::string> cells(1);
-    for (const char c : line)
-      if (c == ',' || c == ';')
-        cells.emplace_back();
-      else if (c != ' ' && c != '\t' && c != '\r' && c != '"')
-        cells.back() += c;
-    return cells;
-  }
-  static std::optional<double> number_in(const std::string& cell) {
-    double x = 0;
-    const auto [end, error] = std::from_chars(cell.data(), cell.data() + cell.size(), x);
-    return error == std::errc() && end == cell.data() + cell.size() && !cell.empty()
-               ? std::optional<double>(x)
-               : std::nullopt;
-  }
-
-  struct Row {
-    int line;
-    std::vector<std::string> cells;
+// A record of the PEER data base: four lines of head, the last with "NPTS= 4000, DT= .01 SEC", then values in g.
+TimeTable peer_record(const std::string& file, const std::string& text) {
+  const auto refuse = [&](const std::string& why) -> void {
+    throw InputError("record \"" + file + "\": " + why);
   };
-  std::string name_;
-  std::vector<std::string> names_;
-  std::vector<Row> rows_;
-};
+  std::istringstream in(text);
+  std::string line;
+  double step = std::nan("");
+  std::int64_t count = -1;
+  for (int i = 0; i < 4 && std::getline(in, line); ++i) {
+    std::smatch found;
+    static const std::regex points("NPTS *= *([0-9]+)", std::regex::icase),
+        interval("DT *= *([0-9.eE+-]+)", std::regex::icase);
+    if (line.size() > 200)
+      continue;
+    if (std::regex_search(line, found, points) && found[1].length() < 10)
+      count = std::atoll(found[1].str().c_str());
+    if (std::regex_search(line, found, interval))
+      step = geom::plain_number(found[1]).value_or(step);
+  }
+  if (count < 2 || !(step > 0))
+    refuse("must have \"NPTS= number, DT= seconds SEC\" in its fourth line, as files of the PEER data base "
+           "have");
+  TimeTable table;
+  for (std::string word; in >> word;) {
+    const auto value = geom::plain_number(word);
+    if (!value || !std::isfinite(*value))
+      refuse("value " + std::to_string(table.value.size() + 1) + ": \"" + word.substr(0, 30) +
+             "\": must be a finite number");
+    table.time.push_back(step * static_cast<double>(table.value.size()));
+    table.value.push_back(*value);
+  }
+  if (static_cast<std::int64_t>(table.value.size()) != count)
+    refuse("has " + std::to_string(table.value.size()) + " values: must be " + std::to_string(count) +
+           ", as NPTS says");
+  return table;
+}
+
+TimeTable table_record(const std::string& file, const std::string& text, const Arguments& a,
+                       std::vector<int>& lines) {
+  if (!a.has("value"))
+    throw InputError("value: missing; it names the column, or gives its number in a file without names");
+  const geom::TextTable columns(text, file);
+  if (columns.rows() == 0)
+    columns.refuse("holds no rows of numbers");
+  TimeTable table;
+  table.time = finite_column(columns, find_column(columns, a.text("time"), "time", file));
+  table.value = finite_column(columns, find_column(columns, a.text("value"), "value", file));
+  for (std::size_t row = 0; row < columns.rows(); ++row)
+    lines.push_back(columns.line(row));
+  return table;
+}
 
 struct Unit {
   const char* name;
@@ -148,14 +140,17 @@ TimeTable integrated(Session& session, const std::string& head, const TimeTable&
 
 Value read_record(Session& session, Object*, const Arguments& a) {
   const std::string& file = a.text("path");
-  const CsvColumns csv(file, read_file(session.files.to_read(file)));
-  TimeTable table;
-  table.time = csv.column(csv.find(a.text("time"), "time"));
-  table.value = csv.column(csv.find(a.text("value"), "value"));
+  const std::filesystem::path path = session.files.to_read(file);
+  const std::string text = read_file(path);
+  const bool peer = path.extension() == ".AT2" || path.extension() == ".at2";
+  std::vector<int> lines;
+  TimeTable table = peer ? peer_record(file, text) : table_record(file, text, a, lines);
+  if (peer && a.has("value"))
+    throw InputError("value", describe(a.value("value")), "left out", "a file .AT2 has no columns");
   table.zero_outside = true;
   try {
     validate(table);
-    require_no_gaps(table, a.optional_number("longest_step").value_or(0), csv.lines());
+    require_no_gaps(table, a.optional_number("longest_step").value_or(0), lines);
   } catch (const InputError& e) {
     throw InputError("record \"" + file + "\": " + e.what());
   }
@@ -195,7 +190,7 @@ Value quiet(Session&, ModelObject& model, const Arguments& a) {
   Quiet quiet;
   quiet.velocity = a.optional_vec3("velocity").value_or(geom::Vec3::Zero());
   quiet.stress = a.optional_vec3("stress").value_or(geom::Vec3::Zero());
-  quiet.amplitude = amplitude_of(a);
+  quiet.amplitude = amplitude_of(a, model.simulation.time());
   if (quiet.amplitude && !a.has("velocity") && !a.has("stress"))
     throw InputError("amplitude: goes with velocity or stress, which it multiplies");
   for (const Selection& on : selections(model, a.value("on"), "on")) {
@@ -236,14 +231,16 @@ void bind_waves(Module& m) {
         list("baseline", number_type(), 2).doc("{a0, a1}: a0 + a1 t has been taken off, m/s2 and m/s3")}});
   m.functions.push_back(
       {"record",
-       "Reads a record over time from two columns of a .csv, in SI units from then on; outside its times it "
+       "Reads a record over time from two columns of a table as spreadsheets write it, or from a file .AT2 "
+       "of the "
+       "PEER data base (unit = \"g\"), in SI units from then on; outside its times it "
        "is 0. Times "
        "must grow without gaps. With to = \"velocity\" an acceleration is integrated by the trapezoidal "
        "rule.",
        {text("path").required().doc("beside the script, in the output folder or below the results"),
         text("time").standard("time").doc(
             "name of its column (s); the number of it, \"1\", where the file has no names"),
-        text("value").required().doc("name of its column"),
+        text("value").doc("name of its column; left out for a file .AT2"),
         number("scale").standard(1.0).doc("factor on the values"),
         choice("unit", {"m/s2", "cm/s2", "Gal", "g", "m/s", "cm/s", "Pa", "kPa", "MPa", "1"})
             .required()

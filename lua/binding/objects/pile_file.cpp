@@ -2,9 +2,9 @@
 
 #include "libgeom/core/error.hpp"
 #include "libgeom/mesh/boundary.hpp"
+#include "lua/binding/runtime/json.hpp"
 
 #include <algorithm>
-#include <nlohmann/json.hpp>
 
 namespace cdem::script {
 
@@ -157,9 +157,11 @@ std::string pile_text(const geom::Pile& pile) {
 geom::Pile pile_from(const std::string& text, const std::string& source) {
   Json json;
   try {
-    json = Json::parse(text);
+    json = parse_json(text);
   } catch (const Json::parse_error& error) {
     refuse_at(source, text, error.byte);
+  } catch (const TooDeepJson&) {
+    refuse(source, "nests lists too deeply");
   } catch (const Json::exception&) { // a number beyond all doubles
     refuse(source, "holds a number that is too large");
   }

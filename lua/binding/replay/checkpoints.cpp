@@ -3,6 +3,7 @@
 #include "libcdem/checkpoint/file.hpp"
 #include "libcdem/ranks/ranks.hpp"
 #include "libgeom/core/error.hpp"
+#include "libgeom/core/plain_reason.hpp"
 #include "lua/binding/objects/model_object.hpp"
 #include "lua/binding/replay/led.hpp"
 #include "lua/binding/runtime/files.hpp"
@@ -202,7 +203,7 @@ bool Checkpoints::put(const std::string& content) {
   try {
     write_saved(session_.files.to_write(name), SavedKind::checkpoint, content);
   } catch (const FileError& error) {
-    session_.warn(std::string("no checkpoint: ") + error.what());
+    session_.warn(std::string("no checkpoint: ") + geom::plain_reason(error));
     return false;
   }
   written_.insert(name);
@@ -277,7 +278,7 @@ void Checkpoints::keep_solved() {
     if (put(unfinished_))
       session_.message("what was solved is kept: mend the script, then go on with " + command());
   } catch (const std::exception& error) { // that of the script matters more
-    session_.warn(std::string("no checkpoint: ") + error.what());
+    session_.warn(std::string("no checkpoint: ") + geom::plain_reason(error));
   }
 }
 

@@ -1,8 +1,7 @@
 #include "lua/binding/report/report.hpp"
 
 #include "lua/binding/runtime/engine.hpp"
-
-#include <nlohmann/json.hpp>
+#include "lua/binding/runtime/json.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -190,9 +189,9 @@ std::string Report::markdown() const {
 
 Value read_report(const std::string& json_text, const std::string& shown_name) {
   try {
-    return from_json(Json::parse(json_text));
+    return from_json(parse_json(json_text));
   } catch (const Json::exception& error) {
-    throw FileError(shown_name + ": not a report: " + error.what());
+    throw FileError(shown_name + ": not a report: " + json_reason(error));
   }
 }
 

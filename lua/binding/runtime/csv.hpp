@@ -1,9 +1,8 @@
-// Tables as text, RFC 4180: cells between commas; one that holds a comma, a quote or a break stands in quotes, and quotes
-// in it are doubled.
+// Tables as text, RFC 4180: cells between commas. A cell with a comma, semicolon, tab, quote or break stands in quotes, and
+// quotes in it are doubled. libgeom/core/text_table reads tables.
 #pragma once
 
 #include <string>
-#include <vector>
 
 namespace cdem::script {
 
@@ -11,8 +10,5 @@ namespace cdem::script {
 std::string trimmed(const std::string& text);
 
 std::string csv_cell(const std::string& text);
-
-// The cells of one line, without blanks around those that are not in quotes.
-std::vector<std::string> csv_cells(const std::string& line);
 
 } // namespace cdem::script

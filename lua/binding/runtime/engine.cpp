@@ -7,6 +7,7 @@
 
 #include "libcdem/step/errors.hpp"
 #include "libgeom/core/error.hpp"
+#include "libgeom/core/regular_file.hpp"
 
 #include <algorithm>
 #include <cctype>
@@ -42,11 +43,8 @@ void Engine::run_file() {
   const std::filesystem::path& script = session.settings.script;
   const std::filesystem::path source = kept_source(session.settings.sources, script.filename(), script);
   std::string text = led_bytes("script", [&] {
-    std::error_code error;
-    if (!std::filesystem::exists(source, error))
-      throw FileError(script.string() + ": no such file");
-    if (!std::filesystem::is_regular_file(source, error))
-      throw FileError(script.string() + ": not a file");
+    if (const std::string why = geom::why_not_regular(source); !why.empty())
+      throw FileError(script.string() + ": " + why);
     return read_file(source);
   });
   if (text.rfind("\xef\xbb\xbf", 0) == 0)

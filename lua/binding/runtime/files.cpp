@@ -1,6 +1,7 @@
 #include "lua/binding/runtime/files.hpp"
 
 #include "libgeom/core/error.hpp"
+#include "libgeom/core/regular_file.hpp"
 #include "lua/binding/replay/led.hpp"
 #include "lua/binding/runtime/engine.hpp"
 
@@ -11,7 +12,7 @@
 #include <cstring>
 #include <fcntl.h>
 #include <fstream>
-#include <sstream>
+#include <stdexcept>
 #include <unistd.h>
 
 namespace cdem::script {
@@ -103,6 +104,7 @@ fs::path Files::found(const std::string& name) const {
   if (unsafe_)
     places.push_back(fs::current_path() / name);
   bool refused = false;
+  std::string special; // what stands there and is no file
   for (const fs::path& candidate : places) {
     std::error_code error;
     fs::path path = resolved(candidate);
@@ -115,7 +117,11 @@ fs::path Files::found(const std::string& name) const {
         throw FileError(path.string() + ": cannot be read: " + std::strerror(errno));
       return path;
     }
+    if (fs::exists(path, error))
+      special = path.string() + ": " + geom::why_not_regular(path);
   }
+  if (!special.empty())
+    throw FileError(special);
   if (refused &&
       (fs::path(name).is_absolute() || fs::path(name).lexically_normal().string().rfind("..", 0) == 0))
     throw geom::InputError("file", "\"" + name + "\"",
@@ -165,23 +171,22 @@ void write_here(const fs::path& path, const std::string& text) {
     throw FileError(path.string() + ": cannot be written: " + error.message());
 }
 
-std::string read_here(const fs::path& path) {
-  std::ifstream in(path, std::ios::binary);
-  std::ostringstream text;
-  text << in.rdbuf();
-  if (!in)
-    throw FileError(path.string() + ": cannot be read");
-  return text.str();
-}
-
 } // namespace
+
+std::string read_file_here(const fs::path& path) {
+  try {
+    return geom::read_regular(path);
+  } catch (const std::runtime_error& error) {
+    throw FileError(error.what());
+  }
+}
 
 void write_file(const fs::path& path, const std::string& text) {
   led_act("write", [&] { write_here(path, text); });
 }
 
 std::string read_file(const fs::path& path) {
-  return led_bytes("read", [&] { return read_here(path); });
+  return led_bytes("read", [&] { return read_file_here(path); });
 }
 
 } // namespace cdem::script

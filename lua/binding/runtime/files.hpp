@@ -51,6 +51,8 @@ std::string resume_command(const std::filesystem::path& folder, bool unsafe);
 // Writes through a temporary file and a rename, so that a reader never sees half a file. FileError on
 // failure.
 void write_file(const std::filesystem::path& path, const std::string& text);
-std::string read_file(const std::filesystem::path& path); // FileError on failure
+// FileError on failure, and where it is a folder, a named pipe or a device.
+std::string read_file(const std::filesystem::path& path);
+std::string read_file_here(const std::filesystem::path& path); // by this rank alone
 
 } // namespace cdem::script

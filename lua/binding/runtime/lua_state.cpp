@@ -4,6 +4,7 @@
 #include "libcdem/step/errors.hpp"
 #include "libgeom/child/process.hpp"
 #include "libgeom/core/error.hpp"
+#include "libgeom/core/plain_reason.hpp"
 #include "libgeom/core/stop.hpp"
 #include "lua/binding/replay/led.hpp"
 #include "lua/binding/schema/schema.hpp"
@@ -179,6 +180,13 @@ void LuaState::end_unless_all_fail(ErrorKind kind, const std::string& message) {
   }
 }
 
+namespace {
+
+constexpr const char* no_memory =
+    "not enough memory; use fewer blocks or fewer rows, or allow more with --memory";
+
+} // namespace
+
 std::string LuaState::message_of_current_exception(lua_State* L, const std::string& shown) {
   const std::string place = where(L);
   const std::string front = (place.empty() ? "" : place + ": ") + shown + ": ";
@@ -201,9 +209,11 @@ std::string LuaState::message_of_current_exception(lua_State* L, const std::stri
     kind = ErrorKind::file;
     message = front + error.what();
   } catch (const std::bad_alloc&) {
-    message = front + "not enough memory; use fewer blocks or fewer rows, or allow more with --memory";
+    message = front + no_memory;
+  } catch (const std::length_error&) { // a list as long as no memory can hold
+    message = front + no_memory;
   } catch (const std::exception& error) {
-    message = front + after_name(shown, error.what());
+    message = front + after_name(shown, geom::plain_reason(error));
   }
   end_unless_all_fail(kind, message);
   if (kind != ErrorKind::script)

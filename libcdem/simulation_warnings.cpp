@@ -1,0 +1,109 @@
+// What a model is asked that it can do but that hardly anybody means. Each is told once.
+#include "libcdem/simulation_impl.hpp"
+
+#include "libcdem/load/resolve.hpp"
+#include "libcdem/results/fields.hpp"
+#include "libcdem/state/places.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+#include <map>
+
+namespace cdem {
+namespace {
+
+constexpr double least_slope = 0.1; // z of the normal of ground that looks up
+constexpr double tellable = 0.01;   // share of a load that a support takes
+
+// The share of a load along an axis that held nodes take, over its nodes.
+double held_share(const std::map<int, Node>& free, const std::vector<int>& nodes, int axis) {
+  std::size_t held = 0;
+  for (const int node : nodes)
+    if (const auto at = free.find(node); at != free.end() && vec(at->second)[axis] == 0)
+      ++held;
+  return nodes.empty() ? 0 : static_cast<double>(held) / static_cast<double>(nodes.size());
+}
+
+} // namespace
+
+void Simulation::Impl::warn_of_loads_on_supports() {
+  if (replaying || conditions.forces.empty())
+    return;
+  Conditions supports;
+  supports.fixes = conditions.fixes;
+  std::map<int, Node> free; // by node
+  for (const HeldNode& node : resolve(model, whole(), supports).held)
+    free.emplace(node.node, node.free);
+  for (const PointForce& force : conditions.forces) {
+    if (is_gone(model, force.on))
+      continue;
+    const std::vector<int> nodes = selected_nodes(model, force.on);
+    for (int axis = 0; axis < 3; ++axis) {
+      const double share = force.force[axis] == 0 ? 0 : held_share(free, nodes, axis);
+      if (share < tellable)
+        continue;
+      const std::string line = fmt::format(
+          "force on {}: its part along {} acts {} that a fix holds along {}: the support takes it, and "
+          "nothing moves by it",
+          force.on.text, "xyz"[axis],
+          share == 1 ? std::string("on nodes") : fmt::format("with {:.2g} of its nodes on nodes", share),
+          "xyz"[axis]);
+      if (told.insert(line).second)
+        observer->warning("warning: " + line);
+    }
+  }
+}
+
+void Simulation::Impl::warn_of_lost_probes() {
+  for (const Probe& probe : log.probes) {
+    if (replaying || !probe.on.empty() || !probe.crack.empty())
+      continue;
+    try {
+      value_at(model, whole(), probe.field, probe.place);
+    } catch (const geom::InputError&) {
+      const std::string line =
+          fmt::format("probe \"{}\": the rock at ({:g}, {:g}, {:g}) m was removed; it is nan from now on",
+                      probe.name, probe.place.x(), probe.place.y(), probe.place.z());
+      if (told.insert(line).second)
+        observer->warning("warning: " + line);
+    }
+  }
+}
+
+// Ground below the level that looks up is the bed of open water: the joints push its blocks up, and nothing but a traction
+// of the water above pushes them down.
+void Simulation::Impl::warn_of_open_water(const Water& water) {
+  if (replaying || !water.level)
+    return;
+  const auto presses = [](const Traction& traction) { return traction.pressure.has_value(); };
+  if (std::any_of(conditions.tractions.begin(), conditions.tractions.end(), presses))
+    return;
+  double area = 0, lowest = *water.level;
+  for (const OuterFace& face : model.outer_faces) {
+    if (face.normal.z() < least_slope)
+      continue;
+    double flooded = 0;
+    each_face_node(model, face, [&](int node, double share) {
+      const double z = model.node_position[node].z();
+      if (z < *water.level - model.tolerance) {
+        flooded += share;
+        lowest = std::min(lowest, z);
+      }
+    });
+    area += flooded * face.normal.z();
+  }
+  if (!(area > 0))
+    return;
+  const std::string line =
+      fmt::format("water: level = {:g} m stands above {:.3g} m2 of open ground, up to {:.3g} m: its pressure "
+                  "in the joints lifts "
+                  "that ground, and no traction of open water presses on it; lower the level there (pressure "
+                  "= a function or a "
+                  "table), or add traction{{ on = the ground, level = {:g} }} for a lake",
+                  *water.level, area, *water.level - lowest, *water.level);
+  if (told.insert(line).second)
+    observer->warning("warning: " + line);
+}
+
+} // namespace cdem
