@@ -11,6 +11,7 @@
 #include "libcdem/step/synchronised_view.hpp"
 #include "libgeom/core/error.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
 #include <limits>
@@ -102,6 +103,14 @@ private:
   std::int64_t given_, first_ = 0, steps_ = 0;
 };
 
+// Some springs of interfaces that turn are contacts: never bonded, or broken.
+bool any_dry_joint(const Model& model, const RunLog& log) {
+  return log.broken_tension + log.broken_shear > 0 ||
+         std::any_of(model.interfaces.begin(), model.interfaces.end(), [&](const Interface& interface) {
+           return interface.frame >= 0 && !model.joints[interface.joint].bonded;
+         });
+}
+
 } // namespace
 
 double stable_time_step(const Model& model, const std::vector<ResolvedBolt>& bolts) {
@@ -188,6 +197,7 @@ RunResult run(const StageContext& context, const RunOptions& options, const std:
     return context.model.surface.empty() ? stable : std::min(stable, 2 * rigid_time_step(context.model, 1));
   };
   double stable_now = context.model.frames.empty() ? 0 : stable_of_all();
+  const bool chooses_step = options.time_step == 0 && !scaled.on() && !context.model.frames.empty();
   bool stopped = false;
   while (stage.step < clock.steps() && !stopped) {
     const bool renewed = stage.renew_interfaces(),
@@ -204,7 +214,11 @@ RunResult run(const StageContext& context, const RunOptions& options, const std:
     }
     if (freed || stage.can_be_left())
       stage.keep_restart_point(loop_state());
+    stage.work.bond.contact_damping =
+        contact_damping(stepping.time_step, scaled.on() ? stepping.time_step / options.safety : stable_now);
     double longest = stage.update_contacts(options.safety);
+    if (chooses_step && (freed || stage.step % watch_every == 0) && any_dry_joint(context.model, context.log))
+      longest = std::min(longest, options.safety * stable_step_of_dry_joints(stable_now));
     if (keeps_energy_of_impacts)
       longest = std::min(longest, stage.longest_step_of_flight());
     const bool shorter = longest < stepping.time_step;
@@ -219,8 +233,6 @@ RunResult run(const StageContext& context, const RunOptions& options, const std:
     stepping.kick = state.velocity_lag + 0.5 * stepping.time_step;
     stage.update_loads(state.time, stepping);
     stage.work.bond.damping_step = stepping.time_step;
-    stage.work.bond.contact_damping =
-        contact_damping(stepping.time_step, scaled.on() ? stepping.time_step / options.safety : stable_now);
     const auto move = [&](Range range, const Node* force, NodeSums& sums) {
       const auto nodes = [&](Range part) {
         MovingNodes moving = moving_nodes(state, stage.work.acting(), moving_mass(context.model, state), part,

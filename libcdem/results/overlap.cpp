@@ -60,7 +60,7 @@ Overlap overlap(const Model& model, const State& state) {
   boxes.reserve(parts.size());
   for (const ConvexPart& part : parts)
     boxes.push_back(geom::bounding_box(part.shape));
-  std::map<std::pair<int, int>, geom::MassProperties> common; // of two blocks: volume and where
+  std::map<std::pair<int, int>, geom::CommonPart> common; // of two blocks; centroid: times the volume
   for (const auto& [i, j] : geom::touching_pairs(boxes)) {
     const ConvexPart &a = parts[i], &b = parts[j];
     if (a.block == b.block)
@@ -68,11 +68,9 @@ Overlap overlap(const Model& model, const State& state) {
     const double depth = depth_tolerance * std::min(model.blocks[a.block].size, model.blocks[b.block].size);
     if (geom::apart(a.planes, b.shape, depth) || geom::apart(b.planes, a.shape, depth))
       continue;
-    const auto shared = geom::common_part(a.shape, b.planes, depth);
-    if (!shared)
-      continue;
-    const geom::MassProperties part = geom::mass_properties(*shared);
-    geom::MassProperties& sum = common[std::minmax(a.block, b.block)];
+    const geom::CommonPart part = geom::common_part(
+        a.planes, b.planes, {boxes[i].min.cwiseMax(boxes[j].min), boxes[i].max.cwiseMin(boxes[j].max)});
+    geom::CommonPart& sum = common[std::minmax(a.block, b.block)];
     sum.volume += part.volume;
     sum.centroid += part.volume * part.centroid;
   }

@@ -48,7 +48,9 @@ double ContactUpdate::longest_step(const StageContext& context, const Workspace&
   if (sums.deepest > 1)
     refuse_depth(context.model, context.state, sums.deepest_source, sums.deepest_target, here);
   return std::min(
-      contact_time_step(context.model, context.state, work.contact, {row_sums_, work.damped, safety}),
+      contact_time_step(context.model, context.state, work.contact,
+                        {row_sums_, work.damped,
+                         context.state.moving_mass.empty() ? work.bond.contact_damping : 0, safety}),
       displacement_time_step(context.model, context.state, rigid_reach_));
 }
 

@@ -1,9 +1,8 @@
-// Common part of two convex blocks: one block cut by all the faces of the other.
+// Common part of two convex blocks: what lies below all planes of both.
 #pragma once
 
 #include "libgeom/polyhedron/polyhedron.hpp"
 
-#include <optional>
 #include <vector>
 
 namespace geom {
@@ -14,8 +13,13 @@ std::vector<Plane> face_planes(const Polyhedron&); // outward, one for each face
 // few pairs of blocks; false says nothing.
 bool apart(const std::vector<Plane>& planes, const Polyhedron& other, double depth);
 
-// The part of `block` below all the planes; none when nothing is left. tolerance (m): as of cut.
-std::optional<Polyhedron> common_part(const Polyhedron& block, const std::vector<Plane>& planes,
-                                      double tolerance);
+struct CommonPart {
+  double volume = 0;            // m3
+  Vec3 centroid = Vec3::Zero(); // m; where the volume is above 0
+};
+
+// region: a box that holds the common part. The part is never built as a polyhedron, so no near miss of a vertex and a
+// plane can spoil it: each plane brings the polygon that the other planes leave of it, and the pyramid above that polygon.
+CommonPart common_part(const std::vector<Plane>& one, const std::vector<Plane>& other, const Box& region);
 
 } // namespace geom

@@ -1,5 +1,7 @@
 // Contact where edges and corners meet: they carry on over nodes, and blocks in rows do not feel those across them.
 #include "libcdem/contact/contact_forces.hpp"
+#include "libgeom/assembly/builders.hpp"
+#include "libgeom/assembly/edit.hpp"
 #include "tests/libcdem/boxes.hpp"
 
 #include <catch2/catch.hpp>
@@ -64,9 +66,8 @@ TEST_CASE("contact: crossed edges stop each other", "[contact][edges]") {
 }
 
 TEST_CASE("contact: edges that are nearly parallel stop each other too", "[contact][edges]") {
-  // Ridge on ridge, crossed by a small angle or not at all. Below parallel_edges the semi-springs of the nodes carry, which
-  // stand in from the ridge by 0.5 % of the sides of their triangles, here up to 0.4 m, and give way between the corners.
-  const double angle = GENERATE(0.0, 0.3, 0.7, 1.0, 2.0, 2.8, 3.0);
+  // Ridge on ridge, crossed by a small angle or not at all.
+  const double angle = GENERATE(0.0, 0.05, 0.3, 0.7, 1.0, 2.0, 2.8, 3.0);
   CAPTURE(angle);
   const Mat3 on_edge = rotation({1, 0, 0}, 45 * degree);
   const double half = std::sqrt(0.5) * 0.4, cell = 0.1;
@@ -95,7 +96,46 @@ TEST_CASE("contact: edges that are nearly parallel stop each other too", "[conta
   CHECK(lowest > 2 * half - deepest);
   CHECK(centroid(s, 1).z() > lowest + 1e-3);
   CHECK(std::abs(s.state.spent.friction) < 1e-9 * kinetic);
-  CHECK((angle < 0.6 || edges));
+  CHECK(edges);
+}
+
+TEST_CASE("contact: two bars ridge on ridge stop each other at the same depth at any angle",
+          "[contact][edges]") {
+  const double angle = GENERATE(0.0, 0.01, 0.05, 0.3, 0.57, 1.0, 5.0, 45.0, 90.0);
+  CAPTURE(angle);
+  const Vec3 size(2, 0.4, 0.4);
+  const double half = std::sqrt(0.5) * 0.4, gap = 2e-3, speed = 0.6, stiffness = 1e10;
+  const auto bar = [&](const char* name, const Mat3& turn, double z) {
+    geom::Assembly shape = geom::grid(size, {1, 1, 1}, -0.5 * size);
+    const Eigen::AngleAxisd by(turn);
+    cdem::BodySpec body{name, geom::translated(geom::rotated(shape, by.axis(), by.angle()), Vec3(0, 0, z)),
+                        rock(), friction(0)};
+    body.element = cdem::Element::rigid;
+    return body;
+  };
+  const Mat3 on_edge = rotation({1, 0, 0}, 45 * degree);
+  cdem::Joint law = friction(0);
+  law.normal_stiffness = stiffness;
+  System s(build(
+      {bar("lower", on_edge, 0), bar("upper", rotation({0, 0, 1}, angle * degree) * on_edge, 2 * half + gap)},
+      {{"lower", "upper", law}}));
+  s.hold(body_of("lower"), "xyz");
+  s.state.rigid[1].velocity = {0, 0, -speed};
+  cdem::RunOptions options;
+  options.duration = 2.5 * gap / speed;
+  options.callback_every = 1;
+  double lowest = 10;
+  options.callback = [&] { lowest = std::min(lowest, centroid(s, 1).z()); };
+  s.run(options);
+  const double area = 0.2 * 2 / 3,
+               mass = rock().density * 2 * 0.4 *
+                      0.4; // of both edges, whose triangles meet in the middle of the faces
+  CHECK(2 * half - lowest == Approx(speed * std::sqrt(mass / (0.5 * stiffness * area))).epsilon(0.05));
+  const auto& [x, y, z] = s.state.rigid[1].velocity;
+  const auto& spin = s.state.rigid[1].angular_momentum; // N m s
+  CHECK(z > 0.99 * speed);
+  CHECK(std::hypot(x, y) < 1e-3 * speed);
+  CHECK(std::hypot(spin[0], spin[1], spin[2]) < 1e-3 * mass * speed);
 }
 
 TEST_CASE("contact: an edge pressed on another carries on over the nodes of both", "[contact][edges]") {

@@ -7,7 +7,6 @@
 #include "libgeom/assembly/edit.hpp"
 
 #include <cmath>
-#include <limits>
 
 using namespace testing;
 using geom::Vec3;
@@ -106,5 +105,50 @@ TEST_CASE("dry joints: their damping leaves the step stable", "[dry_joints]") {
     CHECK(beta >= 0);
     CHECK(s * s * (1 + 2 * beta / step) <= 1 + 1e-12); // dt^2 K / 4 + beta dt K / 2 over M
   }
-  CHECK(cdem::contact_damping(1, std::numeric_limits<double>::infinity()) == 0.5);
+  // At all steps up to the stable one the same dashpot.
+  const double stable = cdem::stable_step_of_dry_joints(1);
+  CHECK(cdem::contact_damping(0.01, 1) == cdem::contact_damping(0.9 * stable, 1));
+  CHECK(stable * stable / 4 + cdem::contact_damping(0.9 * stable, 1) * stable / 2 == Approx(0.25));
+}
+
+TEST_CASE("dry joints: a grid of blocks stands under its weight at the usual step", "[dry_joints][energy]") {
+  cdem::Elastic stone = rock();
+  stone.youngs_modulus = 5e9;
+  cdem::ModelSpec spec;
+  spec.bodies = {body("grid", geom::grid({0.6, 0.4, 0.3}, {3, 2, 2}, {0, 0, 0}), stone, friction(30))};
+  spec.bodies[0].element = cdem::Element::finite_volume;
+  cdem::Simulation s(spec, 1, nullptr);
+  s.fix(fixed(cdem::Selection::side("z-")));
+  cdem::Gravity gravity;
+  gravity.acceleration = Vec3(0, 0, -g);
+  s.gravity(gravity);
+  s.run(for_time(0.03));
+  CHECK(s.energy().kinetic < s.energy().external);
+  CHECK(s.energy().balance_error() < 0.03);
+}
+
+// The weight comes on at once, then the pull within 0.1 s.
+TEST_CASE("dry joints: below its friction a deformable block that is pulled does not creep", "[dry_joints]") {
+  const double part = GENERATE(0.9, 0.95);
+  CAPTURE(part);
+  cdem::Elastic stone = rock();
+  stone.youngs_modulus = 1e9;
+  cdem::ModelSpec spec;
+  spec.bodies = {body("plate", geom::grid({4, 4, 0.4}, {1, 1, 1}, {-2, -2, -0.4}), stone, friction(31)),
+                 body("block", geom::grid({1, 0.8, 0.2}, {1, 1, 1}, {-0.5, -0.4, 0}), stone, friction(31))};
+  spec.bodies[0].element = cdem::Element::rigid;
+  spec.bodies[1].element = cdem::Element::finite_volume;
+  spec.pairs = {{"plate", "block", friction(31)}};
+  cdem::Simulation s(spec, 1, nullptr);
+  s.fix(fixed(cdem::Selection::of_body("plate")));
+  cdem::Gravity gravity;
+  const double limit = std::tan(31 * degree) * g;
+  gravity.acceleration = Vec3(0, 0, -g);
+  for (int i = 0; i <= 20; ++i) {
+    gravity.acceleration.x() = part * limit * i / 20;
+    s.gravity(gravity);
+    s.run(for_time(0.01));
+  }
+  s.run(for_time(0.3));
+  CHECK(std::abs(s.mean("displacement.x", cdem::Selection::of_body("block"))) < 2.5e-6);
 }

@@ -71,3 +71,21 @@ TEST_CASE("overlap with a block that is dented is less by the dent", "[overlap]"
   REQUIRE(dented == 1);
   CHECK(cdem::overlap(s.model, s.state).volume == Approx(0.5 - 0.3 / 3));
 }
+
+TEST_CASE("overlap of two boxes that lie askew is found wherever their corners and faces nearly meet",
+          "[overlap]") {
+  // A cube on a cube, shifted by a step that rounding may take for none, and turned by as little.
+  for (const double depth : {1e-3, 1e-6, 1e-8})
+    for (const double off : {0.0, 1e-9, 1e-8, 1e-7, 0.3})
+      for (const double turn : {0.0, 1e-10, 1e-9, 1e-8}) {
+        INFO("depth " << depth << ", shifted by " << off << ", turned by " << turn);
+        System s(build({block("a", {0, 0, 0}, {1, 1, 1}), block("b", {2, 0, 0}, {3, 1, 1})}));
+        const geom::Mat3 by = rotation({0.2, 0.3, 1}, turn);
+        for (int n = s.model.blocks[1].node_begin; n < s.model.blocks[1].node_end; ++n) {
+          const Vec3& x = s.model.node_position[n];
+          s.state.displacement[n] = cdem::node(by * (x - Vec3(2, 0, 0)) + Vec3(1 - depth, off, 0) - x);
+        }
+        CHECK(cdem::overlap(s.model, s.state).volume ==
+              Approx(depth * (1 - off)).epsilon(1e-6).margin(turn + 1e-9));
+      }
+}

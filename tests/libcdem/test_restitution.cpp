@@ -112,3 +112,37 @@ TEST_CASE("a body comes to rest on a contact with restitution and presses with i
   CHECK(std::abs(mean_velocity(s)) < 1e-5);
   CHECK(s.energy().balance_error() < 1e-2);
 }
+
+TEST_CASE("a flat drop gives the force of the wave, rho c v A, on a rigid floor of any mesh", "[contact]") {
+  // nu = 0: a bar. The floor is rigid, so its mesh may mean nothing.
+  const int divisions = GENERATE(1, 3, 12);
+  CAPTURE(divisions);
+  const double speed = 0.1, side = 1;
+  cdem::ModelSpec spec;
+  spec.bodies = {meshed("floor", box({1.4, 1.4, 0.2}, {divisions, divisions, 1}, {-0.2, -0.2, -0.2})),
+                 meshed("cube", box({side, side, side}, {4, 4, 4}, {0, 0, 1e-5}))};
+  spec.bodies[0].element = cdem::Element::rigid;
+  spec.bodies[1].material.poissons_ratio = 0;
+  cdem::Joint law;
+  law.bonded = false;
+  law.friction_angle = 0;
+  spec.default_contact = law;
+  cdem::Simulation s(spec, 1, std::make_shared<cdem::Observer>());
+  s.fix(fixed(cdem::Selection::of_body("floor")));
+  s.initial_velocity(cdem::Selection::of_body("cube"), {0, 0, -speed});
+  const cdem::Elastic& stone = spec.bodies[1].material;
+  const double c = std::sqrt(stone.youngs_modulus / stone.density),
+               wave = stone.density * c * speed * side * side;
+  double largest = 0, last = 0;
+  for (int i = 0; i < 60; ++i) {
+    cdem::RunOptions options;
+    options.duration = 0.05 * 2 * side / c;
+    s.run(options);
+    const double force = std::abs(s.reaction(cdem::Selection::of_body("floor")).z());
+    largest = std::max(largest, force);
+    if (force > 1e-2 * wave)
+      last = s.time();
+  }
+  CHECK(largest == Approx(1.04 * wave).epsilon(0.04)); // a mesh of four cells rings
+  CHECK((last - 1e-5 / speed) / (2 * side / c) == Approx(1.15).epsilon(0.1));
+}

@@ -17,6 +17,8 @@ struct Bar {
   std::array<geom::Vec3, 2> into;
   std::array<double, 2> into_turns{}; // rad
   double turns = 0, skin = 0;         // rad, m
+
+  double most_into_turns() const { return std::max(into_turns[0], into_turns[1]); }
 };
 
 // Either edge of a rigid pair may turn by all that the two move.
@@ -50,12 +52,14 @@ bool may_hold(const Bar& bar, const geom::Vec3& normal, double turns) {
 bool may_touch(const Bar& a, const Bar& b, double depth) {
   const geom::Vec3 across = a.along.cross(b.along);
   const double sine = across.norm(), turns = a.turns + b.turns;
-  if (sine + turns < parallel_edges)
-    return false;
   const auto at = geom::nearest_on_segments(a.x0, a.x1, b.x0, b.x1);
   const double distance = (a.x0 + at.s * (a.x1 - a.x0) - b.x0 - at.t * (b.x1 - b.x0)).norm();
   if (distance > depth + a.skin + b.skin)
     return false;
+  if (sine + turns < parallel_edges)
+    return normal_between(a.into, b.into, a.along,
+                          clear_of_faces - 2 * turns - std::max(a.most_into_turns(), b.most_into_turns()))
+        .has_value();
   if (sine < 4 * turns)
     return true; // their common normal may be anything
   const geom::Vec3 normal = across / sine;

@@ -1,5 +1,8 @@
 #include "libcdem/contact/geometry/edge_touch.hpp"
 
+#include <algorithm>
+#include <cmath>
+
 namespace cdem {
 namespace {
 
@@ -12,7 +15,101 @@ bool in_fan(const std::array<geom::Vec3, 2>& into, const geom::Vec3& normal) {
          !(normal.dot(into[1]) > fan_slack * into[1].norm());
 }
 
+geom::Vec3 middle_of_fan(const std::array<geom::Vec3, 2>& into) {
+  return -(into[0].normalized() + into[1].normalized()).normalized();
+}
+
+// A linear function on a stretch [x0, x1].
+struct Linear {
+  double at_0 = 0, slope = 0;
+  double operator()(double x) const { return at_0 + slope * x; }
+};
+
+// Area and moment of the positive part of linear functions.
+struct Positive {
+  double area = 0, moment = 0;
+
+  void add(const Linear& f, double from, double to) {
+    double a = f(from), b = f(to);
+    if (a <= 0 && b <= 0)
+      return;
+    if (a < 0) {
+      from += (to - from) * a / (a - b);
+      a = 0;
+    } else if (b < 0) {
+      to = from + (to - from) * a / (a - b);
+      b = 0;
+    }
+    const double length = to - from;
+    area += 0.5 * length * (a + b);
+    moment += length * (0.5 * from * (a + b) + length * (a + 2 * b) / 6);
+  }
+};
+
+// Where two nearly parallel edges reach into each other, and along what normal: the middle of the stretch, each place of it
+// weighed by how far wedges of a right angle do. Such wedges that reach by d into each other and run by y beside each other
+// share the area (d^2 - y^2) / 2, so they part the most along d between - y across. None where they do not meet.
+struct Stretch {
+  geom::PlacesOnSegments at;
+  geom::Vec3 normal;
+};
+
+std::optional<Stretch> stretch_of(const std::array<geom::Vec3, 2>& a, const std::array<geom::Vec3, 2>& b,
+                                  const geom::Vec3& along, const geom::Vec3& between) {
+  const double length = (a[1] - a[0]).norm(), b0 = (b[0] - a[0]).dot(along), b1 = (b[1] - a[0]).dot(along);
+  const double from = std::max(0.0, std::min(b0, b1)), to = std::min(length, std::max(b0, b1));
+  if (!(from < to))
+    return std::nullopt;
+  const geom::Vec3 turns = (b[1] - b[0]) / (b1 - b0) - along, apart = b[0] - a[0] - b0 * along - b0 * turns;
+  const geom::Vec3 across = along.cross(between);
+  const Linear depth{apart.dot(between), turns.dot(between)}, aside{apart.dot(across), turns.dot(across)};
+  const double crossing = aside(from) * aside(to) < 0 ? -aside.at_0 / aside.slope : to;
+  Positive inside;
+  for (const auto& [x0, x1] : {std::pair(from, crossing), std::pair(crossing, to)}) {
+    const double distance = aside(0.5 * (x0 + x1)), side = distance > 0 ? 1 : distance < 0 ? -1 : 0;
+    inside.add({depth.at_0 - side * aside.at_0, depth.slope - side * aside.slope}, x0, x1);
+  }
+  if (!(inside.area > 0))
+    return std::nullopt;
+  const double x = inside.moment / inside.area;
+  return Stretch{{x / length, (x - b0) / (b1 - b0)},
+                 (between - std::clamp(aside(x) / depth(x), -1.0, 1.0) * across).normalized()};
+}
+
 } // namespace
+
+std::optional<geom::Vec3> normal_between(const std::array<geom::Vec3, 2>& into_e,
+                                         const std::array<geom::Vec3, 2>& into_f, const geom::Vec3& along,
+                                         double clear) {
+  geom::Vec3 normal = middle_of_fan(into_f) - middle_of_fan(into_e);
+  normal = (normal - normal.dot(along) * along).normalized();
+  for (int i = 0; i < 2; ++i)
+    if (!(normal.dot(into_f[i]) < -clear * into_f[i].norm() &&
+          normal.dot(into_e[i]) > clear * into_e[i].norm()))
+      return std::nullopt;
+  return normal;
+}
+
+NearestOfEdges nearest_of_edges(const Model& model, const State& state, const ContactEdge& e,
+                                const ContactEdge& f) {
+  const std::array<geom::Vec3, 2> a{place_of(model, state, e.nodes[0]), place_of(model, state, e.nodes[1])},
+      b{place_of(model, state, f.nodes[0]), place_of(model, state, f.nodes[1])};
+  const geom::Vec3 of_a = a[1] - a[0], of_b = b[1] - b[0];
+  NearestOfEdges nearest;
+  nearest.at = geom::nearest_on_segments(a[0], a[1], b[0], b[1]);
+  nearest.nearly_parallel = of_a.cross(of_b).norm() < parallel_edges * of_a.norm() * of_b.norm();
+  if (nearest.nearly_parallel) {
+    const geom::Vec3 along = of_a.normalized();
+    if (const auto between = normal_between(into_faces(model, state, e, a[0], a[1]),
+                                            into_faces(model, state, f, b[0], b[1]), along, clear_of_faces))
+      if (const auto stretch = stretch_of(a, b, along, *between)) {
+        nearest.at = stretch->at;
+        nearest.normal = stretch->normal;
+      }
+  }
+  nearest.way = b[0] + nearest.at.t * of_b - a[0] - nearest.at.s * of_a;
+  return nearest;
+}
 
 std::array<geom::Vec3, 2> into_faces(const Model& model, const State& state, const ContactEdge& e,
                                      const geom::Vec3& x0, const geom::Vec3& x1) {
@@ -31,10 +128,14 @@ std::optional<EdgeTouch> touch_of(const Model& model, const State& state, const 
   const geom::Vec3 a0 = place_of(model, state, e.nodes[0]), a1 = place_of(model, state, e.nodes[1]),
                    b0 = place_of(model, state, f.nodes[0]), b1 = place_of(model, state, f.nodes[1]);
   const geom::Vec3 across = (a1 - a0).cross(b1 - b0);
-  if (across.norm() < parallel_edges * (a1 - a0).norm() * (b1 - b0).norm())
-    return std::nullopt;
-  EdgeTouch touch{across.normalized()};
   const auto into_e = into_faces(model, state, e, a0, a1), into_f = into_faces(model, state, f, b0, b1);
+  if (nearest.nearly_parallel) {
+    if (!nearest.normal)
+      return std::nullopt;
+    return EdgeTouch{*nearest.normal, nearest.way.dot(*nearest.normal),
+                     across.dot(*nearest.normal) < 0 ? -1. : 1.};
+  }
+  EdgeTouch touch{across.normalized()};
   if (!in_fan(into_f, touch.normal)) {
     touch.normal = -touch.normal;
     touch.sense = -1;

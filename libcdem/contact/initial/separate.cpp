@@ -57,10 +57,8 @@ void require_separate(const Model& model) {
     const double depth = depth_tolerance * std::min(one.size, other.size);
     if (geom::apart(planes[a], other.shape, depth) || geom::apart(planes[b], one.shape, depth))
       continue;
-    const auto common = geom::common_part(one.shape, planes[b], depth);
-    if (!common)
-      continue;
-    const geom::MassProperties shared = geom::mass_properties(*common);
+    const geom::CommonPart shared = geom::common_part(
+        planes[a], planes[b], {boxes[a].min.cwiseMax(boxes[b].min), boxes[a].max.cwiseMin(boxes[b].max)});
     if (shared.volume <= volume_tolerance * std::min(one.mass.volume, other.mass.volume))
       continue;
     const std::string &name = model.bodies[one.body].name, &other_name = model.bodies[other.body].name;

@@ -7,8 +7,8 @@
 namespace cdem {
 namespace {
 
-// Distance from the ends, over the distance of two edges: beyond it no other edges of their chains are as near. Edges
-// that act enclose an angle with a sine of parallel_edges or more.
+// Distance from the ends, over the distance of two edges that are not nearly parallel: beyond it no other edges of their
+// chains are as near.
 constexpr double reach_of_ends = 2 / parallel_edges;
 // Difference over a tet's height: distances that differ by less are equal, as at a node that two edges share.
 constexpr double same_distance = 1e-12;
@@ -25,7 +25,8 @@ std::optional<EdgeTouch> EdgeLines::active(int e, int f, const NearestOfEdges& h
   if (!touch || !(touch->depth > 0))
     return std::nullopt;
   const double distance = here.way.norm();
-  if (far_from_ends(e, here.at.s, distance) && far_from_ends(f, here.at.t, distance))
+  if (here.nearly_parallel || // each pair of their chains bears its own stretch
+      (far_from_ends(e, here.at.s, distance) && far_from_ends(f, here.at.t, distance)))
     return touch;
   const auto passed = [&](int a, int b, double ways) { // as the two would be evaluated themselves
     const auto [source, target] = std::minmax(a, b);

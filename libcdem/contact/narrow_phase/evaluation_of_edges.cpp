@@ -3,6 +3,7 @@
 #include "libcdem/contact/broad_phase/search.hpp"
 #include "libcdem/contact/narrow_phase/evaluation.hpp"
 #include "libcdem/contact/response/contact_point.hpp"
+#include "libgeom/query/closest.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -10,9 +11,8 @@
 namespace cdem {
 namespace {
 
-// How far, m, two edges may go, both together, before a pair that may not begin now can do so: because they are nearly
-// parallel or their common normal lies outside a fan; or because their nearest places stay at the last end
-// of one of their lines.
+// How far, m, two edges may go, both together, before a pair that may not begin now can do so: because their common normal
+// lies outside a fan; or because their nearest places stay at the last end of one of their lines.
 struct Hindrance {
   double by_angle = 0, last_end = 0;
 };
@@ -22,13 +22,11 @@ Hindrance hindrance_of(const Model& model, const State& state, const ContactEdge
   const geom::Vec3 a = place_of(model, state, e.nodes[1]) - place_of(model, state, e.nodes[0]),
                    b = place_of(model, state, f.nodes[1]) - place_of(model, state, f.nodes[0]);
   const double la = a.norm(), lb = b.norm(), sine = a.cross(b).norm() / (la * lb);
-  // An edge rotates by at most twice the displacement of its ends over its length.
-  const double by_angle = 0.4 * (parallel_edges - sine) * std::min(la, lb);
   // The nearest places of two lines move by some times that over the sine between them.
   const auto left = [&](bool ends, double place, double length) {
     return ends ? (drawn_in - std::min(place, 1 - place)) * length * sine / 16 : 0.;
   };
-  return {std::max(0., by_angle), std::max({0., left(e_ends, at.s, la), left(f_ends, at.t, lb)})};
+  return {0, std::max({0., left(e_ends, at.s, la), left(f_ends, at.t, lb)})};
 }
 
 // m: until two edges have moved so far they do not touch: either normal lies outside a fan (the Gauss map),
@@ -65,6 +63,17 @@ double apart_until(const Model& model, const State& state, const ContactEdge& e,
   double& other_side = until[along > 0 ? 1 : 0]; // of the normal along which they are apart
   other_side = std::max(other_side, 0.5 * std::abs(along) / rate_along);
   return std::min({until[0], until[1], 0.25 * sine / turns});
+}
+
+// m. Nearly parallel edges that lie on each other in the undeformed model belong to blocks in rows, which are not to press
+// on each other across an edge: such edges stand in, as semi-springs do.
+double stands_in_by(const Model& model, const ContactEdge& e, const ContactEdge& f) {
+  const std::vector<ContactTriangle>& t = model.surface.triangles;
+  const auto& x = model.node_position;
+  const geom::Vec3 &a0 = x[e.nodes[0]], &a1 = x[e.nodes[1]], &b0 = x[f.nodes[0]], &b1 = x[f.nodes[1]];
+  const auto at = geom::nearest_on_segments(a0, a1, b0, b1);
+  const double by = drawn_in * std::min(t[e.triangles[0]].height, t[f.triangles[0]].height);
+  return (b0 + at.t * (b1 - b0) - a0 - at.s * (a1 - a0)).norm() <= by ? by : 0;
 }
 
 } // namespace
@@ -106,7 +115,9 @@ void Evaluation::edges(ContactRow& row, ContactCandidate* candidates) {
     // At the last end of a line contacts go on but do not begin.
     const bool e_ends = lines_.at_last_end(row.source, nearest.at.s),
                f_ends = lines_.at_last_end(target, nearest.at.t);
-    const bool may_begin = distance <= limit && !e_ends && !f_ends;
+    bool may_begin = distance <= limit && !e_ends && !f_ends;
+    if (may_begin && nearest.nearly_parallel)
+      may_begin = distance > stands_in_by(model_, e, f);
     if (apart <= 0) {
       Hindrance hindrance = hindrance_of(model_, state_, e, f, nearest.at, e_ends, f_ends);
       if (moves_as_one(e) && moves_as_one(f))
@@ -151,7 +162,7 @@ void Evaluation::add_contact(int source, int target, const NearestOfEdges& neare
       return;
   }
   finish(c, old, motion, edge_arms(model_, state_, e, f, nearest.at),
-         edge_law(*law.joint, law.tan_friction, surface_, e.triangles, f.triangles), from, to);
+         edge_law(model_, *law.joint, law.tan_friction, e.triangles, f.triangles), from, to);
 }
 
 double Evaluation::take_over(Contact& c, const Contact& old, const ContactLaw& law,

@@ -70,7 +70,9 @@ double contact_time_step(const Model& model, const State& state, const ContactWo
   const std::vector<double>& mass = moving_mass(model, state);
   double fastest = 0; // 1/s2, of nodes without damping: one root is enough
   for (const auto& [node, block] : own.touched) {
-    const double beta = step.damped ? model.bodies[model.blocks[block].body].material.stiffness_damping : 0;
+    const double beta =
+        std::max(step.joint_damping,
+                 step.damped ? model.bodies[model.blocks[block].body].material.stiffness_damping : 0);
     const double frequency2 = (step.row_sums[node] + own.stiffness[node]) / mass[node];
     if (beta == 0)
       fastest = std::max(fastest, frequency2);
@@ -138,10 +140,11 @@ std::vector<double> closing_row_sums(const Model& model) {
 std::vector<double> impact_frequencies2(const Model& model) {
   const ContactSurface& surface = model.surface;
   const std::vector<double> given = given_stiffness(model);
-  double stiffest = std::numeric_limits<double>::infinity(); // m/Pa
+  constexpr double infinite = std::numeric_limits<double>::infinity();
+  double of_rigid = infinite, of_others = infinite; // m/Pa, the least compliance
   for (const ContactTriangle& t : surface.triangles)
-    if (t.face < 0)
-      stiffest = std::min(stiffest, t.compliance);
+    if (double& least = model.blocks[t.block].rigid >= 0 ? of_rigid : of_others; t.face < 0)
+      least = std::min(least, t.compliance);
   std::vector<double> frequencies2;
   for (const RigidBody& body : model.rigid) {
     const Block& block = model.blocks[body.block];
@@ -163,7 +166,8 @@ std::vector<double> impact_frequencies2(const Model& model) {
         corners[node] += triangle.area / 3;
       compliance = std::min(compliance, triangle.compliance);
     }
-    const double stiffness = std::max(1 / (compliance + stiffest), given[block.body]); // Pa/m
+    const double stiffness =
+        std::max({1 / (compliance + of_rigid), 1 / of_others, given[block.body]}); // Pa/m
     for (const auto& [plane, area] : faces)
       frequency2 = std::max(frequency2, stiffness * area / body.mass);
     for (const auto& [node, area] : corners)

@@ -13,6 +13,7 @@ namespace cdem {
 struct ContactStep {
   const std::vector<double>& row_sums; // N/m, of elements and bonds (n_nodes)
   bool damped = false;                 // stiffness damping acts
+  double joint_damping = 0;            // s, of springs of interfaces that are contacts
   double safety = 1;
 };
 double contact_time_step(const Model&, const State&, const ContactWork&, const ContactStep&);

@@ -1,5 +1,6 @@
 #include "libcdem/contact/response/contact_point.hpp"
 
+#include "libcdem/contact/geometry/edge_touch.hpp"
 #include "libcdem/contact/geometry/positions.hpp"
 #include "libcdem/model/build/contact_surface.hpp"
 #include "libgeom/core/portable.hpp"
@@ -8,9 +9,6 @@
 
 namespace cdem {
 namespace {
-
-// Area that a semi-spring stands for, over that of the triangle it presses on.
-constexpr double most_over_target = 4;
 
 // Weights of a tet's corners that make up a place, which may lie a little outside.
 std::array<double, 4> in_tet(const Model& model, const State& state, const geom::Tet& nodes,
@@ -34,6 +32,13 @@ ContactLaw law_over(const Joint& joint, double tan_friction, double area, double
           (1 - e2) / (1 + e2)};
 }
 
+// m/Pa, of two sides in series. That of a rigid body comes from a mesh that has no meaning of its own, so it counts only
+// where both are rigid.
+double compliance_between(const Model& model, int block_a, double a, int block_b, double b) {
+  const bool rigid_a = model.blocks[block_a].rigid >= 0, rigid_b = model.blocks[block_b].rigid >= 0;
+  return rigid_a == rigid_b ? a + b : rigid_a ? b : a;
+}
+
 void set_normal_weight(ContactArms& arms, int node, double weight) {
   for (int i = 0; i < 4; ++i)
     if (arms.target[i] == node)
@@ -49,26 +54,27 @@ ContactLaw law_of(const Model& model, const Contact& c) {
   const Joint& joint = *contact_joint(model, from.block, to.block);
   const double tan_friction = geom::portable::tan(joint.friction_angle);
   return c.kind == Contact::spring
-             ? as_stiff_as(c, spring_law(joint, tan_friction, from, to))
-             : edge_law(joint, tan_friction, s, {source, c.fragment}, {target, c.beside});
+             ? as_stiff_as(c, spring_law(model, joint, tan_friction, from, to))
+             : edge_law(model, joint, tan_friction, {source, c.fragment}, {target, c.beside});
 }
 
-ContactLaw spring_law(const Joint& joint, double tan_friction, const ContactTriangle& from,
-                      const ContactTriangle& to) {
-  // With its whole area a vertex of a coarse floor would carry many times the corners of a small block that stands on it.
-  return law_over(joint, tan_friction, std::min(from.area, most_over_target * to.area) / 3,
-                  from.compliance + to.compliance);
+ContactLaw spring_law(const Model& model, const Joint& joint, double tan_friction,
+                      const ContactTriangle& from, const ContactTriangle& to) {
+  // Both sides bring their springs. The finer side takes most of the pressure, in the ratio of the areas, and both together
+  // the whole of it, wherever the springs of the coarser side stand.
+  return law_over(joint, tan_friction, 2 * from.area * to.area / (from.area + to.area) / 3,
+                  compliance_between(model, from.block, from.compliance, to.block, to.compliance));
 }
 
-ContactLaw edge_law(const Joint& joint, double tan_friction, const ContactSurface& s,
+ContactLaw edge_law(const Model& model, const Joint& joint, double tan_friction,
                     const std::array<int, 2>& from, const std::array<int, 2>& to) {
-  double area = 0, compliance = 0;
-  for (const std::array<int, 2>& edge : {from, to}) {
-    const ContactTriangle &one = s.triangles[edge[0]], &other = s.triangles[edge[1]];
-    area += 0.5 * (one.area + other.area) / 3;
-    compliance += 0.5 * (one.compliance + other.compliance);
-  }
-  return law_over(joint, tan_friction, area, compliance);
+  const std::vector<ContactTriangle>& t = model.surface.triangles;
+  const auto mean = [](double a, double b) { return 0.5 * (a + b); };
+  const double area = mean(t[from[0]].area, t[from[1]].area) / 3 + mean(t[to[0]].area, t[to[1]].area) / 3;
+  return law_over(joint, tan_friction, area,
+                  compliance_between(model, t[from[0]].block,
+                                     mean(t[from[0]].compliance, t[from[1]].compliance), t[to[0]].block,
+                                     mean(t[to[0]].compliance, t[to[1]].compliance)));
 }
 
 std::pair<int, int> blocks_of(const Model& model, const Contact& c) {
@@ -113,11 +119,8 @@ ContactArms arms_of(const Model& model, const State& state, const Contact& c) {
   const ContactSurface& s = model.surface;
   if (c.kind == Contact::edge) {
     const ContactEdge e = edge_between(s, c.source / 3, c.source % 3, c.fragment, 0),
-                      f = edge_between(s, c.target / 3, c.target % 3, std::numeric_limits<int>::max(), 0);
-    return edge_arms(
-        model, state, e, f,
-        geom::nearest_on_segments(place_of(model, state, e.nodes[0]), place_of(model, state, e.nodes[1]),
-                                  place_of(model, state, f.nodes[0]), place_of(model, state, f.nodes[1])));
+                      f = edge_between(s, c.target / 3, c.target % 3, c.beside, 0);
+    return edge_arms(model, state, e, f, nearest_of_edges(model, state, e, f).at);
   }
   const ContactTriangle &from = s.triangles[c.source / 3], &to = s.triangles[c.target];
   const geom::Vec3 spring = weighted(corners_of(model, state, from.nodes), spring_weights(c.source % 3));

@@ -11,10 +11,10 @@ namespace cdem {
 ContactLaw law_of(const Model&, const Contact&);
 
 // Law of a spring, from its triangle and the triangle it is pressed into; law of two edges, each with the means of its
-// two triangles. The joint is that between their bodies.
-ContactLaw spring_law(const Joint&, double tan_friction, const ContactTriangle& from,
+// two triangles. The joint is that between their bodies. A rigid body has no compliance beside one that deforms.
+ContactLaw spring_law(const Model&, const Joint&, double tan_friction, const ContactTriangle& from,
                       const ContactTriangle& to);
-ContactLaw edge_law(const Joint&, double tan_friction, const ContactSurface&, const std::array<int, 2>& from,
+ContactLaw edge_law(const Model&, const Joint&, double tan_friction, const std::array<int, 2>& from,
                     const std::array<int, 2>& to);
 
 // The two blocks of a contact, its source's first.
