@@ -30,7 +30,7 @@ std::shared_ptr<WaterObject> holding(std::shared_ptr<const WaterField> field, st
 Value uniform(Session&, Object*, const Arguments& a) {
   UniformWater water;
   if (const auto function = a.function("velocity"))
-    water.velocity = vector_over_time(function, "velocity");
+    water.velocity = vector_over_time(function, "velocity", 0); // a field belongs to no model yet
   else
     water.velocity = [v = a.vec3("velocity")](double) { return v; };
   water.level = a.optional_number("level");
