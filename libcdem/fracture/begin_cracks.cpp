@@ -45,8 +45,8 @@ public:
       const FaceStage stage = state_.faces[batch].stage[lane];
       if (stage == FaceStage::cracking)
         go_on(batch, lane);
-      else if (holds(stage) && is_near(batch * lanes + lane))
-        look_at(batch, lane);
+      else if (stage == FaceStage::resumed || (holds(stage) && is_near(batch * lanes + lane)))
+        look_at(batch, lane); // a resumed face has less strength than the bound counts with
     }
     if (breaking_ != 0)
       begun_.breaking.emplace_back(index_, breaking_);
