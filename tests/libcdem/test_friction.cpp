@@ -11,7 +11,7 @@ using geom::Vec3;
 
 namespace {
 
-constexpr double g = 9.81, phi = 30 * degree;
+constexpr double earth_gravity = 9.81, phi = 30 * degree;
 
 struct Slope {
   double size; // m, edge of the flat block that slides
@@ -39,7 +39,7 @@ struct Slope {
 
   static void tilt(System& s, double steepness) {
     s.conditions.gravity = cdem::Gravity{};
-    s.conditions.gravity->acceleration = g * Vec3(std::sin(steepness), 0, -std::cos(steepness));
+    s.conditions.gravity->acceleration = earth_gravity * Vec3(std::sin(steepness), 0, -std::cos(steepness));
   }
 };
 
@@ -62,7 +62,7 @@ TEST_CASE("a block slides down an incline with g (sin a - tan phi cos a)", "[fri
   s.hold(cdem::Selection::of_body("slider"), "x");
   REQUIRE(s.relax(1e-9).converged); // pressed against the slope by its weight, then let go
   s.conditions.fixes.pop_back();
-  const double exact = g * (std::sin(a) - std::tan(phi) * std::cos(a));
+  const double exact = earth_gravity * (std::sin(a) - std::tan(phi) * std::cos(a));
   // From 0.2 % of its length to 1.2 %, as if it had come from rest.
   const double start = std::sqrt(2 * exact * 0.002 * slope.size),
                end = std::sqrt(2 * exact * 0.012 * slope.size);
@@ -90,7 +90,7 @@ TEST_CASE("a block sticks on an incline below the friction angle", "[friction]")
   // Elastic shift of springs and block only: weight along the slope over the shear stiffness, with room for
   // the block's own shear.
   const cdem::Interface& face = s.model.interfaces.back();
-  const double stress = rock().density * g * 0.1 * slope.size * std::sin(a);
+  const double stress = rock().density * earth_gravity * 0.1 * slope.size * std::sin(a);
   double shift = 0;
   for (const cdem::Node& u : s.state.displacement)
     shift = std::max(shift, std::abs(u.x));
@@ -116,11 +116,11 @@ TEST_CASE("a block thrown off its base without damping comes back to its height 
                  {{"base", "ball", contact}}));
   s.hold(cdem::Selection::of_body("base"), "xyz");
   s.conditions.gravity = cdem::Gravity{};
-  s.conditions.gravity->acceleration = {0, 0, -g};
+  s.conditions.gravity->acceleration = {0, 0, -earth_gravity};
   const double contact_period = 2 * pi * std::sqrt(rock().density * h / 2e8);
   const double own_period = 2 * h / std::sqrt(rock().youngs_modulus / rock().density);
   REQUIRE(contact_period > 20 * own_period);
-  const double v0 = 0.5, height = v0 * v0 / (2 * g);
+  const double v0 = 0.5, height = v0 * v0 / (2 * earth_gravity);
   const int centre = s.model.blocks.back().centroid_node();
   for (int i = s.model.blocks.back().node_begin; i < s.model.blocks.back().node_end; ++i)
     s.state.velocity[i].z = v0;
@@ -128,7 +128,7 @@ TEST_CASE("a block thrown off its base without damping comes back to its height 
   std::vector<double> tops;
   double before = v0;
   cdem::RunOptions options;
-  options.duration = 4.5 * 2 * v0 / g;
+  options.duration = 4.5 * 2 * v0 / earth_gravity;
   options.callback_every = 1;
   options.callback = [&] {
     const double v = s.state.velocity[centre].z, u = s.state.displacement[centre].z;

@@ -6,7 +6,7 @@
 
 namespace {
 
-constexpr double g = 9.81;
+constexpr double earth = 9.81; // m/s2
 
 cdem::ShallowWater channel(double from, double to, int cells, const std::function<double(double)>& bed,
                            const std::function<double(double)>& surface) {
@@ -92,7 +92,7 @@ TEST_CASE("a lake over an uneven bed with islands stays at rest to rounding", "[
 }
 
 TEST_CASE("a dam breaks as Ritter found: h = (2 c0 - x / t)^2 / (9 g), depths stay above zero", "[water]") {
-  const double t = 1.5, c0 = std::sqrt(g);
+  const double t = 1.5, c0 = std::sqrt(earth);
   cdem::ShallowWater w = channel(
       -10, 12, 880, [](double) { return 0.0; }, [](double x) { return x < 0 ? 1.0 : 0.0; });
   w.still_depth = 1;
@@ -100,7 +100,7 @@ TEST_CASE("a dam breaks as Ritter found: h = (2 c0 - x / t)^2 / (9 g), depths st
   double error = 0, volume = 0;
   for (int i = 0; i < static_cast<int>(w.h.size()); ++i) {
     const double x = -10 + (i + 0.5) * w.cell, s = x / t;
-    const double exact = s <= -c0 ? 1 : s >= 2 * c0 ? 0 : (2 * c0 - s) * (2 * c0 - s) / (9 * g);
+    const double exact = s <= -c0 ? 1 : s >= 2 * c0 ? 0 : (2 * c0 - s) * (2 * c0 - s) / (9 * earth);
     CHECK(w.h[i] >= 0);
     error += std::abs(w.h[i] - exact) * w.cell;
     volume += w.h[i] * w.cell;
@@ -146,7 +146,7 @@ TEST_CASE("a solitary wave runs up a plane beach to 2.831 sqrt(cot b) (H/d)^(5/4
   const auto [cot, height] = GENERATE(std::pair(19.85, 0.0185), std::pair(15.0, 0.03), std::pair(30.0, 0.01));
   cdem::SlopeGiven given = slope_of(cot, depth);
   given.cell = 0.05;
-  const double c = std::sqrt(g * depth), k = std::sqrt(0.75 * height), arrives = 4 / (k * c);
+  const double c = std::sqrt(earth * depth), k = std::sqrt(0.75 * height), arrives = 4 / (k * c);
   given.entering = [=](double t) {
     const double s = 1 / std::cosh(k * c * (t - arrives));
     return height * s * s;
@@ -167,7 +167,7 @@ TEST_CASE("the field on a slope: still water is flat, hydrostatic and at rest", 
   const cdem::SlopeWater water(given);
   const cdem::WaterPoint point = water.at({5, 3, 0.7}, 0.5);
   CHECK(point.surface == Approx(2).margin(1e-12));
-  CHECK(point.pressure == Approx(1025 * g * 1.3).epsilon(1e-12));
+  CHECK(point.pressure == Approx(1025 * earth * 1.3).epsilon(1e-12));
   CHECK(point.velocity.norm() < 1e-12);
   CHECK(point.acceleration.norm() < 1e-11);
   CHECK(std::isinf(water.at({15, 0, 3}, 0.5).surface)); // on the dry slope

@@ -2,15 +2,15 @@
 #include "libcdem/water/irregular_sea.hpp"
 #include "libcdem/water/plain_water.hpp"
 #include "libcdem/water/steady_wave.hpp"
+#include "tests/libcdem/system.hpp"
 
 #include <catch2/catch.hpp>
 #include <cmath>
 
 using geom::Vec3;
+using testing::pi;
 
 namespace {
-
-constexpr double pi = 3.141592653589793;
 
 cdem::WaveGiven wave_of(cdem::WaveTheory theory, double height) {
   cdem::WaveGiven given;
