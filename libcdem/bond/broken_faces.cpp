@@ -151,7 +151,10 @@ private:
       return;
     }
     if (law_.hands_over) {
-      if (!law_.hand_over_due || !is_gone(now_, size))
+      if (!law_.hand_over_due)
+        return;
+      come_loose(state, lane_, sums);
+      if (!is_gone(now_, size))
         return;
       const bool open = response_[0].opening > 0 && response_[1].opening > 0 && response_[2].opening > 0;
       set_hand_over(state, lane_, open ? HandOver::done : HandOver::leaving);
@@ -185,20 +188,13 @@ private:
 
 } // namespace
 
-void one_by_one(const FaceBatch& batch, int faces, const FaceMotion& motion, const FaceLaw& law,
-                bool breaking, unsigned may_break, std::int64_t first_spring, FaceStateBatch& state,
-                FaceSlip* slips, Vec (&force)[3], FaceSums& sums) {
-  for (int lane = 0; lane < faces; ++lane) {
-    if (handed_over(state, lane)) {
-      for (Vec& f : force)
-        set_lane(f, lane, geom::Vec3::Zero());
-      continue;
-    }
-    const bool whole =
-        is_intact(state.mode[0][lane]) && is_intact(state.mode[1][lane]) && is_intact(state.mode[2][lane]);
-    if (!whole || (may_break >> lane & 1u) != 0)
-      OneFace(batch, lane, motion, at_lane(law, lane))
-          .advance(breaking, first_spring + lane, state, slips, force, sums);
+void one_by_one(const FaceBatch& batch, unsigned faces, const FaceMotion& motion, const FaceLaw& law,
+                bool breaking, std::int64_t first_spring, FaceStateBatch& state, FaceSlip* slips,
+                Vec (&force)[3], FaceSums& sums) {
+  for (; faces != 0; faces &= faces - 1) {
+    const int lane = __builtin_ctz(faces);
+    OneFace(batch, lane, motion, at_lane(law, lane))
+        .advance(breaking, first_spring + lane, state, slips, force, sums);
   }
 }
 

@@ -12,11 +12,9 @@
 
 namespace cdem {
 
-// Forces of the first `faces` faces of a batch, whose first spring has the place `first_spring`. Replaces the force of
-// the three points on side a, N, wherever it is not that of an intact spring. may_break: one bit for each face; set
-// where an intact spring may break now. Other faces without a broken spring are left as they are.
-void one_by_one(const FaceBatch&, int faces, const FaceMotion&, const FaceLaw&, bool breaking,
-                unsigned may_break, std::int64_t first_spring, FaceStateBatch&, FaceSlip*,
-                simd::Vec (&force)[3], FaceSums&);
+// Forces of these faces of a batch, a bit each, whose first spring has the place `first_spring`. Replaces the force of the
+// three points on side a, N, wherever it is not that of an intact spring.
+void one_by_one(const FaceBatch&, unsigned faces, const FaceMotion&, const FaceLaw&, bool breaking,
+                std::int64_t first_spring, FaceStateBatch&, FaceSlip*, simd::Vec (&force)[3], FaceSums&);
 
 } // namespace cdem

@@ -112,6 +112,8 @@ public:
       pull[point] = advance_point(point, breaking, spring + point * lanes, sums, open);
       without = without && face_.damage[point] >= 1;
     }
+    if (without && to_contact)
+      come_loose(state_, lane_, sums);
     if (without && open) {
       part(pull, sums);
     } else if (leaves(state_, lane_)) {

@@ -1,4 +1,5 @@
 #include "libcdem/bond/broken_faces.hpp"
+#include "libcdem/bond/sliding_faces.hpp"
 #include "libcdem/joint/mohr_coulomb.hpp"
 #include "libgeom/core/portable.hpp"
 
@@ -42,6 +43,13 @@ CDEM_INLINE bool all_intact(const FaceStateBatch& state) {
   std::uint64_t modes[3];
   std::memcpy(modes, state.mode, sizeof modes);
   return (modes[0] | modes[1] | modes[2]) == 0;
+}
+
+CDEM_INLINE bool all_handed_over(const FaceStateBatch& state) {
+  constexpr std::uint64_t done = 0x0101010101010101u * static_cast<std::uint64_t>(HandOver::done);
+  std::uint64_t now = 0;
+  std::memcpy(&now, state.handed_over, sizeof now);
+  return now == done;
 }
 
 // Strengths of the faces of a batch.
@@ -111,6 +119,8 @@ CDEM_INLINE void face_bond_kernel(const FaceBatch* batches, std::int64_t count, 
   for (std::int64_t i = 0; i < count; ++i) {
     const FaceBatch& batch = batches[i];
     ahead.some();
+    if (all_handed_over(state[i]))
+      continue;
     simd::prefetch(batches + i + batches_ahead, sizeof batch);
     simd::prefetch(state + i + batches_ahead, sizeof *state);
     const Gaps gaps = gaps_of(batch.place_a, batch.place_b, motion.displacement);
@@ -130,15 +140,26 @@ CDEM_INLINE void face_bond_kernel(const FaceBatch* batches, std::int64_t count, 
         may_break = near_strength(batch, gaps, normal, law, strengths);
     }
     if (may_break != 0 || !all_intact(state[i])) {
-      // What is handed on by reference does not stay in registers.
-      Vec changed[3] = {force[0], force[1], force[2]};
+      const unsigned used = (1u << std::min<std::int64_t>(lanes, faces - i * lanes)) - 1;
       FaceLaw here = law;
       if (law.own)
         here.own = law.own + i;
-      one_by_one(batch, static_cast<int>(std::min<std::int64_t>(lanes, faces - i * lanes)), motion, here,
-                 breaking, may_break, i * 3 * lanes, state[i], slips, changed, sums);
-      for (int point = 0; point < 3; ++point)
-        force[point] = changed[point];
+      unsigned lane_by_lane = may_break & used;
+      for (int lane = 0; lane < lanes; ++lane)
+        lane_by_lane = leaves(state[i], lane)        ? lane_by_lane | 1u << lane
+                       : handed_over(state[i], lane) ? lane_by_lane & ~(1u << lane)
+                                                     : lane_by_lane;
+      if (state[i].slip >= 0)
+        lane_by_lane |= slide_eight(batch, motion, here, strengths.tan_friction, lane_by_lane, i * lanes,
+                                    state[i], slips + state[i].slip, force, sums);
+      if (lane_by_lane != 0) {
+        // What is handed on by reference does not stay in registers.
+        Vec changed[3] = {force[0], force[1], force[2]};
+        one_by_one(batch, lane_by_lane, motion, here, breaking, i * 3 * lanes, state[i], slips, changed,
+                   sums);
+        for (int point = 0; point < 3; ++point)
+          force[point] = changed[point];
+      }
     }
     const Oct sixth = Oct{} + 1.0 / 6, half = Oct{} + 0.5;
     const Vec common = scaled(sixth, plus(plus(force[0], force[1]), force[2]));

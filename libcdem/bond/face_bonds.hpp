@@ -62,8 +62,17 @@ struct FaceSums {
   // -1: none. Only where nothing takes it over.
   std::int64_t astray = -1;
   bool hands_over = false; // some face begins to leave, or leaves without a force, in this step
+  bool loosens = false;    // some face has come loose in this step
   std::vector<FaceLeft> left;
 };
+
+// A face without a whole bond, at a time when faces may be handed over.
+inline void come_loose(FaceStateBatch& state, int lane, FaceSums& sums) {
+  if (state.handed_over[lane] != static_cast<std::uint8_t>(HandOver::held))
+    return;
+  set_hand_over(state, lane, HandOver::loose);
+  sums.loosens = true;
+}
 
 // What the nodes of a chunk do, one entry for each of its places.
 struct FaceMotion {

@@ -66,14 +66,15 @@ inline FaceFrame face_frame(const FaceNodes& nodes, const Node* position, const 
       nodes, [&](int i) { return vec(position[i]); }, [&](int i) { return vec(displacement[i]); });
 }
 
-// Its sides have parted, or slid away sideways, by these parts of its size (m) at all its points.
-inline bool is_gone(const FaceFrame& f, double size) {
-  constexpr double parted = 1e-3, slid = 0.2;
+// Parts of a face's size by which its sides have parted, or slid away sideways, at all its points, where it is handed over.
+inline constexpr double parted_from = 1e-3, slid_from = 0.2;
+
+inline bool is_gone(const FaceFrame& f, double size) { // size: m
   bool apart = true, away = true;
   for (const geom::Vec3& gap : f.gap) {
     const geom::Vec3 g = f.in_axes(gap);
-    apart = apart && g[2] > parted * size;
-    away = away && g.head<2>().norm() > slid * size;
+    apart = apart && g[2] > parted_from * size;
+    away = away && g.head<2>().norm() > slid_from * size;
   }
   return apart || away;
 }

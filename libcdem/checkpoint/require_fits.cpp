@@ -65,6 +65,14 @@ void check_contacts(const Model& model, const State& state) {
                        block(c.kind == Contact::spring ? c.target : c.target / 3)))
       refuse_state("contacts", "of two blocks that have no law of contact");
   }
+  for (const TetContact& c : state.tet_contacts) {
+    for (const std::int32_t tet : {c.a, c.b})
+      if (require_below("tet_contacts", tet, model.tets.size()); tet < model.mesh.first_tet)
+        refuse_state("tet_contacts", "of a block of small strain");
+    if (!(c.a < c.b) || model.tet_block[c.a] != model.tet_block[c.b] ||
+        !contact_joint(model, model.tet_block[c.a], model.tet_block[c.b]))
+      refuse_state("tet_contacts", "of tetrahedra that cannot touch");
+  }
 }
 
 } // namespace

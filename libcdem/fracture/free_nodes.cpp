@@ -142,6 +142,7 @@ private:
 
   // Outer triangles keep their numbers within their block; the sides of freed faces follow them.
   void carry_contacts() {
+    to_.state.tet_contacts = from_.tet_contacts; // tetrahedra keep their numbers
     if (from_.contacts.empty())
       return;
     const ContactSurface &was = old_.surface, &now = to_.model.surface;

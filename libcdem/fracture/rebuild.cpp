@@ -358,6 +358,7 @@ private:
 
   // Contacts between blocks that are still whole; those of a block that was cut are found anew.
   void carry_contacts(Rebuilt& r) const {
+    carry_tet_contacts(r);
     if (from_.contacts.empty() || r.model.surface.empty())
       return;
     std::vector<int> new_block(old_.blocks.size(), -1);
@@ -385,6 +386,22 @@ private:
     }
     std::sort(r.state.contacts.begin(), r.state.contacts.end(),
               [](const Contact& a, const Contact& b) { return key(a) < key(b); });
+  }
+
+  void carry_tet_contacts(Rebuilt& r) const {
+    std::vector<int> moved(old_.blocks.size(), -1); // first tet now
+    for (std::size_t b = 0; b < successors_.size(); ++b)
+      if (successors_[b].whole)
+        moved[successors_[b].old_block] = r.model.blocks[b].tet_begin;
+    for (TetContact c : from_.tet_contacts) {
+      const int block = old_.tet_block[c.a], shift = moved[block] - old_.blocks[block].tet_begin;
+      if (moved[block] < 0)
+        continue;
+      c.a += shift;
+      c.b += shift;
+      r.state.tet_contacts.push_back(c);
+    }
+    std::sort(r.state.tet_contacts.begin(), r.state.tet_contacts.end());
   }
 
   void carry_interface(Rebuilt& r, const Interface& now) const {

@@ -25,6 +25,7 @@ enum class HandOver : std::uint8_t {
   held,    // its springs act
   done,    // they carry nothing any more
   leaving, // they act, and contacts may begin
+  loose    // they act, none of its bonds is whole: its sides may touch others (contact/pairs/tet_joints.hpp)
 };
 
 // State of the three springs of eight faces. The place of a spring in the whole array is (batch * 3 + point) * lanes +

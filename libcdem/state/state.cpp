@@ -170,6 +170,7 @@ std::vector<StateField> fields(State& s) {
       field("cohesive", "record", FieldPlace::face, "begin_cracks, mesh_forces", s.cohesive, true),
       field("rate_factor", "1", FieldPlace::face, "begin_cracks", s.rate_factor, true),
       field("contacts", "record", FieldPlace::contact, "contact_forces", s.contacts, false),
+      field("tet_contacts", "record", FieldPlace::contact, "contact_forces", s.tet_contacts, false),
       field("rigid", "record", FieldPlace::rigid_body, "move_rigid, set_rigid", s.rigid, true),
       field("rigid_offset", "m", FieldPlace::node, "set_rigid", s.rigid_offset, true),
       shown(

@@ -13,6 +13,7 @@
 #include "libcdem/state/ledger.hpp"
 #include "libcdem/state/rigid_state.hpp"
 #include "libcdem/state/stress_batch.hpp"
+#include "libcdem/state/tet_contact.hpp"
 
 #include <functional>
 #include <memory>
@@ -68,6 +69,8 @@ struct State {
   std::vector<double> rate_factor;
 
   std::vector<Contact> contacts; // those that act, by kind, source and piece; written by contact_forces
+  // Those between tetrahedra of one broken body, ascending; written by contact_forces
+  std::vector<TetContact> tet_contacts;
   std::vector<RigidState> rigid; // (n rigid bodies); written by move_rigid, set_rigid
   // m, of the nodes of rigid bodies from their centroids in the directions they were made rigid in (n_nodes); empty
   // without rigid bodies; written by set_rigid

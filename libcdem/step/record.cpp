@@ -92,10 +92,12 @@ std::int64_t record_face_breaks(const Model& model, State& state, Workspace& wor
     state.spent.breaking += sums.breaking;
     state.spent.damping += sums.damping;
     state.spent.plastic += sums.plastic;
-    work.contact.fragments_due = work.contact.fragments_due || sums.hands_over;
+    work.contact.fragments_due =
+        work.contact.fragments_due || sums.hands_over || (sums.loosens && !work.contact.pairs);
+    work.contact.faces_changed =
+        work.contact.faces_changed || sums.loosens || sums.hands_over || !sums.left.empty();
     for (const FaceLeft& left : sums.left)
-      state.spent.breaking += take_over(model, state, work.contact,
-                                        {left.face + chunk.face_batches.begin * lanes, chunk.block, left});
+      state.spent.breaking += take_over(model, state, left.face + chunk.face_batches.begin * lanes, left);
     for (const FaceBreak& broken : sums.broken) {
       const FaceSpringPlace at{chunk.face_batches.begin + broken.spring / (3 * lanes),
                                static_cast<int>(broken.spring / lanes % 3),

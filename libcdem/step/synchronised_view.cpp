@@ -16,6 +16,8 @@ SynchronisedView::SynchronisedView(Stage& stage, Of what) : stage_(stage) {
     plastic_strain_ = state.plastic_strain;
     faces_ = state.faces;
     contacts_ = state.contacts;
+    tet_contacts_ = state.tet_contacts;
+    faces_changed_ = stage.work.contact.faces_changed;
     face_slip_ = state.face_slip;
     cohesive_ = state.cohesive;
     crack_energy_ = state.crack_energy;
@@ -46,6 +48,8 @@ SynchronisedView::~SynchronisedView() {
   state.plastic_strain = plastic_strain_;
   state.faces = faces_;
   state.contacts = contacts_;
+  state.tet_contacts = tet_contacts_;
+  stage_.work.contact.faces_changed = faces_changed_;
   state.face_slip = face_slip_;
   state.cohesive = cohesive_;
   state.crack_energy = crack_energy_;

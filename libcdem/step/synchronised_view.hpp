@@ -21,11 +21,12 @@ public:
 private:
   Stage& stage_;
   double strain_step_ = 0; // s; 0: nothing to put back
-  bool contact_due_ = false, pieces_due_ = false;
+  bool contact_due_ = false, pieces_due_ = false, faces_changed_ = false;
   std::vector<StressBatch> stress_, viscous_stress_;
   std::vector<PlasticStrainBatch> plastic_strain_;
   std::vector<FaceStateBatch> faces_;
-  std::vector<Contact> contacts_; // they may take over the force of faces
+  std::vector<Contact> contacts_;
+  std::vector<TetContact> tet_contacts_; // they may take over the force of faces
   std::vector<FaceSlip> face_slip_;
   std::vector<CohesiveFace> cohesive_;
   std::vector<CrackEnergy> crack_energy_;

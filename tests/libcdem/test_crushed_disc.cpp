@@ -69,7 +69,7 @@ Outcome crush(const cdem::ModelSpec& spec, int looks_from, int stages, int steps
     outcome.hashes.push_back(cdem::hash(s.state));
   }
   outcome.broken = static_cast<std::int64_t>(s.log.breaks.size());
-  outcome.contacts = s.state.contacts.size();
+  outcome.contacts = s.state.contacts.size() + s.state.tet_contacts.size();
   return outcome;
 }
 

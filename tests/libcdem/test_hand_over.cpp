@@ -2,6 +2,7 @@
 #include "tests/libcdem/boxes.hpp"
 #include "tests/libcdem/two_halves.hpp"
 
+#include "libcdem/contact/pairs/pair_law.hpp"
 #include "libcdem/results/energy.hpp"
 
 #include <catch2/catch.hpp>
@@ -81,12 +82,18 @@ void let_faces_leave(System& s) {
   });
 }
 
+// Unit, of the force on the first of the two tetrahedra.
+Vec3 normal_of(const System& s, const cdem::TetContact& c) {
+  const cdem::TetPressure p = pressure_of(s.model, s.state, c).pressure;
+  return {p.normal[0], p.normal[1], p.normal[2]};
+}
+
 // Forces of all contacts on the upper part, against the slope and along it, N.
 std::array<double, 2> carried(const System& s, const Mat3& turn) {
   Vec3 sum = Vec3::Zero();
-  for (const cdem::Contact& c : s.state.contacts) {
-    const Vec3 force = normal_force(s, c) * c.normal + c.shear;
-    sum += c.normal.dot(turn.col(2)) > 0 ? force : Vec3(-force);
+  for (const cdem::TetContact& c : s.state.tet_contacts) {
+    const Vec3 normal = normal_of(s, c), force = c.normal * normal + c.shear;
+    sum += normal.dot(turn.col(2)) > 0 ? force : Vec3(-force);
   }
   return {sum.dot(turn.col(2)), -sum.dot(turn.col(0))};
 }
@@ -183,9 +190,9 @@ Slide slide(System& s, const Mat3& turn) {
   options.duration = std::sqrt(2 * way / slides_at());
   options.callback_every = 1;
   options.callback = [&] {
-    for (const cdem::Contact& c : s.state.contacts) {
-      found.deepest = std::max(found.deepest, c.depth);
-      found.across = std::max(found.across, normal_force(s, c) * std::abs(c.normal.dot(turn.col(0))));
+    for (const cdem::TetContact& c : s.state.tet_contacts) {
+      found.deepest = std::max(found.deepest, pressure_of(s.model, s.state, c).pressure.depth);
+      found.across = std::max(found.across, c.normal * std::abs(normal_of(s, c).dot(turn.col(0))));
     }
   };
   s.run(options);

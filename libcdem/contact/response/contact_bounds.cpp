@@ -67,12 +67,19 @@ double for_rigid(double safety) {
 double contact_time_step(const Model& model, const State& state, const ContactWork& own,
                          const ContactStep& step) {
   double least = std::numeric_limits<double>::infinity();
+  const std::vector<double>& mass = moving_mass(model, state);
+  double fastest = 0; // 1/s2, of nodes without damping: one root is enough
   for (const auto& [node, block] : own.touched) {
-    const double mass = moving_mass(model, state)[node];
     const double beta = step.damped ? model.bodies[model.blocks[block].body].material.stiffness_damping : 0;
-    least = std::min(least, step.safety * stable_time_step((step.row_sums[node] + own.stiffness[node]) / mass,
-                                                           beta * step.row_sums[node] / mass));
+    const double frequency2 = (step.row_sums[node] + own.stiffness[node]) / mass[node];
+    if (beta == 0)
+      fastest = std::max(fastest, frequency2);
+    else
+      least = std::min(least,
+                       step.safety * stable_time_step(frequency2, beta * step.row_sums[node] / mass[node]));
   }
+  if (fastest > 0)
+    least = std::min(least, step.safety * stable_time_step(fastest, 0));
   for (const ContactOnRigid& body : own.on_rigid)
     least = std::min(least, for_rigid(step.safety) * stable_time_step(body.frequency2, 0));
   return least;
