@@ -57,6 +57,7 @@ struct FaceSums {
   CrackEnergy crack;   // J, this step: what of `breaking` went into cracks
   double damping = 0;  // J, this step, of the tetrahedra of the same chunk
   double plastic = 0;  // J, likewise
+  double external = 0; // J, this step, work of the pressure in its cracks
   std::vector<FaceBreak> broken;
   // A face, batch * lanes + lane from the range's first batch on, that is closed and has slid further than it is long;
   // -1: none. Only where nothing takes it over.

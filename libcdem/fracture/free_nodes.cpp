@@ -231,8 +231,8 @@ std::optional<std::vector<char>> FreeingWatch::due(const Model& model, const Sta
       return own_.empty() ? of_body : own_[static_cast<std::size_t>(face)];
     };
     // The bounds are convex: if two stresses are below them, so is their mean.
-    const std::vector<UseBound> bounds = own_.empty() ? std::vector<UseBound>{UseBound(of_body, freed_at)}
-                                                      : bounds_[static_cast<std::size_t>(c)];
+    const std::vector<UseBound> bounds =
+        own_.empty() ? use_bounds(of_body, freed_at) : bounds_[static_cast<std::size_t>(c)];
     const auto stress_of = [&](std::int64_t tet) {
       return matrix(mesh_stress(model, state, static_cast<int>(tet)));
     };

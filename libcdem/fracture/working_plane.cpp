@@ -19,7 +19,17 @@ struct Uses {
   double tension = 0, shear = 0;
 };
 
-// Principal stresses, ascending.
+RockStrength at_pressure(RockStrength rock, double p3) {
+  if (rock.curve.on()) {
+    const StraightStrength line = tangent(rock.curve, p3);
+    rock.cohesion = line.cohesion;
+    rock.cos_friction = line.cos_friction;
+    rock.sin_friction = line.sin_friction;
+  }
+  return rock;
+}
+
+// Principal stresses, ascending; the strength at their pressure.
 Uses uses(const Vec3& s, const RockStrength& rock) {
   return {s[2] / rock.tensile_strength,
           mohr_coulomb_use(-s[0], -s[2], rock.cohesion, rock.cos_friction, rock.sin_friction)};
@@ -35,23 +45,34 @@ Vec3 nearest_in(const Vec3& first, const Vec3& second, const Vec3& v) {
 
 RockStrength rock_strength(const Joint& joint) {
   return {joint.tensile_strength, joint.cohesion, geom::portable::cos(joint.friction_angle),
-          geom::portable::sin(joint.friction_angle)};
+          geom::portable::sin(joint.friction_angle), joint.curve};
 }
 
 UseBound::UseBound(const RockStrength& rock, double u)
     : tensile_(u * rock.tensile_strength), shear_(u * rock.cohesion * rock.cos_friction),
       slope_(u * rock.sin_friction), reach2_(1 + slope_ * slope_ / 3) {}
 
+std::vector<UseBound> use_bounds(const RockStrength& rock, double u) {
+  if (!rock.curve.on())
+    return {UseBound(rock, u)};
+  std::vector<UseBound> bounds;
+  for (const StraightStrength& chord : chords(rock.curve))
+    bounds.emplace_back(
+        RockStrength{rock.tensile_strength, chord.cohesion, chord.cos_friction, chord.sin_friction, {}}, u);
+  return bounds;
+}
+
 double strength_use(const geom::Mat3& stress, const RockStrength& rock) {
-  const Uses u =
-      uses(Eigen::SelfAdjointEigenSolver<geom::Mat3>(stress, Eigen::EigenvaluesOnly).eigenvalues(), rock);
+  const Vec3 s = Eigen::SelfAdjointEigenSolver<geom::Mat3>(stress, Eigen::EigenvaluesOnly).eigenvalues();
+  const Uses u = uses(s, at_pressure(rock, -s[2]));
   return std::max(u.tension, u.shear);
 }
 
-std::optional<WorkingPlane> working_plane(const geom::Mat3& stress, const RockStrength& rock,
+std::optional<WorkingPlane> working_plane(const geom::Mat3& stress, const RockStrength& given,
                                           const geom::Vec3& face, double least_cosine) {
   const Eigen::SelfAdjointEigenSolver<geom::Mat3> solver(stress);
   const Vec3& s = solver.eigenvalues();
+  const RockStrength rock = at_pressure(given, -s[2]);
   const Uses u = uses(s, rock);
   if (!(std::max(u.tension, u.shear) >= 1))
     return std::nullopt;

@@ -12,12 +12,14 @@
 #include "libgeom/core/types.hpp"
 
 #include <optional>
+#include <vector>
 
 namespace cdem {
 
 struct RockStrength {
   double tensile_strength = 0, cohesion = 0; // Pa
   double cos_friction = 1, sin_friction = 0;
+  HoekBrown curve = {}; // where it is on, cohesion and friction are those of its tangent at the stress
 };
 RockStrength rock_strength(const Joint&);
 
@@ -50,6 +52,9 @@ private:
   }
   double tensile_, shear_, slope_, reach2_;
 };
+
+// A stress that may use as much of the strength as u is beyond one of them at least.
+std::vector<UseBound> use_bounds(const RockStrength&, double u);
 
 double strength_use(const geom::Mat3& stress, const RockStrength&);
 

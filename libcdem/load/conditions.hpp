@@ -82,6 +82,15 @@ struct Flow {
   bool relative = true;                        // to the velocity of the surface, in real-time stepping
 };
 
+// Pressure of a gas or a fluid on the faces of cracks (load/crack_pressure.hpp): given over time, or by a pumped volume.
+struct CrackPressure {
+  Selection on;            // faces of cohesive bodies, by their undeformed centroid
+  Amplitude pressure;      // Pa, >= 0
+  Amplitude volume;        // m3, pumped in by then; empty: the pressure is given
+  double bulk_modulus = 0; // Pa, of the fluid
+  double reservoir = 0;    // m3, that it fills beside the cracks
+};
+
 inline double flow_pressure(double velocity, double water_density) { // F, Pa
   return 0.5 * water_density * velocity * velocity;
 }
@@ -95,11 +104,14 @@ struct Conditions {
   std::vector<PointForce> forces;
   std::optional<Gravity> gravity;
   std::vector<Flow> flows;
+  std::vector<CrackPressure> crack_pressures;
   std::vector<Quiet> quiets;
   std::vector<FreeField> free_fields;
   std::vector<Bolt> bolts;
 
-  bool load() const { return !tractions.empty() || !forces.empty() || gravity || !flows.empty(); }
+  bool load() const {
+    return !tractions.empty() || !forces.empty() || gravity || !flows.empty() || !crack_pressures.empty();
+  }
 };
 
 } // namespace cdem

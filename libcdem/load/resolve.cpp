@@ -283,6 +283,9 @@ ResolvedConditions resolve(const Model& model, const State& state, const Conditi
   for (const Flow& flow : conditions.flows)
     if (!is_gone(model, flow.on))
       add_flow(model, flow, r);
+  for (const CrackPressure& pressure : conditions.crack_pressures)
+    if (!is_gone(model, pressure.on))
+      r.cracks.push_back(resolve(model, state, pressure));
   if (!conditions.bolts.empty()) {
     r.bolts = resolve_bolts(model, state, conditions.bolts);
     r.bolt_load = r.varying.size();

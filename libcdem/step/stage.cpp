@@ -157,10 +157,13 @@ void Stage::update_loads(double time, const Stepping& stepping) {
   update_supports(work.resolved, time + 0.5 * stepping.time_step);
   advance_bolts();
   update_external(work.resolved, time, &context_.state.velocity);
+  update_crack_pressures(context_.model, context_.state, shared_.get(), time, work.resolved.cracks);
   times_.end(StepLine::loads);
 }
 
 void Stage::update_loads_at_rest() {
+  update_crack_pressures(context_.model, context_.state, shared_.get(), context_.state.time,
+                         work.resolved.cracks);
   if (work.resolved.bolts.empty())
     return;
   advance_bolts();

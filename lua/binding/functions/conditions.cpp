@@ -142,6 +142,29 @@ Value clear_loads(Session&, ModelObject& model, const Arguments&) {
   return {};
 }
 
+Value crack_pressure(Session&, ModelObject& model, const Arguments& a) {
+  model.require_idle("crack_pressure");
+  if (a.has("pressure") == a.has("volume"))
+    throw InputError("give one of pressure = Pa and volume = m3");
+  const Amplitude amplitude = amplitude_of(a);
+  const auto scaled = [&](double value) -> Amplitude {
+    return [value, amplitude](double time) { return value * (amplitude ? amplitude(time) : 1); };
+  };
+  for (const Selection& on : selections(model, a.value("on"), "on")) {
+    CrackPressure pressure;
+    pressure.on = on;
+    (a.has("volume") ? pressure.volume : pressure.pressure) =
+        scaled(a.number(a.has("volume") ? "volume" : "pressure"));
+    pressure.bulk_modulus = a.optional_number("bulk_modulus").value_or(0);
+    pressure.reservoir = a.optional_number("reservoir").value_or(0);
+    model.simulation.crack_pressure(pressure);
+    note(model, (a.has("volume") ? "fluid of " + describe(a.value("volume")) + " m3"
+                                 : "pressure " + describe(a.value("pressure")) + " Pa") +
+                    " in the cracks of " + shown(on));
+  }
+  return {};
+}
+
 Value initial_velocity(Session&, ModelObject& model, const Arguments& a) {
   model.require_idle("initial_velocity");
   if (!a.has("velocity") && !a.has("angular_velocity"))
@@ -271,7 +294,21 @@ void bind_conditions(Module& m) {
        amplitude_field(), since_field()},
       gravity);
   again();
-  add("clear_loads", "Takes away tractions, forces, gravity and flows.", {}, clear_loads);
+  add("crack_pressure",
+      "Pressure of a gas or a fluid on the faces of cracks of cohesive bodies, as they open. It is given, or "
+      "that of "
+      "a fluid which fills a reservoir and the cracks and of which a volume is pumped in: bulk_modulus "
+      "(volume - "
+      "that of the cracks) / reservoir. It loses nothing on its way.",
+      {place("on").standard("all").doc("where: a place or a list of places, by the centroids of the faces"),
+       number("pressure").at_least(0).unit("Pa"), number("volume").at_least(0).unit("m3").doc("pumped in"),
+       number("bulk_modulus").above(0).unit("Pa").doc("of the fluid; water has 2.2e9"),
+       number("reservoir").above(0).unit("m3").doc("that the fluid fills beside the cracks: a borehole"),
+       amplitude_field().doc("factor over time of the pressure, or of the volume"), since_field()},
+      crack_pressure);
+  again();
+  add("clear_loads", "Takes away tractions, forces, gravity, flows and pressures in cracks.", {},
+      clear_loads);
   again();
   add("initial_velocity",
       "The motion of a rigid body, v + w x (x - about), as velocities before the first real-time step; of "

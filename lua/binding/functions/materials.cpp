@@ -7,6 +7,7 @@
 
 #include "libgeom/core/error.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace cdem::script {
@@ -216,6 +217,69 @@ Value plastic(Session& session, Object*, const Arguments& a) {
   return object;
 }
 
+std::vector<Field> rock_mass_fields() {
+  return {
+      number("sigma_ci").above(0).unit("Pa").required().doc("uniaxial strength of the intact rock"),
+      number("gsi").within(5, 100).required().doc("geological strength index; 100 is intact rock"),
+      number("m_i").above(0).required().doc("constant of the intact rock; 4 for claystone to 33 for granite"),
+      number("disturbance").within(0, 1).standard(0.0).doc("D: 0 undisturbed, 1 poor blasting"),
+      number("tensile_strength")
+          .at_least(0)
+          .unit("Pa")
+          .doc("at most that of the curve under uniaxial tension, which is the default")};
+}
+
+RockMass read_rock_mass(Session& session, const Arguments& a) {
+  const RockMass rock{a.number("sigma_ci"), a.number("gsi"), a.number("m_i"), a.number("disturbance")};
+  validate(rock);
+  if (rock.sigma_ci < 1e5)
+    session.warn("sigma_ci = " + describe(a.value("sigma_ci")) +
+                 ": no rock is as weak; it is in Pa, rock has 5e6 to 3e8");
+  return rock;
+}
+
+Value plastic_hoek_brown(Session& session, Object*, const Arguments& a) {
+  auto object = std::make_shared<PlasticityObject>();
+  Plasticity& rock = object->plasticity;
+  RockMass mass = read_rock_mass(session, a);
+  rock.curve = rock.residual_curve = hoek_brown(mass);
+  rock.tensile_strength =
+      a.optional_number("tensile_strength").value_or(uniaxial_tensile_strength(rock.curve));
+  rock.residual_tensile_strength = rock.tensile_strength;
+  rock.dilation_angle = radians(a.number("dilation_angle"));
+  const auto residual = a.record("residual");
+  if (residual.has_value() != a.has("softening_strain"))
+    throw geom::InputError(
+        "softening_strain: goes together with residual: over that plastic strain the strength "
+        "falls to it");
+  if (residual) {
+    rock.softening_strain = a.number("softening_strain");
+    mass.geological_strength = residual->optional_number("gsi").value_or(mass.geological_strength);
+    mass.intact_constant = residual->optional_number("m_i").value_or(mass.intact_constant);
+    mass.disturbance = residual->optional_number("disturbance").value_or(mass.disturbance);
+    validate(mass);
+    rock.residual_curve = hoek_brown(mass);
+    rock.residual_tensile_strength =
+        residual->optional_number("tensile_strength")
+            .value_or(std::min(rock.tensile_strength, uniaxial_tensile_strength(rock.residual_curve)));
+  }
+  validate(rock);
+  return object;
+}
+
+Value hoek_brown_bond(Session& session, Object*, const Arguments& a) {
+  auto object = std::make_shared<JointObject>();
+  Joint& joint = object->joint;
+  joint.curve = hoek_brown(read_rock_mass(session, a));
+  joint.tensile_strength =
+      a.optional_number("tensile_strength").value_or(uniaxial_tensile_strength(joint.curve));
+  joint.cohesion = tangent(joint.curve, 0).cohesion;
+  joint.friction_angle = radians(a.number("friction_angle"));
+  warn_of_angle(session, a, "cdem.hoek_brown_bond");
+  validate(joint);
+  return object;
+}
+
 template <class Get>
 Property plastic_property(std::string name, std::string unit, Get get) {
   return {std::move(name), "number", std::move(unit), "", [get](Session&, Object& self) -> Value {
@@ -305,7 +369,30 @@ void bind_materials(Module& m) {
        "cdem.Plasticity",
        "",
        plastic});
-  Class plasticity{"Plasticity", "Made by cdem.plastic."};
+  std::vector<Field> rock_mass = rock_mass_fields();
+  rock_mass.push_back(number("dilation_angle").from(0, 90).standard(0.0).unit("deg"));
+  rock_mass.push_back(record("residual", {number("gsi").within(5, 100), number("m_i").above(0),
+                                          number("disturbance").within(0, 1),
+                                          number("tensile_strength").at_least(0).unit("Pa")})
+                          .doc("of the rock once it has yielded; what is left out stays"));
+  rock_mass.push_back(
+      number("softening_strain")
+          .above(0)
+          .doc("equivalent plastic strain at which the residual strength is reached, linearly"));
+  m.functions.push_back(
+      {"hoek_brown",
+       "Plasticity by the generalised Hoek-Brown strength of a rock mass (Hoek, Carranza-Torres "
+       "and Corkum 2002), with tension cut-off, dilation and softening (docs/theory.md, section 25).",
+       rock_mass, false, "cdem.Plasticity", "", plastic_hoek_brown});
+  std::vector<Field> bond_of_rock_mass = rock_mass_fields();
+  bond_of_rock_mass.push_back(
+      number("friction_angle").from(0, 90).unit("deg").required().doc("of cracks, once they have begun"));
+  m.functions.push_back(
+      {"hoek_brown_bond",
+       "Brittle strength of the rock in a cohesive body: its faces crack where the stress meets the "
+       "generalised Hoek-Brown curve, on the plane of the curve's tangent.",
+       bond_of_rock_mass, false, "cdem.Joint", "", hoek_brown_bond});
+  Class plasticity{"Plasticity", "Made by cdem.plastic or cdem.hoek_brown."};
   plasticity.properties = {
       plastic_property("cohesion", "Pa", [](const Plasticity& p) { return p.cohesion; }),
       plastic_property("friction_angle", "deg",
