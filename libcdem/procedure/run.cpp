@@ -7,6 +7,7 @@
 #include "libcdem/integrate/move_rigid.hpp"
 #include "libcdem/integrate/row_sums.hpp"
 #include "libcdem/integrate/viscous_forces.hpp"
+#include "libcdem/joint/bond_mode.hpp"
 #include "libcdem/procedure/scaled_stage.hpp"
 #include "libcdem/step/synchronised_view.hpp"
 #include "libgeom/core/error.hpp"
@@ -104,11 +105,12 @@ private:
 };
 
 // Some springs of interfaces that turn are contacts: never bonded, or broken.
-bool any_dry_joint(const Model& model, const RunLog& log) {
-  return log.broken_tension + log.broken_shear > 0 ||
-         std::any_of(model.interfaces.begin(), model.interfaces.end(), [&](const Interface& interface) {
-           return interface.frame >= 0 && !model.joints[interface.joint].bonded;
-         });
+bool any_dry_joint(const Model& model, const State& state) {
+  return std::any_of(model.interfaces.begin(), model.interfaces.end(), [&](const Interface& interface) {
+    const auto mode = state.bond_mode.begin();
+    return interface.frame >= 0 && state.released[interface.frame] == 0 &&
+           !std::all_of(mode + interface.point_begin, mode + interface.point_end, is_intact);
+  });
 }
 
 } // namespace
@@ -217,7 +219,7 @@ RunResult run(const StageContext& context, const RunOptions& options, const std:
     stage.work.bond.contact_damping =
         contact_damping(stepping.time_step, scaled.on() ? stepping.time_step / options.safety : stable_now);
     double longest = stage.update_contacts(options.safety);
-    if (chooses_step && (freed || stage.step % watch_every == 0) && any_dry_joint(context.model, context.log))
+    if (chooses_step && (freed || stage.step % watch_every == 0) && any_dry_joint(context.model, state))
       longest = std::min(longest, options.safety * stable_step_of_dry_joints(stable_now));
     if (keeps_energy_of_impacts)
       longest = std::min(longest, stage.longest_step_of_flight());

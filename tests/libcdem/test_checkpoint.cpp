@@ -302,7 +302,7 @@ TEST_CASE("checkpoint: a file cut short at 64 places or with one of 1000 bits fl
   }
   std::ofstream(path, std::ios::binary | std::ios::trunc) << whole;
   CHECK_THROWS_WITH(cdem::read_saved(path, SavedKind::state), Contains("not a saved state"));
-  CHECK_THROWS_WITH(cdem::read_saved(folder / "none.cdem", SavedKind::state), Contains("cannot be read"));
+  CHECK_THROWS_WITH(cdem::read_saved(folder / "none.cdem", SavedKind::state), Contains("no such file"));
 }
 
 TEST_CASE("checkpoint: a file that cannot be written is told of", "[checkpoint]") {

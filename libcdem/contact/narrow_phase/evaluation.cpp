@@ -16,8 +16,6 @@ namespace {
 
 // What is nearer than this many times the deepest contact of a row is looked at in every step.
 constexpr double reach_over_depth = 1.5;
-// Sine of the angle at which an edge may lead from a semi-spring into the target where a contact begins.
-constexpr double most_inward = 0.5;
 
 } // namespace
 
@@ -310,26 +308,6 @@ bool Evaluation::held_by_face(int source, int target) const {
   return !handed_over(faces, lane) && !leaves(faces, lane);
 }
 
-// What stands furthest in a target is a corner that its edges fall away from. A node within an edge that goes on into the
-// target is not: there the edges cross, and the springs of the node would push along the face that happens to be nearest.
-bool Evaluation::edges_fall_away(const ContactTriangle& from, int corner, const geom::Vec3& normal) const {
-  if (work_.broken[from.block])
-    return true;
-  const int node = from.nodes[corner], first = surface_.block_begin[from.block],
-            last = surface_.block_begin[from.block + 1];
-  const geom::Vec3 place = place_of(model_, state_, node);
-  const auto begin = std::partition_point(surface_.edges.begin(), surface_.edges.end(),
-                                          [&](const ContactEdge& edge) { return edge.triangles[0] < first; });
-  for (auto edge = begin; edge != surface_.edges.end() && edge->triangles[0] < last; ++edge)
-    for (int end = 0; end < 2; ++end)
-      if (edge->nodes[end] == node) {
-        const geom::Vec3 along = place_of(model_, state_, edge->nodes[1 - end]) - place;
-        if (-along.dot(normal) > most_inward * along.norm())
-          return false;
-      }
-  return true;
-}
-
 bool Evaluation::add_contact(int source, int corner, const geom::Vec3& spring, int fragment,
                              const Nearest& nearest, bool may_begin) {
   const ContactTriangle &from = surface_.triangles[source], &to = surface_.triangles[nearest.target];
@@ -347,8 +325,6 @@ bool Evaluation::add_contact(int source, int corner, const geom::Vec3& spring, i
   ContactMotion motion;
   motion.depth = depth;
   motion.normal = nearest.at.inside || depth < 1e-9 * to.height ? y.normal : (nearest.place - spring) / depth;
-  if (!old && !edges_fall_away(from, corner, motion.normal))
-    return false;
   const Corners x = corners_of(model_, state_, from.nodes);
   const auto velocities = [&](const geom::Triangle& nodes) -> Corners {
     return {velocity_of(state_, nodes[0]), velocity_of(state_, nodes[1]), velocity_of(state_, nodes[2])};

@@ -40,7 +40,6 @@ private:
   // The two are the sides of a broken face that its own springs still hold.
   bool held_by_face(int source, int target) const;
   // No semi-edge that meets this corner of a triangle goes deep into what the normal leads out of.
-  bool edges_fall_away(const ContactTriangle&, int corner, const geom::Vec3& normal) const;
   void go_to(int source); // what stood at it before
   const Contact* before(const Contact&) const;
   double narrow_phase(ContactRow&, ContactCandidate*, bool all); // returns how deep the deepest is, m
