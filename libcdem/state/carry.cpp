@@ -29,8 +29,6 @@ private:
 
   template <class T>
   void carry_array(const FieldRow& row, std::vector<T>& from, std::vector<T>& to) {
-    if (row.carried == FieldCarried::begun_again)
-      return;
     if (stays(row.place)) {
       std::swap(from, to);
       return;
@@ -109,7 +107,7 @@ private:
 
   template <class T>
   void carry_nodes(FieldCarried carried, const std::vector<T>& from, std::vector<T>& to) const {
-    if constexpr (std::is_same_v<T, Node>) {
+    if constexpr (std::is_same_v<T, Node> || std::is_same_v<T, double>) {
       if (carried == FieldCarried::divided) {
         for (const SharedNode& share : map_.divided)
           add(share.part, from[share.old_node], to[share.node]);
@@ -131,6 +129,7 @@ private:
     }
   }
 
+  static void add(double part, double from, double& to) { to += part * from; }
   static void add(double part, const Node& from, Node& to) {
     to.x += part * from.x;
     to.y += part * from.y;

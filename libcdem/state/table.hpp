@@ -45,8 +45,7 @@ enum class FieldNeed {
 //   copied       it keeps its value; a new entry has the value of an initial state
 //   blended      the same, and nodes of a part of a block interpolate in the old tet around them
 //   divided      the new nodes share the value of the old one, so that the sum over all stays
-//   begun_again  the value of an initial state
-enum class FieldCarried { copied, blended, divided, begun_again };
+enum class FieldCarried { copied, blended, divided };
 
 // What each of several ranks holds of an array (ranks/state_shares.hpp).
 //   by_all    all of it, up to date
