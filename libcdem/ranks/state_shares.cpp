@@ -139,26 +139,32 @@ void StateShares::gather(State& state) const {
   gather_slips(state);
 }
 
+bool StateShares::is_told(const Contact& c) const {
+  const auto [source, target] = triangles_of(c);
+  return is_rigid_[source] && is_rigid_[target];
+}
+
 std::string StateShares::own_contacts(const State& state) const {
   std::string text;
-  for (const Contact& c : state.contacts) {
-    const auto [source, target] = triangles_of(c);
-    if (is_rigid_[source] && is_rigid_[target])
+  for (const Contact& c : state.contacts)
+    if (is_told(c))
       text.append(reinterpret_cast<const char*>(&c), sizeof c);
-  }
   return text;
 }
 
-void StateShares::add_contacts(const std::vector<std::string>& told, State& state) {
+// All others have been there all the time, in the order of one process: where nodes have just been freed, several may have
+// one key until a search tells the pieces apart.
+void StateShares::add_contacts(const std::vector<std::string>& told, State& state) const {
   std::vector<Contact>& all = state.contacts;
   for (const std::string& text : told) {
     const std::size_t before = all.size();
     all.resize(before + text.size() / sizeof(Contact));
     std::memcpy(static_cast<void*>(all.data() + before), text.data(), text.size());
   }
-  std::sort(all.begin(), all.end(), [](const Contact& a, const Contact& b) { return key(a) < key(b); });
+  std::stable_sort(all.begin(), all.end(),
+                   [](const Contact& a, const Contact& b) { return key(a) < key(b); });
   all.erase(std::unique(all.begin(), all.end(),
-                        [](const Contact& a, const Contact& b) { return key(a) == key(b); }),
+                        [&](const Contact& a, const Contact& b) { return is_told(a) && key(a) == key(b); }),
             all.end());
 }
 

@@ -92,8 +92,9 @@ private:
   void gather_on_lead(void* data, const std::vector<std::int64_t>& begin, std::size_t bytes,
                       std::size_t entry) const;
   void gather_slips(State&) const;
+  bool is_told(const Contact&) const; // of two rigid bodies: a rank has its own only
   std::string own_contacts(const State&) const;
-  static void add_contacts(const std::vector<std::string>& told, State&);
+  void add_contacts(const std::vector<std::string>& told, State&) const;
   const std::vector<std::int64_t>& begin_of(FieldPlace) const;
   template <class Visit, class... S>
   void each_shared(std::initializer_list<FieldShared>, const Visit& visit, S&... states) const;
