@@ -200,6 +200,14 @@ RunResult run(const StageContext& context, const RunOptions& options, const std:
   };
   double stable_now = context.model.frames.empty() ? 0 : stable_of_all();
   const bool chooses_step = options.time_step == 0 && !scaled.on() && !context.model.frames.empty();
+  const auto shorten = [&](double longest) {
+    if (longest >= stepping.time_step)
+      return false;
+    stepping.time_step = longest;
+    clock.shorten(stage.step, longest);
+    set_goals();
+    return true;
+  };
   bool stopped = false;
   while (stage.step < clock.steps() && !stopped) {
     const bool renewed = stage.renew_interfaces(),
@@ -207,29 +215,20 @@ RunResult run(const StageContext& context, const RunOptions& options, const std:
     if (freed) {
       viscous = viscous_forces(context.model);
       stable_now = context.model.frames.empty() ? 0 : stable_of_all();
-      if (const double stable = options.safety * stable_time_step(context.model, stage.work.resolved.bolts);
-          stable < stepping.time_step && !scaled.on()) {
-        stepping.time_step = stable;
-        clock.shorten(stage.step, stable);
-        set_goals();
-      }
+      if (!scaled.on())
+        shorten(options.safety * stable_time_step(context.model, stage.work.resolved.bolts));
     }
+    // Before the restart point, which is where a stage that goes on begins.
+    if (chooses_step && (freed || stage.step % watch_every == 0) && any_dry_joint(context.model, state))
+      shorten(options.safety * stable_step_of_dry_joints(stable_now));
     if (freed || stage.can_be_left())
       stage.keep_restart_point(loop_state());
     stage.work.bond.contact_damping =
         contact_damping(stepping.time_step, scaled.on() ? stepping.time_step / options.safety : stable_now);
     double longest = stage.update_contacts(options.safety);
-    if (chooses_step && (freed || stage.step % watch_every == 0) && any_dry_joint(context.model, state))
-      longest = std::min(longest, options.safety * stable_step_of_dry_joints(stable_now));
     if (keeps_energy_of_impacts)
       longest = std::min(longest, stage.longest_step_of_flight());
-    const bool shorter = longest < stepping.time_step;
-    if (shorter) {
-      stepping.time_step = longest;
-      clock.shorten(stage.step, longest);
-      set_goals();
-    }
-    if (freed || shorter || stage.step % watch_every == 0)
+    if (shorten(longest) || freed || stage.step % watch_every == 0)
       lead_supports();
     // Velocities that stand at the time of the displacements, at the start or after a relaxation, take half a step.
     stepping.kick = state.velocity_lag + 0.5 * stepping.time_step;
