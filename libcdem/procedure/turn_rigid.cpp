@@ -1,5 +1,6 @@
 #include "libcdem/procedure/turn_rigid.hpp"
 
+#include "libcdem/contact/response/contact_point.hpp"
 #include "libcdem/element/rigid_motion.hpp"
 #include "libcdem/element/small_strain.hpp"
 #include "libcdem/model/build/rigid_bodies.hpp"
@@ -54,8 +55,12 @@ struct Rigid {
   RigidState motion;
 };
 
-// Model::rigid and State::rigid anew.
+// Model::rigid and State::rigid anew. Contacts keep their stiffness, and with it their force: a rigid body lends none of its
+// mesh to a body that deforms.
 void replace(Model& model, State& state, std::vector<Rigid>&& all) {
+  std::vector<double> stiffness;
+  for (const Contact& c : state.contacts)
+    stiffness.push_back(law_of(model, c).kn);
   std::sort(all.begin(), all.end(),
             [](const Rigid& a, const Rigid& b) { return a.body.block < b.body.block; });
   for (Block& block : model.blocks)
@@ -71,6 +76,9 @@ void replace(Model& model, State& state, std::vector<Rigid>&& all) {
     state.rigid_offset.clear();
   else
     state.rigid_offset.resize(model.node_position.size());
+  for (std::size_t i = 0; i < stiffness.size(); ++i)
+    if (law_of(model, state.contacts[i]).kn != stiffness[i])
+      state.contacts[i].stiffness = stiffness[i];
 }
 
 } // namespace

@@ -26,7 +26,7 @@ struct Contact {
   double reference_penetration = 0;
   double depth = 0;     // m, below the target's surface
   double damping = 0;   // N, what restitution adds to the spring's normal force
-  double stiffness = 0; // N/m, of a normal spring that has taken over the force of a face; 0: that of its law
+  double stiffness = 0; // N/m, of its normal spring (as_stiff_as); 0: that of its law
 
   explicit Contact(Kind of = spring, int from = 0)
       : kind(of & 1u), source(static_cast<std::uint32_t>(from) & 0x7fffffffu) {}

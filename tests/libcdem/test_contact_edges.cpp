@@ -95,7 +95,8 @@ TEST_CASE("contact: edges that are nearly parallel stop each other too", "[conta
   const double deepest = angle < 0.6 ? 0.03 * cell : 0.005 * cell;
   CHECK(lowest > 2 * half - deepest);
   CHECK(centroid(s, 1).z() > lowest + 1e-3);
-  CHECK(std::abs(s.state.spent.friction) < 1e-9 * kinetic);
+  // Where two edges no longer run beside each other, their pair ends with what its last stretch stored.
+  CHECK(std::abs(s.state.spent.friction) < 1e-5 * kinetic);
   CHECK(edges);
 }
 

@@ -95,7 +95,7 @@ TEST_CASE("a block that slides off a ledge falls, lands on the floor and comes t
       deforms ? moving("block", geom::grid({0.5, 0.5, 0.5}, {1, 1, 1}, {1.4, 0.25, 0}), soft_rock())
               : rigid("block", geom::grid({0.5, 0.5, 0.5}, {1, 1, 1}, {1.4, 0.25, 0}));
   System s(build({rigid("ledge", geom::grid({2, 1, 0.5}, {1, 1, 1}, {0, 0, -0.5})),
-                  rigid("floor", geom::grid({8, 3, 0.5}, {1, 1, 1}, {0, -1, -2})), block},
+                  rigid("floor", geom::grid({30, 20, 0.5}, {1, 1, 1}, {-5, -10, -2})), block},
                  {{"ledge", "block", friction(20)}, {"floor", "block", friction(40)}}));
   s.hold(body_of("ledge"), "xyz");
   s.hold(body_of("floor"), "xyz");

@@ -52,6 +52,7 @@ struct Positive {
 struct Stretch {
   geom::PlacesOnSegments at;
   geom::Vec3 normal;
+  std::array<double, 2> parts; // of the edges, where they run beside each other
 };
 
 std::optional<Stretch> stretch_of(const std::array<geom::Vec3, 2>& a, const std::array<geom::Vec3, 2>& b,
@@ -73,7 +74,8 @@ std::optional<Stretch> stretch_of(const std::array<geom::Vec3, 2>& a, const std:
     return std::nullopt;
   const double x = inside.moment / inside.area;
   return Stretch{{x / length, (x - b0) / (b1 - b0)},
-                 (between - std::clamp(aside(x) / depth(x), -1.0, 1.0) * across).normalized()};
+                 (between - std::clamp(aside(x) / depth(x), -1.0, 1.0) * across).normalized(),
+                 {(to - from) / length, (to - from) / std::abs(b1 - b0)}};
 }
 
 } // namespace
@@ -105,6 +107,7 @@ NearestOfEdges nearest_of_edges(const Model& model, const State& state, const Co
       if (const auto stretch = stretch_of(a, b, along, *between)) {
         nearest.at = stretch->at;
         nearest.normal = stretch->normal;
+        nearest.parts = stretch->parts;
       }
   }
   nearest.way = b[0] + nearest.at.t * of_b - a[0] - nearest.at.s * of_a;

@@ -334,10 +334,9 @@ bool Evaluation::add_contact(int source, int corner, const geom::Vec3& spring, i
       (spin(x, velocities(from.nodes), motion.normal) + spin(y.x, velocities(to.nodes), motion.normal));
   const Law& between = law_between(from.block, to.block);
   ContactLaw law = spring_law(model_, *between.joint, between.tan_friction, from, to);
-  if (old) {
-    c.stiffness = old->stiffness;
-    law = as_stiff_as(c, law);
-  }
+  // It keeps the stiffness with which it began: under another triangle of the target its energy would jump.
+  c.stiffness = old ? old->stiffness : law.kn;
+  law = as_stiff_as(c, law);
   finish(c, old, motion, spring_arms(model_, state_, from, corner, to, nearest.at.weights), law, from, to);
   return true;
 }

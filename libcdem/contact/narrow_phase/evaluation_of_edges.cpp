@@ -161,8 +161,13 @@ void Evaluation::add_contact(int source, int target, const NearestOfEdges& neare
     if (!old && !may_begin)
       return;
   }
-  finish(c, old, motion, edge_arms(model_, state_, e, f, nearest.at),
-         edge_law(model_, *law.joint, law.tan_friction, e.triangles, f.triangles), from, to);
+  const ContactLaw own =
+      edge_law(model_, *law.joint, law.tan_friction, e.triangles, f.triangles, nearest.parts);
+  if (nearest.nearly_parallel)
+    c.stiffness = own.kn; // of the stretch that they have now
+  else if (old && !beyond)
+    c.stiffness = old->stiffness;
+  finish(c, old, motion, edge_arms(model_, state_, e, f, nearest.at), as_stiff_as(c, own), from, to);
 }
 
 double Evaluation::take_over(Contact& c, const Contact& old, const ContactLaw& law,

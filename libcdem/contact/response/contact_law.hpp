@@ -30,7 +30,8 @@ struct ContactLaw {
   double damping_ratio = 0; // (1 - e^2) / (1 + e^2)
 };
 
-// A contact that has taken over the force of a face keeps the stiffness with which it did.
+// A semi-spring keeps the stiffness with which it began to press, or with which it took over the force of a face, and any
+// contact of a body that was turned rigid or deformable that which it had.
 inline ContactLaw as_stiff_as(const Contact& c, ContactLaw law) {
   if (c.stiffness > 0) {
     law.ks *= c.stiffness / law.kn;

@@ -53,9 +53,9 @@ ContactLaw law_of(const Model& model, const Contact& c) {
   const ContactTriangle &from = s.triangles[source], &to = s.triangles[target];
   const Joint& joint = *contact_joint(model, from.block, to.block);
   const double tan_friction = geom::portable::tan(joint.friction_angle);
-  return c.kind == Contact::spring
-             ? as_stiff_as(c, spring_law(model, joint, tan_friction, from, to))
-             : edge_law(model, joint, tan_friction, {source, c.fragment}, {target, c.beside});
+  return as_stiff_as(c, c.kind == Contact::spring
+                            ? spring_law(model, joint, tan_friction, from, to)
+                            : edge_law(model, joint, tan_friction, {source, c.fragment}, {target, c.beside}));
 }
 
 ContactLaw spring_law(const Model& model, const Joint& joint, double tan_friction,
@@ -67,10 +67,12 @@ ContactLaw spring_law(const Model& model, const Joint& joint, double tan_frictio
 }
 
 ContactLaw edge_law(const Model& model, const Joint& joint, double tan_friction,
-                    const std::array<int, 2>& from, const std::array<int, 2>& to) {
+                    const std::array<int, 2>& from, const std::array<int, 2>& to,
+                    const std::array<double, 2>& parts) {
   const std::vector<ContactTriangle>& t = model.surface.triangles;
   const auto mean = [](double a, double b) { return 0.5 * (a + b); };
-  const double area = mean(t[from[0]].area, t[from[1]].area) / 3 + mean(t[to[0]].area, t[to[1]].area) / 3;
+  const double area = parts[0] * mean(t[from[0]].area, t[from[1]].area) / 3 +
+                      parts[1] * mean(t[to[0]].area, t[to[1]].area) / 3;
   return law_over(joint, tan_friction, area,
                   compliance_between(model, t[from[0]].block,
                                      mean(t[from[0]].compliance, t[from[1]].compliance), t[to[0]].block,

@@ -10,12 +10,12 @@ namespace cdem {
 
 ContactLaw law_of(const Model&, const Contact&);
 
-// Law of a spring, from its triangle and the triangle it is pressed into; law of two edges, each with the means of its
-// two triangles. The joint is that between their bodies. A rigid body has no compliance beside one that deforms.
+// Law of a spring, from its triangle and the triangle it is pressed into; law of parts of two edges, each with the means of
+// its two triangles. The joint is that between their bodies. A rigid body has no compliance beside one that deforms.
 ContactLaw spring_law(const Model&, const Joint&, double tan_friction, const ContactTriangle& from,
                       const ContactTriangle& to);
 ContactLaw edge_law(const Model&, const Joint&, double tan_friction, const std::array<int, 2>& from,
-                    const std::array<int, 2>& to);
+                    const std::array<int, 2>& to, const std::array<double, 2>& parts = {1, 1});
 
 // The two blocks of a contact, its source's first.
 std::pair<int, int> blocks_of(const Model&, const Contact&);
