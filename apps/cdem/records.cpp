@@ -6,6 +6,7 @@
 #include <cerrno>
 #include <cstring>
 #include <fstream>
+#include <nlohmann/json.hpp>
 
 namespace cdem::app {
 
@@ -17,8 +18,8 @@ using script::FileError;
 json read(const std::filesystem::path& file) {
   const std::string text = script::read_file_here(file);
   try {
-    return script::parse_json(text);
-  } catch (const json::exception&) {
+    return json::parse(script::shallow_json(text));
+  } catch (const std::exception&) {
     throw FileError(file.string() + " is not a JSON file");
   }
 }
@@ -38,8 +39,8 @@ json value_of(const std::string& type, const std::string& text) {
   if (type == "string")
     return text;
   try {
-    return script::parse_json(text);
-  } catch (const json::exception&) {
+    return json::parse(script::shallow_json(text));
+  } catch (const std::exception&) {
     return text;
   }
 }

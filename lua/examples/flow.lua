@@ -2,7 +2,7 @@ local cdem = require "cdem"
 local concrete = cdem.elastic{ youngs_modulus = 30e9, poissons_ratio = 0.2, density = 2400 }
 local joint = cdem.mohr_coulomb{ cohesion = 2e6, friction_angle = 35, tensile_strength = 1e6 }
 local mesh = cdem.box_mesh{ size = {0.3, 0.3, 1.2}, divisions = {2, 2, 6} }
-local model = cdem.model{ bodies = { { name = "column", shape = mesh, material = concrete, joint = joint, bonds = "springs" } } }
+local model = cdem.model{ bodies = { { name = "column", shape = mesh, material = concrete, joint = joint, bonds = "cohesive" } } }
 
 -- example: cdem.flow_pressure cdem.flow_velocity
 print(cdem.flow_pressure(10))     -- 51250 Pa
@@ -41,7 +41,7 @@ model:clear_loads()
 model:flow{ water = cdem.water.wave{ height = 0.3, period = 3, depth = 1, level = 1 }, drag = 1, added_mass = 0.67 }
 
 -- example: model:critical_flow
-local other = cdem.model{ bodies = { { shape = mesh, material = concrete, joint = joint, bonds = "springs" } } }
+local other = cdem.model{ bodies = { { shape = mesh, material = concrete, joint = joint, bonds = "cohesive" } } }
 other:fix{ on = "z-" }
 local broken = other:critical_flow{ direction = {1, 0, 0}, held = "z-", mode = "ramp", pressure_rate = 1e8 }
 print(broken.velocity, broken.fragments[1].volume) -- m/s, m3

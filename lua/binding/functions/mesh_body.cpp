@@ -31,28 +31,13 @@ int count_regions(const std::vector<geom::TetMesh>& meshes) {
   return last + 1;
 }
 
-// Numbers of regions that the mesh does not have, and faces between regions where there is one only: their joint would
-// hold nothing.
-void require_regions(Session& session, const std::string& path, const BodySpec& body) {
-  const int count = count_regions(body.meshes);
-  const std::string have =
-      count == 1 ? "the mesh has one region" : "the mesh has " + std::to_string(count) + " regions";
-  const auto require = [&](const char* field, int region) {
-    if (region < 0 || region >= count)
-      throw InputError(path + "." + field + ": region " + std::to_string(region + 1) + ": " + have +
-                       "; mesh.regions tells how many");
-  };
-  for (const int region : body.bonding.regions)
-    require("bonded_regions", region);
-  for (const auto& [a, b] : body.region_laws.regions) {
-    require("region_joints", a);
-    require("region_joints", b);
-  }
-  if (body.bonding.between_regions && count == 1)
+// Faces between regions where there is one only: their joint would hold nothing.
+void warn_of_one_region(Session& session, const std::string& path, const BodySpec& body) {
+  if (body.bonding.between_regions && count_regions(body.meshes) == 1)
     session.warn(
-        path + ".bonded_faces = \"regions\": " + have +
-        ", so the joint holds no face; a file has regions by its physical groups, volumes, cell data or "
-        "element sets: see `regions` of cdem.read_mesh");
+        path + ".bonded_faces = \"regions\": the mesh has one region, so the joint holds no face; a file has "
+               "regions by its physical groups, volumes, cell data or element sets: see `regions` of "
+               "cdem.read_mesh");
 }
 
 } // namespace
@@ -98,8 +83,9 @@ void read_mesh(Session& session, const Arguments& given, const std::string& path
     body.region_laws.regions.emplace_back(std::minmax({region(0), region(1)}));
     body.region_laws.joints.push_back(static_cast<const JointObject&>(*items[2].object()).joint);
   }
-  require_regions(session, path, body);
-  if (bonds == "springs" && body.joint.bonded && body.joint.tensile_strength > 0 && body.joint.cohesion > 0)
+  warn_of_one_region(session, path, body);
+  if (bonds == "springs" && body.joint.bonded && body.joint.tensile_strength > 0 && body.joint.cohesion > 0 &&
+      body.joint.softening == Softening::none)
     session.warn(
         path + ".bonds = \"springs\" softens the body to about E / (1 + 1/stiffness_ratio) and breaks at 0.6 "
                "to 0.9 of its strength; bonds = \"cohesive\" keeps both");

@@ -5,6 +5,7 @@
 #include "lua/binding/runtime/json.hpp"
 
 #include <algorithm>
+#include <nlohmann/json.hpp>
 
 namespace cdem::script {
 
@@ -157,7 +158,7 @@ std::string pile_text(const geom::Pile& pile) {
 geom::Pile pile_from(const std::string& text, const std::string& source) {
   Json json;
   try {
-    json = parse_json(text);
+    json = Json::parse(shallow_json(text));
   } catch (const Json::parse_error& error) {
     refuse_at(source, text, error.byte);
   } catch (const TooDeepJson&) {

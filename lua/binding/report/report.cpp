@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <nlohmann/json.hpp>
 
 namespace cdem::script {
 
@@ -189,8 +190,8 @@ std::string Report::markdown() const {
 
 Value read_report(const std::string& json_text, const std::string& shown_name) {
   try {
-    return from_json(parse_json(json_text));
-  } catch (const Json::exception& error) {
+    return from_json(Json::parse(shallow_json(json_text)));
+  } catch (const std::exception& error) { // of the text
     throw FileError(shown_name + ": not a report: " + json_reason(error));
   }
 }

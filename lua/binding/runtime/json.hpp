@@ -1,21 +1,20 @@
-// The only place where JSON from a file is read. Whatever a reader does with a value goes as deep as the value is
-// nested, and the stack has an end: so deep text is refused before it is parsed.
+// What is asked of JSON from a file before it is parsed. Whatever a reader does with a value goes as deep as the value is
+// nested, and the stack has an end: so deep text is refused.
 #pragma once
 
-#include <nlohmann/json.hpp>
-
+#include <stdexcept>
 #include <string>
 
 namespace cdem::script {
 
 inline constexpr int deepest_json = 64; // ours nest 5 deep
 
-struct TooDeepJson : nlohmann::ordered_json::exception {
-  TooDeepJson() : exception(0, "it nests more than 64 deep") {}
+struct TooDeepJson : std::runtime_error {
+  TooDeepJson() : std::runtime_error("it nests more than 64 deep") {}
 };
 
-// Throws nlohmann::ordered_json::exception.
-inline nlohmann::ordered_json parse_json(const std::string& text) {
+// The text. Throws TooDeepJson.
+inline const std::string& shallow_json(const std::string& text) {
   int depth = 0;
   bool quoted = false;
   for (std::size_t i = 0; i < text.size(); ++i) {
@@ -29,11 +28,11 @@ inline nlohmann::ordered_json parse_json(const std::string& text) {
     else if (!quoted && (c == ']' || c == '}'))
       --depth;
   }
-  return nlohmann::ordered_json::parse(text);
+  return text;
 }
 
 // "[json.exception.parse_error.101] parse error at ...": without the library's number.
-inline std::string json_reason(const nlohmann::ordered_json::exception& error) {
+inline std::string json_reason(const std::exception& error) {
   const std::string text = error.what();
   const auto end = text.rfind('[', 0) == 0 ? text.find("] ") : std::string::npos;
   return end == std::string::npos ? text : text.substr(end + 2);
