@@ -130,7 +130,7 @@ TEST_CASE("meshed bodies that do not fit are refused", "[lua]") {
              Contains("softening") && Contains("bonds = \"cohesive\" softens"));
   CHECK_THAT(error_of(head + "cdem.model{ bodies = { { shape = cdem.box{ size = {1, 1, 1} }, material = "
                              "concrete, bonds = 'springs' } } }"),
-             Contains("bodies[1].bonds: only for a meshed body"));
+             Contains("bodies[1].joint: missing; bonds = \"springs\""));
 }
 
 TEST_CASE("a mesh that touches a block needs a law between them, and small strain knows none", "[lua]") {
@@ -189,7 +189,7 @@ TEST_CASE("a flow that cannot be is refused", "[lua]") {
   CHECK_THAT(refused("direction = {0, 0, 0}, velocity = 1"),
              Contains("direction") && Contains("longer than zero"));
   CHECK_THAT(refused("direction = {1, 0, 0}, velocity = -1"), Contains("velocity = -1: must be >= 0"));
-  CHECK_THAT(refused("direction = {1, 0, 0}"), Contains("velocity: missing"));
+  CHECK_THAT(refused("direction = {1, 0, 0}"), Contains("velocity: give it, or water"));
   CHECK_THAT(refused("direction = {1, 0, 0}, velocity = 1, water_density = 0"),
              Contains("water_density = 0"));
   CHECK_THAT(refused("direction = {1, 0, 0}, velocity = function() return -2 end"),
