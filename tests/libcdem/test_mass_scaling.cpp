@@ -120,10 +120,10 @@ TEST_CASE(
     lead_apart(s.conditions.fixes, 0.03);
     const double stable = cdem::stable_time_step(s.model);
     cdem::RunOptions options;
-    options.duration = 2.05e-3; // the strength is reached at 2 ms
+    options.duration = 2.3e-3; // the strength is reached at 2 ms, by stairs of 0.08 T, later with more mass
     options.mass_scaling.factor = factor;
     double most = 0;
-    options.callback_every = 5;
+    options.callback_every = 1;
     options.callback = [&] { most = std::max(most, end_traction(s, size.y() * size.z())); };
     const cdem::RunResult result = s.run(options);
     CHECK_FALSE(s.model.mesh.sides.empty());
