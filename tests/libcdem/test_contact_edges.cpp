@@ -139,6 +139,35 @@ TEST_CASE("contact: two bars ridge on ridge stop each other at the same depth at
   CHECK(std::hypot(spin[0], spin[1], spin[2]) < 1e-3 * mass * speed);
 }
 
+TEST_CASE("contact: bars that cross on their edges at a mesh node part straight", "[contact][edges]") {
+  // Bars of several cells, crossed at a node of both, of one or of none. Without friction the common normal is upright.
+  const double aside = GENERATE(0.0, 5e-4, 2e-3, 0.01, 0.11);
+  const int cells = GENERATE(7, 8); // of the upper bar: its middle lies between nodes, or at one
+  CAPTURE(aside, cells);
+  const Mat3 on_edge = rotation({1, 0, 0}, 45 * degree);
+  const double half = std::sqrt(0.5) * 0.4, gap = 1e-3, speed = 0.6;
+  cdem::Joint law = friction(0);
+  law.normal_stiffness = 1e10;
+  cdem::BodySpec lower = meshed("lower", box_at({2, 0.4, 0.4}, {8, 2, 2}, on_edge, {aside, 0, 0})),
+                 upper = meshed("upper",
+                                box_at({2, 0.4, 0.4}, {cells, 2, 2},
+                                       rotation({0, 0, 1}, 90 * degree) * on_edge, {0, 0, 2 * half + gap}));
+  lower.element = upper.element = cdem::Element::rigid;
+  System s(build({lower, upper}, {{"lower", "upper", law}}));
+  s.hold(body_of("lower"), "xyz");
+  s.state.rigid[1].velocity = {0, 0, -speed};
+  cdem::RunOptions options;
+  options.duration = 0.012;
+  s.run(options);
+  const auto& [x, y, z] = s.state.rigid[1].velocity;
+  const auto& spin = s.state.rigid[1].angular_momentum; // N m s
+  const double mass = rock().density * 2 * 0.4 * 0.4;
+  CHECK(s.state.contacts.empty());
+  CHECK(z > 0.99 * speed);
+  CHECK(std::hypot(x, y) < 1e-3 * speed);
+  CHECK(std::hypot(spin[0], spin[1], spin[2]) < 1e-3 * mass * speed);
+}
+
 TEST_CASE("contact: an edge pressed on another carries on over the nodes of both", "[contact][edges]") {
   // Two bars on edge, crossed, moved as they are: pressed together by d, then along the bisector over four nodes of each.
   const double d = 2e-4, gap = 1e-4, across = 0.3 / std::sqrt(2.0);

@@ -12,6 +12,12 @@ namespace {
 constexpr double reach_of_ends = 2 / parallel_edges;
 // Difference over a tet's height: distances that differ by less are equal, as at a node that two edges share.
 constexpr double same_distance = 1e-12;
+// Distance of a semi-spring from where two edges cross, over how deep they are in each other: further off it does not stand in
+// the other block for their sake, unless its wedge is blunter than 125 degrees; then the push is hardly sideways.
+constexpr double beside_crossing = 2;
+// Sine of the angle up to which the line of an edge is straight at a node, and from which on it goes into a face. At a node
+// where it bends by more stands a corner.
+constexpr double aslant = 0.1;
 
 } // namespace
 
@@ -109,6 +115,51 @@ bool EdgeLines::touched_around(int e, int f) const {
     return false;
   };
   return contacts_ != state_.contacts.end() && touched(e) && touched(f);
+}
+
+int EdgeLines::edge_with(int id) const {
+  for (int e = work_.edge_begin[id / 3]; e < work_.edge_begin[id / 3 + 1]; ++e)
+    if (work_.edges[e].id() == id)
+      return e;
+  return -1;
+}
+
+bool EdgeLines::carries_at(int triangle, int corner, const geom::Vec3& spring, const geom::Vec3& normal,
+                           int other_block) const {
+  const ContactTriangle& from = surface_.triangles[triangle];
+  const int node = surface_.original[from.nodes[corner]];
+  const auto block_of = [&](int id) { return surface_.triangles[id / 3].block; };
+  const auto direction = [&](int edge) -> geom::Vec3 { // from the node
+    const auto& [a, b] = work_.edges[edge].nodes;
+    const geom::Vec3 along = (place_of(model_, state_, b) - place_of(model_, state_, a)).normalized();
+    return surface_.original[a] == node ? along : geom::Vec3(-along);
+  };
+  const auto goes_on_and_in = [&](int edge, int end) {
+    const geom::Vec3 back = direction(edge);
+    return any_next(edge, end, [&](int next, double) {
+      const geom::Vec3 on = direction(next);
+      return on.cross(back).norm() < aslant && std::abs(back.dot(normal)) > aslant;
+    });
+  };
+  const auto carries = [&](const Contact& c, int own, int other) {
+    if (block_of(own) != from.block || block_of(other) != other_block)
+      return false;
+    const int e = edge_with(own), f = edge_with(other);
+    if (e < 0 || f < 0)
+      return false;
+    const auto& [a, b] = work_.edges[e].nodes;
+    const int end = surface_.original[a] == node ? 0 : 1;
+    if (surface_.original[end == 0 ? a : b] != node || !goes_on_and_in(e, end))
+      return false;
+    const NearestOfEdges near = nearest(std::min(e, f), std::max(e, f));
+    const double part = e < f ? near.at.s : near.at.t;
+    const geom::Vec3 place = (1 - part) * place_of(model_, state_, a) + part * place_of(model_, state_, b);
+    return (spring - place).norm() <= beside_crossing * c.depth;
+  };
+  return std::any_of(contacts_, state_.contacts.end(), [&](const Contact& c) {
+    const auto source = static_cast<int>(c.source);
+    return c.effective_penetration() > 0 && (carries(c, source, c.target) || carries(c, c.target, source));
+  });
 }
 
 const Contact* EdgeLines::contact_of(int e, int f) const {

@@ -30,11 +30,18 @@ public:
   // Whether any edge that meets an end of the one, or that edge itself, had a contact before the step, and of the other.
   bool touched_around(int e, int f) const;
 
+  // Whether the line of an edge goes straight on through this corner of a triangle, into what the normal leads out of, and
+  // the edge carried in a contact with the other block before the step, no further from the semi-spring there, m, than twice
+  // as deep as the two edges are in each other.
+  bool carries_at(int triangle, int corner, const geom::Vec3& spring, const geom::Vec3& normal,
+                  int other_block) const;
+
   // Whether the place, in parts of the edge, is at an end of it where no other edge goes on.
   bool at_last_end(int edge, double place) const;
 
 private:
   const Contact* contact_of(int e, int f) const; // before the step
+  int edge_with(int id) const;                   // -1: there is none
   NearestOfEdges nearest(int e, int f) const;
   // Calls does(next, way) for the edges that continue an edge over one of its ends, until it returns true; way: 1 or
   // -1, with or against their own direction. Returns whether it did.

@@ -308,6 +308,15 @@ bool Evaluation::held_by_face(int source, int target) const {
   return !handed_over(faces, lane) && !leaves(faces, lane);
 }
 
+// Where two edges cross near a node of one of them, the springs of the node are in the other block because the edge is,
+// and would push along the face that happens to be nearest.
+bool Evaluation::edge_carries_at(int source, int corner, const geom::Vec3& spring, const geom::Vec3& normal,
+                                 int target) const {
+  const std::vector<int>& mover = work_.movers.of_triangle;
+  return work_.mover_edges_touched[mover[source]] && work_.mover_edges_touched[mover[target]] &&
+         lines_.carries_at(source, corner, spring, normal, surface_.triangles[target].block);
+}
+
 bool Evaluation::add_contact(int source, int corner, const geom::Vec3& spring, int fragment,
                              const Nearest& nearest, bool may_begin) {
   const ContactTriangle &from = surface_.triangles[source], &to = surface_.triangles[nearest.target];
@@ -325,6 +334,8 @@ bool Evaluation::add_contact(int source, int corner, const geom::Vec3& spring, i
   ContactMotion motion;
   motion.depth = depth;
   motion.normal = nearest.at.inside || depth < 1e-9 * to.height ? y.normal : (nearest.place - spring) / depth;
+  if (!old && edge_carries_at(source, corner, spring, motion.normal, nearest.target))
+    return false;
   const Corners x = corners_of(model_, state_, from.nodes);
   const auto velocities = [&](const geom::Triangle& nodes) -> Corners {
     return {velocity_of(state_, nodes[0]), velocity_of(state_, nodes[1]), velocity_of(state_, nodes[2])};

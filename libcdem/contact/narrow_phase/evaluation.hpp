@@ -39,7 +39,9 @@ private:
   bool moves_as_one(const ContactEdge&) const;
   // The two are the sides of a broken face that its own springs still hold.
   bool held_by_face(int source, int target) const;
-  // No semi-edge that meets this corner of a triangle goes deep into what the normal leads out of.
+  // An edge through this corner of the source, into the target, carries there in a contact with the target's block.
+  bool edge_carries_at(int source, int corner, const geom::Vec3& spring, const geom::Vec3& normal,
+                       int target) const;
   void go_to(int source); // what stood at it before
   const Contact* before(const Contact&) const;
   double narrow_phase(ContactRow&, ContactCandidate*, bool all); // returns how deep the deepest is, m
