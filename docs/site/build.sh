@@ -59,6 +59,7 @@ write_configuration() {
 }
 
 stage_pages
+bash "$root/examples/figures.sh" --mark "$staged/examples"
 stage_katex
 write_gallery >"$staged/gallery.md"
 write_configuration >"$root/build/mkdocs.yml"
