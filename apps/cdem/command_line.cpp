@@ -242,9 +242,9 @@ private:
               "Lua scripts build assemblies of deformable blocks, load and break them, and write pictures,\n"
               "ParaView files and a report into results/."};
   CLI::App app_;
-  std::vector<Command> commands_{run_command(),   resume_command(), check_command(),
-                                 sweep_command(), render_command(), view_command(),
-                                 info_command(),  repl_command(),   annotations_command()};
+  std::vector<Command> commands_{run_command(),    resume_command(),     check_command(), sweep_command(),
+                                 render_command(), view_command(),       info_command(),  convert_command(),
+                                 repl_command(),   annotations_command()};
   std::string topic_, shell_files_; // of help, and of the hidden --shell-files
   bool version_ = false, manual_ = false;
   TypedLine line_;

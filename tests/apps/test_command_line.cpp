@@ -84,6 +84,35 @@ TEST_CASE("a wrong command line is refused with the nearest right one") {
   check({"info", "."}, "holds no cdem.log");
 }
 
+TEST_CASE("a mesh that meshio reads becomes one that cdem reads") {
+  CHECK_THAT(cdem({"convert", "a.bdf", "b.msh"}).err, Contains("must end in .vtu or .stl"));
+  CHECK(cdem({"convert", "missing.bdf", "b.vtu"}).exit_code == 4);
+
+  const TempFolder folder;
+  Start start;
+  start.folder = folder.path();
+  write_file(folder / "cubes.bdf",
+             "BEGIN BULK\nGRID,1,,0.,0.,0.\nGRID,2,,1.,0.,0.\nGRID,3,,0.,1.,0.\nGRID,4,,0.,0.,1.\n"
+             "GRID,5,,1.,1.,1.\nCTETRA,1,7,1,2,3,4\nCTETRA,2,9,2,5,3,4\nENDDATA\n");
+  const Outcome made = run_cdem({"convert", "cubes.bdf", "cubes.vtu"}, start);
+  if (made.err.find("apt install python3-meshio") != std::string::npos) {
+    WARN("python3-meshio is not installed: cdem convert is not tried");
+    return;
+  }
+  REQUIRE(made.exit_code == 0);
+  CHECK_THAT(made.out, Contains("2 tetrahedra, 5 nodes, regions 7, 9"));
+  // Corners of a unit cube: a sixth and a third of it.
+  write_file(folder / "case.lua",
+             "local cdem = require 'cdem'\nlocal m = cdem.read_mesh{ file = 'cubes.vtu' }\n"
+             "assert(m.tets == 2 and math.abs(m:volume() - 1 / 2) < 1e-12)\n");
+  CHECK(run_cdem({"run", "case.lua"}, start).exit_code == 0);
+
+  write_file(folder / "bad.bdf", "not a mesh\n");
+  const Outcome refused = run_cdem({"convert", "bad.bdf", "bad.vtu"}, start);
+  CHECK(refused.exit_code == 2);
+  CHECK_THAT(refused.err, StartsWith("cdem: error: bad.bdf: "));
+}
+
 TEST_CASE("files that are missing end with exit code 4") {
   for (const std::vector<std::string>& arguments : {std::vector<std::string>{"run", "none.lua"},
                                                     {"check", "none.lua"},

@@ -71,6 +71,7 @@ Command sweep_command();
 Command render_command();
 Command view_command();
 Command info_command();
+Command convert_command();
 Command repl_command();
 Command annotations_command();
 

@@ -97,4 +97,7 @@ ExitCode repl(const ReplCommand&);
 
 ExitCode print_annotations();
 
+// From a mesh that meshio reads to a .vtu of tetrahedra or a .stl of triangles.
+ExitCode convert(const std::string& from, const std::string& to);
+
 } // namespace cdem::app
