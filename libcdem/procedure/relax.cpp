@@ -168,6 +168,7 @@ RelaxResult relax(const StageContext& context, const RelaxOptions& options, cons
   bool failing = false, converged = false;
   Stage::StepReport report;
   report.goals.note = options.note;
+  report.goals.trial = !options.note.empty();
   report.goals.residual_goal = options.residual;
   report.goals.max_steps = options.max_steps;
   bool forces_known = stage.step > 0; // of the step before

@@ -12,6 +12,7 @@ struct Progress {
   int stage = 0;                   // number of the solving call, from 1
   std::string kind;                // "relax", "run", ...
   std::string note;                // of the stage's own, "flow 12.3 m/s"
+  bool trial = false;              // one of a search: what breaks in it does not break in the model
   std::string counts = "step";     // what steps are: "run" of a sweep, "unit" laid
   bool preparing = false;          // nothing is solved yet, results of an earlier run stand
   std::int64_t step = 0;           // within the stage

@@ -16,6 +16,7 @@ model:relax{ residual = 1e-3 }
 local safety = cdem.factor_of_safety{ model = model, reduce = {"joints"}, lower = 1, upper = 2, tolerance = 0.1,
                                       residual = 1e-3 }
 print(safety.factor) -- tan(40) / tan(30) = 1.45, within the tolerance
+print(#safety.mechanism.blocks, safety.mechanism.volume) -- what fails: one block of 1 m3
 
 -- example: model:copy
 local other = model:copy()

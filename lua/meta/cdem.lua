@@ -153,6 +153,17 @@ local cdem = {}
 ---@field steps integer
 ---@field residual number
 
+---What fails: the blocks that have moved by a fifth of the largest displacement or more.
+---@class (exact) cdem.Mechanism
+---@field blocks number[] their ids, the largest displacement first
+---@field volume number m3: of all of them
+---@field largest number m3: volume of the largest
+---@field share number of the volume of all blocks
+---@field centroid number[] m: of all of them, where they were
+---@field min number[] m: lower corner of the box of their centroids
+---@field max number[] m
+---@field displacement number[] m: mean by volume, from the balance of the model
+
 ---What the search for the factor of safety came to.
 ---@class (exact) cdem.FactorOfSafety
 ---@field factor number middle of the bracket
@@ -160,6 +171,8 @@ local cdem = {}
 ---@field upper number smallest one at which it is not
 ---@field stable cdem.Model at lower, in its new balance
 ---@field failing cdem.Model at upper, as it was when it was found to run away; its displacement is the mechanism
+---@field mechanism? cdem.Mechanism what fails at upper; none in a check
+---@field left_out integer blocks that failed at upper in mechanisms below smallest
 ---@field trials cdem.SafetyTrial[] in the order they were made
 
 ---A unit that has left its place, or a piece of one that broke.
@@ -751,11 +764,13 @@ function TetMesh:save(options) end
 ---@field size? number[] default {1600, 1200}: {width, height} in pixels; height 0: as high as it needs to be
 ---@field dpi? number in [10, 2400], default 300: pixels in an inch where it is printed: 1600 pixels are 135 mm wide at 300
 ---@field range? number[] {lowest, highest} of the colours, SI units
----@field colour_map? "auto"|"blue_white_red"|"cool_warm"|"viridis"|"grey"|"categorical" default "auto": auto: blue_white_red when values change sign, viridis when not
+---@field colour_map? "auto"|"blue_white_red"|"cool_warm"|"viridis"|"grey"|"categorical" default "auto": auto: blue_white_red when values change sign, viridis when not. Without a range the colours span all values but a few outliers; the legend tells them
 ---@field title? string _{...} and ^{...} set sub- and superscripts
 ---@field colour_bar? boolean default true
 ---@field legend? boolean default true
 ---@field axes? boolean default true: small arrows that name the directions
+---@field scale_bar? boolean default false: a round length under the body; none in perspective
+---@field north? number[] the direction of north, {0, 1, 0}: an arrow N beside those of the axes
 ---@field markers? cdem.TetMeshPictureOptionsMarkers[]
 ---@field lines? cdem.TetMeshPictureOptionsLines[]
 ---@field edges? "creases"|"mesh"|"none" default "creases": lines on the surface
@@ -1488,11 +1503,13 @@ function Model:save_joints(options) end
 ---@field size? number[] default {1600, 1200}: {width, height} in pixels; height 0: as high as it needs to be
 ---@field dpi? number in [10, 2400], default 300: pixels in an inch where it is printed: 1600 pixels are 135 mm wide at 300
 ---@field range? number[] {lowest, highest} of the colours, SI units
----@field colour_map? "auto"|"blue_white_red"|"cool_warm"|"viridis"|"grey"|"categorical" default "auto": auto: blue_white_red when values change sign, viridis when not
+---@field colour_map? "auto"|"blue_white_red"|"cool_warm"|"viridis"|"grey"|"categorical" default "auto": auto: blue_white_red when values change sign, viridis when not. Without a range the colours span all values but a few outliers; the legend tells them
 ---@field title? string _{...} and ^{...} set sub- and superscripts
 ---@field colour_bar? boolean default true
 ---@field legend? boolean default true
 ---@field axes? boolean default true: small arrows that name the directions
+---@field scale_bar? boolean default false: a round length under the body; none in perspective
+---@field north? number[] the direction of north, {0, 1, 0}: an arrow N beside those of the axes
 ---@field markers? cdem.ModelPictureOptionsMarkers[]
 ---@field lines? cdem.ModelPictureOptionsLines[]
 ---@field plain? string[] names of bodies that are drawn without colour, such as a floor
@@ -2328,10 +2345,11 @@ function cdem.model(options) end
 ---@field tolerance? number > 0, default 0.02: width of the bracket that is left
 ---@field residual? number in (0, 1), default 1e-05: goal of each relaxation; smaller for models of many blocks of which few slide
 ---@field max_steps? integer >= 1, default 200000: of each relaxation; a trial that is undecided then counts as failing, with a warning
----@field picture? string file (.png) of the mechanism: displacement of the failing side
+---@field smallest? number m3, >= 0, default 0: volume of a mechanism that counts: blocks that fail and are smaller together are removed from the trial, which goes on without them; their number is told
+---@field picture? string file (.png) of the mechanism: displacement of the failing side, seen from where it moves to
 ---@field figure? string default "factor_of_safety": name of the figure in the report
 
----The factor of safety by strength reduction: the number that the strengths can be divided by before the model fails, by bisection. Each trial starts from the same state, with its displacement set to zero, and is relaxed; the verdict of model:relax says whether it stands. Trials show in the progress, in the log and in report.json, which gets the figures factor_of_safety, factor_of_safety_lower and factor_of_safety_upper too.
+---The factor of safety by strength reduction: the number that the strengths can be divided by before the model fails, by bisection. Each trial starts from the same state, with its displacement set to zero, and is relaxed; the verdict of model:relax says whether it stands. What fails, where and how large it is is told. Trials show in the progress, in the log and in report.json, which gets the figures factor_of_safety, factor_of_safety_lower and factor_of_safety_upper too.
 ---@param options cdem.FactorOfSafetyOptions
 ---@return cdem.FactorOfSafety
 function cdem.factor_of_safety(options) end

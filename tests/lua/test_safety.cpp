@@ -66,6 +66,43 @@ TEST_CASE("the factor of safety of a block on an incline is tan(phi) / tan(a)", 
              Contains("factor_of_safety_upper") && Contains("\"trial\": \"F = 0.9\""));
 }
 
+TEST_CASE("a factor of safety tells what fails, and passes over what is too small to count",
+          "[lua][safety]") {
+  // Two planes through a box, of 30 and 38 degrees: the steep one cuts off a corner that slides first, tan phi / tan dip.
+  const std::string two = R"(
+local cdem = require "cdem"
+local rock = cdem.elastic{ youngs_modulus = 5e9, poissons_ratio = 0.25, density = 2600 }
+local function tan(degrees) return math.tan(math.rad(degrees)) end
+local shape = cdem.cut_by_plane{ shape = cdem.box{ size = {4, 1, 4} }, point = {0, 0, 3}, normal = {tan(30), 0, 1} }
+shape = cdem.cut_by_plane{ shape = shape, point = {3.5, 0, 3.9}, normal = {tan(38), 0, 1} }
+local m = cdem.model{ bodies = { { shape = shape, material = rock, joint = cdem.coulomb{ friction_angle = 40 } } } }
+m:fix{ on = "z-" }
+m:gravity{ vector = {0, 0, -9.81} }
+m:relax{ residual = 1e-4 }
+local function search(smallest)
+  return cdem.factor_of_safety{ model = m, reduce = {"joints"}, lower = 0.95, upper = 1.6, tolerance = 0.03, residual = 1e-4,
+                                smallest = smallest, figure = smallest and "of_slope" or "of_all" }
+end
+)";
+  Script script(two + R"(
+local all, slope = search(), search(1)
+assert(math.abs(all.factor - tan(40) / tan(38)) < 0.03, all.factor)
+assert(math.abs(slope.factor - tan(40) / tan(30)) < 0.03, slope.factor)
+local corner = all.mechanism
+assert(#corner.blocks == 1 and all.left_out == 0 and slope.left_out == 1)
+-- The corner is a triangle of (4 - x) (4 - z) / 2 with the plane through (3.5, 3.9).
+local rise = 0.1 + 0.5 * tan(38)
+assert(math.abs(corner.volume - 0.5 * rise ^ 2 / tan(38)) < 1e-9 and corner.largest == corner.volume)
+local d = corner.displacement
+assert(math.abs(-d[3] / d[1] - tan(38)) < 0.02 and math.abs(d[2]) < 1e-3 * d[1]) -- it moves along its plane
+assert(slope.mechanism.volume > 5 and math.abs(-slope.mechanism.displacement[3] / slope.mechanism.displacement[1] - tan(30)) < 0.02)
+)");
+  script.run();
+  CHECK(script.wrote("trials/history_2.csv")); // of a trial; the model's own is history.csv
+  CHECK(script.wrote("history.csv"));
+  CHECK_THAT(script.read("report.json"), Contains("of_all_volume") && Contains("of_slope_blocks"));
+}
+
 TEST_CASE("a factor of safety says what it lacks", "[lua][safety]") {
   const auto search = [](const std::string& more) {
     return error_of(head + "local m = incline(35)\ncdem.factor_of_safety{ " + more + " }");

@@ -105,8 +105,10 @@ void RunObserver::show(const Progress& progress, Clock::time_point now) {
 void RunObserver::end_stage(const Progress& progress) {
   const std::string line = stage_line(progress);
   stage_ = no_stage;
-  broken_tension_ += progress.broken_tension;
-  broken_shear_ += progress.broken_shear;
+  if (!progress.trial) {
+    broken_tension_ += progress.broken_tension;
+    broken_shear_ += progress.broken_shear;
+  }
   if (progress.stage > 0) {
     tell(line);
     if (folder_ != nullptr && !progress.times.empty())

@@ -73,6 +73,7 @@ Value relax(Session& session, ModelObject& model, const Arguments& a) {
   options.history_every = history_interval(a);
   options.stop_on_failure = a.flag("stop_on_failure");
   options.note = a.text_or("trial", "");
+  model.trial = model.trial || !options.note.empty();
   warn_if_nothing_acts(session, model, "relax");
   return stage(session, model, "relax", a, relax_result({}, options.note),
                [&](Simulation& simulation) {

@@ -65,7 +65,7 @@ Value factor_of_safety(Session&, Object*, const Arguments& a) {
   }
   Table given;
   for (const char* const name : {"model", "builder", "reduce", "lower", "upper", "tolerance", "residual",
-                                 "max_steps", "picture", "figure"})
+                                 "max_steps", "smallest", "picture", "figure"})
     if (a.has(name))
       given.named[name] = a.value(name);
   return given;
@@ -88,6 +88,17 @@ void bind_stability_records(Module& m) {
        {number("factor").required(), choice("verdict", {"stable", "failing", "undecided"}).required(),
         integer("steps").required(), number("residual").required()}});
   m.records.push_back(
+      {"Mechanism",
+       "What fails: the blocks that have moved by a fifth of the largest displacement or more.",
+       {list("blocks", number("").type, 0).required().doc("their ids, the largest displacement first"),
+        number("volume").unit("m3").required().doc("of all of them"),
+        number("largest").unit("m3").required().doc("volume of the largest"),
+        number("share").required().doc("of the volume of all blocks"),
+        vec3("centroid").unit("m").required().doc("of all of them, where they were"),
+        vec3("min").unit("m").required().doc("lower corner of the box of their centroids"),
+        vec3("max").unit("m").required(),
+        vec3("displacement").unit("m").required().doc("mean by volume, from the balance of the model")}});
+  m.records.push_back(
       {"FactorOfSafety",
        "What the search for the factor of safety came to.",
        {number("factor").required().doc("middle of the bracket"),
@@ -97,6 +108,8 @@ void bind_stability_records(Module& m) {
         object("failing", "Model")
             .required()
             .doc("at upper, as it was when it was found to run away; its displacement is the mechanism"),
+        object("mechanism", "Mechanism").doc("what fails at upper; none in a check"),
+        integer("left_out").required().doc("blocks that failed at upper in mechanisms below smallest"),
         list("trials", object_type("SafetyTrial"), 0).required().doc("in the order they were made")}});
 }
 
@@ -133,7 +146,8 @@ void bind_stability(Module& m) {
        "by bisection. Each trial starts from the same state, with its displacement set to zero, and is "
        "relaxed; "
        "the verdict of "
-       "model:relax says whether it stands. Trials show in the progress, in the log and in report.json, "
+       "model:relax says whether it stands. What fails, where and how large it is is told. Trials show in "
+       "the progress, in the log and in report.json, "
        "which "
        "gets the figures "
        "factor_of_safety, factor_of_safety_lower and factor_of_safety_upper too.",
@@ -151,7 +165,14 @@ void bind_stability(Module& m) {
             .at_least(1)
             .standard(200000)
             .doc("of each relaxation; a trial that is undecided then counts as failing, with a warning"),
-        text("picture").doc("file (.png) of the mechanism: displacement of the failing side"),
+        number("smallest")
+            .at_least(0)
+            .standard(0.0)
+            .unit("m3")
+            .doc("volume of a mechanism that counts: blocks that fail and are smaller together are removed "
+                 "from the trial, which goes on without them; their number is told"),
+        text("picture").doc("file (.png) of the mechanism: displacement of the failing side, seen from where "
+                            "it moves to"),
         text("figure").standard("factor_of_safety").doc("name of the figure in the report")},
        false,
        "cdem.FactorOfSafety",

@@ -35,7 +35,8 @@ void ModelObject::check_memory() const {
 }
 
 std::string ModelObject::history_name() const {
-  return number == 1 ? "history.csv" : "history_" + std::to_string(number) + ".csv";
+  return (trial ? "trials/" : "") +
+         (number == 1 ? std::string("history.csv") : "history_" + std::to_string(number) + ".csv");
 }
 
 void ModelObject::write_history(const Session& session) const {

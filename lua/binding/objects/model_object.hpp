@@ -13,7 +13,8 @@ struct ModelObject final : Object {
   explicit ModelObject(Simulation given) : simulation(std::move(given)) {}
 
   Simulation simulation;
-  int number = 1; // in the order the script made them
+  int number = 1;     // in the order the script made them
+  bool trial = false; // its stages are trials of a search
   std::vector<std::string> body_names;
   std::map<std::string, geom::Pile> piles; // of meshed bodies, as they were when the model was made
   std::vector<std::string> unjointed;      // bodies without a joint of their own
@@ -35,7 +36,7 @@ struct ModelObject final : Object {
   void require_idle(const char* call) const;
   // Throws geom::InputError when model.memory holds something a checkpoint could not.
   void check_memory() const;
-  std::string history_name() const; // "history.csv", "history_2.csv" ...
+  std::string history_name() const; // "history.csv", "history_2.csv" ..., in the folder "trials" for a trial
   void write_history(const Session&) const;
 };
 
