@@ -168,6 +168,14 @@ Snapshot joint_surface(const Model& model, const State& state, const JointChoice
     nothing_there(choice.on);
   Snapshot snapshot = snapshot_of(model, state, title);
   snapshot.bonds = std::move(surface.faces);
+  for (SnapshotField& field : snapshot.bonds.triangle_fields) {
+    if (field.name == "set") {
+      field.names = {"no set"};
+      field.names.insert(field.names.end(), sets.begin(), sets.end());
+    } else if (field.name == "mode") {
+      field.names = {"bonded", "broken in tension", "broken in shear", "contact"};
+    }
+  }
   return snapshot;
 }
 

@@ -17,6 +17,7 @@ struct SnapshotField {
   int components = 1;         // 1 scalar, 3 vector, 6 symmetric tensor in the order xx yy zz xy yz xz
   std::vector<double> values; // components values for each point or cell, cell-major
   bool integer = false;       // written as Int64 (ids, modes)
+  std::vector<std::string> names = {}; // of the numbers 0, 1, ...: what a colour bar shows in their place
 };
 
 // Interfaces between blocks as triangles over the spring points (undeformed places).

@@ -77,6 +77,31 @@ Colour ColourScale::operator()(double value) const {
   return map_colour(map, (value - low) / (high - low));
 }
 
+namespace {
+
+constexpr std::size_t enough_values = 200;
+constexpr double tail = 0.005; // of the values, at each end
+constexpr double taken = 4;    // times the range of the others: what the outliers would make of it
+
+// The range of all values but the tails, where these would take most of the colours; the values lose their order.
+std::optional<std::array<double, 2>> without_outliers(std::vector<double>& values) {
+  if (values.size() < enough_values)
+    return std::nullopt;
+  const auto at = [&](double part) {
+    const auto place =
+        values.begin() + static_cast<std::ptrdiff_t>(part * static_cast<double>(values.size() - 1));
+    std::nth_element(values.begin(), place, values.end());
+    return *place;
+  };
+  const double low = at(tail), high = at(1 - tail);
+  const auto [least, most] = std::minmax_element(values.begin(), values.end());
+  if (!(high > low) || *most - *least < taken * (high - low))
+    return std::nullopt;
+  return std::array<double, 2>{low, high};
+}
+
+} // namespace
+
 ColourScale colour_scale(const std::vector<double>& values, bool id, const std::string& colour_map,
                          const std::optional<std::array<double, 2>>& range) {
   const std::vector<std::string>& names = colour_map_names();
@@ -89,19 +114,26 @@ ColourScale colour_scale(const std::vector<double>& values, bool id, const std::
   if (range && !(std::isfinite((*range)[0]) && std::isfinite((*range)[1]) && (*range)[0] < (*range)[1]))
     throw geom::InputError("range", "{" + geom::text((*range)[0]) + ", " + geom::text((*range)[1]) + "}",
                            "two numbers, the lower one first");
-  double low = std::numeric_limits<double>::infinity(), high = -low;
+  std::vector<double> known;
   for (const double value : values)
-    if (std::isfinite(value)) {
-      low = std::min(low, value);
-      high = std::max(high, value);
-    }
-  if (!(low <= high))
-    low = high = 0;
+    if (std::isfinite(value))
+      known.push_back(value);
+  double low = 0, high = 0;
+  std::optional<std::array<double, 2>> all;
   if (range) {
     low = (*range)[0];
     high = (*range)[1];
+  } else if (!known.empty()) {
+    const auto [least, most] = std::minmax_element(known.begin(), known.end());
+    low = *least;
+    high = *most;
+    if (const auto most_of_them = without_outliers(known); most_of_them && !id) {
+      all = {low, high};
+      low = (*most_of_them)[0];
+      high = (*most_of_them)[1];
+    }
   }
-  ColourScale scale{colour_map, low, high};
+  ColourScale scale{colour_map, low, high, all};
   // A sliver of the other sign (2 %) is noise on a field of one sign, not a change of sign.
   const bool both_signs = low < 0 && high > 0 && std::min(-low, high) > 0.02 * std::max(-low, high);
   if (colour_map == "auto")

@@ -13,8 +13,10 @@ Colour map_colour(const std::string& colour_map, double place);
 
 // Numbers to colours.
 struct ColourScale {
-  std::string map;                       // a name of colour_map_names()
-  double low = 0, high = 1;              // SI; values outside take the colour of the end
+  std::string map;          // a name of colour_map_names()
+  double low = 0, high = 1; // SI; values outside take the colour of the end
+  // SI, lowest and highest value, where a few far ones are outside the range that was chosen for the others
+  std::optional<std::array<double, 2>> all = {};
   Colour operator()(double value) const; // light grey for NaN
 };
 

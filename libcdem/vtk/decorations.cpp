@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <set>
 
 namespace cdem {
@@ -12,12 +13,21 @@ namespace {
 constexpr std::size_t most_swatches = 12;
 constexpr double tick_length = 10, label_gap = 10, line_width = 2;
 
+std::string short_text(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.4g", std::abs(value));
+  return (value < 0 ? "\u2212" : "") + std::string(text);
+}
+
 std::vector<std::string> bar_labels(const BarContent& bar, const std::vector<double>& ticks) {
   if (bar.ids.empty())
     return tick_labels(ticks);
   std::vector<std::string> labels;
   for (const std::int64_t id : bar.ids)
-    labels.push_back((id < 0 ? "\u2212" : "") + std::to_string(std::abs(id)));
+    if (id >= 0 && static_cast<std::size_t>(id) < bar.names.size())
+      labels.push_back(bar.names[static_cast<std::size_t>(id)]);
+    else
+      labels.push_back((id < 0 ? "\u2212" : "") + std::to_string(std::abs(id)));
   return labels;
 }
 
@@ -50,6 +60,10 @@ std::optional<BarContent> bar_content(const FieldValues& field, const ColourScal
                                ? display_unit(field.unit, std::max(std::abs(scale.low), std::abs(scale.high)))
                                : DisplayUnit{};
   bar.factor = unit.factor;
+  bar.names = field.names;
+  if (scale.all && bar.ids.empty())
+    bar.outliers = "all values: " + short_text(unit.factor * (*scale.all)[0]) + " to " +
+                   short_text(unit.factor * (*scale.all)[1]) + (unit.text.empty() ? "" : " " + unit.text);
   bar.title = field.symbol + (unit.text.empty() ? "" : " (" + unit.text + ")");
   const double slack = 1e-6 * (scale.high - scale.low);
   for (const double value : field.values) {
@@ -71,7 +85,9 @@ void draw_bar(Canvas& canvas, const BarContent& bar, const Layout& layout, doubl
   Rect r = layout.bar;
   const bool vertical = layout.bar_vertical;
   if (!bar.ids.empty()) { // a few ids need no long bar
-    const double enough = 90 * pixel * static_cast<double>(bar.ids.size());
+    const double label = vertical ? 0 : canvas.widest(bar_labels(bar, bar_ticks(bar, 0)), label_font * pixel);
+    const double enough =
+        std::max(90 * pixel, label + label_font * pixel) * static_cast<double>(bar.ids.size());
     const double spare = std::max(0., (vertical ? r.height : r.width) - enough);
     if (vertical)
       r = {r.left, r.bottom + spare, r.width, r.height - spare};
@@ -136,54 +152,138 @@ void draw_bar(Canvas& canvas, const BarContent& bar, const Layout& layout, doubl
               vertical ? HorizontalAlign::left : HorizontalAlign::centre, VerticalAlign::baseline);
 }
 
-void draw_legend(Canvas& canvas, const std::vector<LegendEntry>& entries, const Layout& layout,
-                 double pixel) {
-  const double sample = 60 * pixel, gap = 14 * pixel, between = 56 * pixel;
-  double font = label_font * pixel, total = 0;
-  const auto width_of = [&](const LegendEntry& entry) {
-    return (entry.width > 0 ? sample + gap : 0) + canvas.text_width(entry.text, font);
-  };
-  const auto add_up = [&] {
-    total = -between;
-    for (const LegendEntry& entry : entries)
-      total += width_of(entry) + between;
-  };
-  add_up();
-  const double room = layout.size[0] - 64 * pixel;
-  if (total > room) {
-    font *= std::max(0.5, room / total);
-    add_up();
+namespace {
+
+constexpr double legend_sample = 60, legend_gap = 14, legend_between = 56, legend_margin = 32;
+
+double legend_width(const Canvas& canvas, const LegendEntry& entry, double pixel, double font) {
+  return (entry.width > 0 ? (legend_sample + legend_gap) * pixel : 0) + canvas.text_width(entry.text, font);
+}
+
+double legend_width(const Canvas& canvas, const std::vector<LegendEntry>& row, double pixel, double font) {
+  double width = -legend_between * pixel;
+  for (const LegendEntry& entry : row)
+    width += legend_width(canvas, entry, pixel, font) + legend_between * pixel;
+  return width;
+}
+
+// The words of a text in lines that are no wider than the room, as far as words allow it.
+std::vector<std::string> wrapped(const Canvas& canvas, const std::string& text, double font, double room) {
+  std::vector<std::string> lines;
+  for (std::size_t from = 0; from <= text.size();) {
+    const std::size_t end = std::min(text.find(' ', from), text.size());
+    const std::string word = text.substr(from, end - from);
+    if (lines.empty() || canvas.text_width(lines.back() + " " + word, font) > room)
+      lines.push_back(word);
+    else
+      lines.back() += " " + word;
+    from = end + 1;
   }
-  double x = std::clamp(layout.body.centre_x() - total / 2, 32 * pixel,
-                        std::max(32 * pixel, layout.size[0] - 32 * pixel - total));
+  return lines;
+}
+
+} // namespace
+
+LegendRows legend_rows(const Canvas& canvas, const std::vector<LegendEntry>& entries, double picture_width,
+                       double pixel) {
+  const double font = label_font * pixel, room = picture_width - 2 * legend_margin * pixel;
+  LegendRows rows;
   for (const LegendEntry& entry : entries) {
-    double at = x;
-    if (entry.width > 0) {
-      canvas.polyline({{at, layout.legend_middle}, {at + sample, layout.legend_middle}}, entry.width,
-                      entry.colour, entry.dashed);
-      at += sample + gap;
+    if (!rows.empty()) {
+      rows.back().push_back(entry);
+      if (legend_width(canvas, rows.back(), pixel, font) <= room)
+        continue;
+      rows.back().pop_back();
     }
-    canvas.text(entry.text, {at, layout.legend_middle}, font, HorizontalAlign::left, VerticalAlign::middle);
-    x += width_of(entry) + between;
+    const double sample = entry.width > 0 ? (legend_sample + legend_gap) * pixel : 0;
+    bool first = true;
+    for (const std::string& line : wrapped(canvas, entry.text, font, room - sample)) {
+      rows.push_back({entry});
+      rows.back().back().text = line;
+      if (!first)
+        rows.back().back().width = 0;
+      first = false;
+    }
+  }
+  return rows;
+}
+
+void draw_legend(Canvas& canvas, const LegendRows& rows, const Layout& layout, double pixel) {
+  const double edge = legend_margin * pixel, left = layout.legend_left, room = layout.size[0] - edge - left;
+  double middle = layout.legend_middle;
+  for (const std::vector<LegendEntry>& row : rows) {
+    double font = label_font * pixel, total = legend_width(canvas, row, pixel, font);
+    if (total > room) { // a word that is wider than the picture
+      font *= room / total;
+      total = legend_width(canvas, row, pixel, font);
+    }
+    double x =
+        std::clamp(layout.body.centre_x() - total / 2, left, std::max(left, layout.size[0] - edge - total));
+    for (const LegendEntry& entry : row) {
+      double at = x;
+      if (entry.width > 0) {
+        canvas.polyline({{at, middle}, {at + legend_sample * pixel, middle}}, entry.width, entry.colour,
+                        entry.dashed);
+        at += (legend_sample + legend_gap) * pixel;
+      }
+      canvas.text(entry.text, {at, middle}, font, HorizontalAlign::left, VerticalAlign::middle);
+      x += legend_width(canvas, entry, pixel, font) + legend_between * pixel;
+    }
+    middle -= legend_row * pixel;
   }
 }
 
-AxesContent axes_content(const View& view, double pixel) {
+void draw_scale_bar(Canvas& canvas, const View& view, const Layout& layout, double pixel) {
+  const double wanted = 0.2 * layout.body.width * view.metres_per_pixel;
+  const double decade = std::pow(10., std::floor(std::log10(wanted)));
+  const double length = decade * (wanted >= 5 * decade ? 5 : wanted >= 2 * decade ? 2 : 1);
+  const DisplayUnit unit = display_unit("m", length);
+  const std::string text = short_text(unit.factor * length) + " " + unit.text;
+  const double width = length / view.metres_per_pixel, font = label_font * pixel, end = 8 * pixel;
+  const double right = layout.body.right(), y = layout.body.bottom - 0.5 * font;
+  for (const double x : {right - width, right})
+    canvas.line({x, y - end}, {x, y + end}, 3 * pixel, black);
+  canvas.line({right - width, y}, {right, y}, 3 * pixel, black);
+  canvas.text(text, {right - width / 2, y - 1.5 * end}, font, HorizontalAlign::centre, VerticalAlign::top);
+}
+
+namespace {
+
+// Over the size of the font: how far beyond the tip of its arrow the middle of a name stands.
+double letter_reach(const std::string& name) {
+  return std::max(0.6, 0.4 * static_cast<double>(name.size()));
+}
+
+} // namespace
+
+AxesContent axes_content(const View& view, double pixel, const std::optional<geom::Vec3>& north) {
   AxesContent axes;
   const double length = 84 * pixel, font = 0.9 * label_font * pixel;
-  const char* names[3] = {"x", "y", "z"};
+  std::vector<std::pair<std::string, geom::Vec3>> directions;
+  for (int i = 0; i < 3; ++i)
+    directions.emplace_back(std::string(1, "xyz"[i]), geom::Vec3::Unit(i));
+  if (north) {
+    const geom::Vec3 to = north->normalized();
+    const auto same = std::find_if(directions.begin(), directions.end(),
+                                   [&](const auto& d) { return d.second.dot(to) > 0.999; });
+    if (same != directions.end())
+      same->first += "=N";
+    else
+      directions.emplace_back("N", to);
+  }
   Canvas::Point low{0, 0}, high{0, 0};
-  for (int i = 0; i < 3; ++i) {
-    const double along = view.right[i], upward = view.up[i];
+  for (const auto& [name, direction] : directions) {
+    const double along = view.right.dot(direction), upward = view.up.dot(direction);
     if (std::hypot(along, upward) < 0.15) // points at the viewer or away
       continue;
-    axes.arrows.push_back({names[i], {length * along, length * upward}});
+    axes.arrows.push_back({name, {length * along, length * upward}});
     // The letter stands beyond the tip and needs room all round.
-    const double reach = 1 + 0.6 * font / length / std::hypot(along, upward);
+    const double reach = 1 + letter_reach(name) * font / length / std::hypot(along, upward);
     const Canvas::Point letter = {length * along * reach, length * upward * reach};
+    const double half[2] = {std::max(0.5, 0.3 * static_cast<double>(name.size())) * font, 0.5 * font};
     for (std::size_t k = 0; k < 2; ++k) {
-      low[k] = std::min(low[k], letter[k] - 0.5 * font);
-      high[k] = std::max(high[k], letter[k] + 0.5 * font);
+      low[k] = std::min(low[k], letter[k] - half[k]);
+      high[k] = std::max(high[k], letter[k] + half[k]);
     }
   }
   axes.foot = {-low[0], -low[1]};
@@ -196,7 +296,7 @@ void draw_axes(Canvas& canvas, const AxesContent& axes, const Layout& layout, do
   const double font = 0.9 * label_font * pixel;
   for (const AxesContent::Arrow& arrow : axes.arrows) {
     canvas.arrow(foot, {foot[0] + arrow.tip[0], foot[1] + arrow.tip[1]}, 3.5 * pixel, black);
-    const double reach = 1 + 0.6 * font / std::hypot(arrow.tip[0], arrow.tip[1]);
+    const double reach = 1 + letter_reach(arrow.name) * font / std::hypot(arrow.tip[0], arrow.tip[1]);
     // Small letters: their middle lies at half the x-height, below that of a digit.
     canvas.text(arrow.name, {foot[0] + reach * arrow.tip[0], foot[1] + reach * arrow.tip[1] + 0.09 * font},
                 font, HorizontalAlign::centre, VerticalAlign::middle);

@@ -164,6 +164,7 @@ FieldValues field_values(const Snapshot& snapshot, const std::string& name) {
   result.symbol = mises ? symbol_of("von_mises", {}) : symbol_of(base, component);
   result.unit = field->unit;
   result.integer = field->integer;
+  result.names = field->names;
   result.id = field->integer && (ends_with(base, "_id") || base == "body" || base == "unit");
 
   if (field->values.empty() && !snapshot.surface.empty())

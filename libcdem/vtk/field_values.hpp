@@ -10,11 +10,12 @@ namespace cdem {
 
 struct FieldValues {
   bool on_points = true;
-  std::vector<double> values; // per point, or per surface triangle
-  std::string symbol;         // "u_{x}", as the colour bar names it
-  std::string unit;           // SI
-  bool integer = false;       // ids, modes, counts
-  bool id = false;            // a name in numbers: its size means nothing
+  std::vector<double> values;          // per point, or per surface triangle
+  std::string symbol;                  // "u_{x}", as the colour bar names it
+  std::string unit;                    // SI
+  bool integer = false;                // ids, modes, counts
+  bool id = false;                     // a name in numbers: its size means nothing
+  std::vector<std::string> names = {}; // of the numbers 0, 1, ...
 };
 
 // Throws geom::InputError of a colour (as pictures call it), naming the nearest right names.

@@ -12,6 +12,7 @@ constexpr double bar_title_height = 1.8 * label_font; // the line above the stri
 constexpr double bar_row =
     0.9 * label_font + bar_title_height + strip + 1.75 * label_font; // a horizontal bar
 constexpr double shortest_bar = 300;
+constexpr double scale_bar_height = 2.2 * label_font;
 
 struct Choice {
   bool bar_vertical, axes_left;
@@ -29,7 +30,9 @@ Room room_beside(const LayoutInput& in, const Choice& choice) {
     room.top += title_height * s;
   if (in.bar && choice.bar_vertical)
     room.right += in.bar_column;
-  double below = in.legend ? legend_height * s : 0;
+  double below = in.legend_rows > 0 ? (legend_height + (in.legend_rows - 1) * legend_row) * s : 0;
+  if (in.scale_bar)
+    below += scale_bar_height * s;
   if (in.bar && !choice.bar_vertical)
     below += bar_row * s;
   if (in.axes[0] > 0) {
@@ -88,7 +91,7 @@ Layout arrange(const LayoutInput& in) {
 
   layout.title_middle = layout.body.top() + 0.5 * title_height * s;
   layout.bar_vertical = best.bar_vertical;
-  double below = layout.body.bottom;
+  double below = layout.body.bottom - (in.scale_bar ? scale_bar_height * s : 0);
   if (in.bar && best.bar_vertical) {
     const double full = layout.body.height - bar_title_height * s;
     const double length =
@@ -113,6 +116,9 @@ Layout arrange(const LayoutInput& in) {
     layout.axes_corner = {layout.body.left - in.axes[0] - 0.5 * margin * s, layout.body.bottom};
   else
     layout.axes_corner = {layout.body.left, layout.body.bottom - in.axes[1] - 0.6 * margin * s};
+  layout.legend_left = margin * s;
+  if (in.axes[0] > 0 && !best.axes_left)
+    layout.legend_left = layout.axes_corner[0] + in.axes[0] + margin * s;
   return layout;
 }
 

@@ -22,6 +22,8 @@ void check_options(const PictureOptions& options) {
     throw geom::InputError("opacity", geom::text(options.opacity), "in (0, 1]");
   for (const Marker& marker : options.markers)
     geom::require_finite("markers.position", marker.position);
+  if (options.north && !(options.north->norm() > 0 && options.north->allFinite()))
+    throw geom::InputError("north", geom::place_text(*options.north), "a finite vector that is not zero");
   for (const Polyline& line : options.polylines)
     for (const geom::Vec3& x : line.points)
       geom::require_finite("polylines.points", x);
@@ -120,9 +122,13 @@ void draw(const Snapshot& snapshot, const PictureOptions& options, const Finish&
   std::vector<LegendEntry> legend;
   if (options.legend)
     legend = legend_entries(options, broken, pixel);
+  if (bar && !bar->outliers.empty())
+    legend.push_back({bar->outliers});
   AxesContent axes;
-  if (options.axes)
-    axes = axes_content(view, pixel);
+  if (options.axes || options.north)
+    axes = axes_content(view, pixel, options.north);
+  // Beside the arrows, where these are under the body.
+  const LegendRows rows = legend_rows(canvas, legend, options.size[0] - axes.size[0] - 50 * pixel, pixel);
 
   LayoutInput input;
   input.size = options.size;
@@ -134,9 +140,11 @@ void draw(const Snapshot& snapshot, const PictureOptions& options, const Finish&
   input.bar = bar.has_value();
   // Pictures from a camera of their own, or fitted to a box, are frames of a film: they keep the room of a legend that is
   // still empty, so that nothing moves when the first bond breaks.
-  input.legend =
-      !legend.empty() || ((view.literal || options.fit) && options.legend && options.broken_bonds &&
-                          (snapshot.bonds.left_out || !snapshot.bonds.points.empty()));
+  const bool kept = (view.literal || options.fit) && options.legend && options.broken_bonds &&
+                    (snapshot.bonds.left_out || !snapshot.bonds.points.empty());
+  input.legend_rows = std::max(static_cast<int>(rows.size()), kept ? 1 : 0);
+  // In perspective a length has no one size.
+  input.scale_bar = options.scale_bar && !view.perspective;
   input.bar_column = bar ? bar_column_width(canvas, *bar, pixel) : 0;
   input.axes = axes.size;
   const Layout layout = arrange(input);
@@ -157,7 +165,9 @@ void draw(const Snapshot& snapshot, const PictureOptions& options, const Finish&
   }
   if (bar)
     draw_bar(canvas, *bar, layout, pixel);
-  draw_legend(canvas, legend, layout, pixel);
+  draw_legend(canvas, rows, layout, pixel);
+  if (input.scale_bar)
+    draw_scale_bar(canvas, view, layout, pixel);
   draw_axes(canvas, axes, layout, pixel);
   draw_overlays(canvas, options.markers, options.polylines, view, layout, pixel);
 

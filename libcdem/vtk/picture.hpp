@@ -64,7 +64,9 @@ struct PictureOptions {
   bool broken_bonds = true; // broken interfaces, coloured by how they broke
   bool colour_bar = true;
   bool legend = true;
-  bool axes = true; // small arrows that name the directions
+  bool axes = true;                // small arrows that name the directions
+  bool scale_bar = false;          // a round length under the body; not in perspective
+  std::optional<geom::Vec3> north; // gets an arrow beside those of the axes
   std::vector<Marker> markers;
   std::vector<Polyline> polylines;
 };

@@ -34,7 +34,8 @@ class Slicer {
 public:
   Slicer(const Snapshot& all, const CutPlane& plane) : all_(all), section_(empty_copy(all)) {
     for (const SnapshotField& field : all.point_fields)
-      section_.point_fields.push_back({field.name, field.unit, field.components, {}, field.integer});
+      section_.point_fields.push_back(
+          {field.name, field.unit, field.components, {}, field.integer, field.names});
     double reach = 0; // m
     for (const geom::Vec3& x : all.points)
       reach = std::max(reach, (x - plane.point).norm());

@@ -8,7 +8,7 @@ namespace {
 
 // The values of those places that have a new number (not -1).
 SnapshotField kept_values(const SnapshotField& field, const std::vector<int>& number) {
-  SnapshotField kept{field.name, field.unit, field.components, {}, field.integer};
+  SnapshotField kept{field.name, field.unit, field.components, {}, field.integer, field.names};
   if (field.values.empty()) // named only
     return kept;
   const auto width = static_cast<std::size_t>(field.components);

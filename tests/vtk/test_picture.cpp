@@ -324,7 +324,8 @@ TEST_CASE("title, body, bar, legend and axes never overlap and stay inside the p
         in.pixel = std::min(size[0] / 1600., size[1] > 0 ? size[1] / 1200. : 1e9);
         in.title = parts & 1;
         in.bar = parts & 2;
-        in.legend = parts & 4;
+        in.legend_rows = parts & 4 ? 2 : 0;
+        in.scale_bar = parts & 1;
         in.bar_column = 260 * in.pixel;
         if (parts & 8)
           in.axes = {130 * in.pixel, 130 * in.pixel};
@@ -343,9 +344,9 @@ TEST_CASE("title, body, bar, legend and axes never overlap and stay inside the p
         if (in.title)
           rects.push_back({out.body.left, out.title_middle - 0.5 * title_font * in.pixel, out.body.width,
                            title_font * in.pixel});
-        if (in.legend)
-          rects.push_back({out.body.left + (parts & 8 ? 150 * in.pixel : 0), out.legend_middle - 0.5 * font,
-                           std::max(0., out.body.width - (parts & 8 ? 150 * in.pixel : 0)), font});
+        if (in.legend_rows > 0)
+          rects.push_back({out.legend_left, out.legend_middle - 0.5 * font - legend_row * in.pixel,
+                           std::max(0., out.body.right() - out.legend_left), font + legend_row * in.pixel});
         if (parts & 8)
           rects.push_back({out.axes_corner[0], out.axes_corner[1], in.axes[0], in.axes[1]});
         const Rect page{0, 0, double(out.size[0]), double(out.size[1])};
@@ -362,6 +363,52 @@ TEST_CASE("title, body, bar, legend and axes never overlap and stay inside the p
         }
       }
   CHECK(checked > 1000);
+}
+
+TEST_CASE("a few far values do not take the colours of the others") {
+  std::vector<double> values(1000);
+  for (std::size_t i = 0; i < values.size(); ++i)
+    values[i] = static_cast<double>(i);
+  values[3] = 1e6;
+  const ColourScale scale = colour_scale(values, false, "auto", {});
+  CHECK(scale.low >= 0);
+  CHECK(scale.high <= 1000);
+  CHECK(scale.high - scale.low >= 0.98 * 999);
+  REQUIRE(scale.all); // they are told
+  CHECK((*scale.all)[0] == 0);
+  CHECK((*scale.all)[1] == 1e6);
+  // A tail that belongs to the others, a range that is given and a handful of values keep all.
+  values[3] = 2000;
+  CHECK(colour_scale(values, false, "auto", {}).high == 2000);
+  CHECK_FALSE(colour_scale(values, false, "auto", {}).all);
+  values[3] = 1e6;
+  CHECK(colour_scale(values, false, "auto", {{0, 1e6}}).high == 1e6);
+  CHECK(colour_scale({0, 1, 2, 1e6}, false, "auto", {}).high == 1e6);
+}
+
+TEST_CASE("a legend has as many rows as keep it within the picture, and loses no word") {
+  const TemporaryFolder folder;
+  Snapshot s = three_blocks();
+  PictureOptions o;
+  o.edges = o.axes = false;
+  o.size = {800, 0};
+  const auto height = [&] {
+    render(s, o, folder / "p.png");
+    const Image image = read_png(folder / "p.png");
+    const Image::Bounds b = image.bounds();
+    CHECK(b.left > 0);
+    CHECK(b.right < image.width - 1);
+    return image.height;
+  };
+  const auto add = [&](const std::string& label) { o.polylines.push_back({{{0, 0, 0}, {3, 1, 0}}, label}); };
+  add("one line");
+  const int one = height();
+  add("another line with a name of many words that tells what it is");
+  const int two = height();
+  CHECK(two > one);
+  add("and a third one, whose name alone is longer than the picture is wide, so that it is wrapped at a "
+      "blank between words");
+  CHECK(height() >= two + 2 * (two - one) - 4);
 }
 
 TEST_CASE("an unknown field names the nearest right ones") {

@@ -92,11 +92,14 @@ std::vector<Field> view_fields(const std::string& colour_doc, const std::string&
           list("range", number_type(), 2).doc("{lowest, highest} of the colours, SI units"),
           choice("colour_map", {"auto", "blue_white_red", "cool_warm", "viridis", "grey", "categorical"})
               .standard("auto")
-              .doc("auto: blue_white_red when values change sign, viridis when not"),
+              .doc("auto: blue_white_red when values change sign, viridis when not. Without a range the "
+                   "colours span all values but a few outliers; the legend tells them"),
           text("title").doc("_{...} and ^{...} set sub- and superscripts"),
           flag("colour_bar").standard(true),
           flag("legend").standard(true),
           flag("axes").standard(true).doc("small arrows that name the directions"),
+          flag("scale_bar").standard(false).doc("a round length under the body; none in perspective"),
+          vec3("north").doc("the direction of north, {0, 1, 0}: an arrow N beside those of the axes"),
           list("markers", record_type(marker), 0),
           list("lines", record_type(line), 0)};
 }
@@ -124,6 +127,9 @@ PictureOptions view_options(const Arguments& a) {
   options.colour_bar = a.flag("colour_bar");
   options.legend = a.flag("legend");
   options.axes = a.flag("axes");
+  options.scale_bar = a.flag("scale_bar");
+  if (a.has("north"))
+    options.north = a.vec3("north");
   for (const Arguments& given : a.records("markers")) {
     Marker marker;
     marker.position = given.vec3("at");
