@@ -97,10 +97,14 @@ private:
   Progress progress_;
 };
 
+constexpr std::size_t units_named = 40;
+
 std::string numbers_text(const std::vector<int>& units) {
   std::string text;
-  for (const int unit : units)
-    text += (text.empty() ? "" : ", ") + std::to_string(unit + 1);
+  for (std::size_t i = 0; i < units.size() && i < units_named; ++i)
+    text += (text.empty() ? "" : ", ") + std::to_string(units[i] + 1);
+  if (units.size() > units_named)
+    text += " and " + std::to_string(units.size() - units_named) + " more";
   return (units.size() == 1 ? "unit " : "units ") + text;
 }
 
@@ -127,7 +131,11 @@ void tell(Session& session, const geom::Layer& layer, double density) {
                     (layer.put_back.size() == 1 ? "stays as laid; it" : "stay as laid; they") +
                     " may slide when " + (layer.put_back.size() == 1 ? "it settles" : "they settle"));
   if (!layer.leaning.empty())
-    session.message(name + "fewer than three things press on " + numbers_text(layer.leaning));
+    session.warn(name + std::to_string(layer.leaning.size()) + " of " +
+                 std::to_string(layer.pile.poses.size()) +
+                 " units have fewer than three supports: " + numbers_text(layer.leaning) +
+                 "; they may move when they settle. At an open end of a row a unit has but the slope and one "
+                 "unit to lean on: walls = true gives it a third; or try another seed or density");
 }
 
 Value lay(Session& session, Object*, const Arguments& a) {
