@@ -197,9 +197,9 @@ const char* field_with_nan(const State& state) {
           if constexpr (is_all_doubles<Entry>) {
             static_assert(sizeof(Entry) % sizeof(double) == 0);
             const auto* number = reinterpret_cast<const double*>(field.data());
+            constexpr std::size_t each = sizeof(Entry) / sizeof(double); // NOLINT(bugprone-sizeof-expression)
             if (!found && row.place != FieldPlace::tet_batch &&
-                !std::all_of(number, number + field.size() * (sizeof(Entry) / sizeof(double)),
-                             [](double x) { return std::isfinite(x); }))
+                !std::all_of(number, number + field.size() * each, [](double x) { return std::isfinite(x); }))
               found = row.name;
           }
         }

@@ -123,6 +123,7 @@ private:
       boxes.push_back(box);
     }
     std::vector<std::pair<const Ends, std::vector<std::pair<double, int>>>*> edge_of;
+    edge_of.reserve(on.size());
     for (auto& edge : on)
       edge_of.push_back(&edge);
     std::vector<char> is_point(boxes.size(), 0);
