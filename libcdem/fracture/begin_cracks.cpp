@@ -132,13 +132,22 @@ private:
     const FaceMoment at = moment(batch, lane, stress);
     const FaceTets& tets = model_.mesh.face_tets[number];
     const FacePlane kind = plane_of_face(number);
-    auto plane = working_plane(stress, rock, at.frame.normal, kind);
+    const auto plane_at = [&] {
+      if (kind != FacePlane::of_material)
+        return working_plane(stress, rock, at.frame.normal, kind);
+      auto found = working_plane(stress, rock, at.frame.normal, FacePlane::of_ragged_border);
+      if (found && std::abs(found->normal.dot(at.frame.normal)) < least_cosine &&
+          !watch_.is_nearest_of_a_tet(model_, state_, tets, at.frame.normal, found->normal))
+        found.reset();
+      return found;
+    };
+    auto plane = plane_at();
     if (plane && !state_.rate_factor.empty()) {
       const double factor = step_.in_real_time ? dynamic_increase_factor(joints_.before_rate(face).rate,
                                                                          strain_rate(model_, state_, tets))
                                                : 1;
       raise(rock, factor);
-      plane = working_plane(stress, rock, at.frame.normal, kind);
+      plane = plane_at();
       if (plane)
         state_.rate_factor[number] = factor;
     }

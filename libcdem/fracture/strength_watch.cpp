@@ -145,6 +145,28 @@ FacePlane StrengthWatch::plane_between(const Model& model, int tet_a, int tet_b)
   return FacePlane::of_material;
 }
 
+bool StrengthWatch::is_nearest_of_a_tet(const Model& model, const State& state, const FaceTets& tets,
+                                        const geom::Vec3& face, const geom::Vec3& m) const {
+  const MeshData& mesh = model.mesh;
+  const double cosine = std::abs(face.dot(m)) * (1 + 1e-9);
+  const auto is_nearest_of = [&](int tet) {
+    const Body& body = model.bodies[model.blocks[model.tet_block[tet]].body];
+    const int i = tet - mesh.first_tet;
+    const auto place = [&](int corner) { return place_of(model, state, model.tets[tet][corner]); };
+    for (int f = 0; f < 4; ++f) {
+      const int beyond = neighbours_[4 * i + f];
+      if (beyond < 0 || !body.bonding.bonds(mesh.region[i], mesh.region[beyond / 4]))
+        continue;
+      const auto& at = geom::tet_faces[f];
+      const geom::Vec3 normal = (place(at[1]) - place(at[0])).cross(place(at[2]) - place(at[0])).normalized();
+      if (std::abs(normal.dot(m)) > cosine)
+        return false;
+    }
+    return true;
+  };
+  return is_nearest_of(tets.tet_a) || is_nearest_of(tets.tet_b);
+}
+
 // A border that a mesh follows is smooth: of the three faces beyond the edges of a face at most one stands far off it, where
 // the border has an edge. A ragged border, which only says to which region each tet belongs, has no plane of its own: its
 // faces, and those beside them, are judged as faces of the material; all of the border's, where most are ragged.

@@ -43,6 +43,10 @@ public:
   // On which plane the face between two tets of the model is judged. On its own where it belongs to a border between regions
   // that has a joint of its own, or beside which nothing else may crack, unless the border is ragged there.
   FacePlane plane_between(const Model&, int tet_a, int tet_b) const;
+  // Whether a face with this normal stands nearer to the plane with the normal m than all others that may crack of one of its
+  // tets.
+  bool is_nearest_of_a_tet(const Model&, const State&, const FaceTets&, const geom::Vec3& face,
+                           const geom::Vec3& m) const;
   bool has_held_faces(std::int64_t chunk) const { return held_[static_cast<std::size_t>(chunk)] != 0; }
   void look(const MeshChunk&, std::int64_t chunk, const StressBatch* stress, const StressBatch* before,
             NearStrength&) const;

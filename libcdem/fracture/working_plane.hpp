@@ -99,8 +99,9 @@ struct WorkingPlane {
   geom::Vec3 traction = geom::Vec3::Zero();
 };
 
-// How far a face of the material may stand off the plane that fails, as the least cosine between their normals: a crack
-// finds faces within 45 degrees. Meshes of boxes have faces at just 45 degrees, which rounding must not decide about.
+// How far a face of the material may stand off the plane that fails, as the least cosine between their normals. A crack mostly
+// finds faces within 45 degrees; meshes of boxes have faces at just 45 degrees, which rounding must not decide about. Where a
+// tet has no such face, its nearest one cracks (begin_cracks.cpp), within the limit of a ragged border.
 inline constexpr double least_cosine = 0.7, least_cosine_of_ragged_border = 0.1;
 
 // The plane on which a face with the unit normal `face` works from now on; none while the stress is below the strength, or

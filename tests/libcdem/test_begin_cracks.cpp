@@ -1,4 +1,5 @@
 // When a crack begins follows from the stress of its face alone: not from the rate, the step or the numbering.
+#include "libcdem/bond/fragments.hpp"
 #include "tests/libcdem/cohesive_concrete.hpp"
 #include "tests/libcdem/going_on.hpp"
 
@@ -6,6 +7,7 @@
 
 #include <numeric>
 #include <random>
+#include <set>
 
 using namespace testing;
 using geom::Vec3;
@@ -15,21 +17,28 @@ namespace {
 constexpr double long_side = 0.1, short_side = 0.02; // m
 
 // A bar without Poisson's effect, stretched uniformly from the start: no wave runs through.
-System stretched_bar(double rate, const geom::TetMesh& mesh) {
-  cdem::BodySpec body = concrete_body(mesh, cdem::Softening::none);
+System stretched_bar(double rate, const geom::TetMesh& mesh, cdem::Softening softening) {
+  cdem::BodySpec body = concrete_body(mesh, softening);
   body.material.poissons_ratio = 0;
   System s(build({body}));
+  const double length = s.model.box.max.x();
   for (std::size_t i = 0; i < s.state.velocity.size(); ++i)
-    s.state.velocity[i] = node({rate * (s.model.node_position[i].x() - long_side / 2), 0, 0});
-  lead_apart(s.conditions.fixes, rate * long_side);
+    s.state.velocity[i] = node({rate * (s.model.node_position[i].x() - length / 2), 0, 0});
+  lead_apart(s.conditions.fixes, rate * length);
   return s;
+}
+
+int pieces_of(const System& s) {
+  const std::vector<int> of_nodes = cdem::fragments_of_nodes(s.model, s.state);
+  return static_cast<int>(std::set<int>(of_nodes.begin(), of_nodes.end()).size());
 }
 
 } // namespace
 
 TEST_CASE("begin cracks: a bar breaks at its strength at any rate and step", "[cohesive][breaking]") {
   const double rate = GENERATE(1.0, 10.0, 100.0), safety = GENERATE(0.9, 0.2);
-  System s = stretched_bar(rate, geom::box_mesh({long_side, short_side, short_side}, {10, 2, 2}));
+  System s = stretched_bar(rate, geom::box_mesh({long_side, short_side, short_side}, {10, 2, 2}),
+                           cdem::Softening::none);
   double first = 0, most = 0;
   cdem::RunOptions options;
   options.steps = 1 << 30;
@@ -51,6 +60,26 @@ TEST_CASE("begin cracks: a bar breaks at its strength at any rate and step", "[c
                << most / tension);
   CHECK(first == Approx(tension).epsilon(0.02));
   CHECK(most == Approx(tension).epsilon(0.02));
+}
+
+// On the mesh of 0.14 m no cut through the bar has only faces within 45 degrees of its section.
+TEST_CASE("begin cracks: a bar one tet across parts at its strength, however its faces lie",
+          "[cohesive][breaking]") {
+  const double edge = GENERATE(0.14, 0.12), width = 0.14;
+  System s = stretched_bar(0.1, unstructured({1, width, width}, edge), cdem::Softening::linear);
+  double most = 0;
+  cdem::RunOptions options;
+  options.duration = 3e-3;
+  options.callback_every = 1;
+  options.callback = [&] { most = std::max(most, end_traction(s, width * width)); };
+  s.run(options);
+  const double taken = cdem::energy(s.model, s.state).breaking / (energy_1 * width * width); // cuts
+  INFO("edge " << edge << ", most " << most / tension << ", pieces " << pieces_of(s) << ", " << taken
+               << " cuts, left " << end_traction(s, width * width) / tension);
+  CHECK(most == Approx(tension).epsilon(0.02));
+  CHECK(pieces_of(s) >= 2);
+  CHECK(taken > 0.9 * (pieces_of(s) - 1));
+  CHECK(taken < 1.5 * (pieces_of(s) - 1)); // it does not flow
 }
 
 TEST_CASE("begin cracks: a body with other numbers breaks in the same way", "[cohesive][breaking]") {
