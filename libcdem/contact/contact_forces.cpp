@@ -173,15 +173,19 @@ ContactSums contact_forces(const Model& model, State& state, ContactWork& own, i
 
 double contact_energy(const Model& model, const State& state, double lag) {
   double sum = 0;
-  for (const Contact& c : state.contacts) {
-    const ContactLaw law = law_of(model, c);
-    const geom::Vec3 ago = lag * velocity_past(state, arms_of(model, state, c));
-    const double along = ago.dot(c.normal);
-    const double pressed =
-        c.effective_penetration() > 0 ? std::max(0.0, c.effective_penetration() + along) : 0;
-    const double shear_force = (c.shear + law.ks * (ago - along * c.normal)).norm();
-    sum += energy(pressed, stiffness_now(c, law),
-                  std::min(shear_force, friction_limit(law.kn * pressed, law.tan_friction)), law);
+  for (const Contact& now : state.contacts) {
+    const ContactLaw law = law_of(model, now);
+    const geom::Vec3 ago = lag * velocity_past(state, arms_of(model, state, now));
+    const double along = ago.dot(now.normal);
+    Contact then = now;
+    if (now.effective_penetration() > 0)
+      then.depth = std::max(then.depth + along, then.reference_penetration);
+    then.damping = law.damping_ratio * law.kn *
+                   std::clamp(pressed_by_approach(now, law) + along, 0.0, then.effective_penetration());
+    then.shear += law.ks * (ago - along * now.normal);
+    const double limit = friction_limit(law.kn * then.effective_penetration(), law.tan_friction);
+    then.shear *= held_by_friction(then.shear.norm(), limit);
+    sum += energy(then, law);
   }
   return sum;
 }

@@ -140,3 +140,36 @@ TEST_CASE("contact law: one that opens gives back what its normal spring stored,
   CHECK(end_loss(c, law, {0, 0, 1.2e-4}) == Approx(0.5 * shear * shear / law.ks));
   CHECK(end_loss(c, law, {-1e-5, 0, 1.2e-4}) == Approx(0.5 * shear * shear / law.ks - 0.5 * shear * 1e-5));
 }
+
+TEST_CASE(
+    "contact law: restitution returns e^2 of what an impact puts in, and damping never gives energy back",
+    "[contact][law]") {
+  const double e = 0.4, k = 1e8, deepest = 1e-4;
+  const ContactLaw bouncing{0.5 * k * (1 + e * e), 5e7, 0, (1 - e * e) / (1 + e * e)};
+  Contact c;
+  c.normal = Vec3::UnitZ();
+  const auto step = [&](double depth, double approach) { // the damping, J
+    ContactMotion m = motion(depth, Vec3(0, 0, c.depth - depth));
+    m.approach = approach;
+    m.held_at_most = 1;
+    return advance(c, bouncing, m).damping;
+  };
+  double taken = 0;
+  for (int i = 1; i <= 1000; ++i)
+    taken += step(deepest * i / 1000, 1);
+  const double given = 0.5 * k * deepest * deepest;
+  CHECK(taken == Approx(0).margin(1e-9 * given));
+  CHECK(cdem::energy(c, bouncing) == Approx(given));
+  for (int i = 999; i >= 0; --i)
+    taken += step(deepest * i / 1000, -1);
+  CHECK(taken == Approx((1 - e * e) * given).epsilon(3e-3));
+  // Waves shake the contact while its body still approaches, turns round, and comes again: what the body loses by
+  // restitution may only grow.
+  for (int i = 0; i < 2000; ++i) {
+    const double lost =
+        step(deepest * (1.2 + std::sin(0.37 * i) * std::cos(0.11 * i)), std::max(0.0, std::sin(0.05 * i)));
+    CHECK(lost >= -1e-12 * given);
+    taken += lost;
+  }
+  CHECK(taken > 2 * given);
+}

@@ -113,6 +113,37 @@ TEST_CASE("a body comes to rest on a contact with restitution and presses with i
   CHECK(s.energy().balance_error() < 1e-2);
 }
 
+TEST_CASE("a deformable body at rest on a floor only loses energy, at any restitution and step",
+          "[contact][energy]") {
+  const double restitution = GENERATE(0.05, 0.3, 0.7), safety = GENERATE(0.5, 0.9);
+  CAPTURE(restitution, safety);
+  cdem::Joint law = bouncy(restitution);
+  law.normal_stiffness.reset();
+  cdem::ModelSpec spec;
+  spec.bodies = {meshed("floor", box({1, 1, 0.2}, {3, 3, 1}, {0, 0, -0.2})),
+                 meshed("cube", box({cube_side, cube_side, cube_side}, {2, 2, 2}, {0.313, 0.278, 0}))};
+  spec.bodies[0].element = cdem::Element::rigid;
+  spec.default_contact = law;
+  cdem::Simulation s(spec, 1, std::make_shared<cdem::Observer>());
+  s.fix(fixed(cdem::Selection::of_body("floor")));
+  s.gravity(gravity());
+  cdem::RunOptions options;
+  options.duration = 0.01;
+  options.safety = safety;
+  s.run(options);
+  // The weight came on at once. What still moves may not grow.
+  const auto moving = [&] { return s.energy().kinetic + s.energy().elastic + s.energy().springs; };
+  double before = moving() - s.energy().external;
+  for (int i = 0; i < 5; ++i) {
+    s.run(options);
+    const double now = moving() - s.energy().external;
+    CHECK(now <= before + 1e-4 * s.energy().external);
+    before = now;
+  }
+  CHECK(s.energy().kinetic < 1e-3 * s.energy().external);
+  CHECK(s.impossible_energy().part < 1e-2);
+}
+
 TEST_CASE("a flat drop gives the force of the wave, rho c v A, on a rigid floor of any mesh", "[contact]") {
   // nu = 0: a bar. The floor is rigid, so its mesh may mean nothing.
   const int divisions = GENERATE(1, 3, 12);

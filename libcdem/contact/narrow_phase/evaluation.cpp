@@ -352,23 +352,29 @@ bool Evaluation::add_contact(int source, int corner, const geom::Vec3& spring, i
   return true;
 }
 
-Evaluation::SideMotion Evaluation::motion_of_side(int block, const int* nodes, const double* weights,
-                                                  int count, double force) const {
+Evaluation::SideMotion Evaluation::motion_of_side(const ContactTriangle& side, const int* nodes,
+                                                  const double* weights, int count, double force) const {
+  const int block = side.block;
   geom::Vec3 place = geom::Vec3::Zero(), velocity = geom::Vec3::Zero();
   double local = 0; // 1/kg
+  // kg, of the corner of the side's own tet: the contacts around a node have the mass of the node together.
+  const double density = model_.bodies[model_.blocks[block].body].material.density,
+               corner = density * side.area * side.height / 12;
   for (int i = 0; i < count; ++i) {
     place += weights[i] * place_of(model_, state_, nodes[i]);
     velocity += weights[i] * velocity_of(state_, nodes[i]);
-    local += weights[i] * weights[i] / moving_mass(model_, state_)[nodes[i]];
+    local += weights[i] * weights[i] / moving_mass(model_, state_)[nodes[i]] *
+             std::max(1.0, model_.node_mass[nodes[i]] / corner);
   }
   if (work_.last_displacement[block] == 0)
-    return {velocity, 0}; // held: it does not turn round
+    return {velocity}; // held: it does not turn round
   const Block& b = model_.blocks[block];
-  const double whole = work_.block_forces[block] / (b.mass.volume * model_.bodies[b.body].material.density);
+  const double whole = work_.block_forces[block] / (b.mass.volume * density);
+  const double own = whole + (b.rigid >= 0 ? 0 : force * local);
   const BlockMotion& motion = work_.block_motion[block];
   if (motion.whole)
-    return {motion.velocity + motion.spin.cross(place - motion.centroid), whole};
-  return {velocity, whole + (b.rigid >= 0 ? 0 : force * local)};
+    return {motion.velocity + motion.spin.cross(place - motion.centroid), whole, own};
+  return {velocity, own, own};
 }
 
 void Evaluation::finish(Contact& c, const Contact* old, ContactMotion& motion, const ContactArms& arms,
@@ -377,10 +383,19 @@ void Evaluation::finish(Contact& c, const Contact* old, ContactMotion& motion, c
   motion.slid = work_.step * velocity;
   if (work_.restitution && law.damping_ratio > 0) {
     const double force = law.kn * std::max(0.0, motion.depth);
-    const SideMotion source = motion_of_side(from.block, arms.source.data(), arms.on_source.data(), 3, force),
-                     target = motion_of_side(to.block, arms.target.data(), arms.normal.data(), 4, force);
-    motion.speed = (target.velocity - source.velocity).dot(motion.normal);
-    motion.turning_speed = work_.step * (source.acceleration + target.acceleration);
+    const SideMotion source = motion_of_side(from, arms.source.data(), arms.on_source.data(), 3, force),
+                     target = motion_of_side(to, arms.target.data(), arms.normal.data(), 4, force);
+    const auto part = [&](double speed, double acceleration) { // of the speed that a step can reverse
+      const double reversed = work_.step * acceleration;
+      return std::abs(speed) < reversed ? speed / reversed : std::copysign(1.0, speed);
+    };
+    motion.approach = part((target.velocity - source.velocity).dot(motion.normal),
+                           source.acceleration + target.acceleration);
+    // Bodies that part faster than that are no bodies at rest, and nothing turns round.
+    motion.held_at_most = motion.approach <= -1
+                              ? 1
+                              : std::abs(part(2 * velocity.dot(motion.normal),
+                                              source.own_acceleration + target.own_acceleration));
   }
   ContactForce force;
   const bool own = old && key(*old) == key(c);
@@ -405,7 +420,7 @@ void Evaluation::finish(Contact& c, const Contact* old, ContactMotion& motion, c
   force.arms = arms;
   force.source_block = from.block;
   force.target_block = to.block;
-  force.normal = (law.kn * c.effective_penetration() + c.damping) * c.normal;
+  force.normal = normal_force(c, law) * c.normal;
   force.shear = c.shear;
   force.stiffness = law.kn * (1 + law.damping_ratio) + law.ks;
   out_.contacts.push_back(c);

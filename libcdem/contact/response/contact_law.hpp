@@ -4,13 +4,16 @@
 //   Fs = R Fs - ks du_s          R turns it with the normal, and about it with the two faces; du_s slip of this step
 //   |Fs| <= Fn tan(phi)
 //
-// With a coefficient of restitution e < 1 the normal force is larger while the two points approach and smaller while
-// they separate, so that the contact returns the fraction e^2 of the energy 1/2 kn d^2:
+// With a coefficient of restitution e < 1 the contact returns the fraction e^2 of the energy 1/2 k d^2 that goes into it,
+// k = 2 kn / (1 + e^2). Beside the spring kn acts a force D, with r = (1 - e^2) / (1 + e^2):
 //
-//   Fn = kn (d - d0)+ [(1 + e^2)/2 + (1 - e^2)/2 s],   s = v / v0 within -1 and 1,   v approach speed
+//   bodies approach:  D = r kn q,        q <- q + closing of this step, 0 <= q <= s p
+//   they separate:    D = -r kn p |s|,   only while the contact itself opens; q = 0
 //
-// v0 is the speed that the forces of one step can reverse, so that a body at rest stays at rest. While s stays, the force is
-// that of a spring, whose energy is stored. Damping is what a change of s takes, (1 - e^2)/4 kn (d - d0)^2 as s falls by 1.
+// p is the effective penetration, s = v / v0 within -1 and 1, v the speed at which the bodies approach, and v0 the speed that
+// the forces of one step can reverse: a body at rest stays at rest. While they approach D is a spring that stores
+// 1/2 r kn q^2. Damping is what it loses when its bound s p falls, and the work of D while the contact opens. So damping
+// never gives energy back, whatever the waves in the bodies do.
 //
 // An overlap that exists before anything has moved (d0 > 0) carries no force: with the stiffness of concrete a tenth of
 // a millimetre would throw a unit into the air.
@@ -27,7 +30,7 @@ namespace cdem {
 struct ContactLaw {
   double kn = 0, ks = 0; // N/m, of the springs
   double tan_friction = 0;
-  double damping_ratio = 0; // (1 - e^2) / (1 + e^2)
+  double damping_ratio = 0; // r = (1 - e^2) / (1 + e^2)
 };
 
 // A semi-spring keeps the stiffness with which it began to press, or with which it took over the force of a face, and any
@@ -46,8 +49,9 @@ struct ContactMotion {
   double depth = 0;                       // m, now
   geom::Vec3 slid = geom::Vec3::Zero();   // m, of the source past the target
   double turned = 0;                      // rad, of the two faces about the normal
-  double speed = 0;                       // m/s, of approach
-  double turning_speed = 0;               // v0, m/s
+  double approach = 0;                    // s of restitution: 1 the bodies approach, -1 they separate
+  // Part of the damping force, up to 1, that does not turn the contact's own motion round within the step.
+  double held_at_most = 0;
 };
 
 // What a contact loses in a step, J, >= 0.
@@ -68,28 +72,42 @@ inline double first_reference_penetration(const ContactMotion& m) {
   return m.depth <= -1.5 * m.slid.dot(m.normal) ? 0 : m.depth;
 }
 
-// N, of a contact pressed by `elastic` (N) by its spring.
-inline double contact_damping(double elastic, const ContactLaw& law, double speed, double turning_speed) {
-  if (law.damping_ratio == 0 || speed == 0)
-    return 0;
-  const double part = turning_speed > std::abs(speed) ? speed / turning_speed : std::copysign(1., speed);
-  return law.damping_ratio * elastic * part;
+// q, m: how far the contact has been pressed while its bodies approached.
+inline double pressed_by_approach(const Contact& c, const ContactLaw& law) {
+  return c.damping > 0 ? c.damping / (law.damping_ratio * law.kn) : 0;
+}
+// J, stored in the force of restitution.
+inline double stored_by_damping(const Contact& c, const ContactLaw& law) {
+  return 0.5 * std::max(0.0, c.damping) * pressed_by_approach(c, law);
 }
 
-// J, stored in the part of the normal force that depends on s.
-inline double stored_by_damping(const Contact& c) {
-  return 0.5 * c.damping * c.effective_penetration();
+// Advances the force of restitution of a contact that is as deep as it is now. closing: m, in the step. Returns what it
+// took, J, by the trapezoidal rule; what opens further than q leaves the spring at 0.
+inline double advance_damping(Contact& c, const ContactLaw& law, const ContactMotion& m, double closing) {
+  const double stiffness = law.damping_ratio * law.kn, pressed = c.effective_penetration();
+  const double before = c.damping, q = pressed_by_approach(c, law), stored = stored_by_damping(c, law);
+  if (m.approach >= 0)
+    c.damping = stiffness * std::clamp(q + closing, 0.0, m.approach * pressed);
+  else
+    c.damping = closing < 0 ? -stiffness * pressed * std::min(-m.approach, m.held_at_most) : 0;
+  return 0.5 * before * (before > 0 ? std::max(closing, -q) : closing) +
+         0.5 * c.damping * (c.damping > 0 ? std::max(closing, -q) : closing) + stored -
+         stored_by_damping(c, law);
+}
+
+// N, of the contact on its source.
+inline double normal_force(const Contact& c, const ContactLaw& law) {
+  return law.kn * c.effective_penetration() + c.damping;
 }
 
 // Advances the contact. Returns the energy that friction and damping took: the work of shear force and damping by the
 // trapezoidal rule, which is what central differences do, less what they store more. With F0 the turned force before the
 // step, T the trial force and F1 = T limit / |T| that of friction is (F0 + F1) . (T - F1) / (2 ks), and what turning took
-// off the stored energy. A step in which the slip turns back may give energy.
+// off the stored energy. Friction may give energy in a step in which the slip turns back.
 inline ContactLoss advance(Contact& c, const ContactLaw& law, const ContactMotion& m) {
   geom::Vec3 shear = turned_with(c.shear, c.normal, m.normal);
   shear += m.turned * m.normal.cross(shear);
   const geom::Vec3 turned = shear;
-  const double stored_before = stored_by_damping(c);
   shear -= law.ks * (m.slid - m.slid.dot(m.normal) * m.normal);
   c.reference_penetration =
       std::min(c.reference_penetration,
@@ -97,12 +115,9 @@ inline ContactLoss advance(Contact& c, const ContactLaw& law, const ContactMotio
   c.normal = m.normal;
   c.depth = m.depth;
   ContactLoss loss;
-  const double elastic = law.kn * c.effective_penetration();
-  const double damping = contact_damping(elastic, law, m.speed, m.turning_speed);
-  loss.damping = -0.5 * (c.damping + damping) * m.slid.dot(m.normal);
-  c.damping = damping;
-  loss.damping += stored_before - stored_by_damping(c);
-  const double trial = shear.norm(), limit = friction_limit(elastic + damping, law.tan_friction);
+  if (law.damping_ratio > 0)
+    loss.damping = advance_damping(c, law, m, -m.slid.dot(m.normal));
+  const double trial = shear.norm(), limit = friction_limit(normal_force(c, law), law.tan_friction);
   const double by_turning = c.shear.squaredNorm() - turned.squaredNorm();
   c.shear = shear;
   if (law.ks <= 0)
@@ -115,25 +130,20 @@ inline ContactLoss advance(Contact& c, const ContactLaw& law, const ContactMotio
   return loss;
 }
 
-// N/m, of the normal force over the depth that it acts at.
-inline double stiffness_now(const Contact& c, const ContactLaw& law) {
-  const double pressed = c.effective_penetration();
-  return pressed > 0 ? law.kn + c.damping / pressed : law.kn;
-}
-
-// J, stored. normal: N/m.
-inline double energy(double pressed, double normal, double shear_force, const ContactLaw& law) {
-  return 0.5 * normal * pressed * pressed + (law.ks > 0 ? 0.5 * shear_force * shear_force / law.ks : 0);
-}
+// J, stored.
 inline double energy(const Contact& c, const ContactLaw& law) {
-  return energy(c.effective_penetration(), stiffness_now(c, law), c.shear.norm(), law);
+  const double pressed = c.effective_penetration();
+  return 0.5 * law.kn * pressed * pressed + stored_by_damping(c, law) +
+         (law.ks > 0 ? 0.5 * c.shear.squaredNorm() / law.ks : 0);
 }
 
 // J, loss of a contact that has ended; slid: slip in its last step. The loss is the stored energy less the work of its
 // force in that step. The normal spring loses nothing if the contact opened.
 inline double end_loss(const Contact& c, const ContactLaw& law, const geom::Vec3& slid) {
   const double pressed = c.effective_penetration(), opened = std::min(slid.dot(c.normal), pressed);
-  return 0.5 * stiffness_now(c, law) * pressed * (pressed - opened) +
+  const double of_damping = c.damping > 0 ? std::min(opened, pressed_by_approach(c, law)) : opened;
+  return 0.5 * law.kn * pressed * (pressed - opened) + stored_by_damping(c, law) -
+         0.5 * c.damping * of_damping +
          (law.ks > 0 ? 0.5 * c.shear.squaredNorm() / law.ks - 0.5 * c.shear.dot(slid) : 0);
 }
 
