@@ -9,9 +9,7 @@ local function words_of(command) -- what `PROGRAM COMMAND --help` names as optio
 end
 
 local help = { test = "", bench = "", docs = "", setup = "", help = "" } -- the launcher's own: their options are others'
-for _, name in ipairs{ "run", "resume", "check", "view", "render", "sweep", "info", "repl", "annotations" } do
-  help[name] = words_of(name)
-end
+for name in words_of(""):gmatch "\n  (%l+)  +%l" do help[name] = words_of(name) end
 local launcher = pages.read(pages.root .. "/cdem")
 for name in launcher:gmatch "\n  ([%l_]+)%)\n" do help[name] = help[name] or "" end
 

