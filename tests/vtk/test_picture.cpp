@@ -403,7 +403,7 @@ TEST_CASE("a legend has as many rows as keep it within the picture, and loses no
   const auto add = [&](const std::string& label) { o.polylines.push_back({{{0, 0, 0}, {3, 1, 0}}, label}); };
   add("one line");
   const int one = height();
-  add("another line with a name of many words that tells what it is");
+  add("another line with a name of many words that tells what it is and where it is from");
   const int two = height();
   CHECK(two > one);
   add("and a third one, whose name alone is longer than the picture is wide, so that it is wrapped at a "
