@@ -260,6 +260,7 @@ AxesContent axes_content(const View& view, double pixel, const std::optional<geo
   AxesContent axes;
   const double length = 84 * pixel, font = 0.9 * label_font * pixel;
   std::vector<std::pair<std::string, geom::Vec3>> directions;
+  directions.reserve(4);
   for (int i = 0; i < 3; ++i)
     directions.emplace_back(std::string(1, "xyz"[i]), geom::Vec3::Unit(i));
   if (north) {

@@ -58,12 +58,13 @@ FaceStrengths::FaceStrengths(const Body& body, const geom::TetMesh& mesh,
 FaceStrength FaceStrengths::of(int tet_a, int tet_b) const {
   FaceStrength face;
   face.joint = body_.region_laws.between(mesh_.region[tet_a], mesh_.region[tet_b]);
-  const std::vector<double>& factors = factor_[static_cast<std::size_t>(face.joint + 1)];
+  const std::size_t law = static_cast<std::size_t>(face.joint) + 1; // -1: the body's own
+  const std::vector<double>& factors = factor_[law];
   const double factor = factors.empty() ? 1 : std::min(factors[tet_a], factors[tet_b]);
   const Joint& joint = body_.joint_of(face.joint);
   face.tensile_strength = factor * joint.tensile_strength;
   face.cohesion = factor * joint.cohesion;
-  face.tan_friction = tan_friction_[static_cast<std::size_t>(face.joint + 1)];
+  face.tan_friction = tan_friction_[law];
   return face;
 }
 

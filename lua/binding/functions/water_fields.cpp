@@ -153,7 +153,7 @@ std::function<double(double)> entering(const Arguments& a, const SlopeGiven& slo
   };
 }
 
-Value slope(Session& session, Object*, const Arguments& a) {
+Value slope_water(Session& session, Object*, const Arguments& a) {
   SlopeGiven given;
   for (const Value& point : a.list("bed"))
     given.bed.push_back({point.table()->items[0].number(), point.table()->items[1].number()});
@@ -177,7 +177,7 @@ Value slope(Session& session, Object*, const Arguments& a) {
   return object;
 }
 
-Value at(Session&, WaterObject& water, const Arguments& a) {
+Value point_at(Session&, WaterObject& water, const Arguments& a) {
   const WaterPoint point = water.field->at(a.vec3("place"), a.number("time"));
   Table row{{"velocity", point.velocity}, {"acceleration", point.acceleration}, {"pressure", point.pressure}};
   if (std::isfinite(point.surface))
@@ -223,7 +223,7 @@ void bind_water_class(Module& m) {
                            true,
                            "cdem.WaterPoint",
                            "",
-                           method<WaterObject>(at)});
+                           method<WaterObject>(point_at)});
   water.text = [](const Object& self) {
     return "cdem.Water: " + static_cast<const WaterObject&>(self).words;
   };
@@ -234,7 +234,7 @@ void bind_water_class(Module& m) {
 
 void bind_water_fields(Module& m) {
   bind_water_class(m);
-  const auto add = [&](std::string name, std::string doc, std::vector<Field> fields, auto body) {
+  const auto add = [&](const std::string& name, std::string doc, std::vector<Field> fields, auto body) {
     m.functions.push_back(
         {"water." + name, std::move(doc), std::move(fields), false, "cdem.Water", "", body});
   };
@@ -303,7 +303,7 @@ void bind_water_fields(Module& m) {
            .standard(0.01)
            .doc("f of the bed's resistance rho f u |u|: smooth 0.005, armour 0.02 to 0.1"),
        direction_field(), vec3("origin").standard(geom::Vec3(0, 0, 0)).unit("m"), density_field()},
-      slope);
+      slope_water);
 }
 
 } // namespace cdem::script
