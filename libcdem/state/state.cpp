@@ -9,6 +9,7 @@ namespace cdem {
 
 // A member of State that is not in the table does not compile.
 static_assert(sizeof(State) == sizeof(State::parted)
+// NOLINTNEXTLINE(bugprone-macro-parentheses)
 #define FIELD(type, name, unit, place, need, carried, shared, looked, writer) +sizeof(type)
 #include "libcdem/state/fields.inc"
 #undef FIELD

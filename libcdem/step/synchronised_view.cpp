@@ -30,8 +30,8 @@ SynchronisedView::SynchronisedView(Stage& stage, Of what) : stage_(stage) {
   State& state = stage.context_.state;
   Workspace& work = stage.work;
   if (work.contact.due || work.strain_step > 0) {
-    kept_.reset(
-        new Kept{{}, work.contact, stage.contacts_, work.face_sums, work.strain_step, work.hand_over_due});
+    kept_ = std::make_unique<Kept>(
+        Kept{{}, work.contact, stage.contacts_, work.face_sums, work.strain_step, work.hand_over_due});
     if (work.contact.tet_pairs)
       kept_->contact.tet_pairs = std::make_shared<TetPairs>(*work.contact.tet_pairs);
     copy_advancing_fields(state, kept_->state);
