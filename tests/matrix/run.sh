@@ -41,7 +41,7 @@ stopped() { # folder, ranks to resume with, arguments...
     local child=$!
     while kill -0 $child 2>/dev/null; do
       if [[ -e out/stopped_once ]]; then
-        pkill -INT -P $child
+        kill -INT $child
         break
       fi
       sleep 0.02
