@@ -103,7 +103,7 @@ std::map<std::pair<int, int>, std::int64_t> faces_by_tets(const cdem::Model& mod
   return faces;
 }
 
-// Of the first number of each entry.
+// The sum of the first numbers of the entries.
 template <class Entry>
 double sum_of(const std::vector<Entry>& entries) {
   double sum = 0;
