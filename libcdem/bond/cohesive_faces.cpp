@@ -155,7 +155,7 @@ private:
       mode = static_cast<std::uint8_t>(how);
       const Vec3 began = law_.kn * offset; // the relative displacement was nearly zero then
       sums.broken.push_back(
-          {spring, how, now_.in_space(m), began.dot(m), (began - began.dot(m) * m).norm(), {}});
+          {spring, how, now_.in_space(m), began.dot(m), (began - began.dot(m) * m).norm(), {}, {}});
     }
     return now_.in_space(area * r.traction);
   }

@@ -33,7 +33,7 @@ void check_faces(const State& state) {
     if (batch.slip < -1)
       refuse_state("faces.slip", std::to_string(batch.slip) + " is out of range");
     if (batch.slip >= 0)
-      require_below("faces.slip", batch.slip + lanes - 1, state.face_slip.size());
+      require_below("faces.slip", batch.slip, state.face_slip.size());
   }
 }
 

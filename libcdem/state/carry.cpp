@@ -181,8 +181,9 @@ private:
       const std::int64_t was = (*map_.face)[face];
       if (was < 0)
         continue;
-      if (const FaceSlip* slip = slip_of(std::as_const(from_), was / lanes, static_cast<int>(was % lanes)))
-        slip_of(to_, static_cast<std::int64_t>(face / lanes), static_cast<int>(face % lanes)) = *slip;
+      if (from_.faces[was / lanes].slip >= 0)
+        slips_of(to_, static_cast<std::int64_t>(face / lanes))
+            .set(static_cast<int>(face % lanes), slip_of(from_, was / lanes, static_cast<int>(was % lanes)));
     }
   }
 

@@ -100,18 +100,18 @@ const std::vector<double>& moving_mass(const Model& model, const State& state) {
   return state.moving_mass.empty() ? model.node_mass : state.moving_mass;
 }
 
-FaceSlip& slip_of(State& state, std::int64_t batch, int lane) {
-  std::int32_t& first = state.faces[batch].slip;
-  if (first < 0) {
-    first = static_cast<std::int32_t>(state.face_slip.size());
-    state.face_slip.resize(state.face_slip.size() + lanes);
+FaceSlipBatch& slips_of(State& state, std::int64_t batch) {
+  std::int32_t& place = state.faces[batch].slip;
+  if (place < 0) {
+    place = static_cast<std::int32_t>(state.face_slip.size());
+    state.face_slip.emplace_back();
   }
-  return state.face_slip[first + lane];
+  return state.face_slip[place];
 }
 
-const FaceSlip* slip_of(const State& state, std::int64_t batch, int lane) {
-  const std::int32_t first = state.faces[batch].slip;
-  return first < 0 ? nullptr : &state.face_slip[first + lane];
+FaceSlip slip_of(const State& state, std::int64_t batch, int lane) {
+  const std::int32_t place = state.faces[batch].slip;
+  return place < 0 ? FaceSlip{} : state.face_slip[place].at(lane);
 }
 
 Stress mesh_stress(const Model& model, const State& state, int tet) {
@@ -182,7 +182,7 @@ State initial_state(const Model& model) {
     if (model.bodies[model.blocks[chunk.block].body].joint.bonded)
       return;
     state.faces[at.batch].mode[at.point][at.lane] = static_cast<std::uint8_t>(BondMode::contact);
-    slip_of(state, at.batch, at.lane);
+    slips_of(state, at.batch);
   });
   set_rigid_states(model, state);
   return state;

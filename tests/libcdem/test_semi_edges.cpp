@@ -38,7 +38,7 @@ System broken_in_two(double friction_angle = 20) {
   System s(
       build({meshed("cubes", mesh, between, soft_rock(1e9))}, {{"cubes", "cubes", rough(friction_angle)}}));
   each_face(s.model.mesh, [&](const cdem::MeshChunk&, std::int64_t batch, int lane) {
-    cdem::slip_of(s.state, batch, lane);
+    cdem::slips_of(s.state, batch);
     for (auto& point : s.state.faces[batch].mode)
       point[lane] = static_cast<std::uint8_t>(cdem::BondMode::broken_tension);
     s.state.faces[batch].handed_over[lane] = 1;
