@@ -24,7 +24,7 @@ void require_spring_strength(const Joint& joint, const std::string& between) {
                            "that of a mesh with bonds = \"cohesive\"",
                            "the springs of other bonds know no strain rate of the rock");
   if (joint.curve.on())
-    throw geom::InputError("a Hoek-Brown strength", "of a joint between " + between,
+    throw geom::InputError("joint", "a Hoek-Brown strength, between " + between,
                            "that of a mesh with bonds = \"cohesive\"",
                            "the springs of other bonds know no principal stresses of the rock");
 }

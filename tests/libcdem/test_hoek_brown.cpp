@@ -216,7 +216,7 @@ TEST_CASE("Hoek-Brown: a cohesive prism cracks under sigma_3 + sigma_ci (m_b sig
           "[hoek_brown][cohesive]") {
   const double lateral = GENERATE(0.0, 2e6);
   cdem::BodySpec prism =
-      concrete_body(geom::box_mesh({0.1, 0.1, 0.2}, {3, 3, 6}, 0.1), cdem::Softening::none);
+      concrete_body(geom::box_mesh({0.1, 0.1, 0.2}, {2, 2, 4}, 0.1), cdem::Softening::none);
   prism.joint.curve = cdem::hoek_brown(average);
   prism.joint.tensile_strength = cdem::uniaxial_tensile_strength(prism.joint.curve);
   const double strength = cdem::strength(prism.joint.curve, lateral);
@@ -229,7 +229,7 @@ TEST_CASE("Hoek-Brown: a cohesive prism cracks under sigma_3 + sigma_ci (m_b sig
                               traction(cdem::Selection::side("z+"), {0, 0, -part * strength})};
     cdem::RelaxOptions options;
     options.residual = 1e-4;
-    options.max_steps = 4000;
+    options.max_steps = 3000;
     cdem::relax(s.next_stage(), options, "relax");
     return s.log.broken_shear + s.log.broken_tension;
   };
