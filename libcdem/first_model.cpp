@@ -106,7 +106,7 @@ public:
   // The law of all pairs that have none. A body of small strain meets none that moves far; require_separate says so.
   void add_default(const Joint& joint) {
     validate(joint);
-    require_no_rate_effect(joint, "bodies (contacts.default)");
+    require_spring_strength(joint, "bodies (contacts.default)");
     for (int a = 0; a < count(); ++a)
       for (int b = a; b < count(); ++b) {
         const auto& given = is_small(a) || are_blocks(a, b) ? frame_.pair_joint : frame_.surface.joint;
@@ -311,7 +311,7 @@ Model first_model(const ModelSpec& spec) {
     if (meshed)
       validate_meshed(body);
     else
-      require_no_rate_effect(body.joint, "blocks of body \"" + body.name + "\"");
+      require_spring_strength(body.joint, "blocks of body \"" + body.name + "\"");
     require_zones(body);
     require_plasticity(body);
     if (body.element == Element::small_strain) {
@@ -337,7 +337,7 @@ Model first_model(const ModelSpec& spec) {
   PairLaws laws(frame, spec, parts);
   for (const PairSpec& pair : spec.pairs) {
     validate(pair.joint);
-    require_no_rate_effect(pair.joint, "\"" + pair.body_a + "\" and \"" + pair.body_b + "\"");
+    require_spring_strength(pair.joint, "\"" + pair.body_a + "\" and \"" + pair.body_b + "\"");
     laws.add(body_index(frame, pair.body_a), body_index(frame, pair.body_b), pair.joint, "contacts",
              "{\"" + pair.body_a + "\", \"" + pair.body_b + "\"}");
   }

@@ -174,7 +174,19 @@ bool Simulation::flow(const Flow& flow) {
   return flows_meet(impl_->model, resolved);
 }
 
+void Simulation::crack_pressure(const CrackPressure& pressure) {
+  if (pressure.volume)
+    for (const auto& [field, value] :
+         {std::pair{"bulk_modulus", pressure.bulk_modulus}, std::pair{"reservoir", pressure.reservoir}})
+      if (!(value > 0 && std::isfinite(value)))
+        throw geom::InputError(field, number(value), "a finite number > 0", "it goes with volume");
+  if (!impl_->replaying)
+    require_cracks(impl_->model, pressure.on);
+  impl_->add_condition([&](Conditions& c) { c.crack_pressures.push_back(pressure); });
+}
+
 void Simulation::clear_loads() {
+  impl_->conditions.crack_pressures.clear();
   impl_->conditions.flows.clear();
   impl_->conditions.tractions.clear();
   impl_->conditions.forces.clear();

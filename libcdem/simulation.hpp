@@ -117,7 +117,8 @@ public:
   void quiet(const Quiet&);
   void free_field(const FreeField&);
   bool flow(const Flow&); // true when it meets faces that an earlier one meets: their pressures add up
-  void clear_loads();     // tractions, forces, gravity and flows
+  void crack_pressure(const CrackPressure&);
+  void clear_loads(); // tractions, forces, gravity, flows and pressures in cracks
   // Stress present before anything moves (load/initial_stress.hpp). Returns what it loads beyond its strength.
   BeyondStrength initial_stress(const InitialStress&);
   void initial_stress(const Selection&, const std::array<double, 6>&); // Pa, the same in all selected blocks

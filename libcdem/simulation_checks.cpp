@@ -18,11 +18,15 @@ void require_finite(const char* field, const geom::Vec3& v) {
     throw geom::InputError(field, fmt::format("({:g}, {:g}, {:g})", v.x(), v.y(), v.z()), "finite");
 }
 
-void require_no_rate_effect(const Joint& joint, const std::string& between) {
+void require_spring_strength(const Joint& joint, const std::string& between) {
   if (joint.rate.on())
     throw geom::InputError("rate_effect", "of a joint between " + between,
                            "that of a mesh with bonds = \"cohesive\"",
                            "the springs of other bonds know no strain rate of the rock");
+  if (joint.curve.on())
+    throw geom::InputError("joint", "a Hoek-Brown strength, between " + between,
+                           "that of a mesh with bonds = \"cohesive\"",
+                           "the springs of other bonds know no principal stresses of the rock");
 }
 
 namespace {
@@ -39,7 +43,7 @@ void validate_mesh_joint(const BodySpec& body, const Joint& joint, const std::st
                            "cdem.mohr_coulomb or cdem.coulomb without them on the faces of a mesh",
                            "cdem.blocks{ mesh = ... } makes blocks of the tetrahedra");
   if (!b.is_cohesive())
-    require_no_rate_effect(joint, "springs of the mesh of body \"" + body.name + "\"");
+    require_spring_strength(joint, "springs of the mesh of body \"" + body.name + "\"");
   if (b.is_cohesive() && !(joint.bonded && joint.tensile_strength > 0 && joint.cohesion > 0))
     throw geom::InputError(field +
                            ": a cohesive body needs a tensile_strength and a cohesion > 0 Pa, below which it "

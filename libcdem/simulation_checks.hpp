@@ -9,7 +9,7 @@ std::string number(double x); // as messages print it
 void require_finite(const char* field, const geom::Vec3&);
 void validate_meshed(const BodySpec&); // a body of meshes
 // between: what the joint holds.
-void require_no_rate_effect(const Joint&, const std::string& between);
+void require_spring_strength(const Joint&, const std::string& between);
 void check(const RelaxOptions&);
 void check(const MassScaling&);
 void check(const RunOptions&);

@@ -57,6 +57,8 @@ struct FaceSums {
   CrackEnergy crack;   // J, this step: what of `breaking` went into cracks
   double damping = 0;  // J, this step, of the tetrahedra of the same chunk
   double plastic = 0;  // J, likewise
+  double external = 0; // J, this step, work of the pressure in cracks (load/crack_pressure.hpp)
+  double applied2 = 0; // N2, squares of its forces on corners of faces
   std::vector<FaceBreak> broken;
   // A face, batch * lanes + lane from the range's first batch on, that is closed and has slid further than it is long;
   // -1: none. Only where nothing takes it over.

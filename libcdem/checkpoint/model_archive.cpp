@@ -20,11 +20,17 @@ void archive(A& a, Elastic& x) {
 }
 
 template <class A>
+void archive(A& a, HoekBrown& x) {
+  auto& [sigma_ci, m_b, s, exponent] = x;
+  archive_all(a, sigma_ci, m_b, s, exponent);
+}
+
+template <class A>
 void archive(A& a, Plasticity& x) {
   auto& [cohesion, friction_angle, dilation_angle, tensile_strength, residual_cohesion,
-         residual_friction_angle, residual_tensile_strength, softening_strain] = x;
+         residual_friction_angle, residual_tensile_strength, softening_strain, curve, residual_curve] = x;
   archive_all(a, cohesion, friction_angle, dilation_angle, tensile_strength, residual_cohesion,
-              residual_friction_angle, residual_tensile_strength, softening_strain);
+              residual_friction_angle, residual_tensile_strength, softening_strain, curve, residual_curve);
 }
 
 template <class A>
@@ -70,9 +76,9 @@ void archive(A& a, JointLaw& x) {
 template <class A>
 void archive(A& a, Joint& x) {
   auto& [bonded, glued, cohesion, friction_angle, tensile_strength, softening, g1, g2, thickness_ratio,
-         thickness, kn, ks, stiffness_damping, restitution, scatter, rate, law] = x;
+         thickness, kn, ks, stiffness_damping, restitution, scatter, rate, law, curve] = x;
   archive_all(a, bonded, glued, cohesion, friction_angle, tensile_strength, softening, g1, g2,
-              thickness_ratio, thickness, kn, ks, stiffness_damping, restitution, scatter, rate, law);
+              thickness_ratio, thickness, kn, ks, stiffness_damping, restitution, scatter, rate, law, curve);
 }
 
 template <class A>

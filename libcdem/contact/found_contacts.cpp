@@ -16,7 +16,7 @@
 namespace cdem {
 namespace {
 
-void add(const geom::Vec3& more, std::array<ExactSum, 3>& sums) {
+void add_exactly(const geom::Vec3& more, std::array<ExactSum, 3>& sums) {
   for (int axis = 0; axis < 3; ++axis)
     sums[axis].add(more[axis]);
 }
@@ -149,8 +149,8 @@ void FoundContacts::add_on_rigid(const ContactForce& f) {
         frequency2 += arms.on_source[i] * rigid_inverse_mass(model_.rigid[rigid], here.norm());
       }
     RigidSums& sums = touched(rigid);
-    cdem::add(f.normal + f.shear, sums.force);
-    cdem::add(at.cross(f.normal + f.shear), sums.torque);
+    add_exactly(f.normal + f.shear, sums.force);
+    add_exactly(at.cross(f.normal + f.shear), sums.torque);
     sums.frequency2.add(2 * f.stiffness * frequency2);
   }
   if (const int rigid = model_.blocks[f.target_block].rigid; rigid >= 0) {
@@ -164,8 +164,8 @@ void FoundContacts::add_on_rigid(const ContactForce& f) {
                     rigid_inverse_mass(model_.rigid[rigid], here.norm());
     }
     RigidSums& sums = touched(rigid);
-    cdem::add(-f.normal - f.shear, sums.force);
-    cdem::add(-pressed.cross(f.normal) - sheared.cross(f.shear), sums.torque);
+    add_exactly(-f.normal - f.shear, sums.force);
+    add_exactly(-pressed.cross(f.normal) - sheared.cross(f.shear), sums.torque);
     sums.frequency2.add(2 * f.stiffness * frequency2);
   }
 }

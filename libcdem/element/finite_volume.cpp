@@ -82,9 +82,9 @@ struct Elastically {
 struct Plastically {
   PlasticTets tets;
   TetStiffness stiffness;
-  const PlasticBound* bounds; // two of each law
+  const PlasticBound* bounds; // of all laws
   const RockLimit* peaks;     // of each law
-  int count;                  // of them
+  int count;                  // of the bounds
 
   CDEM_INLINE void operator()(std::int64_t batch, const StressBatch& before, const Oct& six_volume,
                               Symmetric& r) const {

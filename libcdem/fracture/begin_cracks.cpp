@@ -127,7 +127,7 @@ private:
     raise(rock, left);
     const double components[6] = {stress(0, 0), stress(1, 1), stress(2, 2),
                                   stress(0, 1), stress(1, 2), stress(0, 2)};
-    if (!(UseBound(rock, 1).beyond(components) > 0))
+    if (!rock.curve.on() && !(UseBound(rock, 1).beyond(components) > 0))
       return;
     const FaceMoment at = moment(batch, lane, stress);
     const FaceTets& tets = model_.mesh.face_tets[number];

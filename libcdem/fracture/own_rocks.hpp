@@ -36,7 +36,8 @@ public:
     std::vector<UseBound> all;
     for (const RockStrength& rock : weakest_)
       if (rock.tensile_strength > 0)
-        all.emplace_back(rock, use);
+        for (const UseBound& bound : use_bounds(rock, use))
+          all.push_back(bound);
     return all;
   }
 

@@ -22,16 +22,32 @@ struct Uses {
   double tension = 0, shear = 0;
 };
 
-// Principal stresses, ascending.
+RockStrength with_line(RockStrength rock, const StraightStrength& line) {
+  rock.cohesion = line.cohesion;
+  rock.cos_friction = line.cos_friction;
+  rock.sin_friction = line.sin_friction;
+  return rock;
+}
+
+// p3, pressure on a plane: Pa.
+RockStrength at_pressure(const RockStrength& rock, double p3) {
+  return rock.curve.on() ? with_line(rock, tangent(rock.curve, p3)) : rock;
+}
+RockStrength at_plane_pressure(const RockStrength& rock, double pressure) {
+  return rock.curve.on() ? with_line(rock, tangent_on_plane(rock.curve, pressure)) : rock;
+}
+
+// Principal stresses, ascending; the strength at their pressure.
 Uses uses(const Vec3& s, const RockStrength& rock) {
   return {s[2] / rock.tensile_strength,
           mohr_coulomb_use(-s[0], -s[2], rock.cohesion, rock.cos_friction, rock.sin_friction)};
 }
 
-// Whether the strength was reached in tension first, on the way from no stress.
+// Whether the strength was reached in tension first, on the way from no stress. Both at once, as in uniaxial tension at the
+// end of a Hoek-Brown curve, counts as tension, whatever the rounding.
 bool tension_comes_first(const Vec3& s, const RockStrength& rock) {
   const double shear = 0.5 * (s[2] - s[0]) + 0.5 * (s[2] + s[0]) * rock.sin_friction;
-  return s[2] / rock.tensile_strength >= shear / (rock.cohesion * rock.cos_friction);
+  return s[2] / rock.tensile_strength * (1 + 1e-9) >= shear / (rock.cohesion * rock.cos_friction);
 }
 
 struct TractionParts {
@@ -65,7 +81,8 @@ LoadRatio ratio_of(const TractionParts& t, const RockStrength& rock) {
   return load_ratio(plane_strength(rock), t.normal, t.shear);
 }
 
-Vec3 on_strength(const TractionParts& t, const Vec3& m, const RockStrength& rock) {
+Vec3 on_strength(const TractionParts& t, const Vec3& m, const RockStrength& given) {
+  const RockStrength rock = at_plane_pressure(given, -t.normal);
   if (t.normal >= 0) {
     const double ratio = std::max(1.0, ratio_of(t, rock).value);
     return (t.normal * m + t.shear * t.along) / ratio;
@@ -84,31 +101,44 @@ Vec3 nearest_in(const Vec3& first, const Vec3& second, const Vec3& v) {
 
 RockStrength rock_strength(const Joint& joint) {
   return {joint.tensile_strength, joint.cohesion, geom::portable::cos(joint.friction_angle),
-          geom::portable::sin(joint.friction_angle)};
+          geom::portable::sin(joint.friction_angle), joint.curve};
 }
 
 UseBound::UseBound(const RockStrength& rock, double u)
     : tensile_(u * rock.tensile_strength), shear_(u * rock.cohesion * rock.cos_friction),
       slope_(u * rock.sin_friction), least_(1e-24 * (tensile_ * tensile_ + shear_ * shear_)) {}
 
+std::vector<UseBound> use_bounds(const RockStrength& rock, double u) {
+  if (!rock.curve.on())
+    return {UseBound(rock, u)};
+  std::vector<UseBound> bounds;
+  for (const StraightStrength& chord : chords(rock.curve))
+    bounds.emplace_back(with_line(rock, chord), u);
+  return bounds;
+}
+
 double strength_use(const Mat3& stress, const RockStrength& rock, const Vec3& face, FacePlane kind) {
-  if (kind == FacePlane::own)
-    return use_of(traction_on(stress, face), rock);
-  const Uses u =
-      uses(Eigen::SelfAdjointEigenSolver<Mat3>(stress, Eigen::EigenvaluesOnly).eigenvalues(), rock);
+  if (kind == FacePlane::own) {
+    const TractionParts t = traction_on(stress, face);
+    return use_of(t, at_plane_pressure(rock, -t.normal));
+  }
+  const Vec3 s = Eigen::SelfAdjointEigenSolver<Mat3>(stress, Eigen::EigenvaluesOnly).eigenvalues();
+  const Uses u = uses(s, at_pressure(rock, -s[2]));
   return std::max(u.tension, u.shear);
 }
 
-std::optional<WorkingPlane> working_plane(const Mat3& stress, const RockStrength& rock, const Vec3& face,
+std::optional<WorkingPlane> working_plane(const Mat3& stress, const RockStrength& given, const Vec3& face,
                                           FacePlane kind) {
   if (kind == FacePlane::own) {
     const TractionParts t = traction_on(stress, face);
+    const RockStrength rock = at_plane_pressure(given, -t.normal);
     if (!(use_of(t, rock) >= 1))
       return std::nullopt;
     return WorkingPlane{face, ratio_of(t, rock).mode, on_strength(t, face, rock)};
   }
   const Eigen::SelfAdjointEigenSolver<Mat3> solver(stress);
   const Vec3& s = solver.eigenvalues();
+  const RockStrength rock = at_pressure(given, -s[2]);
   const Uses u = uses(s, rock);
   if (!(std::max(u.tension, u.shear) >= 1))
     return std::nullopt;

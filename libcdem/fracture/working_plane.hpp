@@ -9,6 +9,8 @@
 //
 // A joint (a border between regions of a mesh) has a plane of its own, with the normal n. The traction t = sigma n decides:
 //   use = max(t_n / T, |t_s| / (c - t_n tan(phi)))
+// With a Hoek-Brown strength (joint/hoek_brown.hpp) c and phi are those of its tangent: at p3 = -sigma_1 for the material, at
+// the pressure -t_n for a joint.
 // At the same strength it is never above the use of the material as long as that is below 1: a plane sees at most what
 // the worst one sees.
 #pragma once
@@ -21,12 +23,14 @@
 #include <cmath>
 #include <cstdint>
 #include <optional>
+#include <vector>
 
 namespace cdem {
 
 struct RockStrength {
   double tensile_strength = 0, cohesion = 0; // Pa
   double cos_friction = 1, sin_friction = 0;
+  HoekBrown curve = {}; // where it is on, in place of cohesion and friction
 };
 RockStrength rock_strength(const Joint&);
 
@@ -86,6 +90,9 @@ private:
   double tensile_, shear_, slope_;
   double least_; // Pa2, next to nothing: keeps quotients finite
 };
+
+// A stress that may use as much of the strength as u is beyond one of them at least. u: at most 1.
+std::vector<UseBound> use_bounds(const RockStrength&, double u);
 
 // face: unit normal, on either side; what a face of the material uses does not depend on it.
 double strength_use(const geom::Mat3& stress, const RockStrength&,

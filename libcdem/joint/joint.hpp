@@ -2,6 +2,7 @@
 // 10-11), beyond which they break or soften.
 #pragma once
 
+#include "libcdem/joint/hoek_brown.hpp"
 #include "libcdem/joint/joint_law.hpp"
 #include "libcdem/joint/rate_effect.hpp"
 #include "libcdem/joint/strength_scatter.hpp"
@@ -47,6 +48,9 @@ struct Joint {
   // Between blocks: how a spring that is broken or never was bonded bears pressure and shear; with a law other than
   // ResidualStrength it was never bonded.
   JointLaw law = {};
+
+  // Of brittle faces of cohesive bodies: where a crack begins, in place of cohesion and friction. The crack keeps the friction.
+  HoekBrown curve = {};
 };
 
 // L over the block size of glued faces: a quarter of a joint's usual give. Stiffer ones would only cost steps.

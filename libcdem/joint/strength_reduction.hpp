@@ -23,6 +23,7 @@ inline double reduced_friction_angle(double friction_angle, double factor) {
 inline Joint reduced(Joint joint, double factor) {
   if (joint.glued)
     return joint;
+  require_straight(joint.curve);
   joint.cohesion /= factor;
   joint.friction_angle = reduced_friction_angle(joint.friction_angle, factor);
   joint.tensile_strength /= factor;

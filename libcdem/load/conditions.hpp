@@ -88,6 +88,15 @@ struct Flow {
   double added_mass = 0; // C_A = C_M - 1, of the volume under water
 };
 
+// Pressure of a gas or a fluid on the faces of cracks (load/crack_pressure.hpp): given over time, or by a pumped volume.
+struct CrackPressure {
+  Selection on;            // faces of cohesive bodies, by their undeformed centroid
+  Amplitude pressure;      // Pa, >= 0
+  Amplitude volume;        // m3, pumped in until then; empty: the pressure is given
+  double bulk_modulus = 0; // K, Pa, > 0; of the fluid
+  double reservoir = 0;    // V_0, m3, > 0; what it fills beside the cracks
+};
+
 inline double flow_pressure(double velocity, double water_density) { // F, Pa
   return 0.5 * water_density * velocity * velocity;
 }
@@ -101,6 +110,7 @@ struct Conditions {
   std::vector<PointForce> forces;
   std::optional<Gravity> gravity;
   std::vector<Flow> flows;
+  std::vector<CrackPressure> crack_pressures;
   std::vector<Quiet> quiets;
   std::vector<FreeField> free_fields;
   std::vector<Bolt> bolts;

@@ -30,6 +30,7 @@ void refuse_gone(const Model& model, const Conditions& conditions) {
   refuse(conditions.tractions);
   refuse(conditions.forces);
   refuse(conditions.flows);
+  refuse(conditions.crack_pressures);
 }
 
 } // namespace cdem

@@ -24,12 +24,6 @@ double& component(Node& node, int axis) {
   return axis == 0 ? node.x : axis == 1 ? node.y : node.z;
 }
 
-void add(Node& node, const geom::Vec3& v) {
-  node.x += v.x();
-  node.y += v.y();
-  node.z += v.z();
-}
-
 [[noreturn]] void selects_nothing(const char* what, const Selection& on) {
   throw geom::InputError("on", on.text, std::string("a place that holds ") + what,
                          "nothing of the model lies there; `cdem check` prints the model's box");
@@ -317,6 +311,9 @@ ResolvedConditions resolve(const Model& model, const State& state, const Conditi
   for (const Flow& flow : conditions.flows)
     if (!is_gone(model, flow.on))
       add_flow(model, flow, r);
+  for (const CrackPressure& pressure : conditions.crack_pressures)
+    if (!is_gone(model, pressure.on))
+      r.cracks.push_back(resolve(model, state, pressure));
   if (!conditions.bolts.empty()) {
     r.bolts = resolve_bolts(model, state, conditions.bolts);
     r.bolt_load = r.varying.size();

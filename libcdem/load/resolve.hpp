@@ -3,6 +3,7 @@
 
 #include "libcdem/load/bolts.hpp"
 #include "libcdem/load/conditions.hpp"
+#include "libcdem/load/crack_pressure.hpp"
 #include "libcdem/load/free_field_column.hpp"
 #include "libcdem/load/smooth_normals.hpp"
 #include "libcdem/state/state.hpp"
@@ -74,6 +75,7 @@ struct ResolvedConditions {
   std::vector<VaryingLoad> varying;
   std::vector<std::size_t> boundary_loads; // of these: what enters through quiet boundaries and from columns
   std::vector<ResolvedFlow> flows;
+  std::vector<CrackLoad> cracks;
   std::vector<double> water_mass; // kg, of water that moves with a node (n_nodes); empty without
   bool has_target = false;
 };

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
+#include <utility>
 
 namespace cdem {
 namespace {
@@ -160,11 +161,37 @@ RockLimit limit_at(const Plasticity& rock, double plastic_strain) {
   limit.tensile_strength = fallen(rock.tensile_strength, rock.residual_tensile_strength, part);
   limit.cos_friction = 1 / std::sqrt(1 + tangent * tangent);
   limit.sin_friction = tangent * limit.cos_friction;
-  limit.sin_dilation = std::min(geom::portable::sin(rock.dilation_angle), limit.sin_friction);
+  limit.sin_dilation = geom::portable::sin(rock.dilation_angle);
+  if (rock.curve.on()) {
+    limit.curve = rock.curve;
+    limit.residual_curve = rock.residual_curve;
+    limit.fallen = part;
+  } else {
+    limit.sin_dilation = std::min(limit.sin_dilation, limit.sin_friction);
+  }
   return limit;
 }
 
-PlasticReturn return_to_limit(const Three& trial, double lambda, double shear, const RockLimit& rock) {
+namespace {
+
+// The tangent of a Hoek-Brown limit at p3.
+RockLimit tangent_limit(const RockLimit& rock, double p3) {
+  const double at = std::max(p3, -rock.tensile_strength);
+  const auto mix = [&](double peak, double residual) { return fallen(peak, residual, rock.fallen); };
+  const double n = mix(slope(rock.curve, at), slope(rock.residual_curve, at));
+  const StraightStrength line =
+      straight_strength(mix(strength(rock.curve, at), strength(rock.residual_curve, at)) - n * at, n);
+  RockLimit limit;
+  limit.cohesion = line.cohesion;
+  limit.sin_friction = line.sin_friction;
+  limit.cos_friction = line.cos_friction;
+  limit.sin_dilation = std::min(rock.sin_dilation, line.sin_friction);
+  limit.tensile_strength = rock.tensile_strength;
+  return limit;
+}
+
+PlasticReturn return_to_straight_limit(const Three& trial, double lambda, double shear,
+                                       const RockLimit& rock) {
   const Returning returning(trial, lambda, shear, rock);
   PlasticReturn result;
   result.stress = trial;
@@ -190,6 +217,23 @@ PlasticReturn return_to_limit(const Three& trial, double lambda, double shear, c
   return returning.to_tip();
 }
 
+} // namespace
+
+PlasticReturn return_to_limit(const Three& trial, double lambda, double shear, const RockLimit& rock) {
+  if (!rock.curve.on())
+    return return_to_straight_limit(trial, lambda, shear, rock);
+  constexpr int most = 50; // Newton's method needs 3 to 6
+  PlasticReturn result;
+  double p3 = -trial[0];
+  for (int i = 0; i < most; ++i) {
+    result = return_to_straight_limit(trial, lambda, shear, tangent_limit(rock, p3));
+    const double before = std::exchange(p3, -result.stress[0]);
+    if (std::abs(p3 - before) <= rounding * rock.curve.sigma_ci)
+      break;
+  }
+  return result;
+}
+
 double plastic_step(const RockLimit& rock, double lambda, double shear, const double (&before)[6],
                     double (&stress)[6], double& plastic_strain) {
   geom::Mat3 trial;
@@ -213,25 +257,31 @@ double plastic_step(const RockLimit& rock, double lambda, double shear, const do
   return 0.5 * (from + after).cwiseProduct(strain).sum();
 }
 
-std::array<PlasticBound, 2> bounds(const Plasticity& rock) {
-  std::array<PlasticBound, 2> both;
-  const double strains[] = {0, rock.softening_strain};
-  for (int i = 0; i < 2; ++i) {
-    const RockLimit limit = limit_at(rock, strains[i]);
-    const double reach = 2 + limit.sin_friction / std::sqrt(3.0);
-    both[i] = {2 * limit.cohesion * limit.cos_friction, 2 * limit.sin_friction, reach * reach,
-               limit.sin_friction > 0 ? std::min(limit.tensile_strength,
-                                                 limit.cohesion * limit.cos_friction / limit.sin_friction)
-                                      : limit.tensile_strength};
+std::vector<PlasticBound> bounds(const Plasticity& rock) {
+  std::vector<PlasticBound> all;
+  const auto add = [&](const StraightStrength& line, double tensile_strength) {
+    const double reach = 2 + line.sin_friction / std::sqrt(3.0), c = line.cohesion * line.cos_friction;
+    all.push_back(
+        {2 * c, 2 * line.sin_friction, reach * reach,
+         line.sin_friction > 0 ? std::min(tensile_strength, c / line.sin_friction) : tensile_strength});
+  };
+  for (const double strain : {0.0, rock.softening_strain}) {
+    const RockLimit limit = limit_at(rock, strain);
+    if (limit.curve.on())
+      for (const StraightStrength& chord : chords(strain > 0 ? limit.residual_curve : limit.curve))
+        add(chord, limit.tensile_strength);
+    else
+      add({limit.cohesion, limit.sin_friction, limit.cos_friction}, limit.tensile_strength);
   }
-  return both;
+  return all;
 }
 
 bool has_strength(const Plasticity& rock) {
-  return rock.cohesion > 0 || rock.friction_angle > 0 || rock.tensile_strength > 0;
+  return rock.cohesion > 0 || rock.friction_angle > 0 || rock.tensile_strength > 0 || rock.curve.on();
 }
 
 Plasticity reduced(Plasticity rock, double factor) {
+  require_straight(rock.curve);
   const auto angle = [&](double phi) { return geom::portable::atan2(geom::portable::tan(phi), factor); };
   rock.cohesion /= factor;
   rock.residual_cohesion /= factor;
@@ -243,6 +293,29 @@ Plasticity reduced(Plasticity rock, double factor) {
   return rock;
 }
 
+namespace {
+
+void validate_curves(const Plasticity& rock) {
+  const auto require_tension = [](const char* field, const HoekBrown& curve, double tension) {
+    const double most = uniaxial_tensile_strength(curve);
+    if (!(tension >= 0 && tension <= most * (1 + 1e-9)))
+      throw geom::InputError(field, fmt::format("{:g}", tension),
+                             fmt::format("from 0 to {:g} Pa, that of the curve", most));
+  };
+  require_tension("tensile_strength", rock.curve, rock.tensile_strength);
+  require_tension("residual.tensile_strength", rock.residual_curve, rock.residual_tensile_strength);
+  for (const double part : {0.0, 0.01, 0.1, 1.0})
+    if (const double p3 = part * rock.curve.sigma_ci;
+        !(strength(rock.residual_curve, p3) <= strength(rock.curve, p3) * (1 + 1e-12)))
+      throw geom::InputError(
+          "residual",
+          fmt::format("{:g} Pa at the pressure p3 = {:g} Pa", strength(rock.residual_curve, p3), p3),
+          fmt::format("at most the peak strength, {:g} Pa", strength(rock.curve, p3)),
+          "strength falls, it does not grow");
+}
+
+} // namespace
+
 void validate(const Plasticity& rock) {
   const auto degrees = [](double radians) { return fmt::format("{:g}", radians * 180 / M_PI); };
   const auto require = [](const char* field, const std::string& value, bool good, const std::string& range,
@@ -253,14 +326,18 @@ void validate(const Plasticity& rock) {
   const auto require_pressure = [&](const char* field, double value) {
     require(field, fmt::format("{:g}", value), value >= 0 && std::isfinite(value), "a finite number >= 0 Pa");
   };
+  if (rock.curve.on())
+    validate_curves(rock);
   require_pressure("cohesion", rock.cohesion);
   require_pressure("tensile_strength", rock.tensile_strength);
   const double most = M_PI / 2 * (1 - 1e-6);
   require("friction_angle", degrees(rock.friction_angle),
           rock.friction_angle >= 0 && rock.friction_angle < most, "in [0, 90) degrees");
   require("dilation_angle", degrees(rock.dilation_angle),
-          rock.dilation_angle >= 0 && rock.dilation_angle <= rock.friction_angle,
-          "from 0 to friction_angle = " + degrees(rock.friction_angle) + " degrees");
+          rock.dilation_angle >= 0 &&
+              (rock.dilation_angle <= rock.friction_angle || (rock.curve.on() && rock.dilation_angle < most)),
+          rock.curve.on() ? "in [0, 90) degrees"
+                          : "from 0 to friction_angle = " + degrees(rock.friction_angle) + " degrees");
   require("softening_strain", fmt::format("{:g}", rock.softening_strain),
           rock.softening_strain >= 0 && std::isfinite(rock.softening_strain), "a finite number > 0");
   const auto require_less = [&](const char* field, double residual, double peak, const std::string& shown,

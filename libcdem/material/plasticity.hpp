@@ -14,10 +14,15 @@
 // edges, corners. All is linear, so that a set is solved exactly; there is no iteration (Clausen, Damkilde and Andersen
 // 2007, Computers & Structures 85, take the same four kinds of return).
 //
+// With a Hoek-Brown strength (joint/hoek_brown.hpp) c and phi are those of its tangent at the pressure p3 = -s1 of the
+// returned stress. Newton's method finds it: the tangent at the last stress gives the next one.
+//
 // c, tan(phi) and T fall linearly from their peak to their residual value over the equivalent plastic strain
-// k = sum sqrt(2/3 de : de) of the plastic strain e, from 0 to `softening_strain`. They are those of the beginning of the
-// step.
+// k = sum sqrt(2/3 de : de) of the plastic strain e, from 0 to `softening_strain`; so does the strength p1 of
+// Hoek-Brown at every p3. They are those of the beginning of the step.
 #pragma once
+
+#include "libcdem/joint/hoek_brown.hpp"
 
 #include <array>
 #include <limits>
@@ -33,10 +38,11 @@ struct Plasticity {
   double dilation_angle = 0;   // psi, rad, in [0, phi]
   double tensile_strength = 0; // T, Pa, >= 0
   // Values left at softening_strain; the same as the peak where nothing softens.
-  double residual_cohesion = 0;         // Pa
-  double residual_friction_angle = 0;   // rad
-  double residual_tensile_strength = 0; // Pa
-  double softening_strain = 0;          // k, 0: nothing softens
+  double residual_cohesion = 0;              // Pa
+  double residual_friction_angle = 0;        // rad
+  double residual_tensile_strength = 0;      // Pa
+  double softening_strain = 0;               // k, 0: nothing softens
+  HoekBrown curve = {}, residual_curve = {}; // in place of c and phi
 };
 
 // Throws geom::InputError naming the field, its value and the allowed range. Angles are printed in degrees.
@@ -64,6 +70,9 @@ struct PlasticLaws {
 // At a plastic strain.
 struct RockLimit {
   double cohesion = 0, sin_friction = 0, cos_friction = 1, sin_dilation = 0, tensile_strength = 0;
+  // Where it is on, (1 - fallen) p1 of the curve + fallen p1 of the residual one stands in place of c and phi.
+  HoekBrown curve = {}, residual_curve = {};
+  double fallen = 0;
 };
 RockLimit limit_at(const Plasticity&, double plastic_strain);
 
@@ -91,7 +100,7 @@ struct PlasticBound {
   double reach = 0;
   double tensile = 0; // beyond where tensile <= p or 4/3 J2 >= (tensile - p)^2
 };
-// One with the peak strengths and one with the residual ones.
-std::array<PlasticBound, 2> bounds(const Plasticity&);
+// One with the peak strengths and one with the residual ones; of Hoek-Brown one for each chord.
+std::vector<PlasticBound> bounds(const Plasticity&);
 
 } // namespace cdem

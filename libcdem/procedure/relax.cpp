@@ -117,6 +117,14 @@ void require_no_quiet(const Conditions& conditions) {
         "balance with model:fix there, then call model:quiet and model:free_field");
 }
 
+// The masses of a relaxation are those of the elements' stiffness, not of a fluid's.
+void require_given_pressures(const Conditions& conditions) {
+  for (const CrackPressure& pressure : conditions.crack_pressures)
+    if (pressure.volume)
+      throw geom::InputError("volume", "a pumped fluid in a relaxation", "in model:run",
+                             "let a run with local_damping come to rest, or give its pressure here");
+}
+
 void stop(State& state) {
   std::fill(state.velocity.begin(), state.velocity.end(), Node{});
   for (RigidState& rigid : state.rigid)
@@ -141,6 +149,7 @@ struct AtRest {
 RelaxResult relax(const StageContext& context, const RelaxOptions& options, const std::string& kind) {
   State& state = context.state;
   require_no_quiet(context.conditions);
+  require_given_pressures(context.conditions);
   Stage stage(context, kind, context.model.length);
   require_held(context.model, stage.work.resolved);
   stage.work.contact.restitution = false; // its steps are no times

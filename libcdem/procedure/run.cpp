@@ -208,6 +208,7 @@ RunResult run(const StageContext& context, const RunOptions& options, const std:
     set_goals();
     return true;
   };
+  double stable_of_mesh = stable_time_step(context.model, stage.work.resolved.bolts);
   bool stopped = false, may_be_dry = true; // joints turn dry as they break
   while (stage.step < clock.steps() && !stopped) {
     const bool renewed = stage.renew_interfaces(),
@@ -215,8 +216,9 @@ RunResult run(const StageContext& context, const RunOptions& options, const std:
     if (freed) {
       viscous = viscous_forces(context.model);
       stable_now = context.model.frames.empty() ? 0 : stable_of_all();
+      stable_of_mesh = stable_time_step(context.model, stage.work.resolved.bolts);
       if (!scaled.on())
-        shorten(options.safety * stable_time_step(context.model, stage.work.resolved.bolts));
+        shorten(options.safety * stable_of_mesh);
     }
     // Before the restart point, which is where a stage that goes on begins.
     if (chooses_step && (freed || may_be_dry) && any_dry_joint(context.model, state))
@@ -228,6 +230,7 @@ RunResult run(const StageContext& context, const RunOptions& options, const std:
     double longest = stage.update_contacts(options.safety);
     if (keeps_energy_of_impacts)
       longest = std::min(longest, stage.longest_step_of_flight());
+    longest = std::min(longest, options.safety * stage.update_crack_pressures(stable_of_mesh));
     if (shorten(longest) || freed || stage.step % watch_every == 0)
       lead_supports();
     // Velocities that stand at the time of the displacements, at the start or after a relaxation, take half a step.

@@ -12,6 +12,12 @@ inline Node node(const geom::Vec3& v) {
   return {v.x(), v.y(), v.z(), 0};
 }
 
+inline void add(Node& n, const geom::Vec3& v) {
+  n.x += v.x();
+  n.y += v.y();
+  n.z += v.z();
+}
+
 inline geom::Vec3 place_of(const Model& model, const State& state, int node) { // m
   return model.node_position[node] + vec(state.displacement[node]);
 }

@@ -170,7 +170,7 @@ const Node* mesh_forces(const Model& model, State& state, Workspace& work, std::
     add_pressure_averages(averaged, stress, at.force);
   if (sides.count > 0)
     add_side_forces(sides, at.position, stress, damping.viscous, at.force);
-  sums.friction = sums.breaking = 0;
+  sums.friction = sums.breaking = sums.external = sums.applied2 = 0;
   sums.crack = {};
   sums.broken.clear();
   sums.astray = -1;
@@ -186,11 +186,12 @@ const Node* mesh_forces(const Model& model, State& state, Workspace& work, std::
       law.own = model.mesh.strength.data() + chunk.face_batches.begin;
     const FaceBatch* const faces = model.mesh.faces.data() + chunk.face_batches.begin;
     FaceStateBatch* const face_state = state.faces.data() + chunk.face_batches.begin;
-    if (body.bonding.is_cohesive())
+    if (body.bonding.is_cohesive()) {
       cohesive_face_forces(faces, chunk.faces, motion, law, FaceJoints(model, state, chunk), breaking,
                            face_state, state.cohesive.data() + chunk.face_batches.begin * lanes, at.force,
                            sums);
-    else
+      add_crack_pressures(model, state, chunk, work.resolved.cracks, motion, at.force, sums);
+    } else
       face_bond_forces(faces, chunk.face_batches.size(), chunk.faces, motion, law, breaking, face_state,
                        state.face_slip.data(), at.force, sums, ahead);
   }

@@ -113,6 +113,7 @@ std::int64_t record_face_breaks(const Model& model, State& state, Workspace& wor
     state.spent.breaking += sums.breaking;
     state.spent.damping += sums.damping;
     state.spent.plastic += sums.plastic;
+    state.spent.external += sums.external;
     work.contact.fragments_due = work.contact.fragments_due || sums.hands_over;
     for (const FaceLeft& left : sums.left)
       state.spent.breaking += take_over(model, state, work.contact,

@@ -165,6 +165,12 @@ void Stage::update_loads(double time, const Stepping& stepping) {
   times_.end(StepLine::loads);
 }
 
+double Stage::update_crack_pressures(double stable) {
+  std::vector<CrackLoad>& cracks = work.resolved.cracks;
+  cdem::update_crack_pressures(context_.model, context_.state, shared_.get(), context_.state.time, cracks);
+  return crack_time_step(cracks, stable);
+}
+
 void Stage::carry_water() {
   carry(work.resolved.water_mass);
 }

@@ -4,6 +4,7 @@
 //   update_contacts          contacts for where the nodes are; the longest step that they leave
 //   renew_interfaces         of blocks that have slid past each other: the model has other springs then
 //   free_nodes               of cohesive bodies, where faces near their strength: the model is another one then
+//   update_crack_pressures   pressures of fluids in cracks; the longest step that they leave
 //   update_loads             loads at this time
 //   advance                  begin_cracks; bond_forces; element_forces; shared_node_forces; rigid_bodies; what other
 //                            ranks have computed
@@ -78,6 +79,9 @@ public:
   double update_contacts(double safety = 1);
   // s, for rigid bodies in flight (contact/response/contact_bounds.hpp); after update_contacts.
   double longest_step_of_flight() const { return contacts_.longest_step_of_flight(context_, work); }
+  // Pressures in cracks at this time. Returns the longest stable step, s, that pumped fluids leave to a mesh whose own is
+  // `stable`.
+  double update_crack_pressures(double stable);
   // Updates loads, supports that vary and free fields for the step that begins at `time` (s).
   void update_loads(double time, const Stepping&);
   void update_loads_at_rest(); // in a relaxation: of what follows the rock

@@ -41,6 +41,7 @@ void element_forces(const Model& model, State& state, Workspace& work, int threa
     if (is_rigid(model, chunk))
       return;
     const Node* const force = mesh_forces(model, state, work, c - stars, breaking);
+    sums.applied2 = work.face_sums[c - stars].applied2;
     if (chunk.stars)
       each_deformable_run(model, chunk,
                           [&](Range nodes) { move(nodes, force + (nodes.begin - chunk.nodes.begin), sums); });

@@ -36,6 +36,14 @@ model:break_bonds{ on = cdem.select.box{ min = {0.5, 0.6, 0}, max = {0.5, 0.8, 0
 local blocks = model:remove{ on = cdem.select.box{ min = {0, 0.75, 0}, max = {0.25, 1, 0.1} } }
 print(blocks) -- 1
 
+-- example: model:crack_pressure
+local block = cdem.model{ bodies = { { name = "rock", shape = cdem.box_mesh{ size = {1, 1, 1}, divisions = {4, 4, 4} },
+                                       material = rock, joint = joint } } } -- a cohesive body
+block:crack_pressure{ on = "rock", pressure = 2e6, amplitude = { {0, 0}, {0.01, 1} } } -- gas, Pa
+block:clear_loads()
+block:crack_pressure{ on = "rock", volume = 1e-5, bulk_modulus = 2.2e9, reservoir = 1e-3,
+                      amplitude = { {0, 0}, {1, 1} } } -- water, 1e-5 m3 a second
+
 -- example: model:clear_loads
 model:clear_loads()
 

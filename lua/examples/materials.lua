@@ -11,6 +11,16 @@ local clay = cdem.plastic{ cohesion = 20e3, friction_angle = 20, tensile_strengt
 -- in a body: { shape = ..., material = soil, plasticity = clay, zone_size = 1 }
 print(clay)
 
+-- example: cdem.hoek_brown
+local rock_mass = cdem.hoek_brown{ sigma_ci = 50e6, gsi = 60, m_i = 12, residual = { gsi = 30 }, softening_strain = 0.01 }
+-- in a body: { shape = ..., material = granite, plasticity = rock_mass, zone_size = 1 }
+print(rock_mass)
+
+-- example: cdem.hoek_brown_bond
+local jointed = cdem.hoek_brown_bond{ sigma_ci = 50e6, gsi = 60, m_i = 12, disturbance = 0.5, friction_angle = 35 }
+-- in a body: { shape = mesh, material = granite, joint = jointed } cracks where the stress meets the curve
+print(jointed)
+
 -- example: cdem.mohr_coulomb
 local brittle = cdem.mohr_coulomb{ cohesion = 8e6, friction_angle = 30, tensile_strength = 5e6 }
 local softening = cdem.mohr_coulomb{ cohesion = 8e6, friction_angle = 35, tensile_strength = 3e6, softening = "linear",

@@ -517,7 +517,7 @@ local cdem = {}
 ---@field seconds number s: wall clock; 0 for a run that had ended before its sweep was stopped
 ---@field figures any values of its report by name; empty when it failed, and in a check
 
----Made by cdem.plastic.
+---Made by cdem.plastic or cdem.hoek_brown.
 ---@class cdem.Plasticity
 ---@field cohesion number Pa
 ---@field friction_angle number deg
@@ -536,7 +536,7 @@ local Plasticity = {}
 ---@field p_wave_modulus number Pa: lambda + 2 G
 local Material = {}
 
----Made by cdem.mohr_coulomb, cdem.coulomb, cdem.barton_bandis, cdem.joint_table or cdem.glued.
+---Made by cdem.mohr_coulomb, cdem.hoek_brown_bond, cdem.coulomb, cdem.barton_bandis, cdem.joint_table or cdem.glued.
 ---@class cdem.Joint
 ---@field bonded boolean
 ---@field glued boolean
@@ -917,7 +917,20 @@ function Model:force(options) end
 ---@param options cdem.ModelGravityOptions
 function Model:gravity(options) end
 
----Takes away tractions, forces, gravity and flows.
+---@class (exact) cdem.ModelCrackPressureOptions
+---@field on? cdem.Place default "all": where: a place or a list of places, by the centroids of faces
+---@field pressure? number Pa, >= 0
+---@field volume? number m3, >= 0: instead: pumped in, in model:run
+---@field bulk_modulus? number Pa, > 0: of the fluid; water has 2.2e9
+---@field reservoir? number m3, > 0: what the fluid fills beside the cracks, such as a borehole
+---@field amplitude? cdem.Record|number[][]|fun(time: number): number factor over time (s): a cdem.record, a list { {time, value}, ... } with straight lines between and its first and last value outside, or a function, called once a step; a relaxation asks once at its start; 1 when left out
+---@field since? number s: time of the model at which the amplitude's times begin, 0 when left out; since = model.time lets it begin now, in a later stage
+
+---Pressure of a gas or a fluid on the faces of cracks in cohesive bodies, from when they open: as told, or that of a fluid which fills the cracks and a reservoir into which a volume is pumped, bulk_modulus (volume - volume of the cracks) / reservoir. It is the same in all cracks of the place (docs/theory.md, section 22). Several pressures in a crack add up.
+---@param options? cdem.ModelCrackPressureOptions
+function Model:crack_pressure(options) end
+
+---Takes away tractions, forces, gravity, flows and pressures in cracks.
 function Model:clear_loads() end
 
 ---@class (exact) cdem.ModelInitialVelocityOptions
@@ -1720,6 +1733,40 @@ function cdem.coulomb(options) end
 ---@return cdem.Joint
 function cdem.glued(options) end
 
+---@class (exact) cdem.HoekBrownOptionsResidual
+---@field gsi? number in [5, 100]
+---@field m_i? number > 0
+---@field disturbance? number in [0, 1]
+---@field tensile_strength? number Pa, >= 0
+
+---@class (exact) cdem.HoekBrownOptions
+---@field sigma_ci number Pa, > 0: uniaxial compressive strength of the intact rock
+---@field gsi number in [5, 100]: geological strength index; 100 is intact rock
+---@field m_i number > 0: constant of the intact rock, 4 for claystone to 33 for granite
+---@field disturbance? number in [0, 1], default 0: D: 0 is undisturbed rock, 1 poor blasting
+---@field tensile_strength? number Pa, >= 0: at most that of the curve in uniaxial tension, which is the default
+---@field dilation_angle? number deg, in [0, 90), default 0: at most the friction angle of the tangent
+---@field residual? cdem.HoekBrownOptionsResidual of the rock at softening_strain; what is left out stays
+---@field softening_strain? number > 0: equivalent plastic strain at which the residual strength is reached, linearly; without fracture energy, so that what it dissipates depends on the size of the elements
+
+---Plasticity by the generalised Hoek-Brown strength of a rock mass (Hoek, Carranza-Torres and Corkum 2002), with tension cut-off, dilation and softening (docs/theory.md, section 25).
+---@param options cdem.HoekBrownOptions
+---@return cdem.Plasticity
+function cdem.hoek_brown(options) end
+
+---@class (exact) cdem.HoekBrownBondOptions
+---@field sigma_ci number Pa, > 0: uniaxial compressive strength of the intact rock
+---@field gsi number in [5, 100]: geological strength index; 100 is intact rock
+---@field m_i number > 0: constant of the intact rock, 4 for claystone to 33 for granite
+---@field disturbance? number in [0, 1], default 0: D: 0 is undisturbed rock, 1 poor blasting
+---@field tensile_strength? number Pa, >= 0: at most that of the curve in uniaxial tension, which is the default
+---@field friction_angle number deg, in [0, 90): of a crack, once it has begun
+
+---Brittle strength of a cohesive body (bonds = "cohesive") by the generalised Hoek-Brown curve: a face cracks where the stress meets the curve, on the plane of its tangent (docs/theory.md, section 22).
+---@param options cdem.HoekBrownBondOptions
+---@return cdem.Joint
+function cdem.hoek_brown_bond(options) end
+
 ---@class (exact) cdem.BartonBandisOptions
 ---@field jrc number in [0, 20]: joint roughness coefficient
 ---@field jcs number Pa, > 0: strength of the joint walls
@@ -2322,7 +2369,7 @@ function cdem.select.where(predicate) end
 ---@field bonded_faces? "all"|"regions" of a mesh with a joint, the inner faces that may break: all, the default, or those between different regions
 ---@field bonded_regions? integer[] of a mesh with a joint, instead of bonded_faces: numbers of regions, from 1, whose faces may break
 ---@field region_joints? [integer, integer, cdem.Joint][] of a mesh: {region, region, joint} gives the faces between two regions, or with the same number twice those inside one, a joint of their own; numbers from 1. All others have `joint`
----@field plasticity? cdem.Plasticity of a body that moves far: its tetrahedra yield by this law, cdem.plastic{...}
+---@field plasticity? cdem.Plasticity of a body that moves far: its tetrahedra yield by this law, cdem.plastic{...} or cdem.hoek_brown{...}
 ---@field region_plasticity? [integer, cdem.Plasticity][] of a mesh: {region, law} gives a region a law of its own; numbers from 1. All others have `plasticity`, or are elastic without it
 ---@field stiffness_ratio? number > 0: of a mesh, beta in Kn = beta E A / (3 d). Of springs 10 by default: a body bonded everywhere keeps about E / (1 + 1/beta). Of a cohesive body the penalty of freed faces, 1 by default; it keeps all of E
 ---@field shear_ratio? number > 0: of a mesh, Ks / Kn; 1 by default

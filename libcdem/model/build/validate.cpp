@@ -105,6 +105,17 @@ void validate_law(const Joint& j) {
           "the residual is not above the peak");
 }
 
+void validate_curve(const Joint& j) {
+  if (!j.curve.on())
+    return;
+  const double most = uniaxial_tensile_strength(j.curve);
+  require(j.tensile_strength <= most * (1 + 1e-9), "tensile_strength", j.tensile_strength,
+          fmt::format("at most {:g} Pa, that of the Hoek-Brown curve", most).c_str());
+  if (j.softening != Softening::none || j.scatter.on() || j.rate.on())
+    throw geom::InputError("softening, weibull and rate_effect", "with a Hoek-Brown strength", "left out",
+                           "its faces are brittle");
+}
+
 // Three digits, rounded up so that the printed value is itself allowed.
 std::string at_least(double x) {
   const double digit = std::pow(10.0, std::floor(std::log10(x)) - 2);
@@ -164,6 +175,7 @@ void validate(const Joint& j) {
   validate_scatter(j);
   validate_rate_effect(j);
   validate_law(j);
+  validate_curve(j);
 }
 
 double friction_left(const Joint& j) {

@@ -143,6 +143,32 @@ Value clear_loads(Session&, ModelObject& model, const Arguments&) {
   return {};
 }
 
+Value crack_pressure(Session&, ModelObject& model, const Arguments& a) {
+  model.require_idle("crack_pressure");
+  const bool pumped = a.has("volume");
+  if (a.has("pressure") == pumped)
+    throw InputError("give one of pressure = Pa and volume = m3");
+  for (const char* const of_fluid : {"bulk_modulus", "reservoir"})
+    if (a.has(of_fluid) != pumped)
+      throw InputError(std::string(of_fluid) + ": goes with volume, which gives the pressure by it");
+  const std::string field = pumped ? "volume" : "pressure";
+  CrackPressure pressure;
+  (pumped ? pressure.volume : pressure.pressure) =
+      [value = a.number(field), amplitude = amplitude_of(a, model.simulation.time())](double time) {
+        return amplitude ? value * amplitude(time) : value;
+      };
+  pressure.bulk_modulus = a.optional_number("bulk_modulus").value_or(0);
+  pressure.reservoir = a.optional_number("reservoir").value_or(0);
+  for (const Selection& on : selections(model, a.value("on"), "on")) {
+    pressure.on = on;
+    model.simulation.crack_pressure(pressure);
+    note(model, (pumped ? "fluid of " + describe(a.value("volume")) + " m3"
+                        : "pressure of " + describe(a.value("pressure")) + " Pa") +
+                    " in the cracks of " + shown(on));
+  }
+  return {};
+}
+
 Value initial_velocity(Session&, ModelObject& model, const Arguments& a) {
   model.require_idle("initial_velocity");
   if (!a.has("velocity") && !a.has("angular_velocity"))
@@ -285,7 +311,27 @@ void bind_conditions(Module& m) {
        amplitude_field(), since_field()},
       gravity);
   again();
-  add("clear_loads", "Takes away tractions, forces, gravity and flows.", {}, clear_loads);
+  add("crack_pressure",
+      "Pressure of a gas or a fluid on the faces of cracks in cohesive bodies, from when they open: as told, "
+      "or that of "
+      "a fluid which fills the cracks and a reservoir into which a volume is pumped, bulk_modulus (volume - "
+      "volume of "
+      "the cracks) / reservoir. It is the same in all cracks of the place (docs/theory.md, section 22). "
+      "Several "
+      "pressures in a crack add up.",
+      {place("on").standard("all").doc("where: a place or a list of places, by the centroids of faces"),
+       number("pressure").at_least(0).unit("Pa"),
+       number("volume").at_least(0).unit("m3").doc("instead: pumped in, in model:run"),
+       number("bulk_modulus").above(0).unit("Pa").doc("of the fluid; water has 2.2e9"),
+       number("reservoir")
+           .above(0)
+           .unit("m3")
+           .doc("what the fluid fills beside the cracks, such as a borehole"),
+       amplitude_field(), since_field()},
+      crack_pressure);
+  again();
+  add("clear_loads", "Takes away tractions, forces, gravity, flows and pressures in cracks.", {},
+      clear_loads);
   again();
   add("initial_velocity",
       "The motion of a rigid body, v + w x (x - about), as velocities before the first real-time step; of "

@@ -1,6 +1,7 @@
 // Materials and joints.
 #include "lua/binding/functions/angles.hpp"
 #include "lua/binding/functions/joint_laws.hpp"
+#include "lua/binding/functions/radians_given.hpp"
 #include "lua/binding/objects/objects.hpp"
 #include "lua/binding/runtime/module.hpp"
 #include "lua/binding/runtime/session.hpp"
@@ -19,21 +20,12 @@ constexpr double softest = 1e5, stiffest = 1e13; // Pa
 constexpr double least_density = 10; // kg/m3
 // Below the cohesion of loose soil.
 constexpr double weakest = 1e3; // Pa
-// The radians of any usual angle are fewer.
-constexpr double smoothest = 1.5; // deg
 
 // Zero is meant: no strength.
 void warn_of_unit(Session& session, const Arguments& a, const char* strength) {
   if (const double given = a.number(strength); given > 0 && given < weakest)
     session.warn(std::string("cdem.mohr_coulomb: ") + strength + " = " + describe(a.value(strength)) +
                  ": no rock is as weak; it is in Pa, rock has 1e5 to 1e8");
-}
-
-// Zero is meant: no friction.
-void warn_of_angle(Session& session, const Arguments& a, const char* function) {
-  if (const double given = a.number("friction_angle"); given > 0 && given < smoothest)
-    session.warn(std::string(function) + ": friction_angle = " + describe(a.value("friction_angle")) +
-                 ": no rock is as smooth; it is in degrees, rock has 20 to 50");
 }
 
 // Rayleigh's alpha and beta for a fraction of critical damping at one frequency, where the sum of the two, alpha / 2w +
@@ -161,7 +153,7 @@ Value mohr_coulomb(Session& session, Object*, const Arguments& a) {
   object->joint.tensile_strength = a.number("tensile_strength");
   warn_of_unit(session, a, "cohesion");
   warn_of_unit(session, a, "tensile_strength");
-  warn_of_angle(session, a, "cdem.mohr_coulomb");
+  warn_of_smoothness(session, a, "cdem.mohr_coulomb");
   read_softening(a, object->joint);
   read_strength(a, object->joint);
   read_residual_strength(session, a, object->joint);
@@ -176,7 +168,7 @@ Value coulomb(Session& session, Object*, const Arguments& a) {
   object->joint.friction_angle = radians(a.number("friction_angle"));
   object->joint.restitution = a.number("restitution");
   read_residual_strength(session, a, object->joint);
-  warn_of_angle(session, a, "cdem.coulomb");
+  warn_of_smoothness(session, a, "cdem.coulomb");
   read_joint_stiffness(a, object->joint);
   validate(object->joint);
   return object;
@@ -205,7 +197,7 @@ Value plastic(Session& session, Object*, const Arguments& a) {
       a.has("residual_friction_angle") ? radians(a.number("residual_friction_angle")) : rock.friction_angle;
   warn_of_unit(session, a, "cohesion");
   warn_of_unit(session, a, "tensile_strength");
-  warn_of_angle(session, a, "cdem.plastic");
+  warn_of_smoothness(session, a, "cdem.plastic");
   const bool softens =
       a.has("residual_cohesion") || a.has("residual_tensile_strength") || a.has("residual_friction_angle");
   if (softens != a.has("softening_strain"))
@@ -305,7 +297,7 @@ void bind_materials(Module& m) {
        "cdem.Plasticity",
        "",
        plastic});
-  Class plasticity{"Plasticity", "Made by cdem.plastic."};
+  Class plasticity{"Plasticity", "Made by cdem.plastic or cdem.hoek_brown."};
   plasticity.properties = {
       plastic_property("cohesion", "Pa", [](const Plasticity& p) { return p.cohesion; }),
       plastic_property("friction_angle", "deg",
@@ -379,8 +371,9 @@ void bind_materials(Module& m) {
   };
   m.classes.push_back(material);
 
-  Class joint{"Joint",
-              "Made by cdem.mohr_coulomb, cdem.coulomb, cdem.barton_bandis, cdem.joint_table or cdem.glued."};
+  Class joint{"Joint", "Made by cdem.mohr_coulomb, cdem.hoek_brown_bond, cdem.coulomb, cdem.barton_bandis, "
+                       "cdem.joint_table or "
+                       "cdem.glued."};
   joint.properties = {
       joint_property("bonded", "boolean", "", [](const Joint& j) { return Value(j.bonded); }),
       joint_property("glued", "boolean", "", [](const Joint& j) { return Value(j.glued); }),
@@ -408,6 +401,10 @@ void bind_materials(Module& m) {
     const Joint& j = static_cast<const JointObject&>(self).joint;
     if (j.glued)
       return std::string("cdem.Joint (glued, never breaks)");
+    if (j.curve.on())
+      return "cdem.Joint (bonded, Hoek-Brown: sigma_ci " + number_text(j.curve.sigma_ci) + " Pa, m_b " +
+             number_text(j.curve.m_b) + ", s " + number_text(j.curve.s) + ", a " + number_text(j.curve.a) +
+             ", tensile strength " + number_text(j.tensile_strength) + " Pa)";
     return std::string(j.bonded ? "cdem.Joint (bonded, c " + number_text(j.cohesion) +
                                       " Pa, tensile strength " + number_text(j.tensile_strength) + " Pa, "
                                 : std::string("cdem.Joint (contact, ")) +

@@ -333,7 +333,8 @@ void bind_model(Module& m) {
                "number "
                "twice those inside one, a joint of their own; numbers from 1. All others have `joint`"),
       object("plasticity", "Plasticity")
-          .doc("of a body that moves far: its tetrahedra yield by this law, cdem.plastic{...}"),
+          .doc("of a body that moves far: its tetrahedra yield by this law, cdem.plastic{...} or "
+               "cdem.hoek_brown{...}"),
       list("region_plasticity", tuple_type({whole_number, object_type("Plasticity")}), 1)
           .doc("of a mesh: {region, law} gives a region a law of its own; numbers from 1. All others have "
                "`plasticity`, or are elastic without it"),

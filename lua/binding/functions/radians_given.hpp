@@ -2,6 +2,7 @@
 #pragma once
 
 #include "lua/binding/runtime/session.hpp"
+#include "lua/binding/schema/schema.hpp"
 
 #include <string>
 #include <vector>
@@ -14,5 +15,8 @@ void warn_of_radians(Session&, const std::string& what, const std::vector<double
                      const std::vector<double>& dip_directions);
 // The same of angles round a circle.
 void warn_of_radians(Session&, const std::string& what, const std::vector<double>& angles);
+
+// Warns where `friction_angle` is smaller than that of any rock. Zero is meant: no friction.
+void warn_of_smoothness(Session&, const Arguments&, const char* function);
 
 } // namespace cdem::script

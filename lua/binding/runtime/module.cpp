@@ -57,7 +57,7 @@ const Declared& declared() {
   static const Declared all = [] {
     Declared d;
     declare(d, "parameters", "Parameters of a script", {bind_parameters});
-    declare(d, "materials", "Materials and joints", {bind_materials, bind_joint_laws});
+    declare(d, "materials", "Materials and joints", {bind_materials, bind_hoek_brown, bind_joint_laws});
     declare(d, "shapes", "Assemblies of blocks", {bind_shapes, bind_discs});
     declare(d, "solids", "Free-form solids", {bind_solids, bind_surfaces});
     declare(d, "armour_units", "Armour units", {bind_armour_units});

@@ -81,6 +81,7 @@ auto method(Body body) {
 // Shares in the module, one per file.
 void bind_parameters(Module&);
 void bind_materials(Module&);
+void bind_hoek_brown(Module&);
 void bind_joint_laws(Module&);
 void bind_shapes(Module&);
 void bind_discs(Module&);
