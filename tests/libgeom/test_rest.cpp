@@ -1,4 +1,5 @@
 // Bodies that go down to their rest: where a box stands, slides or topples on an incline is known.
+#include "libgeom/placement/features.hpp"
 #include "libgeom/placement/rest.hpp"
 #include "tests/libgeom/box_surface.hpp"
 
@@ -131,4 +132,22 @@ TEST_CASE("a body inside others' clear distance is pushed out by as much as it l
   const Pose pose = pushed_clear(features_of(box_surface({1, 1, 1})), start, {&floor}, resting(0));
   CHECK(pose.translation.z() == Approx(0.5 + clear_distance).epsilon(1e-5));
   CHECK((pose.translation - start.translation).head<2>().norm() < 1e-9);
+}
+
+TEST_CASE("cubes side by side on a plane push on each other's sides where one has entered the other") {
+  // By 1e-3, and 1e-6 lower or higher: the corners that entered are next to the lower or the upper face.
+  for (const double lower : {1e-6, -1e-6}) {
+    const Features one = features_of(box_surface({1, 1, 1})),
+                   other = features_of(box_surface({1, 1, 1}, {0.999, 0.3, -lower}));
+    std::vector<Touch> touches;
+    NearFeatures(one, other, 0.01).touches(one, other, 0.01, touches);
+    int sideways = 0;
+    for (const Touch& touch : touches)
+      if (touch.gap < 0) {
+        CHECK(std::abs(touch.normal.x()) == Approx(1).epsilon(1e-6));
+        CHECK(touch.gap == Approx(-1e-3).epsilon(1e-6));
+        ++sideways;
+      }
+    CHECK(sideways >= 3);
+  }
 }
