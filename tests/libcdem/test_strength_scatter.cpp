@@ -17,7 +17,7 @@ using geom::Vec3;
 
 namespace {
 
-constexpr double strength = 3e6; // T of concrete_joint
+constexpr double mean_strength = 3e6; // T of concrete_joint
 
 cdem::StrengthScatter scatter(double modulus, std::uint64_t seed = 1, double volume = 1e-3) {
   return {modulus, volume, seed};
@@ -112,7 +112,7 @@ TEST_CASE("strength scatter: the weakest face of a body is weaker by V^(-1/m), w
     weakest.push_back(face_strengths(model).front());
   }
   const Moments found = moments(weakest);
-  const double expected = strength * std::pow(1e-3 / volume, 1 / m);
+  const double expected = mean_strength * std::pow(1e-3 / volume, 1 / m);
   const double g1 = std::tgamma(1 + 1 / m), spread = std::sqrt(std::tgamma(1 + 2 / m) / (g1 * g1) - 1);
   INFO("volume " << volume << ", " << found.mean / expected);
   CHECK(found.mean == Approx(expected).epsilon(4 * spread / std::sqrt(double(n))));
@@ -189,7 +189,7 @@ TEST_CASE("strength scatter: a row of blocks parts at its weakest face, at that 
   options.stop = [&] { return s.log.broken_tension > 0; };
   s.run(options);
   const cdem::BreakRow& first = s.log.breaks.front();
-  CHECK(first.normal_traction == Approx(weakest->strength * strength).epsilon(0.01));
+  CHECK(first.normal_traction == Approx(weakest->strength * mean_strength).epsilon(0.01));
   CHECK(first.block_a == s.model.blocks[weakest->block_a].id);
   CHECK(first.block_b == s.model.blocks[weakest->block_b].id);
 }
