@@ -41,8 +41,7 @@ Value read_solid(Session& session, Object*, const Arguments& a) {
   const bool step = ending == ".step" || ending == ".stp";
   static const std::set<std::string> surfaces = {".stl", ".obj", ".off", ".ply", ".dxf", ".ts"};
   if (!step && surfaces.count(ending) == 0)
-    throw InputError("file", "\"" + a.text("file") + "\"",
-                     "a name that ends in " + solid_endings);
+    throw InputError("file", "\"" + a.text("file") + "\"", "a name that ends in " + solid_endings);
   const std::filesystem::path path = session.files.to_read(a.text("file"));
   const double scale = a.number("scale");
   if (!step) {
