@@ -209,7 +209,7 @@ RunResult run(const StageContext& context, const RunOptions& options, const std:
     return true;
   };
   double stable_of_mesh = stable_time_step(context.model, stage.work.resolved.bolts);
-  bool stopped = false, may_be_dry = true; // joints turn dry as they break
+  bool stopped = false;
   while (stage.step < clock.steps() && !stopped) {
     const bool renewed = stage.renew_interfaces(),
                freed = (options.breaking && stage.free_nodes(stepping.time_step)) || renewed;
@@ -221,7 +221,7 @@ RunResult run(const StageContext& context, const RunOptions& options, const std:
         shorten(options.safety * stable_of_mesh);
     }
     // Before the restart point, which is where a stage that goes on begins.
-    if (chooses_step && (freed || may_be_dry) && any_dry_joint(context.model, state))
+    if (chooses_step && (freed || stage.step % watch_every == 0) && any_dry_joint(context.model, state))
       shorten(options.safety * stable_step_of_dry_joints(stable_now));
     if (freed || stage.can_be_left())
       stage.keep_restart_point(loop_state());
@@ -258,7 +258,6 @@ RunResult run(const StageContext& context, const RunOptions& options, const std:
     state.time = clock.time_at(stage.step);
     state.velocity_lag = 0.5 * stepping.time_step;
     stage.watch(report);
-    may_be_dry = stage.broken_in_step() > 0;
     if (scaled.on() && stage.step % watch_every == 0) {
       stage.see_whole();
       scaled.sample();

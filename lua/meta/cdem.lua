@@ -1851,6 +1851,9 @@ function cdem.bricks(options) end
 ---@field spacing_scatter? number in [0, 0.5), default 0: standard deviation over the mean
 ---@field dip_scatter? number deg, in [0, 90], default 0: standard deviation
 ---@field direction_scatter? number deg, in [0, 360], default 0: standard deviation
+---@field origin? number[] m: a plane runs through it; without it the planes are counted from the lowest corner of the blocks along the normal
+---@field count? integer >= 1: planes next to the origin, on both sides of it; next to the centre of the blocks where no origin is given. As many as cross the blocks when left out
+---@field persistence? number in [0, 1], default 1: probability that a face belongs to the set, above 0. The other faces are bridges of rock, which the body's joint holds; each face between two blocks is drawn by itself. Needs a name
 ---@field name? string of the set, for its law: a body's joints = { name = joint }
 
 ---@class (exact) cdem.CutByJointsOptions
@@ -1859,7 +1862,7 @@ function cdem.bricks(options) end
 ---@field seed? integer >= 0, default 1: the same seed gives the same blocks on every machine
 ---@field smallest? number m, >= 0, default 0: blocks thinner than this, by their least height over a face, are united with a neighbour where both are convex together, or else glued to one: splinters fail before the rock does and shorten the time step
 
----Cuts every block by the planes of joint sets, one set after the other.
+---Cuts every block by the planes of joint sets, one set after the other, those with a persistence below 1 last.
 ---@param options cdem.CutByJointsOptions
 ---@return cdem.Assembly
 function cdem.cut_by_joints(options) end
