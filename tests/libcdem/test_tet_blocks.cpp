@@ -63,10 +63,11 @@ TEST_CASE("a mesh of blocks that hits a floor at an odd angle breaks up and stay
   s.conditions.gravity = gravity();
   cdem::RunOptions options;
   options.duration = 0.4;
-  options.safety = 0.5;
+  // At 0.4 and 0.9 the common normal of two edges turns over within a step where they have slid past each other.
+  options.safety = GENERATE(0.4, 0.5, 0.9);
   s.run(options);
   CHECK(std::count(s.state.released.begin(), s.state.released.end(), 1) > 5);
-  CHECK(cdem::energy(s.model, s.state).balance_error() < 1e-2);
+  CHECK(cdem::energy(s.model, s.state).balance_error() < 2e-3);
   for (std::size_t b = 1; b < s.model.blocks.size(); ++b)
     CHECK(centroid(s, static_cast<int>(b)).z() > 0);
 }

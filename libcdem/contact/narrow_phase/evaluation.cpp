@@ -408,7 +408,8 @@ void Evaluation::finish(Contact& c, const Contact* old, ContactMotion& motion, c
       c.damping = old->damping;
     }
     c.depth = own ? old->depth : 0;
-    c.reference_penetration = own ? old->reference_penetration : first_reference_penetration(motion);
+    c.reference_penetration =
+        own ? next_reference_penetration(*old, motion) : first_reference_penetration(motion);
     if (old && !own)
       force.friction -= take_over(c, *old, law, motion);
     else if (old && old->target != c.target)

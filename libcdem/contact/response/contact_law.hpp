@@ -72,6 +72,14 @@ inline double first_reference_penetration(const ContactMotion& m) {
   return m.depth <= -1.5 * m.slid.dot(m.normal) ? 0 : m.depth;
 }
 
+// Where a contact goes on to carry. Where its normal turns over to another face within a step, it may be found deeper by more than
+// all that has moved (1.5 times, as above): it goes on with the force that it had.
+inline double next_reference_penetration(const Contact& old, const ContactMotion& m) {
+  const double before = m.depth + m.slid.dot(m.normal), // m, before the step under the normal of now
+      jump = before - old.reference_penetration - old.effective_penetration();
+  return old.reference_penetration + (jump > 1.5 * m.slid.norm() ? jump : 0);
+}
+
 // q, m: how far the contact has been pressed while its bodies approached.
 inline double pressed_by_approach(const Contact& c, const ContactLaw& law) {
   return c.damping > 0 ? c.damping / (law.damping_ratio * law.kn) : 0;
