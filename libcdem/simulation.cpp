@@ -323,9 +323,11 @@ std::int64_t Simulation::break_bonds(const Selection& on, bool whole_faces) {
     if (whole_faces ? !(holds(0) && holds(1) && holds(2)) : !holds(point))
       return;
     s.whole().faces[at.batch].mode[point][at.lane] = static_cast<std::uint8_t>(BondMode::contact);
+    FaceSlip slip = slip_of(s.whole(), at.batch, at.lane);
     cdem::settle(s.model.mesh.faces[at.batch], face_nodes(s.model.mesh, chunk, at.batch, at.lane), point,
                  at.lane, position.data(), s.whole().displacement.data(),
-                 face_law(s.model, chunk, at.batch, at.lane), slip_of(s.whole(), at.batch, at.lane));
+                 face_law(s.model, chunk, at.batch, at.lane), slip);
+    slips_of(s.whole(), at.batch).set(at.lane, slip);
     ++count;
   });
   if (count == 0)

@@ -22,7 +22,10 @@ std::vector<Fragment> Simulation::fragments() const {
 }
 
 ContactSummary Simulation::contacts() const {
-  return {static_cast<std::int64_t>(impl_->whole().contacts.size()), impl_->log.deepest_contact,
+  const State& state = impl_->whole();
+  const auto pairs = std::count_if(state.tet_contacts.begin(), state.tet_contacts.end(),
+                                   [](const TetContact& c) { return c.normal > 0; });
+  return {static_cast<std::int64_t>(state.contacts.size()) + pairs, impl_->log.deepest_contact,
           impl_->log.deepest_over_height};
 }
 

@@ -42,12 +42,6 @@ Response stretched(double kn, double ks, const Frame& f, int point, const Plane2
   return r;
 }
 
-// A contact that does not slide.
-Response sticking(double kn, double ks, const Frame& f, int point, const Plane2& slip) {
-  const Response r = stretched(kn, ks, f, point, slip);
-  return r.opening > 0 ? Response{r.opening} : r;
-}
-
 // The contact a broken spring is; slip moves on where it slides.
 Response contact(double kn, double ks, double tan_friction, const Frame& f, int point, Plane2& slip) {
   Response trial = stretched(kn, ks, f, point, slip);
@@ -82,44 +76,40 @@ public:
       : batch_(batch), lane_(lane), motion_(motion), law_(law), now_(face_frame(batch, lane, motion, 0)) {}
 
   // spring: the place of the face's first one. slips: of the model.
-  void advance(bool breaking, std::int64_t spring, FaceStateBatch& state, FaceSlip* slips, Vec (&force)[3],
-               FaceSums& sums) {
-    const std::int64_t kept = state.slip < 0 ? -1 : state.slip + lane_;
-    FaceSlip slip = kept < 0 ? FaceSlip{} : slips[kept];
+  void advance(bool breaking, std::int64_t spring, FaceStateBatch& state, FaceSlipBatch* slips,
+               Vec (&force)[3], FaceSums& sums) {
+    FaceSlip slip = state.slip < 0 ? FaceSlip{} : slips[state.slip].at(lane_);
     bool whole_face = true;
     for (int point = 0; point < 3; ++point) {
       Plane2 s = {slip.value[point][0], slip.value[point][1]};
       if (!is_intact(state.mode[point][lane_]))
-        slide(point, s, sums);
+        slide(point, {slip.shear[point][0], slip.shear[point][1]}, s, sums);
       else if (!breaking || !snap(point, spring + point * lanes, state.mode[point][lane_], s, sums)) {
         whole_face = false;
         continue;
       }
-      slip.value[point][0] = s[0];
-      slip.value[point][1] = s[1];
+      for (int axis = 0; axis < 2; ++axis) {
+        slip.value[point][axis] = s[axis];
+        slip.shear[point][axis] = response_[point].shear[axis];
+      }
       set_lane(force[point], lane_, response_[point].force);
     }
-    if (kept >= 0)
-      slips[kept] = slip;
+    if (state.slip >= 0)
+      slips[state.slip].set(lane_, slip);
     if (whole_face)
       leave(spring / (3 * lanes) * lanes + lane_, state, sums);
   }
 
 private:
-  const Frame& before() {
-    if (!has_before_)
-      before_ = face_frame(batch_, lane_, motion_, motion_.step);
-    has_before_ = true;
-    return before_;
-  }
   double kn() const { return batch_.kn[lane_]; }
   double ks() const { return law_.shear_ratio * kn(); }
-  geom::Vec3 moved(int point) { return now_.gap[point] - before().gap[point]; }
+  geom::Vec3 moved(int point) {
+    return now_.gap[point] - face_frame(batch_, lane_, motion_, motion_.step).gap[point];
+  }
 
-  // Friction by the trapezoidal rule.
-  void slide(int point, Plane2& slip, FaceSums& sums) {
+  // Friction by the trapezoidal rule; shear: N, before the step.
+  void slide(int point, const Plane2& shear, Plane2& slip, FaceSums& sums) {
     const Plane2 from = slip;
-    const Plane2 shear = sticking(kn(), ks(), before(), point, from).shear;
     const Response& r = response_[point] = contact(kn(), ks(), law_.tan_friction, now_, point, slip);
     for (int axis = 0; axis < 2; ++axis)
       sums.friction += 0.5 * (shear[axis] + r.shear[axis]) * (slip[axis] - from[axis]);
@@ -139,7 +129,7 @@ private:
     sums.breaking += taken;
     sums.crack.add(taken, now == BondMode::broken_shear ? 1 : 0);
     sums.broken.push_back(
-        {spring, now, now_.normal, kn() * bonded.opening / area, shear / area, {slip[0], slip[1]}});
+        {spring, now, now_.normal, kn() * bonded.opening / area, shear / area, {slip[0], slip[1]}, {r.shear[0], r.shear[1]}});
     return true;
   }
 
@@ -151,7 +141,10 @@ private:
       return;
     }
     if (law_.hands_over) {
-      if (!law_.hand_over_due || !is_gone(now_, size))
+      if (!law_.hand_over_due)
+        return;
+      come_loose(state, lane_, sums);
+      if (!is_gone(now_, size))
         return;
       const bool open = response_[0].opening > 0 && response_[1].opening > 0 && response_[2].opening > 0;
       set_hand_over(state, lane_, open ? HandOver::done : HandOver::leaving);
@@ -178,15 +171,14 @@ private:
   int lane_;
   const FaceMotion& motion_;
   const FaceLaw& law_;
-  Frame now_, before_;
-  bool has_before_ = false;
+  Frame now_;
   Response response_[3];
 };
 
 } // namespace
 
 void one_by_one(const FaceBatch& batch, unsigned faces, const FaceMotion& motion, const FaceLaw& law,
-                bool breaking, std::int64_t first_spring, FaceStateBatch& state, FaceSlip* slips,
+                bool breaking, std::int64_t first_spring, FaceStateBatch& state, FaceSlipBatch* slips,
                 Vec (&force)[3], FaceSums& sums) {
   for (; faces != 0; faces &= faces - 1) {
     const int lane = __builtin_ctz(faces);
@@ -197,7 +189,7 @@ void one_by_one(const FaceBatch& batch, unsigned faces, const FaceMotion& motion
 
 FaceSpring face_spring(const FaceBatch& batch, const FaceNodes& nodes, int point, int lane,
                        const Node* position, const Node* displacement, const FaceLaw& law,
-                       const FaceStateBatch& state, const FaceSlip* slip) {
+                       const FaceStateBatch& state, const FaceSlip& slip) {
   const Frame f = face_frame(nodes, position, displacement);
   FaceSpring spring;
   spring.gap = f.gap[point];
@@ -205,7 +197,7 @@ FaceSpring face_spring(const FaceBatch& batch, const FaceNodes& nodes, int point
   if (handed_over(state, lane))
     return spring;
   const double kn = batch.kn[lane], ks = law.shear_ratio * kn;
-  Plane2 s = slip ? Plane2{slip->value[point][0], slip->value[point][1]} : Plane2{};
+  Plane2 s{slip.value[point][0], slip.value[point][1]};
   const Response r = is_intact(state.mode[point][lane]) ? stretched(kn, ks, f, point)
                                                         : contact(kn, ks, law.tan_friction, f, point, s);
   spring.force = r.force;
@@ -217,9 +209,12 @@ void settle(const FaceBatch& batch, const FaceNodes& nodes, int point, int lane,
             const Node* displacement, const FaceLaw& law, FaceSlip& slip) {
   Plane2 s = {slip.value[point][0], slip.value[point][1]};
   const double kn = batch.kn[lane];
-  contact(kn, law.shear_ratio * kn, law.tan_friction, face_frame(nodes, position, displacement), point, s);
-  slip.value[point][0] = s[0];
-  slip.value[point][1] = s[1];
+  const Response r = contact(kn, law.shear_ratio * kn, law.tan_friction,
+                             face_frame(nodes, position, displacement), point, s);
+  for (int axis = 0; axis < 2; ++axis) {
+    slip.value[point][axis] = s[axis];
+    slip.shear[point][axis] = r.shear[axis];
+  }
 }
 
 } // namespace cdem

@@ -15,6 +15,6 @@ namespace cdem {
 // Forces of these faces of a batch, a bit each, whose first spring has the place `first_spring`. Replaces the force of the
 // three points on side a, N, wherever it is not that of an intact spring.
 void one_by_one(const FaceBatch&, unsigned faces, const FaceMotion&, const FaceLaw&, bool breaking,
-                std::int64_t first_spring, FaceStateBatch&, FaceSlip*, simd::Vec (&force)[3], FaceSums&);
+                std::int64_t first_spring, FaceStateBatch&, FaceSlipBatch*, simd::Vec (&force)[3], FaceSums&);
 
 } // namespace cdem

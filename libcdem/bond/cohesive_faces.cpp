@@ -116,6 +116,8 @@ public:
       pull[point] = advance_point(point, breaking, spring + point * lanes, sums, open);
       without = without && face_.damage[point] >= 1;
     }
+    if (without && to_contact)
+      come_loose(state_, lane_, sums);
     if (without && open) {
       part(pull, sums);
     } else if (leaves(state_, lane_)) {
@@ -155,7 +157,7 @@ private:
       mode = static_cast<std::uint8_t>(how);
       const Vec3 began = law_.kn * offset; // the relative displacement was nearly zero then
       sums.broken.push_back(
-          {spring, how, now_.in_space(m), began.dot(m), (began - began.dot(m) * m).norm(), {}});
+          {spring, how, now_.in_space(m), began.dot(m), (began - began.dot(m) * m).norm(), {}, {}});
     }
     return now_.in_space(area * r.traction);
   }

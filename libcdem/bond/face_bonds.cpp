@@ -8,7 +8,6 @@
 namespace cdem {
 namespace {
 
-using simd::Mask;
 using simd::Oct;
 using simd::Vec;
 
@@ -45,6 +44,15 @@ CDEM_INLINE bool all_intact(const FaceStateBatch& state) {
   return (modes[0] | modes[1] | modes[2]) == 0;
 }
 
+CDEM_INLINE bool none_intact(const FaceStateBatch& state) {
+  std::uint64_t modes[3];
+  std::memcpy(modes, state.mode, sizeof modes);
+  const auto without_zeros = [](std::uint64_t bytes) { // they are small numbers
+    return ((bytes + 0x7f7f7f7f7f7f7f7fu) & 0x8080808080808080u) == 0x8080808080808080u;
+  };
+  return without_zeros(modes[0]) && without_zeros(modes[1]) && without_zeros(modes[2]);
+}
+
 CDEM_INLINE bool all_handed_over(const FaceStateBatch& state) {
   constexpr std::uint64_t done = 0x0101010101010101u * static_cast<std::uint64_t>(HandOver::done);
   std::uint64_t now = 0;
@@ -73,45 +81,58 @@ CDEM_INLINE bool under_load(const FaceBatch& batch, const Gaps& gaps, const Face
   const Oct tension2 = s.tension * s.tension,
             shear2 = s.cohesion * s.cohesion / (1.0 + s.tan_friction * s.tan_friction);
   const Oct most2 = (tension2 < shear2 ? tension2 : shear2) * area * area;
-  Mask over{};
   for (const Vec& gap : gaps.point)
-    over |= kn2 * dot(gap, gap) >= most2;
-  return simd::any(over);
+    if (simd::any_negative(most2 - kn2 * dot(gap, gap)))
+      return true;
+  return false;
 }
 
 // The faces of the batch of which some whole spring may be at its strength, a bit each. Judged without roots: the length of
 // the normal from the face's area, a unit vector to 1e-4 while strains stay under some per cent, and with a margin above that.
-CDEM_INLINE unsigned near_strength(const FaceBatch& batch, const Gaps& gaps, const Vec& normal,
+template <class V, int first>
+CDEM_INLINE unsigned near_strength(const FaceBatch& batch, const Gaps& gaps, const Vec& normals,
                                    const FaceLaw& law, const Strengths& s, const FaceStateBatch& state) {
-  const Oct area = simd::load(batch.area), kn = simd::load(batch.kn);
-  const Oct guess = 1.0 / (12.0 * area);
-  const Oct n2 = dot(normal, normal);
-  const Oct once = guess * (1.5 - 0.5 * n2 * guess * guess);
-  const Oct inverse = once * (1.5 - 0.5 * n2 * once * once); // 1 / |n|, by Newton
-  const Oct tension = (unbreakable_part * s.tension) * area,
-            cohesion = (unbreakable_part * s.cohesion) * area,
-            tan_friction = unbreakable_part * s.tan_friction;
-  Mask near{};
+  using simd::part_of;
+  const V area = simd::load_wide<V>(batch.area + first), kn = simd::load_wide<V>(batch.kn + first);
+  const simd::VecOf<V> normal = cdem::part_of<V, first>(normals);
+  const V guess = 1.0 / (12.0 * area);
+  const V n2 = dot(normal, normal);
+  const V once = guess * (1.5 - 0.5 * n2 * guess * guess);
+  const V inverse = once * (1.5 - 0.5 * n2 * once * once); // 1 / |n|, by Newton
+  const V tension = (unbreakable_part * part_of<V, first>(s.tension)) * area,
+          cohesion = (unbreakable_part * part_of<V, first>(s.cohesion)) * area,
+          tan_friction = unbreakable_part * part_of<V, first>(s.tan_friction);
+  simd::MaskOf<V> near{};
   for (int point = 0; point < 3; ++point) {
-    const Vec& gap = gaps.point[point];
-    const Oct gn = dot(gap, normal) * inverse;
-    const Oct g2 = dot(gap, gap);
-    const Oct fn = kn * gn;
-    const Oct shear2 = (law.shear_ratio * law.shear_ratio) * kn * kn * (g2 - gn * gn);
-    const Oct left = shear_strength(cohesion, tan_friction, fn);
-    near |= ((fn >= tension) | (shear2 >= left * left) | (left <= Oct{})) &
-            lanes_with(state.mode[point], static_cast<std::uint8_t>(BondMode::intact));
+    const simd::VecOf<V> gap = cdem::part_of<V, first>(gaps.point[point]);
+    const V gn = dot(gap, normal) * inverse;
+    const V g2 = dot(gap, gap);
+    const V fn = kn * gn;
+    const V shear2 = (law.shear_ratio * law.shear_ratio) * kn * kn * (g2 - gn * gn);
+    const V left = shear_strength(cohesion, tan_friction, fn);
+    near |= ((fn >= tension) | (shear2 >= left * left) | (left <= V{})) &
+            simd::lanes_with<V>(state.mode[point] + first, static_cast<std::uint8_t>(BondMode::intact));
   }
-  return simd::any(near) ? bits_of(near) : 0;
+  return simd::bits_of(near) << first;
+}
+
+// f(0) of eight lanes, or f(0) and f(4) of four each: what each says of its faces, together.
+template <class V, class F>
+CDEM_INLINE unsigned in_parts(const F& f) {
+  if constexpr (simd::width<V> == lanes)
+    return f(std::integral_constant<int, 0>{});
+  else
+    return f(std::integral_constant<int, 0>{}) | f(std::integral_constant<int, 4>{});
 }
 
 // Batches by which reading runs ahead.
 constexpr int batches_ahead = 3;
 
 // All that it calls for intact bonds is inlined; one_by_one is not, and is the same code for every instruction set.
+template <class V>
 CDEM_INLINE void face_bond_kernel(const FaceBatch* batches, std::int64_t count, int faces,
                                   const FaceMotion& motion, const FaceLaw& law, bool breaking,
-                                  FaceStateBatch* state, FaceSlip* slips, Node* total, FaceSums& sums,
+                                  FaceStateBatch* state, FaceSlipBatch* slips, Node* total, FaceSums& sums,
                                   ReadAhead& ahead) {
   const bool directed = law.shear_ratio != 1; // else the force lies along the gap
   for (std::int64_t i = 0; i < count; ++i) {
@@ -126,7 +147,7 @@ CDEM_INLINE void face_bond_kernel(const FaceBatch* batches, std::int64_t count, 
     Vec force[3] = {scaled(ks, gaps.point[0]), scaled(ks, gaps.point[1]), scaled(ks, gaps.point[2])};
     unsigned may_break = 0;
     const Strengths strengths = strengths_of(law, i);
-    const bool looks = breaking && under_load(batch, gaps, law, strengths);
+    const bool looks = breaking && !none_intact(state[i]) && under_load(batch, gaps, law, strengths);
     if (directed || looks) {
       const Vec normal = normal_of(batch.place_a, gaps.corner, motion.position);
       if (directed) {
@@ -135,7 +156,9 @@ CDEM_INLINE void face_bond_kernel(const FaceBatch* batches, std::int64_t count, 
           force[point] = plus(force[point], scaled(difference * dot(gaps.point[point], normal), normal));
       }
       if (looks)
-        may_break = near_strength(batch, gaps, normal, law, strengths, state[i]);
+        may_break = in_parts<V>([&](auto part) __attribute__((always_inline)) {
+          return near_strength<V, part>(batch, gaps, normal, law, strengths, state[i]);
+        });
     }
     if (may_break != 0 || !all_intact(state[i])) {
       const unsigned used = (1u << std::min<std::int64_t>(lanes, faces - i * lanes)) - 1;
@@ -143,13 +166,16 @@ CDEM_INLINE void face_bond_kernel(const FaceBatch* batches, std::int64_t count, 
       if (law.own)
         here.own = law.own + i;
       unsigned lane_by_lane = may_break & used;
-      for (int lane = 0; lane < lanes; ++lane)
-        lane_by_lane = leaves(state[i], lane)        ? lane_by_lane | 1u << lane
-                       : handed_over(state[i], lane) ? lane_by_lane & ~(1u << lane)
-                                                     : lane_by_lane;
-      if (state[i].slip >= 0)
-        lane_by_lane |= slide_eight(batch, motion, here, strengths.tan_friction, lane_by_lane, i * lanes,
-                                    state[i], slips + state[i].slip, force, sums);
+      if (state[i].slip >= 0) {
+        for (int lane = 0; lane < lanes; ++lane)
+          lane_by_lane = leaves(state[i], lane)        ? lane_by_lane | 1u << lane
+                         : handed_over(state[i], lane) ? lane_by_lane & ~(1u << lane)
+                                                       : lane_by_lane;
+        lane_by_lane |= in_parts<V>([&](auto part) __attribute__((always_inline)) {
+          return slide<V, part>(batch, motion, here, strengths.tan_friction, lane_by_lane, i * lanes, gaps.corner,
+                                gaps.point, state[i], slips[state[i].slip], force, sums);
+        });
+      }
       if (lane_by_lane != 0) {
         // What is handed on by reference does not stay in registers.
         Vec changed[3] = {force[0], force[1], force[2]};
@@ -195,10 +221,10 @@ FaceLaw face_law(const Model& model, const MeshChunk& chunk, std::int64_t batch,
 }
 
 void face_bond_forces(const FaceBatch* batches, std::int64_t count, int faces, const FaceMotion& motion,
-                      const FaceLaw& law, bool breaking, FaceStateBatch* state, FaceSlip* slips, Node* total,
+                      const FaceLaw& law, bool breaking, FaceStateBatch* state, FaceSlipBatch* slips, Node* total,
                       FaceSums& sums, ReadAhead& ahead) {
-  simd::best<face_bond_kernel>(batches, count, faces, motion, law, breaking, state, slips, total, sums,
-                               ahead);
+  simd::best_width<face_bond_kernel<Oct>, face_bond_kernel<simd::Quad>>(
+      batches, count, faces, motion, law, breaking, state, slips, total, sums, ahead);
 }
 
 } // namespace cdem

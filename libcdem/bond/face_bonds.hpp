@@ -39,7 +39,7 @@ struct FaceBreak {
   BondMode mode = BondMode::intact;
   geom::Vec3 normal = geom::Vec3::Zero();
   double normal_traction = 0, shear_traction = 0; // Pa, at breaking
-  double slip[2] = {};                            // m, as in FaceSlip, right after
+  double slip[2] = {}, shear[2] = {};             // m, N, as in FaceSlip, right after
 };
 
 // A face whose springs act for the last time: contacts take over its force.
@@ -62,8 +62,17 @@ struct FaceSums {
   // -1: none. Only where nothing takes it over.
   std::int64_t astray = -1;
   bool hands_over = false; // some face begins to leave, or leaves without a force, in this step
+  bool loosens = false;    // some face has come loose in this step
   std::vector<FaceLeft> left;
 };
+
+// A face without a whole bond, at a time when faces may be handed over.
+inline void come_loose(FaceStateBatch& state, int lane, FaceSums& sums) {
+  if (state.handed_over[lane] != static_cast<std::uint8_t>(HandOver::held))
+    return;
+  set_hand_over(state, lane, HandOver::loose);
+  sums.loosens = true;
+}
 
 // What the nodes of a chunk do, one entry for each of its places.
 struct FaceMotion {
@@ -76,9 +85,9 @@ struct FaceMotion {
 // Adds the forces of `faces` faces in `count` batches to `force` (N, per place); breaking: springs may break. The slip
 // of a face whose first spring breaks is only in FaceSums::broken: its owner makes room for it after the step.
 void face_bond_forces(const FaceBatch*, std::int64_t count, int faces, const FaceMotion&, const FaceLaw&,
-                      bool breaking, FaceStateBatch*, FaceSlip*, Node* force, FaceSums&, ReadAhead&);
+                      bool breaking, FaceStateBatch*, FaceSlipBatch*, Node* force, FaceSums&, ReadAhead&);
 
-// State of one spring. position, displacement: m (n_nodes). slip: of the face in the State; may be null.
+// State of one spring. position, displacement: m (n_nodes).
 struct FaceSpring {
   geom::Vec3 gap = geom::Vec3::Zero();    // m, from a to b
   geom::Vec3 normal = geom::Vec3::Zero(); // unit, from a to b
@@ -86,7 +95,7 @@ struct FaceSpring {
   double energy = 0;                      // J
 };
 FaceSpring face_spring(const FaceBatch&, const FaceNodes&, int point, int lane, const Node* position,
-                       const Node* displacement, const FaceLaw&, const FaceStateBatch&, const FaceSlip*);
+                       const Node* displacement, const FaceLaw&, const FaceStateBatch&, const FaceSlip&);
 
 // Lets a spring that has just become a contact slide to where friction holds it.
 void settle(const FaceBatch&, const FaceNodes&, int point, int lane, const Node* position,

@@ -1,4 +1,4 @@
-// Faces of a mesh of which some springs have broken, eight side by side: the contact that a broken spring is (face_bonds.hpp).
+// Faces of a mesh of which some springs have broken, several side by side: the contact that a broken spring is (face_bonds.hpp).
 // What happens seldom is left to broken_faces.hpp, face by face: springs that may break now, and faces that are handed over.
 #pragma once
 
@@ -11,154 +11,145 @@
 
 namespace cdem {
 
-// As FaceFrame, of eight faces.
-struct EightFaces {
-  simd::Vec gap[3];                // m, at the points
-  simd::Vec normal, along, across; // unit
+// As FaceFrame, of several faces.
+template <class V>
+struct FramesOfFaces {
+  simd::VecOf<V> normal, along, across; // unit
 };
 
-CDEM_INLINE simd::Vec unit_vector(const simd::Vec& v) {
+template <class V>
+CDEM_INLINE simd::VecOf<V> unit_vector(const simd::VecOf<V>& v) {
   return simd::scaled(1.0 / root(simd::dot(v, v)), v);
 }
 
 // x: m, corners of side a; d: m, of the corners from a to b.
-CDEM_INLINE EightFaces eight_faces(const simd::Vec (&x)[3], const simd::Vec (&d)[3]) {
+template <class V>
+CDEM_INLINE FramesOfFaces<V> frames_of_faces(const simd::VecOf<V> (&x)[3], const simd::VecOf<V> (&d)[3]) {
   using namespace simd;
-  const Vec e1 = minus(x[1], x[0]), e2 = minus(x[2], x[0]), d1 = minus(d[1], d[0]), d2 = minus(d[2], d[0]);
-  const Oct half = Oct{} + 0.5, sixth = Oct{} + 1.0 / 6;
-  EightFaces f;
+  const VecOf<V> e1 = minus(x[1], x[0]), e2 = minus(x[2], x[0]), d1 = minus(d[1], d[0]), d2 = minus(d[2], d[0]);
+  const V half = V{} + 0.5;
+  FramesOfFaces<V> f;
   f.normal = unit_vector(plus(cross(e1, e2), cross(plus(e1, d1), plus(e2, d2))));
-  const Vec edge = plus(e1, scaled(half, d1));
+  const VecOf<V> edge = plus(e1, scaled(half, d1));
   f.along = unit_vector(minus(edge, scaled(dot(edge, f.normal), f.normal)));
   f.across = cross(f.normal, f.along);
-  const Vec common = scaled(sixth, plus(plus(d[0], d[1]), d[2]));
-  for (int k = 0; k < 3; ++k)
-    f.gap[k] = plus(common, scaled(half, d[k]));
   return f;
 }
 
-CDEM_INLINE simd::Mask lanes_with(const std::uint8_t (&bytes)[lanes], std::uint8_t value) {
-  simd::Mask mask{};
-  for (int lane = 0; lane < lanes; ++lane)
-    mask[lane] = bytes[lane] == value ? -1 : 0;
-  return mask;
+template <class V, int first>
+CDEM_INLINE simd::VecOf<V> part_of(const simd::Vec& v) {
+  return {simd::part_of<V, first>(v.x), simd::part_of<V, first>(v.y), simd::part_of<V, first>(v.z)};
 }
 
-CDEM_INLINE unsigned bits_of(const simd::Mask& mask) {
-  unsigned bits = 0;
-  for (int lane = 0; lane < lanes; ++lane)
-    bits |= static_cast<unsigned>(mask[lane] != 0) << lane;
-  return bits;
-}
-
-// The places of a batch at the time `behind` ago, and the relative displacements of its corners then.
-CDEM_INLINE void corners_of(const FaceBatch& batch, const FaceMotion& m, double behind, simd::Vec (&x)[3],
-                            simd::Vec (&d)[3]) {
-  const simd::Oct back = simd::Oct{} - behind;
-  for (int k = 0; k < 3; ++k) {
-    x[k] = simd::gather(m.position, batch.place_a[k]);
-    d[k] = simd::minus(simd::gather(m.displacement, batch.place_b[k]),
-                       simd::gather(m.displacement, batch.place_a[k]));
-    if (behind == 0)
-      continue;
-    const simd::Vec v = simd::gather(m.velocity, batch.place_a[k]);
-    x[k] = simd::plus(x[k], simd::scaled(back, v));
-    d[k] = simd::plus(d[k], simd::scaled(back, simd::minus(simd::gather(m.velocity, batch.place_b[k]), v)));
-  }
-}
-
-// Advances the broken springs of the faces of a batch and replaces their force on side a, N; `lane_by_lane`: faces that are
-// left alone. slips: of the first face. Returns the faces that part or slide away and are to be handed over, a bit each.
-CDEM_INLINE unsigned slide_eight(const FaceBatch& batch, const FaceMotion& motion, const FaceLaw& law,
-                                 const simd::Oct& tan_friction, unsigned lane_by_lane,
-                                 std::int64_t first_face, const FaceStateBatch& state, FaceSlip* slips,
-                                 simd::Vec (&force)[3], FaceSums& sums) {
+// Advances the broken springs of faces of a batch, from `first` on, and replaces their force on side a, N; `lane_by_lane`: faces of
+// the batch that are left alone. corner, point: m, gaps there. slips: of the batch. Returns the faces that part or slide away
+// and are to be handed over, a bit each.
+template <class V, int first>
+CDEM_INLINE unsigned slide(const FaceBatch& batch, const FaceMotion& motion, const FaceLaw& law,
+                           const simd::Oct& tan_of_all, unsigned lane_by_lane, std::int64_t first_face,
+                           const simd::Vec (&corner)[3], const simd::Vec (&point_gap)[3], FaceStateBatch& state,
+                           FaceSlipBatch& slips, simd::Vec (&force)[3], FaceSums& sums) {
   using namespace simd;
-  const Oct zero{}, one = zero + 1.0;
-  Vec x[3], d[3];
-  corners_of(batch, motion, 0, x, d);
-  const EightFaces now = eight_faces(x, d);
-  const Oct kn = load(batch.kn), ks = law.shear_ratio * kn;
-  Mask left{};
-  for (int lane = 0; lane < lanes; ++lane)
-    left[lane] = (lane_by_lane >> lane & 1u) != 0 ? -1 : 0;
-  const Mask gone = lanes_with(state.handed_over, static_cast<std::uint8_t>(HandOver::done));
-  Mask broken[3], all = ~left & ~gone;
-  Oct from[3][2], slip[3][2], shear[3][2], opening[3];
-  bool any_slips = false;
+  using M = MaskOf<V>;
+  constexpr int count = width<V>;
+  const M left = lanes_of<V>(lane_by_lane >> first),
+          gone = lanes_with<V>(state.handed_over + first, static_cast<std::uint8_t>(HandOver::done));
+  M broken[3], all = ~left & ~gone, any_broken{};
   for (int point = 0; point < 3; ++point) {
     broken[point] =
-        ~lanes_with(state.mode[point], static_cast<std::uint8_t>(BondMode::intact)) & ~left & ~gone;
+        ~lanes_with<V>(state.mode[point] + first, static_cast<std::uint8_t>(BondMode::intact)) & ~left & ~gone;
     all &= broken[point];
-    for (int axis = 0; axis < 2; ++axis)
-      for (int lane = 0; lane < lanes; ++lane)
-        from[point][axis][lane] = slips[lane].value[point][axis];
-    const Vec& gap = now.gap[point];
-    const Oct along[2] = {dot(gap, now.along), dot(gap, now.across)};
-    opening[point] = dot(gap, now.normal);
-    const Mask open = opening[point] > 0.0;
-    const Oct trial[2] = {ks * (along[0] - from[point][0]), ks * (along[1] - from[point][1])};
-    const Oct size = root(trial[0] * trial[0] + trial[1] * trial[1]),
-              limit = friction_limit<Oct>(-kn * opening[point], tan_friction);
-    const Mask slides = ~open & (size > limit);
-    const Oct too_much = (one - limit / (slides ? size : one)) / (slides ? ks : one);
-    for (int axis = 0; axis < 2; ++axis) {
-      slip[point][axis] = open     ? along[axis]
-                          : slides ? from[point][axis] + too_much * trial[axis]
-                                   : from[point][axis];
-      slip[point][axis] = broken[point] ? slip[point][axis] : from[point][axis];
-      shear[point][axis] = open ? zero : ks * (along[axis] - slip[point][axis]);
-    }
-    any_slips = any_slips || any(broken[point] & (open | slides));
-    const Oct pressed = open ? zero : kn * opening[point];
-    const Vec pull = plus(scaled(pressed, now.normal),
-                          plus(scaled(shear[point][0], now.along), scaled(shear[point][1], now.across)));
+    any_broken |= broken[point];
+  }
+  const V zero{};
+  const auto let_go_of_handed_over = [&](int point) __attribute__((always_inline)) {
     Vec& f = force[point];
-    f = {broken[point] ? pull.x : f.x, broken[point] ? pull.y : f.y, broken[point] ? pull.z : f.z};
-    f = {gone ? zero : f.x, gone ? zero : f.y, gone ? zero : f.z};
-  }
-  if (any_slips) { // friction by the trapezoidal rule
-    corners_of(batch, motion, motion.step, x, d);
-    const EightFaces before = eight_faces(x, d);
-    Oct lost{};
-    for (int point = 0; point < 3; ++point) {
-      const Vec& gap = before.gap[point];
-      const Mask closed = ~(dot(gap, before.normal) > 0.0);
-      const Oct along[2] = {dot(gap, before.along), dot(gap, before.across)};
-      Oct here{};
-      for (int axis = 0; axis < 2; ++axis) {
-        const Oct held = closed ? ks * (along[axis] - from[point][axis]) : zero;
-        here += 0.5 * (held + shear[point][axis]) * (slip[point][axis] - from[point][axis]);
-        for (int lane = 0; lane < lanes; ++lane)
-          slips[lane].value[point][axis] =
-              broken[point][lane] != 0 ? slip[point][axis][lane] : slips[lane].value[point][axis];
-      }
-      lost += broken[point] ? here : zero;
-    }
-    for (int lane = 0; lane < lanes; ++lane)
-      sums.friction += lost[lane];
-  }
-  // Faces without a whole bond.
-  const Oct area = 3.0 * load(batch.area);
-  if (!law.hands_over) {
-    Mask astray{};
-    for (int point = 0; point < 3; ++point)
-      astray |= all & (opening[point] < 0.0) & (dot(now.gap[point], now.gap[point]) > area);
-    if (any(astray))
-      for (int lane = 0; lane < lanes; ++lane)
-        sums.astray = astray[lane] != 0 ? first_face + lane : sums.astray;
+    const auto part = [&](Oct& of) __attribute__((always_inline)) { set_part<V, first>(of, gone ? zero : simd::part_of<V, first>(of)); };
+    part(f.x);
+    part(f.y);
+    part(f.z);
+  };
+  if (!any(any_broken)) {
+    if (any(gone))
+      for (int point = 0; point < 3; ++point)
+        let_go_of_handed_over(point);
     return 0;
   }
-  if (!law.hand_over_due || !any(all))
-    return 0;
-  Mask apart = all, away = all;
-  const Oct size = root(area);
+  const V one = zero + 1.0, tan_friction = simd::part_of<V, first>(tan_of_all), kn = load_wide<V>(batch.kn + first),
+          ks = law.shear_ratio * kn;
+  VecOf<V> x[3], d[3];
+  for (int k = 0; k < 3; ++k) {
+    x[k] = gather_wide<V>(motion.position, batch.place_a[k] + first);
+    d[k] = cdem::part_of<V, first>(corner[k]);
+  }
+  const FramesOfFaces<V> now = frames_of_faces(x, d);
+  V opening[3], along[3][2], lost{};
   for (int point = 0; point < 3; ++point) {
-    const Oct u = dot(now.gap[point], now.along), v = dot(now.gap[point], now.across);
+    const VecOf<V> gap = cdem::part_of<V, first>(point_gap[point]);
+    along[point][0] = dot(gap, now.along);
+    along[point][1] = dot(gap, now.across);
+    opening[point] = dot(gap, now.normal);
+    double(&kept)[2][lanes] = slips.value[point];
+    double(&had)[2][lanes] = slips.shear[point];
+    const V from[2] = {load_wide<V>(kept[0] + first), load_wide<V>(kept[1] + first)};
+    const M open = opening[point] > 0.0;
+    const V trial[2] = {ks * (along[point][0] - from[0]), ks * (along[point][1] - from[1])};
+    const V size = root(trial[0] * trial[0] + trial[1] * trial[1]),
+            limit = friction_limit<V>(-kn * opening[point], tan_friction);
+    const M slides = ~open & (size > limit);
+    const V too_much = (one - limit / (slides ? size : one)) / (slides ? ks : one);
+    V shear[2];
+    for (int axis = 0; axis < 2; ++axis) {
+      const V slid = from[axis] + too_much * trial[axis];
+      V slip = open ? along[point][axis] : slides ? slid : from[axis];
+      slip = broken[point] ? slip : from[axis];
+      shear[axis] = open ? zero : ks * (along[point][axis] - slip);
+      const V before = load_wide<V>(had[axis] + first);
+      lost += 0.5 * (before + shear[axis]) * (slip - from[axis]); // friction by the trapezoidal rule
+      store_wide<V>(kept[axis] + first, slip);
+      store_wide<V>(had[axis] + first, broken[point] ? shear[axis] : before);
+    }
+    const V pressed = open ? zero : kn * opening[point];
+    const VecOf<V> pull =
+        plus(scaled(pressed, now.normal), plus(scaled(shear[0], now.along), scaled(shear[1], now.across)));
+    Vec& f = force[point];
+    const auto replace = [&](Oct& of, const V& by) __attribute__((always_inline)) {
+      const V was = simd::part_of<V, first>(of);
+      set_part<V, first>(of, gone ? zero : broken[point] ? by : was);
+    };
+    replace(f.x, pull.x);
+    replace(f.y, pull.y);
+    replace(f.z, pull.z);
+  }
+  for (int lane = 0; lane < count; ++lane)
+    sums.friction += lost[lane];
+  // Faces without a whole bond.
+  if (!any(all))
+    return 0;
+  const V area = 3.0 * load_wide<V>(batch.area + first);
+  if (!law.hands_over) {
+    M astray{};
+    for (int point = 0; point < 3; ++point) {
+      const VecOf<V> gap = cdem::part_of<V, first>(point_gap[point]);
+      astray |= all & (opening[point] < 0.0) & (dot(gap, gap) > area);
+    }
+    if (any(astray))
+      for (int lane = 0; lane < count; ++lane)
+        sums.astray = astray[lane] != 0 ? first_face + first + lane : sums.astray;
+    return 0;
+  }
+  if (!law.hand_over_due)
+    return 0;
+  M apart = all, away = all;
+  const V size = root(area);
+  for (int point = 0; point < 3; ++point) {
+    const V &u = along[point][0], &v = along[point][1];
     apart &= opening[point] > parted_from * size;
     away &= u * u + v * v > (slid_from * slid_from) * area;
   }
-  return bits_of(apart | away);
+  for (unsigned bits = bits_of(all); bits != 0; bits &= bits - 1)
+    come_loose(state, first + __builtin_ctz(bits), sums);
+  return bits_of(M(apart | away)) << first;
 }
 
 } // namespace cdem

@@ -33,7 +33,7 @@ void check_faces(const State& state) {
     if (batch.slip < -1)
       refuse_state("faces.slip", std::to_string(batch.slip) + " is out of range");
     if (batch.slip >= 0)
-      require_below("faces.slip", batch.slip + lanes - 1, state.face_slip.size());
+      require_below("faces.slip", batch.slip, state.face_slip.size());
   }
 }
 
@@ -58,6 +58,16 @@ void check_contacts(const Model& model, const State& state) {
     if (!contact_joint(model, block(c.source / 3),
                        block(c.kind == Contact::spring ? c.target : c.target / 3)))
       refuse_state("contacts", "of two blocks that have no law of contact");
+  }
+  if (!std::is_sorted(state.tet_contacts.begin(), state.tet_contacts.end()))
+    refuse_state("tet_contacts", "that do not ascend");
+  for (const TetContact& c : state.tet_contacts) {
+    for (const std::int32_t tet : {c.a, c.b})
+      if (require_below("tet_contacts", tet, model.tets.size()); tet < model.mesh.first_tet)
+        refuse_state("tet_contacts", "of a block of small strain");
+    if (!(c.a < c.b) || model.tet_block[c.a] != model.tet_block[c.b] ||
+        !contact_joint(model, model.tet_block[c.a], model.tet_block[c.b]))
+      refuse_state("tet_contacts", "of tetrahedra that cannot touch");
   }
 }
 

@@ -8,7 +8,7 @@
 #include "libcdem/contact/narrow_phase/evaluation.hpp"
 #include "libcdem/contact/narrow_phase/row_shares.hpp"
 #include "libcdem/contact/narrow_phase/rows_asleep.hpp"
-#include "libcdem/contact/narrow_phase/tets_awake.hpp"
+#include "libcdem/contact/pairs/pair_contacts.hpp"
 #include "libcdem/contact/response/block_motion.hpp"
 #include "libcdem/contact/response/contact_point.hpp"
 
@@ -52,29 +52,6 @@ bool add_displacements(const Model& model, const State& state, ContactWork& work
   return find_leavers(model, work) || out;
 }
 
-// Finds the contacts of pairs of single tetrahedra. Their order follows from the model alone.
-void compute_tets(const Model& model, const State& state, ContactWork& work, int threads) {
-  if (!work.tet_pairs)
-    return;
-  TetPairs& pairs = *work.tet_pairs;
-  const auto count = static_cast<std::int64_t>(pairs.count());
-  pairs.found.resize(static_cast<std::size_t>((count + tet_pairs_per_chunk - 1) / tet_pairs_per_chunk));
-  for_chunks(static_cast<std::int64_t>(pairs.found.size()), threads, [&](std::int64_t chunk) {
-    ContactChunk& out = pairs.found[chunk];
-    out.contacts.clear();
-    out.forces.clear();
-    out.sums = {};
-    Evaluation evaluation(model, state, work, Contact::spring, out);
-    const std::int64_t end = std::min(count, (chunk + 1) * tet_pairs_per_chunk);
-    for (std::int64_t first = chunk * tet_pairs_per_chunk; first < end; first += contact_rows_per_chunk)
-      for (std::uint64_t bits = pairs.awake[first / contact_rows_per_chunk]; bits != 0; bits &= bits - 1) {
-        const auto p = static_cast<std::size_t>(first + __builtin_ctzll(bits));
-        fall_asleep(work, pairs, p, evaluation.tets(pairs.a[p], pairs.b[p]));
-      }
-  });
-  order_found(model.surface.triangles.size(), pairs);
-}
-
 // Marks the edges that have a contact before the step.
 void mark_touched_edges(const std::vector<Contact>& contacts, ContactWork& work) {
   std::fill(work.edge_touched.begin(), work.edge_touched.end(), 0);
@@ -99,10 +76,12 @@ ContactSums contact_forces(const Model& model, State& state, ContactWork& own, i
   own.blocks_due = own.blocks_due || own.looks_at_all;
   const bool out_of_skin = add_displacements(model, state, own, threads) || own.looks_at_all,
              fragments_due = own.fragments_due, known = own.history_complete, anew = own.anew;
-  if (fragments_due || out_of_skin) {
+  const bool pairs_due = advance_pairs(state, own, threads);
+  if (fragments_due || out_of_skin || pairs_due) {
     begin_search(state, own);
-    if (!search_contacts(model, state, own, threads))
+    if ((fragments_due || out_of_skin) && !search_contacts(model, state, own, threads))
       return sums; // something is not a number: the stage's watch will say where
+    renew_pairs(model, state, own, threads);
     read_nodes_of_rows(model, own);
   }
   keep_own_contacts(model, state, own);
@@ -131,8 +110,8 @@ ContactSums contact_forces(const Model& model, State& state, ContactWork& own, i
     find_block_motions(model, state, own, threads);
   }
   find_awake(model, state, own);
-  find_tets_awake(model, state, own, threads);
-  compute_tets(model, state, own, threads);
+  if (own.pairs)
+    evaluate_pairs(model, state, own, threads);
   FoundContacts found(model, state, own);
   for (std::int64_t first = 0; first < n_chunks; first += chunks_at_a_time * threads) {
     const std::int64_t count = std::min(n_chunks - first, chunks_at_a_time * threads);
@@ -172,7 +151,7 @@ ContactSums contact_forces(const Model& model, State& state, ContactWork& own, i
 }
 
 double contact_energy(const Model& model, const State& state, double lag) {
-  double sum = 0;
+  double sum = stored_in_pairs(model, state, lag);
   for (const Contact& now : state.contacts) {
     const ContactLaw law = law_of(model, now);
     const geom::Vec3 ago = lag * velocity_past(state, arms_of(model, state, now));

@@ -2,7 +2,7 @@
 
 #include "libcdem/contact/data/row_owner.hpp"
 #include "libcdem/contact/geometry/positions.hpp"
-#include "libcdem/contact/narrow_phase/tets_awake.hpp"
+#include "libcdem/contact/pairs/pair_contacts.hpp"
 #include "libcdem/contact/response/contact_point.hpp"
 #include "libcdem/element/rigid_motion.hpp"
 #include "libcdem/model/build/rigid_bodies.hpp"
@@ -60,34 +60,83 @@ FoundContacts::FoundContacts(const Model& model, State& state, ContactWork& work
       sums.each([](ExactSum& sum) { sum.clear(); });
       sums.touches = false;
     }
-  if (work.tet_pairs)
-    for (const ContactChunk& chunk : work.tet_pairs->found)
-      add_depths(chunk.sums, sums_);
   work.now.clear();
   work.now.reserve(state.contacts.size() + state.contacts.size() / 8 + 64);
 }
 
 void FoundContacts::add(const ContactChunk& found, Contact::Kind kind) {
   add_depths(found.sums, sums_);
-  if (kind == Contact::edge)
-    add_of_tets_before(nullptr);
-  for (std::size_t i = 0; i < found.contacts.size(); ++i) {
-    if (kind == Contact::spring)
-      add_of_tets_before(&found.contacts[i]);
+  for (std::size_t i = 0; i < found.contacts.size(); ++i)
     add(found.contacts[i], found.forces[i], kind);
+}
+
+void FoundContacts::add_energies_of_pairs() {
+  if (!work_.pairs)
+    return;
+  for (const FoundPair& pair : work_.pairs->found) {
+    friction_.add(pair.pressure.friction);
+    damping_.add(pair.pressure.damping);
+    breaking_.add(pair.breaking);
+    sums_.contacts += pair.pressure.pressing > 0 ? 1 : 0;
+    add_depth(pair);
   }
 }
 
-void FoundContacts::add_of_tets_before(const Contact* next) {
-  if (!work_.tet_pairs)
+// All ranks add the forces of all pairs, in their order.
+void FoundContacts::add_pairs() {
+  state_.tet_contacts.clear();
+  if (!work_.pairs)
     return;
-  const TetPairs& pairs = *work_.tet_pairs;
-  for (; next_of_tets_ < pairs.ordered.size(); ++next_of_tets_) {
-    const PlaceOfFound& at = pairs.ordered[next_of_tets_];
-    const ContactChunk& chunk = pairs.found[at.chunk];
-    if (next && !(order_of(chunk.contacts[at.number]) < order_of(*next)))
-      return;
-    add(chunk.contacts[at.number], chunk.forces[at.number], Contact::spring);
+  std::vector<FoundPair>& found = work_.pairs->found;
+  if (work_.shared) {
+    Pack pack;
+    pack(found);
+    std::vector<FoundPair> all;
+    for (const std::string& heard : ranks().gather(pack.text())) {
+      Unpack unpack(heard);
+      std::vector<FoundPair> some;
+      unpack(some);
+      all.insert(all.end(), some.begin(), some.end());
+    }
+    std::sort(all.begin(), all.end(),
+              [](const FoundPair& a, const FoundPair& b) { return a.contact < b.contact; });
+    found = std::move(all);
+  }
+  for (const FoundPair& pair : found)
+    add_pair(pair);
+}
+
+// Deeper than a quarter of the smaller tetrahedron's height it is not to be trusted.
+void FoundContacts::add_depth(const FoundPair& pair) {
+  const PairContacts& pairs = *work_.pairs;
+  const auto size = [&](int tet) { return pairs.size[pairs.number[tet - model_.mesh.first_tet]]; };
+  const double height = std::min(size(pair.contact.a), size(pair.contact.b)), depth = pair.pressure.depth;
+  ContactSums sums;
+  sums.depth = depth;
+  sums.depth_over_height = depth / height;
+  sums.deepest = 4 * sums.depth_over_height;
+  const int block = model_.tet_block[pair.contact.a];
+  sums.deepest_source = sums.deepest_target = model_.surface.block_begin[block];
+  add_depths(sums, sums_);
+}
+
+void FoundContacts::add_pair(const FoundPair& pair) {
+  if (pair.stays)
+    state_.tet_contacts.push_back(pair.contact);
+  const TetPressure& p = pair.pressure;
+  if (!(p.pressing > 0))
+    return;
+  const int block = model_.tet_block[pair.contact.a];
+  for (int i = 0; i < 8; ++i) {
+    const int node = model_.tets[i < 4 ? pair.contact.a : pair.contact.b][i % 4];
+    Node& sum = work_.force[node];
+    sum.x += p.force[i][0];
+    sum.y += p.force[i][1];
+    sum.z += p.force[i][2];
+    if (work_.stiffness[node] == 0)
+      work_.touched.push_back({node, block});
+    // Twice, since the parts of both sides sum to 2.
+    work_.stiffness[node] += 2 * std::abs(p.part[i]) * (p.stiffness + pair.shear_stiffness);
   }
 }
 
@@ -194,6 +243,7 @@ void FoundContacts::exchange() {
   pack(sums_);
   friction_.tell(pack);
   damping_.tell(pack);
+  breaking_.tell(pack);
   Told own;
   std::swap(own.forces, told_);
   for (const Contact& c : work_.now)
@@ -224,6 +274,7 @@ void FoundContacts::exchange() {
     sums_.contacts += sums.contacts;
     friction_.add_told(unpack);
     damping_.add_told(unpack);
+    breaking_.add_told(unpack);
     for (const Contact::Kind kind : {Contact::spring, Contact::edge}) {
       unpack(told_by[rank].contacts[kind]);
       unpack(told_by[rank].forces[kind]);
@@ -251,6 +302,7 @@ void FoundContacts::exchange() {
 void FoundContacts::set_values() {
   sums_.friction = friction_.value();
   sums_.damping = damping_.value();
+  sums_.breaking = breaking_.value();
   for (std::size_t rigid = 0; rigid < work_.rigid_sums.size(); ++rigid) {
     RigidSums& sums = work_.rigid_sums[rigid];
     ContactOnRigid& on = work_.on_rigid[rigid];
@@ -267,10 +319,11 @@ void FoundContacts::set_values() {
 }
 
 ContactSums FoundContacts::end() {
-  add_of_tets_before(nullptr);
   add_losses();
+  add_energies_of_pairs();
   if (work_.shared)
     exchange();
+  add_pairs();
   set_values();
   assert(std::is_sorted(work_.now.begin(), work_.now.end(), stands_before));
   if (work_.now.capacity() > 2 * work_.now.size() + 64)

@@ -10,12 +10,13 @@
 
 namespace cdem {
 
+struct FoundPair; // contact/pairs/pair_contacts.hpp
+
 class FoundContacts {
 public:
   FoundContacts(const Model&, State&, ContactWork&);
 
-  // Found by this rank: first all springs, then edges, in the order of their rows. Those of pairs of single tetrahedra
-  // are known, and are added between them by the same order.
+  // Found by this rank: first all springs, then edges, in the order of their rows.
   void add(const ContactChunk&, Contact::Kind);
 
   // Tells the other ranks, and puts the contacts into State.
@@ -23,7 +24,10 @@ public:
 
 private:
   void add(const Contact&, const ContactForce&, Contact::Kind);
-  void add_of_tets_before(const Contact* next); // null: all
+  void add_energies_of_pairs(); // of those that this rank found
+  void add_pairs();
+  void add_pair(const FoundPair&);
+  void add_depth(const FoundPair&);
   void add_at_nodes(const ContactForce&);
   void add_on_rigid(const ContactForce&);
   RigidSums& touched(int rigid);
@@ -35,8 +39,7 @@ private:
   State& state_;
   ContactWork& work_;
   ContactSums sums_;
-  ExactSum friction_, damping_;  // J
-  std::size_t next_of_tets_ = 0; // into TetPairs::ordered
+  ExactSum friction_, damping_, breaking_; // J
   std::array<std::vector<ContactForce>, 2>
       told_; // to all ranks: of what deforms, per kind, in the order of rows
 };

@@ -51,5 +51,21 @@ auto best(Arguments&&... arguments) {
   return kernel(std::forward<Arguments>(arguments)...);
 }
 
+// The same of a kernel that is written for any width: wide takes eight numbers at a time, narrow four.
+template <auto& wide, auto& narrow, class... Arguments>
+auto best_width(Arguments&&... arguments) {
+#if defined(__x86_64__)
+  switch (instruction_set()) {
+  case InstructionSet::avx512:
+    return with_avx512<wide, Arguments...>(std::forward<Arguments>(arguments)...);
+  case InstructionSet::avx2:
+    return with_avx2<narrow, Arguments...>(std::forward<Arguments>(arguments)...);
+  case InstructionSet::baseline:
+    break;
+  }
+#endif
+  return narrow(std::forward<Arguments>(arguments)...);
+}
+
 } // namespace simd
 } // namespace cdem

@@ -36,33 +36,125 @@ CDEM_INLINE void store(double (&p)[lanes], const Oct& v) {
   std::memcpy(p, &v, sizeof v);
 }
 
-CDEM_INLINE bool any(const Mask& mask) {
-  const auto four =
-      __builtin_shufflevector(mask, mask, 0, 1, 2, 3) | __builtin_shufflevector(mask, mask, 4, 5, 6, 7);
+// A kernel that compares and chooses is written for any width V, Oct or Quad: a processor whose vectors hold four doubles does
+// so one number after the other with eight (parallel/instruction_set.hpp, best_width).
+template <class V>
+using MaskOf = decltype(V{} < V{});
+template <class V>
+inline constexpr int width = static_cast<int>(sizeof(V) / sizeof(double));
+
+template <class V>
+CDEM_INLINE V load_wide(const double* p) {
+  V v;
+  std::memcpy(&v, p, sizeof v);
+  return v;
+}
+
+template <class V>
+CDEM_INLINE void store_wide(double* p, const V& v) {
+  std::memcpy(p, &v, sizeof v);
+}
+
+// The first lanes of eight, or those from the fifth on.
+template <class V, int first>
+CDEM_INLINE V part_of(const Oct& v) {
+  if constexpr (width<V> == lanes)
+    return v;
+  else
+    return __builtin_shufflevector(v, v, first, first + 1, first + 2, first + 3);
+}
+
+template <class V, int first>
+CDEM_INLINE void set_part(Oct& v, const V& part) {
+  if constexpr (width<V> == lanes)
+    v = part;
+  else if constexpr (first == 0)
+    v = __builtin_shufflevector(part, __builtin_shufflevector(v, v, 4, 5, 6, 7), 0, 1, 2, 3, 4, 5, 6, 7);
+  else
+    v = __builtin_shufflevector(__builtin_shufflevector(v, v, 0, 1, 2, 3), part, 0, 1, 2, 3, 4, 5, 6, 7);
+}
+
+CDEM_INLINE bool any(const MaskOf<Quad>& four) {
   return (four[0] | four[1] | four[2] | four[3]) != 0;
 }
 
-struct Vec {
-  Oct x, y, z;
-};
+CDEM_INLINE bool any(const Mask& mask) {
+  const MaskOf<Quad> four =
+      __builtin_shufflevector(mask, mask, 0, 1, 2, 3) | __builtin_shufflevector(mask, mask, 4, 5, 6, 7);
+  return any(four);
+}
 
-CDEM_INLINE Vec minus(const Vec& a, const Vec& b) {
+// Whether one of eight numbers is below zero: by their signs, which need no comparison.
+CDEM_INLINE bool any_negative(const Oct& v) {
+  Mask signs;
+  std::memcpy(&signs, &v, sizeof signs);
+  const MaskOf<Quad> four =
+      __builtin_shufflevector(signs, signs, 0, 1, 2, 3) | __builtin_shufflevector(signs, signs, 4, 5, 6, 7);
+  return (four[0] | four[1] | four[2] | four[3]) < 0;
+}
+
+// Of the lanes whose bytes have a value.
+template <class V>
+CDEM_INLINE MaskOf<V> lanes_with(const std::uint8_t* bytes, std::uint8_t value) {
+  std::uint64_t eight = 0;
+  std::memcpy(&eight, bytes, width<V>);
+  eight ^= 0x0101010101010101u * value;
+  MaskOf<V> own;
+  for (int lane = 0; lane < width<V>; ++lane)
+    own[lane] = static_cast<std::int64_t>(std::uint64_t{0xff} << 8 * lane);
+  return ((MaskOf<V>{} + static_cast<std::int64_t>(eight)) & own) == 0;
+}
+
+// Of the lanes whose bits are set.
+template <class V>
+CDEM_INLINE MaskOf<V> lanes_of(unsigned bits) {
+  MaskOf<V> own;
+  for (int lane = 0; lane < width<V>; ++lane)
+    own[lane] = std::int64_t{1} << lane;
+  return ((MaskOf<V>{} + static_cast<std::int64_t>(bits)) & own) != 0;
+}
+
+template <class M>
+CDEM_INLINE unsigned bits_of(const M& mask) {
+  constexpr int count = static_cast<int>(sizeof(M) / sizeof(std::int64_t));
+  M own;
+  for (int lane = 0; lane < count; ++lane)
+    own[lane] = std::int64_t{1} << lane;
+  const M bits = mask & own;
+  std::int64_t sum = 0;
+  for (int lane = 0; lane < count; ++lane)
+    sum |= bits[lane];
+  return static_cast<unsigned>(sum);
+}
+
+template <class V>
+struct VecOf {
+  V x, y, z;
+};
+using Vec = VecOf<Oct>;
+
+template <class V>
+CDEM_INLINE VecOf<V> minus(const VecOf<V>& a, const VecOf<V>& b) {
   return {a.x - b.x, a.y - b.y, a.z - b.z};
 }
 
-CDEM_INLINE Vec plus(const Vec& a, const Vec& b) {
+template <class V>
+CDEM_INLINE VecOf<V> plus(const VecOf<V>& a, const VecOf<V>& b) {
   return {a.x + b.x, a.y + b.y, a.z + b.z};
 }
 
-CDEM_INLINE Vec cross(const Vec& a, const Vec& b) {
+template <class V>
+CDEM_INLINE VecOf<V> cross(const VecOf<V>& a, const VecOf<V>& b) {
   return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
 
-CDEM_INLINE Oct dot(const Vec& a, const Vec& b) {
+template <class V>
+CDEM_INLINE V dot(const VecOf<V>& a, const VecOf<V>& b) {
   return a.x * b.x + a.y * b.y + a.z * b.z;
 }
 
-CDEM_INLINE Vec scaled(const Oct& s, const Vec& a) {
+template <class V>
+CDEM_INLINE VecOf<V> scaled(const V& s, const VecOf<V>& a) {
   return {s * a.x, s * a.y, s * a.z};
 }
 
@@ -99,6 +191,23 @@ template <class Index>
 CDEM_INLINE Vec gather(const Node* nodes, const Index (&index)[lanes]) {
   const Four v = gather_four(nodes, index);
   return {v.x, v.y, v.z};
+}
+
+// Of V nodes, whose numbers stand from `index` on.
+template <class V, class Index>
+CDEM_INLINE VecOf<V> gather_wide(const Node* nodes, const Index* index) {
+  if constexpr (width<V> == lanes) {
+    Index eight[lanes];
+    std::memcpy(eight, index, sizeof eight);
+    return gather(nodes, eight);
+  } else {
+    const Quad a = load(nodes[index[0]]), b = load(nodes[index[1]]), c = load(nodes[index[2]]),
+               d = load(nodes[index[3]]);
+    const Quad ab = __builtin_shufflevector(a, b, 0, 4, 2, 6), cd = __builtin_shufflevector(c, d, 0, 4, 2, 6);
+    const Quad ab_y = __builtin_shufflevector(a, b, 1, 5, 3, 7), cd_y = __builtin_shufflevector(c, d, 1, 5, 3, 7);
+    return {__builtin_shufflevector(ab, cd, 0, 1, 4, 5), __builtin_shufflevector(ab_y, cd_y, 0, 1, 4, 5),
+            __builtin_shufflevector(ab, cd, 2, 3, 6, 7)};
+  }
 }
 
 // Adds one lane to each of eight nodes, in lane order (a node may occur twice).

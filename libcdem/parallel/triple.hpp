@@ -42,9 +42,10 @@ CDEM_INLINE double root(double a) {
 }
 
 // Lane by lane: a root is rounded exactly on every processor.
-CDEM_INLINE simd::Oct root(const simd::Oct& a) {
-  simd::Oct r{};
-  for (int lane = 0; lane < lanes; ++lane)
+template <class V, class = std::enable_if_t<(sizeof(V) > sizeof(double))>>
+CDEM_INLINE V root(const V& a) {
+  V r{};
+  for (int lane = 0; lane < simd::width<V>; ++lane)
     r[lane] = __builtin_sqrt(a[lane]);
   return r;
 }

@@ -208,7 +208,7 @@ RunResult run(const StageContext& context, const RunOptions& options, const std:
     set_goals();
     return true;
   };
-  bool stopped = false;
+  bool stopped = false, may_be_dry = true; // joints turn dry as they break
   while (stage.step < clock.steps() && !stopped) {
     const bool renewed = stage.renew_interfaces(),
                freed = (options.breaking && stage.free_nodes(stepping.time_step)) || renewed;
@@ -219,7 +219,7 @@ RunResult run(const StageContext& context, const RunOptions& options, const std:
         shorten(options.safety * stable_time_step(context.model, stage.work.resolved.bolts));
     }
     // Before the restart point, which is where a stage that goes on begins.
-    if (chooses_step && (freed || stage.step % watch_every == 0) && any_dry_joint(context.model, state))
+    if (chooses_step && (freed || may_be_dry) && any_dry_joint(context.model, state))
       shorten(options.safety * stable_step_of_dry_joints(stable_now));
     if (freed || stage.can_be_left())
       stage.keep_restart_point(loop_state());
@@ -255,6 +255,7 @@ RunResult run(const StageContext& context, const RunOptions& options, const std:
     state.time = clock.time_at(stage.step);
     state.velocity_lag = 0.5 * stepping.time_step;
     stage.watch(report);
+    may_be_dry = stage.broken_in_step() > 0;
     if (scaled.on() && stage.step % watch_every == 0) {
       stage.see_whole();
       scaled.sample();

@@ -193,20 +193,20 @@ void StateShares::gather_on_lead(State& state) const {
 void StateShares::gather_slips(State& state) const {
   if (state.face_slip.empty())
     return;
-  constexpr std::size_t bytes = lanes * sizeof(FaceSlip);
+  constexpr std::size_t bytes = sizeof(FaceSlipBatch);
   const auto each = [&](int rank, const auto& visit) {
     for (std::int64_t b = faces_[rank]; b < faces_[rank + 1]; ++b)
-      if (const std::int32_t first = state.faces[b].slip; first >= 0)
-        visit(&state.face_slip[first]);
+      if (const std::int32_t place = state.faces[b].slip; place >= 0)
+        visit(&state.face_slip[place]);
   };
   std::string own;
-  each(rank_, [&](const FaceSlip* slips) { own.append(reinterpret_cast<const char*>(slips), bytes); });
+  each(rank_, [&](const FaceSlipBatch* slips) { own.append(reinterpret_cast<const char*>(slips), bytes); });
   const std::vector<std::string> all = ranks().gather(own);
   for (int r = 0; r < size_; ++r) {
     if (r == rank_)
       continue;
     const char* from = all[r].data();
-    each(r, [&](FaceSlip* slips) {
+    each(r, [&](FaceSlipBatch* slips) {
       std::memcpy(reinterpret_cast<char*>(slips), from, bytes);
       from += bytes;
     });

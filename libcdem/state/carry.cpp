@@ -16,6 +16,7 @@ public:
     each_field([&](const FieldRow& row, auto& from, auto& to) { carry(row, from, to); }, from_, to_);
     carry_slips();
     carry_contacts();
+    carry_tet_contacts();
   }
 
 private:
@@ -76,6 +77,7 @@ private:
       return !map_.node;
     case FieldPlace::tet_batch:
     case FieldPlace::small_strain_tet:
+    case FieldPlace::tet_pair:
       return !map_.tet;
     case FieldPlace::face_batch:
     case FieldPlace::face:
@@ -181,8 +183,9 @@ private:
       const std::int64_t was = (*map_.face)[face];
       if (was < 0)
         continue;
-      if (const FaceSlip* slip = slip_of(std::as_const(from_), was / lanes, static_cast<int>(was % lanes)))
-        slip_of(to_, static_cast<std::int64_t>(face / lanes), static_cast<int>(face % lanes)) = *slip;
+      if (from_.faces[was / lanes].slip >= 0)
+        slips_of(to_, static_cast<std::int64_t>(face / lanes))
+            .set(static_cast<int>(face % lanes), slip_of(from_, was / lanes, static_cast<int>(was % lanes)));
     }
   }
 
@@ -206,6 +209,22 @@ private:
     }
     std::sort(to_.contacts.begin(), to_.contacts.end(),
               [](const Contact& a, const Contact& b) { return key(a) < key(b); });
+  }
+
+  void carry_tet_contacts() {
+    if (!map_.tet || from_.tet_contacts.empty())
+      return;
+    std::vector<int> now(old_.tets.size(), -1);
+    for (std::size_t tet = 0; tet < map_.tet->size(); ++tet)
+      if ((*map_.tet)[tet] >= 0)
+        now[(*map_.tet)[tet]] = static_cast<int>(tet);
+    for (TetContact c : from_.tet_contacts) {
+      c.a = now[c.a];
+      c.b = now[c.b];
+      if (c.a >= 0 && c.b >= 0)
+        to_.tet_contacts.push_back(c);
+    }
+    std::sort(to_.tet_contacts.begin(), to_.tet_contacts.end());
   }
 
   const Model& old_;

@@ -25,6 +25,7 @@ enum class HandOver : std::uint8_t {
   held,    // its springs act
   done,    // they carry nothing any more
   leaving, // they act, and contacts may begin
+  loose    // they act, none of its bonds is whole: its sides may touch others (contact/pairs/tet_joints.hpp)
 };
 
 // State of the three springs of eight faces. The place of a spring in the whole array is (batch * 3 + point) * lanes +
@@ -34,7 +35,7 @@ struct FaceStateBatch {
   std::uint8_t handed_over[lanes]; // HandOver
   FaceStage stage[lanes];          // of cohesive bodies; holding in others
   std::uint8_t preloaded[lanes];   // 1: CohesiveFace::preload has not died away
-  std::int32_t slip = -1; // of the first lane in State::face_slip; -1: no spring of the batch is broken
+  std::int32_t slip = -1; // place in State::face_slip; -1: no spring of the batch is broken
 };
 
 // The springs carry nothing any more: what meets there is found by search (contact/).
@@ -48,10 +49,33 @@ inline void set_hand_over(FaceStateBatch& state, int lane, HandOver to) {
   state.handed_over[lane] = static_cast<std::uint8_t>(to);
 }
 
-// m, tangential relative displacement at which the broken springs of a face carry no shear: point; along its first
-// edge, across.
+// Of the broken springs of a face: point; along its first edge, across.
 struct FaceSlip {
-  double value[3][2] = {};
+  double value[3][2] = {}; // m, tangential relative displacement at which they carry no shear
+  double shear[3][2] = {}; // N, on side a, in the last step
+};
+
+// The same of eight faces side by side.
+struct FaceSlipBatch {
+  double value[3][2][lanes] = {};
+  double shear[3][2][lanes] = {};
+
+  FaceSlip at(int lane) const {
+    FaceSlip slip;
+    for (int point = 0; point < 3; ++point)
+      for (int axis = 0; axis < 2; ++axis) {
+        slip.value[point][axis] = value[point][axis][lane];
+        slip.shear[point][axis] = shear[point][axis][lane];
+      }
+    return slip;
+  }
+  void set(int lane, const FaceSlip& slip) {
+    for (int point = 0; point < 3; ++point)
+      for (int axis = 0; axis < 2; ++axis) {
+        value[point][axis][lane] = slip.value[point][axis];
+        shear[point][axis][lane] = slip.shear[point][axis];
+      }
+  }
 };
 
 } // namespace cdem

@@ -87,6 +87,7 @@ std::optional<std::size_t> places(FieldPlace place, const Model& model) {
   case FieldPlace::model:
   case FieldPlace::slip:
   case FieldPlace::contact:
+  case FieldPlace::tet_pair:
   case FieldPlace::column:
   case FieldPlace::bolt:
     break;
@@ -100,18 +101,18 @@ const std::vector<double>& moving_mass(const Model& model, const State& state) {
   return state.moving_mass.empty() ? model.node_mass : state.moving_mass;
 }
 
-FaceSlip& slip_of(State& state, std::int64_t batch, int lane) {
-  std::int32_t& first = state.faces[batch].slip;
-  if (first < 0) {
-    first = static_cast<std::int32_t>(state.face_slip.size());
-    state.face_slip.resize(state.face_slip.size() + lanes);
+FaceSlipBatch& slips_of(State& state, std::int64_t batch) {
+  std::int32_t& place = state.faces[batch].slip;
+  if (place < 0) {
+    place = static_cast<std::int32_t>(state.face_slip.size());
+    state.face_slip.emplace_back();
   }
-  return state.face_slip[first + lane];
+  return state.face_slip[place];
 }
 
-const FaceSlip* slip_of(const State& state, std::int64_t batch, int lane) {
-  const std::int32_t first = state.faces[batch].slip;
-  return first < 0 ? nullptr : &state.face_slip[first + lane];
+FaceSlip slip_of(const State& state, std::int64_t batch, int lane) {
+  const std::int32_t place = state.faces[batch].slip;
+  return place < 0 ? FaceSlip{} : state.face_slip[place].at(lane);
 }
 
 Stress mesh_stress(const Model& model, const State& state, int tet) {
@@ -182,16 +183,20 @@ State initial_state(const Model& model) {
     if (model.bodies[model.blocks[chunk.block].body].joint.bonded)
       return;
     state.faces[at.batch].mode[at.point][at.lane] = static_cast<std::uint8_t>(BondMode::contact);
-    slip_of(state, at.batch, at.lane);
+    slips_of(state, at.batch);
   });
   set_rigid_states(model, state);
   return state;
 }
 
+// What several ranks share is looked at node by node and tet by tet, in the share of each: here it would bring back the
+// pages of others.
 const char* field_with_nan(const State& state) {
   const char* found = nullptr;
   each_field(
       [&](const FieldRow& row, const auto& field) {
+        if (state.parted && (row.shared == FieldShared::motion || row.shared == FieldShared::large))
+          return;
         if constexpr (is_array<decltype(field)>) {
           using Entry = std::remove_cv_t<std::remove_reference_t<decltype(field[0])>>;
           if constexpr (is_all_doubles<Entry>) {

@@ -13,6 +13,7 @@
 #include "libcdem/state/rigid_state.hpp"
 #include "libcdem/state/stress_batch.hpp"
 #include "libcdem/state/table.hpp"
+#include "libcdem/state/tet_contact.hpp"
 
 #include <functional>
 #include <memory>
@@ -42,8 +43,8 @@ Node shown_displacement(const State&, int node);
 const std::vector<double>& moving_mass(const Model&, const State&); // kg (n_nodes)
 
 // The slip of a face's broken springs; zero slip is made room for when there is none yet.
-FaceSlip& slip_of(State&, std::int64_t batch, int lane);
-const FaceSlip* slip_of(const State&, std::int64_t batch, int lane); // null when there is none
+FaceSlipBatch& slips_of(State&, std::int64_t batch); // there is room for them from now on
+FaceSlip slip_of(const State&, std::int64_t batch, int lane); // zero where no spring of the batch is broken
 
 // The stress that State::stress holds for a tet of a mesh (its number in the model), Pa; of a rigid block in the
 // directions it was made rigid in.

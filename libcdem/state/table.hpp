@@ -22,6 +22,7 @@ enum class FieldPlace {
   face,
   slip,
   contact,
+  tet_pair,
   rigid_body,
   body,
   column,

@@ -30,6 +30,7 @@ void ContactUpdate::evaluate(const StageContext& context, ContactWork& work, Run
   const ContactSums sums = contact_forces(context.model, context.state, work, context.threads);
   context.state.spent.friction += sums.friction;
   context.state.spent.damping += sums.damping;
+  context.state.spent.breaking += sums.breaking;
   log.deepest_contact = std::max(log.deepest_contact, sums.depth);
   log.deepest_over_height = std::max(log.deepest_over_height, sums.depth_over_height);
   if (sums.deepest > deepest_.deepest)

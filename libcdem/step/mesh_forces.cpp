@@ -174,7 +174,7 @@ const Node* mesh_forces(const Model& model, State& state, Workspace& work, std::
   sums.crack = {};
   sums.broken.clear();
   sums.astray = -1;
-  sums.hands_over = false;
+  sums.hands_over = sums.loosens = false;
   sums.left.clear();
   if (chunk.faces > 0) {
     const FaceMotion motion{at.position, at.displacement, at.velocity, work.strain_step};

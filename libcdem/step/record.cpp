@@ -19,6 +19,13 @@ namespace cdem {
 
 namespace {
 
+// The slip of a face one of whose springs has just broken.
+FaceSlip begun(FaceSlip slip, int point, const FaceBreak& broken) {
+  std::copy(std::begin(broken.slip), std::end(broken.slip), slip.value[point]);
+  std::copy(std::begin(broken.shear), std::end(broken.shear), slip.shear[point]);
+  return slip;
+}
+
 // nan where no rock is any more.
 double value_or_nan(const Model& model, const State& state, const Probe& probe) {
   try {
@@ -106,10 +113,12 @@ std::int64_t record_face_breaks(const Model& model, State& state, Workspace& wor
     state.spent.breaking += sums.breaking;
     state.spent.damping += sums.damping;
     state.spent.plastic += sums.plastic;
-    work.contact.fragments_due = work.contact.fragments_due || sums.hands_over;
+    work.contact.fragments_due =
+        work.contact.fragments_due || sums.hands_over || (sums.loosens && !work.contact.pairs);
+    work.contact.faces_changed =
+        work.contact.faces_changed || sums.loosens || sums.hands_over || !sums.left.empty();
     for (const FaceLeft& left : sums.left)
-      state.spent.breaking += take_over(model, state, work.contact,
-                                        {left.face + chunk.face_batches.begin * lanes, chunk.block, left});
+      state.spent.breaking += take_over(model, state, left.face + chunk.face_batches.begin * lanes, left);
     for (const FaceBreak& broken : sums.broken) {
       const FaceSpringPlace at{chunk.face_batches.begin + broken.spring / (3 * lanes),
                                static_cast<int>(broken.spring / lanes % 3),
@@ -126,8 +135,7 @@ std::int64_t record_face_breaks(const Model& model, State& state, Workspace& wor
       row.shear_traction = broken.shear_traction;
       row.block_a = row.block_b = model.blocks[chunk.block].id;
       if (!model.bodies[model.blocks[chunk.block].body].bonding.is_cohesive())
-        std::copy(std::begin(broken.slip), std::end(broken.slip),
-                  slip_of(state, at.batch, at.lane).value[at.point]);
+        slips_of(state, at.batch).set(at.lane, begun(slip_of(state, at.batch, at.lane), at.point, broken));
       log.breaks.push_back(row);
       ++(broken.mode == BondMode::broken_tension ? log.broken_tension : log.broken_shear);
       ++count;

@@ -10,7 +10,7 @@ namespace {
 bool is_zero(const FaceSums& sums) {
   return sums.friction == 0 && sums.breaking == 0 && sums.damping == 0 && sums.plastic == 0 &&
          sums.crack.tension == 0 && sums.crack.shear == 0 && sums.broken.empty() && sums.astray < 0 &&
-         !sums.hands_over && sums.left.empty();
+         !sums.hands_over && !sums.loosens && sums.left.empty();
 }
 
 bool is_zero(const SpringSums& sums) {
@@ -30,6 +30,7 @@ void each_member(Sums& sums, Act& act) {
     act(sums.plastic);
     act(sums.astray);
     act(sums.hands_over);
+    act(sums.loosens);
     act(sums.left);
   } else {
     act(sums.losses);

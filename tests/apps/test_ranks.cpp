@@ -80,6 +80,21 @@ TEST_CASE("ranks: every kind of model ends in the bits of one process", "[busy]"
   }
 }
 
+TEST_CASE("ranks: a slab goes to pieces on a rigid floor with the bits of one process", "[busy]") {
+  if (no_mpirun())
+    return;
+  const auto report_on = [](const char* ranks) {
+    Place place(read_file(CDEM_SOURCE "/tests/apps/ranks/slab.lua"));
+    const Outcome outcome = place.cdem({"run", "plate/case.lua", "--output", "out", "--ranks", ranks});
+    INFO(ranks << " ranks: " << outcome.out << outcome.err);
+    REQUIRE(outcome.exit_code == 0);
+    return place.report();
+  };
+  const std::string of_one = report_on("1");
+  CHECK(report_on("2") == of_one);
+  CHECK(report_on("3") == of_one);
+}
+
 // Names and values of a report. What is warned of at the end of a script may differ after cdem resume: models that were done
 // with before are not looked at again.
 std::string figures_of(const std::string& report) {

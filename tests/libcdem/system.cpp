@@ -195,8 +195,10 @@ std::vector<geom::Vec3> System::advance_springs(std::vector<cdem::FaceBreak>& br
     const std::int64_t first = model.mesh.chunks[c].face_batches.begin;
     for (const cdem::FaceBreak& row : work.face_sums[c].broken) {
       const std::int64_t lane = row.spring % cdem::lanes, batch = row.spring / cdem::lanes;
-      cdem::FaceSlip& slip = slip_of(state, first + batch / 3, static_cast<int>(lane));
+      cdem::FaceSlip slip = slip_of(state, first + batch / 3, static_cast<int>(lane));
       std::copy(std::begin(row.slip), std::end(row.slip), slip.value[batch % 3]);
+      std::copy(std::begin(row.shear), std::end(row.shear), slip.shear[batch % 3]);
+      slips_of(state, first + batch / 3).set(static_cast<int>(lane), slip);
       broken.push_back(row);
     }
   }

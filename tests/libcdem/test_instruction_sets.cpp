@@ -98,7 +98,7 @@ TEST_CASE("prints the hashes of short runs", "[.hashes]") {
   s.run(run);
   const auto breaks = s.log.breaks.size();
   REQUIRE(breaks > 50);
-  REQUIRE(s.state.contacts.size() > 20);
+  REQUIRE(s.state.contacts.size() + s.state.tet_contacts.size() > 20);
   std::printf("hash %016llx of the run\n", static_cast<unsigned long long>(cdem::hash(s.state)));
 
   System wall = sheared();

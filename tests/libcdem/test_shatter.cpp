@@ -37,7 +37,7 @@ constexpr double speed = 12; // m/s
 struct Outcome {
   std::uint64_t hash = 0;
   std::int64_t handed_over = 0;
-  std::size_t contacts = 0; // at most
+  std::size_t contacts = 0; // of tetrahedra, at most
 };
 
 Outcome shatter(int threads, bool looks_at_all, bool anew_every_200_steps = false) {
@@ -52,7 +52,7 @@ Outcome shatter(int threads, bool looks_at_all, bool anew_every_200_steps = fals
   options.looks_at_all_contacts = looks_at_all;
   Outcome outcome;
   options.callback_every = 50;
-  options.callback = [&] { outcome.contacts = std::max(outcome.contacts, s.state.contacts.size()); };
+  options.callback = [&] { outcome.contacts = std::max(outcome.contacts, s.state.tet_contacts.size()); };
   std::optional<cdem::RestartPoint> restart_point; // where a stage can be left
   cdem::run({s.model, s.state, s.conditions, s.log, s.last_good, s.observer, s.threads, 1, nullptr,
              anew_every_200_steps ? &restart_point : nullptr},
@@ -82,22 +82,48 @@ TEST_CASE("shattering: contacts stand by their keys after each step, whichever r
     if (block_of(s.model, i) == 0)
       s.state.velocity[i] = node({1, 0, -speed});
   std::int64_t unsorted = 0;
-  std::size_t most = 0, edges = 0;
+  std::size_t most = 0, most_pairs = 0, edges = 0;
   cdem::RunOptions options;
   options.steps = 600;
   options.callback_every = 5;
   options.callback = [&] {
     const std::vector<cdem::Contact>& all = s.state.contacts;
     const auto stands_before = [](const cdem::Contact& a, const cdem::Contact& b) { return key(a) < key(b); };
+    const std::vector<cdem::TetContact>& pairs = s.state.tet_contacts;
     unsorted += std::is_sorted(all.begin(), all.end(), stands_before) ? 0 : 1;
+    unsorted += std::is_sorted(pairs.begin(), pairs.end()) ? 0 : 1;
     most = std::max(most, all.size());
+    most_pairs = std::max(most_pairs, pairs.size());
     for (const cdem::Contact& c : all)
       edges += c.kind == cdem::Contact::edge ? 1 : 0;
   };
   s.run(options);
   CHECK(unsorted == 0);
-  CHECK(most > 100);
+  CHECK(most > 20);
+  CHECK(most_pairs > 100);
   CHECK(edges > 0);
+}
+
+TEST_CASE(
+    "shattering: energy is kept within a thousandth, momentum along the floor is lost to friction alone",
+    "[contact][fracture][energy]") {
+  System s(cdem::first_model(cube_on_floor()));
+  s.hold(body_of("floor"), "xyz");
+  double mass = 0;
+  for (int i = 0; i < static_cast<int>(s.state.velocity.size()); ++i)
+    if (block_of(s.model, i) == 0) {
+      s.state.velocity[i] = node({1, 0, -speed});
+      mass += s.model.node_mass[i];
+    }
+  const double before = 0.5 * mass * (speed * speed + 1);
+  cdem::RunOptions options;
+  options.steps = 1500;
+  s.run(options);
+  const cdem::EnergyLedger e = cdem::energy(s.model, s.state);
+  INFO("kinetic " << e.kinetic << " of " << before << " J, breaking " << e.breaking << ", friction "
+                  << e.friction << ", pairs " << s.state.tet_contacts.size());
+  CHECK(s.state.tet_contacts.size() > 20);
+  CHECK(std::abs(e.total() - e.external - before) < 1e-3 * before);
 }
 
 TEST_CASE("checkpoint: a body that shatters goes on to the same bits", "[checkpoint][fracture]") {

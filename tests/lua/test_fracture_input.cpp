@@ -43,7 +43,8 @@ std::vector<std::string> lines_of(const std::string& text, const std::string& wi
 TEST_CASE("mass_scaling: the result, the log and the warnings tell of it", "[lua][mass_scaling]") {
   const std::string run = "local r = model:run{ steps = 400, mass_scaling = { factor = 8 } }\n"
                           "assert(r.mass_scaling.added_mass > 0.05 and r.mass_scaling.body == 'bar')\n"
-                          "assert(r.mass_scaling.kinetic_energy > 0)\n";
+                          "assert(r.mass_scaling.kinetic_energy > 0)\n"
+                          "assert(model:energy().balance_error < 0.01)\n";
   const auto told = lines_of(bar() + run, "run: mass_scaling:");
   REQUIRE(told.size() == 2);
   CHECK_THAT(told[0], Contains("time step ") && Contains("of the mass added") && Contains("of \"bar\"") &&

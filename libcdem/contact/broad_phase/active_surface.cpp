@@ -15,8 +15,8 @@ constexpr double thinnest_skin = 0.001, thickest_skin = 0.1;
 // Steps that a block can go on at its pace before it leaves its skin, and what of the fastest block's pace the others
 // are trusted to get to.
 constexpr double skin_steps = 250, pace_of_others = 0.25;
-// The same of fragments, by themselves and relative to those around them, with which they mostly move.
-constexpr double steps_of_fragments = 150, steps_relative = 16;
+// The same of fragments.
+constexpr double steps_of_fragments = 150;
 // Searches that follow each other within fewer steps than this make skins twice as thick, those after more halve them.
 constexpr std::int64_t early = 50, late = 150;
 constexpr int most_widenings = 6;
@@ -111,7 +111,6 @@ std::vector<double> choose_skins(const Model& model, const State& state, Contact
                           thickest_skin * work.usual_height);
       };
       work.skin[m] = within(steps_of_fragments);
-      work.inner_skin[m] = within(steps_relative);
     }
     double& most = work.skin[work.movers.block[m]];
     most = std::max(most, work.skin[m]);

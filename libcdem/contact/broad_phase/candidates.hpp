@@ -42,8 +42,5 @@ std::vector<Near> near_edges(const Model&, const State&, const ContactWork&, con
 // Near edges within one block, of triangles that meet; each pair stands once.
 std::vector<Near> near_edges_within(const Model&, const State&, const ContactWork&, const SearchMargin&,
                                     const ActiveSurface&, const Pairs& meeting);
-// Pairs of edges of one broken block, of which one is `searched` (per edge), those of this rank's share.
-std::vector<Near> near_edges_of_fragments(const Model&, const State&, const ContactWork&, const SearchMargin&,
-                                          int block, const std::vector<char>& searched);
 
 } // namespace cdem

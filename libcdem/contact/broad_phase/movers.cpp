@@ -1,7 +1,6 @@
 #include "libcdem/contact/broad_phase/movers.hpp"
 
 #include "libcdem/bond/fragments.hpp"
-#include "libcdem/contact/broad_phase/tet_pairs.hpp"
 #include "libcdem/ranks/bytes.hpp"
 #include "libcdem/ranks/shared_state.hpp"
 #include "libcdem/state/places.hpp"
@@ -123,19 +122,9 @@ void carry_over(const Model& model, ContactWork& before, ContactWork& work) {
       if (!work.changed[m] && old[m] >= 0 && old[m] < static_cast<int>(then.size()))
         now[m] = std::move(then[old[m]]);
   };
-  std::vector<int> now_of(before.movers.count(), -1);
-  for (int m = 0; m < work.movers.count(); ++m)
-    if (!work.changed[m] && old[m] >= 0)
-      now_of[old[m]] = m;
-  renumber_tet_pairs(now_of, work);
   carry(&ContactWork::travelled);
   carry(&ContactWork::skin);
-  carry(&ContactWork::inner_skin);
-  carry(&ContactWork::near);
-  carry(&ContactWork::search_of);
-  carry(&ContactWork::look_at);
-  carry(&ContactWork::left);
-  carry(&ContactWork::past_others);
+  carry(&ContactWork::searched_before);
   carry(&ContactWork::swing);
   work.drift.assign(work.movers.count(), geom::Vec3::Zero());
   for (int m = 0; m < work.movers.count(); ++m)
@@ -153,12 +142,7 @@ void find_fragments(const Model& model, const State& state, ContactWork& work) {
   std::swap(before.movers, work.movers);
   std::swap(before.travelled, work.travelled);
   std::swap(before.skin, work.skin);
-  std::swap(before.inner_skin, work.inner_skin);
-  std::swap(before.near, work.near);
-  std::swap(before.search_of, work.search_of);
-  std::swap(before.look_at, work.look_at);
-  std::swap(before.left, work.left);
-  std::swap(before.past_others, work.past_others);
+  std::swap(before.searched_before, work.searched_before);
   std::swap(before.swing, work.swing);
   std::swap(before.drift, work.drift);
   work.fragment_of_node = fragments_of_nodes(model, state, Joins::untouched);
@@ -279,6 +263,9 @@ void begin_drifts(const Model& model, const State& state, const std::vector<char
     if (searched[m])
       for (int i = movers.node_begin[m - blocks]; i < movers.node_begin[m - blocks + 1]; ++i)
         work.at_search[movers.nodes[i]] = vec(state.displacement[movers.nodes[i]]);
+  work.searched_before.resize(movers.count(), 0);
+  for (int m = blocks; m < movers.count(); ++m)
+    work.searched_before[m] = static_cast<char>(work.searched_before[m] || searched[m]);
 }
 
 double gone_since(const ContactWork& work, int a, int b, const std::array<float, 3>& drifts, float swings) {
@@ -287,45 +274,11 @@ double gone_since(const ContactWork& work, int a, int b, const std::array<float,
   return (now - then).norm() + work.swing[a] + work.swing[b] + swings + rounding * (now.norm() + then.norm());
 }
 
-namespace {
-
-// Looks at what is near one fragment, and forgets what is no longer.
-void look_around(const Model& model, ContactWork& work, int m) {
-  std::vector<NearMover>& near = work.near[m];
-  const auto stays = [&](const NearMover& other) {
-    const int k = work.movers.of_fragment[other.fragment];
-    return k >= 0 && other.search >= work.search_of[m] && other.search >= work.search_of[k];
-  };
-  near.erase(std::remove_if(near.begin(), near.end(), [&](const NearMover& other) { return !stays(other); }),
-             near.end());
-  geom::Vec3 past = geom::Vec3::Zero(); // m, the mean of what it has gone past those around it
-  for (const NearMover& other : near)
-    past += work.drift[m] - work.drift[work.movers.of_fragment[other.fragment]] +
-            geom::Vec3(other.drifts[0], other.drifts[1], other.drifts[2]);
-  work.past_others[m] = near.empty() ? 0 : past.norm() / static_cast<double>(near.size()) + work.swing[m];
-  double least = work.skin[m] - gone_at_most(model, work, m);
-  for (const NearMover& other : near) {
-    const int k = work.movers.of_fragment[other.fragment];
-    const double may_go = std::max(0.0, other.may_go - gone_since(work, m, k, other.drifts, other.swings));
-    least = std::min(least, may_go);
-    work.look_at[k] = std::min(work.look_at[k], work.travelled[k] + 0.5 * may_go);
-    // One search is enough: of the one that goes past the others.
-    double& left = work.left[work.past_others[m] >= work.past_others[k] ? m : k];
-    left = std::min(left, may_go / other.may_go);
-  }
-  work.look_at[m] = work.travelled[m] + 0.5 * least;
-}
-
-} // namespace
-
-bool find_leavers(const Model& model, ContactWork& work) {
-  const auto blocks = static_cast<int>(model.blocks.size());
-  for (int m = blocks; m < work.movers.count(); ++m)
+bool find_leavers(const Model& model, const ContactWork& work) {
+  for (auto m = static_cast<int>(model.blocks.size()); m < work.movers.count(); ++m)
     if (gone_at_most(model, work, m) > work.skin[m])
-      work.left[m] = 0;
-    else if (work.travelled[m] >= work.look_at[m] && work.left[m] > 0)
-      look_around(model, work, m);
-  return std::find(work.left.begin() + blocks, work.left.end(), 0) != work.left.end();
+      return true;
+  return false;
 }
 
 } // namespace cdem

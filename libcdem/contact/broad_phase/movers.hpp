@@ -36,9 +36,8 @@ inline double gone_at_most(const Model& model, const ContactWork& work, int move
 double gone_since(const ContactWork&, int mover_a, int mover_b, const std::array<float, 3>& drifts,
                   float swings);
 
-// Writes ContactWork::look_at and left of the fragments that have travelled so far; left: 0 for those that have left their
-// skins. True when there is one.
-bool find_leavers(const Model&, ContactWork&);
+// True when a fragment has left its skin.
+bool find_leavers(const Model&, const ContactWork&);
 
 // A fragment of a broken block that is more than a single tet.
 inline bool of_several_tets(const Model& model, const ContactWork& work, int mover) {

@@ -26,8 +26,4 @@ Renewed movers_to_search(const Model&, const ContactWork&, bool all);
 void edges_to_search(const ContactWork&, const std::vector<ContactEdge>& before, bool fragments_due,
                      Renewed&);
 
-// Writes ContactWork::near, search_of, left, look_at and past_others of the fragments that were searched, and of those near
-// them. pairs: of movers.
-void keep_near_movers(const Model&, const Pairs& pairs, const std::vector<char>& searched, ContactWork&);
-
 } // namespace cdem

@@ -25,8 +25,8 @@
 
 namespace cdem {
 
-class SharedState; // ranks/shared_state.hpp
-struct TetPairs;   // contact/data/tet_pairs.hpp
+class SharedState;   // ranks/shared_state.hpp
+struct PairContacts; // contact/pairs/pair_contacts.hpp
 
 inline constexpr std::int64_t contact_rows_per_chunk = 64;
 // Depth over the usual height of a tet at a block's surface: around a deeper contact all pairs are computed in every
@@ -109,6 +109,7 @@ struct ContactForce {
 
 struct ContactSums {
   double friction = 0, damping = 0; // J, this step, rounded once
+  double breaking = 0;              // J, this step: what faces stored and contacts that took over do not
   std::int64_t contacts = 0;        // of all ranks
   // The deepest, in parts of the depth at which a contact is not to be trusted (depth_limit).
   double deepest = 0;
@@ -138,15 +139,6 @@ struct BlockMotion {
 
 struct TouchedNode {
   int node = 0, block = 0;
-};
-
-// A mover that may come near a fragment before the two leave their skins.
-struct NearMover {
-  int fragment = 0; // by its smallest node
-  int search = 0;   // that found it
-  float may_go = 0; // m, relative to each other since then, before their rows are to be found anew
-  float swings = 0; // m, then
-  std::array<float, 3> drifts{};
 };
 
 // Rows of rigid pairs, those of one pair side by side.
@@ -206,18 +198,11 @@ struct ContactWork {
   // node from it, m. Measured from the positions at that search (n_nodes).
   std::vector<geom::Vec3> drift;
   std::vector<double> swing;
-  std::vector<geom::Vec3> at_search;        // m
-  std::vector<std::vector<NearMover>> near; // per mover; none of two single tets
-  std::shared_ptr<TetPairs> tet_pairs;      // of two single tets; null: none has been found yet
-  // Per mover, of fragments: the last search of it; how far it may travel before the others near it are looked at; the
-  // part that is left of what it may go relative to the one that is worst off.
-  std::vector<int> search_of;
-  std::vector<double> look_at, left;     // m, 1
-  std::vector<double> past_others;       // m, how far it has gone past those around it
+  std::vector<geom::Vec3> at_search;     // m
+  std::vector<char> searched_before;     // per mover, of fragments
   std::vector<double> last_displacement; // m, per mover, at most, in the last step
   double last_step = 0;                  // s, the last one in which anything moved
   std::vector<double> skin;              // m, per mover: how far it may go before the next search
-  std::vector<double> inner_skin;        // m, of fragments: how far relative to those near it
   double undefined_pair_margin =
       0;                   // m, that two blocks for which no contact is given may go before a search is due
   double usual_height = 0; // m, of a tet at any surface: of skins, which change no force
@@ -226,6 +211,8 @@ struct ContactWork {
   bool fragments_due =
       true;        // faces have broken, or fragments were never told apart: a search is due with them
   bool due = true; // something moved since the contacts were looked at
+  bool faces_changed = true; // some face has come loose or was handed over: who may touch is told anew
+  std::shared_ptr<PairContacts> pairs; // of tetrahedra of one body; null: no body has broken
   // State::contacts holds all there are, but for fragments. Not so where a stage begins: what stands in what then is
   // anybody's doing.
   bool history_complete = false;

@@ -25,8 +25,8 @@ struct NearestOfEdges {
   bool nearly_parallel = false;
   std::optional<geom::Vec3>
       normal; // of nearly parallel edges that reach into each other, out of the second one's body
-  std::array<double, 2> parts{1,
-                              1}; // of each edge that bear: where nearly parallel edges run beside each other
+  // Of each edge, the part that bears: nearly parallel edges bear where they run beside each other.
+  std::array<double, 2> parts{1, 1};
 
   bool within_both() const { return at.s > 0 && at.s < 1 && at.t > 0 && at.t < 1; }
 };

@@ -2,7 +2,7 @@
 
 #include "libcdem/contact/broad_phase/movers.hpp"
 #include "libcdem/contact/data/row_owner.hpp"
-#include "libcdem/contact/data/tet_pairs.hpp"
+#include "libcdem/contact/pairs/pair_contacts.hpp"
 #include "libcdem/ranks/shared_state.hpp"
 
 #include <algorithm>
@@ -40,6 +40,9 @@ public:
         }
     }
   }
+  void add_nodes(const std::vector<std::int32_t>& nodes) {
+    nodes_.insert(nodes_.end(), nodes.begin(), nodes.end());
+  }
   std::vector<std::int32_t> take() { return std::move(nodes_); }
 
 private:
@@ -74,10 +77,6 @@ void read_nodes_of_rows(const Model& model, ContactWork& work) {
     for (const ContactRow& row : rows)
       for (const int mover : {row.source_mover, row.mover})
         read[work.movers.block[mover]] = mover_read[mover] = 1;
-  if (work.tet_pairs)
-    for (std::size_t p = 0; p < work.tet_pairs->count(); ++p)
-      if (work.tet_pairs->until[p] < std::numeric_limits<float>::infinity())
-        mover_read[work.tet_pairs->a[p]] = mover_read[work.tet_pairs->b[p]] = 1;
   for (int m = blocks; m < work.movers.count(); ++m)
     if (rank_of_fragment(work, m - blocks) == work.shared->part().rank)
       mover_read[m] = 1;
@@ -99,6 +98,7 @@ void read_nodes_of_rows(const Model& model, ContactWork& work) {
     else if (read[b])
       nodes.add_surface(b);
   }
+  nodes.add_nodes(nodes_of_pairs(work));
   work.shared->set_further_nodes(nodes.take());
   work.shared->set_further_bodies(std::move(rigid));
 }

@@ -31,6 +31,9 @@ const geom::Solid& solid_of(const Arguments& a, const std::string& key) {
   return a.object<SolidObject>(key)->solid;
 }
 
+// Of the files that solid.read takes.
+const std::string solid_endings = ".step, .stp, .stl, .obj, .off, .ply, .dxf or .ts";
+
 Value read_solid(Session& session, Object*, const Arguments& a) {
   std::string ending = std::filesystem::path(a.text("file")).extension().string();
   for (char& c : ending)
@@ -39,7 +42,7 @@ Value read_solid(Session& session, Object*, const Arguments& a) {
   static const std::set<std::string> surfaces = {".stl", ".obj", ".off", ".ply", ".dxf", ".ts"};
   if (!step && surfaces.count(ending) == 0)
     throw InputError("file", "\"" + a.text("file") + "\"",
-                     "a name that ends in .step, .stp, .stl, .obj, .off, .ply, .dxf or .ts");
+                     "a name that ends in " + solid_endings);
   const std::filesystem::path path = session.files.to_read(a.text("file"));
   const double scale = a.number("scale");
   if (!step) {
@@ -93,7 +96,7 @@ void bind_solid_builders(Module& m) {
       "PLY, "
       "DXF, GOCAD). Each triangle becomes a face of the solid, so no element of its mesh is larger than the "
       "triangles. Triangles without area and T-junctions are mended, which is told.",
-      {text("file").required().doc("ends in .step, .stp, .stl, .obj, .off, .ply, .dxf or .ts"),
+      {text("file").required().doc("ends in " + solid_endings),
        number("scale").within(1e-6, 1e6).standard(1.0).doc("0.001 for a file in millimetres"),
        place("shift").doc("is added to the coordinates: a survey far from the origin loses its digits")},
       read_solid);
