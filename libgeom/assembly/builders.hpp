@@ -4,6 +4,7 @@
 #include "libgeom/assembly/assembly.hpp"
 
 #include <cstdint>
+#include <optional>
 
 namespace geom {
 
@@ -39,8 +40,16 @@ struct JointSet {
   double dip_scatter = 0;       // rad, standard deviation
   double direction_scatter = 0; // rad, standard deviation
   std::string name = {};        // of the faces that the set makes (PolyhedronFace::cut)
+  // m; a plane runs through it. Without it the planes are counted from the lowest corner of the blocks along the normal.
+  std::optional<Vec3> origin = {};
+  // Planes next to the origin, on both sides of it; of the centre of the blocks where no origin is given. Without it as
+  // many as cross the blocks.
+  std::optional<int> count = {};
+  // Probability that a face belongs to the set, above 0. A face that does not has no name: it is a bridge of rock.
+  double persistence = 1;
 };
-// Cuts every block by the planes of every set in turn; seeded scatter.
+// Cuts every block by the planes of every set in turn, those with bridges last; seeded scatter. Every face between two
+// blocks is drawn by itself, so bridges are as fine as the blocks that the other sets leave.
 Assembly cut_by_joints(const Assembly&, const std::vector<JointSet>&, std::uint64_t seed = 1);
 
 // Convex hull of at least four points that are not in one plane (CGAL).

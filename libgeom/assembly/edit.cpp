@@ -40,10 +40,10 @@ double cut_tolerance(const Assembly& assembly) {
   return part * smallest;
 }
 
-void mark_cut_face(Part& part, const PlaneCutOptions& options) {
+void mark_cut_face(Part& part, const PlaneCutOptions& options, bool named) {
   for (std::size_t f = 0; f < part.shape.faces.size(); ++f)
     if (part.parent_face[f] == cut_face) {
-      part.shape.faces[f].cut = options.name;
+      part.shape.faces[f].cut = named ? options.name : "";
       part.shape.faces[f].glued = options.glued;
     }
 }
@@ -63,7 +63,8 @@ Assembly cut_by_plane(Assembly assembly, const Plane& given, const PlaneCutOptio
   const double tolerance = cut_tolerance(assembly);
   Assembly result;
   result.blocks.reserve(assembly.blocks.size());
-  for (Polyhedron& block : assembly.blocks) {
+  for (std::size_t b = 0; b < assembly.blocks.size(); ++b) {
+    Polyhedron& block = assembly.blocks[b];
     const Box box = bounding_box(block);
     const double reach = 0.5 * plane.normal.cwiseAbs().dot(box.size()) + options.clearance;
     const bool near = std::abs(plane.level(box.centre())) <= reach;
@@ -75,10 +76,11 @@ Assembly cut_by_plane(Assembly assembly, const Plane& given, const PlaneCutOptio
     Cut halves = options.clearance > 0
                      ? cut(block, shifted_clear_of_vertices(block, plane, options.clearance))
                      : cut(block, plane, tolerance);
+    const bool named = !options.named || options.named(b);
     for (std::optional<Part>* part : {&halves.below, &halves.above}) {
       if (!*part)
         continue;
-      mark_cut_face(**part, options);
+      mark_cut_face(**part, options, named);
       result.blocks.push_back(std::move((*part)->shape));
     }
   }

@@ -3,6 +3,7 @@
 
 #include "libgeom/assembly/assembly.hpp"
 
+#include <functional>
 #include <optional>
 
 namespace geom {
@@ -17,6 +18,8 @@ struct PlaneCutOptions {
   std::string
       name{}; // of the faces that the cut makes; a plane along a face that is there leaves that one as it is
   bool glued = false; // the faces are no joint
+  // Whether the faces that are cut into a block have the name, by the number of the block; all have it when empty.
+  std::function<bool(std::size_t)> named{};
 };
 
 // Splits every block that the plane crosses; the two parts take its place, the lower one first. The normal

@@ -44,9 +44,10 @@ struct LayerOptions {
 // Numbers of units begin at 0.
 struct Layer {
   Pile pile;
-  bool at_rest = false;          // all together, clear of each other; false where they were but lowered
-  std::vector<int> leaning;      // units on which fewer than three things press, of those at rest
-  std::vector<int> put_back;     // units that would have gone further than half a height: they stay as laid
+  bool at_rest = false;     // all together, clear of each other; false where they were but lowered
+  std::vector<int> leaning; // units on which fewer than three things press, of those at rest
+  std::vector<int>
+      put_back; // units that went further than half a height, or did not come to rest: they are held
   std::optional<double> density; // phi in the middle of the pile; none where it is too small to have one
   int trials = 0;                // of spacings, in all
   int layers = 1;                // that were laid, each with other attitudes

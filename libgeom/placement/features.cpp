@@ -71,6 +71,11 @@ double level(const Vec3& x, const Features::Face& face, double reach) {
   return least >= -seam * size ? gap : endless;
 }
 
+// A corner inside came through a face that it points against.
+bool may_enter(const Vec3& outward, const Features::Face& face, double gap) {
+  return gap >= 0 || outward.dot(face.normal) < 0;
+}
+
 // Whether a direction leads away from both faces of an edge.
 bool outward(const Features::Edge& edge, const Vec3& direction, double sign) {
   return sign * edge.normals[0].dot(direction) > -sideways &&
@@ -120,6 +125,7 @@ Features features_of(const Surface& surface) {
     }
   }
   std::vector<char> stands_out(surface.points.size(), 0);
+  std::vector<Vec3> outward(surface.points.size(), Vec3::Zero());
   for (const auto& [ends, faces] : sides) {
     const Vec3 &from = surface.points[ends.first], &to = surface.points[ends.second];
     const Features::Face &one = f.faces[faces.front()], &other = f.faces[faces.back()];
@@ -134,11 +140,16 @@ Features features_of(const Surface& surface) {
         continue;
     }
     f.edges.push_back({from, to, {one.normal, other.normal}, {}});
-    stands_out[ends.first] = stands_out[ends.second] = 1;
+    for (const int end : {ends.first, ends.second}) {
+      stands_out[end] = 1;
+      outward[end] += one.normal + other.normal;
+    }
   }
   for (std::size_t i = 0; i < stands_out.size(); ++i)
-    if (stands_out[i] != 0)
+    if (stands_out[i] != 0) {
       f.corners.push_back(surface.points[i]);
+      f.outward.push_back(outward[i]);
+    }
   fit_boxes(f);
   return f;
 }
@@ -147,6 +158,8 @@ Features moved(const Features& features, const Pose& pose) {
   Features f = features;
   for (Vec3& x : f.corners)
     x = pose(x);
+  for (Vec3& direction : f.outward)
+    direction = pose.rotation * direction;
   for (Features::Edge& edge : f.edges) {
     edge.from = pose(edge.from);
     edge.to = pose(edge.to);
@@ -197,12 +210,12 @@ void NearFeatures::touches(const Features& first, const Features& second, double
   Shallowest entered, entering;
   for (const auto& [i, j] : corner_face_) {
     const double gap = level(first.corners[i], second.faces[j], reach);
-    if (gap < reach)
+    if (gap < reach && may_enter(first.outward[i], second.faces[j], gap))
       entered.add(i, {first.corners[i], second.faces[j].normal, gap, named(0, i, j)}, found);
   }
   for (const auto& [i, j] : face_corner_) {
     const double gap = level(second.corners[j], first.faces[i], reach);
-    if (gap < reach)
+    if (gap < reach && may_enter(second.outward[j], first.faces[i], gap))
       entering.add(
           j, {second.corners[j] - gap * first.faces[i].normal, -first.faces[i].normal, gap, named(1, i, j)},
           found);

@@ -1,7 +1,9 @@
 // Contact points of two solids that touch or are near each other: corner on face, face on corner, edge across edge.
 //
 // Only corners and edges that stand out (the surface is convex across the edge) can touch first. Where a corner is over
-// a face, or two edges cross, the gap is signed: negative as far as one solid is inside the other.
+// a face, or two edges cross, the gap is signed: negative as far as one solid is inside the other. A corner inside came
+// through the nearest face that it points against: of two cubes side by side on a plane the corners that enter each
+// other's sides are level with each other's lower faces.
 #pragma once
 
 #include "libgeom/placement/pile.hpp"
@@ -24,6 +26,7 @@ struct Features {
     Box box;
   };
   std::vector<Vec3> corners; // of such edges
+  std::vector<Vec3> outward; // of each corner: sum of the normals of these edges' faces
   std::vector<Edge> edges;
   std::vector<Face> faces;
   Box box;

@@ -8,19 +8,26 @@
 #include <cstdint>
 #include <map>
 #include <numeric>
+#include <utility>
 
 namespace geom {
 namespace {
 
-constexpr int pile_sweeps = 400; // over all impulses, at most
-constexpr double creeps = 0.06;  // of s, a step: what is slower rests
-constexpr double slides = 0.15;  // and what is faster goes on with larger steps
+// Over all impulses, at most: on the way, where the next step goes on from them, and with the last s.
+constexpr int sweeps_on_the_way = 60, pile_sweeps = 400;
+// Times four steps: if after so many with one s the bodies neither rest nor slide, s becomes larger. From this part of the
+// steps on it does not, and the bodies that still move are held where they are.
+constexpr int patience = 6;
+constexpr double tired = 0.6;
+constexpr double creeps = 0.06; // of s, a step: what is slower rests
+constexpr double slides = 0.15; // and what is faster goes on with larger steps
 // Fraction of the displacement that a body may have. If a body has moved further than allowed, the lowest body beyond
 // this fraction is held, and all begin again. After so many beginnings a body that goes too far is put back at once.
 constexpr double goes_on = 0.8;
 constexpr int begins_again = 6;
 constexpr int bodies_times_beginnings = 600;
-constexpr double too_far = 2; // times what is needed: lists that reach further are made anew
+constexpr int clear_pushes = 30; // at most, of all bodies to the clear distance
+constexpr double too_far = 2;    // times what is needed: lists that reach further are made anew
 
 // Bodies that move, bodies that stay, and their contact points.
 class Together {
@@ -28,19 +35,18 @@ public:
   Together(const Features& shape, const std::vector<Pose>& start, const std::vector<const Features*>& others,
            const RestOptions& options, const std::vector<char>& stays)
       : poses(start), shape_(shape), start_(start), others_(others), options_(options), stays_(stays),
-        radius_(radius_of(shape)) {}
+        at_first_(stays), radius_(radius_of(shape)) {}
 
   // A step; returns the motions.
-  std::vector<Motion> step(const Vec3& down, double s);
+  std::vector<Motion> step(const Vec3& down, double s, int tilt);
   void push_clear();
   std::vector<int> pressed_by();
   const std::vector<char>& stays() const { return stays_; }
   bool stays(std::size_t body) const { return stays_[body] != 0; }
-  // From now on, where it began.
-  void put_back(std::size_t body) {
-    poses[body] = start_[body];
+  // From now on, where it is.
+  void hold(std::size_t body) {
     stays_[body] = 1;
-    pushed_.clear();
+    pushed_ = {};
     listed_ = -1;
   }
   // Displacement over the displacement that a body may have.
@@ -63,12 +69,16 @@ private:
     double normal = 0;
     Vec3 along = Vec3::Zero();
   };
+  struct Impulses {
+    std::map<std::array<int, 3>, std::vector<Pushed>> of_pairs; // by name
+    double step = 0;                                            // m, s of theirs
+  };
   void find(double reach);
   // Within reach of a step s; from the top down.
   std::vector<BodyTouch> touches(double s);
   BodyTouch made_of(Touch touch, const Pair& pair) const;
-  void begin(std::vector<BodyTouch>&, double s) const;
-  void remember(const std::vector<BodyTouch>&, double s);
+  void begin(std::vector<BodyTouch>&, double s, int tilt) const;
+  Impulses remembered(const std::vector<BodyTouch>&, double s) const;
   std::vector<Motion> motions(std::vector<BodyTouch>& touches, const Vec3& pull,
                               const ImpulseOptions& options) {
     std::vector<BodyBound> no_bounds;
@@ -80,13 +90,12 @@ private:
   const std::vector<Pose>& start_;
   const std::vector<const Features*>& others_;
   const RestOptions& options_;
-  std::vector<char> stays_;
+  std::vector<char> stays_, at_first_; // now; those of them that have not moved
   double radius_ = 0;
   double listed_ = -1; // m: what is nearer than this is in the pairs
   std::vector<Features> bodies_;
   std::vector<Pair> pairs_;
-  std::map<std::array<int, 3>, std::vector<Pushed>> pushed_; // in the last step, of pairs by name
-  double last_step_ = 0;                                     // m, s of it
+  std::array<Impulses, descent::tilts> pushed_; // in the last step with gravity tilted each way
 };
 
 void Together::find(double reach) {
@@ -130,7 +139,7 @@ BodyTouch Together::made_of(Touch touch, const Pair& pair) const {
 }
 
 std::vector<BodyTouch> Together::touches(double s) {
-  const double reach = 2 * s + options_.clear, skin = descent::skin * s;
+  const double reach = 2 * std::max(s, options_.step) + options_.clear, skin = descent::skin * s;
   bodies_.clear();
   for (const Pose& pose : poses)
     bodies_.push_back(moved(shape_, pose));
@@ -151,19 +160,22 @@ std::vector<BodyTouch> Together::touches(double s) {
   return made;
 }
 
-// Impulses are much as they were in the last step.
-void Together::begin(std::vector<BodyTouch>& touches, double s) const {
-  if (pushed_.empty())
+// Impulses are much as they were when gravity was last tilted this way, or in the last step before it first is.
+void Together::begin(std::vector<BodyTouch>& touches, double s, int tilt) const {
+  constexpr int tilts = descent::tilts;
+  const Impulses& last =
+      pushed_[pushed_[tilt].of_pairs.empty() ? (tilt + tilts - 1) % tilts : static_cast<std::size_t>(tilt)];
+  if (last.of_pairs.empty())
     return;
-  const double part = s / last_step_;
+  const double part = s / last.step;
   auto touch = touches.begin();
   for (const Pair& pair : pairs_) {
     const auto end = touch + static_cast<std::ptrdiff_t>(pair.touches);
-    const auto last = pushed_.find(pair.name());
+    const auto known = last.of_pairs.find(pair.name());
     for (; touch != end; ++touch) {
-      if (last == pushed_.end())
+      if (known == last.of_pairs.end())
         continue;
-      for (const Pushed& pushed : last->second) {
+      for (const Pushed& pushed : known->second) {
         if (pushed.features != touch->features)
           continue;
         touch->normal.impulse = part * pushed.normal;
@@ -174,19 +186,17 @@ void Together::begin(std::vector<BodyTouch>& touches, double s) const {
   }
 }
 
-void Together::remember(const std::vector<BodyTouch>& touches, double s) {
-  pushed_.clear();
-  last_step_ = s;
+Together::Impulses Together::remembered(const std::vector<BodyTouch>& touches, double s) const {
+  Impulses impulses;
+  impulses.step = s;
   auto touch = touches.begin();
-  for (const Pair& pair : pairs_) {
-    if (pair.touches == 0)
-      continue;
-    std::vector<Pushed>& list = pushed_[pair.name()];
+  for (const Pair& pair : pairs_)
     for (std::size_t i = 0; i < pair.touches; ++i, ++touch)
-      list.push_back(
-          {touch->features, touch->normal.impulse,
-           touch->first.impulse * touch->first.direction + touch->second.impulse * touch->second.direction});
-  }
+      if (touch->normal.impulse > 0)
+        impulses.of_pairs[pair.name()].push_back({touch->features, touch->normal.impulse,
+                                                  touch->first.impulse * touch->first.direction +
+                                                      touch->second.impulse * touch->second.direction});
+  return impulses;
 }
 
 void Together::move(const std::vector<Motion>& v) {
@@ -197,25 +207,34 @@ void Together::move(const std::vector<Motion>& v) {
   listed_ -= 2 * most;
 }
 
-std::vector<Motion> Together::step(const Vec3& down, double s) {
+std::vector<Motion> Together::step(const Vec3& down, double s, int tilt) {
   std::vector<BodyTouch> touches = this->touches(s);
-  begin(touches, s);
-  std::vector<Motion> v = motions(touches, s * down, {options_.friction, s, pile_sweeps});
-  remember(touches, s);
+  begin(touches, s, tilt);
+  const int sweeps = s > options_.last_step ? sweeps_on_the_way : pile_sweeps;
+  std::vector<Motion> v = motions(touches, s * down, {options_.friction, s, sweeps});
+  pushed_[tilt] = remembered(touches, s);
   move(v);
   return v;
 }
 
+// Bodies that were held on the way may be pushed.
 void Together::push_clear() {
   const double slack = 1e-3 * options_.clear;
-  for (int k = 0; k < descent::pushes; ++k) {
+  const std::vector<char> held = std::exchange(stays_, at_first_);
+  listed_ = -1;
+  for (int k = 0; k < clear_pushes; ++k) {
     std::vector<BodyTouch> made = touches(options_.clear);
-    if (std::all_of(made.begin(), made.end(), [](const BodyTouch& touch) { return touch.room >= 0; }))
+    double deepest = 0;
+    for (const BodyTouch& touch : made)
+      deepest = std::max(deepest, -touch.room);
+    if (deepest == 0)
       break;
     for (BodyTouch& touch : made)
       touch.room -= slack;
-    move(motions(made, Vec3::Zero(), {0, options_.clear, pile_sweeps}));
+    move(motions(made, Vec3::Zero(), {0, std::max(options_.clear, deepest), pile_sweeps}));
   }
+  stays_ = held;
+  listed_ = -1;
 }
 
 std::vector<int> Together::pressed_by() {
@@ -243,10 +262,11 @@ std::vector<int> Together::pressed_by() {
 bool descend(Together& together, const RestOptions& options, bool puts_back) {
   const std::size_t count = together.poses.size();
   Descent descent(options);
+  int cycles = 0;                   // with this s
   std::vector<Motion> cycle(count); // since gravity was first tilted this way
   for (int k = 0; k < options.steps; ++k) {
     const double s = descent.s;
-    const std::vector<Motion> v = together.step(descent.down(k), s);
+    const std::vector<Motion> v = together.step(descent.down(k), s, k % descent::tilts);
     double most = 0;
     for (std::size_t i = 0; i < count; ++i) {
       if (together.stays(i))
@@ -257,7 +277,7 @@ bool descend(Together& together, const RestOptions& options, bool puts_back) {
       if (together.gone(i) > 1) {
         if (!puts_back)
           return false;
-        together.put_back(i);
+        together.hold(i);
         cycle[i] = {};
       }
     }
@@ -265,11 +285,26 @@ bool descend(Together& together, const RestOptions& options, bool puts_back) {
       continue;
     if (options.poll)
       options.poll();
+    std::vector<double> moved(count);
+    for (std::size_t i = 0; i < count; ++i)
+      moved[i] = cycle[i].norm();
     std::fill(cycle.begin(), cycle.end(), Motion{});
-    if (most > descent::tilts * slides * s)
+    ++cycles;
+    if (most < descent::tilts * creeps * s) {
+      if (descent.at_last())
+        return true;
+      cycles = 0;
+    } else if (k >= tired * options.steps) {
+      if (cycles < patience)
+        continue;
+      for (std::size_t i = 0; i < count; ++i)
+        if (!together.stays(i) && moved[i] >= descent::tilts * creeps * s)
+          together.hold(i);
+      cycles = 0;
+    } else if (most > descent::tilts * slides * s || cycles == patience) {
       descent.hurry();
-    if (most < descent::tilts * creeps * s && descent.at_last())
-      return true;
+      cycles = 0;
+    }
   }
   return false;
 }

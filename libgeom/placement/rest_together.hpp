@@ -5,7 +5,7 @@
 // They are at rest when no body has moved on in four steps, with gravity tilted in four directions: a body that only
 // rocks returns. If a body slides on, the steps become larger again. If a body moves further than `way`, the lowest of
 // the bodies that move on is held at its first position, and all begin again. After some such repetitions a body that
-// goes too far is put back at once.
+// goes too far is held where it is. So are bodies that still move towards the last of the steps.
 #pragma once
 
 #include "libgeom/placement/rest.hpp"
@@ -15,7 +15,7 @@ namespace geom {
 struct RestTogether {
   std::vector<Pose> poses;
   bool still = false; // all of them at rest
-  // Bodies that would have moved further than `way`: they are at their first positions.
+  // Bodies that would have moved further than `way`, or did not come to rest: they were held.
   std::vector<char> stayed;
   // How many others, moving or not, press on each with a twentieth of its weight or more; of one that stayed only those
   // that moved. Empty unless still.

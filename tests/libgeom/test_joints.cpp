@@ -1,6 +1,7 @@
 // Joint sets: orientation and spacing of the cut faces, against their definitions.
 #include "libgeom/assembly/builders.hpp"
 #include "tests/libgeom/assembly_laws.hpp"
+#include "tests/support/refusal.hpp"
 
 #include <catch2/catch.hpp>
 
@@ -215,4 +216,82 @@ TEST_CASE("the same seed gives the same joints, another seed others, no sets cha
   CHECK((a.blocks.size() != c.blocks.size() || a.blocks[0].vertices != c.blocks[0].vertices));
   CHECK(cut_by_joints(cube(), {}).blocks.size() == 1);
   CHECK(cut_by_joints({}, {set}).blocks.empty());
+}
+
+TEST_CASE("a set of one plane runs through its origin, or through the middle of the blocks") {
+  JointSet set;
+  set.dip = 40 * degree;
+  set.dip_direction = 90 * degree;
+  set.spacing = 0.1;
+  set.count = 1;
+  const Vec3 normal(std::sin(set.dip), 0, std::cos(set.dip));
+  for (const Vec3& through : {Vec3(0.5, 0.5, 0.5), Vec3(0.4, 0.2, 0.7)}) {
+    if (through != Vec3(0.5, 0.5, 0.5))
+      set.origin = through;
+    const auto faces = joint_faces(cut_by_joints(cube(), {set}));
+    REQUIRE(faces.size() == 2);
+    for (const Plane& p : faces)
+      CHECK(p.offset == Approx(normal.dot(through)).margin(1e-9));
+  }
+}
+
+TEST_CASE("planes of a set with an origin stand on both sides of it, one spacing apart") {
+  JointSet set;
+  set.spacing = 0.1;
+  set.origin = Vec3(0, 0, 0.42);
+  set.count = 3;
+  CHECK(cut_by_joints(cube(), {set}).blocks.size() == 4);
+  for (const Plane& p : joint_faces(cut_by_joints(cube(), {set})))
+    CHECK(std::abs(p.offset - 0.42) < 0.1 + 1e-9);
+  set.count.reset(); // all that cross: 0.02 to 0.92
+  CHECK(cut_by_joints(cube(), {set}).blocks.size() == 11);
+  set.origin = Vec3(0, 0, 5); // beside the blocks: the planes go on to them
+  CHECK(cut_by_joints(cube(), {set}).blocks.size() == 10);
+}
+
+TEST_CASE("the part of the faces that belongs to a set is its persistence, the same on both sides") {
+  JointSet across, along;
+  across.dip = along.dip = 90 * degree;
+  along.dip_direction = 90 * degree;
+  across.spacing = along.spacing = 0.05;
+  JointSet level;
+  level.spacing = 0.2;
+  level.name = "level";
+  level.persistence = 0.6;
+  const Assembly a = cut_by_joints(cube(), {level, across, along}, 3);
+  std::int64_t up = 0, down = 0, bridges = 0;
+  for (const Polyhedron& block : a.blocks)
+    for (int f = 0; f < static_cast<int>(block.faces.size()); ++f) {
+      const double z = face_normal(block, f).z(), at = face_centroid(block, f).z();
+      if (std::abs(z) < 0.9 || at < 1e-9 || at > 1 - 1e-9)
+        continue;
+      if (block.faces[f].cut.empty())
+        ++bridges;
+      else
+        ++(z > 0 ? up : down);
+    }
+  CHECK(up == down);
+  const auto all = static_cast<double>(up + down + bridges);
+  REQUIRE(all > 2000);
+  // Standard deviation of the share of n = all / 2 draws.
+  CHECK(static_cast<double>(up + down) / all == Approx(0.6).margin(4 * std::sqrt(0.24 / (0.5 * all))));
+}
+
+TEST_CASE(
+    "sets that cannot be are refused: no persistence, bridges without a name, an origin whose planes miss") {
+  const auto refused = [](const JointSet& set) {
+    return testing::refusal([&] { cut_by_joints(cube(), {set}); });
+  };
+  JointSet set;
+  set.spacing = 0.2;
+  set.persistence = 0;
+  CHECK_THAT(refused(set), Catch::Matchers::Contains("persistence = 0: must be > 0 and <= 1"));
+  set.persistence = 0.5;
+  CHECK_THAT(refused(set), Catch::Matchers::Contains("give the set a name"));
+  set.name = "level";
+  set.count = 0;
+  CHECK_THAT(refused(set), Catch::Matchers::Contains("count = 0: must be at least 1"));
+  set.count = 2;
+  set.origin = Vec3(0, 0, 5);
+  CHECK_THAT(refused(set), Catch::Matchers::Contains("such that a plane of the set crosses the blocks"));
 }

@@ -126,10 +126,11 @@ void tell(Session& session, const geom::Layer& layer, double density) {
                     " times, each with other attitudes, as units slid off, leant on too little or did not "
                     "rest; the best is taken");
   if (!layer.put_back.empty())
-    session.message(name + numbers_text(layer.put_back) +
-                    " would have slid further than half a height, and " +
-                    (layer.put_back.size() == 1 ? "stays as laid; it" : "stay as laid; they") +
-                    " may slide when " + (layer.put_back.size() == 1 ? "it settles" : "they settle"));
+    session.warn(name + numbers_text(layer.put_back) +
+                 (layer.put_back.size() == 1
+                      ? " slid further than half a height or did not come to rest, and is held; it"
+                      : " slid further than half a height or did not come to rest, and are held; they") +
+                 " may move when " + (layer.put_back.size() == 1 ? "it settles" : "they settle"));
   if (!layer.leaning.empty())
     session.warn(name + std::to_string(layer.leaning.size()) + " of " +
                  std::to_string(layer.pile.poses.size()) +

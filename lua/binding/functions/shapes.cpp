@@ -67,6 +67,10 @@ Value cut_by_joints(Session& session, Object*, const Arguments& a) {
     set.dip_scatter = radians(given.number("dip_scatter"));
     set.direction_scatter = radians(given.number("direction_scatter"));
     set.name = given.text_or("name", "");
+    set.origin = given.optional_vec3("origin");
+    if (given.has("count"))
+      set.count = given.count("count");
+    set.persistence = given.number("persistence");
     sets.push_back(set);
     dips.push_back(given.number("dip"));
     directions.push_back(given.number("dip_direction"));
@@ -268,8 +272,23 @@ void bind_builders(Module& m) {
       number("spacing_scatter").from(0, 0.5).standard(0.0).doc("standard deviation over the mean"),
       number("dip_scatter").within(0, 90).unit("deg").standard(0.0).doc("standard deviation"),
       number("direction_scatter").within(0, 360).unit("deg").standard(0.0).doc("standard deviation"),
+      vec3("origin").unit("m").doc(
+          "a plane runs through it; without it the planes are counted from the lowest "
+          "corner of the blocks along the normal"),
+      integer("count").at_least(1).doc(
+          "planes next to the origin, on both sides of it; next to the centre of the "
+          "blocks where no origin is given. As many as cross the blocks when left out"),
+      number("persistence")
+          .within(0, 1)
+          .standard(1.0)
+          .doc("probability that a face belongs to the set, above 0. The other faces are bridges of rock, "
+               "which the "
+               "body's joint holds; each face between two blocks is drawn by itself. Needs a name"),
       text("name").doc("of the set, for its law: a body's joints = { name = joint }")};
-  add("cut_by_joints", "Cuts every block by the planes of joint sets, one set after the other.",
+  add("cut_by_joints",
+      "Cuts every block by the planes of joint sets, one set after the other, those with a persistence below "
+      "1 "
+      "last.",
       {object("shape", "Assembly").required(), list("sets", record_type(set)).required(), seed_field(),
        number("smallest")
            .at_least(0)
