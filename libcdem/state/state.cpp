@@ -188,14 +188,10 @@ State initial_state(const Model& model) {
   return state;
 }
 
-// What several ranks share is looked at node by node and tet by tet, in the share of each: here it would bring back the
-// pages of others.
 const char* field_with_nan(const State& state) {
   const char* found = nullptr;
   each_field(
       [&](const FieldRow& row, const auto& field) {
-        if (state.parted && (row.shared == FieldShared::motion || row.shared == FieldShared::large))
-          return;
         if constexpr (is_array<decltype(field)>) {
           using Entry = std::remove_cv_t<std::remove_reference_t<decltype(field[0])>>;
           if constexpr (is_all_doubles<Entry>) {

@@ -113,8 +113,7 @@ bool share_is_sound(const Model& model, const State& state, const Workspace& wor
   } catch (const SolutionError&) {
     return false;
   }
-  if (field_with_nan(state))
-    return false;
+  // Not field_with_nan: it would bring back the pages of others. What is no number anywhere is soon none at a node.
   const Range points = work.shared->shares().points();
   return std::none_of(model.interfaces.begin(), model.interfaces.end(), [&](const Interface& interface) {
     return departure(model, state, interface, points) > 1;
