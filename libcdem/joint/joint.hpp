@@ -49,7 +49,7 @@ struct Joint {
   // ResidualStrength it was never bonded.
   JointLaw law = {};
 
-  // Of brittle faces of cohesive bodies: where a crack begins, in place of cohesion and friction. The crack keeps the friction.
+  // Replaces cohesion and friction where a crack of a brittle face in a cohesive body begins. The crack keeps the friction.
   HoekBrown curve = {};
 };
 

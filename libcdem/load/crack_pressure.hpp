@@ -45,7 +45,7 @@ void update_crack_pressures(const Model&, const State&, const SharedState* share
 void add_crack_pressures(const Model&, const State&, const MeshChunk&, const std::vector<CrackLoad>&,
                          const FaceMotion&, Node* force, FaceSums&);
 
-// Of all cracks that take the load, m3.
+// Volume of all cracks that take the load, m3.
 double crack_volume(const Model&, const State&, const CrackLoad&);
 
 // Longest stable step, s, that pumped fluids leave to a mesh whose own is `stable`; without them no limit.

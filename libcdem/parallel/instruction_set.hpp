@@ -36,22 +36,7 @@ __attribute__((target("arch=x86-64-v3"))) auto with_avx2(Arguments... arguments)
 }
 #endif
 
-template <auto& kernel, class... Arguments>
-auto best(Arguments&&... arguments) {
-#if defined(__x86_64__)
-  switch (instruction_set()) {
-  case InstructionSet::avx512:
-    return with_avx512<kernel, Arguments...>(std::forward<Arguments>(arguments)...);
-  case InstructionSet::avx2:
-    return with_avx2<kernel, Arguments...>(std::forward<Arguments>(arguments)...);
-  case InstructionSet::baseline:
-    break;
-  }
-#endif
-  return kernel(std::forward<Arguments>(arguments)...);
-}
-
-// The same of a kernel that is written for any width: wide takes eight numbers at a time, narrow four.
+// For a kernel that is written for any width: wide takes eight numbers at a time, narrow four.
 template <auto& wide, auto& narrow, class... Arguments>
 auto best_width(Arguments&&... arguments) {
 #if defined(__x86_64__)
@@ -65,6 +50,11 @@ auto best_width(Arguments&&... arguments) {
   }
 #endif
   return narrow(std::forward<Arguments>(arguments)...);
+}
+
+template <auto& kernel, class... Arguments>
+auto best(Arguments&&... arguments) {
+  return best_width<kernel, kernel>(std::forward<Arguments>(arguments)...);
 }
 
 } // namespace simd

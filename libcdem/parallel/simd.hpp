@@ -36,8 +36,8 @@ CDEM_INLINE void store(double (&p)[lanes], const Oct& v) {
   std::memcpy(p, &v, sizeof v);
 }
 
-// A kernel that compares and chooses is written for any width V, Oct or Quad: a processor whose vectors hold four doubles does
-// so one number after the other with eight (parallel/instruction_set.hpp, best_width).
+// A kernel that compares and chooses is written for any width V, Oct or Quad. Where vectors hold four doubles, the compiler
+// compares the numbers of an Oct one by one, those of a Quad together (parallel/instruction_set.hpp, best_width).
 template <class V>
 using MaskOf = decltype(V{} < V{});
 template <class V>
@@ -93,7 +93,7 @@ CDEM_INLINE bool any_negative(const Oct& v) {
   return (four[0] | four[1] | four[2] | four[3]) < 0;
 }
 
-// Of the lanes whose bytes have a value.
+// Selects the lanes whose bytes have this value.
 template <class V>
 CDEM_INLINE MaskOf<V> lanes_with(const std::uint8_t* bytes, std::uint8_t value) {
   std::uint64_t eight = 0;
@@ -105,7 +105,7 @@ CDEM_INLINE MaskOf<V> lanes_with(const std::uint8_t* bytes, std::uint8_t value) 
   return ((MaskOf<V>{} + static_cast<std::int64_t>(eight)) & own) == 0;
 }
 
-// Of the lanes whose bits are set.
+// Selects the lanes whose bits are set.
 template <class V>
 CDEM_INLINE MaskOf<V> lanes_of(unsigned bits) {
   MaskOf<V> own;
@@ -193,7 +193,7 @@ CDEM_INLINE Vec gather(const Node* nodes, const Index (&index)[lanes]) {
   return {v.x, v.y, v.z};
 }
 
-// Of V nodes, whose numbers stand from `index` on.
+// Reads one node a lane; `index` points to the number of the first.
 template <class V, class Index>
 CDEM_INLINE VecOf<V> gather_wide(const Node* nodes, const Index* index) {
   if constexpr (width<V> == lanes) {

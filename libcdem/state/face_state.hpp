@@ -48,7 +48,7 @@ inline void set_hand_over(FaceStateBatch& state, int lane, HandOver to) {
   state.handed_over[lane] = static_cast<std::uint8_t>(to);
 }
 
-// Of the broken springs of a face: point; along its first edge, across.
+// Slip of the broken springs of a face, by point and axis (along its first edge, across).
 struct FaceSlip {
   double value[3][2] = {}; // m, tangential relative displacement at which they carry no shear
   double shear[3][2] = {}; // N, on side a, in the last step

@@ -90,7 +90,7 @@ TEST_CASE("crack pressure: a penny-shaped crack opens as Sneddon says", "[crack_
   INFO("radius " << a << ", volume " << volume << ", opening " << opening << " of Sneddon's");
   CHECK(volume == Approx(1).epsilon(0.05));
   CHECK(opening == Approx(1).epsilon(0.05));
-  // Of the work p V of a pressure put on at once half is stored; the relaxation throws the other half away.
+  // A pressure put on at once does the work p V: half is stored, the relaxation takes the other half.
   const cdem::EnergyLedger energy = cdem::energy(penny.s.model, penny.s.state);
   CHECK(energy.balance_error() < 1e-3);
   CHECK(energy.external == Approx(p * penny.volume()).epsilon(0.01));

@@ -25,7 +25,7 @@ struct NearestOfEdges {
   bool nearly_parallel = false;
   std::optional<geom::Vec3>
       normal; // of nearly parallel edges that reach into each other, out of the second one's body
-  // Of each edge, the part that bears: nearly parallel edges bear where they run beside each other.
+  // Part of each edge that bears: nearly parallel edges bear where they run beside each other.
   std::array<double, 2> parts{1, 1};
 
   bool within_both() const { return at.s > 0 && at.s < 1 && at.t > 0 && at.t < 1; }

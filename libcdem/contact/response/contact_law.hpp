@@ -72,8 +72,8 @@ inline double first_reference_penetration(const ContactMotion& m) {
   return m.depth <= -1.5 * m.slid.dot(m.normal) ? 0 : m.depth;
 }
 
-// Where a contact goes on to carry. Where its normal turns over to another face within a step, it may be found deeper by more than
-// all that has moved (1.5 times, as above): it goes on with the force that it had.
+// The reference of a contact that goes on. If its normal turns over to another face within a step, its depth may grow by more than
+// 1.5 times the relative motion. The reference then grows by the same jump, so the force is continuous.
 inline double next_reference_penetration(const Contact& old, const ContactMotion& m) {
   const double before = m.depth + m.slid.dot(m.normal), // m, before the step under the normal of now
       jump = before - old.reference_penetration - old.effective_penetration();

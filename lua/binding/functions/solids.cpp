@@ -31,7 +31,7 @@ const geom::Solid& solid_of(const Arguments& a, const std::string& key) {
   return a.object<SolidObject>(key)->solid;
 }
 
-// Of the files that solid.read takes.
+// Endings of the files that solid.read takes.
 const std::string solid_endings = ".step, .stp, .stl, .obj, .off, .ply, .dxf or .ts";
 
 Value read_solid(Session& session, Object*, const Arguments& a) {
