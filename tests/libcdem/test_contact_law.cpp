@@ -173,3 +173,18 @@ TEST_CASE(
   }
   CHECK(taken > 2 * given);
 }
+
+TEST_CASE("contact law: the reference follows a jump of the depth, and no motion", "[contact][law]") {
+  Contact old = pressed(3e-4);
+  old.reference_penetration = 1e-4;
+  const Vec3 closing(0, 0, -2e-5), sliding(5e-5, 0, 0);
+  // The depth grows by the motion along the normal, or the point slides past: the same surface.
+  CHECK(next_reference_penetration(old, motion(3.2e-4, closing)) == 1e-4);
+  CHECK(next_reference_penetration(old, motion(3e-4, sliding)) == 1e-4);
+  CHECK(next_reference_penetration(old, motion(2e-4, closing)) == 1e-4);
+  // Another surface, a millimetre above: the contact is pressed more by the motion of the step alone.
+  Contact now = old;
+  now.reference_penetration = next_reference_penetration(old, motion(1.32e-3, closing));
+  now.depth = 1.32e-3;
+  CHECK(now.effective_penetration() == Approx(2.2e-4));
+}
