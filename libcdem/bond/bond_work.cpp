@@ -32,7 +32,7 @@ BondWork::BondWork(const Model& model, const State& state)
       softening.push_back(softening_law(joint, interface.kn, interface.ks));
     if (!state.joint_history.empty())
       laws.push_back(law_of_interface(model, interface));
-    plain.push_back((softening.empty() || !softening.back().softens()) && (laws.empty() || !laws.back().law));
+    plain.push_back((softening.empty() || !softening.back().softens) && (laws.empty() || !laws.back().law));
   }
   batches = spring_batches(model, strength, plain);
   const auto first_behind = [&](std::int64_t node) { // springs stand in the order of their later blocks

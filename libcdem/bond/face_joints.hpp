@@ -19,9 +19,10 @@ public:
       rate_ = state.rate_factor.data() + chunk.face_batches.begin * lanes;
   }
 
+  bool alike() const { return !strength_ && !rate_; } // all faces have the same
   // face: from the chunk's first on. The answer may stand in `room`.
   const Joint& of(std::int64_t face, Joint& room) const {
-    if (!strength_ && !rate_)
+    if (alike())
       return *joint_;
     room = before_rate(face);
     if (rate_)

@@ -32,28 +32,32 @@ void softening_spring(const BondPoint& point, State& state, BondWork& work, std:
   const geom::Vec3 before = work.stretch[p];
   work.stretch[p] = stretch;
   double& damage = state.bond_damage[p];
-  const SofteningResponse r =
-      softening_response(law, point.normal, stretch, damage, state.bond_slip[p], grows);
-  work.spring_force[p] = point.area * r.traction;
+  const Triple<double> normal = triple(point.normal), slip = triple(state.bond_slip[p]);
+  const SofteningResponse<double> r =
+      softening_response<double>(law, normal, triple(stretch), damage, slip, grows);
+  const geom::Vec3 traction = vec(r.traction);
+  work.spring_force[p] = point.area * traction;
   if (r.damage == 0)
     return;
-  const SofteningLoss loss =
-      softening_loss(law, point.normal, before, damage, state.bond_slip[p], stretch, r);
+  const SofteningLoss<double> loss =
+      softening_loss<double>(law, normal, triple(before), damage, slip, triple(stretch), r);
   sums.friction += point.area * loss.friction;
   sums.breaking += point.area * loss.breaking;
   if (r.damage > damage) {
     sums.losses.push_back({point.interface, {}});
-    sums.losses.back().energy.add(point.area * loss.breaking, shear_share(law, point.normal, stretch));
+    sums.losses.back().energy.add(point.area * loss.breaking,
+                                  shear_share<double>(law, normal, triple(stretch)));
   }
   damage = r.damage;
-  state.bond_slip[p] = r.slip;
-  if (r.mode != BondMode::intact) {
-    state.bond_mode[p] = static_cast<std::uint8_t>(r.mode);
-    state.bond_offset[p] += r.slip;
+  state.bond_slip[p] = vec(r.slip);
+  if (r.separated) {
+    const BondMode mode = mode_of(r);
+    state.bond_mode[p] = static_cast<std::uint8_t>(mode);
+    state.bond_offset[p] += vec(r.slip);
     state.bond_slip[p].setZero();
-    const double normal_traction = r.traction.dot(point.normal);
+    const double normal_traction = traction.dot(point.normal);
     sums.broken.push_back(
-        {static_cast<int>(p), r.mode, normal_traction, (r.traction - normal_traction * point.normal).norm()});
+        {static_cast<int>(p), mode, normal_traction, (traction - normal_traction * point.normal).norm()});
   }
 }
 
@@ -102,7 +106,7 @@ CDEM_INLINE void update_spring(const BondPoint& point, const Interface& interfac
   bool broke = false;
   if (is_intact(state.bond_mode[p])) {
     if constexpr (special)
-      if (!work.softening.empty() && work.softening[point.interface].softens()) {
+      if (!work.softening.empty() && work.softening[point.interface].softens) {
         softening_spring(point, state, work, p, stretch, sums, breaking && interface.may_break);
         return;
       }

@@ -13,9 +13,10 @@ bool damaged(const State& state, int p) {
 }
 
 // The present response of a damaged bond, nothing advanced.
-SofteningResponse damaged_response(const SofteningLaw& law, const BondPoint& point, const State& state, int p,
-                                   const geom::Vec3& stretch) {
-  return softening_response(law, point.normal, stretch, state.bond_damage[p], state.bond_slip[p], false);
+SofteningResponse<double> damaged_response(const SofteningLaw& law, const BondPoint& point,
+                                           const State& state, int p, const geom::Vec3& stretch) {
+  return softening_response<double>(law, triple(point.normal), triple(stretch), state.bond_damage[p],
+                                    triple(state.bond_slip[p]), false);
 }
 
 // Its law bears it now: it is no whole bond.
@@ -50,7 +51,7 @@ geom::Vec3 traction(const Model& model, const State& state, int p) {
                             gap, state.bond_offset[p])
         .traction;
   if (damaged(state, p))
-    return damaged_response(law_of(model, interface), point, state, p, stretch).traction;
+    return vec(damaged_response(law_of(model, interface), point, state, p, stretch).traction);
   return interface.kn * open * point.normal + interface.ks * (stretch - open * point.normal);
 }
 
@@ -84,8 +85,9 @@ double spring_energy(const Model& model, const State& state, int p) {
     return point.area * stored_in_spring(interface.kn, interface.ks, point.normal, traction(model, state, p));
   const SofteningLaw law = law_of(model, interface);
   const geom::Vec3 stretch = local_jump(model, state.displacement, p) - state.bond_offset[p];
-  return point.area * softening_stored(law, point.normal, stretch, state.bond_damage[p],
-                                       damaged_response(law, point, state, p, stretch).contact);
+  return point.area * softening_stored<double>(law, triple(point.normal), triple(stretch),
+                                               state.bond_damage[p],
+                                               damaged_response(law, point, state, p, stretch).contact);
 }
 
 double spring_energy(const Model& model, const State& state) {

@@ -27,7 +27,7 @@ geom::Vec3 vec(const std::array<double, 3>& a) {
   return {a[0], a[1], a[2]};
 }
 
-std::array<double, 3> triple(const geom::Vec3& v) {
+std::array<double, 3> three_of(const geom::Vec3& v) {
   return {v.x(), v.y(), v.z()};
 }
 

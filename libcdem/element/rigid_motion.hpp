@@ -13,7 +13,7 @@
 namespace cdem {
 
 geom::Vec3 vec(const std::array<double, 3>&);
-std::array<double, 3> triple(const geom::Vec3&);
+std::array<double, 3> three_of(const geom::Vec3&);
 
 geom::Mat3 rotation(const RigidState&);   // R
 geom::Mat3 turn(const geom::Vec3& angle); // exp of the cross product with a rotation vector, rad

@@ -18,9 +18,9 @@ void kick(const Model& model, const RigidBody& body, double mass, RigidState& mo
   const double viscous = material.viscosity / material.density; // 1/s
   geom::Vec3 l = cdem::vec(motion.angular_momentum);
   if (viscous == 0 && s.local_damping == 0) {
-    motion.velocity = triple(
+    motion.velocity = three_of(
         central_difference::velocity_after<geom::Vec3>(cdem::vec(motion.velocity), force, mass / s.kick));
-    motion.angular_momentum = triple(l + s.kick * torque); // kept to the last bit without a torque
+    motion.angular_momentum = three_of(l + s.kick * torque); // kept to the last bit without a torque
     return;
   }
   const auto kicked = [&](double before, double pull, double inertia) {
@@ -39,7 +39,7 @@ void kick(const Model& model, const RigidBody& body, double mass, RigidState& mo
     const double moment = body.principal[axis];
     l[axis] = moment * kicked(l[axis] / moment, about[axis], moment);
   }
-  motion.angular_momentum = triple(axes * l);
+  motion.angular_momentum = three_of(axes * l);
 }
 
 } // namespace
@@ -85,7 +85,7 @@ geom::Vec3 move_rigid(const Model& model, State& state, const ActingForces& acti
   if (const auto& held = acting.resolved.rigid[rigid]) {
     const double before =
         kinetic_energy(body, motion, s.kick - ahead) + 0.5 * carried * velocity_before.squaredNorm();
-    motion.velocity = triple(*held);
+    motion.velocity = three_of(*held);
     motion.angular_momentum = {};
     sums.reaction2 += force.squaredNorm();
     // The support gives what the contacts do not, and what the body moves with.
@@ -110,7 +110,7 @@ geom::Vec3 move_rigid(const Model& model, State& state, const ActingForces& acti
   }
 
   geom::Vec3 angle = s.time_step * turning;
-  motion.centroid = triple(cdem::vec(motion.centroid) + s.time_step * cdem::vec(motion.velocity));
+  motion.centroid = three_of(cdem::vec(motion.centroid) + s.time_step * cdem::vec(motion.velocity));
   turn_by(motion, angle);
   return angle;
 }

@@ -29,7 +29,8 @@ T shear_strength(const T& cohesion, const T& tan_friction, const T& normal) {
 }
 
 // What cohesion has to carry of a shear load, |t_s| + t_n tan(phi): at most c while the bond holds.
-inline double cohesive_load(double shear, double tan_friction, double normal) {
+template <class T>
+T cohesive_load(const T& shear, const T& tan_friction, const T& normal) {
   return shear + normal * tan_friction;
 }
 

@@ -31,25 +31,19 @@
 // separation takes
 //
 //   t_0.e_0 / 2 + S t_0.d / sqrt((d_n / w_I)^2 + (d_s / w_II)^2)
+//
+// The law is written once for one bond (T is double) and for several side by side (T is a vector of doubles).
 #pragma once
 
 #include "libcdem/joint/joint.hpp"
 #include "libcdem/joint/spring_law.hpp"
+#include "libcdem/parallel/exp.hpp"
+#include "libcdem/parallel/triple.hpp"
 #include "libgeom/core/portable.hpp"
 
 namespace cdem {
 
 constexpr double exponential_decay = 5; // a: the curve falls to 1/e in about a fifth of its length
-
-// s(xi), xi >= 0: what is left of the strength, 1 .. 0.
-inline double softening_curve(Softening curve, double xi) {
-  if (xi >= 1)
-    return 0;
-  if (curve == Softening::linear)
-    return 1 - xi;
-  const double end = geom::portable::exp(-exponential_decay);
-  return (geom::portable::exp(-exponential_decay * xi) - end) / (1 - end);
-}
 
 // Integral of s from 0 to 1.
 inline double softening_area(Softening curve) {
@@ -58,132 +52,196 @@ inline double softening_area(Softening curve) {
   return 1 / exponential_decay - 1 / (geom::portable::exp(exponential_decay) - 1);
 }
 
-struct SofteningLaw {
-  Softening curve = Softening::none;
-  double kn = 0, ks = 0; // Pa/m
-  SpringStrength strength;
-  double opening = 0; // w_I, m, from the strength to separation
-  double slip = 0;    // w_II, m
-
-  bool softens() const { return curve != Softening::none; }
+template <class T>
+struct SofteningLawOf {
+  simd::MaskOf<T> softens{}, exponential{}; // else linear
+  T kn{}, ks{};                             // Pa/m
+  T cohesion{}, tan_friction{}, tensile_strength{};
+  T opening{}; // w_I, m, from the strength to separation
+  T slip{};    // w_II, m
 };
+using SofteningLaw = SofteningLawOf<double>;
 
 enum class SofteningBegins : std::uint8_t { at_rest, at_strength };
 
-// The joint has passed validate(joint, kn, ks). tan_friction: of its friction angle.
-inline SofteningLaw softening_law(const Joint& joint, double tan_friction, double kn, double ks,
+// What a softening law takes from its joint.
+template <class T>
+struct SofteningJoint {
+  simd::MaskOf<T> softens{}, exponential{};
+  T cohesion{}, tan_friction{}, tensile_strength{};
+  T energy_1{}, energy_2{}, area{}; // G_I, G_II, J/m2, and S
+};
+
+// tan_friction: of the joint's friction angle.
+inline SofteningJoint<double> softening_values(const Joint& joint, double tan_friction) {
+  return {joint.softening != Softening::none,
+          joint.softening == Softening::exponential,
+          joint.cohesion,
+          tan_friction,
+          joint.tensile_strength,
+          joint.fracture_energy_1,
+          joint.fracture_energy_2,
+          softening_area(joint.softening)};
+}
+
+// w_I or w_II. At the least fracture energy the length is zero; a floor far below the elastic stretch keeps the quotients
+// finite.
+template <class T>
+CDEM_INLINE T softening_length(const T& energy, const T& strength, const T& k, const T& area,
+                               SofteningBegins begins) {
+  const T stretching = begins == SofteningBegins::at_rest ? strength * strength / (2.0 * k) : T{};
+  const T length = (energy - stretching) / (strength * area), least = 1e-9 * strength / k;
+  return length < least ? least : length;
+}
+
+template <class T>
+CDEM_INLINE SofteningLawOf<T> softening_law(const SofteningJoint<T>& joint, const T& kn, const T& ks,
+                                            SofteningBegins begins) {
+  const T none{};
+  const T opening = softening_length(joint.energy_1, joint.tensile_strength, kn, joint.area, begins),
+          slip = softening_length(joint.energy_2, joint.cohesion, ks, joint.area, begins);
+  return {joint.softens,
+          joint.exponential,
+          kn,
+          ks,
+          joint.cohesion,
+          joint.tan_friction,
+          joint.tensile_strength,
+          joint.softens ? opening : none,
+          joint.softens ? slip : none};
+}
+
+// The joint has passed validate(joint, kn, ks).
+inline SofteningLaw softening_law(const Joint& joint, double kn, double ks,
                                   SofteningBegins begins = SofteningBegins::at_rest) {
-  SofteningLaw law;
-  law.curve = joint.softening;
-  law.kn = kn;
-  law.ks = ks;
-  law.strength = {joint.cohesion, tan_friction, joint.tensile_strength};
-  if (!law.softens())
-    return law;
-  // At the least fracture energy the length is zero; a floor far below the elastic stretch keeps the
-  // quotients finite.
-  const auto length = [&](double energy, double strength, double k) {
-    const double stretching = begins == SofteningBegins::at_rest ? strength * strength / (2 * k) : 0;
-    return std::max((energy - stretching) / (strength * softening_area(law.curve)), 1e-9 * strength / k);
-  };
-  law.opening = length(joint.fracture_energy_1, joint.tensile_strength, kn);
-  law.slip = length(joint.fracture_energy_2, joint.cohesion, ks);
-  return law;
+  return softening_law(softening_values(joint, geom::portable::tan(joint.friction_angle)), kn, ks, begins);
 }
 
-inline SofteningLaw softening_law(const Joint& joint, double kn, double ks) {
-  return softening_law(joint, geom::portable::tan(joint.friction_angle), kn, ks);
+// s(xi), xi >= 0: what is left of the strength, 1 .. 0.
+template <class T>
+CDEM_INLINE T softening_curve(const simd::MaskOf<T>& exponential, const T& xi) {
+  const T none{}, one = none + 1.0;
+  const auto within = xi < one;
+  const T x = within ? xi : one;
+  T left = one - x;
+  if (simd::any(exponential)) {
+    const double end = geom::portable::exp(-exponential_decay);
+    const T curved = (exp_of<T>(-exponential_decay * x) - end) / (1 - end);
+    left = exponential ? curved : left;
+  }
+  return within ? left : none;
 }
 
+template <class T>
 struct DamageDrive {
-  double damage = 0;                // 1 - s(xi) / r, 0 inside the strength surface
-  BondMode mode = BondMode::intact; // which part of xi is the larger, where damage is 1
+  T damage{};              // 1 - s(xi) / r, 0 inside the strength surface
+  simd::MaskOf<T> opens{}; // opening is the larger part of xi
 };
 
 // open, shear: parts of the stretch, m.
-inline DamageDrive damage_drive(const SofteningLaw& law, double open, double shear) {
-  const double tn = law.kn * open;
-  const double r =
-      std::max(tn / law.strength.tensile_strength,
-               cohesive_load(law.ks * shear, law.strength.tan_friction, tn) / law.strength.cohesion);
-  if (!(r > 1))
+template <class T>
+CDEM_INLINE DamageDrive<T> damage_drive(const SofteningLawOf<T>& law, const T& open, const T& shear) {
+  const T none{}, one = none + 1.0;
+  const T tn = law.kn * open;
+  const T tension = tn / law.tensile_strength,
+          sliding = cohesive_load<T>(law.ks * shear, law.tan_friction, tn) / law.cohesion;
+  const T r = tension < sliding ? sliding : tension;
+  const auto beyond_strength = r > one;
+  if (!simd::any(beyond_strength))
     return {};
-  const double beyond = 1 - 1 / r;
-  const double held =
-      friction_limit(std::max(0.0, -tn), law.strength.tan_friction) / law.ks; // m, by friction alone
-  const double xi_n = std::max(0.0, open) * beyond / law.opening;
-  const double xi_s = std::max(0.0, shear - held) * beyond / law.slip;
-  const double left = softening_curve(law.curve, std::sqrt(xi_n * xi_n + xi_s * xi_s));
-  if (left > 0)
-    return {1 - left / r, BondMode::intact};
-  return {1, xi_n >= xi_s ? BondMode::broken_tension : BondMode::broken_shear};
+  const T at = beyond_strength ? r : one, beyond = one - one / at;
+  const T pressure = none < -tn ? -tn : none;
+  const T held = friction_limit<T>(pressure, law.tan_friction) / law.ks; // m, by friction alone
+  const T slid = shear - held;
+  const T xi_n = (none < open ? open : none) * beyond / law.opening;
+  const T xi_s = (none < slid ? slid : none) * beyond / law.slip;
+  const T left = softening_curve<T>(law.exponential, root(xi_n * xi_n + xi_s * xi_s));
+  const T damage = left > none ? one - left / at : one;
+  return {beyond_strength ? damage : none, xi_n >= xi_s};
 }
 
+template <class T>
 struct SofteningResponse {
-  geom::Vec3 traction = geom::Vec3::Zero(); // Pa
-  geom::Vec3 contact = geom::Vec3::Zero();  // Pa, t_c of the damaged part
-  geom::Vec3 slip = geom::Vec3::Zero(); // m, new slip of the damaged part; that of a whole bond means nothing
-  double damage = 0;
-  BondMode mode = BondMode::intact; // broken_* when this step separated the bond
+  Triple<T> traction{}; // Pa
+  Triple<T> contact{};  // Pa, t_c of the damaged part
+  Triple<T> slip{};     // m, new slip of the damaged part; that of a whole bond means nothing
+  T damage{};
+  simd::MaskOf<T> separated{}, opens{}; // by this step, and by opening rather than by slip
 };
 
+inline BondMode mode_of(const SofteningResponse<double>& r) {
+  return !r.separated ? BondMode::intact : r.opens ? BondMode::broken_tension : BondMode::broken_shear;
+}
+
 // damage, slip: before. grows: damage may advance.
-inline SofteningResponse softening_response(const SofteningLaw& law, const geom::Vec3& normal,
-                                            const geom::Vec3& stretch, double damage, const geom::Vec3& slip,
-                                            bool grows) {
-  const double open = stretch.dot(normal);
-  const geom::Vec3 shear = stretch - open * normal;
-  SofteningResponse r;
+template <class T>
+CDEM_INLINE SofteningResponse<T> softening_response(const SofteningLawOf<T>& law, const Triple<T>& normal,
+                                                    const Triple<T>& stretch, const T& damage,
+                                                    const Triple<T>& slip, const simd::MaskOf<T>& grows) {
+  const T one = T{} + 1.0;
+  const T open = dot(stretch, normal);
+  const Triple<T> shear = stretch - open * normal;
+  SofteningResponse<T> r;
   r.damage = damage;
-  if (grows) {
-    const DamageDrive drive = damage_drive(law, open, shear.norm());
-    r.damage = std::max(damage, drive.damage);
-    r.mode = drive.mode;
+  if (simd::any(grows)) {
+    const DamageDrive<T> drive = damage_drive<T>(law, open, root(dot(shear, shear)));
+    r.damage = grows ? (damage < drive.damage ? drive.damage : damage) : damage;
+    r.separated = grows & (drive.damage >= one);
+    r.opens = drive.opens;
   }
-  const SpringResponse contact =
-      contact_response(law.kn, law.ks, law.strength.tan_friction, normal, stretch, slip);
+  const SpringResponseOf<T> contact =
+      contact_response<T>(law.kn, law.ks, law.tan_friction, normal, stretch, slip);
   r.contact = contact.traction;
   r.slip = contact.offset;
-  r.traction = (1 - r.damage) * (law.kn * open * normal + law.ks * shear) + r.damage * contact.traction;
+  const Triple<T> bonded = (law.kn * open) * normal + law.ks * shear;
+  r.traction = (one - r.damage) * bonded + r.damage * contact.traction;
   return r;
 }
 
 // J/m2; contact: t_c.
-inline double softening_stored(const SofteningLaw& law, const geom::Vec3& normal, const geom::Vec3& stretch,
-                               double damage, const geom::Vec3& contact) {
-  const double open = stretch.dot(normal), contact_normal = contact.dot(normal);
-  const double bonded = law.kn * open * open + law.ks * (stretch.squaredNorm() - open * open);
-  const double rubbing = contact_normal * contact_normal / law.kn +
-                         (contact.squaredNorm() - contact_normal * contact_normal) / law.ks;
-  return 0.5 * ((1 - damage) * bonded + damage * rubbing);
+template <class T>
+CDEM_INLINE T softening_stored(const SofteningLawOf<T>& law, const Triple<T>& normal,
+                               const Triple<T>& stretch, const T& damage, const Triple<T>& contact) {
+  const T open = dot(stretch, normal), contact_normal = dot(contact, normal);
+  const T bonded = law.kn * open * open + law.ks * (dot(stretch, stretch) - open * open);
+  const T rubbing = contact_normal * contact_normal / law.kn +
+                    (dot(contact, contact) - contact_normal * contact_normal) / law.ks;
+  return 0.5 * ((1.0 - damage) * bonded + damage * rubbing);
 }
 
+template <class T>
 struct SofteningLoss {
-  double friction = 0, breaking = 0; // J/m2
+  T friction{}, breaking{}; // J/m2
 };
 
 // Part of what damage takes at this stretch that shear has, by kn <e_n>^2 : ks |e_s|^2; 1 where it is closed.
-inline double shear_share(const SofteningLaw& law, const geom::Vec3& normal, const geom::Vec3& stretch) {
-  const double open = stretch.dot(normal);
-  if (!(open > 0))
-    return 1;
-  const double opening = law.kn * open * open, slip = law.ks * (stretch - open * normal).squaredNorm();
-  return opening + slip > 0 ? slip / (opening + slip) : 0;
+template <class T>
+CDEM_INLINE T shear_share(const SofteningLawOf<T>& law, const Triple<T>& normal, const Triple<T>& stretch) {
+  const T none{}, one = none + 1.0;
+  const T open = dot(stretch, normal);
+  const Triple<T> shear = stretch - open * normal;
+  const T opening = law.kn * open * open, slip = law.ks * dot(shear, shear), both = opening + slip;
+  const auto some = both > none;
+  const T share = some ? slip / (some ? both : one) : none;
+  return open > none ? share : one;
 }
 
 // What a step from stretch0 (with damage0 and slip0) to stretch1 lost: work by the trapezoidal rule less the
 // change of what is stored. Friction is the work of t_c over the growth of D slip, the spring's whole
 // inelastic slip (closed, t_s = ks (e_s - D slip)); the rest, dD (kn <e_n>^2 + ks slip^2) / 2, is what the
 // damage took.
-inline SofteningLoss softening_loss(const SofteningLaw& law, const geom::Vec3& normal,
-                                    const geom::Vec3& stretch0, double damage0, const geom::Vec3& slip0,
-                                    const geom::Vec3& stretch1, const SofteningResponse& now) {
-  const SofteningResponse before = softening_response(law, normal, stretch0, damage0, slip0, false);
-  SofteningLoss loss;
-  const double work = 0.5 * (before.traction + now.traction).dot(stretch1 - stretch0);
-  const double stored = softening_stored(law, normal, stretch1, now.damage, now.contact) -
-                        softening_stored(law, normal, stretch0, damage0, before.contact);
-  loss.friction = 0.5 * (before.contact + now.contact).dot(now.damage * now.slip - damage0 * before.slip);
+template <class T>
+CDEM_INLINE SofteningLoss<T> softening_loss(const SofteningLawOf<T>& law, const Triple<T>& normal,
+                                            const Triple<T>& stretch0, const T& damage0,
+                                            const Triple<T>& slip0, const Triple<T>& stretch1,
+                                            const SofteningResponse<T>& now) {
+  const simd::MaskOf<T> never{};
+  const SofteningResponse<T> before = softening_response<T>(law, normal, stretch0, damage0, slip0, never);
+  const T work = 0.5 * dot(before.traction + now.traction, stretch1 - stretch0);
+  const T stored = softening_stored<T>(law, normal, stretch1, now.damage, now.contact) -
+                   softening_stored<T>(law, normal, stretch0, damage0, before.contact);
+  SofteningLoss<T> loss;
+  loss.friction = 0.5 * dot(before.contact + now.contact, now.damage * now.slip - damage0 * before.slip);
   loss.breaking = work - stored - loss.friction;
   return loss;
 }

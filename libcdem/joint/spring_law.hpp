@@ -11,6 +11,7 @@
 
 #include "libcdem/joint/coulomb_friction.hpp"
 #include "libcdem/joint/mohr_coulomb.hpp"
+#include "libcdem/parallel/triple.hpp"
 #include "libgeom/core/types.hpp"
 
 #include <algorithm>
@@ -33,18 +34,33 @@ HeldByContact<T> held_by_contact(const T& kn, const T& ks, const T& tan_friction
   return {open > none ? none : all, open > none ? none : held};
 }
 
+template <class T>
+struct SpringResponseOf {
+  Triple<T> traction{}; // Pa, pulls a towards b when along the normal
+  Triple<T> offset{};   // m, new o
+};
+
+template <class T>
+CDEM_INLINE SpringResponseOf<T> contact_response(const T& kn, const T& ks, const T& tan_friction,
+                                                 const Triple<T>& normal, const Triple<T>& jump,
+                                                 const Triple<T>& offset) {
+  const Triple<T> stretch = jump - offset;
+  const T open = dot(stretch, normal);
+  const Triple<T> shear = stretch - open * normal;
+  const HeldByContact<T> held = held_by_contact<T>(kn, ks, tan_friction, open, root(dot(shear, shear)));
+  return {(held.normal * kn * open) * normal + (held.shear * ks) * shear,
+          offset + (1.0 - held.shear) * shear};
+}
+
 struct SpringResponse {
-  geom::Vec3 traction = geom::Vec3::Zero(); // Pa, pulls a towards b when along the normal
-  geom::Vec3 offset = geom::Vec3::Zero();   // m, new o
+  geom::Vec3 traction, offset; // as above
 };
 
 inline SpringResponse contact_response(double kn, double ks, double tan_friction, const geom::Vec3& normal,
                                        const geom::Vec3& jump, const geom::Vec3& offset) {
-  const geom::Vec3 stretch = jump - offset;
-  const double open = stretch.dot(normal);
-  const geom::Vec3 shear = stretch - open * normal;
-  const HeldByContact<double> held = held_by_contact(kn, ks, tan_friction, open, shear.norm());
-  return {held.normal * kn * open * normal + held.shear * ks * shear, offset + (1 - held.shear) * shear};
+  const SpringResponseOf<double> r =
+      contact_response<double>(kn, ks, tan_friction, triple(normal), triple(jump), triple(offset));
+  return {vec(r.traction), vec(r.offset)};
 }
 
 // J/m2, that a spring of these stiffnesses stores under a traction.

@@ -10,7 +10,44 @@
 
 namespace cdem {
 
+// Three numbers of any type, `double` or several side by side: what is written with them is written once for both.
+template <class T>
+struct Triple {
+  T x, y, z;
+};
+
+template <class T>
+CDEM_INLINE T dot(const Triple<T>& a, const Triple<T>& b) {
+  return a.x * b.x + a.y * b.y + a.z * b.z;
+}
+
+template <class T>
+CDEM_INLINE Triple<T> cross(const Triple<T>& a, const Triple<T>& b) {
+  return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+
+template <class T>
+CDEM_INLINE Triple<T> minus(const Triple<T>& a, const Triple<T>& b) {
+  return {a.x - b.x, a.y - b.y, a.z - b.z};
+}
+
+template <class T>
+CDEM_INLINE Triple<T> plus(const Triple<T>& a, const Triple<T>& b) {
+  return {a.x + b.x, a.y + b.y, a.z + b.z};
+}
+
+template <class T>
+CDEM_INLINE Triple<T> scaled(const T& s, const Triple<T>& a) {
+  return {s * a.x, s * a.y, s * a.z};
+}
+
 namespace simd {
+
+using cdem::cross;
+using cdem::dot;
+using cdem::minus;
+using cdem::plus;
+using cdem::scaled;
 
 using Quad = double __attribute__((vector_size(32)));
 using Oct = double __attribute__((vector_size(64)));
@@ -74,6 +111,11 @@ CDEM_INLINE void set_part(Oct& v, const V& part) {
     v = __builtin_shufflevector(__builtin_shufflevector(v, v, 0, 1, 2, 3), part, 0, 1, 2, 3, 4, 5, 6, 7);
 }
 
+// Of one number, for what is written for one and for several.
+CDEM_INLINE bool any(bool one) {
+  return one;
+}
+
 CDEM_INLINE bool any(const MaskOf<Quad>& four) {
   return (four[0] | four[1] | four[2] | four[3]) != 0;
 }
@@ -128,35 +170,8 @@ CDEM_INLINE unsigned bits_of(const M& mask) {
 }
 
 template <class V>
-struct VecOf {
-  V x, y, z;
-};
+using VecOf = Triple<V>;
 using Vec = VecOf<Oct>;
-
-template <class V>
-CDEM_INLINE VecOf<V> minus(const VecOf<V>& a, const VecOf<V>& b) {
-  return {a.x - b.x, a.y - b.y, a.z - b.z};
-}
-
-template <class V>
-CDEM_INLINE VecOf<V> plus(const VecOf<V>& a, const VecOf<V>& b) {
-  return {a.x + b.x, a.y + b.y, a.z + b.z};
-}
-
-template <class V>
-CDEM_INLINE VecOf<V> cross(const VecOf<V>& a, const VecOf<V>& b) {
-  return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
-}
-
-template <class V>
-CDEM_INLINE V dot(const VecOf<V>& a, const VecOf<V>& b) {
-  return a.x * b.x + a.y * b.y + a.z * b.z;
-}
-
-template <class V>
-CDEM_INLINE VecOf<V> scaled(const V& s, const VecOf<V>& a) {
-  return {s * a.x, s * a.y, s * a.z};
-}
 
 // A hint only: `first` may lie beyond the end of its array.
 CDEM_INLINE void prefetch(const void* first, std::size_t bytes) {

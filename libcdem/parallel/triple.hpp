@@ -1,16 +1,12 @@
-// Three numbers of any type, `double` or several side by side: laws of vectors written once for both.
+// Laws of vectors, written once for `double` and for several numbers side by side.
 #pragma once
 
 #include "libcdem/parallel/simd.hpp"
+#include "libgeom/core/types.hpp"
 
 #include <cmath>
 
 namespace cdem {
-
-template <class T>
-struct Triple {
-  T x, y, z;
-};
 
 template <class T>
 CDEM_INLINE Triple<T> operator+(const Triple<T>& a, const Triple<T>& b) {
@@ -27,16 +23,6 @@ CDEM_INLINE Triple<T> operator*(const T& s, const Triple<T>& a) {
   return {s * a.x, s * a.y, s * a.z};
 }
 
-template <class T>
-CDEM_INLINE T dot(const Triple<T>& a, const Triple<T>& b) {
-  return a.x * b.x + a.y * b.y + a.z * b.z;
-}
-
-template <class T>
-CDEM_INLINE Triple<T> cross(const Triple<T>& a, const Triple<T>& b) {
-  return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
-}
-
 CDEM_INLINE double root(double a) {
   return std::sqrt(a);
 }
@@ -48,6 +34,11 @@ CDEM_INLINE V root(const V& a) {
   for (int lane = 0; lane < simd::width<V>; ++lane)
     r[lane] = __builtin_sqrt(a[lane]);
   return r;
+}
+
+template <class Mask, class T>
+CDEM_INLINE Triple<T> chosen(const Mask& first, const Triple<T>& a, const Triple<T>& b) {
+  return {first ? a.x : b.x, first ? a.y : b.y, first ? a.z : b.z};
 }
 
 template <class T>

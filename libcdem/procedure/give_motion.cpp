@@ -67,8 +67,8 @@ double give_motion(const Model& model, State& state, const std::vector<int>& nod
       RigidState& motion = state.rigid[model.blocks[body.block].rigid];
       gained -= kinetic_energy(body, motion, state.velocity_lag);
       const geom::Mat3 axes = back * rotation(motion);
-      motion.velocity = triple(velocity_at(vec(motion.centroid)));
-      motion.angular_momentum = triple(axes * (body.inertia * (axes.transpose() * w)));
+      motion.velocity = three_of(velocity_at(vec(motion.centroid)));
+      motion.angular_momentum = three_of(axes * (body.inertia * (axes.transpose() * w)));
       gained += kinetic_energy(body, motion, state.velocity_lag);
     }
   for (const int i : nodes) {

@@ -28,10 +28,10 @@ RigidState motion_of(const Model& model, const State& state, const RigidShape& s
     angular += model.node_mass[i] * (model.node_position[i] + vec(state.displacement[i]) - shape.centroid)
                                         .cross(vec(state.velocity[i]) - velocity);
   RigidState motion;
-  motion.centroid = triple(shape.centroid);
-  motion.velocity = triple(velocity);
+  motion.centroid = three_of(shape.centroid);
+  motion.velocity = three_of(velocity);
   // The spin is kept, that of the masses at the nodes; the solid's moment of inertia is smaller.
-  motion.angular_momentum = triple(shape.body.inertia * shape.nodal_inertia.inverse() * angular);
+  motion.angular_momentum = three_of(shape.body.inertia * shape.nodal_inertia.inverse() * angular);
   return motion;
 }
 

@@ -1,5 +1,7 @@
 #include "libgeom/core/portable.hpp"
 
+#include "libgeom/core/exp_series.hpp"
+
 #include <cmath>
 #include <limits>
 
@@ -70,14 +72,8 @@ double exp(double x) {
     return x == x ? 0 : x;
   if (x > 709.8)
     return std::numeric_limits<double>::infinity();
-  // x = k ln 2 + r, ln 2 in two parts: k times the first is exact.
-  constexpr double ln2_1 = 0x1.62e42fee00000p-1, ln2_2 = 0x1.a39ef35793c76p-33;
-  constexpr double c[] = {1 / 2.,         1 / 6.,          1 / 24.,         1 / 120.,     1 / 720.,
-                          1 / 5040.,      1 / 40320.,      1 / 362880.,     1 / 3628800., 1 / 39916800.,
-                          1 / 479001600., 1 / 6227020800., 1 / 87178291200.};
-  const double k = std::nearbyint(x / 0x1.62e42fefa39efp-1);
-  const double r1 = x - k * ln2_1, r2 = k * ln2_2, r = r1 - r2;
-  return std::ldexp(1 + (r + (((r1 - r) - r2) + r * r * polynomial(c, r))), static_cast<int>(k));
+  const double k = std::nearbyint(x / ln2);
+  return std::ldexp(exp_over_power(x, k), static_cast<int>(k));
 }
 
 // ln(x) for x > 0 from ln((1 + s) / (1 - s)) = 2 (s + s^3/3 + ...).

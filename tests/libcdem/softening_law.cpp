@@ -26,9 +26,11 @@ struct Walker {
   explicit Walker(const SofteningLaw& l) : law(l) {}
 
   void step(const Vec3& to) {
-    const SofteningResponse r = softening_response(law, across, to, damage, slip, mode == BondMode::intact);
-    const SofteningLoss loss = softening_loss(law, across, stretch, damage, slip, to, r);
-    work += 0.5 * (traction + r.traction).dot(to - stretch);
+    const SofteningResponse<double> r = softening_response<double>(law, triple(across), triple(to), damage,
+                                                                   triple(slip), mode == BondMode::intact);
+    const SofteningLoss<double> loss =
+        softening_loss<double>(law, triple(across), triple(stretch), damage, triple(slip), triple(to), r);
+    work += 0.5 * (traction + vec(r.traction)).dot(to - stretch);
     friction += loss.friction;
     breaking += loss.breaking;
     // A step in which the bond opens or closes has its kink between the points of the trapezoidal rule.
@@ -36,11 +38,11 @@ struct Walker {
     least_breaking = std::min(least_breaking, loss.breaking + kink);
     damage = r.damage;
     if (damage > 0)
-      slip = r.slip;
-    if (r.mode != BondMode::intact)
-      mode = r.mode;
-    traction = r.traction;
-    contact = r.contact;
+      slip = vec(r.slip);
+    if (r.separated)
+      mode = mode_of(r);
+    traction = vec(r.traction);
+    contact = vec(r.contact);
     peak_shear = std::max(peak_shear, (traction - traction.dot(across) * across).norm());
     stretch = to;
   }
@@ -51,7 +53,9 @@ struct Walker {
       step(from + (to - from) * i / steps);
   }
 
-  double stored() const { return softening_stored(law, across, stretch, damage, contact); }
+  double stored() const {
+    return softening_stored<double>(law, triple(across), triple(stretch), damage, triple(contact));
+  }
 };
 
 Softening any_curve() {
@@ -220,8 +224,87 @@ TEST_CASE("the strength surface of a softening bond is that of a brittle one") {
   const SofteningLaw law = softening_law(j, 1e12, 4e11);
   for (int i = 0; i < 2000; ++i) {
     const double tn = -8e6 + 1e7 * geom::uniform(7, i, 0), ts = 8e6 * geom::uniform(7, i, 1);
-    const bool brittle = breaks(law.strength, tn, ts) != BondMode::intact;
-    CHECK((damage_drive(law, tn / law.kn, ts / law.ks).damage > 0) == brittle);
+    const bool brittle =
+        breaks({law.cohesion, law.tan_friction, law.tensile_strength}, tn, ts) != BondMode::intact;
+    CHECK((damage_drive<double>(law, tn / law.kn, ts / law.ks).damage > 0) == brittle);
+  }
+}
+
+TEST_CASE("the law is the same for one bond and for several side by side, to the last bit") {
+  using cdem::simd::Quad;
+  SofteningLawOf<Quad> laws;
+  std::array<SofteningLaw, 4> single;
+  for (int lane = 0; lane < 4; ++lane) {
+    Joint j = softening_joint(lane % 2 == 0 ? Softening::linear : Softening::exponential);
+    j.friction_angle = 0.15 * (lane + 1);
+    const SofteningLaw& law = single[lane] = softening_law(j, 1e12 * (lane + 1), 4e11);
+    laws.softens[lane] = -1;
+    laws.exponential[lane] = law.exponential ? -1 : 0;
+    laws.kn[lane] = law.kn;
+    laws.ks[lane] = law.ks;
+    laws.cohesion[lane] = law.cohesion;
+    laws.tan_friction[lane] = law.tan_friction;
+    laws.tensile_strength[lane] = law.tensile_strength;
+    laws.opening[lane] = law.opening;
+    laws.slip[lane] = law.slip;
+  }
+  const auto lane_of = [](const Triple<Quad>& v, int lane) { return Vec3(v.x[lane], v.y[lane], v.z[lane]); };
+  int grew = 0, separated = 0, closed = 0;
+  for (int i = 0; i < 5000; ++i) {
+    const auto draw = [&](int k) { return 2 * geom::uniform(11, i, k) - 1; };
+    Triple<Quad> normal, from, to, slip;
+    Quad damage;
+    for (int lane = 0; lane < 4; ++lane) {
+      const Vec3 n = Vec3(draw(20 * lane), draw(20 * lane + 1), 1.5).normalized();
+      const double scale = single[lane].opening * std::pow(10.0, 2 * draw(20 * lane + 2) - 1);
+      const auto set_lane = [&](Triple<Quad>& v, const Vec3& x) {
+        v.x[lane] = x.x();
+        v.y[lane] = x.y();
+        v.z[lane] = x.z();
+      };
+      const auto drawn = [&](int k) {
+        return Vec3(scale * Vec3(draw(20 * lane + k), draw(20 * lane + k + 1), draw(20 * lane + k + 2)));
+      };
+      set_lane(normal, n);
+      set_lane(from, drawn(3));
+      set_lane(to, drawn(6));
+      set_lane(slip, drawn(9));
+      damage[lane] = std::max(0.0, draw(20 * lane + 12));
+    }
+    const simd::MaskOf<Quad> grows = simd::MaskOf<Quad>{} - 1;
+    const auto r = softening_response<Quad>(laws, normal, to, damage, slip, grows);
+    const auto lost = softening_loss<Quad>(laws, normal, from, damage, slip, to, r);
+    const Quad share = shear_share<Quad>(laws, normal, to);
+    for (int lane = 0; lane < 4; ++lane) {
+      const Triple<double> n = triple(lane_of(normal, lane)), x = triple(lane_of(to, lane)),
+                           x0 = triple(lane_of(from, lane)), s = triple(lane_of(slip, lane));
+      const auto one = softening_response<double>(single[lane], n, x, damage[lane], s, true);
+      const auto loss = softening_loss<double>(single[lane], n, x0, damage[lane], s, x, one);
+      CHECK(lane_of(r.traction, lane) == vec(one.traction));
+      CHECK(lane_of(r.slip, lane) == vec(one.slip));
+      CHECK(r.damage[lane] == one.damage);
+      CHECK((r.separated[lane] != 0) == one.separated);
+      CHECK(lost.friction[lane] == loss.friction);
+      CHECK(lost.breaking[lane] == loss.breaking);
+      CHECK(share[lane] == shear_share<double>(single[lane], n, x));
+      grew += one.damage > damage[lane] ? 1 : 0;
+      separated += one.separated ? 1 : 0;
+      closed += dot(x, n) < 0 ? 1 : 0;
+    }
+  }
+  CHECK(grew > 1000);
+  CHECK(separated > 100);
+  CHECK(closed > 1000);
+}
+
+TEST_CASE("exp of several numbers has the bits of exp of one") {
+  for (int i = 0; i < 4000; ++i) {
+    simd::Oct x;
+    for (int lane = 0; lane < lanes; ++lane)
+      x[lane] = (i % 2 == 0 ? 5 : 600) * (2 * geom::uniform(3, i, lane) - 1);
+    const simd::Oct y = exp_of(x);
+    for (int lane = 0; lane < lanes; ++lane)
+      CHECK(y[lane] == geom::portable::exp(x[lane]));
   }
 }
 
@@ -263,5 +346,5 @@ TEST_CASE("a bond is brittle unless softening is asked for") {
   j.cohesion = 2e6;
   j.tensile_strength = 1e6;
   CHECK_NOTHROW(validate(j));
-  CHECK_FALSE(softening_law(j, 1e12, 4e11).softens());
+  CHECK_FALSE(softening_law(j, 1e12, 4e11).softens);
 }

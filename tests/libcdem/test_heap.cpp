@@ -178,7 +178,7 @@ TEST_CASE("a heap that strikes a tilted floor: pairs that are skipped change no 
   c.push = [](System& s) {
     for (std::size_t i = 0; i < s.model.rigid.size(); ++i)
       if (const int block = s.model.rigid[i].block; s.model.bodies[s.model.blocks[block].body].name == "heap")
-        s.state.rigid[i].velocity = cdem::triple(4 * centroid(s, block) + Vec3(0, 0, -8));
+        s.state.rigid[i].velocity = cdem::three_of(4 * centroid(s, block) + Vec3(0, 0, -8));
   };
   require_same_bits(c, 5);
 }

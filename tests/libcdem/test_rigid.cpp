@@ -52,7 +52,7 @@ Vec3 body_spin(const System& s) {
 
 void set_spin(System& s, const Vec3& principal) {
   const cdem::RigidBody& body = s.model.rigid[0];
-  s.state.rigid[0].angular_momentum = cdem::triple(rotation_of(s) * body.inertia * body.axes * principal);
+  s.state.rigid[0].angular_momentum = cdem::three_of(rotation_of(s) * body.inertia * body.axes * principal);
   cdem::place_nodes(s.model, s.state, 0);
 }
 
@@ -94,7 +94,7 @@ TEST_CASE("a rigid body falls g t^2 / 2 exactly, turning or not", "[rigid][run]"
   System s = one_box();
   const Vec3 g(0.3, -0.5, -9.81), v0(1, 2, 3);
   s.conditions.gravity = cdem::Gravity{g, 0, {}};
-  s.state.rigid[0].velocity = cdem::triple(v0);
+  s.state.rigid[0].velocity = cdem::three_of(v0);
   set_spin(s, GENERATE(Vec3(0, 0, 0), Vec3(3, 1, 2)));
   s.run(steps_of(1e-3, 1));
   s.run(steps_of(2e-3, 499));

@@ -1,0 +1,349 @@
+#include "libcdem/bond/cracking_faces.hpp"
+
+#include "libcdem/bond/cohesive_faces.hpp"
+#include "libcdem/bond/cohesive_law.hpp"
+#include "libcdem/bond/sliding_faces.hpp"
+
+#include <algorithm>
+
+namespace cdem {
+namespace {
+
+using simd::MaskOf;
+using simd::width;
+
+// The faces that are computed together; lanes from `count` on repeat the last face, and what they give is dropped.
+template <class V>
+struct Group {
+  int count = 0;
+  int face[width<V>], a[3][width<V>], b[3][width<V>]; // and its nodes' places
+  V area, k;                                          // m2, a third of a face; Pa/m
+};
+
+template <class V>
+CDEM_INLINE Group<V> group_of(const CohesiveChunk& chunk, const int* faces, int count) {
+  Group<V> g;
+  g.count = std::min(count, width<V>);
+  V kn;
+  for (int lane = 0; lane < width<V>; ++lane) {
+    const int face = g.face[lane] = faces[std::min(lane, g.count - 1)];
+    const FaceBatch& batch = chunk.batches[face / lanes];
+    for (int corner = 0; corner < 3; ++corner) {
+      g.a[corner][lane] = batch.place_a[corner][face % lanes];
+      g.b[corner][lane] = batch.place_b[corner][face % lanes];
+    }
+    g.area[lane] = batch.area[face % lanes];
+    kn[lane] = batch.kn[face % lanes];
+  }
+  g.k = kn / g.area;
+  return g;
+}
+
+// Faces at one moment.
+template <class V>
+struct Stand {
+  FramesOfFaces<V> frame;
+  Triple<V> gap[3]; // m, at the points, in the axes of each face
+
+  CDEM_INLINE Triple<V> in_space(const Triple<V>& v) const {
+    return v.x * frame.along + v.y * frame.across + v.z * frame.normal;
+  }
+};
+
+// Now, and as long ago as the last step lasted.
+template <class V>
+struct Stands {
+  Stand<V> now, before;
+};
+
+template <class V>
+CDEM_INLINE Stand<V> stand_of(const Triple<V> (&x)[3], const Triple<V> (&d)[3]) {
+  Stand<V> s;
+  s.frame = frames_of_faces<V>(x, d);
+  const V half = V{} + 0.5, sixth = V{} + 1.0 / 6;
+  const Triple<V> common = sixth * (d[0] + d[1] + d[2]);
+  for (int point = 0; point < 3; ++point) {
+    const Triple<V> gap = common + half * d[point];
+    s.gap[point] = {dot(gap, s.frame.along), dot(gap, s.frame.across), dot(gap, s.frame.normal)};
+  }
+  return s;
+}
+
+template <class V, bool with_before>
+CDEM_INLINE Stands<V> stands_of(const Group<V>& g, const FaceMotion& motion) {
+  Triple<V> x[3], d[3];
+  for (int corner = 0; corner < 3; ++corner) {
+    x[corner] = simd::gather_wide<V>(motion.position, g.a[corner]);
+    d[corner] = simd::gather_wide<V>(motion.displacement, g.b[corner]) -
+                simd::gather_wide<V>(motion.displacement, g.a[corner]);
+  }
+  Stands<V> s;
+  s.now = stand_of<V>(x, d);
+  if constexpr (with_before) {
+    const V step = V{} + motion.step;
+    for (int corner = 0; corner < 3; ++corner) {
+      const Triple<V> va = simd::gather_wide<V>(motion.velocity, g.a[corner]),
+                      vb = simd::gather_wide<V>(motion.velocity, g.b[corner]);
+      x[corner] = x[corner] - step * va;
+      d[corner] = d[corner] - step * (vb - va);
+    }
+    s.before = stand_of<V>(x, d);
+  }
+  return s;
+}
+
+// What the points of faces pull with (N, in space), shared out to their corners, face by face.
+template <class V>
+CDEM_INLINE void share(const Group<V>& g, const Triple<V> (&pull)[3], Node* force) {
+  const V half = V{} + 0.5, sixth = V{} + 1.0 / 6;
+  const Triple<V> common = sixth * (pull[0] + pull[1] + pull[2]);
+  Triple<V> at[3];
+  for (int corner = 0; corner < 3; ++corner)
+    at[corner] = common + half * pull[corner];
+  for (int lane = 0; lane < g.count; ++lane)
+    for (int corner = 0; corner < 3; ++corner) {
+      const simd::Quad f = {at[corner].x[lane], at[corner].y[lane], at[corner].z[lane], 0};
+      Node &a = force[g.a[corner][lane]], &b = force[g.b[corner][lane]];
+      simd::store(a, simd::load(a) + f);
+      simd::store(b, simd::load(b) - f);
+    }
+}
+
+template <class V>
+CDEM_INLINE MaskOf<V> everywhere(bool value) {
+  return MaskOf<V>{} - static_cast<std::int64_t>(value);
+}
+
+template <class V>
+CDEM_INLINE SofteningLawOf<V> laws_of(const CohesiveChunk& chunk, const Group<V>& g) {
+  SofteningJoint<V> joint;
+  const auto set_lane = [&](int lane, const SofteningJoint<double>& one) __attribute__((always_inline)) {
+    joint.softens[lane] = -static_cast<std::int64_t>(one.softens);
+    joint.exponential[lane] = -static_cast<std::int64_t>(one.exponential);
+    joint.cohesion[lane] = one.cohesion;
+    joint.tan_friction[lane] = one.tan_friction;
+    joint.tensile_strength[lane] = one.tensile_strength;
+    joint.energy_1[lane] = one.energy_1;
+    joint.energy_2[lane] = one.energy_2;
+    joint.area[lane] = one.area;
+  };
+  if (chunk.joints.alike()) {
+    Joint room;
+    const SofteningJoint<double> one = softening_values(chunk.joints.of(0, room), chunk.tan_friction);
+    for (int lane = 0; lane < width<V>; ++lane)
+      set_lane(lane, one);
+  } else {
+    for (int lane = 0; lane < width<V>; ++lane) {
+      Joint room;
+      const Joint& own = chunk.joints.of(g.face[lane], room);
+      set_lane(lane, softening_values(own, chunk.joints.tan_friction(g.face[lane], chunk.tan_friction)));
+    }
+  }
+  return softening_law<V>(joint, g.k, g.k, SofteningBegins::at_strength);
+}
+
+// What happens seldom, to one face: its springs act for the last time.
+class EndOfFace {
+public:
+  EndOfFace(const CohesiveChunk& chunk, int face)
+      : chunk_(chunk), batch_(chunk.batches[face / lanes]), lane_(face % lanes), face_(face),
+        state_(chunk.state[face / lanes]), cohesive_(chunk.cohesive[face]),
+        now_(face_frame(batch_, lane_, chunk.motion, 0)) {}
+
+  bool gone() const { return is_gone(now_, std::sqrt(3 * batch_.area[lane_])); }
+
+  // J, what it lets go of, less the half step of work that its pull would have done. pull: N, at its points.
+  void part(const geom::Vec3 (&pull)[3]) {
+    const FaceFrame before = face_frame(batch_, lane_, chunk_.motion, chunk_.motion.step);
+    chunk_.sums.breaking += stored();
+    for (int point = 0; point < 3; ++point)
+      chunk_.sums.breaking -= 0.5 * pull[point].dot(now_.gap[point] - before.gap[point]);
+    state_.stage[lane_] = FaceStage::parted;
+  }
+
+  void hand_over(const geom::Vec3 (&pull)[3]) {
+    chunk_.sums.left.push_back({face_, at_corners(pull), batch_.kn[lane_], stored()});
+    state_.stage[lane_] = FaceStage::parted;
+    set_hand_over(state_, lane_, HandOver::done);
+  }
+
+  void leave() {
+    set_hand_over(state_, lane_, HandOver::leaving);
+    chunk_.sums.hands_over = true;
+  }
+
+  bool leaves_now() const { return leaves(state_, lane_); }
+
+private:
+  double stored() const { // J
+    Joint room;
+    double energy = 0;
+    for (int point = 0; point < 3; ++point)
+      energy += cohesive_spring(batch_, lane_, now_, point, chunk_.joints.of(face_, room), state_, cohesive_)
+                    .energy;
+    return energy;
+  }
+
+  const CohesiveChunk& chunk_;
+  const FaceBatch& batch_;
+  int lane_, face_;
+  FaceStateBatch& state_;
+  CohesiveFace& cohesive_;
+  FaceFrame now_;
+};
+
+CDEM_INLINE int first_of(unsigned bits) {
+  return __builtin_ctz(bits);
+}
+
+template <class V>
+CDEM_INLINE geom::Vec3 lane_of(const Triple<V>& v, int lane) {
+  return {v.x[lane], v.y[lane], v.z[lane]};
+}
+
+// A point that has lost its strength in this step. began: Pa, across m, what it began with.
+void tell_broken(const CohesiveChunk& chunk, int face, int point, const geom::Vec3& m_in_space,
+                 const geom::Vec3& m, const geom::Vec3& began, BondMode how) {
+  std::uint8_t& mode = chunk.state[face / lanes].mode[point][face % lanes];
+  if (!is_intact(mode))
+    return;
+  mode = static_cast<std::uint8_t>(how);
+  const std::int64_t spring = (std::int64_t{face / lanes} * 3 + point) * lanes + face % lanes;
+  chunk.sums.broken.push_back(
+      {spring, how, m_in_space, began.dot(m), (began - began.dot(m) * m).norm(), {}, {}});
+}
+
+template <class V>
+CDEM_INLINE void advance_group(const CohesiveChunk& chunk, const int* faces, int count) {
+  using T3 = Triple<V>;
+  const V none{}, one = none + 1.0;
+  const Group<V> g = group_of<V>(chunk, faces, count);
+  const unsigned used = (1u << g.count) - 1;
+  const SofteningLawOf<V> law = laws_of<V>(chunk, g);
+  const Stands<V> s = stands_of<V, true>(g, chunk.motion);
+  const MaskOf<V> grows = everywhere<V>(chunk.breaking);
+  T3 pull[3], m, began[3];
+  V friction{}, breaking{}, tension{}, shear{};
+  MaskOf<V> without = everywhere<V>(true), open = without;
+  unsigned ended[3], opened[3];
+  for (int point = 0; point < 3; ++point) {
+    CohesivePoint<V> at;
+    for (int lane = 0; lane < width<V>; ++lane)
+      read_point(chunk.cohesive[g.face[lane]], point, lane, at);
+    const T3 &gap = s.now.gap[point], &gap0 = s.before.gap[point];
+    const CohesiveResponse<V> r = cohesive_response<V>(law, at, gap, grows);
+    const SofteningLoss<V> lost =
+        softening_loss<V>(law, at.plane, gap0 + at.offset, at.damage, at.slip, gap + at.offset, r.law);
+    const MaskOf<V> damaged = r.law.damage > none; // nothing is lost while it is whole
+    const NeverStored<V> never = never_stored<V>(law, at);
+    const V begun_with = never.left(at.damage) - never.left(r.law.damage);
+    const V facing = g.area * at.plane.z, grown = r.law.damage - at.damage;
+    const V taken = facing * ((damaged ? lost.breaking : none) - begun_with);
+    // What the point loses goes by the trapezoidal rule.
+    friction += damaged ? facing * lost.friction : none;
+    breaking += taken + 0.5 * g.area * grown * dot(at.rest, gap + gap0);
+    const V into_crack = (grown > none) & (taken > none) ? taken : none,
+            share_of_shear = shear_share<V>(law, at.plane, gap + at.offset);
+    shear += share_of_shear * into_crack;
+    tension += (1.0 - share_of_shear) * into_crack;
+    const MaskOf<V> no_traction =
+        (r.law.traction.x == none) & (r.law.traction.y == none) & (r.law.traction.z == none);
+    const MaskOf<V> lost_all = r.law.damage >= one;
+    without &= lost_all;
+    open &= no_traction;
+    ended[point] = simd::bits_of(lost_all) & used;
+    opened[point] = simd::bits_of(MaskOf<V>((!r.law.separated) | r.law.opens));
+    began[point] = law.kn * at.offset; // the relative displacement was nearly zero then
+    m = at.plane;
+    pull[point] = s.now.in_space(g.area * r.traction);
+    for (int lane = 0; lane < g.count; ++lane) {
+      CohesiveFace& face = chunk.cohesive[g.face[lane]];
+      face.damage[point] = r.law.damage[lane];
+      face.slip[point] = {r.law.slip.x[lane], r.law.slip.y[lane], r.law.slip.z[lane]};
+    }
+  }
+  FaceSums& sums = chunk.sums;
+  for (int lane = 0; lane < g.count; ++lane) {
+    sums.friction += friction[lane];
+    sums.breaking += breaking[lane];
+    sums.crack += CrackEnergy{tension[lane], shear[lane]};
+  }
+  if (const unsigned any_ended = ended[0] | ended[1] | ended[2]; any_ended != 0) {
+    const T3 m_in_space = s.now.in_space(m);
+    for (unsigned bits = any_ended; bits != 0; bits &= bits - 1) {
+      const int lane = first_of(bits);
+      for (int point = 0; point < 3; ++point)
+        if ((ended[point] >> lane & 1) != 0)
+          tell_broken(chunk, g.face[lane], point, lane_of(m_in_space, lane), lane_of(m, lane),
+                      lane_of(began[point], lane),
+                      (opened[point] >> lane & 1) != 0 ? BondMode::broken_tension : BondMode::broken_shear);
+    }
+  }
+  const unsigned bits_without = simd::bits_of(without) & used, bits_open = simd::bits_of(open);
+  unsigned parts = 0;
+  for (int lane = 0; lane < g.count; ++lane) {
+    const bool parting = (bits_without & bits_open) >> lane & 1;
+    const FaceStateBatch& state = chunk.state[g.face[lane] / lanes];
+    const bool leaving = leaves(state, g.face[lane] % lanes);
+    if (!parting && !leaving && !(chunk.to_contact && (bits_without >> lane & 1) != 0))
+      continue;
+    EndOfFace end(chunk, g.face[lane]);
+    const geom::Vec3 own[3] = {lane_of(pull[0], lane), lane_of(pull[1], lane), lane_of(pull[2], lane)};
+    if (parting) {
+      end.part(own);
+      parts |= 1u << lane;
+    } else if (leaving) {
+      end.hand_over(own);
+    } else if (end.gone()) {
+      end.leave();
+    }
+  }
+  if (parts != 0) {
+    const MaskOf<V> parted = simd::lanes_of<V>(parts);
+    for (T3& p : pull)
+      p = chosen(parted, T3{}, p);
+  }
+  share<V>(g, pull, chunk.force);
+}
+
+template <class V>
+CDEM_INLINE void hold_group(const CohesiveChunk& chunk, const int* faces, int count) {
+  const Group<V> g = group_of<V>(chunk, faces, count);
+  const Stand<V> now = stands_of<V, false>(g, chunk.motion).now;
+  const V kn = g.k * g.area;
+  Triple<V> pull[3];
+  for (int point = 0; point < 3; ++point) {
+    double offset[3][width<V>];
+    for (int lane = 0; lane < width<V>; ++lane)
+      for (int axis = 0; axis < 3; ++axis)
+        offset[axis][lane] = chunk.cohesive[g.face[lane]].offset[point][axis];
+    const Triple<V> w0 = {simd::load_wide<V>(offset[0]), simd::load_wide<V>(offset[1]),
+                          simd::load_wide<V>(offset[2])};
+    pull[point] = now.in_space(kn * (now.gap[point] + w0));
+  }
+  share<V>(g, pull, chunk.force);
+}
+
+template <class V>
+CDEM_INLINE void cracking_kernel(const CohesiveChunk& chunk, const int* faces, int count) {
+  for (int i = 0; i < count; i += width<V>)
+    advance_group<V>(chunk, faces + i, count - i);
+}
+
+template <class V>
+CDEM_INLINE void resumed_kernel(const CohesiveChunk& chunk, const int* faces, int count) {
+  for (int i = 0; i < count; i += width<V>)
+    hold_group<V>(chunk, faces + i, count - i);
+}
+
+} // namespace
+
+void advance_cracking(const CohesiveChunk& chunk, const int* faces, int count) {
+  simd::best_width<cracking_kernel<simd::Oct>, cracking_kernel<simd::Quad>>(chunk, faces, count);
+}
+
+void hold_resumed(const CohesiveChunk& chunk, const int* faces, int count) {
+  simd::best_width<resumed_kernel<simd::Oct>, resumed_kernel<simd::Quad>>(chunk, faces, count);
+}
+
+} // namespace cdem

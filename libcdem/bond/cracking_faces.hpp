@@ -1,0 +1,27 @@
+// Faces of cohesive bodies that crack, and those that hold again after a crack that did not go on (bond/cohesive_faces.hpp),
+// several side by side.
+#pragma once
+
+#include "libcdem/bond/face_bonds.hpp"
+#include "libcdem/bond/face_joints.hpp"
+
+namespace cdem {
+
+// The faces of a chunk, its first one first.
+struct CohesiveChunk {
+  const FaceBatch* batches;
+  const FaceMotion& motion;
+  const FaceJoints& joints;
+  double tan_friction; // of faces without a strength of their own
+  bool breaking, to_contact;
+  FaceStateBatch* state;
+  CohesiveFace* cohesive;
+  Node* force;
+  FaceSums& sums;
+};
+
+// faces: of the chunk, ascending.
+void advance_cracking(const CohesiveChunk&, const int* faces, int count);
+void hold_resumed(const CohesiveChunk&, const int* faces, int count);
+
+} // namespace cdem
