@@ -168,13 +168,13 @@ public:
   int stage() const;                                               // solving calls so far
   std::int64_t steps() const;                                      // steps of all stages
   EnergyLedger energy() const;
-  ImpossibleEnergy impossible_energy() const;     // of the ledger so far
-  std::uint64_t state_hash() const;               // of every State field, bit for bit
-  geom::Box box() const;                          // undeformed
-  Deformation deformation() const;                // how far from small strain
-  std::vector<Slivers> slivers() const;           // results/slivers.hpp
-  std::vector<ProcessZone> process_zones() const; // results/process_zone.hpp
-  Overlap overlap() const;                        // results/overlap.hpp
+  ImpossibleEnergy impossible_energy(const EnergyLedger& now) const; // now: energy()
+  std::uint64_t state_hash() const;                                  // of every State field, bit for bit
+  geom::Box box() const;                                             // undeformed
+  Deformation deformation() const;                                   // how far from small strain
+  std::vector<Slivers> slivers() const;                              // results/slivers.hpp
+  std::vector<ProcessZone> process_zones() const;                    // results/process_zone.hpp
+  Overlap overlap() const;                                           // results/overlap.hpp
   // Pairs of bodies, by name, for which a law was given and that had neither interface nor contact so far; twice the same
   // body: its own blocks.
   std::vector<std::array<std::string, 2>> unmet() const;

@@ -2,6 +2,7 @@
 #include "libcdem/simulation_impl.hpp"
 #include "libcdem/step/support_forces.hpp"
 
+#include "libcdem/checkpoint/known_of_model.hpp"
 #include "libcdem/element/small_strain.hpp"
 #include "libcdem/model/names.hpp"
 #include "libcdem/model/unit_order.hpp"
@@ -39,7 +40,8 @@ std::vector<ProcessZone> Simulation::process_zones() const {
 }
 
 std::vector<Slivers> Simulation::slivers() const {
-  return find_slivers(impl_->model);
+  static KnownOfModel<std::vector<Slivers>> known;
+  return *known.of(impl_->model, [&] { return find_slivers(impl_->model); });
 }
 
 Overlap Simulation::overlap() const {
@@ -96,8 +98,8 @@ int Simulation::stage() const {
 std::int64_t Simulation::steps() const {
   return impl_->kept.step;
 }
-ImpossibleEnergy Simulation::impossible_energy() const {
-  return cdem::impossible_energy(energy(), impl_->kept.time, impl_->log.one_way);
+ImpossibleEnergy Simulation::impossible_energy(const EnergyLedger& now) const {
+  return cdem::impossible_energy(now, impl_->kept.time, impl_->log.one_way);
 }
 
 EnergyLedger Simulation::energy() const {

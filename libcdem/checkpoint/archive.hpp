@@ -41,6 +41,18 @@ private:
   Xxh64 sum_;
 };
 
+// Adds what has no memory elsewhere byte by byte, the gaps between members included: several times as fast. Values that
+// differ give different sums; values that are equal may do so too.
+class RawHasher {
+public:
+  static constexpr bool reading = false;
+  void raw(const void* data, std::size_t bytes) { sum_.add(data, bytes); }
+  std::uint64_t value() const { return sum_.value(); }
+
+private:
+  Xxh64 sum_;
+};
+
 // What it reads has a checksum that holds; what does not fit was written by another version.
 class Reader {
 public:
@@ -137,7 +149,7 @@ void archive(A& a, std::vector<T>& x) {
     x.clear();
     x.resize(n);
   }
-  if constexpr (Flat<T>::value) {
+  if constexpr (Flat<T>::value || (std::is_same_v<A, RawHasher> && std::is_trivially_destructible_v<T>)) {
     if (n > 0)
       a.raw(x.data(), n * sizeof(T));
   } else {

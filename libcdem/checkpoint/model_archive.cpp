@@ -314,6 +314,12 @@ std::uint64_t hash(const Model& model) {
   return a.value();
 }
 
+std::uint64_t fingerprint(const Model& model) {
+  RawHasher a;
+  archive_const(a, model);
+  return a.value();
+}
+
 void write(Writer& a, const State& state) {
   for (const StateField& field : fields(const_cast<State&>(state))) {
     archive_const(a, std::string(field.row.name));

@@ -66,6 +66,18 @@ geom::Mat3 displacement_gradient(const Model& model, const std::vector<Node>& di
   return h;
 }
 
+geom::Mat3 velocity_gradient(const Model& model, const State& state, int tet) {
+  const TetGradients g = geometry(model, tet);
+  const geom::Tet& nodes = model.tets[tet];
+  const geom::Vec3 u0 = vec(state.displacement[nodes[0]]), v0 = vec(state.velocity[nodes[0]]);
+  geom::Mat3 f = geom::Mat3::Identity(), l = geom::Mat3::Zero();
+  for (int k = 1; k < 4; ++k) {
+    f += (vec(state.displacement[nodes[k]]) - u0) * g.gradient[k].transpose();
+    l += (vec(state.velocity[nodes[k]]) - v0) * g.gradient[k].transpose();
+  }
+  return l * f.inverse();
+}
+
 Stress elastic_stress(const Elastic& material, const geom::Mat3& h) {
   return tensor(material.lame_lambda() * h.trace() * geom::Mat3::Identity() +
                 material.shear_modulus() * (h + h.transpose()));

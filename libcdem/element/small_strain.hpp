@@ -16,6 +16,8 @@ void add_small_strain_forces(const TetBatch* batches, std::int64_t count, const 
 void add_stress_forces(const Model&, int tet, const Stress&, std::vector<Node>& force);
 
 geom::Mat3 displacement_gradient(const Model&, const std::vector<Node>& displacement, int tet); // du_i / dx_j
+// 1/s, of the velocity in space, where the nodes are now.
+geom::Mat3 velocity_gradient(const Model&, const State&, int tet);
 Stress elastic_stress(const Elastic&, const geom::Mat3& gradient); // without initial stress
 double tet_volume(const Model&, int tet);                          // m3, undeformed
 

@@ -1,5 +1,6 @@
 #include "libcdem/fracture/strength_watch.hpp"
 
+#include "libcdem/checkpoint/known_of_model.hpp"
 #include "libcdem/element/small_strain.hpp"
 #include "libcdem/fracture/own_rocks.hpp"
 #include "libcdem/model/build/face_strength.hpp"
@@ -85,15 +86,21 @@ CDEM_INLINE void near_kernel(const StressBatch* stress, const StressBatch* befor
 
 bool may_use(const std::vector<UseBound>& bounds, const geom::Mat3& s) {
   const double components[6] = {s(0, 0), s(1, 1), s(2, 2), s(0, 1), s(1, 2), s(0, 2)};
-  return std::any_of(bounds.begin(), bounds.end(),
-                     [&](const UseBound& bound) { return bound.beyond(components) > 0; });
+  return std::any_of(bounds.begin(), bounds.end(), [&](const UseBound& bound) {
+    return bound.coarsely_beyond(components) > 0 && bound.beyond(components) > 0;
+  });
 }
 
 } // namespace
 
-StrengthWatch::StrengthWatch(const Model& model) {
+StrengthWatch StrengthWatch::of(const Model& model) {
   if (!has_cohesive_bodies(model))
-    return;
+    return {};
+  static KnownOfModel<StrengthWatch> known;
+  return *known.of(model, [&] { return StrengthWatch(model); });
+}
+
+StrengthWatch::StrengthWatch(const Model& model) {
   neighbours_ = mesh_neighbours(model);
   find_planes(model);
   const MeshData& mesh = model.mesh;
@@ -273,12 +280,16 @@ public:
   geom::Mat3 stress_of(const State& state, std::int64_t tet) const {
     return matrix(mesh_stress(model_, state, static_cast<int>(tet)));
   }
+  // Whether a face between the tet and one that is nearer to its strength may be beyond a bound, now or ahead (s). The bounds
+  // are convex: if two stresses are below them, so is their mean.
+  bool may_reach(const std::vector<UseBound>& bounds, const State& state, std::int64_t tet,
+                 double ahead) const {
+    const geom::Mat3 now = stress_of(state, tet);
+    return may_use(bounds, now) || may_use(bounds, now + ahead * rate_of(state, tet));
+  }
   // Pa/s, without the turning.
   geom::Mat3 rate_of(const State& state, std::int64_t tet) const {
-    const auto t = static_cast<int>(tet);
-    const geom::Mat3 f = geom::Mat3::Identity() + displacement_gradient(model_, state.displacement, t);
-    return matrix(
-        elastic_stress(body_.material, displacement_gradient(model_, state.velocity, t) * f.inverse()));
+    return matrix(elastic_stress(body_.material, velocity_gradient(model_, state, static_cast<int>(tet))));
   }
 
 private:
@@ -344,12 +355,13 @@ bool StrengthWatch::any_due(const Model& model, const State& state, const NearSt
       return;
     const MeshChunk& chunk = model.mesh.chunks[c];
     const ChunkFaces faces(*this, model, chunk);
+    const std::vector<UseBound>& bounds = bounds_[static_cast<std::size_t>(c)].at_strength;
     for (std::int64_t b = chunk.batches.begin; b < chunk.batches.end && due[c] == 0; ++b) {
       if (open_[b] == 0 || !(everywhere || (near.bits[b] & NearStrength::may_be_due) != 0))
         continue;
       const std::int64_t first = chunk.tets.begin + (b - chunk.batches.begin) * lanes;
       for (std::int64_t t = first; t < std::min(first + lanes, chunk.tets.end); ++t)
-        for (int face = 0; face < 4; ++face)
+        for (int face = faces.may_reach(bounds, state, t, ahead) ? 0 : 4; face < 4; ++face)
           if (faces.is_open(t, face) && faces.use(state, t, face, ahead) >= due_at)
             due[c] = 1;
     }
@@ -370,9 +382,7 @@ std::vector<char> StrengthWatch::to_free(const Model& model, const State& state,
     for (std::int64_t t = chunk.tets.begin; t < chunk.tets.end; ++t) {
       if (open_[chunk.batches.begin + (t - chunk.tets.begin) / lanes] == 0)
         continue;
-      // The bounds are convex: if two stresses are below them, so is their mean.
-      const geom::Mat3 now = faces.stress_of(state, t);
-      if (!may_use(bounds, now) && !may_use(bounds, now + ahead * faces.rate_of(state, t)))
+      if (!faces.may_reach(bounds, state, t, ahead))
         continue;
       for (int face = 0; face < 4; ++face)
         if (faces.is_open(t, face) && faces.use(state, t, face, ahead) >= freed_at)

@@ -34,7 +34,7 @@ struct NearStrength {
 class StrengthWatch {
 public:
   StrengthWatch() = default; // sees nothing
-  explicit StrengthWatch(const Model&);
+  static StrengthWatch of(const Model&);
   bool empty() const { return neighbours_.empty(); } // no body is cohesive
   void freed(const Model&);                          // nodes have been freed, all else is as it was
 
@@ -61,6 +61,7 @@ public:
                             double ahead) const;
 
 private:
+  explicit StrengthWatch(const Model&);
   struct Bounds {
     std::vector<UseBound> at_strength, at_half;
   };

@@ -1,6 +1,7 @@
 #include "libcdem/integrate/row_sums.hpp"
 
 #include "libcdem/bond/spring_forces.hpp"
+#include "libcdem/checkpoint/known_of_model.hpp"
 #include "libcdem/element/mesh_fields.hpp"
 #include "libcdem/element/small_strain.hpp"
 
@@ -8,9 +9,17 @@
 
 namespace cdem {
 
+std::vector<double> element_row_sums(const Model& model) {
+  static KnownOfModel<std::vector<double>> known;
+  return *known.of(model, [&] {
+    std::vector<double> sums = stiffness_row_sums(model);
+    add_mesh_row_sums(model, sums);
+    return sums;
+  });
+}
+
 std::vector<double> all_row_sums(const Model& model) {
-  std::vector<double> sums = stiffness_row_sums(model);
-  add_mesh_row_sums(model, sums);
+  std::vector<double> sums = element_row_sums(model);
   add_spring_row_sums(model, sums);
   return sums;
 }

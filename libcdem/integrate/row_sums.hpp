@@ -7,7 +7,9 @@
 
 namespace cdem {
 
-std::vector<double> all_row_sums(const Model&); // N/m (n_nodes), of each node the largest of its three rows
+// N/m (n_nodes), of each node the largest of its three rows. Of elements and the faces of meshes; and of springs too.
+std::vector<double> element_row_sums(const Model&);
+std::vector<double> all_row_sums(const Model&);
 
 // s; frequency2: 1/s2, row sum of |K| over mass; rate: 1/s, the same of what is damped, times beta.
 double stable_time_step(double frequency2, double rate);

@@ -69,10 +69,10 @@ double relative_residual(const NodeSums& sums) {
 
 Stage::Stage(const StageContext& context, std::string kind, double run_away)
     : work(context.model, context.state, context.conditions), context_(context),
-      threads_(useful_threads(context.model, context.threads)), contacts_(context), watch_(context.model),
-      has_shared_nodes_(has_shared_nodes(context.model)), kind_(std::move(kind)), run_away_(run_away),
-      broken_tension_before_(context.log.broken_tension), broken_shear_before_(context.log.broken_shear),
-      start_(std::chrono::steady_clock::now()),
+      threads_(useful_threads(context.model, context.threads)), contacts_(context),
+      watch_(StrengthWatch::of(context.model)), has_shared_nodes_(has_shared_nodes(context.model)),
+      kind_(std::move(kind)), run_away_(run_away), broken_tension_before_(context.log.broken_tension),
+      broken_shear_before_(context.log.broken_shear), start_(std::chrono::steady_clock::now()),
       progress_(context.observer, context.log, context.from ? context.from->step : 0) {
   start_watch();
   (void)instruction_set(); // a bad name of one is told of here, not by a thread

@@ -202,8 +202,10 @@ bool search_contacts(const Model& model, const State& state, ContactWork& work, 
       pairs_to_search(model, state, work, margins, pace, renewed.all ? &rigid_near : nullptr);
   renewed.pair_now = std::move(pairs.now);
   std::vector<int> alone, shattered; // blocks that may touch themselves
+  // A star cannot: where the tetrahedra around its middle fill all directions once and none is turned over, each ray from
+  // there meets its surface once.
   for (int b = 0; b + 1 < static_cast<int>(s.block_begin.size()); ++b)
-    if (model.blocks[b].meshed && model.blocks[b].rigid < 0 && renewed.blocks[b] &&
+    if (model.blocks[b].meshed && !model.blocks[b].star() && model.blocks[b].rigid < 0 && renewed.blocks[b] &&
         contact_joint(model, b, b))
       (work.broken[b] ? shattered : alone).push_back(b);
   const auto n_pairs = static_cast<std::int64_t>(blocks.size()),

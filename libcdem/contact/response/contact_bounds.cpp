@@ -48,8 +48,7 @@ ClosingStiffness closing_stiffness(const Model& model) {
     if (t.face < 0 && model.blocks[t.block].rigid < 0)
       for (const int node : t.nodes)
         contact[node] += 2 * t.area / 3 * given[model.blocks[t.block].body];
-  std::vector<double> elements = stiffness_row_sums(model);
-  add_mesh_row_sums(model, elements);
+  std::vector<double> elements = element_row_sums(model);
   std::vector<double> springs(model.node_mass.size(), 0.0);
   add_spring_row_sums(model, springs);
   for (std::size_t i = 0; i < contact.size(); ++i)

@@ -67,7 +67,7 @@ Value energy(Session&, ModelObject& model, const Arguments&) {
                {"external_peak", e.external_peak},
                {"total", e.total()},
                {"balance_error", e.balance_error()},
-               {"one_way_error", model.simulation.impossible_energy().part}};
+               {"one_way_error", model.simulation.impossible_energy(e).part}};
 }
 
 Value overlap(Session&, ModelObject& model, const Arguments&) {

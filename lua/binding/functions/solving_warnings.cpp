@@ -170,7 +170,7 @@ void check_energy(Session& session, ModelObject& model, const Stage& stage) {
   if (stopped_short(stage.result))
     return;
   const EnergyLedger energy = model.simulation.energy();
-  const ImpossibleEnergy impossible = model.simulation.impossible_energy();
+  const ImpossibleEnergy impossible = model.simulation.impossible_energy(energy);
   const double open = energy.balance_error(), worst = std::max(open, impossible.part);
   if (worst <= open_balance || (worst <= broken_balance && worst < tell_again * model.told_open))
     return;
