@@ -59,9 +59,7 @@ void Simulation::Impl::warn_of_lost_probes() {
   for (const Probe& probe : log.probes) {
     if (replaying || !probe.on.empty() || !probe.crack.empty())
       continue;
-    try {
-      value_at(model, whole(), probe.field, probe.place);
-    } catch (const geom::InputError&) {
+    if (!tets_by_place(model)->find(model, probe.place)) {
       const std::string line =
           fmt::format("probe \"{}\": the rock at ({:g}, {:g}, {:g}) m was removed; it is nan from now on",
                       probe.name, probe.place.x(), probe.place.y(), probe.place.z());

@@ -2,7 +2,6 @@
 
 #include "libcdem/element/mesh_fields.hpp"
 #include "libcdem/element/small_strain.hpp"
-#include "libcdem/model/unit_order.hpp"
 #include "libgeom/core/error.hpp"
 #include "libgeom/core/nearest.hpp"
 
@@ -205,35 +204,28 @@ double mean_value(const Model& model, const State& state, const std::string& fie
   return sum / weight;
 }
 
-double value_at(const Model& model, const State& state, const std::string& field, const geom::Vec3& place) {
+std::optional<double> value_at(const Model& model, const State& state, const std::string& field,
+                               const geom::Vec3& place, const TetsByPlace& tets) {
   const bool nodal = find_field(field).nodal;
-  for (const int b : blocks_by_id(model)) { // the first one of those that meet there
-    const Block& block = model.blocks[b];
-    if (block.convex() && !geom::bounding_box(block.shape).contains(place, model.tolerance))
-      continue;
-    for (int t = block.tet_begin; t < block.tet_end; ++t) {
-      const geom::Tet& tet = model.tets[t];
-      const auto& x = model.node_position;
-      geom::Mat3 edges;
-      edges << x[tet[1]] - x[tet[0]], x[tet[2]] - x[tet[0]], x[tet[3]] - x[tet[0]];
-      const geom::Vec3 w = edges.inverse() * (place - x[tet[0]]);
-      const double w0 = 1 - w.sum();
-      if (std::min(w0, w.minCoeff()) < -1e-6)
-        continue;
-      if (!nodal)
-        return cell_value(model, state, field, {b, block.star() ? -1 : t});
-      // The vector is interpolated and then measured: its length at the nodes says little about that between them.
-      const double weight[] = {w0, w[0], w[1], w[2]};
-      Node value;
-      for (int k = 0; k < 4; ++k) {
-        const Node n = nodal_vector(state, field, tet[k]);
-        value.x += weight[k] * n.x;
-        value.y += weight[k] * n.y;
-        value.z += weight[k] * n.z;
-      }
-      return vector_component(value, component_of(field));
-    }
+  const std::optional<PlaceInTet> at = tets.find(model, place);
+  if (!at)
+    return std::nullopt;
+  if (!nodal)
+    return cell_value(model, state, field, {at->block, model.blocks[at->block].star() ? -1 : at->tet});
+  // The vector is interpolated and then measured: its length at the nodes says little about that between them.
+  Node value;
+  for (int k = 0; k < 4; ++k) {
+    const Node n = nodal_vector(state, field, model.tets[at->tet][k]);
+    value.x += at->weight[k] * n.x;
+    value.y += at->weight[k] * n.y;
+    value.z += at->weight[k] * n.z;
   }
+  return vector_component(value, component_of(field));
+}
+
+double value_at(const Model& model, const State& state, const std::string& field, const geom::Vec3& place) {
+  if (const auto value = value_at(model, state, field, place, *tets_by_place(model)))
+    return *value;
   throw geom::InputError("at", fmt::format("({:g}, {:g}, {:g})", place.x(), place.y(), place.z()),
                          fmt::format("a place inside a block; the model's box is from ({:g}, {:g}, {:g}) to "
                                      "({:g}, {:g}, {:g}) m",

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "libcdem/model/selection.hpp"
+#include "libcdem/results/tet_at_place.hpp"
 #include "libcdem/state/state.hpp"
 
 namespace cdem {
@@ -26,6 +27,10 @@ double mean_value(const Model&, const State&, const std::string& field, const Se
 // Interpolated in the tet that holds the place (nodal fields), or of the block that does. Throws geom::InputError
 // when the place lies in no block.
 double value_at(const Model&, const State&, const std::string& field, const geom::Vec3& place);
+
+// The same for who asks at many places; nothing where the place lies in no block.
+std::optional<double> value_at(const Model&, const State&, const std::string& field, const geom::Vec3& place,
+                               const TetsByPlace&);
 
 // A field's name checked; throws geom::InputError as above.
 void check_field(const std::string& field);

@@ -26,15 +26,6 @@ FaceSlip begun(FaceSlip slip, int point, const FaceBreak& broken) {
   return slip;
 }
 
-// nan where no rock is any more.
-double value_or_nan(const Model& model, const State& state, const Probe& probe) {
-  try {
-    return value_at(model, state, probe.field, probe.place);
-  } catch (const geom::InputError&) {
-    return std::nan("");
-  }
-}
-
 } // namespace
 
 void strike_out_met(const Model& model, const State& state, RunLog& log, bool among_ranks) {
@@ -185,6 +176,7 @@ void record_history(const Model& model, const State& state, const Conditions& co
   row.broken_shear = log.broken_shear;
   std::optional<CracksByBody> cracked; // looked at once, and only where somebody asks
   std::optional<SupportForces> supports;
+  std::shared_ptr<const TetsByPlace> tets;
   for (const Probe& probe : log.probes) {
     if (!probe.on.empty()) {
       const int axis = probe.crack.back() - 'x';
@@ -198,7 +190,10 @@ void record_history(const Model& model, const State& state, const Conditions& co
       continue;
     }
     if (probe.crack.empty()) {
-      row.probes.push_back(value_or_nan(model, state, probe));
+      if (!tets)
+        tets = tets_by_place(model);
+      row.probes.push_back( // nan where no rock is any more
+          value_at(model, state, probe.field, probe.place, *tets).value_or(std::nan("")));
       continue;
     }
     if (!cracked)
