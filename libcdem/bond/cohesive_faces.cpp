@@ -103,18 +103,18 @@ double damage_of(const CohesiveFace& face) {
 void cohesive_face_forces(const FaceBatch* batches, int faces, const FaceMotion& motion, const FaceLaw& law,
                           const FaceJoints& joints, bool breaking, FaceStateBatch* state,
                           CohesiveFace* cohesive, Node* force, FaceSums& sums) {
-  const bool to_contact = law.hands_over && law.hand_over_due;
   simd::best<holding_kernel>(batches, faces, motion.displacement, state, force);
   thread_local std::vector<int> cracking, resumed;
   cracking.clear();
   resumed.clear();
   for (int i = 0; i < faces; ++i)
-    if (const FaceStage stage = state[i / lanes].stage[i % lanes]; stage == FaceStage::cracking)
+    if (const FaceStage stage = state[i / lanes].stage[i % lanes]; has_springs(stage))
       cracking.push_back(i);
     else if (stage == FaceStage::resumed)
       resumed.push_back(i);
-  const CohesiveChunk chunk{batches,  motion, joints, law.tan_friction, breaking, to_contact, state,
-                            cohesive, force,  sums};
+  const CohesiveChunk chunk{
+      batches,  motion, joints, law.tan_friction, breaking, law.hands_over, law.hand_over_due, state,
+      cohesive, force,  sums};
   advance_cracking(chunk, cracking.data(), static_cast<int>(cracking.size()));
   hold_resumed(chunk, resumed.data(), static_cast<int>(resumed.size()));
   for (int i = 0; i < faces; ++i) {
@@ -122,7 +122,7 @@ void cohesive_face_forces(const FaceBatch* batches, int faces, const FaceMotion&
     FaceStateBatch& at = state[i / lanes];
     const int lane = i % lanes;
     if (at.stage[lane] == FaceStage::parted) {
-      if (to_contact && !handed_over(at, lane)) {
+      if (law.hands_over && law.hand_over_due && !handed_over(at, lane)) {
         set_hand_over(at, lane, HandOver::done);
         sums.hands_over = true;
       }
@@ -141,7 +141,7 @@ FaceSpring cohesive_spring(const FaceBatch& batch, int lane, const FaceFrame& f,
   if (holds(state.stage[lane])) {
     spring.force = batch.kn[lane] * f.in_space(stretch);
     spring.energy = 0.5 * batch.kn[lane] * stretch.squaredNorm();
-  } else if (state.stage[lane] == FaceStage::cracking) {
+  } else if (has_springs(state.stage[lane])) {
     const SofteningLaw law = cohesive_law(joint, penalty(batch, lane));
     const CohesivePoint<double> at = cohesive_point(face, point);
     const Triple<double> gap = triple(f.in_axes(f.gap[point]));

@@ -14,7 +14,8 @@
 // The law begins with a stored energy s m . s m / 2k that the body never stored. This energy counts neither as stored
 // nor, as damage grows, as taken by breaking, so a face that unloads then stores less than nothing. A face that unloads
 // with little damage becomes whole again, so that it does not give this energy back. A face whose points have lost all
-// strength and are open has separated and is left to contact.
+// strength and are open has separated: what is left of its springs is a contact on the face's own plane, as a broken face of a body
+// with springs has it (bond/broken_faces.hpp), until its sides have parted or slid away and the contact of the surface takes over.
 //
 // Preload: a node that has just been freed leaves each of its copies with the force that keeps its acceleration, on the
 // faces between them. It dies away over some hundred steps. It acts while the face holds and while it draws the corner's two

@@ -152,15 +152,33 @@ public:
 
   bool gone() const { return is_gone(now_, std::sqrt(3 * batch_.area[lane_])); }
 
-  // J, what it lets go of, less the half step of work that its pull would have done. pull: N, at its points.
-  void part(const geom::Vec3 (&pull)[3]) {
+  // It has lost its strength and opened: what it still stores, J, is let go of, less the half step of work that its pull (N,
+  // at its points) would have done. From now on it is a contact on its own plane, which closes where its sides stand now,
+  // or at a gap of zero if they are further apart.
+  void separate(const geom::Vec3 (&pull)[3]) {
     const FaceFrame before = face_frame(batch_, lane_, chunk_.motion, chunk_.motion.step);
     chunk_.sums.breaking += stored();
-    for (int point = 0; point < 3; ++point)
+    for (int point = 0; point < 3; ++point) {
       chunk_.sums.breaking -= 0.5 * pull[point].dot(now_.gap[point] - before.gap[point]);
-    state_.stage[lane_] = FaceStage::parted;
+      const geom::Vec3 gap = now_.in_axes(now_.gap[point]);
+      cohesive_.offset[point] = {0, 0, std::max(0.0, -gap.z())};
+      cohesive_.slip[point] = {gap.x(), gap.y(), 0};
+      cohesive_.rest[point] = {};
+    }
+    cohesive_.plane = {0, 0, 1};
+    state_.stage[lane_] = FaceStage::separated;
   }
 
+  // Nothing is between its sides any more.
+  void end() {
+    state_.stage[lane_] = FaceStage::parted;
+    if (!chunk_.hands_over)
+      return;
+    set_hand_over(state_, lane_, HandOver::done);
+    chunk_.sums.hands_over = true;
+  }
+
+  // The contact of the surface takes over its force.
   void hand_over(const geom::Vec3 (&pull)[3]) {
     chunk_.sums.left.push_back({face_, at_corners(pull), batch_.kn[lane_], stored()});
     state_.stage[lane_] = FaceStage::parted;
@@ -171,8 +189,6 @@ public:
     set_hand_over(state_, lane_, HandOver::leaving);
     chunk_.sums.hands_over = true;
   }
-
-  bool leaves_now() const { return leaves(state_, lane_); }
 
 private:
   double stored() const { // J
@@ -280,26 +296,29 @@ CDEM_INLINE void advance_group(const CohesiveChunk& chunk, const int* faces, int
     }
   }
   const unsigned bits_without = simd::bits_of(without) & used, bits_open = simd::bits_of(open);
-  unsigned parts = 0;
+  unsigned let_go = 0;
   for (int lane = 0; lane < g.count; ++lane) {
-    const bool parting = (bits_without & bits_open) >> lane & 1;
     const FaceStateBatch& state = chunk.state[g.face[lane] / lanes];
-    const bool leaving = leaves(state, g.face[lane] % lanes);
-    if (!parting && !leaving && !(chunk.to_contact && (bits_without >> lane & 1) != 0))
+    const bool lost = (bits_without >> lane & 1) != 0, opened_now = lost && (bits_open >> lane & 1) != 0,
+               separates = opened_now && state.stage[g.face[lane] % lanes] == FaceStage::cracking,
+               leaving = leaves(state, g.face[lane] % lanes), may_leave = lost && chunk.due;
+    if (!separates && !leaving && !may_leave)
       continue;
     EndOfFace end(chunk, g.face[lane]);
     const geom::Vec3 own[3] = {lane_of(pull[0], lane), lane_of(pull[1], lane), lane_of(pull[2], lane)};
-    if (parting) {
-      end.part(own);
-      parts |= 1u << lane;
+    if (separates) {
+      end.separate(own);
+      let_go |= 1u << lane;
     } else if (leaving) {
       end.hand_over(own);
-    } else if (end.gone()) {
+    } else if (opened_now && end.gone()) {
+      end.end();
+    } else if (chunk.hands_over && end.gone()) {
       end.leave();
     }
   }
-  if (parts != 0) {
-    const MaskOf<V> parted = simd::lanes_of<V>(parts);
+  if (let_go != 0) {
+    const MaskOf<V> parted = simd::lanes_of<V>(let_go);
     for (T3& p : pull)
       p = chosen(parted, T3{}, p);
   }

@@ -13,7 +13,8 @@ struct CohesiveChunk {
   const FaceMotion& motion;
   const FaceJoints& joints;
   double tan_friction; // of faces without a strength of their own
-  bool breaking, to_contact;
+  bool breaking;
+  bool hands_over, due; // as in FaceLaw
   FaceStateBatch* state;
   CohesiveFace* cohesive;
   Node* force;

@@ -29,7 +29,7 @@ void check_faces(const State& state) {
         require_below("faces.mode", mode, modes);
     for (const FaceStage stage : batch.stage)
       require_below("faces.stage", static_cast<std::size_t>(stage),
-                    static_cast<std::size_t>(FaceStage::parted) + 1);
+                    static_cast<std::size_t>(FaceStage::separated) + 1);
     if (batch.slip < -1)
       refuse_state("faces.slip", std::to_string(batch.slip) + " is out of range");
     if (batch.slip >= 0)

@@ -64,7 +64,7 @@ std::int64_t notch(Model& model, State& state, const Selects& at) {
   each_face(model.mesh, [&](const MeshChunk& chunk, std::int64_t batch, int lane) {
     FaceStateBatch& face = state.faces[batch];
     if (!model.bodies[model.blocks[chunk.block].body].bonding.is_cohesive() ||
-        face.stage[lane] == FaceStage::parted)
+        face.stage[lane] == FaceStage::parted || face.stage[lane] == FaceStage::separated)
       return;
     for (int point = 0; point < 3; ++point)
       if (!at(face_point(model, chunk, {batch, point, lane}), chunk.block))

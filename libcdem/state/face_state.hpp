@@ -12,8 +12,14 @@ enum class FaceStage : std::uint8_t {
   holding,  // its sides hold together
   resumed,  // they do so again after a crack that did not go on
   cracking, // a cohesive law acts on its working plane
-  parted    // it carries nothing
+  parted,   // it carries nothing
+  separated // it has lost its strength and opened: what is left is a contact on its own plane, until its sides have left each other
 };
+
+// Springs between its sides act, of a cohesive law or of the contact that is left.
+inline bool has_springs(FaceStage stage) {
+  return stage == FaceStage::cracking || stage == FaceStage::separated;
+}
 
 inline bool holds(FaceStage stage) {
   return stage <= FaceStage::resumed;
