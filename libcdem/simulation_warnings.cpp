@@ -71,6 +71,28 @@ void Simulation::Impl::warn_of_lost_probes() {
   }
 }
 
+// A relaxation takes no time, in which the forces of an excavation could fall.
+void Simulation::Impl::warn_of_falling_forces() {
+  if (replaying)
+    return;
+  double end = 0, share = 0;
+  const double now = whole().time;
+  for (const ExcavationForce& force : kept.excavation)
+    if (force.end() > now) {
+      end = std::max(end, force.end());
+      share = std::max(share, force.share(now));
+    }
+  if (share == 0)
+    return;
+  const std::string line = fmt::format("relax: forces of an excavation fall until t = {:g} s, and a "
+                                       "relaxation takes no time: it keeps them as "
+                                       "they are now, up to {:.3g} of their full size; call model:run until "
+                                       "then, or model:relax_excavation{{}}",
+                                       end, share);
+  if (told.insert(line).second)
+    observer->warning("warning: " + line);
+}
+
 // Ground below the level that looks up is the bed of open water: the joints push its blocks up, and nothing but a traction
 // of the water above pushes them down.
 void Simulation::Impl::warn_of_open_water(const Water& water) {

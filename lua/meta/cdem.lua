@@ -946,12 +946,22 @@ function Model:initial_velocity(options) end
 ---@class (exact) cdem.ModelRemoveOptions
 ---@field on cdem.Place where: a place or a list of places
 
----Takes blocks and whole meshes out of the model (an excavation): those whose undeformed centroid is selected.
+---@field relaxed? number in [0, 1], default 1: share of the excavation's forces that goes, from the beginning (lambda of convergence-confinement); the rest stays as a load
+---@field over? number s, > 0: time of model:run, from now on, in which this share goes evenly; at once when left out. A relaxation takes no time
+---Takes blocks and whole meshes out of the model (an excavation): those whose undeformed centroid is selected. Their forces on the rock that stays go at once, unless `relaxed` and `over` say otherwise (docs/settling-and-loading.md, "Excavating").
 ---@param options cdem.ModelRemoveOptions
 ---@return integer # how many
 function Model:remove(options) end
 
 ---@class (exact) cdem.ModelMakeRigidOptions
+---@class (exact) cdem.ModelRelaxExcavationOptions
+---@field relaxed? number in [0, 1], default 1: share of the excavation's forces that goes, from the beginning (lambda of convergence-confinement); the rest stays as a load
+---@field over? number s, > 0: time of model:run, from now on, in which this share goes evenly; at once when left out. A relaxation takes no time
+
+---Lets go of forces that earlier calls of model:remove have kept with `relaxed` or `over`, such as after a lining is set. What is relaxed further already stays so.
+---@param options? cdem.ModelRelaxExcavationOptions
+function Model:relax_excavation(options) end
+
 ---@field on cdem.Place where: a place or a list of places
 
 ---Meshed bodies keep the shape and the stress of this moment from now on, and move as a whole: those whose undeformed centroid is selected.

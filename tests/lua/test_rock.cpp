@@ -100,3 +100,22 @@ TEST_CASE("gravity_stress leaves the stress of the weight and no displacement", 
                       "m:relax{ breaking = false }\nassert(m:max('displacement.z') > 0)"),
              Equals(""));
 }
+
+TEST_CASE("the forces of an excavation stay, fall in a run and go when they are told to", "[lua][rock]") {
+  const std::string dug = model("") + walls +
+                          "m:gravity_stress{}\nm:reset_displacement()\n"
+                          "local dug = cdem.select.box{ min = {-1, -1, 1}, max = {1, 3, 3} }\n";
+  CHECK_THAT(error_of(dug +
+                      "assert(m:remove{ on = dug, relaxed = 0 } == 1)\n"
+                      "m:relax{ breaking = false, residual = 1e-6 }\n"
+                      "assert(m:max('displacement.magnitude') < 1e-9)\n"
+                      "m:relax_excavation{ relaxed = 0.5 }\nm:relax{ breaking = false, residual = 1e-6 }\n"
+                      "local half = m:max('displacement.z')\nassert(half > 1e-7)\n"
+                      "m:relax_excavation{ over = 0.02 }\nm:run{ duration = 0.05, local_damping = 0.3 }\n"
+                      "assert(math.abs(m:max('displacement.z') / half - 2) < 0.02)"),
+             Equals(""));
+  CHECK_THAT(error_of(dug + "m:remove{ on = dug, relaxed = 1.5 }"), Contains("relaxed = 1.5"));
+  CHECK_THAT(error_of(dug + "m:remove{ on = dug, relaxed = 0, over = 1 }"),
+             Contains("over: goes with relaxed > 0"));
+  CHECK_THAT(Script(dug + "m:relax_excavation{}").printed(), Contains("no forces of an excavation are kept"));
+}

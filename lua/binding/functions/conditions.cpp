@@ -204,12 +204,46 @@ std::int64_t sum_over_places(const Session& session, ModelObject& model, const A
   return count;
 }
 
+Excavation excavation_of(const Arguments& a) {
+  Excavation excavation;
+  excavation.relaxed = a.number("relaxed");
+  excavation.over = a.optional_number("over").value_or(0);
+  if (excavation.relaxed == 0 && excavation.over > 0)
+    throw InputError("over: goes with relaxed > 0, the share of the forces that falls in this time");
+  return excavation;
+}
+
+std::string in_words(const Excavation& excavation) {
+  std::string text;
+  if (excavation.relaxed < 1)
+    text += ", forces relaxed by " + number_text(excavation.relaxed);
+  if (excavation.over > 0)
+    text += (text.empty() ? ", forces relaxed over " : " over ") + number_text(excavation.over) + " s";
+  return text;
+}
+
 Value remove(Session& session, ModelObject& model, const Arguments& a) {
   model.require_idle("remove");
-  const std::int64_t count = sum_over_places(
-      session, model, a, [&](Simulation& simulation, const Selection& on) { return simulation.remove(on); });
-  note(model, std::to_string(count) + (count == 1 ? " block removed" : " blocks removed"));
+  const Excavation excavation = excavation_of(a);
+  const std::int64_t count =
+      sum_over_places(session, model, a, [&](Simulation& simulation, const Selection& on) {
+        return simulation.remove(on, excavation);
+      });
+  note(model,
+       std::to_string(count) + (count == 1 ? " block removed" : " blocks removed") + in_words(excavation));
   return count;
+}
+
+Value relax_excavation(Session& session, ModelObject& model, const Arguments& a) {
+  model.require_idle("relax_excavation");
+  const Excavation excavation = excavation_of(a);
+  if (model.simulation.relax_excavation(excavation) == 0)
+    session.warn(
+        "model:relax_excavation: no forces of an excavation are kept; model:remove{ relaxed = } or over = "
+        "keeps those of rock that bears something");
+  note(model, "excavation" + (excavation.relaxed == 1 && excavation.over == 0 ? ", forces relaxed"
+                                                                              : in_words(excavation)));
+  return {};
 }
 
 Value make_rigid(Session& session, ModelObject& model, const Arguments& a) {
@@ -252,6 +286,16 @@ Field on() {
 }
 Field one_place() {
   return place("on").required().doc("where: one place");
+}
+Field relaxed() {
+  return number("relaxed").within(0, 1).standard(1.0).doc(
+      "share of the excavation's forces that goes, from the beginning (lambda of convergence-confinement); "
+      "the rest stays as a load");
+}
+Field over() {
+  return number("over").above(0).unit("s").doc(
+      "time of model:run, from now on, in which this share goes evenly; at once when left out. A relaxation "
+      "takes no time");
 }
 Field axes() {
   return choice("axes", {"x", "y", "z", "xy", "xz", "yz", "xyz"}).standard("xyz").doc("components held");
@@ -345,8 +389,14 @@ void bind_conditions(Module& m) {
       initial_velocity);
   add("remove",
       "Takes blocks and whole meshes out of the model (an excavation): those whose undeformed centroid is "
-      "selected.",
-      {on()}, remove, "integer", "how many");
+      "selected. Their forces on the rock that stays go at once, unless `relaxed` and `over` say otherwise "
+      "(docs/settling-and-loading.md, \"Excavating\").",
+      {on(), relaxed(), over()}, remove, "integer", "how many");
+  add("relax_excavation",
+      "Lets go of forces that earlier calls of model:remove have kept with `relaxed` or `over`, such as "
+      "after "
+      "a lining is set. What is relaxed further already stays so.",
+      {relaxed(), over()}, relax_excavation);
   add("make_rigid",
       "Meshed bodies keep the shape and the stress of this moment from now on, and move as a whole: those "
       "whose "
