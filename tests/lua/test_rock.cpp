@@ -119,3 +119,44 @@ TEST_CASE("the forces of an excavation stay, fall in a run and go when they are 
              Contains("over: goes with relaxed > 0"));
   CHECK_THAT(Script(dug + "m:relax_excavation{}").printed(), Contains("no forces of an excavation are kept"));
 }
+
+TEST_CASE("a water table is a plane, a profile, a file or a surface", "[lua][rock]") {
+  CHECK_THAT(
+      error_of(
+          head +
+          "local t = cdem.water_table{ point = {0, 0, 5}, dip = 45, dip_direction = 90 }\n"
+          "assert(math.abs(t:height(2, 7) - 3) < 1e-12)\n"
+          "local p = cdem.water_table{ profile = { {0, 5}, {2, 3} } }\n"
+          "assert(math.abs(p:height(1, 7) - 4) < 1e-12 and p:height(9, 0) == 3)\n"
+          "local s = cdem.water_table{ surface = cdem.surface{ points = { {0, 0, 1}, {4, 0, 1}, {0, 4, 3} "
+          "}, triangles = { {1, 2, 3} } } }\n"
+          "assert(math.abs(s:height(1, 2) - 2) < 1e-12 and s:height(3, 3) == nil)\n"
+          "cdem.write_csv{ file = 'table.csv', columns = { { name = 'distance', values = {0, 2} }, "
+          "{ name = 'z', values = {5, 3} } } }\n"
+          "assert(cdem.water_table{ file = 'table.csv', direction = {0, 1, 0} }:height(7, 1) == 4)"),
+      Equals(""));
+  CHECK_THAT(error_of(model("") +
+                      "local t = cdem.water_table{ point = {0, 0, 1.8}, dip = 10, dip_direction = 90 }\n"
+                      "local w = m:water{ joints = {'bedding'}, water_table = t }\n"
+                      "local mean = 0.8 - math.tan(math.rad(10))\n"
+                      "assert(math.abs(w.force / (9810 * 4 * mean) - 1) < 1e-9)\n"
+                      "m:traction{ on = 'x-', water_table = t }"),
+             Equals(""));
+  CHECK_THAT(error_of(head + "cdem.water_table{ dip = 10 }"), Contains("point: missing"));
+  CHECK_THAT(error_of(head + "cdem.water_table{}"), Contains("give one of dip"));
+  CHECK_THAT(error_of(head + "cdem.water_table{ dip = 10, profile = { {0, 5}, {2, 3} } }"),
+             Contains("give one of dip"));
+  CHECK_THAT(error_of(head + "cdem.water_table{ point = {0, 0, 1}, profile = { {0, 5}, {2, 3} } }"),
+             Contains("point: goes with dip, not with profile"));
+  CHECK_THAT(error_of(head +
+                      "cdem.write_csv{ file = 'table.csv', columns = { { name = 'x', values = {0, 2} } } }\n"
+                      "cdem.water_table{ file = 'table.csv' }"),
+             Contains("no column is named distance"));
+  CHECK_THAT(
+      error_of(head +
+               "cdem.write_csv{ file = 'table.csv', columns = { { name = 'distance', values = {0, 0} }, "
+               "{ name = 'z', values = {5, 3} } } }\ncdem.water_table{ file = 'table.csv' }"),
+      Contains("table.csv") && Contains("distances rise"));
+  CHECK_THAT(Script(head + "cdem.water_table{ point = {0, 0, 1}, dip = 50, dip_direction = 90 }").printed(),
+             Contains("dip = 50") && Contains("cos(dip)^2"));
+}

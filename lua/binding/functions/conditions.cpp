@@ -4,6 +4,7 @@
 #include "lua/binding/functions/selections.hpp"
 #include "lua/binding/functions/solving_warnings.hpp"
 #include "lua/binding/objects/model_object.hpp"
+#include "lua/binding/objects/water_object.hpp"
 #include "lua/binding/runtime/module.hpp"
 
 #include "libgeom/core/error.hpp"
@@ -60,6 +61,8 @@ Value release(Session&, ModelObject& model, const Arguments& a) {
 FacePressure face_pressure_of(const Arguments& a) {
   FacePressure pressure;
   pressure.level = a.optional_number("level");
+  if (const auto given = a.object<WaterTableObject>("water_table"))
+    pressure.table = given->table;
   pressure.weight = a.number("weight");
   if (const Value& given = a.value("pressure"); given.is_number())
     pressure.pressure = [p = given.number()](const geom::Vec3&) { return p; };
@@ -78,11 +81,10 @@ Value traction(Session& session, ModelObject& model, const Arguments& a) {
   model.require_idle("traction");
   const Amplitude amplitude = amplitude_of(a, model.simulation.time());
   if (static_cast<int>(a.has("stress")) + static_cast<int>(a.has("pressure")) +
-          static_cast<int>(a.has("level")) !=
+          static_cast<int>(a.has("level")) + static_cast<int>(a.has("water_table")) !=
       1)
     throw InputError("give one of stress = {x, y, z} (Pa), pressure = a number (Pa) or function(x, y, z), "
-                     "and level = z of "
-                     "the water (m)");
+                     "level = z of the water (m), and water_table = cdem.water_table{...}");
   for (const Selection& on : selections(model, a.value("on"), "on")) {
     Traction traction;
     traction.on = on;
@@ -93,7 +95,9 @@ Value traction(Session& session, ModelObject& model, const Arguments& a) {
       line = "traction " + describe(a.value("stress")) + " Pa";
     } else {
       traction.pressure = face_pressure_of(a);
+      const auto table = a.object<WaterTableObject>("water_table");
       line = a.has("level") ? "pressure of water up to z = " + describe(a.value("level")) + " m"
+             : table        ? "pressure of water up to a water table, " + table->words
              : a.value("pressure").is_number() ? "pressure " + describe(a.value("pressure")) + " Pa"
                                                : std::string("pressure after a function");
     }
@@ -334,6 +338,7 @@ void bind_conditions(Module& m) {
            .doc("instead: along the inward normal, the same everywhere or at each undeformed place"),
        number("level").unit("m").doc("instead: z of a free water surface; weight times the depth below it, "
                                      "none above. Water in joints is model:water's"),
+       object("water_table", "WaterTable").doc("instead: a free water surface that is not level"),
        number("weight").above(0).unit("N/m3").standard(9810.0).doc("of the water"), amplitude_field(),
        since_field()},
       traction);

@@ -97,6 +97,7 @@ void bind_model_class(Module&); // by bind_model
 void bind_conditions(Module&);
 void bind_in_situ(Module&);
 void bind_water(Module&);
+void bind_water_table(Module&);
 void bind_solving(Module&);
 void bind_stability(Module&);
 void bind_settling(Module&);
