@@ -2587,6 +2587,40 @@ function cdem.film(options) end
 ---@param options cdem.ChartOptions
 function cdem.chart(options) end
 
+---@class (exact) cdem.StereonetOptionsPoles
+---@field name string in the legend
+---@field planes [number, number][] {dip, dip_direction} (deg) of each
+---@field colour? number[] {red, green, blue}, each 0 .. 1
+
+---@class (exact) cdem.StereonetOptionsDiscs
+---@field id? integer >= 0: discs cut in the order of their ids; its place in the list when left out
+---@field centre number[] m
+---@field dip number deg, in [0, 90]
+---@field dip_direction number deg, in [0, 360]
+---@field radius number m, > 0
+---@field set string name of its faces, for their law
+
+---@class (exact) cdem.StereonetOptionsPlanes
+---@field name string in the legend
+---@field dip number deg, in [0, 90]
+---@field dip_direction number deg, in [0, 360]
+---@field dashed? boolean default false
+---@field colour? number[] {red, green, blue}, each 0 .. 1
+
+---@class (exact) cdem.StereonetOptions
+---@field file string ends in .png, .svg or .pdf; in the output folder
+---@field poles? cdem.StereonetOptionsPoles[]
+---@field discs? cdem.StereonetOptionsDiscs[] joints of finite size; poles by set
+---@field shape? cdem.Assembly blocks: poles of the planes that cut them, by joint set or name of the cut
+---@field planes? cdem.StereonetOptionsPlanes[] great circles: slope faces, mean planes of sets
+---@field title? string
+---@field size? number[] default {1600, 1200}: {width, height} in pixels; height 0: as high as it needs to be
+---@field dpi? number in [10, 2400], default 300: pixels in an inch where it is printed: 1600 pixels are 135 mm wide at 300
+
+---Stereonet (Schmidt net, equal-area, lower hemisphere, north up): poles of joints with their scatter, great circles of planes. A table of the same name that ends in .csv has kind, name, dip, dip_direction and the place x, y of each pole on a net of radius 1.
+---@param options cdem.StereonetOptions
+function cdem.stereonet(options) end
+
 ---@class (exact) cdem.ReportOptionsfigures
 ---@field name string name of the figure, with its unit at the end, e.g. "side_ux_max_m"
 ---@field value? any number, text or boolean; leave out (nil) when there is none

@@ -160,3 +160,43 @@ TEST_CASE("a water table is a plane, a profile, a file or a surface", "[lua][roc
   CHECK_THAT(Script(head + "cdem.water_table{ point = {0, 0, 1}, dip = 50, dip_direction = 90 }").printed(),
              Contains("dip = 50") && Contains("cos(dip)^2"));
 }
+
+TEST_CASE("a stereonet draws poles of lists, discs and cut blocks, and says what it drew in a table",
+          "[lua][rock]") {
+  CHECK_THAT(
+      error_of(
+          head +
+          "cdem.stereonet{ file = 'net.png', size = {400, 300}, shape = rocks,\n"
+          "  poles = { { name = 'survey, north', planes = { {30, 90} } } },\n"
+          "  discs = { { centre = {0, 0, 0}, dip = 90, dip_direction = 0, radius = 1, set = 'J1' } },\n"
+          "  planes = { { name = 'face', dip = 60, dip_direction = 180 } } }\n"
+          "local rows = {}\n"
+          "for line in io.lines('net.csv') do\n"
+          "  local kind, name, dip, to, x, y = line:match('^(%a+),(.+),([^,]+),([^,]+),([^,]+),([^,]+)$')\n"
+          "  rows[#rows + 1] = { kind = kind, name = name, dip = tonumber(dip), to = tonumber(to),\n"
+          "                      x = tonumber(x), y = tonumber(y) }\n"
+          "end\n"
+          "assert(#rows == 6 and rows[1].name == 'name')\n"
+          "local survey, j1, bedding, outline, face = table.unpack(rows, 2)\n"
+          "assert(survey.name == '\"survey, north\"' and survey.dip == 30 and survey.to == 90)\n"
+          "assert(math.abs(survey.x + math.sqrt(2) * math.sin(math.rad(15))) < 1e-8)\n"
+          "assert(math.abs(survey.y) < 1e-8)\n"
+          "assert(j1.name == 'J1' and math.abs(j1.y + 1) < 1e-8)\n"  // on the rim, to the south
+          "assert(bedding.name == 'bedding' and bedding.dip == 0)\n" // once, though it makes four faces
+          "assert(outline.name == 'outline' and outline.dip == 90)\n"
+          "assert(face.kind == 'plane' and face.dip == 60 and math.abs(face.y - math.sqrt(0.5)) < 1e-8)"),
+      Equals(""));
+  CHECK_THAT(error_of(head + "cdem.stereonet{ file = 'net.png' }"),
+             Contains("give poles, discs, shape or planes"));
+  CHECK_THAT(error_of(head + "cdem.stereonet{ file = 'net.png', shape = cdem.box{ size = {1, 1, 1} } }"),
+             Contains("no joint set or cut"));
+  CHECK_THAT(
+      error_of(
+          head +
+          "cdem.stereonet{ file = 'net.png', poles = { { name = 'a', planes = { {30, 90}, {95, 0} } } } }"),
+      Contains("poles[1].planes[2]") && Contains("a dip from 0 to 90 degrees"));
+  CHECK_THAT(
+      error_of(head +
+               "cdem.stereonet{ file = 'net.bmp', planes = { { name = 'a', dip = 3, dip_direction = 0 } } }"),
+      Contains(".png"));
+}

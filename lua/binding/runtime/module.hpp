@@ -115,6 +115,7 @@ void bind_units(Module&);
 void bind_output(Module&);
 void bind_checkpoints(Module&);
 void bind_charts(Module&);
+void bind_stereonets(Module&);
 void bind_report(Module&);
 void bind_tables(Module&);
 void bind_sweep(Module&);
