@@ -2289,6 +2289,16 @@ function cdem.read_mesh(options) end
 ---@return cdem.TetMesh
 function cdem.box_mesh(options) end
 
+---@class (exact) cdem.ShellMeshOptions
+---@field surface cdem.Surface cdem.read_surface or cdem.surface
+---@field thickness number m, > 0: more than bodies reach into it and move in a step; less than the surface is bent
+---@field front? number[] m: a place on the side that bodies touch, such as the middle of a drum; where the triangles' normals point when left out
+
+---An open surface as a wall, for a rigid body that is held: a drum, a funnel, a chute, a terrain. The surface is one of its sides; the other lies behind it.
+---@param options cdem.ShellMeshOptions
+---@return cdem.TetMesh
+function cdem.shell_mesh(options) end
+
 ---@class (exact) cdem.DropOptionsRegion
 ---@field min number[]
 ---@field max number[]
