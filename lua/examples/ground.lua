@@ -16,7 +16,8 @@ model:water{ pressure = 0 }                                -- drained
 -- example: cdem.water_table watertable:height
 local table = cdem.water_table{ point = {0, 0, 5}, dip = 8, dip_direction = 90 } -- falls towards +x
 local drawn = cdem.water_table{ profile = { {0, 6}, {4, 5}, {10, 3} }, direction = {1, 0, 0} } -- {distance, z}
-print(table:height(2, 0), drawn:height(2, 0))
+local holes = cdem.water_table{ points = { {-1, -1, 6}, {11, -1, 4}, {5, 11, 5} } } -- levels in boreholes
+print(table:height(2, 0), drawn:height(2, 0), holes:height(2, 0))
 model:water{ water_table = drawn }
 model:water{ pressure = 0 }
 

@@ -2423,7 +2423,8 @@ function cdem.model(options) end
 ---@field dip? number deg, in [0, 90): of a plane, below the horizontal
 ---@field dip_direction? number deg, in [0, 360]: clockwise from +y (north)
 ---@field profile? [number, number][] instead: rows {distance, z} (m); straight between them, level beyond, the same across
----@field file? string instead: a table (docs/output-files.md) with columns distance and z (m)
+---@field points? number[][] m: instead: {x, y, z}, such as levels in boreholes; straight in the triangles of Delaunay between them
+---@field file? string instead: a table (docs/output-files.md) with columns distance and z, or x, y and z (m)
 ---@field origin? number[] m: where the distance of a profile is 0; {0, 0, 0} when left out
 ---@field direction? number[] of a profile, horizontal; {1, 0, 0} when left out
 ---@field surface? cdem.Surface instead: open, once over each place; larger than the model in plan

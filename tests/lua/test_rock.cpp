@@ -142,6 +142,18 @@ TEST_CASE("a water table is a plane, a profile, a file or a surface", "[lua][roc
                       "assert(math.abs(w.force / (9810 * 4 * mean) - 1) < 1e-9)\n"
                       "m:traction{ on = 'x-', water_table = t }"),
              Equals(""));
+  CHECK_THAT(
+      error_of(head +
+               "local p = cdem.water_table{ points = { {0, 0, 1}, {4, 0, 1}, {0, 4, 3}, {4, 4, 3} } }\n"
+               "assert(math.abs(p:height(3, 2) - 2) < 1e-12 and p:height(5, 0) == nil)\n"
+               "cdem.write_csv{ file = 'holes.csv', columns = { { name = 'X', values = {0, 4, 0} }, "
+               "{ name = 'Y', values = {0, 0, 4} }, { name = 'Z', values = {1, 1, 3} } } }\n"
+               "assert(math.abs(cdem.water_table{ file = 'holes.csv' }:height(1, 2) - 2) < 1e-12)"),
+      Equals(""));
+  CHECK_THAT(error_of(head + "cdem.water_table{ points = { {0, 0, 1}, {4, 0, 1}, {8, 0, 3} } }"),
+             Contains("on one line in plan"));
+  CHECK_THAT(error_of(head + "cdem.water_table{ points = { {0, 0, 1}, {4, 0, 1}, {4, 1, 3}, {4, 0, 2} } }"),
+             Contains("points[4]") && Contains("point 2 is there already"));
   CHECK_THAT(error_of(head + "cdem.water_table{ dip = 10 }"), Contains("point: missing"));
   CHECK_THAT(error_of(head + "cdem.water_table{}"), Contains("give one of dip"));
   CHECK_THAT(error_of(head + "cdem.water_table{ dip = 10, profile = { {0, 5}, {2, 3} } }"),
@@ -151,7 +163,7 @@ TEST_CASE("a water table is a plane, a profile, a file or a surface", "[lua][roc
   CHECK_THAT(error_of(head +
                       "cdem.write_csv{ file = 'table.csv', columns = { { name = 'x', values = {0, 2} } } }\n"
                       "cdem.water_table{ file = 'table.csv' }"),
-             Contains("no column is named distance"));
+             Contains("its columns must be distance and z"));
   CHECK_THAT(
       error_of(head +
                "cdem.write_csv{ file = 'table.csv', columns = { { name = 'distance', values = {0, 0} }, "

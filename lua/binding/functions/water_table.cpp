@@ -8,6 +8,7 @@
 
 #include "libgeom/core/error.hpp"
 #include "libgeom/core/text_table.hpp"
+#include "libgeom/mesh/plan_triangles.hpp"
 
 #include <cmath>
 
@@ -20,42 +21,46 @@ using geom::InputError;
 // Beyond it the pressure is more than half too large, cos^2 of the slope.
 constexpr double steep = 35; // deg
 
-std::vector<std::array<double, 2>> rows_of_file(Session& session, const std::string& name) {
+struct TableFile {
+  std::vector<std::array<double, 2>> rows; // of a profile, or
+  std::vector<geom::Vec3> points;
+};
+
+TableFile read_table(Session& session, const std::string& name) {
   const geom::TextTable table(read_file(session.files.to_read(name)), name);
-  const auto column = [&](const char* wanted) {
-    const std::optional<std::size_t> found = table.find(wanted);
-    if (!found)
-      table.refuse(std::string("no column is named ") + wanted + "; a profile has distance (m) and z (m)");
-    return *found;
+  const auto distance = table.find("distance"), x = table.find("x"), y = table.find("y"), z = table.find("z");
+  const bool profile = distance.has_value();
+  if (!z || (!profile && !(x && y)))
+    table.refuse("its columns must be distance and z (m), of a profile, or x, y and z (m), of points");
+  const auto number = [&](std::size_t row, std::size_t column) {
+    const double value = table.number(row, column);
+    if (std::isnan(value))
+      table.refuse(row, column, "a number (m)");
+    return value;
   };
-  const std::size_t distance = column("distance"), z = column("z");
-  std::vector<std::array<double, 2>> rows;
+  TableFile file;
   for (std::size_t row = 0; row < table.rows(); ++row) {
-    rows.push_back({table.number(row, distance), table.number(row, z)});
-    for (const auto& [value, of] : {std::pair(rows.back()[0], distance), std::pair(rows.back()[1], z)})
-      if (std::isnan(value))
-        table.refuse(row, of, "a number (m)");
-    if (row > 0 && !(rows[row][0] > rows[row - 1][0]))
-      table.refuse(row, distance, "more than in the row before: distances rise");
+    if (!profile) {
+      file.points.emplace_back(number(row, *x), number(row, *y), number(row, *z));
+      continue;
+    }
+    file.rows.push_back({number(row, *distance), number(row, *z)});
+    if (row > 0 && !(file.rows[row][0] > file.rows[row - 1][0]))
+      table.refuse(row, *distance, "more than in the row before: distances rise");
   }
-  return rows;
+  return file;
 }
 
-void require_its_fields(const Arguments& a, const char* kind) {
-  const std::vector<std::pair<const char*, std::vector<const char*>>> kinds = {
-      {"dip", {"point", "dip_direction"}},
-      {"profile", {"origin", "direction"}},
-      {"file", {"origin", "direction"}},
-      {"surface", {}}};
-  for (const auto& [other, fields] : kinds)
-    for (const char* const field : fields) {
-      const bool own = std::string(other) == kind ||
-                       (std::string(other) == "profile" && std::string(kind) == "file") ||
-                       (std::string(other) == "file" && std::string(kind) == "profile");
-      if (!own && a.has(field))
-        throw InputError(std::string(field) + ": goes with " +
-                         (std::string(other) == "dip" ? "dip" : "profile or file") + ", not with " + kind);
-    }
+// point and dip_direction go with dip, origin and direction with a profile, given as rows or by a file.
+void require_its_fields(const Arguments& a, const std::string& kind) {
+  const auto require = [&](const char* field, bool fits, const char* partner) {
+    if (a.has(field) && !fits)
+      throw InputError(std::string(field) + ": goes with " + partner + ", not with " + kind);
+  };
+  for (const char* const field : {"point", "dip_direction"})
+    require(field, kind == "dip", "dip");
+  for (const char* const field : {"origin", "direction"})
+    require(field, kind == "profile" || kind == "file", "profile or file");
 }
 
 std::shared_ptr<const WaterTable> plane_of(Session& session, const Arguments& a) {
@@ -73,16 +78,24 @@ std::shared_ptr<const WaterTable> plane_of(Session& session, const Arguments& a)
 }
 
 Value water_table(Session& session, Object*, const Arguments& a) {
-  std::vector<const char*> given;
-  for (const char* const kind : {"dip", "profile", "file", "surface"})
+  std::vector<std::string> given;
+  for (const char* const kind : {"dip", "profile", "points", "file", "surface"})
     if (a.has(kind))
-      given.push_back(kind);
+      given.emplace_back(kind);
   if (given.size() != 1)
     throw InputError(
-        "give one of dip with point and dip_direction (a plane), profile = rows {distance, z}, file = a "
-        "table of them, and surface = cdem.read_surface{...} or cdem.surface{...}");
-  const std::string kind = given[0];
-  require_its_fields(a, given[0]);
+        "give one of dip with point and dip_direction (a plane), profile = rows {distance, z}, points = "
+        "{ {x, y, z}, ... }, file = a table of either, and surface = cdem.read_surface{...} or "
+        "cdem.surface{...}");
+  const std::string& kind = given[0];
+  require_its_fields(a, kind);
+  TableFile table;
+  if (kind == "file")
+    table = read_table(session, a.text("file"));
+  for (const Value& row : a.list("profile"))
+    table.rows.push_back({row.table()->items[0].number(), row.table()->items[1].number()});
+  for (const Value& point : a.list("points"))
+    table.points.push_back(to_vec3(point));
   auto object = std::make_shared<WaterTableObject>();
   if (kind == "dip") {
     object->table = plane_of(session, a);
@@ -91,15 +104,17 @@ Value water_table(Session& session, Object*, const Arguments& a) {
   } else if (kind == "surface") {
     object->table = water_surface(a.object<SurfaceObject>("surface")->surface);
     object->words = "a surface of triangles";
+  } else if (table.rows.empty()) {
+    for (const char* const field : {"origin", "direction"})
+      if (a.has(field))
+        throw InputError(std::string(field) + ": goes with a profile, not with points x, y, z");
+    object->table = water_surface(geom::plan_triangles(table.points, kind == "file" ? "file" : "points"));
+    object->words = std::to_string(table.points.size()) + " points";
   } else {
-    std::vector<std::array<double, 2>> rows;
-    for (const Value& row : a.list("profile"))
-      rows.push_back({row.table()->items[0].number(), row.table()->items[1].number()});
-    if (kind == "file")
-      rows = rows_of_file(session, a.text("file"));
-    object->words = "a profile of " + std::to_string(rows.size()) + " points";
-    object->table = water_profile(std::move(rows), a.optional_vec3("origin").value_or(geom::Vec3::Zero()),
-                                  a.optional_vec3("direction").value_or(geom::Vec3::UnitX()));
+    object->words = "a profile of " + std::to_string(table.rows.size()) + " points";
+    object->table =
+        water_profile(std::move(table.rows), a.optional_vec3("origin").value_or(geom::Vec3::Zero()),
+                      a.optional_vec3("direction").value_or(geom::Vec3::UnitX()));
   }
   return object;
 }
@@ -122,7 +137,12 @@ void bind_water_table(Module& m) {
         number("dip_direction").within(0, 360).unit("deg").doc("clockwise from +y (north)"),
         list("profile", tuple_type({number_type(), number_type()}), 2)
             .doc("instead: rows {distance, z} (m); straight between them, level beyond, the same across"),
-        text("file").doc("instead: a table (docs/output-files.md) with columns distance and z (m)"),
+        list("points", vec3_type(), 3)
+            .unit("m")
+            .doc("instead: {x, y, z}, such as levels in boreholes; straight in the triangles of Delaunay "
+                 "between them"),
+        text("file").doc(
+            "instead: a table (docs/output-files.md) with columns distance and z, or x, y and z (m)"),
         vec3("origin").unit("m").doc("where the distance of a profile is 0; {0, 0, 0} when left out"),
         vec3("direction").doc("of a profile, horizontal; {1, 0, 0} when left out"),
         object("surface", "Surface")
