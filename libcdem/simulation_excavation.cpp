@@ -12,7 +12,7 @@ namespace cdem {
 namespace {
 
 // Smaller forces, over the largest, are rounding.
-constexpr double rounding = 1e-9;
+constexpr double least_part_of_force = 1e-9;
 
 // What springs and contacts do where the nodes are now.
 struct Forces {
@@ -52,7 +52,7 @@ void require_no_rigid(const Forces& before, const Model& old, const Forces& afte
     const auto was = static_cast<std::size_t>(old.blocks[rebuilt.old_block[block]].rigid);
     const geom::Vec3 force = before.on_rigid.empty() ? geom::Vec3(0, 0, 0) : before.on_rigid[was].force,
                      now = after.on_rigid.empty() ? geom::Vec3(0, 0, 0) : after.on_rigid[r].force;
-    if ((force - now).norm() > rounding * std::max(force.norm(), now.norm()))
+    if ((force - now).norm() > least_part_of_force * std::max(force.norm(), now.norm()))
       throw geom::InputError(fmt::format(
           "remove: block {} of body \"{}\" is rigid and touches what is removed; forces of an "
           "excavation stay on bodies that deform only: make it deformable (model:make_deformable), "
@@ -81,7 +81,7 @@ std::vector<Node> forces_of_removed(const Model& old, const State& from, const s
     }
   }
   for (Node& f : force)
-    if (vec(f).norm() <= rounding * largest)
+    if (vec(f).norm() <= least_part_of_force * largest)
       f = {};
   return force;
 }

@@ -77,6 +77,7 @@ private:
   }
   std::vector<Canvas::Point> on_paper(const std::vector<Eigen::Vector2d>& line) const {
     std::vector<Canvas::Point> points;
+    points.reserve(line.size());
     for (const Eigen::Vector2d& x : line)
       points.push_back(on_paper(x));
     return points;
