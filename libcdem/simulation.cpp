@@ -266,35 +266,6 @@ const std::vector<Departure>& Simulation::departures(std::size_t watch) const {
   return impl_->log.watches.at(watch).left;
 }
 
-std::int64_t Simulation::remove(const Selection& on) {
-  Impl& s = *impl_;
-  std::vector<Successor> left;
-  std::vector<int> new_block(s.model.blocks.size(), -1);
-  for (int b = 0; b < static_cast<int>(s.model.blocks.size()); ++b)
-    if (!selects_block(s.model, on, b)) {
-      new_block[b] = static_cast<int>(left.size());
-      left.push_back(whole_block(s.model, b));
-    }
-  const auto removed = static_cast<std::int64_t>(s.model.blocks.size() - left.size());
-  if (removed == 0)
-    throw geom::InputError("on", on.text, "a place that holds block centroids",
-                           "nothing of the model lies there");
-  if (left.empty())
-    throw geom::InputError("on", on.text, "a part of the model",
-                           "removing everything leaves nothing to solve");
-  for (const Watch& watch : s.log.watches)
-    for (const int unit : watch.blocks)
-      if (new_block[unit] < 0)
-        throw geom::InputError("on", on.text, "a place without units that are watched",
-                               "block " + std::to_string(s.model.blocks[unit].id) + " of body \"" +
-                                   s.model.bodies[s.model.blocks[unit].body].name + "\" is");
-  for (Watch& watch : s.log.watches)
-    carry_over(watch, new_block);
-  s.adopt(rebuild(s.model, s.whole(), std::move(left), {}, MayBreak::all));
-  s.warn_of_lost_probes();
-  return removed;
-}
-
 std::int64_t Simulation::break_bonds(const Selection& on, bool whole_faces) {
   Impl& s = *impl_;
   std::vector<char> selected(s.model.points.size());
@@ -365,6 +336,7 @@ void sample_every(const StageContext& context, std::int64_t steps) {
 
 RelaxResult Simulation::relax(const RelaxOptions& options) {
   check(options);
+  impl_->warn_of_falling_forces();
   RelaxResult result = impl_->run_stage([&](const StageContext& context) {
     sample_every(context, options.history_every);
     return cdem::relax(context, options);

@@ -5,6 +5,7 @@
 #include "libcdem/fracture/options.hpp"
 #include "libcdem/joint/joint.hpp"
 #include "libcdem/load/conditions.hpp"
+#include "libcdem/load/excavation_options.hpp"
 #include "libcdem/load/initial_stress.hpp"
 #include "libcdem/load/water.hpp"
 #include "libcdem/material/elastic.hpp"
@@ -134,8 +135,12 @@ public:
   // deformation that is lost. Each returns how many changed.
   std::int64_t make_rigid(const Selection&);
   std::int64_t make_deformable(const Selection&);
-  // Selected blocks (by centroid; by a face on a side) are taken out, with their bonds. Returns how many.
-  std::int64_t remove(const Selection&);
+  // Selected blocks (by centroid; by a face on a side) are taken out, with their bonds. What they did to the rock that
+  // stays goes as the excavation says (load/excavation.hpp). Returns how many.
+  std::int64_t remove(const Selection&, const Excavation& = {});
+  // Forces of earlier excavations that are still kept go as told: `relaxed` counts from the beginning. Forces that are
+  // relaxed further stay so. Returns how many go; throws geom::InputError where all that are kept are relaxed further.
+  std::size_t relax_excavation(const Excavation&);
   // Bonds whose point is selected are broken from now on (a notch); returns how many. whole_faces: only those of
   // interfaces that are selected with all their points, so that faces which meet the notch at its tip stay bonded.
   std::int64_t break_bonds(const Selection&, bool whole_faces = false);

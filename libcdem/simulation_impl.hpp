@@ -42,6 +42,7 @@ struct Simulation::Impl {
   void warn_of_loads_on_supports();
   void warn_of_lost_probes();
   void warn_of_open_water(const Water&);
+  void warn_of_falling_forces();
 
   // All ranks call it together.
   State& whole() {

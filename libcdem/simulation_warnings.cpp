@@ -2,6 +2,7 @@
 #include "libcdem/simulation_impl.hpp"
 
 #include "libcdem/load/resolve.hpp"
+#include "libcdem/load/water_table.hpp"
 #include "libcdem/results/fields.hpp"
 #include "libcdem/state/places.hpp"
 
@@ -69,37 +70,63 @@ void Simulation::Impl::warn_of_lost_probes() {
   }
 }
 
-// Ground below the level that looks up is the bed of open water: the joints push its blocks up, and nothing but a traction
-// of the water above pushes them down.
+// A relaxation takes no time, in which the forces of an excavation could fall.
+void Simulation::Impl::warn_of_falling_forces() {
+  if (replaying)
+    return;
+  double end = 0, share = 0;
+  const double now = whole().time;
+  for (const ExcavationForce& force : kept.excavation)
+    if (force.end() > now) {
+      end = std::max(end, force.end());
+      share = std::max(share, force.share(now));
+    }
+  if (share == 0)
+    return;
+  const std::string line = fmt::format("relax: forces of an excavation fall until t = {:g} s, and a "
+                                       "relaxation takes no time: it keeps them as "
+                                       "they are now, up to {:.3g} of their full size; call model:run until "
+                                       "then, or model:relax_excavation{{}}",
+                                       end, share);
+  if (told.insert(line).second)
+    observer->warning("warning: " + line);
+}
+
+// Ground below the water table that looks up is the bed of open water: the joints push its blocks up, and nothing but a
+// traction of the water above pushes them down.
 void Simulation::Impl::warn_of_open_water(const Water& water) {
-  if (replaying || !water.level)
+  if (replaying || (!water.level && !water.table))
     return;
   const auto presses = [](const Traction& traction) { return traction.pressure.has_value(); };
   if (std::any_of(conditions.tractions.begin(), conditions.tractions.end(), presses))
     return;
-  double area = 0, lowest = *water.level;
+  const auto depth = [&](const geom::Vec3& x) { // m, none where the table ends before
+    return (water.level ? *water.level : water.table->height(x).value_or(x.z())) - x.z();
+  };
+  double area = 0, deepest = 0;
   for (const OuterFace& face : model.outer_faces) {
     if (face.normal.z() < least_slope)
       continue;
     double flooded = 0;
     each_face_node(model, face, [&](int node, double share) {
-      const double z = model.node_position[node].z();
-      if (z < *water.level - model.tolerance) {
+      const double here = depth(model.node_position[node]);
+      if (here > model.tolerance) {
         flooded += share;
-        lowest = std::min(lowest, z);
+        deepest = std::max(deepest, here);
       }
     });
     area += flooded * face.normal.z();
   }
   if (!(area > 0))
     return;
-  const std::string line =
-      fmt::format("water: level = {:g} m stands above {:.3g} m2 of open ground, up to {:.3g} m: its pressure "
-                  "in the joints lifts "
-                  "that ground, and no traction of open water presses on it; lower the level there (pressure "
-                  "= a function or a "
-                  "table), or add traction{{ on = the ground, level = {:g} }} for a lake",
-                  *water.level, area, *water.level - lowest, *water.level);
+  const std::string line = fmt::format(
+      "water: {} stands above {:.3g} m2 of open ground, up to {:.3g} m: its pressure in the joints lifts "
+      "that ground, and no traction of open water presses on it; lower the {} there (pressure = a function "
+      "or "
+      "a table), or add traction{{ on = the ground, {} }} for a lake",
+      water.level ? fmt::format("level = {:g} m", *water.level) : "the water_table", area, deepest,
+      water.level ? "level" : "table",
+      water.level ? fmt::format("level = {:g}", *water.level) : "water_table = the same");
   if (told.insert(line).second)
     observer->warning("warning: " + line);
 }

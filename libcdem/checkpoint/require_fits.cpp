@@ -4,6 +4,7 @@
 #include "libgeom/core/error.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace cdem {
 namespace {
@@ -61,6 +62,20 @@ void check_contacts(const Model& model, const State& state) {
   }
 }
 
+void check_excavation(const Model& model, const State& state) {
+  for (const ExcavationForce& force : state.excavation) {
+    require_below("excavation.node", force.node, model.node_position.size());
+    for (const double share : {force.before, force.after})
+      if (!(share >= 0 && share <= 1))
+        refuse_state("excavation.share", std::to_string(share) + " is out of range");
+    if (!(force.duration >= 0))
+      refuse_state("excavation.duration", std::to_string(force.duration) + " is out of range");
+    for (const double number : {force.x, force.y, force.z, force.begin, force.duration})
+      if (!std::isfinite(number))
+        refuse_state("excavation", std::to_string(number) + " is no finite number");
+  }
+}
+
 } // namespace
 
 void require_fits(const Model& model, const State& state) {
@@ -99,6 +114,7 @@ void require_fits(const Model& model, const State& state) {
     require_below("escaped", escaped, escapes);
   check_faces(state);
   check_contacts(model, state);
+  check_excavation(model, state);
 }
 
 } // namespace cdem

@@ -7,9 +7,12 @@
 
 #include <array>
 #include <cmath>
+#include <memory>
 #include <optional>
 
 namespace cdem {
+
+class WaterTable; // load/water_table.hpp
 
 // Factor over time (s; pseudo-time in a relaxation, where it is evaluated once at the start); empty means 1.
 using Amplitude = std::function<double(double time)>;
@@ -31,7 +34,8 @@ void add_fix(std::vector<Fix>& fixes, const Fix& fix);
 struct FacePressure {
   std::optional<double> level; // m, z of a free water surface: p = weight (level - z) below it
   double weight = 9810;        // N/m3
-  std::function<double(const geom::Vec3&)> pressure; // Pa, at undeformed places; where no level is given
+  std::function<double(const geom::Vec3&)> pressure; // Pa, at undeformed places; without level and table
+  std::shared_ptr<const WaterTable> table{}; // in place of the level: p = weight times the depth below it
 };
 
 struct Traction {

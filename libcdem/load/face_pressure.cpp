@@ -1,5 +1,6 @@
 #include "libcdem/load/face_pressure.hpp"
 
+#include "libcdem/load/water_table.hpp"
 #include "libcdem/model/build/build_model.hpp"
 #include "libgeom/core/error.hpp"
 #include "libgeom/mesh/star_mesh.hpp"
@@ -10,6 +11,8 @@
 namespace cdem {
 namespace {
 
+constexpr int parts = 4; // parts * parts of a triangle, where the pressure is not linear in it
+
 using Weights = std::array<double, 3>; // of the corners of a triangle
 using Corners = std::array<geom::Vec3, 3>;
 
@@ -17,9 +20,17 @@ geom::Vec3 place(const Corners& x, const Weights& w) {
   return w[0] * x[0] + w[1] * x[1] + w[2] * x[2];
 }
 
+bool of_water(const FacePressure& given) {
+  return given.level || given.table;
+}
+
+double depth_at(const FacePressure& given, const geom::Vec3& x) { // m, below the water table
+  return (given.level ? *given.level : required_height(*given.table, x)) - x.z();
+}
+
 double pressure_at(const FacePressure& given, const geom::Vec3& x) {
-  if (given.level)
-    return given.weight * (*given.level - x.z());
+  if (of_water(given))
+    return given.weight * std::max(0.0, depth_at(given, x));
   const double p = given.pressure(x);
   if (!std::isfinite(p))
     throw geom::InputError(fmt::format("pressure at ({:.4g}, {:.4g}, {:.4g}) m", x.x(), x.y(), x.z()),
@@ -41,23 +52,37 @@ void each_midpoint(const std::array<Weights, 3>& part, const F& f) {
   }
 }
 
-// The part of a triangle below the level, as weights of its corners.
-std::vector<Weights> below(const Corners& x, double level) {
-  const std::array<Weights, 3> corner{Weights{1, 0, 0}, Weights{0, 1, 0}, Weights{0, 0, 1}};
+// What of a part of a triangle lies under water, which is deep at its corners: linear between them.
+std::vector<Weights> under_water(const std::array<Weights, 3>& part, const std::array<double, 3>& deep) {
   std::vector<Weights> polygon;
   for (int i = 0; i < 3; ++i) {
     const int j = (i + 1) % 3;
-    const double a = x[i].z() - level, b = x[j].z() - level;
+    const double a = -deep[i], b = -deep[j];
     if (a < 0)
-      polygon.push_back(corner[i]);
+      polygon.push_back(part[i]);
     if ((a < 0) != (b < 0)) {
       Weights w{0, 0, 0};
-      w[i] = b / (b - a);
-      w[j] = a / (a - b);
+      for (int k = 0; k < 3; ++k)
+        w[k] = b / (b - a) * part[i][k] + a / (a - b) * part[j][k];
       polygon.push_back(w);
     }
   }
   return polygon;
+}
+
+// f(part) for n * n equal parts of a triangle.
+template <class F>
+void each_part(int n, const F& f) {
+  const auto at = [n](int i, int j) {
+    const double a = static_cast<double>(i) / n, b = static_cast<double>(j) / n;
+    return Weights{1 - a - b, a, b};
+  };
+  for (int i = 0; i < n; ++i)
+    for (int j = 0; j < n - i; ++j) {
+      f(std::array<Weights, 3>{at(i, j), at(i + 1, j), at(i, j + 1)});
+      if (j < n - i - 1)
+        f(std::array<Weights, 3>{at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)});
+    }
 }
 
 // Integral of p N over a triangle, for its three corners, N.
@@ -69,23 +94,19 @@ Weights integral(const Corners& x, const FacePressure& given) {
     for (int i = 0; i < 3; ++i)
       sum[i] += force * w[i];
   };
-  if (given.level) {
-    const std::vector<Weights> wet = below(x, *given.level);
-    for (std::size_t i = 1; i + 1 < wet.size(); ++i)
-      each_midpoint({wet[0], wet[i], wet[i + 1]}, add);
+  if (of_water(given)) {
+    const bool linear = given.level || given.table->is_plane();
+    each_part(linear ? 1 : parts, [&](const std::array<Weights, 3>& part) {
+      std::array<double, 3> deep{};
+      for (int i = 0; i < 3; ++i)
+        deep[i] = depth_at(given, place(x, part[i]));
+      const std::vector<Weights> wet = under_water(part, deep);
+      for (std::size_t i = 1; i + 1 < wet.size(); ++i)
+        each_midpoint({wet[0], wet[i], wet[i + 1]}, add);
+    });
     return sum;
   }
-  constexpr int n = 4; // n * n parts
-  const auto at = [](int i, int j) {
-    const double a = static_cast<double>(i) / n, b = static_cast<double>(j) / n;
-    return Weights{1 - a - b, a, b};
-  };
-  for (int i = 0; i < n; ++i)
-    for (int j = 0; j < n - i; ++j) {
-      each_midpoint({at(i, j), at(i + 1, j), at(i, j + 1)}, add);
-      if (j < n - i - 1)
-        each_midpoint({at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)}, add);
-    }
+  each_part(parts, [&](const std::array<Weights, 3>& part) { each_midpoint(part, add); });
   return sum;
 }
 
@@ -175,6 +196,9 @@ std::vector<std::pair<int, geom::Vec3>> pressure_pattern(const Model& model, con
   }
   if (pattern.empty() && given.level)
     throw geom::InputError("level", fmt::format("{:g}", *given.level),
+                           "above the lowest of the faces that `on` selects", "none of them is under water");
+  if (pattern.empty() && given.table)
+    throw geom::InputError("water_table", "below all of them",
                            "above the lowest of the faces that `on` selects", "none of them is under water");
   return pattern;
 }

@@ -1,6 +1,7 @@
 #include "libcdem/load/resolve.hpp"
 
 #include "libcdem/element/small_strain.hpp"
+#include "libcdem/load/excavation.hpp"
 #include "libcdem/load/face_pressure.hpp"
 #include "libcdem/load/flow.hpp"
 #include "libcdem/load/free_field.hpp"
@@ -290,9 +291,10 @@ ResolvedConditions resolve(const Model& model, const State& state, const Conditi
   const std::size_t n = model.node_position.size();
   HeldNodes held;
   if (conditions.load() || !conditions.bolts.empty() || !conditions.quiets.empty() ||
-      !conditions.free_fields.empty() || !state.support_force.empty())
+      !conditions.free_fields.empty() || !state.support_force.empty() || !state.excavation.empty())
     r.external.resize(n);
   std::copy(state.support_force.begin(), state.support_force.end(), r.external.begin());
+  add_excavations(state, r);
   for (const Fix& fix : conditions.fixes)
     hold(model, fix, held, r);
   add_boundaries(model, conditions, held, r);

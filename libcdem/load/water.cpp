@@ -2,6 +2,7 @@
 
 #include "libcdem/bond/water_work.hpp"
 #include "libcdem/element/mesh_fields.hpp"
+#include "libcdem/load/water_table.hpp"
 #include "libcdem/model/joint_set.hpp"
 #include "libgeom/core/error.hpp"
 
@@ -39,6 +40,8 @@ void check(const Model& model, const Water& water) {
 double pressure_at(const Water& water, const geom::Vec3& place) {
   if (water.level)
     return std::max(0.0, water.weight * (*water.level - place.z()));
+  if (water.table)
+    return std::max(0.0, water.weight * (required_height(*water.table, place) - place.z()));
   const double pressure = water.pressure(place);
   if (!(std::isfinite(pressure) && pressure >= 0))
     throw geom::InputError("pressure at " + in_words(place), fmt::format("{:g}", pressure),
@@ -118,7 +121,7 @@ WaterInJoints set_water(const Model& model, State& state, const Water& water) {
                                                        joint_set_of(model, interface)) != water.sets.end();
     holds.push_back(static_cast<char>(named && !model.joints[interface.joint].glued));
   }
-  bool any = false;
+  bool any = false, wet = false;
   std::vector<double> force(pressure.size(), 0), area = force;
   for (std::size_t i = 0; i < model.interfaces.size(); ++i) {
     const Interface& interface = model.interfaces[i];
@@ -130,12 +133,17 @@ WaterInJoints set_water(const Model& model, State& state, const Water& water) {
       continue;
     any = true;
     integrate(model, interface, water, force, area);
-    for (const int p : points)
+    for (const int p : points) {
       pressure[p] = area[p] > 0 ? force[p] / area[p] : 0;
+      wet = wet || pressure[p] > 0;
+    }
   }
   if (!any)
     throw geom::InputError("on", water.on.text, "a place that holds interfaces between blocks",
                            "nothing of these joints lies there");
+  if (water.table && !wet)
+    throw geom::InputError("water_table", "below all joints of the place (" + water.on.text + ")",
+                           "one that reaches above some of them", "pressure = 0 takes the water away");
   // Where velocities and summed energies stand.
   State moved = moved_back(model, state, state.velocity_lag);
   const double done = water_work(model, moved);

@@ -12,16 +12,20 @@
 #include "libcdem/model/selection.hpp"
 #include "libcdem/state/state.hpp"
 
+#include <memory>
 #include <optional>
 
 namespace cdem {
 
+class WaterTable; // load/water_table.hpp
+
 struct Water {
   Selection on;                  // points of interfaces
   std::vector<std::string> sets; // names of joint sets and cuts; empty: all interfaces that are not glued
-  std::optional<double> level;   // m, z of the water table: p = weight (level - z), no less than 0
+  std::optional<double> level;   // m, z of a level water table: p = weight (level - z), no less than 0
   double weight = 9810;          // N/m3
-  std::function<double(const geom::Vec3&)> pressure; // Pa, >= 0; where no level is given
+  std::function<double(const geom::Vec3&)> pressure; // Pa, >= 0; without level and table
+  std::shared_ptr<const WaterTable> table{}; // in place of the level: p = weight times the depth below it
 };
 
 struct WaterInJoints {

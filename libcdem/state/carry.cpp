@@ -1,6 +1,7 @@
 #include "libcdem/state/carry.hpp"
 
 #include <algorithm>
+#include <map>
 #include <utility>
 
 namespace cdem {
@@ -31,6 +32,10 @@ private:
   void carry_array(const FieldRow& row, std::vector<T>& from, std::vector<T>& to) {
     if (stays(row.place)) {
       std::swap(from, to);
+      return;
+    }
+    if constexpr (std::is_same_v<T, ExcavationForce>) {
+      carry_excavation(from, to);
       return;
     }
     if (row.need == FieldNeed::later && !from.empty())
@@ -73,6 +78,7 @@ private:
   bool stays(FieldPlace place) const {
     switch (place) {
     case FieldPlace::node:
+    case FieldPlace::excavation:
       return !map_.node;
     case FieldPlace::tet_batch:
     case FieldPlace::small_strain_tet:
@@ -134,6 +140,25 @@ private:
     to.x += part * from.x;
     to.y += part * from.y;
     to.z += part * from.z;
+  }
+
+  // Forces go where all that is divided among nodes goes; those on removed nodes end.
+  void carry_excavation(const std::vector<ExcavationForce>& from, std::vector<ExcavationForce>& to) const {
+    if (from.empty())
+      return;
+    std::multimap<std::int64_t, const ExcavationForce*> at;
+    for (const ExcavationForce& force : from)
+      at.emplace(force.node, &force);
+    for (const SharedNode& share : map_.divided) {
+      const auto [begin, end] = at.equal_range(share.old_node);
+      for (auto force = begin; force != end; ++force) {
+        ExcavationForce part = *force->second;
+        part.node = share.node;
+        for (double* const component : {&part.x, &part.y, &part.z})
+          *component *= share.part;
+        to.push_back(part);
+      }
+    }
   }
 
   // A batch holds some numbers of eight tets: number by number, tet by tet.

@@ -89,6 +89,7 @@ std::optional<std::size_t> places(FieldPlace place, const Model& model) {
   case FieldPlace::contact:
   case FieldPlace::column:
   case FieldPlace::bolt:
+  case FieldPlace::excavation:
     break;
   }
   return std::nullopt;

@@ -10,7 +10,7 @@ namespace cdem {
 
 // bond: a spring of an interface; frame: an interface that may turn; face: of a mesh, face_batch and tet_batch: eight
 // side by side; slip: eight faces with a broken spring; body: of each, and one more for the joints between them; column:
-// a level of one; bolt: a node of one.
+// a level of one; bolt: a node of one; excavation: a node of the rock around it.
 enum class FieldPlace {
   model,
   node,
@@ -25,7 +25,8 @@ enum class FieldPlace {
   rigid_body,
   body,
   column,
-  bolt
+  bolt,
+  excavation
 };
 
 // Which models have the field from the beginning; later: empty until something asks for it.

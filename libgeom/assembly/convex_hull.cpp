@@ -1,4 +1,4 @@
-// Convex hull of points (CGAL), its coplanar triangles joined into polygons. The only file that sees CGAL.
+// Convex hull of points (CGAL), its coplanar triangles joined into polygons.
 #include "libgeom/assembly/builders.hpp"
 #include "libgeom/core/check.hpp"
 #include "libgeom/core/error.hpp"

@@ -104,7 +104,7 @@ Pattern choose_pattern(const Pile& pile, int count, const LayerOptions& options,
 
 // Lays rows from the toe, each unit one spacing above where the two below it have come to lie. Returns the density.
 double lay_rows(Pile& pile, int count, const Pattern& pattern, const Vec3& first, Laying& laying,
-                LayerProgress& now, const std::function<void()>& poll) {
+                const Laying* before, LayerProgress& now) {
   pile.poses.clear();
   for (int i = 0; i < count; ++i) {
     const int row = i / pattern.columns, column = i % pattern.columns;
@@ -126,8 +126,7 @@ double lay_rows(Pile& pile, int count, const Pattern& pattern, const Vec3& first
         Vec3(first.x() + (column - 0.5 * (pattern.columns - 1) + shift) * pattern.spacing.across, up, 0);
     const double behind = first.y() + row * pattern.spacing.rows - up;
     site.wanted = up + std::clamp(behind, -catch_up * pile.height, catch_up * pile.height);
-    poll();
-    laying.lay(site);
+    laying.lay(site, before);
     now.laid = i + 1;
   }
   now.doing = "come to rest together";
@@ -194,6 +193,7 @@ Candidate lay_to_density(Pile& pile, int count, const Site& site, const LayerOpt
   for (int i = 0; i < now.spacings && best.error > density_tolerance; ++i) {
     now.spacing = i + 1;
     now.laid = 0;
+    now.unsupported = 0;
     now.doing = "laid";
     Pattern pattern = as_asked;
     pattern.spacing.across *= widening;
@@ -205,7 +205,7 @@ Candidate lay_to_density(Pile& pile, int count, const Site& site, const LayerOpt
     }
     auto laying = std::make_unique<Laying>(pile, site.ground, site.frame, site.gap, options, pattern.spacing,
                                            walls, poll);
-    const double by_rows = lay_rows(pile, count, pattern, site.first, *laying, now, poll);
+    const double by_rows = lay_rows(pile, count, pattern, site.first, *laying, best.laying.get(), now);
     const double density = measured_density(pile, site.ground).value_or(by_rows);
     const double error = std::abs(density / options.density - 1) +
                          (laying->rested().still || options.nudges == 0 ? 0 : not_at_rest);
@@ -214,7 +214,7 @@ Candidate lay_to_density(Pile& pile, int count, const Site& site, const LayerOpt
     widening = std::clamp(widening * density / options.density, 0.8, widest);
   }
   now.doing = "repositioned";
-  best.laying->reposition_unsupported(as_asked.columns);
+  best.laying->reposition_unsupported(as_asked.columns, [&](int left) { now.unsupported = left; });
   return best;
 }
 

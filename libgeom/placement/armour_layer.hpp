@@ -25,6 +25,7 @@ struct LayerProgress {
   int spacing = 1, spacings = 1; // of the layer's: the same
   int laid = 0;                  // units, with this spacing
   const char* doing = "";        // "laid", and with all of them "come to rest together", "repositioned"
+  int unsupported = 0;           // units that lack a support, of those that are repositioned
 };
 
 struct LayerOptions {

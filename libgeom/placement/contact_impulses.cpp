@@ -7,6 +7,7 @@ namespace geom {
 namespace {
 
 constexpr double enough = 1e-3; // of s: when no impulse changes by more, they are found
+constexpr int every = 5;        // sweeps: one over all contact points, the others over those that press
 
 ImpulseRow row(const Vec3& direction, const Vec3& arm, const Vec3* other_arm, double gyration) {
   ImpulseRow r{direction, arm.cross(direction) / gyration, Vec3::Zero()};
@@ -90,6 +91,9 @@ std::vector<Motion> motions(std::vector<BodyTouch>& touches, std::vector<BodyBou
   for (BodyTouch& touch : touches)
     for (ImpulseRow* row : {&touch.normal, &touch.first, &touch.second})
       add(*row, row->impulse, all[touch.body], touch.other < 0 ? nullptr : &all[touch.other]);
+  std::vector<BodyTouch*> pressing;
+  pressing.reserve(touches.size());
+  bool over_all = true;
   for (int k = 0; k < options.sweeps; ++k) {
     double most = 0;
     for (BodyBound& bound : bounds)
@@ -97,14 +101,24 @@ std::vector<Motion> motions(std::vector<BodyTouch>& touches, std::vector<BodyBou
           std::max(most, press(bound.row, std::max(bound.room, -options.step), 0, all[bound.body], nullptr));
     // To and fro where there are many: weight goes down through all of them in one sweep if they are listed from the
     // top.
-    if (bodies == 1 || k % 2 == 0)
-      for (auto touch = touches.begin(); touch != touches.end(); ++touch)
+    if (over_all) {
+      pressing.clear();
+      for (BodyTouch& touch : touches) {
+        most = std::max(most, meet(touch, all, options));
+        if (touch.normal.impulse > 0)
+          pressing.push_back(&touch);
+      }
+    } else if (bodies == 1 || k % 2 == 0) {
+      for (BodyTouch* touch : pressing)
         most = std::max(most, meet(*touch, all, options));
-    else
-      for (auto touch = touches.rbegin(); touch != touches.rend(); ++touch)
-        most = std::max(most, meet(*touch, all, options));
-    if (most < enough * options.step)
+    } else {
+      for (auto touch = pressing.rbegin(); touch != pressing.rend(); ++touch)
+        most = std::max(most, meet(**touch, all, options));
+    }
+    const bool found = most < enough * options.step;
+    if (found && over_all)
       break;
+    over_all = found || (k + 1) % every == 0;
   }
   return all;
 }

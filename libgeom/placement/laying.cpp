@@ -18,6 +18,8 @@ constexpr std::size_t attitudes_tried = 24; // half of the family, half any
 constexpr double own_turn = 0.05;           // of an attitude of the family when it first comes up, radians
 constexpr double more_turn = 0.3;           // and when it comes up again
 constexpr std::size_t rested_tries = 10;    // at least; more while none of them is at rest
+constexpr std::size_t at_once = 10;         // tries that come to rest on as many threads
+constexpr double no_worse = 0.1;            // of the cost, with another spacing
 
 // Over the height: from where on, and how finely, places up the slope are tried.
 constexpr double lowest_place = -0.3, highest_place = 1.5, place_step = 0.05;
@@ -295,44 +297,84 @@ Pose Laying::raised(Pose pose, const Near& near) const {
   return pose;
 }
 
-void Laying::lay(const Site& site) {
-  const std::vector<Mat3> rotations = attitudes(site);
+// The first of them that is within the walls; none has the cost `unreached`.
+Laying::Try Laying::first_to_fit(const std::vector<Try>& lowered) const {
+  const auto fits = std::find_if(lowered.begin(), lowered.end(), [&](const Try& t) {
+    return t.cost < unreached && within_walls(surface_at(t.pose));
+  });
+  return fits == lowered.end() ? Try{lowered.front().pose, unreached} : *fits;
+}
+
+// The pose of lowest cost of the first tries, and of more of them until one is good; the cost `unreached` where none is clear.
+Laying::Try Laying::best_at_rest(const std::vector<Try>& lowered, const Site& site) const {
+  Try best{lowered.front().pose, unreached};
+  std::vector<Try> rested(at_once);
+  for (std::size_t first = 0; first < lowered.size(); first += at_once) {
+    if ((first >= rested_tries && best.good) || lowered[first].cost == unreached)
+      break;
+    const std::size_t count = std::min(at_once, lowered.size() - first);
+    poll_();
+#pragma omp parallel for schedule(dynamic, 1)
+    for (std::size_t i = 0; i < count; ++i) {
+      const Try& start = lowered[first + i];
+      rested[i] = {start.pose, unreached};
+      if (start.cost == unreached)
+        continue;
+      const Near around = on_the_way(start.pose.translation);
+      const Try one = this->rested(start, site, around);
+      if (clear(one.pose, around))
+        rested[i] = one;
+    }
+    for (std::size_t i = 0; i < count; ++i)
+      if (rested[i].cost < best.cost)
+        best = rested[i];
+  }
+  return best;
+}
+
+void Laying::lay(const Site& site, const Laying* before) {
   std::vector<Try> tries;
-  tries.reserve(rotations.size());
-  for (const Mat3& rotation : rotations)
-    tries.push_back(lowered(rotation, site));
+  Try best{{}, unreached};
+  if (before != nullptr && options_.nudges > 0) {
+    const Laid& there = before->laid_[site.unit];
+    tries = {lowered(there.pose.rotation, site)};
+    best = best_at_rest(tries, site);
+    if (there.cost < unreached && best.cost <= there.cost + no_worse) {
+      sites_.push_back(site);
+      laid_.push_back(laid_at(best.pose, best.cost));
+      return;
+    }
+  }
+  const std::vector<Mat3> rotations = attitudes(site);
+  tries.resize(rotations.size());
+#pragma omp parallel for schedule(dynamic, 1)
+  for (std::size_t i = 0; i < rotations.size(); ++i)
+    tries[i] = lowered(rotations[i], site);
   std::stable_sort(tries.begin(), tries.end(), [](const Try& a, const Try& b) { return a.cost < b.cost; });
   if (tries.front().cost == unreached)
     throw InputError(
         "unit " + std::to_string(site.unit + 1) +
         " of the layer: there is no ground where it is to lie; give a larger ground, or a region "
         "within it");
-  const auto fits = std::find_if(tries.begin(), tries.end(), [&](const Try& t) {
-    return t.cost < unreached && within_walls(surface_at(t.pose));
-  });
-  Try best{fits == tries.end() ? tries.front().pose : fits->pose, unreached};
-  for (std::size_t i = 0; options_.nudges > 0 && i < tries.size(); ++i) {
-    if ((i >= rested_tries && best.good) || tries[i].cost == unreached)
-      break;
-    const Near around = on_the_way(tries[i].pose.translation);
-    const Try one = rested(tries[i], site, around);
-    if (one.cost < best.cost && clear(one.pose, around))
+  const Try fits = first_to_fit(tries);
+  if (options_.nudges > 0)
+    if (const Try one = best_at_rest(tries, site); one.cost < best.cost)
       best = one;
-  }
-  if (best.cost == unreached && fits == tries.end())
+  if (best.cost == unreached && fits.cost == unreached)
     throw InputError(
         "unit " + std::to_string(site.unit + 1) +
         " of the layer: it fits between the walls in none of its attitudes; ask for more columns or "
         "a lower density, or leave the walls out");
-  const Near around = near(best.pose.translation, 2 * radius_ + height_);
   sites_.push_back(site);
-  laid_.push_back(laid_at(best.cost < unreached ? best.pose : raised(best.pose, around)));
+  if (best.cost == unreached)
+    best.pose = raised(fits.pose, near(fits.pose.translation, 2 * radius_ + height_));
+  laid_.push_back(laid_at(best.pose, best.cost));
 }
 
-Laying::Laid Laying::laid_at(const Pose& pose) const {
+Laying::Laid Laying::laid_at(const Pose& pose, double cost) const {
   Surface surface = surface_at(pose);
   Profile profile(surface, frame_);
-  return {pose, moved(features_, pose), std::move(surface), std::move(profile)};
+  return {pose, cost, moved(features_, pose), std::move(surface), std::move(profile)};
 }
 
 } // namespace geom

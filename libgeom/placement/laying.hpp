@@ -33,8 +33,9 @@ public:
     std::vector<int> below;    // the units it is to lean on
     int end = 0;               // -1, 1: nothing is below it on that side, it may go there as far as the wall
   };
-  // Throws InputError where there is no ground.
-  void lay(const Site&);
+  // Throws InputError where there is no ground. `before`: a layer with another spacing; where a unit comes to lie no worse in
+  // the attitude it had there, no other is tried.
+  void lay(const Site&, const Laying* before = nullptr);
 
   // How all units came to rest together.
   struct Rested {
@@ -45,9 +46,9 @@ public:
   // Units from number `held` on come to rest once more, all together: those above press on those below. If they are not
   // clear of each other then, they are where they were.
   void rest_together(int held);
-  // After that: units with fewer than three supports are repositioned, and all rest together again, until
-  // there are none, or so many times.
-  void reposition_unsupported(int held);
+  // After that: each unit with fewer than three supports is repositioned and rests together with the units about it. Then
+  // all rest together again. So until no such unit is left, or so many times. left: told how many there are.
+  void reposition_unsupported(int held, const std::function<void(int)>& left);
   const Rested& rested() const { return rested_; }
 
   const Pose& pose(int unit) const { return laid_[unit].pose; }
@@ -57,6 +58,7 @@ public:
 private:
   struct Laid {
     Pose pose;
+    double cost = 0;
     Features features;
     Surface surface;
     Profile profile;
@@ -74,16 +76,23 @@ private:
   std::vector<Mat3> stands() const;
   std::vector<Mat3> attitudes(const Site&) const;
   Try lowered(const Mat3& rotation, const Site&) const;
+  Try first_to_fit(const std::vector<Try>& lowered) const;
+  Try best_at_rest(const std::vector<Try>& lowered, const Site&) const;
   Try rested(const Try&, const Site&, const Near&) const;
   static int carriers_wanted(const Site&);
   double cost(const Rest&, const Site&, const Near&) const;
   bool clear(const Pose&, const Near&) const;
   Pose raised(Pose, const Near&) const;
-  Laid laid_at(const Pose&) const;
+  Laid laid_at(const Pose&, double cost) const;
   Near near(const Vec3& centroid, double reach, int except = -1) const;
   Near on_the_way(const Vec3& centroid, int except = -1) const;
-  void rest_together(int held, double step, int steps);
+  void rest_together(const std::vector<char>& moves, double step, int steps);
+  std::vector<char> above(int held) const;
+  std::vector<char> around(int unit, int held) const;
+  bool no_worse_than(const Rested&) const;
   bool reposition(int unit, int round);
+  void reposition_one_by_one(int held, int first_round, std::vector<int>& in_vain,
+                             const std::function<void(int)>& left);
   double ground_level(const Vec3& place) const;
   double standing() const;
   RestOptions resting(double friction) const;

@@ -12,9 +12,10 @@
 namespace geom {
 namespace {
 
-constexpr int pile_sweeps = 400; // over all impulses, at most
-constexpr double creeps = 0.06;  // of s, a step: what is slower rests
-constexpr double slides = 0.15;  // and what is faster goes on with larger steps
+// Over all impulses, at most: on the way, where the next step goes on from them, and with the last s.
+constexpr int sweeps_on_the_way = 150, pile_sweeps = 400;
+constexpr double creeps = 0.06; // of s, a step: what is slower rests
+constexpr double slides = 0.15; // and what is faster goes on with larger steps
 // Fraction of the displacement that a body may have. If a body has moved further than allowed, the lowest body beyond
 // this fraction is held, and all begin again. After so many beginnings a body that goes too far is put back at once.
 constexpr double goes_on = 0.8;
@@ -31,7 +32,7 @@ public:
         radius_(radius_of(shape)) {}
 
   // A step; returns the motions.
-  std::vector<Motion> step(const Vec3& down, double s);
+  std::vector<Motion> step(const Vec3& down, double s, int tilt);
   void push_clear();
   std::vector<int> pressed_by();
   const std::vector<char>& stays() const { return stays_; }
@@ -40,7 +41,7 @@ public:
   void put_back(std::size_t body) {
     poses[body] = start_[body];
     stays_[body] = 1;
-    pushed_.clear();
+    pushed_ = {};
     listed_ = -1;
   }
   // Displacement over the displacement that a body may have.
@@ -63,12 +64,16 @@ private:
     double normal = 0;
     Vec3 along = Vec3::Zero();
   };
+  struct Impulses {
+    std::map<std::array<int, 3>, std::vector<Pushed>> of_pairs; // by name
+    double step = 0;                                            // m, s of theirs
+  };
   void find(double reach);
   // Within reach of a step s; from the top down.
   std::vector<BodyTouch> touches(double s);
   BodyTouch made_of(Touch touch, const Pair& pair) const;
-  void begin(std::vector<BodyTouch>&, double s) const;
-  void remember(const std::vector<BodyTouch>&, double s);
+  void begin(std::vector<BodyTouch>&, double s, int tilt) const;
+  Impulses remembered(const std::vector<BodyTouch>&, double s) const;
   std::vector<Motion> motions(std::vector<BodyTouch>& touches, const Vec3& pull,
                               const ImpulseOptions& options) {
     std::vector<BodyBound> no_bounds;
@@ -85,8 +90,7 @@ private:
   double listed_ = -1; // m: what is nearer than this is in the pairs
   std::vector<Features> bodies_;
   std::vector<Pair> pairs_;
-  std::map<std::array<int, 3>, std::vector<Pushed>> pushed_; // in the last step, of pairs by name
-  double last_step_ = 0;                                     // m, s of it
+  std::array<Impulses, descent::tilts> pushed_; // in the last step with gravity tilted each way
 };
 
 void Together::find(double reach) {
@@ -151,19 +155,22 @@ std::vector<BodyTouch> Together::touches(double s) {
   return made;
 }
 
-// Impulses are much as they were in the last step.
-void Together::begin(std::vector<BodyTouch>& touches, double s) const {
-  if (pushed_.empty())
+// Impulses are much as they were when gravity was last tilted this way, or in the last step before it first is.
+void Together::begin(std::vector<BodyTouch>& touches, double s, int tilt) const {
+  constexpr int tilts = descent::tilts;
+  const Impulses& last =
+      pushed_[pushed_[tilt].of_pairs.empty() ? (tilt + tilts - 1) % tilts : static_cast<std::size_t>(tilt)];
+  if (last.of_pairs.empty())
     return;
-  const double part = s / last_step_;
+  const double part = s / last.step;
   auto touch = touches.begin();
   for (const Pair& pair : pairs_) {
     const auto end = touch + static_cast<std::ptrdiff_t>(pair.touches);
-    const auto last = pushed_.find(pair.name());
+    const auto known = last.of_pairs.find(pair.name());
     for (; touch != end; ++touch) {
-      if (last == pushed_.end())
+      if (known == last.of_pairs.end())
         continue;
-      for (const Pushed& pushed : last->second) {
+      for (const Pushed& pushed : known->second) {
         if (pushed.features != touch->features)
           continue;
         touch->normal.impulse = part * pushed.normal;
@@ -174,19 +181,17 @@ void Together::begin(std::vector<BodyTouch>& touches, double s) const {
   }
 }
 
-void Together::remember(const std::vector<BodyTouch>& touches, double s) {
-  pushed_.clear();
-  last_step_ = s;
+Together::Impulses Together::remembered(const std::vector<BodyTouch>& touches, double s) const {
+  Impulses impulses;
+  impulses.step = s;
   auto touch = touches.begin();
-  for (const Pair& pair : pairs_) {
-    if (pair.touches == 0)
-      continue;
-    std::vector<Pushed>& list = pushed_[pair.name()];
+  for (const Pair& pair : pairs_)
     for (std::size_t i = 0; i < pair.touches; ++i, ++touch)
-      list.push_back(
-          {touch->features, touch->normal.impulse,
-           touch->first.impulse * touch->first.direction + touch->second.impulse * touch->second.direction});
-  }
+      if (touch->normal.impulse > 0)
+        impulses.of_pairs[pair.name()].push_back({touch->features, touch->normal.impulse,
+                                                  touch->first.impulse * touch->first.direction +
+                                                      touch->second.impulse * touch->second.direction});
+  return impulses;
 }
 
 void Together::move(const std::vector<Motion>& v) {
@@ -197,11 +202,12 @@ void Together::move(const std::vector<Motion>& v) {
   listed_ -= 2 * most;
 }
 
-std::vector<Motion> Together::step(const Vec3& down, double s) {
+std::vector<Motion> Together::step(const Vec3& down, double s, int tilt) {
   std::vector<BodyTouch> touches = this->touches(s);
-  begin(touches, s);
-  std::vector<Motion> v = motions(touches, s * down, {options_.friction, s, pile_sweeps});
-  remember(touches, s);
+  begin(touches, s, tilt);
+  const int at_most = s > options_.last_step ? sweeps_on_the_way : pile_sweeps;
+  std::vector<Motion> v = motions(touches, s * down, {options_.friction, s, at_most});
+  pushed_[tilt] = remembered(touches, s);
   move(v);
   return v;
 }
@@ -246,7 +252,7 @@ bool descend(Together& together, const RestOptions& options, bool puts_back) {
   std::vector<Motion> cycle(count); // since gravity was first tilted this way
   for (int k = 0; k < options.steps; ++k) {
     const double s = descent.s;
-    const std::vector<Motion> v = together.step(descent.down(k), s);
+    const std::vector<Motion> v = together.step(descent.down(k), s, k % descent::tilts);
     double most = 0;
     for (std::size_t i = 0; i < count; ++i) {
       if (together.stays(i))

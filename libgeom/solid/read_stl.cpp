@@ -31,7 +31,7 @@ void require_closed(const std::vector<Vec3>& vertices, const std::vector<Triangl
                      "it is open: " + std::to_string(open) +
                          (open == 1 ? " edge belongs to one triangle only,"
                                     : " edges belong to one triangle only, the first") +
-                         near(first[0], first[1]));
+                         near(first[0], first[1]) + "; cdem.shell_mesh makes a wall of an open surface");
   std::vector<char> reached(triangles.size(), 0);
   std::vector<int> stack{0};
   reached[0] = 1;

@@ -21,3 +21,11 @@ model:chart{ file = "top.png", title = "Top of the plate", x = "time", x_label =
 
 -- example: model:chart_fragments
 model:chart_fragments{ file = "fragments.png", title = "Fragments by size" }
+
+-- example: cdem.stereonet
+local cut = cdem.cut_by_joints{ shape = cdem.box{ size = {10, 10, 10} }, sets = {
+  { name = "bedding", dip = 25, dip_direction = 140, spacing = 1.5, dip_scatter = 4, direction_scatter = 8 },
+  { name = "J1", dip = 75, dip_direction = 250, spacing = 2, dip_scatter = 5, direction_scatter = 5 } } }
+cdem.stereonet{ file = "net.png", title = "Joints and the face", shape = cut,
+                poles = { { name = "survey", planes = { {30, 90}, {35, 95}, {28, 80} } } },
+                planes = { { name = "slope face", dip = 65, dip_direction = 130, dashed = true } } }

@@ -36,6 +36,14 @@ model:break_bonds{ on = cdem.select.box{ min = {0.5, 0.6, 0}, max = {0.5, 0.8, 0
 local blocks = model:remove{ on = cdem.select.box{ min = {0, 0.75, 0}, max = {0.25, 1, 0.1} } }
 print(blocks) -- 1
 
+-- example: model:relax_excavation
+local ground = cdem.model{ bodies = { { shape = cdem.grid{ size = {3, 1, 3}, divisions = {3, 1, 3} }, material = rock,
+                                        joint = joint } } }
+ground:initial_stress{ stress = {-1e6, -1e6, -1e6, 0, 0, 0} }
+ground:remove{ on = cdem.select.box{ min = {1, 0, 1}, max = {2, 1, 2} }, relaxed = 0.4 } -- 60 % of its forces stay
+ground:relax_excavation{ relaxed = 0.7, over = 0.01 } -- from 40 to 70 % in the next 0.01 s of model:run
+ground:relax_excavation{}                             -- all of it, at once
+
 -- example: model:crack_pressure
 local block = cdem.model{ bodies = { { name = "rock", shape = cdem.box_mesh{ size = {1, 1, 1}, divisions = {4, 4, 4} },
                                        material = rock, joint = joint } } } -- a cohesive body

@@ -13,6 +13,14 @@ model:water{ level = 6 }                                   -- hydrostatic below 
 model:water{ joints = {"bedding"}, table = { {0, 4e4}, {6, 0} } } -- or rows of {z, pressure}
 model:water{ pressure = 0 }                                -- drained
 
+-- example: cdem.water_table watertable:height
+local table = cdem.water_table{ point = {0, 0, 5}, dip = 8, dip_direction = 90 } -- falls towards +x
+local drawn = cdem.water_table{ profile = { {0, 6}, {4, 5}, {10, 3} }, direction = {1, 0, 0} } -- {distance, z}
+local holes = cdem.water_table{ points = { {-1, -1, 6}, {11, -1, 4}, {5, 11, 5} } } -- levels in boreholes
+print(table:height(2, 0), drawn:height(2, 0), holes:height(2, 0))
+model:water{ water_table = drawn }
+model:water{ pressure = 0 }
+
 -- example: model:initial_stress
 model:initial_stress{ gradient = rock.density * 9.81, k0 = 0.5 } -- from the surface downwards
 

@@ -5,6 +5,19 @@ local mesh = cdem.solid.box{ size = {2, 1, 1} }:mesh{ size = 0.5 }
 local regular = cdem.box_mesh{ size = {2, 1, 1}, divisions = {4, 2, 2} } -- six tetrahedra a cell
 print(regular.tets) -- 96
 
+-- example: cdem.shell_mesh
+local funnel = { points = {}, triangles = {} } -- a cone of 24 sides; or cdem.read_surface{ file = "funnel.stl" }
+for i = 0, 23 do
+  local angle = 2 * math.pi * i / 24
+  funnel.points[2 * i + 1] = { 0.2 * math.cos(angle), 0.2 * math.sin(angle), 0 }
+  funnel.points[2 * i + 2] = { math.cos(angle), math.sin(angle), 1 }
+  local a, b, c, d = 2 * i + 1, 2 * i + 2, (2 * i + 2) % 48 + 1, (2 * i + 2) % 48 + 2
+  table.insert(funnel.triangles, { a, c, d })
+  table.insert(funnel.triangles, { a, d, b })
+end
+local wall = cdem.shell_mesh{ surface = cdem.surface(funnel), thickness = 0.05, front = {0, 0, 0.5} }
+print(wall.tets) -- 144; a body of element = "rigid" that model:fix holds
+
 -- example: tetmesh:volume tetmesh:box
 print(mesh:volume(), mesh:box().max[1]) -- 2 m3, 2 m
 

@@ -889,6 +889,7 @@ function Model:release(options) end
 ---@field stress? number[] Pa: force over area
 ---@field pressure? number|fun(x: number, y: number, z: number): number Pa: instead: along the inward normal, the same everywhere or at each undeformed place
 ---@field level? number m: instead: z of a free water surface; weight times the depth below it, none above. Water in joints is model:water's
+---@field water_table? cdem.WaterTable instead: a free water surface that is not level
 ---@field weight? number N/m3, > 0, default 9810: of the water
 ---@field amplitude? cdem.Record|number[][]|fun(time: number): number factor over time (s): a cdem.record, a list { {time, value}, ... } with straight lines between and its first and last value outside, or a function, called once a step; a relaxation asks once at its start; 1 when left out
 ---@field since? number s: time of the model at which the amplitude's times begin, 0 when left out; since = model.time lets it begin now, in a later stage
@@ -945,11 +946,21 @@ function Model:initial_velocity(options) end
 
 ---@class (exact) cdem.ModelRemoveOptions
 ---@field on cdem.Place where: a place or a list of places
+---@field relaxed? number in [0, 1], default 1: share of the excavation's forces that goes, from the beginning (lambda of convergence-confinement); the rest stays as a load
+---@field over? number s, > 0: time of model:run, from now on, in which this share goes evenly; at once when left out. A relaxation takes no time
 
----Takes blocks and whole meshes out of the model (an excavation): those whose undeformed centroid is selected.
+---Takes blocks and whole meshes out of the model (an excavation): those whose undeformed centroid is selected. Their forces on the rock that stays go at once, unless `relaxed` and `over` say otherwise (docs/settling-and-loading.md, "Excavating").
 ---@param options cdem.ModelRemoveOptions
 ---@return integer # how many
 function Model:remove(options) end
+
+---@class (exact) cdem.ModelRelaxExcavationOptions
+---@field relaxed? number in [0, 1], default 1: share of the excavation's forces that goes, from the beginning (lambda of convergence-confinement); the rest stays as a load
+---@field over? number s, > 0: time of model:run, from now on, in which this share goes evenly; at once when left out. A relaxation takes no time
+
+---Lets go of forces that earlier calls of model:remove have kept with `relaxed` or `over`, such as after a lining is set. What is relaxed further already stays so.
+---@param options? cdem.ModelRelaxExcavationOptions
+function Model:relax_excavation(options) end
 
 ---@class (exact) cdem.ModelMakeRigidOptions
 ---@field on cdem.Place where: a place or a list of places
@@ -1018,7 +1029,8 @@ function Model:reset_displacement() end
 function Model:unbalance(options) end
 
 ---@class (exact) cdem.ModelWaterOptions
----@field level? number m: z of the water table: weight times the depth below it
+---@field level? number m: z of a level water table: weight times the depth below it
+---@field water_table? cdem.WaterTable instead: one that is not level; weight times the vertical depth below it
 ---@field pressure? number|fun(x: number, y: number, z: number): number Pa, >= 0: instead: the same everywhere, or at each place; 0 takes the water away
 ---@field table? [number, number][] instead: rows {z (m), pressure (Pa)}, upwards; straight between them, constant beyond
 ---@field joints? string[] names of joint sets and cuts that hold it; all joints when left out, glued cuts never
@@ -1600,6 +1612,16 @@ function Model:chart(options) end
 ---Chart of the fragments by size: the part of the mass in fragments up to each diameter, that of the sphere with their volume. Held bodies in one piece, such as a floor, are left out.
 ---@param options cdem.ModelChartFragmentsOptions
 function Model:chart_fragments(options) end
+
+---A water table, made by cdem.water_table.
+---@class cdem.WaterTable
+local WaterTable = {}
+
+---Its z over a place.
+---@param x number m
+---@param y number m
+---@return number? # m; nil beyond the end of a surface
+function WaterTable:height(x, y) end
 
 ---Units that have left their place, in order: grows while the model runs.
 ---@class cdem.Watch
@@ -2267,6 +2289,16 @@ function cdem.read_mesh(options) end
 ---@return cdem.TetMesh
 function cdem.box_mesh(options) end
 
+---@class (exact) cdem.ShellMeshOptions
+---@field surface cdem.Surface cdem.read_surface or cdem.surface
+---@field thickness number m, > 0: more than bodies reach into it and move in a step; less than the surface is bent
+---@field front? number[] m: a place on the side that bodies touch, such as the middle of a drum; where the triangles' normals point when left out
+
+---An open surface as a wall, for a rigid body that is held: a drum, a funnel, a chute, a terrain. The surface is one of its sides; the other lies behind it.
+---@param options cdem.ShellMeshOptions
+---@return cdem.TetMesh
+function cdem.shell_mesh(options) end
+
 ---@class (exact) cdem.DropOptionsRegion
 ---@field min number[]
 ---@field max number[]
@@ -2385,6 +2417,22 @@ function cdem.select.where(predicate) end
 ---@param options cdem.ModelOptions
 ---@return cdem.Model
 function cdem.model(options) end
+
+---@class (exact) cdem.WaterTableOptions
+---@field point? number[] m: of a plane
+---@field dip? number deg, in [0, 90): of a plane, below the horizontal
+---@field dip_direction? number deg, in [0, 360]: clockwise from +y (north)
+---@field profile? [number, number][] instead: rows {distance, z} (m); straight between them, level beyond, the same across
+---@field points? number[][] m: instead: {x, y, z}, such as levels in boreholes; straight in the triangles of Delaunay between them
+---@field file? string instead: a table (docs/output-files.md) with columns distance and z, or x, y and z (m)
+---@field origin? number[] m: where the distance of a profile is 0; {0, 0, 0} when left out
+---@field direction? number[] of a profile, horizontal; {1, 0, 0} when left out
+---@field surface? cdem.Surface instead: open, once over each place; larger than the model in plan
+
+---A water table that is not level, for model:water and model:traction: a plane, a profile along a direction, or a surface. Pressure is weight times the vertical depth below it (docs/theory.md, "Water").
+---@param options? cdem.WaterTableOptions
+---@return cdem.WaterTable
+function cdem.water_table(options) end
 
 ---@class (exact) cdem.FactorOfSafetyOptions
 ---@field model? cdem.Model each trial starts from its state as it is; it stays as it is
@@ -2549,6 +2597,40 @@ function cdem.film(options) end
 ---Line chart of lists of numbers.
 ---@param options cdem.ChartOptions
 function cdem.chart(options) end
+
+---@class (exact) cdem.StereonetOptionsPoles
+---@field name string in the legend
+---@field planes [number, number][] {dip, dip_direction} (deg) of each
+---@field colour? number[] {red, green, blue}, each 0 .. 1
+
+---@class (exact) cdem.StereonetOptionsDiscs
+---@field id? integer >= 0: discs cut in the order of their ids; its place in the list when left out
+---@field centre number[] m
+---@field dip number deg, in [0, 90]
+---@field dip_direction number deg, in [0, 360]
+---@field radius number m, > 0
+---@field set string name of its faces, for their law
+
+---@class (exact) cdem.StereonetOptionsPlanes
+---@field name string in the legend
+---@field dip number deg, in [0, 90]
+---@field dip_direction number deg, in [0, 360]
+---@field dashed? boolean default false
+---@field colour? number[] {red, green, blue}, each 0 .. 1
+
+---@class (exact) cdem.StereonetOptions
+---@field file string ends in .png, .svg or .pdf; in the output folder
+---@field poles? cdem.StereonetOptionsPoles[]
+---@field discs? cdem.StereonetOptionsDiscs[] joints of finite size; poles by set
+---@field shape? cdem.Assembly blocks: poles of the planes that cut them, by joint set or name of the cut
+---@field planes? cdem.StereonetOptionsPlanes[] great circles: slope faces, mean planes of sets
+---@field title? string
+---@field size? number[] default {1600, 1200}: {width, height} in pixels; height 0: as high as it needs to be
+---@field dpi? number in [10, 2400], default 300: pixels in an inch where it is printed: 1600 pixels are 135 mm wide at 300
+
+---Stereonet (Schmidt net, equal-area, lower hemisphere, north up): poles of joints with their scatter, great circles of planes. A table of the same name that ends in .csv has kind, name, dip, dip_direction and the place x, y of each pole on a net of radius 1.
+---@param options cdem.StereonetOptions
+function cdem.stereonet(options) end
 
 ---@class (exact) cdem.ReportOptionsfigures
 ---@field name string name of the figure, with its unit at the end, e.g. "side_ux_max_m"

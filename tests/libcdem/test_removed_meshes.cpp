@@ -77,3 +77,25 @@ TEST_CASE("named faces of a mesh stay its own where blocks before it are removed
     CHECK(of->mean("velocity.z", cdem::Selection::in_box({{-1, -1, -1}, {3, 2, 0.3}})) == 0);
   }
 }
+
+TEST_CASE("a model that has lost its only plastic body is saved and comes back", "[carry][checkpoint]") {
+  const auto build = [] {
+    cdem::BodySpec soil =
+        meshed("soil", placed(geom::box_mesh({1, 1, 1}, {2, 2, 2}), geom::Mat3::Identity(), {3, 0, 0}));
+    cdem::Plasticity yields;
+    yields.cohesion = 1e5;
+    soil.plasticity.laws = {yields};
+    soil.plasticity.others = 0;
+    cdem::ModelSpec spec;
+    spec.bodies = {meshed("rock", geom::box_mesh({1, 1, 1}, {2, 2, 2})), soil};
+    spec.default_contact = friction(30);
+    return cdem::Simulation(spec, 1, std::make_shared<cdem::Observer>());
+  };
+  cdem::Simulation s = build();
+  s.gravity(gravity());
+  CHECK(s.remove(body_of("soil")) == 1);
+  s.run(lasting(0.001));
+  cdem::Simulation again = build();
+  again.restore(s.save());
+  CHECK(again.state_hash() == s.state_hash());
+}

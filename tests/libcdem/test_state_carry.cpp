@@ -59,6 +59,10 @@ void number_all(const cdem::Model& model, cdem::State& state) {
           if constexpr (std::is_same_v<Entry, std::uint8_t>) {
             for (std::size_t i = 0; i < field.size(); ++i)
               field[i] = static_cast<std::uint8_t>(i % 2);
+          } else if constexpr (std::is_same_v<Entry, cdem::ExcavationForce>) {
+            field.clear(); // one on each node
+            for (std::size_t node = 0; node < model.node_position.size(); ++node)
+              field.push_back({static_cast<std::int64_t>(node), next++, next++, next++, 1, 0.5, 2, 3});
           } else if constexpr (!std::is_same_v<Entry, cdem::FaceStateBatch> &&
                                !std::is_same_v<Entry, cdem::Contact>) {
             auto* number = reinterpret_cast<double*>(field.data());
@@ -114,6 +118,8 @@ double sum_of(const std::vector<Entry>& entries) {
       sum += entry.x;
     else if constexpr (std::is_same_v<Entry, double>)
       sum += entry;
+    else if constexpr (std::is_same_v<Entry, cdem::ExcavationForce>)
+      sum += entry.x;
   return sum;
 }
 
@@ -158,6 +164,9 @@ TEST_CASE("freeing nodes carries every field of all bodies over as its table say
               else
                 all = all && same(now[i], was[old_node[i]]);
             CHECK(all);
+          } else if (row.place == cdem::FieldPlace::excavation) {
+            CHECK(now.size() == old_node.size()); // a node that is divided shares its force
+            CHECK(sum_of(now) == Approx(sum_of(was)).epsilon(1e-12));
           } else if (row.place == cdem::FieldPlace::face) {
             REQUIRE(!now.empty());
             bool all = true;

@@ -100,3 +100,115 @@ TEST_CASE("gravity_stress leaves the stress of the weight and no displacement", 
                       "m:relax{ breaking = false }\nassert(m:max('displacement.z') > 0)"),
              Equals(""));
 }
+
+TEST_CASE("the forces of an excavation stay, fall in a run and go when they are told to", "[lua][rock]") {
+  const std::string dug = model("") + walls +
+                          "m:gravity_stress{}\nm:reset_displacement()\n"
+                          "local dug = cdem.select.box{ min = {-1, -1, 1}, max = {1, 3, 3} }\n";
+  CHECK_THAT(error_of(dug +
+                      "assert(m:remove{ on = dug, relaxed = 0 } == 1)\n"
+                      "m:relax{ breaking = false, residual = 1e-6 }\n"
+                      "assert(m:max('displacement.magnitude') < 1e-9)\n"
+                      "m:relax_excavation{ relaxed = 0.5 }\nm:relax{ breaking = false, residual = 1e-6 }\n"
+                      "local half = m:max('displacement.z')\nassert(half > 1e-7)\n"
+                      "m:relax_excavation{ over = 0.02 }\nm:run{ duration = 0.05, local_damping = 0.3 }\n"
+                      "assert(math.abs(m:max('displacement.z') / half - 2) < 0.02)"),
+             Equals(""));
+  CHECK_THAT(error_of(dug + "m:remove{ on = dug, relaxed = 1.5 }"), Contains("relaxed = 1.5"));
+  CHECK_THAT(error_of(dug + "m:remove{ on = dug, relaxed = 0, over = 1 }"),
+             Contains("over: goes with relaxed > 0"));
+  CHECK_THAT(Script(dug + "m:relax_excavation{}").printed(), Contains("no forces of an excavation are kept"));
+}
+
+TEST_CASE("a water table is a plane, a profile, a file or a surface", "[lua][rock]") {
+  CHECK_THAT(
+      error_of(
+          head +
+          "local t = cdem.water_table{ point = {0, 0, 5}, dip = 45, dip_direction = 90 }\n"
+          "assert(math.abs(t:height(2, 7) - 3) < 1e-12)\n"
+          "local p = cdem.water_table{ profile = { {0, 5}, {2, 3} } }\n"
+          "assert(math.abs(p:height(1, 7) - 4) < 1e-12 and p:height(9, 0) == 3)\n"
+          "local s = cdem.water_table{ surface = cdem.surface{ points = { {0, 0, 1}, {4, 0, 1}, {0, 4, 3} "
+          "}, triangles = { {1, 2, 3} } } }\n"
+          "assert(math.abs(s:height(1, 2) - 2) < 1e-12 and s:height(3, 3) == nil)\n"
+          "cdem.write_csv{ file = 'table.csv', columns = { { name = 'distance', values = {0, 2} }, "
+          "{ name = 'z', values = {5, 3} } } }\n"
+          "assert(cdem.water_table{ file = 'table.csv', direction = {0, 1, 0} }:height(7, 1) == 4)"),
+      Equals(""));
+  CHECK_THAT(error_of(model("") +
+                      "local t = cdem.water_table{ point = {0, 0, 1.8}, dip = 10, dip_direction = 90 }\n"
+                      "local w = m:water{ joints = {'bedding'}, water_table = t }\n"
+                      "local mean = 0.8 - math.tan(math.rad(10))\n"
+                      "assert(math.abs(w.force / (9810 * 4 * mean) - 1) < 1e-9)\n"
+                      "m:traction{ on = 'x-', water_table = t }"),
+             Equals(""));
+  CHECK_THAT(
+      error_of(head +
+               "local p = cdem.water_table{ points = { {0, 0, 1}, {4, 0, 1}, {0, 4, 3}, {4, 4, 3} } }\n"
+               "assert(math.abs(p:height(3, 2) - 2) < 1e-12 and p:height(5, 0) == nil)\n"
+               "cdem.write_csv{ file = 'holes.csv', columns = { { name = 'X', values = {0, 4, 0} }, "
+               "{ name = 'Y', values = {0, 0, 4} }, { name = 'Z', values = {1, 1, 3} } } }\n"
+               "assert(math.abs(cdem.water_table{ file = 'holes.csv' }:height(1, 2) - 2) < 1e-12)"),
+      Equals(""));
+  CHECK_THAT(error_of(head + "cdem.water_table{ points = { {0, 0, 1}, {4, 0, 1}, {8, 0, 3} } }"),
+             Contains("on one line in plan"));
+  CHECK_THAT(error_of(head + "cdem.water_table{ points = { {0, 0, 1}, {4, 0, 1}, {4, 1, 3}, {4, 0, 2} } }"),
+             Contains("points[4]") && Contains("point 2 is there already"));
+  CHECK_THAT(error_of(head + "cdem.water_table{ dip = 10 }"), Contains("point: missing"));
+  CHECK_THAT(error_of(head + "cdem.water_table{}"), Contains("give one of dip"));
+  CHECK_THAT(error_of(head + "cdem.water_table{ dip = 10, profile = { {0, 5}, {2, 3} } }"),
+             Contains("give one of dip"));
+  CHECK_THAT(error_of(head + "cdem.water_table{ point = {0, 0, 1}, profile = { {0, 5}, {2, 3} } }"),
+             Contains("point: goes with dip, not with profile"));
+  CHECK_THAT(error_of(head +
+                      "cdem.write_csv{ file = 'table.csv', columns = { { name = 'x', values = {0, 2} } } }\n"
+                      "cdem.water_table{ file = 'table.csv' }"),
+             Contains("its columns must be distance and z"));
+  CHECK_THAT(
+      error_of(head +
+               "cdem.write_csv{ file = 'table.csv', columns = { { name = 'distance', values = {0, 0} }, "
+               "{ name = 'z', values = {5, 3} } } }\ncdem.water_table{ file = 'table.csv' }"),
+      Contains("table.csv") && Contains("distances rise"));
+  CHECK_THAT(Script(head + "cdem.water_table{ point = {0, 0, 1}, dip = 50, dip_direction = 90 }").printed(),
+             Contains("dip = 50") && Contains("cos(dip)^2"));
+}
+
+TEST_CASE("a stereonet draws poles of lists, discs and cut blocks, and says what it drew in a table",
+          "[lua][rock]") {
+  CHECK_THAT(
+      error_of(
+          head +
+          "cdem.stereonet{ file = 'net.png', size = {400, 300}, shape = rocks,\n"
+          "  poles = { { name = 'survey, north', planes = { {30, 90} } } },\n"
+          "  discs = { { centre = {0, 0, 0}, dip = 90, dip_direction = 0, radius = 1, set = 'J1' } },\n"
+          "  planes = { { name = 'face', dip = 60, dip_direction = 180 } } }\n"
+          "local rows = {}\n"
+          "for line in io.lines('net.csv') do\n"
+          "  local kind, name, dip, to, x, y = line:match('^(%a+),(.+),([^,]+),([^,]+),([^,]+),([^,]+)$')\n"
+          "  rows[#rows + 1] = { kind = kind, name = name, dip = tonumber(dip), to = tonumber(to),\n"
+          "                      x = tonumber(x), y = tonumber(y) }\n"
+          "end\n"
+          "assert(#rows == 6 and rows[1].name == 'name')\n"
+          "local survey, j1, bedding, outline, face = table.unpack(rows, 2)\n"
+          "assert(survey.name == '\"survey, north\"' and survey.dip == 30 and survey.to == 90)\n"
+          "assert(math.abs(survey.x + math.sqrt(2) * math.sin(math.rad(15))) < 1e-8)\n"
+          "assert(math.abs(survey.y) < 1e-8)\n"
+          "assert(j1.name == 'J1' and math.abs(j1.y + 1) < 1e-8)\n"  // on the rim, to the south
+          "assert(bedding.name == 'bedding' and bedding.dip == 0)\n" // once, though it makes four faces
+          "assert(outline.name == 'outline' and outline.dip == 90)\n"
+          "assert(face.kind == 'plane' and face.dip == 60 and math.abs(face.y - math.sqrt(0.5)) < 1e-8)"),
+      Equals(""));
+  CHECK_THAT(error_of(head + "cdem.stereonet{ file = 'net.png' }"),
+             Contains("give poles, discs, shape or planes"));
+  CHECK_THAT(error_of(head + "cdem.stereonet{ file = 'net.png', shape = cdem.box{ size = {1, 1, 1} } }"),
+             Contains("no joint set or cut"));
+  CHECK_THAT(
+      error_of(
+          head +
+          "cdem.stereonet{ file = 'net.png', poles = { { name = 'a', planes = { {30, 90}, {95, 0} } } } }"),
+      Contains("poles[1].planes[2]") && Contains("a dip from 0 to 90 degrees"));
+  CHECK_THAT(
+      error_of(head +
+               "cdem.stereonet{ file = 'net.bmp', planes = { { name = 'a', dip = 3, dip_direction = 0 } } }"),
+      Contains(".png"));
+}

@@ -397,6 +397,16 @@ TEST_CASE("water above a dug floor is told, water below it and under a lake is n
   };
   CHECK(told("model:water{ level = 3.9 }"));
   CHECK_FALSE(told("model:water{ level = 1 }"));
+  const std::string plane = "local t = cdem.water_table{ point = {3, 0, 3.9}, dip = 5, dip_direction = 0 }\n";
+  CHECK_FALSE(told(plane + "model:traction{ on = 'all', water_table = t }\nmodel:water{ water_table = t }"));
+  const auto sloping = warnings_of(
+      column("{4, 1, 4}", "{4, 1, 4}") +
+      "model:fix{ on = 'z-' }\nmodel:remove{ on = function(x, y, z) return x > 2 and z > 1 end }\n" + plane +
+      "model:water{ water_table = t }");
+  CHECK(std::any_of(sloping.begin(), sloping.end(), [](const std::string& line) {
+    return line.find("the water_table stands above 2 m2 of open ground, up to 2.9 m") != std::string::npos &&
+           line.find("traction{ on = the ground, water_table = the same }") != std::string::npos;
+  }));
   CHECK_FALSE(told("model:traction{ on = 'all', level = 3.9 }\nmodel:water{ level = 3.9 }"));
 }
 

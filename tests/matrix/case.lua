@@ -172,8 +172,13 @@ for _ = 1, 3 + math.floor(random(0, 2.999)) do
   elseif what == "make_deformable" and with("make_deformable", 1) then
     try(what, function() model:make_deformable{ on = on } end)
   elseif what == "remove" and with("remove", 1) then
-    try(what, function() model:remove{ on = cdem.select.where(function(x, _, z) return z > 0.2 and x > 0 end) } end)
+    local gradual, share, time = with("gradual", 0.7), pick{ 0, 0.4, 1 }, pick{ 1e-3, 0.05 }
+    local place = pick{ on, cdem.select.where(function(x) return x > 0 end) }
+    try(what, function()
+      model:remove{ on = place, relaxed = gradual and share or nil, over = gradual and share > 0 and time or nil }
+    end)
   elseif what == "release" then
+    try("relax_excavation", function() model:relax_excavation{ over = 0.01 } end)
     try(what, function() model:clear_loads() end)
     try(what, function() model:gravity{ vector = { 0, 0, -9.81 } } end)
   end

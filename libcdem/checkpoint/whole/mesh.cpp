@@ -66,7 +66,9 @@ void check_sides(const Model& model, const MeshChunk& chunk) {
 void check_plastic(const Model& model) {
   const MeshData& mesh = model.mesh;
   const auto is_plastic = [](const Body& body) { return !body.plasticity.empty(); };
-  const bool any = std::any_of(model.bodies.begin(), model.bodies.end(), is_plastic);
+  // A body of which all was removed has no tets left.
+  const bool any = std::any_of(model.blocks.begin(), model.blocks.end(),
+                               [&](const Block& block) { return is_plastic(model.bodies[block.body]); });
   require_length("mesh.plastic_law", mesh.plastic_law.size(), any ? mesh.batches.size() * lanes : 0);
   std::int64_t tets = 0; // with a law: no other lane may have one
   for (int tet = mesh.first_tet; any && tet < static_cast<int>(model.tets.size()); ++tet) {

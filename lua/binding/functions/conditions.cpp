@@ -4,6 +4,7 @@
 #include "lua/binding/functions/selections.hpp"
 #include "lua/binding/functions/solving_warnings.hpp"
 #include "lua/binding/objects/model_object.hpp"
+#include "lua/binding/objects/water_object.hpp"
 #include "lua/binding/runtime/module.hpp"
 
 #include "libgeom/core/error.hpp"
@@ -60,6 +61,8 @@ Value release(Session&, ModelObject& model, const Arguments& a) {
 FacePressure face_pressure_of(const Arguments& a) {
   FacePressure pressure;
   pressure.level = a.optional_number("level");
+  if (const auto given = a.object<WaterTableObject>("water_table"))
+    pressure.table = given->table;
   pressure.weight = a.number("weight");
   if (const Value& given = a.value("pressure"); given.is_number())
     pressure.pressure = [p = given.number()](const geom::Vec3&) { return p; };
@@ -78,11 +81,10 @@ Value traction(Session& session, ModelObject& model, const Arguments& a) {
   model.require_idle("traction");
   const Amplitude amplitude = amplitude_of(a, model.simulation.time());
   if (static_cast<int>(a.has("stress")) + static_cast<int>(a.has("pressure")) +
-          static_cast<int>(a.has("level")) !=
+          static_cast<int>(a.has("level")) + static_cast<int>(a.has("water_table")) !=
       1)
     throw InputError("give one of stress = {x, y, z} (Pa), pressure = a number (Pa) or function(x, y, z), "
-                     "and level = z of "
-                     "the water (m)");
+                     "level = z of the water (m), and water_table = cdem.water_table{...}");
   for (const Selection& on : selections(model, a.value("on"), "on")) {
     Traction traction;
     traction.on = on;
@@ -93,7 +95,9 @@ Value traction(Session& session, ModelObject& model, const Arguments& a) {
       line = "traction " + describe(a.value("stress")) + " Pa";
     } else {
       traction.pressure = face_pressure_of(a);
+      const auto table = a.object<WaterTableObject>("water_table");
       line = a.has("level") ? "pressure of water up to z = " + describe(a.value("level")) + " m"
+             : table        ? "pressure of water up to a water table, " + table->words
              : a.value("pressure").is_number() ? "pressure " + describe(a.value("pressure")) + " Pa"
                                                : std::string("pressure after a function");
     }
@@ -204,12 +208,46 @@ std::int64_t sum_over_places(const Session& session, ModelObject& model, const A
   return count;
 }
 
+Excavation excavation_of(const Arguments& a) {
+  Excavation excavation;
+  excavation.relaxed = a.number("relaxed");
+  excavation.over = a.optional_number("over").value_or(0);
+  if (excavation.relaxed == 0 && excavation.over > 0)
+    throw InputError("over: goes with relaxed > 0, the share of the forces that falls in this time");
+  return excavation;
+}
+
+std::string in_words(const Excavation& excavation) {
+  std::string text;
+  if (excavation.relaxed < 1)
+    text += ", forces relaxed by " + number_text(excavation.relaxed);
+  if (excavation.over > 0)
+    text += (text.empty() ? ", forces relaxed over " : " over ") + number_text(excavation.over) + " s";
+  return text;
+}
+
 Value remove(Session& session, ModelObject& model, const Arguments& a) {
   model.require_idle("remove");
-  const std::int64_t count = sum_over_places(
-      session, model, a, [&](Simulation& simulation, const Selection& on) { return simulation.remove(on); });
-  note(model, std::to_string(count) + (count == 1 ? " block removed" : " blocks removed"));
+  const Excavation excavation = excavation_of(a);
+  const std::int64_t count =
+      sum_over_places(session, model, a, [&](Simulation& simulation, const Selection& on) {
+        return simulation.remove(on, excavation);
+      });
+  note(model,
+       std::to_string(count) + (count == 1 ? " block removed" : " blocks removed") + in_words(excavation));
   return count;
+}
+
+Value relax_excavation(Session& session, ModelObject& model, const Arguments& a) {
+  model.require_idle("relax_excavation");
+  const Excavation excavation = excavation_of(a);
+  if (model.simulation.relax_excavation(excavation) == 0)
+    session.warn(
+        "model:relax_excavation: no forces of an excavation are kept; model:remove{ relaxed = } or over = "
+        "keeps those of rock that bears something");
+  note(model, "excavation" + (excavation.relaxed == 1 && excavation.over == 0 ? ", forces relaxed"
+                                                                              : in_words(excavation)));
+  return {};
 }
 
 Value make_rigid(Session& session, ModelObject& model, const Arguments& a) {
@@ -253,6 +291,16 @@ Field on() {
 Field one_place() {
   return place("on").required().doc("where: one place");
 }
+Field relaxed() {
+  return number("relaxed").within(0, 1).standard(1.0).doc(
+      "share of the excavation's forces that goes, from the beginning (lambda of convergence-confinement); "
+      "the rest stays as a load");
+}
+Field over() {
+  return number("over").above(0).unit("s").doc(
+      "time of model:run, from now on, in which this share goes evenly; at once when left out. A relaxation "
+      "takes no time");
+}
 Field axes() {
   return choice("axes", {"x", "y", "z", "xy", "xz", "yz", "xyz"}).standard("xyz").doc("components held");
 }
@@ -290,6 +338,7 @@ void bind_conditions(Module& m) {
            .doc("instead: along the inward normal, the same everywhere or at each undeformed place"),
        number("level").unit("m").doc("instead: z of a free water surface; weight times the depth below it, "
                                      "none above. Water in joints is model:water's"),
+       object("water_table", "WaterTable").doc("instead: a free water surface that is not level"),
        number("weight").above(0).unit("N/m3").standard(9810.0).doc("of the water"), amplitude_field(),
        since_field()},
       traction);
@@ -345,8 +394,14 @@ void bind_conditions(Module& m) {
       initial_velocity);
   add("remove",
       "Takes blocks and whole meshes out of the model (an excavation): those whose undeformed centroid is "
-      "selected.",
-      {on()}, remove, "integer", "how many");
+      "selected. Their forces on the rock that stays go at once, unless `relaxed` and `over` say otherwise "
+      "(docs/settling-and-loading.md, \"Excavating\").",
+      {on(), relaxed(), over()}, remove, "integer", "how many");
+  add("relax_excavation",
+      "Lets go of forces that earlier calls of model:remove have kept with `relaxed` or `over`, such as "
+      "after "
+      "a lining is set. What is relaxed further already stays so.",
+      {relaxed(), over()}, relax_excavation);
   add("make_rigid",
       "Meshed bodies keep the shape and the stress of this moment from now on, and move as a whole: those "
       "whose "

@@ -72,6 +72,8 @@ public:
     progress_.step = now.laid;
     progress_.max_steps = now.laid < count_ ? count_ : 0; // how long the rest takes nobody knows
     progress_.note = now.doing;
+    if (now.unsupported > 0)
+      progress_.note += ", " + std::to_string(now.unsupported) + " of them with fewer than three supports";
     if (now.layers > 1)
       progress_.note += ", layer " + of_at_most(now.layer, now.layers);
     progress_.note += ", spacing " + of_at_most(now.spacing, now.spacings);

@@ -11,6 +11,7 @@
 #include "libgeom/core/error.hpp"
 #include "libgeom/mesh/box_mesh.hpp"
 #include "libgeom/mesh/read_mesh.hpp"
+#include "libgeom/mesh/shell_mesh.hpp"
 #include "libgeom/mesh/tet_quality.hpp"
 
 #include <algorithm>
@@ -53,6 +54,13 @@ Value box_mesh(Session&, Object*, const Arguments& a) {
       std::make_shared<TetMeshObject>(geom::box_mesh(a.vec3("size"), a.ivec3("divisions"), a.number("jitter"),
                                                      static_cast<std::uint64_t>(a.integer("seed"))));
   object->title = "box";
+  return object;
+}
+
+Value shell_mesh(Session&, Object*, const Arguments& a) {
+  auto object = std::make_shared<TetMeshObject>(geom::shell_mesh(
+      a.object<SurfaceObject>("surface")->surface, a.number("thickness"), a.optional_vec3("front")));
+  object->title = "shell";
   return object;
 }
 
@@ -207,6 +215,24 @@ void bind_tet_meshes(Module& m) {
                          "cdem.TetMesh",
                          "",
                          box_mesh});
+  m.functions.push_back(
+      {"shell_mesh",
+       "An open surface as a wall, for a rigid body that is held: a drum, a funnel, a chute, a terrain. The "
+       "surface is "
+       "one of its sides; the other lies behind it.",
+       {object("surface", "Surface").required().doc("cdem.read_surface or cdem.surface"),
+        number("thickness")
+            .above(0)
+            .unit("m")
+            .required()
+            .doc("more than bodies reach into it and move in a step; less than the surface is bent"),
+        vec3("front").unit("m").doc("a place on the side that bodies touch, such as the middle of a drum; "
+                                    "where the triangles' normals "
+                                    "point when left out")},
+       false,
+       "cdem.TetMesh",
+       "",
+       shell_mesh});
   bind_mesh_records(m);
   Class mesh{"TetMesh", "Tetrahedra, made by solid:mesh{} or cdem.read_mesh."};
   const auto of = [](const Object& self) -> const TetMeshObject& {

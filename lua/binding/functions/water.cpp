@@ -2,6 +2,7 @@
 #include "lua/binding/functions/over_place.hpp"
 #include "lua/binding/functions/selections.hpp"
 #include "lua/binding/objects/model_object.hpp"
+#include "lua/binding/objects/water_object.hpp"
 #include "lua/binding/runtime/module.hpp"
 
 #include "libgeom/core/error.hpp"
@@ -29,15 +30,20 @@ Water water_of(const ModelObject& model, const Arguments& a, std::string& line) 
   water.weight = a.number("weight");
   for (const Value& set : a.list("joints"))
     water.sets.push_back(*set.get<std::string>());
-  if (static_cast<int>(a.has("level")) + static_cast<int>(a.has("pressure")) +
-          static_cast<int>(a.has("table")) !=
+  if (static_cast<int>(a.has("level")) + static_cast<int>(a.has("water_table")) +
+          static_cast<int>(a.has("pressure")) + static_cast<int>(a.has("table")) !=
       1)
-    throw InputError("give one of level = z of the water (m), pressure = a number (Pa) or function(x, y, z), "
-                     "and table = rows {z, pressure}");
+    throw InputError(
+        "give one of level = z of the water (m), water_table = cdem.water_table{...}, pressure = a "
+        "number (Pa) or function(x, y, z), "
+        "and table = rows {z, pressure}");
   line = "water in joints";
   if (a.has("level")) {
     water.level = a.number("level");
     line += " up to z = " + describe(a.value("level")) + " m";
+  } else if (const auto given = a.object<WaterTableObject>("water_table")) {
+    water.table = given->table;
+    line += " up to a water table, " + given->words;
   } else if (a.has("table")) {
     std::vector<std::array<double, 2>> rows;
     for (const Value& row : a.list("table"))
@@ -87,7 +93,9 @@ void bind_water(Module& m) {
        "joint's law bears the rest, the effective stress. It is taken at the undeformed places, once, and "
        "stays until it is "
        "set again; call it between stages to raise or lower the water.",
-       {number("level").unit("m").doc("z of the water table: weight times the depth below it"),
+       {number("level").unit("m").doc("z of a level water table: weight times the depth below it"),
+        object("water_table", "WaterTable")
+            .doc("instead: one that is not level; weight times the vertical depth below it"),
         number_or_function("pressure", "(x: number, y: number, z: number): number")
             .at_least(0)
             .unit("Pa")

@@ -66,7 +66,7 @@ const Declared& declared() {
     declare(d, "selections", "Selections", {bind_selections});
     declare(d, "models", "Models", {bind_model});
     declare(d, "conditions", "Supports, loads and changes", {bind_conditions});
-    declare(d, "ground", "Stress and water in the ground", {bind_in_situ, bind_water});
+    declare(d, "ground", "Stress and water in the ground", {bind_in_situ, bind_water, bind_water_table});
     declare(d, "solving", "Solving", {bind_solving});
     declare(d, "safety", "Factor of safety", {bind_stability});
     declare(d, "settling", "Settling", {bind_settling});
@@ -80,7 +80,7 @@ const Declared& declared() {
     declare(d, "fragments", "Fragments and units", {bind_fragments, bind_units});
     declare(d, "files", "Files and pictures", {bind_output});
     declare(d, "checkpoints", "Saved states", {bind_checkpoints});
-    declare(d, "charts", "Charts", {bind_charts});
+    declare(d, "charts", "Charts", {bind_charts, bind_stereonets});
     declare(d, "reports", "Reports, tables and sweeps", {bind_report, bind_tables, bind_sweep});
     return d;
   }();

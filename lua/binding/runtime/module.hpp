@@ -97,6 +97,7 @@ void bind_model_class(Module&); // by bind_model
 void bind_conditions(Module&);
 void bind_in_situ(Module&);
 void bind_water(Module&);
+void bind_water_table(Module&);
 void bind_solving(Module&);
 void bind_stability(Module&);
 void bind_settling(Module&);
@@ -114,6 +115,7 @@ void bind_units(Module&);
 void bind_output(Module&);
 void bind_checkpoints(Module&);
 void bind_charts(Module&);
+void bind_stereonets(Module&);
 void bind_report(Module&);
 void bind_tables(Module&);
 void bind_sweep(Module&);
