@@ -1451,10 +1451,10 @@ function Model:highest_units(options) end
 
 ---@class (exact) cdem.ModelSaveOptions
 ---@field file string ends in .vtu, or .vtkhdf for programs that read HDF5; in the output folder
----@field series? string ends in .pvd: a time series this file is added to; run.pvd has run_bonds.pvd and run_contacts.pvd beside it. One axis: time where it rises from file to file, else steps
+---@field series? string ends in .pvd: a time series this file is added to; run.pvd has run_bonds.pvd, run_contacts.pvd and run_water.pvd beside it. One axis: time where it rises from file to file, else steps
 ---@field cells_per_file? integer >= 1, default 2000000: a .vtu of more cells is written in pieces, result/result_0.vtu, result/result_1.vtu, ..., and result.pvtu takes its place
 
----Writes the model for ParaView: blocks to the file, bonds beside it (result.vtu, result_bonds.vtu), and of bodies that move far the contacts that carry (result_contacts.vtu: points with force on the source body, normal_force, shear_force, depth, bodies and blocks).
+---Writes the model for ParaView: blocks to the file, bonds beside it (result.vtu, result_bonds.vtu), and of bodies that move far the contacts that carry (result_contacts.vtu: points with force on the source body, normal_force, shear_force, depth, bodies and blocks). Of water that loads the model (model:flow) the free surface too (result_water.vtu: velocity at corners).
 ---@param options cdem.ModelSaveOptions
 function Model:save(options) end
 
@@ -1535,6 +1535,8 @@ function Model:save_joints(options) end
 ---@field joint_sets? string[] with joints: the sets that are drawn; all when left out
 ---@field joints? boolean default false: the joints alone, between blocks; colour is then "slip", "opening", "utilisation", "normal_traction", "shear_traction", "water_pressure", "mode" or "set"
 ---@field bolts? boolean default true: bolts, drawn over the blocks and coloured by their tension
+---@field water? boolean default true: free surface of the water that loads the model (model:flow with water), as a transparent sheet that tints no coloured body, and the line where it cuts the bodies; in a section its line
+---@field water_velocity? boolean default false: velocity of that water as arrows: on its free surface, or in the section where that is upright
 ---@field broken_bonds? boolean default true: broken interfaces, coloured by how they broke
 
 ---Draws the model, without a display.
