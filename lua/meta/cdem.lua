@@ -2482,6 +2482,26 @@ function cdem.water.sea(options) end
 ---@return cdem.Water
 function cdem.water.slope(options) end
 
+---@class (exact) cdem.WaterFileOptions
+---@field series? string a .pvd file, which lists files with their times; give it or files
+---@field files? string[] in the order of their times
+---@field times? number[] s: of the files
+---@field velocity? string default "U": name of the array (m/s, three components), at points or in cells
+---@field pressure? string name of the array: pressure above that of the air with its hydrostatic part, such as OpenFOAM's "p" ("p_rgh" lacks that part). Left out: hydrostatic below the surface
+---@field pressure_factor? number > 0, default 1: Pa in a unit of it; the density where it is kinematic
+---@field fraction? string name of the array of the water fraction, 0 to 1, such as "alpha.water"
+---@field level? number m: z of the free surface where there is no fraction; left out: water everywhere
+---@field cell? number m, > 0: of the grid; left out: that of a .vti, else the mean size of the cells
+---@field same_along? "x"|"y"|"z" the water is the same all along this axis, as in a flume of one cell
+---@field shift? number[] m, default {0, 0, 0}: is added to the coordinates
+---@field time_shift? number s, default 0: is added to the times, such as the model's time at the start
+---@field density? number kg/m3, > 0, default 1025: sea water by default
+
+---Water that another program has computed, from VTK's files (.vti, .vtu, .vts, .vtr, legacy .vtk) at several times. It is put on a regular grid, and is linear between its points and times. The free surface is where the water fraction is 1/2. A run that asks beyond the box or the times of the files ends with an error. One file alone is water that does not change.
+---@param options? cdem.WaterFileOptions
+---@return cdem.Water
+function cdem.water.file(options) end
+
 ---Pressure of a stream, rho V^2 / 2 (Feng 2014 eq 20), Pa.
 ---@param velocity number m/s, >= 0
 ---@param water_density? number kg/m3, > 0, default 1025: sea water by default
