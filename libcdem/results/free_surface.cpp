@@ -1,5 +1,7 @@
 #include "libcdem/results/free_surface.hpp"
 
+#include "libgeom/core/error.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -14,6 +16,17 @@ constexpr int net_stride = 10;       // cells between lines that are drawn
 constexpr int halvings = 30;         // of the edge that the water line crosses
 constexpr int arrows_along = 16;     // the longer side
 constexpr int arrows_over_depth = 8; // in a section, over the height of the box
+
+// With a surface at nan where the field is not known: files have a box and times, which may be smaller than those of the model.
+WaterPoint asked(const WaterField& water, const Vec3& place, double time) {
+  try {
+    return water.at(place, time);
+  } catch (const geom::InputError&) {
+    WaterPoint unknown;
+    unknown.surface = std::nan("");
+    return unknown;
+  }
+}
 
 class SheetOfField {
 public:
@@ -65,13 +78,15 @@ private:
   void sample() {
     const int n = sheet_.size[0] * sheet_.size[1];
     point_.assign(n, -1);
+    unknown_.assign(n, false);
     sheet_.height.assign(n, std::nan(""));
     for (int grid = 0; grid < n; ++grid)
-      if (const WaterPoint water = water_.at(place(grid), time_); std::isfinite(water.surface)) {
+      if (const WaterPoint water = asked(water_, place(grid), time_); std::isfinite(water.surface)) {
         point_[grid] = add(place(grid), water);
         sheet_.height[grid] = water.surface;
       } else {
-        dry_ = dry_ || water.surface < 0;
+        unknown_[grid] = std::isnan(water.surface);
+        dry_ = dry_ || unknown_[grid] || water.surface < 0;
       }
   }
 
@@ -81,10 +96,10 @@ private:
     if (!is_new)
       return known->second;
     Vec3 in = place(from), out = place(to);
-    WaterPoint last = water_.at(in, time_);
+    WaterPoint last = asked(water_, in, time_);
     for (int i = 0; i < halvings; ++i) {
       const Vec3 middle = 0.5 * (in + out);
-      const WaterPoint water = water_.at(middle, time_);
+      const WaterPoint water = asked(water_, middle, time_);
       const bool is_wet = std::isfinite(water.surface);
       (is_wet ? in : out) = middle;
       if (is_wet)
@@ -102,7 +117,8 @@ private:
       if (wet(a) != wet(b))
         around.push_back(ends.emplace_back(wet(a) ? shore(a, b) : shore(b, a)));
     }
-    if (ends.size() == 2)
+    // The edge of what is known is no water line.
+    if (ends.size() == 2 && std::none_of(grid.begin(), grid.end(), [&](int g) { return unknown_[g]; }))
       sheet_.shore.push_back({ends[0], ends[1]});
     for (std::size_t i = 2; i < around.size(); ++i)
       sheet_.triangles.push_back({around[0], around[i - 1], around[i]});
@@ -120,8 +136,9 @@ private:
   const WaterField& water_;
   double time_, top_;
   WaterSheet sheet_;
-  bool dry_ = false;       // at some point of the grid
-  std::vector<int> point_; // of the sheet, at each wet point of the grid; -1: dry
+  bool dry_ = false;          // at some point of the grid
+  std::vector<bool> unknown_; // of each point of the grid
+  std::vector<int> point_;    // of the sheet, at each wet point of the grid; -1: dry
   std::map<std::array<int, 2>, int> shore_;
 };
 
@@ -153,13 +170,13 @@ void add_arrows_in_section(const WaterField& water, double time, const geom::Box
     if (x.x() < box.min.x() || x.x() > box.max.x() || x.y() < box.min.y() || x.y() > box.max.y())
       continue;
     x.z() = box.max.z();
-    const double surface = water.at(x, time).surface;
+    const double surface = asked(water, x, time).surface;
     if (!std::isfinite(surface))
       continue;
     for (int k = 0; k < arrows_over_depth; ++k) {
       x.z() = box.min.z() + (k + 0.5) * size.z() / arrows_over_depth;
       if (x.z() < surface)
-        sheet.arrows.push_back({x, water.at(x, time).velocity});
+        sheet.arrows.push_back({x, asked(water, x, time).velocity});
     }
   }
 }

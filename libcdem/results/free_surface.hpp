@@ -7,7 +7,7 @@
 
 namespace cdem {
 
-// Over the rectangle of the box. No points where all is dry; of size 0 where water is everywhere, without a surface.
+// Over the rectangle of the box; places and times that the field does not know are dry. No points where all is dry; of size 0 where water is everywhere, without a surface.
 WaterSheet free_surface(const WaterField&, double time, const geom::Box&, const WaterWish& = {});
 
 // Gives the snapshot the sheets of the fields that load the model, each field once, over the box of its surface. Water

@@ -3,6 +3,7 @@
 #include "libcdem/water/plain_water.hpp"
 #include "libcdem/water/slope_water.hpp"
 #include "libcdem/water/steady_wave.hpp"
+#include "libgeom/core/error.hpp"
 
 #include <Eigen/Geometry>
 #include <catch2/catch.hpp>
@@ -88,6 +89,21 @@ TEST_CASE("water without a surface has no sheet, and a dry place an empty one", 
   cdem::UniformWater stream;
   stream.velocity = [](double) { return Vec3(2, 0, 0); };
   CHECK(cdem::free_surface(*cdem::uniform_water(stream), 0, box).size[0] == 0);
+}
+
+TEST_CASE("there is no sheet where and when the field is not known", "[water]") {
+  const geom::Box box{{0, 0, -1}, {10, 3, 1}};
+  CHECK(cdem::free_surface(*still_on_slope({1, 0, 0}), 7, box).points.empty()); // known up to 1 s
+  cdem::FunctionWater half;
+  half.velocity = [](const Vec3&, double) { return Vec3(Vec3::Zero()); };
+  half.surface = [](const Vec3& x, double) {
+    if (x.x() > 4)
+      throw geom::InputError("known up to 4 m");
+    return 0.5;
+  };
+  const cdem::WaterSheet sheet = cdem::free_surface(*cdem::function_water(half), 0, box);
+  CHECK(area_seen_from_above(sheet) == Approx(12));
+  CHECK(sheet.shore.empty());
 }
 
 TEST_CASE("arrows tell the field's velocity, on the surface or below it in a section", "[water]") {

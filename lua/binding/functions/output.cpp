@@ -212,7 +212,7 @@ Value picture(Session& session, ModelObject& model, const Arguments& a) {
   for (const Value& body : a.list("hidden"))
     hidden.push_back(model.simulation.body_number(*body.get<std::string>(), "hidden"));
   WaterWish water;
-  water.shown = a.flag("water") && !a.flag("joints");
+  water.shown = a.flag("water") && !a.flag("joints") && !session.settings.check_only;
   water.velocity = a.flag("water_velocity");
   if (const auto section = a.record("section")) {
     water.point = section->vec3("point");
