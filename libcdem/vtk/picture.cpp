@@ -172,9 +172,9 @@ void draw(const Snapshot& snapshot, const PictureOptions& options, const Finish&
   input.title = !options.title.empty();
   input.bar = bar.has_value();
   // Pictures from a camera of their own, or fitted to a box, are frames of a film: they keep the room of a legend that is
-  // still empty, so that nothing moves when the first bond breaks.
-  const bool kept = (view.literal || options.fit) && options.legend && options.broken_bonds &&
-                    (snapshot.bonds.left_out || !snapshot.bonds.points.empty());
+  // still empty, so that nothing moves when the first bond breaks, or the water comes.
+  const bool may_break = options.broken_bonds && (snapshot.bonds.left_out || !snapshot.bonds.points.empty());
+  const bool kept = (view.literal || options.fit) && options.legend && (may_break || !snapshot.water.empty());
   input.legend_rows = std::max(static_cast<int>(rows.size()), kept ? 1 : 0);
   // In perspective a length has no one size.
   input.scale_bar = options.scale_bar && !view.perspective;

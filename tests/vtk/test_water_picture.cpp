@@ -90,6 +90,21 @@ TEST_CASE("bodies above the water hide it, and bodies in front of bodies without
   CHECK(colour_at(drawn(s, ""), 0.15) == plain);
 }
 
+TEST_CASE("frames of a film keep their layout when the water goes") {
+  const TemporaryFolder folder;
+  PictureOptions o;
+  o.size = {400, 300};
+  o.fit = geom::Box{{-1, -1, -1}, {4, 2, 1}};
+  o.axes = false;
+  Snapshot s = two_blocks();
+  const auto top_of_bodies = [&](const WaterSheet& sheet) {
+    s.water = {sheet};
+    render(s, o, folder / "p.png");
+    return read_png(folder / "p.png").bounds().top;
+  };
+  CHECK(top_of_bodies(WaterSheet()) == top_of_bodies(level_sheet(-0.1)));
+}
+
 TEST_CASE("the water line runs once round each body, at the level of the water") {
   const Snapshot s = two_blocks();
   const std::vector<Segment> lines = water_lines({level_sheet(0.13)}, s.points, s.surface);
