@@ -88,7 +88,7 @@ std::vector<WaterSheet> shown_water(const Snapshot& snapshot, const std::vector<
 }
 
 std::vector<LegendEntry> legend_entries(const PictureOptions& options, const BrokenInterfaces& broken,
-                                        bool water, double pixel) {
+                                        bool water, const std::vector<Polyline>& arrows, double pixel) {
   std::vector<LegendEntry> entries;
   if (!broken.tension.triangles.empty())
     entries.push_back({"broken in tension", tension_colour, 7 * pixel});
@@ -100,6 +100,8 @@ std::vector<LegendEntry> legend_entries(const PictureOptions& options, const Bro
       c = water_opacity * c + 1 - water_opacity;
     entries.push_back({"water surface", over_white, 12 * pixel});
     entries.push_back({"water line", water_line_colour, 4 * pixel});
+    if (!arrows.empty())
+      entries.push_back({arrows.front().label, water_line_colour, 2.5 * pixel});
   }
   for (const Polyline& line : options.polylines)
     if (!line.label.empty())
@@ -143,6 +145,7 @@ void draw(const Snapshot& snapshot, const PictureOptions& options, const Finish&
               : options.view == "iso" ? View::iso(options.up, snapshot.points, snapshot.surface)
                                       : View::named(options.view, options.up);
   const std::vector<WaterSheet> water = shown_water(snapshot, points, options);
+  const std::vector<Polyline> arrows = water_arrows(water);
   const geom::Box extent = extent_of(view, options, points, broken, water);
 
   const double pixel = std::min(options.size[0] / 1600., free_height ? 1e9 : options.size[1] / 1200.);
@@ -154,7 +157,7 @@ void draw(const Snapshot& snapshot, const PictureOptions& options, const Finish&
     bar->given_range = options.range.has_value();
   std::vector<LegendEntry> legend;
   if (options.legend)
-    legend = legend_entries(options, broken, !water.empty(), pixel);
+    legend = legend_entries(options, broken, !water.empty(), arrows, pixel);
   if (bar && !bar->outliers.empty())
     legend.push_back({bar->outliers});
   AxesContent axes;
@@ -206,7 +209,7 @@ void draw(const Snapshot& snapshot, const PictureOptions& options, const Finish&
 
   const bool any_broken = !broken.tension.triangles.empty() || !broken.shear.triangles.empty();
   Scene scene({snapshot, points, field ? &*field : nullptr, scale, any_broken ? &broken : nullptr,
-               options.edges, options.opacity, pixel, water},
+               options.edges, options.opacity, pixel, water, arrows},
               view, layout.size);
   finish(layout.size, scene.renderers(), canvas);
 }

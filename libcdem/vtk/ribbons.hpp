@@ -18,7 +18,7 @@ public:
     geom::Vec3 a = lifted(from), b = lifted(to);
     const geom::Vec3 along = b - a, sight = view_.direction_to_viewer(0.5 * (a + b));
     const geom::Vec3 side = along.cross(sight); // as long as the segment is seen to be
-    if (!(side.norm() > view_.pixel_size(a)) || !view_.in_front(a) || !view_.in_front(b))
+    if (!(side.norm() > shortest * view_.pixel_size(a)) || !view_.in_front(a) || !view_.in_front(b))
       return; // seen from its end, or too small to be seen
     const geom::Vec3 unit = side.normalized();
     if (extension > 0) {
@@ -37,6 +37,7 @@ public:
     }
   }
 
+  double shortest = 1; // pixels; what is shorter is left out: less for lines in small parts
   std::vector<geom::Vec3> points;
   std::vector<geom::Triangle> triangles;
 

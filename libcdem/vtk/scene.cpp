@@ -253,6 +253,7 @@ void Scene::Impl::add_broken(const SceneInput& in, const View& view) {
 
 void Scene::Impl::add_water(const SceneInput& in, const View& view) {
   Ribbons net(view, in.pixel, 1), line(view, 3.5 * in.pixel, 3);
+  net.shortest = line.shortest = 0.02;
   for (const WaterSheet& sheet : in.water) {
     if (sheet.triangles.empty())
       continue;
@@ -269,6 +270,11 @@ void Scene::Impl::add_water(const SceneInput& in, const View& view) {
   }
   for (const Segment& s : water_lines(in.water, in.points, in.snapshot.surface))
     line.add(s[0], s[1], false, 0.5 * in.pixel);
+  Ribbons arrows(view, 2.5 * in.pixel, 4);
+  for (const Polyline& arrow : in.arrows)
+    for (std::size_t i = 1; i < arrow.points.size(); ++i)
+      arrows.add(arrow.points[i - 1], arrow.points[i], false);
+  add_unlit(arrows.points, arrows.triangles, water_line_colour);
   add_unlit(net.points, net.triangles, water_colour);
   add_unlit(line.points, line.triangles, water_line_colour);
 }

@@ -30,6 +30,7 @@ struct SceneInput {
   double pixel = 1;   // line widths are given for a 1600 x 1200 picture and multiplied by this
   std::vector<WaterSheet> water =
       {}; // a transparent sheet each, its net, and the lines where it cuts the bodies
+  std::vector<Polyline> arrows = {}; // on the sheets, hidden by the bodies in front of them
 };
 
 class Scene {

@@ -1,8 +1,5 @@
 #include "libcdem/vtk/water_line.hpp"
 
-#include "libcdem/vtk/field_values.hpp"
-#include "libcdem/vtk/outline.hpp"
-
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
@@ -128,15 +125,6 @@ bool in_blocks(const Snapshot& section, const Vec3& x) {
   });
 }
 
-geom::Box drawn_box(const Snapshot& s, double deformation) {
-  const std::vector<Vec3> points = deformed(s.points, displacement_of(s.point_fields), deformation);
-  geom::Box box;
-  for (const geom::Triangle& t : s.surface)
-    for (const int p : t)
-      box.extend(points[static_cast<std::size_t>(p)]);
-  return box;
-}
-
 Polyline arrow_line(const std::vector<Vec3>& points) {
   Polyline line;
   line.points = points;
@@ -240,11 +228,8 @@ std::vector<Polyline> water_in_section(const std::vector<WaterSheet>& sheets, co
   return lines;
 }
 
-std::vector<Polyline> water_arrows(const Snapshot& shown, double deformation) {
-  const geom::Box box = drawn_box(shown, deformation);
-  return arrows_of(shown.water, [&](const Vec3& x) {
-    return x.x() >= box.min.x() && x.x() <= box.max.x() && x.y() >= box.min.y() && x.y() <= box.max.y();
-  });
+std::vector<Polyline> water_arrows(const std::vector<WaterSheet>& water) {
+  return arrows_of(water, [](const Vec3&) { return true; });
 }
 
 std::vector<Polyline> water_arrows_in(const Snapshot& section, const std::vector<WaterSheet>& water) {

@@ -23,8 +23,8 @@ WaterSheet cropped(const WaterSheet&, const geom::Box&);
 // Where the sheets cross a plane; the first has the label of the legend.
 std::vector<Polyline> water_in_section(const std::vector<WaterSheet>&, const CutPlane&);
 
-// Arrows of the snapshot's water over the bodies that it draws.
-std::vector<Polyline> water_arrows(const Snapshot&, double deformation);
+// Arrows of the sheets; the first has the label of the legend.
+std::vector<Polyline> water_arrows(const std::vector<WaterSheet>&);
 // Arrows in the plane of a section, outside of the blocks that it cuts.
 std::vector<Polyline> water_arrows_in(const Snapshot& section, const std::vector<WaterSheet>&);
 

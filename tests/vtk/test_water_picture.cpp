@@ -105,6 +105,16 @@ TEST_CASE("frames of a film keep their layout when the water goes") {
   CHECK(top_of_bodies(WaterSheet()) == top_of_bodies(level_sheet(-0.1)));
 }
 
+TEST_CASE("arrows of the water are hidden by the bodies over them") {
+  Snapshot s = two_blocks();
+  s.water = {level_sheet(-0.5)};
+  const Image without = drawn(s, "");
+  s.water[0].arrows = {{{0.2, 0.5, -0.5}, {1, 0, 0}}}; // below the first block
+  CHECK(drawn(s, "").bytes == without.bytes);
+  s.water[0].arrows = {{{1.3, 0.5, -0.5}, {1, 0, 0}}}; // in the gap
+  CHECK(drawn(s, "").bytes != without.bytes);
+}
+
 TEST_CASE("the water line runs once round each body, at the level of the water") {
   const Snapshot s = two_blocks();
   const std::vector<Segment> lines = water_lines({level_sheet(0.13)}, s.points, s.surface);

@@ -247,8 +247,6 @@ Value picture(Session& session, ModelObject& model, const Arguments& a) {
     if (inside)
       options.broken_bonds = false;
     add_marks(shown, a, options);
-    if (!inside)
-      add_lines(water_arrows(shown, options.deformation), options);
     draw(session, a.text("file"), [&](const std::string& path) { render(shown, options, path); });
   });
   return {};
