@@ -284,7 +284,7 @@ public:
   // look at nothing. All of them call it.
   std::shared_ptr<void> show_lead() const;
 
-  Snapshot snapshot(const std::string& title) const;
+  Snapshot snapshot(const std::string& title, const WaterWish& = {}) const;
   // What a picture shows. Among several ranks all call it, and the first alone gets values.
   Snapshot picture_snapshot(const PictureWish&, const std::string& title) const;
   // The last state that passed the checks before a SolutionError.

@@ -9,6 +9,7 @@
 #include "libcdem/procedure/run.hpp"
 #include "libcdem/ranks/looks.hpp"
 #include "libcdem/results/fragments.hpp"
+#include "libcdem/results/free_surface.hpp"
 #include "libcdem/results/make_snapshot.hpp"
 #include "libcdem/results/units.hpp"
 #include "libcdem/step/forces.hpp"
@@ -211,7 +212,9 @@ Snapshot Simulation::picture_snapshot(const PictureWish& wish, const std::string
   const State& state = needs_whole(wish) ? impl_->whole() : impl_->kept;
   if (state.parted)
     agree_on_look(Look::surface);
-  return make_picture_snapshot(impl_->model, state, wish, title);
+  Snapshot shown = make_picture_snapshot(impl_->model, state, wish, title);
+  add_water(impl_->conditions, wish.water, shown);
+  return shown;
 }
 
 std::shared_ptr<void> Simulation::show_lead() const {
@@ -234,8 +237,10 @@ std::shared_ptr<void> Simulation::show_lead() const {
   return shown;
 }
 
-Snapshot Simulation::snapshot(const std::string& title) const {
-  return make_snapshot(impl_->model, impl_->whole(), title);
+Snapshot Simulation::snapshot(const std::string& title, const WaterWish& water) const {
+  Snapshot all = make_snapshot(impl_->model, impl_->whole(), title);
+  add_water(impl_->conditions, water, all);
+  return all;
 }
 
 Snapshot Simulation::last_good_snapshot(const std::string& title) const {

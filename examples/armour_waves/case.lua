@@ -1,11 +1,13 @@
 -- Armour units on a slope of 1:1.5 under waves that grow: one layer is laid, comes to rest in still water, and then meets
 -- groups of regular waves, each group higher than the one before, with still water between them. After each group it says
--- how far every unit has moved, and the damage N_od: units that left their places per width of one nominal diameter.
+-- how far every unit has moved, how far it rocked, and the damage N_od: units that left their places, by a nominal diameter Dn
+-- at some time, per width of one Dn. Breakable units tell the share that broke, too.
 --
---   ./cdem run examples/armour_waves/case.lua [--set count=50] [--set drag=0.7] [--set deformable=true] [--seed 2]
+--   ./cdem run examples/armour_waves/case.lua [--set units=50 --set columns=5] [--set drag=0.7]
+--   ./cdem run examples/armour_waves/case.lua --set breakable=true --set tensile_strength=1e6
 local cdem = require "cdem"
 
-local count = cdem.parameter{ name = "count", default = 8, range = {8, 200}, doc = "units" }
+local count = cdem.parameter{ name = "units", default = 8, range = {8, 200}, doc = "how many" }
 local columns = cdem.parameter{ name = "columns", default = 4, range = {2, 20}, doc = "units in a row" }
 local mass = cdem.parameter{ name = "mass", default = 5000.0, range = {100, 1e5}, unit = "kg", doc = "of a unit" }
 local first = cdem.parameter{ name = "first_ns", default = 2.5, range = {0.1, 10}, doc = "stability number of the first group" }
@@ -18,6 +20,9 @@ local drag = cdem.parameter{ name = "drag", default = 1.0, range = {0, 10}, doc 
 local added = cdem.parameter{ name = "added_mass", default = 0.5, range = {0, 5}, doc = "C_A" }
 local friction = cdem.parameter{ name = "bed_friction", default = 0.05, range = {0, 1}, doc = "f of the slope" }
 local deformable = cdem.parameter{ name = "deformable", default = false, doc = "units deform; false: rigid" }
+local breakable = cdem.parameter{ name = "breakable", default = false, doc = "deformable, with the two below" }
+local tension = cdem.parameter{ name = "tensile_strength", default = 3e6, range = {1e3, 1e9}, unit = "Pa" }
+local toughness = cdem.parameter{ name = "fracture_energy", default = 100.0, range = {1, 1e6}, unit = "J/m2" }
 local fineness = cdem.parameter{ name = "fineness", default = 3.0, range = {2, 20}, doc = "height over edge of the tetrahedra" }
 local ends_at = cdem.parameter{ name = "ends_at", default = 2.0, range = {0.1, 100}, doc = "N_od at which it ends" }
 local longest = cdem.parameter{ name = "time", default = 1e6, range = {0.01, 1e6}, unit = "s", doc = "of waves, at most" }
@@ -33,8 +38,11 @@ period, rest = period * scale, rest * scale
 local length, width = (0.55 * math.ceil(count / columns) + 2.5) * H, (1.4 * columns + 2) * H
 local ground = cdem.slope{ gradient = gradient, length = length, width = width }:mesh{ size = 2 * H }
 local pile = cdem.place{ unit = unit, count = count, columns = columns, onto = ground, friction_angle = 12, walls = true }
+local joint = breakable and cdem.mohr_coulomb{ cohesion = 2 * tension, friction_angle = 35, tensile_strength = tension,
+                                               softening = "linear", fracture_energy_1 = toughness,
+                                               fracture_energy_2 = 10 * toughness } or nil
 local model = cdem.model{
-  bodies = { { name = "units", shape = pile, material = concrete },
+  bodies = { { name = "units", shape = pile, material = concrete, joint = joint, bonds = joint and "cohesive" or nil },
              { name = "slope", shape = ground, material = concrete, element = "rigid" },
              { name = "walls", shape = pile:walls{ onto = ground }, material = concrete, element = "rigid" } },
   contacts = { default = cdem.coulomb{ friction_angle = 35 } } }
@@ -48,7 +56,7 @@ local level = 0.5 * (box.min[3] + box.max[3])
 model:gravity{ vector = {0, 0, -g} }
 model:flow{ on = "units", water = cdem.water.uniform{ velocity = {0, 0, 0}, level = level }, drag = drag, added_mass = added }
 local settled = model:settle{ kinetic_energy_ratio = 1e-4, friction_angle = 15 }
-if not deformable then model:make_rigid{ on = "units" } end
+if not (deformable or breakable) then model:make_rigid{ on = "units" } end
 model:reset_displacement()
 
 -- The slope goes on below the layer to deep water; the waves enter there.
@@ -85,22 +93,66 @@ local function picture(name, title)
 end
 picture("rest.png", "At rest in still water")
 
-local before, moved, rows = places(), {}, { ns = {}, nod = {}, largest = {}, out = {}, mean = {} }
+-- A unit is whole as long as one piece has nine tenths of it.
+local function whole_units()
+  local whole = 0
+  for _, piece in ipairs(model:fragments()) do
+    if piece.body == "units" and piece.volume > 0.9 * unit:volume() then whole = whole + 1 end
+  end
+  return whole
+end
+local function distance(from, to)
+  local d2 = 0
+  for axis = 1, 3 do d2 = d2 + (to.centroid[axis] - from.centroid[axis]) ^ 2 end
+  return math.sqrt(d2)
+end
+
+local before, numbers, whole_at_rest = places(), {}, breakable and whole_units() or count
+for i = 1, count do numbers[i] = i end
+local rows = { ns = {}, nod = {}, largest = {}, out = {}, stayed_out = {}, mean = {}, rocked = {}, broken = {} }
+local left, breaking, calls = {}, { time = {}, share = {} }, 0 -- left: units that were farther than Dn from their place
+local function watch(start_of_group, farthest)
+  for i, pose in ipairs(places()) do
+    farthest[i] = math.max(farthest[i] or 0, distance(start_of_group[i], pose) / Dn)
+    left[i] = left[i] or distance(before[i], pose) > Dn
+  end
+  calls = calls + 1
+  if breakable and calls % 20 == 0 then
+    local share, last = (whole_at_rest - whole_units()) / count, breaking.share[#breaking.share] or 0
+    breaking.time[#breaking.time + 1], breaking.share[#breaking.share + 1] = model.time - start, share
+    if share > last then cdem.log(string.format("%.2f s: %.0f %% of the units are broken", model.time - start, 100 * share)) end
+  end
+end
+local columns_of_units, movements = { { name = "unit", values = numbers } }, {}
 local first_out, damaged
 for k = 1, groups do
-  model:run{ duration = math.min(group_time, longest) }
-  local now, largest, mean, gone = places(), 0, 0, 0
-  for i, pose in ipairs(now) do
-    local d2 = 0
-    for axis = 1, 3 do d2 = d2 + (pose.centroid[axis] - before[i].centroid[axis]) ^ 2 end
-    moved[i] = math.sqrt(d2)
+  local start_of_group, farthest = places(), {}
+  local began = cdem.elapsed()
+  model:run{ duration = math.min(group_time, longest), every = 500,
+             callback = function() watch(start_of_group, farthest) end }
+  rows.wall_time = cdem.elapsed() - began
+  watch(start_of_group, farthest)
+  local largest, mean, rocked, gone, stayed_out, moved, rocking = 0, 0, 0, 0, 0, {}, {}
+  for i, pose in ipairs(places()) do
+    moved[i] = distance(before[i], pose) / Dn
+    rocking[i] = (farthest[i] or 0) - distance(start_of_group[i], pose) / Dn -- it came back by as much
     largest, mean = math.max(largest, moved[i]), mean + moved[i] / count
-    if moved[i] > Dn then gone = gone + 1 end
+    rocked = math.max(rocked, rocking[i])
+    if left[i] then gone = gone + 1 end
+    if moved[i] > 1 then stayed_out = stayed_out + 1 end
   end
   local nod = gone / ((box.max[2] - box.min[2]) / Dn)
-  rows.ns[k], rows.nod[k], rows.largest[k], rows.mean[k], rows.out[k] = ns[k], nod, largest / Dn, mean / Dn, gone
-  cdem.log(string.format("Ns = %.2f, H = %.2f m: %d units have left, N_od = %.2f, largest movement %.2f Dn, mean %.3f Dn",
-                         ns[k], ns[k] * (concrete.density / sea - 1) * Dn, gone, nod, largest / Dn, mean / Dn))
+  local broken = breakable and (whole_at_rest - whole_units()) / count or 0
+  rows.ns[k], rows.nod[k], rows.largest[k], rows.mean[k], rows.out[k] = ns[k], nod, largest, mean, gone
+  rows.rocked[k], rows.broken[k], rows.stayed_out[k] = rocked, broken, stayed_out
+  local at = string.format("ns_%g", ns[k])
+  columns_of_units[#columns_of_units + 1] = { name = "movement_over_dn_" .. at, values = moved }
+  columns_of_units[#columns_of_units + 1] = { name = "rocking_over_dn_" .. at, values = rocking }
+  movements[k] = { name = string.format("Ns = %g", ns[k]), x = numbers, y = moved, style = "both" }
+  cdem.log(string.format("Ns = %.2f, H = %.2f m: %d units have left, %d stayed away, N_od = %.2f, largest movement %.2f Dn, "
+                         .. "mean %.3f Dn, rocking %.3f Dn%s", ns[k], ns[k] * (concrete.density / sea - 1) * Dn, gone,
+                         stayed_out, nod, largest, mean, rocked,
+                         breakable and string.format(", %.0f %% broken", 100 * broken) or ""))
   if gone > 0 and not first_out then
     first_out = ns[k]
     picture("first_out.png", string.format("The first unit has left: Ns = %.2f", ns[k]))
@@ -109,26 +161,35 @@ for k = 1, groups do
   if nod >= ends_at or group_time > longest then break end
 end
 picture("end.png", "After the highest waves")
-local numbers = {}
-for i = 1, count do numbers[i] = i end
-for i = 1, count do moved[i] = moved[i] / Dn end
 cdem.write_csv{ file = "groups.csv", columns = { { name = "ns", values = rows.ns }, { name = "n_od", values = rows.nod },
                                                  { name = "units_out", values = rows.out },
+                                                 { name = "units_out_at_the_end", values = rows.stayed_out },
+                                                 { name = "broken_share", values = rows.broken },
                                                  { name = "largest_movement_over_dn", values = rows.largest },
-                                                 { name = "mean_movement_over_dn", values = rows.mean } } }
-cdem.write_csv{ file = "units.csv", columns = { { name = "unit", values = numbers },
-                                                { name = "movement_over_dn", values = moved } } }
+                                                 { name = "mean_movement_over_dn", values = rows.mean },
+                                                 { name = "largest_rocking_over_dn", values = rows.rocked } } }
+cdem.write_csv{ file = "units.csv", columns = columns_of_units }
+cdem.chart{ file = "movement.png", title = "Movement of each unit since it came to rest", x_label = "unit",
+            y_label = "movement / Dn", series = movements }
+local series = { { name = "N_od", x = rows.ns, y = rows.nod, style = "both" },
+                 { name = "largest movement", x = rows.ns, y = rows.largest, style = "both" },
+                 { name = "start of damage of Accropodes 3.7 (Van der Meer 1988)", x = {3.7, 3.7}, y = {0, 1}, style = "dashed" },
+                 { name = "failure 4.1", x = {4.1, 4.1}, y = {0, 1}, style = "dashed" } }
+if breakable then series[#series + 1] = { name = "share of broken units", x = rows.ns, y = rows.broken, style = "both" } end
 cdem.chart{ file = "damage.png", title = "Damage under growing waves", x_label = "Ns = H / (Delta Dn)",
-            y_label = "N_od; movement over Dn",
-            series = { { name = "N_od", x = rows.ns, y = rows.nod, style = "both" },
-                       { name = "largest movement", x = rows.ns, y = rows.largest, style = "both" },
-                       { name = "start of damage 3.7 (Van der Meer 1988)", x = {3.7, 3.7}, y = {0, 1} } } }
+            y_label = "N_od; movement over Dn", series = series }
+if #breaking.time > 1 then
+  cdem.chart{ file = "breaking.png", title = "Units that are broken", x_label = "time (s)", y_label = "share",
+              series = { { name = "broken", x = breaking.time, y = breaking.share } } }
+end
 cdem.report{
   { name = "kinetic_ratio_at_rest", value = settled.kinetic_ratio },
   { name = "first_unit_out_ns", value = first_out, reference = 3.7, kind = "paper",
     source = "Van der Meer 1988: start of damage of Accropodes" },
   { name = "damage_ns", value = damaged, reference = 4.1, kind = "paper", source = "Van der Meer 1988: failure" },
   { name = "largest_movement_over_dn", value = rows.largest[#rows.largest] },
+  { name = "largest_rocking_over_dn", value = rows.rocked[#rows.rocked] },
+  { name = "broken_share", value = breakable and rows.broken[#rows.broken] or nil },
   { name = "run_up", value = water.run_up - level, unit = "m" },
   { name = "run_down", value = water.run_down - level, unit = "m" },
   { name = "deepest_contact_over_height", value = model:contacts().deepest / H, reference = 0, kind = "formula",
@@ -136,5 +197,6 @@ cdem.report{
   { name = "energy_balance_error", value = model:energy().balance_error, reference = 0, kind = "formula",
     source = "energy is conserved", tolerance_absolute = 0.01 },
   { name = "tets_per_unit", value = unit.tets },
+  { name = "wall_time_of_last_group_s", value = rows.wall_time, unit = "s" },
   { name = "wall_time_s", value = cdem.elapsed(), unit = "s" },
 }

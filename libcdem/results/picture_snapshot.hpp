@@ -12,6 +12,7 @@ struct PictureWish {
   std::string field;        // "stress.xx"; "": plain. Fields that are not wanted are named without values
   bool stress = false;      // beside the field
   bool broken_bonds = true; // wanted
+  WaterWish water;          // given to the snapshot by add_water (free_surface.hpp)
 };
 
 // The field is made of bonds or joints around each tet, of which a rank knows its own only: State must be whole.

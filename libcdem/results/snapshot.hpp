@@ -4,6 +4,7 @@
 #pragma once
 
 #include "libcdem/joint/bond_mode.hpp"
+#include "libcdem/results/water_sheet.hpp"
 #include "libgeom/core/types.hpp"
 
 #include <string>
@@ -45,6 +46,7 @@ struct Snapshot {
   std::vector<std::int64_t> surface_tet;       // the tet each surface triangle belongs to
   std::vector<std::array<int, 2>> block_edges; // true edges of the blocks, over points (for drawing)
   BondSnapshot bonds;
+  std::vector<WaterSheet> water; // of each field that loads the model, over its extent
 };
 
 } // namespace cdem

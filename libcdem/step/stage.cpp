@@ -5,6 +5,7 @@
 #include "libcdem/parallel/huge_pages.hpp"
 #include "libcdem/parallel/instruction_set.hpp"
 #include "libcdem/results/energy.hpp"
+#include "libcdem/results/free_surface.hpp"
 #include "libcdem/results/picture_snapshot.hpp"
 #include "libcdem/step/errors.hpp"
 #include "libcdem/step/record.hpp"
@@ -397,9 +398,11 @@ void Stage::show() {
     ranks().broadcast(wish.field); // rank 0 draws
   const SynchronisedView view(*this,
                               needs_whole(wish) ? SynchronisedView::Of::whole : SynchronisedView::Of::shares);
-  const Snapshot shown = make_picture_snapshot(context_.model, context_.state, wish, "");
-  if (ranks().leads())
-    context_.observer.view(shown);
+  Snapshot shown = make_picture_snapshot(context_.model, context_.state, wish, "");
+  if (!ranks().leads())
+    return;
+  add_water(context_.conditions, wish.water, shown);
+  context_.observer.view(shown);
 }
 
 StageResult Stage::finish(const StepReport& step_report) {

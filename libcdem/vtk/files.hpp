@@ -35,6 +35,11 @@ std::string write_contacts(const std::vector<ContactPoint>&, const Snapshot& hea
                            std::size_t cells_per_file = 0);
 std::string contacts_path(const std::string& vtu_path); // "out/plate.vtu" -> "out/plate_contacts.vtu"
 
+// The free surfaces of the snapshot's water as triangles: velocity at corners, and the number of its field, from 0, at
+// triangles. Throws as write_vtu.
+void write_water(const Snapshot&, const std::string& path);
+std::string water_path(const std::string& vtu_path); // "out/plate.vtu" -> "out/plate_water.vtu"
+
 struct SeriesEntry {
   double time = 0;       // s
   std::int64_t step = 0; // of all stages so far

@@ -5,6 +5,7 @@
 #include "libcdem/vtk/decorations.hpp"
 #include "libcdem/vtk/save_drawing.hpp"
 #include "libcdem/vtk/scene.hpp"
+#include "libcdem/vtk/water_line.hpp"
 #include "libgeom/core/check.hpp"
 #include "libgeom/core/error.hpp"
 #include "libgeom/core/place_text.hpp"
@@ -14,6 +15,8 @@
 
 namespace cdem {
 namespace {
+
+using Layers = std::vector<vtkRenderer*>;
 
 void check_options(const PictureOptions& options) {
   if (!std::isfinite(options.deformation))
@@ -40,7 +43,7 @@ void check_options(const PictureOptions& options) {
 
 // Extent in view axes of the drawn bodies, or of the box to be shown if one is given.
 geom::Box extent_of(const View& view, const PictureOptions& options, const std::vector<geom::Vec3>& points,
-                    const BrokenInterfaces& broken) {
+                    const BrokenInterfaces& broken, const std::vector<WaterSheet>& water) {
   geom::Box extent;
   if (const auto& fit = options.fit) {
     for (const double x : {fit->min.x(), fit->max.x()})
@@ -59,16 +62,47 @@ geom::Box extent_of(const View& view, const PictureOptions& options, const std::
   for (const Polyline& line : options.polylines)
     for (const geom::Vec3& x : line.points)
       extent.extend(view.in_view(x));
+  for (const WaterSheet& sheet : water)
+    for (const geom::Triangle& t : sheet.triangles)
+      for (const int p : t)
+        extent.extend(view.in_view(sheet.points[static_cast<std::size_t>(p)]));
   return extent;
 }
 
+// Over the extent of what is drawn, and no farther than the box that is to be shown.
+std::vector<WaterSheet> shown_water(const Snapshot& snapshot, const std::vector<geom::Vec3>& points,
+                                    const PictureOptions& options) {
+  geom::Box box;
+  for (const geom::Triangle& t : snapshot.surface)
+    for (const int p : t)
+      box.extend(points[static_cast<std::size_t>(p)]);
+  if (options.fit) {
+    box.min = box.min.cwiseMax(options.fit->min);
+    box.max = box.max.cwiseMin(options.fit->max);
+  }
+  std::vector<WaterSheet> shown;
+  for (const WaterSheet& sheet : snapshot.water)
+    if (WaterSheet part = cropped(sheet, box); !part.triangles.empty())
+      shown.push_back(std::move(part));
+  return shown;
+}
+
 std::vector<LegendEntry> legend_entries(const PictureOptions& options, const BrokenInterfaces& broken,
-                                        double pixel) {
+                                        bool water, const std::vector<Polyline>& arrows, double pixel) {
   std::vector<LegendEntry> entries;
   if (!broken.tension.triangles.empty())
     entries.push_back({"broken in tension", tension_colour, 7 * pixel});
   if (!broken.shear.triangles.empty())
     entries.push_back({"broken in shear", shear_colour, 7 * pixel});
+  if (water) {
+    Colour over_white = water_colour;
+    for (double& c : over_white)
+      c = water_opacity * c + 1 - water_opacity;
+    entries.push_back({"water surface", over_white, 12 * pixel});
+    entries.push_back({"water line", water_line_colour, 4 * pixel});
+    if (!arrows.empty())
+      entries.push_back({arrows.front().label, water_line_colour, 2.5 * pixel});
+  }
   for (const Polyline& line : options.polylines)
     if (!line.label.empty())
       entries.push_back({line.label, line.colour, line.width * pixel, line.dashed});
@@ -82,7 +116,7 @@ std::array<int, 2> asked_size(const PictureOptions& options) {
   return {options.size[0], options.size[1] == 0 ? options.size[0] : options.size[1]};
 }
 
-// Puts the parts together and hands them to `finish`: size in pixels, the renderer of the model, what is drawn over it.
+// Puts the parts together and hands them to `finish`: size in pixels, the renderers of the model, what is drawn over them.
 template <class Finish>
 void draw(const Snapshot& snapshot, const PictureOptions& options, const Finish& finish) {
   const bool free_height = options.size[1] == 0;
@@ -110,7 +144,9 @@ void draw(const Snapshot& snapshot, const PictureOptions& options, const Finish&
   View view = options.camera          ? View::from(*options.camera)
               : options.view == "iso" ? View::iso(options.up, snapshot.points, snapshot.surface)
                                       : View::named(options.view, options.up);
-  const geom::Box extent = extent_of(view, options, points, broken);
+  const std::vector<WaterSheet> water = shown_water(snapshot, points, options);
+  const std::vector<Polyline> arrows = water_arrows(water);
+  const geom::Box extent = extent_of(view, options, points, broken, water);
 
   const double pixel = std::min(options.size[0] / 1600., free_height ? 1e9 : options.size[1] / 1200.);
   Canvas canvas;
@@ -121,7 +157,7 @@ void draw(const Snapshot& snapshot, const PictureOptions& options, const Finish&
     bar->given_range = options.range.has_value();
   std::vector<LegendEntry> legend;
   if (options.legend)
-    legend = legend_entries(options, broken, pixel);
+    legend = legend_entries(options, broken, !water.empty(), arrows, pixel);
   if (bar && !bar->outliers.empty())
     legend.push_back({bar->outliers});
   AxesContent axes;
@@ -139,9 +175,9 @@ void draw(const Snapshot& snapshot, const PictureOptions& options, const Finish&
   input.title = !options.title.empty();
   input.bar = bar.has_value();
   // Pictures from a camera of their own, or fitted to a box, are frames of a film: they keep the room of a legend that is
-  // still empty, so that nothing moves when the first bond breaks.
-  const bool kept = (view.literal || options.fit) && options.legend && options.broken_bonds &&
-                    (snapshot.bonds.left_out || !snapshot.bonds.points.empty());
+  // still empty, so that nothing moves when the first bond breaks, or the water comes.
+  const bool may_break = options.broken_bonds && (snapshot.bonds.left_out || !snapshot.bonds.points.empty());
+  const bool kept = (view.literal || options.fit) && options.legend && (may_break || !snapshot.water.empty());
   input.legend_rows = std::max(static_cast<int>(rows.size()), kept ? 1 : 0);
   // In perspective a length has no one size.
   input.scale_bar = options.scale_bar && !view.perspective;
@@ -173,25 +209,25 @@ void draw(const Snapshot& snapshot, const PictureOptions& options, const Finish&
 
   const bool any_broken = !broken.tension.triangles.empty() || !broken.shear.triangles.empty();
   Scene scene({snapshot, points, field ? &*field : nullptr, scale, any_broken ? &broken : nullptr,
-               options.edges, options.opacity, pixel},
+               options.edges, options.opacity, pixel, water, arrows},
               view, layout.size);
-  finish(layout.size, scene.renderer(), canvas);
+  finish(layout.size, scene.renderers(), canvas);
 }
 
 } // namespace
 
 void render(const Snapshot& snapshot, const PictureOptions& options, const std::string& path) {
   check_drawing(asked_size(options), options.dpi, path);
-  draw(snapshot, options, [&](const std::array<int, 2>& size, vtkRenderer* model, Canvas& canvas) {
-    save_drawing(size, options.dpi, {model}, canvas, path);
+  draw(snapshot, options, [&](const std::array<int, 2>& size, const Layers& model, Canvas& canvas) {
+    save_drawing(size, options.dpi, model, canvas, path);
   });
 }
 
 std::string render_png(const Snapshot& snapshot, const PictureOptions& options) {
   check_drawing(asked_size(options), options.dpi);
   std::string bytes;
-  draw(snapshot, options, [&](const std::array<int, 2>& size, vtkRenderer* model, Canvas& canvas) {
-    bytes = png_of_drawing(size, options.dpi, {model}, canvas);
+  draw(snapshot, options, [&](const std::array<int, 2>& size, const Layers& model, Canvas& canvas) {
+    bytes = png_of_drawing(size, options.dpi, model, canvas);
   });
   return bytes;
 }

@@ -1,6 +1,8 @@
 #include "libcdem/vtk/scene.hpp"
 
 #include "libcdem/vtk/offscreen.hpp"
+#include "libcdem/vtk/ribbons.hpp"
+#include "libcdem/vtk/water_line.hpp"
 
 #include <vtkActor.h>
 #include <vtkCamera.h>
@@ -49,56 +51,6 @@ void set_triangles(vtkPolyData* mesh, const std::vector<geom::Triangle>& triangl
     cells->InsertNextCell({t[0], t[1], t[2]});
   mesh->SetPolys(cells);
 }
-
-// Strips of constant width in pixels along line segments.
-class Ribbons {
-public:
-  // `lift`: how far in front of the segments, pixels.
-  Ribbons(const View& view, double width, double lift) : view_(view), width_(width), lift_(lift) {}
-
-  // Ends are square, or round with the strip's width, or square and drawn out by `extension` pixels.
-  void add(const Vec3& from, const Vec3& to, bool round_ends, double extension = 0) {
-    Vec3 a = lifted(from), b = lifted(to);
-    const Vec3 along = b - a, sight = view_.direction_to_viewer(0.5 * (a + b));
-    const Vec3 side = along.cross(sight); // as long as the segment is seen to be
-    if (!(side.norm() > view_.pixel_size(a)) || !view_.in_front(a) || !view_.in_front(b))
-      return; // seen from its end, or too small to be seen
-    const Vec3 unit = side.normalized();
-    if (extension > 0) {
-      const Vec3 longer = extension * view_.pixel_size(a) * along.normalized();
-      a -= longer;
-      b += longer;
-    }
-    const double ha = 0.5 * width_ * view_.pixel_size(a), hb = 0.5 * width_ * view_.pixel_size(b);
-    const int n = static_cast<int>(points.size());
-    points.insert(points.end(), {a - ha * unit, b - hb * unit, b + hb * unit, a + ha * unit});
-    triangles.push_back({n, n + 1, n + 2});
-    triangles.push_back({n, n + 2, n + 3});
-    if (round_ends) {
-      disc(a, ha);
-      disc(b, hb);
-    }
-  }
-
-  std::vector<Vec3> points;
-  std::vector<geom::Triangle> triangles;
-
-private:
-  Vec3 lifted(const Vec3& x) const { return x + lift_ * view_.pixel_size(x) * view_.direction_to_viewer(x); }
-  void disc(const Vec3& centre, double radius) {
-    constexpr int corners = 12;
-    const int n = static_cast<int>(points.size());
-    for (int i = 0; i < corners; ++i) {
-      const double turn = 2 * M_PI * i / corners;
-      points.push_back(centre + radius * (std::cos(turn) * view_.right + std::sin(turn) * view_.up));
-    }
-    for (int i = 1; i + 1 < corners; ++i)
-      triangles.push_back({n, n + i, n + i + 1});
-  }
-
-  const View& view_;
-  double width_, lift_;
-};
 
 // Number of each point among those in one place: faces may have points of their own.
 std::vector<int> places_of(const std::vector<Vec3>& points) {
@@ -149,6 +101,15 @@ bool flat_to_viewer(const Snapshot& s, const std::vector<Vec3>& points, const Vi
   return square > 0.95 * seen;
 }
 
+bool without_colour(const SceneInput& in, std::size_t triangle) {
+  if (!in.field)
+    return true;
+  if (!in.field->on_points)
+    return std::isnan(in.field->values[triangle]);
+  const geom::Triangle& t = in.snapshot.surface[triangle];
+  return std::any_of(t.begin(), t.end(), [&](int p) { return std::isnan(in.field->values[p]); });
+}
+
 double median_edge_pixels(const Snapshot& s, const std::vector<Vec3>& points, const View& view) {
   std::vector<double> lengths;
   for (const auto& e : s.block_edges) {
@@ -167,16 +128,17 @@ double median_edge_pixels(const Snapshot& s, const std::vector<Vec3>& points, co
 } // namespace
 
 struct Scene::Impl {
-  vtkNew<vtkRenderer> renderer;
+  vtkNew<vtkRenderer> behind, renderer; // behind: bodies without colour, and water; where there is water
+  bool has_water = false;
 
-  vtkActor* add(vtkPolyData* mesh) {
+  vtkActor* add(vtkPolyData* mesh, vtkRenderer* where = nullptr) {
     vtkNew<vtkPolyDataMapper> mapper;
     mapper->SetInputData(mesh);
     mapper->ScalarVisibilityOff();
     vtkNew<vtkActor> actor;
     actor->SetMapper(mapper);
     actor->GetProperty()->SetInterpolationToFlat();
-    renderer->AddActor(actor);
+    (where ? where : renderer.Get())->AddActor(actor);
     return actor;
   }
   void add_unlit(const std::vector<Vec3>& points, const std::vector<geom::Triangle>& triangles,
@@ -190,16 +152,25 @@ struct Scene::Impl {
     actor->GetProperty()->SetColor(colour[0], colour[1], colour[2]);
     actor->GetProperty()->LightingOff();
   }
-  void add_body(const SceneInput&, const View&);
+  // The surface triangles of these numbers.
+  void add_body(const SceneInput&, const View&, const std::vector<std::size_t>& shown, vtkRenderer*);
   void add_broken(const SceneInput&, const View&);
-  void set_camera(const SceneInput&, const View&);
+  void add_water(const SceneInput&, const View&);
+  static void set_camera(const SceneInput&, const View&, vtkRenderer*);
 };
 
-void Scene::Impl::add_body(const SceneInput& in, const View& view) {
+void Scene::Impl::add_body(const SceneInput& in, const View& view, const std::vector<std::size_t>& shown,
+                           vtkRenderer* where) {
+  if (shown.empty())
+    return;
+  std::vector<geom::Triangle> triangles;
+  triangles.reserve(shown.size());
+  for (const std::size_t t : shown)
+    triangles.push_back(in.snapshot.surface[t]);
   vtkNew<vtkPolyData> mesh;
   set_points(mesh, in.points);
-  set_triangles(mesh, in.snapshot.surface);
-  vtkActor* actor = add(mesh);
+  set_triangles(mesh, triangles);
+  vtkActor* actor = add(mesh, where);
   vtkProperty* property = actor->GetProperty();
   property->BackfaceCullingOn(); // blocks are closed: nobody sees the inside of a face
   property->SetOpacity(in.opacity);
@@ -239,9 +210,10 @@ void Scene::Impl::add_body(const SceneInput& in, const View& view) {
   }
   vtkNew<vtkUnsignedCharArray> colours;
   colours->SetNumberOfComponents(3);
-  colours->SetNumberOfTuples(static_cast<vtkIdType>(in.field->values.size()));
-  for (std::size_t i = 0; i < in.field->values.size(); ++i) {
-    const Colour c = in.scale(in.field->values[i]);
+  const std::size_t count = in.field->on_points ? in.field->values.size() : shown.size();
+  colours->SetNumberOfTuples(static_cast<vtkIdType>(count));
+  for (std::size_t i = 0; i < count; ++i) {
+    const Colour c = in.scale(in.field->values[in.field->on_points ? i : shown[i]]);
     for (int k = 0; k < 3; ++k)
       colours->SetTypedComponent(
           static_cast<vtkIdType>(i), k,
@@ -279,7 +251,35 @@ void Scene::Impl::add_broken(const SceneInput& in, const View& view) {
   add_unlit(in.broken->points, in.broken->shear.triangles, shear_colour);
 }
 
-void Scene::Impl::set_camera(const SceneInput& in, const View& view) {
+void Scene::Impl::add_water(const SceneInput& in, const View& view) {
+  Ribbons net(view, in.pixel, 1), line(view, 3.5 * in.pixel, 3);
+  net.shortest = line.shortest = 0.02;
+  for (const WaterSheet& sheet : in.water) {
+    if (sheet.triangles.empty())
+      continue;
+    vtkNew<vtkPolyData> mesh;
+    set_points(mesh, sheet.points);
+    set_triangles(mesh, sheet.triangles);
+    vtkProperty* property = add(mesh, behind)->GetProperty();
+    property->SetColor(water_colour[0], water_colour[1], water_colour[2]);
+    property->SetOpacity(water_opacity);
+    property->SetAmbient(0.7);
+    property->SetDiffuse(0.35);
+    for (const std::array<int, 2>& e : sheet.net)
+      net.add(sheet.points[e[0]], sheet.points[e[1]], false);
+  }
+  for (const Segment& s : water_lines(in.water, in.points, in.snapshot.surface))
+    line.add(s[0], s[1], false, 0.5 * in.pixel);
+  Ribbons arrows(view, 2.5 * in.pixel, 4);
+  for (const Polyline& arrow : in.arrows)
+    for (std::size_t i = 1; i < arrow.points.size(); ++i)
+      arrows.add(arrow.points[i - 1], arrow.points[i], false);
+  add_unlit(arrows.points, arrows.triangles, water_line_colour);
+  add_unlit(net.points, net.triangles, water_colour);
+  add_unlit(line.points, line.triangles, water_line_colour);
+}
+
+void Scene::Impl::set_camera(const SceneInput& in, const View& view, vtkRenderer* renderer) {
   vtkCamera* camera = renderer->GetActiveCamera();
   const Vec3 position = view.focal_point + view.distance * view.toward;
   camera->SetFocalPoint(view.focal_point.data());
@@ -288,7 +288,11 @@ void Scene::Impl::set_camera(const SceneInput& in, const View& view) {
   camera->SetParallelProjection(!view.perspective);
   camera->SetParallelScale(0.5 * view.metres_per_pixel * view.frame.height);
   camera->SetViewAngle(view.view_angle);
-  const geom::Box extent = view.extent(in.points);
+  geom::Box extent = view.extent(in.points);
+  for (const WaterSheet& sheet : in.water)
+    for (const geom::Triangle& t : sheet.triangles)
+      for (const int p : t)
+        extent.extend(view.in_view(sheet.points[p]));
   const double camera_depth = view.toward.dot(position);
   const double slack = 30 * view.metres_per_pixel + 1e-3 * view.distance;
   const double far = camera_depth - extent.min.z() + slack, near = camera_depth - extent.max.z() - slack;
@@ -308,9 +312,14 @@ void Scene::Impl::set_camera(const SceneInput& in, const View& view) {
 Scene::Scene(const SceneInput& in, const View& view, const std::array<int, 2>& size)
     : impl_(std::make_unique<Impl>()) {
   const std::array<double, 4> viewport = viewport_of(view.frame, size);
-  impl_->renderer->SetViewport(viewport[0], viewport[1], viewport[2], viewport[3]);
-  impl_->renderer->AutomaticLightCreationOff();
-  impl_->add_body(in, view);
+  const bool water = !in.water.empty();
+  std::vector<std::size_t> plain, coloured;
+  for (std::size_t t = 0; t < in.snapshot.surface.size(); ++t)
+    (water && without_colour(in, t) ? plain : coloured).push_back(t);
+  impl_->add_body(in, view, plain, impl_->behind);
+  impl_->add_body(in, view, coloured, impl_->renderer);
+  if (water)
+    impl_->add_water(in, view);
   if (in.edges) {
     // Thinner lines for smaller blocks: the outlines of many small blocks would else hide their colours.
     const double width =
@@ -325,11 +334,20 @@ Scene::Scene(const SceneInput& in, const View& view, const std::array<int, 2>& s
   }
   if (in.broken)
     impl_->add_broken(in, view);
-  impl_->set_camera(in, view);
+  impl_->has_water = water;
+  if (water)
+    impl_->renderer->PreserveDepthBufferOn();
+  for (vtkRenderer* renderer : renderers()) {
+    renderer->SetViewport(viewport[0], viewport[1], viewport[2], viewport[3]);
+    renderer->AutomaticLightCreationOff();
+    Impl::set_camera(in, view, renderer);
+  }
 }
 Scene::~Scene() = default;
-vtkRenderer* Scene::renderer() {
-  return impl_->renderer;
+std::vector<vtkRenderer*> Scene::renderers() {
+  if (impl_->has_water)
+    return {impl_->behind, impl_->renderer};
+  return {impl_->renderer};
 }
 
 } // namespace cdem

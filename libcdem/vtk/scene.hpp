@@ -28,6 +28,9 @@ struct SceneInput {
   bool edges = true;
   double opacity = 1; // of the blocks, (0, 1]: below 1 broken interfaces inside show through
   double pixel = 1;   // line widths are given for a 1600 x 1200 picture and multiplied by this
+  std::vector<WaterSheet> water =
+      {}; // a transparent sheet each, its net, and the lines where it cuts the bodies
+  std::vector<Polyline> arrows = {}; // on the sheets, hidden by the bodies in front of them
 };
 
 class Scene {
@@ -35,7 +38,9 @@ public:
   // The view must have been fitted or placed in a picture of `size` pixels.
   Scene(const SceneInput&, const View&, const std::array<int, 2>& size);
   ~Scene();
-  vtkRenderer* renderer();
+  // To be drawn one over the other. With water there are two: the sheets tint only bodies without colour, which are in the
+  // first; coloured ones are drawn after them, so that their colours remain those of the colour bar.
+  std::vector<vtkRenderer*> renderers();
 
 private:
   struct Impl;

@@ -60,6 +60,7 @@ Snapshot without_bodies(const Snapshot& all, const std::vector<int>& bodies) {
   rest.title = all.title;
   rest.body_names = all.body_names;
   rest.bonds = all.bonds;
+  rest.water = all.water;
   for (std::size_t i = 0; i < all.points.size(); ++i)
     if (point_stays[i])
       rest.points.push_back(all.points[i]);

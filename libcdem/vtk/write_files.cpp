@@ -259,6 +259,28 @@ std::string write_contacts(const std::vector<ContactPoint>& contacts, const Snap
       VTK_VERTEX, header, path, cells_per_file);
 }
 
+void write_water(const Snapshot& snapshot, const std::string& path) {
+  std::vector<geom::Vec3> points;
+  std::vector<geom::Triangle> triangles;
+  SnapshotField velocity{"velocity", "m/s", 3, {}}, number{"water", "", 1, {}, true};
+  for (std::size_t i = 0; i < snapshot.water.size(); ++i) {
+    const WaterSheet& sheet = snapshot.water[i];
+    const int before = static_cast<int>(points.size());
+    points.insert(points.end(), sheet.points.begin(), sheet.points.end());
+    for (const geom::Vec3& v : sheet.velocity)
+      velocity.values.insert(velocity.values.end(), v.data(), v.data() + 3);
+    for (const geom::Triangle& t : sheet.triangles) {
+      triangles.push_back({before + t[0], before + t[1], before + t[2]});
+      number.values.push_back(static_cast<double>(i));
+    }
+  }
+  write_cells<3>({points, triangles, {velocity}, {number}}, VTK_TRIANGLE, snapshot, path, 0);
+}
+
+std::string water_path(const std::string& vtu_path) {
+  return beside(vtu_path, "_water");
+}
+
 std::string bonds_path(const std::string& vtu_path) {
   return beside(vtu_path, "_bonds");
 }

@@ -30,6 +30,13 @@ print(sea:at({0, 0, 0}, 100).surface)
 local surf = cdem.water.slope{ bed = { {0, -6}, {20, -6}, {44, 10} }, waves = wave, ramp = 8, duration = 20 }
 print(surf.run_up, surf.run_down)
 
+-- example: cdem.water.file
+model:initial_velocity{ on = "all", velocity = {2, 0, 0} }
+model:save{ file = "flume.vtu" } -- stands for a file of OpenFOAM; that has arrays U, p and alpha.water
+local computed = cdem.water.file{ files = {"flume.vtu"}, velocity = "velocity", level = 1 }
+print(computed:at({0.1, 0.1, 0.5}).velocity[1]) -- 2 m/s
+model:initial_velocity{ on = "all", velocity = {0, 0, 0} }
+
 -- example: model:flow
 model:flow{ direction = {1, 0, 0}, velocity = 5 }
 model:fix{ on = "z-" }

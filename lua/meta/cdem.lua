@@ -1463,10 +1463,10 @@ function Model:highest_units(options) end
 
 ---@class (exact) cdem.ModelSaveOptions
 ---@field file string ends in .vtu, or .vtkhdf for programs that read HDF5; in the output folder
----@field series? string ends in .pvd: a time series this file is added to; run.pvd has run_bonds.pvd and run_contacts.pvd beside it. One axis: time where it rises from file to file, else steps
+---@field series? string ends in .pvd: a time series this file is added to; run.pvd has run_bonds.pvd, run_contacts.pvd and run_water.pvd beside it. One axis: time where it rises from file to file, else steps
 ---@field cells_per_file? integer >= 1, default 2000000: a .vtu of more cells is written in pieces, result/result_0.vtu, result/result_1.vtu, ..., and result.pvtu takes its place
 
----Writes the model for ParaView: blocks to the file, bonds beside it (result.vtu, result_bonds.vtu), and of bodies that move far the contacts that carry (result_contacts.vtu: points with force on the source body, normal_force, shear_force, depth, bodies and blocks).
+---Writes the model for ParaView: blocks to the file, bonds beside it (result.vtu, result_bonds.vtu), and of bodies that move far the contacts that carry (result_contacts.vtu: points with force on the source body, normal_force, shear_force, depth, bodies and blocks). Of water that loads the model (model:flow) the free surface too (result_water.vtu: velocity at corners).
 ---@param options cdem.ModelSaveOptions
 function Model:save(options) end
 
@@ -1547,6 +1547,8 @@ function Model:save_joints(options) end
 ---@field joint_sets? string[] with joints: the sets that are drawn; all when left out
 ---@field joints? boolean default false: the joints alone, between blocks; colour is then "slip", "opening", "utilisation", "normal_traction", "shear_traction", "water_pressure", "mode" or "set"
 ---@field bolts? boolean default true: bolts, drawn over the blocks and coloured by their tension
+---@field water? boolean default true: free surface of the water that loads the model (model:flow with water), as a transparent sheet that tints no coloured body, and the line where it cuts the bodies; in a section its line
+---@field water_velocity? boolean default false: velocity of that water as arrows: on its free surface, or in the section where that is upright
 ---@field broken_bonds? boolean default true: broken interfaces, coloured by how they broke
 
 ---Draws the model, without a display.
@@ -2527,6 +2529,26 @@ function cdem.water.sea(options) end
 ---@param options cdem.WaterSlopeOptions
 ---@return cdem.Water
 function cdem.water.slope(options) end
+
+---@class (exact) cdem.WaterFileOptions
+---@field series? string a .pvd file, which lists files with their times; give it or files
+---@field files? string[] in the order of their times
+---@field times? number[] s: of the files
+---@field velocity? string default "U": name of the array (m/s, three components), at points or in cells
+---@field pressure? string name of the array: pressure above that of the air with its hydrostatic part, such as OpenFOAM's "p" ("p_rgh" lacks that part). Left out: hydrostatic below the surface
+---@field pressure_factor? number > 0, default 1: Pa in a unit of it; the density where it is kinematic
+---@field fraction? string name of the array of the water fraction, 0 to 1, such as "alpha.water"
+---@field level? number m: z of the free surface where there is no fraction; left out: water everywhere
+---@field cell? number m, > 0: of the grid; left out: that of a .vti, else the mean size of the cells
+---@field same_along? "x"|"y"|"z" the water is the same all along this axis, as in a flume of one cell
+---@field shift? number[] m, default {0, 0, 0}: is added to the coordinates
+---@field time_shift? number s, default 0: is added to the times, such as the model's time at the start
+---@field density? number kg/m3, > 0, default 1025: sea water by default
+
+---Water that another program has computed, from VTK's files (.vti, .vtu, .vts, .vtr, legacy .vtk) at several times. It is put on a regular grid, and is linear between its points and times. The free surface is where the water fraction is 1/2. A run that asks beyond the box or the times of the files ends with an error. One file alone is water that does not change.
+---@param options? cdem.WaterFileOptions
+---@return cdem.Water
+function cdem.water.file(options) end
 
 ---Pressure of a stream, rho V^2 / 2 (Feng 2014 eq 20), Pa.
 ---@param velocity number m/s, >= 0

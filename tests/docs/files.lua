@@ -34,6 +34,7 @@ model:gravity{ vector = {0, 0, -9.81} }
 model:relax{ residual = 1e-2 }
 model:initial_velocity{ on = cdem.select.box{ min = {0, 0, 0.7}, max = {1, 1, 1} }, velocity = {0, 0, 2} }
 model:run{ steps = 200 }
+model:flow{ water = cdem.water.uniform{ velocity = {1, 0, 0}, level = 0.5 } }
 model:save{ file = "a.vtu" }
 model:save_cracks{ file = "cracks.vtp" }
 model:save_joints{ file = "joints.vtp" }
@@ -44,7 +45,7 @@ mesh:faces{ side = "z+", name = "top" }
 mesh:save{ file = "mesh.vtu" }
 cdem.report{ { name = "a", value = 1, unit = "m", reference = 1, kind = "formula", source = "1", tolerance = 0.1 } }
 
-for _, name in ipairs{ "a.vtu", "a_bonds.vtu", "a_contacts.vtu", "cracks.vtp", "joints.vtp" } do arrays(name) end
+for _, name in ipairs{ "a.vtu", "a_bonds.vtu", "a_contacts.vtu", "a_water.vtu", "cracks.vtp", "joints.vtp" } do arrays(name) end
 for array in read("mesh.vtu"):gmatch 'Name="([%w_]+)"' do written[array] = true end
 for _, name in ipairs{ "region", "radius_ratio", "min_dihedral", "volume", "on_top" } do
   if not written[name] then pages.complain("tests/docs/files.lua", nil, "mesh.vtu has no " .. name) end

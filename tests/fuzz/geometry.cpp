@@ -2,6 +2,7 @@
 #include "tests/fuzz/targets.hpp"
 
 #include "libcdem/vtk/read_vtk_mesh.hpp"
+#include "libcdem/vtk/read_water.hpp"
 #include "libgeom/core/error.hpp"
 #include "libgeom/mesh/read_mesh.hpp"
 #include "libgeom/solid/gmsh_session.hpp"
@@ -32,6 +33,17 @@ void read_polygons(const std::string& bytes) {
 
 void read_vtk(const std::string& bytes) {
   cdem::read_vtk_mesh(as_file("part.vtk", bytes), "");
+}
+
+void read_water(const std::string& bytes) {
+  static const std::array<const char*, 3> endings = {".vti", ".vtk", ".vtu"};
+  if (bytes.empty())
+    return;
+  const std::size_t which = static_cast<unsigned char>(bytes[0]) % endings.size();
+  cdem::WaterArrays wish;
+  wish.velocity = "U";
+  wish.pressure = "p";
+  cdem::read_water({{as_file(std::string("water") + endings[which], bytes.substr(1))}, {0}}, wish);
 }
 
 void read_mesh(const std::string& bytes) {

@@ -38,10 +38,12 @@ const std::string& folder() {
 
 const std::map<std::string, Target>& targets() {
   static const std::map<std::string, Target> all = {
-      {"stl", read_stl},     {"dxf", read_dxf},   {"polygons", read_polygons}, {"vtk", read_vtk},
-      {"record", record},    {"mesh", read_mesh}, {"step", read_step},         {"child_answer", child_answer},
-      {"saved", saved_file}, {"state", state},    {"model", cut_model},        {"journal", journal},
-      {"pile", pile},        {"csv", csv},        {"arguments", arguments}};
+      {"stl", read_stl},       {"dxf", read_dxf},     {"polygons", read_polygons},
+      {"vtk", read_vtk},       {"water", read_water}, {"record", record},
+      {"mesh", read_mesh},     {"step", read_step},   {"child_answer", child_answer},
+      {"saved", saved_file},   {"state", state},      {"model", cut_model},
+      {"journal", journal},    {"pile", pile},        {"csv", csv},
+      {"arguments", arguments}};
   return all;
 }
 

@@ -38,6 +38,7 @@ private:
 };
 
 void read_stl(const std::string&);
+void read_water(const std::string&);
 void read_dxf(const std::string&);
 void read_polygons(const std::string&); // the first byte chooses the format; in a child
 void read_vtk(const std::string&);      // in a child

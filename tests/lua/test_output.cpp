@@ -38,6 +38,30 @@ TEST_CASE("save writes the contacts of bodies that move far, and their series", 
   CHECK_THAT(script.read("all_contacts.pvd"), Contains("a_contacts.vtu"));
 }
 
+TEST_CASE("save and pictures show the free surface of the water that loads a model", "[lua]") {
+  Script script(column() +
+                "local function draw(name, water, arrows)\n"
+                "  model:picture{ file = name, view = 'top', up = 'z', size = {320, 240}, water = water,\n"
+                "    water_velocity = arrows }\nend\n"
+                "draw('dry.png')\n"
+                "local box = cdem.water.uniform{ velocity = {1, 0, 0}, level = 100 }\n"
+                "model:flow{ water = box }\n"
+                "draw('wet.png') draw('without.png', false) draw('arrows.png', true, true)\n"
+                "model:save{ file = 'a.vtu', series = 'all.pvd' }\n"
+                "model:clear_loads()\n"
+                "model:flow{ water = cdem.water.uniform{ velocity = {1, 0, 0} } }\n" // without a surface
+                "draw('stream.png')\n"
+                "model:save{ file = 'b.vtu' }");
+  CHECK(script.error() == "");
+  CHECK(script.read("dry.png") == script.read("without.png"));
+  CHECK(script.read("dry.png") == script.read("stream.png"));
+  CHECK(script.read("dry.png") != script.read("wet.png"));
+  CHECK(script.read("arrows.png") != script.read("wet.png"));
+  CHECK(script.wrote("a_water.vtu"));
+  CHECK_THAT(script.read("all_water.pvd"), Contains("a_water.vtu"));
+  CHECK(!script.wrote("b_water.vtu"));
+}
+
 TEST_CASE("a picture has z up where gravity acts along z, unless the script says otherwise", "[lua]") {
   Script script(column() + "local function draw(name, up)\n"
                            "  model:picture{ file = name, up = up, size = {320, 240} }\nend\n"

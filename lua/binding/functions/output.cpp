@@ -11,6 +11,7 @@
 #include "libcdem/vtk/film.hpp"
 #include "libcdem/vtk/pieces.hpp"
 #include "libcdem/vtk/section.hpp"
+#include "libcdem/vtk/water_line.hpp"
 #include "libcdem/vtk/without_bodies.hpp"
 #include "libgeom/core/check.hpp"
 #include "libgeom/core/error.hpp"
@@ -70,7 +71,8 @@ Value save(Session& session, ModelObject& model, const Arguments& a) {
     const std::string& name = a.text("series");
     add_to_series(session, model, name.substr(0, name.size() - 4) + what + ".pvd", file, snapshot);
   };
-  const std::string &name = a.text("file"), bonds = bonds_path(name), contacts = contacts_path(name);
+  const std::string &name = a.text("file"), bonds = bonds_path(name), contacts = contacts_path(name),
+                    water = water_path(name);
   add("", write_vtu(snapshot, to_write(session, name, snapshot.tets.size(), limit), limit));
   add("_bonds",
       write_bonds(snapshot, to_write(session, bonds, snapshot.bonds.triangles.size(), limit), limit));
@@ -78,6 +80,11 @@ Value save(Session& session, ModelObject& model, const Arguments& a) {
     const std::vector<ContactPoint> points = model.simulation.contact_points();
     add("_contacts",
         write_contacts(points, snapshot, to_write(session, contacts, points.size(), limit), limit));
+  }
+  if (!snapshot.water.empty()) {
+    const std::string path = session.files.to_write(water).string();
+    write_water(snapshot, path);
+    add("_water", path);
   }
   return {};
 }
@@ -165,14 +172,22 @@ Snapshot without_hidden(const Snapshot& all, const std::vector<int>& hidden) {
   return shown;
 }
 
+void add_lines(const std::vector<Polyline>& lines, PictureOptions& options) {
+  options.polylines.insert(options.polylines.end(), lines.begin(), lines.end());
+}
+
 void add_marks(const Snapshot& shown, const Arguments& a, PictureOptions& options) {
-  const auto add = [&](const std::vector<Polyline>& lines) {
-    options.polylines.insert(options.polylines.end(), lines.begin(), lines.end());
-  };
   if (a.flag("arrows"))
-    add(displacement_arrows(shown, options.deformation));
+    add_lines(displacement_arrows(shown, options.deformation), options);
   if (a.flag("crosses"))
-    add(stress_crosses(shown, options.deformation));
+    add_lines(stress_crosses(shown, options.deformation), options);
+}
+
+Snapshot section_with_water(const Snapshot& all, const CutPlane& plane, PictureOptions& options) {
+  const Snapshot section = section_of(all, plane);
+  add_lines(water_in_section(all.water, plane), options);
+  add_lines(water_arrows_in(section, all.water), options);
+  return section;
 }
 
 void require_together(const Arguments& a) {
@@ -196,12 +211,20 @@ Value picture(Session& session, ModelObject& model, const Arguments& a) {
   std::vector<int> hidden;
   for (const Value& body : a.list("hidden"))
     hidden.push_back(model.simulation.body_number(*body.get<std::string>(), "hidden"));
+  WaterWish water;
+  water.shown = a.flag("water") && !a.flag("joints") && !session.settings.check_only;
+  water.velocity = a.flag("water_velocity");
+  if (const auto section = a.record("section")) {
+    water.point = section->vec3("point");
+    water.normal = section->vec3("normal");
+  }
   const bool inside = a.flag("joints") || a.record("section"); // else the surface is all that it shows
   const std::string title = session.settings.check_only ? "" : model.title(session);
   PictureWish wish;
   wish.field = options.field;
   wish.stress = a.flag("crosses");
   wish.broken_bonds = options.broken_bonds;
+  wish.water = water;
   if (session.settings.check_only) {
     if (!options.field.empty() && !inside)
       field_values(without_hidden(model.simulation.picture_snapshot(wish, title), hidden), options.field);
@@ -216,9 +239,9 @@ Value picture(Session& session, ModelObject& model, const Arguments& a) {
     Snapshot shown;
     if (a.flag("joints"))
       shown = joints_of(model.simulation.joint_surface(chosen_joints(a), title));
-    else if (const auto section = a.record("section"))
-      shown = section_of(without_hidden(model.simulation.snapshot(title), hidden),
-                         {section->vec3("point"), section->vec3("normal")});
+    else if (water.point)
+      shown = section_with_water(without_hidden(model.simulation.snapshot(title, water), hidden),
+                                 {*water.point, water.normal}, options);
     else
       shown = without_hidden(surface, hidden);
     if (inside)
@@ -268,6 +291,14 @@ std::vector<Field> picture_declaration() {
       "\"normal_traction\", \"shear_traction\", \"water_pressure\", \"mode\" or \"set\""));
   fields.push_back(
       flag("bolts").standard(true).doc("bolts, drawn over the blocks and coloured by their tension"));
+  fields.push_back(flag("water").standard(true).doc(
+      "free surface of the water that loads the model (model:flow with water), as a transparent sheet that "
+      "tints no "
+      "coloured body, and the line where it cuts the bodies; in a section its line"));
+  fields.push_back(flag("water_velocity")
+                       .standard(false)
+                       .doc("velocity of that water as arrows: on its free surface, or in the section where "
+                            "that is upright"));
   fields.push_back(flag("broken_bonds").standard(true).doc("broken interfaces, coloured by how they broke"));
   return fields;
 }
@@ -282,13 +313,15 @@ void bind_output(Module& m) {
        "and of "
        "bodies that move far the contacts that carry (result_contacts.vtu: points with force on the source "
        "body, "
-       "normal_force, shear_force, depth, bodies and blocks).",
+       "normal_force, shear_force, depth, bodies and blocks). Of water that loads the model (model:flow) the "
+       "free "
+       "surface too (result_water.vtu: velocity at corners).",
        {text("file").required().doc(
             "ends in .vtu, or .vtkhdf for programs that read HDF5; in the output folder"),
-        text("series").doc(
-            "ends in .pvd: a time series this file is added to; run.pvd has run_bonds.pvd and "
-            "run_contacts.pvd beside it. One axis: time where it rises from file to file, else "
-            "steps"),
+        text("series").doc("ends in .pvd: a time series this file is added to; run.pvd has run_bonds.pvd, "
+                           "run_contacts.pvd and run_water.pvd beside it. One axis: time where it rises from "
+                           "file to file, else "
+                           "steps"),
         integer("cells_per_file")
             .at_least(1)
             .standard(static_cast<std::int64_t>(usual_cells_per_file))

@@ -4,6 +4,7 @@
 #include "lua/binding/runtime/module.hpp"
 #include "lua/binding/runtime/session.hpp"
 
+#include "libcdem/vtk/read_water.hpp"
 #include "libcdem/water/irregular_sea.hpp"
 #include "libcdem/water/plain_water.hpp"
 #include "libcdem/water/steady_wave.hpp"
@@ -177,6 +178,63 @@ Value slope_water(Session& session, Object*, const Arguments& a) {
   return object;
 }
 
+WaterFiles files_of(Session& session, const Arguments& a) {
+  if (a.has("series") == a.has("files"))
+    throw InputError("give one of series = a .pvd file and files = a list with their times");
+  if (a.has("series")) {
+    if (a.has("times"))
+      throw InputError("times: goes with files; a .pvd file has its own");
+    return water_files_of(session.files.to_read(a.text("series")).string());
+  }
+  WaterFiles files;
+  for (const Value& file : a.list("files"))
+    files.paths.push_back(session.files.to_read(*file.get<std::string>()).string());
+  files.times = a.numbers("times");
+  if (files.times.empty() && files.paths.size() == 1)
+    files.times = {0};
+  return files;
+}
+
+// "-3 to 12", "any"
+std::string range_text(double low, double high) {
+  return std::isfinite(low) ? number_text(low) + " to " + number_text(high) : "any";
+}
+
+Value file_water(Session& session, Object*, const Arguments& a) {
+  WaterArrays wish;
+  wish.velocity = a.text("velocity");
+  wish.pressure = a.text_or("pressure", "");
+  wish.fraction = a.text_or("fraction", "");
+  wish.pressure_factor = a.number("pressure_factor");
+  wish.cell = a.optional_number("cell").value_or(0);
+  if (const std::string axis = a.text_or("same_along", ""); !axis.empty())
+    wish.same_along = axis[0] - 'x';
+  wish.shift = a.vec3("shift");
+  WaterFiles files = files_of(session, a);
+  if (files.times.size() != files.paths.size())
+    throw InputError("times", std::to_string(files.times.size()) + " numbers",
+                     "as many as files, " + std::to_string(files.paths.size()));
+  for (double& time : files.times)
+    time += a.number("time_shift");
+  const bool has_level = a.has("level");
+  if (has_level && !wish.fraction.empty())
+    throw InputError("level: goes without fraction, whose surface is its own");
+  WaterRecord record = read_water(files, wish);
+  record.level = a.optional_number("level");
+  record.density = a.number("density");
+  const auto made = std::make_shared<RecordedWater>(std::move(record));
+  const geom::Box box = made->box();
+  std::string line = "cdem.water.file: " + std::to_string(files.paths.size()) +
+                     (files.paths.size() == 1 ? " file" : " files");
+  if (files.times.size() > 1)
+    line += " from " + number_text(files.times.front()) + " to " + number_text(files.times.back()) + " s";
+  for (int axis = 0; axis < 3; ++axis)
+    line += std::string(", ") + "xyz"[axis] + " " + range_text(box.min[axis], box.max[axis]);
+  session.message(line + " m; a run that leaves these ends with an error");
+  return holding(made, "water of " + std::to_string(files.paths.size()) +
+                           (files.paths.size() == 1 ? " file" : " files"));
+}
+
 Value point_at(Session&, WaterObject& water, const Arguments& a) {
   const WaterPoint point = water.field->at(a.vec3("place"), a.number("time"));
   Table row{{"velocity", point.velocity}, {"acceleration", point.acceleration}, {"pressure", point.pressure}};
@@ -304,6 +362,39 @@ void bind_water_fields(Module& m) {
            .doc("f of the bed's resistance rho f u |u|: smooth 0.005, armour 0.02 to 0.1"),
        direction_field(), vec3("origin").standard(geom::Vec3(0, 0, 0)).unit("m"), density_field()},
       slope_water);
+  add("file",
+      "Water that another program has computed, from VTK's files (.vti, .vtu, .vts, .vtr, legacy .vtk) at "
+      "several "
+      "times. It is put on a regular grid, and is linear between its points and times. The free surface is "
+      "where the "
+      "water fraction is 1/2. A run that asks beyond the box or the times of the files ends with an error. "
+      "One file "
+      "alone is water that does not change.",
+      {text("series").doc("a .pvd file, which lists files with their times; give it or files"),
+       list("files", text_type()).doc("in the order of their times"),
+       list("times", number_type(), 0).unit("s").doc("of the files"),
+       text("velocity").standard("U").doc("name of the array (m/s, three components), at points or in cells"),
+       text("pressure")
+           .doc("name of the array: pressure above that of the air with its hydrostatic part, such as "
+                "OpenFOAM's \"p\" (\"p_rgh\" lacks that part). Left out: hydrostatic below the surface"),
+       number("pressure_factor")
+           .above(0)
+           .standard(1.0)
+           .doc("Pa in a unit of it; the density where it is kinematic"),
+       text("fraction").doc("name of the array of the water fraction, 0 to 1, such as \"alpha.water\""),
+       number("level").unit("m").doc(
+           "z of the free surface where there is no fraction; left out: water everywhere"),
+       number("cell").above(0).unit("m").doc(
+           "of the grid; left out: that of a .vti, else the mean size of the cells"),
+       choice("same_along", {"x", "y", "z"})
+           .doc("the water is the same all along this axis, as in a flume of one cell"),
+       vec3("shift").standard(geom::Vec3(0, 0, 0)).unit("m").doc("is added to the coordinates"),
+       number("time_shift")
+           .standard(0.0)
+           .unit("s")
+           .doc("is added to the times, such as the model's time at the start"),
+       density_field()},
+      file_water);
 }
 
 } // namespace cdem::script

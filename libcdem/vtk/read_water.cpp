@@ -1,0 +1,303 @@
+#include "libcdem/vtk/read_water.hpp"
+
+#include "libcdem/vtk/quiet.hpp"
+#include "libgeom/child/bytes.hpp"
+#include "libgeom/child/process.hpp"
+#include "libgeom/core/check.hpp"
+#include "libgeom/core/error.hpp"
+#include "libgeom/core/place_text.hpp"
+#include "libgeom/core/regular_file.hpp"
+#include "libgeom/core/text_table.hpp"
+
+#include <vtkCellData.h>
+#include <vtkCellDataToPointData.h>
+#include <vtkDataArray.h>
+#include <vtkDataSetReader.h>
+#include <vtkImageData.h>
+#include <vtkNew.h>
+#include <vtkPointData.h>
+#include <vtkProbeFilter.h>
+#include <vtkRectilinearGrid.h>
+#include <vtkSmartPointer.h>
+#include <vtkStructuredGrid.h>
+#include <vtkUnstructuredGrid.h>
+#include <vtkXMLDataElement.h>
+#include <vtkXMLImageDataReader.h>
+#include <vtkXMLRectilinearGridReader.h>
+#include <vtkXMLStructuredGridReader.h>
+#include <vtkXMLUnstructuredGridReader.h>
+#include <vtkXMLUtilities.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+
+namespace cdem {
+namespace {
+
+using geom::InputError;
+
+constexpr double most_points = 2e7; // of a grid
+constexpr double most_values = 2e8; // of all frames: some 2 GB
+
+[[noreturn]] void refuse(const std::string& path, const std::string& why) {
+  throw InputError("reading " + path + ": " + why);
+}
+
+template <class Reader>
+vtkSmartPointer<vtkDataSet> read_with(const std::string& path) {
+  vtkNew<Reader> reader;
+  reader->SetFileName(path.c_str());
+  if constexpr (std::is_same_v<Reader, vtkDataSetReader>) {
+    reader->ReadAllScalarsOn();
+    reader->ReadAllVectorsOn();
+    reader->ReadAllFieldsOn();
+  }
+  reader->Update();
+  vtkDataSet* data = vtkDataSet::SafeDownCast(reader->GetOutputDataObject(0));
+  if (reader->GetErrorCode() != 0 || data == nullptr || data->GetNumberOfPoints() == 0)
+    refuse(path, "VTK cannot read it, or it has no points");
+  return data;
+}
+
+vtkSmartPointer<vtkDataSet> data_of(const std::string& path) {
+  const std::string ending = std::filesystem::path(path).extension().string();
+  if (ending == ".vti")
+    return read_with<vtkXMLImageDataReader>(path);
+  if (ending == ".vtu")
+    return read_with<vtkXMLUnstructuredGridReader>(path);
+  if (ending == ".vts")
+    return read_with<vtkXMLStructuredGridReader>(path);
+  if (ending == ".vtr")
+    return read_with<vtkXMLRectilinearGridReader>(path);
+  if (ending == ".vtk")
+    return read_with<vtkDataSetReader>(path);
+  throw InputError("file", '"' + path + '"', "a name that ends in .vti, .vtu, .vts, .vtr or .vtk");
+}
+
+std::string names_in(vtkDataSet* data) {
+  std::string names;
+  const auto add = [&](vtkFieldData* fields) {
+    for (int i = 0; i < fields->GetNumberOfArrays(); ++i)
+      if (const char* const name = fields->GetArrayName(i);
+          name != nullptr && names.find('"' + std::string(name) + '"') == std::string::npos)
+        names += (names.empty() ? "\"" : ", \"") + std::string(name) + '"';
+  };
+  add(data->GetPointData());
+  add(data->GetCellData());
+  return names.empty() ? "none" : names;
+}
+
+// Throws where the array is missing, has another number of components, or a value that is not finite.
+bool is_at_points(vtkDataSet* data, const std::string& name, const char* field, int components,
+                  const std::string& path) {
+  vtkDataArray* const at_points = data->GetPointData()->GetArray(name.c_str());
+  vtkDataArray* const array = at_points ? at_points : data->GetCellData()->GetArray(name.c_str());
+  if (array == nullptr)
+    refuse(path,
+           std::string(field) + " = \"" + name + "\": there is no such array; it has " + names_in(data));
+  const vtkIdType rows = at_points ? data->GetNumberOfPoints() : data->GetNumberOfCells();
+  if (array->GetNumberOfComponents() != components || array->GetNumberOfTuples() != rows)
+    refuse(path, "\"" + name + "\" has " + std::to_string(array->GetNumberOfComponents()) +
+                     " components and " + std::to_string(array->GetNumberOfTuples()) + " rows: must be " +
+                     std::to_string(components) + " and " + std::to_string(rows));
+  for (vtkIdType row = 0; row < rows; ++row)
+    for (int c = 0; c < components; ++c)
+      if (!std::isfinite(array->GetComponent(row, c)))
+        refuse(path, "\"" + name + "\" is " + std::to_string(array->GetComponent(row, c)) + " at " +
+                         (at_points ? "point " : "cell ") + std::to_string(row) +
+                         ": must be a finite number");
+  return at_points != nullptr;
+}
+
+struct Grid {
+  geom::Vec3 origin = geom::Vec3::Zero(), spacing = geom::Vec3::Ones(); // m
+  std::array<int, 3> size{1, 1, 1};
+};
+
+Grid grid_over(vtkDataSet* data, const WaterArrays& wish, const std::string& path) {
+  Grid grid;
+  std::array<double, 6> bounds{};
+  data->GetBounds(bounds.data());
+  const auto low = [&](int axis) { return bounds[2 * static_cast<std::size_t>(axis)]; };
+  const auto extent = [&](int axis) { return bounds[2 * static_cast<std::size_t>(axis) + 1] - low(axis); };
+  for (const double bound : bounds)
+    if (!(std::abs(bound) < 1e9))
+      refuse(path, "its points lie beyond 1e9 m");
+  vtkImageData* const image = vtkImageData::SafeDownCast(data);
+  double cell = wish.cell;
+  if (cell == 0) {
+    double measure = 1;
+    int axes = 0;
+    for (int axis = 0; axis < 3; ++axis)
+      if (extent(axis) > 0 && axis != wish.same_along) {
+        measure *= extent(axis);
+        ++axes;
+      }
+    cell = axes == 0
+               ? 1
+               : std::pow(measure / static_cast<double>(std::max<vtkIdType>(1, data->GetNumberOfCells())),
+                          1.0 / axes);
+  }
+  double points = 1;
+  for (int axis = 0; axis < 3; ++axis) {
+    const double step = image && wish.cell == 0 ? image->GetSpacing()[axis] : cell;
+    const bool one = axis == wish.same_along || !(extent(axis) > 0);
+    const double cells = one ? 0 : std::max(1.0, std::round(extent(axis) / step));
+    points *= cells + 1;
+    if (!(points <= most_points))
+      throw InputError("cell", geom::text(cell), "larger: the grid would have more than 2e7 points");
+    const auto n = static_cast<int>(cells);
+    grid.size[static_cast<std::size_t>(axis)] = n + 1;
+    grid.origin[axis] = one ? low(axis) + 0.5 * extent(axis) : low(axis);
+    grid.spacing[axis] = one ? 1 : extent(axis) / n;
+  }
+  return grid;
+}
+
+std::vector<double> values_of(vtkDataSet* at_grid, const std::string& name) {
+  vtkDataArray* const array = at_grid->GetPointData()->GetArray(name.c_str());
+  std::vector<double> values;
+  values.reserve(static_cast<std::size_t>(array->GetNumberOfTuples() * array->GetNumberOfComponents()));
+  for (vtkIdType row = 0; row < array->GetNumberOfTuples(); ++row)
+    for (int c = 0; c < array->GetNumberOfComponents(); ++c)
+      values.push_back(array->GetComponent(row, c));
+  return values;
+}
+
+// In the child: grid, known, and the values of each array at the points of the grid.
+std::string sampled(const std::string& path, const WaterArrays& wish) {
+  const Quiet quiet;
+  vtkSmartPointer<vtkDataSet> data = data_of(path);
+  bool at_points = is_at_points(data, wish.velocity, "velocity", 3, path);
+  for (const auto& [name, field] :
+       {std::pair{&wish.pressure, "pressure"}, std::pair{&wish.fraction, "fraction"}})
+    if (!name->empty())
+      at_points = is_at_points(data, *name, field, 1, path) && at_points;
+  const Grid grid = grid_over(data, wish, path);
+  if (!at_points) {
+    vtkNew<vtkCellDataToPointData> means;
+    means->SetInputData(data);
+    means->Update();
+    data = means->GetOutput();
+  }
+  vtkNew<vtkImageData> points;
+  points->SetOrigin(grid.origin.data());
+  points->SetSpacing(grid.spacing.data());
+  points->SetDimensions(grid.size.data());
+  vtkNew<vtkProbeFilter> probe;
+  probe->SetInputData(points);
+  probe->SetSourceData(data);
+  probe->Update();
+  vtkDataSet* const found = probe->GetOutput();
+  std::string out;
+  geom::pack(out, grid.origin);
+  geom::pack(out, grid.spacing);
+  geom::pack(out, grid.size);
+  std::vector<int> known;
+  for (const double value : values_of(found, probe->GetValidPointMaskArrayName()))
+    known.push_back(value > 0 ? 1 : 0);
+  geom::pack(out, known);
+  for (const std::string* name : {&wish.velocity, &wish.pressure, &wish.fraction})
+    geom::pack(out, name->empty() ? std::vector<double>() : values_of(found, *name));
+  return out;
+}
+
+} // namespace
+
+WaterFiles water_files_of(const std::string& pvd) {
+  if (const std::string why = geom::why_not_regular(pvd); !why.empty())
+    throw InputError("series", '"' + pvd + '"', "an existing .pvd file", why);
+  const std::string bytes = geom::run_in_child("reading " + pvd, geom::limits_of_file(pvd), [&] {
+    const Quiet quiet;
+    const auto root =
+        vtkSmartPointer<vtkXMLDataElement>::Take(vtkXMLUtilities::ReadElementFromFile(pvd.c_str()));
+    vtkXMLDataElement* const group = root ? root->FindNestedElementWithName("Collection") : nullptr;
+    if (group == nullptr)
+      refuse(pvd, "it is no .pvd file, or it is damaged");
+    WaterFiles files;
+    for (int i = 0; i < group->GetNumberOfNestedElements(); ++i) {
+      vtkXMLDataElement* const entry = group->GetNestedElement(i);
+      const char *const file = entry->GetAttribute("file"), *const time = entry->GetAttribute("timestep");
+      if (file == nullptr || std::string(entry->GetName()) != "DataSet")
+        continue;
+      const std::filesystem::path name(file);
+      if (name.empty() || name.is_absolute() || std::find(name.begin(), name.end(), "..") != name.end())
+        refuse(pvd, "it names \"" + std::string(file) + "\", outside its folder");
+      const auto number = time ? geom::plain_number(time) : std::nullopt;
+      if (!number || !std::isfinite(*number))
+        refuse(pvd, "\"" + std::string(file) + "\" has no timestep that is a finite number");
+      files.paths.push_back((std::filesystem::path(pvd).parent_path() / name).string());
+      files.times.push_back(*number);
+    }
+    if (files.paths.empty())
+      refuse(pvd, "it lists no file");
+    std::string out;
+    geom::pack(out, files.paths);
+    geom::pack(out, files.times);
+    return out;
+  });
+  WaterFiles files;
+  geom::Unpacker in(bytes);
+  geom::unpack(in, files.paths);
+  geom::unpack(in, files.times);
+  in.end();
+  return files;
+}
+
+WaterRecord read_water(const WaterFiles& files, const WaterArrays& wish) {
+  WaterRecord record;
+  record.times = files.times;
+  double values = 0;
+  for (const std::string& path : files.paths) {
+    if (const std::string why = geom::why_not_regular(path); !why.empty())
+      throw InputError("file", '"' + path + '"', "an existing file", why);
+    geom::ChildLimits limits = geom::limits_of_file(path);
+    limits.memory += std::uint64_t{4} << 30; // for the grid
+    const std::string bytes =
+        geom::run_in_child("reading " + path, limits, [&] { return sampled(path, wish); });
+    Grid grid;
+    std::vector<int> known;
+    std::vector<double> velocity;
+    WaterFrame frame;
+    geom::Unpacker in(bytes);
+    geom::unpack(in, grid.origin);
+    geom::unpack(in, grid.spacing);
+    geom::unpack(in, grid.size);
+    geom::unpack(in, known);
+    geom::unpack(in, velocity);
+    geom::unpack(in, frame.pressure);
+    geom::unpack(in, frame.fraction);
+    in.end();
+    const auto points = static_cast<std::size_t>(grid.size[0]) * static_cast<std::size_t>(grid.size[1]) *
+                        static_cast<std::size_t>(grid.size[2]);
+    if (known.size() != points || velocity.size() != 3 * points ||
+        frame.pressure.size() != (wish.pressure.empty() ? 0 : points) ||
+        frame.fraction.size() != (wish.fraction.empty() ? 0 : points))
+      geom::Unpacker::refuse();
+    grid.origin += wish.shift;
+    if (record.frames.empty()) {
+      record.origin = grid.origin;
+      record.spacing = grid.spacing;
+      record.size = grid.size;
+    } else if (grid.size != record.size ||
+               (grid.origin - record.origin).norm() > 1e-6 * record.spacing.norm() ||
+               (grid.spacing - record.spacing).norm() > 1e-6 * record.spacing.norm()) {
+      refuse(path, "its box begins at " + geom::place_text(grid.origin) + " m with " +
+                       std::to_string(points) + " points, that of the first file at " +
+                       geom::place_text(record.origin) + " m: files of one series have one place");
+    }
+    if (values += 8 * static_cast<double>(points); values > most_values)
+      throw InputError("files", std::to_string(files.paths.size()),
+                       "fewer, or a larger cell: their grids would take more than 2 GB");
+    frame.known.assign(known.begin(), known.end());
+    for (std::size_t i = 0; i < points; ++i)
+      frame.velocity.emplace_back(velocity[3 * i], velocity[3 * i + 1], velocity[3 * i + 2]);
+    for (double& p : frame.pressure)
+      p *= wish.pressure_factor;
+    record.frames.push_back(std::move(frame));
+  }
+  return record;
+}
+
+} // namespace cdem

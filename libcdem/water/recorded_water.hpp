@@ -1,0 +1,70 @@
+// Water that another program has computed: velocity, pressure and water fraction on a regular grid at some times.
+//
+// Between grid points all is linear, and so it is in time. The free surface of a column of the grid is the highest place
+// where the water fraction crosses 1/2. Above it velocities go on as they are below, and the pressure falls by rho g, so that
+// cells that the surface crosses are not mixed with air. The acceleration Du/Dt comes from differences of the velocities
+// between grid points and times. Pressures are those of the motion too, or hydrostatic below the surface where none is given.
+#pragma once
+
+#include "libcdem/water/plain_water.hpp"
+
+#include <array>
+#include <optional>
+#include <vector>
+
+namespace cdem {
+
+struct WaterFrame {
+  std::vector<geom::Vec3> velocity;       // m/s, at the grid points
+  std::vector<double> pressure, fraction; // Pa above air, 0 (air) to 1 (water); empty: not given
+  std::vector<char> known; // 0: the place is outside of the cells, such as inside a solid; empty: all are
+};
+
+struct WaterRecord {
+  geom::Vec3 origin = geom::Vec3::Zero(), spacing = geom::Vec3::Ones(); // m
+  // Points i + size[0] (j + size[1] k). One point along an axis: the same for all coordinates along it.
+  std::array<int, 3> size{1, 1, 1};
+  std::vector<double> times; // s, ascending; one: the same at all times
+  std::vector<WaterFrame> frames;
+  std::optional<double> level; // m, z of the surface where no fraction is given; none: water everywhere
+  double density = 1025;       // kg/m3
+  double gravity = standard_water_gravity;
+};
+
+class RecordedWater final : public WaterField {
+public:
+  explicit RecordedWater(WaterRecord); // throws geom::InputError
+  // Throws geom::InputError beside or below the grid, and before its first or after its last time.
+  WaterPoint at(const geom::Vec3& place, double time) const override;
+  double density() const override { return record_.density; }
+  bool has_dynamic_pressure() const override { return has_pressure(); }
+  bool has_pressure() const override { return with_pressure_ || with_surface_; }
+
+  geom::Box box() const; // m, where it is known; infinite along an axis of one point
+  const std::vector<double>& times() const { return record_.times; }
+
+private:
+  struct Corner {
+    std::size_t point = 0, column = 0;
+    double share = 0;
+  };
+  struct Here {
+    geom::Vec3 velocity = geom::Vec3::Zero(), acceleration = geom::Vec3::Zero();
+    double pressure = 0, surface = 0; // minus infinite: dry
+  };
+  std::size_t number(int i, int j, int k) const;
+  std::size_t columns() const { return static_cast<std::size_t>(record_.size[0]) * record_.size[1]; }
+  void fill_unknown(WaterFrame&) const;
+  void find_surface(std::size_t frame);
+  void find_accelerations();
+  std::array<Corner, 8> corners(const geom::Vec3& place) const;
+  Here in_frame(std::size_t frame, const geom::Vec3& place) const;
+  void require_known(const geom::Vec3& place, double time) const;
+
+  WaterRecord record_;
+  bool with_pressure_ = false, with_surface_ = false;
+  std::vector<std::vector<double>> surface_;          // m, of each column at each time; minus infinite: dry
+  std::vector<std::vector<geom::Vec3>> acceleration_; // m/s2, at the grid points at each time
+};
+
+} // namespace cdem
