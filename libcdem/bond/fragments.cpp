@@ -11,12 +11,14 @@ bool intact(std::uint8_t mode) {
 
 } // namespace
 
-bool is_bonded(const State& state, std::int64_t batch, int lane) {
-  const auto& modes = state.faces[batch].mode;
-  return intact(modes[0][lane]) || intact(modes[1][lane]) || intact(modes[2][lane]);
+bool is_untouched(const State& state, std::int64_t batch, int lane) {
+  for (const auto& point : state.faces[batch].mode)
+    if (!intact(point[lane]))
+      return false;
+  return holds(state.faces[batch].stage[lane]);
 }
 
-std::vector<int> fragments_of_nodes(const Model& model, const State& state) {
+std::vector<int> fragments_of_nodes(const Model& model, const State& state, Joins by) {
   geom::DisjointSets sets(model.node_position.size());
   for (const geom::Tet& tet : model.tets)
     for (int k = 1; k < 4; ++k)
@@ -25,7 +27,13 @@ std::vector<int> fragments_of_nodes(const Model& model, const State& state) {
     if (intact(state.bond_mode[p]))
       sets.unite(model.points[p].node_a[0], model.points[p].node_b[0]);
   each_face_spring(model.mesh, [&](const MeshChunk& chunk, const FaceSpringPlace& at) {
-    if (at.point != 0 || !is_bonded(state, at.batch, at.lane)) // once a face
+    if (at.point != 0)
+      return; // once a face
+    const auto& modes = state.faces[at.batch].mode;
+    const bool joins = by == Joins::untouched ? is_untouched(state, at.batch, at.lane)
+                                              : intact(modes[0][at.lane]) || intact(modes[1][at.lane]) ||
+                                                    intact(modes[2][at.lane]);
+    if (!joins)
       return;
     const FaceNodes nodes = face_nodes(model.mesh, chunk, at.batch, at.lane);
     sets.unite(nodes.a[0], nodes.b[0]);

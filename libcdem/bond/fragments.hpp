@@ -5,11 +5,12 @@
 
 namespace cdem {
 
-// One of the three bonds of the face, at least, has not lost its strength.
-bool is_bonded(const State&, std::int64_t batch, int lane);
+// All three bonds of the face are whole, and no cohesive law acts on it.
+bool is_untouched(const State&, std::int64_t batch, int lane);
 
-// For each node, the smallest node of its piece (n_nodes). Union-find joins nodes over bonded faces, over unbroken bonds
-// between blocks, and over shared nodes.
-std::vector<int> fragments_of_nodes(const Model&, const State&);
+// For each node, the smallest node of its piece (n_nodes). Union-find joins nodes over faces with at least one whole
+// bond (or over untouched faces), over unbroken bonds between blocks, and over shared nodes.
+enum class Joins { any_bond, untouched };
+std::vector<int> fragments_of_nodes(const Model&, const State&, Joins = Joins::any_bond);
 
 } // namespace cdem

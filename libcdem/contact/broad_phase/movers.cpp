@@ -20,7 +20,7 @@ char activity(const State& state, int face) {
   const int lane = face % lanes;
   if (handed_over(batch, lane) || leaves(batch, lane))
     return 2;
-  return static_cast<char>(!is_bonded(state, face / lanes, lane));
+  return static_cast<char>(!is_untouched(state, face / lanes, lane));
 }
 
 // Numbers the movers by the first of their triangles, and gives every triangle its own.
@@ -161,7 +161,7 @@ void find_fragments(const Model& model, const State& state, ContactWork& work) {
   std::swap(before.past_others, work.past_others);
   std::swap(before.swing, work.swing);
   std::swap(before.drift, work.drift);
-  work.fragment_of_node = fragments_of_nodes(model, state);
+  work.fragment_of_node = fragments_of_nodes(model, state, Joins::untouched);
   work.fragment.resize(s.triangles.size());
   work.active.resize(s.triangles.size());
   work.broken.assign(model.blocks.size(), 0);
