@@ -2,8 +2,8 @@
 #include "libcdem/simulation_impl.hpp"
 #include "libcdem/step/support_forces.hpp"
 
-#include "libcdem/checkpoint/known_of_model.hpp"
 #include "libcdem/element/small_strain.hpp"
+#include "libcdem/model/known_of_model.hpp"
 #include "libcdem/model/names.hpp"
 #include "libcdem/model/unit_order.hpp"
 #include "libcdem/procedure/run.hpp"

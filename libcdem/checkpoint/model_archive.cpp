@@ -1,5 +1,7 @@
 #include "libcdem/checkpoint/model_archive.hpp"
 
+#include "libcdem/model/known_of_model.hpp"
+
 #include <algorithm>
 
 namespace cdem {

@@ -10,8 +10,6 @@ namespace cdem {
 void write(Writer&, const Model&);
 void read(Reader&, Model&);
 std::uint64_t hash(const Model&); // XXH64 of every member
-// Tells whether a model is still what it was, at the speed of memory. It means nothing in another run.
-std::uint64_t fingerprint(const Model&);
 
 // Through the registry, field by field with its name.
 void write(Writer&, const State&);

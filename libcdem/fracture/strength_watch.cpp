@@ -1,10 +1,10 @@
 #include "libcdem/fracture/strength_watch.hpp"
 
-#include "libcdem/checkpoint/known_of_model.hpp"
 #include "libcdem/element/small_strain.hpp"
 #include "libcdem/fracture/own_rocks.hpp"
 #include "libcdem/model/build/face_strength.hpp"
 #include "libcdem/model/build/freed_meshes.hpp"
+#include "libcdem/model/known_of_model.hpp"
 #include "libcdem/parallel/simd.hpp"
 #include "libcdem/ranks/shared_state.hpp"
 #include "libcdem/state/places.hpp"

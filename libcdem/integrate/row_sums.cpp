@@ -1,9 +1,9 @@
 #include "libcdem/integrate/row_sums.hpp"
 
 #include "libcdem/bond/spring_forces.hpp"
-#include "libcdem/checkpoint/known_of_model.hpp"
 #include "libcdem/element/mesh_fields.hpp"
 #include "libcdem/element/small_strain.hpp"
+#include "libcdem/model/known_of_model.hpp"
 
 #include <cmath>
 

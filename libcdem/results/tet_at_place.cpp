@@ -1,6 +1,6 @@
 #include "libcdem/results/tet_at_place.hpp"
 
-#include "libcdem/checkpoint/known_of_model.hpp"
+#include "libcdem/model/known_of_model.hpp"
 #include "libcdem/model/unit_order.hpp"
 
 #include <algorithm>

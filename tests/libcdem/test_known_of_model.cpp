@@ -1,6 +1,6 @@
 // What follows from a model alone is kept between stages, and found anew when the model has changed in any way.
-#include "libcdem/checkpoint/known_of_model.hpp"
 #include "libcdem/integrate/row_sums.hpp"
+#include "libcdem/model/known_of_model.hpp"
 #include "libgeom/assembly/builders.hpp"
 #include "tests/libcdem/cohesive_concrete.hpp"
 

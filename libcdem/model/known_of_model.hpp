@@ -2,13 +2,17 @@
 // stages of one, and begins each as if it were the first.
 #pragma once
 
-#include "libcdem/checkpoint/model_archive.hpp"
+#include "libcdem/model/model.hpp"
 
 #include <array>
 #include <memory>
 #include <mutex>
 
 namespace cdem {
+
+// Tells whether a model is still what it was, by the bytes of all its members (checkpoint/model_archive.cpp), at the speed of
+// memory. It means nothing in another run.
+std::uint64_t fingerprint(const Model&);
 
 template <class T>
 class KnownOfModel {
