@@ -18,6 +18,11 @@ bool is_untouched(const State& state, std::int64_t batch, int lane) {
   return holds(state.faces[batch].stage[lane]);
 }
 
+bool is_bonded(const State& state, std::int64_t batch, int lane) {
+  const auto& modes = state.faces[batch].mode;
+  return intact(modes[0][lane]) || intact(modes[1][lane]) || intact(modes[2][lane]);
+}
+
 std::vector<int> fragments_of_nodes(const Model& model, const State& state, Joins by) {
   geom::DisjointSets sets(model.node_position.size());
   for (const geom::Tet& tet : model.tets)
@@ -29,10 +34,8 @@ std::vector<int> fragments_of_nodes(const Model& model, const State& state, Join
   each_face_spring(model.mesh, [&](const MeshChunk& chunk, const FaceSpringPlace& at) {
     if (at.point != 0)
       return; // once a face
-    const auto& modes = state.faces[at.batch].mode;
-    const bool joins = by == Joins::untouched ? is_untouched(state, at.batch, at.lane)
-                                              : intact(modes[0][at.lane]) || intact(modes[1][at.lane]) ||
-                                                    intact(modes[2][at.lane]);
+    const bool joins =
+        by == Joins::untouched ? is_untouched(state, at.batch, at.lane) : is_bonded(state, at.batch, at.lane);
     if (!joins)
       return;
     const FaceNodes nodes = face_nodes(model.mesh, chunk, at.batch, at.lane);

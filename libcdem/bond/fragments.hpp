@@ -8,6 +8,9 @@ namespace cdem {
 // All three bonds of the face are whole, and no cohesive law acts on it.
 bool is_untouched(const State&, std::int64_t batch, int lane);
 
+// One of the three bonds of the face, at least, has not lost its strength.
+bool is_bonded(const State&, std::int64_t batch, int lane);
+
 // For each node, the smallest node of its piece (n_nodes). Union-find joins nodes over faces with at least one whole
 // bond (or over untouched faces), over unbroken bonds between blocks, and over shared nodes.
 enum class Joins { any_bond, untouched };

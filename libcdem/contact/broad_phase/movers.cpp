@@ -5,6 +5,7 @@
 #include "libcdem/ranks/bytes.hpp"
 #include "libcdem/ranks/shared_state.hpp"
 #include "libcdem/state/places.hpp"
+#include "libgeom/core/disjoint_sets.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -101,6 +102,39 @@ void find_single_tets(const Model& model, ContactWork& work) {
       triangles = none;
 }
 
+// Writes ContactWork::joint and movers_at_joint.
+void find_joints(const Model& model, const State& state, ContactWork& work) {
+  work.joint.clear();
+  work.movers_at_joint.clear();
+  const auto may_hang = [&](int block) {
+    return work.broken[block] && model.bodies[model.blocks[block].body].bonding.is_cohesive();
+  };
+  bool any = false;
+  for (std::size_t b = 0; b < model.blocks.size(); ++b)
+    any = any || may_hang(static_cast<int>(b));
+  if (!any)
+    return;
+  geom::DisjointSets sets(model.node_position.size());
+  each_face(model.mesh, [&](const MeshChunk& chunk, std::int64_t batch, int lane) {
+    if (!may_hang(chunk.block) || !is_bonded(state, batch, lane))
+      return;
+    const FaceNodes nodes = face_nodes(model.mesh, chunk, batch, lane);
+    for (int k = 0; k < 3; ++k)
+      sets.unite(nodes.a[k], nodes.b[k]);
+  });
+  work.joint.resize(model.node_position.size());
+  for (int node = 0; node < static_cast<int>(work.joint.size()); ++node)
+    work.joint[node] = sets.find(node);
+  const ContactSurface& s = model.surface;
+  for (std::size_t t = 0; t < s.triangles.size(); ++t)
+    if (may_hang(s.triangles[t].block) && work.active[t])
+      for (const int node : s.triangles[t].nodes)
+        work.movers_at_joint.emplace_back(work.joint[node], work.movers.of_triangle[t]);
+  std::sort(work.movers_at_joint.begin(), work.movers_at_joint.end());
+  work.movers_at_joint.erase(std::unique(work.movers_at_joint.begin(), work.movers_at_joint.end()),
+                             work.movers_at_joint.end());
+}
+
 // What was known of the movers before they were told apart anew goes on for those that are the same.
 void carry_over(const Model& model, ContactWork& before, ContactWork& work) {
   work.changed.assign(work.movers.count(), 0);
@@ -113,6 +147,9 @@ void carry_over(const Model& model, ContactWork& before, ContactWork& work) {
     if (work.broken[model.surface.triangles[t].block] &&
         (before.fragment[t] != work.fragment[t] || before.active[t] != work.active[t]))
       work.changed[mover] = 1;
+    for (const int node : model.surface.triangles[t].nodes)
+      if (!before.joint.empty() && !work.joint.empty() && before.joint[node] != work.joint[node])
+        work.changed[mover] = 1; // it may meet what it hung together with
   }
   const auto carry = [&](auto ContactWork::*field) {
     auto& now = work.*field;
@@ -150,6 +187,7 @@ void find_fragments(const Model& model, const State& state, ContactWork& work) {
   ContactWork before; // of the movers alone
   std::swap(before.fragment, work.fragment);
   std::swap(before.active, work.active);
+  std::swap(before.joint, work.joint);
   std::swap(before.movers, work.movers);
   std::swap(before.travelled, work.travelled);
   std::swap(before.skin, work.skin);
@@ -175,6 +213,7 @@ void find_fragments(const Model& model, const State& state, ContactWork& work) {
   find_nodes(model, work);
   find_pieces(model, work);
   find_single_tets(model, work);
+  find_joints(model, state, work);
   carry_over(model, before, work);
 }
 

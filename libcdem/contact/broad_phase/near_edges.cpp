@@ -42,6 +42,16 @@ Bar bar_of(const Model& model, const State& state, const ContactWork& work, cons
   return bar;
 }
 
+bool hang_together(const ContactWork& work, const ContactEdge& a, const ContactEdge& b) {
+  if (work.joint.empty())
+    return false;
+  for (const int one : a.nodes)
+    for (const int other : b.nodes)
+      if (work.joint[one] == work.joint[other])
+        return true;
+  return false;
+}
+
 bool may_hold(const Bar& bar, const geom::Vec3& normal, double turns) {
   for (int i = 0; i < 2; ++i)
     if (normal.dot(bar.into[i]) > (fan_slack + turns + bar.into_turns[i]) * bar.into[i].norm())
@@ -217,6 +227,8 @@ std::vector<Near> near_edges_of_fragments(const Model& model, const State& state
     if (!own_wanted[wanted[k] ? k : l]) // of a pair that two ranks see, the one with its first edge takes it
       continue;
     const int a = bars.triangle(k), b = bars.triangle(l);
+    if (hang_together(work, work.edges[bars.edges()[k]], work.edges[bars.edges()[l]]))
+      continue;
     if (work.fragment[a] != work.fragment[b] || apart_at_first(model, work, a, b))
       add_near(model, work, margins, bars, k, bars, l, out);
   }

@@ -168,6 +168,11 @@ private:
     const Vec3 spring = weighted(all_.active.facets[source].x, spring_weights(corner));
     for (std::size_t begin = 0, end = 0; begin < around_.size(); begin = end) {
       const int of = around_[begin].mover;
+      if (of != mover_ && work_.hangs_at(triangle(source).nodes[corner], of)) {
+        while (end < around_.size() && around_[end].mover == of)
+          ++end;
+        continue;
+      }
       const double near = skins(of);
       double least = std::numeric_limits<double>::infinity();
       for (; end < around_.size() && around_[end].mover == of; ++end) {

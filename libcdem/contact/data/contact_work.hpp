@@ -18,9 +18,11 @@
 #include "libcdem/parallel/node.hpp"
 #include "libcdem/state/contact.hpp"
 
+#include <algorithm>
 #include <array>
 #include <limits>
 #include <memory>
+#include <utility>
 #include <vector>
 
 namespace cdem {
@@ -174,6 +176,15 @@ struct ContactWork {
   // Per node, and per triangle: what hangs together, by its smallest node. Over faces without a broken bond only, so that
   // the surface of what has broken is closed.
   std::vector<int> fragment_of_node, fragment;
+  // Joints of nodes of cohesive bodies: the copies of a node whose tetrahedra hang together there, over faces that have not
+  // lost all their strength. Per node, the smallest of them; empty where nothing has cracked. And which movers hang together
+  // at each: (joint, mover), sorted. Where they do, nothing of one is in contact with the other.
+  std::vector<int> joint;
+  std::vector<std::pair<int, int>> movers_at_joint;
+  bool hangs_at(int node, int mover) const { // the tetrahedra of the node with a mover
+    return !joint.empty() &&
+           std::binary_search(movers_at_joint.begin(), movers_at_joint.end(), std::pair(joint[node], mover));
+  }
   std::vector<char>
       active; // per triangle: 1 outside, or its face has a broken bond; 2 its face is left to contact; else 0
   // Per triangle of blocks that have broken, m, undeformed: what may meet it of what it hangs together with does not meet
