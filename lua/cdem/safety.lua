@@ -135,6 +135,8 @@ function cdem.factor_of_safety(options)
   if stands == nil then -- a check
     if o.picture then draw(sides.failing, o.picture, upper) end
     return { factor = lower, lower = lower, upper = upper, stable = sides.stable, failing = sides.failing, trials = {},
+             mechanism = { blocks = {}, volume = 0, largest = 0, share = 0, centroid = {0, 0, 0}, min = {0, 0, 0},
+                           max = {0, 0, 0}, displacement = {0, 0, 0} },
              left_out = 0 }
   end
   if not stands then

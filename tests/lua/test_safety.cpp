@@ -126,9 +126,26 @@ TEST_CASE("a script with a factor of safety can be checked", "[lua][safety]") {
   Script script(head +
                 "local m = incline(35)\n"
                 "local f = cdem.factor_of_safety{ model = m, reduce = {'joints'}, picture = 'a.png' }\n"
-                "f.failing:picture{ file = 'b.png' }\nassert(#f.trials == 0)");
+                "f.failing:picture{ file = 'b.png' }\nassert(#f.trials == 0 and #f.mechanism.blocks == 0)");
   script.settings.check_only = true;
   CHECK(script.error() == "");
+}
+
+TEST_CASE("a search from a model that has run away is warned of", "[lua][safety]") {
+  const auto warned = [](const std::string& before) {
+    Script script(
+        head + before +
+        "cdem.factor_of_safety{ model = m, reduce = {'joints'}, lower = 0.5, upper = 2, tolerance = 1 }");
+    CHECK(script.error() == "");
+    int lines = 0;
+    for (const std::string& line : script.listener->lines)
+      lines += line.find("factor_of_safety: model: it ran away in stage") != std::string::npos ? 1 : 0;
+    return lines;
+  };
+  CHECK(warned("local m = incline(20)\nm:relax{}\n") == 1);
+  CHECK(warned("local m = incline(20)\nm:relax{}\nm = m:copy()\n") == 1);
+  CHECK(warned("local m = incline(20)\nlocal c = m:copy()\nc:relax{}\n") == 0);
+  CHECK(warned("local m = incline(35)\nm:relax{ residual = 1e-5 }\n") == 0);
 }
 
 TEST_CASE("a copy of a model goes its own way", "[lua][safety]") {

@@ -332,6 +332,19 @@ TEST_CASE("a density that no water has is told of", "[lua]") {
   CHECK(in_water("0") == 0);
 }
 
+TEST_CASE("a joint set that makes no face is told of", "[lua]") {
+  const auto of = [](const std::string& set) {
+    return warnings_of("local cdem = require 'cdem'\n"
+                       "cdem.cut_by_joints{ shape = cdem.box{ size = {1, 1, 1} }, smallest = 0.1, sets = { "
+                       "{ name = 'bedding', dip = 0, dip_direction = 0, spacing = 0.4 }, { " +
+                       set + " } } }");
+  };
+  CHECK(of("name = 'J', dip = 90, dip_direction = 0, spacing = 0.3").empty());
+  const auto none = of("name = 'J', dip = 90, dip_direction = 0, spacing = 300, origin = {0, 0.95, 0}");
+  REQUIRE(none.size() == 1);
+  CHECK_THAT(none[0], Contains("set \"J\" made no face") && Contains("300 m apart"));
+}
+
 TEST_CASE("dips and angles of bolts that look like radians are warned of", "[lua]") {
   const auto of = [](const std::string& dips) {
     return warnings_of("local cdem = require 'cdem'\n"

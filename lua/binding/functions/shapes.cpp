@@ -15,6 +15,7 @@
 #include "libgeom/core/error.hpp"
 #include "libgeom/mesh/tet_blocks.hpp"
 
+#include <algorithm>
 #include <limits>
 
 namespace cdem::script {
@@ -84,6 +85,14 @@ Value cut_by_joints(Session& session, Object*, const Arguments& a) {
     session.message("cut_by_joints: " + std::to_string(joined.united) + " blocks thinner than " +
                     three_digits(a.number("smallest")) + " m united with a neighbour, " +
                     std::to_string(joined.glued) + " glued to one");
+  const std::vector<std::string> cut = geom::cut_names(joined.assembly);
+  for (const geom::JointSet& set : sets)
+    if (!set.name.empty() && std::find(cut.begin(), cut.end(), set.name) == cut.end())
+      session.warn("cut_by_joints: set \"" + set.name + "\" made no face: none of its planes, " +
+                   three_digits(set.spacing) +
+                   " m apart, meets the shape, or all that it cut off was united with a neighbour; give it "
+                   "an origin on the "
+                   "shape, a smaller spacing, or a smaller `smallest`");
   return made(std::move(joined.assembly));
 }
 

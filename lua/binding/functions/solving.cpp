@@ -79,6 +79,10 @@ Value relax(Session& session, ModelObject& model, const Arguments& a) {
                [&](Simulation& simulation) {
                  const RelaxResult result = simulation.relax(options);
                  tell_verdict(session, options, result);
+                 if (result.verdict == Verdict::failing)
+                   model.failing_since = static_cast<int>(session.stages.size());
+                 else if (result.verdict == Verdict::stable)
+                   model.failing_since = 0;
                  return relax_result(result, options.note);
                },
                {{"callback", a.function("callback")}});

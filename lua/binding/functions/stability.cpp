@@ -24,6 +24,7 @@ Value copy(Session& session, ModelObject& model, const Arguments&) {
   other->body_names = model.body_names;
   other->piles = model.piles;
   other->unjointed = model.unjointed;
+  other->failing_since = model.failing_since;
   other->places = model.places;
   other->number = static_cast<int>(session.models.size()) + 1;
   if (session.checkpoints.keeps())
@@ -46,7 +47,7 @@ Value reduce_strength(Session&, ModelObject& model, const Arguments& a) {
 }
 
 // Gives the checked arguments back; the search itself is lua/cdem/safety.lua.
-Value factor_of_safety(Session&, Object*, const Arguments& a) {
+Value factor_of_safety(Session& session, Object*, const Arguments& a) {
   if (a.has("model") == a.has("builder"))
     throw InputError(
         "model, builder: give one of them: a model, whose state as it is each trial starts from, "
@@ -59,6 +60,14 @@ Value factor_of_safety(Session&, Object*, const Arguments& a) {
                      "below upper - lower = " + number_text(upper - lower));
   if (const auto model = a.object<ModelObject>("model")) {
     model->require_idle("factor_of_safety");
+    if (model->failing_since > 0)
+      session.warn(
+          "cdem.factor_of_safety: model: it ran away in stage " + std::to_string(model->failing_since) +
+          " and stands where it had slid to; a factor found from there belongs to another slope and may be "
+          "too "
+          "large. Give a model in balance: model:copy() from before that stage, or one that took up its "
+          "loads "
+          "with stronger joints (model:reduce_strength{ factor = 0.7 }, model:relax, factor = 1 / 0.7)");
     Simulation tried =
         model->simulation.copy(); // tells of strengths that there are not before anything is solved
     tried.reduce_strength(1, kinds_of(a));
@@ -108,7 +117,8 @@ void bind_stability_records(Module& m) {
         object("failing", "Model")
             .required()
             .doc("at upper, as it was when it was found to run away; its displacement is the mechanism"),
-        object("mechanism", "Mechanism").doc("what fails at upper; none in a check"),
+        object("mechanism", "Mechanism")
+            .doc("what fails at upper; empty in a check, none where nothing has moved"),
         integer("left_out").required().doc("blocks that failed at upper in mechanisms below smallest"),
         list("trials", object_type("SafetyTrial"), 0).required().doc("in the order they were made")}});
 }

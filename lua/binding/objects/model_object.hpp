@@ -26,6 +26,8 @@ struct ModelObject final : Object {
   double told_open = 0;                                   // energy balance that the user was warned of
   std::size_t told_escapes = 0;
   std::string told_slivers;
+  int failing_since =
+      0; // stage whose relaxation found that the model runs away; 0: none, or it has come to rest since
   bool solving = false;         // a callback of a stage may look and not touch
   mutable bool touched = false; // by the running call, which has asked require_idle
 
