@@ -171,7 +171,7 @@ local cdem = {}
 ---@field upper number smallest one at which it is not
 ---@field stable cdem.Model at lower, in its new balance
 ---@field failing cdem.Model at upper, as it was when it was found to run away; its displacement is the mechanism
----@field mechanism? cdem.Mechanism what fails at upper; none in a check
+---@field mechanism? cdem.Mechanism what fails at upper; empty in a check, none where nothing has moved
 ---@field left_out integer blocks that failed at upper in mechanisms below smallest
 ---@field trials cdem.SafetyTrial[] in the order they were made
 
