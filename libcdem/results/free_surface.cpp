@@ -66,8 +66,8 @@ private:
   bool wet(int grid) const { return point_[grid] >= 0; }
   static bool drawn_line(int line, int lines) { return line % net_stride == 0 || line + 1 == lines; }
   Vec3 place(int grid) const {
-    return {sheet_.origin[0] + (grid % sheet_.size[0]) * sheet_.cell[0],
-            sheet_.origin[1] + (grid / sheet_.size[0]) * sheet_.cell[1], top_};
+    const int row = grid / sheet_.size[0], column = grid % sheet_.size[0];
+    return {sheet_.origin[0] + column * sheet_.cell[0], sheet_.origin[1] + row * sheet_.cell[1], top_};
   }
   int add(const Vec3& x, const WaterPoint& water) {
     sheet_.points.emplace_back(x.x(), x.y(), water.surface);

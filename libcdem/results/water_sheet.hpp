@@ -48,7 +48,7 @@ struct WaterSheet {
               j = std::min(std::max(static_cast<int>(v), 0), size[1] - 2);
     const double a = u - i, b = v - j;
     const auto at = [&](int di, int dj) {
-      return height[static_cast<std::size_t>(i + di + (j + dj) * size[0])];
+      return height[static_cast<std::size_t>(i + di) + static_cast<std::size_t>(j + dj) * size[0]];
     };
     return a >= b ? at(0, 0) + a * (at(1, 0) - at(0, 0)) + b * (at(1, 1) - at(1, 0))
                   : at(0, 0) + b * (at(0, 1) - at(0, 0)) + a * (at(1, 1) - at(0, 1));

@@ -184,7 +184,7 @@ void add_marks(const Snapshot& shown, const Arguments& a, PictureOptions& option
 }
 
 Snapshot section_with_water(const Snapshot& all, const CutPlane& plane, PictureOptions& options) {
-  const Snapshot section = section_of(all, plane);
+  Snapshot section = section_of(all, plane);
   add_lines(water_in_section(all.water, plane), options);
   add_lines(water_arrows_in(section, all.water), options);
   return section;
