@@ -108,15 +108,22 @@ private:
       if (corner == 3)
         continue;
       if (!asked)
-        find_around(x, k);
+        find_around(node, x, k);
       asked = true;
       if (!around_.empty())
         add_spring(own.triangles[i], corner, targets_[i], tets_[i]);
     }
   }
 
-  // Fills around_ for all semi-springs at the corner, and near_.
-  void find_around(const std::array<Vec3, 4>& x, int k) {
+  // Fills around_ for all semi-springs at the corner, and near_. What hangs together with the tetrahedron there is left out.
+  void find_around(int node, const std::array<Vec3, 4>& x, int k) {
+    const Pairs::const_iterator hanging = work_.first_at_joint(node), end = work_.movers_at_joint.end();
+    const auto hangs = [&](int mover) {
+      for (auto at = hanging; at != end && at->first == hanging->first; ++at)
+        if (at->second == mover)
+          return true;
+      return false;
+    };
     double drawn = 0; // m, of the semi-springs from the corner, at most
     for (const Vec3& other : x)
       drawn = std::max(drawn, 2 * drawn_in * (other - x[k]).norm());
@@ -140,7 +147,8 @@ private:
       if (outside >
           (both_tets(solid.mover) ? near : std::max(near, 3 * skins(solid.mover) + slack(solid.mover))))
         return;
-      if (!both_tets(solid.mover)) // else the narrow phase goes by the pair
+      if (!both_tets(solid.mover) &&
+          !(solid.mover != mover_ && hangs(solid.mover))) // else the narrow phase goes by the pair
         around_.push_back({solid.mover, i, outside});
       if (solid.mover != mover_ && met_[solid.mover] != own_) {
         met_[solid.mover] = own_;
@@ -168,11 +176,6 @@ private:
     const Vec3 spring = weighted(all_.active.facets[source].x, spring_weights(corner));
     for (std::size_t begin = 0, end = 0; begin < around_.size(); begin = end) {
       const int of = around_[begin].mover;
-      if (of != mover_ && work_.hangs_at(triangle(source).nodes[corner], of)) {
-        while (end < around_.size() && around_[end].mover == of)
-          ++end;
-        continue;
-      }
       const double near = skins(of);
       double least = std::numeric_limits<double>::infinity();
       for (; end < around_.size() && around_[end].mover == of; ++end) {

@@ -181,9 +181,13 @@ struct ContactWork {
   // at each: (joint, mover), sorted. Where they do, nothing of one is in contact with the other.
   std::vector<int> joint;
   std::vector<std::pair<int, int>> movers_at_joint;
-  bool hangs_at(int node, int mover) const { // the tetrahedra of the node with a mover
-    return !joint.empty() &&
-           std::binary_search(movers_at_joint.begin(), movers_at_joint.end(), std::pair(joint[node], mover));
+  std::vector<std::pair<int, int>>::const_iterator
+  first_at_joint(int node) const { // of movers_at_joint; its end: none
+    if (joint.empty())
+      return movers_at_joint.end();
+    const auto first =
+        std::lower_bound(movers_at_joint.begin(), movers_at_joint.end(), std::pair(joint[node], 0));
+    return first != movers_at_joint.end() && first->first == joint[node] ? first : movers_at_joint.end();
   }
   std::vector<char>
       active; // per triangle: 1 outside, or its face has a broken bond; 2 its face is left to contact; else 0
