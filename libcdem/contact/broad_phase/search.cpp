@@ -110,14 +110,20 @@ void start_contact(const Model& model, ContactWork& work) {
 
 namespace {
 
-// Leaves out, where only fragments of one of two blocks are searched, the other fragments of that block.
-void leave_out_known(const ActiveSurface& active, const Renewed& renewed, SharedPart& part) {
+// Leaves out, where only fragments of one of two blocks are searched, the other fragments of that block. The edge of a
+// wedge that two fragments make stands at one of them and is searched with either.
+void leave_out_known(const ContactWork& work, const ActiveSurface& active, const Renewed& renewed,
+                     SharedPart& part) {
   if (renewed.all || (renewed.blocks[part.block_a] && renewed.blocks[part.block_b]))
     return;
+  const auto known = [&](int place) {
+    const int t = active.triangles[place];
+    const auto edges = renewed.edges.begin();
+    return !active.searched[place] && std::find(edges + work.edge_begin[t], edges + work.edge_begin[t + 1],
+                                                1) == edges + work.edge_begin[t + 1];
+  };
   std::vector<int>& of_searched = renewed.blocks[part.block_a] ? part.of_a : part.of_b;
-  of_searched.erase(std::remove_if(of_searched.begin(), of_searched.end(),
-                                   [&](int place) { return !active.searched[place]; }),
-                    of_searched.end());
+  of_searched.erase(std::remove_if(of_searched.begin(), of_searched.end(), known), of_searched.end());
 }
 
 // The same for pairs of two blocks of which only some fragments are searched.
@@ -248,7 +254,7 @@ bool search_contacts(const Model& model, const State& state, ContactWork& work, 
     if (!model.blocks[a].meshed || !model.blocks[b].meshed)
       return;
     SharedPart part = shared_part(active, a, b, skins);
-    leave_out_known(active, renewed, part);
+    leave_out_known(work, active, renewed, part);
     if (!contact_joint(model, a, b)) {
       try {
         may_go[place] = require_apart(model, active, meeting(margins, active, part));

@@ -28,10 +28,9 @@ struct Nearest {
   geom::Vec3 from = geom::Vec3::Zero();    // m, the spring from the place
   bool in_tet = false;                     // the spring is in a tet of the fragment
 
-  // A place within a triangle must be under that one, too: pushed out along its normal, what is over it would go further.
-  bool inside() const {
-    return target >= 0 && (in_tet || (outward.dot(from) < 0 && (!at.inside || height < 0)));
-  }
+  // It is behind the target, too: pushed out, what is over it would go further. From within a closed surface the nearest
+  // place is on no edge but one that is turned in, and the spring is behind both triangles there.
+  bool inside() const { return target >= 0 && (in_tet || (outward.dot(from) < 0 && height < 0)); }
 };
 
 // rad, that the triangle fills around a place of it.
@@ -55,9 +54,15 @@ inline Nearest nearest_of(int target, const geom::Vec3& spring, const Corners& x
   return found;
 }
 
+enum class Taken : std::uint8_t {
+  no,
+  beside,
+  instead
+}; // one place with the nearest before; nearer than that
+
 // size: m, of the tets there; bonded: bonds may part their edges.
-inline void take_nearer(Nearest& nearest, Nearest other, const Corners& x, const geom::Vec3& normal,
-                        double size, bool bonded) {
+inline Taken take_nearer(Nearest& nearest, Nearest other, const Corners& x, const geom::Vec3& normal,
+                         double size, bool bonded) {
   const double further = std::sqrt(std::max(nearest.distance2, other.distance2));
   const double apart = further - std::sqrt(std::min(nearest.distance2, other.distance2));
   double reach = same_place * further + (bonded ? bond_gives : same_place_at_least) * size;
@@ -69,7 +74,7 @@ inline void take_nearer(Nearest& nearest, Nearest other, const Corners& x, const
   const bool one_place = nearest.target >= 0 && (on_edges || !bonded) &&
                          (other.place - nearest.place).squaredNorm() <= reach * reach;
   if (!one_place && nearest.target >= 0 && other.distance2 >= nearest.distance2)
-    return;
+    return Taken::no;
   other.outward = angle_at(other.at, x) * normal;
   if (one_place)
     other.outward += nearest.outward;
@@ -81,21 +86,23 @@ inline void take_nearer(Nearest& nearest, Nearest other, const Corners& x, const
     nearest.outward = other.outward;
   else
     nearest = other;
+  return one_place ? Taken::beside : Taken::instead;
 }
 
-// The tet that a triangle bounds, by its corner that is not the triangle's, holds the place.
-inline bool holds(const Corners& x, const geom::Vec3& apex, const geom::Vec3& place) {
+// m, that the place stands outside the tet that a triangle bounds, at least; below 0: it is inside. apex: the tet's corner
+// that is not the triangle's; height: m, over the triangle's plane.
+inline double outside_tet(const Corners& x, const geom::Vec3& apex, const geom::Vec3& place, double height) {
+  double outside = height;
   for (int i = 0; i < 3; ++i) {
     const geom::Vec3 &a = x[i], &b = x[(i + 1) % 3];
-    if ((b - a).cross(apex - a).dot(place - a) < 0)
-      return false;
+    outside = std::max(outside, (apex - a).cross(b - a).normalized().dot(place - a));
   }
-  return true;
+  return outside;
 }
 
 // The nearest place of a fragment of several tets. Both sides of a crack may be equally near to a spring, and near the
 // crack's end they belong to one fragment: then the nearest triangle does not tell on which side of the surface the spring
-// is. But a spring in one of the tets is inside, and gets out only where it is behind a triangle.
+// is. But a spring in the tet of the nearest triangle that it is behind is inside, and gets out only where it is behind one.
 struct NearestOfTets {
   Nearest of_all, behind; // behind: without triangles that the spring stands over
   bool in_tet = false;
@@ -105,9 +112,12 @@ struct NearestOfTets {
   void add(const Nearest& found, const Corners& x, const geom::Vec3& normal, double size, bool bonded,
            const geom::Vec3& spring, const Apex& apex) {
     take_nearer(of_all, found, x, normal, size, bonded);
-    if (!found.at.inside || found.height < 0)
-      take_nearer(behind, found, x, normal, size, bonded);
-    in_tet = in_tet || (found.height < 0 && holds(x, apex(), spring));
+    if (found.at.inside && found.height >= 0)
+      return;
+    const Taken taken = take_nearer(behind, found, x, normal, size, bonded);
+    if (taken != Taken::no)
+      in_tet = (taken == Taken::beside && in_tet) ||
+               (found.height < 0 && outside_tet(x, apex(), spring, found.height) <= 0);
   }
   Nearest found() const {
     if (!in_tet)
@@ -117,5 +127,22 @@ struct NearestOfTets {
     return found;
   }
 };
+
+// m, that a spring which stands outside a fragment of several tets may go, at least, before one triangle makes it stand
+// inside. The surface that it sees need not be closed: parts of the fragment that hang together elsewhere are pressed into
+// each other, cracks end in it, and what is near the spring's own triangle in its own fragment is no target. So a triangle
+// counts that the spring is behind, once it is the nearest, counts as one place with it, or its tet holds the spring. No
+// contact begins deeper than `shallow`. on: its place on that triangle; least: m, to the nearest; one_place: m, places so much
+// further off than the nearest may count as one with it.
+template <class Apex>
+double outside_until(const Nearest& on, const Corners& x, const geom::Vec3& spring, double least,
+                     double one_place, double shallow, const Apex& apex) {
+  const double distance = std::sqrt(on.distance2), nearest = 0.5 * (distance - least - one_place),
+               behind = on.height - one_place - std::sqrt(2 * distance * one_place),
+               known = std::max(0.5 * (distance - shallow), behind);
+  if (known >= nearest)
+    return known;
+  return std::max(known, std::min(nearest, 0.5 * outside_tet(x, apex(), spring, on.height)));
+}
 
 } // namespace cdem

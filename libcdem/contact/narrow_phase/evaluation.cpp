@@ -92,7 +92,8 @@ namespace {
 struct Distances {
   double least = std::numeric_limits<double>::infinity(), second = least; // m
   double tet = 0;                                                         // m, the highest behind a target
-  int target = -1;                                                        // the nearest
+  double asleep = least; // m, until the first of those that sleep is looked at again
+  int target = -1;       // the nearest
 
   void add(double distance, int of, double height) {
     tet = std::max(tet, height);
@@ -103,9 +104,10 @@ struct Distances {
     }
   }
   // A target that sleeps is at least so far off.
-  void add_asleep(double distance, double height) {
+  void add_asleep(double distance, double sleeps, double height) {
     tet = std::max(tet, height);
     second = std::min(second, distance);
+    asleep = std::min(asleep, sleeps);
   }
 };
 
@@ -175,6 +177,8 @@ void Evaluation::find_nearest(ContactRow& row, ContactCandidate* candidates, boo
   const bool of_tets = of_several_tets(model_, work_, row.mover);
   std::array<NearestOfTets, 3> of_surface;
   std::array<Distances, 3> distances;
+  for (std::vector<Nearest>& each : awake_)
+    each.clear();
   float recheck_distance = std::numeric_limits<float>::infinity();
   for (std::uint32_t i = row.begin; i < row.begin + row.count; ++i) {
     ContactCandidate& candidate = candidates[i];
@@ -184,7 +188,8 @@ void Evaluation::find_nearest(ContactRow& row, ContactCandidate* candidates, boo
       recheck_distance = std::min(recheck_distance, candidate.recheck_distance);
       for (int corner = 0; corner < 3; ++corner)
         if (candidate.springs >> corner & 1u)
-          distances[corner].add_asleep(row.reach + candidate.recheck_distance - moved, triangle.height);
+          distances[corner].add_asleep(row.reach + candidate.recheck_distance - moved,
+                                       candidate.recheck_distance - moved, triangle.height);
       continue;
     }
     const Facet& y = facet(target);
@@ -201,8 +206,13 @@ void Evaluation::find_nearest(ContactRow& row, ContactCandidate* candidates, boo
       }
       of_surface[corner].add(found, y.x, y.normal, triangle.height, bonded, spring[corner],
                              [&] { return apex_of(model_, state_, triangle); });
+      awake_[corner].push_back(found);
     }
-    candidate.recheck_distance = rounded_down(from + std::max(0.0, std::sqrt(least2) - row.reach));
+    // It sleeps no longer than it is too far off to count as one place with what a contact may begin at.
+    const double one_place =
+        (bonded ? bond_gives : same_place_at_least) * triangle.height + 4 * same_place * row.reach;
+    candidate.recheck_distance =
+        rounded_down(from + std::max(0.0, std::sqrt(least2) - row.reach - one_place));
     recheck_distance = std::min(recheck_distance, candidate.recheck_distance);
   }
   row.recheck_distance = recheck_distance;
@@ -228,9 +238,26 @@ void Evaluation::find_nearest(ContactRow& row, ContactCandidate* candidates, boo
       // What is outside gets in through the surface, which is closed.
       row.known_target[corner] = -1;
       until = least - 4 * one_place;
+      for (const Nearest& on : awake_[corner]) {
+        if (until <= 0)
+          break;
+        const Corners& x = facet(on.target).x;
+        until = std::min(until, outside_until(on, x, spring[corner], least, one_place, row.reach, [&] {
+                           return apex_of(model_, state_, surface_.triangles[on.target]);
+                         }));
+      }
+      if (of_tets)
+        until = std::min(until, d.asleep);
     }
     row.known_until[corner] = rounded_down(from + std::max(0.0, until));
   }
+}
+
+// What is deep and was no contact before has come there by no motion, as at the mouth of a crack. Steps with some asleep do
+// not see it: it would begin where a search happens to be.
+double Evaluation::begins_at(int source_mover, int mover, double shallow) const {
+  const bool any_depth = work_.any_depth_begins || work_.changed[source_mover] || work_.changed[mover];
+  return any_depth ? std::numeric_limits<double>::infinity() : shallow;
 }
 
 double Evaluation::narrow_phase(ContactRow& row, ContactCandidate* candidates, bool all) {
@@ -253,8 +280,6 @@ double Evaluation::narrow_phase(ContactRow& row, ContactCandidate* candidates, b
       if (row.known_target[corner] >= 0 && !held_by_face(row.source, row.known_target[corner]))
         nearest[corner] = nearest_on(row.known_target[corner], spring[corner], bonded);
   }
-  const bool any_depth =
-      work_.any_depth_begins || work_.changed[row.source_mover] || work_.changed[row.mover];
   double deepest2 = 0;
   // A row sleeps as long as none of its springs has a contact, can begin one, or may have another target.
   const auto sleep = [&](int corner) { sleeps = std::min(sleeps, row.known_until[corner]); };
@@ -284,11 +309,8 @@ double Evaluation::narrow_phase(ContactRow& row, ContactCandidate* candidates, b
       sleep_without_contact();
       continue;
     }
-    // What is deep and was no contact before has come there by no motion, as at the mouth of a crack. Steps with some
-    // asleep do not see it: it would begin where a search happens to be.
-    const double begins = shallow + ways;
-    const bool may_begin = any_depth || found.distance2 <= begins * begins;
-    if (add_contact(row.source, corner, spring[corner], work_.fragment[found.target], found, may_begin)) {
+    if (add_contact(row.source, corner, spring[corner], work_.fragment[found.target], found,
+                    begins_at(row.source_mover, row.mover, shallow))) {
       deepest2 = std::max(deepest2, found.distance2);
       sleeps = 0;
     } else {
@@ -318,7 +340,7 @@ bool Evaluation::edge_carries_at(int source, int corner, const geom::Vec3& sprin
 }
 
 bool Evaluation::add_contact(int source, int corner, const geom::Vec3& spring, int fragment,
-                             const Nearest& nearest, bool may_begin) {
+                             const Nearest& nearest, double begins) {
   const ContactTriangle &from = surface_.triangles[source], &to = surface_.triangles[nearest.target];
   const double depth = std::sqrt(nearest.distance2);
   // The two sides of a face that has broken and not yet parted are held by its own springs.
@@ -328,7 +350,8 @@ bool Evaluation::add_contact(int source, int corner, const geom::Vec3& spring, i
   c.fragment = fragment;
   c.target = nearest.target;
   const Contact* const old = before(c);
-  if (!old && !may_begin)
+  const ContactArms arms = spring_arms(model_, state_, from, corner, to, nearest.at.weights);
+  if (!old && depth > begins && depth > begins + work_.step * velocity_past(state_, arms).norm())
     return false;
   const Facet& y = facet(nearest.target);
   ContactMotion motion;
@@ -348,7 +371,7 @@ bool Evaluation::add_contact(int source, int corner, const geom::Vec3& spring, i
   // It keeps the stiffness with which it began: under another triangle of the target its energy would jump.
   c.stiffness = old ? old->stiffness : law.kn;
   law = as_stiff_as(c, law);
-  finish(c, old, motion, spring_arms(model_, state_, from, corner, to, nearest.at.weights), law, from, to);
+  finish(c, old, motion, arms, law, from, to);
   return true;
 }
 

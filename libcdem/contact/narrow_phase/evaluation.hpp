@@ -44,6 +44,8 @@ private:
                        int target) const;
   void go_to(int source); // what stood at it before
   const Contact* before(const Contact&) const;
+  // m, as `begins` of add_contact: infinite where what is found may have been there unseen.
+  double begins_at(int source_mover, int mover, double shallow) const;
   double narrow_phase(ContactRow&, ContactCandidate*, bool all); // returns how deep the deepest is, m
   using Springs = std::array<geom::Vec3, 3>;                     // where the three of a source are, m
   // All of them stand outside a fragment that is a single tet, or outside the other block of a rigid pair, and so they
@@ -55,9 +57,10 @@ private:
   // The nearest places of one fragment to them, of all targets that do not sleep.
   void find_nearest(ContactRow&, ContactCandidate*, bool all, const Springs&, std::array<Nearest, 3>&);
   Nearest nearest_on(int target, const geom::Vec3& spring, bool bonded);
-  // may_begin: even if it was no contact before. False where it is none.
+  // begins: m, what was no contact before begins no deeper than that and the way of the step at its place. False where it
+  // is none.
   bool add_contact(int source, int corner, const geom::Vec3& spring, int fragment, const Nearest&,
-                   bool may_begin);
+                   double begins);
   void add_contact(int source, int target, const NearestOfEdges&, const EdgeTouch&, bool may_begin);
   // Stores what the old one did before the step. Returns it, J: it is booked as lost with the old one, and is not.
   double take_over(Contact&, const Contact& old, const ContactLaw&, const ContactMotion&) const;
@@ -85,6 +88,8 @@ private:
   EdgeLines lines_;
   std::vector<Contact>::const_iterator old_; // the first contact of the row's source or a later one
   Law law_;
+  std::array<std::vector<Nearest>, 3>
+      awake_; // of a row's semi-springs: their places on the targets that were looked at
   std::array<int, 2> own_triangles_{}; // of this rank, of single tetrahedra: [first, last)
   std::array<Facet, 4> facets_;        // by the last two bits of a triangle's number
   std::array<int, 4> facet_of_{-1, -1, -1, -1};

@@ -149,11 +149,11 @@ double Evaluation::spring_in_tet(int source_mover, int mover, int source, int co
   const double waits = std::max(0.0, 0.5 * (std::sqrt(found.distance2) - shallow));
   if (found.distance2 > covered * covered)
     return waits;
-  const double begins = shallow + work_.last_displacement[source_mover] + work_.last_displacement[mover];
-  const bool may_begin = work_.any_depth_begins || work_.changed[source_mover] || work_.changed[mover] ||
-                         found.distance2 <= begins * begins;
   old_ = state_.contacts.begin() + work_.tet_pairs->contact_begin[source];
-  return add_contact(source, corner, spring, work_.fragment[found.target], found, may_begin) ? 0 : waits;
+  return add_contact(source, corner, spring, work_.fragment[found.target], found,
+                     begins_at(source_mover, mover, shallow))
+             ? 0
+             : waits;
 }
 
 } // namespace cdem
