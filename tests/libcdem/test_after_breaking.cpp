@@ -203,10 +203,14 @@ TEST_CASE("after breaking: a body breaks on a floor, its pieces land and come to
   };
   const double off_in_flight = off();
   const int flying = pieces(s);
-  options.duration = 1;        // the last piece rocks on its edge for 0.4 to 0.7 s, by how it has broken
-  options.local_damping = 0.5; // so that it does not take seconds
-  s.run(options);
-  const double kinetic = cdem::energy(s.model, s.state).kinetic;
+  // The last piece rocks on its edge, for less than a second or for four, by how the body has broken.
+  options.duration = 0.5;
+  options.local_damping = 0.5; // so that it does not take longer
+  double kinetic = before;
+  for (int half_second = 0; half_second < 14 && kinetic > 1e-12 * before; ++half_second) {
+    s.run(options);
+    kinetic = cdem::energy(s.model, s.state).kinetic;
+  }
   INFO("pieces " << flying << " and " << pieces(s) << ", energy off by " << off_in_flight << " and " << off()
                  << ", deepest " << deepest << ", kinetic " << kinetic / before << ", lowest "
                  << lowest_node());
@@ -215,5 +219,5 @@ TEST_CASE("after breaking: a body breaks on a floor, its pieces land and come to
   CHECK(std::abs(off()) < 1e-2);
   CHECK(deepest > -0.03 * size);
   CHECK(lowest_node() > -0.005 * size);
-  CHECK(kinetic < 1e-3 * before);
+  CHECK(kinetic < 1e-12 * before);
 }
