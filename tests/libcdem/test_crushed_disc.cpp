@@ -105,11 +105,10 @@ TEST_CASE("crushed disc: what is skipped changes no bit where semi-springs stand
 // Behind the ends of its many cracks a piece of a cohesive body does not see a closed surface.
 TEST_CASE("crushed disc: what is skipped changes no bit of a cohesive disc",
           "[contact][cohesive][fracture]") {
-  const auto [size, turn] = GENERATE(std::pair(0.013, 0.1), std::pair(0.015, 0.7));
+  const double size = 0.013, turn = 0.1;
   const cdem::ModelSpec spec = between_plates(size, turn, cdem::BondKind::cohesive);
   const Outcome all = crush(spec, 0, 6, 400), skipped = crush(spec, 6, 6, 400);
-  INFO("size " << size << " broken " << all.broken << " contacts " << all.contacts << " and "
-               << skipped.contacts);
+  INFO("broken " << all.broken << " contacts " << all.contacts << " and " << skipped.contacts);
   CHECK(all.broken > 200);
   for (std::size_t stage = 0; stage < all.hashes.size(); ++stage) {
     INFO("stage " << stage);

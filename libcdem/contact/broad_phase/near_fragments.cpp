@@ -99,9 +99,11 @@ private:
 
   double shallow() const { return work_.shallow[work_.movers.block[mover_]]; } // m
   // m, so far outside all tetrahedra of a fragment a spring may stand and yet come to be behind the nearest of its
-  // triangles, where its surface is not closed: by no more than its depth.
+  // triangles: behind a closed surface by no more than bonds give, else by its depth.
   double gate(int of) const {
-    return is_single_tet(all_.model, work_, of) ? skins(of) : 3 * skins(of) + shallow() + slack(of);
+    return is_single_tet(all_.model, work_, of) ? skins(of)
+           : of == mover_                       ? 3 * skins(of) + shallow()
+                                                : skins(of) + slack(of);
   }
 
   void add_corner(const Solid& own, int k, const std::array<Vec3, 4>& x) {

@@ -93,7 +93,8 @@ private:
     const geom::Vec3 spring = nearest.place + nearest.from;
     for (std::size_t i = begin; i < end; ++i) {
       const int target = pairs[i].second;
-      if (distance_[i - begin][corner] > std::max(least, shallow) + 2 * skins)
+      if (distance_[i - begin][corner] > std::max(least, shallow) + 2 * skins ||
+          !open_at(model_, work_, active_.triangles[pairs[begin].first], active_.triangles[target]))
         continue;
       const Facet& to = active_.facets[target];
       const Nearest on = nearest_of(target, spring, to.x, to.normal);

@@ -179,17 +179,19 @@ void Evaluation::find_nearest(ContactRow& row, ContactCandidate* candidates, boo
   std::array<Distances, 3> distances;
   for (std::vector<Nearest>& each : awake_)
     each.clear();
+  constexpr double infinity = std::numeric_limits<double>::infinity();
   float recheck_distance = std::numeric_limits<float>::infinity();
   for (std::uint32_t i = row.begin; i < row.begin + row.count; ++i) {
     ContactCandidate& candidate = candidates[i];
     const auto target = static_cast<int>(candidate.target);
     const ContactTriangle& triangle = surface_.triangles[target];
+    const bool open = of_tets && open_at(model_, work_, row.source, target);
     if (!all && moved < candidate.recheck_distance) {
       recheck_distance = std::min(recheck_distance, candidate.recheck_distance);
       for (int corner = 0; corner < 3; ++corner)
         if (candidate.springs >> corner & 1u)
           distances[corner].add_asleep(row.reach + candidate.recheck_distance - moved,
-                                       candidate.recheck_distance - moved, triangle.height);
+                                       open ? candidate.recheck_distance - moved : infinity, triangle.height);
       continue;
     }
     const Facet& y = facet(target);
@@ -206,7 +208,8 @@ void Evaluation::find_nearest(ContactRow& row, ContactCandidate* candidates, boo
       }
       of_surface[corner].add(found, y.x, y.normal, triangle.height, bonded, spring[corner],
                              [&] { return apex_of(model_, state_, triangle); });
-      awake_[corner].push_back(found);
+      if (open)
+        awake_[corner].push_back(found);
     }
     // It sleeps no longer than it is too far off to count as one place with what a contact may begin at.
     const double one_place =
@@ -235,9 +238,9 @@ void Evaluation::find_nearest(ContactRow& row, ContactCandidate* candidates, boo
       if (d.target == nearest[corner].target)
         until = 0.5 * (d.second * (1 - 4 * same_place) - least - one_place);
     } else {
-      // What is outside gets in through the surface, which is closed.
+      // What is outside gets in through the surface, where it is closed.
       row.known_target[corner] = -1;
-      until = least - 4 * one_place;
+      until = std::min(least - 4 * one_place, d.asleep);
       for (const Nearest& on : awake_[corner]) {
         if (until <= 0)
           break;
@@ -246,8 +249,6 @@ void Evaluation::find_nearest(ContactRow& row, ContactCandidate* candidates, boo
                            return apex_of(model_, state_, surface_.triangles[on.target]);
                          }));
       }
-      if (of_tets)
-        until = std::min(until, d.asleep);
     }
     row.known_until[corner] = rounded_down(from + std::max(0.0, until));
   }
