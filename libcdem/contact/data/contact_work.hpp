@@ -200,6 +200,8 @@ struct ContactWork {
   std::vector<char> broken;       // per block: some of its faces have
   std::vector<ContactEdge> edges; // of surfaces as they are now, by id
   std::vector<int> edge_begin;    // (n_triangles + 1) into edges, by their first triangle
+  // Per triangle and side of it, from its corner to the next: the triangle beyond the edge there; -1: no edge.
+  std::vector<std::array<int, 3>> beyond_edge;
   // Per edge: where the edges of its fragment that meet at its two ends begin in edges_at.
   std::vector<std::array<int, 2>> edge_ends;
   std::vector<int> edges_at; // by end, each list closed by -1

@@ -25,12 +25,12 @@ struct Linear {
   double operator()(double x) const { return at_0 + slope * x; }
 };
 
-// Area and moment of the positive part of linear functions.
+// Area and moment of the positive part of functions that are linear between two places.
 struct Positive {
   double area = 0, moment = 0;
 
-  void add(const Linear& f, double from, double to) {
-    double a = f(from), b = f(to);
+  void add(std::array<double, 2> at_ends, double from, double to) {
+    auto& [a, b] = at_ends;
     if (a <= 0 && b <= 0)
       return;
     if (a < 0) {
@@ -46,9 +46,78 @@ struct Positive {
   }
 };
 
+// The wedge behind an edge, seen along the edge: unit vectors along its two faces, and the outward normals of the two.
+struct Wedge {
+  std::array<geom::Vec3, 2> face, outward;
+};
+
+Wedge wedge_of(const std::array<geom::Vec3, 2>& into, const geom::Vec3& along) {
+  Wedge w;
+  for (int i = 0; i < 2; ++i)
+    w.face[i] = (into[i] - into[i].dot(along) * along).normalized();
+  for (int i = 0; i < 2; ++i)
+    w.outward[i] = (w.face[i].dot(w.face[1 - i]) * w.face[i] - w.face[1 - i]).normalized();
+  return w;
+}
+
+// m, how deep the tip of each wedge lies under the two faces of the other. way: m, from the tip of e to that of f.
+struct TipDepths {
+  std::array<Linear, 2> of_e, of_f;
+
+  TipDepths(const Wedge& e, const Wedge& f, const geom::Vec3& way, const geom::Vec3& turns) {
+    for (int i = 0; i < 2; ++i) {
+      of_e[i] = {way.dot(f.outward[i]), turns.dot(f.outward[i])};
+      of_f[i] = {-way.dot(e.outward[i]), -turns.dot(e.outward[i])};
+    }
+  }
+  // Of the tip that lies deeper in the other wedge, under the nearer face of that.
+  double at(double x) const {
+    return std::max(std::min(of_e[0](x), of_e[1](x)), std::min(of_f[0](x), of_f[1](x)));
+  }
+  // Between these places the depth under the nearer face is linear (ascending).
+  std::array<double, 8> breaks(double from, double to) const {
+    std::array<double, 8> places{from, to};
+    const std::array<Linear, 4> all{of_e[0], of_e[1], of_f[0], of_f[1]};
+    std::size_t n = 2;
+    for (int i = 0; i < 4; ++i)
+      for (int j = 0; j < i; ++j) {
+        const double slope = all[i].slope - all[j].slope;
+        const double x = slope == 0 ? from : (all[j].at_0 - all[i].at_0) / slope;
+        places[n++] = std::clamp(x, from, to);
+      }
+    std::sort(places.begin(), places.end());
+    return places;
+  }
+};
+
+// The direction along which the overlap of two wedges shrinks the fastest: at right angles to the line between the two
+// points where their outlines cross (Feng and Owen 2004, Eng. Comput. 21, 265-277: their potential is the area of the
+// overlap). It lies in the fans of both, whatever the angles of the wedges. between: on its side.
+geom::Vec3 parting(const Wedge& e, const Wedge& f, const geom::Vec3& way, const geom::Vec3& along,
+                   const geom::Vec3& between) {
+  std::optional<geom::Vec3> first;
+  geom::Vec3 chord = geom::Vec3::Zero();
+  for (const geom::Vec3& r : e.face)
+    for (const geom::Vec3& g : f.face) {
+      const double sine = along.dot(r.cross(g)), s = along.dot(way.cross(g)) / sine,
+                   t = along.dot(way.cross(r)) / sine;
+      if (!(s >= 0 && t >= 0) || !std::isfinite(s + t))
+        continue;
+      const geom::Vec3 crossing = s * r;
+      if (!first)
+        first = crossing;
+      else if ((crossing - *first).squaredNorm() > chord.squaredNorm())
+        chord = crossing - *first;
+    }
+  const geom::Vec3 normal = along.cross(chord);
+  const double size = normal.norm();
+  if (!(size > 0))
+    return between;
+  return normal / (normal.dot(between) < 0 ? -size : size);
+}
+
 // Where two nearly parallel edges reach into each other, and along what normal: the middle of the stretch, each place of it
-// weighed by how far wedges of a right angle do. Such wedges that reach by d into each other and run by y beside each other
-// share the area (d^2 - y^2) / 2, so they part the most along d between - y across. None where they do not meet.
+// weighed by how deep the tip of one wedge lies in the other. None where they do not meet.
 struct Stretch {
   geom::PlacesOnSegments at;
   geom::Vec3 normal;
@@ -56,25 +125,24 @@ struct Stretch {
 };
 
 std::optional<Stretch> stretch_of(const std::array<geom::Vec3, 2>& a, const std::array<geom::Vec3, 2>& b,
-                                  const geom::Vec3& along, const geom::Vec3& between) {
+                                  const Wedge& e, const Wedge& f, const geom::Vec3& along,
+                                  const geom::Vec3& between) {
   const double length = (a[1] - a[0]).norm(), b0 = (b[0] - a[0]).dot(along), b1 = (b[1] - a[0]).dot(along);
   const double from = std::max(0.0, std::min(b0, b1)), to = std::min(length, std::max(b0, b1));
   if (!(from < to))
     return std::nullopt;
   const geom::Vec3 turns = (b[1] - b[0]) / (b1 - b0) - along, apart = b[0] - a[0] - b0 * along - b0 * turns;
-  const geom::Vec3 across = along.cross(between);
-  const Linear depth{apart.dot(between), turns.dot(between)}, aside{apart.dot(across), turns.dot(across)};
-  const double crossing = aside(from) * aside(to) < 0 ? -aside.at_0 / aside.slope : to;
+  const TipDepths depths(e, f, apart, turns);
+  const std::array<double, 8> places = depths.breaks(from, to);
   Positive inside;
-  for (const auto& [x0, x1] : {std::pair(from, crossing), std::pair(crossing, to)}) {
-    const double distance = aside(0.5 * (x0 + x1)), side = distance > 0 ? 1 : distance < 0 ? -1 : 0;
-    inside.add({depth.at_0 - side * aside.at_0, depth.slope - side * aside.slope}, x0, x1);
-  }
+  for (std::size_t i = 0; i + 1 < places.size(); ++i)
+    if (places[i] < places[i + 1])
+      inside.add({depths.at(places[i]), depths.at(places[i + 1])}, places[i], places[i + 1]);
   if (!(inside.area > 0))
     return std::nullopt;
   const double x = inside.moment / inside.area;
   return Stretch{{x / length, (x - b0) / (b1 - b0)},
-                 (between - std::clamp(aside(x) / depth(x), -1.0, 1.0) * across).normalized(),
+                 parting(e, f, apart + x * turns, along, between),
                  {(to - from) / length, (to - from) / std::abs(b1 - b0)}};
 }
 
@@ -102,9 +170,11 @@ NearestOfEdges nearest_of_edges(const Model& model, const State& state, const Co
   nearest.nearly_parallel = of_a.cross(of_b).norm() < parallel_edges * of_a.norm() * of_b.norm();
   if (nearest.nearly_parallel) {
     const geom::Vec3 along = of_a.normalized();
-    if (const auto between = normal_between(into_faces(model, state, e, a[0], a[1]),
-                                            into_faces(model, state, f, b[0], b[1]), along, clear_of_faces))
-      if (const auto stretch = stretch_of(a, b, along, *between)) {
+    const auto into_e = into_faces(model, state, e, a[0], a[1]),
+               into_f = into_faces(model, state, f, b[0], b[1]);
+    if (const auto between = normal_between(into_e, into_f, along, clear_of_faces))
+      if (const auto stretch =
+              stretch_of(a, b, wedge_of(into_e, along), wedge_of(into_f, along), along, *between)) {
         nearest.at = stretch->at;
         nearest.normal = stretch->normal;
         nearest.parts = stretch->parts;

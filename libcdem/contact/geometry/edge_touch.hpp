@@ -10,7 +10,7 @@ namespace cdem {
 
 // Two edges whose directions enclose an angle with a smaller sine are nearly parallel. Their common normal would turn with
 // every small motion, and they press on each other along a stretch: the middle of the stretch is where they touch, and the
-// normal is that between their two wedges.
+// normal is that along which their two wedges part the most.
 inline constexpr double parallel_edges = 0.01;
 // Sine of the angle by which both faces of nearly parallel edges must fall away from the normal: where faces lie flat on
 // each other, their semi-springs press and not their outlines.

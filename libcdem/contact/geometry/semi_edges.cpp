@@ -151,6 +151,19 @@ void find_lines(const Model& model, ContactWork& work) {
     }
 }
 
+void find_triangles_beyond(const ContactSurface& s, ContactWork& work) {
+  work.beyond_edge.assign(s.triangles.size(), {-1, -1, -1});
+  for (const ContactEdge& e : work.edges) {
+    const auto [first, second] = e.triangles;
+    work.beyond_edge[first][e.corner] = second;
+    const geom::Triangle& nodes = s.triangles[second].nodes;
+    for (int corner = 0; corner < 3; ++corner) // there it runs the other way
+      if (s.original[nodes[corner]] == s.original[e.nodes[1]] &&
+          s.original[nodes[(corner + 1) % 3]] == s.original[e.nodes[0]])
+        work.beyond_edge[second][corner] = first;
+  }
+}
+
 } // namespace
 
 void find_semi_edges(const Model& model, const State& state, ContactWork& work) {
@@ -176,6 +189,7 @@ void find_semi_edges(const Model& model, const State& state, ContactWork& work) 
     ++work.edge_begin[e.triangles[0] + 1];
   for (std::size_t t = 0; t < s.triangles.size(); ++t)
     work.edge_begin[t + 1] += work.edge_begin[t];
+  find_triangles_beyond(s, work);
   find_ends(model, work);
   find_lines(model, work);
 }

@@ -340,6 +340,25 @@ bool Evaluation::edge_carries_at(int source, int corner, const geom::Vec3& sprin
          lines_.carries_at(source, corner, spring, normal, surface_.triangles[target].block);
 }
 
+// Blocks that lie side by side never end in exactly one plane. Where a face slides over such a step, the springs of its
+// outline come to lie nearest to the side of the next block, which would stop them. They wait until they are nearest to the
+// face that they slide on.
+bool Evaluation::at_a_step(const ContactTriangle& from, const geom::Vec3& outward, const geom::Vec3& spring,
+                           const geom::Vec3& normal, int target) const {
+  for (const int beyond : work_.beyond_edge[target]) {
+    if (beyond < 0)
+      continue;
+    const ContactTriangle& face = surface_.triangles[beyond];
+    const Corners y = corners_of(model_, state_, face.nodes);
+    const geom::Vec3 over = unit_normal(y);
+    const double depth = (y[0] - spring).dot(over);
+    if (depth >= 0 && depth <= drawn_in * std::min(from.height, face.height) &&
+        outward.dot(over) < outward.dot(normal))
+      return true;
+  }
+  return false;
+}
+
 bool Evaluation::add_contact(int source, int corner, const geom::Vec3& spring, int fragment,
                              const Nearest& nearest, double begins) {
   const ContactTriangle &from = surface_.triangles[source], &to = surface_.triangles[nearest.target];
@@ -358,9 +377,10 @@ bool Evaluation::add_contact(int source, int corner, const geom::Vec3& spring, i
   ContactMotion motion;
   motion.depth = depth;
   motion.normal = nearest.at.inside || depth < 1e-9 * to.height ? y.normal : (nearest.place - spring) / depth;
-  if (!old && edge_carries_at(source, corner, spring, motion.normal, nearest.target))
-    return false;
   const Corners x = corners_of(model_, state_, from.nodes);
+  if (!old && (edge_carries_at(source, corner, spring, motion.normal, nearest.target) ||
+               at_a_step(from, unit_normal(x), spring, motion.normal, nearest.target)))
+    return false;
   const auto velocities = [&](const geom::Triangle& nodes) -> Corners {
     return {velocity_of(state_, nodes[0]), velocity_of(state_, nodes[1]), velocity_of(state_, nodes[2])};
   };

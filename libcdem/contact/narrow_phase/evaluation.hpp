@@ -42,6 +42,10 @@ private:
   // An edge through this corner of the source, into the target, carries there in a contact with the target's block.
   bool edge_carries_at(int source, int corner, const geom::Vec3& spring, const geom::Vec3& normal,
                        int target) const;
+  // A semi-spring with this outward normal of its own triangle lies beside an edge of the target, and under the face beyond
+  // the edge, which faces it better, no deeper than semi-springs stand in.
+  bool at_a_step(const ContactTriangle& from, const geom::Vec3& outward, const geom::Vec3& spring,
+                 const geom::Vec3& normal, int target) const;
   void go_to(int source); // what stood at it before
   const Contact* before(const Contact&) const;
   // m, as `begins` of add_contact: infinite where what is found may have been there unseen.

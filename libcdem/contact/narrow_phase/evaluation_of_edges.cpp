@@ -65,15 +65,21 @@ double apart_until(const Model& model, const State& state, const ContactEdge& e,
   return std::min({until[0], until[1], 0.25 * sine / turns});
 }
 
-// m. Nearly parallel edges that lie on each other in the undeformed model belong to blocks in rows, which are not to press
-// on each other across an edge: such edges stand in, as semi-springs do.
-double stands_in_by(const Model& model, const ContactEdge& e, const ContactEdge& f) {
+// Nearly parallel edges that meet tip on tip in this step stop each other. One that slides along a face and over the edge at
+// its end passes a step: the two do not meet before they reach as deep into each other as semi-springs stand in. Edges that
+// lie on each other in the undeformed model belong to blocks in rows, which are not to press on each other across an edge:
+// they do not meet before they are as far apart as that.
+bool may_begin_along(const Model& model, const ContactEdge& e, const ContactEdge& f,
+                     const NearestOfEdges& nearest, double moved_in_step) {
   const std::vector<ContactTriangle>& t = model.surface.triangles;
   const auto& x = model.node_position;
   const geom::Vec3 &a0 = x[e.nodes[0]], &a1 = x[e.nodes[1]], &b0 = x[f.nodes[0]], &b1 = x[f.nodes[1]];
   const auto at = geom::nearest_on_segments(a0, a1, b0, b1);
-  const double by = drawn_in * std::min(t[e.triangles[0]].height, t[f.triangles[0]].height);
-  return (b0 + at.t * (b1 - b0) - a0 - at.s * (a1 - a0)).norm() <= by ? by : 0;
+  const double stand_in = drawn_in * std::min(t[e.triangles[0]].height, t[f.triangles[0]].height),
+               distance = nearest.way.norm();
+  if ((b0 + at.t * (b1 - b0) - a0 - at.s * (a1 - a0)).norm() <= stand_in)
+    return distance > stand_in;
+  return distance <= 1.5 * moved_in_step || (nearest.normal && nearest.way.dot(*nearest.normal) > stand_in);
 }
 
 } // namespace
@@ -117,7 +123,7 @@ void Evaluation::edges(ContactRow& row, ContactCandidate* candidates) {
                f_ends = lines_.at_last_end(target, nearest.at.t);
     bool may_begin = distance <= limit && !e_ends && !f_ends;
     if (may_begin && nearest.nearly_parallel)
-      may_begin = distance > stands_in_by(model_, e, f);
+      may_begin = may_begin_along(model_, e, f, nearest, moved_in_step(row));
     if (apart <= 0) {
       Hindrance hindrance = hindrance_of(model_, state_, e, f, nearest.at, e_ends, f_ends);
       if (moves_as_one(e) && moves_as_one(f))
