@@ -57,9 +57,9 @@ std::optional<Contact> EdgeLines::left_behind(int e, int f, const geom::Vec3& no
   std::optional<Contact> most;
   if (contacts_ == state_.contacts.end())
     return most;
-  const std::vector<int> targets = with_those_at_ends(f);
+  const std::vector<int> targets = line_of(f);
   double most_force = -1; // N
-  for (const int from : with_those_at_ends(e))
+  for (const int from : line_of(e))
     for (const int to : targets) {
       const Contact* const old = contact_of(from, to);
       if (!old)
@@ -82,8 +82,8 @@ std::optional<Contact> EdgeLines::left_behind(int e, int f, const geom::Vec3& no
 
 bool EdgeLines::takes_over(int e, int f, const geom::Vec3& normal, int from, int to,
                            const geom::Vec3& before) const {
-  const std::vector<int> targets = with_those_at_ends(to);
-  for (const int a : with_those_at_ends(from))
+  const std::vector<int> targets = line_of(to);
+  for (const int a : line_of(from))
     for (const int b : targets) {
       if (a == b || (a == e && b == f) || contact_of(a, b))
         continue;
@@ -220,12 +220,12 @@ bool EdgeLines::nearer(int e, int f, const NearestOfEdges& here, int than_e, int
   return std::tuple(!contact_of(e, f), e, f) < std::tuple(!contact_of(than_e, than_f), than_e, than_f);
 }
 
-std::vector<int> EdgeLines::with_those_at_ends(int edge) const {
-  std::vector<int> edges{edge};
-  for (const int begin : work_.edge_ends[edge])
-    for (const int* other = &work_.edges_at[begin]; *other >= 0; ++other)
-      if (*other != edge)
-        edges.push_back(*other);
+std::vector<int> EdgeLines::line_of(int edge) const {
+  std::vector<int> edges;
+  any_of_line(edge, [&](int other, double) {
+    edges.push_back(other);
+    return false;
+  });
   return edges;
 }
 

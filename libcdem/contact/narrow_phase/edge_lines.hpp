@@ -23,8 +23,9 @@ public:
   // not, or a pair of two other edges that touch.
   std::optional<EdgeTouch> active(int e, int f, const NearestOfEdges&) const;
 
-  // The contact that the two edges, or others which meet their ends, have just left behind, as if it were that of e and f:
-  // the one that presses the most of those that these two take over.
+  // The contact that the two edges, or others which continue them, have just left behind, as if it were that of e and f: the one
+  // that presses the most of those that these two take over. An edge that only meets an end, as at the corner of a face, is
+  // another line: it would press aside.
   std::optional<Contact> left_behind(int e, int f, const geom::Vec3& normal) const;
 
   // Whether any edge that meets an end of the one, or that edge itself, had a contact before the step, and of the other.
@@ -52,7 +53,7 @@ private:
   bool goes_on(int edge, double place, int other) const;
   bool far_from_ends(int edge, double place, double distance) const;
   bool nearer(int e, int f, const NearestOfEdges&, int than_e, int than_f, const NearestOfEdges& than) const;
-  std::vector<int> with_those_at_ends(int edge) const;
+  std::vector<int> line_of(int edge) const; // that edge, and those that continue it
   // True if, among all new contacts around that of `from` and `to`, the contact of e and f has the normal most like the
   // old one.
   bool takes_over(int e, int f, const geom::Vec3& normal, int from, int to, const geom::Vec3& before) const;
