@@ -1,5 +1,6 @@
 // Contact where edges and corners meet: they carry on over nodes, and blocks in rows do not feel those across them.
 #include "libcdem/contact/contact_forces.hpp"
+#include "libcdem/contact/geometry/edge_touch.hpp"
 #include "libgeom/assembly/builders.hpp"
 #include "libgeom/assembly/edit.hpp"
 #include "tests/libcdem/boxes.hpp"
@@ -31,7 +32,101 @@ void move_upper(System& s, const Vec3& way, std::int64_t every, std::function<vo
   s.conditions.fixes.pop_back();
 }
 
+using Flat = std::array<double, 2>; // x, z
+
+// m2, of two convex polygons, their corners counter-clockwise (Sutherland and Hodgman 1974).
+double area_of_overlap(std::vector<Flat> of, const std::vector<Flat>& by) {
+  const auto left_of = [](const Flat& a, const Flat& b, const Flat& p) {
+    return (b[0] - a[0]) * (p[1] - a[1]) - (b[1] - a[1]) * (p[0] - a[0]);
+  };
+  for (std::size_t i = 0; i < by.size(); ++i) {
+    const Flat &a = by[i], &b = by[(i + 1) % by.size()];
+    std::vector<Flat> kept;
+    for (std::size_t k = 0; k < of.size(); ++k) {
+      const Flat &p = of[k], &q = of[(k + 1) % of.size()];
+      const double here = left_of(a, b, p), there = left_of(a, b, q);
+      if (here >= 0)
+        kept.push_back(p);
+      if ((here > 0 && there < 0) || (here < 0 && there > 0))
+        kept.push_back(
+            {p[0] + here / (here - there) * (q[0] - p[0]), p[1] + here / (here - there) * (q[1] - p[1])});
+    }
+    of = std::move(kept);
+  }
+  double twice = 0;
+  for (std::size_t k = 0; k < of.size(); ++k) {
+    const Flat &p = of[k], &q = of[(k + 1) % of.size()];
+    twice += p[0] * q[1] - p[1] * q[0];
+  }
+  return 0.5 * twice;
+}
+
 } // namespace
+
+TEST_CASE("contact: edges in line part along the direction in which their overlap shrinks the fastest",
+          "[contact][edges]") {
+  // Prisms tip on tip, their faces at these angles from the horizontal, the upper one moved by `shift`.
+  const auto [lower, upper] =
+      GENERATE(std::pair(Flat{45, 45}, Flat{45, 45}), std::pair(Flat{20, 60}, Flat{20, 60}),
+               std::pair(Flat{30, 70}, Flat{10, 40}), std::pair(Flat{60, 75}, Flat{60, 75}));
+  const auto triangle = [](const Flat& angles, double up, const Flat& at) -> std::vector<Flat> {
+    const auto foot = [&](double angle, double side) -> Flat {
+      return {at[0] + side * std::cos(angle * degree), at[1] - up * std::sin(angle * degree)};
+    };
+    // Those of the upper one lie opposite: turned by half a turn about the tip.
+    return {at, foot(angles[0], -up), foot(angles[1], up)};
+  };
+  for (const Flat& shift : {Flat{0, -2e-3}, Flat{-1e-3, -2e-3}, Flat{1.5e-3, -2e-3}, Flat{4e-3, -2.5e-3}}) {
+    const std::vector<Flat> below = triangle(lower, 1, {0, 0}), above = triangle(upper, -1, shift);
+    const auto area = [&](const Flat& way) {
+      std::vector<Flat> moved = above;
+      for (Flat& p : moved)
+        p = {p[0] + way[0], p[1] + way[1]};
+      return area_of_overlap(moved, below);
+    };
+    if (area({0, 0}) <= 0)
+      continue;
+    const auto prism = [](const char* name, const std::vector<Flat>& section) {
+      std::vector<Vec3> corners;
+      for (const Flat& p : section)
+        for (const double y : {0.0, 1.0})
+          corners.emplace_back(p[0], y, p[1]);
+      geom::Assembly shape;
+      shape.blocks.push_back(geom::convex_hull(corners));
+      cdem::BodySpec spec = body(name, shape);
+      spec.element = cdem::Element::rigid;
+      return spec;
+    };
+    const double apart = 1; // m: they meet by their displacement
+    std::vector<Flat> lifted = above;
+    for (Flat& p : lifted)
+      p[1] += apart;
+    System s(build({prism("lower", below), prism("upper", lifted)}, {{"lower", "upper", friction(0)}}));
+    for (int i = 0; i < static_cast<int>(s.state.displacement.size()); ++i)
+      if (block_of(s.model, i) == 1)
+        s.state.displacement[i].z = -apart;
+    const auto tip = [&](int block) {
+      for (const cdem::ContactEdge& e : s.model.surface.edges) {
+        const auto at_tip = [&](int node) {
+          const Vec3 place = cdem::place_of(s.model, s.state, node);
+          const Flat& own = block == 0 ? below[0] : above[0];
+          return std::abs(place.x() - own[0]) + std::abs(place.z() - own[1]) < 1e-9;
+        };
+        if (s.model.surface.triangles[e.triangles[0]].block == block && at_tip(e.nodes[0]) &&
+            at_tip(e.nodes[1]))
+          return e;
+      }
+      throw std::runtime_error("no edge at the tip");
+    };
+    const cdem::NearestOfEdges nearest = cdem::nearest_of_edges(s.model, s.state, tip(1), tip(0));
+    REQUIRE(nearest.normal);
+    const double small = 1e-6;
+    const Vec3 grows((area({small, 0}) - area({-small, 0})) / (2 * small), 0,
+                     (area({0, small}) - area({0, -small})) / (2 * small));
+    CAPTURE(lower[0], lower[1], upper[0], upper[1], shift[0], shift[1]);
+    CHECK((*nearest.normal + grows.normalized()).norm() < 1e-3);
+  }
+}
 
 TEST_CASE("contact: crossed edges stop each other", "[contact][edges]") {
   // Two bars, each on one of its edges, crossed: no corner of one comes near a face of the other. Between nodes, or over
