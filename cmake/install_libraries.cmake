@@ -5,7 +5,7 @@ include(CMakePackageConfigHelpers)
 # The headers that a program includes. With them go all that they include.
 set(public_headers
     libgeom/assembly/builders.hpp libgeom/assembly/discs.hpp libgeom/assembly/edit.hpp libgeom/mesh/box_mesh.hpp
-    libgeom/mesh/read_mesh.hpp libgeom/mesh/solid_mesh.hpp libgeom/mesh/tet_blocks.hpp
+    libgeom/mesh/read_mesh.hpp libgeom/meshing/solid_mesh.hpp libgeom/assembly/tet_blocks.hpp
     libgeom/placement/armour_layer.hpp libgeom/placement/drop_grid.hpp libgeom/placement/pile_measures.hpp
     libgeom/solid/armour_units.hpp libgeom/solid/read_stl.hpp libgeom/solid/solid.hpp
     libcdem/simulation.hpp

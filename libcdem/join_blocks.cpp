@@ -2,7 +2,7 @@
 
 #include "libcdem/first_model.hpp"
 #include "libgeom/core/error.hpp"
-#include "libgeom/mesh/joined_mesh.hpp"
+#include "libgeom/meshing/joined_mesh.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -6,8 +6,8 @@
 // other's sides are level with each other's lower faces.
 #pragma once
 
+#include "libgeom/mesh/triangle_distance.hpp"
 #include "libgeom/placement/pile.hpp"
-#include "libgeom/query/triangle_distance.hpp"
 
 #include <cstdint>
 #include <utility>

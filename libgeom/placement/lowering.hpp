@@ -1,7 +1,7 @@
 // Lowers one body on to others: the distance that it can move along a line before it touches them.
 #pragma once
 
-#include "libgeom/query/triangle_distance.hpp"
+#include "libgeom/mesh/triangle_distance.hpp"
 
 namespace geom {
 

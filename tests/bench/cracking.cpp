@@ -5,7 +5,7 @@
 #include "libcdem/contact/response/contact_point.hpp"
 #include "libcdem/first_model.hpp"
 #include "libgeom/mesh/box_mesh.hpp"
-#include "libgeom/mesh/solid_mesh.hpp"
+#include "libgeom/meshing/solid_mesh.hpp"
 #include "tests/bench/phases.hpp"
 
 #include <algorithm>

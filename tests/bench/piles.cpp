@@ -4,7 +4,7 @@
 #include "libcdem/contact/contact_forces.hpp"
 #include "libcdem/first_model.hpp"
 #include "libcdem/procedure/settle.hpp"
-#include "libgeom/mesh/solid_mesh.hpp"
+#include "libgeom/meshing/solid_mesh.hpp"
 #include "libgeom/placement/armour_layer.hpp"
 #include "libgeom/solid/armour_units.hpp"
 #include "tests/bench/laid_units.hpp"

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "libcdem/results/energy.hpp"
-#include "libgeom/mesh/zone_mesh.hpp"
+#include "libgeom/meshing/zone_mesh.hpp"
 #include "tests/libcdem/boxes.hpp"
 
 namespace testing {

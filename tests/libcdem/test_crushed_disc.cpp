@@ -3,7 +3,7 @@
 #include "tests/libcdem/boxes.hpp"
 
 #include "libcdem/first_model.hpp"
-#include "libgeom/mesh/solid_mesh.hpp"
+#include "libgeom/meshing/solid_mesh.hpp"
 
 #include <algorithm>
 

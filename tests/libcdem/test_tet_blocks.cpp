@@ -3,7 +3,7 @@
 #include "libcdem/load/resolve.hpp"
 #include "libcdem/results/energy.hpp"
 #include "libgeom/assembly/builders.hpp"
-#include "libgeom/mesh/tet_blocks.hpp"
+#include "libgeom/assembly/tet_blocks.hpp"
 #include "tests/libcdem/boxes.hpp"
 
 #include <catch2/catch.hpp>

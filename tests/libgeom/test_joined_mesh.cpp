@@ -2,8 +2,8 @@
 #include "libgeom/assembly/builders.hpp"
 #include "libgeom/assembly/edit.hpp"
 #include "libgeom/mesh/boundary.hpp"
-#include "libgeom/mesh/joined_mesh.hpp"
 #include "libgeom/mesh/parts.hpp"
+#include "libgeom/meshing/joined_mesh.hpp"
 
 #include <catch2/catch.hpp>
 

@@ -1,8 +1,8 @@
 // Layers of units with flat sides, and of units from a file.
 #include "libgeom/mesh/box_mesh.hpp"
-#include "libgeom/mesh/solid_mesh.hpp"
+#include "libgeom/mesh/triangle_distance.hpp"
+#include "libgeom/meshing/solid_mesh.hpp"
 #include "libgeom/placement/armour_layer.hpp"
-#include "libgeom/query/triangle_distance.hpp"
 #include "libgeom/solid/armour_units.hpp"
 #include "libgeom/solid/read_stl.hpp"
 #include "tests/vtk/temporary_folder.hpp"

@@ -1,8 +1,8 @@
 // A mesh whose tets do not all hang together is as many parts as it has sets that do.
+#include "libgeom/assembly/tet_blocks.hpp"
 #include "libgeom/mesh/boundary.hpp"
 #include "libgeom/mesh/box_mesh.hpp"
 #include "libgeom/mesh/parts.hpp"
-#include "libgeom/mesh/tet_blocks.hpp"
 
 #include <catch2/catch.hpp>
 

@@ -1,7 +1,7 @@
 // STL surfaces and mesh files: what is right comes in whole, what is wrong is named.
 #include "libgeom/core/error.hpp"
 #include "libgeom/mesh/read_mesh.hpp"
-#include "libgeom/mesh/solid_mesh.hpp"
+#include "libgeom/meshing/solid_mesh.hpp"
 #include "libgeom/solid/read_stl.hpp"
 #include "tests/libgeom/mesh_files.hpp"
 #include "tests/support/refusal.hpp"

@@ -1,6 +1,6 @@
 // Walls made of open surfaces: volumes and sides beside closed forms.
 #include "libgeom/mesh/shell_mesh.hpp"
-#include "libgeom/query/triangle_distance.hpp"
+#include "libgeom/mesh/triangle_distance.hpp"
 #include "tests/support/refusal.hpp"
 
 #include <catch2/catch.hpp>

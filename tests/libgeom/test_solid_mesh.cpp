@@ -1,8 +1,8 @@
 // Meshes of solids: they fill the solid, share faces, repeat, and failures leave nothing behind.
 #include "libgeom/core/error.hpp"
 #include "libgeom/mesh/boundary.hpp"
-#include "libgeom/mesh/solid_mesh.hpp"
 #include "libgeom/mesh/tet_quality.hpp"
+#include "libgeom/meshing/solid_mesh.hpp"
 #include "libgeom/solid/armour_units.hpp"
 #include "libgeom/solid/read_stl.hpp"
 #include "tests/vtk/temporary_folder.hpp"

@@ -2,9 +2,9 @@
 #include "libgeom/assembly/builders.hpp"
 #include "libgeom/core/error.hpp"
 #include "libgeom/mesh/boundary.hpp"
-#include "libgeom/mesh/solid_mesh.hpp"
 #include "libgeom/mesh/star_mesh.hpp"
-#include "libgeom/mesh/zone_mesh.hpp"
+#include "libgeom/meshing/solid_mesh.hpp"
+#include "libgeom/meshing/zone_mesh.hpp"
 
 #include <catch2/catch.hpp>
 

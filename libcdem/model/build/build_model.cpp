@@ -11,7 +11,7 @@
 #include "libgeom/core/error.hpp"
 #include "libgeom/core/portable.hpp"
 #include "libgeom/mesh/star_mesh.hpp"
-#include "libgeom/mesh/zone_mesh.hpp"
+#include "libgeom/meshing/zone_mesh.hpp"
 #include "libgeom/query/face_overlap.hpp"
 
 #include <cmath>

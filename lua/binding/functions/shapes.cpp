@@ -12,8 +12,8 @@
 #include "libgeom/assembly/discs.hpp"
 #include "libgeom/assembly/edit.hpp"
 #include "libgeom/assembly/join_thin.hpp"
+#include "libgeom/assembly/tet_blocks.hpp"
 #include "libgeom/core/error.hpp"
-#include "libgeom/mesh/tet_blocks.hpp"
 
 #include <algorithm>
 #include <limits>

@@ -7,7 +7,7 @@
 #include "lua/binding/schema/nearest.hpp"
 
 #include "libgeom/core/error.hpp"
-#include "libgeom/mesh/solid_mesh.hpp"
+#include "libgeom/meshing/solid_mesh.hpp"
 
 #include <Eigen/Eigenvalues>
 #include <cstdio>

@@ -1,6 +1,6 @@
 // Tetrahedra made or read by gmsh.
 #include "libgeom/mesh/read_mesh.hpp"
-#include "libgeom/mesh/solid_mesh.hpp"
+#include "libgeom/meshing/solid_mesh.hpp"
 #include "libgeom/solid/gmsh_session.hpp"
 
 #include "libgeom/core/check.hpp"

@@ -1,4 +1,4 @@
-#include "libgeom/mesh/zone_mesh.hpp"
+#include "libgeom/meshing/zone_mesh.hpp"
 
 #include "libgeom/core/check.hpp"
 #include "libgeom/mesh/boundary.hpp"

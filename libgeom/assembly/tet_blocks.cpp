@@ -1,4 +1,4 @@
-#include "libgeom/mesh/tet_blocks.hpp"
+#include "libgeom/assembly/tet_blocks.hpp"
 
 #include "libgeom/core/check.hpp"
 #include "libgeom/mesh/boundary.hpp"

@@ -1,4 +1,4 @@
-#include "libgeom/mesh/joined_mesh.hpp"
+#include "libgeom/meshing/joined_mesh.hpp"
 
 #include "libgeom/core/check.hpp"
 #include "libgeom/mesh/mesh_size.hpp"

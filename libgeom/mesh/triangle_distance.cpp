@@ -1,6 +1,6 @@
 // The least distance of two triangles that do not cut each other is between a corner of one and the other, or
 // between two edges.
-#include "libgeom/query/triangle_distance.hpp"
+#include "libgeom/mesh/triangle_distance.hpp"
 
 #include "libgeom/query/closest.hpp"
 
