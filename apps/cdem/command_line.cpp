@@ -4,7 +4,7 @@
 #include "apps/cdem/command_line/command.hpp"
 #include "apps/cdem/failure.hpp"
 #include "apps/cdem/shell/shell_files.hpp"
-#include "lua/binding/schema/nearest.hpp"
+#include "lua/binding/text/nearest.hpp"
 
 #include <CLI/CLI.hpp>
 #include <cstdio>

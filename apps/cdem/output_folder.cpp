@@ -1,7 +1,7 @@
 #include "apps/cdem/output_folder.hpp"
 
+#include "lua/binding/files/files.hpp"
 #include "lua/binding/runtime/engine.hpp"
-#include "lua/binding/runtime/files.hpp"
 
 #include <algorithm>
 #include <cctype>

@@ -1,7 +1,7 @@
 #include "apps/cdem/records.hpp"
 
-#include "lua/binding/runtime/files.hpp"
-#include "lua/binding/runtime/json.hpp"
+#include "lua/binding/files/files.hpp"
+#include "lua/binding/text/json.hpp"
 
 #include <cerrno>
 #include <cstring>

@@ -1,5 +1,5 @@
 // write_reference ANNOTATIONS PAGE: the two texts that are generated from the binding's declarations.
-#include "lua/binding/runtime/engine.hpp"
+#include "lua/binding/module/topics.hpp"
 
 #include <cstdio>
 #include <fstream>

@@ -1,8 +1,8 @@
 #include "apps/cdem/commands/script_run.hpp"
 #include "apps/cdem/output_folder.hpp"
 #include "apps/cdem/run_log.hpp"
+#include "lua/binding/files/files.hpp"
 #include "lua/binding/runtime/engine.hpp"
-#include "lua/binding/runtime/files.hpp"
 #include "tests/apps/support/child.hpp"
 
 #include <catch2/catch.hpp>

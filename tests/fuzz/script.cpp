@@ -3,9 +3,9 @@
 
 #include "libcdem/vtk/file_error.hpp"
 #include "libgeom/core/error.hpp"
+#include "lua/binding/module/module.hpp"
 #include "lua/binding/objects/pile_object.hpp"
 #include "lua/binding/runtime/engine.hpp"
-#include "lua/binding/runtime/module.hpp"
 
 #include <array>
 #include <cstdlib>

@@ -1,8 +1,8 @@
 // Runs a piece of Lua as a case script in a folder of its own.
 #pragma once
 
+#include "lua/binding/files/files.hpp"
 #include "lua/binding/runtime/engine.hpp"
-#include "lua/binding/runtime/files.hpp"
 
 #include <atomic>
 #include <filesystem>

@@ -1,5 +1,5 @@
-#include "lua/binding/runtime/module.hpp"
-#include "lua/binding/schema/topics.hpp"
+#include "lua/binding/module/module.hpp"
+#include "lua/binding/module/topics.hpp"
 #include "tests/lua/script.hpp"
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 #include "libcdem/step/errors.hpp"
-#include "lua/binding/runtime/process_pool.hpp"
+#include "lua/binding/files/process_pool.hpp"
 #include "tests/lua/script.hpp"
 
 #include <catch2/catch.hpp>

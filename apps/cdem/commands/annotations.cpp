@@ -1,6 +1,6 @@
 // cdem annotations: what an editor needs to complete and check scripts.
 #include "apps/cdem/commands/commands.hpp"
-#include "lua/binding/runtime/engine.hpp"
+#include "lua/binding/module/topics.hpp"
 
 #include <cstdio>
 

@@ -6,7 +6,7 @@
 #include "apps/cdem/failure.hpp"
 #include "apps/cdem/interrupt.hpp"
 #include "apps/cdem/memory.hpp"
-#include "lua/binding/schema/topics.hpp"
+#include "lua/binding/module/topics.hpp"
 
 #include <cstdio>
 #include <cstdlib>

@@ -2,8 +2,8 @@
 #include "apps/cdem/commands/script_run.hpp"
 #include "apps/cdem/failure.hpp"
 #include "apps/cdem/run_log.hpp"
+#include "lua/binding/files/files.hpp"
 #include "lua/binding/replay/led.hpp"
-#include "lua/binding/runtime/files.hpp"
 
 namespace cdem::app {
 

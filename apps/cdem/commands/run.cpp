@@ -10,8 +10,8 @@
 #include "apps/cdem/records.hpp"
 #include "libcdem/ranks/ranks.hpp"
 #include "libgeom/core/plain_reason.hpp"
+#include "lua/binding/files/sources.hpp"
 #include "lua/binding/replay/led.hpp"
-#include "lua/binding/runtime/sources.hpp"
 
 #include <csignal>
 #include <cstdio>

@@ -3,7 +3,7 @@
 #include "apps/cdem/failure.hpp"
 #include "apps/cdem/text.hpp"
 #include "libgeom/core/regular_file.hpp"
-#include "lua/binding/schema/nearest.hpp"
+#include "lua/binding/text/nearest.hpp"
 
 #include <algorithm>
 #include <cerrno>

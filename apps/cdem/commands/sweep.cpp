@@ -13,11 +13,11 @@
 #include "apps/cdem/text.hpp"
 #include "libcdem/step/errors.hpp"
 #include "libgeom/core/plain_reason.hpp"
-#include "lua/binding/runtime/csv.hpp"
-#include "lua/binding/runtime/files.hpp"
-#include "lua/binding/runtime/process_pool.hpp"
-#include "lua/binding/runtime/sources.hpp"
-#include "lua/binding/schema/nearest.hpp"
+#include "lua/binding/files/files.hpp"
+#include "lua/binding/files/process_pool.hpp"
+#include "lua/binding/files/sources.hpp"
+#include "lua/binding/text/csv.hpp"
+#include "lua/binding/text/nearest.hpp"
 
 #include <algorithm>
 #include <cstdio>

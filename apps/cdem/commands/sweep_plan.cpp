@@ -4,10 +4,10 @@
 #include "apps/cdem/records.hpp"
 #include "apps/cdem/run_log.hpp"
 #include "apps/cdem/text.hpp"
-#include "lua/binding/runtime/csv.hpp"
-#include "lua/binding/runtime/files.hpp"
-#include "lua/binding/runtime/sources.hpp"
-#include "lua/binding/schema/nearest.hpp"
+#include "lua/binding/files/files.hpp"
+#include "lua/binding/files/sources.hpp"
+#include "lua/binding/text/csv.hpp"
+#include "lua/binding/text/nearest.hpp"
 
 #include <algorithm>
 #include <fstream>

@@ -6,9 +6,9 @@
 #include "apps/cdem/failure.hpp"
 #include "apps/cdem/quoted.hpp"
 #include "apps/cdem/run_log.hpp"
+#include "lua/binding/files/files.hpp"
+#include "lua/binding/files/sources.hpp"
 #include "lua/binding/replay/led.hpp"
-#include "lua/binding/runtime/files.hpp"
-#include "lua/binding/runtime/sources.hpp"
 
 #include <algorithm>
 #include <cstdio>

@@ -1,6 +1,6 @@
 // Armour units by mass or height, and the slope they lie on.
+#include "lua/binding/module/module.hpp"
 #include "lua/binding/objects/solid_objects.hpp"
-#include "lua/binding/runtime/module.hpp"
 
 #include "libgeom/core/error.hpp"
 #include "libgeom/solid/armour_units.hpp"

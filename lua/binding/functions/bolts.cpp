@@ -1,8 +1,8 @@
 // Bolts and cables in scripts.
 #include "lua/binding/functions/radians_given.hpp"
 #include "lua/binding/functions/solving_warnings.hpp"
-#include "lua/binding/objects/model_object.hpp"
-#include "lua/binding/runtime/module.hpp"
+#include "lua/binding/module/module.hpp"
+#include "lua/binding/session/model_object.hpp"
 
 #include "libgeom/core/error.hpp"
 

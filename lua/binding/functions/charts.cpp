@@ -1,8 +1,8 @@
 // Line charts: of a model's histories, and of any lists.
 #include "lua/binding/functions/picture_fields.hpp"
-#include "lua/binding/objects/model_object.hpp"
-#include "lua/binding/runtime/module.hpp"
-#include "lua/binding/schema/nearest.hpp"
+#include "lua/binding/module/module.hpp"
+#include "lua/binding/session/model_object.hpp"
+#include "lua/binding/text/nearest.hpp"
 
 #include "libcdem/vtk/chart.hpp"
 #include "libgeom/core/error.hpp"

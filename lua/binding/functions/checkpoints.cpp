@@ -1,8 +1,8 @@
 // Checkpoints of a run, and states that other scripts start from.
 #include "lua/binding/functions/picture_fields.hpp"
-#include "lua/binding/objects/model_object.hpp"
+#include "lua/binding/module/module.hpp"
 #include "lua/binding/replay/led.hpp"
-#include "lua/binding/runtime/module.hpp"
+#include "lua/binding/session/model_object.hpp"
 
 #include "libcdem/checkpoint/file.hpp"
 #include "libgeom/core/error.hpp"

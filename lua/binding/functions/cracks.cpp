@@ -1,6 +1,6 @@
 // Results of fracture: area and energy of cracks, their tip and speed.
-#include "lua/binding/objects/model_object.hpp"
-#include "lua/binding/runtime/module.hpp"
+#include "lua/binding/module/module.hpp"
+#include "lua/binding/session/model_object.hpp"
 
 #include "libcdem/material/wave_speeds.hpp"
 #include "libgeom/core/error.hpp"

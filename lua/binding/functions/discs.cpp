@@ -3,8 +3,8 @@
 
 #include "lua/binding/functions/angles.hpp"
 #include "lua/binding/functions/radians_given.hpp"
+#include "lua/binding/module/module.hpp"
 #include "lua/binding/objects/objects.hpp"
-#include "lua/binding/runtime/module.hpp"
 
 #include "libgeom/assembly/random_discs.hpp"
 #include "libgeom/core/error.hpp"

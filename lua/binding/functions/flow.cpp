@@ -1,9 +1,9 @@
 // Flow on outer faces, pieces, and the search for the flow that breaks a solid (Feng 2014 section 3).
 #include "lua/binding/functions/mass_scaling.hpp"
-#include "lua/binding/functions/selections.hpp"
 #include "lua/binding/functions/solving_stage.hpp"
+#include "lua/binding/module/module.hpp"
 #include "lua/binding/objects/water_object.hpp"
-#include "lua/binding/runtime/module.hpp"
+#include "lua/binding/session/selections.hpp"
 
 #include "libgeom/core/error.hpp"
 

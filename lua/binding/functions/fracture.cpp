@@ -1,9 +1,9 @@
 // Cutting blocks near failure, and cracks that grow in stages.
 #include "lua/binding/functions/angles.hpp"
-#include "lua/binding/functions/selections.hpp"
 #include "lua/binding/functions/solving_stage.hpp"
 #include "lua/binding/functions/solving_warnings.hpp"
-#include "lua/binding/runtime/module.hpp"
+#include "lua/binding/module/module.hpp"
+#include "lua/binding/session/selections.hpp"
 
 #include "libcdem/memory_needed.hpp"
 #include "libgeom/core/error.hpp"

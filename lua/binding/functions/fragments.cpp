@@ -1,6 +1,6 @@
 // Fragments by size, with their motion: as tables and as a file. The chart is in charts.cpp.
-#include "lua/binding/objects/model_object.hpp"
-#include "lua/binding/runtime/module.hpp"
+#include "lua/binding/module/module.hpp"
+#include "lua/binding/session/model_object.hpp"
 
 #include "lua/binding/functions/picture_fields.hpp"
 

@@ -1,7 +1,7 @@
 // The state of rock before work begins: initial stress, gravity, how far from balance, displacement set to zero.
-#include "lua/binding/functions/selections.hpp"
 #include "lua/binding/functions/solving_stage.hpp"
-#include "lua/binding/runtime/module.hpp"
+#include "lua/binding/module/module.hpp"
+#include "lua/binding/session/selections.hpp"
 
 #include "libgeom/core/error.hpp"
 

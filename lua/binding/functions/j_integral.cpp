@@ -1,6 +1,6 @@
 // The energy release rate at the front of a crack.
-#include "lua/binding/objects/model_object.hpp"
-#include "lua/binding/runtime/module.hpp"
+#include "lua/binding/module/module.hpp"
+#include "lua/binding/session/model_object.hpp"
 
 #include "libgeom/core/error.hpp"
 

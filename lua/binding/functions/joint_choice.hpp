@@ -1,8 +1,8 @@
 // Which joints a result is about.
 #pragma once
 
-#include "lua/binding/objects/model_object.hpp"
 #include "lua/binding/schema/schema.hpp"
+#include "lua/binding/session/model_object.hpp"
 
 namespace cdem::script {
 

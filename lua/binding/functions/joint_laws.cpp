@@ -3,9 +3,9 @@
 
 #include "lua/binding/functions/angles.hpp"
 #include "lua/binding/functions/solving_warnings.hpp"
+#include "lua/binding/module/module.hpp"
 #include "lua/binding/objects/objects.hpp"
-#include "lua/binding/runtime/module.hpp"
-#include "lua/binding/runtime/session.hpp"
+#include "lua/binding/session/session.hpp"
 
 #include "libgeom/core/error.hpp"
 #include "libgeom/core/portable.hpp"

@@ -1,8 +1,8 @@
 // Fields of cdem.mohr_coulomb and cdem.coulomb for residual strength and dilation.
 #pragma once
 
-#include "lua/binding/runtime/session.hpp"
 #include "lua/binding/schema/schema.hpp"
+#include "lua/binding/session/session.hpp"
 
 #include "libcdem/joint/joint.hpp"
 

@@ -1,7 +1,7 @@
 // Results of joints between blocks.
 #include "lua/binding/functions/joint_choice.hpp"
-#include "lua/binding/functions/selections.hpp"
-#include "lua/binding/runtime/module.hpp"
+#include "lua/binding/module/module.hpp"
+#include "lua/binding/session/selections.hpp"
 
 namespace cdem::script {
 

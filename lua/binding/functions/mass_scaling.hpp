@@ -1,8 +1,8 @@
 // mass_scaling of the stages that run in real time: what a script gives, is given back and is warned of.
 #pragma once
 
-#include "lua/binding/objects/model_object.hpp"
 #include "lua/binding/schema/schema.hpp"
+#include "lua/binding/session/model_object.hpp"
 
 #include "libcdem/step/options.hpp"
 

@@ -2,9 +2,9 @@
 #include "lua/binding/functions/angles.hpp"
 #include "lua/binding/functions/joint_laws.hpp"
 #include "lua/binding/functions/radians_given.hpp"
+#include "lua/binding/module/module.hpp"
 #include "lua/binding/objects/objects.hpp"
-#include "lua/binding/runtime/module.hpp"
-#include "lua/binding/runtime/session.hpp"
+#include "lua/binding/session/session.hpp"
 
 #include "libgeom/core/error.hpp"
 

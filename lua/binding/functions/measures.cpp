@@ -1,8 +1,8 @@
 // Results of a model as Lua values.
-#include "lua/binding/functions/selections.hpp"
-#include "lua/binding/objects/model_object.hpp"
-#include "lua/binding/runtime/module.hpp"
-#include "lua/binding/schema/nearest.hpp"
+#include "lua/binding/module/module.hpp"
+#include "lua/binding/session/model_object.hpp"
+#include "lua/binding/session/selections.hpp"
+#include "lua/binding/text/nearest.hpp"
 
 #include "libgeom/core/error.hpp"
 

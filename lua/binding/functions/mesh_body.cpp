@@ -1,6 +1,6 @@
 #include "lua/binding/functions/mesh_body.hpp"
 
-#include "lua/binding/objects/model_object.hpp"
+#include "lua/binding/session/model_object.hpp"
 
 #include "libgeom/core/error.hpp"
 

@@ -1,8 +1,8 @@
 // A meshed body of cdem.model: its element, and what holds its tetrahedra together.
 #pragma once
 
-#include "lua/binding/runtime/session.hpp"
 #include "lua/binding/schema/schema.hpp"
+#include "lua/binding/session/session.hpp"
 
 #include "libcdem/simulation.hpp"
 

@@ -1,11 +1,11 @@
 // cdem.model, and what a model is apart from its conditions, stages and results.
 #include "lua/binding/functions/mesh_body.hpp"
 #include "lua/binding/functions/solving_warnings.hpp"
-#include "lua/binding/objects/model_object.hpp"
+#include "lua/binding/module/module.hpp"
 #include "lua/binding/objects/pile_object.hpp"
 #include "lua/binding/objects/solid_objects.hpp"
-#include "lua/binding/runtime/module.hpp"
-#include "lua/binding/schema/nearest.hpp"
+#include "lua/binding/session/model_object.hpp"
+#include "lua/binding/text/nearest.hpp"
 
 #include "libcdem/join_blocks.hpp"
 #include "libcdem/memory_needed.hpp"

@@ -2,9 +2,9 @@
 #include "lua/binding/functions/joint_choice.hpp"
 #include "lua/binding/functions/picture_fields.hpp"
 #include "lua/binding/functions/solving_warnings.hpp"
-#include "lua/binding/objects/model_object.hpp"
+#include "lua/binding/module/module.hpp"
 #include "lua/binding/replay/led.hpp"
-#include "lua/binding/runtime/module.hpp"
+#include "lua/binding/session/model_object.hpp"
 
 #include "libcdem/vtk/block_marks.hpp"
 #include "libcdem/vtk/field_values.hpp"

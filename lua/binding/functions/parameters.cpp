@@ -1,8 +1,8 @@
 // cdem.parameter: a value of the script that --set can change.
-#include "lua/binding/runtime/csv.hpp"
-#include "lua/binding/runtime/module.hpp"
-#include "lua/binding/runtime/session.hpp"
-#include "lua/binding/schema/nearest.hpp"
+#include "lua/binding/module/module.hpp"
+#include "lua/binding/session/session.hpp"
+#include "lua/binding/text/csv.hpp"
+#include "lua/binding/text/nearest.hpp"
 
 #include "libgeom/core/error.hpp"
 

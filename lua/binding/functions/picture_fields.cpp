@@ -3,7 +3,7 @@
 #include "libcdem/vtk/picture_room.hpp"
 #include "libgeom/core/error.hpp"
 #include "libgeom/core/plain_reason.hpp"
-#include "lua/binding/runtime/session.hpp"
+#include "lua/binding/session/session.hpp"
 
 #include <cmath>
 

@@ -2,10 +2,10 @@
 #include "lua/binding/functions/angles.hpp"
 #include "lua/binding/functions/picture_fields.hpp"
 #include "lua/binding/functions/solving_stage.hpp"
+#include "lua/binding/module/module.hpp"
 #include "lua/binding/objects/pile_object.hpp"
 #include "lua/binding/objects/solid_objects.hpp"
-#include "lua/binding/runtime/module.hpp"
-#include "lua/binding/runtime/session.hpp"
+#include "lua/binding/session/session.hpp"
 
 #include "libcdem/step/errors.hpp"
 #include "libgeom/core/error.hpp"

@@ -1,8 +1,8 @@
 // Angles of a script that look as if they were in radians.
 #pragma once
 
-#include "lua/binding/runtime/session.hpp"
 #include "lua/binding/schema/schema.hpp"
+#include "lua/binding/session/session.hpp"
 
 #include <string>
 #include <vector>

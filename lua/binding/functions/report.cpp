@@ -1,6 +1,6 @@
 // cdem.report: figures beside their references.
-#include "lua/binding/runtime/module.hpp"
-#include "lua/binding/runtime/session.hpp"
+#include "lua/binding/module/module.hpp"
+#include "lua/binding/session/session.hpp"
 
 #include "libgeom/core/error.hpp"
 

@@ -1,7 +1,7 @@
 // cdem.select.*: places that do not depend on a model.
-#include "lua/binding/functions/selections.hpp"
+#include "lua/binding/session/selections.hpp"
+#include "lua/binding/module/module.hpp"
 #include "lua/binding/objects/objects.hpp"
-#include "lua/binding/runtime/module.hpp"
 
 #include "libgeom/core/error.hpp"
 
@@ -55,19 +55,6 @@ Value where(Session&, Object*, const Arguments& a) {
 }
 
 } // namespace
-
-Selection predicate_selection(const std::shared_ptr<Reference>& function) {
-  return Selection::where(
-      [function](const geom::Vec3& x) {
-        const Values answer = function->call({x.x(), x.y(), x.z()});
-        const bool* yes = answer.empty() ? nullptr : answer[0].get<bool>();
-        if (!yes)
-          throw geom::InputError("function(x, y, z) of " + function->place(),
-                                 answer.empty() ? "nothing" : describe(answer[0]), "true or false");
-        return *yes;
-      },
-      "function of " + function->place());
-}
 
 void bind_selections(Module& m) {
   m.functions.push_back({"select.plane",

@@ -1,7 +1,7 @@
 // Settling of piles, and the watch over units that leave their place.
 #include "lua/binding/functions/angles.hpp"
 #include "lua/binding/functions/solving_stage.hpp"
-#include "lua/binding/runtime/module.hpp"
+#include "lua/binding/module/module.hpp"
 
 #include "libgeom/core/error.hpp"
 

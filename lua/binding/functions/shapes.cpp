@@ -3,10 +3,10 @@
 #include "lua/binding/functions/discs.hpp"
 #include "lua/binding/functions/radians_given.hpp"
 #include "lua/binding/functions/solving_warnings.hpp"
+#include "lua/binding/module/module.hpp"
 #include "lua/binding/objects/objects.hpp"
 #include "lua/binding/objects/solid_objects.hpp"
-#include "lua/binding/runtime/module.hpp"
-#include "lua/binding/runtime/session.hpp"
+#include "lua/binding/session/session.hpp"
 
 #include "libgeom/assembly/builders.hpp"
 #include "libgeom/assembly/discs.hpp"

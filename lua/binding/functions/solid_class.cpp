@@ -1,10 +1,10 @@
 // What a script can ask of a solid, and do with one.
 #include "lua/binding/functions/angles.hpp"
 #include "lua/binding/functions/picture_fields.hpp"
+#include "lua/binding/module/module.hpp"
 #include "lua/binding/objects/solid_objects.hpp"
-#include "lua/binding/runtime/module.hpp"
-#include "lua/binding/runtime/session.hpp"
-#include "lua/binding/schema/nearest.hpp"
+#include "lua/binding/session/session.hpp"
+#include "lua/binding/text/nearest.hpp"
 
 #include "libgeom/core/error.hpp"
 #include "libgeom/meshing/solid_mesh.hpp"

@@ -1,7 +1,7 @@
 // Solids: primitives, boolean operations, import.
+#include "lua/binding/module/module.hpp"
 #include "lua/binding/objects/solid_objects.hpp"
-#include "lua/binding/runtime/module.hpp"
-#include "lua/binding/runtime/session.hpp"
+#include "lua/binding/session/session.hpp"
 
 #include "libgeom/core/error.hpp"
 #include "libgeom/solid/read_stl.hpp"

@@ -1,7 +1,7 @@
 // Solving calls: numbered stages, hashed by their arguments. In a check they return typed, empty results.
 #include "lua/binding/functions/mass_scaling.hpp"
 #include "lua/binding/functions/solving_stage.hpp"
-#include "lua/binding/runtime/module.hpp"
+#include "lua/binding/module/module.hpp"
 
 #include "libcdem/step/stage.hpp"
 #include "libgeom/core/error.hpp"

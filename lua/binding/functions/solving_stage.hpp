@@ -2,8 +2,8 @@
 #pragma once
 
 #include "lua/binding/functions/solving_warnings.hpp"
-#include "lua/binding/objects/model_object.hpp"
 #include "lua/binding/schema/schema.hpp"
+#include "lua/binding/session/model_object.hpp"
 
 #include <functional>
 

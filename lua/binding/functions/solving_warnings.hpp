@@ -1,7 +1,7 @@
 // What a solving call tells of, before it begins and after it has ended, and what ends it.
 #pragma once
 
-#include "lua/binding/objects/model_object.hpp"
+#include "lua/binding/session/model_object.hpp"
 
 namespace cdem::script {
 

@@ -1,6 +1,6 @@
 // Does it stand, and by how much: copies of a model, reduced strengths, the factor of safety (lua/cdem/safety.lua).
-#include "lua/binding/objects/model_object.hpp"
-#include "lua/binding/runtime/module.hpp"
+#include "lua/binding/module/module.hpp"
+#include "lua/binding/session/model_object.hpp"
 
 #include "libgeom/core/error.hpp"
 

@@ -3,9 +3,9 @@
 #include "lua/binding/functions/discs.hpp"
 #include "lua/binding/functions/picture_fields.hpp"
 #include "lua/binding/functions/radians_given.hpp"
+#include "lua/binding/module/module.hpp"
 #include "lua/binding/objects/objects.hpp"
-#include "lua/binding/runtime/csv.hpp"
-#include "lua/binding/runtime/module.hpp"
+#include "lua/binding/text/csv.hpp"
 
 #include "libcdem/vtk/stereonet.hpp"
 #include "libgeom/core/error.hpp"

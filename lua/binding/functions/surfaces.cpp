@@ -1,9 +1,9 @@
 // Surfaces of triangles, and blocks clipped by them or by solids.
 #include "lua/binding/functions/solving_warnings.hpp"
+#include "lua/binding/module/module.hpp"
 #include "lua/binding/objects/objects.hpp"
 #include "lua/binding/objects/solid_objects.hpp"
-#include "lua/binding/runtime/module.hpp"
-#include "lua/binding/runtime/session.hpp"
+#include "lua/binding/session/session.hpp"
 
 #include "libgeom/assembly/clip.hpp"
 #include "libgeom/core/error.hpp"

@@ -1,8 +1,8 @@
 // cdem.sweep: one script with many settings, as processes side by side.
-#include "lua/binding/runtime/module.hpp"
-#include "lua/binding/runtime/process_pool.hpp"
-#include "lua/binding/runtime/session.hpp"
-#include "lua/binding/runtime/sources.hpp"
+#include "lua/binding/files/process_pool.hpp"
+#include "lua/binding/files/sources.hpp"
+#include "lua/binding/module/module.hpp"
+#include "lua/binding/session/session.hpp"
 
 #include "libcdem/step/errors.hpp"
 #include "libgeom/core/error.hpp"

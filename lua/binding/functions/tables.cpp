@@ -1,7 +1,7 @@
 // Small helpers: tables of numbers as .csv, lines for the log, the version.
-#include "lua/binding/objects/model_object.hpp"
-#include "lua/binding/runtime/csv.hpp"
-#include "lua/binding/runtime/module.hpp"
+#include "lua/binding/module/module.hpp"
+#include "lua/binding/session/model_object.hpp"
+#include "lua/binding/text/csv.hpp"
 
 #include "libgeom/core/error.hpp"
 #include "libgeom/core/text_table.hpp"

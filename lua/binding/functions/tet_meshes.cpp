@@ -1,9 +1,9 @@
 // Meshes of tetrahedra: how good they are, which outer faces they have, files and pictures.
 #include "lua/binding/functions/angles.hpp"
 #include "lua/binding/functions/picture_fields.hpp"
+#include "lua/binding/module/module.hpp"
 #include "lua/binding/objects/solid_objects.hpp"
-#include "lua/binding/runtime/module.hpp"
-#include "lua/binding/runtime/session.hpp"
+#include "lua/binding/session/session.hpp"
 
 #include "libcdem/vtk/field_values.hpp"
 #include "libcdem/vtk/files.hpp"

@@ -1,8 +1,8 @@
 // The units of a model's body: the pile they are now, its measures, and which of them lie lowest.
-#include "lua/binding/objects/model_object.hpp"
+#include "lua/binding/module/module.hpp"
 #include "lua/binding/objects/pile_object.hpp"
-#include "lua/binding/runtime/module.hpp"
-#include "lua/binding/schema/nearest.hpp"
+#include "lua/binding/session/model_object.hpp"
+#include "lua/binding/text/nearest.hpp"
 
 #include "libgeom/core/error.hpp"
 #include "libgeom/placement/pile_measures.hpp"

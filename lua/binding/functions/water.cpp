@@ -1,9 +1,9 @@
 // Water in joints.
 #include "lua/binding/functions/over_place.hpp"
-#include "lua/binding/functions/selections.hpp"
-#include "lua/binding/objects/model_object.hpp"
+#include "lua/binding/module/module.hpp"
 #include "lua/binding/objects/water_object.hpp"
-#include "lua/binding/runtime/module.hpp"
+#include "lua/binding/session/model_object.hpp"
+#include "lua/binding/session/selections.hpp"
 
 #include "libgeom/core/error.hpp"
 

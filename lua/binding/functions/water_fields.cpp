@@ -1,8 +1,8 @@
 // cdem.water.*: fields of water that loads take.
 #include "lua/binding/functions/over_time.hpp"
+#include "lua/binding/module/module.hpp"
 #include "lua/binding/objects/water_object.hpp"
-#include "lua/binding/runtime/module.hpp"
-#include "lua/binding/runtime/session.hpp"
+#include "lua/binding/session/session.hpp"
 
 #include "libcdem/vtk/read_water.hpp"
 #include "libcdem/water/irregular_sea.hpp"

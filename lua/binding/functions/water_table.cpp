@@ -1,10 +1,10 @@
 // Water tables that are not level.
 #include "lua/binding/functions/angles.hpp"
 #include "lua/binding/functions/radians_given.hpp"
+#include "lua/binding/module/module.hpp"
 #include "lua/binding/objects/solid_objects.hpp"
 #include "lua/binding/objects/water_object.hpp"
-#include "lua/binding/runtime/module.hpp"
-#include "lua/binding/runtime/session.hpp"
+#include "lua/binding/session/session.hpp"
 
 #include "libgeom/core/error.hpp"
 #include "libgeom/core/text_table.hpp"

@@ -1,9 +1,9 @@
 // Earthquakes in scripts: records from files, quiet boundaries with waves that enter, free fields.
 #include "lua/binding/functions/over_time.hpp"
-#include "lua/binding/functions/selections.hpp"
 #include "lua/binding/functions/solving_warnings.hpp"
-#include "lua/binding/objects/model_object.hpp"
-#include "lua/binding/runtime/module.hpp"
+#include "lua/binding/module/module.hpp"
+#include "lua/binding/session/model_object.hpp"
+#include "lua/binding/session/selections.hpp"
 
 #include "libcdem/load/record.hpp"
 #include "libgeom/core/error.hpp"

@@ -2,7 +2,7 @@
 
 #include "libgeom/core/error.hpp"
 #include "libgeom/mesh/boundary.hpp"
-#include "lua/binding/runtime/json.hpp"
+#include "lua/binding/text/json.hpp"
 
 #include <algorithm>
 #include <nlohmann/json.hpp>

@@ -5,7 +5,7 @@
 #include "libgeom/core/error.hpp"
 #include "libgeom/core/stop.hpp"
 #include "lua/binding/replay/journal.hpp"
-#include "lua/binding/runtime/engine.hpp"
+#include "lua/binding/schema/errors.hpp"
 
 #include <algorithm>
 #include <exception>

@@ -1,7 +1,7 @@
 #include "lua/binding/report/report.hpp"
 
-#include "lua/binding/runtime/engine.hpp"
-#include "lua/binding/runtime/json.hpp"
+#include "lua/binding/schema/errors.hpp"
+#include "lua/binding/text/json.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,9 +1,9 @@
 #include "lua/binding/runtime/engine.hpp"
 
-#include "lua/binding/objects/model_object.hpp"
+#include "lua/binding/files/sources.hpp"
 #include "lua/binding/replay/led.hpp"
 #include "lua/binding/runtime/lua_state.hpp"
-#include "lua/binding/runtime/sources.hpp"
+#include "lua/binding/session/model_object.hpp"
 
 #include "libcdem/step/errors.hpp"
 #include "libgeom/core/error.hpp"

@@ -2,7 +2,7 @@
 #include "lua/binding/runtime/lua_library.hpp"
 
 #include "libgeom/core/error.hpp"
-#include "lua/binding/runtime/sources.hpp"
+#include "lua/binding/files/sources.hpp"
 
 #include <cctype>
 #include <cstring>

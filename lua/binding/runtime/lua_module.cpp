@@ -1,9 +1,9 @@
 // The `cdem` table and the metatables of its classes, made from the module's declarations.
-#include "lua/binding/objects/model_object.hpp"
+#include "lua/binding/module/embedded.hpp"
 #include "lua/binding/replay/led.hpp"
-#include "lua/binding/runtime/embedded.hpp"
 #include "lua/binding/runtime/lua_state.hpp"
-#include "lua/binding/schema/nearest.hpp"
+#include "lua/binding/session/model_object.hpp"
+#include "lua/binding/text/nearest.hpp"
 
 #include "libgeom/core/error.hpp"
 

@@ -1,8 +1,8 @@
 // The Lua interpreter of a script. Only engine.cpp and lua_*.cpp include it.
 #pragma once
 
-#include "lua/binding/runtime/module.hpp"
-#include "lua/binding/runtime/session.hpp"
+#include "lua/binding/module/module.hpp"
+#include "lua/binding/session/session.hpp"
 
 #include <atomic>
 #include <deque>

@@ -1,6 +1,6 @@
 // Arguments against their declaration.
-#include "lua/binding/schema/nearest.hpp"
 #include "lua/binding/schema/schema.hpp"
+#include "lua/binding/text/nearest.hpp"
 
 #include "libgeom/core/error.hpp"
 

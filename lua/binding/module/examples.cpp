@@ -1,7 +1,7 @@
 // The examples of the reference page. Each file of lua/examples is a script of its own, which the tests run; a line
 // "-- example: NAME ..." begins the example of one function, and what stands before the first is for all of them.
-#include "lua/binding/runtime/embedded.hpp"
-#include "lua/binding/schema/topics.hpp"
+#include "lua/binding/module/embedded.hpp"
+#include "lua/binding/module/topics.hpp"
 
 #include <algorithm>
 #include <map>

@@ -1,11 +1,11 @@
 // Calls through the journal.
-#include "lua/binding/replay/replay.hpp"
+#include "lua/binding/session/replay.hpp"
 
 #include "libcdem/step/errors.hpp"
 #include "libgeom/core/error.hpp"
-#include "lua/binding/objects/model_object.hpp"
 #include "lua/binding/replay/led.hpp"
-#include "lua/binding/runtime/session.hpp"
+#include "lua/binding/session/model_object.hpp"
+#include "lua/binding/session/session.hpp"
 
 namespace cdem::script {
 

@@ -1,4 +1,5 @@
-// The module by topic: which functions and classes belong together, and the examples of lua/examples/<topic>.lua.
+// The module as documents: by topic, with the examples of lua/examples/<topic>.lua; the annotations for editors and the
+// reference page.
 #pragma once
 
 #include <string>
@@ -26,5 +27,10 @@ std::vector<std::string> examples();
 // What the repl says to `help NAME`: call, sentence, fields and example of a function, or the functions of a class or
 // topic; a list of topics for "". Throws geom::InputError for another name, with the nearest.
 std::string help(const std::string& name);
+
+// LuaCATS annotations of the whole `cdem` module, generated from the same tables that check the arguments.
+std::string annotations();
+// The reference page of the script language, generated likewise.
+std::string reference();
 
 } // namespace cdem::script

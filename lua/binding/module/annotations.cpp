@@ -1,6 +1,6 @@
 // LuaCATS annotations of the module (lua/meta/cdem.lua), for completion and checks in editors.
-#include "lua/binding/runtime/engine.hpp"
-#include "lua/binding/runtime/module.hpp"
+#include "lua/binding/module/module.hpp"
+#include "lua/binding/module/topics.hpp"
 
 #include <cctype>
 

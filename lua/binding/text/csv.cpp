@@ -1,4 +1,4 @@
-#include "lua/binding/runtime/csv.hpp"
+#include "lua/binding/text/csv.hpp"
 
 namespace cdem::script {
 

@@ -4,9 +4,9 @@
 #include "libcdem/ranks/ranks.hpp"
 #include "libgeom/core/error.hpp"
 #include "libgeom/core/plain_reason.hpp"
-#include "lua/binding/objects/model_object.hpp"
+#include "lua/binding/files/files.hpp"
 #include "lua/binding/replay/led.hpp"
-#include "lua/binding/runtime/files.hpp"
+#include "lua/binding/session/model_object.hpp"
 
 #include <algorithm>
 #include <array>

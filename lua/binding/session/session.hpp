@@ -1,11 +1,11 @@
 // What a running script has declared and done so far. Knows nothing of Lua.
 #pragma once
 
-#include "lua/binding/replay/replay.hpp"
+#include "lua/binding/files/files.hpp"
 #include "lua/binding/report/report.hpp"
-#include "lua/binding/runtime/engine.hpp"
-#include "lua/binding/runtime/files.hpp"
 #include "lua/binding/schema/value.hpp"
+#include "lua/binding/session/replay.hpp"
+#include "lua/binding/session/settings.hpp"
 
 #include <chrono>
 #include <functional>

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "lua/binding/objects/objects.hpp"
-#include "lua/binding/runtime/session.hpp"
+#include "lua/binding/session/session.hpp"
 
 #include "libcdem/vtk/files.hpp"
 #include "libgeom/placement/pile.hpp"

@@ -1,8 +1,8 @@
-#include "lua/binding/runtime/session.hpp"
+#include "lua/binding/session/session.hpp"
 
 #include "libgeom/core/error.hpp"
 #include "lua/binding/replay/led.hpp"
-#include "lua/binding/schema/nearest.hpp"
+#include "lua/binding/text/nearest.hpp"
 
 #include <algorithm>
 #include <cstdio>

@@ -1,4 +1,4 @@
-#include "lua/binding/schema/nearest.hpp"
+#include "lua/binding/text/nearest.hpp"
 
 namespace cdem::script {
 

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "lua/binding/replay/journal.hpp"
-#include "lua/binding/runtime/engine.hpp"
+#include "lua/binding/session/settings.hpp"
 
 #include "libcdem/step/checkpoint_writer.hpp"
 

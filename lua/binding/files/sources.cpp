@@ -1,6 +1,6 @@
-#include "lua/binding/runtime/sources.hpp"
+#include "lua/binding/files/sources.hpp"
 
-#include "lua/binding/runtime/files.hpp"
+#include "lua/binding/files/files.hpp"
 
 #include <algorithm>
 #include <regex>

@@ -1,9 +1,9 @@
-#include "lua/binding/runtime/files.hpp"
+#include "lua/binding/files/files.hpp"
 
 #include "libgeom/core/error.hpp"
 #include "libgeom/core/regular_file.hpp"
 #include "lua/binding/replay/led.hpp"
-#include "lua/binding/runtime/engine.hpp"
+#include "lua/binding/schema/errors.hpp"
 
 #include <algorithm>
 #include <cctype>

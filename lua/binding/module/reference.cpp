@@ -1,8 +1,7 @@
 // The reference page of the script language (docs/script-reference.md).
-#include "lua/binding/runtime/engine.hpp"
-#include "lua/binding/runtime/module.hpp"
-#include "lua/binding/schema/nearest.hpp"
-#include "lua/binding/schema/topics.hpp"
+#include "lua/binding/module/module.hpp"
+#include "lua/binding/module/topics.hpp"
+#include "lua/binding/text/nearest.hpp"
 
 #include "libgeom/core/error.hpp"
 

@@ -1,7 +1,7 @@
-#include "lua/binding/runtime/process_pool.hpp"
+#include "lua/binding/files/process_pool.hpp"
 
 #include "libcdem/ranks/ranks.hpp"
-#include "lua/binding/runtime/engine.hpp"
+#include "lua/binding/schema/errors.hpp"
 
 #include <chrono>
 #include <csignal>
