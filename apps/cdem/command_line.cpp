@@ -1,8 +1,8 @@
 #include "apps/cdem/command_line.hpp"
 
-#include "apps/cdem/build_info.hpp"
 #include "apps/cdem/command_line/command.hpp"
-#include "apps/cdem/failure.hpp"
+#include "apps/cdem/process/build_info.hpp"
+#include "apps/cdem/process/failure.hpp"
 #include "apps/cdem/shell/shell_files.hpp"
 #include "lua/binding/text/nearest.hpp"
 

@@ -1,7 +1,7 @@
 // The command line: which command with which options. The only place that sees the parser library.
 #pragma once
 
-#include "apps/cdem/exit_code.hpp"
+#include "apps/cdem/process/exit_code.hpp"
 
 #include <functional>
 #include <string>

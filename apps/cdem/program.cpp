@@ -1,9 +1,9 @@
 #include "apps/cdem/program.hpp"
 
 #include "apps/cdem/command_line.hpp"
-#include "apps/cdem/failure.hpp"
-#include "apps/cdem/interrupt.hpp"
-#include "apps/cdem/ranks/rank.hpp"
+#include "apps/cdem/process/failure.hpp"
+#include "apps/cdem/process/interrupt.hpp"
+#include "apps/cdem/process/rank.hpp"
 #include "libcdem/parallel/instruction_set.hpp"
 
 #include "lua/binding/runtime/engine.hpp"

@@ -1,5 +1,5 @@
-#include "apps/cdem/failure.hpp"
-#include "apps/cdem/option_values.hpp"
+#include "apps/cdem/command_line/option_values.hpp"
+#include "apps/cdem/process/failure.hpp"
 
 #include <catch2/catch.hpp>
 

@@ -1,6 +1,6 @@
 #include "apps/cdem/commands/script_run.hpp"
-#include "apps/cdem/output_folder.hpp"
-#include "apps/cdem/run_log.hpp"
+#include "apps/cdem/results/output_folder.hpp"
+#include "apps/cdem/results/run_log.hpp"
 #include "lua/binding/files/files.hpp"
 #include "lua/binding/runtime/engine.hpp"
 #include "tests/apps/support/child.hpp"

@@ -1,5 +1,5 @@
+#include "apps/cdem/process/terminal.hpp"
 #include "apps/cdem/progress/line.hpp"
-#include "apps/cdem/progress/terminal.hpp"
 
 #include <catch2/catch.hpp>
 #include <cmath>

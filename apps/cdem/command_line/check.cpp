@@ -1,6 +1,6 @@
 #include "apps/cdem/command_line/common_options.hpp"
+#include "apps/cdem/command_line/option_values.hpp"
 #include "apps/cdem/commands/commands.hpp"
-#include "apps/cdem/option_values.hpp"
 
 #include <memory>
 

@@ -2,7 +2,7 @@
 // typed lands in the texts and flags that the declaration names; a command's action turns these into its work.
 #pragma once
 
-#include "apps/cdem/exit_code.hpp"
+#include "apps/cdem/process/exit_code.hpp"
 
 #include <functional>
 #include <string>

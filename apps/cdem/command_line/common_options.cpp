@@ -1,9 +1,9 @@
 #include "apps/cdem/command_line/common_options.hpp"
 
-#include "apps/cdem/failure.hpp"
-#include "apps/cdem/memory.hpp"
-#include "apps/cdem/option_values.hpp"
-#include "apps/cdem/ranks/start_ranks.hpp"
+#include "apps/cdem/command_line/option_values.hpp"
+#include "apps/cdem/process/failure.hpp"
+#include "apps/cdem/process/memory.hpp"
+#include "apps/cdem/process/start_ranks.hpp"
 #include "libcdem/ranks/ranks.hpp"
 
 namespace cdem::app {

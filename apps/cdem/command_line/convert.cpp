@@ -1,6 +1,6 @@
 #include "apps/cdem/command_line/common_options.hpp"
 #include "apps/cdem/commands/commands.hpp"
-#include "apps/cdem/failure.hpp"
+#include "apps/cdem/process/failure.hpp"
 
 #include <memory>
 

@@ -1,7 +1,7 @@
 #include "apps/cdem/command_line/common_options.hpp"
+#include "apps/cdem/command_line/option_values.hpp"
 #include "apps/cdem/commands/commands.hpp"
-#include "apps/cdem/failure.hpp"
-#include "apps/cdem/option_values.hpp"
+#include "apps/cdem/process/failure.hpp"
 
 #include <memory>
 

@@ -1,7 +1,7 @@
 // The commands. Each returns the exit code or throws what failure.hpp judges.
 #pragma once
 
-#include "apps/cdem/exit_code.hpp"
+#include "apps/cdem/process/exit_code.hpp"
 #include "apps/cdem/progress/run_observer.hpp"
 
 #include <array>

@@ -2,7 +2,7 @@
 // since a damaged file may lead it anywhere.
 #include "apps/cdem/commands/commands.hpp"
 #include "apps/cdem/commands/convert_script.hpp"
-#include "apps/cdem/failure.hpp"
+#include "apps/cdem/process/failure.hpp"
 #include "libcdem/vtk/file_error.hpp"
 
 #include <cerrno>

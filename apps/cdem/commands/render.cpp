@@ -1,6 +1,6 @@
 // cdem render: a picture of a .vtu file.
 #include "apps/cdem/commands/script_run.hpp"
-#include "apps/cdem/usual_field.hpp"
+#include "apps/cdem/results/usual_field.hpp"
 #include "libcdem/vtk/field_values.hpp"
 #include "libcdem/vtk/files.hpp"
 #include "libcdem/vtk/picture.hpp"

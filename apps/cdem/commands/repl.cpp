@@ -1,11 +1,11 @@
 // cdem repl: Lua with the cdem module at hand, line by line. On a terminal readline gives history and the tab
 // key; its callback interface is used because our own wait for input lets Ctrl-C cancel the line without a
 // jump out of a signal handler. From a pipe, lines are read to the end and the first error ends the program.
-#include "apps/cdem/build_info.hpp"
 #include "apps/cdem/commands/script_run.hpp"
-#include "apps/cdem/failure.hpp"
-#include "apps/cdem/interrupt.hpp"
-#include "apps/cdem/memory.hpp"
+#include "apps/cdem/process/build_info.hpp"
+#include "apps/cdem/process/failure.hpp"
+#include "apps/cdem/process/interrupt.hpp"
+#include "apps/cdem/process/memory.hpp"
 #include "lua/binding/module/topics.hpp"
 
 #include <cstdio>

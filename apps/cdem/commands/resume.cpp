@@ -1,7 +1,7 @@
 // cdem resume: the same run again, from the newest of its checkpoints on.
 #include "apps/cdem/commands/script_run.hpp"
-#include "apps/cdem/failure.hpp"
-#include "apps/cdem/run_log.hpp"
+#include "apps/cdem/process/failure.hpp"
+#include "apps/cdem/results/run_log.hpp"
 #include "lua/binding/files/files.hpp"
 #include "lua/binding/replay/led.hpp"
 

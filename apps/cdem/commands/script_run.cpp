@@ -1,7 +1,7 @@
 #include "apps/cdem/commands/script_run.hpp"
 
-#include "apps/cdem/failure.hpp"
-#include "apps/cdem/text.hpp"
+#include "apps/cdem/process/failure.hpp"
+#include "apps/cdem/text/text.hpp"
 #include "libgeom/core/regular_file.hpp"
 #include "lua/binding/text/nearest.hpp"
 
@@ -58,12 +58,6 @@ int available_cores() {
   cpu_set_t cores;
   CPU_ZERO(&cores);
   return sched_getaffinity(0, sizeof cores, &cores) == 0 ? std::max(1, CPU_COUNT(&cores)) : 1;
-}
-
-fs::path program_path() {
-  std::error_code error;
-  const fs::path path = fs::read_symlink("/proc/self/exe", error);
-  return error ? fs::path("cdem") : path;
 }
 
 std::string parameter_table(const std::vector<script::ParameterInfo>& parameters) {

@@ -16,8 +16,6 @@ void require_script(const std::filesystem::path&);
 
 int available_cores(); // this process may use
 
-std::filesystem::path program_path(); // of the running cdem
-
 // Rows for a person: name, value, unit, range, what it is.
 std::string parameter_table(const std::vector<script::ParameterInfo>&);
 

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "apps/cdem/commands/commands.hpp"
-#include "apps/cdem/records.hpp"
+#include "apps/cdem/results/records.hpp"
 
 #include <functional>
 

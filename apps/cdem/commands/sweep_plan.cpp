@@ -1,9 +1,9 @@
 #include "apps/cdem/commands/sweep_plan.hpp"
 
-#include "apps/cdem/failure.hpp"
-#include "apps/cdem/records.hpp"
-#include "apps/cdem/run_log.hpp"
-#include "apps/cdem/text.hpp"
+#include "apps/cdem/process/failure.hpp"
+#include "apps/cdem/results/records.hpp"
+#include "apps/cdem/results/run_log.hpp"
+#include "apps/cdem/text/text.hpp"
 #include "lua/binding/files/files.hpp"
 #include "lua/binding/files/sources.hpp"
 #include "lua/binding/text/csv.hpp"

@@ -1,11 +1,11 @@
 // cdem sweep --slurm: the runs of a sweep as a job array for sbatch, one task a run. The same command again gathers what
 // has ended, and writes an array of the rest.
-#include "apps/cdem/build_info.hpp"
 #include "apps/cdem/commands/script_run.hpp"
 #include "apps/cdem/commands/sweep_plan.hpp"
-#include "apps/cdem/failure.hpp"
-#include "apps/cdem/quoted.hpp"
-#include "apps/cdem/run_log.hpp"
+#include "apps/cdem/process/build_info.hpp"
+#include "apps/cdem/process/failure.hpp"
+#include "apps/cdem/results/run_log.hpp"
+#include "apps/cdem/text/quoted.hpp"
 #include "lua/binding/files/files.hpp"
 #include "lua/binding/files/sources.hpp"
 #include "lua/binding/replay/led.hpp"

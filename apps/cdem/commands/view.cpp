@@ -1,7 +1,7 @@
 // cdem view: saved files in a page that a browser of this machine shows.
 #include "apps/cdem/commands/script_run.hpp"
-#include "apps/cdem/interrupt.hpp"
 #include "apps/cdem/live/saved_view.hpp"
+#include "apps/cdem/process/interrupt.hpp"
 
 #include <cstdio>
 

@@ -1,6 +1,6 @@
 #include "apps/cdem/live/frame_wish.hpp"
 
-#include "apps/cdem/usual_field.hpp"
+#include "apps/cdem/results/usual_field.hpp"
 #include "libcdem/vtk/field_values.hpp"
 #include "libcdem/vtk/outline.hpp"
 #include "libcdem/vtk/view.hpp"

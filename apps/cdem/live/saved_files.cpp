@@ -1,6 +1,6 @@
 #include "apps/cdem/live/saved_files.hpp"
 
-#include "apps/cdem/failure.hpp"
+#include "apps/cdem/process/failure.hpp"
 #include "libcdem/vtk/files.hpp"
 
 #include <algorithm>

@@ -1,6 +1,6 @@
 #include "apps/cdem/live/saved_view.hpp"
 
-#include "apps/cdem/text.hpp"
+#include "apps/cdem/text/text.hpp"
 #include "libcdem/vtk/files.hpp"
 #include "libcdem/vtk/picture.hpp"
 #include "libgeom/core/plain_reason.hpp"

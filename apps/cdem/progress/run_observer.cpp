@@ -1,10 +1,10 @@
 #include "apps/cdem/progress/run_observer.hpp"
 
-#include "apps/cdem/failure.hpp"
-#include "apps/cdem/interrupt.hpp"
+#include "apps/cdem/process/failure.hpp"
+#include "apps/cdem/process/interrupt.hpp"
+#include "apps/cdem/process/terminal.hpp"
 #include "apps/cdem/progress/line.hpp"
-#include "apps/cdem/progress/terminal.hpp"
-#include "apps/cdem/text.hpp"
+#include "apps/cdem/text/text.hpp"
 #include "lua/binding/replay/led.hpp"
 
 #include <cstdio>

@@ -3,8 +3,8 @@
 #pragma once
 
 #include "apps/cdem/live/live_view.hpp"
-#include "apps/cdem/output_folder.hpp"
 #include "apps/cdem/progress/time_left.hpp"
+#include "apps/cdem/results/output_folder.hpp"
 #include "libcdem/step/observer.hpp"
 
 #include <chrono>

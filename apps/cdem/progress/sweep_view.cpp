@@ -1,7 +1,7 @@
 #include "apps/cdem/progress/sweep_view.hpp"
 
-#include "apps/cdem/progress/terminal.hpp"
-#include "apps/cdem/text.hpp"
+#include "apps/cdem/process/terminal.hpp"
+#include "apps/cdem/text/text.hpp"
 
 #include <algorithm>
 #include <cmath>

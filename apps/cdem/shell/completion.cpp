@@ -1,6 +1,6 @@
 #include "apps/cdem/shell/completion.hpp"
 
-#include "apps/cdem/quoted.hpp"
+#include "apps/cdem/text/quoted.hpp"
 
 #include <functional>
 

@@ -1,6 +1,6 @@
 #include "apps/cdem/shell/manual_pages.hpp"
 
-#include "apps/cdem/build_info.hpp"
+#include "apps/cdem/process/build_info.hpp"
 
 #include <algorithm>
 #include <cctype>

@@ -6,8 +6,8 @@
 // since is kept under another name.
 #pragma once
 
-#include "apps/cdem/exit_code.hpp"
-#include "apps/cdem/run_log.hpp"
+#include "apps/cdem/process/exit_code.hpp"
+#include "apps/cdem/results/run_log.hpp"
 
 #include <chrono>
 #include <cstdio>

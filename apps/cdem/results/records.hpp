@@ -1,7 +1,7 @@
 // The JSON files of an output folder; the only place that sees the JSON library.
 #pragma once
 
-#include "apps/cdem/ranks/rank.hpp"
+#include "apps/cdem/process/rank.hpp"
 #include "lua/binding/runtime/engine.hpp"
 
 #include <filesystem>

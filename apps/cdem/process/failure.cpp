@@ -1,7 +1,7 @@
-#include "apps/cdem/failure.hpp"
+#include "apps/cdem/process/failure.hpp"
 
-#include "apps/cdem/interrupt.hpp"
-#include "apps/cdem/progress/terminal.hpp"
+#include "apps/cdem/process/interrupt.hpp"
+#include "apps/cdem/process/terminal.hpp"
 #include "libcdem/step/errors.hpp"
 #include "libgeom/core/error.hpp"
 #include "libgeom/core/plain_reason.hpp"

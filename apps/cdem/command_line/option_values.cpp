@@ -1,8 +1,8 @@
-#include "apps/cdem/option_values.hpp"
+#include "apps/cdem/command_line/option_values.hpp"
 
 #include "libcdem/vtk/picture.hpp"
 
-#include "apps/cdem/failure.hpp"
+#include "apps/cdem/process/failure.hpp"
 
 #include <algorithm>
 #include <cerrno>

@@ -1,4 +1,4 @@
-#include "apps/cdem/run_log.hpp"
+#include "apps/cdem/results/run_log.hpp"
 
 #include "lua/binding/runtime/engine.hpp"
 

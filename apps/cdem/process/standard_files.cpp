@@ -1,4 +1,4 @@
-#include "apps/cdem/ranks/standard_files.hpp"
+#include "apps/cdem/process/standard_files.hpp"
 
 #include <array>
 #include <cerrno>

@@ -1,4 +1,4 @@
-#include "apps/cdem/progress/terminal.hpp"
+#include "apps/cdem/process/terminal.hpp"
 
 #include <cmath>
 #include <cstdlib>

@@ -1,4 +1,4 @@
-#include "apps/cdem/exit_code.hpp"
+#include "apps/cdem/process/exit_code.hpp"
 
 namespace cdem::app {
 

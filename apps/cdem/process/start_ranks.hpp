@@ -1,7 +1,7 @@
 // --ranks N: this program again as N ranks on this machine, by mpirun.
 #pragma once
 
-#include "apps/cdem/exit_code.hpp"
+#include "apps/cdem/process/exit_code.hpp"
 
 #include <string>
 #include <vector>

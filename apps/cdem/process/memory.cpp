@@ -1,6 +1,6 @@
-#include "apps/cdem/memory.hpp"
+#include "apps/cdem/process/memory.hpp"
 
-#include "apps/cdem/failure.hpp"
+#include "apps/cdem/process/failure.hpp"
 
 #include <algorithm>
 #include <cerrno>

@@ -1,6 +1,6 @@
-#include "apps/cdem/interrupt.hpp"
+#include "apps/cdem/process/interrupt.hpp"
 
-#include "apps/cdem/ranks/rank.hpp"
+#include "apps/cdem/process/rank.hpp"
 #include "libcdem/ranks/ranks.hpp"
 #include "lua/binding/replay/led.hpp"
 

@@ -2,7 +2,7 @@
 // once, one that a rank has alone ends all of them.
 #pragma once
 
-#include "apps/cdem/failure.hpp"
+#include "apps/cdem/process/failure.hpp"
 
 #include <cstdint>
 #include <string>

@@ -1,9 +1,9 @@
-#include "apps/cdem/ranks/start_ranks.hpp"
+#include "apps/cdem/process/start_ranks.hpp"
 
-#include "apps/cdem/commands/script_run.hpp"
-#include "apps/cdem/failure.hpp"
-#include "apps/cdem/interrupt.hpp"
-#include "apps/cdem/ranks/standard_files.hpp"
+#include "apps/cdem/process/build_info.hpp"
+#include "apps/cdem/process/failure.hpp"
+#include "apps/cdem/process/interrupt.hpp"
+#include "apps/cdem/process/standard_files.hpp"
 #include "libcdem/ranks/ranks.hpp"
 
 #include <array>

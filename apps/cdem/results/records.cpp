@@ -1,4 +1,4 @@
-#include "apps/cdem/records.hpp"
+#include "apps/cdem/results/records.hpp"
 
 #include "lua/binding/files/files.hpp"
 #include "lua/binding/text/json.hpp"

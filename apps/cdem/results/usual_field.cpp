@@ -1,4 +1,4 @@
-#include "apps/cdem/usual_field.hpp"
+#include "apps/cdem/results/usual_field.hpp"
 
 #include "libcdem/vtk/field_values.hpp"
 

@@ -1,4 +1,4 @@
-#include "apps/cdem/text.hpp"
+#include "apps/cdem/text/text.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -6,7 +6,7 @@
 // this takes.
 #pragma once
 
-#include "apps/cdem/exit_code.hpp"
+#include "apps/cdem/process/exit_code.hpp"
 #include "libcdem/step/observer.hpp"
 
 #include <functional>

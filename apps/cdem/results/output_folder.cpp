@@ -1,4 +1,4 @@
-#include "apps/cdem/output_folder.hpp"
+#include "apps/cdem/results/output_folder.hpp"
 
 #include "lua/binding/files/files.hpp"
 #include "lua/binding/runtime/engine.hpp"

@@ -1,7 +1,7 @@
 // What went wrong, as one line for the user and an exit code for the shell.
 #pragma once
 
-#include "apps/cdem/exit_code.hpp"
+#include "apps/cdem/process/exit_code.hpp"
 
 #include <stdexcept>
 #include <string>
