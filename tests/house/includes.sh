@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# The laws of includes: libgeom <- libcdem <- lua <- apps one way, no cycle among the folders of libcdem, and headers
+# The laws of includes: libgeom <- libcdem <- lua <- apps one way, no cycle among the folders of a part, and headers
 # that show the standard library and Eigen only.
 #   includes.sh ROOT RULE        RULE: one_way, no_cycles, plain_headers
 set -euo pipefail
@@ -20,17 +20,25 @@ one_way() {
   }
 }
 
-no_cycles() { # files that lie in libcdem itself are its public face and count as one more folder
+no_cycles() { # files that lie in a part itself count as one more folder
+  local part failed=0
+  for part in libgeom libcdem lua/binding apps/cdem; do
+    no_cycle_in "$part" || failed=1
+  done
+  return $failed
+}
+
+no_cycle_in() { # part
   local includes cycle
-  includes=$(quoted libcdem | awk '
-    function folder(path, parts) { return split(path, parts, "/") > 2 ? parts[2] : "libcdem" }
-    $2 ~ /^libcdem\// && folder($1) != folder($2) { print folder($1), folder($2), $1, $2 }')
+  includes=$(quoted "$1" | awk -v part="$1/" '
+    function folder(path, parts) { return split(substr(path, length(part) + 1), parts, "/") > 1 ? parts[1] : "." }
+    index($2, part) == 1 && folder($1) != folder($2) { print folder($1), folder($2), $1, $2 }')
   # tsort names the folders of a cycle, each on a line of its own: each includes the next, the last the first.
   cycle=$(cut -d ' ' -f 1,2 <<<"$includes" | sort -u | tsort 2>&1 >/dev/null | awk '
     /contains a loop/ { if (++loops > 1) exit; next }
     { print $2 }') || true
   [[ -n $cycle ]] || return 0
-  printf 'folders of libcdem include each other in a cycle:\n'
+  printf 'folders of %s include each other in a cycle:\n' "$1"
   awk 'NR == FNR { folders[++n] = $1; next }
        { for (i = 1; i <= n; ++i)
            if ($1 == folders[i] && $2 == folders[i % n + 1])

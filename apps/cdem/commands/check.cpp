@@ -1,8 +1,8 @@
 // cdem check: builds and validates what the script describes, without solving and without writing anything.
 #include "apps/cdem/commands/script_run.hpp"
+#include "apps/cdem/process/build_info.hpp"
 #include "apps/cdem/process/memory.hpp"
 #include "apps/cdem/process/rank.hpp"
-#include "apps/cdem/process/build_info.hpp"
 #include "lua/binding/replay/led.hpp"
 
 #include <cstdio>

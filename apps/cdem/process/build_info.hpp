@@ -6,8 +6,8 @@
 
 namespace cdem::app {
 
-std::string version();    // "0.1.0"
-std::string build_text(); // "Release, GNU 12.2.0"
+std::string version();                // "0.1.0"
+std::string build_text();             // "Release, GNU 12.2.0"
 std::filesystem::path program_path(); // of the running cdem
 
 } // namespace cdem::app
