@@ -157,9 +157,9 @@ public:
   RelaxResult relax(const RelaxOptions&);
   RunResult run(const RunOptions&);
   std::vector<BlockCut> refine(const RefineOptions&);
-  GrowResult grow(const GrowOptions&);                          // one stage; see fracture/grow.hpp
-  SettleResult settle(const SettleOptions&);                    // one stage; see step/settle.hpp
-  CriticalFlowResult critical_flow(const CriticalFlowOptions&); // one stage; see step/critical_flow.hpp
+  GrowResult grow(const GrowOptions&);                          // one stage; see procedure/grow.hpp
+  SettleResult settle(const SettleOptions&);                    // one stage; see procedure/settle.hpp
+  CriticalFlowResult critical_flow(const CriticalFlowOptions&); // one stage; see procedure/critical_flow.hpp
 
   // Results.
   ModelCounts counts() const;

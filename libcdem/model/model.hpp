@@ -65,7 +65,7 @@ struct Block {
   int centroid_node() const { return node_end - 1; }
 };
 
-// Where an interface comes from; decides whether it may break (fracture/refine.hpp).
+// Where an interface comes from; decides whether it may break (procedure/refine.hpp).
 enum class InterfaceOrigin : std::uint8_t { original, cut };
 
 struct Interface {

@@ -1,4 +1,4 @@
-// What the search for a critical flow takes and gives back; step/critical_flow.hpp says how it goes.
+// What the search for a critical flow takes and gives back; procedure/critical_flow.hpp says how it goes.
 #pragma once
 
 #include "libcdem/load/conditions.hpp"

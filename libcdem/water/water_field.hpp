@@ -1,5 +1,5 @@
 // Water as a field of its own: velocity, acceleration, pressure and free surface as pure functions of place and time.
-// Loads take any field (load/water_load.hpp). A field keeps no state between calls, so a resumed run meets the same bits.
+// Loads take any field (load/water_forces.hpp). A field keeps no state between calls, so a resumed run meets the same bits.
 #pragma once
 
 #include "libgeom/core/types.hpp"
