@@ -36,13 +36,8 @@ void take_names(const Model& built, Model& then) {
 
 } // namespace
 
-template <class A>
-void archive(A& a, RestartPoint& restart_point) {
-  auto& [step, breaks, wall_time, tension_before, shear_before, loop_state, previous_force, spring_force,
-         stretch, viscous, one_way, contact_step, procedure_state] = restart_point;
-  archive_all(a, step, breaks, wall_time, tension_before, shear_before, loop_state, previous_force,
-              spring_force, stretch, viscous, one_way, contact_step, procedure_state);
-}
+CDEM_ARCHIVE(RestartPoint, step, breaks, wall_time, tension_before, shear_before, loop_state, previous_force,
+             spring_force, stretch, viscous, one_way, contact_step, procedure_state)
 
 std::string Simulation::Impl::saved() const {
   if (!at_start.empty())

@@ -1,6 +1,5 @@
 // Values as bytes, for checkpoints and hashes: archive(a, x) writes x to a Writer, adds it to a Hasher, or reads it
-// from a Reader. A struct goes member by member through a structured binding, so that a new member that its archive
-// does not name fails to compile, and no padding is written.
+// from a Reader. A struct goes member by member, as its CDEM_ARCHIVE names them, so that no padding is written.
 #pragma once
 
 #include "libcdem/checkpoint/xxh64.hpp"
@@ -192,6 +191,14 @@ template <class A, class... T>
 void archive_all(A& a, T&... x) {
   (archive(a, x), ...);
 }
+
+// CDEM_ARCHIVE(Struct, all its members in order): a new member that is not named here fails to compile.
+#define CDEM_ARCHIVE(Struct, ...)                                                                            \
+  template <class A>                                                                                         \
+  void archive(A& a, Struct& x) {                                                                            \
+    auto& [__VA_ARGS__] = x;                                                                                 \
+    archive_all(a, __VA_ARGS__);                                                                             \
+  }
 
 // Writers and hashers change nothing.
 template <class A, class T>

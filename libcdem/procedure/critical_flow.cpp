@@ -15,6 +15,10 @@
 #include <fmt/format.h>
 
 namespace cdem {
+
+CDEM_ARCHIVE(HeldPressure, base_time, base, rate, limit, resume)
+CDEM_ARCHIVE(CriticalFlowSample, time, pressure, velocity, displacement, broken)
+
 namespace {
 
 constexpr double first_velocity = 1;        // m/s, of the unbroken reference: far below any strength
@@ -76,13 +80,9 @@ struct SearchState {
 template <class A>
 void archive(A& a, SearchState& x) {
   auto& [part, pattern, start, start_time, first_break, seen, looks, pressure, result] = x;
-  auto& [base_time, base, rate, limit, resume] = pressure;
-  archive_all(a, part, pattern, start, start_time, first_break, seen, looks, base_time, base, rate, limit,
-              resume, result.compliance, result.period, result.first_break_pressure,
-              result.first_break_velocity, result.first_break_place);
-  result.curve.resize(archive_size(a, result.curve.size()));
-  for (auto& [time, at, velocity, displacement, broken] : result.curve)
-    archive_all(a, time, at, velocity, displacement, broken);
+  archive_all(a, part, pattern, start, start_time, first_break, seen, looks, pressure, result.compliance,
+              result.period, result.first_break_pressure, result.first_break_velocity,
+              result.first_break_place, result.curve);
 }
 
 class Search {

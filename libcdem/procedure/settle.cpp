@@ -13,6 +13,11 @@
 #include <fmt/format.h>
 
 namespace cdem {
+
+CDEM_ARCHIVE(SettlePhase, name, steps, time, kinetic_ratio, residual)
+CDEM_ARCHIVE(SettleResult, converged, kinetic_ratio, peak_kinetic, steps, time, made_rigid, phases, fastest,
+             fastest_speed, wall_time)
+
 namespace {
 
 // Steps between looks at the kinetic energy, and how many in a row must find it low: a body at the top of a bounce
@@ -74,16 +79,8 @@ struct SettleState {
   SettleResult result;
 };
 
-template <class A>
-void archive(A& a, SettleState& x) {
-  auto& [part, start, part_start, looks, turned, calm, result] = x;
-  archive_all(a, part, start, part_start, looks, turned, calm.peak, calm.ratio, calm.quiet, result.steps,
-              result.made_rigid, result.wall_time);
-  std::size_t phases = archive_size(a, result.phases.size());
-  result.phases.resize(phases);
-  for (auto& [name, steps, time, kinetic_ratio, residual] : result.phases)
-    archive_all(a, name, steps, time, kinetic_ratio, residual);
-}
+CDEM_ARCHIVE(Calm, peak, ratio, quiet)
+CDEM_ARCHIVE(SettleState, part, start, part_start, looks, turned, calm, result)
 
 class Settling {
 public:

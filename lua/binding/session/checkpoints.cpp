@@ -26,11 +26,7 @@ struct Head {
   bool unsafe = false;
 };
 
-template <class A>
-void archive(A& a, Head& head) {
-  auto& [run, serial, script, version, script_hash, set, unsafe] = head;
-  archive_all(a, run, serial, script, version, script_hash, set, unsafe);
-}
+CDEM_ARCHIVE(Head, run, serial, script, version, script_hash, set, unsafe)
 
 Head read_head(const std::string& content) {
   Reader a(content);
@@ -45,11 +41,7 @@ std::string name_of(std::uint64_t serial) {
 
 } // namespace
 
-template <class A>
-void archive(A& a, Checkpoints::SavedModel& model) {
-  auto& [number, saved, series] = model;
-  archive_all(a, number, saved, series);
-}
+CDEM_ARCHIVE(Checkpoints::SavedModel, number, saved, series)
 
 CheckpointInfo newest_checkpoint(const fs::path& folder, std::uint64_t run) {
   CheckpointInfo newest;
