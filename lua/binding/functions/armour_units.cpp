@@ -97,54 +97,49 @@ Value slope(Session&, Object*, const Arguments& a) {
 } // namespace
 
 void bind_armour_units(Module& m) {
-  const auto add = [&](std::string name, std::string doc, std::vector<Field> fields, auto body) {
-    m.functions.push_back(
-        {std::move(name), std::move(doc), std::move(fields), false, "cdem.Solid", "", body});
-  };
-  add("accropode",
-      "An accropode-like unit, V = 0.34 H^3: two end bars along z, a middle bar along x, a core. Centred on "
-      "the "
-      "origin. Proportions are fractions of the height; those left out are the shape's.",
-      unit_fields({choice("shape", {"slender", "stocky"}).standard("slender"),
-                   share("width", "of the end bars and the core along x: 0.42 or 0.386"),
-                   share("bar", "of an end bar along y: 0.33 or 0.30"),
-                   share("core", "of the core and the middle bar along z: 0.42"),
-                   share("length", "of the middle bar along x: 1 or 0.80"),
-                   share("taper", "size of a bar's end over that at the core: 0.70 or 0.95"),
-                   number("corner").at_least(0).doc(
-                       "cut off a bar's edges, over the shorter side of its section: 0.20; 0: square "
-                       "bars, which make larger tetrahedra")}),
-      accropode);
-  add("dolos",
-      "A dolos without fillets, V = 0.163 C^3: octagonal flukes along z and y at the ends of a shank along "
-      "x.",
-      unit_fields({share("tip", "width of a fluke at its ends, over the height").standard(0.20),
-                   share("waist", "width of the shank, over the height").standard(0.32),
-                   share("root", "width of a fluke at its middle, over the height").standard(0.364)}),
-      dolos);
-  add("tetrapod", "A tetrapod, V = 0.28 H^3: four conical legs, one of them up.",
-      unit_fields({share("tip", "diameter of a leg at its end, over the height").standard(0.302),
-                   share("root", "diameter of a leg where it meets the others").standard(0.470)}),
-      tetrapod);
-  add("cube", "A plain cube.", unit_fields({}), cube);
-  add("antifer", "An antifer cube, V = 1.0247 H^3: its sides lean in and have a round groove each.",
-      unit_fields({share("bottom", "width of the lower face, over the height").standard(1.086),
-                   share("top", "width of the upper face").standard(1.005),
-                   number("groove").at_least(0).standard(0.1047).doc("radius of the grooves; 0: none")}),
-      antifer);
-  add("cubipod",
-      "A cube with a truncated pyramid on each side, as the Cubipod has; V = 0.544 H^3, H from tip to tip. "
-      "Proportions are "
-      "fractions of the height, and ours.",
-      unit_fields({share("cube", "side of the cube").standard(0.74),
-                   share("root", "width of a pyramid on the cube").standard(0.48),
-                   share("tip", "width of its end").standard(0.36)}),
-      cubipod);
-  add("slope", "A wedge that rises along +x from x = 0, z = 0; y from -width/2 to width/2.",
-      {number("gradient").above(0).required().doc("rise over run: 1/1.5"),
-       number("length").above(0).unit("m").required().doc("along x"),
-       number("width").above(0).unit("m").required().doc("along y"), number("mesh_size").above(0).unit("m")},
-      slope);
+  m.add("accropode",
+        "An accropode-like unit, V = 0.34 H^3: two end bars along z, a middle bar along x, a core. Centred "
+        "on the origin. Proportions are fractions of the height; those left out are the shape's.",
+        unit_fields(
+            {choice("shape", {"slender", "stocky"}).standard("slender"),
+             share("width", "of the end bars and the core along x: 0.42 or 0.386"),
+             share("bar", "of an end bar along y: 0.33 or 0.30"),
+             share("core", "of the core and the middle bar along z: 0.42"),
+             share("length", "of the middle bar along x: 1 or 0.80"),
+             share("taper", "size of a bar's end over that at the core: 0.70 or 0.95"),
+             number("corner").at_least(0).doc("cut off a bar's edges, over the shorter side of its section: "
+                                              "0.20; 0: square bars, which make larger tetrahedra")}),
+        accropode, "cdem.Solid");
+  m.add("dolos",
+        "A dolos without fillets, V = 0.163 C^3: octagonal flukes along z and y at the ends of a shank along "
+        "x.",
+        unit_fields({share("tip", "width of a fluke at its ends, over the height").standard(0.20),
+                     share("waist", "width of the shank, over the height").standard(0.32),
+                     share("root", "width of a fluke at its middle, over the height").standard(0.364)}),
+        dolos, "cdem.Solid");
+  m.add("tetrapod", "A tetrapod, V = 0.28 H^3: four conical legs, one of them up.",
+        unit_fields({share("tip", "diameter of a leg at its end, over the height").standard(0.302),
+                     share("root", "diameter of a leg where it meets the others").standard(0.470)}),
+        tetrapod, "cdem.Solid");
+  m.add("cube", "A plain cube.", unit_fields({}), cube, "cdem.Solid");
+  m.add("antifer", "An antifer cube, V = 1.0247 H^3: its sides lean in and have a round groove each.",
+        unit_fields({share("bottom", "width of the lower face, over the height").standard(1.086),
+                     share("top", "width of the upper face").standard(1.005),
+                     number("groove").at_least(0).standard(0.1047).doc("radius of the grooves; 0: none")}),
+        antifer, "cdem.Solid");
+  m.add("cubipod",
+        "A cube with a truncated pyramid on each side, as the Cubipod has; V = 0.544 H^3, H from tip to tip. "
+        "Proportions are fractions of the height, and ours.",
+        unit_fields({share("cube", "side of the cube").standard(0.74),
+                     share("root", "width of a pyramid on the cube").standard(0.48),
+                     share("tip", "width of its end").standard(0.36)}),
+        cubipod, "cdem.Solid");
+  m.add("slope", "A wedge that rises along +x from x = 0, z = 0; y from -width/2 to width/2.",
+        {number("gradient").above(0).required().doc("rise over run: 1/1.5"),
+         number("length").above(0).unit("m").required().doc("along x"),
+         number("width").above(0).unit("m").required().doc("along y"),
+         number("mesh_size").above(0).unit("m")},
+        slope, "cdem.Solid");
 }
 
 } // namespace cdem::script

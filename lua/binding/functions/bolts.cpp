@@ -130,48 +130,52 @@ void bind_bolts(Module& m) {
         integer("node").required().doc("from 1, from the collar on"),
         vec3("place").unit("m").required().doc("undeformed"),
         number("tension").unit("N").required().doc("at a collar with a plate that of the plate"),
-        number("grout").unit("N").required().doc("on the rock, towards the far end; a plate pushes "
-                                                 "that way"),
+        number("grout").unit("N").required().doc("on the rock, towards the far end; a plate pushes that way"),
         number("slip").unit("m").required().doc("of the bolt past the grout"),
         number("yielded").required().doc("strain of the next segment that stays")}});
   Class& model = m.the_class("Model");
-  const auto add = [&](std::string name, std::string doc, std::vector<Field> fields, std::string returns,
-                       std::string returns_doc, auto body) {
-    model.methods.push_back({std::move(name), std::move(doc), std::move(fields), false, std::move(returns),
-                             std::move(returns_doc), method<ModelObject>(body)});
-  };
-  add("bolts",
-      "Sets grouted bolts or cables into the rock as it stands now: steel that yields, grout that slips, "
-      "along the axis "
-      "only. Both ends of each must lie in the rock.",
-      {vec3("from").unit("m").doc("of one bolt: the collar"), vec3("to").unit("m").doc("its far end"),
-       record("pattern", {vec3("centre").unit("m").required().doc("a point of the axis they fan out from"),
-                          choice("axis", {"x", "y", "z"}).standard("y"),
-                          number("radius").above(0).unit("m").required().doc("from the axis to the collars"),
-                          number("length").above(0).unit("m").required(),
-                          list("angles", number_type())
-                              .required()
-                              .doc("degrees from the horizontal (x; y where the axis is x), 90 is up (z)"),
-                          list("at", number_type()).required().doc("places along the axis, m")})
-           .doc("fans of bolts, instead of from and to"),
-       number("area").above(0).unit("m2").required().doc("of the steel"),
-       number("youngs_modulus").above(0).standard(200e9).unit("Pa").doc("of the steel"),
-       number("yield_stress").above(0).unit("Pa").doc("of the steel; it does not yield when left out"),
-       number("grout_stiffness")
-           .above(0)
-           .standard(1e9)
-           .unit("N/m2")
-           .doc("force per length of bolt and displacement past the rock"),
-       number("grout_strength").above(0).unit("N/m").doc("force per length; it does not slip when left out"),
-       number("pretension").at_least(0).standard(0.0).unit("N").doc("of the plate once the bolt is tight"),
-       flag("plate").standard(false).doc("the collar is fast to the rock"),
-       number("free_length").at_least(0).standard(0.0).unit("m").doc("without grout, from the collar on"),
-       integer("segments").within(1, 1000).standard(10)},
-      "integer", "how many", bolts);
-  model.methods.back().replay = Replay::again;
-  add("bolt_forces", "Forces along the bolts, one table per node.", {}, "cdem.BoltState[]", "", bolt_forces);
-  add("save_bolts", "Writes them as .csv: bolt, node, x, y, z, tension, grout, slip, yielded.",
-      {text("file").standard("bolts.csv").doc("in the output folder")}, "", "", save_bolts);
+  model
+      .add(
+          "bolts",
+          "Sets grouted bolts or cables into the rock as it stands now: steel that yields, grout that slips, "
+          "along the axis only. Both ends of each must lie in the rock.",
+          {vec3("from").unit("m").doc("of one bolt: the collar"), vec3("to").unit("m").doc("its far end"),
+           record("pattern",
+                  {vec3("centre").unit("m").required().doc("a point of the axis they fan out from"),
+                   choice("axis", {"x", "y", "z"}).standard("y"),
+                   number("radius").above(0).unit("m").required().doc("from the axis to the collars"),
+                   number("length").above(0).unit("m").required(),
+                   list("angles", number_type())
+                       .required()
+                       .doc("degrees from the horizontal (x; y where the axis is x), 90 is up (z)"),
+                   list("at", number_type()).required().doc("places along the axis, m")})
+               .doc("fans of bolts, instead of from and to"),
+           number("area").above(0).unit("m2").required().doc("of the steel"),
+           number("youngs_modulus").above(0).standard(200e9).unit("Pa").doc("of the steel"),
+           number("yield_stress").above(0).unit("Pa").doc("of the steel; it does not yield when left out"),
+           number("grout_stiffness")
+               .above(0)
+               .standard(1e9)
+               .unit("N/m2")
+               .doc("force per length of bolt and displacement past the rock"),
+           number("grout_strength")
+               .above(0)
+               .unit("N/m")
+               .doc("force per length; it does not slip when left out"),
+           number("pretension")
+               .at_least(0)
+               .standard(0.0)
+               .unit("N")
+               .doc("of the plate once the bolt is tight"),
+           flag("plate").standard(false).doc("the collar is fast to the rock"),
+           number("free_length").at_least(0).standard(0.0).unit("m").doc("without grout, from the collar on"),
+           integer("segments").within(1, 1000).standard(10)},
+          bolts, "integer", "how many")
+      .replayed(Replay::again);
+  model.add("bolt_forces", "Forces along the bolts, one table per node.", {}, bolt_forces,
+            "cdem.BoltState[]");
+  model.add("save_bolts", "Writes them as .csv: bolt, node, x, y, z, tension, grout, slip, yielded.",
+            {text("file").standard("bolts.csv").doc("in the output folder")}, save_bolts);
 }
 
 } // namespace cdem::script

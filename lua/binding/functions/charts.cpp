@@ -172,8 +172,9 @@ void bind_charts(Module& m) {
                                   colour_field()};
   std::vector<Field> lists = chart_fields();
   lists.insert(lists.begin() + 1, list("series", record_type(series)).required());
-  m.functions.push_back({"chart", "Line chart of lists of numbers.", lists, false, "", "", chart_of_lists,
-                         false, Replay::recorded, true});
+  m.add("chart", "Line chart of lists of numbers.", lists, chart_of_lists)
+      .replayed(Replay::recorded)
+      .by_rank_0();
 
   std::vector<Field> histories = chart_fields();
   histories.insert(
@@ -181,20 +182,18 @@ void bind_charts(Module& m) {
       {list("y", text_type()).required().doc("histories, e.g. {\"residual\"}; model:history() has all"),
        list("right", text_type(), 0).doc("histories read on the right"),
        text("x").standard("step").doc("history along the x axis")});
-  m.the_class("Model").methods.push_back({"chart", "Line chart of histories.", histories, false, "", "",
-                                          method<ModelObject>(chart_of_histories), false, Replay::standard,
-                                          true});
+  m.the_class("Model").add("chart", "Line chart of histories.", histories, chart_of_histories).by_rank_0();
 
   std::vector<Field> fragments = chart_fields();
   for (Field& field : fragments)
     if (field.name == "log_x")
       field = flag("log_x").standard(true);
-  m.the_class("Model").methods.push_back(
-      {"chart_fragments",
-       "Chart of the fragments by size: the part of the mass in fragments "
-       "up to each diameter, that of the sphere "
-       "with their volume. Held bodies in one piece, such as a floor, are left out.",
-       fragments, false, "", "", method<ModelObject>(chart_of_fragments), false, Replay::standard, true});
+  m.the_class("Model")
+      .add("chart_fragments",
+           "Chart of the fragments by size: the part of the mass in fragments up to each diameter, that of "
+           "the sphere with their volume. Held bodies in one piece, such as a floor, are left out.",
+           fragments, chart_of_fragments)
+      .by_rank_0();
 }
 
 } // namespace cdem::script

@@ -49,39 +49,24 @@ Value load_state(Session& session, ModelObject& model, const Arguments& a) {
 
 void bind_checkpoints(Module& m) {
   Class& model = m.the_class("Model");
-  model.methods.push_back({"checkpoint",
-                           "Writes a checkpoint of the whole run, from which `cdem resume` goes on. One is "
-                           "written every few minutes "
-                           "of a solving call too, and when a run is stopped. To go on, the script is run "
-                           "again from its beginning: "
-                           "what it has solved and read so far it is told again.",
-                           {},
-                           true,
-                           "",
-                           "",
-                           method<ModelObject>(checkpoint)});
-  model.methods.push_back(
-      {"save_state",
-       "Writes the state of the model to a file that other scripts start from: motion, stress, broken bonds, "
-       "contacts, time, and how it was cut. Conditions and histories stay behind.",
-       {text("file").required().doc("ends in .cdem; in the output folder")},
-       false,
-       "",
-       "",
-       method<ModelObject>(save_state),
-       false,
-       Replay::standard,
-       true});
-  model.methods.push_back(
-      {"load_state",
-       "Takes the state from a file of save_state. The model must have been built from the same shapes, "
-       "materials, "
-       "joints and contacts.",
-       {text("file").required().doc("beside the script, in the output folder or below the results")},
-       false,
-       "",
-       "",
-       method<ModelObject>(load_state)});
+  model
+      .add("checkpoint",
+           "Writes a checkpoint of the whole run, from which `cdem resume` goes on. One is written every few "
+           "minutes of a solving call too, and when a run is stopped. To go on, the script is run again from "
+           "its beginning: what it has solved and read so far it is told again.",
+           {}, checkpoint)
+      .ordered();
+  model
+      .add("save_state",
+           "Writes the state of the model to a file that other scripts start from: motion, stress, broken "
+           "bonds, contacts, time, and how it was cut. Conditions and histories stay behind.",
+           {text("file").required().doc("ends in .cdem; in the output folder")}, save_state)
+      .by_rank_0();
+  model.add("load_state",
+            "Takes the state from a file of save_state. The model must have been built from the same shapes, "
+            "materials, joints and contacts.",
+            {text("file").required().doc("beside the script, in the output folder or below the results")},
+            load_state);
 }
 
 } // namespace cdem::script

@@ -297,9 +297,8 @@ Field relaxed() {
       "the rest stays as a load");
 }
 Field over() {
-  return number("over").above(0).unit("s").doc(
-      "time of model:run, from now on, in which this share goes evenly; at once when left out. A relaxation "
-      "takes no time");
+  return number("over").above(0).unit("s").doc("time of model:run, from now on, in which this share goes "
+                                               "evenly; at once when left out. A relaxation takes no time");
 }
 Field axes() {
   return choice("axes", {"x", "y", "z", "xy", "xz", "yz", "xyz"}).standard("xyz").doc("components held");
@@ -308,119 +307,113 @@ Field axes() {
 
 void bind_conditions(Module& m) {
   Class& model = m.the_class("Model");
-  const auto add = [&](std::string name, std::string doc, std::vector<Field> fields, auto body,
-                       std::string returns = "", std::string returns_doc = "") {
-    model.methods.push_back({std::move(name), std::move(doc), std::move(fields), false, std::move(returns),
-                             std::move(returns_doc), method<ModelObject>(body)});
-  };
-  const auto again = [&] { model.methods.back().replay = Replay::again; };
-  add("fix", "Holds nodes, or moves them as told. A later call wins over an earlier one where they meet.",
-      {on(), axes(),
-       vec3("displacement")
-           .unit("m")
-           .doc("total value to be held. A relaxation moves there in its first steps; a run moves there at a "
-                "steady velocity and arrives at its end (one that `stop` ends earlier does not)"),
-       vec3("velocity").unit("m/s").doc("in real-time stepping; zero when left out, and in a relaxation"),
-       amplitude_field(), since_field()},
-      fix);
-  again();
-  add("release", "Undoes fixes.", {on(), axes().doc("components set free")}, release);
-  again();
-  add("traction",
-      "Force per undeformed area on outer faces: a stress, or a pressure along their inward normals, such as "
-      "that of a "
-      "reservoir. It acts on faces that are free as the stage begins and does not follow them. Several "
-      "tractions "
-      "on a face add up.",
-      {on(), vec3("stress").unit("Pa").doc("force over area"),
-       number_or_function("pressure", "(x: number, y: number, z: number): number")
-           .unit("Pa")
-           .doc("instead: along the inward normal, the same everywhere or at each undeformed place"),
-       number("level").unit("m").doc("instead: z of a free water surface; weight times the depth below it, "
-                                     "none above. Water in joints is model:water's"),
-       object("water_table", "WaterTable").doc("instead: a free water surface that is not level"),
-       number("weight").above(0).unit("N/m3").standard(9810.0).doc("of the water"), amplitude_field(),
-       since_field()},
-      traction);
-  again();
-  add("force", "A total force, shared among the nodes of a place. Several forces on a node add up.",
-      {one_place(), vec3("force").unit("N").required().doc("total"), amplitude_field(), since_field()},
-      force);
-  again();
-  add("gravity", "Weight of all blocks; one at a time, the last call counts.",
-      {vec3_or_function("vector", "(time: number): number[]")
-           .unit("m/s2")
-           .required()
-           .doc("acceleration, e.g. {0, 0, -9.81}, or a function of time (s) that gives it"),
-       number("water_density")
-           .at_least(0)
-           .standard(0.0)
-           .unit("kg/m3")
-           .doc("buoyancy: takes from the weight, never from the inertia"),
-       amplitude_field(), since_field()},
-      gravity);
-  again();
-  add("crack_pressure",
-      "Pressure of a gas or a fluid on the faces of cracks in cohesive bodies, from when they open: as told, "
-      "or that of "
-      "a fluid which fills the cracks and a reservoir into which a volume is pumped, bulk_modulus (volume - "
-      "volume of "
-      "the cracks) / reservoir. It is the same in all cracks of the place (docs/theory.md, section 22). "
-      "Several "
-      "pressures in a crack add up.",
-      {place("on").standard("all").doc("where: a place or a list of places, by the centroids of faces"),
-       number("pressure").at_least(0).unit("Pa"),
-       number("volume").at_least(0).unit("m3").doc("instead: pumped in, in model:run"),
-       number("bulk_modulus").above(0).unit("Pa").doc("of the fluid; water has 2.2e9"),
-       number("reservoir")
-           .above(0)
-           .unit("m3")
-           .doc("what the fluid fills beside the cracks, such as a borehole"),
-       amplitude_field(), since_field()},
-      crack_pressure);
-  again();
-  add("clear_loads", "Takes away tractions, forces, gravity, flows and pressures in cracks.", {},
-      clear_loads);
-  again();
-  add("initial_velocity",
+  model
+      .add(
+          "fix", "Holds nodes, or moves them as told. A later call wins over an earlier one where they meet.",
+          {on(), axes(),
+           vec3("displacement")
+               .unit("m")
+               .doc("total value to be held. A relaxation moves there in its first steps; a run moves there "
+                    "at a steady velocity and arrives at its end (one that `stop` ends earlier does not)"),
+           vec3("velocity").unit("m/s").doc("in real-time stepping; zero when left out, and in a relaxation"),
+           amplitude_field(), since_field()},
+          fix)
+      .replayed(Replay::again);
+  model.add("release", "Undoes fixes.", {on(), axes().doc("components set free")}, release)
+      .replayed(Replay::again);
+  model
+      .add("traction",
+           "Force per undeformed area on outer faces: a stress, or a pressure along their inward normals, "
+           "such as that of a reservoir. It acts on faces that are free as the stage begins and does not "
+           "follow them. Several tractions on a face add up.",
+           {on(), vec3("stress").unit("Pa").doc("force over area"),
+            number_or_function("pressure", "(x: number, y: number, z: number): number")
+                .unit("Pa")
+                .doc("instead: along the inward normal, the same everywhere or at each undeformed place"),
+            number("level").unit("m").doc("instead: z of a free water surface; weight times the depth below "
+                                          "it, none above. Water in joints is model:water's"),
+            object("water_table", "WaterTable").doc("instead: a free water surface that is not level"),
+            number("weight").above(0).unit("N/m3").standard(9810.0).doc("of the water"), amplitude_field(),
+            since_field()},
+           traction)
+      .replayed(Replay::again);
+  model
+      .add("force", "A total force, shared among the nodes of a place. Several forces on a node add up.",
+           {one_place(), vec3("force").unit("N").required().doc("total"), amplitude_field(), since_field()},
+           force)
+      .replayed(Replay::again);
+  model
+      .add("gravity", "Weight of all blocks; one at a time, the last call counts.",
+           {vec3_or_function("vector", "(time: number): number[]")
+                .unit("m/s2")
+                .required()
+                .doc("acceleration, e.g. {0, 0, -9.81}, or a function of time (s) that gives it"),
+            number("water_density")
+                .at_least(0)
+                .standard(0.0)
+                .unit("kg/m3")
+                .doc("buoyancy: takes from the weight, never from the inertia"),
+            amplitude_field(), since_field()},
+           gravity)
+      .replayed(Replay::again);
+  model
+      .add("crack_pressure",
+           "Pressure of a gas or a fluid on the faces of cracks in cohesive bodies, from when they open: as "
+           "told, or that of a fluid which fills the cracks and a reservoir into which a volume is pumped, "
+           "bulk_modulus (volume - volume of the cracks) / reservoir. It is the same in all cracks of the "
+           "place (docs/theory.md, section 22). Several pressures in a crack add up.",
+           {place("on").standard("all").doc("where: a place or a list of places, by the centroids of faces"),
+            number("pressure").at_least(0).unit("Pa"),
+            number("volume").at_least(0).unit("m3").doc("instead: pumped in, in model:run"),
+            number("bulk_modulus").above(0).unit("Pa").doc("of the fluid; water has 2.2e9"),
+            number("reservoir")
+                .above(0)
+                .unit("m3")
+                .doc("what the fluid fills beside the cracks, such as a borehole"),
+            amplitude_field(), since_field()},
+           crack_pressure)
+      .replayed(Replay::again);
+  model
+      .add("clear_loads", "Takes away tractions, forces, gravity, flows and pressures in cracks.", {},
+           clear_loads)
+      .replayed(Replay::again);
+  model.add(
+      "initial_velocity",
       "The motion of a rigid body, v + w x (x - about), as velocities before the first real-time step; of "
-      "blocks, meshes "
-      "and rigid bodies alike. It takes the place of the velocities that were there.",
+      "blocks, meshes and rigid bodies alike. It takes the place of the velocities that were there.",
       {place("on").standard("all").doc("where: a place or a list of places, each by itself"),
        vec3("velocity").unit("m/s").doc("v"),
        vec3("angular_velocity").unit("rad/s").doc("w, right-handed about its direction; a full turn is 2 pi"),
        vec3("about").unit("m").doc(
            "the point that w turns about; the centroid of what is selected when left out")},
       initial_velocity);
-  add("remove",
-      "Takes blocks and whole meshes out of the model (an excavation): those whose undeformed centroid is "
-      "selected. Their forces on the rock that stays go at once, unless `relaxed` and `over` say otherwise "
-      "(docs/settling-and-loading.md, \"Excavating\").",
-      {on(), relaxed(), over()}, remove, "integer", "how many");
-  add("relax_excavation",
-      "Lets go of forces that earlier calls of model:remove have kept with `relaxed` or `over`, such as "
-      "after "
-      "a lining is set. What is relaxed further already stays so.",
-      {relaxed(), over()}, relax_excavation);
-  add("make_rigid",
-      "Meshed bodies keep the shape and the stress of this moment from now on, and move as a whole: those "
-      "whose "
-      "undeformed centroid is selected.",
-      {on()}, make_rigid, "integer", "how many changed");
-  add("make_deformable",
+  model.add("remove",
+            "Takes blocks and whole meshes out of the model (an excavation): those whose undeformed centroid "
+            "is selected. Their forces on the rock that stays go at once, unless `relaxed` and `over` say "
+            "otherwise (docs/settling-and-loading.md, \"Excavating\").",
+            {on(), relaxed(), over()}, remove, "integer", "how many");
+  model.add("relax_excavation",
+            "Lets go of forces that earlier calls of model:remove have kept with `relaxed` or `over`, such "
+            "as after a lining is set. What is relaxed further already stays so.",
+            {relaxed(), over()}, relax_excavation);
+  model.add("make_rigid",
+            "Meshed bodies keep the shape and the stress of this moment from now on, and move as a whole: "
+            "those whose undeformed centroid is selected.",
+            {on()}, make_rigid, "integer", "how many changed");
+  model.add(
+      "make_deformable",
       "Rigid bodies deform again, with the motion they have: those whose undeformed centroid is selected.",
       {on()}, make_deformable, "integer", "how many changed");
   const auto whole_faces = [] {
     return flag("whole_faces")
         .standard(false)
         .doc("only faces that are selected with all their points, so that faces that meet the notch at its "
-             "tip "
-             "stay bonded");
+             "tip stay bonded");
   };
-  add("break_bonds", "Breaks bonds before anything is loaded (a notch): those whose point is selected.",
-      {on(), whole_faces()}, break_bonds, "integer", "how many");
-  add("unbond", "The old name of model:break_bonds; it warns.", {on(), whole_faces()}, unbond, "integer",
-      "how many");
+  model.add("break_bonds", "Breaks bonds before anything is loaded (a notch): those whose point is selected.",
+            {on(), whole_faces()}, break_bonds, "integer", "how many");
+  model.add("unbond", "The old name of model:break_bonds; it warns.", {on(), whole_faces()}, unbond,
+            "integer", "how many");
 }
 
 } // namespace cdem::script

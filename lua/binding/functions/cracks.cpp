@@ -149,67 +149,54 @@ void bind_crack_records(Module& m) {
 }
 
 void bind_tip(Class& model) {
-  model.methods.push_back(
-      {"crack_tip",
-       "Where the tip of a crack was along a path, and how fast it ran, from the bonds that broke. The tip "
-       "is "
-       "the farthest broken point that hangs together with the start of the path; a microcrack ahead counts "
-       "once the crack has met it.",
-       {vec3("point").unit("m").doc(
-            "where the crack starts, undeformed; the path runs on to the end of the model"),
-        vec3("direction").doc("of that straight path"),
-        list("path", vec3_type(), 2)
-            .unit("m")
-            .doc("instead of point and direction: its corners, undeformed, the first where the crack starts. "
-                 "Along a face of a body it follows what shows there"),
-        number("width").above(0).unit("m").required().doc("how far from the path a broken point may lie"),
-        number("reach").above(0).unit("m").doc(
-            "points nearer than this hang together; about the edge of a tetrahedron when left out"),
-        number("window").above(0).unit("s").doc(
-            "over which the speed is fitted; several times what the crack takes for one element. A tenth of "
-            "the time it ran when left out"),
-        text("body").doc("whose Rayleigh speed is told; the only one when left out")},
-       false,
-       "cdem.CrackTip",
-       "",
-       method<ModelObject>(crack_tip)});
+  model.add(
+      "crack_tip",
+      "Where the tip of a crack was along a path, and how fast it ran, from the bonds that broke. The tip is "
+      "the farthest broken point that hangs together with the start of the path; a microcrack ahead counts "
+      "once the crack has met it.",
+      {vec3("point").unit("m").doc(
+           "where the crack starts, undeformed; the path runs on to the end of the model"),
+       vec3("direction").doc("of that straight path"),
+       list("path", vec3_type(), 2)
+           .unit("m")
+           .doc("instead of point and direction: its corners, undeformed, the first where the crack starts. "
+                "Along a face of a body it follows what shows there"),
+       number("width").above(0).unit("m").required().doc("how far from the path a broken point may lie"),
+       number("reach").above(0).unit("m").doc(
+           "points nearer than this hang together; about the edge of a tetrahedron when left out"),
+       number("window").above(0).unit("s").doc(
+           "over which the speed is fitted; several times what the crack takes for one element. A tenth of "
+           "the time it ran when left out"),
+       text("body").doc("whose Rayleigh speed is told; the only one when left out")},
+      crack_tip, "cdem.CrackTip");
 }
 
 } // namespace
 
 void bind_cracks(Module& m) {
   bind_crack_records(m);
-  m.functions.push_back(
-      {"rayleigh_speed",
-       "Speed of waves along the free surface of a material, m/s: the exact root of Rayleigh's "
-       "equation. A crack in tension cannot run faster.",
+  m.add(
+       "rayleigh_speed",
+       "Speed of waves along the free surface of a material, m/s: the exact root of Rayleigh's equation. A "
+       "crack in tension cannot run faster.",
        {object("material", "Material").required()},
-       true,
-       "number",
-       "",
        [](Session&, Object*, const Arguments& a) -> Value {
          return rayleigh_speed(a.object<MaterialObject>("material")->elastic);
-       }});
+       },
+       "number")
+      .ordered();
   Class& model = m.the_class("Model");
-  model.methods.push_back({"cracks",
-                           "Area of all cracks and the energy they took, of the model and of each body.",
-                           {},
-                           true,
-                           "cdem.Cracks",
-                           "",
-                           method<ModelObject>(cracks)});
-  model.methods.push_back(
-      {"record_cracks",
-       "Samples the area and energy of cracks into the history, as columns <name>_area, <name>_tension_area, "
-       "<name>_shear_area, <name>_damaged_area, <name>_projected_area, <name>_energy, <name>_tension_energy "
-       "and "
-       "<name>_shear_energy (as in cdem.CrackSum).",
-       {text("name").standard(std::string("crack")),
-        text("body").doc("by name; the whole model when left out")},
-       false,
-       "",
-       "",
-       method<ModelObject>(record_cracks)});
+  model
+      .add("cracks", "Area of all cracks and the energy they took, of the model and of each body.", {},
+           cracks, "cdem.Cracks")
+      .ordered();
+  model.add("record_cracks",
+            "Samples the area and energy of cracks into the history, as columns <name>_area, "
+            "<name>_tension_area, <name>_shear_area, <name>_damaged_area, <name>_projected_area, "
+            "<name>_energy, <name>_tension_energy and <name>_shear_energy (as in cdem.CrackSum).",
+            {text("name").standard(std::string("crack")),
+             text("body").doc("by name; the whole model when left out")},
+            record_cracks);
   bind_tip(model);
 }
 

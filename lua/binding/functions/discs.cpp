@@ -141,8 +141,8 @@ std::vector<geom::Disc> discs_of(Session& session, const Arguments& a) {
 }
 
 std::vector<Field> disc_fields() {
-  return {integer("id").at_least(0).doc("discs cut in the order of their ids; its place in the "
-                                        "list when left out"),
+  return {integer("id").at_least(0).doc(
+              "discs cut in the order of their ids; its place in the list when left out"),
           vec3("centre").unit("m").required(),
           number("dip").within(0, 90).unit("deg").required(),
           number("dip_direction").within(0, 360).unit("deg").required(),
@@ -162,22 +162,18 @@ void bind_discs(Module& m) {
       text("set").required().doc("its name"),
       number("dip").within(0, 90).unit("deg").required().doc("of the mean plane"),
       number("dip_direction").within(0, 360).unit("deg").required(),
-      number("kappa").above(0).doc("concentration of Fisher's distribution, some 10 to 100; all discs are "
-                                   "parallel when left out"),
+      number("kappa").above(0).doc(
+          "concentration of Fisher's distribution, some 10 to 100; all discs are parallel when left out"),
       record("radius", radius).required(),
       number("p30").above(0).unit("1/m3").doc("discs per volume"),
       number("p32").above(0).unit("1/m").doc("instead: area of discs per volume")};
-  m.functions.push_back(
-      {"random_discs",
-       "A fracture network at random, for cut_by_discs: discs with centres even in a box, orientation after "
-       "Fisher, and a law of "
-       "radii. Take the box larger than the rock by the largest radius, or the discs thin out at its sides.",
-       {list("sets", record_type(set)).required(), box_field().doc("of the centres"),
-        integer("seed").at_least(0).standard(1).doc("the same seed gives the same discs on every machine")},
-       false,
-       "table[]",
-       "id, centre, dip, dip_direction, radius and set of each",
-       random_discs});
+  m.add("random_discs",
+        "A fracture network at random, for cut_by_discs: discs with centres even in a box, orientation after "
+        "Fisher, and a law of radii. Take the box larger than the rock by the largest radius, or the discs "
+        "thin out at its sides.",
+        {list("sets", record_type(set)).required(), box_field().doc("of the centres"),
+         integer("seed").at_least(0).standard(1).doc("the same seed gives the same discs on every machine")},
+        random_discs, "table[]", "id, centre, dip, dip_direction, radius and set of each");
   m.records.push_back(
       {"DiscStatistics",
        "What the discs of one set come to.",
@@ -190,19 +186,15 @@ void bind_discs(Module& m) {
         number("p32").unit("1/m").required().doc("area in the box over its volume"),
         number("p21").unit("1/m").doc("length of traces in the plane, within the box, over its area"),
         number("p10").unit("1/m").doc("crossings with the line over its length")}});
-  m.functions.push_back({"disc_statistics",
-                         "Intensities and mean orientation of discs, a row for each set: of "
-                         "cdem.random_discs, or as surveyed, of "
-                         "cdem.read_discs.",
-                         {list("discs", record_type(disc_fields())).required(), box_field().doc("the volume"),
-                          record("plane", {vec3("point").unit("m").required(), vec3("normal").required()})
-                              .doc("for p21: a rock face or the floor of a drift"),
-                          record("line", {vec3("from").unit("m").required(), vec3("to").unit("m").required()})
-                              .doc("for p10: a scanline or a borehole")},
-                         false,
-                         "cdem.DiscStatistics[]",
-                         "",
-                         disc_statistics});
+  m.add("disc_statistics",
+        "Intensities and mean orientation of discs, a row for each set: of cdem.random_discs, or as "
+        "surveyed, of cdem.read_discs.",
+        {list("discs", record_type(disc_fields())).required(), box_field().doc("the volume"),
+         record("plane", {vec3("point").unit("m").required(), vec3("normal").required()})
+             .doc("for p21: a rock face or the floor of a drift"),
+         record("line", {vec3("from").unit("m").required(), vec3("to").unit("m").required()})
+             .doc("for p10: a scanline or a borehole")},
+        disc_statistics, "cdem.DiscStatistics[]");
 }
 
 } // namespace cdem::script

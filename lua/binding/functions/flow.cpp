@@ -230,9 +230,7 @@ void bind_flow_records(Module& m) {
 void bind_flow(Module& m) {
   bind_flow_records(m);
   const auto convert = [&](std::string name, std::string doc, Field given, auto body) {
-    m.functions.push_back(
-        {std::move(name), std::move(doc), {std::move(given), water_density()}, false, "number", "", body});
-    m.functions.back().in_order = true;
+    m.add(std::move(name), std::move(doc), {std::move(given), water_density()}, body, "number").ordered();
   };
   convert("flow_pressure", "Pressure of a stream, rho V^2 / 2 (Feng 2014 eq 20), Pa.",
           number("velocity").at_least(0).unit("m/s").required(), pressure);
@@ -240,21 +238,16 @@ void bind_flow(Module& m) {
           number("pressure").at_least(0).unit("Pa").required(), velocity);
 
   Class& model = m.the_class("Model");
-  const auto add = [&](std::string name, std::string doc, std::vector<Field> fields, std::string returns,
-                       std::string returns_doc, auto body) {
-    model.methods.push_back({std::move(name), std::move(doc), std::move(fields), false, std::move(returns),
-                             std::move(returns_doc), method<ModelObject>(body)});
-  };
   std::vector<Field> steady = flow_fields();
   steady[0] = vec3("direction").doc("of the flow; made a unit vector");
   steady[1].doc("outer faces that may take it: one place; of water: a place or a list of places");
   steady[3].doc("faces opened by cracks take the pressure too; always with water");
   steady.insert(steady.begin() + 1,
                 number_or_function("velocity", "(time: number): number").at_least(0).unit("m/s"));
-  steady.push_back(object("water", "Water")
-                       .doc("a field of water in place of direction, velocity and density: drag, pressure "
-                            "and with it buoyancy on the wet part "
-                            "of each face, and added mass, as far as the field knows them"));
+  steady.push_back(
+      object("water", "Water")
+          .doc("a field of water in place of direction, velocity and density: drag, pressure and with it "
+               "buoyancy on the wet part of each face, and added mass, as far as the field knows them"));
   steady.push_back(number("drag").within(0, 100).standard(1.0).doc(
       "C_D; scales the traction, which by itself gives a convex body C_D = 1 of its silhouette"));
   steady.push_back(number("added_mass")
@@ -265,27 +258,22 @@ void bind_flow(Module& m) {
   steady.push_back(flag("relative")
                        .standard(true)
                        .doc("in a run the water meets each point of the surface at its velocity less that of "
-                            "the surface, u, and the "
-                            "traction is rho/2 (u . n)+ u: a unit that the flow carries gains on it no more, "
-                            "and one that moves in "
-                            "still water is slowed down. false: the pressure of the flow alone, however the "
-                            "surface moves"));
-  add("flow",
-      "Pressure of a flow on the outer faces that look towards it, as they stand at each moment: alpha F "
-      "along the "
-      "flow, alpha the cosine to the inward normal (Feng 2014 eqs 19-20), on a surface at rest. With water = "
-      "a field, "
-      "the forces of waves. Shielding is not modelled.",
-      steady, "", "", flow);
-  model.methods.back().replay = Replay::again;
+                            "the surface, u, and the traction is rho/2 (u . n)+ u: a unit that the flow "
+                            "carries gains on it no more, and one that moves in still water is slowed down. "
+                            "false: the pressure of the flow alone, however the surface moves"));
+  model
+      .add("flow",
+           "Pressure of a flow on the outer faces that look towards it, as they stand at each moment: alpha "
+           "F along the flow, alpha the cosine to the inward normal (Feng 2014 eqs 19-20), on a surface at "
+           "rest. With water = a field, the forces of waves. Shielding is not modelled.",
+           steady, flow)
+      .replayed(Replay::again);
   std::vector<Field> search = flow_fields();
   for (const Field& field :
        {choice("mode", {"hold", "ramp"})
             .standard("hold")
             .doc("hold: the pressure rises only while no bond broke for hold_periods, near the static "
-                 "strength; "
-                 "ramp: "
-                 "always, and inertia has its part"),
+                 "strength; ramp: always, and inertia has its part"),
         choice("held", {"x-", "x+", "y-", "y+", "z-", "z+"})
             .doc("the side that is fixed: then the result says at which part of the height the solid broke"),
         number("pressure_rate").above(0).standard(5e6).unit("Pa/s"),
@@ -303,10 +291,10 @@ void bind_flow(Module& m) {
         mass_scaling_field(),
         number("local_damping").from(0, 1).standard(0.1).doc("above 0.2 it acts as added mass")})
     search.push_back(field);
-  add("critical_flow",
-      "Raises a flow from 1 m/s until a held solid breaks: a piece of it comes off, or it has become "
-      "compliant. The pressure is that on a surface at rest.",
-      search, "cdem.CriticalFlowResult", "", critical_flow);
+  model.add("critical_flow",
+            "Raises a flow from 1 m/s until a held solid breaks: a piece of it comes off, or it has become "
+            "compliant. The pressure is that on a surface at rest.",
+            search, critical_flow, "cdem.CriticalFlowResult");
 }
 
 } // namespace cdem::script

@@ -183,9 +183,8 @@ std::vector<Field> grow_fields() {
       number("tip_radius")
           .above(0)
           .unit("m")
-          .doc(
-              "reach of the stress around the tip and, without anchor_at_tip, of the cutting; one block size "
-              "when left out"),
+          .doc("reach of the stress around the tip and, without anchor_at_tip, of the cutting; one block "
+               "size when left out"),
       number("residual").between(0, 1).standard(1e-5).doc("goal of every relaxation"),
       integer("max_steps").at_least(1).standard(500000).doc("of every relaxation"),
       integer("max_rounds").at_least(1).standard(200).doc("of breaking, in each pass"),
@@ -252,17 +251,15 @@ void bind_fracture(Module& m) {
   Class& model = m.the_class("Model");
   std::vector<Field> of_refine = refine_fields();
   of_refine.push_back(may_break_field().standard("near_cuts"));
-  model.methods.push_back({"refine",
-                           "Cuts blocks near failure along their failure plane into slices (Han 2010 eqs "
-                           "13-20); the pieces are bonded and "
-                           "carry the state over.",
-                           of_refine, false, "cdem.Cut[]", "one table per block that was cut",
-                           method<ModelObject>(refine)});
-  model.methods.push_back(
-      {"grow",
-       "Lets a crack advance in passes: blocks at its tip are cut along their failure plane, the worst faces "
-       "break, the model finds its balance, until nothing breaks; then the next pass (Han 2010 example 4.2).",
-       grow_fields(), false, "cdem.GrowResult", "", method<ModelObject>(grow)});
+  model.add("refine",
+            "Cuts blocks near failure along their failure plane into slices (Han 2010 eqs 13-20); the pieces "
+            "are bonded and carry the state over.",
+            of_refine, refine, "cdem.Cut[]", "one table per block that was cut");
+  model.add(
+      "grow",
+      "Lets a crack advance in passes: blocks at its tip are cut along their failure plane, the worst faces "
+      "break, the model finds its balance, until nothing breaks; then the next pass (Han 2010 example 4.2).",
+      grow_fields(), grow, "cdem.GrowResult");
 }
 
 } // namespace cdem::script

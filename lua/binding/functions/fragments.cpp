@@ -84,22 +84,14 @@ void bind_fragments(Module& m) {
         number("rotation_energy").unit("J").required().doc("of the rigid spin with its angular momentum"),
         number("rest_energy").unit("J").required().doc("vibration")}});
   Class& model = m.the_class("Model");
-  model.methods.push_back({"fragments",
-                           "Pieces that unbroken bonds hold together, with their size and motion.",
-                           {},
-                           true,
-                           "cdem.FragmentMotion[]",
-                           "largest first",
-                           method<ModelObject>(fragments)});
-  model.methods.push_back({"save_fragments",
-                           "Writes a row for each fragment, the largest first: number of its body from 1 (0: "
-                           "parts of several), tets, held, "
-                           "volume, diameter, mass, centre, momentum, angular momentum, energies.",
-                           {text("file").required().doc("ends in .csv; in the output folder")},
-                           false,
-                           "",
-                           "",
-                           method<ModelObject>(save_fragments)});
+  model
+      .add("fragments", "Pieces that unbroken bonds hold together, with their size and motion.", {},
+           fragments, "cdem.FragmentMotion[]", "largest first")
+      .ordered();
+  model.add("save_fragments",
+            "Writes a row for each fragment, the largest first: number of its body from 1 (0: parts of "
+            "several), tets, held, volume, diameter, mass, centre, momentum, angular momentum, energies.",
+            {text("file").required().doc("ends in .csv; in the output folder")}, save_fragments);
 }
 
 } // namespace cdem::script

@@ -99,20 +99,18 @@ void bind_hoek_brown(Module& m) {
           .above(0)
           .doc("equivalent plastic strain at which the residual strength is reached, linearly; without "
                "fracture energy, so that what it dissipates depends on the size of the elements"));
-  m.functions.push_back(
-      {"hoek_brown",
-       "Plasticity by the generalised Hoek-Brown strength of a rock mass (Hoek, Carranza-Torres and "
-       "Corkum 2002), with tension cut-off, dilation and softening (docs/theory.md, section 25).",
-       plastic, false, "cdem.Plasticity", "", plastic_hoek_brown});
+  m.add("hoek_brown",
+        "Plasticity by the generalised Hoek-Brown strength of a rock mass (Hoek, Carranza-Torres and Corkum "
+        "2002), with tension cut-off, dilation and softening (docs/theory.md, section 25).",
+        plastic, plastic_hoek_brown, "cdem.Plasticity");
   std::vector<Field> bond = rock_mass_fields();
   bond.push_back(
       number("friction_angle").from(0, 90).unit("deg").required().doc("of a crack, once it has begun"));
-  m.functions.push_back(
-      {"hoek_brown_bond",
-       "Brittle strength of a cohesive body (bonds = \"cohesive\") by the generalised Hoek-Brown curve: "
-       "a face cracks where the stress meets the curve, on the plane of its tangent (docs/theory.md, "
-       "section 22).",
-       bond, false, "cdem.Joint", "", hoek_brown_bond});
+  m.add("hoek_brown_bond",
+        "Brittle strength of a cohesive body (bonds = \"cohesive\") by the generalised Hoek-Brown curve: a "
+        "face cracks where the stress meets the curve, on the plane of its tangent (docs/theory.md, section "
+        "22).",
+        bond, hoek_brown_bond, "cdem.Joint");
 }
 
 } // namespace cdem::script

@@ -144,46 +144,36 @@ void bind_in_situ(Module& m) {
         number("force").unit("N").required().doc("net force where the ratio is largest"),
         integer("block").required().doc("its id, there"), vec3("place").unit("m").required()}});
   Class& model = m.the_class("Model");
-  const auto add = [&](std::string name, std::string doc, std::vector<Field> fields, auto body,
-                       std::string returns = "", std::string returns_doc = "") {
-    model.methods.push_back({std::move(name), std::move(doc), std::move(fields), false, std::move(returns),
-                             std::move(returns_doc), method<ModelObject>(body)});
-  };
-  add("initial_stress",
-      "Stress present before anything moves: the same everywhere, growing with depth, or the sum of both. "
-      "The vertical "
-      "stress at depth d below the surface is -gradient d, the horizontal one k0 times that. Interfaces "
-      "between two "
-      "blocks that are both selected start with its traction.",
-      {place("on").standard("all").doc("where: one place"),
-       list("stress", number_type(), 6).unit("Pa").doc("{xx, yy, zz, xy, yz, xz}, tension positive"),
-       number("gradient").at_least(0).unit("Pa/m").doc("weight per volume, density times 9.81"),
-       plain("k0").doc("horizontal over vertical stress, one number or {kx, ky}; needed with gradient"),
-       number("surface").unit("m").doc(
-           "z where depth begins, the top of the model when left out; above it there is none")},
-      initial_stress, "integer",
-      "joint points that this loads beyond their strength; a warning tells of them");
-  add("gravity_stress",
-      "Stress of the model's own weight: relaxes under gravity and what else acts, without breaking bonds, "
-      "and then sets "
-      "the displacement to zero.",
-      {number("residual")
-           .between(0, 1)
-           .standard(1e-6)
-           .doc("goal: out-of-balance force norm over applied force norm"),
-       integer("max_steps").at_least(1).standard(500000).doc("gives up with converged = false")},
-      gravity_stress, "cdem.RelaxResult");
-  add("reset_displacement",
-      "Results show the displacement from here on: fields, measures, files and pictures, which draw the "
-      "model where it "
-      "stands now. Stress, joints and supports go on as before; opening and slip of joints, and the "
-      "displacement of fix{}, "
-      "still count from the beginning.",
-      {}, reset_displacement);
-  add("unbalance",
+  model.add("initial_stress",
+            "Stress present before anything moves: the same everywhere, growing with depth, or the sum of "
+            "both. The vertical stress at depth d below the surface is -gradient d, the horizontal one k0 "
+            "times that. Interfaces between two blocks that are both selected start with its traction.",
+            {place("on").standard("all").doc("where: one place"),
+             list("stress", number_type(), 6).unit("Pa").doc("{xx, yy, zz, xy, yz, xz}, tension positive"),
+             number("gradient").at_least(0).unit("Pa/m").doc("weight per volume, density times 9.81"),
+             plain("k0").doc("horizontal over vertical stress, one number or {kx, ky}; needed with gradient"),
+             number("surface").unit("m").doc(
+                 "z where depth begins, the top of the model when left out; above it there is none")},
+            initial_stress, "integer",
+            "joint points that this loads beyond their strength; a warning tells of them");
+  model.add("gravity_stress",
+            "Stress of the model's own weight: relaxes under gravity and what else acts, without breaking "
+            "bonds, and then sets the displacement to zero.",
+            {number("residual")
+                 .between(0, 1)
+                 .standard(1e-6)
+                 .doc("goal: out-of-balance force norm over applied force norm"),
+             integer("max_steps").at_least(1).standard(500000).doc("gives up with converged = false")},
+            gravity_stress, "cdem.RelaxResult");
+  model.add("reset_displacement",
+            "Results show the displacement from here on: fields, measures, files and pictures, which draw "
+            "the model where it stands now. Stress, joints and supports go on as before; opening and slip of "
+            "joints, and the displacement of fix{}, still count from the beginning.",
+            {}, reset_displacement);
+  model.add(
+      "unbalance",
       "How far from balance the model is as it stands: the net forces of its free nodes over the weight of "
-      "their blocks. "
-      "0 in balance; 1 where a node feels a force like the weight of its whole block.",
+      "their blocks. 0 in balance; 1 where a node feels a force like the weight of its whole block.",
       {number("reference").above(0).unit("N").doc("force to compare with instead of the weights")}, unbalance,
       "cdem.Unbalance");
 }

@@ -65,28 +65,23 @@ void bind_j_integral(Module& m) {
             .required(),
         number("k_plane_stress").unit("Pa m^0.5").doc("sqrt(E j); nil where j < 0"),
         number("k_plane_strain").unit("Pa m^0.5").doc("sqrt(E j / (1 - nu^2)); nil where j < 0")}});
-  m.the_class("Model").methods.push_back(
-      {"j_integral",
-       "Energy release rate at a straight crack front or notch of a meshed body, the mean over its "
-       "thickness (J integral over domains of tetrahedra). The body must be at rest at small strain, the "
-       "crack "
-       "faces free, flat and parallel to the growth, without supports, loads, contacts and bonds in the "
-       "domain; "
-       "anything else is refused.",
-       {vec3("point").unit("m").required().doc("anywhere on the front, undeformed"),
-        vec3("front").required().doc("direction of the front, through the thickness"),
-        vec3("growth").required().doc("where the crack would go on, square to the front"),
-        list("radii", number_type())
-            .unit("m")
-            .required()
-            .doc("outer radii of the domains, about the front; several show whether they agree"),
-        number("inner").from(0, 1).standard(0.5).doc(
-            "inner radius over the outer one; a blunt notch must lie within it"),
-        text("body").doc("with the crack; the only one when left out")},
-       false,
-       "cdem.JIntegral",
-       "",
-       method<ModelObject>(j_integral)});
+  m.the_class("Model").add(
+      "j_integral",
+      "Energy release rate at a straight crack front or notch of a meshed body, the mean over its thickness "
+      "(J integral over domains of tetrahedra). The body must be at rest at small strain, the crack faces "
+      "free, flat and parallel to the growth, without supports, loads, contacts and bonds in the domain; "
+      "anything else is refused.",
+      {vec3("point").unit("m").required().doc("anywhere on the front, undeformed"),
+       vec3("front").required().doc("direction of the front, through the thickness"),
+       vec3("growth").required().doc("where the crack would go on, square to the front"),
+       list("radii", number_type())
+           .unit("m")
+           .required()
+           .doc("outer radii of the domains, about the front; several show whether they agree"),
+       number("inner").from(0, 1).standard(0.5).doc(
+           "inner radius over the outer one; a blunt notch must lie within it"),
+       text("body").doc("with the crack; the only one when left out")},
+      j_integral, "cdem.JIntegral");
 }
 
 } // namespace cdem::script

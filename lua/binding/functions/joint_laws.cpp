@@ -159,8 +159,7 @@ std::vector<Field> joint_stiffness_fields() {
               .above(0)
               .standard(0.02)
               .doc("equivalent thickness of the joint over the block size (cube root of its volume), which "
-                   "sets the "
-                   "stiffness E/L and G/L"),
+                   "sets the stiffness E/L and G/L"),
           number("thickness")
               .above(0)
               .unit("m")
@@ -172,8 +171,7 @@ std::vector<Field> joint_stiffness_fields() {
               .standard(0.0)
               .unit("s")
               .doc("beta of Rayleigh damping, of joints between blocks that move far in real-time stepping, "
-                   "as long as "
-                   "their faces have not parted; refused where it would do nothing")};
+                   "as long as their faces have not parted; refused where it would do nothing")};
 }
 
 void read_joint_stiffness(const Arguments& a, Joint& joint) {
@@ -190,43 +188,39 @@ void bind_joint_laws(Module& m) {
       fields.push_back(f);
     return fields;
   };
-  m.functions.push_back(
-      {"barton_bandis",
-       "Rough joint between blocks that never was bonded (Barton and Choubey 1977, Bandis et al. 1983): it "
-       "closes on a hyperbola and "
-       "slips above pressure x tan(residual angle + JRC log10(JCS / pressure)). With a length, or peak_slip, "
-       "the roughness is "
-       "mobilised and worn with slip, and the joint dilates.",
-       with_stiffness(
-           {number("jrc").within(0, 20).required().doc("joint roughness coefficient"),
-            number("jcs").above(0).unit("Pa").required().doc("strength of the joint walls"),
-            number("residual_friction_angle").from(0, 70).unit("deg").required().doc("phi_r"),
-            number("initial_stiffness")
-                .above(0)
-                .unit("Pa/m")
-                .required()
-                .doc("slope of the hyperbola where it begins; normal_stiffness, or E/L, is the steepest it "
-                     "becomes"),
-            number("maximum_closure").above(0).unit("m").required(),
-            number("length").above(0).unit("m").doc(
-                "of the joint: jrc and jcs are those of samples and are scaled to it, and it gives the slip "
-                "at the peak, length / 500 (JRC / length)^0.33"),
-            number("sample_length").above(0).unit("m").standard(0.1).doc("of the samples"),
-            number("peak_slip").above(0).unit("m").doc("slip at the peak; wins over that of the length")}),
-       false, "cdem.Joint", "", barton_bandis});
-  m.functions.push_back(
-      {"joint_table",
-       "Joint between blocks that never was bonded, by tables: straight between rows, straight on beyond the "
-       "last.",
-       with_stiffness(
-           {list("normal", tuple_type({number_type(), number_type()}), 0)
-                .doc("rows {closure (m), pressure (Pa)} that rise, one of them {0, 0}; rows below it are "
-                     "{-opening, -pull}, "
-                     "up to the opening at which the joint parts. Without rows it is linear"),
-            list("shear", tuple_type({number_type(), number_type()}), 2)
-                .required()
-                .doc("rows {pressure (Pa), strength (Pa)}, the first {0, strength without pressure}")}),
-       false, "cdem.Joint", "", joint_table});
+  m.add("barton_bandis",
+        "Rough joint between blocks that never was bonded (Barton and Choubey 1977, Bandis et al. 1983): it "
+        "closes on a hyperbola and slips above pressure x tan(residual angle + JRC log10(JCS / pressure)). "
+        "With a length, or peak_slip, the roughness is mobilised and worn with slip, and the joint dilates.",
+        with_stiffness(
+            {number("jrc").within(0, 20).required().doc("joint roughness coefficient"),
+             number("jcs").above(0).unit("Pa").required().doc("strength of the joint walls"),
+             number("residual_friction_angle").from(0, 70).unit("deg").required().doc("phi_r"),
+             number("initial_stiffness")
+                 .above(0)
+                 .unit("Pa/m")
+                 .required()
+                 .doc("slope of the hyperbola where it begins; normal_stiffness, or E/L, is the steepest it "
+                      "becomes"),
+             number("maximum_closure").above(0).unit("m").required(),
+             number("length").above(0).unit("m").doc(
+                 "of the joint: jrc and jcs are those of samples and are scaled to it, and it gives the slip "
+                 "at the peak, length / 500 (JRC / length)^0.33"),
+             number("sample_length").above(0).unit("m").standard(0.1).doc("of the samples"),
+             number("peak_slip").above(0).unit("m").doc("slip at the peak; wins over that of the length")}),
+        barton_bandis, "cdem.Joint");
+  m.add("joint_table",
+        "Joint between blocks that never was bonded, by tables: straight between rows, straight on beyond "
+        "the last.",
+        with_stiffness(
+            {list("normal", tuple_type({number_type(), number_type()}), 0)
+                 .doc("rows {closure (m), pressure (Pa)} that rise, one of them {0, 0}; rows below it are "
+                      "{-opening, -pull}, up to the opening at which the joint parts. Without rows it is "
+                      "linear"),
+             list("shear", tuple_type({number_type(), number_type()}), 2)
+                 .required()
+                 .doc("rows {pressure (Pa), strength (Pa)}, the first {0, strength without pressure}")}),
+        joint_table, "cdem.Joint");
 }
 
 } // namespace cdem::script

@@ -102,14 +102,12 @@ void bind_joints(Module& m) {
   m.records.push_back({"JointSum", "What the joints of one set bear and how they have moved.", sum_fields()});
   m.records.push_back({"JointPoints", "The points of joints: lists with an entry for each.", point_fields()});
   Class& model = m.the_class("Model");
-  model.methods.push_back(
-      {"joints",
-       "What joints between blocks bear and how they have moved: a row for each joint set "
-       "and named cut, and one, at the end, for joints of no set.",
-       joint_choice_fields(), false, "cdem.JointSum[]", "", method<ModelObject>(joints)});
-  model.methods.push_back({"joint_points", "The same point by point, of joints that springs still hold.",
-                           joint_choice_fields(), false, "cdem.JointPoints", "",
-                           method<ModelObject>(joint_points)});
+  model.add("joints",
+            "What joints between blocks bear and how they have moved: a row for each joint set and named "
+            "cut, and one, at the end, for joints of no set.",
+            joint_choice_fields(), joints, "cdem.JointSum[]");
+  model.add("joint_points", "The same point by point, of joints that springs still hold.",
+            joint_choice_fields(), joint_points, "cdem.JointPoints");
 }
 
 } // namespace cdem::script

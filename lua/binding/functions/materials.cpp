@@ -70,8 +70,7 @@ std::vector<Field> softening_fields() {
   return {choice("softening", {"none", "linear", "exponential"})
               .standard("none")
               .doc("how the strength falls once it is reached; none: brittle. It needs both fracture "
-                   "energies, and "
-                   "tensile_strength at most cohesion / tan(friction angle)"),
+                   "energies, and tensile_strength at most cohesion / tan(friction angle)"),
           number("fracture_energy_1")
               .above(0)
               .unit("J/m2")
@@ -234,69 +233,55 @@ Value optional(const std::optional<double>& x) {
 } // namespace
 
 void bind_materials(Module& m) {
-  m.functions.push_back(
-      {"elastic",
-       "Isotropic linear elasticity (Han 2010 eq 3).",
-       {number("youngs_modulus").above(0).unit("Pa").required().doc("Young's modulus E"),
-        number("poissons_ratio").between(-1, 0.5).required().doc("Poisson's ratio nu"),
-        number("density").above(0).unit("kg/m3").required(),
-        number("viscosity")
-            .at_least(0)
-            .standard(0.0)
-            .unit("N s/m4")
-            .doc("damping force per volume and velocity, mu of Han 2010 eq 1; used by real-time stepping"),
-        number("stiffness_damping")
-            .at_least(0)
-            .standard(0.0)
-            .unit("s")
-            .doc("beta of Rayleigh damping, of meshes in real-time stepping: a vibration of angular "
-                 "frequency w has "
-                 "beta w / 2 of critical damping, motion as a rigid body none"),
-        record(
-            "damping",
-            {number("fraction").between(0, 1).required().doc("of critical damping at the frequency"),
-             number("frequency").above(0).unit("Hz").required(),
-             choice("of", {"both", "mass", "stiffness"})
-                 .standard("both")
-                 .doc(
-                     "half of it each, and more at other frequencies; or all by viscosity (falls with the "
-                     "frequency, holds back motion as a rigid body); or all by stiffness_damping (grows with "
-                     "the frequency, shortens the stable step)")})
-            .doc("Rayleigh damping by the fraction of critical damping, in place of viscosity and "
-                 "stiffness_damping")},
-       false,
-       "cdem.Material",
-       "",
-       elastic});
+  m.add("elastic", "Isotropic linear elasticity (Han 2010 eq 3).",
+        {number("youngs_modulus").above(0).unit("Pa").required().doc("Young's modulus E"),
+         number("poissons_ratio").between(-1, 0.5).required().doc("Poisson's ratio nu"),
+         number("density").above(0).unit("kg/m3").required(),
+         number("viscosity")
+             .at_least(0)
+             .standard(0.0)
+             .unit("N s/m4")
+             .doc("damping force per volume and velocity, mu of Han 2010 eq 1; used by real-time stepping"),
+         number("stiffness_damping")
+             .at_least(0)
+             .standard(0.0)
+             .unit("s")
+             .doc("beta of Rayleigh damping, of meshes in real-time stepping: a vibration of angular "
+                  "frequency w has beta w / 2 of critical damping, motion as a rigid body none"),
+         record("damping",
+                {number("fraction").between(0, 1).required().doc("of critical damping at the frequency"),
+                 number("frequency").above(0).unit("Hz").required(),
+                 choice("of", {"both", "mass", "stiffness"})
+                     .standard("both")
+                     .doc("half of it each, and more at other frequencies; or all by viscosity (falls with "
+                          "the frequency, holds back motion as a rigid body); or all by stiffness_damping "
+                          "(grows with the frequency, shortens the stable step)")})
+             .doc("Rayleigh damping by the fraction of critical damping, in place of viscosity and "
+                  "stiffness_damping")},
+        elastic, "cdem.Material");
 
-  m.functions.push_back(
-      {"plastic",
-       "Mohr-Coulomb plasticity with tension cut-off, dilation and softening, of the tetrahedra of blocks "
-       "and meshes "
-       "(docs/theory.md, section 25).",
-       {number("cohesion").at_least(0).unit("Pa").required(),
-        number("friction_angle").from(0, 90).unit("deg").required(),
-        number("tensile_strength")
-            .at_least(0)
-            .unit("Pa")
-            .required()
-            .doc("what is beyond the tip of the cone, cohesion / tan(friction_angle), does not act"),
-        number("dilation_angle").from(0, 90).standard(0.0).unit("deg").doc("at most friction_angle"),
-        number("residual_cohesion")
-            .at_least(0)
-            .unit("Pa")
-            .doc("at softening_strain; the peak's when left out"),
-        number("residual_friction_angle").from(0, 90).unit("deg"),
-        number("residual_tensile_strength").at_least(0).unit("Pa"),
-        number("softening_strain")
-            .above(0)
-            .doc("equivalent plastic strain at which the residual strength is reached, linearly; without "
-                 "fracture "
-                 "energy, so that what it dissipates depends on the size of the elements")},
-       false,
-       "cdem.Plasticity",
-       "",
-       plastic});
+  m.add("plastic",
+        "Mohr-Coulomb plasticity with tension cut-off, dilation and softening, of the tetrahedra of blocks "
+        "and meshes (docs/theory.md, section 25).",
+        {number("cohesion").at_least(0).unit("Pa").required(),
+         number("friction_angle").from(0, 90).unit("deg").required(),
+         number("tensile_strength")
+             .at_least(0)
+             .unit("Pa")
+             .required()
+             .doc("what is beyond the tip of the cone, cohesion / tan(friction_angle), does not act"),
+         number("dilation_angle").from(0, 90).standard(0.0).unit("deg").doc("at most friction_angle"),
+         number("residual_cohesion")
+             .at_least(0)
+             .unit("Pa")
+             .doc("at softening_strain; the peak's when left out"),
+         number("residual_friction_angle").from(0, 90).unit("deg"),
+         number("residual_tensile_strength").at_least(0).unit("Pa"),
+         number("softening_strain")
+             .above(0)
+             .doc("equivalent plastic strain at which the residual strength is reached, linearly; without "
+                  "fracture energy, so that what it dissipates depends on the size of the elements")},
+        plastic, "cdem.Plasticity");
   Class plasticity{"Plasticity", "Made by cdem.plastic or cdem.hoek_brown."};
   plasticity.properties = {
       plastic_property("cohesion", "Pa", [](const Plasticity& p) { return p.cohesion; }),
@@ -329,28 +314,23 @@ void bind_materials(Module& m) {
                       .within(0.01, 1)
                       .standard(1.0)
                       .doc("coefficient of restitution of the contact of bodies that move far: speed after "
-                           "over speed before an impact, "
-                           "as far as the contact and not waves within the bodies decide it; 1: the contact "
-                           "loses nothing but by friction"));
-  m.functions.push_back(
-      {"mohr_coulomb",
-       "Bond between block faces: breaks in tension above the tensile strength and in shear "
-       "above cohesion + normal pressure x tan(friction angle); then it is a contact with the same "
-       "friction angle, or with what residual strength it has (Han 2010 eqs 8-11). With softening it loses "
-       "its "
-       "strength along a curve whose area is the fracture energy.",
-       bonded, false, "cdem.Joint", "", mohr_coulomb});
-  m.functions.push_back({"coulomb",
-                         "Contact that never was bonded: no tension, friction only (Han 2010 eq 9).", loose,
-                         false, "cdem.Joint", "", coulomb});
+                           "over speed before an impact, as far as the contact and not waves within the "
+                           "bodies decide it; 1: the contact loses nothing but by friction"));
+  m.add("mohr_coulomb",
+        "Bond between block faces: breaks in tension above the tensile strength and in shear above cohesion "
+        "+ normal pressure x tan(friction angle); then it is a contact with the same friction angle, or with "
+        "what residual strength it has (Han 2010 eqs 8-11). With softening it loses its strength along a "
+        "curve whose area is the fracture energy.",
+        bonded, mohr_coulomb, "cdem.Joint");
+  m.add("coulomb", "Contact that never was bonded: no tension, friction only (Han 2010 eq 9).", loose,
+        coulomb, "cdem.Joint");
 
   std::vector<Field> stiff = joint_stiffness_fields();
   stiff[0].standard(glued_thickness_ratio);
-  m.functions.push_back(
-      {"glued",
-       "Bond that never breaks, of faces that are no joint, such as those of an excavation outline. It "
-       "is four times as stiff as a joint by default.",
-       stiff, false, "cdem.Joint", "", glued});
+  m.add("glued",
+        "Bond that never breaks, of faces that are no joint, such as those of an excavation outline. It is "
+        "four times as stiff as a joint by default.",
+        stiff, glued, "cdem.Joint");
 
   Class material{"Material", "Made by cdem.elastic."};
   material.properties = {
@@ -372,8 +352,7 @@ void bind_materials(Module& m) {
   m.classes.push_back(material);
 
   Class joint{"Joint", "Made by cdem.mohr_coulomb, cdem.hoek_brown_bond, cdem.coulomb, cdem.barton_bandis, "
-                       "cdem.joint_table or "
-                       "cdem.glued."};
+                       "cdem.joint_table or cdem.glued."};
   joint.properties = {
       joint_property("bonded", "boolean", "", [](const Joint& j) { return Value(j.bonded); }),
       joint_property("glued", "boolean", "", [](const Joint& j) { return Value(j.glued); }),

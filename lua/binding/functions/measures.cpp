@@ -178,10 +178,8 @@ void bind_rows(Module& m) {
         number("one_way_error")
             .required()
             .doc("the largest so far of: how far damping, friction, breaking, plastic or yielding, which can "
-                 "only "
-                 "rise, fell; how far kinetic and stored energy were above what was given; over the largest "
-                 "energy "
-                 "above")}});
+                 "only rise, fell; how far kinetic and stored energy were above what was given; over the "
+                 "largest energy above")}});
   m.records.push_back(
       {"Overlap",
        "Volume that two blocks occupy at once, as they stand now.",
@@ -214,57 +212,60 @@ void bind_rows(Module& m) {
 void bind_measures(Module& m) {
   bind_rows(m);
   Class& model = m.the_class("Model");
-  const auto add = [&](std::string name, std::string doc, std::vector<Field> fields, std::string returns,
-                       std::string returns_doc, auto body, bool in_order = true) {
-    model.methods.push_back({std::move(name), std::move(doc), std::move(fields), in_order, std::move(returns),
-                             std::move(returns_doc), method<ModelObject>(body)});
-    model.methods.back().named_too = in_order;
-  };
   const Field field =
       text("field").required().doc("e.g. \"displacement.x\", \"stress.yy\"; model:fields() has all");
-  const Field on = place("on").doc("where: one place; the whole model when left out. Stresses are those of "
-                                   "blocks: on a side, of those that have "
-                                   "a face there; elsewhere of those whose centroid is there");
-  add("max", "Largest value of a field.", {field, on}, "number", "", max);
-  add("min", "Smallest value of a field.", {field, on}, "number", "", min);
-  add("find_max", "Largest value of a field, and where it is.", {field, on}, "cdem.Extreme", "", find_max);
-  add("find_min", "Smallest value of a field, and where it is.", {field, on}, "cdem.Extreme", "", find_min);
-  add("mean", "Mean of a field: over nodes, or over blocks by volume.", {field, on}, "number", "", mean);
-  add("at", "Value of a field at an undeformed place, interpolated in the block there.",
-      {field, vec3("place").unit("m").required()}, "number", "", at);
-  add("reaction",
-      "Force of what holds a place from outside: of supports; of quiet boundaries and free fields the force "
-      "of "
-      "the support they took the place of, their dashpots, and the waves that enter. A node on an edge "
-      "counts in "
-      "both sides.",
-      {place("on").required().doc("where: one place")}, "number[]", "N, {x, y, z}", reaction);
-  add("fields", "Names that max, min, mean, at and probe understand.", {}, "string[]", "", fields);
-  add("energy", "Energy ledger.", {}, "cdem.Energy", "", energy);
-  add("overlap", "How far contacts let blocks into each other, as a volume.", {}, "cdem.Overlap", "",
-      overlap);
-  add("blocks", "One table per block.", {}, "cdem.BlockState[]", "", blocks);
-  add("breaks", "One table per broken bond, the oldest first.", {}, "cdem.Break[]", "", breaks);
-  add("history",
-      "Histories as lists by name: stage, step, time, residual, kinetic_energy, external_work, "
-      "broken_tension, broken_shear and the probes. The first sample of a run is its beginning. The same are "
-      "in "
-      "history.csv after each stage.",
-      {}, "table<string, number[]>", "", history);
-  add("probe", "Samples a field at a place into the history.",
-      {text("name").required().doc("of the column"), field,
-       vec3("at").unit("m").required().doc("undeformed place")},
-      "", "", probe, false);
-  add("record_reaction",
-      "Samples the force of the supports and boundaries (model:reaction) on a side or a body into the "
-      "history (N), as columns <name>_x, "
-      "<name>_y and "
-      "<name>_z. Each sample costs some steps.",
-      {text("name").required(), text("on").required().doc("\"x-\" .. \"z+\", or a body by name")}, "", "",
-      record_reaction, false);
-  add("record_momentum",
+  const Field on =
+      place("on").doc("where: one place; the whole model when left out. Stresses are those of blocks: on a "
+                      "side, of those that have a face there; elsewhere of those whose centroid is there");
+  model.add("max", "Largest value of a field.", {field, on}, max, "number").ordered_or_named();
+  model.add("min", "Smallest value of a field.", {field, on}, min, "number").ordered_or_named();
+  model.add("find_max", "Largest value of a field, and where it is.", {field, on}, find_max, "cdem.Extreme")
+      .ordered_or_named();
+  model.add("find_min", "Smallest value of a field, and where it is.", {field, on}, find_min, "cdem.Extreme")
+      .ordered_or_named();
+  model.add("mean", "Mean of a field: over nodes, or over blocks by volume.", {field, on}, mean, "number")
+      .ordered_or_named();
+  model
+      .add("at", "Value of a field at an undeformed place, interpolated in the block there.",
+           {field, vec3("place").unit("m").required()}, at, "number")
+      .ordered_or_named();
+  model
+      .add("reaction",
+           "Force of what holds a place from outside: of supports; of quiet boundaries and free fields the "
+           "force of the support they took the place of, their dashpots, and the waves that enter. A node on "
+           "an edge counts in both sides.",
+           {place("on").required().doc("where: one place")}, reaction, "number[]", "N, {x, y, z}")
+      .ordered_or_named();
+  model.add("fields", "Names that max, min, mean, at and probe understand.", {}, fields, "string[]")
+      .ordered_or_named();
+  model.add("energy", "Energy ledger.", {}, energy, "cdem.Energy").ordered_or_named();
+  model
+      .add("overlap", "How far contacts let blocks into each other, as a volume.", {}, overlap,
+           "cdem.Overlap")
+      .ordered_or_named();
+  model.add("blocks", "One table per block.", {}, blocks, "cdem.BlockState[]").ordered_or_named();
+  model.add("breaks", "One table per broken bond, the oldest first.", {}, breaks, "cdem.Break[]")
+      .ordered_or_named();
+  model
+      .add("history",
+           "Histories as lists by name: stage, step, time, residual, kinetic_energy, external_work, "
+           "broken_tension, broken_shear and the probes. The first sample of a run is its beginning. The "
+           "same are in history.csv after each stage.",
+           {}, history, "table<string, number[]>")
+      .ordered_or_named();
+  model.add("probe", "Samples a field at a place into the history.",
+            {text("name").required().doc("of the column"), field,
+             vec3("at").unit("m").required().doc("undeformed place")},
+            probe);
+  model.add("record_reaction",
+            "Samples the force of the supports and boundaries (model:reaction) on a side or a body into the "
+            "history (N), as columns <name>_x, <name>_y and <name>_z. Each sample costs some steps.",
+            {text("name").required(), text("on").required().doc("\"x-\" .. \"z+\", or a body by name")},
+            record_reaction);
+  model.add(
+      "record_momentum",
       "Samples the momentum of a body into the history (N s), as columns <name>_x, <name>_y and <name>_z.",
-      {text("name").required(), text("body").required().doc("by name")}, "", "", record_momentum, false);
+      {text("name").required(), text("body").required().doc("by name")}, record_momentum);
 }
 
 } // namespace cdem::script

@@ -279,59 +279,44 @@ void bind_model(Module& m) {
       object("material", "Material").required(),
       object_or_function("joint", "Joint", "(x: number, y: number, z: number): cdem.Joint")
           .doc("between the body's own blocks; needed when there are several, or when they are cut. Of a "
-               "mesh: on "
-               "inner faces, which can break then. Of an assembly also a function of the place that gives a "
-               "law, so that any field may vary with depth, region or seed: it is called once for each face "
-               "between two "
-               "blocks, with its centroid"),
+               "mesh: on inner faces, which can break then. Of an assembly also a function of the place that "
+               "gives a law, so that any field may vary with depth, region or seed: it is called once for "
+               "each face between two blocks, with its centroid"),
       named("joints", object_or_function_type("Joint", "(x: number, y: number, z: number): cdem.Joint"))
           .doc("of an assembly: laws by the name of the joint set or cut that made the faces, { bedding = "
-               "joint, fault = "
-               "joint }; `joint` holds all others"),
+               "joint, fault = joint }; `joint` holds all others"),
       text("name").doc("for selections and contacts; body_1, body_2 ... by default"),
       choice("element", {"small_strain", "finite_volume", "rigid"})
-          .doc(
-              "how its tetrahedra deform: finite_volume (Feng 2014) for any motion, the default; "
-              "small_strain (Han "
-              "2010) of an assembly whose blocks hardly turn and keep the neighbours they begin with; rigid: "
-              "keeps its shape until model:make_deformable"),
+          .doc("how its tetrahedra deform: finite_volume (Feng 2014) for any motion, the default; "
+               "small_strain (Han 2010) of an assembly whose blocks hardly turn and keep the neighbours they "
+               "begin with; rigid: keeps its shape until model:make_deformable"),
       number("zone_size")
           .above(0)
           .unit("m")
           .doc("of an assembly: each block gets tetrahedra of about this edge length inside, so that it "
-               "bends and "
-               "shows where it is stressed; without it a few about its centroid. Joints between blocks stay "
-               "as they "
-               "are"),
+               "bends and shows where it is stressed; without it a few about its centroid. Joints between "
+               "blocks stay as they are"),
       choice("bonds", {"cohesive", "springs", "none", "all", "regions", "listed"})
           .doc("of a body with a joint, what holds its parts together. cohesive, the default of a mesh: the "
-               "body "
-               "is continuous, with shared nodes, until a face nears its strength, and then follows the "
-               "joint's "
-               "softening or brittle law. Of an assembly it is recommended for bonded blocks: they become "
-               "one mesh in "
-               "which each block is a region, and its joints are the borders; a uniform stress stays "
-               "uniform, and the "
-               "blocks part at the strength of the joint. springs, the default of an assembly: at the "
-               "corners of "
-               "faces (Han 2010), with a thickness; where three or more blocks meet in an edge they carry "
-               "0.9 to 1.7 "
-               "of a uniform traction, so that the first bond breaks at about half the strength. Of a mesh: "
-               "three on "
-               "every bonded face (Feng 2014), which soften the body and break at 0.6 to 0.9 of its "
-               "strength. (all, "
-               "regions and listed of older scripts mean springs)"),
+               "body is continuous, with shared nodes, until a face nears its strength, and then follows the "
+               "joint's softening or brittle law. Of an assembly it is recommended for bonded blocks: they "
+               "become one mesh in which each block is a region, and its joints are the borders; a uniform "
+               "stress stays uniform, and the blocks part at the strength of the joint. springs, the default "
+               "of an assembly: at the corners of faces (Han 2010), with a thickness; where three or more "
+               "blocks meet in an edge they carry 0.9 to 1.7 of a uniform traction, so that the first bond "
+               "breaks at about half the strength. Of a mesh: three on every bonded face (Feng 2014), which "
+               "soften the body and break at 0.6 to 0.9 of its strength. (all, regions and listed of older "
+               "scripts mean springs)"),
       choice("bonded_faces", {"all", "regions"})
           .doc("of a mesh with a joint, the inner faces that may break: all, the default, or those between "
-               "different "
-               "regions"),
+               "different regions"),
       list("bonded_regions", whole_number, 1)
           .doc("of a mesh with a joint, instead of bonded_faces: numbers of regions, from 1, whose faces may "
                "break"),
       list("region_joints", tuple_type({whole_number, whole_number, object_type("Joint")}), 1)
-          .doc("of a mesh: {region, region, joint} gives the faces between two regions, or with the same "
-               "number "
-               "twice those inside one, a joint of their own; numbers from 1. All others have `joint`"),
+          .doc(
+              "of a mesh: {region, region, joint} gives the faces between two regions, or with the same "
+              "number twice those inside one, a joint of their own; numbers from 1. All others have `joint`"),
       object("plasticity", "Plasticity")
           .doc("of a body that moves far: its tetrahedra yield by this law, cdem.plastic{...} or "
                "cdem.hoek_brown{...}"),
@@ -341,26 +326,18 @@ void bind_model(Module& m) {
       number("stiffness_ratio")
           .above(0)
           .doc("of a mesh, beta in Kn = beta E A / (3 d). Of springs 10 by default: a body bonded everywhere "
-               "keeps "
-               "about "
-               "E / (1 + 1/beta). Of a cohesive body the penalty of freed faces, 1 by default; it keeps all "
-               "of E"),
+               "keeps about E / (1 + 1/beta). Of a cohesive body the penalty of freed faces, 1 by default; "
+               "it keeps all of E"),
       number("shear_ratio").above(0).doc("of a mesh, Ks / Kn; 1 by default")};
-  m.functions.push_back(
-      {"model",
-       "A model: bodies of blocks, and what holds touching bodies to each other.",
-       {list("bodies", record_type(body)).required(),
-        list("contacts", pair, 0)
-            .beside(
-                {object("default", "Joint")
-                     .doc("of every two bodies that are not named; of meshes it is cdem.coulomb, and the law "
-                          "between the units of a body and its fragments too")})
-            .doc("{\"body a\", \"body b\", joint} for every two bodies that touch; default = joint for all "
-                 "others")},
-       false,
-       "cdem.Model",
-       "",
-       make_model});
+  m.add("model", "A model: bodies of blocks, and what holds touching bodies to each other.",
+        {list("bodies", record_type(body)).required(),
+         list("contacts", pair, 0)
+             .beside({object("default", "Joint")
+                          .doc("of every two bodies that are not named; of meshes it is cdem.coulomb, and "
+                               "the law between the units of a body and its fragments too")})
+             .doc("{\"body a\", \"body b\", joint} for every two bodies that touch; default = joint for all "
+                  "others")},
+        make_model, "cdem.Model");
   bind_model_class(m);
 }
 

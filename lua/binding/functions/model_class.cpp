@@ -99,8 +99,7 @@ std::vector<Property> model_properties() {
 void bind_model_class(Module& m) {
   m.records.push_back(
       {"Counts",
-       "Each bond (spring point) stands in exactly one of intact, broken_tension, broken_shear and "
-       "contacts.",
+       "Each bond (spring point) stands in exactly one of intact, broken_tension, broken_shear and contacts.",
        {integer("bodies").required(), integer("blocks").required(), integer("nodes").required(),
         integer("tets").required(), integer("interfaces").required(), integer("bonds").required(),
         integer("intact").required(), integer("broken_tension").required(),
@@ -124,36 +123,18 @@ void bind_model_class(Module& m) {
            (c.tets == 1 ? " tet, " : " tets, ") + std::to_string(c.bonds) +
            (c.bonds == 1 ? " bond)" : " bonds)");
   };
-  model.methods = {{"select",
-                    "Gives a place a name that `on` understands from now on.",
-                    {text("name").required(), place("on").required()},
-                    false,
-                    "",
-                    "",
-                    method<ModelObject>(select),
-                    false,
-                    Replay::again},
-                   {"counts",
-                    "How many there are of everything.",
-                    {},
-                    true,
-                    "cdem.Counts",
-                    "",
-                    method<ModelObject>(counts)},
-                   {"process_zones",
-                    "Whether faces resolve the process zone E' G_I / T^2 of what softens, by body and pair.",
-                    {},
-                    true,
-                    "cdem.ProcessZone[]",
-                    "",
-                    method<ModelObject>(process_zones)},
-                   {"box",
-                    "Smallest axis-aligned box around the undeformed model.",
-                    {},
-                    true,
-                    "cdem.Box",
-                    "",
-                    method<ModelObject>(model_box)}};
+  model
+      .add("select", "Gives a place a name that `on` understands from now on.",
+           {text("name").required(), place("on").required()}, select)
+      .replayed(Replay::again);
+  model.add("counts", "How many there are of everything.", {}, counts, "cdem.Counts").ordered();
+  model
+      .add("process_zones",
+           "Whether faces resolve the process zone E' G_I / T^2 of what softens, by body and pair.", {},
+           process_zones, "cdem.ProcessZone[]")
+      .ordered();
+  model.add("box", "Smallest axis-aligned box around the undeformed model.", {}, model_box, "cdem.Box")
+      .ordered();
   m.classes.push_back(model);
 }
 

@@ -293,8 +293,7 @@ std::vector<Field> picture_declaration() {
       flag("bolts").standard(true).doc("bolts, drawn over the blocks and coloured by their tension"));
   fields.push_back(flag("water").standard(true).doc(
       "free surface of the water that loads the model (model:flow with water), as a transparent sheet that "
-      "tints no "
-      "coloured body, and the line where it cuts the bodies; in a section its line"));
+      "tints no coloured body, and the line where it cuts the bodies; in a section its line"));
   fields.push_back(flag("water_velocity")
                        .standard(false)
                        .doc("velocity of that water as arrows: on its free surface, or in the section where "
@@ -307,79 +306,55 @@ std::vector<Field> picture_declaration() {
 
 void bind_output(Module& m) {
   Class& model = m.the_class("Model");
-  model.methods.push_back(
-      {"save",
-       "Writes the model for ParaView: blocks to the file, bonds beside it (result.vtu, result_bonds.vtu), "
-       "and of "
-       "bodies that move far the contacts that carry (result_contacts.vtu: points with force on the source "
-       "body, "
-       "normal_force, shear_force, depth, bodies and blocks). Of water that loads the model (model:flow) the "
-       "free "
-       "surface too (result_water.vtu: velocity at corners).",
-       {text("file").required().doc(
-            "ends in .vtu, or .vtkhdf for programs that read HDF5; in the output folder"),
-        text("series").doc("ends in .pvd: a time series this file is added to; run.pvd has run_bonds.pvd, "
-                           "run_contacts.pvd and run_water.pvd beside it. One axis: time where it rises from "
-                           "file to file, else "
-                           "steps"),
-        integer("cells_per_file")
-            .at_least(1)
-            .standard(static_cast<std::int64_t>(usual_cells_per_file))
-            .doc("a .vtu of more cells is written in pieces, result/result_0.vtu, result/result_1.vtu, ..., "
-                 "and "
-                 "result.pvtu takes its place")},
-       false,
-       "",
-       "",
-       method<ModelObject>(save),
-       false,
-       Replay::standard,
-       true});
-  model.methods.push_back(
-      {"save_cracks",
-       "Writes broken faces for ParaView as a surface, midway between their sides: displacement at corners; "
-       "mode "
-       "(1 tension, 2 shear), damage, opening, slip, time of the last break (nan where it is not known) and "
-       "body "
-       "(its number from 0; -1 between two) of faces.",
-       {text("file").required().doc(
-            "ends in .vtp, or .vtu for programs that know no .vtp; in the output folder"),
-        flag("damaged").standard(false).doc("faces that soften and have not broken too (mode 0)"),
-        text("series").doc("ends in .pvd: a time series this file is added to")},
-       false,
-       "",
-       "",
-       method<ModelObject>(save_cracks)});
+  model
+      .add("save",
+           "Writes the model for ParaView: blocks to the file, bonds beside it (result.vtu, "
+           "result_bonds.vtu), and of bodies that move far the contacts that carry (result_contacts.vtu: "
+           "points with force on the source body, normal_force, shear_force, depth, bodies and blocks). Of "
+           "water that loads the model (model:flow) the free surface too (result_water.vtu: velocity at "
+           "corners).",
+           {text("file").required().doc(
+                "ends in .vtu, or .vtkhdf for programs that read HDF5; in the output folder"),
+            text("series").doc("ends in .pvd: a time series this file is added to; run.pvd has "
+                               "run_bonds.pvd, run_contacts.pvd and run_water.pvd beside it. One axis: time "
+                               "where it rises from file to file, else steps"),
+            integer("cells_per_file")
+                .at_least(1)
+                .standard(static_cast<std::int64_t>(usual_cells_per_file))
+                .doc("a .vtu of more cells is written in pieces, result/result_0.vtu, result/result_1.vtu, "
+                     "..., and result.pvtu takes its place")},
+           save)
+      .by_rank_0();
+  model.add("save_cracks",
+            "Writes broken faces for ParaView as a surface, midway between their sides: displacement at "
+            "corners; mode (1 tension, 2 shear), damage, opening, slip, time of the last break (nan where it "
+            "is not known) and body (its number from 0; -1 between two) of faces.",
+            {text("file").required().doc(
+                 "ends in .vtp, or .vtu for programs that know no .vtp; in the output folder"),
+             flag("damaged").standard(false).doc("faces that soften and have not broken too (mode 0)"),
+             text("series").doc("ends in .pvd: a time series this file is added to")},
+            save_cracks);
   std::vector<Field> joint_file{
       text("file").required().doc(
           "ends in .vtp, or .vtu for programs that know no .vtp; in the output folder"),
       text("series").doc("ends in .pvd: a time series this file is added to")};
   for (const Field& field : joint_choice_fields())
     joint_file.push_back(field);
-  model.methods.push_back(
-      {"save_joints",
-       "Writes joints between blocks for ParaView as a surface: displacement at corners; set (number in the "
-       "alphabetical order of all sets, from 1; 0: none), mode (0 bonded, 1 broken in tension, 2 in shear, 3 "
-       "contact), "
-       "normal_traction, shear_traction, water_pressure, utilisation, opening, slip and parted (1: left to "
-       "contact) of faces.",
-       joint_file, false, "", "", method<ModelObject>(save_joints)});
-  model.methods.push_back({"picture", "Draws the model, without a display.", picture_declaration(), false, "",
-                           "", method<ModelObject>(picture)});
-  m.functions.push_back(
-      {"film",
-       "A film from pictures of one size: Ogg/Theora, or H.264 by the program ffmpeg.",
-       {text("file").required().doc("ends in .ogv, or in .mp4 where ffmpeg is installed; in the "
-                                    "output folder"),
-        list("frames", text_type()).required().doc("names of the pictures, in order"),
-        integer("frames_per_second").within(1, 120).standard(12)},
-       false,
-       "",
-       "",
-       film,
-       false,
-       Replay::recorded,
-       true});
+  model.add("save_joints",
+            "Writes joints between blocks for ParaView as a surface: displacement at corners; set (number in "
+            "the alphabetical order of all sets, from 1; 0: none), mode (0 bonded, 1 broken in tension, 2 in "
+            "shear, 3 contact), normal_traction, shear_traction, water_pressure, utilisation, opening, slip "
+            "and parted (1: left to contact) of faces.",
+            joint_file, save_joints);
+  model.add("picture", "Draws the model, without a display.", picture_declaration(), picture);
+  m.add("film", "A film from pictures of one size: Ogg/Theora, or H.264 by the program ffmpeg.",
+        {text("file").required().doc(
+             "ends in .ogv, or in .mp4 where ffmpeg is installed; in the output folder"),
+         list("frames", text_type()).required().doc("names of the pictures, in order"),
+         integer("frames_per_second").within(1, 120).standard(12)},
+        film)
+      .replayed(Replay::recorded)
+      .by_rank_0();
 }
 
 } // namespace cdem::script

@@ -38,16 +38,13 @@ Amplitude of_function(const std::shared_ptr<Reference>& function, double now) {
 Field amplitude_field() {
   return function_or_record("amplitude", "(time: number): number")
       .doc("factor over time (s): a cdem.record, a list { {time, value}, ... } with straight lines between "
-           "and its "
-           "first and last value outside, or a function, called once a step; a relaxation asks once at its "
-           "start; 1 "
-           "when left out");
+           "and its first and last value outside, or a function, called once a step; a relaxation asks once "
+           "at its start; 1 when left out");
 }
 
 Field since_field() {
-  return number("since").unit("s").doc(
-      "time of the model at which the amplitude's times begin, 0 when left out; since = model.time lets it "
-      "begin now, in a later stage");
+  return number("since").unit("s").doc("time of the model at which the amplitude's times begin, 0 when left "
+                                       "out; since = model.time lets it begin now, in a later stage");
 }
 
 Amplitude amplitude_of(const Arguments& a, double now) {

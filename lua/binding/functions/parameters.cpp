@@ -192,24 +192,19 @@ Value parameter(Session& session, Object*, const Arguments& arguments) {
 } // namespace
 
 void bind_parameters(Module& m) {
-  m.functions.push_back(
-      {"parameter",
-       "Declares a value that the command line can change with --set name=value, and returns it. Its type is "
-       "that of "
-       "the default: number, integer, string, boolean or list. Parameters come before the first solving "
-       "call.",
-       {text("name").required().doc("a word, as in --set pressure=24e6"),
-        plain("default").required().doc("value without --set; its type is the parameter's"),
-        choice("type", {"number", "integer", "string", "boolean", "list"})
-            .doc("only needed to let an integer default take any number"),
-        list("range", number_type(), 2)
-            .doc("{lowest, highest} allowed, for numbers and every item of a list"),
-        list("choices", scalar_type()).doc("the values allowed"), text("unit").doc("e.g. \"Pa\""),
-        text("doc").doc("one sentence, shown by `cdem check`")},
-       false,
-       "any",
-       "the value",
-       parameter});
+  m.add(
+      "parameter",
+      "Declares a value that the command line can change with --set name=value, and returns it. Its type is "
+      "that of the default: number, integer, string, boolean or list. Parameters come before the first "
+      "solving call.",
+      {text("name").required().doc("a word, as in --set pressure=24e6"),
+       plain("default").required().doc("value without --set; its type is the parameter's"),
+       choice("type", {"number", "integer", "string", "boolean", "list"})
+           .doc("only needed to let an integer default take any number"),
+       list("range", number_type(), 2).doc("{lowest, highest} allowed, for numbers and every item of a list"),
+       list("choices", scalar_type()).doc("the values allowed"), text("unit").doc("e.g. \"Pa\""),
+       text("doc").doc("one sentence, shown by `cdem check`")},
+      parameter, "any", "the value");
 }
 
 } // namespace cdem::script

@@ -85,8 +85,7 @@ std::vector<Field> view_fields(const std::string& colour_doc, const std::string&
           record("camera", camera).doc("instead of view"),
           record("fit", {vec3("min").unit("m").required(), vec3("max").unit("m").required()})
               .doc("a box that the view shows, in place of what is drawn: give it to all frames of a film, "
-                   "so that the "
-                   "camera does not move with what falls"),
+                   "so that the camera does not move with what falls"),
           size_field(),
           dpi_field(),
           list("range", number_type(), 2).doc("{lowest, highest} of the colours, SI units"),

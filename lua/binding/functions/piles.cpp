@@ -253,51 +253,27 @@ void bind_class(Module& m) {
                     [](const geom::Pile& p) { return geom::volume(p.unit); }),
       pile_property("nominal_diameter", "number", "m", "Dn, side of a cube of that volume",
                     [](const geom::Pile& p) { return geom::nominal_diameter(p); })};
-  pile.methods = {
-      {"scaled",
-       "The same pile in another size: all lengths about the origin times the factor.",
-       {number("factor").above(0).required()},
-       false,
-       "cdem.Pile",
-       "",
-       method<PileObject>(scaled)},
-      {"with_unit",
-       "The same places and attitudes with another mesh of the unit, such as a finer one; it must stand "
-       "along the "
-       "same axes.",
-       {object("unit", "TetMesh").required()},
-       false,
-       "cdem.Pile",
-       "",
-       method<PileObject>(with_unit)},
-      {"walls",
-       "Walls that keep the pile together, as of a flume, for a rigid body that is held: at both sides and "
-       "at "
-       "the foot of the ground, on level ground all round. Their inner faces stand at the ends of the pile's "
-       "box; they follow the ground a little above it, so that both may be bodies of one model.",
-       {object("onto", "TetMesh").required().doc("the ground, z up"),
-        number("height").above(0).unit("m").doc(
-            "over the ground; that of the highest unit when left out, two units at least"),
-        number("thickness").above(0).unit("m").doc("a unit's height when left out")},
-       false,
-       "cdem.TetMesh",
-       "",
-       method<PileObject>(walls)},
-      {"poses", "Place and attitude of each unit.", {}, true, "cdem.Pose[]", "", method<PileObject>(poses)},
-      {"box",
-       "Smallest axis-aligned box that holds all units where they are.",
-       {},
-       true,
-       "cdem.Box",
-       "",
-       method<PileObject>(pile_box)},
-      {"save",
-       "Writes the pile, for cdem.read_pile in another script.",
-       {text("file").required().doc("ends in .json; in the output folder")},
-       false,
-       "",
-       "",
-       method<PileObject>(save_pile)}};
+  pile.add("scaled", "The same pile in another size: all lengths about the origin times the factor.",
+           {number("factor").above(0).required()}, scaled, "cdem.Pile");
+  pile.add("with_unit",
+           "The same places and attitudes with another mesh of the unit, such as a finer one; it must stand "
+           "along the same axes.",
+           {object("unit", "TetMesh").required()}, with_unit, "cdem.Pile");
+  pile.add(
+      "walls",
+      "Walls that keep the pile together, as of a flume, for a rigid body that is held: at both sides and at "
+      "the foot of the ground, on level ground all round. Their inner faces stand at the ends of the pile's "
+      "box; they follow the ground a little above it, so that both may be bodies of one model.",
+      {object("onto", "TetMesh").required().doc("the ground, z up"),
+       number("height").above(0).unit("m").doc(
+           "over the ground; that of the highest unit when left out, two units at least"),
+       number("thickness").above(0).unit("m").doc("a unit's height when left out")},
+      walls, "cdem.TetMesh");
+  pile.add("poses", "Place and attitude of each unit.", {}, poses, "cdem.Pose[]").ordered();
+  pile.add("box", "Smallest axis-aligned box that holds all units where they are.", {}, pile_box, "cdem.Box")
+      .ordered();
+  pile.add("save", "Writes the pile, for cdem.read_pile in another script.",
+           {text("file").required().doc("ends in .json; in the output folder")}, save_pile);
   m.classes.push_back(pile);
 }
 
@@ -316,52 +292,44 @@ void bind_piles(Module& m) {
     fields.insert(fields.end(), more.begin(), more.end());
     return fields;
   };
-  m.functions.push_back(
-      {"drop",
-       "Units hung over the ground in random attitudes, to be dropped: on a grid in the middle of the "
-       "region, "
-       "so far apart that they are clear of each other however they are turned. Rows run across the rise of "
-       "the ground, the lowest first.",
-       with(
-           {number("gap").above(0).unit("m").doc(
+  m.add(
+      "drop",
+      "Units hung over the ground in random attitudes, to be dropped: on a grid in the middle of the region, "
+      "so far apart that they are clear of each other however they are turned. Rows run across the rise of "
+      "the ground, the lowest first.",
+      with({number("gap").above(0).unit("m").doc(
                 "between the spheres around units, and under the lowest layer; a tenth of the unit's height"),
             integer("layers")
                 .within(1, geom::max_drop_layers)
                 .doc("on top of each other; as few as the region allows when left out")}),
-       false, "cdem.Pile", "", drop});
-  m.functions.push_back(
-      {"place",
-       "One layer of armour units on a slope, in the staggered pattern of a packing density: row by row from "
-       "the toe, each unit above the gap between two of the row below and slid down against them; then all "
-       "but the lowest row, which is to be held, come to rest together under their weight with friction.",
-       with({number("density").within(0.05, 1.5).standard(0.645).doc(
-                 "phi = N Dn^2 / A, units on an area of slope times that of their equal cube's side"),
-             integer("columns").at_least(1).doc("units in a row; as many as the region allows when left out"),
-             number("gap").above(0).unit("m").doc("clear distance; 2e-5 of the unit's height"),
-             integer("attitudes")
-                 .within(1, 1e6)
-                 .standard(1500)
-                 .doc("of which those are taken that fit into the pattern, beside others"),
-             integer("nudges").within(0, 100000).standard(200).doc(
-                 "steps of a unit on its way to rest, at most; 0: only lowered on to what is there, each by "
-                 "itself"),
-             number("play").within(0, 1).standard(0.1).doc(
-                 "how far along the contour a unit may be from its place, over its height"),
-             number("friction_angle")
-                 .from(0, 90)
-                 .unit("deg")
-                 .standard(15.0)
-                 .doc("with so much units are at rest; the lowest row with more than the slope's angle"),
-             flag("walls").standard(false).doc("at both ends of the rows walls stand along the slope, on "
-                                               "which units lean; the pile's box ends there")}),
-       false, "cdem.Pile", "", lay});
-  m.functions.push_back({"read_pile",
-                         "A pile that pile:save{} wrote.",
-                         {text("file").required()},
-                         false,
-                         "cdem.Pile",
-                         "",
-                         read_pile});
+      drop, "cdem.Pile");
+  m.add(
+      "place",
+      "One layer of armour units on a slope, in the staggered pattern of a packing density: row by row from "
+      "the toe, each unit above the gap between two of the row below and slid down against them; then all "
+      "but the lowest row, which is to be held, come to rest together under their weight with friction.",
+      with({number("density").within(0.05, 1.5).standard(0.645).doc(
+                "phi = N Dn^2 / A, units on an area of slope times that of their equal cube's side"),
+            integer("columns").at_least(1).doc("units in a row; as many as the region allows when left out"),
+            number("gap").above(0).unit("m").doc("clear distance; 2e-5 of the unit's height"),
+            integer("attitudes")
+                .within(1, 1e6)
+                .standard(1500)
+                .doc("of which those are taken that fit into the pattern, beside others"),
+            integer("nudges").within(0, 100000).standard(200).doc(
+                "steps of a unit on its way to rest, at most; 0: only lowered on to what is there, each by "
+                "itself"),
+            number("play").within(0, 1).standard(0.1).doc(
+                "how far along the contour a unit may be from its place, over its height"),
+            number("friction_angle")
+                .from(0, 90)
+                .unit("deg")
+                .standard(15.0)
+                .doc("with so much units are at rest; the lowest row with more than the slope's angle"),
+            flag("walls").standard(false).doc("at both ends of the rows walls stand along the slope, on "
+                                              "which units lean; the pile's box ends there")}),
+      lay, "cdem.Pile");
+  m.add("read_pile", "A pile that pile:save{} wrote.", {text("file").required()}, read_pile, "cdem.Pile");
   bind_class(m);
 }
 

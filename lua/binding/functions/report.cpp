@@ -81,18 +81,13 @@ void bind_report(Module& m) {
       number("tolerance").at_least(0).doc("allowed |value - reference| over |reference|"),
       number("tolerance_absolute").at_least(0).doc("the same in the figure's unit, instead of tolerance"),
   };
-  m.functions.push_back(
-      {"report",
-       "Writes figures beside their references to report.json and report.md in the output folder. "
-       "Further calls add figures; a name given again takes the place of the earlier one. Numbers "
-       "that are not finite become null, with a warning. Booleans are judged by equality. The warnings of "
-       "the "
-       "run stand in the report too.",
-       {list("figures", record_type(figure)).required().doc("the figures, in order")},
-       true,
-       "",
-       "",
-       report});
+  m.add("report",
+        "Writes figures beside their references to report.json and report.md in the output folder. Further "
+        "calls add figures; a name given again takes the place of the earlier one. Numbers that are not "
+        "finite become null, with a warning. Booleans are judged by equality. The warnings of the run stand "
+        "in the report too.",
+        {list("figures", record_type(figure)).required().doc("the figures, in order")}, report)
+      .ordered();
 }
 
 } // namespace cdem::script

@@ -57,48 +57,29 @@ Value where(Session&, Object*, const Arguments& a) {
 } // namespace
 
 void bind_selections(Module& m) {
-  m.functions.push_back({"select.plane",
-                         "Everything that lies on a plane.",
-                         {vec3("point").unit("m").required().doc("any point of the plane"),
-                          vec3("normal").required().doc("of any length")},
-                         false,
-                         "cdem.Selection",
-                         "",
-                         plane});
-  m.functions.push_back({"select.box",
-                         "Everything inside an axis-aligned box, its faces included.",
-                         {vec3("min").unit("m").required(), vec3("max").unit("m").required()},
-                         false,
-                         "cdem.Selection",
-                         "",
-                         select_box});
+  m.add("select.plane", "Everything that lies on a plane.",
+        {vec3("point").unit("m").required().doc("any point of the plane"),
+         vec3("normal").required().doc("of any length")},
+        plane, "cdem.Selection");
+  m.add("select.box", "Everything inside an axis-aligned box, its faces included.",
+        {vec3("min").unit("m").required(), vec3("max").unit("m").required()}, select_box, "cdem.Selection");
   Type whole_number;
   whole_number.kind = Kind::integer;
   whole_number.range = {1, 1e7};
-  m.functions.push_back({"select.units",
-                         "Some of a body's units: those of a pile, the parts of a mesh, or blocks, counted "
-                         "from 1 in their order.",
-                         {text("body").required().doc("by name"), list("numbers", whole_number).required()},
-                         false,
-                         "cdem.Selection",
-                         "",
-                         units});
-  m.functions.push_back(
-      {"select.faces",
-       "Outer faces that mesh:faces{ name = ... } named before the model was made; of a pile, "
-       "those of each unit. To hold them is to hold all nodes that lie on them.",
-       {text("name").required(), text("body").doc("by name; all bodies that have such faces when left out")},
-       false,
-       "cdem.Selection",
-       "",
-       faces});
-  m.functions.push_back({"select.where",
-                         "Everything for whose undeformed place a function returns true.",
-                         {function("predicate", "(x: number, y: number, z: number): boolean").required()},
-                         true,
-                         "cdem.Selection",
-                         "",
-                         where});
+  m.add("select.units",
+        "Some of a body's units: those of a pile, the parts of a mesh, or blocks, counted from 1 in their "
+        "order.",
+        {text("body").required().doc("by name"), list("numbers", whole_number).required()}, units,
+        "cdem.Selection");
+  m.add("select.faces",
+        "Outer faces that mesh:faces{ name = ... } named before the model was made; of a pile, those of each "
+        "unit. To hold them is to hold all nodes that lie on them.",
+        {text("name").required(), text("body").doc("by name; all bodies that have such faces when left out")},
+        faces, "cdem.Selection");
+  m.add("select.where", "Everything for whose undeformed place a function returns true.",
+        {function("predicate", "(x: number, y: number, z: number): boolean").required()}, where,
+        "cdem.Selection")
+      .ordered();
   Class selection{"Selection",
                   "A place, made by cdem.select.*; judged on undeformed places, so it survives cutting."};
   selection.text = [](const Object& self) {

@@ -148,51 +148,42 @@ void bind_settling(Module& m) {
         number("wall_time").unit("s").required()}});
 
   Class& model = m.the_class("Model");
-  model.methods.push_back(
-      {"watch",
-       "Watches the units of a body from now on. A unit has left when its centroid has moved by `leaves` "
-       "against the ground and relative to the mean motion of the bodies that it touched when the watch "
-       "began, ground and units, of those that stay.",
-       {text("bodies").required().doc("name of a body of meshes"),
-        number("leaves").above(0).unit("m").required().doc("half a unit's height is usual")},
-       false,
-       "cdem.Watch",
-       "#watch, watch[i]: the units that have left so far, in order",
-       method<ModelObject>(watch)});
-  model.methods.push_back(
-      {"settle",
-       "Lets units fall and come to rest: free ones as rigid bodies first, then deformable, until they are "
-       "slow "
-       "and carry their weight. Rigid units, damping and a lower friction are off afterwards.",
-       {number("kinetic_energy_ratio")
-            .between(0, 1)
-            .standard(1e-6)
-            .doc("goal: kinetic energy over the largest there was"),
-        flag("rigid").standard(true).doc("free units fall as rigid bodies"),
-        number("local_damping")
-            .from(0, 1)
-            .standard(0.5)
-            .doc("of what touches: force against the motion as a fraction of the out-of-balance force "
-                 "(Cundall)"),
-        number("friction_angle")
-            .from(0, 90)
-            .unit("deg")
-            .doc("contacts have no more of it while units settle, so that they slide until they lean on "
-                 "more; each "
-                 "its own when left out, and afterwards"),
-        number("max_time").above(0).standard(60.0).unit("s").doc("of the model, then a warning"),
-        number("safety").within(0, 1).standard(0.5).doc(
-            "time step over the stable one; with more, contacts that open and close keep shaking"),
-        number("time_step")
-            .above(0)
-            .unit("s")
-            .doc("of the rigid fall, at most the stable one, which it is by default"),
-        integer("every").at_least(1).doc("steps between calls, 100 by default; in whole twenties"),
-        function("callback", "()").doc("called every so many steps; may read the model and write files")},
-       false,
-       "cdem.SettleResult",
-       "",
-       method<ModelObject>(settle)});
+  model.add("watch",
+            "Watches the units of a body from now on. A unit has left when its centroid has moved by "
+            "`leaves` against the ground and relative to the mean motion of the bodies that it touched when "
+            "the watch began, ground and units, of those that stay.",
+            {text("bodies").required().doc("name of a body of meshes"),
+             number("leaves").above(0).unit("m").required().doc("half a unit's height is usual")},
+            watch, "cdem.Watch", "#watch, watch[i]: the units that have left so far, in order");
+  model.add(
+      "settle",
+      "Lets units fall and come to rest: free ones as rigid bodies first, then deformable, until they are "
+      "slow and carry their weight. Rigid units, damping and a lower friction are off afterwards.",
+      {number("kinetic_energy_ratio")
+           .between(0, 1)
+           .standard(1e-6)
+           .doc("goal: kinetic energy over the largest there was"),
+       flag("rigid").standard(true).doc("free units fall as rigid bodies"),
+       number("local_damping")
+           .from(0, 1)
+           .standard(0.5)
+           .doc("of what touches: force against the motion as a fraction of the out-of-balance force "
+                "(Cundall)"),
+       number("friction_angle")
+           .from(0, 90)
+           .unit("deg")
+           .doc("contacts have no more of it while units settle, so that they slide until they lean on more; "
+                "each its own when left out, and afterwards"),
+       number("max_time").above(0).standard(60.0).unit("s").doc("of the model, then a warning"),
+       number("safety").within(0, 1).standard(0.5).doc(
+           "time step over the stable one; with more, contacts that open and close keep shaking"),
+       number("time_step")
+           .above(0)
+           .unit("s")
+           .doc("of the rigid fall, at most the stable one, which it is by default"),
+       integer("every").at_least(1).doc("steps between calls, 100 by default; in whole twenties"),
+       function("callback", "()").doc("called every so many steps; may read the model and write files")},
+      settle, "cdem.SettleResult");
 }
 
 } // namespace cdem::script

@@ -246,30 +246,26 @@ Field seed_field() {
 }
 
 void bind_builders(Module& m) {
-  const auto add = [&](std::string name, std::string doc, std::vector<Field> fields, auto body) {
-    m.functions.push_back(
-        {std::move(name), std::move(doc), std::move(fields), false, "cdem.Assembly", "", body});
-  };
-  add("grid", "A box of equal boxes in rows.",
-      {block_size_field().doc("of the whole"),
-       ivec3("divisions").at_least(1).required().doc("boxes along x, y and z"), origin_field()},
-      grid);
-  add("box", "One box.", {block_size_field(), origin_field()}, one_box);
-  add("voronoi", "A box of Voronoi cells about seeded random points.",
-      {block_size_field().doc("of the whole"),
-       integer("count").at_least(1).required().doc("number of blocks"), seed_field(),
-       integer("relaxations")
-           .within(0, 1000)
-           .standard(3)
-           .doc("Lloyd steps: each moves the points to their cells' centroids, which evens the cells out"),
-       flag("extruded").standard(false).doc("cells in x and y, one block through z"), origin_field()},
-      voronoi);
-  add("bricks", "A wall in running bond: courses laid along z, bricks running along x, the end bricks cut.",
-      {block_size_field().doc("of the wall"), vec3("brick").above(0).unit("m").required().doc("one brick"),
-       number("shift").from(0, 1).standard(0.5).doc(
-           "of each course against the one below, as a fraction of the brick's length"),
-       origin_field()},
-      bricks);
+  m.add("grid", "A box of equal boxes in rows.",
+        {block_size_field().doc("of the whole"),
+         ivec3("divisions").at_least(1).required().doc("boxes along x, y and z"), origin_field()},
+        grid, "cdem.Assembly");
+  m.add("box", "One box.", {block_size_field(), origin_field()}, one_box, "cdem.Assembly");
+  m.add("voronoi", "A box of Voronoi cells about seeded random points.",
+        {block_size_field().doc("of the whole"),
+         integer("count").at_least(1).required().doc("number of blocks"), seed_field(),
+         integer("relaxations")
+             .within(0, 1000)
+             .standard(3)
+             .doc("Lloyd steps: each moves the points to their cells' centroids, which evens the cells out"),
+         flag("extruded").standard(false).doc("cells in x and y, one block through z"), origin_field()},
+        voronoi, "cdem.Assembly");
+  m.add("bricks", "A wall in running bond: courses laid along z, bricks running along x, the end bricks cut.",
+        {block_size_field().doc("of the wall"), vec3("brick").above(0).unit("m").required().doc("one brick"),
+         number("shift").from(0, 1).standard(0.5).doc(
+             "of each course against the one below, as a fraction of the brick's length"),
+         origin_field()},
+        bricks, "cdem.Assembly");
   const std::vector<Field> set{
       number("dip").within(0, 90).unit("deg").required().doc("below the horizontal plane, z up"),
       number("dip_direction")
@@ -281,65 +277,55 @@ void bind_builders(Module& m) {
       number("spacing_scatter").from(0, 0.5).standard(0.0).doc("standard deviation over the mean"),
       number("dip_scatter").within(0, 90).unit("deg").standard(0.0).doc("standard deviation"),
       number("direction_scatter").within(0, 360).unit("deg").standard(0.0).doc("standard deviation"),
-      vec3("origin").unit("m").doc(
-          "a plane runs through it; without it the planes are counted from the lowest "
-          "corner of the blocks along the normal"),
+      vec3("origin").unit("m").doc("a plane runs through it; without it the planes are counted from the "
+                                   "lowest corner of the blocks along the normal"),
       integer("count").at_least(1).doc(
-          "planes next to the origin, on both sides of it; next to the centre of the "
-          "blocks where no origin is given. As many as cross the blocks when left out"),
+          "planes next to the origin, on both sides of it; next to the centre of the blocks where no origin "
+          "is given. As many as cross the blocks when left out"),
       number("persistence")
           .within(0, 1)
           .standard(1.0)
           .doc("probability that a face belongs to the set, above 0. The other faces are bridges of rock, "
-               "which the "
-               "body's joint holds; each face between two blocks is drawn by itself. Needs a name"),
+               "which the body's joint holds; each face between two blocks is drawn by itself. Needs a name"),
       text("name").doc("of the set, for its law: a body's joints = { name = joint }")};
-  add("cut_by_joints",
-      "Cuts every block by the planes of joint sets, one set after the other, those with a persistence below "
-      "1 "
-      "last.",
-      {object("shape", "Assembly").required(), list("sets", record_type(set)).required(), seed_field(),
-       number("smallest")
-           .at_least(0)
-           .unit("m")
-           .standard(0.0)
-           .doc("blocks thinner than this, by their least height over a face, are united with a neighbour "
-                "where both "
-                "are convex "
-                "together, or else glued to one: splinters fail before the rock does and shorten the time "
-                "step")},
-      cut_by_joints);
-  add("cut_by_discs",
-      "Joints of finite size: every block that a disc reaches is cut by the disc's plane. Faces with their "
-      "centroid in the "
-      "disc belong to its set; beyond it they are bridges of rock, which the body's joint holds.",
-      {object("shape", "Assembly").required(), list("discs", record_type(disc_fields())).required(),
-       number("clearance")
-           .at_least(0)
-           .unit("m")
-           .doc("a cut that comes nearer to a corner of its block than this without running through it is "
-                "moved "
-                "away, since thin blocks fail early and shorten the time step; 0 cuts exactly; 1e-3 of each "
-                "block's diagonal when left out. What is moved is told")},
-      cut_by_discs);
-  m.functions.push_back({"read_discs",
-                         "Discs of a fracture network from a .csv with the columns id, x, y, z, dip, "
-                         "dip_direction, radius and set, in any order, for cut_by_discs.",
-                         {text("file").required()},
-                         true,
-                         "table[]",
-                         "id, centre, dip, dip_direction, radius and set of each",
-                         read_discs,
-                         false,
-                         Replay::recorded});
-  add("convex_hull", "One block: the convex hull of points.",
-      {list("points", vec3_type(), 4).unit("m").required().doc("four or more, not in one plane")},
-      convex_hull);
-  add("blocks",
-      "Every tetrahedron of a mesh as a block: blocks whose tetrahedra share a face share it too, so that "
-      "they can be "
-      "bonded, cut and come loose.",
-      {object("mesh", "TetMesh").required()}, blocks_of_mesh);
+  m.add("cut_by_joints",
+        "Cuts every block by the planes of joint sets, one set after the other, those with a persistence "
+        "below 1 last.",
+        {object("shape", "Assembly").required(), list("sets", record_type(set)).required(), seed_field(),
+         number("smallest")
+             .at_least(0)
+             .unit("m")
+             .standard(0.0)
+             .doc("blocks thinner than this, by their least height over a face, are united with a neighbour "
+                  "where both are convex together, or else glued to one: splinters fail before the rock does "
+                  "and shorten the time step")},
+        cut_by_joints, "cdem.Assembly");
+  m.add("cut_by_discs",
+        "Joints of finite size: every block that a disc reaches is cut by the disc's plane. Faces with their "
+        "centroid in the disc belong to its set; beyond it they are bridges of rock, which the body's joint "
+        "holds.",
+        {object("shape", "Assembly").required(), list("discs", record_type(disc_fields())).required(),
+         number("clearance")
+             .at_least(0)
+             .unit("m")
+             .doc("a cut that comes nearer to a corner of its block than this without running through it is "
+                  "moved away, since thin blocks fail early and shorten the time step; 0 cuts exactly; 1e-3 "
+                  "of each block's diagonal when left out. What is moved is told")},
+        cut_by_discs, "cdem.Assembly");
+  m.add("read_discs",
+        "Discs of a fracture network from a .csv with the columns id, x, y, z, dip, dip_direction, radius "
+        "and set, in any order, for cut_by_discs.",
+        {text("file").required()}, read_discs, "table[]",
+        "id, centre, dip, dip_direction, radius and set of each")
+      .ordered()
+      .replayed(Replay::recorded);
+  m.add("convex_hull", "One block: the convex hull of points.",
+        {list("points", vec3_type(), 4).unit("m").required().doc("four or more, not in one plane")},
+        convex_hull, "cdem.Assembly");
+  m.add("blocks",
+        "Every tetrahedron of a mesh as a block: blocks whose tetrahedra share a face share it too, so that "
+        "they can be bonded, cut and come loose.",
+        {object("mesh", "TetMesh").required()}, blocks_of_mesh, "cdem.Assembly");
 }
 
 Field box_field(std::string name) {
@@ -347,37 +333,34 @@ Field box_field(std::string name) {
 }
 
 void bind_edits(Module& m) {
-  const auto add = [&](std::string name, std::string doc, std::vector<Field> fields, auto body) {
-    m.functions.push_back(
-        {std::move(name), std::move(doc), std::move(fields), false, "cdem.Assembly", "", body});
-  };
   const Field shape = object("shape", "Assembly").required().doc("left as it is; the result is a new one");
-  add("cut_by_plane", "Splits every block that a plane crosses.",
-      {shape, vec3("point").unit("m").required().doc("any point of the plane"),
-       vec3("normal").required().doc("of any length"),
-       box_field("inside").doc("only blocks whose centroid lies in this box"),
-       box_field("crossing")
-           .doc("only blocks that reach into this box: the notch or the load line to be cut"),
-       number("clearance")
-           .at_least(0)
-           .unit("m")
-           .standard(0.0)
-           .doc("where a vertex of a block is nearer than this, the plane is shifted for that block"),
-       text("name").doc("of the cut, for its law: a body's joints = { name = joint }"),
-       flag("glued").standard(false).doc("a construction cut, such as an excavation outline: no joint; its "
-                                         "faces hold the rock together, stiff and "
-                                         "unbreakable, whatever the body's joint. Where it runs along a "
-                                         "joint that is there already, the joint stays")},
-      cut_by_plane);
-  add("keep", "The blocks whose centroid lies in a box.", {shape, box_field("inside").required()},
-      keep_blocks);
-  add("translate", "Moves blocks.", {shape, vec3("shift").unit("m").required()}, translate);
-  add("rotate", "Turns blocks, right-handed, about an axis through `centre`.",
-      {shape, vec3("axis").required().doc("of any length"), number("angle").unit("deg").required(),
-       vec3("centre").unit("m").standard(Value(geom::Vec3(0, 0, 0)))},
-      rotate);
-  add("merge", "One assembly of the blocks of several.", {list("shapes", object_type("Assembly")).required()},
-      merge);
+  m.add("cut_by_plane", "Splits every block that a plane crosses.",
+        {shape, vec3("point").unit("m").required().doc("any point of the plane"),
+         vec3("normal").required().doc("of any length"),
+         box_field("inside").doc("only blocks whose centroid lies in this box"),
+         box_field("crossing")
+             .doc("only blocks that reach into this box: the notch or the load line to be cut"),
+         number("clearance")
+             .at_least(0)
+             .unit("m")
+             .standard(0.0)
+             .doc("where a vertex of a block is nearer than this, the plane is shifted for that block"),
+         text("name").doc("of the cut, for its law: a body's joints = { name = joint }"),
+         flag("glued").standard(false).doc(
+             "a construction cut, such as an excavation outline: no joint; its faces hold the rock together, "
+             "stiff and unbreakable, whatever the body's joint. Where it runs along a joint that is there "
+             "already, the joint stays")},
+        cut_by_plane, "cdem.Assembly");
+  m.add("keep", "The blocks whose centroid lies in a box.", {shape, box_field("inside").required()},
+        keep_blocks, "cdem.Assembly");
+  m.add("translate", "Moves blocks.", {shape, vec3("shift").unit("m").required()}, translate,
+        "cdem.Assembly");
+  m.add("rotate", "Turns blocks, right-handed, about an axis through `centre`.",
+        {shape, vec3("axis").required().doc("of any length"), number("angle").unit("deg").required(),
+         vec3("centre").unit("m").standard(Value(geom::Vec3(0, 0, 0)))},
+        rotate, "cdem.Assembly");
+  m.add("merge", "One assembly of the blocks of several.",
+        {list("shapes", object_type("Assembly")).required()}, merge, "cdem.Assembly");
 }
 
 } // namespace
@@ -401,56 +384,38 @@ void bind_shapes(Module& m) {
     const auto count = static_cast<const AssemblyObject&>(self).assembly.blocks.size();
     return "cdem.Assembly (" + std::to_string(count) + (count == 1 ? " block)" : " blocks)");
   };
-  assembly.methods = {
-      {"volume",
-       "Sum over the blocks, m3.",
-       {},
-       true,
-       "number",
-       "m3",
-       method<AssemblyObject>(
-           [](Session&, AssemblyObject& self, const Arguments&) { return volume(self.assembly); })},
-      {"box",
-       "Smallest axis-aligned box that holds all blocks.",
-       {},
-       true,
-       "cdem.Box",
-       "",
-       method<AssemblyObject>([](Session&, AssemblyObject& self, const Arguments&) {
-         const geom::Box box = geom::bounding_box(self.assembly);
-         return Table{{"min", box.min}, {"max", box.max}};
-       })},
-      {"joint_sets",
-       "Names of the joint sets and cuts that made faces of the blocks, in the order of the alphabet.",
-       {},
-       true,
-       "string[]",
-       "",
-       method<AssemblyObject>([](Session&, AssemblyObject& self, const Arguments&) {
-         Values names;
-         for (const std::string& name : geom::cut_names(self.assembly))
-           names.emplace_back(name);
-         return Table::list(std::move(names));
-       })},
-      {"blocks",
-       "One table per block.",
-       {},
-       true,
-       "cdem.Block[]",
-       "",
-       method<AssemblyObject>(assembly_blocks)},
-      {"solid",
-       "The blocks as one solid with a region for each, in their order; its mesh{} shares nodes on the faces "
-       "between "
-       "them. As the shape of a body with bonded_faces = \"regions\" such a mesh breaks along the faces of "
-       "the "
-       "blocks, with "
-       "bonds = \"all\" anywhere.",
-       {},
-       false,
-       "cdem.Solid",
-       "",
-       method<AssemblyObject>(assembly_solid)}};
+  assembly
+      .add(
+          "volume", "Sum over the blocks, m3.", {},
+          [](AssemblyObject& self) { return volume(self.assembly); }, "number", "m3")
+      .ordered();
+  assembly
+      .add(
+          "box", "Smallest axis-aligned box that holds all blocks.", {},
+          [](AssemblyObject& self) {
+            const geom::Box box = geom::bounding_box(self.assembly);
+            return Table{{"min", box.min}, {"max", box.max}};
+          },
+          "cdem.Box")
+      .ordered();
+  assembly
+      .add(
+          "joint_sets",
+          "Names of the joint sets and cuts that made faces of the blocks, in the order of the alphabet.", {},
+          [](AssemblyObject& self) {
+            Values names;
+            for (const std::string& name : geom::cut_names(self.assembly))
+              names.emplace_back(name);
+            return Table::list(std::move(names));
+          },
+          "string[]")
+      .ordered();
+  assembly.add("blocks", "One table per block.", {}, assembly_blocks, "cdem.Block[]").ordered();
+  assembly.add("solid",
+               "The blocks as one solid with a region for each, in their order; its mesh{} shares nodes on "
+               "the faces between them. As the shape of a body with bonded_faces = \"regions\" such a mesh "
+               "breaks along the faces of the blocks, with bonds = \"all\" anywhere.",
+               {}, assembly_solid, "cdem.Solid");
   m.classes.push_back(assembly);
 }
 

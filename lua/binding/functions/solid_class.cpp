@@ -99,101 +99,76 @@ Value save_solid(Session& session, SolidObject& self, const Arguments& a) {
   return {};
 }
 
-std::vector<Function> solid_methods() {
+void add_methods(Class& solid) {
   const std::vector<Field> refinement{
       vec3("at").unit("m").doc("near a point"),
       list("line", vec3_type(), 2).unit("m").doc("along a line, an edge"),
       record("box", {vec3("min").unit("m").required(), vec3("max").unit("m").required()}).doc("in a box"),
       number("size").above(0).unit("m").required(),
       number("radius").at_least(0).unit("m").standard(0.0).doc("how far the size holds")};
-  return {
-      {"volume",
-       "",
-       {},
-       true,
-       "number",
-       "m3",
-       method<SolidObject>([](Session&, SolidObject& self, const Arguments&) -> Value {
-         return geom::mass_properties(self.solid).volume;
-       })},
-      {"regions",
-       "Volume of each region, m3.",
-       {},
-       true,
-       "number[]",
-       "",
-       method<SolidObject>([](Session&, SolidObject& self, const Arguments&) -> Value {
-         const auto volumes = geom::region_volumes(self.solid);
-         return Table::list({volumes.begin(), volumes.end()});
-       })},
-      {"box",
-       "Axis-aligned box around the solid; where curved faces are cut by others it may be up to 1 % too "
-       "large.",
-       {},
-       true,
-       "cdem.Box",
-       "",
-       method<SolidObject>([](Session&, SolidObject& self, const Arguments&) -> Value {
-         const geom::Box box = geom::bounding_box(self.solid);
-         return Table{{"min", box.min}, {"max", box.max}};
-       })},
-      {"inertia",
-       "Mass, centroid and inertia about the centroid.",
-       {number("density").above(0).unit("kg/m3").doc("the solid's own when left out; 1 when it has none")},
-       false,
-       "cdem.Inertia",
-       "",
-       method<SolidObject>(inertia)},
-      {"mesh",
-       "Tetrahedra that fill the solid; the same call gives the same mesh.",
-       {number("size").above(0).unit("m").doc("edge length; the solid's mesh_size when left out"),
-        list("refine", record_type(refinement), 0).doc("smaller tetrahedra in some places"),
-        number("growth").within(0.05, 2).standard(0.3).doc(
-            "m of size per m of distance from a refined place")},
-       false,
-       "cdem.TetMesh",
-       "",
-       method<SolidObject>(mesh)},
-      {"translate",
-       "A moved copy.",
-       {vec3("shift").unit("m").required()},
-       false,
-       "cdem.Solid",
-       "",
-       method<SolidObject>([](Session&, SolidObject& self, const Arguments& a) -> Value {
-         return moved(self, geom::translated(self.solid, a.vec3("shift")));
-       })},
-      {"rotate",
-       "A copy turned, right-handed, about an axis through `centre`.",
-       {vec3("axis").required().doc("of any length"), number("angle").unit("deg").required(),
-        vec3("centre").unit("m").standard(Value(geom::Vec3(0, 0, 0)))},
-       false,
-       "cdem.Solid",
-       "",
-       method<SolidObject>([](Session&, SolidObject& self, const Arguments& a) -> Value {
-         return moved(
-             self, geom::rotated(self.solid, a.vec3("axis"), radians(a.number("angle")), a.vec3("centre")));
-       })},
-      {"scale",
-       "A copy of another size.",
-       {number("factor").above(0).required(), vec3("centre").unit("m").standard(Value(geom::Vec3(0, 0, 0)))},
-       false,
-       "cdem.Solid",
-       "",
-       method<SolidObject>([](Session&, SolidObject& self, const Arguments& a) -> Value {
-         return moved(self, geom::scaled(self.solid, a.number("factor"), a.vec3("centre")),
-                      a.number("factor"));
-       })},
-      {"save",
-       "Writes a STEP file.",
-       {text("file").required().doc("ends in .step; in the output folder")},
-       false,
-       "",
-       "",
-       method<SolidObject>(save_solid),
-       false,
-       Replay::standard,
-       true}};
+  solid
+      .add(
+          "volume", "", {}, [](SolidObject& self) { return geom::mass_properties(self.solid).volume; },
+          "number", "m3")
+      .ordered();
+  solid
+      .add(
+          "regions", "Volume of each region, m3.", {},
+          [](SolidObject& self) {
+            const auto volumes = geom::region_volumes(self.solid);
+            return Table::list({volumes.begin(), volumes.end()});
+          },
+          "number[]")
+      .ordered();
+  solid
+      .add(
+          "box",
+          "Axis-aligned box around the solid; where curved faces are cut by others it may be up to 1 % too "
+          "large.",
+          {},
+          [](SolidObject& self) {
+            const geom::Box box = geom::bounding_box(self.solid);
+            return Table{{"min", box.min}, {"max", box.max}};
+          },
+          "cdem.Box")
+      .ordered();
+  solid.add(
+      "inertia", "Mass, centroid and inertia about the centroid.",
+      {number("density").above(0).unit("kg/m3").doc("the solid's own when left out; 1 when it has none")},
+      inertia, "cdem.Inertia");
+  solid.add("mesh", "Tetrahedra that fill the solid; the same call gives the same mesh.",
+            {number("size").above(0).unit("m").doc("edge length; the solid's mesh_size when left out"),
+             list("refine", record_type(refinement), 0).doc("smaller tetrahedra in some places"),
+             number("growth").within(0.05, 2).standard(0.3).doc(
+                 "m of size per m of distance from a refined place")},
+            mesh, "cdem.TetMesh");
+  solid.add(
+      "translate", "A moved copy.", {vec3("shift").unit("m").required()},
+      [](Session&, SolidObject& self, const Arguments& a) -> Value {
+        return moved(self, geom::translated(self.solid, a.vec3("shift")));
+      },
+      "cdem.Solid");
+  solid.add(
+      "rotate", "A copy turned, right-handed, about an axis through `centre`.",
+      {vec3("axis").required().doc("of any length"), number("angle").unit("deg").required(),
+       vec3("centre").unit("m").standard(Value(geom::Vec3(0, 0, 0)))},
+      [](Session&, SolidObject& self, const Arguments& a) -> Value {
+        return moved(self,
+                     geom::rotated(self.solid, a.vec3("axis"), radians(a.number("angle")), a.vec3("centre")));
+      },
+      "cdem.Solid");
+  solid.add(
+      "scale", "A copy of another size.",
+      {number("factor").above(0).required(), vec3("centre").unit("m").standard(Value(geom::Vec3(0, 0, 0)))},
+      [](Session&, SolidObject& self, const Arguments& a) -> Value {
+        return moved(self, geom::scaled(self.solid, a.number("factor"), a.vec3("centre")),
+                     a.number("factor"));
+      },
+      "cdem.Solid");
+  solid
+      .add("save", "Writes a STEP file.",
+           {text("file").required().doc("ends in .step; in the output folder")}, save_solid)
+      .by_rank_0();
 }
 
 } // namespace
@@ -236,7 +211,7 @@ void bind_solid_class(Module& m) {
     return "cdem.Solid (" + object.kind +
            (object.height ? ", height " + number_text(*object.height) + " m)" : ")");
   };
-  solid.methods = solid_methods();
+  add_methods(solid);
   m.classes.push_back(solid);
 }
 

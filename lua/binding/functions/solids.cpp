@@ -60,74 +60,81 @@ Value read_solid(Session& session, Object*, const Arguments& a) {
 }
 
 void bind_solid_builders(Module& m) {
-  const auto add = [&](std::string name, std::string doc, std::vector<Field> fields, auto body) {
-    m.functions.push_back(
-        {std::move(name), std::move(doc), std::move(fields), false, "cdem.Solid", "", body});
-  };
   const auto place = [](std::string name) {
     return vec3(std::move(name)).unit("m").standard(Value(geom::Vec3(0, 0, 0)));
   };
   const Field radius = number("radius").above(0).unit("m").required();
   const Field axis = vec3("axis").unit("m").required().doc("from the middle of the base to that of the top");
-  add("solid.box", "A box.",
+  m.add(
+      "solid.box", "A box.",
       {vec3("size").above(0).unit("m").required(), place("origin").doc("lower corner")},
       [](Session&, Object*, const Arguments& a) -> Value {
         return made(geom::box(a.vec3("size"), a.vec3("origin")), "box");
-      });
-  add("solid.cylinder", "A cylinder.", {radius, axis, place("base").doc("middle of the base")},
+      },
+      "cdem.Solid");
+  m.add(
+      "solid.cylinder", "A cylinder.", {radius, axis, place("base").doc("middle of the base")},
       [](Session&, Object*, const Arguments& a) -> Value {
         return made(geom::cylinder(a.vec3("base"), a.vec3("axis"), a.number("radius")), "cylinder");
-      });
-  add("solid.cone", "A cone, cut off at the top unless top_radius is 0.",
+      },
+      "cdem.Solid");
+  m.add(
+      "solid.cone", "A cone, cut off at the top unless top_radius is 0.",
       {number("radius").at_least(0).unit("m").required().doc("of the base"),
        number("top_radius").at_least(0).unit("m").standard(0.0), axis,
        place("base").doc("middle of the base")},
       [](Session&, Object*, const Arguments& a) -> Value {
         return made(geom::cone(a.vec3("base"), a.vec3("axis"), a.number("radius"), a.number("top_radius")),
                     "cone");
-      });
-  add("solid.sphere", "A ball.", {radius, place("centre")},
+      },
+      "cdem.Solid");
+  m.add(
+      "solid.sphere", "A ball.", {radius, place("centre")},
       [](Session&, Object*, const Arguments& a) -> Value {
         return made(geom::sphere(a.vec3("centre"), a.number("radius")), "sphere");
-      });
-  add("solid.read",
-      "A solid from a STEP file (in the file's units), or from a closed surface of triangles (STL, OBJ, OFF, "
-      "PLY, "
-      "DXF, GOCAD). Each triangle becomes a face of the solid, so no element of its mesh is larger than the "
-      "triangles. Triangles without area and T-junctions are mended, which is told.",
-      {text("file").required().doc("ends in " + solid_endings),
-       number("scale").within(1e-6, 1e6).standard(1.0).doc("0.001 for a file in millimetres"),
-       place("shift").doc("is added to the coordinates: a survey far from the origin loses its digits")},
-      read_solid);
+      },
+      "cdem.Solid");
+  m.add("solid.read",
+        "A solid from a STEP file (in the file's units), or from a closed surface of triangles (STL, OBJ, "
+        "OFF, PLY, DXF, GOCAD). Each triangle becomes a face of the solid, so no element of its mesh is "
+        "larger than the triangles. Triangles without area and T-junctions are mended, which is told.",
+        {text("file").required().doc("ends in " + solid_endings),
+         number("scale").within(1e-6, 1e6).standard(1.0).doc("0.001 for a file in millimetres"),
+         place("shift").doc("is added to the coordinates: a survey far from the origin loses its digits")},
+        read_solid, "cdem.Solid");
 }
 
 void bind_booleans(Module& m) {
-  const auto add = [&](std::string name, std::string doc, std::vector<Field> fields, auto body) {
-    m.functions.push_back(
-        {std::move(name), std::move(doc), std::move(fields), false, "cdem.Solid", "", body});
-  };
   const Field solids = list("solids", object_type("Solid"), 2).required();
   const Field solid = object("solid", "Solid").required().doc("left as it is; the result is a new one");
-  add("solid.union", "All of several solids as one.", {solids},
+  m.add(
+      "solid.union", "All of several solids as one.", {solids},
       [](Session&, Object*, const Arguments& a) -> Value {
         return made(geom::united(solids_of(a, "solids")));
-      });
-  add("solid.cut", "A solid without the parts that others cover.",
+      },
+      "cdem.Solid");
+  m.add(
+      "solid.cut", "A solid without the parts that others cover.",
       {solid, list("tools", object_type("Solid")).required().doc("what is taken away")},
       [](Session&, Object*, const Arguments& a) -> Value {
         return made(geom::cut(solid_of(a, "solid"), solids_of(a, "tools")));
-      });
-  add("solid.common", "What two solids have in common.", {solid, object("other", "Solid").required()},
+      },
+      "cdem.Solid");
+  m.add(
+      "solid.common", "What two solids have in common.", {solid, object("other", "Solid").required()},
       [](Session&, Object*, const Arguments& a) -> Value {
         return made(geom::common(solid_of(a, "solid"), solid_of(a, "other")));
-      });
-  add("solid.fragments",
+      },
+      "cdem.Solid");
+  m.add(
+      "solid.fragments",
       "The pieces that solids cut each other into, as regions of one solid; neighbours share faces, and "
-      "their "
-      "meshes share nodes.",
-      {solids}, [](Session&, Object*, const Arguments& a) -> Value {
+      "their meshes share nodes.",
+      {solids},
+      [](Session&, Object*, const Arguments& a) -> Value {
         return made(geom::fragments(solids_of(a, "solids")));
-      });
+      },
+      "cdem.Solid");
 }
 
 } // namespace

@@ -150,8 +150,7 @@ Value after_stage(Session&, ModelObject& model, const Arguments& a) {
 
 Field every() {
   return integer("every").at_least(1).doc("steps between calls, 100 by default; without a callback steps "
-                                          "between samples of the history from here "
-                                          "on, 10 at first");
+                                          "between samples of the history from here on, 10 at first");
 }
 Field callback() {
   return function("callback", "()").doc("called every so many steps; may read the model and write files");
@@ -194,12 +193,8 @@ void bind_results(Module& m) {
 void bind_solving(Module& m) {
   bind_results(m);
   Class& model = m.the_class("Model");
-  const auto add = [&](std::string name, std::string doc, std::vector<Field> fields, std::string returns,
-                       std::string returns_doc, auto body) {
-    model.methods.push_back({std::move(name), std::move(doc), std::move(fields), false, std::move(returns),
-                             std::move(returns_doc), method<ModelObject>(body)});
-  };
-  add("relax",
+  model.add(
+      "relax",
       "Dynamic relaxation to static balance, with fictitious masses and adaptive damping (Han 2010 eq 12). "
       "The verdict tells a model that stands from one that runs away (docs/theory.md, section 25).",
       {number("residual")
@@ -211,39 +206,40 @@ void bind_solving(Module& m) {
        flag("stop_on_failure")
            .standard(true)
            .doc("ends where the model runs away, with the verdict \"failing\"; false: goes on, for a fall "
-                "that "
-                "something may catch"),
-       text("trial").doc(
-           "name of a trial, \"F = 1.2\", for progress, log and report; that it fails is then an "
-           "answer and no warning"),
+                "that something may catch"),
+       text("trial").doc("name of a trial, \"F = 1.2\", for progress, log and report; that it fails is then "
+                         "an answer and no warning"),
        every(), callback()},
-      "cdem.RelaxResult", "", relax);
-  add("run", "Explicit stepping in real time with the real masses.",
-      {number("duration").above(0).unit("s"), integer("steps").at_least(1).doc("instead of duration"),
-       number("safety")
-           .above(0)
-           .doc("time step over the stable one, at most 1; rigid bodies that touch take 0.5 at most")
-           .standard(0.9),
-       number("time_step")
-           .above(0)
-           .unit("s")
-           .doc("instead of safety; at most the stable one, half of it for rigid bodies that may touch"),
-       mass_scaling_field(), breaking(),
-       number("local_damping")
-           .from(0, 1)
-           .standard(0.0)
-           .doc("force against the motion as a fraction of the out-of-balance force (Cundall)"),
-       every(), callback(), function("stop", "(): boolean").doc("ends the stage when it returns true")},
-      "cdem.RunResult", "", run);
-  model.methods.back().fields[2].type.range = {0, 1, true, false};
-  add("after_stage",
-      "Has a function called after every solving call from now on, for what each stage should leave behind.",
-      {function("callback", "(stage: cdem.Stage)").required().doc("may read the model and write files")}, "",
-      "", after_stage);
-  model.methods.back().in_order = true;
-  model.methods.back().replay = Replay::again;
-  add("stages", "The model's solving calls so far.", {}, "cdem.Stage[]", "", stages);
-  model.methods.back().in_order = true;
+      relax, "cdem.RelaxResult");
+  model
+      .add("run", "Explicit stepping in real time with the real masses.",
+           {number("duration").above(0).unit("s"), integer("steps").at_least(1).doc("instead of duration"),
+            number("safety")
+                .above(0)
+                .doc("time step over the stable one, at most 1; rigid bodies that touch take 0.5 at most")
+                .standard(0.9),
+            number("time_step")
+                .above(0)
+                .unit("s")
+                .doc("instead of safety; at most the stable one, half of it for rigid bodies that may touch"),
+            mass_scaling_field(), breaking(),
+            number("local_damping")
+                .from(0, 1)
+                .standard(0.0)
+                .doc("force against the motion as a fraction of the out-of-balance force (Cundall)"),
+            every(), callback(), function("stop", "(): boolean").doc("ends the stage when it returns true")},
+           run, "cdem.RunResult")
+      .fields[2]
+      .type.range = {0, 1, true, false};
+  model
+      .add("after_stage",
+           "Has a function called after every solving call from now on, for what each stage should leave "
+           "behind.",
+           {function("callback", "(stage: cdem.Stage)").required().doc("may read the model and write files")},
+           after_stage)
+      .ordered()
+      .replayed(Replay::again);
+  model.add("stages", "The model's solving calls so far.", {}, stages, "cdem.Stage[]").ordered();
 }
 
 } // namespace cdem::script

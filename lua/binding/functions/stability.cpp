@@ -86,8 +86,8 @@ Field reduce() {
   kind.choices = {"joints", "blocks"};
   return list("reduce", kind)
       .required()
-      .doc("strengths that are divided: joints (cohesion, tan(phi) and tensile "
-           "strength of joints, bonds and contacts), blocks (those of plasticity)");
+      .doc("strengths that are divided: joints (cohesion, tan(phi) and tensile strength of joints, bonds and "
+           "contacts), blocks (those of plasticity)");
 }
 
 void bind_stability_records(Module& m) {
@@ -128,66 +128,46 @@ void bind_stability_records(Module& m) {
 void bind_stability(Module& m) {
   bind_stability_records(m);
   Class& model = m.the_class("Model");
-  model.methods.push_back(
-      {"copy",
-       "Another model in the same state, with the same conditions and without histories and "
-       "probes; what "
-       "becomes of one does not touch the other.",
-       {},
-       true,
-       "cdem.Model",
-       "",
-       method<ModelObject>(copy)});
-  model.methods.push_back({"reduce_strength",
-                           "Divides strengths by a factor: cohesion, tan(phi) and tensile strength. "
-                           "Stiffness, fracture energies and "
-                           "the state "
-                           "stay; glued faces never break. A second call acts on top of the first.",
-                           {number("factor").above(0).required(), reduce()},
-                           false,
-                           "",
-                           "",
-                           method<ModelObject>(reduce_strength)});
-  m.functions.push_back(
-      {"factor_of_safety",
-       "The factor of safety by strength reduction: the number that the strengths can be divided by before "
-       "the "
-       "model fails, "
-       "by bisection. Each trial starts from the same state, with its displacement set to zero, and is "
-       "relaxed; "
-       "the verdict of "
-       "model:relax says whether it stands. What fails, where and how large it is is told. Trials show in "
-       "the progress, in the log and in report.json, "
-       "which "
-       "gets the figures "
-       "factor_of_safety, factor_of_safety_lower and factor_of_safety_upper too.",
-       {object("model", "Model").doc("each trial starts from its state as it is; it stays as it is"),
-        function("builder", "(): cdem.Model")
-            .doc("instead: makes the model of a trial, called anew for each"),
-        reduce(), number("lower").above(0).standard(0.5).doc("a factor at which the model stands"),
-        number("upper").above(0).standard(4.0).doc("a factor at which it fails"),
-        number("tolerance").above(0).standard(0.02).doc("width of the bracket that is left"),
-        number("residual")
-            .between(0, 1)
-            .standard(1e-5)
-            .doc("goal of each relaxation; smaller for models of many blocks of which few slide"),
-        integer("max_steps")
-            .at_least(1)
-            .standard(200000)
-            .doc("of each relaxation; a trial that is undecided then counts as failing, with a warning"),
-        number("smallest")
-            .at_least(0)
-            .standard(0.0)
-            .unit("m3")
-            .doc("volume of a mechanism that counts: blocks that fail and are smaller together are removed "
-                 "from the trial, which goes on without them; their number is told"),
-        text("picture").doc("file (.png) of the mechanism: displacement of the failing side, seen from where "
-                            "it moves to"),
-        text("figure").standard("factor_of_safety").doc("name of the figure in the report")},
-       false,
-       "cdem.FactorOfSafety",
-       "",
-       factor_of_safety});
+  model
+      .add("copy",
+           "Another model in the same state, with the same conditions and without histories and probes; what "
+           "becomes of one does not touch the other.",
+           {}, copy, "cdem.Model")
+      .ordered();
+  model.add("reduce_strength",
+            "Divides strengths by a factor: cohesion, tan(phi) and tensile strength. Stiffness, fracture "
+            "energies and the state stay; glued faces never break. A second call acts on top of the first.",
+            {number("factor").above(0).required(), reduce()}, reduce_strength);
+  m.add(
+      "factor_of_safety",
+      "The factor of safety by strength reduction: the number that the strengths can be divided by before "
+      "the model fails, by bisection. Each trial starts from the same state, with its displacement set to "
+      "zero, and is relaxed; the verdict of model:relax says whether it stands. What fails, where and how "
+      "large it is is told. Trials show in the progress, in the log and in report.json, which gets the "
+      "figures factor_of_safety, factor_of_safety_lower and factor_of_safety_upper too.",
+      {object("model", "Model").doc("each trial starts from its state as it is; it stays as it is"),
+       function("builder", "(): cdem.Model").doc("instead: makes the model of a trial, called anew for each"),
+       reduce(), number("lower").above(0).standard(0.5).doc("a factor at which the model stands"),
+       number("upper").above(0).standard(4.0).doc("a factor at which it fails"),
+       number("tolerance").above(0).standard(0.02).doc("width of the bracket that is left"),
+       number("residual")
+           .between(0, 1)
+           .standard(1e-5)
+           .doc("goal of each relaxation; smaller for models of many blocks of which few slide"),
+       integer("max_steps")
+           .at_least(1)
+           .standard(200000)
+           .doc("of each relaxation; a trial that is undecided then counts as failing, with a warning"),
+       number("smallest")
+           .at_least(0)
+           .standard(0.0)
+           .unit("m3")
+           .doc("volume of a mechanism that counts: blocks that fail and are smaller together are removed "
+                "from the trial, which goes on without them; their number is told"),
+       text("picture").doc(
+           "file (.png) of the mechanism: displacement of the failing side, seen from where it moves to"),
+       text("figure").standard("factor_of_safety").doc("name of the figure in the report")},
+      factor_of_safety, "cdem.FactorOfSafety");
 }
 
 } // namespace cdem::script

@@ -140,36 +140,28 @@ Value stereonet_of_planes(Session& session, Object*, const Arguments& a) {
 } // namespace
 
 void bind_stereonets(Module& m) {
-  m.functions.push_back(
-      {"stereonet",
-       "Stereonet (Schmidt net, equal-area, lower hemisphere, north up): poles of joints with their scatter, "
-       "great "
-       "circles of "
-       "planes. A table of the same name that ends in .csv has kind, name, dip, dip_direction and the place "
-       "x, y of "
-       "each pole on a net of radius 1.",
-       {drawing_field(),
-        list("poles", record_type({text("name").required().doc("in the legend"),
-                                   list("planes", tuple_type({number_type(), number_type()}))
-                                       .required()
-                                       .doc("{dip, dip_direction} (deg) of each"),
-                                   colour_field()})),
-        list("discs", record_type(disc_fields())).doc("joints of finite size; poles by set"),
-        object("shape", "Assembly")
-            .doc("blocks: poles of the planes that cut them, by joint set or name of the cut"),
-        list("planes", record_type({text("name").required().doc("in the legend"),
-                                    number("dip").within(0, 90).unit("deg").required(),
-                                    number("dip_direction").within(0, 360).unit("deg").required(),
-                                    flag("dashed").standard(false), colour_field()}))
-            .doc("great circles: slope faces, mean planes of sets"),
-        text("title"), size_field(), dpi_field()},
-       false,
-       "",
-       "",
-       stereonet_of_planes,
-       false,
-       Replay::recorded,
-       true});
+  m.add("stereonet",
+        "Stereonet (Schmidt net, equal-area, lower hemisphere, north up): poles of joints with their "
+        "scatter, great circles of planes. A table of the same name that ends in .csv has kind, name, dip, "
+        "dip_direction and the place x, y of each pole on a net of radius 1.",
+        {drawing_field(),
+         list("poles", record_type({text("name").required().doc("in the legend"),
+                                    list("planes", tuple_type({number_type(), number_type()}))
+                                        .required()
+                                        .doc("{dip, dip_direction} (deg) of each"),
+                                    colour_field()})),
+         list("discs", record_type(disc_fields())).doc("joints of finite size; poles by set"),
+         object("shape", "Assembly")
+             .doc("blocks: poles of the planes that cut them, by joint set or name of the cut"),
+         list("planes", record_type({text("name").required().doc("in the legend"),
+                                     number("dip").within(0, 90).unit("deg").required(),
+                                     number("dip_direction").within(0, 360).unit("deg").required(),
+                                     flag("dashed").standard(false), colour_field()}))
+             .doc("great circles: slope faces, mean planes of sets"),
+         text("title"), size_field(), dpi_field()},
+        stereonet_of_planes)
+      .replayed(Replay::recorded)
+      .by_rank_0();
 }
 
 } // namespace cdem::script

@@ -110,60 +110,45 @@ double area(const geom::Surface& surface) {
 } // namespace
 
 void bind_surfaces(Module& m) {
-  m.functions.push_back(
-      {"read_surface",
-       "A surface of triangles from a file: STL, ASCII DXF (3DFACE, polyface and polygon meshes), OBJ, OFF, "
-       "PLY or "
-       "GOCAD; a terrain, an excavation. Triangles without area and T-junctions are mended, which is told.",
-       {text("file").required().doc("ends in .stl, .dxf, .obj, .off, .ply or .ts"),
-        number("scale").within(1e-6, 1e6).standard(1.0).doc("0.001 for a file in millimetres"),
-        vec3("shift")
-            .unit("m")
-            .standard(Value(geom::Vec3(0, 0, 0)))
-            .doc("is added to the coordinates: a survey far from the origin loses its digits")},
-       false,
-       "cdem.Surface",
-       "",
-       read_surface});
-  m.functions.push_back({"surface",
-                         "A surface of triangles by its points: a terrain by a formula or from a table.",
-                         {list("points", vec3_type(), 3).unit("m").required(),
-                          list("triangles", tuple_type({number_type(), number_type(), number_type()}), 1)
-                              .required()
-                              .doc("numbers of three points each, from 1")},
-                         false,
-                         "cdem.Surface",
-                         "",
-                         surface});
-  m.functions.push_back(
-      {"clip",
-       "Cuts blocks along a surface or the faces of a solid, and keeps those on one side. Each block is cut "
-       "by "
-       "planes "
-       "into convex pieces; the cuts within it are glued unless told otherwise.",
-       {object("shape", "Assembly").required().doc("left as it is; the result is a new one"),
-        object("solid", "Solid"),
-        object("surface", "Surface").doc("instead: closed, or open and single in height, a terrain"),
-        choice("keep", {"inside", "outside", "below", "above", "both"})
-            .required()
-            .doc("inside and outside of a closed surface or a solid, below and above an open one; both: only "
-                 "cut, the outline of a later excavation (model:remove)"),
-        number("tolerance")
-            .at_least(0)
-            .unit("m")
-            .standard(0.0)
-            .doc("how far the cuts may leave the surface; makes fewer pieces and no thinner ones. 0: exact; "
-                 "curved solids need one"),
-        text("name").doc("of the faces that are cut, in pictures of joints, lists and `joints` of a body"),
-        flag("glued").standard(true).doc("the cuts are no joints; their faces never break. false: they are "
-                                         "joints, as those of cdem.cut, also "
-                                         "where a "
-                                         "cut runs on through the rest of a block that the surface bends in: "
-                                         "a fault that follows a surface")},
-       false,
-       "cdem.Assembly",
-       "",
-       clip});
+  m.add("read_surface",
+        "A surface of triangles from a file: STL, ASCII DXF (3DFACE, polyface and polygon meshes), OBJ, OFF, "
+        "PLY or GOCAD; a terrain, an excavation. Triangles without area and T-junctions are mended, which is "
+        "told.",
+        {text("file").required().doc("ends in .stl, .dxf, .obj, .off, .ply or .ts"),
+         number("scale").within(1e-6, 1e6).standard(1.0).doc("0.001 for a file in millimetres"),
+         vec3("shift")
+             .unit("m")
+             .standard(Value(geom::Vec3(0, 0, 0)))
+             .doc("is added to the coordinates: a survey far from the origin loses its digits")},
+        read_surface, "cdem.Surface");
+  m.add("surface", "A surface of triangles by its points: a terrain by a formula or from a table.",
+        {list("points", vec3_type(), 3).unit("m").required(),
+         list("triangles", tuple_type({number_type(), number_type(), number_type()}), 1)
+             .required()
+             .doc("numbers of three points each, from 1")},
+        surface, "cdem.Surface");
+  m.add("clip",
+        "Cuts blocks along a surface or the faces of a solid, and keeps those on one side. Each block is cut "
+        "by planes into convex pieces; the cuts within it are glued unless told otherwise.",
+        {object("shape", "Assembly").required().doc("left as it is; the result is a new one"),
+         object("solid", "Solid"),
+         object("surface", "Surface").doc("instead: closed, or open and single in height, a terrain"),
+         choice("keep", {"inside", "outside", "below", "above", "both"})
+             .required()
+             .doc("inside and outside of a closed surface or a solid, below and above an open one; both: "
+                  "only cut, the outline of a later excavation (model:remove)"),
+         number("tolerance")
+             .at_least(0)
+             .unit("m")
+             .standard(0.0)
+             .doc("how far the cuts may leave the surface; makes fewer pieces and no thinner ones. 0: exact; "
+                  "curved solids need one"),
+         text("name").doc("of the faces that are cut, in pictures of joints, lists and `joints` of a body"),
+         flag("glued").standard(true).doc(
+             "the cuts are no joints; their faces never break. false: they are joints, as those of cdem.cut, "
+             "also where a cut runs on through the rest of a block that the surface bends in: a fault that "
+             "follows a surface")},
+        clip, "cdem.Assembly");
   Class object{"Surface", "Triangles, made by cdem.read_surface or cdem.surface; #surface is their number."};
   object.length = [](const Object& self) {
     return static_cast<std::int64_t>(static_cast<const SurfaceObject&>(self).surface.triangles.size());
@@ -172,34 +157,25 @@ void bind_surfaces(Module& m) {
     return "cdem.Surface (" +
            std::to_string(static_cast<const SurfaceObject&>(self).surface.triangles.size()) + " triangles)";
   };
-  object.methods = {{"area",
-                     "Of all triangles, m2.",
-                     {},
-                     true,
-                     "number",
-                     "m2",
-                     method<SurfaceObject>([](Session&, SurfaceObject& self, const Arguments&) -> Value {
-                       return area(self.surface);
-                     })},
-                    {"closed",
-                     "Whether every edge belongs to two triangles.",
-                     {},
-                     true,
-                     "boolean",
-                     "",
-                     method<SurfaceObject>([](Session&, SurfaceObject& self, const Arguments&) -> Value {
-                       return geom::open_edges(self.surface).empty();
-                     })},
-                    {"box",
-                     "Smallest axis-aligned box that holds it.",
-                     {},
-                     true,
-                     "cdem.Box",
-                     "",
-                     method<SurfaceObject>([](Session&, SurfaceObject& self, const Arguments&) -> Value {
-                       const geom::Box box = geom::bounding_box(self.surface);
-                       return Table{{"min", box.min}, {"max", box.max}};
-                     })}};
+  object
+      .add(
+          "area", "Of all triangles, m2.", {}, [](SurfaceObject& self) { return area(self.surface); },
+          "number", "m2")
+      .ordered();
+  object
+      .add(
+          "closed", "Whether every edge belongs to two triangles.", {},
+          [](SurfaceObject& self) { return geom::open_edges(self.surface).empty(); }, "boolean")
+      .ordered();
+  object
+      .add(
+          "box", "Smallest axis-aligned box that holds it.", {},
+          [](SurfaceObject& self) {
+            const geom::Box box = geom::bounding_box(self.surface);
+            return Table{{"min", box.min}, {"max", box.max}};
+          },
+          "cdem.Box")
+      .ordered();
   m.classes.push_back(object);
 }
 

@@ -309,29 +309,22 @@ void bind_sweep(Module& m) {
                             "wall clock; 0 for a run that had ended before its sweep was stopped"),
                         plain("figures").required().doc(
                             "values of its report by name; empty when it failed, and in a check")}});
-  m.functions.push_back(
-      {"sweep",
-       "Runs a script with many settings, as processes side by side, each with a folder of "
-       "its own in the output "
-       "folder. All run the script, and the files that it requires by a name in quotes, as they "
-       "are when the sweep begins; its folder swept/ keeps them. Where the script is stopped meanwhile `cdem "
-       "resume` goes on: runs that have ended well stand, the others begin again. A run that fails is told "
-       "of in a "
-       "warning. Scripts that are swept may sweep others, three deep.",
-       {text("script").required().doc("another .lua file beside this one"),
-        list("set", plain("").type)
-            .required()
-            .doc("one table of parameters per case, e.g. { { case = 1 }, { case = 2 } }"),
-        integer("jobs").within(1, 1024).doc(
-            "cases at a time; as many as there are processors for when left out"),
-        integer("threads").within(1, 1024).standard(1).doc("of each case")},
-       false,
-       "cdem.SweepResult[]",
-       "in the order given",
-       sweep,
-       false,
-       Replay::recorded,
-       true});
+  m.add("sweep",
+        "Runs a script with many settings, as processes side by side, each with a folder of its own in the "
+        "output folder. All run the script, and the files that it requires by a name in quotes, as they are "
+        "when the sweep begins; its folder swept/ keeps them. Where the script is stopped meanwhile `cdem "
+        "resume` goes on: runs that have ended well stand, the others begin again. A run that fails is told "
+        "of in a warning. Scripts that are swept may sweep others, three deep.",
+        {text("script").required().doc("another .lua file beside this one"),
+         list("set", plain("").type)
+             .required()
+             .doc("one table of parameters per case, e.g. { { case = 1 }, { case = 2 } }"),
+         integer("jobs").within(1, 1024).doc(
+             "cases at a time; as many as there are processors for when left out"),
+         integer("threads").within(1, 1024).standard(1).doc("of each case")},
+        sweep, "cdem.SweepResult[]", "in the order given")
+      .replayed(Replay::recorded)
+      .by_rank_0();
 }
 
 } // namespace cdem::script

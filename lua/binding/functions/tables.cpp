@@ -58,44 +58,28 @@ Value log(Session& session, Object*, const Arguments& a) {
 } // namespace
 
 void bind_tables(Module& m) {
-  m.functions.push_back(
-      {"read_csv",
-       "Reads columns of numbers from a table as spreadsheets write it (docs/output-files.md); its first row "
-       "has "
-       "their names. Empty cells are nan.",
-       {text("file").required().doc("beside the script, in the output folder or below the results")},
-       true,
-       "table<string, number[]>",
-       "lists by name",
-       read_csv,
-       false,
-       Replay::recorded,
-       true});
-  m.functions.push_back(
-      {"write_csv",
-       "Writes columns of numbers.",
-       {text("file").required().doc("in the output folder"),
-        list("columns", record_type({text("name").required(), list("values", scalar_type(), 0)
-                                                                  .required()
-                                                                  .doc("as many as in the others; nan "
-                                                                       "leaves an empty cell")}))
-            .required()},
-       false,
-       "",
-       "",
-       write_csv,
-       false,
-       Replay::recorded,
-       true});
-  m.functions.push_back(
-      {"log", "Writes a line to the log and the terminal.", {text("text").required()}, true, "", "", log});
-  m.functions.push_back(
-      {"linspace",
-       "Numbers at equal distances.",
+  m.add("read_csv",
+        "Reads columns of numbers from a table as spreadsheets write it (docs/output-files.md); its first "
+        "row has their names. Empty cells are nan.",
+        {text("file").required().doc("beside the script, in the output folder or below the results")},
+        read_csv, "table<string, number[]>", "lists by name")
+      .ordered()
+      .replayed(Replay::recorded)
+      .by_rank_0();
+  m.add("write_csv", "Writes columns of numbers.",
+        {text("file").required().doc("in the output folder"),
+         list("columns", record_type({text("name").required(),
+                                      list("values", scalar_type(), 0)
+                                          .required()
+                                          .doc("as many as in the others; nan leaves an empty cell")}))
+             .required()},
+        write_csv)
+      .replayed(Replay::recorded)
+      .by_rank_0();
+  m.add("log", "Writes a line to the log and the terminal.", {text("text").required()}, log).ordered();
+  m.add(
+       "linspace", "Numbers at equal distances.",
        {number("first").required(), number("last").required(), integer("count").at_least(2).required()},
-       true,
-       "number[]",
-       "count numbers, both ends included",
        [](Session&, Object*, const Arguments& a) -> Value {
          const double first = a.number("first"), last = a.number("last");
          const auto count = a.integer("count");
@@ -107,25 +91,17 @@ void bind_tables(Module& m) {
                                               : first + (last - first) * static_cast<double>(i) /
                                                             static_cast<double>(count - 1));
          return Table::list(std::move(values));
-       }});
-  m.functions.push_back({"describe",
-                         "Any value as readable text, tables with their contents.",
-                         {plain("value")},
-                         true,
-                         "string",
-                         "",
-                         {}});
-  m.functions.push_back(
-      {"elapsed",
-       "Wall-clock time since the script began, s.",
-       {},
-       true,
-       "number",
-       "",
-       [](Session& session, Object*, const Arguments&) -> Value { return session.elapsed(); },
-       false,
-       Replay::recorded,
-       true});
+       },
+       "number[]", "count numbers, both ends included")
+      .ordered();
+  m.add("describe", "Any value as readable text, tables with their contents.", {plain("value")}, {}, "string")
+      .ordered();
+  m.add(
+       "elapsed", "Wall-clock time since the script began, s.", {},
+       [](Session& session, Object*, const Arguments&) -> Value { return session.elapsed(); }, "number")
+      .ordered()
+      .replayed(Replay::recorded)
+      .by_rank_0();
   m.constants.push_back({"version", "Version of the toolkit.", CDEM_VERSION});
 }
 

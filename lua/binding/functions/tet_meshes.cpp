@@ -184,55 +184,40 @@ void bind_mesh_records(Module& m) {
 } // namespace
 
 void bind_tet_meshes(Module& m) {
-  m.functions.push_back(
-      {"read_mesh",
-       "Linear tetrahedra from a file: gmsh .msh, Medit .mesh, Nastran .bdf, I-deas .unv, "
-       "Abaqus .inp, .vtk or .vtu. What is wrong with them is said.",
-       {text("file").required(),
-        text("regions").doc("what parts the mesh into regions: \"physical\" groups or "
-                            "\"volumes\" of gmsh, \"sections\" or element \"sets\" of "
-                            "Abaqus, the name of a cell array of VTK; chosen and told when "
-                            "left out"),
-        number("scale").within(1e-6, 1e6).standard(1.0).doc("0.001 for a mesh in millimetres"),
-        vec3("shift")
-            .unit("m")
-            .standard(Value(geom::Vec3(0, 0, 0)))
-            .doc("is added to the coordinates: a survey far from the origin loses its digits")},
-       false,
-       "cdem.TetMesh",
-       "",
-       read_tet_mesh});
-  m.functions.push_back({"box_mesh",
-                         "A box of nx ny nz cells with six tetrahedra each; lower corner at the origin.",
-                         {vec3("size").above(0).unit("m").required(),
-                          ivec3("divisions").at_least(1).required().doc("cells along x, y and z"),
-                          number("jitter")
-                              .within(0, geom::max_box_jitter)
-                              .standard(0.0)
-                              .doc("inner nodes move along each axis by up to this share of a cell"),
-                          integer("seed").at_least(0).standard(1).doc("of the jitter")},
-                         false,
-                         "cdem.TetMesh",
-                         "",
-                         box_mesh});
-  m.functions.push_back(
-      {"shell_mesh",
-       "An open surface as a wall, for a rigid body that is held: a drum, a funnel, a chute, a terrain. The "
-       "surface is "
-       "one of its sides; the other lies behind it.",
-       {object("surface", "Surface").required().doc("cdem.read_surface or cdem.surface"),
-        number("thickness")
-            .above(0)
-            .unit("m")
-            .required()
-            .doc("more than bodies reach into it and move in a step; less than the surface is bent"),
-        vec3("front").unit("m").doc("a place on the side that bodies touch, such as the middle of a drum; "
-                                    "where the triangles' normals "
-                                    "point when left out")},
-       false,
-       "cdem.TetMesh",
-       "",
-       shell_mesh});
+  m.add("read_mesh",
+        "Linear tetrahedra from a file: gmsh .msh, Medit .mesh, Nastran .bdf, I-deas .unv, Abaqus .inp, .vtk "
+        "or .vtu. What is wrong with them is said.",
+        {text("file").required(),
+         text("regions").doc(
+             "what parts the mesh into regions: \"physical\" groups or \"volumes\" of gmsh, \"sections\" or "
+             "element \"sets\" of Abaqus, the name of a cell array of VTK; chosen and told when left out"),
+         number("scale").within(1e-6, 1e6).standard(1.0).doc("0.001 for a mesh in millimetres"),
+         vec3("shift")
+             .unit("m")
+             .standard(Value(geom::Vec3(0, 0, 0)))
+             .doc("is added to the coordinates: a survey far from the origin loses its digits")},
+        read_tet_mesh, "cdem.TetMesh");
+  m.add("box_mesh", "A box of nx ny nz cells with six tetrahedra each; lower corner at the origin.",
+        {vec3("size").above(0).unit("m").required(),
+         ivec3("divisions").at_least(1).required().doc("cells along x, y and z"),
+         number("jitter")
+             .within(0, geom::max_box_jitter)
+             .standard(0.0)
+             .doc("inner nodes move along each axis by up to this share of a cell"),
+         integer("seed").at_least(0).standard(1).doc("of the jitter")},
+        box_mesh, "cdem.TetMesh");
+  m.add("shell_mesh",
+        "An open surface as a wall, for a rigid body that is held: a drum, a funnel, a chute, a terrain. The "
+        "surface is one of its sides; the other lies behind it.",
+        {object("surface", "Surface").required().doc("cdem.read_surface or cdem.surface"),
+         number("thickness")
+             .above(0)
+             .unit("m")
+             .required()
+             .doc("more than bodies reach into it and move in a step; less than the surface is bent"),
+         vec3("front").unit("m").doc("a place on the side that bodies touch, such as the middle of a drum; "
+                                     "where the triangles' normals point when left out")},
+        shell_mesh, "cdem.TetMesh");
   bind_mesh_records(m);
   Class mesh{"TetMesh", "Tetrahedra, made by solid:mesh{} or cdem.read_mesh."};
   const auto of = [](const Object& self) -> const TetMeshObject& {
@@ -260,69 +245,42 @@ void bind_tet_meshes(Module& m) {
            (of(self).mesh.tets.size() == 1 ? " tet" : " tets") +
            (of(self).parts > 1 ? ", in " + std::to_string(of(self).parts) + " parts)" : ")");
   };
-  mesh.methods = {
-      {"volume",
-       "",
-       {},
-       true,
-       "number",
-       "m3",
-       method<TetMeshObject>(
-           [](Session&, TetMeshObject& self, const Arguments&) -> Value { return geom::volume(self.mesh); })},
-      {"box",
-       "Smallest axis-aligned box that holds all nodes.",
-       {},
-       true,
-       "cdem.Box",
-       "",
-       method<TetMeshObject>([](Session&, TetMeshObject& self, const Arguments&) -> Value {
-         const geom::Box box = geom::bounding_box(self.mesh);
-         return Table{{"min", box.min}, {"max", box.max}};
-       })},
-      {"inertia",
-       "Mass, centroid and inertia about the centroid of the tetrahedra.",
-       {number("density").above(0).unit("kg/m3").standard(1.0)},
-       false,
-       "cdem.Inertia",
-       "",
-       method<TetMeshObject>([](Session&, TetMeshObject& self, const Arguments& a) -> Value {
-         return inertia_table(geom::mass_properties(self.mesh), a.number("density"));
-       })},
-      {"quality",
-       "How good the tetrahedra are.",
-       {},
-       true,
-       "cdem.MeshQuality",
-       "",
-       method<TetMeshObject>(quality)},
-      {"faces",
-       "Picks outer faces; with a name they show as point field on_<name> in files and pictures, and are a "
-       "place "
-       "in a model that is made of the mesh afterwards: cdem.select.faces.",
-       {choice("side", {"x-", "x+", "y-", "y+", "z-", "z+"}).doc("faces in that face of the mesh's box"),
-        record("plane", {vec3("point").unit("m").required(), vec3("normal").required()})
-            .doc("faces in a plane"),
-        number("tolerance").at_least(0).unit("m").doc("of plane; 1e-6 of the mesh's size when left out"),
-        vec3("direction").doc("faces whose outward normal points this way"),
-        number("angle").within(0, 90).unit("deg").standard(10.0).doc(
-            "of direction: how far off a normal may be"),
-        text("name")},
-       false,
-       "cdem.FaceGroup",
-       "",
-       method<TetMeshObject>(mesh_faces)},
-      {"save",
-       "Writes the mesh for ParaView.",
-       {text("file").required().doc("ends in .vtu; in the output folder")},
-       false,
-       "",
-       "",
-       method<TetMeshObject>(save_mesh),
-       false,
-       Replay::standard,
-       true},
-      {"picture", "Draws the mesh, without a display.", mesh_picture_declaration(), false, "", "",
-       method<TetMeshObject>(mesh_picture), false, Replay::standard, true}};
+  mesh.add(
+          "volume", "", {}, [](TetMeshObject& self) { return geom::volume(self.mesh); }, "number", "m3")
+      .ordered();
+  mesh.add(
+          "box", "Smallest axis-aligned box that holds all nodes.", {},
+          [](TetMeshObject& self) {
+            const geom::Box box = geom::bounding_box(self.mesh);
+            return Table{{"min", box.min}, {"max", box.max}};
+          },
+          "cdem.Box")
+      .ordered();
+  mesh.add(
+      "inertia", "Mass, centroid and inertia about the centroid of the tetrahedra.",
+      {number("density").above(0).unit("kg/m3").standard(1.0)},
+      [](Session&, TetMeshObject& self, const Arguments& a) -> Value {
+        return inertia_table(geom::mass_properties(self.mesh), a.number("density"));
+      },
+      "cdem.Inertia");
+  mesh.add("quality", "How good the tetrahedra are.", {}, quality, "cdem.MeshQuality").ordered();
+  mesh.add("faces",
+           "Picks outer faces; with a name they show as point field on_<name> in files and pictures, and are "
+           "a place in a model that is made of the mesh afterwards: cdem.select.faces.",
+           {choice("side", {"x-", "x+", "y-", "y+", "z-", "z+"}).doc("faces in that face of the mesh's box"),
+            record("plane", {vec3("point").unit("m").required(), vec3("normal").required()})
+                .doc("faces in a plane"),
+            number("tolerance").at_least(0).unit("m").doc("of plane; 1e-6 of the mesh's size when left out"),
+            vec3("direction").doc("faces whose outward normal points this way"),
+            number("angle").within(0, 90).unit("deg").standard(10.0).doc(
+                "of direction: how far off a normal may be"),
+            text("name")},
+           mesh_faces, "cdem.FaceGroup");
+  mesh.add("save", "Writes the mesh for ParaView.",
+           {text("file").required().doc("ends in .vtu; in the output folder")}, save_mesh)
+      .by_rank_0();
+  mesh.add("picture", "Draws the mesh, without a display.", mesh_picture_declaration(), mesh_picture)
+      .by_rank_0();
   m.classes.push_back(mesh);
 }
 

@@ -117,35 +117,36 @@ void bind_units(Module& m) {
         number("deepest").unit("m").required().doc("largest depth so far"),
         number("deepest_over_tet_height").required().doc("the same over the height of the lower tet")}});
   Class& model = m.the_class("Model");
-  const auto add = [&](std::string name, std::string doc, std::vector<Field> fields, std::string returns,
-                       std::string returns_doc, auto body) {
-    model.methods.push_back({std::move(name), std::move(doc), std::move(fields), false, std::move(returns),
-                             std::move(returns_doc), method<ModelObject>(body)});
-  };
   const Field body = text("body").required().doc("name of a meshed body");
-  add("pile",
-      "The units of a body as they lie now, without their deformation: a pile that can be scaled, saved and "
-      "be the shape of a body of another model.",
-      {body}, "cdem.Pile", "", pile);
-  add("pile_measures",
-      "Porosity, density and thickness of a layer of units, and how many neighbours press on them.",
-      {body, text("ground").required().doc("name of the body they lie on")}, "cdem.PileMeasures", "",
-      measures);
+  model.add("pile",
+            "The units of a body as they lie now, without their deformation: a pile that can be scaled, "
+            "saved and be the shape of a body of another model.",
+            {body}, pile, "cdem.Pile");
+  model.add("pile_measures",
+            "Porosity, density and thickness of a layer of units, and how many neighbours press on them.",
+            {body, text("ground").required().doc("name of the body they lie on")}, measures,
+            "cdem.PileMeasures");
   const std::vector<Field> fields{text("body").required(), integer("count").at_least(1).required(),
                                   vec3("up").standard(Value(geom::Vec3(0, 0, 1)))};
-  add("contacts", "How many contacts of meshed bodies act, and how deep they have been.", {}, "cdem.Contacts",
-      "", [](Session&, ModelObject& self, const Arguments&) -> Value {
-        const ContactSummary c = self.simulation.contacts();
-        return Table{
-            {"acting", c.acting}, {"deepest", c.deepest}, {"deepest_over_tet_height", c.deepest_over_height}};
-      });
-  model.methods.back().in_order = true;
-  add("lowest_units", "Numbers of the units whose centroids are lowest now, for cdem.select.units.", fields,
-      "integer[]", "the lowest first",
-      [](Session&, ModelObject& self, const Arguments& a) { return furthest(self, a, -1); });
-  add("highest_units", "Numbers of the units whose centroids are highest now, for cdem.select.units.", fields,
-      "integer[]", "the highest first",
-      [](Session&, ModelObject& self, const Arguments& a) { return furthest(self, a, 1); });
+  model
+      .add(
+          "contacts", "How many contacts of meshed bodies act, and how deep they have been.", {},
+          [](ModelObject& self) {
+            const ContactSummary c = self.simulation.contacts();
+            return Table{{"acting", c.acting},
+                         {"deepest", c.deepest},
+                         {"deepest_over_tet_height", c.deepest_over_height}};
+          },
+          "cdem.Contacts")
+      .ordered();
+  model.add(
+      "lowest_units", "Numbers of the units whose centroids are lowest now, for cdem.select.units.", fields,
+      [](Session&, ModelObject& self, const Arguments& a) { return furthest(self, a, -1); }, "integer[]",
+      "the lowest first");
+  model.add(
+      "highest_units", "Numbers of the units whose centroids are highest now, for cdem.select.units.", fields,
+      [](Session&, ModelObject& self, const Arguments& a) { return furthest(self, a, 1); }, "integer[]",
+      "the highest first");
 }
 
 } // namespace cdem::script

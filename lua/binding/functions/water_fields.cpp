@@ -275,13 +275,11 @@ void bind_water_class(Module& m) {
          const auto& slope = static_cast<WaterObject&>(self).slope;
          return slope ? Value(slope->run_down()) : Value();
        }}};
-  water.methods.push_back({"at",
-                           "Velocity, acceleration, pressure and surface at a place and time.",
-                           {vec3("place").unit("m").required(), number("time").unit("s").standard(0.0)},
-                           true,
-                           "cdem.WaterPoint",
-                           "",
-                           method<WaterObject>(point_at)});
+  water
+      .add("at", "Velocity, acceleration, pressure and surface at a place and time.",
+           {vec3("place").unit("m").required(), number("time").unit("s").standard(0.0)}, point_at,
+           "cdem.WaterPoint")
+      .ordered();
   water.text = [](const Object& self) {
     return "cdem.Water: " + static_cast<const WaterObject&>(self).words;
   };
@@ -292,84 +290,75 @@ void bind_water_class(Module& m) {
 
 void bind_water_fields(Module& m) {
   bind_water_class(m);
-  const auto add = [&](const std::string& name, std::string doc, std::vector<Field> fields, auto body) {
-    m.functions.push_back(
-        {"water." + name, std::move(doc), std::move(fields), false, "cdem.Water", "", body});
-  };
-  add("uniform", "Water of one velocity everywhere below its level.",
-      {vec3_or_function("velocity", "(time: number): number[]").unit("m/s").required(),
-       number("level").unit("m").doc("z of the free surface, below which the pressure is hydrostatic; left "
-                                     "out: water everywhere, no buoyancy"),
-       density_field()},
-      uniform);
+  m.add("water.uniform", "Water of one velocity everywhere below its level.",
+        {vec3_or_function("velocity", "(time: number): number[]").unit("m/s").required(),
+         number("level").unit("m").doc("z of the free surface, below which the pressure is hydrostatic; left "
+                                       "out: water everywhere, no buoyancy"),
+         density_field()},
+        uniform, "cdem.Water");
   const std::string of_vector = "(x: number, y: number, z: number, time: number): number[]",
                     of_number = "(x: number, y: number, z: number, time: number): number";
-  add("field",
+  m.add(
+      "water.field",
       "Water that functions of place and time describe, each called at every node of a unit. Without a "
-      "pressure it is "
-      "hydrostatic below the surface; without an acceleration it is found from the velocity.",
+      "pressure it is hydrostatic below the surface; without an acceleration it is found from the velocity.",
       {function("velocity", of_vector).unit("m/s").required(),
        function("acceleration", of_vector).unit("m/s2"),
        function("pressure", of_number).unit("Pa").doc("that of the motion included"),
        function("surface", of_number).unit("m").doc("z of the free surface; water everywhere when left out"),
        density_field()},
-      field);
-  add("wave",
-      "A regular wave over a flat bed that keeps its shape. stream_function: order N, any depth (Rienecker "
-      "and Fenton "
-      "1981); stokes: fifth order (Fenton 1985), for waves that are not long; airy: small waves. A wave "
-      "beyond breaking "
-      "is an error.",
-      {choice("theory", {"stream_function", "stokes", "airy"}).standard("stream_function"),
-       number("height").above(0).unit("m").required().doc("crest over trough"),
-       number("period").above(0).unit("s").doc("give it or length"), number("length").above(0).unit("m"),
-       number("depth").above(0).unit("m").required().doc("of still water"), level_field(), direction_field(),
-       vec3("crest_at").standard(geom::Vec3(0, 0, 0)).unit("m").doc("where a crest stands at time 0"),
-       number("current").standard(0.0).unit("m/s").doc("along the direction, mean under water"),
-       integer("order").within(3, 50).standard(20).doc("of the stream function"), density_field()},
-      wave);
-  add("sea",
-      "An irregular sea of long crests: Airy waves whose energy follows the JONSWAP spectrum, with "
-      "frequencies and "
-      "phases drawn from the seed. Best as the waves of cdem.water.slope: at each node it sums all "
-      "components.",
-      {number("significant_height").above(0).unit("m").required(),
-       number("peak_period").above(0).unit("s").required(),
-       number("depth").above(0).unit("m").required().doc("of still water"), level_field(),
-       number("peak_enhancement").within(1, 20).standard(3.3).doc("gamma; 1: Pierson and Moskowitz"),
-       direction_field(), vec3("origin").standard(geom::Vec3(0, 0, 0)).unit("m"),
-       integer("components").within(10, 10000).standard(100), integer("seed").at_least(0).standard(1),
-       density_field()},
-      sea);
-  add("slope",
-      "Waves that run up and down a slope: shallow water along the bed, computed once here. Velocity along "
-      "the bed and the "
-      "free surface, hydrostatic pressure. A breaking wave is a bore, without jet and without the pressure "
-      "of its impact.",
-      {list("bed", tuple_type({number_type(), number_type()}), 2)
-           .required()
-           .doc("points {x, z} (m) from the sea up the slope, x along the direction from the origin"),
-       object_or_function("waves", "Water", "(time: number): number")
-           .required()
-           .doc("that enter over the first point: waves of the same level, or the height over still water "
-                "(m)"),
-       number("duration").above(0).unit("s").required().doc("a run may not go on beyond it"), level_field(),
-       number("cell").above(0).unit("m").doc("a 300th of the bed when left out"),
-       number("ramp").at_least(0).standard(0.0).unit("s").doc("over which the waves grow from nothing"),
-       number("friction")
-           .within(0, 10)
-           .standard(0.01)
-           .doc("f of the bed's resistance rho f u |u|: smooth 0.005, armour 0.02 to 0.1"),
-       direction_field(), vec3("origin").standard(geom::Vec3(0, 0, 0)).unit("m"), density_field()},
-      slope_water);
-  add("file",
+      field, "cdem.Water");
+  m.add("water.wave",
+        "A regular wave over a flat bed that keeps its shape. stream_function: order N, any depth (Rienecker "
+        "and Fenton 1981); stokes: fifth order (Fenton 1985), for waves that are not long; airy: small "
+        "waves. A wave beyond breaking is an error.",
+        {choice("theory", {"stream_function", "stokes", "airy"}).standard("stream_function"),
+         number("height").above(0).unit("m").required().doc("crest over trough"),
+         number("period").above(0).unit("s").doc("give it or length"), number("length").above(0).unit("m"),
+         number("depth").above(0).unit("m").required().doc("of still water"), level_field(),
+         direction_field(),
+         vec3("crest_at").standard(geom::Vec3(0, 0, 0)).unit("m").doc("where a crest stands at time 0"),
+         number("current").standard(0.0).unit("m/s").doc("along the direction, mean under water"),
+         integer("order").within(3, 50).standard(20).doc("of the stream function"), density_field()},
+        wave, "cdem.Water");
+  m.add("water.sea",
+        "An irregular sea of long crests: Airy waves whose energy follows the JONSWAP spectrum, with "
+        "frequencies and phases drawn from the seed. Best as the waves of cdem.water.slope: at each node it "
+        "sums all components.",
+        {number("significant_height").above(0).unit("m").required(),
+         number("peak_period").above(0).unit("s").required(),
+         number("depth").above(0).unit("m").required().doc("of still water"), level_field(),
+         number("peak_enhancement").within(1, 20).standard(3.3).doc("gamma; 1: Pierson and Moskowitz"),
+         direction_field(), vec3("origin").standard(geom::Vec3(0, 0, 0)).unit("m"),
+         integer("components").within(10, 10000).standard(100), integer("seed").at_least(0).standard(1),
+         density_field()},
+        sea, "cdem.Water");
+  m.add("water.slope",
+        "Waves that run up and down a slope: shallow water along the bed, computed once here. Velocity along "
+        "the bed and the free surface, hydrostatic pressure. A breaking wave is a bore, without jet and "
+        "without the pressure of its impact.",
+        {list("bed", tuple_type({number_type(), number_type()}), 2)
+             .required()
+             .doc("points {x, z} (m) from the sea up the slope, x along the direction from the origin"),
+         object_or_function("waves", "Water", "(time: number): number")
+             .required()
+             .doc("that enter over the first point: waves of the same level, or the height over still water "
+                  "(m)"),
+         number("duration").above(0).unit("s").required().doc("a run may not go on beyond it"), level_field(),
+         number("cell").above(0).unit("m").doc("a 300th of the bed when left out"),
+         number("ramp").at_least(0).standard(0.0).unit("s").doc("over which the waves grow from nothing"),
+         number("friction")
+             .within(0, 10)
+             .standard(0.01)
+             .doc("f of the bed's resistance rho f u |u|: smooth 0.005, armour 0.02 to 0.1"),
+         direction_field(), vec3("origin").standard(geom::Vec3(0, 0, 0)).unit("m"), density_field()},
+        slope_water, "cdem.Water");
+  m.add(
+      "water.file",
       "Water that another program has computed, from VTK's files (.vti, .vtu, .vts, .vtr, legacy .vtk) at "
-      "several "
-      "times. It is put on a regular grid, and is linear between its points and times. The free surface is "
-      "where the "
-      "water fraction is 1/2. A run that asks beyond the box or the times of the files ends with an error. "
-      "One file "
-      "alone is water that does not change.",
+      "several times. It is put on a regular grid, and is linear between its points and times. The free "
+      "surface is where the water fraction is 1/2. A run that asks beyond the box or the times of the files "
+      "ends with an error. One file alone is water that does not change.",
       {text("series").doc("a .pvd file, which lists files with their times; give it or files"),
        list("files", text_type()).doc("in the order of their times"),
        list("times", number_type(), 0).unit("s").doc("of the files"),
@@ -394,7 +383,7 @@ void bind_water_fields(Module& m) {
            .unit("s")
            .doc("is added to the times, such as the model's time at the start"),
        density_field()},
-      file_water);
+      file_water, "cdem.Water");
 }
 
 } // namespace cdem::script

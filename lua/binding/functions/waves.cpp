@@ -229,63 +229,50 @@ void bind_waves(Module& m) {
         number("end_velocity").unit("m/s").doc("of an integrated acceleration"),
         number("end_displacement").unit("m"),
         list("baseline", number_type(), 2).doc("{a0, a1}: a0 + a1 t has been taken off, m/s2 and m/s3")}});
-  m.functions.push_back(
-      {"record",
-       "Reads a record over time from two columns of a table as spreadsheets write it, or from a file .AT2 "
-       "of the "
-       "PEER data base (unit = \"g\"), in SI units from then on; outside its times it "
-       "is 0. Times "
-       "must grow without gaps. With to = \"velocity\" an acceleration is integrated by the trapezoidal "
-       "rule.",
-       {text("path").required().doc("beside the script, in the output folder or below the results"),
-        text("time").standard("time").doc(
-            "name of its column (s); the number of it, \"1\", where the file has no names"),
-        text("value").doc("name of its column; left out for a file .AT2"),
-        number("scale").standard(1.0).doc("factor on the values"),
-        choice("unit", {"m/s2", "cm/s2", "Gal", "g", "m/s", "cm/s", "Pa", "kPa", "MPa", "1"})
-            .required()
-            .doc("of the values in the file"),
-        choice("to", {"velocity"}).doc("velocity: an acceleration is integrated"),
-        choice("baseline", {"none", "straight"})
-            .standard("none")
-            .doc("straight: takes the line a0 + a1 t off the acceleration that brings the last velocity and "
-                 "the "
-                 "last displacement to zero"),
-        number("longest_step")
-            .above(0)
-            .unit("s")
-            .doc("two samples further apart are a gap; 2.5 times the median "
-                 "step when left out")},
-       false,
-       "cdem.Record",
-       "",
-       read_record,
-       false,
-       Replay::recorded});
+  m.add("record",
+        "Reads a record over time from two columns of a table as spreadsheets write it, or from a file .AT2 "
+        "of the PEER data base (unit = \"g\"), in SI units from then on; outside its times it is 0. Times "
+        "must grow without gaps. With to = \"velocity\" an acceleration is integrated by the trapezoidal "
+        "rule.",
+        {text("path").required().doc("beside the script, in the output folder or below the results"),
+         text("time").standard("time").doc(
+             "name of its column (s); the number of it, \"1\", where the file has no names"),
+         text("value").doc("name of its column; left out for a file .AT2"),
+         number("scale").standard(1.0).doc("factor on the values"),
+         choice("unit", {"m/s2", "cm/s2", "Gal", "g", "m/s", "cm/s", "Pa", "kPa", "MPa", "1"})
+             .required()
+             .doc("of the values in the file"),
+         choice("to", {"velocity"}).doc("velocity: an acceleration is integrated"),
+         choice("baseline", {"none", "straight"})
+             .standard("none")
+             .doc("straight: takes the line a0 + a1 t off the acceleration that brings the last velocity and "
+                  "the last displacement to zero"),
+         number("longest_step")
+             .above(0)
+             .unit("s")
+             .doc("two samples further apart are a gap; 2.5 times the median step when left out")},
+        read_record, "cdem.Record")
+      .replayed(Replay::recorded);
   Class& model = m.the_class("Model");
-  const auto add = [&](std::string name, std::string doc, std::vector<Field> fields, auto body) {
-    model.methods.push_back(
-        {std::move(name), std::move(doc), std::move(fields), false, "", "", method<ModelObject>(body)});
-    model.methods.back().replay = Replay::again;
-  };
   const Field on = place("on").required().doc("where: a place or a list of places");
-  add("quiet",
-      "Quiet boundary (Lysmer and Kuhlemeyer 1969): dashpots on outer faces let waves out, and a wave may "
-      "enter through "
-      "them. It takes the place of a fix of the same place, whose reactions stay as loads. For real-time "
-      "stepping.",
-      {on, vec3("velocity").unit("m/s").doc("of the particles in the entering wave alone"),
-       vec3("stress").unit("Pa").doc(
-           "traction of the entering wave alone on these faces; the boundary adds 2 of it"),
-       amplitude_field(), since_field()},
-      quiet);
-  add("free_field",
-      "Vertical sides that move as if the rock went on beyond them: a column in one dimension, with the foot "
-      "of the "
-      "model (quiet or fix on z-, given before), moves each side through dashpots. It takes the place of a "
-      "fix of the "
-      "same side, whose reactions stay as loads.",
-      {place("on").required().doc("\"x-\", \"x+\", \"y-\", \"y+\", or a list of them")}, free_field);
+  model
+      .add("quiet",
+           "Quiet boundary (Lysmer and Kuhlemeyer 1969): dashpots on outer faces let waves out, and a wave "
+           "may enter through them. It takes the place of a fix of the same place, whose reactions stay as "
+           "loads. For real-time stepping.",
+           {on, vec3("velocity").unit("m/s").doc("of the particles in the entering wave alone"),
+            vec3("stress").unit("Pa").doc(
+                "traction of the entering wave alone on these faces; the boundary adds 2 of it"),
+            amplitude_field(), since_field()},
+           quiet)
+      .replayed(Replay::again);
+  model
+      .add("free_field",
+           "Vertical sides that move as if the rock went on beyond them: a column in one dimension, with the "
+           "foot of the model (quiet or fix on z-, given before), moves each side through dashpots. It takes "
+           "the place of a fix of the same side, whose reactions stay as loads.",
+           {place("on").required().doc("\"x-\", \"x+\", \"y-\", \"y+\", or a list of them")}, free_field)
+      .replayed(Replay::again);
 }
 
 } // namespace cdem::script

@@ -13,6 +13,33 @@ Class& Module::the_class(const std::string& name) {
   return *it;
 }
 
+Function& Module::add(std::string name, std::string doc, std::vector<Field> fields,
+                      decltype(Function::body) body, std::string returns, std::string returns_doc) {
+  functions.push_back({std::move(name), std::move(doc), std::move(fields), std::move(body),
+                       std::move(returns), std::move(returns_doc)});
+  return functions.back();
+}
+
+Function& Function::ordered() {
+  in_order = true;
+  return *this;
+}
+
+Function& Function::ordered_or_named() {
+  named_too = true;
+  return ordered();
+}
+
+Function& Function::replayed(Replay how) {
+  replay = how;
+  return *this;
+}
+
+Function& Function::by_rank_0() {
+  led = true;
+  return *this;
+}
+
 namespace {
 
 struct Declared {

@@ -15,11 +15,11 @@ struct Function {
   std::string name; // "elastic", "select.plane"; a method's own name
   std::string doc;
   std::vector<Field> fields;
-  bool in_order = false; // f(a, b) rather than f{ a = ..., b = ... }
-  std::string returns{}; // LuaCATS type, "" for nothing
-  std::string returns_doc{};
   // self is null for a function; an empty body: defined in lua/cdem, declared here for the annotations
   std::function<Value(Session&, Object* self, const Arguments&)> body;
+  std::string returns{}; // LuaCATS type, "" for nothing
+  std::string returns_doc{};
+  bool in_order = false;  // f(a, b) rather than f{ a = ..., b = ... }
   bool named_too = false; // an in_order function that takes one table with its fields as well
   // In a resumed script. A method of Model that keeps a place, a condition or a function of the script is `again`; a
   // function that reads or writes files or the clock is `recorded`.
@@ -28,6 +28,11 @@ struct Function {
   // functions that draw, write files by a library, ask the clock or start processes. Their fields contain no functions
   // of the script.
   bool led = false;
+
+  Function& ordered();          // in_order
+  Function& ordered_or_named(); // in_order, named_too
+  Function& replayed(Replay);
+  Function& by_rank_0(); // led
 };
 
 struct Property {
@@ -35,6 +40,18 @@ struct Property {
   std::function<Value(Session&, Object&)> get;
   std::function<void(Session&, Object&, const Value&)> set{}; // empty: read only
 };
+
+// The type of the object that a body takes: body(Session&, T&, const Arguments&), or body(T&).
+template <class R, class T>
+T* self_of(R (*)(Session&, T&, const Arguments&));
+template <class Body, class R, class T>
+T* self_of(R (Body::*)(Session&, T&, const Arguments&) const);
+template <class Body, class R, class T>
+T* self_of(R (Body::*)(T&) const);
+template <class Body>
+auto self_of(const Body&) -> decltype(self_of(&Body::operator()));
+template <class Body>
+using SelfOf = std::remove_pointer_t<decltype(self_of(std::declval<Body>()))>;
 
 struct Class {
   std::string name, doc;
@@ -45,6 +62,29 @@ struct Class {
   // What [1] .. [length] hold; ipairs goes over them.
   std::function<Value(const Object&, std::int64_t)> item{};
   std::string item_type{}; // LuaCATS
+
+  // A method whose body takes the session, the object and the arguments, or the object alone.
+  template <class Body>
+  Function& add(std::string name, std::string doc, std::vector<Field> fields, Body body,
+                std::string returns = "", std::string returns_doc = "") {
+    using Self = SelfOf<Body>;
+    methods.push_back({std::move(name), std::move(doc), std::move(fields),
+                       [body](Session& session, Object* self, const Arguments& arguments) -> Value {
+                         if constexpr (std::is_invocable_v<Body, Self&>)
+                           return body(static_cast<Self&>(*self));
+                         else
+                           return body(session, static_cast<Self&>(*self), arguments);
+                       },
+                       std::move(returns), std::move(returns_doc)});
+    return methods.back();
+  }
+  // get(const T&)
+  template <class Get>
+  void property(std::string name, std::string lua_type, std::string unit, std::string doc, Get get) {
+    properties.push_back(
+        {std::move(name), std::move(lua_type), std::move(unit), std::move(doc),
+         [get](Session&, Object& self) -> Value { return get(static_cast<SelfOf<Get>&>(self)); }});
+  }
 };
 
 // A table that a call returns.
@@ -65,18 +105,13 @@ struct Module {
   std::vector<Constant> constants;
 
   Class& the_class(const std::string& name); // declared before; assert
+  Function& add(std::string name, std::string doc, std::vector<Field> fields,
+                decltype(Function::body) body = nullptr, std::string returns = "",
+                std::string returns_doc = "");
 };
 
 // Everything, declared once by the files of functions/.
 const Module& module();
-
-// A method whose self is a T.
-template <class T, class Body>
-auto method(Body body) {
-  return [body](Session& session, Object* self, const Arguments& arguments) -> Value {
-    return body(session, static_cast<T&>(*self), arguments);
-  };
-}
 
 // Shares in the module, one per file.
 void bind_parameters(Module&);
