@@ -1,7 +1,7 @@
 // Bolts and cables in scripts.
 #include "lua/binding/functions/radians_given.hpp"
 #include "lua/binding/functions/solving_warnings.hpp"
-#include "lua/binding/module/module.hpp"
+#include "lua/binding/module/record.hpp"
 #include "lua/binding/session/model_object.hpp"
 
 #include "libgeom/core/error.hpp"
@@ -83,17 +83,21 @@ Value bolts(Session& session, ModelObject& model, const Arguments& a) {
   return static_cast<std::int64_t>(ends.size());
 }
 
-Value bolt_forces(Session&, ModelObject& model, const Arguments&) {
-  Values rows;
-  for (const auto& row : model.simulation.bolts())
-    rows.emplace_back(Table{{"bolt", row.bolt},
-                            {"node", row.node},
-                            {"place", row.place},
-                            {"tension", row.tension},
-                            {"grout", row.grout},
-                            {"slip", row.slip},
-                            {"yielded", row.yielded}});
-  return Table::list(std::move(rows));
+const Record<Simulation::BoltRow> bolt_state{
+    "BoltState",
+    "A node of a bolt.",
+    {{integer("bolt").doc("from 1, in the order they were set"), &Simulation::BoltRow::bolt},
+     {integer("node").doc("from 1, from the collar on"), &Simulation::BoltRow::node},
+     {vec3("place").unit("m").doc("undeformed"), &Simulation::BoltRow::place},
+     {number("tension").unit("N").doc("at a collar with a plate that of the plate"),
+      &Simulation::BoltRow::tension},
+     {number("grout").unit("N").doc("on the rock, towards the far end; a plate pushes that way"),
+      &Simulation::BoltRow::grout},
+     {number("slip").unit("m").doc("of the bolt past the grout"), &Simulation::BoltRow::slip},
+     {number("yielded").doc("strain of the next segment that stays"), &Simulation::BoltRow::yielded}}};
+
+Table bolt_forces(ModelObject& model) {
+  return bolt_state.list(model.simulation.bolts());
 }
 
 Value save_bolts(Session& session, ModelObject& model, const Arguments& a) {
@@ -123,16 +127,7 @@ Value save_bolts(Session& session, ModelObject& model, const Arguments& a) {
 } // namespace
 
 void bind_bolts(Module& m) {
-  m.records.push_back(
-      {"BoltState",
-       "A node of a bolt.",
-       {integer("bolt").required().doc("from 1, in the order they were set"),
-        integer("node").required().doc("from 1, from the collar on"),
-        vec3("place").unit("m").required().doc("undeformed"),
-        number("tension").unit("N").required().doc("at a collar with a plate that of the plate"),
-        number("grout").unit("N").required().doc("on the rock, towards the far end; a plate pushes that way"),
-        number("slip").unit("m").required().doc("of the bolt past the grout"),
-        number("yielded").required().doc("strain of the next segment that stays")}});
+  m.records.push_back(bolt_state);
   Class& model = m.the_class("Model");
   model
       .add(

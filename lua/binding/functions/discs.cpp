@@ -3,7 +3,7 @@
 
 #include "lua/binding/functions/angles.hpp"
 #include "lua/binding/functions/radians_given.hpp"
-#include "lua/binding/module/module.hpp"
+#include "lua/binding/module/record.hpp"
 #include "lua/binding/objects/objects.hpp"
 
 #include "libgeom/assembly/random_discs.hpp"
@@ -85,6 +85,24 @@ Value random_discs(Session& session, Object*, const Arguments& a) {
   return Table::list(std::move(rows));
 }
 
+const Record<geom::DiscStatistics> statistics_record{
+    "DiscStatistics",
+    "What the discs of one set come to.",
+    {{text("set"), &geom::DiscStatistics::set},
+     {integer("count").doc("discs in all"), &geom::DiscStatistics::count},
+     {number("mean_radius").unit("m"), &geom::DiscStatistics::mean_radius},
+     {number("dip").unit("deg").doc("of the mean plane"),
+      [](const geom::DiscStatistics& s) { return degrees(s.dip); }},
+     {number("dip_direction").unit("deg"),
+      [](const geom::DiscStatistics& s) { return degrees(s.dip_direction); }},
+     {number("kappa").doc("of Fisher, (n - 1) / (n - R); nil for fewer than three discs or parallel ones"),
+      &geom::DiscStatistics::kappa},
+     {number("p30").unit("1/m3").doc("centres in the box over its volume"), &geom::DiscStatistics::p30},
+     {number("p32").unit("1/m").doc("area in the box over its volume"), &geom::DiscStatistics::p32},
+     {number("p21").unit("1/m").doc("length of traces in the plane, within the box, over its area"),
+      &geom::DiscStatistics::p21},
+     {number("p10").unit("1/m").doc("crossings with the line over its length"), &geom::DiscStatistics::p10}}};
+
 Value disc_statistics(Session& session, Object*, const Arguments& a) {
   geom::DiscWindow window;
   window.box = box_of(a);
@@ -95,24 +113,7 @@ Value disc_statistics(Session& session, Object*, const Arguments& a) {
   }
   if (const auto line = a.record("line"))
     window.line = {line->vec3("from"), line->vec3("to")};
-  Values rows;
-  for (const geom::DiscStatistics& s : geom::disc_statistics(discs_of(session, a), window)) {
-    Table row{{"set", s.set},
-              {"count", s.count},
-              {"mean_radius", s.mean_radius},
-              {"dip", degrees(s.dip)},
-              {"dip_direction", degrees(s.dip_direction)},
-              {"p30", s.p30},
-              {"p32", s.p32}};
-    if (s.kappa)
-      row.named["kappa"] = *s.kappa;
-    if (s.p21)
-      row.named["p21"] = *s.p21;
-    if (s.p10)
-      row.named["p10"] = *s.p10;
-    rows.emplace_back(std::move(row));
-  }
-  return Table::list(std::move(rows));
+  return statistics_record.list(geom::disc_statistics(discs_of(session, a), window));
 }
 
 Field box_field() {
@@ -174,18 +175,7 @@ void bind_discs(Module& m) {
         {list("sets", record_type(set)).required(), box_field().doc("of the centres"),
          integer("seed").at_least(0).standard(1).doc("the same seed gives the same discs on every machine")},
         random_discs, "table[]", "id, centre, dip, dip_direction, radius and set of each");
-  m.records.push_back(
-      {"DiscStatistics",
-       "What the discs of one set come to.",
-       {text("set").required(), integer("count").required().doc("discs in all"),
-        number("mean_radius").unit("m").required(),
-        number("dip").unit("deg").required().doc("of the mean plane"),
-        number("dip_direction").unit("deg").required(),
-        number("kappa").doc("of Fisher, (n - 1) / (n - R); nil for fewer than three discs or parallel ones"),
-        number("p30").unit("1/m3").required().doc("centres in the box over its volume"),
-        number("p32").unit("1/m").required().doc("area in the box over its volume"),
-        number("p21").unit("1/m").doc("length of traces in the plane, within the box, over its area"),
-        number("p10").unit("1/m").doc("crossings with the line over its length")}});
+  m.records.push_back(statistics_record);
   m.add("disc_statistics",
         "Intensities and mean orientation of discs, a row for each set: of cdem.random_discs, or as "
         "surveyed, of cdem.read_discs.",

@@ -1,7 +1,7 @@
 // Flow on outer faces, pieces, and the search for the flow that breaks a solid (Feng 2014 section 3).
 #include "lua/binding/functions/mass_scaling.hpp"
 #include "lua/binding/functions/solving_stage.hpp"
-#include "lua/binding/module/module.hpp"
+#include "lua/binding/module/record.hpp"
 #include "lua/binding/objects/water_object.hpp"
 #include "lua/binding/session/selections.hpp"
 
@@ -82,16 +82,22 @@ Value flow(Session& session, ModelObject& model, const Arguments& a) {
   return {};
 }
 
-Value fragment_row(const Fragment& f) {
-  return Table{{"volume", f.volume}, {"centroid", f.centroid}, {"tets", f.tets}, {"held", f.held}};
-}
+const Record<Fragment> fragment{"Fragment",
+                                "A piece of a model that unbroken bonds hold together.",
+                                {{number("volume").unit("m3"), &Fragment::volume},
+                                 {vec3("centroid").unit("m"), &Fragment::centroid},
+                                 {integer("tets"), &Fragment::tets},
+                                 {flag("held").doc("some node of it is held"), &Fragment::held}}};
 
-Value rows(const std::vector<Fragment>& fragments) {
-  Values out;
-  for (const Fragment& f : fragments)
-    out.push_back(fragment_row(f));
-  return Table::list(std::move(out));
-}
+const Record<CriticalFlowSample> flow_sample{
+    "CriticalFlowSample",
+    "One moment of a search.",
+    {{number("time").unit("s"), &CriticalFlowSample::time},
+     {number("pressure").unit("Pa"), &CriticalFlowSample::pressure},
+     {number("velocity").unit("m/s"), &CriticalFlowSample::velocity},
+     {number("displacement").unit("m").doc("mean where the flow pushes, along it"),
+      &CriticalFlowSample::displacement},
+     {integer("broken").doc("bonds so far"), &CriticalFlowSample::broken}}};
 
 const char* third(double fraction) {
   return fraction < 1.0 / 3 ? "root" : fraction < 2.0 / 3 ? "waist" : "top";
@@ -111,25 +117,18 @@ void add_place(const geom::Box& box, const std::string& held, const CriticalFlow
 
 Value flow_result(const CriticalFlowResult& r, const geom::Box& box, const std::string& held) {
   static const char* const reasons[] = {"fragment", "compliance", "limit"};
-  Values curve;
-  for (const CriticalFlowSample& s : r.curve)
-    curve.emplace_back(Table{{"time", s.time},
-                             {"pressure", s.pressure},
-                             {"velocity", s.velocity},
-                             {"displacement", s.displacement},
-                             {"broken", s.broken}});
   Table row{{"reason", std::string(reasons[static_cast<int>(r.reason)])},
             {"velocity", r.velocity},
             {"pressure", r.pressure},
             {"time", r.time},
             {"period", r.period},
             {"compliance", r.compliance},
-            {"fragments", rows(r.fragments)},
+            {"fragments", fragment.list(r.fragments)},
             {"broken_area", r.broken_area},
             {"broken_tension", r.broken_tension},
             {"broken_shear", r.broken_shear},
             {"steps", r.steps},
-            {"curve", Table::list(std::move(curve))}};
+            {"curve", flow_sample.list(r.curve)}};
   if (r.broken_area > 0) {
     add_place(box, held, r, row);
     row.named["first_break_velocity"] = r.first_break_velocity;
@@ -187,17 +186,7 @@ std::vector<Field> flow_fields() {
 }
 
 void bind_flow_records(Module& m) {
-  m.records.push_back({"Fragment",
-                       "A piece of a model that unbroken bonds hold together.",
-                       {number("volume").unit("m3").required(), vec3("centroid").unit("m").required(),
-                        integer("tets").required(), flag("held").required().doc("some node of it is held")}});
-  m.records.push_back(
-      {"CriticalFlowSample",
-       "One moment of a search.",
-       {number("time").unit("s").required(), number("pressure").unit("Pa").required(),
-        number("velocity").unit("m/s").required(),
-        number("displacement").unit("m").required().doc("mean where the flow pushes, along it"),
-        integer("broken").required().doc("bonds so far")}});
+  m.records.insert(m.records.end(), {fragment, flow_sample});
   m.records.push_back(
       {"CriticalFlowResult",
        "What the search for the critical flow came to.",

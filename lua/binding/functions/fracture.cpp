@@ -2,7 +2,7 @@
 #include "lua/binding/functions/angles.hpp"
 #include "lua/binding/functions/solving_stage.hpp"
 #include "lua/binding/functions/solving_warnings.hpp"
-#include "lua/binding/module/module.hpp"
+#include "lua/binding/module/record.hpp"
 #include "lua/binding/session/selections.hpp"
 
 #include "libcdem/memory_needed.hpp"
@@ -16,25 +16,70 @@ namespace {
 
 using geom::InputError;
 
-Value cut_row(const BlockCut& cut) {
-  return Table{{"block", cut.block},
-               {"mode", cut.mode == CutMode::shear ? "shear" : "tension"},
-               {"centroid", cut.centroid},
-               {"normal", cut.normal},
-               // The criteria keep the paper's compression-positive values; scripts see tension as positive.
-               {"principal_stress", geom::Vec3(-cut.principal.reverse())},
-               {"angle_to_largest_pressure", degrees(cut.angle_to_sigma1)},
-               {"generation", cut.generation},
-               {"pieces", cut.pieces},
-               {"tie", cut.tie}};
-}
+const Record<BlockCut> cut_record{
+    "Cut",
+    "A block that was cut.",
+    {{integer("block").doc("id"), &BlockCut::block},
+     {choice("mode", {"tension", "shear"}),
+      [](const BlockCut& cut) { return cut.mode == CutMode::shear ? "shear" : "tension"; }},
+     {vec3("centroid").unit("m"), &BlockCut::centroid},
+     {vec3("normal").doc("of the cut planes"), &BlockCut::normal},
+     {vec3("principal_stress")
+          .unit("Pa")
+          .doc(
+              "tension positive, the largest first"), // The criteria keep the paper's compression-positive values; scripts see tension as positive.
+      [](const BlockCut& cut) { return geom::Vec3(-cut.principal.reverse()); }},
+     {number("angle_to_largest_pressure")
+          .unit("deg")
+          .doc("between the cut planes and the axis of the largest pressure, principal_stress[3]"),
+      [](const BlockCut& cut) { return degrees(cut.angle_to_sigma1); }},
+     {integer("generation").doc("0 for an original block"), &BlockCut::generation},
+     {integer("pieces"), &BlockCut::pieces},
+     {flag("tie").doc("both conjugate planes were equally good"), &BlockCut::tie}}};
 
-Value cut_rows(const std::vector<BlockCut>& cuts) {
-  Values rows;
-  for (const BlockCut& cut : cuts)
-    rows.push_back(cut_row(cut));
-  return Table::list(std::move(rows));
-}
+const Record<CrackFace> crack_face{
+    "CrackFace",
+    "A face of the crack, as it lay in the undeformed body.",
+    {{integer("interface").doc("id"), &CrackFace::interface},
+     {integer("pass"), &CrackFace::pass},
+     {integer("round").doc("within the pass"), &CrackFace::round},
+     {choice("mode", {"tension", "shear"}),
+      [](const CrackFace& f) { return f.mode == BondMode::broken_shear ? "shear" : "tension"; }},
+     {vec3("centroid").unit("m"), &CrackFace::centroid},
+     {vec3("normal"), &CrackFace::normal},
+     {number("area").unit("m2"), &CrackFace::area},
+     {number("ratio").doc("traction over strength when it broke"), &CrackFace::ratio}}};
+
+const Record<GrowPass> grow_pass{
+    "GrowPass",
+    "One pass of a growing crack.",
+    {{integer("pass").doc("from 1"), &GrowPass::pass},
+     {choice("state", {"growing", "arrested", "through", "stuck"}),
+      [](const GrowPass& pass) { return name(pass.state); }},
+     {list("cuts", object_type("Cut"), 0), [](const GrowPass& pass) { return cut_record.list(pass.cuts); }},
+     {list("faces", object_type("CrackFace"), 0).doc("broken in this pass, in order"),
+      [](const GrowPass& pass) { return crack_face.list(pass.faces); }},
+     {integer("rounds").doc("times the worst faces broke and the model was relaxed again"),
+      &GrowPass::rounds},
+     {number("first_ratio").doc("traction over strength of the worst face before any broke"),
+      &GrowPass::first_ratio},
+     {number("last_ratio").doc("of the worst face that is left"), &GrowPass::last_ratio},
+     {vec3("tip").unit("m"), &GrowPass::tip},
+     {list("path", vec3_type(), 0)
+          .unit("m")
+          .doc("from the crack's mouth to its end; empty while there is no crack"),
+      &GrowPass::path},
+     {integer("steps").doc("of relaxation"), &GrowPass::steps}}};
+
+const Record<GrowResult> grow_record{
+    "GrowResult",
+    "What growing a crack came to.",
+    {{choice("state", {"growing", "arrested", "through", "stuck"})
+          .doc("arrested: nothing reaches its strength any more; through: the crack parts "
+               "the body; stuck: no balance was reached"),
+      [](const GrowResult& result) { return name(result.state); }},
+     {list("passes", object_type("GrowPass"), 0),
+      [](const GrowResult& result) { return grow_pass.list(result.passes); }}}};
 
 MayBreak may_break_of(const std::string& text) {
   return text == "all" ? MayBreak::all : text == "cut_faces" ? MayBreak::cut_faces : MayBreak::near_cuts;
@@ -73,38 +118,8 @@ Value refine(Session& session, ModelObject& model, const Arguments& a) {
                     std::to_string(static_cast<std::int64_t>(cuts.size()) - shear) + " tension, " +
                     std::to_string(shear) + " shear), " + std::to_string(simulation.counts().blocks) +
                     " blocks now" + (cuts.empty() ? "; what may break stays as it was" : ""));
-    return cut_rows(cuts);
+    return cut_record.list(cuts);
   });
-}
-
-Value pass_row(const GrowPass& pass) {
-  Values faces;
-  for (const CrackFace& f : pass.faces)
-    faces.emplace_back(Table{{"interface", f.interface},
-                             {"pass", f.pass},
-                             {"round", f.round},
-                             {"mode", f.mode == BondMode::broken_shear ? "shear" : "tension"},
-                             {"centroid", f.centroid},
-                             {"normal", f.normal},
-                             {"area", f.area},
-                             {"ratio", f.ratio}});
-  return Table{{"pass", pass.pass},
-               {"state", name(pass.state)},
-               {"cuts", cut_rows(pass.cuts)},
-               {"faces", Table::list(std::move(faces))},
-               {"rounds", pass.rounds},
-               {"first_ratio", pass.first_ratio},
-               {"last_ratio", pass.last_ratio},
-               {"tip", pass.tip},
-               {"path", Table::list(Values(pass.path.begin(), pass.path.end()))},
-               {"steps", pass.steps}};
-}
-
-Value grow_result(const GrowResult& result) {
-  Values passes;
-  for (const GrowPass& pass : result.passes)
-    passes.push_back(pass_row(pass));
-  return Table{{"state", name(result.state)}, {"passes", Table::list(std::move(passes))}};
 }
 
 Value grow(Session& session, ModelObject& model, const Arguments& a) {
@@ -123,18 +138,18 @@ Value grow(Session& session, ModelObject& model, const Arguments& a) {
   options.refine = refine_options(model, a);
   if (const auto callback = a.function("callback"))
     options.callback = [&session, callback](const GrowPass& pass) {
-      session.checkpoints.call_back("callback", *callback, {pass_row(pass)});
+      session.checkpoints.call_back("callback", *callback, {grow_pass(pass)});
     };
-  return stage(session, model, "grow", a, grow_result({}),
+  return stage(session, model, "grow", a, grow_record(GrowResult()),
                [&](Simulation& simulation) {
                  warn_of_memory(session, "cutting this model", memory_to_cut(simulation.counts().tets));
                  const GrowResult result = simulation.grow(options);
                  if (result.state == GrowState::stuck)
                    session.warn("grow: stuck in pass " + std::to_string(result.passes.size()) +
                                 "; a relaxation did not reach its residual or max_rounds was used up");
-                 return grow_result(result);
+                 return grow_record(result);
                },
-               {{"callback", a.function("callback")}}, {pass_row({})});
+               {{"callback", a.function("callback")}}, {grow_pass(GrowPass())});
 }
 
 std::vector<Field> refine_fields() {
@@ -198,56 +213,10 @@ std::vector<Field> grow_fields() {
   return fields;
 }
 
-void bind_fracture_records(Module& m) {
-  m.records.push_back(
-      {"Cut",
-       "A block that was cut.",
-       {integer("block").required().doc("id"), choice("mode", {"tension", "shear"}).required(),
-        vec3("centroid").unit("m").required(), vec3("normal").required().doc("of the cut planes"),
-        vec3("principal_stress").unit("Pa").required().doc("tension positive, the largest first"),
-        number("angle_to_largest_pressure")
-            .unit("deg")
-            .required()
-            .doc("between the cut planes and the axis of the largest pressure, principal_stress[3]"),
-        integer("generation").required().doc("0 for an original block"), integer("pieces").required(),
-        flag("tie").required().doc("both conjugate planes were equally good")}});
-  m.records.push_back(
-      {"CrackFace",
-       "A face of the crack, as it lay in the undeformed body.",
-       {integer("interface").required().doc("id"), integer("pass").required(),
-        integer("round").required().doc("within the pass"), choice("mode", {"tension", "shear"}).required(),
-        vec3("centroid").unit("m").required(), vec3("normal").required(),
-        number("area").unit("m2").required(),
-        number("ratio").required().doc("traction over strength when it broke")}});
-  m.records.push_back(
-      {"GrowPass",
-       "One pass of a growing crack.",
-       {integer("pass").required().doc("from 1"),
-        choice("state", {"growing", "arrested", "through", "stuck"}).required(),
-        list("cuts", object_type("Cut"), 0).required(),
-        list("faces", object_type("CrackFace"), 0).required().doc("broken in this pass, in order"),
-        integer("rounds").required().doc("times the worst faces broke and the model was relaxed again"),
-        number("first_ratio").required().doc("traction over strength of the worst face before any broke"),
-        number("last_ratio").required().doc("of the worst face that is left"),
-        vec3("tip").unit("m").required(),
-        list("path", vec3_type(), 0)
-            .unit("m")
-            .required()
-            .doc("from the crack's mouth to its end; empty while there is no crack"),
-        integer("steps").required().doc("of relaxation")}});
-  m.records.push_back({"GrowResult",
-                       "What growing a crack came to.",
-                       {choice("state", {"growing", "arrested", "through", "stuck"})
-                            .required()
-                            .doc("arrested: nothing reaches its strength any more; through: the crack parts "
-                                 "the body; stuck: no balance was reached"),
-                        list("passes", object_type("GrowPass"), 0).required()}});
-}
-
 } // namespace
 
 void bind_fracture(Module& m) {
-  bind_fracture_records(m);
+  m.records.insert(m.records.end(), {cut_record, crack_face, grow_pass, grow_record});
   Class& model = m.the_class("Model");
   std::vector<Field> of_refine = refine_fields();
   of_refine.push_back(may_break_field().standard("near_cuts"));

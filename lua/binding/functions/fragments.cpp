@@ -1,5 +1,5 @@
 // Fragments by size, with their motion: as tables and as a file. The chart is in charts.cpp.
-#include "lua/binding/module/module.hpp"
+#include "lua/binding/module/record.hpp"
 #include "lua/binding/session/model_object.hpp"
 
 #include "lua/binding/functions/picture_fields.hpp"
@@ -8,23 +8,31 @@ namespace cdem::script {
 
 namespace {
 
+const Record<FragmentMotion> fragment_motion{
+    "FragmentMotion",
+    "A piece of a model that unbroken bonds hold together, as it is and as it moves.",
+    {{number("volume").unit("m3"), &FragmentMotion::volume},
+     {vec3("centroid").unit("m").doc("undeformed"), &FragmentMotion::centroid},
+     {integer("tets"), &FragmentMotion::tets},
+     {flag("held").doc("some node of it is held"), &FragmentMotion::held},
+     {text("body").doc("nil where parts of several bodies hang together")},
+     {number("diameter").unit("m").doc("of the sphere with its volume"), &FragmentMotion::diameter},
+     {number("mass").unit("kg"), &FragmentMotion::mass},
+     {vec3("centre").unit("m").doc("of mass, now"), &FragmentMotion::centre},
+     {vec3("velocity").unit("m/s").doc("of the centre"),
+      [](const FragmentMotion& f) { return geom::Vec3(f.momentum / f.mass); }},
+     {vec3("momentum").unit("N s"), &FragmentMotion::momentum},
+     {vec3("angular_momentum").unit("N m s").doc("about its own centre"), &FragmentMotion::angular_momentum},
+     {number("kinetic_energy").unit("J").doc("the three below together"), &FragmentMotion::kinetic},
+     {number("translation_energy").unit("J"), &FragmentMotion::translation},
+     {number("rotation_energy").unit("J").doc("of the rigid spin with its angular momentum"),
+      &FragmentMotion::rotation},
+     {number("rest_energy").unit("J").doc("vibration"), &FragmentMotion::rest}}};
+
 Value fragments(Session&, ModelObject& model, const Arguments&) {
   Values rows;
   for (const FragmentMotion& f : model.simulation.fragment_motions()) {
-    Table row{{"volume", f.volume},
-              {"centroid", f.centroid},
-              {"tets", f.tets},
-              {"held", f.held},
-              {"diameter", f.diameter},
-              {"mass", f.mass},
-              {"centre", f.centre},
-              {"velocity", geom::Vec3(f.momentum / f.mass)},
-              {"momentum", f.momentum},
-              {"angular_momentum", f.angular_momentum},
-              {"kinetic_energy", f.kinetic},
-              {"translation_energy", f.translation},
-              {"rotation_energy", f.rotation},
-              {"rest_energy", f.rest()}};
+    Table row = fragment_motion(f);
     if (f.body >= 0)
       row.named["body"] = model.body_names[static_cast<std::size_t>(f.body)];
     rows.emplace_back(std::move(row));
@@ -69,20 +77,7 @@ Value save_fragments(Session& session, ModelObject& model, const Arguments& a) {
 } // namespace
 
 void bind_fragments(Module& m) {
-  m.records.push_back(
-      {"FragmentMotion",
-       "A piece of a model that unbroken bonds hold together, as it is and as it moves.",
-       {number("volume").unit("m3").required(), vec3("centroid").unit("m").required().doc("undeformed"),
-        integer("tets").required(), flag("held").required().doc("some node of it is held"),
-        text("body").doc("nil where parts of several bodies hang together"),
-        number("diameter").unit("m").required().doc("of the sphere with its volume"),
-        number("mass").unit("kg").required(), vec3("centre").unit("m").required().doc("of mass, now"),
-        vec3("velocity").unit("m/s").required().doc("of the centre"), vec3("momentum").unit("N s").required(),
-        vec3("angular_momentum").unit("N m s").required().doc("about its own centre"),
-        number("kinetic_energy").unit("J").required().doc("the three below together"),
-        number("translation_energy").unit("J").required(),
-        number("rotation_energy").unit("J").required().doc("of the rigid spin with its angular momentum"),
-        number("rest_energy").unit("J").required().doc("vibration")}});
+  m.records.push_back(fragment_motion);
   Class& model = m.the_class("Model");
   model
       .add("fragments", "Pieces that unbroken bonds hold together, with their size and motion.", {},

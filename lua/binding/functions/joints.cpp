@@ -1,6 +1,6 @@
 // Results of joints between blocks.
 #include "lua/binding/functions/joint_choice.hpp"
-#include "lua/binding/module/module.hpp"
+#include "lua/binding/module/record.hpp"
 #include "lua/binding/session/selections.hpp"
 
 namespace cdem::script {
@@ -20,25 +20,31 @@ std::vector<Field> joint_choice_fields() {
 
 namespace {
 
-Value joints(Session&, ModelObject& model, const Arguments& a) {
-  Values rows;
-  for (const JointSum& s : model.simulation.joints(joint_choice(model, a)))
-    rows.emplace_back(Table{{"set", s.set},
-                            {"interfaces", s.interfaces},
-                            {"parted", s.parted},
-                            {"area", s.area},
-                            {"open_area", s.open_area},
-                            {"broken_area", s.broken_area},
-                            {"normal_traction", s.normal},
-                            {"shear_traction", s.shear},
-                            {"water_pressure", s.water},
-                            {"utilisation", s.mean_use},
-                            {"largest_utilisation", s.largest_use},
-                            {"slip", s.mean_slip},
-                            {"largest_slip", s.largest_slip},
-                            {"opening", s.mean_opening},
-                            {"largest_opening", s.largest_opening}});
-  return Table::list(std::move(rows));
+const Record<JointSum> joint_sum{
+    "JointSum",
+    "What the joints of one set bear and how they have moved.",
+    {{text("set").doc("its name; \"\": joints of no set"), &JointSum::set},
+     {integer("interfaces").doc("pairs of faces that springs hold"), &JointSum::interfaces},
+     {integer("parted").doc("pairs that are left to contact; no other value counts them"), &JointSum::parted},
+     {number("area").unit("m2"), &JointSum::area},
+     {number("open_area").unit("m2").doc("of faces that are apart"), &JointSum::open_area},
+     {number("broken_area").unit("m2"), &JointSum::broken_area},
+     {number("normal_traction").unit("Pa").doc("mean over the area, tension positive; effective"),
+      &JointSum::normal},
+     {number("shear_traction").unit("Pa").doc("mean of its size"), &JointSum::shear},
+     {number("water_pressure").unit("Pa").doc("mean"), &JointSum::water},
+     {number("utilisation")
+          .doc("traction over strength, 1 where it slides; mean over the area that is not apart"),
+      &JointSum::mean_use},
+     {number("largest_utilisation"), &JointSum::largest_use},
+     {number("slip").unit("m").doc("size of the shear displacement since the beginning, mean"),
+      &JointSum::mean_slip},
+     {number("largest_slip").unit("m"), &JointSum::largest_slip},
+     {number("opening").unit("m").doc("below 0: closed under pressure; mean"), &JointSum::mean_opening},
+     {number("largest_opening").unit("m"), &JointSum::largest_opening}}};
+
+Table joints(Session&, ModelObject& model, const Arguments& a) {
+  return joint_sum.list(model.simulation.joints(joint_choice(model, a)));
 }
 
 Value joint_points(Session&, ModelObject& model, const Arguments& a) {
@@ -60,27 +66,6 @@ Value joint_points(Session&, ModelObject& model, const Arguments& a) {
   return result;
 }
 
-std::vector<Field> sum_fields() {
-  return {
-      text("set").required().doc("its name; \"\": joints of no set"),
-      integer("interfaces").required().doc("pairs of faces that springs hold"),
-      integer("parted").required().doc("pairs that are left to contact; no other value counts them"),
-      number("area").unit("m2").required(),
-      number("open_area").unit("m2").required().doc("of faces that are apart"),
-      number("broken_area").unit("m2").required(),
-      number("normal_traction").unit("Pa").required().doc("mean over the area, tension positive; effective"),
-      number("shear_traction").unit("Pa").required().doc("mean of its size"),
-      number("water_pressure").unit("Pa").required().doc("mean"),
-      number("utilisation")
-          .required()
-          .doc("traction over strength, 1 where it slides; mean over the area that is not apart"),
-      number("largest_utilisation").required(),
-      number("slip").unit("m").required().doc("size of the shear displacement since the beginning, mean"),
-      number("largest_slip").unit("m").required(),
-      number("opening").unit("m").required().doc("below 0: closed under pressure; mean"),
-      number("largest_opening").unit("m").required()};
-}
-
 std::vector<Field> point_fields() {
   return {list("set", text_type(), 0).required(),
           list("place", vec3_type(), 0).unit("m").required().doc("undeformed"),
@@ -99,7 +84,7 @@ std::vector<Field> point_fields() {
 } // namespace
 
 void bind_joints(Module& m) {
-  m.records.push_back({"JointSum", "What the joints of one set bear and how they have moved.", sum_fields()});
+  m.records.push_back(joint_sum);
   m.records.push_back({"JointPoints", "The points of joints: lists with an entry for each.", point_fields()});
   Class& model = m.the_class("Model");
   model.add("joints",

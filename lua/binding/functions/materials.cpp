@@ -207,29 +207,6 @@ Value plastic(Session& session, Object*, const Arguments& a) {
   return object;
 }
 
-template <class Get>
-Property plastic_property(std::string name, std::string unit, Get get) {
-  return {std::move(name), "number", std::move(unit), "", [get](Session&, Object& self) -> Value {
-            return get(static_cast<PlasticityObject&>(self).plasticity);
-          }};
-}
-
-template <class Get>
-Property material_property(std::string name, std::string unit, std::string doc, Get get) {
-  return {std::move(name), "number", std::move(unit), std::move(doc),
-          [get](Session&, Object& self) -> Value { return get(static_cast<MaterialObject&>(self).elastic); }};
-}
-
-template <class Get>
-Property joint_property(std::string name, std::string type, std::string unit, Get get) {
-  return {std::move(name), std::move(type), std::move(unit), "",
-          [get](Session&, Object& self) -> Value { return get(static_cast<JointObject&>(self).joint); }};
-}
-
-Value optional(const std::optional<double>& x) {
-  return x ? Value(*x) : Value();
-}
-
 } // namespace
 
 void bind_materials(Module& m) {
@@ -283,13 +260,14 @@ void bind_materials(Module& m) {
                   "fracture energy, so that what it dissipates depends on the size of the elements")},
         plastic, "cdem.Plasticity");
   Class plasticity{"Plasticity", "Made by cdem.plastic or cdem.hoek_brown."};
-  plasticity.properties = {
-      plastic_property("cohesion", "Pa", [](const Plasticity& p) { return p.cohesion; }),
-      plastic_property("friction_angle", "deg",
-                       [](const Plasticity& p) { return degrees(p.friction_angle); }),
-      plastic_property("dilation_angle", "deg",
-                       [](const Plasticity& p) { return degrees(p.dilation_angle); }),
-      plastic_property("tensile_strength", "Pa", [](const Plasticity& p) { return p.tensile_strength; })};
+  const auto of_plasticity = [&](std::string name, std::string unit, auto get) {
+    plasticity.property(std::move(name), "number", std::move(unit), "",
+                        [get](const PlasticityObject& p) { return std::invoke(get, p.plasticity); });
+  };
+  of_plasticity("cohesion", "Pa", &Plasticity::cohesion);
+  of_plasticity("friction_angle", "deg", [](const Plasticity& p) { return degrees(p.friction_angle); });
+  of_plasticity("dilation_angle", "deg", [](const Plasticity& p) { return degrees(p.dilation_angle); });
+  of_plasticity("tensile_strength", "Pa", &Plasticity::tensile_strength);
   m.classes.push_back(plasticity);
 
   std::vector<Field> bonded{number("cohesion").at_least(0).unit("Pa").required(),
@@ -333,17 +311,17 @@ void bind_materials(Module& m) {
         stiff, glued, "cdem.Joint");
 
   Class material{"Material", "Made by cdem.elastic."};
-  material.properties = {
-      material_property("youngs_modulus", "Pa", "", [](const Elastic& e) { return e.youngs_modulus; }),
-      material_property("poissons_ratio", "", "", [](const Elastic& e) { return e.poissons_ratio; }),
-      material_property("density", "kg/m3", "", [](const Elastic& e) { return e.density; }),
-      material_property("viscosity", "N s/m4", "", [](const Elastic& e) { return e.viscosity; }),
-      material_property("stiffness_damping", "s", "beta of Rayleigh damping",
-                        [](const Elastic& e) { return e.stiffness_damping; }),
-      material_property("shear_modulus", "Pa", "G = E / 2(1 + nu)",
-                        [](const Elastic& e) { return e.shear_modulus(); }),
-      material_property("p_wave_modulus", "Pa", "lambda + 2 G",
-                        [](const Elastic& e) { return e.p_wave_modulus(); })};
+  const auto of_material = [&](std::string name, std::string unit, std::string doc, auto get) {
+    material.property(std::move(name), "number", std::move(unit), std::move(doc),
+                      [get](const MaterialObject& self) { return std::invoke(get, self.elastic); });
+  };
+  of_material("youngs_modulus", "Pa", "", &Elastic::youngs_modulus);
+  of_material("poissons_ratio", "", "", &Elastic::poissons_ratio);
+  of_material("density", "kg/m3", "", &Elastic::density);
+  of_material("viscosity", "N s/m4", "", &Elastic::viscosity);
+  of_material("stiffness_damping", "s", "beta of Rayleigh damping", &Elastic::stiffness_damping);
+  of_material("shear_modulus", "Pa", "G = E / 2(1 + nu)", &Elastic::shear_modulus);
+  of_material("p_wave_modulus", "Pa", "lambda + 2 G", &Elastic::p_wave_modulus);
   material.text = [](const Object& self) {
     const Elastic& e = static_cast<const MaterialObject&>(self).elastic;
     return "cdem.Material (E " + number_text(e.youngs_modulus) + " Pa, nu " + number_text(e.poissons_ratio) +
@@ -353,29 +331,24 @@ void bind_materials(Module& m) {
 
   Class joint{"Joint", "Made by cdem.mohr_coulomb, cdem.hoek_brown_bond, cdem.coulomb, cdem.barton_bandis, "
                        "cdem.joint_table or cdem.glued."};
-  joint.properties = {
-      joint_property("bonded", "boolean", "", [](const Joint& j) { return Value(j.bonded); }),
-      joint_property("glued", "boolean", "", [](const Joint& j) { return Value(j.glued); }),
-      joint_property("cohesion", "number", "Pa", [](const Joint& j) { return Value(j.cohesion); }),
-      joint_property("friction_angle", "number", "deg",
-                     [](const Joint& j) { return Value(degrees(j.friction_angle)); }),
-      joint_property("tensile_strength", "number", "Pa",
-                     [](const Joint& j) { return Value(j.tensile_strength); }),
-      joint_property("softening", "string", "", [](const Joint& j) { return Value(softening_name(j)); }),
-      joint_property("fracture_energy_1", "number", "J/m2",
-                     [](const Joint& j) { return Value(j.fracture_energy_1); }),
-      joint_property("fracture_energy_2", "number", "J/m2",
-                     [](const Joint& j) { return Value(j.fracture_energy_2); }),
-      joint_property("thickness_ratio", "number", "",
-                     [](const Joint& j) { return Value(j.thickness_ratio); }),
-      joint_property("thickness", "number?", "m", [](const Joint& j) { return optional(j.thickness); }),
-      joint_property("normal_stiffness", "number?", "Pa/m",
-                     [](const Joint& j) { return optional(j.normal_stiffness); }),
-      joint_property("shear_stiffness", "number?", "Pa/m",
-                     [](const Joint& j) { return optional(j.shear_stiffness); }),
-      joint_property("stiffness_damping", "number", "s",
-                     [](const Joint& j) { return Value(j.stiffness_damping); }),
-      joint_property("restitution", "number", "", [](const Joint& j) { return Value(j.restitution); })};
+  const auto of_joint = [&](std::string name, std::string type, std::string unit, auto get) {
+    joint.property(std::move(name), std::move(type), std::move(unit), "",
+                   [get](const JointObject& j) { return std::invoke(get, j.joint); });
+  };
+  of_joint("bonded", "boolean", "", &Joint::bonded);
+  of_joint("glued", "boolean", "", &Joint::glued);
+  of_joint("cohesion", "number", "Pa", &Joint::cohesion);
+  of_joint("friction_angle", "number", "deg", [](const Joint& j) { return degrees(j.friction_angle); });
+  of_joint("tensile_strength", "number", "Pa", &Joint::tensile_strength);
+  of_joint("softening", "string", "", [](const Joint& j) { return softening_name(j); });
+  of_joint("fracture_energy_1", "number", "J/m2", &Joint::fracture_energy_1);
+  of_joint("fracture_energy_2", "number", "J/m2", &Joint::fracture_energy_2);
+  of_joint("thickness_ratio", "number", "", &Joint::thickness_ratio);
+  of_joint("thickness", "number?", "m", &Joint::thickness);
+  of_joint("normal_stiffness", "number?", "Pa/m", &Joint::normal_stiffness);
+  of_joint("shear_stiffness", "number?", "Pa/m", &Joint::shear_stiffness);
+  of_joint("stiffness_damping", "number", "s", &Joint::stiffness_damping);
+  of_joint("restitution", "number", "", &Joint::restitution);
   joint.text = [](const Object& self) {
     const Joint& j = static_cast<const JointObject&>(self).joint;
     if (j.glued)

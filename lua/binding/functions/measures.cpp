@@ -1,5 +1,5 @@
 // Results of a model as Lua values.
-#include "lua/binding/module/module.hpp"
+#include "lua/binding/module/record.hpp"
 #include "lua/binding/session/model_object.hpp"
 #include "lua/binding/session/selections.hpp"
 #include "lua/binding/text/nearest.hpp"
@@ -14,12 +14,86 @@ namespace {
 
 using geom::InputError;
 
+const Record<FieldValue> extreme{"Extreme",
+                                 "Where a field is largest or smallest.",
+                                 {{number("value"), &FieldValue::value},
+                                  {vec3("place").unit("m").doc("undeformed"), &FieldValue::place},
+                                  {integer("block").doc("id"), &FieldValue::block}}};
+
+const Record<EnergyLedger> energy_record{
+    "Energy",
+    "Energy ledger, J: what is stored, what was spent, what was given.",
+    {{number("elastic").unit("J").doc("stored in the blocks"), &EnergyLedger::elastic},
+     {number("springs").unit("J").doc("stored in bonds and contacts"), &EnergyLedger::springs},
+     {number("bolts").unit("J").doc("stored in bolts and their grout"), &EnergyLedger::bolts},
+     {number("kinetic").unit("J").doc("of the real masses, or of a relaxation's fictitious ones"),
+      &EnergyLedger::kinetic},
+     {number("damping").unit("J"), &EnergyLedger::damping},
+     {number("radiated").unit("J").doc("left through quiet boundaries and free fields"),
+      &EnergyLedger::radiated},
+     {number("friction").unit("J"), &EnergyLedger::friction},
+     {number("breaking").unit("J").doc("lost by bonds that broke or softened"), &EnergyLedger::breaking},
+     {number("plastic").unit("J").doc("plastic work of blocks that yield"), &EnergyLedger::plastic},
+     {number("yielding").unit("J").doc("lost by the steel of bolts that yielded"), &EnergyLedger::yielding},
+     {number("cutting").unit("J").doc("lost when blocks were cut or removed"), &EnergyLedger::cutting},
+     {number("fictitious").unit("J").doc("kinetic energy a relaxation threw away at its end"),
+      &EnergyLedger::fictitious},
+     {number("external").unit("J").doc("work of loads, gravity and moving supports"),
+      &EnergyLedger::external},
+     {number("external_peak").unit("J").doc("largest |external| so far"), &EnergyLedger::external_peak},
+     {number("total").unit("J").doc("sum of all but external"), &EnergyLedger::total},
+     {number("balance_error").doc("|total - external| over the largest energy above"),
+      &EnergyLedger::balance_error},
+     {number("one_way_error")
+          .required()
+          .doc("the largest so far of: how far damping, friction, breaking, plastic or yielding, which can "
+               "only rise, fell; how far kinetic and stored energy were above what was given; over the "
+               "largest energy above")}}};
+
+const Record<Overlap> overlap_record{
+    "Overlap",
+    "Volume that two blocks occupy at once, as they stand now.",
+    {{number("volume").unit("m3").doc("of all pairs of blocks"), &Overlap::volume},
+     {integer("pairs"), &Overlap::pairs},
+     {number("largest").unit("m3").doc("of one pair"), &Overlap::largest},
+     {vec3("place").unit("m").doc("of that pair"), &Overlap::place},
+     {list("blocks", text_type(), 2).doc("names of that pair; nil where nothing overlaps"),
+      [](const Overlap& o) {
+        return o.pairs > 0 ? Value(Table::list({o.largest_a, o.largest_b})) : Value();
+      }}}};
+
+const Record<Simulation::BlockRow> block_state{
+    "BlockState",
+    "A block of a model.",
+    {{integer("id"), &Simulation::BlockRow::id},
+     {integer("parent").doc("id of the block it was cut from"), &Simulation::BlockRow::parent},
+     {integer("generation").doc("how often it was cut"), &Simulation::BlockRow::generation},
+     {text("body"), &Simulation::BlockRow::body},
+     {vec3("centroid").unit("m").doc("undeformed"), &Simulation::BlockRow::centroid},
+     {number("volume").unit("m3"), &Simulation::BlockRow::volume},
+     {vec3("displacement").unit("m").doc("of the centroid"), &Simulation::BlockRow::displacement},
+     {list("stress", number_type(), 6).unit("Pa").doc("{xx, yy, zz, xy, yz, xz}"),
+      &Simulation::BlockRow::stress}}};
+
+const Record<BreakRow> break_row{
+    "Break",
+    "A bond that broke.",
+    {{integer("stage"), &BreakRow::stage},
+     {integer("step").doc("within the stage"), &BreakRow::step},
+     {number("time").unit("s"), &BreakRow::time},
+     {choice("mode", {"tension", "shear"}),
+      [](const BreakRow& b) { return b.mode == BondMode::broken_shear ? "shear" : "tension"; }},
+     {vec3("place").unit("m").doc("undeformed"), &BreakRow::place},
+     {vec3("normal"), &BreakRow::normal},
+     {number("area").unit("m2"), &BreakRow::area},
+     {number("normal_traction").unit("Pa").doc("when it broke, tension positive"),
+      &BreakRow::normal_traction},
+     {number("shear_traction").unit("Pa").doc("when it broke"), &BreakRow::shear_traction},
+     {integer("block_a").doc("id"), &BreakRow::block_a},
+     {integer("block_b").doc("id"), &BreakRow::block_b}}};
+
 Selection place_of(const ModelObject& model, const Arguments& a) {
   return one_selection(model, a.value("on"), "on");
-}
-
-Value extreme(const FieldValue& found) {
-  return Table{{"value", found.value}, {"place", found.place}, {"block", found.block}};
 }
 
 Value max(Session&, ModelObject& model, const Arguments& a) {
@@ -44,69 +118,27 @@ Value reaction(Session&, ModelObject& model, const Arguments& a) {
   return model.simulation.reaction(place_of(model, a));
 }
 
-Value fields(Session&, ModelObject&, const Arguments&) {
-  const auto names = Simulation::field_names();
-  return Table::list(Values(names.begin(), names.end()));
+Value fields(ModelObject&) {
+  return as_value(Simulation::field_names());
 }
 
 Value energy(Session&, ModelObject& model, const Arguments&) {
   const EnergyLedger e = model.simulation.energy();
-  return Table{{"elastic", e.elastic},
-               {"springs", e.springs},
-               {"bolts", e.bolts},
-               {"kinetic", e.kinetic},
-               {"damping", e.damping},
-               {"radiated", e.radiated},
-               {"friction", e.friction},
-               {"breaking", e.breaking},
-               {"plastic", e.plastic},
-               {"yielding", e.yielding},
-               {"cutting", e.cutting},
-               {"fictitious", e.fictitious},
-               {"external", e.external},
-               {"external_peak", e.external_peak},
-               {"total", e.total()},
-               {"balance_error", e.balance_error()},
-               {"one_way_error", model.simulation.impossible_energy(e).part}};
-}
-
-Value overlap(Session&, ModelObject& model, const Arguments&) {
-  const Overlap o = model.simulation.overlap();
-  Table table{{"volume", o.volume}, {"pairs", o.pairs}, {"largest", o.largest}, {"place", o.place}};
-  if (o.pairs > 0)
-    table.named["blocks"] = Table::list({o.largest_a, o.largest_b});
+  Table table = energy_record(e);
+  table.named["one_way_error"] = model.simulation.impossible_energy(e).part;
   return table;
 }
 
-Value blocks(Session&, ModelObject& model, const Arguments&) {
-  Values rows;
-  for (const auto& b : model.simulation.blocks())
-    rows.emplace_back(Table{{"id", b.id},
-                            {"parent", b.parent},
-                            {"generation", b.generation},
-                            {"body", b.body},
-                            {"centroid", b.centroid},
-                            {"volume", b.volume},
-                            {"displacement", b.displacement},
-                            {"stress", b.stress}});
-  return Table::list(std::move(rows));
+Table overlap(ModelObject& model) {
+  return overlap_record(model.simulation.overlap());
 }
 
-Value breaks(Session&, ModelObject& model, const Arguments&) {
-  Values rows;
-  for (const BreakRow& b : model.simulation.breaks())
-    rows.emplace_back(Table{{"stage", b.stage},
-                            {"step", b.step},
-                            {"time", b.time},
-                            {"mode", b.mode == BondMode::broken_shear ? "shear" : "tension"},
-                            {"place", b.place},
-                            {"normal", b.normal},
-                            {"area", b.area},
-                            {"normal_traction", b.normal_traction},
-                            {"shear_traction", b.shear_traction},
-                            {"block_a", b.block_a},
-                            {"block_b", b.block_b}});
-  return Table::list(std::move(rows));
+Table blocks(ModelObject& model) {
+  return block_state.list(model.simulation.blocks());
+}
+
+Table breaks(ModelObject& model) {
+  return break_row.list(model.simulation.breaks());
 }
 
 Value history(Session&, ModelObject& model, const Arguments&) {
@@ -150,67 +182,10 @@ Value record_momentum(Session&, ModelObject& model, const Arguments& a) {
   return {};
 }
 
-void bind_rows(Module& m) {
-  m.records.push_back({"Extreme",
-                       "Where a field is largest or smallest.",
-                       {number("value").required(), vec3("place").unit("m").required().doc("undeformed"),
-                        integer("block").required().doc("id")}});
-  m.records.push_back(
-      {"Energy",
-       "Energy ledger, J: what is stored, what was spent, what was given.",
-       {number("elastic").unit("J").required().doc("stored in the blocks"),
-        number("springs").unit("J").required().doc("stored in bonds and contacts"),
-        number("bolts").unit("J").required().doc("stored in bolts and their grout"),
-        number("kinetic").unit("J").required().doc(
-            "of the real masses, or of a relaxation's fictitious ones"),
-        number("damping").unit("J").required(),
-        number("radiated").unit("J").required().doc("left through quiet boundaries and free fields"),
-        number("friction").unit("J").required(),
-        number("breaking").unit("J").required().doc("lost by bonds that broke or softened"),
-        number("plastic").unit("J").required().doc("plastic work of blocks that yield"),
-        number("yielding").unit("J").required().doc("lost by the steel of bolts that yielded"),
-        number("cutting").unit("J").required().doc("lost when blocks were cut or removed"),
-        number("fictitious").unit("J").required().doc("kinetic energy a relaxation threw away at its end"),
-        number("external").unit("J").required().doc("work of loads, gravity and moving supports"),
-        number("external_peak").unit("J").required().doc("largest |external| so far"),
-        number("total").unit("J").required().doc("sum of all but external"),
-        number("balance_error").required().doc("|total - external| over the largest energy above"),
-        number("one_way_error")
-            .required()
-            .doc("the largest so far of: how far damping, friction, breaking, plastic or yielding, which can "
-                 "only rise, fell; how far kinetic and stored energy were above what was given; over the "
-                 "largest energy above")}});
-  m.records.push_back(
-      {"Overlap",
-       "Volume that two blocks occupy at once, as they stand now.",
-       {number("volume").unit("m3").required().doc("of all pairs of blocks"), integer("pairs").required(),
-        number("largest").unit("m3").required().doc("of one pair"),
-        vec3("place").unit("m").required().doc("of that pair"),
-        list("blocks", text_type(), 2).doc("names of that pair; nil where nothing overlaps")}});
-  m.records.push_back(
-      {"BlockState",
-       "A block of a model.",
-       {integer("id").required(), integer("parent").required().doc("id of the block it was cut from"),
-        integer("generation").required().doc("how often it was cut"), text("body").required(),
-        vec3("centroid").unit("m").required().doc("undeformed"), number("volume").unit("m3").required(),
-        vec3("displacement").unit("m").required().doc("of the centroid"),
-        list("stress", number_type(), 6).unit("Pa").required().doc("{xx, yy, zz, xy, yz, xz}")}});
-  m.records.push_back(
-      {"Break",
-       "A bond that broke.",
-       {integer("stage").required(), integer("step").required().doc("within the stage"),
-        number("time").unit("s").required(), choice("mode", {"tension", "shear"}).required(),
-        vec3("place").unit("m").required().doc("undeformed"), vec3("normal").required(),
-        number("area").unit("m2").required(),
-        number("normal_traction").unit("Pa").required().doc("when it broke, tension positive"),
-        number("shear_traction").unit("Pa").required().doc("when it broke"),
-        integer("block_a").required().doc("id"), integer("block_b").required().doc("id")}});
-}
-
 } // namespace
 
 void bind_measures(Module& m) {
-  bind_rows(m);
+  m.records.insert(m.records.end(), {extreme, energy_record, overlap_record, block_state, break_row});
   Class& model = m.the_class("Model");
   const Field field =
       text("field").required().doc("e.g. \"displacement.x\", \"stress.yy\"; model:fields() has all");

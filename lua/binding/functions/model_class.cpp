@@ -1,5 +1,5 @@
 // What a model tells of itself: its properties, counts, box, process zones, and places with a name.
-#include "lua/binding/module/module.hpp"
+#include "lua/binding/module/record.hpp"
 #include "lua/binding/session/model_object.hpp"
 #include "lua/binding/session/selections.hpp"
 #include "lua/binding/text/nearest.hpp"
@@ -15,15 +15,35 @@ namespace {
 
 using geom::InputError;
 
-Value process_zones(Session&, ModelObject& model, const Arguments&) {
-  Values rows;
-  for (const ProcessZone& zone : model.simulation.process_zones())
-    rows.emplace_back(Table{{"of", zone.of},
-                            {"length", zone.length},
-                            {"face_size", zone.face_size},
-                            {"largest_face_size", zone.largest_face_size},
-                            {"faces_in_zone", zone.faces_in_zone()}});
-  return Table::list(std::move(rows));
+const Record<ModelCounts> counts_record{
+    "Counts",
+    "Each bond (spring point) stands in exactly one of intact, broken_tension, broken_shear and contacts.",
+    {{integer("bodies"), &ModelCounts::bodies},
+     {integer("blocks"), &ModelCounts::blocks},
+     {integer("nodes"), &ModelCounts::nodes},
+     {integer("tets"), &ModelCounts::tets},
+     {integer("interfaces"), &ModelCounts::interfaces},
+     {integer("bonds"), &ModelCounts::bonds},
+     {integer("intact"), &ModelCounts::intact},
+     {integer("broken_tension"), &ModelCounts::broken_tension},
+     {integer("broken_shear"), &ModelCounts::broken_shear},
+     {integer("contacts"), &ModelCounts::contacts},
+     {integer("damaged").doc("of the intact ones: have begun to soften"), &ModelCounts::damaged}}};
+
+const Record<ProcessZone> process_zone{
+    "ProcessZone",
+    "The process zone of a law that softens beside the faces that carry it; medians over the faces.",
+    {{text("of").doc("body, regions or pair of bodies"), &ProcessZone::of},
+     {number("length").unit("m").doc("E' G_I / T^2, E' = E / (1 - nu^2)"), &ProcessZone::length},
+     {number("face_size").unit("m").doc("edge of an equilateral triangle of the face's area"),
+      &ProcessZone::face_size},
+     {number("largest_face_size").unit("m").doc("that leaves three faces in the cohesive zone"),
+      &ProcessZone::largest_face_size},
+     {number("faces_in_zone").doc("faces in the cohesive zone, 0.88 of the length"),
+      &ProcessZone::faces_in_zone}}};
+
+Table process_zones(ModelObject& model) {
+  return process_zone.list(model.simulation.process_zones());
 }
 
 Value select(Session&, ModelObject& model, const Arguments& a) {
@@ -39,19 +59,8 @@ Value select(Session&, ModelObject& model, const Arguments& a) {
   return {};
 }
 
-Value counts(Session&, ModelObject& model, const Arguments&) {
-  const ModelCounts c = model.simulation.counts();
-  return Table{{"bodies", c.bodies},
-               {"blocks", c.blocks},
-               {"nodes", c.nodes},
-               {"tets", c.tets},
-               {"interfaces", c.interfaces},
-               {"bonds", c.bonds},
-               {"intact", c.intact},
-               {"broken_tension", c.broken_tension},
-               {"broken_shear", c.broken_shear},
-               {"contacts", c.contacts},
-               {"damaged", c.damaged}};
+Table counts(ModelObject& model) {
+  return counts_record(model.simulation.counts());
 }
 
 Value model_box(Session&, ModelObject& model, const Arguments&) {
@@ -59,13 +68,7 @@ Value model_box(Session&, ModelObject& model, const Arguments&) {
   return Table{{"min", box.min}, {"max", box.max}};
 }
 
-template <class Get>
-Property simulation_property(std::string name, std::string type, std::string unit, std::string doc, Get get) {
-  return {std::move(name), std::move(type), std::move(unit), std::move(doc),
-          [get](Session&, Object& self) -> Value { return get(static_cast<ModelObject&>(self).simulation); }};
-}
-
-std::vector<Property> model_properties() {
+void add_properties(Class& model) {
   Property memory{
       "memory", "table", "",
       "What callbacks must remember: only booleans, numbers, strings and tables of them. It is saved with "
@@ -77,44 +80,27 @@ std::vector<Property> model_properties() {
     check_value(value, plain("memory").type, "memory");
     static_cast<ModelObject&>(self).memory = session.new_memory(value);
   };
-  return {simulation_property("time", "number", "s", "", [](const Simulation& s) { return s.time(); }),
-          simulation_property("residual", "number", "", "out-of-balance force norm over applied force norm",
-                              [](const Simulation& s) { return s.residual(); }),
-          simulation_property("steps", "integer", "", "of all stages so far",
-                              [](const Simulation& s) { return s.steps(); }),
-          simulation_property("stable_time_step", "number", "s", "of real-time stepping",
-                              [](const Simulation& s) { return s.stable_time_step(); }),
-          simulation_property("state_hash", "string", "", "of every state field, bit for bit",
-                              [](const Simulation& s) {
-                                char text[17];
-                                std::snprintf(text, sizeof text, "%016llx",
-                                              static_cast<unsigned long long>(s.state_hash()));
-                                return std::string(text);
-                              }),
-          memory};
+  model.property("time", "number", "s", "", [](const ModelObject& m) { return m.simulation.time(); });
+  model.property("residual", "number", "", "out-of-balance force norm over applied force norm",
+                 [](const ModelObject& m) { return m.simulation.residual(); });
+  model.property("steps", "integer", "", "of all stages so far",
+                 [](const ModelObject& m) { return m.simulation.steps(); });
+  model.property("stable_time_step", "number", "s", "of real-time stepping",
+                 [](const ModelObject& m) { return m.simulation.stable_time_step(); });
+  model.property("state_hash", "string", "", "of every state field, bit for bit", [](const ModelObject& m) {
+    char text[17];
+    std::snprintf(text, sizeof text, "%016llx", static_cast<unsigned long long>(m.simulation.state_hash()));
+    return std::string(text);
+  });
+  model.properties.push_back(memory);
 }
 
 } // namespace
 
 void bind_model_class(Module& m) {
-  m.records.push_back(
-      {"Counts",
-       "Each bond (spring point) stands in exactly one of intact, broken_tension, broken_shear and contacts.",
-       {integer("bodies").required(), integer("blocks").required(), integer("nodes").required(),
-        integer("tets").required(), integer("interfaces").required(), integer("bonds").required(),
-        integer("intact").required(), integer("broken_tension").required(),
-        integer("broken_shear").required(), integer("contacts").required(),
-        integer("damaged").required().doc("of the intact ones: have begun to soften")}});
-  m.records.push_back(
-      {"ProcessZone",
-       "The process zone of a law that softens beside the faces that carry it; medians over the faces.",
-       {text("of").required().doc("body, regions or pair of bodies"),
-        number("length").unit("m").required().doc("E' G_I / T^2, E' = E / (1 - nu^2)"),
-        number("face_size").unit("m").required().doc("edge of an equilateral triangle of the face's area"),
-        number("largest_face_size").unit("m").required().doc("that leaves three faces in the cohesive zone"),
-        number("faces_in_zone").required().doc("faces in the cohesive zone, 0.88 of the length")}});
+  m.records.insert(m.records.end(), {counts_record, process_zone});
   Class model{"Model", "Made by cdem.model."};
-  model.properties = model_properties();
+  add_properties(model);
   model.text = [](const Object& self) {
     const auto& object = static_cast<const ModelObject&>(self);
     const ModelCounts c = object.simulation.counts();

@@ -221,12 +221,6 @@ Value pile_box(Session&, PileObject& self, const Arguments&) {
   return Table{{"min", box.min}, {"max", box.max}};
 }
 
-template <class Get>
-Property pile_property(std::string name, std::string type, std::string unit, std::string doc, Get get) {
-  return {std::move(name), std::move(type), std::move(unit), std::move(doc),
-          [get](Session&, Object& self) -> Value { return get(static_cast<PileObject&>(self).pile); }};
-}
-
 void bind_class(Module& m) {
   m.records.push_back(
       {"Pose",
@@ -244,15 +238,14 @@ void bind_class(Module& m) {
            (p.poses.size() == 1 ? " unit of " : " units of ") + std::to_string(p.unit.tets.size()) +
            (p.unit.tets.size() == 1 ? " tet)" : " tets)");
   };
-  pile.properties = {
-      pile_property("count", "integer", "", "how many units",
-                    [](const geom::Pile& p) { return static_cast<std::int64_t>(p.poses.size()); }),
-      pile_property("height", "number", "m", "of a unit: that of its mesh along z",
-                    [](const geom::Pile& p) { return p.height; }),
-      pile_property("unit_volume", "number", "m3", "of the unit's mesh",
-                    [](const geom::Pile& p) { return geom::volume(p.unit); }),
-      pile_property("nominal_diameter", "number", "m", "Dn, side of a cube of that volume",
-                    [](const geom::Pile& p) { return geom::nominal_diameter(p); })};
+  pile.property("count", "integer", "", "how many units",
+                [](const PileObject& p) { return p.pile.poses.size(); });
+  pile.property("height", "number", "m", "of a unit: that of its mesh along z",
+                [](const PileObject& p) { return p.pile.height; });
+  pile.property("unit_volume", "number", "m3", "of the unit's mesh",
+                [](const PileObject& p) { return geom::volume(p.pile.unit); });
+  pile.property("nominal_diameter", "number", "m", "Dn, side of a cube of that volume",
+                [](const PileObject& p) { return geom::nominal_diameter(p.pile); });
   pile.add("scaled", "The same pile in another size: all lengths about the origin times the factor.",
            {number("factor").above(0).required()}, scaled, "cdem.Pile");
   pile.add("with_unit",

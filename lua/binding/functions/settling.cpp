@@ -1,7 +1,7 @@
 // Settling of piles, and the watch over units that leave their place.
 #include "lua/binding/functions/angles.hpp"
 #include "lua/binding/functions/solving_stage.hpp"
-#include "lua/binding/module/module.hpp"
+#include "lua/binding/module/record.hpp"
 
 #include "libgeom/core/error.hpp"
 
@@ -25,16 +25,38 @@ const WatchObject& watch_of(const Object& self) {
   return static_cast<const WatchObject&>(self);
 }
 
-Value departure_row(const Departure& d) {
-  Table row{{"unit", d.unit},
-            {"time", d.time},
-            {"displacement", d.displacement},
-            {"place", d.place},
-            {"share", d.share}};
-  if (!std::isnan(d.velocity))
-    row.named["velocity"] = d.velocity;
-  return row;
-}
+const Record<Departure> departure{
+    "Departure",
+    "A unit that has left its place, or a piece of one that broke.",
+    {{integer("unit").doc("number of the unit in its body, from 1"), &Departure::unit},
+     {number("time").unit("s"), &Departure::time},
+     {number("velocity").unit("m/s").doc("of the flow then; nil without one"),
+      [](const Departure& d) { return if_finite(d.velocity); }},
+     {vec3("displacement").unit("m").doc("relative to what it touched"), &Departure::displacement},
+     {vec3("place").unit("m").doc("of its centroid"), &Departure::place},
+     {number("share").doc("of the unit's volume; below 1: a piece of it"), &Departure::share}}};
+
+const Record<SettlePhase> settle_phase{
+    "SettlePhase",
+    "A part of settling.",
+    {{text("name"), &SettlePhase::name},
+     {integer("steps"), &SettlePhase::steps},
+     {number("time").unit("s").doc("it took"), &SettlePhase::time},
+     {number("kinetic_ratio").doc("kinetic energy over its peak, at its end"), &SettlePhase::kinetic_ratio},
+     {number("residual").doc("forces out of balance over the loads, at its end"), &SettlePhase::residual}}};
+
+const Record<SettleResult> settle_record{
+    "SettleResult",
+    "What settling came to.",
+    {{flag("converged"), &SettleResult::converged},
+     {number("kinetic_ratio").doc("kinetic energy over its peak"), &SettleResult::kinetic_ratio},
+     {number("peak_kinetic").unit("J"), &SettleResult::peak_kinetic},
+     {integer("steps"), &SettleResult::steps},
+     {number("time").unit("s").doc("it took of the model's"), &SettleResult::time},
+     {integer("made_rigid").doc("units, while they fell"), &SettleResult::made_rigid},
+     {plain("phases").doc("a list of cdem.SettlePhase"),
+      [](const SettleResult& r) { return settle_phase.list(r.phases); }},
+     {number("wall_time").unit("s"), &SettleResult::wall_time}}};
 
 std::shared_ptr<ModelObject> shared(const Session& session, const ModelObject& model) {
   for (const auto& known : session.models)
@@ -49,24 +71,6 @@ Value watch(Session& session, ModelObject& model, const Arguments& a) {
   object->model = shared(session, model);
   object->number = model.simulation.watch(a.text("bodies"), a.number("leaves"));
   return object;
-}
-
-Value settle_result(const SettleResult& r) {
-  Values phases;
-  for (const SettlePhase& phase : r.phases)
-    phases.emplace_back(Table{{"name", phase.name},
-                              {"steps", phase.steps},
-                              {"time", phase.time},
-                              {"kinetic_ratio", phase.kinetic_ratio},
-                              {"residual", phase.residual}});
-  return Table{{"converged", r.converged},
-               {"kinetic_ratio", r.kinetic_ratio},
-               {"peak_kinetic", r.peak_kinetic},
-               {"steps", r.steps},
-               {"time", r.time},
-               {"made_rigid", r.made_rigid},
-               {"phases", Table::list(std::move(phases))},
-               {"wall_time", r.wall_time}};
 }
 
 double out_of_balance(const SettleResult& r) {
@@ -92,7 +96,7 @@ Value settle(Session& session, ModelObject& model, const Arguments& a) {
   }
   warn_if_nothing_acts(session, model, "settle");
   warn_of_slivers(session, model);
-  return stage(session, model, "settle", a, settle_result({}),
+  return stage(session, model, "settle", a, settle_record(SettleResult()),
                [&](Simulation& simulation) {
                  const SettleResult result = simulation.settle(options);
                  if (!result.converged)
@@ -103,7 +107,7 @@ Value settle(Session& session, ModelObject& model, const Arguments& a) {
                                 " of the loads are out of balance; " + result.fastest + " moves most, at " +
                                 three_digits(result.fastest_speed) +
                                 " m/s; look whether it falls off, or raise max_time");
-                 return settle_result(result);
+                 return settle_record(result);
                },
                {{"callback", a.function("callback")}});
 }
@@ -111,41 +115,17 @@ Value settle(Session& session, ModelObject& model, const Arguments& a) {
 } // namespace
 
 void bind_settling(Module& m) {
-  m.records.push_back({"Departure",
-                       "A unit that has left its place, or a piece of one that broke.",
-                       {integer("unit").required().doc("number of the unit in its body, from 1"),
-                        number("time").unit("s").required(),
-                        number("velocity").unit("m/s").doc("of the flow then; nil without one"),
-                        vec3("displacement").unit("m").required().doc("relative to what it touched"),
-                        vec3("place").unit("m").required().doc("of its centroid"),
-                        number("share").required().doc("of the unit's volume; below 1: a piece of it")}});
+  m.records.push_back(departure);
   Class watched{"Watch", "Units that have left their place, in order: grows while the model runs."};
   watched.length = [](const Object& self) { return static_cast<std::int64_t>(watch_of(self).left().size()); };
-  watched.item = [](const Object& self, std::int64_t i) {
-    return departure_row(watch_of(self).left()[i - 1]);
-  };
+  watched.item = [](const Object& self, std::int64_t i) { return departure(watch_of(self).left()[i - 1]); };
   watched.item_type = "cdem.Departure";
   watched.text = [](const Object& self) {
     return "cdem.Watch (" + std::to_string(watch_of(self).left().size()) + " left)";
   };
   m.classes.push_back(watched);
 
-  m.records.push_back(
-      {"SettlePhase",
-       "A part of settling.",
-       {text("name").required(), integer("steps").required(),
-        number("time").unit("s").required().doc("it took"),
-        number("kinetic_ratio").required().doc("kinetic energy over its peak, at its end"),
-        number("residual").required().doc("forces out of balance over the loads, at its end")}});
-  m.records.push_back(
-      {"SettleResult",
-       "What settling came to.",
-       {flag("converged").required(), number("kinetic_ratio").required().doc("kinetic energy over its peak"),
-        number("peak_kinetic").unit("J").required(), integer("steps").required(),
-        number("time").unit("s").required().doc("it took of the model's"),
-        integer("made_rigid").required().doc("units, while they fell"),
-        plain("phases").required().doc("a list of cdem.SettlePhase"),
-        number("wall_time").unit("s").required()}});
+  m.records.insert(m.records.end(), {settle_phase, settle_record});
 
   Class& model = m.the_class("Model");
   model.add("watch",

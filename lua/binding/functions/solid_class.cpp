@@ -194,15 +194,9 @@ void bind_solid_class(Module& m) {
                         vec3("principal").unit("kg m2").required().doc("ascending"),
                         number("principal_ratio").required().doc("largest over smallest of them")}});
   Class solid{"Solid", "A free-form solid, made by cdem.solid.* and the armour units; it never changes."};
-  const auto optional = [](std::optional<double> SolidObject::*member) {
-    return [member](Session&, Object& self) -> Value {
-      const auto& value = static_cast<SolidObject&>(self).*member;
-      return value ? Value(*value) : Value();
-    };
-  };
-  solid.properties = {
-      {"height", "number?", "m", "of an armour unit as it was made", optional(&SolidObject::height)},
-      {"density", "number?", "kg/m3", "", optional(&SolidObject::density)}};
+  solid.property("height", "number?", "m", "of an armour unit as it was made",
+                 [](const SolidObject& self) { return self.height; });
+  solid.property("density", "number?", "kg/m3", "", [](const SolidObject& self) { return self.density; });
   solid.length = [](const Object& self) {
     return static_cast<std::int64_t>(static_cast<const SolidObject&>(self).solid.regions());
   };

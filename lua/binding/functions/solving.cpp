@@ -1,7 +1,7 @@
 // Solving calls: numbered stages, hashed by their arguments. In a check they return typed, empty results.
 #include "lua/binding/functions/mass_scaling.hpp"
 #include "lua/binding/functions/solving_stage.hpp"
-#include "lua/binding/module/module.hpp"
+#include "lua/binding/module/record.hpp"
 
 #include "libcdem/step/stage.hpp"
 #include "libgeom/core/error.hpp"
@@ -88,14 +88,16 @@ Value relax(Session& session, ModelObject& model, const Arguments& a) {
                {{"callback", a.function("callback")}});
 }
 
-Value run_result(const RunResult& r) {
-  return Table{{"steps", r.steps},
-               {"time", r.time},
-               {"time_step", r.time_step},
-               {"broken_tension", r.broken_tension},
-               {"broken_shear", r.broken_shear},
-               {"wall_time", r.wall_time}};
-}
+const Record<RunResult> run_record{
+    "RunResult",
+    "What real-time stepping came to.",
+    {{integer("steps"), &RunResult::steps},
+     {number("time").unit("s").doc("of the model"), &RunResult::time},
+     {number("time_step").unit("s"), &RunResult::time_step},
+     {integer("broken_tension").doc("bonds, in this stage"), &RunResult::broken_tension},
+     {integer("broken_shear").doc("bonds, in this stage"), &RunResult::broken_shear},
+     {number("wall_time").unit("s"), &RunResult::wall_time},
+     {mass_scaling_result_field()}}};
 
 Value run(Session& session, ModelObject& model, const Arguments& a) {
   RunOptions options;
@@ -124,10 +126,10 @@ Value run(Session& session, ModelObject& model, const Arguments& a) {
   warn_of_slivers(session, model);
   if (!a.has("duration") && !a.has("steps"))
     options.steps = std::numeric_limits<std::int64_t>::max(); // until stop says so
-  return stage(session, model, "run", a, run_result({}),
+  return stage(session, model, "run", a, run_record(RunResult()),
                [&](Simulation& simulation) {
                  const RunResult ran = simulation.run(options);
-                 Value result = run_result(ran);
+                 Value result = run_record(ran);
                  add_mass_scaling(session, "run", options.mass_scaling, ran.time_step, ran.scaled, result);
                  return result;
                },
@@ -175,13 +177,7 @@ void bind_results(Module& m) {
             "what the fastest node moved in the last 200 steps that were looked at"),
         integer("moving_block").doc("its block"),
         vec3("moving_place").unit("m").doc("where it was, undeformed"), text("trial").doc("as given")}});
-  m.records.push_back({"RunResult",
-                       "What real-time stepping came to.",
-                       {integer("steps").required(), number("time").unit("s").required().doc("of the model"),
-                        number("time_step").unit("s").required(),
-                        integer("broken_tension").required().doc("bonds, in this stage"),
-                        integer("broken_shear").required().doc("bonds, in this stage"),
-                        number("wall_time").unit("s").required(), mass_scaling_result_field()}});
+  m.records.push_back(run_record);
   m.records.push_back({"Stage",
                        "A solving call.",
                        {integer("number").required().doc("over all models"), text("kind").required(),

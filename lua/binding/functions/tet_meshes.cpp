@@ -1,7 +1,7 @@
 // Meshes of tetrahedra: how good they are, which outer faces they have, files and pictures.
 #include "lua/binding/functions/angles.hpp"
 #include "lua/binding/functions/picture_fields.hpp"
-#include "lua/binding/module/module.hpp"
+#include "lua/binding/module/record.hpp"
 #include "lua/binding/objects/solid_objects.hpp"
 #include "lua/binding/session/session.hpp"
 
@@ -64,23 +64,29 @@ Value shell_mesh(Session&, Object*, const Arguments& a) {
   return object;
 }
 
-Value quality(Session&, TetMeshObject& self, const Arguments&) {
-  const geom::MeshQuality q = geom::quality(self.mesh);
-  const auto count = [](std::size_t n) { return static_cast<std::int64_t>(n); };
-  return Table{{"nodes", count(q.nodes)},
-               {"tets", count(q.tets)},
-               {"outer_faces", count(q.outer_faces)},
-               {"volume", q.volume},
-               {"min_volume", q.min_volume},
-               {"max_volume", q.max_volume},
-               {"min_radius_ratio", q.min_radius_ratio},
-               {"mean_radius_ratio", q.mean_radius_ratio},
-               {"min_dihedral", degrees(q.min_dihedral)},
-               {"max_dihedral", degrees(q.max_dihedral)},
-               {"min_height", q.min_height},
-               {"min_edge", q.min_edge},
-               {"mean_edge", q.mean_edge},
-               {"max_edge", q.max_edge}};
+const Record<geom::MeshQuality> mesh_quality{
+    "MeshQuality",
+    "How good the tetrahedra of a mesh are.",
+    {{integer("nodes"), &geom::MeshQuality::nodes},
+     {integer("tets"), &geom::MeshQuality::tets},
+     {integer("outer_faces"), &geom::MeshQuality::outer_faces},
+     {number("volume").unit("m3"), &geom::MeshQuality::volume},
+     {number("min_volume").unit("m3"), &geom::MeshQuality::min_volume},
+     {number("max_volume").unit("m3"), &geom::MeshQuality::max_volume},
+     {number("min_radius_ratio").doc("3 r_inscribed / r_circumscribed: 1 regular, 0 flat"),
+      &geom::MeshQuality::min_radius_ratio},
+     {number("mean_radius_ratio"), &geom::MeshQuality::mean_radius_ratio},
+     {number("min_dihedral").unit("deg").doc("70.5 in a regular tetrahedron"),
+      [](const geom::MeshQuality& q) { return degrees(q.min_dihedral); }},
+     {number("max_dihedral").unit("deg"), [](const geom::MeshQuality& q) { return degrees(q.max_dihedral); }},
+     {number("min_height").unit("m").doc("corner to opposite face: limits the time step"),
+      &geom::MeshQuality::min_height},
+     {number("min_edge").unit("m"), &geom::MeshQuality::min_edge},
+     {number("mean_edge").unit("m"), &geom::MeshQuality::mean_edge},
+     {number("max_edge").unit("m"), &geom::MeshQuality::max_edge}}};
+
+Table quality(TetMeshObject& self) {
+  return mesh_quality(geom::quality(self.mesh));
 }
 
 std::vector<int> picked(const TetMeshObject& self, const Arguments& a) {
@@ -154,26 +160,8 @@ std::vector<Field> mesh_picture_declaration() {
   return fields;
 }
 
-Field deg(std::string name) {
-  return number(std::move(name)).unit("deg").required();
-}
-Field metres(std::string name) {
-  return number(std::move(name)).unit("m").required();
-}
-Field cubic_metres(std::string name) {
-  return number(std::move(name)).unit("m3").required();
-}
-
 void bind_mesh_records(Module& m) {
-  m.records.push_back(
-      {"MeshQuality",
-       "How good the tetrahedra of a mesh are.",
-       {integer("nodes").required(), integer("tets").required(), integer("outer_faces").required(),
-        cubic_metres("volume"), cubic_metres("min_volume"), cubic_metres("max_volume"),
-        number("min_radius_ratio").required().doc("3 r_inscribed / r_circumscribed: 1 regular, 0 flat"),
-        number("mean_radius_ratio").required(), deg("min_dihedral").doc("70.5 in a regular tetrahedron"),
-        deg("max_dihedral"), metres("min_height").doc("corner to opposite face: limits the time step"),
-        metres("min_edge"), metres("mean_edge"), metres("max_edge")}});
+  m.records.push_back(mesh_quality);
   m.records.push_back({"FaceGroup",
                        "Outer faces of a mesh that were picked.",
                        {integer("count").required(), number("area").unit("m2").required(),
@@ -223,23 +211,18 @@ void bind_tet_meshes(Module& m) {
   const auto of = [](const Object& self) -> const TetMeshObject& {
     return static_cast<const TetMeshObject&>(self);
   };
-  mesh.properties = {
-      {"nodes", "integer", "", "how many",
-       [of](Session&, Object& self) -> Value {
-         return static_cast<std::int64_t>(of(self).mesh.nodes.size());
-       }},
-      {"tets", "integer", "", "how many",
-       [of](Session&, Object& self) -> Value {
-         return static_cast<std::int64_t>(of(self).mesh.tets.size());
-       }},
-      {"regions", "integer", "", "how many; they are numbered from 1",
-       [of](Session&, Object& self) -> Value {
-         const std::vector<int>& region = of(self).mesh.region;
-         return static_cast<std::int64_t>(
-             region.empty() ? 1 : *std::max_element(region.begin(), region.end()) + 1);
-       }},
-      {"parts", "integer", "", "how many sets of tetrahedra share no node; in a model each moves by itself",
-       [of](Session&, Object& self) -> Value { return static_cast<std::int64_t>(of(self).parts); }}};
+  mesh.property("nodes", "integer", "", "how many",
+                [](const TetMeshObject& self) { return self.mesh.nodes.size(); });
+  mesh.property("tets", "integer", "", "how many",
+                [](const TetMeshObject& self) { return self.mesh.tets.size(); });
+  mesh.property("regions", "integer", "", "how many; they are numbered from 1",
+                [](const TetMeshObject& self) {
+                  const std::vector<int>& region = self.mesh.region;
+                  return region.empty() ? 1 : *std::max_element(region.begin(), region.end()) + 1;
+                });
+  mesh.property("parts", "integer", "",
+                "how many sets of tetrahedra share no node; in a model each moves by itself",
+                [](const TetMeshObject& self) { return self.parts; });
   mesh.text = [of](const Object& self) {
     return "cdem.TetMesh (" + of(self).title + ", " + std::to_string(of(self).mesh.tets.size()) +
            (of(self).mesh.tets.size() == 1 ? " tet" : " tets") +

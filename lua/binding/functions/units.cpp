@@ -1,5 +1,5 @@
 // The units of a model's body: the pile they are now, its measures, and which of them lie lowest.
-#include "lua/binding/module/module.hpp"
+#include "lua/binding/module/record.hpp"
 #include "lua/binding/objects/pile_object.hpp"
 #include "lua/binding/session/model_object.hpp"
 #include "lua/binding/text/nearest.hpp"
@@ -20,6 +20,14 @@ void require_body(const ModelObject& model, const std::string& key, const std::s
   if (std::find(model.body_names.begin(), model.body_names.end(), name) == model.body_names.end())
     throw InputError(key + " = \"" + name + "\": no such body" + which_there_are(name, model.body_names));
 }
+
+const Record<ContactSummary> contacts_record{
+    "Contacts",
+    "Contacts of meshed bodies.",
+    {{integer("acting").doc("semi-springs and semi-edges now"), &ContactSummary::acting},
+     {number("deepest").unit("m").doc("largest depth so far"), &ContactSummary::deepest},
+     {number("deepest_over_tet_height").doc("the same over the height of the lower tet"),
+      &ContactSummary::deepest_over_height}}};
 
 const geom::Pile& first_pile(const ModelObject& model, const std::string& body) {
   require_body(model, "body", body);
@@ -110,12 +118,7 @@ void bind_units(Module& m) {
         number("contacts_per_unit").required().doc("mean number of other meshed blocks that press on a unit"),
         integer("fewest_contacts").required().doc("of any unit"),
         list("contacts", number_type()).required().doc("of each unit")}});
-  m.records.push_back(
-      {"Contacts",
-       "Contacts of meshed bodies.",
-       {integer("acting").required().doc("semi-springs and semi-edges now"),
-        number("deepest").unit("m").required().doc("largest depth so far"),
-        number("deepest_over_tet_height").required().doc("the same over the height of the lower tet")}});
+  m.records.push_back(contacts_record);
   Class& model = m.the_class("Model");
   const Field body = text("body").required().doc("name of a meshed body");
   model.add("pile",
@@ -131,13 +134,7 @@ void bind_units(Module& m) {
   model
       .add(
           "contacts", "How many contacts of meshed bodies act, and how deep they have been.", {},
-          [](ModelObject& self) {
-            const ContactSummary c = self.simulation.contacts();
-            return Table{{"acting", c.acting},
-                         {"deepest", c.deepest},
-                         {"deepest_over_tet_height", c.deepest_over_height}};
-          },
-          "cdem.Contacts")
+          [](ModelObject& self) { return contacts_record(self.simulation.contacts()); }, "cdem.Contacts")
       .ordered();
   model.add(
       "lowest_units", "Numbers of the units whose centroids are lowest now, for cdem.select.units.", fields,

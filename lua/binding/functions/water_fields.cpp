@@ -1,6 +1,6 @@
 // cdem.water.*: fields of water that loads take.
 #include "lua/binding/functions/over_time.hpp"
-#include "lua/binding/module/module.hpp"
+#include "lua/binding/module/record.hpp"
 #include "lua/binding/objects/water_object.hpp"
 #include "lua/binding/session/session.hpp"
 
@@ -235,12 +235,17 @@ Value file_water(Session& session, Object*, const Arguments& a) {
                            (files.paths.size() == 1 ? " file" : " files"));
 }
 
-Value point_at(Session&, WaterObject& water, const Arguments& a) {
-  const WaterPoint point = water.field->at(a.vec3("place"), a.number("time"));
-  Table row{{"velocity", point.velocity}, {"acceleration", point.acceleration}, {"pressure", point.pressure}};
-  if (std::isfinite(point.surface))
-    row.named["surface"] = point.surface;
-  return row;
+const Record<WaterPoint> water_point{
+    "WaterPoint",
+    "Water at a place and time.",
+    {{vec3("velocity").unit("m/s"), &WaterPoint::velocity},
+     {vec3("acceleration").unit("m/s2").doc("of the particles"), &WaterPoint::acceleration},
+     {number("pressure").unit("Pa").doc("above that of the air"), &WaterPoint::pressure},
+     {number("surface").unit("m").doc("z of the free surface; nil where it is dry or water is everywhere"),
+      [](const WaterPoint& point) { return if_finite(point.surface); }}}};
+
+Table point_at(Session&, WaterObject& water, const Arguments& a) {
+  return water_point(water.field->at(a.vec3("place"), a.number("time")));
 }
 
 Field density_field() {
@@ -254,27 +259,15 @@ Field level_field() {
 }
 
 void bind_water_class(Module& m) {
-  m.records.push_back({"WaterPoint",
-                       "Water at a place and time.",
-                       {vec3("velocity").unit("m/s").required(),
-                        vec3("acceleration").unit("m/s2").required().doc("of the particles"),
-                        number("pressure").unit("Pa").required().doc("above that of the air"),
-                        number("surface").unit("m").doc(
-                            "z of the free surface; nil where it is dry or water is everywhere")}});
+  m.records.push_back(water_point);
   Class water{"Water", "A field of water, made by cdem.water.*; what model:flow takes as `water`."};
-  water.properties = {
-      {"density", "number", "kg/m3", "",
-       [](Session&, Object& self) -> Value { return static_cast<WaterObject&>(self).field->density(); }},
-      {"run_up", "number?", "m", "highest z that is wet at any time; on a slope only",
-       [](Session&, Object& self) -> Value {
-         const auto& slope = static_cast<WaterObject&>(self).slope;
-         return slope ? Value(slope->run_up()) : Value();
-       }},
-      {"run_down", "number?", "m", "lowest z of the water line; on a slope only",
-       [](Session&, Object& self) -> Value {
-         const auto& slope = static_cast<WaterObject&>(self).slope;
-         return slope ? Value(slope->run_down()) : Value();
-       }}};
+  water.property("density", "number", "kg/m3", "",
+                 [](const WaterObject& self) { return self.field->density(); });
+  water.property("run_up", "number?", "m", "highest z that is wet at any time; on a slope only",
+                 [](const WaterObject& self) { return self.slope ? Value(self.slope->run_up()) : Value(); });
+  water.property(
+      "run_down", "number?", "m", "lowest z of the water line; on a slope only",
+      [](const WaterObject& self) { return self.slope ? Value(self.slope->run_down()) : Value(); });
   water
       .add("at", "Velocity, acceleration, pressure and surface at a place and time.",
            {vec3("place").unit("m").required(), number("time").unit("s").standard(0.0)}, point_at,

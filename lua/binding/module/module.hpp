@@ -43,6 +43,8 @@ struct Property {
 
 // The type of the object that a body takes: body(Session&, T&, const Arguments&), or body(T&).
 template <class R, class T>
+T* self_of(R (*)(T&));
+template <class R, class T>
 T* self_of(R (*)(Session&, T&, const Arguments&));
 template <class Body, class R, class T>
 T* self_of(R (Body::*)(Session&, T&, const Arguments&) const);
@@ -65,10 +67,10 @@ struct Class {
 
   // A method whose body takes the session, the object and the arguments, or the object alone.
   template <class Body>
-  Function& add(std::string name, std::string doc, std::vector<Field> fields, Body body,
+  Function& add(std::string called, std::string sentence, std::vector<Field> fields, Body body,
                 std::string returns = "", std::string returns_doc = "") {
     using Self = SelfOf<Body>;
-    methods.push_back({std::move(name), std::move(doc), std::move(fields),
+    methods.push_back({std::move(called), std::move(sentence), std::move(fields),
                        [body](Session& session, Object* self, const Arguments& arguments) -> Value {
                          if constexpr (std::is_invocable_v<Body, Self&>)
                            return body(static_cast<Self&>(*self));
@@ -78,12 +80,12 @@ struct Class {
                        std::move(returns), std::move(returns_doc)});
     return methods.back();
   }
-  // get(const T&)
+  // get: a function of T&.
   template <class Get>
-  void property(std::string name, std::string lua_type, std::string unit, std::string doc, Get get) {
+  void property(std::string called, std::string lua_type, std::string unit, std::string sentence, Get get) {
     properties.push_back(
-        {std::move(name), std::move(lua_type), std::move(unit), std::move(doc),
-         [get](Session&, Object& self) -> Value { return get(static_cast<SelfOf<Get>&>(self)); }});
+        {std::move(called), std::move(lua_type), std::move(unit), std::move(sentence),
+         [get](Session&, Object& self) -> Value { return as_value(get(static_cast<SelfOf<Get>&>(self))); }});
   }
 };
 

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <variant>
@@ -90,6 +91,26 @@ struct Table {
 template <std::size_t n>
 Value::Value(const std::array<double, n>& x) {
   *this = Value(Table::list(Values(x.begin(), x.end())));
+}
+
+// What C++ has as a script gets it: an absent optional as nil, a vector as a list, any integer.
+template <class T>
+Value as_value(const T& x) {
+  if constexpr (std::is_integral_v<T> && !std::is_same_v<T, bool>)
+    return Value(static_cast<std::int64_t>(x));
+  else
+    return Value(x);
+}
+template <class T>
+Value as_value(const std::optional<T>& x) {
+  return x ? as_value(*x) : Value();
+}
+template <class T>
+Value as_value(const std::vector<T>& x) {
+  Values items;
+  for (const T& item : x)
+    items.push_back(as_value(item));
+  return Table::list(std::move(items));
 }
 
 // A number as a person would write it: shortest text that reads back to the same double.
