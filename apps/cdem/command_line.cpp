@@ -256,8 +256,4 @@ std::function<ExitCode()> parse_command_line(int argc, const char* const* argv) 
   return Parser().parse(argc, argv);
 }
 
-std::string command_line_manual() {
-  return Parser().manual();
-}
-
 } // namespace cdem::app

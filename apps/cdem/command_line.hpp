@@ -4,14 +4,10 @@
 #include "apps/cdem/process/exit_code.hpp"
 
 #include <functional>
-#include <string>
 
 namespace cdem::app {
 
 // What is to be done. Throws UsageError, naming the nearest right command or option.
 std::function<ExitCode()> parse_command_line(int argc, const char* const* argv);
-
-// docs/command-line.md: the help of every command.
-std::string command_line_manual();
 
 } // namespace cdem::app

@@ -33,7 +33,6 @@ struct Partition {
   Range point_chunks() const { return share(point_begin); }
   Range nodes() const { return share(node_begin); }
   int owner_of_node(std::int64_t node) const { return owner(node_begin, node); }
-  int owner_of_chunk(std::int64_t chunk) const { return owner(chunk_begin, chunk); }
 
   static int owner(const std::vector<std::int64_t>& begin, std::int64_t item);
 

@@ -59,11 +59,6 @@ double JIntegral::spread() const {
   return high > low ? (high - low) / std::abs(mean()) : 0;
 }
 
-double domain_integral(const Model& model, const State& state, const JFront& front, const JDomain& domain) {
-  return sum_over(model, state, front, domain_tets(model, state, front, domain)) /
-         length_of_front(model, front, domain);
-}
-
 JIntegral j_integral(const Model& model, const State& state, const ResolvedConditions& conditions,
                      const JFront& front, std::vector<JDomain> domains) {
   JIntegral result;

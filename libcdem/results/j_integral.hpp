@@ -45,7 +45,4 @@ struct JIntegral {
 JIntegral j_integral(const Model&, const State&, const ResolvedConditions&, const JFront&,
                      std::vector<JDomain> domains);
 
-// As it stands above, of one domain whose inner and outer radius are given; nothing is checked.
-double domain_integral(const Model&, const State&, const JFront&, const JDomain&);
-
 } // namespace cdem

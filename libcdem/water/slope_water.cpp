@@ -169,12 +169,4 @@ WaterPoint SlopeWater::at(const geom::Vec3& place, double time) const {
   return point;
 }
 
-double SlopeWater::mass_at(double time) const {
-  const auto frame = std::min(static_cast<std::size_t>(std::lround(time / frame_)), h_.size() - 1);
-  double sum = 0;
-  for (const double h : h_[frame])
-    sum += h * given_.cell;
-  return sum;
-}
-
 } // namespace cdem

@@ -35,7 +35,6 @@ public:
   double run_up() const { return run_up_; }     // m, highest z that has been wet
   double run_down() const { return run_down_; } // m, lowest z of the water line
   double duration() const { return given_.duration; }
-  double mass_at(double time) const; // m2, water over the bed
 
 private:
   struct Column {                       // between two cells
