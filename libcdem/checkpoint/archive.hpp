@@ -42,15 +42,7 @@ private:
 
 // Adds what has no memory elsewhere byte by byte, the gaps between members included: several times as fast. Values that
 // differ give different sums; values that are equal may do so too.
-class RawHasher {
-public:
-  static constexpr bool reading = false;
-  void raw(const void* data, std::size_t bytes) { sum_.add(data, bytes); }
-  std::uint64_t value() const { return sum_.value(); }
-
-private:
-  Xxh64 sum_;
-};
+class RawHasher : public Hasher {};
 
 // What it reads has a checksum that holds; what does not fit was written by another version.
 class Reader {

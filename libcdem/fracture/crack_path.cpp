@@ -1,5 +1,7 @@
 #include "libcdem/fracture/crack_path.hpp"
 
+#include "libgeom/core/disjoint_sets.hpp"
+
 #include <algorithm>
 #include <limits>
 #include <numeric>
@@ -13,24 +15,6 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double bridge_cost = 5;
 // Places of the front within this part of a block size of its farthest place are one tip.
 constexpr double about_as_far = 0.5;
-
-class Pieces {
-public:
-  explicit Pieces(std::size_t n) : parent_(n) { std::iota(parent_.begin(), parent_.end(), 0); }
-  int root(int i) {
-    while (parent_[i] != i)
-      i = parent_[i] = parent_[parent_[i]];
-    return i;
-  }
-  void join(int a, int b) {
-    a = root(a);
-    b = root(b);
-    parent_[std::max(a, b)] = std::min(a, b);
-  }
-
-private:
-  std::vector<int> parent_;
-};
 
 bool is(const State& state, int point, BondMode mode) {
   return state.bond_mode[point] == static_cast<std::uint8_t>(mode);
@@ -76,13 +60,13 @@ bool on_front(const Model& model, const State& state, const std::vector<int>& po
   const auto index = [&](int block) {
     return static_cast<int>(std::find(blocks.begin(), blocks.end(), block) - blocks.begin());
   };
-  Pieces pieces(blocks.size());
+  geom::DisjointSets pieces(blocks.size());
   for (const int p : points)
     if (is(state, p, BondMode::intact))
-      pieces.join(index(interface(p).block_a), index(interface(p).block_b));
+      pieces.unite(index(interface(p).block_a), index(interface(p).block_b));
   for (const int p : points)
     if (!is(state, p, BondMode::intact) &&
-        pieces.root(index(interface(p).block_a)) == pieces.root(index(interface(p).block_b)))
+        pieces.find(index(interface(p).block_a)) == pieces.find(index(interface(p).block_b)))
       return true;
   return false;
 }
@@ -257,15 +241,15 @@ CrackPath crack_path(const Model& model, const State& state, const std::optional
 }
 
 std::vector<double> piece_volumes(const Model& model, const State& state) {
-  Pieces pieces(model.blocks.size());
+  geom::DisjointSets pieces(model.blocks.size());
   for (int p = 0; p < static_cast<int>(model.points.size()); ++p)
     if (is(state, p, BondMode::intact)) {
       const Interface& interface = model.interfaces[model.points[p].interface];
-      pieces.join(interface.block_a, interface.block_b);
+      pieces.unite(interface.block_a, interface.block_b);
     }
   std::vector<double> volume(model.blocks.size(), 0.0);
   for (int b = 0; b < static_cast<int>(model.blocks.size()); ++b)
-    volume[pieces.root(b)] += model.blocks[b].mass.volume;
+    volume[pieces.find(b)] += model.blocks[b].mass.volume;
   volume.erase(std::remove(volume.begin(), volume.end(), 0.0), volume.end());
   std::sort(volume.rbegin(), volume.rend());
   return volume;
