@@ -7,6 +7,8 @@
 
 namespace cdem::script {
 
+struct Session;
+
 std::vector<Field> disc_fields();
 std::vector<geom::Disc> discs_of(Session&, const Arguments&); // of the list "discs"
 

@@ -1,4 +1,5 @@
 // Flow on outer faces, pieces, and the search for the flow that breaks a solid (Feng 2014 section 3).
+#include "lua/binding/functions/answers.hpp"
 #include "lua/binding/functions/mass_scaling.hpp"
 #include "lua/binding/functions/solving_stage.hpp"
 #include "lua/binding/module/record.hpp"
@@ -6,8 +7,6 @@
 #include "lua/binding/session/selections.hpp"
 
 #include "libgeom/core/error.hpp"
-
-#include <cmath>
 
 namespace cdem::script {
 
@@ -20,12 +19,7 @@ std::function<double(double)> velocity_of(const Arguments& a, double now) {
     return [v = given.number()](double) { return v; };
   const auto function = a.function("velocity");
   auto velocity = [function](double time) {
-    const Values answer = function->call({time});
-    if (answer.empty() || !answer[0].is_number() || !(answer[0].number() >= 0) ||
-        !std::isfinite(answer[0].number()))
-      throw InputError("velocity(" + number_text(time) + ") of " + function->place(),
-                       answer.empty() ? "nothing" : describe(answer[0]), "a finite number >= 0 m/s");
-    return answer[0].number();
+    return number_answered(*function, "velocity", {time}, "a finite number >= 0 m/s", 0);
   };
   velocity(now); // so that a slip in it is an error of the line that gave it
   return velocity;

@@ -1,10 +1,6 @@
 #include "lua/binding/functions/over_place.hpp"
 
-#include "lua/binding/functions/solving_warnings.hpp"
-
-#include "libgeom/core/error.hpp"
-
-#include <cmath>
+#include "lua/binding/functions/answers.hpp"
 
 namespace cdem::script {
 
@@ -12,12 +8,7 @@ std::function<double(const geom::Vec3&)> number_at_place(const std::shared_ptr<R
                                                          const std::string& field, const std::string& allowed,
                                                          double least) {
   return [function, field, allowed, least](const geom::Vec3& x) {
-    const Values answer = function->call({x.x(), x.y(), x.z()});
-    if (answer.empty() || !answer[0].is_number() || !std::isfinite(answer[0].number()) ||
-        !(answer[0].number() >= least))
-      throw geom::InputError(field + place_text(x) + " of " + function->place(),
-                             answer.empty() ? "nothing" : describe(answer[0]), allowed);
-    return answer[0].number();
+    return number_answered(*function, field, {x.x(), x.y(), x.z()}, allowed, least);
   };
 }
 

@@ -1,9 +1,9 @@
 #include "lua/binding/functions/over_time.hpp"
 
+#include "lua/binding/functions/answers.hpp"
+
 #include "libcdem/load/time_table.hpp"
 #include "libgeom/core/error.hpp"
-
-#include <cmath>
 
 namespace cdem::script {
 
@@ -22,13 +22,7 @@ Amplitude of_table(const Arguments& given) {
 }
 
 Amplitude of_function(const std::shared_ptr<Reference>& function, double now) {
-  Amplitude amplitude = [function](double time) {
-    const Values answer = function->call({time});
-    if (answer.empty() || !answer[0].is_number() || !std::isfinite(answer[0].number()))
-      throw InputError("amplitude(" + number_text(time) + ") of " + function->place(),
-                       answer.empty() ? "nothing" : describe(answer[0]), "a finite number");
-    return answer[0].number();
-  };
+  Amplitude amplitude = [function](double time) { return number_answered(*function, "amplitude", {time}); };
   amplitude(now); // so that a slip in it is an error of the line that gave it
   return amplitude;
 }
@@ -63,18 +57,7 @@ Amplitude amplitude_of(const Arguments& a, double now) {
 
 std::function<geom::Vec3(double)> vector_over_time(const std::shared_ptr<Reference>& function,
                                                    const std::string& field, double now) {
-  const auto vector = [function, field](double time) {
-    const Values answer = function->call({time});
-    const Table* const three = answer.empty() ? nullptr : answer[0].table();
-    geom::Vec3 v(std::nan(""), 0, 0);
-    if (three && three->items.size() == 3)
-      for (int axis = 0; axis < 3; ++axis)
-        v[axis] = three->items[axis].is_number() ? three->items[axis].number() : std::nan("");
-    if (!v.allFinite())
-      throw InputError(field + "(" + number_text(time) + ") of " + function->place(),
-                       answer.empty() ? "nothing" : describe(answer[0]), "three finite numbers {x, y, z}");
-    return v;
-  };
+  const auto vector = [function, field](double time) { return vector_answered(*function, field, {time}); };
   vector(now);
   return vector;
 }

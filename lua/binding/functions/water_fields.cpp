@@ -1,4 +1,5 @@
 // cdem.water.*: fields of water that loads take.
+#include "lua/binding/functions/answers.hpp"
 #include "lua/binding/functions/over_time.hpp"
 #include "lua/binding/module/record.hpp"
 #include "lua/binding/objects/water_object.hpp"
@@ -39,47 +40,27 @@ Value uniform(Session&, Object*, const Arguments& a) {
   return holding(uniform_water(water), "water of one velocity");
 }
 
-std::string in_place(double x, double y, double z, double t) {
-  return "(" + number_text(x) + ", " + number_text(y) + ", " + number_text(z) + ", " + number_text(t) + ")";
-}
-
-std::function<geom::Vec3(const geom::Vec3&, double)> vector_in_water(const std::shared_ptr<Reference>& f,
-                                                                     const std::string& field) {
-  if (!f)
-    return nullptr;
-  return [f, field](const geom::Vec3& x, double t) {
-    const Values answer = f->call({x.x(), x.y(), x.z(), t});
-    const Table* const three = answer.empty() ? nullptr : answer[0].table();
-    geom::Vec3 v(std::nan(""), 0, 0);
-    if (three && three->items.size() == 3)
-      for (int axis = 0; axis < 3; ++axis)
-        v[axis] = three->items[axis].is_number() ? three->items[axis].number() : std::nan("");
-    if (!v.allFinite())
-      throw InputError(field + in_place(x.x(), x.y(), x.z(), t) + " of " + f->place(),
-                       answer.empty() ? "nothing" : describe(answer[0]), "three finite numbers {x, y, z}");
-    return v;
-  };
-}
-
-std::function<double(const geom::Vec3&, double)> number_in_water(const std::shared_ptr<Reference>& f,
-                                                                 const std::string& field) {
-  if (!f)
-    return nullptr;
-  return [f, field](const geom::Vec3& x, double t) {
-    const Values answer = f->call({x.x(), x.y(), x.z(), t});
-    if (answer.empty() || !answer[0].is_number() || !std::isfinite(answer[0].number()))
-      throw InputError(field + in_place(x.x(), x.y(), x.z(), t) + " of " + f->place(),
-                       answer.empty() ? "nothing" : describe(answer[0]), "a finite number");
-    return answer[0].number();
-  };
+// In x, y, z and time; none where the script gives none.
+template <class Answer>
+auto in_water(const Arguments& a, const std::string& field, const Answer& answer) {
+  using Given = decltype(answer(std::declval<const Reference&>(), field, Values()));
+  std::function<Given(const geom::Vec3&, double)> found;
+  if (const auto f = a.function(field))
+    found = [f, field, answer](const geom::Vec3& x, double t) {
+      return answer(*f, field, {x.x(), x.y(), x.z(), t});
+    };
+  return found;
 }
 
 Value field(Session&, Object*, const Arguments& a) {
   FunctionWater water;
-  water.velocity = vector_in_water(a.function("velocity"), "velocity");
-  water.acceleration = vector_in_water(a.function("acceleration"), "acceleration");
-  water.pressure = number_in_water(a.function("pressure"), "pressure");
-  water.surface = number_in_water(a.function("surface"), "surface");
+  const auto number = [](const Reference& f, const std::string& field, const Values& at) {
+    return number_answered(f, field, at);
+  };
+  water.velocity = in_water(a, "velocity", vector_answered);
+  water.acceleration = in_water(a, "acceleration", vector_answered);
+  water.pressure = in_water(a, "pressure", number);
+  water.surface = in_water(a, "surface", number);
   water.density = a.number("density");
   auto object = holding(function_water(water), "water of functions");
   object->field->at(geom::Vec3::Zero(), 0); // so that a slip in them is an error of the line that gave them
@@ -138,12 +119,7 @@ std::function<double(double)> entering(const Arguments& a, const SlopeGiven& slo
   } else {
     const auto function = a.function("waves");
     height = [function](double time) {
-      const Values answer = function->call({time});
-      if (answer.empty() || !answer[0].is_number() || !std::isfinite(answer[0].number()))
-        throw InputError("waves(" + number_text(time) + ") of " + function->place(),
-                         answer.empty() ? "nothing" : describe(answer[0]),
-                         "a finite height over still water (m)");
-      return answer[0].number();
+      return number_answered(*function, "waves", {time}, "a finite height over still water (m)");
     };
   }
   const double ramp = a.number("ramp");
