@@ -1,7 +1,7 @@
 #include "libcdem/fracture/notch.hpp"
 
 #include "libcdem/bond/face_frame.hpp"
-#include "libcdem/fracture/free_nodes.hpp"
+#include "libcdem/fracture/split_nodes.hpp"
 #include "libcdem/model/build/add_meshes.hpp"
 #include "libgeom/mesh/boundary.hpp"
 
@@ -56,7 +56,7 @@ std::vector<char> nodes_to_free(const Model& model, const Selects& at) {
 std::int64_t notch(Model& model, State& state, const Selects& at) {
   const std::vector<char> nodes = nodes_to_free(model, at);
   if (std::find(nodes.begin(), nodes.end(), 1) != nodes.end()) {
-    Freed freed = free_nodes(model, state, nodes);
+    Freed freed = split_nodes(model, state, nodes);
     model = std::move(freed.model);
     state = std::move(freed.state);
   }

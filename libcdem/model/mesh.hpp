@@ -3,7 +3,7 @@
 //
 // A copy of a node is a connected component of the tets around it through faces without bonds: where every face is
 // bonded each tet has its own four nodes, where none is the nodes are those of the mesh. In a cohesive body a face is
-// bonded in this sense once one of its nodes has been freed (fracture/free_nodes.hpp), and only freed nodes have copies.
+// bonded in this sense once one of its nodes has been freed (fracture/split_nodes.hpp), and only freed nodes have copies.
 //
 // Tets are stored in the order of a Hilbert curve, nodes in the order of their first use. A chunk is a run of tets. It
 // owns the nodes that it is the first to use; nodes that no other chunk uses (inner) come first. It lists the other

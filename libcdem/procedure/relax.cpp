@@ -210,7 +210,7 @@ RelaxResult relax(const StageContext& context, const RelaxOptions& options, cons
   RelaxResult result;
   const auto step = [&] {
     const bool renewed = stage.renew_interfaces(),
-               freed = (options.breaking && stage.free_nodes(1)) || renewed;
+               freed = (options.breaking && stage.split_nodes(1)) || renewed;
     if (freed) {
       masses = FictitiousMasses(context.model, stage.work.resolved.bolts);
       previous_force.assign(masses.of_nodes().size(), {});

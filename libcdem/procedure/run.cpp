@@ -214,7 +214,7 @@ RunResult run(const StageContext& context, const RunOptions& options, const std:
   bool stopped = false;
   while (stage.step < clock.steps() && !stopped) {
     const bool renewed = stage.renew_interfaces(),
-               freed = (options.breaking && stage.free_nodes(stepping.time_step)) || renewed;
+               freed = (options.breaking && stage.split_nodes(stepping.time_step)) || renewed;
     if (freed) {
       viscous = viscous_forces(context.model);
       stable_now = context.model.frames.empty() ? 0 : stable_of_all();

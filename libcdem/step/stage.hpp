@@ -3,7 +3,7 @@
 //   keep_restart_point       where the stage can be left
 //   update_contacts          contacts for where the nodes are; the longest step that they leave
 //   renew_interfaces         of blocks that have slid past each other: the model has other springs then
-//   free_nodes               of cohesive bodies, where faces near their strength: the model is another one then
+//   split_nodes              of cohesive bodies, where faces near their strength: the model is another one then
 //   update_crack_pressures   pressures of fluids in cracks; the longest step that they leave
 //   update_loads             loads at this time
 //   advance                  begin_cracks; bond_forces; element_forces; shared_node_forces; rigid_bodies; what other
@@ -16,7 +16,7 @@
 #pragma once
 
 #include "libcdem/fracture/begin_cracks.hpp"
-#include "libcdem/fracture/free_nodes.hpp"
+#include "libcdem/fracture/split_nodes.hpp"
 #include "libcdem/parallel/thread_choice.hpp"
 #include "libcdem/step/contact_update.hpp"
 #include "libcdem/step/escape.hpp"
@@ -69,7 +69,7 @@ public:
 
   // Frees the nodes whose time it is. True when it has: arrays by node are others now, the stable step is shorter, and the
   // stage can be left here (keep_restart_point). time_step: s, of the steps to come.
-  bool free_nodes(double time_step);
+  bool split_nodes(double time_step);
   // Gives interfaces that have slid new springs (fracture/renew_interfaces.hpp). True when it has: the stable step is
   // another one, and the stage can be left here.
   bool renew_interfaces();

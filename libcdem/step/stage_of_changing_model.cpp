@@ -10,7 +10,7 @@
 
 namespace cdem {
 
-bool Stage::free_nodes(double time_step) {
+bool Stage::split_nodes(double time_step) {
   time_step_ = time_step;
   if (watch_.empty() || !context_.changing)
     return false;
@@ -29,7 +29,7 @@ bool Stage::free_nodes(double time_step) {
     due = std::find(nodes.begin(), nodes.end(), 1) != nodes.end();
   }
   if (due) {
-    Freed freed = cdem::free_nodes(model, state, nodes);
+    Freed freed = cdem::split_nodes(model, state, nodes);
     *context_.changing = std::move(freed.model);
     state = std::move(freed.state);
     if (scale_masses)

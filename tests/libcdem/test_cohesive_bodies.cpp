@@ -1,6 +1,6 @@
 // Bodies that are continuous until they crack: nothing changes while they are whole, nothing jumps when nodes are freed,
 // they crack at their strength whichever way the mesh lies, and a crack takes its fracture energy.
-#include "libcdem/fracture/free_nodes.hpp"
+#include "libcdem/fracture/split_nodes.hpp"
 #include "libcdem/fracture/working_plane.hpp"
 #include "libcdem/results/energy.hpp"
 #include "tests/libcdem/cohesive_concrete.hpp"
@@ -31,7 +31,7 @@ void free_some(System& s, double part) {
     freed = static_cast<char>(uniform(draw) < part);
   for (std::size_t i = 0; i < nodes.size(); ++i)
     nodes[i] = of_original[s.model.mesh.original[i]];
-  cdem::Freed rebuilt = cdem::free_nodes(s.model, s.state, nodes);
+  cdem::Freed rebuilt = cdem::split_nodes(s.model, s.state, nodes);
   s.adopt(std::move(rebuilt.model), std::move(rebuilt.state));
 }
 

@@ -1,6 +1,6 @@
 // Bonded blocks with bonds = "cohesive": one mesh, whose joints carry exactly the uniform traction and break at T.
 #include "libcdem/bond/fragments.hpp"
-#include "libcdem/fracture/free_nodes.hpp"
+#include "libcdem/fracture/split_nodes.hpp"
 #include "libcdem/join_blocks.hpp"
 #include "libcdem/results/energy.hpp"
 #include "libgeom/assembly/builders.hpp"
@@ -43,7 +43,7 @@ cdem::BodySpec joined(geom::Assembly shape, double zone_size = 0) {
 }
 
 void free_all(System& s) {
-  cdem::Freed freed = cdem::free_nodes(s.model, s.state, std::vector<char>(s.model.node_position.size(), 1));
+  cdem::Freed freed = cdem::split_nodes(s.model, s.state, std::vector<char>(s.model.node_position.size(), 1));
   s.adopt(std::move(freed.model), std::move(freed.state));
 }
 

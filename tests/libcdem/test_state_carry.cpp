@@ -1,8 +1,8 @@
 // Where the topology changes, every field of the state is found where the table of State says.
 #include "tests/libcdem/cohesive_concrete.hpp"
 
-#include "libcdem/fracture/free_nodes.hpp"
 #include "libcdem/fracture/rebuild.hpp"
+#include "libcdem/fracture/split_nodes.hpp"
 #include "libcdem/state/table.hpp"
 #include "libgeom/assembly/builders.hpp"
 #include "libgeom/assembly/edit.hpp"
@@ -135,10 +135,10 @@ TEST_CASE("freeing nodes carries every field of all bodies over as its table say
       nodes[i] = of.node_position[i].x() > from && of.node_position[i].x() < to;
     return nodes;
   };
-  const cdem::Freed before = cdem::free_nodes(model, state, some(model, 30.1, 30.5));
+  const cdem::Freed before = cdem::split_nodes(model, state, some(model, 30.1, 30.5));
   cdem::State from = before.state;
   number_all(before.model, from);
-  const cdem::Freed freed = cdem::free_nodes(before.model, from, some(before.model, 30.4, 30.9));
+  const cdem::Freed freed = cdem::split_nodes(before.model, from, some(before.model, 30.4, 30.9));
   REQUIRE(freed.model.node_position.size() > before.model.node_position.size());
 
   const std::vector<int>& old_node = freed.old_node;
@@ -199,7 +199,7 @@ TEST_CASE("a model rebuilt of the same blocks has the same state, field by field
   std::vector<char> nodes(built.node_position.size(), 0);
   for (std::size_t i = 0; i < nodes.size(); ++i)
     nodes[i] = built.node_position[i].x() > 30.2 && built.node_position[i].x() < 30.6;
-  const cdem::Freed freed = cdem::free_nodes(built, cdem::initial_state(built), nodes);
+  const cdem::Freed freed = cdem::split_nodes(built, cdem::initial_state(built), nodes);
   cdem::State from = freed.state;
   number_all(freed.model, from);
   std::vector<cdem::Successor> all;

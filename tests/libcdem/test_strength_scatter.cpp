@@ -1,6 +1,6 @@
 // Strength that scatters: Weibull's distribution and its size effect, the same draws whatever the numbering.
-#include "libcdem/fracture/free_nodes.hpp"
 #include "libcdem/fracture/rebuild.hpp"
+#include "libcdem/fracture/split_nodes.hpp"
 #include "libcdem/joint/strength_scatter.hpp"
 #include "libgeom/assembly/builders.hpp"
 #include "libgeom/core/random.hpp"
@@ -163,7 +163,7 @@ TEST_CASE("strength scatter: freeing nodes changes no face's strength, cohesion 
     std::vector<char> nodes(s.model.node_position.size(), 0);
     for (std::size_t i = 0; i < nodes.size(); ++i)
       nodes[i] = static_cast<char>(s.model.node_position[i].x() <= part * 0.3);
-    cdem::Freed freed = cdem::free_nodes(s.model, s.state, nodes);
+    cdem::Freed freed = cdem::split_nodes(s.model, s.state, nodes);
     s.adopt(std::move(freed.model), std::move(freed.state));
     each([&](const auto& tets, double own) {
       const auto [found, fresh] = before.emplace(tets, own);

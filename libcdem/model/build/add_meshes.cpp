@@ -447,7 +447,7 @@ void add_meshes(Model& model, std::vector<MeshSeed>&& seeds) {
     const Splitting splitting{mesh, body.bonding, seed.freed};
     const std::vector<BondedFace> bonded =
         bonded_faces(mesh, inner, body, splitting, has_own_strengths(model));
-    SplitMesh split = split_nodes(mesh, inner, splitting);
+    SplitMesh split = split_mesh(mesh, inner, splitting);
     const int chunk_tets = chunk_size(split, body.bonding);
     const std::vector<std::int64_t> inner_nodes =
         inner_first(split, bonded, chunk_tets, body.bonding.is_cohesive());

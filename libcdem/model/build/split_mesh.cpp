@@ -30,8 +30,8 @@ double tet_volume(const geom::TetMesh& mesh, int t) {
   return (x[n[1]] - x[n[0]]).dot((x[n[2]] - x[n[0]]).cross(x[n[3]] - x[n[0]])) / 6;
 }
 
-SplitMesh split_nodes(const geom::TetMesh& mesh, const std::vector<geom::InnerFace>& inner,
-                      const Splitting& splitting) {
+SplitMesh split_mesh(const geom::TetMesh& mesh, const std::vector<geom::InnerFace>& inner,
+                     const Splitting& splitting) {
   geom::DisjointSets sets(4 * mesh.tets.size()); // of corners, 4 tet + corner
   std::vector<int> first(mesh.nodes.size(), -1);
   for (int i = 0; i < static_cast<int>(4 * mesh.tets.size()); ++i) {

@@ -29,7 +29,7 @@ struct Splitting {
   }
 };
 
-SplitMesh split_nodes(const geom::TetMesh&, const std::vector<geom::InnerFace>&, const Splitting&);
+SplitMesh split_mesh(const geom::TetMesh&, const std::vector<geom::InnerFace>&, const Splitting&);
 
 struct BondedFace {
   geom::InnerFace face;

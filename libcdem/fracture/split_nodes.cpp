@@ -1,4 +1,4 @@
-#include "libcdem/fracture/free_nodes.hpp"
+#include "libcdem/fracture/split_nodes.hpp"
 
 #include "libcdem/bond/fragments.hpp"
 #include "libcdem/contact/response/contact_point.hpp"
@@ -61,7 +61,7 @@ void map_triangles(const Model& old, const Model& now, TopologyMap& map) {
 
 } // namespace
 
-Freed free_nodes(const Model& model, const State& state, const std::vector<char>& nodes) {
+Freed split_nodes(const Model& model, const State& state, const std::vector<char>& nodes) {
   Freed freed{with_freed_nodes(model, nodes), state, {}, {}};
   TopologyMap map;
   map_nodes(model, freed.model, map);

@@ -20,7 +20,7 @@ struct Freed {
 
 // The same model and state with these nodes freed (n_nodes). The stress of the state must belong to the present
 // positions of the nodes.
-Freed free_nodes(const Model&, const State&, const std::vector<char>& nodes);
+Freed split_nodes(const Model&, const State&, const std::vector<char>& nodes);
 
 // Gives the faces between the copies of these nodes the forces with which all copies of a node have one acceleration, that
 // of all of them together, where the net forces (N, n_nodes) alone would pull them apart: differences of a potential that
