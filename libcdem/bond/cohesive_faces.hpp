@@ -2,7 +2,7 @@
 //
 // A face that holds has the traction of element/face_jumps.hpp; its penalty k (j + o) is computed here, with j the
 // relative displacement at three points of the face, and o = 0 unless a crack began there and did not continue. When
-// the mean stress s of the two tets reaches the strength on a plane with the normal m (fracture/working_plane.hpp) the
+// the mean stress s of the two tets reaches the strength on a plane with the normal m (fracture/critical_plane.hpp) the
 // face cracks. From then on its law acts on that plane, for any direction n of the face, and does not depend on the
 // stress of the tets:
 //   t = (m.n) law(j + w0) + (1 - D) r0

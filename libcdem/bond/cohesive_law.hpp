@@ -10,7 +10,7 @@ namespace cdem {
 // What a point remembers.
 template <class T>
 struct CohesivePoint {
-  Triple<T> plane{};  // m, unit normal of the working plane
+  Triple<T> plane{};  // m, unit normal of the critical plane
   Triple<T> offset{}; // m, w0
   Triple<T> rest{};   // Pa, r0
   Triple<T> slip{};   // m, of the damaged part

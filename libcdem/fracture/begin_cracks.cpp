@@ -134,8 +134,8 @@ private:
     const FacePlane kind = plane_of_face(number);
     const auto plane_at = [&] {
       if (kind != FacePlane::of_material)
-        return working_plane(stress, rock, at.frame.normal, kind);
-      auto found = working_plane(stress, rock, at.frame.normal, FacePlane::of_ragged_border);
+        return critical_plane(stress, rock, at.frame.normal, kind);
+      auto found = critical_plane(stress, rock, at.frame.normal, FacePlane::of_ragged_border);
       if (found && std::abs(found->normal.dot(at.frame.normal)) < least_cosine &&
           !watch_.is_nearest_of_a_tet(model_, state_, tets, at.frame.normal, found->normal))
         found.reset();
@@ -177,7 +177,7 @@ private:
     rock.cohesion *= factor;
   }
 
-  void begin(std::int64_t batch, int lane, FaceMoment at, const WorkingPlane& plane, bool was_beyond) {
+  void begin(std::int64_t batch, int lane, FaceMoment at, const CriticalPlane& plane, bool was_beyond) {
     const std::int64_t number = batch * lanes + lane;
     const Vec3 change = plane.traction - at.stress * plane.normal;
     if (!was_beyond && change.norm() > 1e-9 * plane.traction.norm()) {

@@ -2,7 +2,7 @@
 // one of them can be at its strength: a bound for each law of the body, by the weakest face that has it.
 #pragma once
 
-#include "libcdem/fracture/working_plane.hpp"
+#include "libcdem/fracture/critical_plane.hpp"
 #include "libcdem/model/model.hpp"
 
 namespace cdem {

@@ -8,7 +8,7 @@
 //           then all faces above `freed_at` are freed together, since freeing is dear
 #pragma once
 
-#include "libcdem/fracture/working_plane.hpp"
+#include "libcdem/fracture/critical_plane.hpp"
 #include "libcdem/model/model.hpp"
 #include "libcdem/state/state.hpp"
 

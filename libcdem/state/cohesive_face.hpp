@@ -8,7 +8,7 @@ namespace cdem {
 
 struct CohesiveFace {
   using Vector = std::array<double, 3>;
-  Vector plane{};                 // normal of the working plane, unit
+  Vector plane{};                 // normal of the critical plane, unit
   std::array<Vector, 3> offset{}; // m, per point: w0, added to the relative displacement in the law
   std::array<Vector, 3>
       rest{}; // Pa, per point: what the traction was beyond that of the plane, when it began

@@ -11,7 +11,7 @@ namespace cdem {
 enum class FaceStage : std::uint8_t {
   holding,  // its sides hold together
   resumed,  // they do so again after a crack that did not go on
-  cracking, // a cohesive law acts on its working plane
+  cracking, // a cohesive law acts on its critical plane
   parted,   // it carries nothing
   separated // it has lost its strength and opened: what is left is a contact on its own plane, until its sides have left each other
 };

@@ -1,7 +1,7 @@
 // Bodies that are continuous until they crack: nothing changes while they are whole, nothing jumps when nodes are freed,
 // they crack at their strength whichever way the mesh lies, and a crack takes its fracture energy.
+#include "libcdem/fracture/critical_plane.hpp"
 #include "libcdem/fracture/split_nodes.hpp"
-#include "libcdem/fracture/working_plane.hpp"
 #include "libcdem/results/energy.hpp"
 #include "tests/libcdem/cohesive_concrete.hpp"
 #include "tests/libcdem/going_on.hpp"
@@ -136,18 +136,18 @@ TEST_CASE("cohesive bodies: the plane that fails", "[cohesive][law]") {
   const double sine = 0.5, cosine = std::cos(30 * degree);
   SECTION("in tension square to the largest stress, from the strength on") {
     const Vec3 face = turn * Vec3(0.9, 0.3, -0.3).normalized();
-    CHECK_FALSE(working_plane(stress(0.999 * tension, 1e6, -1e6), rock, face));
-    const auto plane = working_plane(stress(1.001 * tension, 1e6, -1e6), rock, face);
+    CHECK_FALSE(critical_plane(stress(0.999 * tension, 1e6, -1e6), rock, face));
+    const auto plane = critical_plane(stress(1.001 * tension, 1e6, -1e6), rock, face);
     REQUIRE(plane);
     CHECK(plane->mode == cdem::BondMode::broken_tension);
     CHECK((plane->normal - turn * Vec3::UnitX()).norm() < 1e-6);
-    CHECK_FALSE(working_plane(stress(1.001 * tension, 1e6, -1e6), rock, turn * Vec3(0.6, 0.8, 0)));
+    CHECK_FALSE(critical_plane(stress(1.001 * tension, 1e6, -1e6), rock, turn * Vec3(0.6, 0.8, 0)));
   }
   SECTION("in shear where Mohr and Coulomb say") {
     const double s1 = -1e6, s3 = (s1 * (1 + sine) - 2 * cohesion * cosine) / (1 - sine);
     CHECK(cdem::strength_use(stress(s1, -2e6, s3), rock) == Approx(1).epsilon(1e-9));
     const Vec3 wanted = turn * Vec3(std::sin(60 * degree), 0, std::cos(60 * degree));
-    const auto plane = working_plane(1.001 * stress(s1, -2e6, s3), rock, -wanted);
+    const auto plane = critical_plane(1.001 * stress(s1, -2e6, s3), rock, -wanted);
     REQUIRE(plane);
     CHECK(plane->mode == cdem::BondMode::broken_shear);
     CHECK((plane->normal + wanted).norm() < 1e-6);
@@ -159,7 +159,7 @@ TEST_CASE("cohesive bodies: the plane that fails", "[cohesive][law]") {
     const double strength = 2 * cohesion * cosine / (1 - sine);
     const Vec3 face =
         turn * Vec3(std::sin(60 * degree) * 0.6, std::sin(60 * degree) * 0.8, std::cos(60 * degree));
-    const auto plane = working_plane(stress(0, 0, -1.001 * strength), rock, face);
+    const auto plane = critical_plane(stress(0, 0, -1.001 * strength), rock, face);
     REQUIRE(plane);
     CHECK((plane->normal - face).norm() < 1e-6);
   }

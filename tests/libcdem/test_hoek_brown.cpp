@@ -1,5 +1,5 @@
 // The generalised Hoek-Brown strength: its constants, plasticity that returns to it, and faces that crack at it.
-#include "libcdem/fracture/working_plane.hpp"
+#include "libcdem/fracture/critical_plane.hpp"
 #include "libcdem/joint/hoek_brown.hpp"
 #include "libcdem/joint/strength_reduction.hpp"
 #include "libcdem/material/plasticity.hpp"
@@ -171,8 +171,8 @@ TEST_CASE("Hoek-Brown: a face cracks where the stress meets the curve, on the pl
     };
     const double angle = 0.25 * pi + 0.5 * std::asin(sine); // of the plane's normal off the largest pressure
     const Vec3 normal(std::sin(angle), 0, std::cos(angle));
-    CHECK_FALSE(cdem::working_plane(stress(0.999), rock, normal));
-    const auto plane = cdem::working_plane(stress(1.001), rock, normal);
+    CHECK_FALSE(cdem::critical_plane(stress(0.999), rock, normal));
+    const auto plane = cdem::critical_plane(stress(1.001), rock, normal);
     REQUIRE(plane);
     CHECK(plane->normal.dot(normal) > 0.9999);
     CHECK(plane->mode == cdem::BondMode::broken_shear);
@@ -204,8 +204,8 @@ TEST_CASE("Hoek-Brown: a joint is judged by the envelope of the Mohr circles at 
     };
     CHECK(cdem::strength_use(stress(1), rock, Vec3::UnitZ(), cdem::FacePlane::own) ==
           Approx(1).epsilon(1e-4));
-    CHECK_FALSE(cdem::working_plane(stress(0.999), rock, Vec3::UnitZ(), cdem::FacePlane::own));
-    const auto plane = cdem::working_plane(stress(1.3), rock, Vec3::UnitZ(), cdem::FacePlane::own);
+    CHECK_FALSE(cdem::critical_plane(stress(0.999), rock, Vec3::UnitZ(), cdem::FacePlane::own));
+    const auto plane = cdem::critical_plane(stress(1.3), rock, Vec3::UnitZ(), cdem::FacePlane::own);
     REQUIRE(plane); // the traction is brought back to the envelope
     CHECK(plane->traction.z() == Approx(-pressure).margin(1));
     CHECK(plane->traction.x() == Approx(shear).epsilon(1e-4));

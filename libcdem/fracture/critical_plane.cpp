@@ -1,4 +1,4 @@
-#include "libcdem/fracture/working_plane.hpp"
+#include "libcdem/fracture/critical_plane.hpp"
 
 #include "libcdem/fracture/crack_faces.hpp"
 #include "libcdem/joint/mohr_coulomb.hpp"
@@ -127,14 +127,14 @@ double strength_use(const Mat3& stress, const RockStrength& rock, const Vec3& fa
   return std::max(u.tension, u.shear);
 }
 
-std::optional<WorkingPlane> working_plane(const Mat3& stress, const RockStrength& given, const Vec3& face,
-                                          FacePlane kind) {
+std::optional<CriticalPlane> critical_plane(const Mat3& stress, const RockStrength& given, const Vec3& face,
+                                            FacePlane kind) {
   if (kind == FacePlane::own) {
     const TractionParts t = traction_on(stress, face);
     const RockStrength rock = at_plane_pressure(given, -t.normal);
     if (!(use_of(t, rock) >= 1))
       return std::nullopt;
-    return WorkingPlane{face, ratio_of(t, rock).mode, on_strength(t, face, rock)};
+    return CriticalPlane{face, ratio_of(t, rock).mode, on_strength(t, face, rock)};
   }
   const Eigen::SelfAdjointEigenSolver<Mat3> solver(stress);
   const Vec3& s = solver.eigenvalues();
@@ -146,7 +146,7 @@ std::optional<WorkingPlane> working_plane(const Mat3& stress, const RockStrength
              axis1 = solver.eigenvectors().col(2);
   const double equal = nearly_equal * (s[2] - s[0]);
   const Vec3 free1 = s[2] - s[1] <= equal ? nearest_in(axis1, axis2, face) : axis1;
-  WorkingPlane plane;
+  CriticalPlane plane;
   if (tension_comes_first(s, rock)) {
     plane.normal = free1;
     if (s[2] - s[0] <= nearly_equal * std::abs(s[2])) // all-round

@@ -98,7 +98,7 @@ std::vector<UseBound> use_bounds(const RockStrength&, double u);
 double strength_use(const geom::Mat3& stress, const RockStrength&,
                     const geom::Vec3& face = geom::Vec3::Zero(), FacePlane = FacePlane::of_material);
 
-struct WorkingPlane {
+struct CriticalPlane {
   geom::Vec3 normal = geom::Vec3::Zero(); // unit, on the side of the face's
   BondMode mode = BondMode::broken_tension;
   // Pa, on the plane, brought back to the strength where the stress is beyond it: along the ray from the origin where the
@@ -113,8 +113,8 @@ inline constexpr double least_cosine = 0.7, least_cosine_of_ragged_border = 0.1;
 
 // The plane on which a face with the unit normal `face` works from now on; none while the stress is below the strength, or
 // the planes it fails on stand further off a face of the material.
-std::optional<WorkingPlane> working_plane(const geom::Mat3& stress, const RockStrength&,
-                                          const geom::Vec3& face, FacePlane = FacePlane::of_material);
+std::optional<CriticalPlane> critical_plane(const geom::Mat3& stress, const RockStrength&,
+                                            const geom::Vec3& face, FacePlane = FacePlane::of_material);
 
 // Stress by which an opening and a slip on the plane with the normal m relieve an elastic material (lambda, g: Lame's, Pa)
 // when they change the traction on it by `change`: to be added. It takes energy as long as no part of the traction

@@ -37,7 +37,7 @@ Mat3 axial(double stress, double lateral, const Mat3& turn) {
 
 } // namespace
 
-TEST_CASE("working plane: a joint fails by the traction on its own plane, at every angle",
+TEST_CASE("critical plane: a joint fails by the traction on its own plane, at every angle",
           "[cohesive][law]") {
   const double lateral = GENERATE(0.0, -5e6, -20e6), sign = GENERATE(1.0, -1.0);
   std::mt19937 draw(5);
@@ -49,7 +49,7 @@ TEST_CASE("working plane: a joint fails by the traction on its own plane, at eve
     const double strength = axial_strength(angle, lateral, sign);
     INFO("angle " << degrees << ", lateral " << lateral << ", sign " << sign << ", strength " << strength);
     const auto plane_at = [&](double stress) {
-      return working_plane(axial(stress, lateral, turn), limits, normal, FacePlane::own);
+      return critical_plane(axial(stress, lateral, turn), limits, normal, FacePlane::own);
     };
     if (std::abs(strength) > 400e6) {
       CHECK_FALSE(plane_at(lateral + sign * 400e6));
@@ -62,7 +62,7 @@ TEST_CASE("working plane: a joint fails by the traction on its own plane, at eve
   }
 }
 
-TEST_CASE("working plane: beyond the strength the traction is brought back to it, and that takes energy",
+TEST_CASE("critical plane: beyond the strength the traction is brought back to it, and that takes energy",
           "[cohesive][law]") {
   std::mt19937 draw(9);
   std::normal_distribution<double> normal;
@@ -75,7 +75,7 @@ TEST_CASE("working plane: beyond the strength the traction is brought back to it
         stress(row, column) = stress(column, row) = 0.7 * cohesion * normal(draw);
     const Vec3 face = Vec3(normal(draw), normal(draw), normal(draw)).normalized();
     const FacePlane kind = i % 2 == 0 ? FacePlane::own : FacePlane::of_material;
-    const auto plane = working_plane(stress, limits, face, kind);
+    const auto plane = critical_plane(stress, limits, face, kind);
     CHECK((strength_use(stress, limits, face, kind) >= 1 || !plane));
     if (!plane)
       continue;
