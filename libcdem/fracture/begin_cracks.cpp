@@ -103,7 +103,7 @@ private:
       const FaceMoment now = moment(batch, lane, stress_at(number));
       RockStrength rock = rock_of(place(batch, lane));
       raise(rock, unloaded_part * (1 - damage_of(face)));
-      if (strength_use(now.stress, rock, now.frame.normal, plane_of_face(number)) < 1)
+      if (strength_utilisation(now.stress, rock, now.frame.normal, plane_of_face(number)) < 1)
         breaking_ += end_crack(at, lane, now, joint, state_.faces[batch], face).value_or(0);
     } else if (step_.moved_for > 0) {
       const double taken =
@@ -127,7 +127,7 @@ private:
     raise(rock, left);
     const double components[6] = {stress(0, 0), stress(1, 1), stress(2, 2),
                                   stress(0, 1), stress(1, 2), stress(0, 2)};
-    if (!rock.curve.on() && !(UseBound(rock, 1).beyond(components) > 0))
+    if (!rock.curve.on() && !(UtilisationBound(rock, 1).beyond(components) > 0))
       return;
     const FaceMoment at = moment(batch, lane, stress);
     const FaceTets& tets = model_.mesh.face_tets[number];
@@ -153,7 +153,7 @@ private:
     }
     if (!plane)
       return;
-    const bool was_beyond = strength_use(stress - rise(tets), rock, at.frame.normal, kind) >= 1;
+    const bool was_beyond = strength_utilisation(stress - rise(tets), rock, at.frame.normal, kind) >= 1;
     begin(batch, lane, at, *plane, was_beyond);
   }
 

@@ -18,7 +18,7 @@ using geom::Vec3;
 // Principal stresses nearer than this part of sigma_1 - sigma_3 count as equal.
 constexpr double nearly_equal = 0.02;
 
-struct Uses {
+struct Utilisations {
   double tension = 0, shear = 0;
 };
 
@@ -38,9 +38,9 @@ RockStrength at_plane_pressure(const RockStrength& rock, double pressure) {
 }
 
 // Principal stresses, ascending; the strength at their pressure.
-Uses uses(const Vec3& s, const RockStrength& rock) {
+Utilisations utilisations(const Vec3& s, const RockStrength& rock) {
   return {s[2] / rock.tensile_strength,
-          mohr_coulomb_use(-s[0], -s[2], rock.cohesion, rock.cos_friction, rock.sin_friction)};
+          mohr_coulomb_utilisation(-s[0], -s[2], rock.cohesion, rock.cos_friction, rock.sin_friction)};
 }
 
 // Whether the strength was reached in tension first, on the way from no stress. Both at once, as in uniaxial tension at the
@@ -70,7 +70,7 @@ SpringStrength plane_strength(const RockStrength& rock) {
   return {rock.cohesion, rock.sin_friction / rock.cos_friction, rock.tensile_strength};
 }
 
-double use_of(const TractionParts& t, const RockStrength& rock) {
+double utilisation_of(const TractionParts& t, const RockStrength& rock) {
   const SpringStrength s = plane_strength(rock);
   const double most = shear_strength(s.cohesion, s.tan_friction, t.normal);
   const double shear = t.shear <= 0 ? 0 : most > 0 ? t.shear / most : std::numeric_limits<double>::infinity();
@@ -104,26 +104,26 @@ RockStrength rock_strength(const Joint& joint) {
           geom::portable::sin(joint.friction_angle), joint.curve};
 }
 
-UseBound::UseBound(const RockStrength& rock, double u)
+UtilisationBound::UtilisationBound(const RockStrength& rock, double u)
     : tensile_(u * rock.tensile_strength), shear_(u * rock.cohesion * rock.cos_friction),
       slope_(u * rock.sin_friction), least_(1e-24 * (tensile_ * tensile_ + shear_ * shear_)) {}
 
-std::vector<UseBound> use_bounds(const RockStrength& rock, double u) {
+std::vector<UtilisationBound> utilisation_bounds(const RockStrength& rock, double u) {
   if (!rock.curve.on())
-    return {UseBound(rock, u)};
-  std::vector<UseBound> bounds;
+    return {UtilisationBound(rock, u)};
+  std::vector<UtilisationBound> bounds;
   for (const StraightStrength& chord : chords(rock.curve))
     bounds.emplace_back(with_line(rock, chord), u);
   return bounds;
 }
 
-double strength_use(const Mat3& stress, const RockStrength& rock, const Vec3& face, FacePlane kind) {
+double strength_utilisation(const Mat3& stress, const RockStrength& rock, const Vec3& face, FacePlane kind) {
   if (kind == FacePlane::own) {
     const TractionParts t = traction_on(stress, face);
-    return use_of(t, at_plane_pressure(rock, -t.normal));
+    return utilisation_of(t, at_plane_pressure(rock, -t.normal));
   }
   const Vec3 s = Eigen::SelfAdjointEigenSolver<Mat3>(stress, Eigen::EigenvaluesOnly).eigenvalues();
-  const Uses u = uses(s, at_pressure(rock, -s[2]));
+  const Utilisations u = utilisations(s, at_pressure(rock, -s[2]));
   return std::max(u.tension, u.shear);
 }
 
@@ -132,14 +132,14 @@ std::optional<CriticalPlane> critical_plane(const Mat3& stress, const RockStreng
   if (kind == FacePlane::own) {
     const TractionParts t = traction_on(stress, face);
     const RockStrength rock = at_plane_pressure(given, -t.normal);
-    if (!(use_of(t, rock) >= 1))
+    if (!(utilisation_of(t, rock) >= 1))
       return std::nullopt;
     return CriticalPlane{face, ratio_of(t, rock).mode, on_strength(t, face, rock)};
   }
   const Eigen::SelfAdjointEigenSolver<Mat3> solver(stress);
   const Vec3& s = solver.eigenvalues();
   const RockStrength rock = at_pressure(given, -s[2]);
-  const Uses u = uses(s, rock);
+  const Utilisations u = utilisations(s, rock);
   if (!(std::max(u.tension, u.shear) >= 1))
     return std::nullopt;
   const Vec3 axis3 = solver.eigenvectors().col(0), axis2 = solver.eigenvectors().col(1),

@@ -2,17 +2,17 @@
 // once it fails. There are two kinds of faces.
 //
 // A face of the material fails where the stress says, whatever its own direction:
-//   use = max(sigma_1 / T, (sigma_1 - sigma_3)/2 / (c cos(phi) - (sigma_1 + sigma_3)/2 sin(phi)))
+//   utilisation = max(sigma_1 / T, (sigma_1 - sigma_3)/2 / (c cos(phi) - (sigma_1 + sigma_3)/2 sin(phi)))
 // with principal stresses, tension positive; at 1 it fails, in tension square to the axis of sigma_1, in shear on the
 // planes whose normals stand 45 degrees + phi/2 off it, towards the axis of sigma_3 (Mohr-Coulomb with a tension
 // cut-off). Where two principal stresses are equal the plane may turn about the third axis.
 //
 // A joint (a border between regions of a mesh) has a plane of its own, with the normal n. The traction t = sigma n decides:
-//   use = max(t_n / T, |t_s| / (c - t_n tan(phi)))
+//   utilisation = max(t_n / T, |t_s| / (c - t_n tan(phi)))
 // With a Hoek-Brown strength (joint/hoek_brown.hpp) c and phi are those of its tangent: at p3 = -sigma_1 for the material, at
 // the pressure -t_n for a joint.
-// At the same strength it is never above the use of the material as long as that is below 1: a plane sees at most what
-// the worst one sees.
+// At the same strength it is never above the utilisation of the material as long as that is below 1: a plane sees at most
+// what the worst one sees.
 #pragma once
 
 #include "libcdem/joint/bond_mode.hpp"
@@ -42,9 +42,9 @@ enum class FacePlane : std::uint8_t { of_material, of_ragged_border, own };
 // side by side. With a mean stress p, a deviator s, q^2 = s : s / 2 and J3 = det(s), the largest principal deviator is the
 // largest root of x^3 - q^2 x - J3. Newton's method comes down to it from 2 q / sqrt(3), so that each of its values is an
 // upper bound; with -J3 the same holds for the least one.
-class UseBound {
+class UtilisationBound {
 public:
-  UseBound(const RockStrength&, double u);
+  UtilisationBound(const RockStrength&, double u);
   // The same from the start of Newton's method, in Pa2, without a root or a quotient: a first, coarse answer.
   template <class T>
   CDEM_INLINE T coarsely_beyond(const T (&s)[6]) const {
@@ -92,11 +92,11 @@ private:
 };
 
 // A stress that may use as much of the strength as u is beyond one of them at least. u: at most 1.
-std::vector<UseBound> use_bounds(const RockStrength&, double u);
+std::vector<UtilisationBound> utilisation_bounds(const RockStrength&, double u);
 
 // face: unit normal, on either side; what a face of the material uses does not depend on it.
-double strength_use(const geom::Mat3& stress, const RockStrength&,
-                    const geom::Vec3& face = geom::Vec3::Zero(), FacePlane = FacePlane::of_material);
+double strength_utilisation(const geom::Mat3& stress, const RockStrength&,
+                            const geom::Vec3& face = geom::Vec3::Zero(), FacePlane = FacePlane::of_material);
 
 struct CriticalPlane {
   geom::Vec3 normal = geom::Vec3::Zero(); // unit, on the side of the face's

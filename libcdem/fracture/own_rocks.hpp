@@ -32,11 +32,11 @@ public:
     }
   }
   // Bounds of the laws that some face has.
-  std::vector<UseBound> bounds(double use) const {
-    std::vector<UseBound> all;
+  std::vector<UtilisationBound> bounds(double utilisation) const {
+    std::vector<UtilisationBound> all;
     for (const RockStrength& rock : weakest_)
       if (rock.tensile_strength > 0)
-        for (const UseBound& bound : use_bounds(rock, use))
+        for (const UtilisationBound& bound : utilisation_bounds(rock, utilisation))
           all.push_back(bound);
     return all;
   }

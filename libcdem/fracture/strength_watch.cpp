@@ -26,7 +26,7 @@ bool has_cohesive_bodies(const Model& model) {
                      [](const Body& body) { return body.bonding.is_cohesive(); });
 }
 
-CDEM_INLINE bool beyond_any(const simd::Oct (&s)[6], const UseBound* bounds, int count) {
+CDEM_INLINE bool beyond_any(const simd::Oct (&s)[6], const UtilisationBound* bounds, int count) {
   bool any = false;
   for (int i = 0; i < count; ++i) {
     const simd::Oct coarse = bounds[i].coarsely_beyond(s);
@@ -39,12 +39,12 @@ CDEM_INLINE bool beyond_any(const simd::Oct (&s)[6], const UseBound* bounds, int
 }
 
 // Pa2, s : s below which no stress is beyond any of the bounds: its mean is at most |s| / sqrt(3), its q at most |s| / sqrt(2).
-double harmless_norm2(const std::vector<UseBound>& bounds) {
+double harmless_norm2(const std::vector<UtilisationBound>& bounds) {
   const auto may = [&](double norm) {
     const double mean = norm / std::sqrt(3.0);
     const double worst[6] = {mean, mean, mean, norm / std::sqrt(2.0), 0, 0};
     return std::any_of(bounds.begin(), bounds.end(),
-                       [&](const UseBound& bound) { return bound.coarsely_beyond(worst) > 0; });
+                       [&](const UtilisationBound& bound) { return bound.coarsely_beyond(worst) > 0; });
   };
   double low = 1e-3, high = 1e15; // Pa
   for (int i = 0; i < 12; ++i) {
@@ -56,8 +56,8 @@ double harmless_norm2(const std::vector<UseBound>& bounds) {
 
 // steps_ahead: how many steps to go on at the rate of the last one.
 CDEM_INLINE void near_kernel(const StressBatch* stress, const StressBatch* before, std::int64_t count,
-                             const UseBound* bounds, int bound_count, double harmless, double steps_ahead,
-                             std::uint8_t* bits) {
+                             const UtilisationBound* bounds, int bound_count, double harmless,
+                             double steps_ahead, std::uint8_t* bits) {
   // |s + a d|^2 <= 2 |s|^2 + 2 a^2 |d|^2, and twice what stands off the diagonal.
   const double of_rise = steps_ahead * steps_ahead;
   const simd::Oct most = simd::Oct{} + harmless;
@@ -84,9 +84,9 @@ CDEM_INLINE void near_kernel(const StressBatch* stress, const StressBatch* befor
   }
 }
 
-bool may_use(const std::vector<UseBound>& bounds, const geom::Mat3& s) {
+bool may_use(const std::vector<UtilisationBound>& bounds, const geom::Mat3& s) {
   const double components[6] = {s(0, 0), s(1, 1), s(2, 2), s(0, 1), s(1, 2), s(0, 2)};
-  return std::any_of(bounds.begin(), bounds.end(), [&](const UseBound& bound) {
+  return std::any_of(bounds.begin(), bounds.end(), [&](const UtilisationBound& bound) {
     return bound.coarsely_beyond(components) > 0 && bound.beyond(components) > 0;
   });
 }
@@ -263,8 +263,8 @@ public:
     return model_.mesh.first_tet + watch_.neighbours_[4 * (tet - model_.mesh.first_tet) + face] / 4;
   }
 
-  // The larger use of the mean stress of both tets, now and ahead (s).
-  double use(const State& state, std::int64_t tet, int face, double ahead) const {
+  // The larger utilisation of the mean stress of both tets, now and ahead (s).
+  double utilisation(const State& state, std::int64_t tet, int face, double ahead) const {
     const MeshData& mesh = model_.mesh;
     const std::int64_t other = beyond(tet, face), at = 4 * (tet - mesh.first_tet) + face;
     const RockStrength& rock = watch_.own_.empty() ? of_body_ : watch_.own_[static_cast<std::size_t>(at)];
@@ -275,14 +275,15 @@ public:
     const geom::Vec3 normal = (place(1) - place(0)).cross(place(2) - place(0)).normalized();
     const geom::Mat3 now = 0.5 * (stress_of(state, tet) + stress_of(state, other));
     const geom::Mat3 rise = ahead * 0.5 * (rate_of(state, tet) + rate_of(state, other));
-    return std::max(strength_use(now, rock, normal, kind), strength_use(now + rise, rock, normal, kind));
+    return std::max(strength_utilisation(now, rock, normal, kind),
+                    strength_utilisation(now + rise, rock, normal, kind));
   }
   geom::Mat3 stress_of(const State& state, std::int64_t tet) const {
     return matrix(mesh_stress(model_, state, static_cast<int>(tet)));
   }
   // Whether a face between the tet and one that is nearer to its strength may be beyond a bound, now or ahead (s). The bounds
   // are convex: if two stresses are below them, so is their mean.
-  bool may_reach(const std::vector<UseBound>& bounds, const State& state, std::int64_t tet,
+  bool may_reach(const std::vector<UtilisationBound>& bounds, const State& state, std::int64_t tet,
                  double ahead) const {
     const geom::Mat3 now = stress_of(state, tet);
     return may_use(bounds, now) || may_use(bounds, now + ahead * rate_of(state, tet));
@@ -319,7 +320,7 @@ void StrengthWatch::freed(const Model& model) {
 void StrengthWatch::look(const MeshChunk& chunk, std::int64_t index, const StressBatch* stress,
                          const StressBatch* before, NearStrength& near) const {
   constexpr double steps_ahead = 2; // the stress is that of a step ago, and the next look is a step away
-  const std::vector<UseBound>& bounds = bounds_[static_cast<std::size_t>(index)].at_strength;
+  const std::vector<UtilisationBound>& bounds = bounds_[static_cast<std::size_t>(index)].at_strength;
   simd::best<near_kernel>(stress, before, chunk.batches.size(), bounds.data(),
                           static_cast<int>(bounds.size()), harmless_norm2(bounds), steps_ahead,
                           near.bits.data() + chunk.batches.begin);
@@ -355,14 +356,14 @@ bool StrengthWatch::any_due(const Model& model, const State& state, const NearSt
       return;
     const MeshChunk& chunk = model.mesh.chunks[c];
     const ChunkFaces faces(*this, model, chunk);
-    const std::vector<UseBound>& bounds = bounds_[static_cast<std::size_t>(c)].at_strength;
+    const std::vector<UtilisationBound>& bounds = bounds_[static_cast<std::size_t>(c)].at_strength;
     for (std::int64_t b = chunk.batches.begin; b < chunk.batches.end && due[c] == 0; ++b) {
       if (open_[b] == 0 || !(everywhere || (near.bits[b] & NearStrength::may_be_due) != 0))
         continue;
       const std::int64_t first = chunk.tets.begin + (b - chunk.batches.begin) * lanes;
       for (std::int64_t t = first; t < std::min(first + lanes, chunk.tets.end); ++t)
         for (int face = faces.may_reach(bounds, state, t, ahead) ? 0 : 4; face < 4; ++face)
-          if (faces.is_open(t, face) && faces.use(state, t, face, ahead) >= due_at)
+          if (faces.is_open(t, face) && faces.utilisation(state, t, face, ahead) >= due_at)
             due[c] = 1;
     }
   });
@@ -378,14 +379,14 @@ std::vector<char> StrengthWatch::to_free(const Model& model, const State& state,
       return;
     const MeshChunk& chunk = model.mesh.chunks[c];
     const ChunkFaces faces(*this, model, chunk);
-    const std::vector<UseBound>& bounds = bounds_[static_cast<std::size_t>(c)].at_half;
+    const std::vector<UtilisationBound>& bounds = bounds_[static_cast<std::size_t>(c)].at_half;
     for (std::int64_t t = chunk.tets.begin; t < chunk.tets.end; ++t) {
       if (open_[chunk.batches.begin + (t - chunk.tets.begin) / lanes] == 0)
         continue;
       if (!faces.may_reach(bounds, state, t, ahead))
         continue;
       for (int face = 0; face < 4; ++face)
-        if (faces.is_open(t, face) && faces.use(state, t, face, ahead) >= freed_at)
+        if (faces.is_open(t, face) && faces.utilisation(state, t, face, ahead) >= freed_at)
           for (const int corner : geom::tet_faces[face])
             found[c].push_back(model.tets[t][corner]);
     }

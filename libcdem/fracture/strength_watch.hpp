@@ -1,11 +1,11 @@
 // Which faces of cohesive bodies are near their strength. Every step, the stress that the elements have just got, still in
-// the cache, is compared with a bound on the use of strength, eight tets side by side. Only faces beside tets above that
+// the cache, is compared with a bound on the utilisation, eight tets side by side. Only faces beside tets above that
 // bound are looked at one by one, and they are looked at in every step: when a face is freed or cracks follows from its
 // own stress alone, not from the number of the face or of the step.
 //
-//   crack   the use of a face is 1 (begin_cracks.hpp)
-//   free    the use of a face that is not freed yet is above `due_at`, now or in two steps at the present rate of strain;
-//           then all faces above `freed_at` are freed together, since freeing is dear
+//   crack   the utilisation of a face is 1 (begin_cracks.hpp)
+//   free    the utilisation of a face that is not freed yet is above `due_at`, now or in two steps at the present rate
+//           of strain; then all faces above `freed_at` are freed together, since freeing is dear
 #pragma once
 
 #include "libcdem/fracture/critical_plane.hpp"
@@ -63,7 +63,7 @@ public:
 private:
   explicit StrengthWatch(const Model&);
   struct Bounds {
-    std::vector<UseBound> at_strength, at_half;
+    std::vector<UtilisationBound> at_strength, at_half;
   };
   class ChunkFaces;
   void find_planes(const Model&);

@@ -52,8 +52,8 @@ inline double mohr_coulomb(double p1, double p3, double cohesion, double cos_fri
 
 // How much of the strength a stress takes, 1 where the rock fails in shear: the radius of its Mohr circle over the
 // largest about the same centre that the rock bears. Infinite beyond the tip of the cone.
-inline double mohr_coulomb_use(double p1, double p3, double cohesion, double cos_friction,
-                               double sin_friction) {
+inline double mohr_coulomb_utilisation(double p1, double p3, double cohesion, double cos_friction,
+                                       double sin_friction) {
   const double most = cohesion * cos_friction + 0.5 * (p1 + p3) * sin_friction;
   return most > 0 ? 0.5 * (p1 - p3) / most : std::numeric_limits<double>::infinity();
 }

@@ -77,8 +77,8 @@ void add_to_block(const Model& model, State& state, const Block& block, const In
 
 // How much of what holds a point its traction takes; 1: it breaks, opens or slides. strength: of the interface over that
 // of its joint.
-double use_of(const Joint& joint, const InterfaceLaw& own, double path, double strength, bool intact,
-              double normal, double shear) {
+double utilisation_of(const Joint& joint, const InterfaceLaw& own, double path, double strength, bool intact,
+                      double normal, double shear) {
   const double infinite = std::numeric_limits<double>::infinity();
   const auto over = [&](double load, double borne) {
     return load <= 0 ? 0 : borne > 0 ? load / borne : infinite;
@@ -162,12 +162,13 @@ BeyondStrength beyond_strength(const Model& model, const State& state) {
     if (intact && !interface.may_break)
       continue;
     const double path = state.joint_history.empty() ? 0 : state.joint_history[p].path;
-    const double use = use_of(model.joints[interface.joint], law_of_interface(model, interface), path,
-                              interface.strength, intact, normal, shear);
-    if (use > 1 + rounding)
+    const double utilisation =
+        utilisation_of(model.joints[interface.joint], law_of_interface(model, interface), path,
+                       interface.strength, intact, normal, shear);
+    if (utilisation > 1 + rounding)
       ++found.points;
-    if (use > found.largest_use) {
-      found.largest_use = use;
+    if (utilisation > found.largest_utilisation) {
+      found.largest_utilisation = utilisation;
       found.place = model.point_position[p];
     }
   }

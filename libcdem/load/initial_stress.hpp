@@ -25,8 +25,8 @@ struct InitialStress {
 // Points of interfaces that the stress loads beyond what their joints bear: they break or slide in the first step.
 struct BeyondStrength {
   std::int64_t points = 0;
-  double largest_use = 0; // traction over strength, of all points; infinite where there is no strength
-  geom::Vec3 place = geom::Vec3::Zero(); // m, of the largest use
+  double largest_utilisation = 0;        // traction over strength, of all points; infinite without strength
+  geom::Vec3 place = geom::Vec3::Zero(); // m, of the largest utilisation
 };
 
 Stress stress_at(const InitialStress&, double top, const geom::Vec3& place);

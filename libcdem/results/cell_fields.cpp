@@ -37,7 +37,8 @@ std::vector<std::array<double, 2>> block_joints(const Model& model, const State&
     const Interface& interface = model.interfaces[model.points[p].interface];
     const JointPoint point = joint_point(model, state, p);
     for (const int block : {interface.block_a, interface.block_b})
-      largest[block] = {std::max(largest[block][0], point.slip), std::max(largest[block][1], point.use)};
+      largest[block] = {std::max(largest[block][0], point.slip),
+                        std::max(largest[block][1], point.utilisation)};
   }
   return largest;
 }

@@ -19,7 +19,7 @@ double part_of(double load, double strength) {
   return strength > 0 ? load / strength : 1;
 }
 
-double use_of(const Model& model, const State& state, int p, double normal, double shear) {
+double utilisation_of(const Model& model, const State& state, int p, double normal, double shear) {
   const Interface& interface = model.interfaces[model.points[p].interface];
   const Joint& joint = model.joints[interface.joint];
   const double tan_friction = geom::portable::tan(joint.friction_angle);
@@ -56,8 +56,8 @@ void add_point(JointSum& sum, const JointPoint& point) {
   sum.normal += point.area * point.normal;
   sum.shear += point.area * point.shear;
   sum.water += point.area * point.water;
-  sum.mean_use += point.area * point.use;
-  sum.largest_use = std::max(sum.largest_use, point.use);
+  sum.mean_utilisation += point.area * point.utilisation;
+  sum.largest_utilisation = std::max(sum.largest_utilisation, point.utilisation);
   sum.mean_slip += point.area * point.slip;
   sum.largest_slip = std::max(sum.largest_slip, point.slip);
   sum.mean_opening += point.area * point.opening;
@@ -84,7 +84,7 @@ JointPoint joint_point(const Model& model, const State& state, int p) {
   r.opening = gap.dot(point.normal);
   r.slip = (gap - r.opening * point.normal).norm();
   r.apart = r.mode != BondMode::intact && t.isZero(0);
-  r.use = use_of(model, state, p, r.normal, r.shear);
+  r.utilisation = utilisation_of(model, state, p, r.normal, r.shear);
   return r;
 }
 
@@ -110,7 +110,7 @@ std::vector<JointSum> joint_sums(const Model& model, const State& state, const J
     for (double* mean : {&sum.normal, &sum.shear, &sum.water, &sum.mean_slip, &sum.mean_opening})
       *mean = sum.area > 0 ? *mean / sum.area : 0;
     const double touching = sum.area - sum.open_area;
-    sum.mean_use = touching > 0 ? sum.mean_use / touching : 0;
+    sum.mean_utilisation = touching > 0 ? sum.mean_utilisation / touching : 0;
     rows.push_back(sum);
   }
   if (rows.front().set.empty()) // those of no set stand last
@@ -155,8 +155,8 @@ Snapshot joint_surface(const Model& model, const State& state, const JointChoice
       for (const int p : triangle) {
         const JointPoint point = joint_point(model, state, p);
         mode = std::max(mode, static_cast<double>(point.mode));
-        const double values[] = {point.normal, point.shear,   point.water,
-                                 point.use,    point.opening, point.slip};
+        const double values[] = {point.normal,      point.shear,   point.water,
+                                 point.utilisation, point.opening, point.slip};
         for (int i = 0; i < 6; ++i)
           sums[i] += values[i] / 3;
       }

@@ -17,7 +17,7 @@ struct JointPoint {
   BondMode mode = BondMode::intact;
   double normal = 0, shear = 0; // Pa, traction: normal tension positive, size of the shear
   double water = 0;             // Pa
-  double use = 0;               // utilisation
+  double utilisation = 0;       // traction over strength
   double opening = 0,
          slip = 0;    // m, relative displacement since the beginning: along the normal, size of the rest
   bool apart = false; // carries nothing
@@ -30,14 +30,14 @@ struct JointChoice {
 };
 
 struct JointSum {
-  std::string set;                      // "": interfaces of no set
-  std::int64_t interfaces = 0;          // with points that count
-  std::int64_t parted = 0;              // interfaces that are left to contact; they are in no other number
-  double area = 0, open_area = 0;       // m2: all points, those that are apart
-  double broken_area = 0;               // m2
-  double normal = 0, shear = 0;         // Pa, means over the area
-  double water = 0;                     // Pa, mean over the area
-  double mean_use = 0, largest_use = 0; // mean over the area that is not apart
+  std::string set;                // "": interfaces of no set
+  std::int64_t interfaces = 0;    // with points that count
+  std::int64_t parted = 0;        // interfaces that are left to contact; they are in no other number
+  double area = 0, open_area = 0; // m2: all points, those that are apart
+  double broken_area = 0;         // m2
+  double normal = 0, shear = 0;   // Pa, means over the area
+  double water = 0;               // Pa, mean over the area
+  double mean_utilisation = 0, largest_utilisation = 0; // mean over the area that is not apart
   double mean_slip = 0, largest_slip = 0, mean_opening = 0, largest_opening = 0; // m
 };
 

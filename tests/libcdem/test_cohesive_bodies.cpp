@@ -145,7 +145,7 @@ TEST_CASE("cohesive bodies: the plane that fails", "[cohesive][law]") {
   }
   SECTION("in shear where Mohr and Coulomb say") {
     const double s1 = -1e6, s3 = (s1 * (1 + sine) - 2 * cohesion * cosine) / (1 - sine);
-    CHECK(cdem::strength_use(stress(s1, -2e6, s3), rock) == Approx(1).epsilon(1e-9));
+    CHECK(cdem::strength_utilisation(stress(s1, -2e6, s3), rock) == Approx(1).epsilon(1e-9));
     const Vec3 wanted = turn * Vec3(std::sin(60 * degree), 0, std::cos(60 * degree));
     const auto plane = critical_plane(1.001 * stress(s1, -2e6, s3), rock, -wanted);
     REQUIRE(plane);
@@ -167,7 +167,7 @@ TEST_CASE("cohesive bodies: the plane that fails", "[cohesive][law]") {
     std::mt19937 draw(3);
     std::normal_distribution<double> normal;
     for (const double least : {0.5, 1.0}) {
-      const cdem::UseBound bound(rock, least);
+      const cdem::UtilisationBound bound(rock, least);
       int reached = 0, told = 0;
       for (int i = 0; i < 4000; ++i) {
         double s[6];
@@ -175,7 +175,7 @@ TEST_CASE("cohesive bodies: the plane that fails", "[cohesive][law]") {
           component = 0.3 * cohesion * normal(draw);
         Mat3 matrix;
         matrix << s[0], s[3], s[5], s[3], s[1], s[4], s[5], s[4], s[2];
-        const bool uses = cdem::strength_use(matrix, rock) >= least, may = bound.beyond(s) > 0;
+        const bool uses = cdem::strength_utilisation(matrix, rock) >= least, may = bound.beyond(s) > 0;
         CHECK((may || !uses));
         reached += uses ? 1 : 0;
         told += may ? 1 : 0;

@@ -76,7 +76,7 @@ TEST_CASE("critical plane: beyond the strength the traction is brought back to i
     const Vec3 face = Vec3(normal(draw), normal(draw), normal(draw)).normalized();
     const FacePlane kind = i % 2 == 0 ? FacePlane::own : FacePlane::of_material;
     const auto plane = critical_plane(stress, limits, face, kind);
-    CHECK((strength_use(stress, limits, face, kind) >= 1 || !plane));
+    CHECK((strength_utilisation(stress, limits, face, kind) >= 1 || !plane));
     if (!plane)
       continue;
     ++failed;
@@ -92,8 +92,8 @@ TEST_CASE("critical plane: beyond the strength the traction is brought back to i
     CHECK(energy(relieved) <= energy(stress) * (1 + 1e-12));
     // Below its strength the material uses more than a joint of the same strength.
     const Mat3 small = 0.25 * stress;
-    const double most = strength_use(small, limits);
-    CHECK((most > 1 || strength_use(small, limits, face, FacePlane::own) <= most * (1 + 1e-12)));
+    const double most = strength_utilisation(small, limits);
+    CHECK((most > 1 || strength_utilisation(small, limits, face, FacePlane::own) <= most * (1 + 1e-12)));
   }
   CHECK(failed > 500);
 }

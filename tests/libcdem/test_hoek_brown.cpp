@@ -176,12 +176,12 @@ TEST_CASE("Hoek-Brown: a face cracks where the stress meets the curve, on the pl
     REQUIRE(plane);
     CHECK(plane->normal.dot(normal) > 0.9999);
     CHECK(plane->mode == cdem::BondMode::broken_shear);
-    CHECK(cdem::strength_use(stress(1), rock) == Approx(1));
+    CHECK(cdem::strength_utilisation(stress(1), rock) == Approx(1));
     // The bounds of kernels are convex and see it.
     bool seen = false;
     const Mat3 s = stress(1.001);
     const double components[6] = {s(0, 0), s(1, 1), s(2, 2), 0, 0, 0};
-    for (const cdem::UseBound& bound : cdem::use_bounds(rock, 1))
+    for (const cdem::UtilisationBound& bound : cdem::utilisation_bounds(rock, 1))
       seen = seen || bound.beyond(components) > 0;
     CHECK(seen);
   }
@@ -202,7 +202,7 @@ TEST_CASE("Hoek-Brown: a joint is judged by the envelope of the Mohr circles at 
     const auto stress = [&](double part) {
       return symmetric(0, 0, -pressure, 0, 0, part * shear); // on the plane z
     };
-    CHECK(cdem::strength_use(stress(1), rock, Vec3::UnitZ(), cdem::FacePlane::own) ==
+    CHECK(cdem::strength_utilisation(stress(1), rock, Vec3::UnitZ(), cdem::FacePlane::own) ==
           Approx(1).epsilon(1e-4));
     CHECK_FALSE(cdem::critical_plane(stress(0.999), rock, Vec3::UnitZ(), cdem::FacePlane::own));
     const auto plane = cdem::critical_plane(stress(1.3), rock, Vec3::UnitZ(), cdem::FacePlane::own);

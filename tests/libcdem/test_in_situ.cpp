@@ -92,7 +92,7 @@ TEST_CASE("a K0 that a joint cannot bear is told of with the use of its strength
   const cdem::BeyondStrength beyond = s.initial_stress(in_situ(k0, k0));
   const double use = (1 - k0) * std::sin(a) * std::cos(a) /
                      ((std::cos(a) * std::cos(a) + k0 * std::sin(a) * std::sin(a)) * std::tan(phi));
-  CHECK(beyond.largest_use == Approx(use).epsilon(1e-9));
+  CHECK(beyond.largest_utilisation == Approx(use).epsilon(1e-9));
   CHECK(beyond.points == (use > 1 ? s.counts().bonds : 0));
 }
 

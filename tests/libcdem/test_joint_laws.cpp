@@ -110,7 +110,7 @@ TEST_CASE("a joint set with dilation opens by slip up to its limit and slides at
   CHECK(s.reaction(top).x() == Approx(pressure * std::tan(25 * degree)).epsilon(0.01));
   CHECK(sliding.shear == Approx(pressure * std::tan(25 * degree)).epsilon(0.01));
   CHECK(sliding.normal == Approx(-pressure).epsilon(0.01));
-  CHECK(sliding.mean_use == Approx(1).epsilon(1e-6));
+  CHECK(sliding.mean_utilisation == Approx(1).epsilon(1e-6));
   slide_by(s, 3e-3);
   CHECK(s.mean("displacement.z", top) - z == Approx(limit * std::tan(10 * degree)).epsilon(0.03));
 }
@@ -146,8 +146,8 @@ TEST_CASE("a rough joint that begins under stress has closed and mobilised what 
   const cdem::JointSum sum = sum_of(s);
   CHECK(sum.normal == Approx(-pressure));
   CHECK(sum.shear == Approx(shear));
-  CHECK(sum.largest_use == Approx(1).epsilon(0.05)); // by steps of 5 % of slip
-  field.stress = {0, 0, 0, 0, 0, shear};             // more than its peak
+  CHECK(sum.largest_utilisation == Approx(1).epsilon(0.05)); // by steps of 5 % of slip
+  field.stress = {0, 0, 0, 0, 0, shear};                     // more than its peak
   CHECK(s.initial_stress(field).points == s.counts().bonds);
 }
 

@@ -88,8 +88,8 @@ Value initial_stress(Session& session, ModelObject& model, const Arguments& a) {
     session.warn("initial_stress: " + std::to_string(beyond.points) +
                  (beyond.points == 1 ? " joint point is" : " joint points are") +
                  " loaded beyond what the joint bears, " +
-                 (std::isfinite(beyond.largest_use)
-                      ? "at most " + three_digits(beyond.largest_use) + " times its strength"
+                 (std::isfinite(beyond.largest_utilisation)
+                      ? "at most " + three_digits(beyond.largest_utilisation) + " times its strength"
                       : std::string("some of them without any strength")) +
                  ", worst at " + place_text(beyond.place) +
                  " m: they break or slide at once; change k0 or stress, or raise the joint's strength");

@@ -35,8 +35,8 @@ const Record<JointSum> joint_sum{
      {number("water_pressure").unit("Pa").doc("mean"), &JointSum::water},
      {number("utilisation")
           .doc("traction over strength, 1 where it slides; mean over the area that is not apart"),
-      &JointSum::mean_use},
-     {number("largest_utilisation"), &JointSum::largest_use},
+      &JointSum::mean_utilisation},
+     {number("largest_utilisation"), &JointSum::largest_utilisation},
      {number("slip").unit("m").doc("size of the shear displacement since the beginning, mean"),
       &JointSum::mean_slip},
      {number("largest_slip").unit("m"), &JointSum::largest_slip},
@@ -55,7 +55,7 @@ Value joint_points(Session&, ModelObject& model, const Arguments& a) {
   Values lists[10];
   for (const auto& [set, p] : model.simulation.joint_points(joint_choice(model, a))) {
     const Value row[] = {set,       p.place, p.area,  std::string(modes[static_cast<int>(p.mode)]),
-                         p.normal,  p.shear, p.water, p.use,
+                         p.normal,  p.shear, p.water, p.utilisation,
                          p.opening, p.slip};
     for (int i = 0; i < 10; ++i)
       lists[i].push_back(row[i]);
