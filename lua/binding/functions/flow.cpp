@@ -212,14 +212,12 @@ void bind_flow_records(Module& m) {
 
 void bind_flow(Module& m) {
   bind_flow_records(m);
-  const auto convert = [&](std::string name, std::string doc, Field given, auto body) {
-    m.add(std::move(name), std::move(doc), {std::move(given), water_density()}, body, "number").ordered();
-  };
-  convert("flow_pressure", "Pressure of a stream, rho V^2 / 2 (Feng 2014 eq 20), Pa.",
-          number("velocity").at_least(0).unit("m/s").required(), pressure);
-  convert("flow_velocity", "Velocity of a stream from its pressure, sqrt(2 F / rho), m/s.",
-          number("pressure").at_least(0).unit("Pa").required(), velocity);
-
+  m.add("flow_pressure", "Pressure of a stream, rho V^2 / 2 (Feng 2014 eq 20), Pa.",
+        {number("velocity").at_least(0).unit("m/s").required(), water_density()}, pressure, "number")
+      .ordered();
+  m.add("flow_velocity", "Velocity of a stream from its pressure, sqrt(2 F / rho), m/s.",
+        {number("pressure").at_least(0).unit("Pa").required(), water_density()}, velocity, "number")
+      .ordered();
   Class& model = m.the_class("Model");
   std::vector<Field> steady = flow_fields();
   steady[0] = vec3("direction").doc("of the flow; made a unit vector");
