@@ -97,15 +97,6 @@ private:
            all_.tallest;
   }
 
-  double shallow() const { return work_.shallow[work_.movers.block[mover_]]; } // m
-  // m, so far outside all tetrahedra of a fragment a spring may stand and yet come to be behind the nearest of its
-  // triangles: behind a closed surface by no more than bonds give, else by its depth.
-  double gate(int of) const {
-    return is_single_tet(all_.model, work_, of) ? skins(of)
-           : of == mover_                       ? 3 * skins(of) + shallow()
-                                                : skins(of) + slack(of);
-  }
-
   void add_corner(const Solid& own, int k, const std::array<Vec3, 4>& x) {
     const int node = all_.model.tets[own.tet][k];
     bool asked = false;
@@ -137,7 +128,7 @@ private:
     for (const Vec3& other : x)
       drawn = std::max(drawn, 2 * drawn_in * (other - x[k]).norm());
     around_.clear();
-    const double most = 8 * bond_gives * all_.tallest + drawn + shallow();
+    const double most = 8 * bond_gives * all_.tallest + drawn;
     const double reach =
         std::max({all_.allowed[mover_] + all_.skin, 3 * (work_.inner_skin[mover_] + all_.inner),
                   work_.movers.one_piece[mover_] ? 0 : 3 * skins(mover_)});
@@ -153,9 +144,8 @@ private:
         return;
       const double outside = solid.outside(x[k]) - drawn;
       const double near = all_.allowed[mover_] + all_.allowed[solid.mover];
-      if (outside > (both_tets(solid.mover)
-                         ? near
-                         : std::max(near, shallow() + 3 * skins(solid.mover) + slack(solid.mover))))
+      if (outside >
+          (both_tets(solid.mover) ? near : std::max(near, 3 * skins(solid.mover) + slack(solid.mover))))
         return;
       if (!both_tets(solid.mover) &&
           !(solid.mover != mover_ && hangs(solid.mover))) // else the narrow phase goes by the pair
@@ -186,17 +176,17 @@ private:
     const Vec3 spring = weighted(all_.active.facets[source].x, spring_weights(corner));
     for (std::size_t begin = 0, end = 0; begin < around_.size(); begin = end) {
       const int of = around_[begin].mover;
-      const double near = skins(of), within = gate(of);
+      const double near = skins(of);
       double least = std::numeric_limits<double>::infinity();
       for (; end < around_.size() && around_[end].mover == of; ++end) {
-        if (around_[end].outside > within)
+        if (around_[end].outside > near)
           continue;
         const int solid = around_[end].solid;
         const double outside = all_.solids[solid].outside(spring);
-        if (outside < least && outside <= within && (of != mover_ || may_meet_any(source, solid)))
+        if (outside < least && outside <= near && (of != mover_ || may_meet_any(source, solid)))
           least = outside;
       }
-      if (least > within)
+      if (least > near)
         continue;
       if (of != mover_ && is_single_tet(all_.model, work_, of)) {
         const auto known =
@@ -211,7 +201,7 @@ private:
       // tetrahedra give no distance: behind an edge of the fragment tetrahedra that only touch the edge count as nearer
       // than the one of the triangle behind which the semi-spring is. So triangles are chosen by the distance of one of
       // them: the nearest is no further away.
-      const double nearest = std::max(least_distance(spring, begin, end), shallow());
+      const double nearest = least_distance(spring, begin, end);
       if (of != mover_ && nearest <= near) {
         for (std::size_t i = begin; i < end; ++i)
           if (all_.solids[around_[i].solid].outside(spring) <= nearest + 2 * near + slack(of))

@@ -54,12 +54,6 @@ public:
       const double deep = std::min(2 * depth_limit(work_, from, to), margins_(from) + margins_(to));
       if (d <= (found.inside() ? deep + skins : skins))
         need[corner] = d + 2 * skins;
-      if (!found.inside() && of_several_tets(model_, work_, other)) {
-        const double shallow = std::min(work_.shallow[from.block], work_.shallow[to.block]);
-        if (need[corner] >= 0 ||
-            may_come_inside(pairs, begin, end, corner, 2 * one_place_of_targets, shallow, skins))
-          need[corner] = std::max(d, shallow) + 2 * skins;
-      }
     }
     for (std::size_t i = begin; i < end; ++i) {
       std::uint32_t springs = 0;
@@ -83,26 +77,6 @@ private:
   // m, within which places count as one with the nearest.
   double one_place(const ContactTriangle& to) const {
     return (bonded_ ? bond_gives : same_place_at_least) * to.height;
-  }
-
-  // One of the targets may make a spring stand inside that stands outside now.
-  bool may_come_inside(const Pairs& pairs, std::size_t begin, std::size_t end, int corner, double one_place,
-                       double shallow, double skins) {
-    const Nearest& nearest = nearest_[corner];
-    const double least = std::sqrt(nearest.distance2);
-    const geom::Vec3 spring = nearest.place + nearest.from;
-    for (std::size_t i = begin; i < end; ++i) {
-      const int target = pairs[i].second;
-      if (distance_[i - begin][corner] > std::max(least, shallow) + 2 * skins ||
-          !open_at(model_, work_, active_.triangles[pairs[begin].first], active_.triangles[target]))
-        continue;
-      const Facet& to = active_.facets[target];
-      const Nearest on = nearest_of(target, spring, to.x, to.normal);
-      if (outside_until(on, to.x, spring, least, one_place, shallow,
-                        [&] { return apex_of(model_, state_, triangle(target)); }) <= skins)
-        return true;
-    }
-    return false;
   }
 
   // What is further off than `reach` is left out: nothing comes of it, nor is it one place with what something comes of.
