@@ -68,7 +68,7 @@ local function picture(name, title)
   end
 end
 
-left = model:watch{ bodies = "units", leaves = 0.5 * height }
+left = model:watch{ body = "units", leaves = 0.5 * height }
 local memory = model.memory
 memory.velocity, memory.since, memory.gone, memory.whole = first * scale, model.time, 0, math.floor(first)
 if mode == "ramp" then

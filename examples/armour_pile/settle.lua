@@ -75,7 +75,7 @@ local weight = count * mass * (1 - set_up.water / set_up.density) * set_up.g
 local carried = model:reaction(held_units)[3] - ground.weight
 for _, name in ipairs(ground) do carried = carried + model:reaction(name)[3] end
 
-local measures = model:pile_measures{ body = "units", ground = "slope" }
+local measures = model:pile_measures{ body = "units", onto = "slope" }
 local few, is_held = 0, {}
 for _, number in ipairs(model:lowest_units{ body = "units", count = held }) do is_held[number] = true end
 for number, contacts in ipairs(measures.contacts) do

@@ -35,12 +35,12 @@ local function draw(name, title, field, range)
                  hidden = {"walls"}, view = "iso", up = "z", deformation = 1, size = {1600, 0} }
 end
 draw("settled.png", "At rest", "unit")
-local measures = model:pile_measures{ body = "units", ground = "slope" }
+local measures = model:pile_measures{ body = "units", onto = "slope" }
 model:pile{ body = "units" }:save{ file = "pile.json" }
 
 -- The flow runs up the slope. It starts at 3 m/s and grows by 2 m/s each second.
 model:reset_displacement()
-local left, start = model:watch{ bodies = "units", leaves = 0.5 * height }, model.time
+local left, start = model:watch{ body = "units", leaves = 0.5 * height }, model.time
 model:flow{ on = "units", direction = {1, 0, gradient}, water_density = water,
             velocity = function(time) return 3 + 2 * (time - start) end }
 model:run{ duration = 8, stop = function() return #left >= wanted end }

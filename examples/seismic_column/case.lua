@@ -23,7 +23,7 @@ local model = cdem.model{ bodies = {
   contacts = { {"soil", "rock", cdem.glued{ thickness = 0.1 }} } }
 
 -- The outcrop's motion is twice the wave that rises in the rock: the free surface doubles it.
-local outcrop = cdem.record{ path = "record.csv", value = "acceleration", unit = "g", to = "velocity", baseline = "straight" }
+local outcrop = cdem.record{ file = "record.csv", value = "acceleration", unit = "g", to = "velocity", baseline = "straight" }
 model:quiet{ on = "z-", velocity = {0.5, 0, 0}, amplitude = outcrop }
 model:free_field{ on = {"x-", "x+"} }
 model:fix{ on = {"y-", "y+"}, axes = "y" }

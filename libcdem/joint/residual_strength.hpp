@@ -42,7 +42,7 @@ struct ResidualStrength : LinearClosure {
                      "a finite number >= 0 Pa");
     require_of_joint(std::isfinite(friction) && friction >= 0, "residual_friction_angle", friction,
                      "the tangent of an angle in [0, 90) degrees");
-    require_of_joint(std::isfinite(tension) && tension >= 0, "residual_tension", tension,
+    require_of_joint(std::isfinite(tension) && tension >= 0, "residual_tensile_strength", tension,
                      "a finite number >= 0 Pa");
     require_of_joint(dilation >= 0 && dilation <= friction, "dilation_angle",
                      std::atan(dilation) * (180 / 3.14159265358979323846),

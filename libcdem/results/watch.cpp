@@ -94,10 +94,10 @@ Watch start_watch(const Model& model, const State& state, const std::string& bod
   watch.blocks = units_of_body(model, body);
   for (const int b : watch.blocks)
     if (!model.blocks[b].meshed)
-      throw geom::InputError("bodies", "\"" + body + "\"", "a body of meshes",
+      throw geom::InputError("body", "\"" + body + "\"", "a body of meshes",
                              "blocks that can be cut are not watched");
   if (watch.blocks.empty())
-    refuse_body("bodies", body, model);
+    refuse_body("body", body, model);
   const std::vector<std::vector<int>> touched = touching(model, state);
   for (const int b : watch.blocks)
     watch.touched.push_back(touched[b]);

@@ -10,7 +10,7 @@ local time = cdem.linspace(0, 0.2, 41)
 local acceleration = {}
 for i, t in ipairs(time) do acceleration[i] = 0.1 * math.sin(10 * math.pi * t) end
 cdem.write_csv{ file = "record.csv", columns = { { name = "time", values = time }, { name = "a", values = acceleration } } }
-local outcrop = cdem.record{ path = "record.csv", value = "a", unit = "g", to = "velocity", baseline = "straight" }
+local outcrop = cdem.record{ file = "record.csv", value = "a", unit = "g", to = "velocity", baseline = "straight" }
 
 -- example: model:quiet
 model:quiet{ on = "z-", velocity = {0.5, 0, 0}, amplitude = outcrop } -- the rising wave: half of the outcrop's motion

@@ -26,7 +26,7 @@ local layer = cdem.place{ unit = unit, count = 40, onto = slope, attitudes = 20,
 local armour = cdem.model{ bodies = { { name = "units", shape = layer, material = concrete },
                                       { name = "slope", shape = slope, material = concrete } },
                            contacts = { default = cdem.coulomb{ friction_angle = 35 } } }
-local measures = armour:pile_measures{ body = "units", ground = "slope" }
+local measures = armour:pile_measures{ body = "units", onto = "slope" }
 print(measures.porosity, measures.units_per_area_times_dn2)
 
 -- example: model:contacts

@@ -14,7 +14,7 @@ local rest = model:settle{ kinetic_energy_ratio = 1e-3, max_time = 5 }
 print(rest.converged, rest.time) -- s of the model
 
 -- example: model:watch
-local left = model:watch{ bodies = "units", leaves = 0.5 } -- m
+local left = model:watch{ body = "units", leaves = 0.5 } -- m
 model:flow{ direction = {1, 0, 0}, velocity = 20, on = "units" }
 model:run{ duration = 0.2, stop = function() return #left > 0 end }
 for _, departure in ipairs(left) do print(departure.unit, departure.time) end

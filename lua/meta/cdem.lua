@@ -1098,7 +1098,7 @@ function Model:copy() end
 function Model:reduce_strength(options) end
 
 ---@class (exact) cdem.ModelWatchOptions
----@field bodies string name of a body of meshes
+---@field body string name of a body of meshes
 ---@field leaves number m, > 0: half a unit's height is usual
 
 ---Watches the units of a body from now on. A unit has left when its centroid has moved by `leaves` against the ground and relative to the mean motion of the bodies that it touched when the watch began, ground and units, of those that stay.
@@ -1430,7 +1430,7 @@ function Model:pile(options) end
 
 ---@class (exact) cdem.ModelPileMeasuresOptions
 ---@field body string name of a meshed body
----@field ground string name of the body they lie on
+---@field onto string name of the body they lie on
 
 ---Porosity, density and thickness of a layer of units, and how many neighbours press on them.
 ---@param options cdem.ModelPileMeasuresOptions
@@ -1708,7 +1708,7 @@ function cdem.plastic(options) end
 ---@field friction_angle number deg, in [0, 90)
 ---@field tensile_strength number Pa, >= 0
 ---@field residual_cohesion? number Pa, >= 0: between blocks: cohesion of a broken joint whose faces press; at most cohesion
----@field residual_tension? number Pa, >= 0: between blocks: pull of a broken joint, however far it opens; at most tensile_strength
+---@field residual_tensile_strength? number Pa, >= 0: between blocks: pull of a broken joint, however far it opens; at most tensile_strength
 ---@field residual_friction_angle? number deg, in [0, 90): between blocks: friction once the joint has slipped; at most friction_angle, which it is when left out
 ---@field dilation_angle? number deg, in [0, 90): between blocks: slip opens the joint at this angle; at most the residual friction angle
 ---@field dilation_limit? number m, >= 0: slip at which dilation ends; without it it does not end
@@ -2563,7 +2563,7 @@ function cdem.flow_pressure(velocity, water_density) end
 function cdem.flow_velocity(pressure, water_density) end
 
 ---@class (exact) cdem.RecordOptions
----@field path string beside the script, in the output folder or below the results
+---@field file string beside the script, in the output folder or below the results
 ---@field time? string default "time": name of its column (s); the number of it, "1", where the file has no names
 ---@field value? string name of its column; left out for a file .AT2
 ---@field scale? number default 1: factor on the values

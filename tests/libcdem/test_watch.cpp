@@ -130,7 +130,7 @@ TEST_CASE("what moves with all it touches has not left", "[watch]") {
 TEST_CASE("a watch that has nothing to look at is refused", "[watch][input]") {
   System s = cubes(1);
   CHECK_THROWS_WITH(cdem::start_watch(s.model, s.state, "stones", 0.5),
-                    Catch::Contains("bodies = \"stones\"") && Catch::Contains("\"slab\", \"units\""));
+                    Catch::Contains("body = \"stones\"") && Catch::Contains("\"slab\", \"units\""));
   CHECK_THROWS_WITH(cdem::start_watch(s.model, s.state, "units", 0), Catch::Contains("leaves = 0"));
 }
 

@@ -18,7 +18,7 @@ const std::string head =
     "material = rock } } }\n";
 
 std::string error_with_record(const std::string& csv, const std::string& arguments) {
-  Script script("local cdem = require 'cdem'\nlocal r = cdem.record{ path = 'r.csv', " + arguments +
+  Script script("local cdem = require 'cdem'\nlocal r = cdem.record{ file = 'r.csv', " + arguments +
                 " }\nassert(r.duration == 0.4 and #r.times == 5)");
   script.write("r.csv", csv);
   return script.error();
@@ -35,10 +35,10 @@ TEST_CASE("a record is read from a .csv, scaled and integrated", "[lua][earthqua
             .empty());
   Script script(
       "local cdem = require 'cdem'\n"
-      "local r = cdem.record{ path = 'r.csv', value = 'a', unit = 'cm/s2', scale = 100, to = 'velocity' }\n"
+      "local r = cdem.record{ file = 'r.csv', value = 'a', unit = 'cm/s2', scale = 100, to = 'velocity' }\n"
       "assert(math.abs(r.peak - 0.1) < 1e-12 and r.unit == 'm/s' and r.outside == 'zero')\n"
       "assert(math.abs(r.end_displacement - 0.02) < 1e-12)\n"
-      "local gal = cdem.record{ path = 'r.csv', value = 'a', unit = 'Gal' }\n"
+      "local gal = cdem.record{ file = 'r.csv', value = 'a', unit = 'Gal' }\n"
       "assert(math.abs(gal.peak - 0.01) < 1e-12 and gal.unit == 'm/s2')");
   script.write("r.csv", good);
   CHECK_THAT(script.error(), Equals(""));
@@ -155,5 +155,5 @@ TEST_CASE("bolts in a script", "[lua][bolts]") {
              Contains("bolt 1 of 1") && Contains("hangs in the air"));
   CHECK_THAT(error_of(head + "m:save_bolts{}"), Contains("no bolts"));
   CHECK_THAT(Script(head + "m:bolts{ from = {0.5, 0.5, 2}, to = {0.5, 0.5, 0.5}, area = 490 }").printed(),
-             Contains("bolts: area = 490: no bolt is as thick; it is in m2"));
+             Contains("bolts: area = 490: is it in m2? A bar of 25 mm"));
 }

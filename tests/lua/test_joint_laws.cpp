@@ -64,8 +64,8 @@ TEST_CASE("laws that cannot be are refused with one line", "[lua][joint_laws]") 
   CHECK_THAT(refused("cdem.coulomb{ friction_angle = 30, dilation_limit = 1 }"),
              Contains("dilation_limit: goes with dilation_angle"));
   CHECK_THAT(refused("cdem.mohr_coulomb{ cohesion = 1e6, friction_angle = 30, tensile_strength = 1e5, "
-                     "residual_tension = 2e5 }"),
-             Contains("residual_tension = 200000"));
+                     "residual_tensile_strength = 2e5 }"),
+             Contains("residual_tensile_strength = 200000"));
   CHECK_THAT(refused("cdem.barton_bandis{ jrc = 25, jcs = 1e8, residual_friction_angle = 28, "
                      "initial_stiffness = 2e9, maximum_closure = 1e-3 }"),
              Contains("jrc = 25"));
@@ -90,7 +90,7 @@ TEST_CASE("water in joints: level, table, function, and what is refused", "[lua]
                           "assert(m:water{ pressure = 0 }.points == 0)"),
              Equals(""));
   CHECK_THAT(Script(m + "m:water{ level = 0.25, weight = 9.81 }").printed(),
-             Contains("water: weight = 9.81: no water is as light; it is in N/m3"));
+             Contains("water: weight = 9.81: is it in N/m3? Water has 9810"));
   CHECK_THAT(error_of(m + "m:water{}"), Contains("give one of level"));
   CHECK_THAT(error_of(m + "m:water{ level = 3 }"), Contains("at most the top of the model, 0.25 m"));
   CHECK_THAT(error_of(m + "m:water{ level = 0.25, joints = {'seem'} }"), Contains("(\"seam\")"));

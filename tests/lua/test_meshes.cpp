@@ -92,7 +92,7 @@ TEST_CASE("a rigid mesh falls as a whole, and deforms when it is let", "[lua]") 
 TEST_CASE("a watch is a list that grows while the model runs", "[lua]") {
   CHECK(error_of(head +
                  "local model = model_of{ element = 'rigid', name = 'units' }\n"
-                 "local left = model:watch{ bodies = 'units', leaves = 0.5 }\n"
+                 "local left = model:watch{ body = 'units', leaves = 0.5 }\n"
                  "assert(#left == 0 and left[1] == nil and tostring(left) == 'cdem.Watch (0 left)')\n"
                  "model:initial_velocity{ velocity = {2, 0, 0} }\n"
                  "model:run{ time_step = 1e-3, stop = function() return #left >= 1 or model.time > 3 end }\n"
@@ -101,8 +101,8 @@ TEST_CASE("a watch is a list that grows while the model runs", "[lua]") {
                  "close(left[1].place[1], 0.5 + 2 * left[1].time)\n"
                  "close(left[1].displacement[1], 2 * left[1].time)\n"
                  "for i, unit in ipairs(left) do assert(i == 1 and unit.unit == 1) end") == "");
-  CHECK_THAT(error_of(head + "model_of{}:watch{ bodies = 'rocks', leaves = 1 }"),
-             Contains("bodies = \"rocks\": must be the name of a body"));
+  CHECK_THAT(error_of(head + "model_of{}:watch{ body = 'rocks', leaves = 1 }"),
+             Contains("body = \"rocks\": must be the name of a body"));
 }
 
 TEST_CASE("meshed bodies that do not fit are refused", "[lua]") {

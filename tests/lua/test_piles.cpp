@@ -245,8 +245,8 @@ TEST_CASE("units that a model does not have are refused", "[lua]") {
   CHECK_THAT(refused("model:fix{ on = cdem.select.units{ body = 'unit', numbers = {3} } }"),
              Contains("body = \"unit\": must be the name of a body"));
   CHECK_THAT(refused("model:pile{ body = 'stones' }"), Contains("body = \"stones\": no such body"));
-  CHECK_THAT(refused("model:pile_measures{ body = 'units', ground = 'slope' }"),
-             Contains("ground = \"slope\": no such body"));
+  CHECK_THAT(refused("model:pile_measures{ body = 'units', onto = 'slope' }"),
+             Contains("onto = \"slope\": no such body"));
   CHECK_THAT(refused("model:lowest_units{ body = 'units', count = 13 }"), Contains("at most 12"));
 }
 

@@ -81,7 +81,7 @@ TEST_CASE("initial_stress says what it lacks", "[lua][rock]") {
   CHECK_THAT(error_of(model() + "m:initial_stress{ stress = {0, 0, 0, 0, 0, 0}, surface = 2 }"),
              Contains("surface: goes with gradient"));
   CHECK_THAT(Script(model() + "m:initial_stress{ gradient = 25, k0 = 1 }").printed(),
-             Contains("no rock is as light"));
+             Contains("initial_stress: gradient = 25: is it in Pa/m? Rock has 2e4"));
   CHECK_THAT(Script(model() + "m:initial_stress{ stress = {-2, -2, -5, 0, 0, 0} }").printed(),
              Contains("it is in Pa, 1 MPa is 1e6"));
   CHECK_THAT(Script(model() + "m:initial_stress{ stress = {2e6, 2e6, 5e6, 0, 0, 0} }").printed(),

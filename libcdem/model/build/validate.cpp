@@ -100,7 +100,7 @@ void validate_law(const Joint& j) {
   require(residual->cohesion <= j.cohesion, "residual_cohesion", residual->cohesion,
           fmt::format("in [0, {:g}] Pa, at most the cohesion", j.cohesion).c_str(),
           "the residual is not above the peak");
-  require(residual->tension <= j.tensile_strength, "residual_tension", residual->tension,
+  require(residual->tension <= j.tensile_strength, "residual_tensile_strength", residual->tension,
           fmt::format("in [0, {:g}] Pa, at most the tensile strength", j.tensile_strength).c_str(),
           "the residual is not above the peak");
 }

@@ -1,4 +1,5 @@
 // Armour units by mass or height, and the slope they lie on.
+#include "lua/binding/functions/physical_fields.hpp"
 #include "lua/binding/module/module.hpp"
 #include "lua/binding/objects/solid_objects.hpp"
 
@@ -39,9 +40,14 @@ Field share(std::string name, std::string doc) {
 
 std::vector<Field> unit_fields(std::vector<Field> more) {
   std::vector<Field> fields{
-      number("height").above(0).unit("m"),
-      number("mass").above(0).unit("kg").doc("with density, instead of height: the volume is met exactly"),
-      number("density").above(0).unit("kg/m3"),
+      number("height").above(0).unit("m").doubted(20, largest_quantity, "The largest units are 5 m high"),
+      // Units of a laboratory weigh less, units of a breakwater more.
+      number("mass")
+          .above(0)
+          .unit("kg")
+          .doc("with density, instead of height: the volume is met exactly")
+          .doubted(1, 100, "A unit of 3 t has 3000; height = says that a small one is meant"),
+      density_field("density"),
       number("mesh_size").above(0).unit("m").doc("what solid:mesh{} takes when it is given no size")};
   fields.insert(fields.end(), more.begin(), more.end());
   return fields;

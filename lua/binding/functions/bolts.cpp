@@ -1,4 +1,5 @@
 // Bolts and cables in scripts.
+#include "lua/binding/functions/physical_fields.hpp"
 #include "lua/binding/functions/radians_given.hpp"
 #include "lua/binding/functions/solving_warnings.hpp"
 #include "lua/binding/module/record.hpp"
@@ -7,6 +8,7 @@
 #include "libgeom/core/error.hpp"
 
 #include <cmath>
+#include <limits>
 
 namespace cdem::script {
 
@@ -16,8 +18,7 @@ using geom::InputError;
 using geom::Vec3;
 
 constexpr double degree = 3.14159265358979323846 / 180;
-// m2; a bar of 36 cm: a unit is wrong.
-constexpr double thickest = 0.1;
+constexpr double unlimited = std::numeric_limits<double>::infinity();
 
 Bolt steel_of(const Arguments& a) {
   Bolt bolt;
@@ -66,9 +67,6 @@ Value bolts(Session& session, ModelObject& model, const Arguments& a) {
   } else
     ends.emplace_back(a.vec3("from"), a.vec3("to"));
   Bolt bolt = steel_of(a);
-  if (bolt.area > thickest)
-    session.warn("bolts: area = " + describe(a.value("area")) +
-                 ": no bolt is as thick; it is in m2, a bar of 25 mm has 4.9e-4");
   all_or_none(session, model, ends.size(), [&](Simulation& simulation, std::size_t i) {
     std::tie(bolt.from, bolt.to) = ends[i];
     try {
@@ -145,23 +143,35 @@ void bind_bolts(Module& m) {
                        .doc("degrees from the horizontal (x; y where the axis is x), 90 is up (z)"),
                    list("at", number_type()).required().doc("places along the axis, m")})
                .doc("fans of bolts, instead of from and to"),
-           number("area").above(0).unit("m2").required().doc("of the steel"),
-           number("youngs_modulus").above(0).standard(200e9).unit("Pa").doc("of the steel"),
-           number("yield_stress").above(0).unit("Pa").doc("of the steel; it does not yield when left out"),
+           number("area")
+               .above(0)
+               .unit("m2")
+               .required()
+               .doc("of the steel")
+               .doubted(0.1, unlimited, "A bar of 25 mm has 4.9e-4"),
+           modulus_field("youngs_modulus").standard(200e9).doc("of the steel"),
+           number("yield_stress")
+               .above(0)
+               .unit("Pa")
+               .doc("of the steel; it does not yield when left out")
+               .doubted(0, 1e7, "Steel has 2e8 to 2e9"),
            number("grout_stiffness")
                .above(0)
                .standard(1e9)
                .unit("N/m2")
-               .doc("force per length of bolt and displacement past the rock"),
+               .doc("force per length of bolt and displacement past the rock")
+               .doubted(0, 1e5, "Grout has 1e8 to 1e10"),
            number("grout_strength")
                .above(0)
                .unit("N/m")
-               .doc("force per length; it does not slip when left out"),
+               .doc("force per length; it does not slip when left out")
+               .doubted(0, 1e3, "Grout has 1e5 to 1e6"),
            number("pretension")
                .at_least(0)
                .standard(0.0)
                .unit("N")
-               .doc("of the plate once the bolt is tight"),
+               .doc("of the plate once the bolt is tight")
+               .doubted(0, 1e3, "A bolt has 1e4 to 1e6; 100 kN is 1e5"),
            flag("plate").standard(false).doc("the collar is fast to the rock"),
            number("free_length").at_least(0).standard(0.0).unit("m").doc("without grout, from the collar on"),
            integer("segments").within(1, 1000).standard(10)},

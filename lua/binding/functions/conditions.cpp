@@ -1,6 +1,7 @@
 // Supports, loads and initial states of a model.
 #include "lua/binding/functions/over_place.hpp"
 #include "lua/binding/functions/over_time.hpp"
+#include "lua/binding/functions/physical_fields.hpp"
 #include "lua/binding/functions/solving_warnings.hpp"
 #include "lua/binding/module/module.hpp"
 #include "lua/binding/objects/water_object.hpp"
@@ -120,7 +121,7 @@ Value force(Session& session, ModelObject& model, const Arguments& a) {
   return {};
 }
 
-Value gravity(Session& session, ModelObject& model, const Arguments& a) {
+Value gravity(Session&, ModelObject& model, const Arguments& a) {
   model.require_idle("gravity");
   Gravity gravity;
   if (a.value("vector").reference())
@@ -129,9 +130,6 @@ Value gravity(Session& session, ModelObject& model, const Arguments& a) {
     gravity.acceleration = a.vec3("vector");
   gravity.water_density = a.number("water_density");
   gravity.amplitude = amplitude_of(a, model.simulation.time());
-  if (gravity.water_density > 0 && (gravity.water_density < 500 || gravity.water_density > 2000))
-    session.warn("gravity: water_density = " + describe(a.value("water_density")) +
-                 ": no water has it; it is in kg/m3, fresh water has 1000, sea water 1025");
   model.simulation.gravity(gravity);
   note(model,
        "gravity " + describe(a.value("vector")) + " m/s2" +
@@ -333,8 +331,7 @@ void bind_conditions(Module& m) {
             number("level").unit("m").doc("instead: z of a free water surface; weight times the depth below "
                                           "it, none above. Water in joints is model:water's"),
             object("water_table", "WaterTable").doc("instead: a free water surface that is not level"),
-            number("weight").above(0).unit("N/m3").standard(9810.0).doc("of the water"), amplitude_field(),
-            since_field()},
+            water_weight_field("weight").doc("of the water"), amplitude_field(), since_field()},
            traction)
       .replayed(Replay::again);
   model
@@ -346,12 +343,12 @@ void bind_conditions(Module& m) {
       .add("gravity", "Weight of all blocks; one at a time, the last call counts.",
            {vec3_or_function("vector", "(time: number): number[]")
                 .unit("m/s2")
+                .doubted(5e3, largest_quantity, "On Earth it is {0, 0, -9.81}")
                 .required()
                 .doc("acceleration, e.g. {0, 0, -9.81}, or a function of time (s) that gives it"),
-            number("water_density")
+            water_density_field("water_density")
                 .at_least(0)
                 .standard(0.0)
-                .unit("kg/m3")
                 .doc("buoyancy: takes from the weight, never from the inertia"),
             amplitude_field(), since_field()},
            gravity)
@@ -365,7 +362,11 @@ void bind_conditions(Module& m) {
            {place("on").standard("all").doc("where: a place or a list of places, by the centroids of faces"),
             number("pressure").at_least(0).unit("Pa"),
             number("volume").at_least(0).unit("m3").doc("instead: pumped in, in model:run"),
-            number("bulk_modulus").above(0).unit("Pa").doc("of the fluid; water has 2.2e9"),
+            number("bulk_modulus")
+                .above(0)
+                .unit("Pa")
+                .doc("of the fluid; water has 2.2e9")
+                .doubted(0, 1e4, "Water has 2.2e9, air 1e5"),
             number("reservoir")
                 .above(0)
                 .unit("m3")

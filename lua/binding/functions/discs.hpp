@@ -1,6 +1,7 @@
 // Discs as scripts give them.
 #pragma once
 
+#include "lua/binding/session/session.hpp"
 #include "lua/binding/schema/schema.hpp"
 
 #include "libgeom/assembly/discs.hpp"

@@ -1,6 +1,7 @@
 // Flow on outer faces, pieces, and the search for the flow that breaks a solid (Feng 2014 section 3).
 #include "lua/binding/functions/answers.hpp"
 #include "lua/binding/functions/mass_scaling.hpp"
+#include "lua/binding/functions/physical_fields.hpp"
 #include "lua/binding/functions/solving_stage.hpp"
 #include "lua/binding/module/record.hpp"
 #include "lua/binding/objects/water_object.hpp"
@@ -169,7 +170,7 @@ Value velocity(Session&, Object*, const Arguments& a) {
 }
 
 Field water_density() {
-  return number("water_density").above(0).standard(1025.0).unit("kg/m3").doc("sea water by default");
+  return water_density_field("water_density").standard(1025.0).doc("sea water by default");
 }
 
 std::vector<Field> flow_fields() {

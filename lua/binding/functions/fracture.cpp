@@ -1,5 +1,6 @@
 // Cutting blocks near failure, and cracks that grow in stages.
 #include "lua/binding/functions/angles.hpp"
+#include "lua/binding/functions/physical_fields.hpp"
 #include "lua/binding/functions/solving_stage.hpp"
 #include "lua/binding/functions/solving_warnings.hpp"
 #include "lua/binding/module/record.hpp"
@@ -167,9 +168,9 @@ std::vector<Field> refine_fields() {
           integer("max_depth").within(1, 6).standard(1).doc("a block that was cut this often is left alone"),
           choice("criterion", {"mohr_coulomb", "griffith"}).standard("mohr_coulomb"),
           place("region").doc("only blocks whose centroid lies in this one place"),
-          number("cohesion").at_least(0).unit("Pa").doc("for the criterion, instead of the joint's"),
+          strength_field("cohesion").doc("for the criterion, instead of the joint's"),
           number("friction_angle").from(0, 90).unit("deg").doc("for the criterion, instead of the joint's"),
-          number("tensile_strength").at_least(0).unit("Pa").doc("for the criterion, instead of the joint's")};
+          strength_field("tensile_strength").doc("for the criterion, instead of the joint's")};
 }
 
 Field may_break_field() {

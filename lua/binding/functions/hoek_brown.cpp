@@ -1,9 +1,8 @@
 // The generalised Hoek-Brown strength, of plasticity and of the faces of cohesive bodies.
 #include "lua/binding/functions/angles.hpp"
-#include "lua/binding/functions/radians_given.hpp"
+#include "lua/binding/functions/physical_fields.hpp"
 #include "lua/binding/module/module.hpp"
 #include "lua/binding/objects/objects.hpp"
-#include "lua/binding/session/session.hpp"
 
 #include "libgeom/core/error.hpp"
 
@@ -13,38 +12,26 @@ namespace cdem::script {
 
 namespace {
 
-// Below the strength of stiff clay: a unit is wrong.
-constexpr double weakest_rock = 1e5; // Pa
-
 std::vector<Field> rock_mass_fields() {
   return {
-      number("sigma_ci")
-          .above(0)
-          .unit("Pa")
-          .required()
-          .doc("uniaxial compressive strength of the intact rock"),
+      rock_strength_field("sigma_ci").required().doc("uniaxial compressive strength of the intact rock"),
       number("gsi").within(5, 100).required().doc("geological strength index; 100 is intact rock"),
       number("m_i").above(0).required().doc("constant of the intact rock, 4 for claystone to 33 for granite"),
       number("disturbance").within(0, 1).standard(0.0).doc("D: 0 is undisturbed rock, 1 poor blasting"),
-      number("tensile_strength")
-          .at_least(0)
-          .unit("Pa")
+      strength_field("tensile_strength")
           .doc("at most that of the curve in uniaxial tension, which is the default")};
 }
 
-RockMass read_rock_mass(Session& session, const Arguments& a, const char* function) {
+RockMass read_rock_mass(const Arguments& a) {
   const RockMass rock{a.number("sigma_ci"), a.number("gsi"), a.number("m_i"), a.number("disturbance")};
   validate(rock);
-  if (rock.sigma_ci < weakest_rock)
-    session.warn(std::string(function) + ": sigma_ci = " + describe(a.value("sigma_ci")) +
-                 ": no rock is as weak; it is in Pa, rock has 5e6 to 3e8");
   return rock;
 }
 
-Value plastic_hoek_brown(Session& session, Object*, const Arguments& a) {
+Value plastic_hoek_brown(Session&, Object*, const Arguments& a) {
   auto object = std::make_shared<PlasticityObject>();
   Plasticity& rock = object->plasticity;
-  RockMass mass = read_rock_mass(session, a, "cdem.hoek_brown");
+  RockMass mass = read_rock_mass(a);
   rock.curve = rock.residual_curve = hoek_brown(mass);
   rock.tensile_strength =
       a.optional_number("tensile_strength").value_or(uniaxial_tensile_strength(rock.curve));
@@ -68,15 +55,14 @@ Value plastic_hoek_brown(Session& session, Object*, const Arguments& a) {
   return object;
 }
 
-Value hoek_brown_bond(Session& session, Object*, const Arguments& a) {
+Value hoek_brown_bond(Session&, Object*, const Arguments& a) {
   auto object = std::make_shared<JointObject>();
   Joint& joint = object->joint;
-  joint.curve = hoek_brown(read_rock_mass(session, a, "cdem.hoek_brown_bond"));
+  joint.curve = hoek_brown(read_rock_mass(a));
   joint.tensile_strength =
       a.optional_number("tensile_strength").value_or(uniaxial_tensile_strength(joint.curve));
   joint.cohesion = tangent(joint.curve, 0).cohesion;
   joint.friction_angle = radians(a.number("friction_angle"));
-  warn_of_smoothness(session, a, "cdem.hoek_brown_bond");
   validate(joint);
   return object;
 }
@@ -90,10 +76,10 @@ void bind_hoek_brown(Module& m) {
                         .standard(0.0)
                         .unit("deg")
                         .doc("at most the friction angle of the tangent"));
-  plastic.push_back(record("residual", {number("gsi").within(5, 100), number("m_i").above(0),
-                                        number("disturbance").within(0, 1),
-                                        number("tensile_strength").at_least(0).unit("Pa")})
-                        .doc("of the rock at softening_strain; what is left out stays"));
+  plastic.push_back(
+      record("residual", {number("gsi").within(5, 100), number("m_i").above(0),
+                          number("disturbance").within(0, 1), strength_field("tensile_strength")})
+          .doc("of the rock at softening_strain; what is left out stays"));
   plastic.push_back(
       number("softening_strain")
           .above(0)
@@ -104,8 +90,7 @@ void bind_hoek_brown(Module& m) {
         "2002), with tension cut-off, dilation and softening (docs/theory.md, section 25).",
         plastic, plastic_hoek_brown, "cdem.Plasticity");
   std::vector<Field> bond = rock_mass_fields();
-  bond.push_back(
-      number("friction_angle").from(0, 90).unit("deg").required().doc("of a crack, once it has begun"));
+  bond.push_back(friction_field("friction_angle").required().doc("of a crack, once it has begun"));
   m.add("hoek_brown_bond",
         "Brittle strength of a cohesive body (bonds = \"cohesive\") by the generalised Hoek-Brown curve: a "
         "face cracks where the stress meets the curve, on the plane of its tangent (docs/theory.md, section "

@@ -13,8 +13,6 @@ namespace {
 
 using geom::InputError;
 
-// Pa/m; less than half of the weight of snow: a unit is wrong.
-constexpr double least_gradient = 1e3;
 // Pa; the weight of 4 cm of rock: a unit is wrong.
 constexpr double least = 1e3;
 
@@ -65,9 +63,6 @@ InitialStress field_of(Session& session, ModelObject& model, const Arguments& a)
     field.gradient = a.number("gradient");
     field.k0 = k0_of(a.value("k0"));
     field.surface = a.optional_number("surface");
-    if (field.gradient > 0 && field.gradient < least_gradient)
-      session.warn("initial_stress: gradient = " + describe(a.value("gradient")) +
-                   ": no rock is as light; it is in Pa per metre of depth, rock has 2e4 to 3e4");
   }
   return field;
 }
@@ -150,7 +145,11 @@ void bind_in_situ(Module& m) {
             "times that. Interfaces between two blocks that are both selected start with its traction.",
             {place("on").standard("all").doc("where: one place"),
              list("stress", number_type(), 6).unit("Pa").doc("{xx, yy, zz, xy, yz, xz}, tension positive"),
-             number("gradient").at_least(0).unit("Pa/m").doc("weight per volume, density times 9.81"),
+             number("gradient")
+                 .at_least(0)
+                 .unit("Pa/m")
+                 .doc("weight per volume, density times 9.81")
+                 .doubted(0, 1e3, "Rock has 2e4 to 3e4, its weight per metre of depth"),
              plain("k0").doc("horizontal over vertical stress, one number or {kx, ky}; needed with gradient"),
              number("surface").unit("m").doc(
                  "z where depth begins, the top of the model when left out; above it there is none")},

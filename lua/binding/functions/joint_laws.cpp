@@ -2,6 +2,7 @@
 #include "lua/binding/functions/joint_laws.hpp"
 
 #include "lua/binding/functions/angles.hpp"
+#include "lua/binding/functions/physical_fields.hpp"
 #include "lua/binding/functions/solving_warnings.hpp"
 #include "lua/binding/module/module.hpp"
 #include "lua/binding/objects/objects.hpp"
@@ -15,9 +16,6 @@ namespace cdem::script {
 namespace {
 
 using geom::InputError;
-
-// Softer than any rock wall: a unit is wrong.
-constexpr double weakest_wall = 1e5; // Pa
 
 double tangent(double degrees) {
   return geom::portable::tan(radians(degrees));
@@ -37,16 +35,13 @@ Value finished(Joint&& joint) {
   return object;
 }
 
-Value barton_bandis(Session& session, Object*, const Arguments& a) {
+Value barton_bandis(Session&, Object*, const Arguments& a) {
   BartonBandis law;
   law.jrc = a.number("jrc");
   law.jcs = a.number("jcs");
   law.residual_angle = radians(a.number("residual_friction_angle"));
   law.initial_stiffness = a.number("initial_stiffness");
   law.maximum_closure = a.number("maximum_closure");
-  if (law.jcs < weakest_wall)
-    session.warn("cdem.barton_bandis: jcs = " + describe(a.value("jcs")) +
-                 ": no joint wall is as weak; it is in Pa, rock has 1e7 to 3e8");
   if (const auto length = a.optional_number("length"))
     scale_to_length(law, *length, a.number("sample_length"));
   law.peak_slip = a.optional_number("peak_slip").value_or(law.peak_slip);
@@ -98,9 +93,7 @@ std::string law_text(const Joint& joint) {
 }
 
 std::vector<Field> dilation_fields() {
-  return {number("residual_friction_angle")
-              .from(0, 90)
-              .unit("deg")
+  return {friction_field("residual_friction_angle")
               .doc("between blocks: friction once the joint has slipped; at most friction_angle, which it is "
                    "when left out"),
           number("dilation_angle")
@@ -114,19 +107,16 @@ std::vector<Field> dilation_fields() {
 }
 
 std::vector<Field> residual_strength_fields() {
-  return {number("residual_cohesion")
-              .at_least(0)
-              .unit("Pa")
+  return {strength_field("residual_cohesion")
               .doc("between blocks: cohesion of a broken joint whose faces press; at most cohesion"),
-          number("residual_tension")
-              .at_least(0)
-              .unit("Pa")
+          strength_field("residual_tensile_strength")
+              .formerly("residual_tension")
               .doc("between blocks: pull of a broken joint, however far it opens; at most tensile_strength")};
 }
 
 void read_residual_strength(Session& session, const Arguments& a, Joint& joint) {
   static const char* const names[] = {"residual_friction_angle", "dilation_angle", "dilation_limit",
-                                      "residual_cohesion", "residual_tension"};
+                                      "residual_cohesion", "residual_tensile_strength"};
   bool any = false;
   for (const char* name : names)
     any = any || (a.has(name) && a.value(name).is_number());
@@ -143,13 +133,12 @@ void read_residual_strength(Session& session, const Arguments& a, Joint& joint) 
   law.dilation_limit = a.optional_number("dilation_limit").value_or(law.dilation_limit);
   if (joint.bonded) {
     law.cohesion = a.optional_number("residual_cohesion").value_or(0);
-    law.tension = a.optional_number("residual_tension").value_or(0);
-    if (law.cohesion > 0 && !a.has("residual_tension") && joint.tensile_strength > 0)
-      session.warn(
-          "residual_cohesion = " + describe(a.value("residual_cohesion")) +
-          " without residual_tension: a point that breaks loses all its tension, also where the joint only "
-          "peels at an edge, so slopes and blocks are less safe than by c and phi; give "
-          "residual_tension, 0 where that is meant");
+    law.tension = a.optional_number("residual_tensile_strength").value_or(0);
+    if (law.cohesion > 0 && !a.has("residual_tensile_strength") && joint.tensile_strength > 0)
+      session.warn("residual_cohesion = " + describe(a.value("residual_cohesion")) +
+                   " without residual_tensile_strength: a point that breaks loses all its tension, also "
+                   "where the joint only peels at an edge, so slopes and blocks are less safe than by c and "
+                   "phi; give residual_tensile_strength, 0 where that is meant");
   }
   joint.law = law;
 }
@@ -164,8 +153,8 @@ std::vector<Field> joint_stiffness_fields() {
               .above(0)
               .unit("m")
               .doc("equivalent thickness itself; wins over the ratio. Contacts of meshes take it too"),
-          number("normal_stiffness").above(0).unit("Pa/m").doc("instead of E/L"),
-          number("shear_stiffness").above(0).unit("Pa/m").doc("instead of G/L"),
+          joint_stiffness_field("normal_stiffness").doc("instead of E/L"),
+          joint_stiffness_field("shear_stiffness").doc("instead of G/L"),
           number("stiffness_damping")
               .at_least(0)
               .standard(0.0)
@@ -194,11 +183,9 @@ void bind_joint_laws(Module& m) {
         "With a length, or peak_slip, the roughness is mobilised and worn with slip, and the joint dilates.",
         with_stiffness(
             {number("jrc").within(0, 20).required().doc("joint roughness coefficient"),
-             number("jcs").above(0).unit("Pa").required().doc("strength of the joint walls"),
-             number("residual_friction_angle").from(0, 70).unit("deg").required().doc("phi_r"),
-             number("initial_stiffness")
-                 .above(0)
-                 .unit("Pa/m")
+             rock_strength_field("jcs").required().doc("strength of the joint walls"),
+             friction_field("residual_friction_angle").from(0, 70).required().doc("phi_r"),
+             joint_stiffness_field("initial_stiffness")
                  .required()
                  .doc("slope of the hyperbola where it begins; normal_stiffness, or E/L, is the steepest it "
                       "becomes"),

@@ -1,7 +1,7 @@
 // Materials and joints.
 #include "lua/binding/functions/angles.hpp"
 #include "lua/binding/functions/joint_laws.hpp"
-#include "lua/binding/functions/radians_given.hpp"
+#include "lua/binding/functions/physical_fields.hpp"
 #include "lua/binding/module/module.hpp"
 #include "lua/binding/objects/objects.hpp"
 #include "lua/binding/session/session.hpp"
@@ -13,20 +13,6 @@
 namespace cdem::script {
 
 namespace {
-
-// Softer than gelatine or stiffer than diamond: a unit is wrong.
-constexpr double softest = 1e5, stiffest = 1e13; // Pa
-
-constexpr double least_density = 10; // kg/m3
-// Below the cohesion of loose soil.
-constexpr double weakest = 1e3; // Pa
-
-// Zero is meant: no strength.
-void warn_of_unit(Session& session, const Arguments& a, const char* strength) {
-  if (const double given = a.number(strength); given > 0 && given < weakest)
-    session.warn(std::string("cdem.mohr_coulomb: ") + strength + " = " + describe(a.value(strength)) +
-                 ": no rock is as weak; it is in Pa, rock has 1e5 to 1e8");
-}
 
 // Rayleigh's alpha and beta for a fraction of critical damping at one frequency, where the sum of the two, alpha / 2w +
 // beta w / 2, is least.
@@ -48,7 +34,7 @@ void read_damping(const Arguments& a, Elastic& elastic) {
     elastic.stiffness_damping = share * fraction / w;
 }
 
-Value elastic(Session& session, Object*, const Arguments& a) {
+Value elastic(Session&, Object*, const Arguments& a) {
   auto object = std::make_shared<MaterialObject>();
   object->elastic.youngs_modulus = a.number("youngs_modulus");
   object->elastic.poissons_ratio = a.number("poissons_ratio");
@@ -57,28 +43,18 @@ Value elastic(Session& session, Object*, const Arguments& a) {
   object->elastic.stiffness_damping = a.number("stiffness_damping");
   read_damping(a, object->elastic);
   validate(object->elastic);
-  if (object->elastic.youngs_modulus < softest || object->elastic.youngs_modulus > stiffest)
-    session.warn("cdem.elastic: youngs_modulus = " + describe(a.value("youngs_modulus")) +
-                 ": no rock is like that; it is in Pa, rock has 1e9 to 1e11");
-  if (object->elastic.density < least_density)
-    session.warn("cdem.elastic: density = " + describe(a.value("density")) +
-                 ": lighter than any solid; it is in kg/m3, rock has 2000 to 3000");
   return object;
 }
 
 std::vector<Field> softening_fields() {
-  return {choice("softening", {"none", "linear", "exponential"})
-              .standard("none")
-              .doc("how the strength falls once it is reached; none: brittle. It needs both fracture "
-                   "energies, and tensile_strength at most cohesion / tan(friction angle)"),
-          number("fracture_energy_1")
-              .above(0)
-              .unit("J/m2")
-              .doc("G_I, work per crack area that opening to separation takes, elastic part included"),
-          number("fracture_energy_2")
-              .above(0)
-              .unit("J/m2")
-              .doc("G_II, the same for slip, beyond the work of friction")};
+  return {
+      choice("softening", {"none", "linear", "exponential"})
+          .standard("none")
+          .doc("how the strength falls once it is reached; none: brittle. It needs both fracture energies, "
+               "and tensile_strength at most cohesion / tan(friction angle)"),
+      fracture_energy_field("fracture_energy_1")
+          .doc("G_I, work per crack area that opening to separation takes, elastic part included"),
+      fracture_energy_field("fracture_energy_2").doc("G_II, the same for slip, beyond the work of friction")};
 }
 
 void read_softening(const Arguments& a, Joint& joint) {
@@ -150,9 +126,6 @@ Value mohr_coulomb(Session& session, Object*, const Arguments& a) {
   object->joint.cohesion = a.number("cohesion");
   object->joint.friction_angle = radians(a.number("friction_angle"));
   object->joint.tensile_strength = a.number("tensile_strength");
-  warn_of_unit(session, a, "cohesion");
-  warn_of_unit(session, a, "tensile_strength");
-  warn_of_smoothness(session, a, "cdem.mohr_coulomb");
   read_softening(a, object->joint);
   read_strength(a, object->joint);
   read_residual_strength(session, a, object->joint);
@@ -167,7 +140,6 @@ Value coulomb(Session& session, Object*, const Arguments& a) {
   object->joint.friction_angle = radians(a.number("friction_angle"));
   object->joint.restitution = a.number("restitution");
   read_residual_strength(session, a, object->joint);
-  warn_of_smoothness(session, a, "cdem.coulomb");
   read_joint_stiffness(a, object->joint);
   validate(object->joint);
   return object;
@@ -181,7 +153,7 @@ Value glued(Session&, Object*, const Arguments& a) {
   return object;
 }
 
-Value plastic(Session& session, Object*, const Arguments& a) {
+Value plastic(Session&, Object*, const Arguments& a) {
   auto object = std::make_shared<PlasticityObject>();
   Plasticity& rock = object->plasticity;
   rock.cohesion = a.number("cohesion");
@@ -194,9 +166,6 @@ Value plastic(Session& session, Object*, const Arguments& a) {
       a.optional_number("residual_tensile_strength").value_or(rock.tensile_strength);
   rock.residual_friction_angle =
       a.has("residual_friction_angle") ? radians(a.number("residual_friction_angle")) : rock.friction_angle;
-  warn_of_unit(session, a, "cohesion");
-  warn_of_unit(session, a, "tensile_strength");
-  warn_of_smoothness(session, a, "cdem.plastic");
   const bool softens =
       a.has("residual_cohesion") || a.has("residual_tensile_strength") || a.has("residual_friction_angle");
   if (softens != a.has("softening_strain"))
@@ -211,9 +180,9 @@ Value plastic(Session& session, Object*, const Arguments& a) {
 
 void bind_materials(Module& m) {
   m.add("elastic", "Isotropic linear elasticity (Han 2010 eq 3).",
-        {number("youngs_modulus").above(0).unit("Pa").required().doc("Young's modulus E"),
+        {modulus_field("youngs_modulus").required().doc("Young's modulus E"),
          number("poissons_ratio").between(-1, 0.5).required().doc("Poisson's ratio nu"),
-         number("density").above(0).unit("kg/m3").required(),
+         density_field("density").required(),
          number("viscosity")
              .at_least(0)
              .standard(0.0)
@@ -240,20 +209,13 @@ void bind_materials(Module& m) {
   m.add("plastic",
         "Mohr-Coulomb plasticity with tension cut-off, dilation and softening, of the tetrahedra of blocks "
         "and meshes (docs/theory.md, section 25).",
-        {number("cohesion").at_least(0).unit("Pa").required(),
-         number("friction_angle").from(0, 90).unit("deg").required(),
-         number("tensile_strength")
-             .at_least(0)
-             .unit("Pa")
+        {strength_field("cohesion").required(), friction_field("friction_angle").required(),
+         strength_field("tensile_strength")
              .required()
              .doc("what is beyond the tip of the cone, cohesion / tan(friction_angle), does not act"),
          number("dilation_angle").from(0, 90).standard(0.0).unit("deg").doc("at most friction_angle"),
-         number("residual_cohesion")
-             .at_least(0)
-             .unit("Pa")
-             .doc("at softening_strain; the peak's when left out"),
-         number("residual_friction_angle").from(0, 90).unit("deg"),
-         number("residual_tensile_strength").at_least(0).unit("Pa"),
+         strength_field("residual_cohesion").doc("at softening_strain; the peak's when left out"),
+         friction_field("residual_friction_angle"), strength_field("residual_tensile_strength"),
          number("softening_strain")
              .above(0)
              .doc("equivalent plastic strain at which the residual strength is reached, linearly; without "
@@ -270,10 +232,10 @@ void bind_materials(Module& m) {
   of_plasticity("tensile_strength", "Pa", &Plasticity::tensile_strength);
   m.classes.push_back(plasticity);
 
-  std::vector<Field> bonded{number("cohesion").at_least(0).unit("Pa").required(),
-                            number("friction_angle").from(0, 90).unit("deg").required(),
-                            number("tensile_strength").at_least(0).unit("Pa").required()};
-  std::vector<Field> loose{number("friction_angle").from(0, 90).unit("deg").required()};
+  std::vector<Field> bonded{strength_field("cohesion").required(),
+                            friction_field("friction_angle").required(),
+                            strength_field("tensile_strength").required()};
+  std::vector<Field> loose{friction_field("friction_angle").required()};
   for (const Field& f : residual_strength_fields())
     bonded.push_back(f);
   for (const Field& f : dilation_fields()) {

@@ -1,5 +1,6 @@
 // Piles: units of one shape hung over a ground, or laid on it, before there is a model of them.
 #include "lua/binding/functions/angles.hpp"
+#include "lua/binding/functions/physical_fields.hpp"
 #include "lua/binding/functions/picture_fields.hpp"
 #include "lua/binding/functions/solving_stage.hpp"
 #include "lua/binding/module/module.hpp"
@@ -314,9 +315,7 @@ void bind_piles(Module& m) {
                 "itself"),
             number("play").within(0, 1).standard(0.1).doc(
                 "how far along the contour a unit may be from its place, over its height"),
-            number("friction_angle")
-                .from(0, 90)
-                .unit("deg")
+            friction_field("friction_angle")
                 .standard(15.0)
                 .doc("with so much units are at rest; the lowest row with more than the slope's angle"),
             flag("walls").standard(false).doc("at both ends of the rows walls stand along the slope, on "

@@ -36,11 +36,4 @@ void warn_of_radians(Session& session, const std::string& what, const std::vecto
     say_degrees(session, what);
 }
 
-void warn_of_smoothness(Session& session, const Arguments& a, const char* function) {
-  constexpr double smoothest = 1.5; // deg; the radians of any usual angle are fewer
-  if (const double given = a.number("friction_angle"); given > 0 && given < smoothest)
-    session.warn(std::string(function) + ": friction_angle = " + describe(a.value("friction_angle")) +
-                 ": no rock is as smooth; it is in degrees, rock has 20 to 50");
-}
-
 } // namespace cdem::script

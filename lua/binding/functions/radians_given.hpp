@@ -16,7 +16,4 @@ void warn_of_radians(Session&, const std::string& what, const std::vector<double
 // The same of angles round a circle.
 void warn_of_radians(Session&, const std::string& what, const std::vector<double>& angles);
 
-// Warns where `friction_angle` is smaller than that of any rock. Zero is meant: no friction.
-void warn_of_smoothness(Session&, const Arguments&, const char* function);
-
 } // namespace cdem::script

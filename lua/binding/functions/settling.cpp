@@ -1,5 +1,6 @@
 // Settling of piles, and the watch over units that leave their place.
 #include "lua/binding/functions/angles.hpp"
+#include "lua/binding/functions/physical_fields.hpp"
 #include "lua/binding/functions/solving_stage.hpp"
 #include "lua/binding/module/record.hpp"
 
@@ -69,7 +70,7 @@ Value watch(Session& session, ModelObject& model, const Arguments& a) {
   model.require_idle("watch");
   auto object = std::make_shared<WatchObject>();
   object->model = shared(session, model);
-  object->number = model.simulation.watch(a.text("bodies"), a.number("leaves"));
+  object->number = model.simulation.watch(a.text("body"), a.number("leaves"));
   return object;
 }
 
@@ -132,7 +133,7 @@ void bind_settling(Module& m) {
             "Watches the units of a body from now on. A unit has left when its centroid has moved by "
             "`leaves` against the ground and relative to the mean motion of the bodies that it touched when "
             "the watch began, ground and units, of those that stay.",
-            {text("bodies").required().doc("name of a body of meshes"),
+            {text("body").formerly("bodies").required().doc("name of a body of meshes"),
              number("leaves").above(0).unit("m").required().doc("half a unit's height is usual")},
             watch, "cdem.Watch", "#watch, watch[i]: the units that have left so far, in order");
   model.add(
@@ -149,9 +150,7 @@ void bind_settling(Module& m) {
            .standard(0.5)
            .doc("of what touches: force against the motion as a fraction of the out-of-balance force "
                 "(Cundall)"),
-       number("friction_angle")
-           .from(0, 90)
-           .unit("deg")
+       friction_field("friction_angle")
            .doc("contacts have no more of it while units settle, so that they slide until they lean on more; "
                 "each its own when left out, and afterwards"),
        number("max_time").above(0).standard(60.0).unit("s").doc("of the model, then a warning"),

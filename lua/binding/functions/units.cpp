@@ -61,11 +61,11 @@ Value measures_table(const geom::PileMeasures& m, const std::vector<int>& touchi
 
 Value measures(Session& session, ModelObject& model, const Arguments& a) {
   const geom::Pile& first = first_pile(model, a.text("body"));
-  require_body(model, "ground", a.text("ground"));
+  require_body(model, "onto", a.text("onto"));
   if (session.settings.check_only)
     return measures_table({}, {0});
   geom::Surface ground;
-  for (const geom::Surface& part : model.simulation.surfaces(a.text("ground"))) {
+  for (const geom::Surface& part : model.simulation.surfaces(a.text("onto"))) {
     const int before = static_cast<int>(ground.points.size());
     ground.points.insert(ground.points.end(), part.points.begin(), part.points.end());
     for (geom::Triangle t : part.triangles) {
@@ -127,7 +127,7 @@ void bind_units(Module& m) {
             {body}, pile, "cdem.Pile");
   model.add("pile_measures",
             "Porosity, density and thickness of a layer of units, and how many neighbours press on them.",
-            {body, text("ground").required().doc("name of the body they lie on")}, measures,
+            {body, text("onto").formerly("ground").required().doc("name of the body they lie on")}, measures,
             "cdem.PileMeasures");
   const std::vector<Field> fields{text("body").required(), integer("count").at_least(1).required(),
                                   vec3("up").standard(Value(geom::Vec3(0, 0, 1)))};

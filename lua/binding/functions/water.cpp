@@ -1,5 +1,6 @@
 // Water in joints.
 #include "lua/binding/functions/over_place.hpp"
+#include "lua/binding/functions/physical_fields.hpp"
 #include "lua/binding/module/module.hpp"
 #include "lua/binding/objects/water_object.hpp"
 #include "lua/binding/session/model_object.hpp"
@@ -14,9 +15,6 @@ namespace cdem::script {
 namespace {
 
 using geom::InputError;
-
-// N/m3; lighter than any liquid: a unit is wrong, or it is the density.
-constexpr double least_weight = 5e3;
 
 std::function<double(const geom::Vec3&)> pressure_of(const Arguments& a) {
   if (const Value& given = a.value("pressure"); given.is_number())
@@ -64,9 +62,6 @@ Water water_of(const ModelObject& model, const Arguments& a, std::string& line) 
 Value water(Session& session, ModelObject& model, const Arguments& a) {
   model.require_idle("water");
   std::string line;
-  if (a.number("weight") < least_weight)
-    session.warn("water: weight = " + describe(a.value("weight")) +
-                 ": no water is as light; it is in N/m3, density times 9.81, water has 9810");
   const WaterInJoints sum = model.simulation.water(water_of(model, a, line));
   model.notes->conditions.push_back(line);
   if (sum.points > 0 && model.simulation.has_buoyancy())
@@ -103,7 +98,7 @@ void bind_water(Module& m) {
        list("joints", text_type(), 1)
            .doc("names of joint sets and cuts that hold it; all joints when left out, glued cuts never"),
        place("on").standard("all").doc("where: one place; joints elsewhere keep what they have"),
-       number("weight").above(0).unit("N/m3").standard(9810.0).doc("of the water")},
+       water_weight_field("weight").doc("of the water")},
       water, "cdem.WaterInJoints");
 }
 

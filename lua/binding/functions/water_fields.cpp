@@ -1,6 +1,7 @@
 // cdem.water.*: fields of water that loads take.
 #include "lua/binding/functions/answers.hpp"
 #include "lua/binding/functions/over_time.hpp"
+#include "lua/binding/functions/physical_fields.hpp"
 #include "lua/binding/module/record.hpp"
 #include "lua/binding/objects/water_object.hpp"
 #include "lua/binding/session/session.hpp"
@@ -224,8 +225,8 @@ Table point_at(Session&, WaterObject& water, const Arguments& a) {
   return water_point(water.field->at(a.vec3("place"), a.number("time")));
 }
 
-Field density_field() {
-  return number("density").above(0).standard(1025.0).unit("kg/m3").doc("sea water by default");
+Field density_of_water() {
+  return water_density_field("density").standard(1025.0).doc("sea water by default");
 }
 Field direction_field() {
   return vec3("direction").standard(geom::Vec3(1, 0, 0)).doc("of travel, horizontal");
@@ -263,7 +264,7 @@ void bind_water_fields(Module& m) {
         {vec3_or_function("velocity", "(time: number): number[]").unit("m/s").required(),
          number("level").unit("m").doc("z of the free surface, below which the pressure is hydrostatic; left "
                                        "out: water everywhere, no buoyancy"),
-         density_field()},
+         density_of_water()},
         uniform, "cdem.Water");
   const std::string of_vector = "(x: number, y: number, z: number, time: number): number[]",
                     of_number = "(x: number, y: number, z: number, time: number): number";
@@ -275,7 +276,7 @@ void bind_water_fields(Module& m) {
        function("acceleration", of_vector).unit("m/s2"),
        function("pressure", of_number).unit("Pa").doc("that of the motion included"),
        function("surface", of_number).unit("m").doc("z of the free surface; water everywhere when left out"),
-       density_field()},
+       density_of_water()},
       field, "cdem.Water");
   m.add("water.wave",
         "A regular wave over a flat bed that keeps its shape. stream_function: order N, any depth (Rienecker "
@@ -288,7 +289,7 @@ void bind_water_fields(Module& m) {
          direction_field(),
          vec3("crest_at").standard(geom::Vec3(0, 0, 0)).unit("m").doc("where a crest stands at time 0"),
          number("current").standard(0.0).unit("m/s").doc("along the direction, mean under water"),
-         integer("order").within(3, 50).standard(20).doc("of the stream function"), density_field()},
+         integer("order").within(3, 50).standard(20).doc("of the stream function"), density_of_water()},
         wave, "cdem.Water");
   m.add("water.sea",
         "An irregular sea of long crests: Airy waves whose energy follows the JONSWAP spectrum, with "
@@ -300,7 +301,7 @@ void bind_water_fields(Module& m) {
          number("peak_enhancement").within(1, 20).standard(3.3).doc("gamma; 1: Pierson and Moskowitz"),
          direction_field(), vec3("origin").standard(geom::Vec3(0, 0, 0)).unit("m"),
          integer("components").within(10, 10000).standard(100), integer("seed").at_least(0).standard(1),
-         density_field()},
+         density_of_water()},
         sea, "cdem.Water");
   m.add("water.slope",
         "Waves that run up and down a slope: shallow water along the bed, computed once here. Velocity along "
@@ -320,7 +321,7 @@ void bind_water_fields(Module& m) {
              .within(0, 10)
              .standard(0.01)
              .doc("f of the bed's resistance rho f u |u|: smooth 0.005, armour 0.02 to 0.1"),
-         direction_field(), vec3("origin").standard(geom::Vec3(0, 0, 0)).unit("m"), density_field()},
+         direction_field(), vec3("origin").standard(geom::Vec3(0, 0, 0)).unit("m"), density_of_water()},
         slope_water, "cdem.Water");
   m.add(
       "water.file",
@@ -351,7 +352,7 @@ void bind_water_fields(Module& m) {
            .standard(0.0)
            .unit("s")
            .doc("is added to the times, such as the model's time at the start"),
-       density_field()},
+       density_of_water()},
       file_water, "cdem.Water");
 }
 

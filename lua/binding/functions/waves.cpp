@@ -139,7 +139,7 @@ TimeTable integrated(Session& session, const std::string& head, const TimeTable&
 }
 
 Value read_record(Session& session, Object*, const Arguments& a) {
-  const std::string& file = a.text("path");
+  const std::string& file = a.text("file");
   const std::filesystem::path path = session.files.to_read(file);
   const std::string text = read_file(path);
   const bool peer = path.extension() == ".AT2" || path.extension() == ".at2";
@@ -234,7 +234,8 @@ void bind_waves(Module& m) {
         "of the PEER data base (unit = \"g\"), in SI units from then on; outside its times it is 0. Times "
         "must grow without gaps. With to = \"velocity\" an acceleration is integrated by the trapezoidal "
         "rule.",
-        {text("path").required().doc("beside the script, in the output folder or below the results"),
+        {text("file").formerly("path").required().doc(
+             "beside the script, in the output folder or below the results"),
          text("time").standard("time").doc(
              "name of its column (s); the number of it, \"1\", where the file has no names"),
          text("value").doc("name of its column; left out for a file .AT2"),

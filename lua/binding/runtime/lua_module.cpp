@@ -22,7 +22,8 @@ std::string shown_call(const Bound& bound) {
   return bound.shown + (fields.empty() ? "{ ... }" : "{ " + fields + " }");
 }
 
-Arguments read_arguments(lua_State* L, const Bound& bound, int first) {
+// One table of named values; nil for a call without any.
+Value read_arguments(lua_State* L, const Bound& bound, int first) {
   const Function& function = *bound.function;
   Values given;
   for (int i = first; i <= lua_gettop(L); ++i)
@@ -31,8 +32,8 @@ Arguments read_arguments(lua_State* L, const Bound& bound, int first) {
     // max("displacement.x", "y+") may also be written max{ field = "displacement.x", on = "y+" }.
     const Table* named = given.size() == 1 ? given[0].table() : nullptr;
     if (function.named_too && named && named->items.empty() && !named->named.empty())
-      return check(given[0], function.fields);
-    return check_in_order(given, function.fields);
+      return given[0];
+    return named_in_order(given, function.fields);
   }
   if (given.size() > 1)
     throw geom::InputError("takes one table: " + shown_call(bound));
@@ -40,7 +41,7 @@ Arguments read_arguments(lua_State* L, const Bound& bound, int first) {
   if (!argument.is_nil() && !argument.table())
     throw geom::InputError("takes a table with named values, not " + describe(argument) + ": " +
                            shown_call(bound));
-  return check(argument, function.fields);
+  return argument;
 }
 
 std::shared_ptr<Object> read_self(lua_State* L, const Bound& bound) {
@@ -95,7 +96,10 @@ int call_bound(lua_State* L) {
     std::shared_ptr<Object> self;
     if (bound.owner)
       self = read_self(L, bound);
-    const Arguments arguments = read_arguments(L, bound, bound.owner ? 2 : 1);
+    const Value given = read_arguments(L, bound, bound.owner ? 2 : 1);
+    const Arguments arguments = check(given, bound.function->fields);
+    for (const std::string& remark : remarks_on(given, bound.function->fields))
+      state.session.warn(bound.shown + ": " + remark);
     const Value result = answer(state.session, bound, self.get(), arguments);
     lua_settop(L, 0);
     push(L, result);

@@ -173,6 +173,7 @@ Field& Field::above(double low) {
 }
 Field& Field::at_least(double low) {
   type.range.low = low;
+  type.range.low_open = false;
   return *this;
 }
 Field& Field::between(double low, double high) {
@@ -189,6 +190,14 @@ Field& Field::from(double low, double high) {
 }
 Field& Field::beside(std::vector<Field> named) {
   type.fields = std::move(named);
+  return *this;
+}
+Field& Field::doubted(double above, double below, std::string hint) {
+  type.doubts.push_back({above, below, std::move(hint)});
+  return *this;
+}
+Field& Field::formerly(std::string name) {
+  old_name = std::move(name);
   return *this;
 }
 

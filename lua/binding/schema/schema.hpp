@@ -45,6 +45,12 @@ inline constexpr double largest_quantity = 1e60; // in SI units, and components 
 inline constexpr double largest_length = 1e8;    // m
 inline constexpr double least_length = 1e-9;     // m, of what must be above zero
 
+// Values strictly between the two are allowed, and hardly meant in this unit: the call warns of them with the hint.
+struct Doubt {
+  double above, below;
+  std::string hint;
+};
+
 struct Field;
 
 struct Type {
@@ -54,6 +60,7 @@ struct Type {
   double largest =
       std::numeric_limits<double>::infinity(); // of a number's magnitude; what has a unit has a limit
   bool length = false;                         // in m
+  std::vector<Doubt> doubts{};                 // number; vec3: of its length
   std::vector<std::string> choices{};          // choice
   bool or_number = false; // function: a finite number in the range will do, for one that does not vary
   bool or_vec3 = false;   // function: three finite numbers will do
@@ -76,6 +83,7 @@ struct Field {
   std::string unit_text{}, doc_text{};
   bool must = false;
   Value standard_value{}; // default; nil when there is none
+  std::string old_name{}; // that the last release knew, still taken; empty: none
 
   Field& unit(std::string text);
   Field& doc(std::string text);
@@ -87,6 +95,8 @@ struct Field {
   Field& within(double low, double high);  // in [low, high]
   Field& from(double low, double high);    // in [low, high)
   Field& beside(std::vector<Field> named); // of a list: { name = value, item, ... }
+  Field& doubted(double above, double below, std::string hint);
+  Field& formerly(std::string old_name);
 };
 
 // Fields by type.
@@ -159,8 +169,10 @@ geom::Vec3 to_vec3(const Value&); // of a checked vec3
 // Checks a table against fields and fills defaults in. Throws geom::InputError naming the field (path such as
 // "bodies[2].material"), its value, what is allowed and what to do.
 Arguments check(const Value& given, const std::vector<Field>& fields);
-// The same for arguments given in order.
-Arguments check_in_order(const Values& given, const std::vector<Field>& fields);
+// Arguments given in order, as the table that check() takes.
+Value named_in_order(const Values& given, const std::vector<Field>& fields);
+// What a call is warned of once check() has passed its arguments: old names, values that are doubted. One line each.
+std::vector<std::string> remarks_on(const Value& given, const std::vector<Field>& fields);
 // One value against one type; returns it as Arguments reads it.
 Value check_value(const Value& given, const Type& type, const std::string& path);
 

@@ -78,6 +78,24 @@ std::string joined_path(const std::string& path, const std::string& name) {
   return path.empty() ? name : path + "." + name;
 }
 
+bool takes(const Type& type, const std::string& class_name) {
+  return (type.kind == Kind::object &&
+          ("|" + type.name + "|").find("|" + class_name + "|") != std::string::npos) ||
+         (type.kind == Kind::place && class_name == "Selection") ||
+         (type.or_object && type.object == class_name);
+}
+
+// An object under a name that takes none of its class: another name of the same call may.
+void require_own_name(const Value& given, const Field& field, const std::vector<Field>& fields,
+                      const std::string& path) {
+  const auto object = given.object();
+  if (!object || takes(field.type, object->class_name()))
+    return;
+  for (const Field& other : fields)
+    if (takes(other.type, object->class_name()))
+      throw InputError(path, describe(given), field.type.words(), "write " + other.name + " = for it");
+}
+
 std::shared_ptr<Table> checked_record(const Value& given, const std::vector<Field>& fields,
                                       const std::string& path) {
   static const Table nothing;
@@ -89,7 +107,12 @@ std::shared_ptr<Table> checked_record(const Value& given, const std::vector<Fiel
   if (!table->odd_keys.empty())
     throw InputError(in + table->odd_keys);
   for (const auto& [name, value] : table->named) {
-    if (std::find(names.begin(), names.end(), name) == names.end())
+    const auto old = std::find_if(fields.begin(), fields.end(), [&n = name](const Field& field) {
+      return !n.empty() && field.old_name == n;
+    });
+    if (old != fields.end() && table->named.count(old->name) > 0)
+      throw InputError(in + name + " and " + old->name + ": the same; give " + old->name + " alone");
+    if (old == fields.end() && std::find(names.begin(), names.end(), name) == names.end())
       throw InputError(in + name + ": no such key" + which_there_are(name, names, "Allowed"));
   }
   if (!table->items.empty())
@@ -97,10 +120,13 @@ std::shared_ptr<Table> checked_record(const Value& given, const std::vector<Fiel
                      ": a value without a name; write name = value. Allowed: " + joined(names));
   auto out = std::make_shared<Table>();
   for (const Field& field : fields) {
-    const auto it = table->named.find(field.name);
-    if (it != table->named.end())
-      out->named[field.name] = check_value(it->second, field.type, joined_path(path, field.name));
-    else if (field.must)
+    auto it = table->named.find(field.name);
+    if (it == table->named.end())
+      it = table->named.find(field.old_name);
+    if (it != table->named.end()) {
+      require_own_name(it->second, field, fields, joined_path(path, it->first));
+      out->named[field.name] = check_value(it->second, field.type, joined_path(path, it->first));
+    } else if (field.must)
       throw InputError(in + field.name + ": missing; must be " + field.type.words() +
                        (field.unit_text.empty() ? "" : " (" + field.unit_text + ")") +
                        (field.type.range.text().empty() ? "" : " " + field.type.range.text()));
@@ -293,8 +319,7 @@ Value check_value(const Value& given, const Type& type, const std::string& path)
     return given;
   case Kind::object: {
     const auto object = given.object();
-    if (!object ||
-        ("|" + type.name + "|").find(std::string("|") + object->class_name() + "|") == std::string::npos)
+    if (!object || !takes(type, object->class_name()))
       wrong_type(path, given, type);
     return given;
   }
@@ -317,7 +342,7 @@ Arguments check(const Value& given, const std::vector<Field>& fields) {
   return Arguments(checked_record(given, fields, ""));
 }
 
-Arguments check_in_order(const Values& given, const std::vector<Field>& fields) {
+Value named_in_order(const Values& given, const std::vector<Field>& fields) {
   if (given.size() > fields.size()) {
     bool extra = false;
     for (std::size_t i = fields.size(); i < given.size(); ++i)
@@ -330,7 +355,7 @@ Arguments check_in_order(const Values& given, const std::vector<Field>& fields) 
   for (std::size_t i = 0; i < std::min(given.size(), fields.size()); ++i)
     if (!given[i].is_nil())
       named.named[fields[i].name] = given[i];
-  return Arguments(checked_record(Value(std::move(named)), fields, ""));
+  return Value(std::move(named));
 }
 
 } // namespace cdem::script

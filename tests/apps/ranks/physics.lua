@@ -86,7 +86,7 @@ function cases.pile()
     contacts = { { "slope", "units", rough }, { "units", "units", rough } } }
   model:fix{ on = "slope" }
   model:gravity{ vector = {0, 0, -9.81} }
-  model:watch{ bodies = "units", leaves = 0.3 }
+  model:watch{ body = "units", leaves = 0.3 }
   model:settle{ max_time = 0.5, every = 220, callback = half_way "settle" }
   model:flow{ on = "units", direction = {1, 0, 0}, velocity = 4 }
   model:run{ steps = 230, every = 210, callback = half_way "flow" }
