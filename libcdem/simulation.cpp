@@ -60,6 +60,11 @@ Simulation Simulation::copy() const {
 }
 
 void Simulation::reduce_strength(double factor, const StrengthKinds& kinds) {
+  if (const double share = excavation_kept(); share > 0)
+    impl_->tell(fmt::format(
+        "reduce_strength: forces of an excavation are kept, up to {:.3g} of their size: they hold the rock "
+        "like a support, and a factor of safety counts on them; model:relax_excavation{{}} lets them go",
+        share));
   cdem::reduce_strength(impl_->model, factor, kinds);
 }
 
@@ -115,6 +120,8 @@ bool Simulation::traction(const Traction& traction) {
       throw geom::InputError("weight", fmt::format("{:g}", traction.pressure->weight),
                              "a finite number > 0 N/m3", "water has 9810");
   }
+  if (traction.pressure)
+    impl_->warn_of_distant_table(traction.pressure->table);
   const std::vector<Traction> before = impl_->conditions.tractions;
   impl_->add_condition([&](Conditions& c) { c.tractions.push_back(traction); });
   return !impl_->replaying && meets_earlier(selected_outer_faces, impl_->model, before, traction);
@@ -200,6 +207,7 @@ BeyondStrength Simulation::initial_stress(const InitialStress& field) {
   add_initial_stress(s.model, changed, field);
   s.whole() = std::move(changed);
   s.whole().spent.cutting += before - s.stored_energy();
+  s.warn_of_dry_rock(field);
   return beyond_strength(s.model, s.whole());
 }
 
@@ -211,10 +219,23 @@ void Simulation::initial_stress(const Selection& on, const std::array<double, 6>
 }
 
 WaterInJoints Simulation::water(const Water& water) {
-  State changed = impl_->whole();
-  const WaterInJoints sum = set_water(impl_->model, changed, water);
-  impl_->whole() = std::move(changed);
-  impl_->warn_of_open_water(water);
+  Impl& s = *impl_;
+  WaterInJoints sum;
+  if (!s.replaying) { // else it stands in the state that is restored
+    State changed = s.whole();
+    sum = set_water(s.model, changed, water);
+    s.whole() = std::move(changed);
+    s.warn_of_distant_table(water.table);
+    s.warn_of_open_water(water);
+  }
+  std::vector<StillWater>& still = s.conditions.still_waters;
+  const bool everywhere = water.sets.empty() && selects_same(water.on, Selection::everything());
+  const auto replaced = [&](const StillWater& other) {
+    return everywhere || (other.sets == water.sets && selects_same(other.on, water.on));
+  };
+  still.erase(std::remove_if(still.begin(), still.end(), replaced), still.end());
+  if (water.level || water.table)
+    still.push_back({water.on, water.sets, water.level, water.table});
   return sum;
 }
 
@@ -334,6 +355,38 @@ void sample_every(const StageContext& context, std::int64_t steps) {
 
 } // namespace
 
+void Simulation::check_stage() {
+  impl_->warn_before_stage();
+}
+
+void Simulation::check_run(double begin, double end) {
+  constexpr int times = 11;
+  const Conditions& c = impl_->conditions;
+  const auto ask = [&](const auto& function) {
+    for (int t = 0; function && t < times; ++t)
+      function(begin + (end - begin) * t / (times - 1));
+  };
+  for (const Fix& fix : c.fixes)
+    ask(fix.amplitude);
+  for (const Traction& traction : c.tractions)
+    ask(traction.amplitude);
+  for (const PointForce& force : c.forces)
+    ask(force.amplitude);
+  for (const Quiet& quiet : c.quiets)
+    ask(quiet.amplitude);
+  for (const Flow& flow : c.flows)
+    ask(flow.velocity);
+  for (const CrackPressure& pressure : c.crack_pressures) {
+    ask(pressure.pressure);
+    ask(pressure.volume);
+  }
+  if (c.gravity) {
+    ask(c.gravity->amplitude);
+    ask(c.gravity->turning);
+  }
+  impl_->warn_of_dry_flows(begin, end);
+}
+
 RelaxResult Simulation::relax(const RelaxOptions& options) {
   check(options);
   impl_->warn_of_falling_forces();
@@ -347,11 +400,13 @@ RelaxResult Simulation::relax(const RelaxOptions& options) {
 
 RunResult Simulation::run(const RunOptions& options) {
   check(options);
+  const double begin = time();
   RunResult result = impl_->run_stage([&](const StageContext& context) {
     sample_every(context, options.history_every);
     return cdem::run(context, options);
   });
   impl_->last_residual = impl_->log.history.back().residual;
+  impl_->warn_of_dry_flows(begin, time());
   return result;
 }
 

@@ -141,6 +141,8 @@ public:
   // Forces of earlier excavations that are still kept go as told: `relaxed` counts from the beginning. Forces that are
   // relaxed further stay so. Returns how many go; throws geom::InputError where all that are kept are relaxed further.
   std::size_t relax_excavation(const Excavation&);
+  double
+  excavation_kept() const; // largest share of the forces of an excavation that acts now; 0: none is kept
   // Bonds whose point is selected are broken from now on (a notch); returns how many. whole_faces: only those of
   // interfaces that are selected with all their points, so that faces which meet the notch at its tip stay bonded.
   std::int64_t break_bonds(const Selection&, bool whole_faces = false);
@@ -152,6 +154,11 @@ public:
   // number, from 0; a resumed script that makes it again gets the one that was saved.
   std::size_t watch(const std::string& body, double leaves);
   const std::vector<Departure>& departures(std::size_t watch) const;
+
+  // What a check, which solves nothing, asks before a stage: what a stage warns of as it begins; and the functions of time
+  // and the fields of water at times of a run, s. Throw geom::InputError as the stage would.
+  void check_stage();
+  void check_run(double begin, double end);
 
   // Solving calls. Each is a numbered stage. SolutionError, Interrupted as in step/errors.hpp.
   RelaxResult relax(const RelaxOptions&);

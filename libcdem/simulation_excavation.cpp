@@ -121,12 +121,18 @@ std::int64_t Simulation::remove(const Selection& on, const Excavation& excavatio
   return removed;
 }
 
-std::size_t Simulation::relax_excavation(const Excavation& excavation) {
-  check(excavation);
-  State& state = impl_->whole();
+double Simulation::excavation_kept() const {
+  const State& state = impl_->whole();
   double kept = 0;
   for (const ExcavationForce& force : state.excavation)
     kept = std::max(kept, force.share(state.time));
+  return kept;
+}
+
+std::size_t Simulation::relax_excavation(const Excavation& excavation) {
+  check(excavation);
+  State& state = impl_->whole();
+  const double kept = excavation_kept();
   const std::size_t count = relax_forces(excavation, state);
   if (kept > 0 && count == 0)
     throw geom::InputError("relaxed", fmt::format("{:g}", excavation.relaxed),

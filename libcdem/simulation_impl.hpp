@@ -39,9 +39,15 @@ struct Simulation::Impl {
   std::string at_start; // saved before a stage that can be begun again only; empty: none runs
 
   std::set<std::string> told; // warnings that the user has
+  void tell(const std::string& line);
+  void warn_before_stage();
   void warn_of_loads_on_supports();
+  void warn_of_held_records();
   void warn_of_lost_probes();
+  void warn_of_dry_rock(const InitialStress&);
+  void warn_of_distant_table(const std::shared_ptr<const WaterTable>&);
   void warn_of_open_water(const Water&);
+  void warn_of_dry_flows(double from, double to);
   void warn_of_falling_forces();
 
   // All ranks call it together.
@@ -51,7 +57,7 @@ struct Simulation::Impl {
   }
 
   StageContext next_stage() {
-    warn_of_loads_on_supports();
+    warn_before_stage();
     StageContext context =
         stage_context(model, kept, conditions, log, last_good, *observer, threads, ++stage);
     context.checkpoints = checkpoints;

@@ -4,18 +4,30 @@
 #include "libcdem/load/resolve.hpp"
 #include "libcdem/load/water_table.hpp"
 #include "libcdem/results/fields.hpp"
+#include "libcdem/results/tet_at_place.hpp"
 #include "libcdem/state/places.hpp"
+#include "libcdem/step/support_forces.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
+#include <limits>
 #include <map>
 
 namespace cdem {
 namespace {
 
-constexpr double least_slope = 0.1; // z of the normal of ground that looks up
-constexpr double tellable = 0.01;   // share of a load that a support takes
+constexpr double least_slope = 0.1;   // z of the normal of ground that looks up
+constexpr double least_weight = 1e-9; // of a node in the value at a place; less is rounding
+constexpr double tellable = 0.01;     // share of a load that a support takes
+
+bool holds_still(const HeldNode& node) {
+  const auto none = [](const Node& n) { return n.x == 0 && n.y == 0 && n.z == 0; };
+  const Node& target = node.target;
+  return none(node.free) && none(node.prescribed) && std::isnan(target.x) && std::isnan(target.y) &&
+         std::isnan(target.z) && node.dashpot < 0 &&
+         std::all_of(node.varying.begin(), node.varying.end(), [](int hold) { return hold < 0; });
+}
 
 // The share of a load along an axis that held nodes take, over its nodes.
 double held_share(const std::map<int, Node>& free, const std::vector<int>& nodes, int axis) {
@@ -27,6 +39,16 @@ double held_share(const std::map<int, Node>& free, const std::vector<int>& nodes
 }
 
 } // namespace
+
+void Simulation::Impl::tell(const std::string& line) {
+  if (!replaying && told.insert(line).second)
+    observer->warning("warning: " + line);
+}
+
+void Simulation::Impl::warn_before_stage() {
+  warn_of_loads_on_supports();
+  warn_of_held_records();
+}
 
 void Simulation::Impl::warn_of_loads_on_supports() {
   if (replaying || conditions.forces.empty())
@@ -50,8 +72,69 @@ void Simulation::Impl::warn_of_loads_on_supports() {
           force.on.text, "xyz"[axis],
           share == 1 ? std::string("on nodes") : fmt::format("with {:.2g} of its nodes on nodes", share),
           "xyz"[axis]);
-      if (told.insert(line).second)
-        observer->warning("warning: " + line);
+      tell(line);
+    }
+  }
+}
+
+// What is recorded of rock that a fix holds still never changes; nor does the reaction where nothing is held.
+void Simulation::Impl::warn_of_held_records() {
+  if (replaying || (log.probes.empty() && log.watches.empty()))
+    return;
+  Conditions supports;
+  supports.fixes = conditions.fixes;
+  supports.quiets = conditions.quiets;
+  supports.free_fields = conditions.free_fields;
+  const std::vector<HeldNode> held = resolve(model, whole(), supports).held;
+  std::vector<char> is_held(model.node_position.size(), 0), is_still = is_held;
+  for (const HeldNode& node : held) {
+    is_held[node.node] = 1;
+    is_still[node.node] = holds_still(node);
+  }
+  const auto still = [&](int block) {
+    const auto begin = is_still.begin();
+    return std::all_of(begin + model.blocks[block].node_begin, begin + model.blocks[block].node_end,
+                       [](char node) { return node != 0; });
+  };
+  const auto of_nodes = [](const std::string& field) {
+    return field.rfind("displacement", 0) == 0 || field.rfind("velocity", 0) == 0;
+  };
+  const auto still_place = [&](const PlaceInTet& at) {
+    for (std::size_t k = 0; k < 4; ++k)
+      if (at.weight[k] > least_weight && is_still[model.tets[at.tet][k]] == 0)
+        return false;
+    return true;
+  };
+  for (const Watch& watch : log.watches)
+    if (std::all_of(watch.blocks.begin(), watch.blocks.end(), still))
+      tell(fmt::format(
+          "watch of \"{}\": a fix holds all its units still, so that none can leave; watch another "
+          "body, or release it",
+          model.bodies[model.blocks[watch.blocks.front()].body].name));
+  for (const Probe& probe : log.probes) {
+    const std::string name =
+        probe.name.substr(0, probe.name.size() - std::min<std::size_t>(2, probe.name.size()));
+    if (probe.crack.empty()) {
+      const auto at = tets_by_place(model)->find(model, probe.place);
+      if (at && (of_nodes(probe.field) ? still_place(*at) : still(at->block)))
+        tell(fmt::format("probe \"{}\": a fix holds the rock at ({:g}, {:g}, {:g}) m still: {} never changes "
+                         "there; look at its place",
+                         probe.name, probe.place.x(), probe.place.y(), probe.place.z(), probe.field));
+    } else if (is_momentum(probe)) {
+      bool moves = false;
+      for (int b = 0; b < static_cast<int>(model.blocks.size()); ++b)
+        moves = moves || (model.blocks[b].body == probe.body && !still(b));
+      if (!moves)
+        tell(fmt::format("record_momentum \"{}\": a fix holds \"{}\" still: its momentum is 0", name,
+                         probe.on));
+    } else if (!probe.on.empty()) {
+      const std::vector<int> nodes = selected_nodes(model, place_of_support(model, probe.on));
+      const auto holds = [&](int node) {
+        return is_held[node] != 0 ||
+               (!kept.support_force.empty() && !vec(kept.support_force[node]).isZero(0));
+      };
+      if (std::none_of(nodes.begin(), nodes.end(), holds))
+        tell(fmt::format("record_reaction \"{}\": nothing holds \"{}\": its reaction is 0", name, probe.on));
     }
   }
 }
@@ -64,8 +147,7 @@ void Simulation::Impl::warn_of_lost_probes() {
       const std::string line =
           fmt::format("probe \"{}\": the rock at ({:g}, {:g}, {:g}) m was removed; it is nan from now on",
                       probe.name, probe.place.x(), probe.place.y(), probe.place.z());
-      if (told.insert(line).second)
-        observer->warning("warning: " + line);
+      tell(line);
     }
   }
 }
@@ -88,8 +170,76 @@ void Simulation::Impl::warn_of_falling_forces() {
                                        "they are now, up to {:.3g} of their full size; call model:run until "
                                        "then, or model:relax_excavation{{}}",
                                        end, share);
-  if (told.insert(line).second)
-    observer->warning("warning: " + line);
+  tell(line);
+}
+
+// Rock above the surface where depth begins has no stress.
+void Simulation::Impl::warn_of_dry_rock(const InitialStress& field) {
+  if (replaying || !(field.gradient > 0) || !field.surface)
+    return;
+  geom::Box box;
+  for (int b = 0; b < static_cast<int>(model.blocks.size()); ++b)
+    if (selects_block(model, field.on, b))
+      for (int node = model.blocks[b].node_begin; node < model.blocks[b].node_end; ++node)
+        box.extend(model.node_position[node]);
+  if (*field.surface <= box.min.z())
+    tell(fmt::format("initial_stress: surface = {:g} m lies below all rock of the place ({}), which reaches "
+                     "from z = {:g} to "
+                     "{:g} m: the gradient gives it no stress; surface is the z where depth begins",
+                     *field.surface, field.on.text, box.min.z(), box.max.z()));
+}
+
+void Simulation::Impl::warn_of_distant_table(const std::shared_ptr<const WaterTable>& table) {
+  if (replaying || !table)
+    return;
+  if (const std::string far = table->apart_from(model.box); !far.empty())
+    tell("water_table: " + far);
+}
+
+// Water that wets no face at any of these times loads nothing.
+void Simulation::Impl::warn_of_dry_flows(double from, double to) {
+  constexpr int times = 40;
+  constexpr std::size_t most_nodes = 500;
+  if (replaying || std::none_of(conditions.flows.begin(), conditions.flows.end(),
+                                [](const Flow& flow) { return flow.water != nullptr; }))
+    return;
+  const State& state = whole();
+  for (const Flow& flow : conditions.flows) {
+    if (!flow.water || is_gone(model, flow.on))
+      continue;
+    std::vector<geom::Vec3> places;
+    const auto add_faces = [&](const Selection& on) {
+      for (const int face : selected_outer_faces(model, on))
+        each_face_node(model, model.outer_faces[face], [&](int node, double) {
+          places.push_back(place_of(model, state, node));
+          places.push_back(model.node_position[node]);
+        });
+    };
+    add_faces(flow.on);
+    std::for_each(flow.also.begin(), flow.also.end(), add_faces);
+    // The lowest, and some of the others.
+    std::sort(places.begin(), places.end(),
+              [](const geom::Vec3& a, const geom::Vec3& b) { return a.z() < b.z(); });
+    const std::size_t stride = std::max<std::size_t>(1, places.size() / most_nodes);
+    double highest = -std::numeric_limits<double>::infinity();
+    const auto wets = [&](const geom::Vec3& place, double time) {
+      const double surface = flow.water->at(place, time).surface;
+      highest = std::max(highest, surface);
+      return place.z() < surface;
+    };
+    bool wet = places.empty();
+    for (int t = 0; t < times && !wet; ++t)
+      for (std::size_t p = 0; p < places.size() && !wet; p += p < most_nodes ? 1 : stride)
+        wet = wets(places[p], from + (to - from) * t / times);
+    if (!wet)
+      tell(fmt::format("flow on {}: its water reaches no face from t = {:.3g} to {:.3g} s: {}, and the "
+                       "lowest face is at z = "
+                       "{:.3g} m; look at the level of the water",
+                       flow.on.text, from, to,
+                       std::isfinite(highest) ? fmt::format("it rises to z = {:.4g} m", highest)
+                                              : std::string("there is none at this place"),
+                       places.front().z()));
+  }
 }
 
 // Ground below the water table that looks up is the bed of open water: the joints push its blocks up, and nothing but a
@@ -127,8 +277,7 @@ void Simulation::Impl::warn_of_open_water(const Water& water) {
       water.level ? fmt::format("level = {:g} m", *water.level) : "the water_table", area, deepest,
       water.level ? "level" : "table",
       water.level ? fmt::format("level = {:g}", *water.level) : "water_table = the same");
-  if (told.insert(line).second)
-    observer->warning("warning: " + line);
+  tell(line);
 }
 
 } // namespace cdem

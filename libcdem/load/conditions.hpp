@@ -108,6 +108,14 @@ inline double flow_velocity(double pressure, double water_density) { // V, m/s
   return std::sqrt(2 * pressure / water_density);
 }
 
+// The table of water that stands in joints (load/water.hpp), for pictures: its pressure is part of the State.
+struct StillWater {
+  Selection on;
+  std::vector<std::string> sets;             // of joints; empty: all
+  std::optional<double> level;               // m, z
+  std::shared_ptr<const WaterTable> table{}; // in place of the level
+};
+
 struct Conditions {
   std::vector<Fix> fixes;
   std::vector<Traction> tractions;
@@ -118,6 +126,7 @@ struct Conditions {
   std::vector<Quiet> quiets;
   std::vector<FreeField> free_fields;
   std::vector<Bolt> bolts;
+  std::vector<StillWater> still_waters;
 
   bool load() const { return !tractions.empty() || !forces.empty() || gravity || !flows.empty(); }
 };

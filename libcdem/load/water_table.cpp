@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
+#include <limits>
 
 namespace cdem {
 namespace {
@@ -39,6 +40,23 @@ public:
     const auto& [s0, z0] = *(next - 1);
     const auto& [s1, z1] = *next;
     return z0 + (s - s0) / (s1 - s0) * (z1 - z0);
+  }
+
+  std::string apart_from(const geom::Box& box) const override {
+    double low = std::numeric_limits<double>::infinity(), high = -low; // m, distances of the box
+    for (const double x : {box.min.x(), box.max.x()})
+      for (const double y : {box.min.y(), box.max.y()}) {
+        const double s = (geom::Vec3(x, y, 0) - origin_).dot(along_);
+        low = std::min(low, s);
+        high = std::max(high, s);
+      }
+    if (low < rows_.back()[0] && high > rows_.front()[0])
+      return "";
+    return fmt::format("its profile has distances from {:g} to {:g} m, and the model lies at {:g} to {:g} m "
+                       "along it, so that "
+                       "the table is level there, at z = {:g} m; look at origin and direction",
+                       rows_.front()[0], rows_.back()[0], low, high,
+                       low < rows_.back()[0] ? rows_.front()[1] : rows_.back()[1]);
   }
 
 private:

@@ -13,6 +13,7 @@
 #include <array>
 #include <memory>
 #include <optional>
+#include <string>
 #include <vector>
 
 namespace cdem {
@@ -23,6 +24,8 @@ public:
   // z_w above or below a place, m; nothing where the table ends before.
   virtual std::optional<double> height(const geom::Vec3& place) const = 0;
   virtual bool is_plane() const { return false; }
+  // Where it is known lies beside this box in plan, so that the table is level over it: one line; else "".
+  virtual std::string apart_from(const geom::Box&) const { return ""; }
 };
 
 // The same; throws geom::InputError where the table ends before.

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <map>
+#include <set>
 
 namespace cdem {
 namespace {
@@ -16,7 +17,72 @@ bool opened(const FaceStateBatch& state, int lane) {
                       [&](const auto& point) { return is_intact(point[lane]); });
 }
 
-void add_edges_of_meshes(const Model& model, Snapshot& snapshot) {
+using FacePair =
+    std::array<int, 3>; // block, and two faces of its shape that meet in an edge; the smaller one first
+
+FacePair pair_of(int block, int one, int other) {
+  return {block, std::min(one, other), std::max(one, other)};
+}
+
+// By the two vertices in the order in which the face goes along them.
+using EdgeFaces = std::map<std::array<int, 2>, int>;
+
+EdgeFaces faces_at_edges(const geom::Polyhedron& shape) {
+  EdgeFaces faces;
+  for (int f = 0; f < static_cast<int>(shape.faces.size()); ++f) {
+    const std::vector<int>& loop = shape.faces[f].loop;
+    for (std::size_t i = 0; i < loop.size(); ++i)
+      faces[{loop[i], loop[(i + 1) % loop.size()]}] = f;
+  }
+  return faces;
+}
+
+struct ShapeEdge {
+  int other = 0; // the face beyond it
+  geom::Vec3 from, to;
+};
+
+std::vector<ShapeEdge> edges_of_face(const geom::Polyhedron& shape, int face) {
+  const EdgeFaces faces = faces_at_edges(shape);
+  std::vector<ShapeEdge> edges;
+  for (const auto& [ends, f] : faces)
+    if (const auto beyond = faces.find({ends[1], ends[0]}); f == face && beyond != faces.end())
+      edges.push_back({beyond->second, shape.vertices[ends[0]], shape.vertices[ends[1]]});
+  return edges;
+}
+
+// The middle of one lies on the other, and both run the same way.
+bool lie_along(const ShapeEdge& a, const ShapeEdge& b, double tolerance) {
+  const auto holds = [&](const ShapeEdge& line, const geom::Vec3& x) {
+    const geom::Vec3 along = line.to - line.from;
+    const double part = (x - line.from).dot(along) / along.squaredNorm();
+    return part > 0 && part < 1 && (line.from + part * along - x).norm() < tolerance;
+  };
+  const geom::Vec3 one = a.to - a.from, other = b.to - b.from;
+  return one.cross(other).norm() < tolerance * std::max(one.norm(), other.norm()) &&
+         (holds(a, 0.5 * (b.from + b.to)) || holds(b, 0.5 * (a.from + a.to)));
+}
+
+// Edges at which a glued face comes to the surface, and this goes on over it: nothing ends there.
+std::set<FacePair> seams(const Model& model) {
+  std::set<FacePair> found;
+  for (const Interface& interface : model.interfaces) {
+    if (!model.joints[interface.joint].glued)
+      continue;
+    const geom::Polyhedron &a = model.blocks[interface.block_a].shape,
+                           &b = model.blocks[interface.block_b].shape;
+    for (const ShapeEdge& of_a : edges_of_face(a, interface.face_a))
+      for (const ShapeEdge& of_b : edges_of_face(b, interface.face_b))
+        if (lie_along(of_a, of_b, model.tolerance) &&
+            geom::face_normal(a, of_a.other).dot(geom::face_normal(b, of_b.other)) > flat) {
+          found.insert(pair_of(interface.block_a, interface.face_a, of_a.other));
+          found.insert(pair_of(interface.block_b, interface.face_b, of_b.other));
+        }
+  }
+  return found;
+}
+
+void add_edges_of_meshes(const Model& model, const std::set<FacePair>& seams, Snapshot& snapshot) {
   struct Side {
     geom::Vec3 normal;
     int face; // of a zoned block
@@ -35,7 +101,8 @@ void add_edges_of_meshes(const Model& model, Snapshot& snapshot) {
                 b = model.mesh.original[ends[1] - model.mesh.first_node];
       const auto [found, first] =
           first_at.emplace(std::array<int, 2>{std::min(a, b), std::max(a, b)}, Side{normal, triangle.face});
-      if (!first && (found->second.normal.dot(normal) < flat || found->second.face != triangle.face))
+      if (!first && (found->second.normal.dot(normal) < flat || found->second.face != triangle.face) &&
+          seams.count(pair_of(triangle.block, found->second.face, triangle.face)) == 0)
         snapshot.block_edges.push_back(ends);
     }
   }
@@ -78,11 +145,22 @@ void add_surface(const Model& model, const std::vector<std::int64_t>& opened, Sn
 }
 
 void add_edges(const Model& model, Snapshot& snapshot) {
-  for (const Block& block : model.blocks)
-    if (block.star())
-      for (const auto& edge : geom::edges(block.shape))
-        snapshot.block_edges.push_back({block.node_begin + edge[0], block.node_begin + edge[1]});
-  add_edges_of_meshes(model, snapshot);
+  const std::set<FacePair> hidden = seams(model);
+  for (int b = 0; b < static_cast<int>(model.blocks.size()); ++b) {
+    const Block& block = model.blocks[b];
+    if (!block.star())
+      continue;
+    const EdgeFaces faces = hidden.empty() ? EdgeFaces() : faces_at_edges(block.shape);
+    const auto is_hidden = [&](int from, int to) {
+      const auto one = faces.find({from, to}), other = faces.find({to, from});
+      return one != faces.end() && other != faces.end() &&
+             hidden.count(pair_of(b, one->second, other->second)) > 0;
+    };
+    for (const auto& [from, to] : geom::edges(block.shape))
+      if (!is_hidden(from, to))
+        snapshot.block_edges.push_back({block.node_begin + from, block.node_begin + to});
+  }
+  add_edges_of_meshes(model, hidden, snapshot);
 }
 
 } // namespace cdem

@@ -1,5 +1,6 @@
 #include "libcdem/results/free_surface.hpp"
 
+#include "libcdem/load/water_table.hpp"
 #include "libgeom/core/error.hpp"
 
 #include <algorithm>
@@ -194,12 +195,60 @@ WaterSheet free_surface(const WaterField& water, double time, const geom::Box& b
   return sheet;
 }
 
+namespace {
+
+// Water at rest below a level or a table, of joints or in front of faces.
+class StandingWater final : public WaterField {
+public:
+  StandingWater(std::optional<double> level, std::shared_ptr<const WaterTable> table)
+      : level_(level), table_(std::move(table)) {}
+  WaterPoint at(const Vec3& place, double) const override {
+    WaterPoint point;
+    const std::optional<double> z = table_ ? table_->height(place) : level_;
+    point.surface = z.value_or(std::nan("")); // the table ends before
+    return point;
+  }
+  double density() const override { return 0; }
+  bool has_dynamic_pressure() const override { return false; }
+  bool has_pressure() const override { return false; }
+  bool same(const std::optional<double>& level, const std::shared_ptr<const WaterTable>& table) const {
+    return level_ == level && table_ == table;
+  }
+
+private:
+  std::optional<double> level_;
+  std::shared_ptr<const WaterTable> table_;
+};
+
+// Each once: water often stands at one level in the joints and in front of the slope.
+std::vector<StandingWater> standing_water(const Conditions& conditions) {
+  std::vector<StandingWater> all;
+  const auto add = [&](const auto& water) {
+    if ((water.level || water.table) && std::none_of(all.begin(), all.end(), [&](const StandingWater& known) {
+          return known.same(water.level, water.table);
+        }))
+      all.emplace_back(water.level, water.table);
+  };
+  for (const StillWater& water : conditions.still_waters)
+    add(water);
+  for (const Traction& traction : conditions.tractions)
+    if (traction.pressure)
+      add(*traction.pressure);
+  return all;
+}
+
+} // namespace
+
 void add_water(const Conditions& conditions, const WaterWish& wish, Snapshot& snapshot) {
   std::vector<const WaterField*> fields;
-  if (wish.shown)
+  const std::vector<StandingWater> standing = standing_water(conditions);
+  if (wish.shown) {
     for (const Flow& flow : conditions.flows)
       if (flow.water && std::find(fields.begin(), fields.end(), flow.water.get()) == fields.end())
         fields.push_back(flow.water.get());
+    for (const StandingWater& water : standing)
+      fields.push_back(&water);
+  }
   if (fields.empty() || snapshot.points.empty())
     return;
   const SnapshotField* moved = nullptr;

@@ -10,8 +10,8 @@ namespace cdem {
 // Over the rectangle of the box; places and times that the field does not know are dry. No points where all is dry; of size 0 where water is everywhere, without a surface.
 WaterSheet free_surface(const WaterField&, double time, const geom::Box&, const WaterWish& = {});
 
-// Gives the snapshot the sheets of the fields that load the model, each field once, over the box of its surface. Water
-// without a free surface is left out.
+// Gives the snapshot the sheets of the water that loads the model, each once, over the box of its surface: fields of flows,
+// and the levels and tables of water in joints and in front of faces. Water without a free surface is left out.
 void add_water(const Conditions&, const WaterWish&, Snapshot&);
 
 } // namespace cdem

@@ -36,13 +36,15 @@ double utilisation_of(const Model& model, const State& state, int p, double norm
                                        state.joint_history[p].path));
 }
 
-// visit(name, interface) for the interfaces chosen.
+// visit(name, interface) for the interfaces chosen. Glued faces are no joints.
 template <class Visit>
 void each_chosen(const Model& model, const JointChoice& choice, const Visit& visit) {
   for (const std::string& set : choice.sets)
     require_joint_set(model, "set", set);
   for (const Interface& interface : model.interfaces) {
     const std::string name = joint_set_of(model, interface);
+    if (model.joints[interface.joint].glued)
+      continue;
     if (choice.sets.empty() || std::find(choice.sets.begin(), choice.sets.end(), name) != choice.sets.end())
       visit(name, interface);
   }
@@ -66,7 +68,7 @@ void add_point(JointSum& sum, const JointPoint& point) {
 
 [[noreturn]] void nothing_there(const Selection& on) {
   throw geom::InputError("on", on.text, "a place that holds interfaces between blocks",
-                         "nothing of these joints lies there");
+                         "nothing of these joints lies there; glued faces are none");
 }
 
 } // namespace

@@ -147,7 +147,11 @@ ColourScale colour_scale(const std::vector<double>& values, bool id, const std::
 }
 
 Colour palette_colour(std::size_t index) {
-  return from_bytes(palette[index % palette.size()]);
+  Colour colour = from_bytes(palette[index % palette.size()]);
+  const std::size_t round = index / palette.size() % 3; // as they are, darker, lighter
+  for (double& part : colour)
+    part = round == 1 ? 0.55 * part : round == 2 ? 0.55 * part + 0.45 : part;
+  return colour;
 }
 
 Colour id_colour(std::int64_t id) {

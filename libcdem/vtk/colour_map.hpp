@@ -25,7 +25,7 @@ struct ColourScale {
 ColourScale colour_scale(const std::vector<double>& values, bool id, const std::string& colour_map,
                          const std::optional<std::array<double, 2>>& range);
 
-// One of a few well separated colours for lines and small sets of ids; they repeat after eight.
+// One of a few well separated colours for lines and small sets of ids; after eight they come darker, then lighter, and repeat after 24.
 Colour palette_colour(std::size_t index);
 
 // A light colour for any id, so that neighbouring ids differ and dark outlines stay visible.

@@ -117,6 +117,32 @@ Snapshot section_of(const Snapshot& all, const CutPlane& plane) {
   return section;
 }
 
+namespace {
+
+// Edges that one triangle alone has. The triangles do not share points.
+std::vector<std::array<int, 2>> outline_of(const BondSnapshot& bonds) {
+  using Place = std::array<double, 3>;
+  std::map<std::array<Place, 2>, std::pair<int, std::array<int, 2>>> found; // how often, and the points
+  for (const geom::Triangle& t : bonds.triangles)
+    for (std::size_t k = 0; k < 3; ++k) {
+      const std::array<int, 2> ends{t[k], t[(k + 1) % 3]};
+      std::array<Place, 2> places;
+      for (std::size_t end = 0; end < 2; ++end)
+        Eigen::Map<geom::Vec3>(places[end].data()) = bonds.points[ends[end]];
+      std::sort(places.begin(), places.end());
+      auto& [count, points] = found[places];
+      ++count;
+      points = ends;
+    }
+  std::vector<std::array<int, 2>> edges;
+  for (const auto& [places, edge] : found)
+    if (edge.first == 1)
+      edges.push_back(edge.second);
+  return edges;
+}
+
+} // namespace
+
 Snapshot joints_of(const Snapshot& all) {
   Snapshot s = empty_copy(all);
   s.points = all.bonds.points;
@@ -124,6 +150,7 @@ Snapshot joints_of(const Snapshot& all) {
   s.cell_fields = all.bonds.triangle_fields;
   for (std::size_t t = 0; t < all.bonds.triangles.size(); ++t)
     add_seen_from_both_sides(s, all.bonds.triangles[t], static_cast<std::int64_t>(t));
+  s.block_edges = outline_of(all.bonds);
   return s;
 }
 

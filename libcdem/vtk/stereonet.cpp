@@ -53,23 +53,59 @@ public:
 
 private:
   Colour pole_colour(std::size_t i) const { return poles_[i].colour.value_or(palette_colour(i)); }
+  std::optional<std::size_t> poles_of(std::size_t plane) const { // of the same name
+    const auto own = std::find_if(poles_.begin(), poles_.end(), [&](const StereonetPoles& poles) {
+      return poles.name == planes_[plane].name;
+    });
+    return own == poles_.end() ? std::nullopt : std::optional<std::size_t>(own - poles_.begin());
+  }
   Colour plane_colour(std::size_t i) const {
-    return planes_[i].colour.value_or(palette_colour(poles_.size() + i));
+    if (planes_[i].colour)
+      return *planes_[i].colour;
+    if (const auto poles = poles_of(i))
+      return pole_colour(*poles);
+    std::size_t next = poles_.size();
+    for (std::size_t before = 0; before < i; ++before)
+      next += poles_of(before) ? 0 : 1;
+    return palette_colour(next);
   }
   std::string pole_text(std::size_t i) const {
     const std::size_t n = poles_[i].planes.size();
     return poles_[i].name + " (" + std::to_string(n) + (n == 1 ? " pole)" : " poles)");
   }
-  std::string plane_text(std::size_t i) const {
-    const StereonetPlane& p = planes_[i];
-    return p.name + " (" + digits(p.plane.dip, 2) + "/" + digits(p.plane.dip_direction, 3) + ")";
+  std::string angles(std::size_t plane) const {
+    const geom::Orientation& o = planes_[plane].plane;
+    return digits(o.dip, 2) + "/" + digits(o.dip_direction, 3);
   }
-  std::vector<std::string> entries() const {
-    std::vector<std::string> all;
+  std::string plane_text(std::size_t i) const {
+    const std::string& name = planes_[i].name;
+    return name.find(angles(i)) != std::string::npos ? name : name + " (" + angles(i) + ")";
+  }
+
+  struct Entry {
+    std::string text;
+    std::optional<std::size_t> poles{}, plane{};
+  };
+  // Poles and the plane of their name share a row.
+  std::vector<Entry> rows() const {
+    std::vector<Entry> all;
     for (std::size_t i = 0; i < poles_.size(); ++i)
-      all.push_back(pole_text(i));
-    for (std::size_t i = 0; i < planes_.size(); ++i)
-      all.push_back(plane_text(i));
+      all.push_back({pole_text(i), i});
+    for (std::size_t i = 0; i < planes_.size(); ++i) {
+      const auto poles = poles_of(i);
+      if (!poles || all[*poles].plane || plane_colour(i) != pole_colour(*poles)) {
+        all.push_back({plane_text(i), {}, i});
+        continue;
+      }
+      all[*poles].plane = i;
+      all[*poles].text.insert(all[*poles].text.size() - 1, ", " + angles(i));
+    }
+    return all;
+  }
+  static std::vector<std::string> texts(const std::vector<Entry>& rows) {
+    std::vector<std::string> all;
+    for (const Entry& row : rows)
+      all.push_back(row.text);
     return all;
   }
   Canvas::Point on_paper(const Eigen::Vector2d& x) const {
@@ -94,20 +130,21 @@ private:
   // The legend stands to the right of the net, or below it in a picture that is higher than wide. Its text becomes
   // smaller where it must.
   void place_net() {
-    const double s = pixel_, rim = 1.7 * font_ + tick_long * s,
-                 row = 1.5 * font_; // rim: letters around the net
+    const double s = pixel_, rim = 1.7 * font_ + tick_long * s; // rim: letters around the net
     const double wide = options_.size[0], top = options_.size[1] - net_margin * s -
                                                 (options_.title.empty() ? 0 : 1.6 * title_font * s);
-    const double bottom = net_margin * s + row; // a line of text below the net
-    const double text = canvas_.widest(entries(), font_), samples = (sample + sample_room) * s,
-                 rows = row * static_cast<double>(entries().size());
+    const double bottom = net_margin * s + 1.5 * font_; // a line of text below the net
+    const double highest = options_.size[1] > wide ? 0.5 * (top - bottom) : top - net_margin * s;
+    row_ = std::min(1.5 * font_, highest / static_cast<double>(rows().size()));
+    const double text = canvas_.widest(texts(rows()), font_), samples = (sample + sample_room) * s,
+                 high = row_ * static_cast<double>(rows().size());
     if (options_.size[1] > wide) {
-      const double low = bottom + std::min(rows + net_margin * s, 0.5 * (top - bottom));
+      const double low = bottom + std::min(high + net_margin * s, 0.5 * (top - bottom));
       radius_ = std::max(16., 0.5 * std::min(wide - net_margin * s, top - low) - rim);
       const double used = top - low - 2 * (radius_ + rim);
       centre_ = {0.5 * wide, top - 0.5 * used - radius_ - rim};
       legend_left_ = std::max(0.5 * net_margin * s, 0.5 * (wide - text - samples));
-      legend_top_ = centre_[1] - radius_ - rim - 1.5 * row;
+      legend_top_ = centre_[1] - radius_ - rim - 1.5 * 1.5 * font_;
     } else {
       const double legend = samples + 2 * net_margin * s + text,
                    least = 0.45 * wide; // least: width for the net
@@ -115,10 +152,10 @@ private:
       centre_ = {std::max(0., 0.5 * (wide - 2 * (radius_ + rim) - legend)) + radius_ + rim,
                  0.5 * (bottom + top)};
       legend_left_ = centre_[0] + radius_ + rim + net_margin * s;
-      legend_top_ = std::min(centre_[1] + 0.5 * rows, top);
+      legend_top_ = std::min(centre_[1] + 0.5 * high, top);
     }
     const double room = wide - legend_left_ - samples - 0.5 * net_margin * s;
-    legend_font_ = font_ * std::min(1., room / std::max(1., text));
+    legend_font_ = std::min(font_ * std::min(1., room / std::max(1., text)), row_ / 1.2);
   }
 
   void draw_net() {
@@ -161,19 +198,17 @@ private:
   }
 
   void draw_legend() {
-    const double length = sample * pixel_, row = 1.5 * font_;
-    const std::vector<std::string> all = entries();
-    double y = legend_top_ - 0.5 * row;
-    for (std::size_t i = 0; i < all.size(); ++i, y -= row) {
-      if (i < poles_.size()) {
-        disc({legend_left_ + 0.5 * length, y}, pole_colour(i));
-      } else {
-        const std::size_t plane = i - poles_.size();
+    const double length = sample * pixel_;
+    double y = legend_top_ - 0.5 * row_;
+    for (const Entry& row : rows()) {
+      if (row.plane)
         canvas_.polyline({{legend_left_, y}, {legend_left_ + length, y}}, arc_line * pixel_,
-                         plane_colour(plane), planes_[plane].dashed);
-      }
-      canvas_.text(all[i], {legend_left_ + length + sample_room * pixel_, y}, legend_font_,
+                         plane_colour(*row.plane), planes_[*row.plane].dashed);
+      if (row.poles)
+        disc({legend_left_ + 0.5 * length, y}, pole_colour(*row.poles));
+      canvas_.text(row.text, {legend_left_ + length + sample_room * pixel_, y}, legend_font_,
                    HorizontalAlign::left, VerticalAlign::middle);
+      y -= row_;
     }
   }
 
@@ -183,7 +218,7 @@ private:
   double pixel_, font_;
   Canvas canvas_;
   Canvas::Point centre_{0, 0}; // pixels
-  double radius_ = 0, legend_left_ = 0, legend_top_ = 0, legend_font_ = 0;
+  double radius_ = 0, legend_left_ = 0, legend_top_ = 0, legend_font_ = 0, row_ = 0;
 };
 
 } // namespace

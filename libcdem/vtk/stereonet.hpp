@@ -16,7 +16,8 @@ struct StereonetPlane {
   std::string name;
   geom::Orientation plane;
   bool dashed = false;
-  std::optional<Colour> colour = std::nullopt; // else the next of the palette, after those of the poles
+  // Else that of the poles of the same name, else the next of the palette after those of the poles.
+  std::optional<Colour> colour = std::nullopt;
 };
 
 struct StereonetOptions {

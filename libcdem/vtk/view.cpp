@@ -7,6 +7,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 
 namespace cdem {
@@ -38,31 +39,81 @@ View View::named(const std::string& view, const std::string& up) {
   return result;
 }
 
+namespace {
+
+// The part of the surface that looks upwards and is seen, m2 as projected. A depth buffer tells what stands in front of it.
+double seen_from_above(const View& view, const Vec3& vertical, const std::vector<Vec3>& points,
+                       const std::vector<geom::Triangle>& surface) {
+  constexpr int cells_along = 200; // of the longer side
+  constexpr double upwards = 0.05; // of a unit normal along the upward axis
+  const geom::Box box = view.extent(points);
+  const double cell = std::max(box.size().x(), box.size().y()) / cells_along;
+  if (!(cell > 0))
+    return 0;
+  const std::array<int, 2> count{static_cast<int>(box.size().x() / cell) + 1,
+                                 static_cast<int>(box.size().y() / cell) + 1};
+  struct Cell {
+    double depth = -std::numeric_limits<double>::infinity(); // m, towards the viewer
+    bool upwards = false;
+  };
+  std::vector<Cell> cells(static_cast<std::size_t>(count[0]) * static_cast<std::size_t>(count[1]));
+  for (const geom::Triangle& t : surface) {
+    std::array<Vec3, 3> x;
+    for (std::size_t k = 0; k < 3; ++k)
+      x[k] = view.in_view(points[static_cast<std::size_t>(t[k])]);
+    const auto twice_area = [](const Vec3& a, const Vec3& b, const Vec3& c) {
+      return (b.x() - a.x()) * (c.y() - a.y()) - (b.y() - a.y()) * (c.x() - a.x());
+    };
+    const double whole = twice_area(x[0], x[1], x[2]);
+    if (!(whole > 0)) // it looks away
+      continue;
+    const Vec3 normal = (x[1] - x[0]).cross(x[2] - x[0]).normalized();
+    const bool up = normal.dot(view.in_view(vertical)) > upwards;
+    std::array<int, 2> first{}, last{};
+    for (int axis = 0; axis < 2; ++axis) {
+      const auto [low, high] = std::minmax({x[0][axis], x[1][axis], x[2][axis]});
+      first[axis] = std::max(0, static_cast<int>(std::ceil((low - box.min[axis]) / cell - 0.5)));
+      last[axis] =
+          std::min(count[axis] - 1, static_cast<int>(std::floor((high - box.min[axis]) / cell - 0.5)));
+    }
+    for (int j = first[1]; j <= last[1]; ++j)
+      for (int i = first[0]; i <= last[0]; ++i) {
+        const Vec3 p(box.min.x() + (i + 0.5) * cell, box.min.y() + (j + 0.5) * cell, 0);
+        const double a = twice_area(p, x[1], x[2]), b = twice_area(x[0], p, x[2]),
+                     c = twice_area(x[0], x[1], p);
+        if (std::min({a, b, c}) < 0)
+          continue;
+        Cell& here = cells[static_cast<std::size_t>(j) * static_cast<std::size_t>(count[0]) +
+                           static_cast<std::size_t>(i)];
+        if (const double depth = (a * x[0].z() + b * x[1].z() + c * x[2].z()) / whole; depth > here.depth)
+          here = {depth, up};
+      }
+  }
+  return cell * cell * static_cast<double>(std::count_if(cells.begin(), cells.end(), [](const Cell& c) {
+           return c.upwards;
+         }));
+}
+
+} // namespace
+
 View View::iso(const std::string& up, const std::vector<Vec3>& points,
                const std::vector<geom::Triangle>& surface) {
-  constexpr double hardly = 1.5;   // times what the usual corner shows
-  constexpr double upwards = 0.05; // of a unit normal along the upward axis
+  constexpr double hardly = 1.5; // times what the usual corner shows
   const Vec3 vertical = up == "z" ? Vec3::UnitZ() : Vec3::UnitY();
   const View usual = named("iso", up);
   View best = usual;
   double most = 0;
   for (int quarter = 0; quarter < 4; ++quarter) {
     const Eigen::AngleAxisd turn(quarter * M_PI / 2, vertical);
-    const Vec3 toward = turn * usual.toward;
-    double shown = 0; // m2, projected
-    for (const geom::Triangle& t : surface) {
-      const Vec3 area =
-          0.5 * (points[static_cast<std::size_t>(t[1])] - points[static_cast<std::size_t>(t[0])])
-                    .cross(points[static_cast<std::size_t>(t[2])] - points[static_cast<std::size_t>(t[0])]);
-      if (area.dot(vertical) > upwards * area.norm())
-        shown += std::max(0.0, area.dot(toward));
-    }
+    View view = usual;
+    view.toward = turn * usual.toward;
+    view.right = turn * usual.right;
+    view.up = turn * usual.up;
+    const double shown = seen_from_above(view, vertical, points, surface);
     if (shown <= (quarter == 0 ? 0 : hardly * most))
       continue;
     most = shown;
-    best.toward = toward;
-    best.right = turn * usual.right;
-    best.up = turn * usual.up;
+    best = view;
   }
   return best;
 }

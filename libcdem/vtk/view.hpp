@@ -18,8 +18,8 @@ public:
   // Throws geom::InputError for an unknown view, or a camera without direction.
   static View named(const std::string& view, const std::string& up);
   static View from(const Camera&);
-  // "iso" from the corner, one of four about the upward axis, from which far more of what looks upwards is seen: the face of a
-  // slope and not its back. The usual corner where another shows less than half as much again.
+  // "iso" from the corner, one of four about the upward axis, from which far more of what looks upwards is seen past what
+  // stands in front: the face of a slope, stepped or plane, and not its back. The usual corner where another shows less than half as much again.
   static View iso(const std::string& up, const std::vector<geom::Vec3>& points,
                   const std::vector<geom::Triangle>& surface);
 

@@ -152,7 +152,7 @@ Columns middle_of(const std::vector<Point>& centroids, double height) {
                      "its " +
                      std::to_string(centroids.size()) +
                      (centroids.size() == 1 ? " unit reaches" : " units reach") +
-                     " no further; take more of them");
+                     " no further; take at least three rows of three, or more where they lie close");
   columns.ground.assign(columns.wanted.size(), none);
   columns.faces.resize(columns.wanted.size());
   return columns;

@@ -493,12 +493,12 @@ local cdem = {}
 
 ---How densely units lie on a slope, away from the edge of the pile by about one unit.
 ---@class (exact) cdem.PileMeasures
----@field porosity number between the slope and the mean top of the pile
----@field porosity_error number change when every second column is left out
----@field units_per_area number 1/m2: volume of solid over area and unit volume
----@field units_per_area_times_dn2 number packing density phi = N Dn^2 / A
----@field thickness number m: mean height of the top above the slope
----@field area number m2: of slope that was measured
+---@field porosity? number between the slope and the mean top of the pile; nil, as the next five, with a warning where the pile is too small to measure or reaches beside its ground
+---@field porosity_error? number change when every second column is left out
+---@field units_per_area? number 1/m2: volume of solid over area and unit volume
+---@field units_per_area_times_dn2? number packing density phi = N Dn^2 / A
+---@field thickness? number m: mean height of the top above the slope
+---@field area? number m2: of slope that was measured
 ---@field contacts_per_unit number mean number of other meshed blocks that press on a unit
 ---@field fewest_contacts integer of any unit
 ---@field contacts number[] of each unit
@@ -836,7 +836,7 @@ local Selection = {}
 
 ---Made by cdem.model.
 ---@class cdem.Model
----@field time number s
+---@field time number s: in a check: what the runs before would have come to
 ---@field residual number out-of-balance force norm over applied force norm
 ---@field steps integer of all stages so far
 ---@field stable_time_step number s: of real-time stepping
@@ -1298,7 +1298,7 @@ function Model:mean(field, on) end
 ---@return number
 function Model:at(field, place) end
 
----Force of what holds a place from outside: of supports; of quiet boundaries and free fields the force of the support they took the place of, their dashpots, and the waves that enter. A node on an edge counts in both sides.
+---Force of what holds a place from outside: of supports; of quiet boundaries and free fields the force of the support they took the place of, their dashpots, and the waves that enter. It balances all that acts on what is held there: of a rigid body that is held that is its whole weight too, of a side that of the nodes on it. A node on an edge counts in both sides.
 ---@param on cdem.Place where: one place
 ---@return number[] # N, {x, y, z}
 function Model:reaction(on) end
@@ -2644,7 +2644,7 @@ function cdem.chart(options) end
 ---@field file string ends in .png, .svg or .pdf; in the output folder
 ---@field poles? cdem.StereonetOptionsPoles[]
 ---@field discs? cdem.StereonetOptionsDiscs[] joints of finite size; poles by set
----@field shape? cdem.Assembly blocks: poles of the planes that cut them, by joint set or name of the cut
+---@field shape? cdem.Assembly blocks: poles of the planes that cut them, by joint set or name of the cut; glued cuts are no joints
 ---@field planes? cdem.StereonetOptionsPlanes[] great circles: slope faces, mean planes of sets
 ---@field title? string
 ---@field size? number[] default {1600, 1200}: {width, height} in pixels; height 0: as high as it needs to be

@@ -84,6 +84,38 @@ TEST_CASE("a glued cut is stiff: a bar gives by its own length and 0.5 % of a bl
         Approx(1e8 / rock().youngs_modulus * (2 + cdem::glued_thickness_ratio)).epsilon(1e-4));
 }
 
+// Edges of the blocks that a picture draws round the section of the bar at x.
+int edges_at(const cdem::Simulation& s, double x) {
+  const cdem::Snapshot shown = s.picture_snapshot({}, "");
+  return static_cast<int>(
+      std::count_if(shown.block_edges.begin(), shown.block_edges.end(), [&](const auto& edge) {
+        return std::abs(shown.points[edge[0]].x() - x) < 1e-9 &&
+               std::abs(shown.points[edge[1]].x() - x) < 1e-9;
+      }));
+}
+
+TEST_CASE("a glued cut is no joint: not among the joints, and without an outline until it is open",
+          "[joint_sets]") {
+  const auto element = GENERATE(cdem::Element::small_strain, cdem::Element::finite_volume);
+  const double zones = GENERATE(0.0, 0.6);
+  if (zones > 0 && element == cdem::Element::small_strain)
+    return;
+  cdem::ModelSpec glued = bar(true, element), jointed = bar(false, element);
+  glued.bodies[0].zone_size = jointed.bodies[0].zone_size = zones;
+  cdem::Simulation s(glued, 1, nullptr), with_joint(jointed, 1, nullptr);
+  CHECK(edges_at(with_joint, 1) == edges_at(with_joint, 2));
+  CHECK(edges_at(s, 1) == edges_at(with_joint, 1));
+  CHECK(edges_at(s, 2) == 0);
+  const auto sums = s.joints({});
+  REQUIRE(sums.size() == 1);
+  CHECK(sums[0].set == "weak");
+  for (const geom::Vec3& x : s.joint_surface({}, "").bonds.points)
+    CHECK(x.x() == Approx(1));
+  // Dug up to it, its face is the end of the bar.
+  s.remove(cdem::Selection::where([](const geom::Vec3& x) { return x.x() > 2; }, "the end"));
+  CHECK(edges_at(s, 2) > 0);
+}
+
 TEST_CASE("laws of joint sets stay with their faces when blocks are taken out", "[joint_sets]") {
   System s(build(bar(false, cdem::Element::small_strain).bodies));
   const auto strength_at = [](const cdem::Model& m, double x) {

@@ -147,6 +147,37 @@ TEST_CASE("a level joint under a sloping table has weight times the mean depth, 
         Approx(unit_weight * 0.5 * 0.4).epsilon(0.002));
 }
 
+TEST_CASE("pictures show the table of water that stands in joints or before faces, until it is taken away",
+          "[water]") {
+  cdem::ModelSpec model;
+  model.bodies = {body("rock", geom::grid({2, 1, 2}, {2, 1, 2}))};
+  cdem::Simulation s(model, 1, nullptr);
+  const auto sheets = [&] { return s.picture_snapshot({}, "").water; };
+  CHECK(sheets().empty());
+  const Table table = cdem::water_profile({{0, 1.6}, {2, 1.2}}, Vec3::Zero(), {1, 0, 0});
+  s.water(under(table));
+  REQUIRE(sheets().size() == 1);
+  for (const Vec3& x : sheets()[0].points)
+    CHECK(x.z() == Approx(*table->height(x)));
+  CHECK(s.copy().picture_snapshot({}, "").water.size() == 1);
+  cdem::Traction lake; // of the same table: one sheet
+  lake.on = cdem::Selection::side("x+");
+  lake.pressure = cdem::FacePressure{{}, unit_weight, {}, table};
+  s.traction(lake);
+  CHECK(sheets().size() == 1);
+  cdem::Water lower;
+  lower.level = 0.7;
+  s.water(lower); // in the place of the other, everywhere
+  CHECK(sheets().size() == 2);
+  s.clear_loads();
+  REQUIRE(sheets().size() == 1);
+  CHECK(sheets()[0].points.front().z() == Approx(0.7));
+  cdem::Water none;
+  none.pressure = [](const Vec3&) { return 0; };
+  s.water(none);
+  CHECK(sheets().empty());
+}
+
 TEST_CASE("water tables that are none are refused", "[water][input]") {
   CHECK_THAT(refusal([] { cdem::water_plane({0, 0, 0}, 90 * degree, 0); }), Contains("dip"));
   CHECK_THAT(refusal([] { cdem::water_profile({{0, 1}}, {}, {1, 0, 0}); }), Contains("at least two rows"));

@@ -104,6 +104,16 @@ inline std::string printed_by(const std::string& text) {
   return Script(text).printed();
 }
 
+inline std::vector<std::string> warnings_of(const std::string& text) {
+  Script script(text);
+  script.run();
+  std::vector<std::string> warnings;
+  for (const std::string& line : script.listener->lines)
+    if (line.find("warning: ") != std::string::npos)
+      warnings.push_back(line);
+  return warnings;
+}
+
 // What a script begins with: the module, and close(a, b, tolerance).
 inline const std::string opening = "local cdem = require 'cdem'\n"
                                    "local function close(a, b, tolerance)\n"

@@ -188,14 +188,13 @@ TEST_CASE("a stereonet draws poles of lists, discs and cut blocks, and says what
           "  rows[#rows + 1] = { kind = kind, name = name, dip = tonumber(dip), to = tonumber(to),\n"
           "                      x = tonumber(x), y = tonumber(y) }\n"
           "end\n"
-          "assert(#rows == 6 and rows[1].name == 'name')\n"
-          "local survey, j1, bedding, outline, face = table.unpack(rows, 2)\n"
+          "assert(#rows == 5 and rows[1].name == 'name')\n"
+          "local survey, j1, bedding, face = table.unpack(rows, 2)\n"
           "assert(survey.name == '\"survey, north\"' and survey.dip == 30 and survey.to == 90)\n"
           "assert(math.abs(survey.x + math.sqrt(2) * math.sin(math.rad(15))) < 1e-8)\n"
           "assert(math.abs(survey.y) < 1e-8)\n"
           "assert(j1.name == 'J1' and math.abs(j1.y + 1) < 1e-8)\n"  // on the rim, to the south
           "assert(bedding.name == 'bedding' and bedding.dip == 0)\n" // once, though it makes four faces
-          "assert(outline.name == 'outline' and outline.dip == 90)\n"
           "assert(face.kind == 'plane' and face.dip == 60 and math.abs(face.y - math.sqrt(0.5)) < 1e-8)"),
       Equals(""));
   CHECK_THAT(error_of(head + "cdem.stereonet{ file = 'net.png' }"),

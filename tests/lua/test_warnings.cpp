@@ -13,16 +13,6 @@ using Catch::Matchers::Contains;
 
 namespace {
 
-std::vector<std::string> warnings_of(const std::string& text) {
-  Script script(text);
-  script.run();
-  std::vector<std::string> warnings;
-  for (const std::string& line : script.listener->lines)
-    if (line.find("warning: ") != std::string::npos)
-      warnings.push_back(line);
-  return warnings;
-}
-
 const std::string pull = "model:traction{ on = 'x+', stress = {1e6, 0, 0} }\n";
 
 } // namespace

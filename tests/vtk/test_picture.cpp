@@ -271,6 +271,33 @@ TEST_CASE("an isometric view looks at the face of a slope, and at a cube as ever
   }
 }
 
+TEST_CASE("an isometric view looks at the steps of a stepped slope, whose back is as high") {
+  using geom::Vec3;
+  for (int quarter = 0; quarter < 4; ++quarter) {
+    const Eigen::AngleAxisd turn(quarter * M_PI / 2, Vec3::UnitZ());
+    std::vector<Vec3> points;
+    std::vector<geom::Triangle> surface;
+    const auto side = [&](const std::array<Vec3, 4>& corners) { // counter-clockwise seen from outside
+      const int first = static_cast<int>(points.size());
+      for (const Vec3& x : corners)
+        points.push_back(turn * x);
+      surface.push_back({first, first + 1, first + 2});
+      surface.push_back({first, first + 2, first + 3});
+    };
+    for (int i = 0; i < 5; ++i) { // columns that rise along x
+      const double x = i, z = i + 1;
+      side({Vec3(x, 0, z), {x + 1, 0, z}, {x + 1, 4, z}, {x, 4, z}});
+      side({Vec3(x, 4, 0), {x, 0, 0}, {x, 0, z}, {x, 4, z}});
+      side({Vec3(x + 1, 0, 0), {x + 1, 4, 0}, {x + 1, 4, z}, {x + 1, 0, z}});
+      side({Vec3(x, 0, 0), {x + 1, 0, 0}, {x + 1, 0, z}, {x, 0, z}});
+      side({Vec3(x + 1, 4, 0), {x, 4, 0}, {x, 4, z}, {x + 1, 4, z}});
+    }
+    const View view = View::iso("z", points, surface);
+    CHECK(view.toward.dot(turn * Vec3::UnitX()) < 0);
+    CHECK(view.toward.z() > 0);
+  }
+}
+
 TEST_CASE("a camera of one's own shows a place where the pinhole formula puts it") {
   // A cube of 2 cm about (0.3, 0.2, 0) seen from 2 m: the frame is the picture less 32 / 1600 of its width
   // all round.

@@ -68,6 +68,46 @@ TEST_CASE("a great circle bulges towards the dip") {
   CHECK(face[2] > 500);
 }
 
+TEST_CASE("two dozen lines or sets have colours of their own") {
+  for (std::size_t i = 0; i < 24; ++i)
+    for (std::size_t j = 0; j < i; ++j) {
+      const Colour a = palette_colour(i), b = palette_colour(j);
+      CHECK(std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]) > 0.1);
+    }
+}
+
+TEST_CASE("a plane of the name of a set shares its colour and its row of the legend, another does not") {
+  const TemporaryFolder folder;
+  StereonetOptions options;
+  options.size = {800, 600};
+  const auto rows = [&](const StereonetPlane& plane, const Colour& colour) { // of the legend, in this colour
+    stereonet({{"J1", {{0, 0}}, red}}, {plane}, options, folder / "net.png");
+    const Image image = read_png(folder / "net.png");
+    int count = 0;
+    bool before = false;
+    for (int j = 0; j < image.height; ++j) {
+      bool here = false;
+      for (int i = 560; i < image.width; ++i) {
+        const auto c = image.at(i, j);
+        bool same = true;
+        for (std::size_t k = 0; k < 3; ++k)
+          same = same && c[k] == static_cast<int>(std::lround(255 * colour[k]));
+        here = here || same;
+      }
+      count += here && !before ? 1 : 0;
+      before = here;
+    }
+    return count;
+  };
+  const geom::Orientation plane{30 * deg, 7 * deg};
+  CHECK(rows({"J1", plane}, red) == 1);
+  CHECK(rows({"J1", plane}, palette_colour(1)) == 0);
+  CHECK(rows({"J1", plane, false, blue}, blue) == 1); // a colour of its own: a row of its own
+  CHECK(rows({"face", plane}, red) == 1);
+  CHECK(rows({"face", plane}, palette_colour(1)) == 1);
+  CHECK(rows({"face", plane, false, red}, red) == 2);
+}
+
 TEST_CASE("a stereonet without anything in it, or in an odd file, is refused") {
   const TemporaryFolder folder;
   CHECK_THROWS_WITH(stereonet({}, {}, {}, folder / "net.png"), Contains("poles or planes"));

@@ -31,7 +31,7 @@ std::string shown(const Selection& s) {
 
 Value fix(Session&, ModelObject& model, const Arguments& a) {
   model.require_idle("fix");
-  const Amplitude amplitude = amplitude_of(a, model.simulation.time());
+  const Amplitude amplitude = amplitude_of(a, model.time());
   if (amplitude && !a.has("velocity"))
     throw InputError("amplitude: goes with velocity, which it multiplies");
   for (const Selection& on : selections(model, a.value("on"), "on")) {
@@ -80,7 +80,7 @@ void warn_of_sum(Session& session, const char* call, const char* what) {
 
 Value traction(Session& session, ModelObject& model, const Arguments& a) {
   model.require_idle("traction");
-  const Amplitude amplitude = amplitude_of(a, model.simulation.time());
+  const Amplitude amplitude = amplitude_of(a, model.time());
   if (static_cast<int>(a.has("stress")) + static_cast<int>(a.has("pressure")) +
           static_cast<int>(a.has("level")) + static_cast<int>(a.has("water_table")) !=
       1)
@@ -114,7 +114,7 @@ Value force(Session& session, ModelObject& model, const Arguments& a) {
   PointForce force;
   force.on = one_selection(model, a.value("on"), "on");
   force.force = a.vec3("force");
-  force.amplitude = amplitude_of(a, model.simulation.time());
+  force.amplitude = amplitude_of(a, model.time());
   if (model.simulation.force(force))
     warn_of_sum(session, "force", "nodes");
   note(model, "force " + describe(a.value("force")) + " N on " + shown(force.on));
@@ -125,11 +125,11 @@ Value gravity(Session&, ModelObject& model, const Arguments& a) {
   model.require_idle("gravity");
   Gravity gravity;
   if (a.value("vector").reference())
-    gravity.turning = vector_over_time(a.function("vector"), "vector", model.simulation.time());
+    gravity.turning = vector_over_time(a.function("vector"), "vector", model.time());
   else
     gravity.acceleration = a.vec3("vector");
   gravity.water_density = a.number("water_density");
-  gravity.amplitude = amplitude_of(a, model.simulation.time());
+  gravity.amplitude = amplitude_of(a, model.time());
   model.simulation.gravity(gravity);
   note(model,
        "gravity " + describe(a.value("vector")) + " m/s2" +
@@ -155,10 +155,10 @@ Value crack_pressure(Session&, ModelObject& model, const Arguments& a) {
       throw InputError(std::string(of_fluid) + ": goes with volume, which gives the pressure by it");
   const std::string field = pumped ? "volume" : "pressure";
   CrackPressure pressure;
-  (pumped ? pressure.volume : pressure.pressure) =
-      [value = a.number(field), amplitude = amplitude_of(a, model.simulation.time())](double time) {
-        return amplitude ? value * amplitude(time) : value;
-      };
+  (pumped ? pressure.volume : pressure.pressure) = [value = a.number(field),
+                                                    amplitude = amplitude_of(a, model.time())](double time) {
+    return amplitude ? value * amplitude(time) : value;
+  };
   pressure.bulk_modulus = a.optional_number("bulk_modulus").value_or(0);
   pressure.reservoir = a.optional_number("reservoir").value_or(0);
   for (const Selection& on : selections(model, a.value("on"), "on")) {

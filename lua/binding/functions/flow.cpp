@@ -58,7 +58,7 @@ Flow flow_of_stream(const ModelObject& model, const Arguments& a) {
     if (!a.has(own))
       throw InputError(std::string(own) + ": give it, or water = a field of cdem.water");
   Flow flow = flow_of(model, a);
-  flow.velocity = velocity_of(a, model.simulation.time());
+  flow.velocity = velocity_of(a, model.time());
   flow.relative = a.flag("relative");
   flow.drag = 1;
   if (a.number("drag") != 1 || a.number("added_mass") != 0)

@@ -245,7 +245,7 @@ Value make_model(Session& session, Object*, const Arguments& a) {
   session.collect_garbage();
   warn_of_memory(session, "building this model", memory_to_build(spec));
   auto model =
-      std::make_shared<ModelObject>(Simulation(spec, session.settings.threads, session.settings.observer));
+      std::make_shared<ModelObject>(Simulation(spec, session.settings.threads, session.observer_of_models()));
   for (const BodySpec& body : spec.bodies)
     model->body_names.push_back(body.name);
   model->piles = std::move(piles);

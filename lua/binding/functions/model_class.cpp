@@ -80,7 +80,8 @@ void add_properties(Class& model) {
     check_value(value, plain("memory").type, "memory");
     static_cast<ModelObject&>(self).memory = session.new_memory(value);
   };
-  model.property("time", "number", "s", "", [](const ModelObject& m) { return m.simulation.time(); });
+  model.property("time", "number", "s", "in a check: what the runs before would have come to",
+                 [](const ModelObject& m) { return m.time(); });
   model.property("residual", "number", "", "out-of-balance force norm over applied force norm",
                  [](const ModelObject& m) { return m.simulation.residual(); });
   model.property("steps", "integer", "", "of all stages so far",

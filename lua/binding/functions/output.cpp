@@ -292,8 +292,9 @@ std::vector<Field> picture_declaration() {
   fields.push_back(
       flag("bolts").standard(true).doc("bolts, drawn over the blocks and coloured by their tension"));
   fields.push_back(flag("water").standard(true).doc(
-      "free surface of the water that loads the model (model:flow with water), as a transparent sheet that "
-      "tints no coloured body, and the line where it cuts the bodies; in a section its line"));
+      "free surface of the water that loads the model (model:flow with water, and the levels and tables of "
+      "model:water and model:traction), as a transparent sheet that tints no coloured body, and the line "
+      "where it cuts the bodies; in a section its line"));
   fields.push_back(flag("water_velocity")
                        .standard(false)
                        .doc("velocity of that water as arrows: on its free surface, or in the section where "
@@ -311,8 +312,7 @@ void bind_output(Module& m) {
            "Writes the model for ParaView: blocks to the file, bonds beside it (result.vtu, "
            "result_bonds.vtu), and of bodies that move far the contacts that carry (result_contacts.vtu: "
            "points with force on the source body, normal_force, shear_force, depth, bodies and blocks). Of "
-           "water that loads the model (model:flow) the free surface too (result_water.vtu: velocity at "
-           "corners).",
+           "water that loads the model the free surface too (result_water.vtu: velocity at corners).",
            {text("file").required().doc(
                 "ends in .vtu, or .vtkhdf for programs that read HDF5; in the output folder"),
             text("series").doc("ends in .pvd: a time series this file is added to; run.pvd has "

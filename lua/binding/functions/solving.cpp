@@ -123,6 +123,10 @@ Value run(Session& session, ModelObject& model, const Arguments& a) {
         throw InputError("stop() of " + stop->place(), describe(answer[0]), "true or false");
       return yes && *yes;
     };
+  if (session.settings.check_only && options.duration > 0) {
+    model.simulation.check_run(model.time(), model.time() + options.duration);
+    model.checked += options.duration;
+  }
   warn_of_slivers(session, model);
   if (!a.has("duration") && !a.has("steps"))
     options.steps = std::numeric_limits<std::int64_t>::max(); // until stop says so

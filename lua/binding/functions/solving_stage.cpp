@@ -58,9 +58,10 @@ Value stage(Session& session, ModelObject& model, const char* kind, const Argume
   try {
     Solving solving(model);
     const Doing solves(session.settings.observer.get(), Activity::stage);
-    if (session.settings.check_only)
+    if (session.settings.check_only) {
+      model.simulation.check_stage();
       try_callbacks(callbacks, tried);
-    else
+    } else
       result =
           session.checkpoints.stage(kind, stage.hash, callbacks, [&] { return solve(model.simulation); });
   } catch (const SolutionError&) {

@@ -152,15 +152,18 @@ void note_process_zones(Session& session, ModelObject& model) {
 
 void warn_after_stage(Session& session, ModelObject& model, const Stage& stage) {
   warn_of_large_deformation(session, model, stage);
-  const auto& escapes = model.simulation.escapes();
-  for (; model.told_escapes < escapes.size(); ++model.told_escapes)
-    session.warned(escapes[model.told_escapes].text);
-  model.notes->unmet.clear();
+  model.notes->at_end.clear();
   for (const auto& [a, b] : model.simulation.unmet())
-    model.notes->unmet.push_back(
+    model.notes->at_end.push_back(
         shown_pair(a, b) +
         ": they had no interface and never touched, so that the law acted on nothing; look at "
         "their places and names, or leave it out");
+  if (const double share = model.simulation.excavation_kept(); share > 0 && !model.trial)
+    model.notes->at_end.push_back(
+        "model " + std::to_string(model.number) +
+        ": forces of an excavation were still kept in its last stage, up to " + three_digits(share) +
+        " of their size: the results are those of rock that they support; model:relax_excavation{} "
+        "lets them go, and a stage after it shows what follows");
 }
 
 // The ledger has to close: what is stored and spent is the work of the loads. Where it closes, energies that cannot be

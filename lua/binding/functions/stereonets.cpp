@@ -29,13 +29,14 @@ geom::Orientation orientation(double dip, double dip_direction) { // deg
 }
 
 // Of each joint set or cut the planes that made faces of the blocks, each plane once.
-void add_planes_of_blocks(const geom::Assembly& assembly, std::map<std::string, StereonetPoles>& by_name) {
+std::map<std::string, std::vector<geom::Orientation>> planes_of_blocks(const geom::Assembly& assembly) {
+  std::map<std::string, std::vector<geom::Orientation>> by_name;
   const double size = geom::bounding_box(assembly).size().norm();
   std::map<std::string, std::set<std::array<long, 4>>> known;
   for (const geom::Polyhedron& block : assembly.blocks)
     for (int f = 0; f < static_cast<int>(block.faces.size()); ++f) {
       const geom::PolyhedronFace& face = block.faces[f];
-      if (face.cut.empty())
+      if (face.cut.empty() || face.glued)
         continue;
       geom::Vec3 normal = geom::face_normal(block, f);
       if (normal.z() < 0 || (normal.z() < same_plane && normal.x() + 0.5 * normal.y() < 0))
@@ -45,20 +46,35 @@ void add_planes_of_blocks(const geom::Assembly& assembly, std::map<std::string, 
       for (int i = 0; i < 4; ++i)
         name[i] = std::lround((i < 3 ? normal[i] : offset) / same_plane / 4);
       if (known[face.cut].insert(name).second)
-        by_name[face.cut].planes.push_back(geom::orientation_of(normal));
+        by_name[face.cut].push_back(geom::orientation_of(normal));
     }
+  return by_name;
 }
 
 std::vector<StereonetPoles> poles_of(Session& session, const Arguments& a) {
   std::vector<StereonetPoles> all;
+  // Poles of one name are one set, however they are given.
+  const auto add = [&](const StereonetPoles& poles) {
+    const auto known =
+        std::find_if(all.begin(), all.end(), [&](const auto& set) { return set.name == poles.name; });
+    if (known == all.end()) {
+      all.push_back(poles);
+      return;
+    }
+    known->planes.insert(known->planes.end(), poles.planes.begin(), poles.planes.end());
+    if (poles.colour)
+      known->colour = poles.colour;
+  };
+  std::size_t sets = 0;
   std::vector<double> dips, directions; // deg
   for (const Arguments& given : a.records("poles")) {
     StereonetPoles poles;
     poles.name = given.text("name");
     poles.colour = colour_of(given);
+    const std::string set = fmt::format("poles[{}]", ++sets);
     for (const Value& row : given.list("planes")) {
       const double dip = row.table()->items[0].number(), direction = row.table()->items[1].number();
-      const std::string place = fmt::format("poles[{}].planes[{}]", all.size() + 1, poles.planes.size() + 1);
+      const std::string place = fmt::format("{}.planes[{}]", set, poles.planes.size() + 1);
       if (!(dip >= 0 && dip <= 90))
         throw InputError(place, describe(row), "{dip, dip_direction} with a dip from 0 to 90 degrees");
       if (!(direction >= 0 && direction <= 360))
@@ -67,19 +83,18 @@ std::vector<StereonetPoles> poles_of(Session& session, const Arguments& a) {
       dips.push_back(dip);
       directions.push_back(direction);
     }
-    all.push_back(std::move(poles));
+    add(poles);
   }
   if (!dips.empty())
     warn_of_radians(session, "stereonet: planes of poles", dips, directions);
-  std::map<std::string, StereonetPoles> by_name;
+  std::map<std::string, std::vector<geom::Orientation>> by_name;
   for (const geom::Disc& disc : discs_of(session, a))
-    by_name[disc.set].planes.push_back({disc.dip, disc.dip_direction});
+    by_name[disc.set].push_back({disc.dip, disc.dip_direction});
   if (const auto shape = a.object<AssemblyObject>("shape"))
-    add_planes_of_blocks(shape->assembly, by_name);
-  for (auto& [name, poles] : by_name) {
-    poles.name = name;
-    all.push_back(std::move(poles));
-  }
+    for (auto& [name, planes] : planes_of_blocks(shape->assembly))
+      by_name[name].insert(by_name[name].end(), planes.begin(), planes.end());
+  for (auto& [name, planes] : by_name)
+    add({name, planes});
   return all;
 }
 
@@ -152,7 +167,8 @@ void bind_stereonets(Module& m) {
                                     colour_field()})),
          list("discs", record_type(disc_fields())).doc("joints of finite size; poles by set"),
          object("shape", "Assembly")
-             .doc("blocks: poles of the planes that cut them, by joint set or name of the cut"),
+             .doc("blocks: poles of the planes that cut them, by joint set or name of the cut; glued cuts "
+                  "are no joints"),
          list("planes", record_type({text("name").required().doc("in the legend"),
                                      number("dip").within(0, 90).unit("deg").required(),
                                      number("dip_direction").within(0, 360).unit("deg").required(),

@@ -46,15 +46,18 @@ Value pile(Session&, ModelObject& model, const Arguments& a) {
   return std::make_shared<PileObject>(std::move(now));
 }
 
-Value measures_table(const geom::PileMeasures& m, const std::vector<int>& touching) {
+void add(const geom::PileMeasures& m, Table& table) {
+  table.named.insert({{"porosity", m.porosity},
+                      {"porosity_error", m.porosity_error},
+                      {"units_per_area", m.units_per_area},
+                      {"units_per_area_times_dn2", m.packing_density},
+                      {"thickness", m.thickness},
+                      {"area", m.area}});
+}
+
+Table contacts_table(const std::vector<int>& touching) {
   const double sum = std::accumulate(touching.begin(), touching.end(), 0.0);
-  return Table{{"porosity", m.porosity},
-               {"porosity_error", m.porosity_error},
-               {"units_per_area", m.units_per_area},
-               {"units_per_area_times_dn2", m.packing_density},
-               {"thickness", m.thickness},
-               {"area", m.area},
-               {"contacts_per_unit", sum / static_cast<double>(touching.size())},
+  return Table{{"contacts_per_unit", sum / static_cast<double>(touching.size())},
                {"fewest_contacts", *std::min_element(touching.begin(), touching.end())},
                {"contacts", Table::list(Values(touching.begin(), touching.end()))}};
 }
@@ -62,8 +65,11 @@ Value measures_table(const geom::PileMeasures& m, const std::vector<int>& touchi
 Value measures(Session& session, ModelObject& model, const Arguments& a) {
   const geom::Pile& first = first_pile(model, a.text("body"));
   require_body(model, "onto", a.text("onto"));
-  if (session.settings.check_only)
-    return measures_table({}, {0});
+  if (session.settings.check_only) {
+    Table table = contacts_table({0});
+    add({}, table);
+    return table;
+  }
   geom::Surface ground;
   for (const geom::Surface& part : model.simulation.surfaces(a.text("onto"))) {
     const int before = static_cast<int>(ground.points.size());
@@ -74,9 +80,16 @@ Value measures(Session& session, ModelObject& model, const Arguments& a) {
       ground.triangles.push_back(t);
     }
   }
-  return measures_table(geom::measure_pile(model.simulation.surfaces(a.text("body")), ground, first.height,
-                                           geom::volume(first.unit)),
-                        model.simulation.touching(a.text("body")));
+  Table table = contacts_table(model.simulation.touching(a.text("body")));
+  try {
+    add(geom::measure_pile(model.simulation.surfaces(a.text("body")), ground, first.height,
+                           geom::volume(first.unit)),
+        table);
+  } catch (const InputError& unmeasurable) {
+    session.warn(std::string("pile_measures: ") + unmeasurable.what() +
+                 "; porosity, density and thickness are nil, the contacts are told");
+  }
+  return table;
 }
 
 // Numbers of the units furthest along a direction, the furthest first.
@@ -109,12 +122,15 @@ void bind_units(Module& m) {
   m.records.push_back(
       {"PileMeasures",
        "How densely units lie on a slope, away from the edge of the pile by about one unit.",
-       {number("porosity").required().doc("between the slope and the mean top of the pile"),
-        number("porosity_error").required().doc("change when every second column is left out"),
-        number("units_per_area").unit("1/m2").required().doc("volume of solid over area and unit volume"),
-        number("units_per_area_times_dn2").required().doc("packing density phi = N Dn^2 / A"),
-        number("thickness").unit("m").required().doc("mean height of the top above the slope"),
-        number("area").unit("m2").required().doc("of slope that was measured"),
+       {number("porosity")
+            .doc("between the slope and the mean top of the pile; nil, as the next five, with a warning "
+                 "where the "
+                 "pile is too small to measure or reaches beside its ground"),
+        number("porosity_error").doc("change when every second column is left out"),
+        number("units_per_area").unit("1/m2").doc("volume of solid over area and unit volume"),
+        number("units_per_area_times_dn2").doc("packing density phi = N Dn^2 / A"),
+        number("thickness").unit("m").doc("mean height of the top above the slope"),
+        number("area").unit("m2").doc("of slope that was measured"),
         number("contacts_per_unit").required().doc("mean number of other meshed blocks that press on a unit"),
         integer("fewest_contacts").required().doc("of any unit"),
         list("contacts", number_type()).required().doc("of each unit")}});

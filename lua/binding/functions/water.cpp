@@ -81,25 +81,27 @@ void bind_water(Module& m) {
         number("largest").unit("Pa").required().doc("pressure"),
         number("force").unit("N").required().doc("sum of pressure times area")}});
   Class& model = m.the_class("Model");
-  model.add(
-      "water",
-      "Water in the joints between blocks. Its pressure pushes the two faces of a joint apart, open or "
-      "closed, and the joint's law bears the rest, the effective stress. It is taken at the undeformed "
-      "places, once, and stays until it is set again; call it between stages to raise or lower the water.",
-      {number("level").unit("m").doc("z of a level water table: weight times the depth below it"),
-       object("water_table", "WaterTable")
-           .doc("instead: one that is not level; weight times the vertical depth below it"),
-       number_or_function("pressure", "(x: number, y: number, z: number): number")
-           .at_least(0)
-           .unit("Pa")
-           .doc("instead: the same everywhere, or at each place; 0 takes the water away"),
-       list("table", tuple_type({number_type(), number_type()}), 2)
-           .doc("instead: rows {z (m), pressure (Pa)}, upwards; straight between them, constant beyond"),
-       list("joints", text_type(), 1)
-           .doc("names of joint sets and cuts that hold it; all joints when left out, glued cuts never"),
-       place("on").standard("all").doc("where: one place; joints elsewhere keep what they have"),
-       water_weight_field("weight").doc("of the water")},
-      water, "cdem.WaterInJoints");
+  model
+      .add("water",
+           "Water in the joints between blocks. Its pressure pushes the two faces of a joint apart, open or "
+           "closed, and the joint's law bears the rest, the effective stress. It is taken at the undeformed "
+           "places, once, and stays until it is set again; call it between stages to raise or lower the "
+           "water.",
+           {number("level").unit("m").doc("z of a level water table: weight times the depth below it"),
+            object("water_table", "WaterTable")
+                .doc("instead: one that is not level; weight times the vertical depth below it"),
+            number_or_function("pressure", "(x: number, y: number, z: number): number")
+                .at_least(0)
+                .unit("Pa")
+                .doc("instead: the same everywhere, or at each place; 0 takes the water away"),
+            list("table", tuple_type({number_type(), number_type()}), 2)
+                .doc("instead: rows {z (m), pressure (Pa)}, upwards; straight between them, constant beyond"),
+            list("joints", text_type(), 1)
+                .doc("names of joint sets and cuts that hold it; all joints when left out, glued cuts never"),
+            place("on").standard("all").doc("where: one place; joints elsewhere keep what they have"),
+            water_weight_field("weight").doc("of the water")},
+           water, "cdem.WaterInJoints")
+      .replayed(Replay::again);
 }
 
 } // namespace cdem::script

@@ -190,7 +190,7 @@ Value quiet(Session&, ModelObject& model, const Arguments& a) {
   Quiet quiet;
   quiet.velocity = a.optional_vec3("velocity").value_or(geom::Vec3::Zero());
   quiet.stress = a.optional_vec3("stress").value_or(geom::Vec3::Zero());
-  quiet.amplitude = amplitude_of(a, model.simulation.time());
+  quiet.amplitude = amplitude_of(a, model.time());
   if (quiet.amplitude && !a.has("velocity") && !a.has("stress"))
     throw InputError("amplitude: goes with velocity or stress, which it multiplies");
   for (const Selection& on : selections(model, a.value("on"), "on")) {

@@ -78,7 +78,7 @@ void Engine::run_file() {
   in_script([&] { session.check_set_names(); });
   in_script([&] { session.checkpoints.end(); });
   for (const auto& notes : session.notes)
-    for (const std::string& line : notes->unmet)
+    for (const std::string& line : notes->at_end)
       session.warn(line);
   if (!session.report.figures.empty() && session.report.warnings.size() < session.warnings.size())
     session.write_report(); // with the warnings that came after the last figure

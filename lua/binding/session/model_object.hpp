@@ -24,15 +24,17 @@ struct ModelObject final : Object {
   std::vector<std::shared_ptr<Reference>> after_stage;    // called with each stage that has ended
   std::shared_ptr<Reference> memory;                      // table model.memory
   double told_open = 0;                                   // energy balance that the user was warned of
-  std::size_t told_escapes = 0;
   std::string told_slivers;
   int failing_since =
       0; // stage whose relaxation found that the model runs away; 0: none, or it has come to rest since
   bool solving = false;         // a callback of a stage may look and not touch
+  double checked = 0;           // s, of runs that a check has passed
   mutable bool touched = false; // by the running call, which has asked require_idle
 
   const char* class_name() const override { return "Model"; }
 
+  // s; in a check the time that its runs would have come to.
+  double time() const { return simulation.time() + checked; }
   std::string title(const Session&) const; // "uniaxial_compression, stage 3 (relax)"
   // For what may change the model. Throws geom::InputError when called from a callback of a running stage.
   void require_idle(const char* call) const;

@@ -138,7 +138,11 @@ Value Checkpoints::call(const std::string& name, Replay replay, int model,
       went_another_way(name, then);
     take();
     throw_if_failed(then);
-    return replay == Replay::again || then.outcome == Outcome::object ? body() : then.value;
+    if (then.outcome == Outcome::object)
+      return body();
+    if (replay == Replay::again)
+      body();
+    return then.value;
   }
   event.hash = hash();
   const int stages = stages_;

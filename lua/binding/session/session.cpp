@@ -25,6 +25,33 @@ std::string case_name(const std::filesystem::path& script, const std::filesystem
   return stem == "case" ? folder : folder + "-" + stem;
 }
 
+const std::string warning_head = "warning: ";
+
+class ObserverOfModels final : public Observer {
+public:
+  explicit ObserverOfModels(Session& session)
+      : session_(session),
+        to_(session.settings.observer ? session.settings.observer : std::make_shared<Observer>()) {}
+
+  void progress(const Progress& now) override { to_->progress(now); }
+  void message(const std::string& line) override { to_->message(line); }
+  void warning(const std::string& line) override {
+    session_.warn(line.rfind(warning_head, 0) == 0 ? line.substr(warning_head.size()) : line);
+  }
+  void goes_on(std::int64_t tension, std::int64_t shear, std::int64_t warnings) override {
+    to_->goes_on(tension, shear, warnings);
+  }
+  bool wants_view() override { return to_->wants_view(); }
+  std::string wanted_field() override { return to_->wanted_field(); }
+  void view(const Snapshot& snapshot) override { to_->view(snapshot); }
+  bool stop_requested() override { return to_->stop_requested(); }
+  Activity doing(Activity now) override { return to_->doing(now); }
+
+private:
+  Session& session_;
+  std::shared_ptr<Observer> to_;
+};
+
 } // namespace
 
 Session::Session(EngineSettings given)
@@ -56,17 +83,13 @@ bool Session::take_warning(const std::string& line) {
   return true;
 }
 
-std::string Session::warning_line(const std::string& text) const {
-  const std::string place = where ? where() : std::string();
-  return (place.empty() ? "" : place + ": ") + "warning: " + text;
-}
-
-void Session::warned(const std::string& text) {
-  take_warning(warning_line(text));
+std::shared_ptr<Observer> Session::observer_of_models() {
+  return std::make_shared<ObserverOfModels>(*this);
 }
 
 void Session::warn(const std::string& text) {
-  const std::string line = warning_line(text);
+  const std::string place = where ? where() : std::string();
+  const std::string line = (place.empty() ? "" : place + ": ") + warning_head + text;
   if (!take_warning(line))
     return;
   if (settings.observer)

@@ -29,8 +29,8 @@ struct ModelNotes {
   std::string built;                      // bodies, blocks, tets, bonds, size
   std::vector<std::string> process_zones; // one line each
   std::vector<std::string> conditions;    // one line each
-  std::vector<std::string> apart; // contacts without an interface when the model was made, one line each
-  std::vector<std::string> unmet; // the same that have not touched either, after the last solving call
+  std::vector<std::string> apart;  // contacts without an interface when the model was made, one line each
+  std::vector<std::string> at_end; // warnings after the last solving call, for when the script has ended
 };
 
 struct Parameter {
@@ -63,8 +63,9 @@ struct Session {
 
   // To the observer; to standard output without one. In a check, nothing once a solving call was passed.
   void message(const std::string& line) const;
-  void warn(const std::string& text);   // with the place in the script
-  void warned(const std::string& text); // the same of what the observer was told of already
+  void warn(const std::string& text); // with the place in the script
+  // Of models: passes everything on, warnings with the place in the script. Lives no longer than the session.
+  std::shared_ptr<Observer> observer_of_models();
 
   // report.json and report.md; not in a check. FileError when they cannot be written.
   void write_report();
@@ -75,7 +76,6 @@ struct Session {
 
 private:
   bool take_warning(const std::string& line);
-  std::string warning_line(const std::string& text) const;
 };
 
 } // namespace cdem::script
