@@ -109,7 +109,8 @@ TEST_CASE("a glued cut is no joint: not among the joints, and without an outline
   const auto sums = s.joints({});
   REQUIRE(sums.size() == 1);
   CHECK(sums[0].set == "weak");
-  for (const geom::Vec3& x : s.joint_surface({}, "").bonds.points)
+  const cdem::Snapshot joints = s.joint_surface({}, "");
+  for (const geom::Vec3& x : joints.bonds.points)
     CHECK(x.x() == Approx(1));
   // Dug up to it, its face is the end of the bar.
   s.remove(cdem::Selection::where([](const geom::Vec3& x) { return x.x() > 2; }, "the end"));

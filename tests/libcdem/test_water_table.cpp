@@ -156,8 +156,9 @@ TEST_CASE("pictures show the table of water that stands in joints or before face
   CHECK(sheets().empty());
   const Table table = cdem::water_profile({{0, 1.6}, {2, 1.2}}, Vec3::Zero(), {1, 0, 0});
   s.water(under(table));
-  REQUIRE(sheets().size() == 1);
-  for (const Vec3& x : sheets()[0].points)
+  const std::vector<cdem::WaterSheet> shown = sheets();
+  REQUIRE(shown.size() == 1);
+  for (const Vec3& x : shown[0].points)
     CHECK(x.z() == Approx(*table->height(x)));
   CHECK(s.copy().picture_snapshot({}, "").water.size() == 1);
   cdem::Traction lake; // of the same table: one sheet
