@@ -384,7 +384,7 @@ void Simulation::check_run(double begin, double end) {
     ask(c.gravity->amplitude);
     ask(c.gravity->turning);
   }
-  impl_->warn_of_dry_flows(begin, end);
+  impl_->look_for_dry_flows(begin, end);
 }
 
 RelaxResult Simulation::relax(const RelaxOptions& options) {
@@ -406,7 +406,7 @@ RunResult Simulation::run(const RunOptions& options) {
     return cdem::run(context, options);
   });
   impl_->last_residual = impl_->log.history.back().residual;
-  impl_->warn_of_dry_flows(begin, time());
+  impl_->look_for_dry_flows(begin, time());
   return result;
 }
 

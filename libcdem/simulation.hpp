@@ -194,6 +194,8 @@ public:
   // There is something that could move the model: a load, a support that moves it, an initial stress or velocity, or
   // a state that is deformed already.
   bool anything_acts() const;
+  // Flows of water that has reached no face in any run so far, in words.
+  std::vector<std::string> dry_flows() const;
   bool has_gravity() const;
   geom::Vec3 gravity_vector() const;                    // m/s2; zero without
   bool has_buoyancy() const;                            // gravity with a water_density

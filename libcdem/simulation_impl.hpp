@@ -47,7 +47,20 @@ struct Simulation::Impl {
   void warn_of_dry_rock(const InitialStress&);
   void warn_of_distant_table(const std::shared_ptr<const WaterTable>&);
   void warn_of_open_water(const Water&);
-  void warn_of_dry_flows(double from, double to);
+  // Flows of water that has reached no face in any run so far; and those that have.
+  struct FlowKey {
+    const WaterField* water;
+    std::string on;
+    bool operator==(const FlowKey& other) const { return water == other.water && on == other.on; }
+  };
+  struct DryFlow {
+    FlowKey flow;
+    double begin; // s, of the first run
+    std::string line;
+  };
+  std::vector<DryFlow> dry_flows;
+  std::vector<FlowKey> wet_flows;
+  void look_for_dry_flows(double begin, double end);
   void warn_of_falling_forces();
 
   // All ranks call it together.

@@ -66,13 +66,12 @@ void Simulation::Impl::warn_of_loads_on_supports() {
       const double share = force.force[axis] == 0 ? 0 : held_share(free, nodes, axis);
       if (share < tellable)
         continue;
-      const std::string line = fmt::format(
+      tell(fmt::format(
           "force on {}: its part along {} acts {} that a fix holds along {}: the support takes it, and "
           "nothing moves by it",
           force.on.text, "xyz"[axis],
           share == 1 ? std::string("on nodes") : fmt::format("with {:.2g} of its nodes on nodes", share),
-          "xyz"[axis]);
-      tell(line);
+          "xyz"[axis]));
     }
   }
 }
@@ -196,49 +195,64 @@ void Simulation::Impl::warn_of_distant_table(const std::shared_ptr<const WaterTa
     tell("water_table: " + far);
 }
 
-// Water that wets no face at any of these times loads nothing.
-void Simulation::Impl::warn_of_dry_flows(double from, double to) {
-  constexpr int times = 40;
-  constexpr std::size_t most_nodes = 500;
-  if (replaying || std::none_of(conditions.flows.begin(), conditions.flows.end(),
-                                [](const Flow& flow) { return flow.water != nullptr; }))
+std::vector<std::string> Simulation::dry_flows() const {
+  std::vector<std::string> lines;
+  for (const Impl::DryFlow& dry : impl_->dry_flows)
+    lines.push_back(dry.line);
+  return lines;
+}
+
+// Water that wets no face at any of some times loads nothing. It may come later: whoever asks at the end knows.
+void Simulation::Impl::look_for_dry_flows(double begin, double end) {
+  constexpr int times = 20;
+  constexpr std::size_t lowest = 200; // places that are asked all; others by strides
+  if (replaying)
     return;
-  const State& state = whole();
   for (const Flow& flow : conditions.flows) {
-    if (!flow.water || is_gone(model, flow.on))
+    const FlowKey key{flow.water.get(), flow.on.text};
+    if (!flow.water || is_gone(model, flow.on) ||
+        std::find(wet_flows.begin(), wet_flows.end(), key) != wet_flows.end())
       continue;
     std::vector<geom::Vec3> places;
     const auto add_faces = [&](const Selection& on) {
       for (const int face : selected_outer_faces(model, on))
         each_face_node(model, model.outer_faces[face], [&](int node, double) {
-          places.push_back(place_of(model, state, node));
+          places.push_back(place_of(model, whole(), node));
           places.push_back(model.node_position[node]);
         });
     };
     add_faces(flow.on);
     std::for_each(flow.also.begin(), flow.also.end(), add_faces);
-    // The lowest, and some of the others.
+    if (places.empty())
+      continue;
     std::sort(places.begin(), places.end(),
               [](const geom::Vec3& a, const geom::Vec3& b) { return a.z() < b.z(); });
-    const std::size_t stride = std::max<std::size_t>(1, places.size() / most_nodes);
+    const std::size_t stride = 1 + places.size() / lowest;
     double highest = -std::numeric_limits<double>::infinity();
-    const auto wets = [&](const geom::Vec3& place, double time) {
-      const double surface = flow.water->at(place, time).surface;
-      highest = std::max(highest, surface);
-      return place.z() < surface;
-    };
-    bool wet = places.empty();
+    bool wet = false;
     for (int t = 0; t < times && !wet; ++t)
-      for (std::size_t p = 0; p < places.size() && !wet; p += p < most_nodes ? 1 : stride)
-        wet = wets(places[p], from + (to - from) * t / times);
-    if (!wet)
-      tell(fmt::format("flow on {}: its water reaches no face from t = {:.3g} to {:.3g} s: {}, and the "
-                       "lowest face is at z = "
-                       "{:.3g} m; look at the level of the water",
-                       flow.on.text, from, to,
-                       std::isfinite(highest) ? fmt::format("it rises to z = {:.4g} m", highest)
-                                              : std::string("there is none at this place"),
-                       places.front().z()));
+      for (std::size_t p = 0; p < places.size() && !wet; p += p < lowest ? 1 : stride) {
+        const double surface = flow.water->at(places[p], begin + (end - begin) * t / times).surface;
+        highest = std::max(highest, surface);
+        wet = places[p].z() < surface;
+      }
+    const auto known =
+        std::find_if(dry_flows.begin(), dry_flows.end(), [&](const DryFlow& dry) { return dry.flow == key; });
+    const double first = known == dry_flows.end() ? begin : known->begin;
+    if (known != dry_flows.end())
+      dry_flows.erase(known);
+    if (wet) {
+      wet_flows.push_back(key);
+      continue;
+    }
+    dry_flows.push_back({key, first,
+                         fmt::format("flow on {}: its water reached no face from t = {:.3g} to {:.3g} s: {}, "
+                                     "and the lowest face is at "
+                                     "z = {:.3g} m; look at the level of the water",
+                                     flow.on.text, first, end,
+                                     std::isfinite(highest) ? fmt::format("it rose to z = {:.4g} m", highest)
+                                                            : std::string("there was none at this place"),
+                                     places.front().z())});
   }
 }
 

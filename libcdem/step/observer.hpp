@@ -46,6 +46,8 @@ public:
   virtual void message(const std::string&) {}
   // A line that a user must see even of a quiet run.
   virtual void warning(const std::string& line) { message(line); }
+  // The same of the machine or the ranks: it belongs to no report, which is the same for every number of them.
+  virtual void warning_of_machine(const std::string& line) { warning(line); }
   // What an earlier run came to that this one goes on from: spring points broken in stages that had ended, warnings.
   virtual void goes_on(std::int64_t /*broken_tension*/, std::int64_t /*broken_shear*/,
                        std::int64_t /*warnings*/) {}

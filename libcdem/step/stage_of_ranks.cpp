@@ -72,7 +72,7 @@ void Stage::warn_of_idle_ranks() const {
   if (!shared_ || told || idle <= 0)
     return;
   told = true;
-  context_.observer.warning(
+  context_.observer.warning_of_machine(
       fmt::format("warning: the model has {} chunk{} for {} ranks: {} of them {} no elements to compute",
                   chunks, chunks == 1 ? "" : "s", ranks().size(), idle, idle == 1 ? "has" : "have"));
 }

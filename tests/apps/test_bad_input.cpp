@@ -250,7 +250,7 @@ TEST_CASE("folders, named pipes and devices are refused wherever a file is wante
   CHECK_THAT(said({"run", "pipe.lua"}), Contains("is a named pipe, not a file"));
   CHECK_THAT(said({"check", "/dev/zero"}), Contains("is a device, not a file"));
   for (const std::string call :
-       {"read_csv('pipe.csv')", "record{ path = 'pipe.csv', value = 'a', unit = 'g' }",
+       {"read_csv('pipe.csv')", "record{ file = 'pipe.csv', value = 'a', unit = 'g' }",
         "read_discs('pipe.csv')", "read_mesh{ file = 'pipe.msh' }", "solid.read{ file = 'pipe.stl' }",
         "solid.read{ file = 'pipe.step' }", "read_surface{ file = 'pipe.dxf' }",
         "read_pile{ file = 'pipe.json' }", "read_csv('folder.csv')"}) {

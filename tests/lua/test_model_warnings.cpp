@@ -128,24 +128,25 @@ TEST_CASE("a profile of a water table that ends before the model is told of", "[
   CHECK(told(", origin = {3, 0, 0}").empty());
 }
 
-TEST_CASE("water that reaches no face is told of after the run, and in a check", "[lua]") {
+TEST_CASE("water that reaches no face in any run is told of at the end, and in a check", "[lua]") {
   const auto script = [](const std::string& water) {
     return floor_and_units + "model:flow{ on = 'units', water = cdem.water." + water +
-           " }\nmodel:run{ duration = 0.01 }";
+           " }\nmodel:run{ duration = 0.01 }\nmodel:run{ duration = 0.02 }";
   };
   const std::string dry = script("uniform{ velocity = {1, 0, 0}, level = -3 }");
-  const std::string words = "its water reaches no face";
+  const std::string words = "its water reached no face";
   CHECK_THAT(the_warning(dry, words),
-             Contains("case.lua:11: warning: flow on body \"units\": its water reaches no face from t = 0 to "
-                      "0.0101 s: it rises to z = -3 m"));
+             Contains("warning: model 1: flow on body \"units\": its water reached no face "
+                      "from t = 0 to 0.03") &&
+                 Contains("it rose to z = -3 m"));
   CHECK_THAT(checked(dry, words),
-             Contains("from t = 0 to 0.01 s") && Contains("the lowest face is at z = 0.001 m"));
+             Contains("from t = 0 to 0.03 s") && Contains("the lowest face is at z = 0.001 m"));
   CHECK(the_warning(script("uniform{ velocity = {1, 0, 0}, level = 0.01 }"), words).empty());
   CHECK(the_warning(script("uniform{ velocity = {1, 0, 0} }"), words).empty());
-  // It comes only at the end.
+  // It comes in the second run.
   CHECK(the_warning(
-            script("field{ velocity = function() return {0, 0, 0} end, surface = function(x, y, t) return "
-                   "t > 0.008 and 1 or -1 end }"),
+            script("field{ velocity = function() return {0, 0, 0} end, surface = function(x, y, z, t) return "
+                   "t > 0.02 and 1 or -1 end }"),
             words)
             .empty());
 }
@@ -218,4 +219,28 @@ TEST_CASE("the reaction of a held rigid body holds its weight and what leans on 
                              "local both = model:reaction('floor')[3]\n"
                              "assert(math.abs(both - 2.064 * 2000 * 9.81) < 1e-3 * both, both)";
   CHECK(error_of(script) == "");
+}
+
+TEST_CASE("a check tells of a probe in rock that is dug later, and of many units that deform", "[lua]") {
+  CHECK_THAT(checked(block + "model:probe{ name = 'wall', field = 'displacement.z', at = {3.5, 0.5, 3.5} }\n"
+                             "model:gravity{ vector = {0, 0, -9.81} }\nmodel:relax{}\n"
+                             "model:remove{ on = function(x, y, z) return x > 3 and z > 3 end }\n",
+                     "was removed"),
+             Contains("case.lua:11: warning: probe \"wall\": the rock at (3.5, 0.5, 3.5) m was removed"));
+  const auto summary = [](const std::string& element) {
+    Script script("local cdem = require 'cdem'\n"
+                  "local rock = cdem.elastic{ youngs_modulus = 1e8, poissons_ratio = 0.2, density = 2000 }\n"
+                  "local floor = cdem.box_mesh{ size = {9, 9, 1}, divisions = {1, 1, 1} }\n"
+                  "local pile = cdem.drop{ unit = cdem.cube{ height = 0.4 }:mesh{ size = 0.4 }, count = 25, "
+                  "onto = floor }\n"
+                  "cdem.model{ bodies = { { shape = floor, material = rock, element = 'rigid' },\n"
+                  "  { shape = pile, material = rock, name = 'units', element = '" +
+                  element + "' } } }");
+    script.settings.check_only = true;
+    script.run();
+    return script.engine->model_summary();
+  };
+  CHECK_THAT(summary("finite_volume"),
+             Contains("\"units\": 25 units deform, with ") && Contains("and cannot break"));
+  CHECK_THAT(summary("rigid"), !Contains("units deform"));
 }

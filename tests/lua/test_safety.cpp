@@ -115,6 +115,8 @@ TEST_CASE("a factor of safety says what it lacks", "[lua][safety]") {
              Contains("upper = 1: must be above lower = 2"));
   CHECK_THAT(search("model = m, reduce = {'joints'}, lower = 1, upper = 1.1, tolerance = 0.2"),
              Contains("tolerance = 0.2"));
+  CHECK_THAT(search("model = m, reduce = {'joints'}, smallest = 1e3"),
+             Contains("smallest = 1000: must be below the volume of the model"));
   CHECK_THAT(search("model = m, reduce = {'joints'}, lower = 1.8, upper = 3"),
              Contains("case.lua:") && Contains("lower = 1.8: the model is failing there already"));
   CHECK_THAT(search("model = m, reduce = {'joints'}, lower = 0.5, upper = 1.2"),

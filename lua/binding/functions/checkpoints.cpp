@@ -52,8 +52,9 @@ void bind_checkpoints(Module& m) {
   model
       .add("checkpoint",
            "Writes a checkpoint of the whole run, from which `cdem resume` goes on. One is written every few "
-           "minutes of a solving call too, and when a run is stopped. To go on, the script is run again from "
-           "its beginning: what it has solved and read so far it is told again.",
+           "minutes of a solving call too, and when a run is stopped. A resumed run executes the script "
+           "again from its beginning. Calls that the script had made return what they returned before, "
+           "without solving.",
            {}, checkpoint)
       .ordered();
   model

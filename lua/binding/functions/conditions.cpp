@@ -355,10 +355,10 @@ void bind_conditions(Module& m) {
       .replayed(Replay::again);
   model
       .add("crack_pressure",
-           "Pressure of a gas or a fluid on the faces of cracks in cohesive bodies, from when they open: as "
-           "told, or that of a fluid which fills the cracks and a reservoir into which a volume is pumped, "
-           "bulk_modulus (volume - volume of the cracks) / reservoir. It is the same in all cracks of the "
-           "place (docs/theory.md, section 22). Several pressures in a crack add up.",
+           "Pressure of a gas or a fluid on the faces of cracks in cohesive bodies, from the moment they "
+           "open. The pressure is given, or it is that of a fluid which fills the cracks and a reservoir: "
+           "bulk_modulus (pumped volume - volume of the cracks) / reservoir. It is the same in all cracks of "
+           "the place (docs/theory.md, section 22). Several pressures in a crack add up.",
            {place("on").standard("all").doc("where: a place or a list of places, by the centroids of faces"),
             number("pressure").at_least(0).unit("Pa"),
             number("volume").at_least(0).unit("m3").doc("instead: pumped in, in model:run"),
@@ -380,8 +380,8 @@ void bind_conditions(Module& m) {
       .replayed(Replay::again);
   model.add(
       "initial_velocity",
-      "The motion of a rigid body, v + w x (x - about), as velocities before the first real-time step; of "
-      "blocks, meshes and rigid bodies alike. It takes the place of the velocities that were there.",
+      "Gives blocks, meshes and rigid bodies the motion v + w x (x - about) of a rigid body, as velocities "
+      "before the first real-time step. It replaces the velocities that they had.",
       {place("on").standard("all").doc("where: a place or a list of places, each by itself"),
        vec3("velocity").unit("m/s").doc("v"),
        vec3("angular_velocity").unit("rad/s").doc("w, right-handed about its direction; a full turn is 2 pi"),
@@ -394,17 +394,17 @@ void bind_conditions(Module& m) {
             "otherwise (docs/settling-and-loading.md, \"Excavating\").",
             {on(), relaxed(), over()}, remove, "integer", "how many");
   model.add("relax_excavation",
-            "Lets go of forces that earlier calls of model:remove have kept with `relaxed` or `over`, such "
-            "as after a lining is set. What is relaxed further already stays so.",
+            "Lets go of forces that earlier calls of model:remove have kept with `relaxed` or `over`, for "
+            "instance after a lining is set. Forces that are relaxed further already stay so.",
             {relaxed(), over()}, relax_excavation);
   model.add("make_rigid",
-            "Meshed bodies keep the shape and the stress of this moment from now on, and move as a whole: "
-            "those whose undeformed centroid is selected.",
+            "Makes the meshed bodies rigid whose undeformed centroid is selected: they keep the shape and "
+            "the stress of this moment, and move as a whole.",
             {on()}, make_rigid, "integer", "how many changed");
-  model.add(
-      "make_deformable",
-      "Rigid bodies deform again, with the motion they have: those whose undeformed centroid is selected.",
-      {on()}, make_deformable, "integer", "how many changed");
+  model.add("make_deformable",
+            "Makes the rigid bodies deformable whose undeformed centroid is selected. They keep the motion "
+            "that they have.",
+            {on()}, make_deformable, "integer", "how many changed");
   const auto whole_faces = [] {
     return flag("whole_faces")
         .standard(false)

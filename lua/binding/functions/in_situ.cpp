@@ -169,12 +169,12 @@ void bind_in_situ(Module& m) {
             "the model where it stands now. Stress, joints and supports go on as before; opening and slip of "
             "joints, and the displacement of fix{}, still count from the beginning.",
             {}, reset_displacement);
-  model.add(
-      "unbalance",
-      "How far from balance the model is as it stands: the net forces of its free nodes over the weight of "
-      "their blocks. 0 in balance; 1 where a node feels a force like the weight of its whole block.",
-      {number("reference").above(0).unit("N").doc("force to compare with instead of the weights")}, unbalance,
-      "cdem.Unbalance");
+  model.add("unbalance",
+            "How far from balance the model is now: the net forces of its free nodes over the weight of "
+            "their blocks. The ratio is 0 in balance, and 1 where a node feels a force like the weight of "
+            "its whole block.",
+            {number("reference").above(0).unit("N").doc("force to compare with instead of the weights")},
+            unbalance, "cdem.Unbalance");
 }
 
 } // namespace cdem::script

@@ -257,10 +257,10 @@ void bind_materials(Module& m) {
                            "over speed before an impact, as far as the contact and not waves within the "
                            "bodies decide it; 1: the contact loses nothing but by friction"));
   m.add("mohr_coulomb",
-        "Bond between block faces: breaks in tension above the tensile strength and in shear above cohesion "
-        "+ normal pressure x tan(friction angle); then it is a contact with the same friction angle, or with "
-        "what residual strength it has (Han 2010 eqs 8-11). With softening it loses its strength along a "
-        "curve whose area is the fracture energy.",
+        "Bond between block faces. It breaks in tension above the tensile strength, and in shear above "
+        "cohesion + normal pressure x tan(friction angle). Then it is a contact with the same friction "
+        "angle, or with the residual strength that is given (Han 2010 eqs 8-11). With softening it loses its "
+        "strength along a curve whose area is the fracture energy.",
         bonded, mohr_coulomb, "cdem.Joint");
   m.add("coulomb", "Contact that never was bonded: no tension, friction only (Han 2010 eq 9).", loose,
         coulomb, "cdem.Joint");

@@ -206,10 +206,11 @@ void bind_measures(Module& m) {
       .ordered_or_named();
   model
       .add("reaction",
-           "Force of what holds a place from outside: of supports; of quiet boundaries and free fields the "
-           "force of the support they took the place of, their dashpots, and the waves that enter. It "
-           "balances all that acts on what is held there: of a rigid body that is held that is its whole "
-           "weight too, of a side that of the nodes on it. A node on an edge counts in both sides.",
+           "Force that holds a place from outside: the force of its supports. A quiet boundary or a free "
+           "field gives the force of the support that it replaced, of its dashpots, and of the waves that "
+           "enter. The reaction balances everything that acts on the held nodes. A rigid body is held as a "
+           "whole, so its reaction includes its weight; a held side includes the weight of the nodes on it. "
+           "A node on an edge counts in both sides.",
            {place("on").required().doc("where: one place")}, reaction, "number[]", "N, {x, y, z}")
       .ordered_or_named();
   model.add("fields", "Names that max, min, mean, at and probe understand.", {}, fields, "string[]")

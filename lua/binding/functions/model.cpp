@@ -235,6 +235,23 @@ void note_pairs_apart(Session& session, ModelObject& model, const ModelSpec& spe
   }
 }
 
+// Units that cannot break, and whose stress perhaps nobody asks for.
+void note_deforming_units(ModelObject& model, const ModelSpec& spec) {
+  constexpr std::size_t many = 20;
+  for (const BodySpec& body : spec.bodies) {
+    if (body.meshes.size() < many || body.element == Element::rigid || !body.bonding.none() ||
+        !body.plasticity.laws.empty())
+      continue;
+    std::size_t tets = 0;
+    for (const geom::TetMesh& mesh : body.meshes)
+      tets += mesh.tets.size();
+    model.notes->deforming.push_back("\"" + body.name + "\": " + std::to_string(body.meshes.size()) +
+                                     " units deform, with " + std::to_string(tets) +
+                                     " tets, and cannot break; where only their motion is wanted, element = "
+                                     "\"rigid\" computes no tets and takes longer steps");
+  }
+}
+
 Value make_model(Session& session, Object*, const Arguments& a) {
   ModelSpec spec;
   std::map<std::string, geom::Pile> piles;
@@ -262,6 +279,7 @@ Value make_model(Session& session, Object*, const Arguments& a) {
   session.models.push_back(model);
   session.notes.push_back(model->notes);
   note_pairs_apart(session, *model, spec);
+  note_deforming_units(*model, spec);
   note_process_zones(session, *model);
   return model;
 }
@@ -278,10 +296,10 @@ void bind_model(Module& m) {
           .doc("blocks, a mesh of tetrahedra, or a pile of them"),
       object("material", "Material").required(),
       object_or_function("joint", "Joint", "(x: number, y: number, z: number): cdem.Joint")
-          .doc("between the body's own blocks; needed when there are several, or when they are cut. Of a "
-               "mesh: on inner faces, which can break then. Of an assembly also a function of the place that "
-               "gives a law, so that any field may vary with depth, region or seed: it is called once for "
-               "each face between two blocks, with its centroid"),
+          .doc("between the body's own blocks; needed when there are several, or when they are cut. A mesh "
+               "has it on its inner faces, which can break then. An assembly may have a function of the "
+               "place instead, which returns a law. It is called once for each face between two blocks, with "
+               "the centroid of the face, so that the law may vary with depth, region or seed"),
       named("joints", object_or_function_type("Joint", "(x: number, y: number, z: number): cdem.Joint"))
           .doc("of an assembly: laws by the name of the joint set or cut that made the faces, { bedding = "
                "joint, fault = joint }; `joint` holds all others"),
@@ -297,16 +315,16 @@ void bind_model(Module& m) {
                "bends and shows where it is stressed; without it a few about its centroid. Joints between "
                "blocks stay as they are"),
       choice("bonds", {"cohesive", "springs", "none", "all", "regions", "listed"})
-          .doc("of a body with a joint, what holds its parts together. cohesive, the default of a mesh: the "
-               "body is continuous, with shared nodes, until a face nears its strength, and then follows the "
-               "joint's softening or brittle law. Of an assembly it is recommended for bonded blocks: they "
-               "become one mesh in which each block is a region, and its joints are the borders; a uniform "
-               "stress stays uniform, and the blocks part at the strength of the joint. springs, the default "
-               "of an assembly: at the corners of faces (Han 2010), with a thickness; where three or more "
-               "blocks meet in an edge they carry 0.9 to 1.7 of a uniform traction, so that the first bond "
-               "breaks at about half the strength. Of a mesh: three on every bonded face (Feng 2014), which "
-               "soften the body and break at 0.6 to 0.9 of its strength. (all, regions and listed of older "
-               "scripts mean springs)"),
+          .doc("what holds the parts of a body with a joint together. cohesive, the default of a mesh: the "
+               "body is continuous, with shared nodes, until a face nears its strength. The face then "
+               "follows the joint's softening or brittle law. It is recommended for bonded blocks too: they "
+               "become one mesh in which each block is a region and the joints are the borders of regions. A "
+               "uniform stress stays uniform, and the blocks part at the strength of the joint. springs, the "
+               "default of an assembly: springs at the corners of faces (Han 2010), with a thickness. Where "
+               "three or more blocks meet in an edge they carry 0.9 to 1.7 of a uniform traction, so that "
+               "the first bond breaks at about half the strength. A mesh has three springs on every bonded "
+               "face (Feng 2014), which soften the body and break at 0.6 to 0.9 of its strength. all, "
+               "regions and listed are old words for springs"),
       choice("bonded_faces", {"all", "regions"})
           .doc("of a mesh with a joint, the inner faces that may break: all, the default, or those between "
                "different regions"),
@@ -325,9 +343,9 @@ void bind_model(Module& m) {
                "`plasticity`, or are elastic without it"),
       number("stiffness_ratio")
           .above(0)
-          .doc("of a mesh, beta in Kn = beta E A / (3 d). Of springs 10 by default: a body bonded everywhere "
-               "keeps about E / (1 + 1/beta). Of a cohesive body the penalty of freed faces, 1 by default; "
-               "it keeps all of E"),
+          .doc("of a mesh, beta in Kn = beta E A / (3 d). Springs have 10 by default; a body that is bonded "
+               "everywhere keeps about E / (1 + 1/beta). A cohesive body has 1 by default, the penalty of "
+               "freed faces, and keeps all of E"),
       number("shear_ratio").above(0).doc("of a mesh, Ks / Kn; 1 by default")};
   m.add("model", "A model: bodies of blocks, and what holds touching bodies to each other.",
         {list("bodies", record_type(body)).required(),

@@ -309,10 +309,11 @@ void bind_output(Module& m) {
   Class& model = m.the_class("Model");
   model
       .add("save",
-           "Writes the model for ParaView: blocks to the file, bonds beside it (result.vtu, "
-           "result_bonds.vtu), and of bodies that move far the contacts that carry (result_contacts.vtu: "
-           "points with force on the source body, normal_force, shear_force, depth, bodies and blocks). Of "
-           "water that loads the model the free surface too (result_water.vtu: velocity at corners).",
+           "Writes the model for ParaView: the blocks to the file, the bonds beside it (result.vtu, "
+           "result_bonds.vtu). Bodies that move far have a file of the contacts that carry "
+           "(result_contacts.vtu: points with force on the source body, normal_force, shear_force, depth, "
+           "bodies and blocks). Water that loads the model has a file of its free surface (result_water.vtu: "
+           "velocity at corners).",
            {text("file").required().doc(
                 "ends in .vtu, or .vtkhdf for programs that read HDF5; in the output folder"),
             text("series").doc("ends in .pvd: a time series this file is added to; run.pvd has "

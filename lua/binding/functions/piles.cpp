@@ -253,16 +253,16 @@ void bind_class(Module& m) {
            "The same places and attitudes with another mesh of the unit, such as a finer one; it must stand "
            "along the same axes.",
            {object("unit", "TetMesh").required()}, with_unit, "cdem.Pile");
-  pile.add(
-      "walls",
-      "Walls that keep the pile together, as of a flume, for a rigid body that is held: at both sides and at "
-      "the foot of the ground, on level ground all round. Their inner faces stand at the ends of the pile's "
-      "box; they follow the ground a little above it, so that both may be bodies of one model.",
-      {object("onto", "TetMesh").required().doc("the ground, z up"),
-       number("height").above(0).unit("m").doc(
-           "over the ground; that of the highest unit when left out, two units at least"),
-       number("thickness").above(0).unit("m").doc("a unit's height when left out")},
-      walls, "cdem.TetMesh");
+  pile.add("walls",
+           "Walls that keep the pile together, such as those of a flume, as the mesh of a rigid body that is "
+           "held. They stand at both sides and at the foot of the ground; on level ground they stand all "
+           "round. Their inner faces stand at the ends of the pile's box. Their lower edges keep a small gap "
+           "from the ground, so that walls and ground can be bodies of one model.",
+           {object("onto", "TetMesh").required().doc("the ground, z up"),
+            number("height").above(0).unit("m").doc(
+                "over the ground; that of the highest unit when left out, two units at least"),
+            number("thickness").above(0).unit("m").doc("a unit's height when left out")},
+           walls, "cdem.TetMesh");
   pile.add("poses", "Place and attitude of each unit.", {}, poses, "cdem.Pose[]").ordered();
   pile.add("box", "Smallest axis-aligned box that holds all units where they are.", {}, pile_box, "cdem.Box")
       .ordered();
@@ -288,9 +288,9 @@ void bind_piles(Module& m) {
   };
   m.add(
       "drop",
-      "Units hung over the ground in random attitudes, to be dropped: on a grid in the middle of the region, "
-      "so far apart that they are clear of each other however they are turned. Rows run across the rise of "
-      "the ground, the lowest first.",
+      "Units that hang over the ground in random attitudes, to be dropped. They hang on a grid in the middle "
+      "of the region, so far apart that they are clear of each other in every attitude. Rows run across the "
+      "rise of the ground, the lowest first.",
       with({number("gap").above(0).unit("m").doc(
                 "between the spheres around units, and under the lowest layer; a tenth of the unit's height"),
             integer("layers")
@@ -299,9 +299,10 @@ void bind_piles(Module& m) {
       drop, "cdem.Pile");
   m.add(
       "place",
-      "One layer of armour units on a slope, in the staggered pattern of a packing density: row by row from "
-      "the toe, each unit above the gap between two of the row below and slid down against them; then all "
-      "but the lowest row, which is to be held, come to rest together under their weight with friction.",
+      "One layer of armour units on a slope, in the staggered pattern of a packing density. The units are "
+      "laid row by row from the toe: each comes down above the gap between two units of the row below and "
+      "slides against them. Then the units come to rest together under their weight with friction. The "
+      "lowest row does not take part, as it is to be held.",
       with({number("density").within(0.05, 1.5).standard(0.645).doc(
                 "phi = N Dn^2 / A, units on an area of slope times that of their equal cube's side"),
             integer("columns").at_least(1).doc("units in a row; as many as the region allows when left out"),
@@ -317,7 +318,8 @@ void bind_piles(Module& m) {
                 "how far along the contour a unit may be from its place, over its height"),
             friction_field("friction_angle")
                 .standard(15.0)
-                .doc("with so much units are at rest; the lowest row with more than the slope's angle"),
+                .doc("friction angle with which the units come to rest. Units of the lowest row are held, by "
+                     "more than the slope's angle"),
             flag("walls").standard(false).doc("at both ends of the rows walls stand along the slope, on "
                                               "which units lean; the pile's box ends there")}),
       lay, "cdem.Pile");

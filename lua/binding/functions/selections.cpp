@@ -72,8 +72,8 @@ void bind_selections(Module& m) {
         {text("body").required().doc("by name"), list("numbers", whole_number).required()}, units,
         "cdem.Selection");
   m.add("select.faces",
-        "Outer faces that mesh:faces{ name = ... } named before the model was made; of a pile, those of each "
-        "unit. To hold them is to hold all nodes that lie on them.",
+        "Outer faces that mesh:faces{ name = ... } named before the model was made; in a pile, those of each "
+        "unit. A fix of them holds all nodes on them.",
         {text("name").required(), text("body").doc("by name; all bodies that have such faces when left out")},
         faces, "cdem.Selection");
   m.add("select.where", "Everything for whose undeformed place a function returns true.",

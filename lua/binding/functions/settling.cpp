@@ -131,8 +131,9 @@ void bind_settling(Module& m) {
   Class& model = m.the_class("Model");
   model.add("watch",
             "Watches the units of a body from now on. A unit has left when its centroid has moved by "
-            "`leaves` against the ground and relative to the mean motion of the bodies that it touched when "
-            "the watch began, ground and units, of those that stay.",
+            "`leaves` in two measures: relative to the ground, and relative to its neighbours. The "
+            "neighbours are the units and the ground that it touched when the watch began; their mean motion "
+            "counts, without that of units that have left.",
             {text("body").formerly("bodies").required().doc("name of a body of meshes"),
              number("leaves").above(0).unit("m").required().doc("half a unit's height is usual")},
             watch, "cdem.Watch", "#watch, watch[i]: the units that have left so far, in order");

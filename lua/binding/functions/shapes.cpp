@@ -296,9 +296,9 @@ void bind_builders(Module& m) {
              .at_least(0)
              .unit("m")
              .standard(0.0)
-             .doc("blocks thinner than this, by their least height over a face, are united with a neighbour "
-                  "where both are convex together, or else glued to one: splinters fail before the rock does "
-                  "and shorten the time step")},
+             .doc("blocks whose least height over a face is smaller are splinters, which fail before the "
+                  "rock does and shorten the time step. A splinter is united with a neighbour if both "
+                  "together are convex. Otherwise one of its faces is glued to a neighbour")},
         cut_by_joints, "cdem.Assembly");
   m.add("cut_by_discs",
         "Joints of finite size: every block that a disc reaches is cut by the disc's plane. Faces with their "
@@ -412,9 +412,9 @@ void bind_shapes(Module& m) {
       .ordered();
   assembly.add("blocks", "One table per block.", {}, assembly_blocks, "cdem.Block[]").ordered();
   assembly.add("solid",
-               "The blocks as one solid with a region for each, in their order; its mesh{} shares nodes on "
-               "the faces between them. As the shape of a body with bonded_faces = \"regions\" such a mesh "
-               "breaks along the faces of the blocks, with bonds = \"all\" anywhere.",
+               "The blocks as one solid with a region for each, in their order. Its mesh shares nodes on the "
+               "faces between them. As the shape of a body, such a mesh breaks along the faces of the blocks "
+               "with bonded_faces = \"regions\", and anywhere with bonded_faces = \"all\".",
                {}, assembly_solid, "cdem.Solid");
   m.classes.push_back(assembly);
 }

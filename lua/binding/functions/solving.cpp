@@ -126,6 +126,8 @@ Value run(Session& session, ModelObject& model, const Arguments& a) {
   if (session.settings.check_only && options.duration > 0) {
     model.simulation.check_run(model.time(), model.time() + options.duration);
     model.checked += options.duration;
+    model.notes->at_end.clear();
+    note_dry_flows(model);
   }
   warn_of_slivers(session, model);
   if (!a.has("duration") && !a.has("steps"))

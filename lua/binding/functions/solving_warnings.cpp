@@ -150,9 +150,15 @@ void note_process_zones(Session& session, ModelObject& model) {
     session.warn(coarse);
 }
 
+void note_dry_flows(ModelObject& model) {
+  for (const std::string& line : model.simulation.dry_flows())
+    model.notes->at_end.push_back("model " + std::to_string(model.number) + ": " + line);
+}
+
 void warn_after_stage(Session& session, ModelObject& model, const Stage& stage) {
   warn_of_large_deformation(session, model, stage);
   model.notes->at_end.clear();
+  note_dry_flows(model);
   for (const auto& [a, b] : model.simulation.unmet())
     model.notes->at_end.push_back(
         shown_pair(a, b) +
@@ -201,7 +207,7 @@ void warn_of_memory(const Session& session, const std::string& what, double byte
   ranks().largest(&least, 1);
   const std::string text = memory_warning(what, bytes, -least, ranks().size());
   if (!text.empty() && settings.observer)
-    settings.observer->warning((session.where ? session.where() + ": " : "") + "warning: " + text);
+    settings.observer->warning_of_machine((session.where ? session.where() + ": " : "") + "warning: " + text);
 }
 
 } // namespace cdem::script

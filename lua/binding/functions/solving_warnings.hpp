@@ -19,6 +19,8 @@ void note_process_zones(Session&, ModelObject&);
 
 // After a stage: what small strain cannot hold, what left the model, which laws acted on nothing so far.
 void warn_after_stage(Session&, ModelObject&, const Stage&);
+// For when the script ends: flows whose water has reached nothing.
+void note_dry_flows(ModelObject&);
 
 // After a stage: warns of an energy balance that is open by more than 1 %, and of energies that cannot be
 // (results/one_way_energies.hpp) by more than that; throws SolutionError from 10 %.

@@ -61,13 +61,19 @@ Value factor_of_safety(Session& session, Object*, const Arguments& a) {
   if (const auto model = a.object<ModelObject>("model")) {
     model->require_idle("factor_of_safety");
     if (model->failing_since > 0)
-      session.warn(
-          "cdem.factor_of_safety: model: it ran away in stage " + std::to_string(model->failing_since) +
-          " and stands where it had slid to; a factor found from there belongs to another slope and may be "
-          "too "
-          "large. Give a model in balance: model:copy() from before that stage, or one that took up its "
-          "loads "
-          "with stronger joints (model:reduce_strength{ factor = 0.7 }, model:relax, factor = 1 / 0.7)");
+      session.warn("cdem.factor_of_safety: model: it ran away in stage " +
+                   std::to_string(model->failing_since) +
+                   " and stands where it had slid to; a factor found from there belongs to another slope and "
+                   "may be too large. Give a model in balance: model:copy() from before that stage, or one "
+                   "that took up its loads with stronger joints (model:reduce_strength{ factor = 0.7 }, "
+                   "model:relax, factor = 1 / 0.7)");
+    double volume = 0; // m3
+    for (const auto& block : model->simulation.blocks())
+      volume += block.volume;
+    if (a.number("smallest") >= volume)
+      throw InputError("smallest", describe(a.value("smallest")),
+                       "below the volume of the model, " + number_text(volume) + " m3",
+                       "mechanisms below it are left out");
     Simulation tried =
         model->simulation.copy(); // tells of strengths that there are not before anything is solved
     tried.reduce_strength(1, kinds_of(a));
@@ -140,11 +146,12 @@ void bind_stability(Module& m) {
             {number("factor").above(0).required(), reduce()}, reduce_strength);
   m.add(
       "factor_of_safety",
-      "The factor of safety by strength reduction: the number that the strengths can be divided by before "
-      "the model fails, by bisection. Each trial starts from the same state, with its displacement set to "
-      "zero, and is relaxed; the verdict of model:relax says whether it stands. What fails, where and how "
-      "large it is is told. Trials show in the progress, in the log and in report.json, which gets the "
-      "figures factor_of_safety, factor_of_safety_lower and factor_of_safety_upper too.",
+      "The factor of safety by strength reduction: the factor by which the strengths can be divided before "
+      "the model fails, found by bisection. Each trial starts from the same state, with its displacement set "
+      "to zero, and is relaxed; the verdict of model:relax says whether it stands. The log tells which "
+      "blocks fail, where, and how large they are. Trials show in the progress, in the log and in "
+      "report.json, which also gets the figures factor_of_safety, factor_of_safety_lower and "
+      "factor_of_safety_upper.",
       {object("model", "Model").doc("each trial starts from its state as it is; it stays as it is"),
        function("builder", "(): cdem.Model").doc("instead: makes the model of a trial, called anew for each"),
        reduce(), number("lower").above(0).standard(0.5).doc("a factor at which the model stands"),

@@ -145,9 +145,9 @@ void bind_surfaces(Module& m) {
                   "curved solids need one"),
          text("name").doc("of the faces that are cut, in pictures of joints, lists and `joints` of a body"),
          flag("glued").standard(true).doc(
-             "the cuts are no joints; their faces never break. false: they are joints, as those of cdem.cut, "
-             "also where a cut runs on through the rest of a block that the surface bends in: a fault that "
-             "follows a surface")},
+             "true: the cuts are no joints, and their faces never break. false: they are joints, as the "
+             "faces of cdem.cut_by_plane are. A cut that runs on through the rest of a block, where the "
+             "surface bends inside it, is a joint there too; so a fault can follow a surface")},
         clip, "cdem.Assembly");
   Class object{"Surface", "Triangles, made by cdem.read_surface or cdem.surface; #surface is their number."};
   object.length = [](const Object& self) {
@@ -159,8 +159,8 @@ void bind_surfaces(Module& m) {
   };
   object
       .add(
-          "area", "Of all triangles, m2.", {}, [](SurfaceObject& self) { return area(self.surface); },
-          "number", "m2")
+          "area", "The area of all triangles, m2.", {},
+          [](SurfaceObject& self) { return area(self.surface); }, "number", "m2")
       .ordered();
   object
       .add(

@@ -310,11 +310,11 @@ void bind_sweep(Module& m) {
                         plain("figures").required().doc(
                             "values of its report by name; empty when it failed, and in a check")}});
   m.add("sweep",
-        "Runs a script with many settings, as processes side by side, each with a folder of its own in the "
-        "output folder. All run the script, and the files that it requires by a name in quotes, as they are "
-        "when the sweep begins; its folder swept/ keeps them. Where the script is stopped meanwhile `cdem "
-        "resume` goes on: runs that have ended well stand, the others begin again. A run that fails is told "
-        "of in a warning. Scripts that are swept may sweep others, three deep.",
+        "Runs a script with many settings, as processes side by side. Each has its own folder in the output "
+        "folder. All of them run the script, and the files that it requires by a name in quotes, as they are "
+        "when the sweep begins; the folder swept/ keeps these. If the sweep is stopped, `cdem resume` "
+        "continues it: runs that have ended well are kept, the others begin again. A failed run gives a "
+        "warning. Scripts that are swept may sweep others, three deep.",
         {text("script").required().doc("another .lua file beside this one"),
          list("set", plain("").type)
              .required()

@@ -195,8 +195,8 @@ void bind_tet_meshes(Module& m) {
          integer("seed").at_least(0).standard(1).doc("of the jitter")},
         box_mesh, "cdem.TetMesh");
   m.add("shell_mesh",
-        "An open surface as a wall, for a rigid body that is held: a drum, a funnel, a chute, a terrain. The "
-        "surface is one of its sides; the other lies behind it.",
+        "An open surface as a wall, such as a drum, a funnel, a chute or a terrain: the mesh of a rigid body "
+        "that is held. The surface is one side of the wall; the other side lies behind it.",
         {object("surface", "Surface").required().doc("cdem.read_surface or cdem.surface"),
          number("thickness")
              .above(0)
@@ -248,8 +248,8 @@ void bind_tet_meshes(Module& m) {
       "cdem.Inertia");
   mesh.add("quality", "How good the tetrahedra are.", {}, quality, "cdem.MeshQuality").ordered();
   mesh.add("faces",
-           "Picks outer faces; with a name they show as point field on_<name> in files and pictures, and are "
-           "a place in a model that is made of the mesh afterwards: cdem.select.faces.",
+           "Picks outer faces. With a name, files and pictures show them as point field on_<name>. In a "
+           "model that is made of the mesh afterwards they are a place: cdem.select.faces.",
            {choice("side", {"x-", "x+", "y-", "y+", "z-", "z+"}).doc("faces in that face of the mesh's box"),
             record("plane", {vec3("point").unit("m").required(), vec3("normal").required()})
                 .doc("faces in a plane"),

@@ -270,8 +270,9 @@ void bind_water_fields(Module& m) {
                     of_number = "(x: number, y: number, z: number, time: number): number";
   m.add(
       "water.field",
-      "Water that functions of place and time describe, each called at every node of a unit. Without a "
-      "pressure it is hydrostatic below the surface; without an acceleration it is found from the velocity.",
+      "Water described by functions of place and time, which are called at every node of a unit. Without a "
+      "function for the pressure, the pressure is hydrostatic below the surface. Without a function for the "
+      "acceleration, the acceleration follows from the velocity.",
       {function("velocity", of_vector).unit("m/s").required(),
        function("acceleration", of_vector).unit("m/s2"),
        function("pressure", of_number).unit("Pa").doc("that of the motion included"),
@@ -281,7 +282,7 @@ void bind_water_fields(Module& m) {
   m.add("water.wave",
         "A regular wave over a flat bed that keeps its shape. stream_function: order N, any depth (Rienecker "
         "and Fenton 1981); stokes: fifth order (Fenton 1985), for waves that are not long; airy: small "
-        "waves. A wave beyond breaking is an error.",
+        "waves. A wave higher than the breaking limit is refused.",
         {choice("theory", {"stream_function", "stokes", "airy"}).standard("stream_function"),
          number("height").above(0).unit("m").required().doc("crest over trough"),
          number("period").above(0).unit("s").doc("give it or length"), number("length").above(0).unit("m"),

@@ -38,6 +38,7 @@ public:
   void warning(const std::string& line) override {
     session_.warn(line.rfind(warning_head, 0) == 0 ? line.substr(warning_head.size()) : line);
   }
+  void warning_of_machine(const std::string& line) override { to_->warning_of_machine(line); }
   void goes_on(std::int64_t tension, std::int64_t shear, std::int64_t warnings) override {
     to_->goes_on(tension, shear, warnings);
   }
