@@ -575,7 +575,7 @@ function Assembly:joint_sets() end
 ---@return cdem.Block[]
 function Assembly:blocks() end
 
----The blocks as one solid with a region for each, in their order; its mesh{} shares nodes on the faces between them. As the shape of a body with bonded_faces = "regions" such a mesh breaks along the faces of the blocks, with bonds = "all" anywhere.
+---The blocks as one solid with a region for each, in their order. Its mesh shares nodes on the faces between them. As the shape of a body, such a mesh breaks along the faces of the blocks with bonded_faces = "regions", and anywhere with bonded_faces = "all".
 ---@return cdem.Solid
 function Assembly:solid() end
 
@@ -666,7 +666,7 @@ function Solid:save(options) end
 ---@operator len: integer
 local Surface = {}
 
----Of all triangles, m2.
+---The area of all triangles, m2.
 ---@return number # m2
 function Surface:area() end
 
@@ -718,7 +718,7 @@ function TetMesh:quality() end
 ---@field angle? number deg, in [0, 90], default 10: of direction: how far off a normal may be
 ---@field name? string
 
----Picks outer faces; with a name they show as point field on_<name> in files and pictures, and are a place in a model that is made of the mesh afterwards: cdem.select.faces.
+---Picks outer faces. With a name, files and pictures show them as point field on_<name>. In a model that is made of the mesh afterwards they are a place: cdem.select.faces.
 ---@param options? cdem.TetMeshFacesOptions
 ---@return cdem.FaceGroup
 function TetMesh:faces(options) end
@@ -810,7 +810,7 @@ function Pile:with_unit(options) end
 ---@field height? number m, > 0: over the ground; that of the highest unit when left out, two units at least
 ---@field thickness? number m, > 0: a unit's height when left out
 
----Walls that keep the pile together, as of a flume, for a rigid body that is held: at both sides and at the foot of the ground, on level ground all round. Their inner faces stand at the ends of the pile's box; they follow the ground a little above it, so that both may be bodies of one model.
+---Walls that keep the pile together, such as those of a flume, as the mesh of a rigid body that is held. They stand at both sides and at the foot of the ground; on level ground they stand all round. Their inner faces stand at the ends of the pile's box. Their lower edges keep a small gap from the ground, so that walls and ground can be bodies of one model.
 ---@param options cdem.PileWallsOptions
 ---@return cdem.TetMesh
 function Pile:walls(options) end
@@ -927,7 +927,7 @@ function Model:gravity(options) end
 ---@field amplitude? cdem.Record|number[][]|fun(time: number): number factor over time (s): a cdem.record, a list { {time, value}, ... } with straight lines between and its first and last value outside, or a function, called once a step; a relaxation asks once at its start; 1 when left out
 ---@field since? number s: time of the model at which the amplitude's times begin, 0 when left out; since = model.time lets it begin now, in a later stage
 
----Pressure of a gas or a fluid on the faces of cracks in cohesive bodies, from when they open: as told, or that of a fluid which fills the cracks and a reservoir into which a volume is pumped, bulk_modulus (volume - volume of the cracks) / reservoir. It is the same in all cracks of the place (docs/theory.md, section 22). Several pressures in a crack add up.
+---Pressure of a gas or a fluid on the faces of cracks in cohesive bodies, from the moment they open. The pressure is given, or it is that of a fluid which fills the cracks and a reservoir: bulk_modulus (pumped volume - volume of the cracks) / reservoir. It is the same in all cracks of the place (docs/theory.md, section 22). Several pressures in a crack add up.
 ---@param options? cdem.ModelCrackPressureOptions
 function Model:crack_pressure(options) end
 
@@ -940,7 +940,7 @@ function Model:clear_loads() end
 ---@field angular_velocity? number[] rad/s: w, right-handed about its direction; a full turn is 2 pi
 ---@field about? number[] m: the point that w turns about; the centroid of what is selected when left out
 
----The motion of a rigid body, v + w x (x - about), as velocities before the first real-time step; of blocks, meshes and rigid bodies alike. It takes the place of the velocities that were there.
+---Gives blocks, meshes and rigid bodies the motion v + w x (x - about) of a rigid body, as velocities before the first real-time step. It replaces the velocities that they had.
 ---@param options? cdem.ModelInitialVelocityOptions
 function Model:initial_velocity(options) end
 
@@ -958,14 +958,14 @@ function Model:remove(options) end
 ---@field relaxed? number in [0, 1], default 1: share of the excavation's forces that goes, from the beginning (lambda of convergence-confinement); the rest stays as a load
 ---@field over? number s, > 0: time of model:run, from now on, in which this share goes evenly; at once when left out. A relaxation takes no time
 
----Lets go of forces that earlier calls of model:remove have kept with `relaxed` or `over`, such as after a lining is set. What is relaxed further already stays so.
+---Lets go of forces that earlier calls of model:remove have kept with `relaxed` or `over`, for instance after a lining is set. Forces that are relaxed further already stay so.
 ---@param options? cdem.ModelRelaxExcavationOptions
 function Model:relax_excavation(options) end
 
 ---@class (exact) cdem.ModelMakeRigidOptions
 ---@field on cdem.Place where: a place or a list of places
 
----Meshed bodies keep the shape and the stress of this moment from now on, and move as a whole: those whose undeformed centroid is selected.
+---Makes the meshed bodies rigid whose undeformed centroid is selected: they keep the shape and the stress of this moment, and move as a whole.
 ---@param options cdem.ModelMakeRigidOptions
 ---@return integer # how many changed
 function Model:make_rigid(options) end
@@ -973,7 +973,7 @@ function Model:make_rigid(options) end
 ---@class (exact) cdem.ModelMakeDeformableOptions
 ---@field on cdem.Place where: a place or a list of places
 
----Rigid bodies deform again, with the motion they have: those whose undeformed centroid is selected.
+---Makes the rigid bodies deformable whose undeformed centroid is selected. They keep the motion that they have.
 ---@param options cdem.ModelMakeDeformableOptions
 ---@return integer # how many changed
 function Model:make_deformable(options) end
@@ -1023,7 +1023,7 @@ function Model:reset_displacement() end
 ---@class (exact) cdem.ModelUnbalanceOptions
 ---@field reference? number N, > 0: force to compare with instead of the weights
 
----How far from balance the model is as it stands: the net forces of its free nodes over the weight of their blocks. 0 in balance; 1 where a node feels a force like the weight of its whole block.
+---How far from balance the model is now: the net forces of its free nodes over the weight of their blocks. The ratio is 0 in balance, and 1 where a node feels a force like the weight of its whole block.
 ---@param options? cdem.ModelUnbalanceOptions
 ---@return cdem.Unbalance
 function Model:unbalance(options) end
@@ -1101,7 +1101,7 @@ function Model:reduce_strength(options) end
 ---@field body string name of a body of meshes
 ---@field leaves number m, > 0: half a unit's height is usual
 
----Watches the units of a body from now on. A unit has left when its centroid has moved by `leaves` against the ground and relative to the mean motion of the bodies that it touched when the watch began, ground and units, of those that stay.
+---Watches the units of a body from now on. A unit has left when its centroid has moved by `leaves` in two measures: relative to the ground, and relative to its neighbours. The neighbours are the units and the ground that it touched when the watch began; their mean motion counts, without that of units that have left.
 ---@param options cdem.ModelWatchOptions
 ---@return cdem.Watch # #watch, watch[i]: the units that have left so far, in order
 function Model:watch(options) end
@@ -1298,7 +1298,7 @@ function Model:mean(field, on) end
 ---@return number
 function Model:at(field, place) end
 
----Force of what holds a place from outside: of supports; of quiet boundaries and free fields the force of the support they took the place of, their dashpots, and the waves that enter. It balances all that acts on what is held there: of a rigid body that is held that is its whole weight too, of a side that of the nodes on it. A node on an edge counts in both sides.
+---Force that holds a place from outside: the force of its supports. A quiet boundary or a free field gives the force of the support that it replaced, of its dashpots, and of the waves that enter. The reaction balances everything that acts on the held nodes. A rigid body is held as a whole, so its reaction includes its weight; a held side includes the weight of the nodes on it. A node on an edge counts in both sides.
 ---@param on cdem.Place where: one place
 ---@return number[] # N, {x, y, z}
 function Model:reaction(on) end
@@ -1466,7 +1466,7 @@ function Model:highest_units(options) end
 ---@field series? string ends in .pvd: a time series this file is added to; run.pvd has run_bonds.pvd, run_contacts.pvd and run_water.pvd beside it. One axis: time where it rises from file to file, else steps
 ---@field cells_per_file? integer >= 1, default 2000000: a .vtu of more cells is written in pieces, result/result_0.vtu, result/result_1.vtu, ..., and result.pvtu takes its place
 
----Writes the model for ParaView: blocks to the file, bonds beside it (result.vtu, result_bonds.vtu), and of bodies that move far the contacts that carry (result_contacts.vtu: points with force on the source body, normal_force, shear_force, depth, bodies and blocks). Of water that loads the model (model:flow) the free surface too (result_water.vtu: velocity at corners).
+---Writes the model for ParaView: the blocks to the file, the bonds beside it (result.vtu, result_bonds.vtu). Bodies that move far have a file of the contacts that carry (result_contacts.vtu: points with force on the source body, normal_force, shear_force, depth, bodies and blocks). Water that loads the model has a file of its free surface (result_water.vtu: velocity at corners).
 ---@param options cdem.ModelSaveOptions
 function Model:save(options) end
 
@@ -1547,7 +1547,7 @@ function Model:save_joints(options) end
 ---@field joint_sets? string[] with joints: the sets that are drawn; all when left out
 ---@field joints? boolean default false: the joints alone, between blocks; colour is then "slip", "opening", "utilisation", "normal_traction", "shear_traction", "water_pressure", "mode" or "set"
 ---@field bolts? boolean default true: bolts, drawn over the blocks and coloured by their tension
----@field water? boolean default true: free surface of the water that loads the model (model:flow with water), as a transparent sheet that tints no coloured body, and the line where it cuts the bodies; in a section its line
+---@field water? boolean default true: free surface of the water that loads the model (model:flow with water, and the levels and tables of model:water and model:traction), as a transparent sheet that tints no coloured body, and the line where it cuts the bodies; in a section its line
 ---@field water_velocity? boolean default false: velocity of that water as arrows: on its free surface, or in the section where that is upright
 ---@field broken_bonds? boolean default true: broken interfaces, coloured by how they broke
 
@@ -1555,7 +1555,7 @@ function Model:save_joints(options) end
 ---@param options cdem.ModelPictureOptions
 function Model:picture(options) end
 
----Writes a checkpoint of the whole run, from which `cdem resume` goes on. One is written every few minutes of a solving call too, and when a run is stopped. To go on, the script is run again from its beginning: what it has solved and read so far it is told again.
+---Writes a checkpoint of the whole run, from which `cdem resume` goes on. One is written every few minutes of a solving call too, and when a run is stopped. A resumed run executes the script again from its beginning. Calls that the script had made return what they returned before, without solving.
 function Model:checkpoint() end
 
 ---@class (exact) cdem.ModelSaveStateOptions
@@ -1723,7 +1723,7 @@ function cdem.plastic(options) end
 ---@field shear_stiffness? number Pa/m, > 0: instead of G/L
 ---@field stiffness_damping? number s, >= 0, default 0: beta of Rayleigh damping, of joints between blocks that move far in real-time stepping, as long as their faces have not parted; refused where it would do nothing
 
----Bond between block faces: breaks in tension above the tensile strength and in shear above cohesion + normal pressure x tan(friction angle); then it is a contact with the same friction angle, or with what residual strength it has (Han 2010 eqs 8-11). With softening it loses its strength along a curve whose area is the fracture energy.
+---Bond between block faces. It breaks in tension above the tensile strength, and in shear above cohesion + normal pressure x tan(friction angle). Then it is a contact with the same friction angle, or with the residual strength that is given (Han 2010 eqs 8-11). With softening it loses its strength along a curve whose area is the fracture energy.
 ---@param options cdem.MohrCoulombOptions
 ---@return cdem.Joint
 function cdem.mohr_coulomb(options) end
@@ -1884,7 +1884,7 @@ function cdem.bricks(options) end
 ---@field shape cdem.Assembly
 ---@field sets cdem.CutByJointsOptionsSets[]
 ---@field seed? integer >= 0, default 1: the same seed gives the same blocks on every machine
----@field smallest? number m, >= 0, default 0: blocks thinner than this, by their least height over a face, are united with a neighbour where both are convex together, or else glued to one: splinters fail before the rock does and shorten the time step
+---@field smallest? number m, >= 0, default 0: blocks whose least height over a face is smaller are splinters, which fail before the rock does and shorten the time step. A splinter is united with a neighbour if both together are convex. Otherwise one of its faces is glued to a neighbour
 
 ---Cuts every block by the planes of joint sets, one set after the other, those with a persistence below 1 last.
 ---@param options cdem.CutByJointsOptions
@@ -2167,7 +2167,7 @@ function cdem.surface(options) end
 ---@field keep "inside"|"outside"|"below"|"above"|"both" inside and outside of a closed surface or a solid, below and above an open one; both: only cut, the outline of a later excavation (model:remove)
 ---@field tolerance? number m, >= 0, default 0: how far the cuts may leave the surface; makes fewer pieces and no thinner ones. 0: exact; curved solids need one
 ---@field name? string of the faces that are cut, in pictures of joints, lists and `joints` of a body
----@field glued? boolean default true: the cuts are no joints; their faces never break. false: they are joints, as those of cdem.cut, also where a cut runs on through the rest of a block that the surface bends in: a fault that follows a surface
+---@field glued? boolean default true: true: the cuts are no joints, and their faces never break. false: they are joints, as the faces of cdem.cut_by_plane are. A cut that runs on through the rest of a block, where the surface bends inside it, is a joint there too; so a fault can follow a surface
 
 ---Cuts blocks along a surface or the faces of a solid, and keeps those on one side. Each block is cut by planes into convex pieces; the cuts within it are glued unless told otherwise.
 ---@param options cdem.ClipOptions
@@ -2296,7 +2296,7 @@ function cdem.box_mesh(options) end
 ---@field thickness number m, > 0: more than bodies reach into it and move in a step; less than the surface is bent
 ---@field front? number[] m: a place on the side that bodies touch, such as the middle of a drum; where the triangles' normals point when left out
 
----An open surface as a wall, for a rigid body that is held: a drum, a funnel, a chute, a terrain. The surface is one of its sides; the other lies behind it.
+---An open surface as a wall, such as a drum, a funnel, a chute or a terrain: the mesh of a rigid body that is held. The surface is one side of the wall; the other side lies behind it.
 ---@param options cdem.ShellMeshOptions
 ---@return cdem.TetMesh
 function cdem.shell_mesh(options) end
@@ -2314,7 +2314,7 @@ function cdem.shell_mesh(options) end
 ---@field gap? number m, > 0: between the spheres around units, and under the lowest layer; a tenth of the unit's height
 ---@field layers? integer in [1, 20]: on top of each other; as few as the region allows when left out
 
----Units hung over the ground in random attitudes, to be dropped: on a grid in the middle of the region, so far apart that they are clear of each other however they are turned. Rows run across the rise of the ground, the lowest first.
+---Units that hang over the ground in random attitudes, to be dropped. They hang on a grid in the middle of the region, so far apart that they are clear of each other in every attitude. Rows run across the rise of the ground, the lowest first.
 ---@param options cdem.DropOptions
 ---@return cdem.Pile
 function cdem.drop(options) end
@@ -2335,10 +2335,10 @@ function cdem.drop(options) end
 ---@field attitudes? integer in [1, 1e+06], default 1500: of which those are taken that fit into the pattern, beside others
 ---@field nudges? integer in [0, 1e+05], default 200: steps of a unit on its way to rest, at most; 0: only lowered on to what is there, each by itself
 ---@field play? number in [0, 1], default 0.1: how far along the contour a unit may be from its place, over its height
----@field friction_angle? number deg, in [0, 90), default 15: with so much units are at rest; the lowest row with more than the slope's angle
+---@field friction_angle? number deg, in [0, 90), default 15: friction angle with which the units come to rest. Units of the lowest row are held, by more than the slope's angle
 ---@field walls? boolean default false: at both ends of the rows walls stand along the slope, on which units lean; the pile's box ends there
 
----One layer of armour units on a slope, in the staggered pattern of a packing density: row by row from the toe, each unit above the gap between two of the row below and slid down against them; then all but the lowest row, which is to be held, come to rest together under their weight with friction.
+---One layer of armour units on a slope, in the staggered pattern of a packing density. The units are laid row by row from the toe: each comes down above the gap between two units of the row below and slides against them. Then the units come to rest together under their weight with friction. The lowest row does not take part, as it is to be held.
 ---@param options cdem.PlaceOptions
 ---@return cdem.Pile
 function cdem.place(options) end
@@ -2384,7 +2384,7 @@ function cdem.select.units(options) end
 ---@field name string
 ---@field body? string by name; all bodies that have such faces when left out
 
----Outer faces that mesh:faces{ name = ... } named before the model was made; of a pile, those of each unit. To hold them is to hold all nodes that lie on them.
+---Outer faces that mesh:faces{ name = ... } named before the model was made; in a pile, those of each unit. A fix of them holds all nodes on them.
 ---@param options cdem.SelectFacesOptions
 ---@return cdem.Selection
 function cdem.select.faces(options) end
@@ -2397,18 +2397,18 @@ function cdem.select.where(predicate) end
 ---@class (exact) cdem.ModelOptionsBodies
 ---@field shape cdem.Assembly|cdem.TetMesh|cdem.Pile blocks, a mesh of tetrahedra, or a pile of them
 ---@field material cdem.Material
----@field joint? cdem.Joint|fun(x: number, y: number, z: number): cdem.Joint between the body's own blocks; needed when there are several, or when they are cut. Of a mesh: on inner faces, which can break then. Of an assembly also a function of the place that gives a law, so that any field may vary with depth, region or seed: it is called once for each face between two blocks, with its centroid
+---@field joint? cdem.Joint|fun(x: number, y: number, z: number): cdem.Joint between the body's own blocks; needed when there are several, or when they are cut. A mesh has it on its inner faces, which can break then. An assembly may have a function of the place instead, which returns a law. It is called once for each face between two blocks, with the centroid of the face, so that the law may vary with depth, region or seed
 ---@field joints? table<string, cdem.Joint|fun(x: number, y: number, z: number): cdem.Joint> of an assembly: laws by the name of the joint set or cut that made the faces, { bedding = joint, fault = joint }; `joint` holds all others
 ---@field name? string for selections and contacts; body_1, body_2 ... by default
 ---@field element? "small_strain"|"finite_volume"|"rigid" how its tetrahedra deform: finite_volume (Feng 2014) for any motion, the default; small_strain (Han 2010) of an assembly whose blocks hardly turn and keep the neighbours they begin with; rigid: keeps its shape until model:make_deformable
 ---@field zone_size? number m, > 0: of an assembly: each block gets tetrahedra of about this edge length inside, so that it bends and shows where it is stressed; without it a few about its centroid. Joints between blocks stay as they are
----@field bonds? "cohesive"|"springs"|"none"|"all"|"regions"|"listed" of a body with a joint, what holds its parts together. cohesive, the default of a mesh: the body is continuous, with shared nodes, until a face nears its strength, and then follows the joint's softening or brittle law. Of an assembly it is recommended for bonded blocks: they become one mesh in which each block is a region, and its joints are the borders; a uniform stress stays uniform, and the blocks part at the strength of the joint. springs, the default of an assembly: at the corners of faces (Han 2010), with a thickness; where three or more blocks meet in an edge they carry 0.9 to 1.7 of a uniform traction, so that the first bond breaks at about half the strength. Of a mesh: three on every bonded face (Feng 2014), which soften the body and break at 0.6 to 0.9 of its strength. (all, regions and listed of older scripts mean springs)
+---@field bonds? "cohesive"|"springs"|"none"|"all"|"regions"|"listed" what holds the parts of a body with a joint together. cohesive, the default of a mesh: the body is continuous, with shared nodes, until a face nears its strength. The face then follows the joint's softening or brittle law. It is recommended for bonded blocks too: they become one mesh in which each block is a region and the joints are the borders of regions. A uniform stress stays uniform, and the blocks part at the strength of the joint. springs, the default of an assembly: springs at the corners of faces (Han 2010), with a thickness. Where three or more blocks meet in an edge they carry 0.9 to 1.7 of a uniform traction, so that the first bond breaks at about half the strength. A mesh has three springs on every bonded face (Feng 2014), which soften the body and break at 0.6 to 0.9 of its strength. all, regions and listed are old words for springs
 ---@field bonded_faces? "all"|"regions" of a mesh with a joint, the inner faces that may break: all, the default, or those between different regions
 ---@field bonded_regions? integer[] of a mesh with a joint, instead of bonded_faces: numbers of regions, from 1, whose faces may break
 ---@field region_joints? [integer, integer, cdem.Joint][] of a mesh: {region, region, joint} gives the faces between two regions, or with the same number twice those inside one, a joint of their own; numbers from 1. All others have `joint`
 ---@field plasticity? cdem.Plasticity of a body that moves far: its tetrahedra yield by this law, cdem.plastic{...} or cdem.hoek_brown{...}
 ---@field region_plasticity? [integer, cdem.Plasticity][] of a mesh: {region, law} gives a region a law of its own; numbers from 1. All others have `plasticity`, or are elastic without it
----@field stiffness_ratio? number > 0: of a mesh, beta in Kn = beta E A / (3 d). Of springs 10 by default: a body bonded everywhere keeps about E / (1 + 1/beta). Of a cohesive body the penalty of freed faces, 1 by default; it keeps all of E
+---@field stiffness_ratio? number > 0: of a mesh, beta in Kn = beta E A / (3 d). Springs have 10 by default; a body that is bonded everywhere keeps about E / (1 + 1/beta). A cohesive body has 1 by default, the penalty of freed faces, and keeps all of E
 ---@field shear_ratio? number > 0: of a mesh, Ks / Kn; 1 by default
 
 ---@class (exact) cdem.ModelOptions
@@ -2449,7 +2449,7 @@ function cdem.water_table(options) end
 ---@field picture? string file (.png) of the mechanism: displacement of the failing side, seen from where it moves to
 ---@field figure? string default "factor_of_safety": name of the figure in the report
 
----The factor of safety by strength reduction: the number that the strengths can be divided by before the model fails, by bisection. Each trial starts from the same state, with its displacement set to zero, and is relaxed; the verdict of model:relax says whether it stands. What fails, where and how large it is is told. Trials show in the progress, in the log and in report.json, which gets the figures factor_of_safety, factor_of_safety_lower and factor_of_safety_upper too.
+---The factor of safety by strength reduction: the factor by which the strengths can be divided before the model fails, found by bisection. Each trial starts from the same state, with its displacement set to zero, and is relaxed; the verdict of model:relax says whether it stands. The log tells which blocks fail, where, and how large they are. Trials show in the progress, in the log and in report.json, which also gets the figures factor_of_safety, factor_of_safety_lower and factor_of_safety_upper.
 ---@param options cdem.FactorOfSafetyOptions
 ---@return cdem.FactorOfSafety
 function cdem.factor_of_safety(options) end
@@ -2473,7 +2473,7 @@ function cdem.water.uniform(options) end
 ---@field surface? fun(x: number, y: number, z: number, time: number): number m: z of the free surface; water everywhere when left out
 ---@field density? number kg/m3, > 0, default 1025: sea water by default
 
----Water that functions of place and time describe, each called at every node of a unit. Without a pressure it is hydrostatic below the surface; without an acceleration it is found from the velocity.
+---Water described by functions of place and time, which are called at every node of a unit. Without a function for the pressure, the pressure is hydrostatic below the surface. Without a function for the acceleration, the acceleration follows from the velocity.
 ---@param options cdem.WaterFieldOptions
 ---@return cdem.Water
 function cdem.water.field(options) end
@@ -2491,7 +2491,7 @@ function cdem.water.field(options) end
 ---@field order? integer in [3, 50], default 20: of the stream function
 ---@field density? number kg/m3, > 0, default 1025: sea water by default
 
----A regular wave over a flat bed that keeps its shape. stream_function: order N, any depth (Rienecker and Fenton 1981); stokes: fifth order (Fenton 1985), for waves that are not long; airy: small waves. A wave beyond breaking is an error.
+---A regular wave over a flat bed that keeps its shape. stream_function: order N, any depth (Rienecker and Fenton 1981); stokes: fifth order (Fenton 1985), for waves that are not long; airy: small waves. A wave higher than the breaking limit is refused.
 ---@param options cdem.WaterWaveOptions
 ---@return cdem.Water
 function cdem.water.wave(options) end
@@ -2711,7 +2711,7 @@ function cdem.elapsed() end
 ---@field jobs? integer in [1, 1024]: cases at a time; as many as there are processors for when left out
 ---@field threads? integer in [1, 1024], default 1: of each case
 
----Runs a script with many settings, as processes side by side, each with a folder of its own in the output folder. All run the script, and the files that it requires by a name in quotes, as they are when the sweep begins; its folder swept/ keeps them. Where the script is stopped meanwhile `cdem resume` goes on: runs that have ended well stand, the others begin again. A run that fails is told of in a warning. Scripts that are swept may sweep others, three deep.
+---Runs a script with many settings, as processes side by side. Each has its own folder in the output folder. All of them run the script, and the files that it requires by a name in quotes, as they are when the sweep begins; the folder swept/ keeps these. If the sweep is stopped, `cdem resume` continues it: runs that have ended well are kept, the others begin again. A failed run gives a warning. Scripts that are swept may sweep others, three deep.
 ---@param options cdem.SweepOptions
 ---@return cdem.SweepResult[] # in the order given
 function cdem.sweep(options) end

@@ -226,7 +226,7 @@ TEST_CASE("a check tells of a probe in rock that is dug later, and of many units
                              "model:gravity{ vector = {0, 0, -9.81} }\nmodel:relax{}\n"
                              "model:remove{ on = function(x, y, z) return x > 3 and z > 3 end }\n",
                      "was removed"),
-             Contains("case.lua:11: warning: probe \"wall\": the rock at (3.5, 0.5, 3.5) m was removed"));
+             Contains("case.lua:10: warning: probe \"wall\": the rock at (3.5, 0.5, 3.5) m was removed"));
   const auto summary = [](const std::string& element) {
     Script script("local cdem = require 'cdem'\n"
                   "local rock = cdem.elastic{ youngs_modulus = 1e8, poissons_ratio = 0.2, density = 2000 }\n"
