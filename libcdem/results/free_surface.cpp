@@ -197,7 +197,7 @@ WaterSheet free_surface(const WaterField& water, double time, const geom::Box& b
 
 namespace {
 
-// Water at rest below a level or a table, of joints or in front of faces.
+// Water at rest in joints, below a level or a table.
 class StandingWater final : public WaterField {
 public:
   StandingWater(std::optional<double> level, std::shared_ptr<const WaterTable> table)
@@ -211,37 +211,23 @@ public:
   double density() const override { return 0; }
   bool has_dynamic_pressure() const override { return false; }
   bool has_pressure() const override { return false; }
-  bool same(const std::optional<double>& level, const std::shared_ptr<const WaterTable>& table) const {
-    return level_ == level && table_ == table;
-  }
 
 private:
   std::optional<double> level_;
   std::shared_ptr<const WaterTable> table_;
 };
 
-// Each once: water often stands at one level in the joints and in front of the slope.
-std::vector<StandingWater> standing_water(const Conditions& conditions) {
-  std::vector<StandingWater> all;
-  const auto add = [&](const auto& water) {
-    if ((water.level || water.table) && std::none_of(all.begin(), all.end(), [&](const StandingWater& known) {
-          return known.same(water.level, water.table);
-        }))
-      all.emplace_back(water.level, water.table);
-  };
-  for (const StillWater& water : conditions.still_waters)
-    add(water);
-  for (const Traction& traction : conditions.tractions)
-    if (traction.pressure)
-      add(*traction.pressure);
-  return all;
-}
-
 } // namespace
 
 void add_water(const Conditions& conditions, const WaterWish& wish, Snapshot& snapshot) {
   std::vector<const WaterField*> fields;
-  const std::vector<StandingWater> standing = standing_water(conditions);
+  std::vector<StandingWater> standing; // several sets of joints may have the same
+  const std::vector<StillWater>& still = conditions.still_waters;
+  for (auto water = still.begin(); water != still.end(); ++water)
+    if (std::none_of(still.begin(), water, [&](const StillWater& before) {
+          return before.level == water->level && before.table == water->table;
+        }))
+      standing.emplace_back(water->level, water->table);
   if (wish.shown) {
     for (const Flow& flow : conditions.flows)
       if (flow.water && std::find(fields.begin(), fields.end(), flow.water.get()) == fields.end())

@@ -11,7 +11,7 @@ namespace cdem {
 WaterSheet free_surface(const WaterField&, double time, const geom::Box&, const WaterWish& = {});
 
 // Gives the snapshot the sheets of the water that loads the model, each once, over the box of its surface: fields of flows,
-// and the levels and tables of water in joints and in front of faces. Water without a free surface is left out.
+// and the levels and tables of water in joints. Water without a free surface is left out.
 void add_water(const Conditions&, const WaterWish&, Snapshot&);
 
 } // namespace cdem

@@ -1547,7 +1547,7 @@ function Model:save_joints(options) end
 ---@field joint_sets? string[] with joints: the sets that are drawn; all when left out
 ---@field joints? boolean default false: the joints alone, between blocks; colour is then "slip", "opening", "utilisation", "normal_traction", "shear_traction", "water_pressure", "mode" or "set"
 ---@field bolts? boolean default true: bolts, drawn over the blocks and coloured by their tension
----@field water? boolean default true: free surface of the water that loads the model (model:flow with water, and the levels and tables of model:water and model:traction), as a transparent sheet that tints no coloured body, and the line where it cuts the bodies; in a section its line
+---@field water? boolean default true: free surface of the water that loads the model (model:flow with water, and the level or table of model:water), as a transparent sheet that tints no coloured body, and the line where it cuts the bodies; in a section its line
 ---@field water_velocity? boolean default false: velocity of that water as arrows: on its free surface, or in the section where that is upright
 ---@field broken_bonds? boolean default true: broken interfaces, coloured by how they broke
 

@@ -147,8 +147,7 @@ TEST_CASE("a level joint under a sloping table has weight times the mean depth, 
         Approx(unit_weight * 0.5 * 0.4).epsilon(0.002));
 }
 
-TEST_CASE("pictures show the table of water that stands in joints or before faces, until it is taken away",
-          "[water]") {
+TEST_CASE("pictures show the table of water that stands in joints, until it is taken away", "[water]") {
   cdem::ModelSpec model;
   model.bodies = {body("rock", geom::grid({2, 1, 2}, {2, 1, 2}))};
   cdem::Simulation s(model, 1, nullptr);
@@ -161,16 +160,9 @@ TEST_CASE("pictures show the table of water that stands in joints or before face
   for (const Vec3& x : shown[0].points)
     CHECK(x.z() == Approx(*table->height(x)));
   CHECK(s.copy().picture_snapshot({}, "").water.size() == 1);
-  cdem::Traction lake; // of the same table: one sheet
-  lake.on = cdem::Selection::side("x+");
-  lake.pressure = cdem::FacePressure{{}, unit_weight, {}, table};
-  s.traction(lake);
-  CHECK(sheets().size() == 1);
   cdem::Water lower;
   lower.level = 0.7;
   s.water(lower); // in the place of the other, everywhere
-  CHECK(sheets().size() == 2);
-  s.clear_loads();
   REQUIRE(sheets().size() == 1);
   CHECK(sheets()[0].points.front().z() == Approx(0.7));
   cdem::Water none;

@@ -292,8 +292,8 @@ std::vector<Field> picture_declaration() {
   fields.push_back(
       flag("bolts").standard(true).doc("bolts, drawn over the blocks and coloured by their tension"));
   fields.push_back(flag("water").standard(true).doc(
-      "free surface of the water that loads the model (model:flow with water, and the levels and tables of "
-      "model:water and model:traction), as a transparent sheet that tints no coloured body, and the line "
+      "free surface of the water that loads the model (model:flow with water, and the level or table of "
+      "model:water), as a transparent sheet that tints no coloured body, and the line "
       "where it cuts the bodies; in a section its line"));
   fields.push_back(flag("water_velocity")
                        .standard(false)
