@@ -184,6 +184,17 @@ NearestOfEdges nearest_of_edges(const Model& model, const State& state, const Co
   return nearest;
 }
 
+bool leads_into_both(const Model& model, const State& state, const ContactEdge& e, const ContactEdge& f,
+                     const geom::Vec3& way) {
+  const double slack = fan_slack * way.norm();
+  const auto leads_into = [&](const ContactEdge& edge, const geom::Vec3& there) {
+    const geom::Vec3 x0 = place_of(model, state, edge.nodes[0]), x1 = place_of(model, state, edge.nodes[1]);
+    const Wedge wedge = wedge_of(into_faces(model, state, edge, x0, x1), (x1 - x0).normalized());
+    return there.dot(wedge.outward[0]) <= slack && there.dot(wedge.outward[1]) <= slack;
+  };
+  return leads_into(e, way) && leads_into(f, -way);
+}
+
 std::array<geom::Vec3, 2> into_faces(const Model& model, const State& state, const ContactEdge& e,
                                      const geom::Vec3& x0, const geom::Vec3& x1) {
   const geom::Vec3 along = (x1 - x0).normalized();

@@ -46,6 +46,10 @@ struct EdgeTouch {
 std::optional<EdgeTouch> touch_of(const Model&, const State&, const ContactEdge& e, const ContactEdge& f,
                                   const NearestOfEdges&);
 
+// The way, m, from the first edge to the second leads into the first one's body, and back into the second one's.
+bool leads_into_both(const Model&, const State&, const ContactEdge& e, const ContactEdge& f,
+                     const geom::Vec3& way);
+
 // From an edge with its ends at x0 and x1 into its two faces, at right angles to it (m, a third of their height there).
 std::array<geom::Vec3, 2> into_faces(const Model&, const State&, const ContactEdge&, const geom::Vec3& x0,
                                      const geom::Vec3& x1);

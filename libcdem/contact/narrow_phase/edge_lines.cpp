@@ -104,6 +104,21 @@ bool EdgeLines::at_last_end(int edge, double place) const {
   return work_.edges_beyond[work_.edge_continues[edge][place < 0.5 ? 0 : 1]].edge < 0;
 }
 
+bool EdgeLines::cuts_off_end(int edge, double place, int by, double within) const {
+  const auto direction = [&](int of) -> geom::Vec3 {
+    const auto& [a, b] = work_.edges[of].nodes;
+    return place_of(model_, state_, b) - place_of(model_, state_, a);
+  };
+  const geom::Vec3 along = direction(edge), across = direction(by).normalized();
+  const double from_end = std::min(place, 1 - place);
+  if (from_end > drawn_in && from_end * along.norm() > within)
+    return false;
+  const geom::Vec3 normal = across.cross(along).normalized();
+  return !any_next(edge, place < 0.5 ? 0 : 1, [&](int next, double way) {
+    return way * across.cross(direction(next).normalized()).dot(normal) > parallel_edges;
+  });
+}
+
 bool EdgeLines::touched_around(int e, int f) const {
   const auto touched = [&](int edge) {
     if (work_.edge_touched[edge])

@@ -39,6 +39,9 @@ public:
 
   // Whether the place, in parts of the edge, is at an end of it where no other edge goes on.
   bool at_last_end(int edge, double place) const;
+  // Whether another edge crosses the line of an edge near its end, in the last part of it or within this distance, m, and does
+  // not cross what goes on there in the same sense: it cuts off a corner, or nothing goes on.
+  bool cuts_off_end(int edge, double place, int by, double within) const;
 
 private:
   const Contact* contact_of(int e, int f) const; // before the step

@@ -122,8 +122,15 @@ void Evaluation::edges(ContactRow& row, ContactCandidate* candidates) {
     const bool e_ends = lines_.at_last_end(row.source, nearest.at.s),
                f_ends = lines_.at_last_end(target, nearest.at.t);
     bool may_begin = distance <= limit && !e_ends && !f_ends;
-    if (may_begin && nearest.nearly_parallel)
+    if (may_begin && nearest.nearly_parallel) {
       may_begin = may_begin_along(model_, e, f, nearest, moved_in_step(row));
+    } else if (may_begin) {
+      // Where the way between them leads out of one of the two bodies, an end that is nearer than the way is long may have a
+      // face that parts them.
+      const double within = leads_into_both(model_, state_, e, f, nearest.way) ? 0 : distance;
+      may_begin = !lines_.cuts_off_end(row.source, nearest.at.s, target, within) &&
+                  !lines_.cuts_off_end(target, nearest.at.t, row.source, within);
+    }
     if (apart <= 0) {
       Hindrance hindrance = hindrance_of(model_, state_, e, f, nearest.at, e_ends, f_ends);
       if (moves_as_one(e) && moves_as_one(f))
