@@ -19,13 +19,15 @@ struct Joints {
   double above = 0, below = 0; // m, from joint to joint in the slab and in the base; 0: none
   double shift = 0;            // m, of those below
   double angle = 90;           // degrees, from the base to the joints
+  double aside = 0;            // degrees, from the slip to the joints' dip
 };
 
-geom::Assembly cut(geom::Assembly shape, double first, double spacing, double angle) {
+geom::Assembly cut(geom::Assembly shape, double first, double spacing, const Joints& joints) {
+  const geom::Mat3 turn = rotation({0, 0, 1}, joints.aside * degree);
+  const Vec3 normal = turn * Vec3(std::sin(joints.angle * degree), 0, -std::cos(joints.angle * degree));
   if (spacing > 0)
     for (double x = first; x < 12.5; x += spacing)
-      shape = geom::cut_by_plane(
-          shape, geom::Plane::through({x, 0, 0}, {std::sin(angle * degree), 0, -std::cos(angle * degree)}));
+      shape = geom::cut_by_plane(shape, geom::Plane::through({x, 0.5, 0}, normal));
   return shape;
 }
 
@@ -37,14 +39,17 @@ cdem::Simulation slab_on(const Joints& joints, double friction_angle, bool rigid
   cdem::ModelSpec spec;
   spec.bodies = {
       body("base",
-           cut(geom::grid({16, 1, 1}, {1, 1, 1}, {-2, 0, -1}), -3 + joints.shift, joints.below, joints.angle),
+           cut(geom::grid({16, 1, 1}, {1, 1, 1}, {-2, 0, -1}), -3 + joints.shift, joints.below, joints),
            stone, strong),
-      body("slab", cut(geom::grid({8, 1, 1}, {1, 1, 1}), -3, joints.above, joints.angle), stone, strong)};
+      body("slab", cut(geom::grid({8, 1, 1}, {1, 1, 1}), -3, joints.above, joints), stone, strong)};
   for (cdem::BodySpec& of : spec.bodies)
     of.element = rigid ? cdem::Element::rigid : cdem::Element::finite_volume;
   spec.pairs = {{"base", "slab", friction(friction_angle)}};
   cdem::Simulation s(spec, 1, nullptr);
   s.fix(rigid ? fixed(cdem::Selection::of_body("base")) : fixed(cdem::Selection::side("z-")));
+  for (const char* side : {"y-", "y+"})
+    if (!rigid)
+      s.fix(fixed(cdem::Selection::side(side), "y"));
   s.gravity(gravity(g * Vec3(std::sin(steep), 0, -std::cos(steep))));
   return s;
 }
@@ -76,13 +81,14 @@ TEST_CASE("jointed base: a slab slides at g (sin a - tan(phi) cos a), wherever j
   const double angle = GENERATE(60.0, 90.0, 110.0, 120.0);
   const Joints joints =
       GENERATE(Joints{2, 0}, Joints{0, 2}, Joints{2, 2}, Joints{2, 2, -0.02}, Joints{2, 1.5, 0.05});
-  cdem::Simulation s = slab_on({joints.above, joints.below, joints.shift, angle}, 45);
+  const double aside = GENERATE(0.0, 35.0);
+  cdem::Simulation s = slab_on({joints.above, joints.below, joints.shift, angle, aside}, 45);
   weaken(s, 25);
   cdem::RunOptions options;
   options.duration = 0.4;
   s.run(options);
   const double expected = 0.5 * g * (std::sin(steep) - std::cos(steep) * std::tan(25 * degree)) * 0.4 * 0.4;
-  CAPTURE(angle, joints.above, joints.below, joints.shift);
+  CAPTURE(angle, aside, joints.above, joints.below, joints.shift);
   CHECK(slid(s) == Approx(expected).epsilon(0.02));
 }
 
