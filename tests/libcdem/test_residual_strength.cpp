@@ -173,7 +173,8 @@ TEST_CASE("residual strength that is no residual is refused", "[joint_law]") {
   CHECK_THAT(refusal(law), Contains("residual_cohesion = 2e+06") && Contains("at most the cohesion"));
   law.cohesion = 0;
   law.tension = 2e5;
-  CHECK_THAT(refusal(law), Contains("residual_tensile_strength = 200000") && Contains("at most the tensile strength"));
+  CHECK_THAT(refusal(law),
+             Contains("residual_tensile_strength = 200000") && Contains("at most the tensile strength"));
   joint.softening = cdem::Softening::linear;
   joint.fracture_energy_1 = joint.fracture_energy_2 = 1e5;
   CHECK_THAT(refusal(residual(0.5)), Contains("softening"));
