@@ -104,6 +104,7 @@ private:
   }
   static std::vector<std::string> texts(const std::vector<Entry>& rows) {
     std::vector<std::string> all;
+    all.reserve(rows.size());
     for (const Entry& row : rows)
       all.push_back(row.text);
     return all;

@@ -8,7 +8,6 @@
 #include "libgeom/core/error.hpp"
 
 #include <cmath>
-#include <limits>
 
 namespace cdem::script {
 
@@ -18,7 +17,6 @@ using geom::InputError;
 using geom::Vec3;
 
 constexpr double degree = 3.14159265358979323846 / 180;
-constexpr double unlimited = std::numeric_limits<double>::infinity();
 
 Bolt steel_of(const Arguments& a) {
   Bolt bolt;
@@ -148,7 +146,7 @@ void bind_bolts(Module& m) {
                .unit("m2")
                .required()
                .doc("of the steel")
-               .doubted(0.1, unlimited, "A bar of 25 mm has 4.9e-4"),
+               .doubted(0.1, largest_quantity, "A bar of 25 mm has 4.9e-4"),
            modulus_field("youngs_modulus").standard(200e9).doc("of the steel"),
            number("yield_stress")
                .above(0)

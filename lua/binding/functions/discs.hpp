@@ -1,8 +1,8 @@
 // Discs as scripts give them.
 #pragma once
 
-#include "lua/binding/session/session.hpp"
 #include "lua/binding/schema/schema.hpp"
+#include "lua/binding/session/session.hpp"
 
 #include "libgeom/assembly/discs.hpp"
 
