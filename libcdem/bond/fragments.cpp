@@ -12,10 +12,8 @@ bool intact(std::uint8_t mode) {
 } // namespace
 
 bool is_untouched(const State& state, std::int64_t batch, int lane) {
-  for (const auto& point : state.faces[batch].mode)
-    if (!intact(point[lane]))
-      return false;
-  return holds(state.faces[batch].stage[lane]);
+  const auto& modes = state.faces[batch].mode;
+  return intact(modes[0][lane]) && intact(modes[1][lane]) && intact(modes[2][lane]);
 }
 
 bool is_bonded(const State& state, std::int64_t batch, int lane) {

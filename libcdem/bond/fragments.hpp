@@ -5,7 +5,7 @@
 
 namespace cdem {
 
-// All three bonds of the face are whole, and no cohesive law acts on it.
+// All three bonds of the face are whole: those that soften are until they have lost all their strength.
 bool is_untouched(const State&, std::int64_t batch, int lane);
 
 // One of the three bonds of the face, at least, has not lost its strength.

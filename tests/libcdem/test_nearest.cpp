@@ -42,7 +42,7 @@ bool inside(const Tet& x, const Vec3& p) { // by its barycentric weights
 struct Told {
   int right = 0, wrong = 0, inside = 0;
 };
-Told told_by_nearest(double base, double parted, bool bonded) {
+Told told_by_nearest(double base, double parted, double gives) {
   constexpr double size = 1;
   Told told;
   for (std::uint64_t i = 0; i < 4000; ++i) {
@@ -59,7 +59,7 @@ Told told_by_nearest(double base, double parted, bool bonded) {
         corner += shift;
       const Vec3 normal = cdem::unit_normal(corners);
       take_nearer(nearest, cdem::nearest_of(static_cast<int>(face), p, corners, normal), corners, normal,
-                  size, bonded);
+                  size, gives);
     }
     if (nearest.distance2 < 1e-6)
       continue; // too near to tell from what is parted
@@ -75,14 +75,14 @@ Told told_by_nearest(double base, double parted, bool bonded) {
 } // namespace
 
 TEST_CASE("nearest: a needle is told from what is around its tip", "[contact][nearest]") {
-  CHECK(told_by_nearest(0.1, 0, false).wrong == 0);
+  CHECK(told_by_nearest(0.1, 0, cdem::same_place_at_least).wrong == 0);
 }
 
 TEST_CASE("nearest: tets whose edges part by what bonds give are told from what is around them",
           "[contact][nearest]") {
-  const double parted = 0.3 * cdem::bond_gives;
-  CHECK(told_by_nearest(0.5, parted, true).wrong == 0);
-  CHECK(told_by_nearest(0.5, parted, false).wrong > 0); // a face alone may be wrong
+  constexpr double gives = 3e-4, parted = 0.3 * gives;
+  CHECK(told_by_nearest(0.5, parted, gives).wrong == 0);
+  CHECK(told_by_nearest(0.5, parted, cdem::same_place_at_least).wrong > 0); // a face alone may be wrong
 }
 
 TEST_CASE(
@@ -108,7 +108,7 @@ TEST_CASE(
     for (std::size_t f = 0; f < faces.size(); ++f) {
       const Vec3 normal = cdem::unit_normal(faces[f]);
       take_nearer(nearest, cdem::nearest_of(static_cast<int>(f), p, faces[f], normal), faces[f], normal, 1,
-                  false);
+                  cdem::same_place_at_least);
     }
     if (nearest.distance2 < 1e-10)
       continue;

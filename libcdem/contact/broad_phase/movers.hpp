@@ -2,7 +2,7 @@
 #pragma once
 
 #include "libcdem/contact/data/contact_work.hpp"
-#include "libcdem/contact/geometry/positions.hpp"
+#include "libcdem/contact/geometry/nearest.hpp"
 #include "libcdem/state/state.hpp"
 
 namespace cdem {
@@ -53,9 +53,11 @@ inline bool open_at(const Model& model, const ContactWork& work, int source, int
          (mate >= 0 && work.fragment[target] == work.fragment[mate]);
 }
 
-// Bonds hold a target's tets together, which part the edges of its triangles.
-inline bool bonded(const Model& model, const ContactWork& work, int block, int mover) {
-  return !work.movers.one_piece[mover] && has_bonds(model, block);
+// By how much edges of a target's triangles that lie on each other may part, over the height of a tet: where bonds hold its
+// tets together, as much as these open.
+inline double gives_of(const Model& model, const ContactWork& work, int block, int mover) {
+  return !work.movers.one_piece[mover] && has_bonds(model, block) ? work.bonds_give[block]
+                                                                  : same_place_at_least;
 }
 
 } // namespace cdem

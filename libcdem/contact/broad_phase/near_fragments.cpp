@@ -93,8 +93,7 @@ private:
   }
   // m, that the rounding of distances and what bonds give may take, of targets of a mover.
   double slack(int of) const {
-    return 8 * (bonded(all_.model, work_, work_.movers.block[of], of) ? bond_gives : same_place_at_least) *
-           all_.tallest;
+    return 8 * gives_of(all_.model, work_, work_.movers.block[of], of) * all_.tallest;
   }
 
   void add_corner(const Solid& own, int k, const std::array<Vec3, 4>& x) {
@@ -128,7 +127,7 @@ private:
     for (const Vec3& other : x)
       drawn = std::max(drawn, 2 * drawn_in * (other - x[k]).norm());
     around_.clear();
-    const double most = 8 * bond_gives * all_.tallest + drawn;
+    const double most = 8 * work_.bonds_give[work_.movers.block[mover_]] * all_.tallest + drawn;
     const double reach =
         std::max({all_.allowed[mover_] + all_.skin, 3 * (work_.inner_skin[mover_] + all_.inner),
                   work_.movers.one_piece[mover_] ? 0 : 3 * skins(mover_)});

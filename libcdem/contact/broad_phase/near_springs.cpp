@@ -33,7 +33,7 @@ public:
     const int own = mover(source), other = mover(pairs[begin].second);
     // What a mover does relative to itself is not watched: until it leaves its skin.
     const double skins = own == other ? 2 * margins_.allowed()[own] : skins_.between(own, other);
-    bonded_ = bonded(model_, work_, first.block, other);
+    gives_ = gives_of(model_, work_, first.block, other);
     double margin_of_targets = 0, one_place_of_targets = 0; // the largest
     for (std::size_t i = begin; i < end; ++i) {
       const ContactTriangle& to = triangle(pairs[i].second);
@@ -75,9 +75,7 @@ private:
   const ContactTriangle& triangle(int place) const { return s_.triangles[active_.triangles[place]]; }
   int mover(int place) const { return work_.movers.of_triangle[active_.triangles[place]]; }
   // m, within which places count as one with the nearest.
-  double one_place(const ContactTriangle& to) const {
-    return (bonded_ ? bond_gives : same_place_at_least) * to.height;
-  }
+  double one_place(const ContactTriangle& to) const { return gives_ * to.height; }
 
   // What is further off than `reach` is left out: nothing comes of it, nor is it one place with what something comes of.
   void find_nearest(const Pairs& pairs, const std::vector<std::uint8_t>& of_springs, std::size_t begin,
@@ -107,10 +105,10 @@ private:
         const Nearest found = nearest_of(target, spring[corner], to.x, to.normal);
         each[corner] = std::sqrt(found.distance2);
         if (!of_tets) {
-          take_nearer(nearest_[corner], found, to.x, to.normal, triangle(target).height, bonded_);
+          take_nearer(nearest_[corner], found, to.x, to.normal, triangle(target).height, gives_);
           continue;
         }
-        of_surface[corner].add(found, to.x, to.normal, triangle(target).height, bonded_, spring[corner],
+        of_surface[corner].add(found, to.x, to.normal, triangle(target).height, gives_, spring[corner],
                                [&] { return apex_of(model_, state_, triangle(target)); });
       }
     }
@@ -126,7 +124,7 @@ private:
   const ActiveSurface& active_;
   const Skins& skins_;
   Skins own_skins_;                             // of blocks, not those of fragments relative to each other
-  bool bonded_ = false;                         // the fragment
+  double gives_ = 0;                            // of the fragment
   std::array<Nearest, 3> nearest_;              // of each spring
   std::vector<std::array<double, 3>> distance_; // m, of each target from each spring
 };

@@ -220,8 +220,7 @@ bool any_left_skin(ContactWork& work) {
 }
 
 double slack_of(const Model& model, const ContactWork& work, int block) {
-  return 4 * (bonded(model, work, block, block) ? bond_gives : same_place_at_least) *
-         model.blocks[block].size;
+  return 4 * gives_of(model, work, block, block) * model.blocks[block].size;
 }
 
 PairsSearched pairs_to_search(const Model& model, const State& state, const ContactWork& work,

@@ -78,6 +78,25 @@ Pairs free_pairs(const Model& model, const State& state, const ContactWork& work
   return pairs;
 }
 
+// Over a tet's height: what faces open elastically, and in a cohesive body what they open by as they soften (to 2 G / T with a
+// linear law). Never further than semi-springs stand in from their corners.
+double bonds_give(const Model& model, int block) {
+  constexpr double elastic = 3e-4;
+  const Body& body = model.bodies[model.blocks[block].body];
+  double opening = 0; // m
+  const auto add = [&](const Joint& joint) {
+    if (joint.softening != Softening::none && joint.tensile_strength > 0)
+      opening = std::max(opening, 2 * joint.fracture_energy_1 / joint.tensile_strength);
+  };
+  if (body.bonding.is_cohesive()) {
+    add(body.joint);
+    for (const Joint& joint : body.region_laws.joints)
+      add(joint);
+  }
+  const double height = model.surface.usual_height[block];
+  return height > 0 ? std::min(elastic + opening / height, drawn_in) : elastic;
+}
+
 } // namespace
 
 double depth_limit(const ContactWork& work, const ContactTriangle& a, const ContactTriangle& b) {
@@ -98,6 +117,8 @@ void start_contact(const Model& model, ContactWork& work) {
   work.shallow = s.usual_height;
   for (double& height : work.shallow)
     height *= shallow_ratio;
+  for (std::size_t b = 0; b < model.blocks.size(); ++b)
+    work.bonds_give.push_back(bonds_give(model, static_cast<int>(b)));
   for (std::vector<double>* of_movers : {&work.travelled, &work.last_displacement, &work.skin, &work.path})
     of_movers->assign(model.blocks.size(), 0.0);
   for (const auto& [bodies, law] : s.joint)

@@ -240,6 +240,7 @@ struct ContactWork {
   double usual_height = 0; // m, of a tet at any surface: of skins, which change no force
   // m, per block, a part of what is usual at its own surface: so deep contacts may begin, and the least reach of a row.
   std::vector<double> shallow;
+  std::vector<double> bonds_give; // per block, over a tet's height: how far bonds let edges part
   bool fragments_due =
       true;        // faces have broken, or fragments were never told apart: a search is due with them
   bool due = true; // something moved since the contacts were looked at

@@ -10,9 +10,9 @@
 namespace cdem {
 
 // Two points nearer to each other than these fractions of a distance and of a tet's height are one point, as on an edge
-// that two triangles share. Tets that a bond holds together have edges of their own, which separate by the elastic
-// opening of the bond.
-inline constexpr double same_place = 1e-6, same_place_at_least = 1e-9, bond_gives = 3e-4;
+// that two triangles share. Tets that a bond holds together have edges of their own, which separate by the opening of the
+// bond: `gives` below, a fraction of the height that is larger than that of one point.
+inline constexpr double same_place = 1e-6, same_place_at_least = 1e-9;
 
 // The nearest point of a fragment to a spring, so far. Several triangles may share it. The target is the triangle whose
 // plane is furthest from the spring. The sum of the normals tells whether the spring is inside. Each normal is weighted
@@ -60,12 +60,13 @@ enum class Taken : std::uint8_t {
   instead
 }; // one place with the nearest before; nearer than that
 
-// size: m, of the tets there; bonded: bonds may part their edges.
+// size: m, of the tets there; gives: of their edges, over the size.
 inline Taken take_nearer(Nearest& nearest, Nearest other, const Corners& x, const geom::Vec3& normal,
-                         double size, bool bonded) {
+                         double size, double gives) {
+  const bool bonded = gives > same_place_at_least;
   const double further = std::sqrt(std::max(nearest.distance2, other.distance2));
   const double apart = further - std::sqrt(std::min(nearest.distance2, other.distance2));
-  double reach = same_place * further + (bonded ? bond_gives : same_place_at_least) * size;
+  double reach = same_place * further + gives * size;
   // A small change of distance moves the nearest place far along an edge that runs across.
   if (bonded && apart <= reach)
     reach += std::sqrt(2 * further * reach);
@@ -109,12 +110,12 @@ struct NearestOfTets {
 
   // apex: gives the corner of the triangle's tet that is not the triangle's.
   template <class Apex>
-  void add(const Nearest& found, const Corners& x, const geom::Vec3& normal, double size, bool bonded,
+  void add(const Nearest& found, const Corners& x, const geom::Vec3& normal, double size, double gives,
            const geom::Vec3& spring, const Apex& apex) {
-    take_nearer(of_all, found, x, normal, size, bonded);
+    take_nearer(of_all, found, x, normal, size, gives);
     if (found.at.inside && found.height >= 0)
       return;
-    const Taken taken = take_nearer(behind, found, x, normal, size, bonded);
+    const Taken taken = take_nearer(behind, found, x, normal, size, gives);
     if (taken != Taken::no)
       in_tet = (taken == Taken::beside && in_tet) ||
                (found.height < 0 && outside_tet(x, apex(), spring, found.height) <= 0);

@@ -124,11 +124,11 @@ const Facet& Evaluation::facet(int triangle) {
   return facet;
 }
 
-Nearest Evaluation::nearest_on(int target, const geom::Vec3& spring, bool bonded) {
+Nearest Evaluation::nearest_on(int target, const geom::Vec3& spring, double gives) {
   const Facet& y = facet(target);
   Nearest nearest;
   take_nearer(nearest, nearest_of(target, spring, y.x, y.normal), y.x, y.normal,
-              surface_.triangles[target].height, bonded);
+              surface_.triangles[target].height, gives);
   return nearest;
 }
 
@@ -173,7 +173,7 @@ bool Evaluation::stand_outside(ContactRow& row, const Springs& spring) {
 void Evaluation::find_nearest(ContactRow& row, ContactCandidate* candidates, bool all, const Springs& spring,
                               std::array<Nearest, 3>& nearest) {
   const double moved = this->moved(row), from = this->from(row);
-  const bool bonded = cdem::bonded(model_, work_, row.block, row.mover);
+  const double gives = gives_of(model_, work_, row.block, row.mover);
   const bool of_tets = of_several_tets(model_, work_, row.mover);
   std::array<NearestOfTets, 3> of_surface;
   std::array<Distances, 3> distances;
@@ -203,17 +203,16 @@ void Evaluation::find_nearest(ContactRow& row, ContactCandidate* candidates, boo
       least2 = std::min(least2, found.distance2);
       distances[corner].add(std::sqrt(found.distance2), target, triangle.height);
       if (!of_tets) {
-        take_nearer(nearest[corner], found, y.x, y.normal, triangle.height, bonded);
+        take_nearer(nearest[corner], found, y.x, y.normal, triangle.height, gives);
         continue;
       }
-      of_surface[corner].add(found, y.x, y.normal, triangle.height, bonded, spring[corner],
+      of_surface[corner].add(found, y.x, y.normal, triangle.height, gives, spring[corner],
                              [&] { return apex_of(model_, state_, triangle); });
       if (open)
         awake_[corner].push_back(found);
     }
     // It sleeps no longer than it is too far off to count as one place with what a contact may begin at.
-    const double one_place =
-        (bonded ? bond_gives : same_place_at_least) * triangle.height + 4 * same_place * row.reach;
+    const double one_place = gives * triangle.height + 4 * same_place * row.reach;
     candidate.recheck_distance =
         rounded_down(from + std::max(0.0, std::sqrt(least2) - row.reach - one_place));
     recheck_distance = std::min(recheck_distance, candidate.recheck_distance);
@@ -230,7 +229,7 @@ void Evaluation::find_nearest(ContactRow& row, ContactCandidate* candidates, boo
       continue;
     }
     // Places nearer to each other than this may count as one.
-    const double one_place = (bonded ? bond_gives : same_place_at_least) * d.tet + 4 * same_place * least;
+    const double one_place = gives * d.tet + 4 * same_place * least;
     double until = 0;
     // The two sides of a face that its own springs still hold do nothing to each other, whichever side is inside.
     if (nearest[corner].inside() || held_by_face(row.source, d.target)) {
@@ -275,11 +274,11 @@ double Evaluation::narrow_phase(ContactRow& row, ContactCandidate* candidates, b
       return 0;
     find_nearest(row, candidates, all, spring, nearest);
   } else {
-    const bool bonded = cdem::bonded(model_, work_, row.block, row.mover);
+    const double gives = gives_of(model_, work_, row.block, row.mover);
     row.recheck_distance = 0;
     for (int corner = 0; corner < 3; ++corner)
       if (row.known_target[corner] >= 0 && !held_by_face(row.source, row.known_target[corner]))
-        nearest[corner] = nearest_on(row.known_target[corner], spring[corner], bonded);
+        nearest[corner] = nearest_on(row.known_target[corner], spring[corner], gives);
   }
   double deepest2 = 0;
   // A row sleeps as long as none of its springs has a contact, can begin one, or may have another target.

@@ -60,7 +60,7 @@ private:
   double spring_in_tet(int source_mover, int mover, int source, int corner, int known);
   // The nearest places of one fragment to them, of all targets that do not sleep.
   void find_nearest(ContactRow&, ContactCandidate*, bool all, const Springs&, std::array<Nearest, 3>&);
-  Nearest nearest_on(int target, const geom::Vec3& spring, bool bonded);
+  Nearest nearest_on(int target, const geom::Vec3& spring, double gives);
   // begins: m, what was no contact before begins no deeper than that and the way of the step at its place. False where it
   // is none.
   bool add_contact(int source, int corner, const geom::Vec3& spring, int fragment, const Nearest&,

@@ -133,12 +133,12 @@ double Evaluation::spring_in_tet(int source_mover, int mover, int source, int co
   const geom::Vec3 spring = weighted(corners_of(model_, state_, from.nodes), spring_weights(corner));
   Nearest found;
   if (known >= 0)
-    found = nearest_on(known, spring, false);
+    found = nearest_on(known, spring, same_place_at_least);
   else
     for (const int target : work_.tet_pairs->shape[mover].triangles) {
       const Facet& y = facet(target);
       take_nearer(found, nearest_of(target, spring, y.x, y.normal), y.x, y.normal,
-                  surface_.triangles[target].height, false);
+                  surface_.triangles[target].height, same_place_at_least);
     }
   if (!found.inside() || held_by_face(source, found.target))
     return 0;
