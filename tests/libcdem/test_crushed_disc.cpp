@@ -13,12 +13,13 @@ namespace {
 
 constexpr double radius = 0.05, thickness = 0.025; // m
 
-cdem::ModelSpec between_plates(double size, double turn) {
+cdem::ModelSpec between_plates(double size, double turn, cdem::BondKind kind = cdem::BondKind::springs) {
   cdem::Joint weak = rock_joint();
   weak.tensile_strength = 4e6;
   weak.cohesion = 8e6;
   cdem::Bonding everywhere;
   everywhere.everywhere = true;
+  everywhere.kind = kind;
   geom::MeshSize of_mesh;
   of_mesh.size = size;
   const geom::Solid disc = geom::rotated(geom::cylinder({0, -0.5 * thickness, 0}, {0, thickness, 0}, radius),
@@ -95,6 +96,18 @@ TEST_CASE("crushed disc: what is skipped changes no bit where semi-springs stand
   const Outcome all = crush(spec, 8, 9, 400), skipped = crush(spec, 9, 9, 400);
   INFO("broken " << all.broken << " contacts " << all.contacts << " and " << skipped.contacts);
   CHECK(all.broken > 1000);
+  for (std::size_t stage = 0; stage < all.hashes.size(); ++stage) {
+    INFO("stage " << stage);
+    CHECK(skipped.hashes[stage] == all.hashes[stage]);
+  }
+}
+
+TEST_CASE("crushed disc: what is skipped changes no bit of a cohesive disc",
+          "[contact][cohesive][fracture]") {
+  const cdem::ModelSpec spec = between_plates(0.013, 0.1, cdem::BondKind::cohesive);
+  const Outcome all = crush(spec, 0, 6, 400), skipped = crush(spec, 6, 6, 400);
+  INFO("broken " << all.broken << " contacts " << all.contacts << " and " << skipped.contacts);
+  CHECK(all.broken > 200);
   for (std::size_t stage = 0; stage < all.hashes.size(); ++stage) {
     INFO("stage " << stage);
     CHECK(skipped.hashes[stage] == all.hashes[stage]);
