@@ -37,7 +37,7 @@ Value read_arguments(lua_State* L, const Bound& bound, int first) {
   }
   if (given.size() > 1)
     throw geom::InputError("takes one table: " + shown_call(bound));
-  const Value argument = given.empty() ? Value() : given[0];
+  Value argument = given.empty() ? Value() : given[0];
   if (!argument.is_nil() && !argument.table())
     throw geom::InputError("takes a table with named values, not " + describe(argument) + ": " +
                            shown_call(bound));
