@@ -159,6 +159,7 @@ double Stage::update_contacts(double safety) {
 }
 
 void Stage::update_loads(double time, const Stepping& stepping) {
+  time_step_ = stepping.time_step; // it may have become shorter since nodes were split
   advance_columns(work.resolved, context_.state, {time, stepping.time_step, stepping.kick});
   update_supports(work.resolved, time + 0.5 * stepping.time_step);
   advance_bolts();
