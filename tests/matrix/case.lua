@@ -39,7 +39,7 @@ local function strength(kind)
   local tension = rounded(3e3, 2e5)
   local law = { tensile_strength = tension, cohesion = rounded(2, 4) * tension, friction_angle = rounded(15, 40) }
   if with("softening", 0.4) and kind ~= "springs" then
-    law.softening, law.fracture_energy_1, law.fracture_energy_2 = pick{ "linear", "exponential" }, 20, 100
+    law.softening, law.fracture_energy_1, law.fracture_energy_2 = pick{ "linear", "exponential" }, 40, 400
   elseif with("weibull", 0.2) then
     law.weibull = { modulus = 5, reference_volume = 1e-3, seed = seed }
   end
