@@ -74,6 +74,13 @@ Outcome crush(const cdem::ModelSpec& spec, int looks_from, int stages, int steps
   return outcome;
 }
 
+void check_same(const Outcome& all, const Outcome& skipped) {
+  for (std::size_t stage = 0; stage < all.hashes.size(); ++stage) {
+    INFO("stage " << stage);
+    CHECK(skipped.hashes[stage] == all.hashes[stage]);
+  }
+}
+
 } // namespace
 
 TEST_CASE("crushed disc: what is skipped changes no bit", "[contact][fracture]") {
@@ -83,10 +90,7 @@ TEST_CASE("crushed disc: what is skipped changes no bit", "[contact][fracture]")
                << all.contacts << " and " << skipped.contacts);
   CHECK(all.broken > 500);
   CHECK(all.contacts > 50);
-  for (std::size_t stage = 0; stage < all.hashes.size(); ++stage) {
-    INFO("stage " << stage);
-    CHECK(skipped.hashes[stage] == all.hashes[stage]);
-  }
+  check_same(all, skipped);
 }
 
 // Where a crack ends inside a piece, both of its sides belong to the piece and may be equally near to a semi-spring of another one.
@@ -96,10 +100,7 @@ TEST_CASE("crushed disc: what is skipped changes no bit where semi-springs stand
   const Outcome all = crush(spec, 8, 9, 400), skipped = crush(spec, 9, 9, 400);
   INFO("broken " << all.broken << " contacts " << all.contacts << " and " << skipped.contacts);
   CHECK(all.broken > 1000);
-  for (std::size_t stage = 0; stage < all.hashes.size(); ++stage) {
-    INFO("stage " << stage);
-    CHECK(skipped.hashes[stage] == all.hashes[stage]);
-  }
+  check_same(all, skipped);
 }
 
 TEST_CASE("crushed disc: what is skipped changes no bit of a cohesive disc",
@@ -108,8 +109,5 @@ TEST_CASE("crushed disc: what is skipped changes no bit of a cohesive disc",
   const Outcome all = crush(spec, 0, 6, 400), skipped = crush(spec, 6, 6, 400);
   INFO("broken " << all.broken << " contacts " << all.contacts << " and " << skipped.contacts);
   CHECK(all.broken > 200);
-  for (std::size_t stage = 0; stage < all.hashes.size(); ++stage) {
-    INFO("stage " << stage);
-    CHECK(skipped.hashes[stage] == all.hashes[stage]);
-  }
+  check_same(all, skipped);
 }

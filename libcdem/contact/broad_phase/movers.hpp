@@ -45,8 +45,8 @@ inline bool of_several_tets(const Model& model, const ContactWork& work, int mov
   return mover >= static_cast<int>(model.blocks.size()) && work.movers.triangles_of_tet[mover][0] < 0;
 }
 
-// What a semi-spring of `source` sees of a fragment is no closed surface at this triangle of it: it is a side of a crack that
-// ends in the fragment, or the fragment is the source's own, of which what is near the source is no target.
+// The surface of a fragment is not closed here for a semi-spring of `source`: the target is a side of a crack that ends in the
+// fragment, or the fragment is the source's own, whose triangles near the source are no targets.
 inline bool open_at(const Model& model, const ContactWork& work, int source, int target) {
   const int mate = model.surface.triangles[target].mate;
   return work.fragment[target] == work.fragment[source] ||

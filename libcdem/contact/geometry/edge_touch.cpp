@@ -70,7 +70,7 @@ struct TipDepths {
       of_f[i] = {-way.dot(e.outward[i]), -turns.dot(e.outward[i])};
     }
   }
-  // Of the tip that lies deeper in the other wedge, under the nearer face of that.
+  // The larger depth of the two tips, each under the nearer face of the other wedge.
   double at(double x) const {
     return std::max(std::min(of_e[0](x), of_e[1](x)), std::min(of_f[0](x), of_f[1](x)));
   }

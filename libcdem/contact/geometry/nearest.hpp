@@ -6,6 +6,7 @@
 #include "libgeom/query/closest.hpp"
 
 #include <cmath>
+#include <cstdint>
 
 namespace cdem {
 
@@ -54,11 +55,8 @@ inline Nearest nearest_of(int target, const geom::Vec3& spring, const Corners& x
   return found;
 }
 
-enum class Taken : std::uint8_t {
-  no,
-  beside,
-  instead
-}; // one place with the nearest before; nearer than that
+// A triangle's place against the nearest before: further off; one place with it; nearer.
+enum class Taken : std::uint8_t { no, beside, instead };
 
 // size: m, of the tets there; gives: of their edges, over the size.
 inline Taken take_nearer(Nearest& nearest, Nearest other, const Corners& x, const geom::Vec3& normal,

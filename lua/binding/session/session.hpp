@@ -65,7 +65,7 @@ struct Session {
   // To the observer; to standard output without one. In a check, nothing once a solving call was passed.
   void message(const std::string& line) const;
   void warn(const std::string& text); // with the place in the script
-  // Of models: passes everything on, warnings with the place in the script. Lives no longer than the session.
+  // The observer of models: it passes everything on, warnings with the place in the script. Lives no longer than the session.
   std::shared_ptr<Observer> observer_of_models();
 
   // report.json and report.md; not in a check. FileError when they cannot be written.
