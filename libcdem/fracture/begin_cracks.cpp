@@ -3,6 +3,7 @@
 #include "libcdem/bond/cohesive_faces.hpp"
 #include "libcdem/element/small_strain.hpp"
 #include "libcdem/fracture/own_rocks.hpp"
+#include "libcdem/parallel/simd.hpp"
 #include "libcdem/state/places.hpp"
 
 #include <algorithm>
@@ -30,6 +31,32 @@ double strain_rate(const Model& model, const State& state, const FaceTets& tets)
          (rate_of_strain(model, state, tets.tet_a).norm() + rate_of_strain(model, state, tets.tet_b).norm());
 }
 
+// Places of the two tets of faces among the stresses, of eight faces; lanes from `count` on repeat the last one.
+struct SlotsOfFaces {
+  int count = 0;
+  int face[lanes], a[lanes], b[lanes];
+};
+
+// Whether the mean stress of the two tets of each face is beyond a bound: a bit each.
+CDEM_INLINE void beyond_kernel(const SlotsOfFaces* eights, std::size_t count, const StressBatch* stress,
+                               const UtilisationBound* bounds, std::size_t bound_count,
+                               std::uint8_t* beyond) {
+  using simd::Oct;
+  for (std::size_t i = 0; i < count; ++i) {
+    const SlotsOfFaces& at = eights[i];
+    Oct s[6];
+    for (int c = 0; c < 6; ++c)
+      for (int lane = 0; lane < lanes; ++lane)
+        s[c][lane] = 0.5 * (stress[at.a[lane] / lanes].component[c][at.a[lane] % lanes] +
+                            stress[at.b[lane] / lanes].component[c][at.b[lane] % lanes]);
+    unsigned bits = 0;
+    for (std::size_t k = 0; k < bound_count; ++k)
+      if (simd::any(bounds[k].coarsely_beyond(s) > Oct{}))
+        bits |= simd::bits_of(bounds[k].beyond(s) > Oct{});
+    beyond[i] = static_cast<std::uint8_t>(bits);
+  }
+}
+
 class ChunkCracks {
 public:
   ChunkCracks(const Model& model, State& state, const StrengthWatch& watch, const NearStrength& near,
@@ -39,14 +66,13 @@ public:
         joints_(model, state, chunk_) {}
 
   BegunCracks operator()() {
-    for (int face = 0; face < chunk_.faces; ++face) {
+    for (const int face : faces_to_look_at()) {
       const std::int64_t batch = chunk_.face_batches.begin + face / lanes;
       const int lane = face % lanes;
-      const FaceStage stage = state_.faces[batch].stage[lane];
-      if (stage == FaceStage::cracking)
+      if (state_.faces[batch].stage[lane] == FaceStage::cracking)
         go_on(batch, lane);
-      else if (stage == FaceStage::resumed || (holds(stage) && is_near(batch * lanes + lane)))
-        look_at(batch, lane); // a resumed face has less strength than the bound counts with
+      else
+        look_at(batch, lane);
     }
     if (breaking_ != 0)
       begun_.breaking.emplace_back(index_, breaking_);
@@ -56,12 +82,54 @@ public:
   }
 
 private:
-  bool is_near(std::int64_t face) const {
-    const FaceTets& tets = model_.mesh.face_tets[face];
-    const auto bits = [&](int tet) {
-      return near_.bits[model_.mesh.tet_slot[tet - model_.mesh.first_tet] / lanes];
-    };
-    return ((bits(tets.tet_a) | bits(tets.tet_b)) & NearStrength::may_crack) != 0;
+  // Ascending: those that crack, those that hold again after a crack, and of all others those that may be at their strength.
+  std::vector<int> faces_to_look_at() const {
+    thread_local std::vector<SlotsOfFaces> near;
+    thread_local std::vector<std::uint8_t> beyond;
+    near.clear();
+    std::vector<int> faces;
+    for (int face = 0; face < chunk_.faces; ++face) {
+      const std::int64_t number = chunk_.face_batches.begin * lanes + face;
+      const FaceStage stage = state_.faces[number / lanes].stage[face % lanes];
+      if (stage == FaceStage::resumed) // it has less strength than the bounds count with
+        faces.push_back(face);
+      else if (stage == FaceStage::cracking) {
+        if (may_end(state_.cohesive[number]))
+          faces.push_back(face);
+      } else if (holds(stage))
+        add_if_near(number, face, near);
+    }
+    if (near.empty())
+      return faces;
+    SlotsOfFaces& last = near.back();
+    for (int lane = last.count; lane < lanes; ++lane) {
+      last.a[lane] = last.a[last.count - 1];
+      last.b[lane] = last.b[last.count - 1];
+    }
+    beyond.resize(near.size());
+    const std::vector<UtilisationBound>& bounds = watch_.strength_bounds(index_);
+    simd::best<beyond_kernel>(near.data(), near.size(), state_.stress.data(), bounds.data(), bounds.size(),
+                              beyond.data());
+    for (std::size_t i = 0; i < near.size(); ++i)
+      for (int lane = 0; lane < near[i].count; ++lane)
+        if ((beyond[i] >> lane & 1) != 0)
+          faces.push_back(near[i].face[lane]);
+    std::sort(faces.begin(), faces.end());
+    return faces;
+  }
+
+  void add_if_near(std::int64_t number, int face, std::vector<SlotsOfFaces>& near) const {
+    const FaceTets& tets = model_.mesh.face_tets[number];
+    const int a = model_.mesh.tet_slot[tets.tet_a - model_.mesh.first_tet],
+              b = model_.mesh.tet_slot[tets.tet_b - model_.mesh.first_tet];
+    if (((near_.bits[a / lanes] | near_.bits[b / lanes]) & NearStrength::may_crack) == 0)
+      return;
+    if (near.empty() || near.back().count == lanes)
+      near.emplace_back();
+    SlotsOfFaces& last = near.back();
+    last.face[last.count] = face;
+    last.a[last.count] = a;
+    last.b[last.count++] = b;
   }
 
   Mat3 stress_at(std::int64_t face) const {
@@ -78,12 +146,16 @@ private:
         [&](int node) { return Vec3(place_of(model_, state_, node) - since(node)); },
         [&](int node) { return Vec3(vec(state_.displacement[node]) - since(node)); });
   }
-  FaceMoment moment(std::int64_t batch, int lane, const Mat3& stress) const {
-    FaceMoment at{frame(batch, lane, step_.moved_for), {}, stress};
+  FaceMoment moment(std::int64_t batch, int lane, const Mat3& stress, const FaceFrame& then) const {
+    FaceMoment at{then, {}, stress};
     const FaceFrame now = frame(batch, lane, 0);
     for (int point = 0; point < 3; ++point)
       at.moved[point] = now.gap[point] - at.frame.gap[point];
     return at;
+  }
+
+  FaceMoment moment(std::int64_t batch, int lane, const Mat3& stress) const {
+    return moment(batch, lane, stress, frame(batch, lane, step_.moved_for));
   }
 
   // Among the faces of the chunk.
@@ -91,11 +163,9 @@ private:
     return static_cast<int>(batch - chunk_.face_batches.begin) * lanes + lane;
   }
 
-  // A face that cracks.
+  // A face that cracks and may end.
   void go_on(std::int64_t batch, int lane) {
     CohesiveFace& face = state_.cohesive[batch * lanes + lane];
-    if (!may_end(face))
-      return;
     const Joint& joint = joints_.of(place(batch, lane), room_);
     const FaceBatch& at = model_.mesh.faces[batch];
     if (joint.softening != Softening::none) {
@@ -129,15 +199,15 @@ private:
                                   stress(0, 1), stress(1, 2), stress(0, 2)};
     if (!rock.curve.on() && !(UtilisationBound(rock, 1).beyond(components) > 0))
       return;
-    const FaceMoment at = moment(batch, lane, stress);
+    const FaceFrame then = frame(batch, lane, step_.moved_for);
     const FaceTets& tets = model_.mesh.face_tets[number];
     const FacePlane kind = plane_of_face(number);
     const auto plane_at = [&] {
       if (kind != FacePlane::of_material)
-        return critical_plane(stress, rock, at.frame.normal, kind);
-      auto found = critical_plane(stress, rock, at.frame.normal, FacePlane::of_ragged_border);
-      if (found && std::abs(found->normal.dot(at.frame.normal)) < least_cosine &&
-          !watch_.is_nearest_of_a_tet(model_, state_, tets, at.frame.normal, found->normal))
+        return critical_plane(stress, rock, then.normal, kind);
+      auto found = critical_plane(stress, rock, then.normal, FacePlane::of_ragged_border);
+      if (found && std::abs(found->normal.dot(then.normal)) < least_cosine &&
+          !watch_.is_nearest_of_a_tet(model_, state_, tets, then.normal, found->normal))
         found.reset();
       return found;
     };
@@ -153,8 +223,8 @@ private:
     }
     if (!plane)
       return;
-    const bool was_beyond = strength_utilisation(stress - rise(tets), rock, at.frame.normal, kind) >= 1;
-    begin(batch, lane, at, *plane, was_beyond);
+    const bool was_beyond = strength_utilisation(stress - rise(tets), rock, then.normal, kind) >= 1;
+    begin(batch, lane, moment(batch, lane, stress, then), *plane, was_beyond);
   }
 
   RockStrength rock_of(int face) const {

@@ -75,8 +75,9 @@ private:
   }
   template <class T>
   CDEM_INLINE static T largest(const T& from, const T& q2, const T& j3) {
+    constexpr int iterations = 8; // fewer leave most faces of a body under pressure beyond the bound
     T x = from;
-    for (int i = 0; i < 3; ++i)
+    for (int i = 0; i < iterations; ++i)
       x = (2 * x * x * x + j3) / (3 * x * x - q2);
     return x * (1 + 1e-9); // for rounding
   }

@@ -137,7 +137,7 @@ StrengthWatch::StrengthWatch(const Model& model) {
       own_[i] = rocks.of(face.joint, face.tensile_strength, face.cohesion);
       rocks.take(face.joint, own_[i]);
     }
-    bounds_[c] = {rocks.bounds(std::min(looked_at_from, due_at)), rocks.bounds(freed_at)};
+    bounds_[c] = {rocks.bounds(1), rocks.bounds(std::min(looked_at_from, due_at)), rocks.bounds(freed_at)};
   }
   freed(model);
 }

@@ -47,6 +47,10 @@ public:
   // tets.
   bool is_nearest_of_a_tet(const Model&, const State&, const FaceTets&, const geom::Vec3& face,
                            const geom::Vec3& m) const;
+  // Of the whole strength of the faces of a chunk: a stress that some face has no strength left for is beyond one of them.
+  const std::vector<UtilisationBound>& strength_bounds(std::int64_t chunk) const {
+    return bounds_[static_cast<std::size_t>(chunk)].whole;
+  }
   bool has_held_faces(std::int64_t chunk) const { return held_[static_cast<std::size_t>(chunk)] != 0; }
   void look(const MeshChunk&, std::int64_t chunk, const StressBatch* stress, const StressBatch* before,
             NearStrength&) const;
@@ -63,7 +67,7 @@ public:
 private:
   explicit StrengthWatch(const Model&);
   struct Bounds {
-    std::vector<UtilisationBound> at_strength, at_half;
+    std::vector<UtilisationBound> whole, at_strength, at_half;
   };
   class ChunkFaces;
   void find_planes(const Model&);
