@@ -18,16 +18,15 @@ Tets tets_at(const MeshData& mesh, std::int64_t face) {
   return {mesh.face_tets[face].tet_a, mesh.face_tets[face].tet_b};
 }
 
-// Tets keep their corners, so they tell which node each was.
-void map_nodes(const Model& old, const Model& now, TopologyMap& map) {
-  std::vector<int>& was = map.node.emplace(now.node_position.size());
+// Tets keep their corners, so they tell which node each was: one of those that have been joined.
+std::vector<int> old_nodes(const Model& old, const Model& now) {
+  std::vector<int> was(now.node_position.size());
   for (int node = 0; node < old.mesh.first_node; ++node)
     was[node] = node;
   for (auto t = static_cast<std::size_t>(old.mesh.first_tet); t < old.tets.size(); ++t)
     for (int k = 0; k < 4; ++k)
       was[now.tets[t][k]] = old.tets[t][k];
-  for (int node = 0; node < static_cast<int>(was.size()); ++node)
-    map.divided.push_back({was[node], node, now.node_mass[node] / old.node_mass[was[node]]});
+  return was;
 }
 
 void map_faces(const Model& old, const Model& now, TopologyMap& map) {
@@ -53,10 +52,24 @@ void map_triangles(const Model& old, const Model& now, TopologyMap& map) {
       inner[{tets_at(now.mesh, is.triangles[t].face), is.triangles[t].tet}] = t;
   for (int t = 0; t < static_cast<int>(was.triangles.size()); ++t) {
     const ContactTriangle& triangle = was.triangles[t];
-    new_triangle.push_back(triangle.face < 0
-                               ? t - was.block_begin[triangle.block] + is.block_begin[triangle.block]
-                               : inner.at({tets_at(old.mesh, triangle.face), triangle.tet}));
+    if (triangle.face < 0) {
+      new_triangle.push_back(t - was.block_begin[triangle.block] + is.block_begin[triangle.block]);
+      continue;
+    }
+    const auto side = inner.find({tets_at(old.mesh, triangle.face), triangle.tet});
+    new_triangle.push_back(side != inner.end() ? side->second : -1); // -1: between joined nodes
   }
+}
+
+// Writes freed.state and freed.old_node for freed.model.
+void carry_over(const Model& old, TopologyMap& map, Freed& freed) {
+  map.node = old_nodes(old, freed.model);
+  map_faces(old, freed.model, map);
+  map_triangles(old, freed.model, map);
+  map.fragments_of_nodes = [](const Model& m, const State& s) { return fragments_of_nodes(m, s); };
+  carry(old, freed.model, map, freed.state);
+  freed.old_node = std::move(*map.node);
+  freed.anew.resize(freed.old_node.size(), 0);
 }
 
 } // namespace
@@ -64,19 +77,67 @@ void map_triangles(const Model& old, const Model& now, TopologyMap& map) {
 Freed split_nodes(const Model& model, const State& state, const std::vector<char>& nodes) {
   Freed freed{with_freed_nodes(model, nodes), state, {}, {}};
   TopologyMap map;
-  map_nodes(model, freed.model, map);
-  map_faces(model, freed.model, map);
-  map_triangles(model, freed.model, map);
-  map.fragments_of_nodes = [](const Model& m, const State& s) { return fragments_of_nodes(m, s); };
-  carry(model, freed.model, map, freed.state);
-  freed.old_node = std::move(*map.node);
-  freed.anew.resize(freed.old_node.size(), 0);
+  const std::vector<int> was = old_nodes(model, freed.model);
+  for (int node = 0; node < static_cast<int>(was.size()); ++node)
+    map.divided.push_back({was[node], node, freed.model.node_mass[node] / model.node_mass[was[node]]});
+  carry_over(model, map, freed);
   const auto first = static_cast<std::size_t>(model.mesh.first_node);
   for (std::size_t i = first; i < freed.anew.size(); ++i)
     freed.anew[i] =
         static_cast<char>(freed.model.mesh.freed[i - first] != 0 &&
                           model.mesh.freed[static_cast<std::size_t>(freed.old_node[i]) - first] == 0);
   return freed;
+}
+
+std::vector<Node> bring_together(const Model& model, State& state, const std::vector<char>& nodes) {
+  const MeshData& mesh = model.mesh;
+  const std::vector<double>& masses = moving_mass(model, state);
+  struct Mean {
+    double mass = 0;
+    Node displacement{}, velocity{}; // times the mass
+  };
+  std::map<int, Mean> means; // by the node that the copies are copies of
+  const auto add = [](double part, const Node& from, Node& to) {
+    to.x += part * from.x;
+    to.y += part * from.y;
+    to.z += part * from.z;
+  };
+  const auto each = [&](const auto& visit) {
+    for (int node = mesh.first_node; node < static_cast<int>(nodes.size()); ++node)
+      if (nodes[node] != 0)
+        visit(node, means[mesh.original[node - mesh.first_node]]);
+  };
+  each([&](int node, Mean& mean) {
+    mean.mass += masses[node];
+    add(masses[node], state.displacement[node], mean.displacement);
+    add(masses[node], state.velocity[node], mean.velocity);
+  });
+  std::vector<Node> moved(nodes.size());
+  each([&](int node, const Mean& mean) {
+    Node together{}, velocity{};
+    add(1 / mean.mass, mean.displacement, together);
+    add(1 / mean.mass, mean.velocity, velocity);
+    moved[node] = together;
+    add(-1, state.displacement[node], moved[node]);
+    state.displacement[node] = together;
+    state.velocity[node] = velocity;
+  });
+  return moved;
+}
+
+Freed join_nodes(const Model& model, const State& state, const std::vector<char>& nodes) {
+  Freed joined{with_freed_nodes(model, {}, nodes), state, {}, {}};
+  TopologyMap map;
+  std::vector<int> now(model.node_position.size());
+  for (int node = 0; node < model.mesh.first_node; ++node)
+    now[node] = node;
+  for (auto t = static_cast<std::size_t>(model.mesh.first_tet); t < model.tets.size(); ++t)
+    for (int k = 0; k < 4; ++k)
+      now[model.tets[t][k]] = joined.model.tets[t][k];
+  for (int node = 0; node < static_cast<int>(now.size()); ++node)
+    map.divided.push_back({node, now[node], 1});
+  carry_over(model, map, joined);
+  return joined;
 }
 
 void preload_faces(const Model& model, State& state, const std::vector<Node>& net_force,

@@ -20,6 +20,9 @@ namespace {
 
 // What may be asked of a face that has resumed holding is at least this part of its strength (may_end, cohesive_faces.cpp).
 constexpr double looked_at_from = 0.9;
+// How long tets have been below `due_at` before nodes are joined, in times that a wave takes through the block; and the least
+// part of the freed nodes of a block for which it is worth while.
+constexpr double calm_for = 10, worth_joining = 0.1;
 
 bool has_cohesive_bodies(const Model& model) {
   return std::any_of(model.bodies.begin(), model.bodies.end(),
@@ -399,6 +402,68 @@ std::vector<char> StrengthWatch::to_free(const Model& model, const State& state,
   for (const std::string& of_rank : shared ? ranks().gather(near) : std::vector<std::string>{near})
     for (std::size_t i = 0; i < nodes.size(); ++i)
       nodes[i] = nodes[i] || of_rank[i];
+  return nodes;
+}
+
+std::vector<char> StrengthWatch::to_join(const Model& model, const State& state, const SharedState* shared,
+                                         int threads) const {
+  const MeshData& mesh = model.mesh;
+  std::vector<std::vector<int>> found(mesh.chunks.size()); // nodes that stay as they are, by their originals
+  for_chunks(own_chunks(model, shared), threads, [&](std::int64_t c) {
+    if (!looks_at(c))
+      return;
+    const MeshChunk& chunk = mesh.chunks[c];
+    const ChunkFaces faces(*this, model, chunk);
+    const auto stays = [&](int node) { found[c].push_back(mesh.original[node - mesh.first_node]); };
+    const Elastic& rock = model.bodies[model.blocks[chunk.block].body].material;
+    const double calm =
+        calm_for * model.blocks[chunk.block].size / std::sqrt(rock.p_wave_modulus() / rock.density);
+    for (std::int64_t t = chunk.tets.begin; t < chunk.tets.end; ++t) {
+      const int slot = mesh.tet_slot[t - mesh.first_tet];
+      if (state.time - state.near_at[slot / lanes].time[slot % lanes] < calm ||
+          faces.may_reach(bounds_[static_cast<std::size_t>(c)].at_half, state, t, 0))
+        for (const int node : model.tets[t])
+          stays(node);
+    }
+    for (int face = 0; face < chunk.faces; ++face) {
+      const std::int64_t batch = chunk.face_batches.begin + face / lanes;
+      const FaceStateBatch& at = state.faces[batch];
+      const int lane = face % lanes;
+      if (at.stage[lane] == FaceStage::holding && at.preloaded[lane] == 0 && is_untouched(state, batch, lane))
+        continue;
+      for (const int node : face_nodes(mesh, chunk, batch, lane).a)
+        stays(node);
+    }
+  });
+  std::string staying(
+      mesh.original.empty() ? 0 : 1 + *std::max_element(mesh.original.begin(), mesh.original.end()), 0);
+  for (const std::vector<int>& of : found)
+    for (const int original : of)
+      staying[original] = 1;
+  if (shared) {
+    const std::vector<std::string> of_ranks = ranks().gather(staying);
+    for (const std::string& of_rank : of_ranks)
+      for (std::size_t i = 0; i < staying.size(); ++i)
+        staying[i] = static_cast<char>(staying[i] | of_rank[i]);
+  }
+  std::vector<char> nodes(model.node_position.size(), 0);
+  for (std::size_t b = 0; b < model.blocks.size(); ++b) {
+    const Block& block = model.blocks[b];
+    if (block.convex() || block.rigid >= 0)
+      continue;
+    std::int64_t freed = 0, joined = 0;
+    const auto each = [&](const auto& visit) {
+      for (int node = block.node_begin; node < block.node_end; ++node)
+        if (mesh.freed[node - mesh.first_node] != 0) {
+          ++freed;
+          if (staying[mesh.original[node - mesh.first_node]] == 0)
+            visit(node);
+        }
+    };
+    each([&](int) { ++joined; });
+    if (joined > 0 && static_cast<double>(joined) >= worth_joining * static_cast<double>(freed))
+      each([&](int node) { nodes[node] = 1; });
+  }
   return nodes;
 }
 

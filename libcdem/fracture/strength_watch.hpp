@@ -4,6 +4,8 @@
 // own stress alone, not from the number of the face or of the step.
 //
 //   crack   the utilisation of a face is 1 (begin_cracks.hpp)
+//   join    all tets around a node have been below `due_at` for a while, are below `freed_at` now, and no face there has ever
+//           cracked: its copies become one node again
 //   free    the utilisation of a face that is not freed yet is above `due_at`, now or in two steps at the present rate
 //           of strain; then all faces above `freed_at` are freed together, since freeing is dear
 #pragma once
@@ -63,6 +65,9 @@ public:
   // Per node of the model, 1 for those of faces above `freed_at` that are not freed yet, now or ahead.
   std::vector<char> to_free(const Model&, const State&, const SharedState* shared, int threads,
                             double ahead) const;
+
+  // Per node of the model, 1 for those to be joined again, in blocks where many may be.
+  std::vector<char> to_join(const Model&, const State&, const SharedState* shared, int threads) const;
 
 private:
   explicit StrengthWatch(const Model&);

@@ -87,7 +87,7 @@ public:
   double time_step() const { return time_step_; }
   std::int64_t steps() const { return steps_; }
   double time_at(std::int64_t step) const { return start_ + static_cast<double>(step - first_) * time_step_; }
-  void shorten(std::int64_t step, double time_step) {
+  void go_on_with(std::int64_t step, double time_step) {
     start_ = time_at(step);
     first_ = step;
     time_step_ = time_step;
@@ -200,12 +200,15 @@ RunResult run(const StageContext& context, const RunOptions& options, const std:
   };
   double stable_now = context.model.frames.empty() ? 0 : stable_of_all();
   const bool chooses_step = options.time_step == 0 && !scaled.on() && !context.model.frames.empty();
+  const auto take_step = [&](double time_step) {
+    stepping.time_step = time_step;
+    clock.go_on_with(stage.step, time_step);
+    set_goals();
+  };
   const auto shorten = [&](double longest) {
     if (longest >= stepping.time_step)
       return false;
-    stepping.time_step = longest;
-    clock.shorten(stage.step, longest);
-    set_goals();
+    take_step(longest);
     return true;
   };
   // s; only where a fluid in a crack asks for it: it reads the whole model, whose other parts a rank has given back.
@@ -215,17 +218,21 @@ RunResult run(const StageContext& context, const RunOptions& options, const std:
   while (stage.step < clock.steps() && !stopped) {
     const bool renewed = stage.renew_interfaces(),
                freed = (options.breaking && stage.split_nodes(stepping.time_step)) || renewed;
-    if (freed) {
+    const bool joined = options.breaking && !freed && stage.join_nodes();
+    if (freed || joined) {
       viscous = viscous_forces(context.model);
       stable_now = context.model.frames.empty() ? 0 : stable_of_all();
       stable_of_mesh = stable_time_step(context.model, stage.work.resolved.bolts);
+      if (joined && options.time_step == 0 && !scaled.on())
+        take_step(choose_time_step(context, options));
       if (!scaled.on())
         shorten(options.safety * stable_of_mesh);
     }
     // Before the restart point, which is where a stage that goes on begins.
-    if (chooses_step && (freed || stage.step % watch_every == 0) && any_dry_joint(context.model, state))
+    if (chooses_step && (freed || joined || stage.step % watch_every == 0) &&
+        any_dry_joint(context.model, state))
       shorten(options.safety * stable_step_of_dry_joints(stable_now));
-    if (freed || stage.can_be_left())
+    if (freed || joined || stage.can_be_left())
       stage.keep_restart_point(loop_state());
     stage.work.bond.contact_damping =
         contact_damping(stepping.time_step, scaled.on() ? stepping.time_step / options.safety : stable_now);
@@ -234,7 +241,7 @@ RunResult run(const StageContext& context, const RunOptions& options, const std:
       longest = std::min(longest, stage.longest_step_of_flight());
     if (has_crack_pressure)
       longest = std::min(longest, options.safety * stage.update_crack_pressures(stable_of_mesh));
-    if (shorten(longest) || freed || stage.step % watch_every == 0)
+    if (shorten(longest) || freed || joined || stage.step % watch_every == 0)
       lead_supports();
     // Velocities that stand at the time of the displacements, at the start or after a relaxation, take half a step.
     stepping.kick = state.velocity_lag + 0.5 * stepping.time_step;

@@ -164,9 +164,10 @@ private:
   // A batch holds some numbers of eight tets: number by number, tet by tet.
   template <class T>
   static constexpr bool is_tet_batch =
-      std::is_same_v<T, StressBatch> || std::is_same_v<T, PlasticStrainBatch>;
+      std::is_same_v<T, StressBatch> || std::is_same_v<T, PlasticStrainBatch> || std::is_same_v<T, TimeBatch>;
   static double* lane_of(StressBatch& batch, int number) { return batch.component[number]; }
   static double* lane_of(PlasticStrainBatch& batch, int) { return batch.strain; }
+  static double* lane_of(TimeBatch& batch, int) { return batch.time; }
 
   template <class Batch>
   void carry_batches(std::vector<Batch>& from, std::vector<Batch>& to) const {

@@ -17,7 +17,7 @@ struct EnergyLedger {
   double breaking = 0;
   double plastic = 0;    // plastic work of blocks that yield
   double yielding = 0;   // of the steel of bolts
-  double cutting = 0;    // stored and kinetic energy lost when blocks are cut or removed
+  double cutting = 0;    // stored and kinetic energy lost when blocks are cut or removed, or nodes joined
   double fictitious = 0; // kinetic energy thrown away when a relaxation ends or its masses are rebuilt
   // given
   double external = 0;      // work of loads, gravity and moving supports

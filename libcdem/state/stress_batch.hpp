@@ -17,4 +17,8 @@ struct alignas(64) PlasticStrainBatch {
   double strain[lanes];
 };
 
+struct alignas(64) TimeBatch {
+  double time[lanes]; // s
+};
+
 } // namespace cdem

@@ -84,6 +84,11 @@ ReadAhead reads_of_chunk_before(const Model& model, const State& state, const Wo
   return ahead;
 }
 
+// Of its last batch, those that hold a tet.
+int last_lanes_of(const MeshChunk& chunk) {
+  return static_cast<int>(chunk.tets.size() - (chunk.batches.size() - 1) * lanes);
+}
+
 // The stress of tets of rigid blocks in a chunk of which others deform: it stands in the directions they were made rigid
 // in, and is put back behind the kernel.
 class StressOfRigid {
@@ -133,7 +138,7 @@ const Node* mesh_forces(const Model& model, State& state, Workspace& work, std::
   const NearArrays at = fetch(model, state, chunk, near);
   ReadAhead ahead = reads_of_chunk_before(model, state, work, index);
   ahead.spread(chunk.batches.size() + chunk.face_batches.size());
-  const int last_lanes = static_cast<int>(chunk.tets.size() - (chunk.batches.size() - 1) * lanes);
+  const int last_lanes = last_lanes_of(chunk);
   TetDamping damping;
   if (work.damped && body.material.stiffness_damping > 0)
     damping = {body.material.stiffness_damping, state.viscous_stress.data() + chunk.batches.begin};
@@ -164,8 +169,13 @@ const Node* mesh_forces(const Model& model, State& state, Workspace& work, std::
       model.mesh.batches.data() + chunk.batches.begin, chunk.batches.size(), last_lanes, at.position,
       at.velocity, changes_strain ? near.jumps.data() : nullptr, work.strain_step,
       tet_stiffness(body.material), damping, plastic, stress, at.force, ahead);
-  if (watched)
+  if (watched) {
     work.watch->look(chunk, index, stress, rises ? near.stress_before.data() : nullptr, work.near);
+    if (work.strain_step > 0)
+      for (std::int64_t b = chunk.batches.begin; b < chunk.batches.end; ++b)
+        if (work.near.bits[b] != 0)
+          std::fill_n(state.near_at[b].time, lanes, state.time);
+  }
   if (plastic.laws)
     add_pressure_averages(averaged, stress, at.force);
   if (sides.count > 0)
@@ -204,6 +214,30 @@ const Node* mesh_forces(const Model& model, State& state, Workspace& work, std::
   for (std::int64_t i = 0; i < chunk.partial.size(); ++i)
     partial[i] = {shared[i].x, shared[i].y, shared[i].z};
   return at.force;
+}
+
+void strain_meshes(const Model& model, State& state, const std::vector<Node>& moved, int threads) {
+  std::vector<Node> velocity = moved; // m/s, for a step of one second
+  std::swap(state.velocity, velocity);
+  for_chunks(static_cast<std::int64_t>(model.mesh.chunks.size()), threads, [&](std::int64_t index) {
+    thread_local Around near;
+    const MeshChunk& chunk = model.mesh.chunks[index];
+    const Body& body = model.bodies[model.blocks[chunk.block].body];
+    if (!body.bonding.is_cohesive() || is_rigid(model, chunk))
+      return;
+    const NearArrays at = fetch(model, state, chunk, near);
+    const StressOfRigid stress_of_rigid(model, state, chunk);
+    near.jumps.assign(static_cast<std::size_t>(chunk.batches.size()), {});
+    const FaceSides sides{model.mesh.sides.data() + chunk.side_batches.begin, chunk.side_batches.size(),
+                          state.faces.data()};
+    add_jumps(sides, at.position, at.velocity, 1, near.jumps.data());
+    ReadAhead ahead;
+    finite_volume_forces(model.mesh.batches.data() + chunk.batches.begin, chunk.batches.size(),
+                         last_lanes_of(chunk), at.position, at.velocity, near.jumps.data(), 1,
+                         tet_stiffness(body.material), {}, {}, state.stress.data() + chunk.batches.begin,
+                         at.force, ahead);
+  });
+  std::swap(state.velocity, velocity);
 }
 
 } // namespace cdem

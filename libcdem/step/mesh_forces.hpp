@@ -12,6 +12,10 @@ namespace cdem {
 // does its next chunk.
 const Node* mesh_forces(const Model&, State&, Workspace&, std::int64_t chunk, bool breaking);
 
+// Advances the stress of the meshes of cohesive bodies by a displacement (m, n_nodes) that has just been added to the state's
+// and that no step knows of.
+void strain_meshes(const Model&, State&, const std::vector<Node>& moved, int threads);
+
 // What each_shared_force and a move of the chunk's other nodes will read, for the chunk before it to ask for.
 ReadAhead shared_reads_of(const Model&, const State&, const Workspace&, std::int64_t chunk);
 

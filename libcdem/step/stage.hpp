@@ -70,6 +70,9 @@ public:
   // Frees the nodes whose time it is. True when it has: arrays by node are others now, the stable step is shorter, and the
   // stage can be left here (keep_restart_point). time_step: s, of the steps to come.
   bool split_nodes(double time_step);
+  // Joins freed nodes where nothing has cracked and the body has come to rest. True when it has: arrays by node are others now,
+  // the stable step may be longer, and the stage can be left here.
+  bool join_nodes();
   // Gives interfaces that have slid new springs (fracture/renew_interfaces.hpp). True when it has: the stable step is
   // another one, and the stage can be left here.
   bool renew_interfaces();
@@ -127,6 +130,7 @@ private:
   void synchronise_contacts(RunLog&);
   std::int64_t synchronise_stress(RunLog&); // returns how many springs broke, of which the log is told
   BegunCracks begin_cracks();               // what share_sums sends
+  void change_nodes(Freed);
 
   void advance_bolts();
   void carry(const std::vector<double>& water); // kg (n_nodes); empty: none

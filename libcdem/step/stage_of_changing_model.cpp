@@ -2,7 +2,10 @@
 // new springs. What is known of the model before is carried over or made anew, and the stage can be left there.
 #include "libcdem/bond/release.hpp"
 #include "libcdem/fracture/renew_interfaces.hpp"
+#include "libcdem/fracture/split_nodes.hpp"
+#include "libcdem/results/energy.hpp"
 #include "libcdem/step/forces.hpp"
+#include "libcdem/step/mesh_forces.hpp"
 #include "libcdem/step/stage.hpp"
 
 #include <algorithm>
@@ -28,35 +31,62 @@ bool Stage::split_nodes(double time_step) {
     nodes = watch_.to_free(model, state, nullptr, context_.threads, ahead);
     due = std::find(nodes.begin(), nodes.end(), 1) != nodes.end();
   }
-  if (due) {
-    Freed freed = cdem::split_nodes(model, state, nodes);
-    *context_.changing = std::move(freed.model);
-    state = std::move(freed.state);
-    if (scale_masses)
-      scale_masses();
-    if (context_.renumbered)
-      context_.renumbered(freed.old_node);
-    Workspace before = std::move(work);
-    work = Workspace(model, state, context_.conditions);
-    work.damped = before.damped;
-    work.bond = std::move(before.bond);
-    for (std::size_t i = 0; i < work.bond.laws.size(); ++i) // of the new Model
-      work.bond.laws[i] = law_of_interface(model, model.interfaces[i]);
-    work.contact = std::move(before.contact);
-    watch_.freed(model);
-    start_watch();
-    gave_back_ = false;
-    share();
-    contacts_ = ContactUpdate(context_);
-    contacts_.start_anew(model, work.contact, false);
-    has_shared_nodes_ = has_shared_nodes(model);
-    if (!scale_masses)
-      carry_water();
-    update_external(work.resolved, state.time, moving());
-    preload_faces(model, state, net_forces(model, state, work), freed.anew);
-  }
+  if (due)
+    change_nodes(cdem::split_nodes(model, state, nodes));
   times_.end(StepLine::cracks);
   return due;
+}
+
+bool Stage::join_nodes() {
+  if (watch_.empty() || !context_.changing || context_.renumbered || step == 0 || step % watch_every != 0)
+    return false;
+  const Model& model = context_.model;
+  State& state = context_.state;
+  if (std::find(model.mesh.freed.begin(), model.mesh.freed.end(), 1) == model.mesh.freed.end())
+    return false;
+  // All is where the nodes are: the last step has looked over the state.
+  const std::vector<char> nodes = watch_.to_join(model, state, shared_.get(), context_.threads);
+  const bool any = std::find(nodes.begin(), nodes.end(), 1) != nodes.end();
+  if (any) {
+    see_whole();
+    const double before = energy(model, state).total();
+    strain_meshes(model, state, bring_together(model, state, nodes), context_.threads);
+    change_nodes(cdem::join_nodes(model, state, nodes));
+    state.spent.cutting += before - energy(model, state).total();
+  }
+  times_.end(StepLine::cracks);
+  return any;
+}
+
+// Goes on with the model and state in which nodes have been freed or joined.
+void Stage::change_nodes(Freed freed) {
+  const Model& model = context_.model;
+  State& state = context_.state;
+  *context_.changing = std::move(freed.model);
+  state = std::move(freed.state);
+  if (scale_masses)
+    scale_masses();
+  if (context_.renumbered)
+    context_.renumbered(freed.old_node);
+  Workspace before = std::move(work);
+  work = Workspace(model, state, context_.conditions);
+  work.damped = before.damped;
+  work.bond = std::move(before.bond);
+  for (std::size_t i = 0; i < work.bond.laws.size(); ++i) // of the new Model
+    work.bond.laws[i] = law_of_interface(model, model.interfaces[i]);
+  work.contact = std::move(before.contact);
+  watch_.freed(model);
+  start_watch();
+  gave_back_ = false;
+  share();
+  contacts_ = ContactUpdate(context_);
+  contacts_.start_anew(model, work.contact, false);
+  has_shared_nodes_ = has_shared_nodes(model);
+  if (!scale_masses)
+    carry_water();
+  update_external(work.resolved, state.time, moving());
+  if (std::find(freed.anew.begin(), freed.anew.end(), 1) != freed.anew.end())
+    preload_faces(model, state, net_forces(model, state, work), freed.anew);
 }
 
 void Stage::start_watch() {

@@ -335,7 +335,7 @@ local cdem = {}
 ---@field breaking number J: lost by bonds that broke or softened
 ---@field plastic number J: plastic work of blocks that yield
 ---@field yielding number J: lost by the steel of bolts that yielded
----@field cutting number J: lost when blocks were cut or removed
+---@field cutting number J: lost when blocks were cut or removed, or freed nodes joined again
 ---@field fictitious number J: kinetic energy a relaxation threw away at its end
 ---@field external number J: work of loads, gravity and moving supports
 ---@field external_peak number J: largest |external| so far

@@ -54,7 +54,8 @@ Model without_meshes(const Model& old, std::size_t first) {
 
 } // namespace
 
-MeshSeed mesh_seed(const Model& old, int block, const std::vector<char>& freed) {
+MeshSeed mesh_seed(const Model& old, int block, const std::vector<char>& freed,
+                   const std::vector<char>& joined) {
   const Block& b = old.blocks[block];
   const MeshData& data = old.mesh;
   MeshSeed seed;
@@ -70,7 +71,8 @@ MeshSeed mesh_seed(const Model& old, int block, const std::vector<char>& freed) 
     seed.freed.resize(static_cast<std::size_t>(count), 0);
   for (int node = b.node_begin; node < b.node_end; ++node) {
     seed.mesh.nodes[original[node] - first] = old.node_position[node];
-    if (cohesive && ((!freed.empty() && freed[node] != 0) || data.freed[node - data.first_node] != 0))
+    if (cohesive && ((!freed.empty() && freed[node] != 0) ||
+                     (data.freed[node - data.first_node] != 0 && (joined.empty() || joined[node] == 0))))
       seed.freed[original[node] - first] = 1;
   }
   for (int tet = b.tet_begin; tet < b.tet_end; ++tet) {
@@ -93,7 +95,7 @@ MeshSeed mesh_seed(const Model& old, int block, const std::vector<char>& freed) 
   return seed;
 }
 
-Model with_freed_nodes(const Model& old, const std::vector<char>& freed) {
+Model with_freed_nodes(const Model& old, const std::vector<char>& freed, const std::vector<char>& joined) {
   const auto first = static_cast<std::size_t>(
       std::find_if(old.blocks.begin(), old.blocks.end(), [](const Block& b) { return !b.convex(); }) -
       old.blocks.begin());
@@ -105,7 +107,7 @@ Model with_freed_nodes(const Model& old, const std::vector<char>& freed) {
         model.mesh.named[key].push_back(face);
   std::vector<MeshSeed> seeds;
   for (std::size_t b = first; b < old.blocks.size(); ++b)
-    seeds.push_back(mesh_seed(old, static_cast<int>(b), freed));
+    seeds.push_back(mesh_seed(old, static_cast<int>(b), freed, joined));
   add_meshes(model, std::move(seeds));
   for (std::size_t b = first; b < old.blocks.size(); ++b)
     model.blocks[b].rigid = old.blocks[b].rigid;

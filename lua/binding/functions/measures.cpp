@@ -35,7 +35,7 @@ const Record<EnergyLedger> energy_record{
      {number("breaking").unit("J").doc("lost by bonds that broke or softened"), &EnergyLedger::breaking},
      {number("plastic").unit("J").doc("plastic work of blocks that yield"), &EnergyLedger::plastic},
      {number("yielding").unit("J").doc("lost by the steel of bolts that yielded"), &EnergyLedger::yielding},
-     {number("cutting").unit("J").doc("lost when blocks were cut or removed"), &EnergyLedger::cutting},
+     {number("cutting").unit("J").doc("lost when blocks were cut or removed, or freed nodes joined again"), &EnergyLedger::cutting},
      {number("fictitious").unit("J").doc("kinetic energy a relaxation threw away at its end"),
       &EnergyLedger::fictitious},
      {number("external").unit("J").doc("work of loads, gravity and moving supports"),
