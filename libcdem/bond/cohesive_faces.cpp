@@ -19,9 +19,6 @@ constexpr double dying = 1.0 / 200, too_little = 1e-6;
 constexpr double pushing = 0.01;
 // A crack ends where less than this part of its strength is asked of it and less than that part of it is damaged.
 constexpr double unloaded = 0.97, hardly_damaged = 0.1;
-// It does not end where it has given back more than this part of the energy that its law began with and the body never
-// stored: it takes that up again when it is loaded.
-constexpr double given_back = 0.1;
 
 Vec3 vec(const CohesiveFace::Vector& v) {
   return {v[0], v[1], v[2]};
@@ -229,23 +226,16 @@ std::optional<double> end_crack(const FaceBatch& batch, int lane, const FaceMome
         cohesive_load(shear, law.tan_friction, normal) > left * law.cohesion)
       return std::nullopt;
   }
+  const double before = stored(batch, lane, f, joint, state, face);
   const Vec3 on_face = f.in_axes(at.stress * f.normal);
-  std::array<Vec3, 3> stretch; // m, of the springs that hold from now on
-  double springs = 0, never_stored = 0; // J
   for (int point = 0; point < 3; ++point) {
-    stretch[point] = (carried(law, face, point, f.in_axes(f.gap[point])) - on_face) / law.kn;
-    springs += 0.5 * batch.kn[lane] * stretch[point].squaredNorm();
-    never_stored += 0.5 * batch.kn[lane] * m.z() * vec(face.offset[point]).squaredNorm();
-  }
-  const double taken = stored(batch, lane, f, joint, state, face) - springs;
-  if (taken < -given_back * never_stored)
-    return std::nullopt;
-  for (int point = 0; point < 3; ++point) {
-    face.offset[point] = array(stretch[point] - f.in_axes(f.gap[point]));
+    const Vec3 gap = f.in_axes(f.gap[point]);
+    const Vec3 traction = carried(law, face, point, gap);
+    face.offset[point] = array((traction - on_face) / law.kn - gap);
     face.rest[point] = {};
   }
   state.stage[lane] = FaceStage::resumed;
-  return taken;
+  return before - stored(batch, lane, f, joint, state, face);
 }
 
 } // namespace cdem
