@@ -57,6 +57,21 @@ bool same_bits(const Nodes& a, const Nodes& b) {
   return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(cdem::Node)) == 0;
 }
 
+// Two bars that are drawn out, the second one, which is weaker, for itself.
+System drawn_out(bool both) {
+  std::vector<cdem::BodySpec> bodies = {
+      meshed("bar", unstructured({0.4, 0.1, 0.1}, 0.1), cohesive(), soft_rock(), soft_joint())};
+  if (both) {
+    cdem::Joint weaker = soft_joint();
+    weaker.tensile_strength *= 0.75;
+    bodies.push_back(meshed("weaker", placed(unstructured({0.4, 0.1, 0.1}, 0.1), Mat3::Identity(), {0, 1, 0}),
+                            cohesive(), soft_rock(), weaker));
+  }
+  System s(build(bodies));
+  lead_apart(s.conditions.fixes, 0.2);
+  return s;
+}
+
 } // namespace
 
 TEST_CASE("strangers: a body that breaks does so as it would alone", "[contact][cohesive][breaking]") {
@@ -70,4 +85,18 @@ TEST_CASE("strangers: a body that breaks does so as it would alone", "[contact][
     CHECK(same_bits(moved(alone, 1), moved(beside, 1)));
   }
   CHECK(alone.log.broken_tension + alone.log.broken_shear > 100);
+}
+
+TEST_CASE("strangers: faces of a body are freed when one of its own is due", "[cohesive][breaking]") {
+  System alone = drawn_out(false), beside = drawn_out(true);
+  std::size_t freed_of_other = 0;
+  for (int stage = 0; stage < 8; ++stage) {
+    const std::size_t before = moved(beside, 1).size();
+    run(alone, 40);
+    run(beside, 40);
+    freed_of_other += moved(beside, 1).size() - before;
+    INFO("stage " << stage << ", nodes " << moved(alone, 0).size() << " and " << moved(beside, 0).size());
+    CHECK(same_bits(moved(alone, 0), moved(beside, 0)));
+  }
+  CHECK(freed_of_other > 0);
 }
