@@ -350,8 +350,9 @@ Range own_chunks(const Model& model, const SharedState* shared) {
 
 } // namespace
 
-bool StrengthWatch::any_due(const Model& model, const State& state, const NearStrength& near,
-                            const SharedState* shared, int threads, double ahead, bool everywhere) const {
+std::vector<char> StrengthWatch::due(const Model& model, const State& state, const NearStrength& near,
+                                     const SharedState* shared, int threads, double ahead,
+                                     bool everywhere) const {
   const Range own = own_chunks(model, shared);
   std::vector<char> due(model.mesh.chunks.size(), 0);
   for_chunks(own, threads, [&](std::int64_t c) {
@@ -370,17 +371,25 @@ bool StrengthWatch::any_due(const Model& model, const State& state, const NearSt
             due[c] = 1;
     }
   });
-  const bool any = std::any_of(due.begin(), due.end(), [](char is) { return is != 0; });
-  return shared ? ranks().any(any) : any;
+  std::vector<std::int64_t> of_body(model.bodies.size(), 0);
+  for (std::size_t c = 0; c < due.size(); ++c)
+    of_body[model.blocks[model.mesh.chunks[c].block].body] += due[c];
+  if (shared)
+    ranks().sum(of_body.data(), of_body.size());
+  std::vector<char> bodies;
+  for (const std::int64_t faces : of_body)
+    bodies.push_back(static_cast<char>(faces > 0));
+  return bodies;
 }
 
-std::vector<char> StrengthWatch::to_free(const Model& model, const State& state, const SharedState* shared,
+std::vector<char> StrengthWatch::to_free(const Model& model, const State& state,
+                                         const std::vector<char>& bodies, const SharedState* shared,
                                          int threads, double ahead) const {
   std::vector<std::vector<int>> found(model.mesh.chunks.size());
   for_chunks(own_chunks(model, shared), threads, [&](std::int64_t c) {
-    if (!looks_at(c) || !has_held_faces(c))
-      return;
     const MeshChunk& chunk = model.mesh.chunks[c];
+    if (!looks_at(c) || !has_held_faces(c) || !bodies[model.blocks[chunk.block].body])
+      return;
     const ChunkFaces faces(*this, model, chunk);
     const std::vector<UtilisationBound>& bounds = bounds_[static_cast<std::size_t>(c)].at_half;
     for (std::int64_t t = chunk.tets.begin; t < chunk.tets.end; ++t) {

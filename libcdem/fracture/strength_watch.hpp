@@ -7,7 +7,7 @@
 //   join    all tets around a node have been below `due_at` for a while, are below `freed_at` now, and no face there has ever
 //           cracked: its copies become one node again
 //   free    the utilisation of a face that is not freed yet is above `due_at`, now or in two steps at the present rate
-//           of strain; then all faces above `freed_at` are freed together, since freeing is dear
+//           of strain; then all faces of its body above `freed_at` are freed together, since freeing is dear
 #pragma once
 
 #include "libcdem/fracture/critical_plane.hpp"
@@ -58,13 +58,13 @@ public:
             NearStrength&) const;
   void look(const Model&, const State&, Range chunks, int threads, NearStrength&) const; // at all of them
 
-  // Whether a face is due to be freed. ahead: s, two steps. everywhere: at every face, not only beside the tets known to be
+  // Per body, whether a face of it is due to be freed. ahead: s, two steps. everywhere: at every face, not only beside the tets known to be
   // near. shared: with several ranks, which look at their own chunks each; null: all are looked at.
-  bool any_due(const Model&, const State&, const NearStrength&, const SharedState* shared, int threads,
-               double ahead, bool everywhere) const;
-  // Per node of the model, 1 for those of faces above `freed_at` that are not freed yet, now or ahead.
-  std::vector<char> to_free(const Model&, const State&, const SharedState* shared, int threads,
-                            double ahead) const;
+  std::vector<char> due(const Model&, const State&, const NearStrength&, const SharedState* shared,
+                        int threads, double ahead, bool everywhere) const;
+  // Per node of the model, 1 for those of faces of these bodies above `freed_at` that are not freed yet, now or ahead.
+  std::vector<char> to_free(const Model&, const State&, const std::vector<char>& bodies,
+                            const SharedState* shared, int threads, double ahead) const;
 
   // Per node of the model, 1 for those to be joined again, in blocks where many may be.
   std::vector<char> to_join(const Model&, const State&, const SharedState* shared, int threads) const;

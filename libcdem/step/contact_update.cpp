@@ -74,6 +74,9 @@ void ContactUpdate::start_anew(const Model& model, ContactWork& work, bool same_
   work.looks_at_all = before.looks_at_all;
   work.restitution = before.restitution;
   work.shared = before.shared;
+  if (before.neighbours.size() ==
+      4 * model.mesh.tet_slot.size()) // tets keep their numbers where nodes are freed
+    work.neighbours = std::move(before.neighbours);
   work.history_complete = true; // those of the step before
   if (same_surfaces)
     keep_rigid_pairs(before, work);

@@ -23,12 +23,14 @@ bool Stage::split_nodes(double time_step) {
   if (!work.near.crack_known)
     watch_.look(model, state, work.mesh_chunks(model), context_.threads, work.near);
   const bool rates_unknown = step <= 1; // how stresses rise is known from velocities alone
-  bool due = watch_.any_due(model, state, work.near, shared_.get(), context_.threads, ahead, rates_unknown);
+  const std::vector<char> bodies =
+      watch_.due(model, state, work.near, shared_.get(), context_.threads, ahead, rates_unknown);
+  bool due = std::find(bodies.begin(), bodies.end(), 1) != bodies.end();
   std::vector<char> nodes;
   if (due) {
     synchronise_to_leave();
     see_whole();
-    nodes = watch_.to_free(model, state, nullptr, context_.threads, ahead);
+    nodes = watch_.to_free(model, state, bodies, nullptr, context_.threads, ahead);
     due = std::find(nodes.begin(), nodes.end(), 1) != nodes.end();
   }
   if (due)

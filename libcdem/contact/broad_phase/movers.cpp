@@ -2,6 +2,7 @@
 
 #include "libcdem/bond/fragments.hpp"
 #include "libcdem/contact/broad_phase/tet_pairs.hpp"
+#include "libcdem/contact/broad_phase/tets_beyond.hpp"
 #include "libcdem/ranks/bytes.hpp"
 #include "libcdem/ranks/shared_state.hpp"
 #include "libcdem/state/places.hpp"
@@ -214,6 +215,7 @@ void find_fragments(const Model& model, const State& state, ContactWork& work) {
   find_pieces(model, work);
   find_single_tets(model, work);
   find_joints(model, state, work);
+  find_tets_beyond(model, work);
   carry_over(model, before, work);
 }
 

@@ -45,6 +45,11 @@ inline bool of_several_tets(const Model& model, const ContactWork& work, int mov
   return mover >= static_cast<int>(model.blocks.size()) && work.movers.triangles_of_tet[mover][0] < 0;
 }
 
+// Such a fragment within which bonds hold tets together.
+inline bool held_by_bonds(const Model& model, const ContactWork& work, int mover) {
+  return of_several_tets(model, work, mover) && !work.movers.one_piece[mover];
+}
+
 // The surface of a fragment is not closed here for a semi-spring of `source`: the target is a side of a crack that ends in the
 // fragment, or the fragment is the source's own, whose triangles near the source are no targets.
 inline bool open_at(const Model& model, const ContactWork& work, int source, int target) {

@@ -1,5 +1,8 @@
 #include "libcdem/contact/broad_phase/solid_grid.hpp"
 
+#include "libcdem/contact/broad_phase/tets_beyond.hpp"
+#include "libgeom/mesh/boundary.hpp"
+
 #include <algorithm>
 
 namespace cdem {
@@ -18,6 +21,19 @@ void set_planes(const std::array<Vec3, 4>& x, Solid& solid) {
   }
 }
 
+// What stands between the two sides of a face that gives stands within (tets_beyond.hpp).
+void take_in_gaps(const Model& model, const State& state, const ContactWork& work, Solid& solid) {
+  const int tet = solid.tet - model.mesh.first_tet;
+  for (int face = 0; face < 4; ++face) {
+    const int beyond = work.tets_beyond[tet][face];
+    if (beyond < 0)
+      continue;
+    for (const int corner : geom::tet_faces[work.neighbours[4 * tet + face] % 4])
+      solid.offset[face] = std::max(
+          solid.offset[face], solid.normal[face].dot(place_of(model, state, model.tets[beyond][corner])));
+  }
+}
+
 } // namespace
 
 std::array<Vec3, 4> corners_of_tet(const Model& model, const State& state, int tet) {
@@ -31,21 +47,18 @@ std::vector<Solid> solids_of(const Model& model, const State& state, const Conta
                              const ActiveSurface& active, int block) {
   const ContactSurface& s = model.surface;
   const Block& b = model.blocks[block];
-  std::vector<char> on_surface(model.node_position.size(), 0); // of the mesh before it was split
-  std::vector<int> solid_of(static_cast<std::size_t>(b.tet_end - b.tet_begin), -1);
-  for (int i = active.block_begin[block]; i < active.block_begin[block + 1]; ++i)
-    for (const int node : s.triangles[active.triangles[i]].nodes)
-      on_surface[s.original[node]] = 1;
+  const std::vector<char> at_surface = tets_at_surface(model, work, block);
+  std::vector<int> solid_of(at_surface.size(), -1);
   std::vector<Solid> solids;
   for (int tet = b.tet_begin; tet < b.tet_end; ++tet) {
-    const geom::Tet& n = model.tets[tet];
-    if (std::none_of(n.begin(), n.end(), [&](int node) { return on_surface[s.original[node]]; }))
+    if (!at_surface[tet - b.tet_begin])
       continue;
     solid_of[tet - b.tet_begin] = static_cast<int>(solids.size());
     Solid& solid = solids.emplace_back();
     solid.tet = tet;
-    solid.mover = work.movers.of_fragment[work.fragment_of_node[n[0]]];
+    solid.mover = work.movers.of_fragment[work.fragment_of_node[model.tets[tet][0]]];
     set_planes(corners_of_tet(model, state, tet), solid);
+    take_in_gaps(model, state, work, solid);
   }
   for (int i = active.block_begin[block]; i < active.block_begin[block + 1]; ++i) {
     auto& triangles = solids[solid_of[s.triangles[active.triangles[i]].tet - b.tet_begin]].triangles;

@@ -169,6 +169,11 @@ struct RowsAsleep {
 };
 static_assert(contact_rows_per_chunk == 64, "a bit per row");
 
+// Per face of a tet of a block that has broken: the tet that whole bonds, or nodes, hold to it there; or why there is none.
+struct TetsBeyond {
+  static constexpr int none = -1, deep = -2; // it is the surface; the tet has no node on the surface
+};
+
 struct ContactWork {
   std::array<std::vector<ContactRow>, 2> rows; // of springs, of edges; of the sources that this rank keeps
   std::array<RowsAsleep, 2> asleep;
@@ -194,7 +199,9 @@ struct ContactWork {
   // Per triangle of blocks that have broken, m, undeformed: what may meet it of what it hangs together with does not meet
   // this box; empty before any has.
   std::vector<geom::Box> boxes_at_first;
-  std::vector<char> boxed; // per block: it has such boxes
+  std::vector<char> boxed;                     // per block: it has such boxes
+  std::vector<int> neighbours;                 // mesh_neighbours; empty before any block has broken
+  std::vector<std::array<int, 4>> tets_beyond; // TetsBeyond, per tet of the mesh, by face (geom::tet_faces)
   Movers movers;
   std::vector<char> changed;      // per mover: fragments were told apart for this look, and it is a new one
   std::vector<char> broken;       // per block: some of its faces have

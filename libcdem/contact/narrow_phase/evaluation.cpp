@@ -3,6 +3,7 @@
 #include "libcdem/contact/broad_phase/rigid_pairs.hpp"
 #include "libcdem/contact/broad_phase/search.hpp"
 #include "libcdem/contact/broad_phase/tet_pairs.hpp"
+#include "libcdem/contact/broad_phase/tets_beyond.hpp"
 #include "libcdem/contact/narrow_phase/rows_asleep.hpp"
 #include "libcdem/contact/response/contact_point.hpp"
 #include "libcdem/model/build/contact_surface.hpp"
@@ -232,23 +233,24 @@ void Evaluation::find_nearest(ContactRow& row, ContactCandidate* candidates, boo
     const double one_place = gives * d.tet + 4 * same_place * least;
     double until = 0;
     // The two sides of a face that its own springs still hold do nothing to each other, whichever side is inside.
-    if (nearest[corner].inside() || held_by_face(row.source, d.target)) {
-      row.known_target[corner] = d.target;
-      if (d.target == nearest[corner].target)
-        until = 0.5 * (d.second * (1 - 4 * same_place) - least - one_place);
-    } else {
-      // What is outside gets in through the surface, where it is closed.
-      row.known_target[corner] = -1;
+    const bool inside = nearest[corner].inside(), held = held_by_face(row.source, d.target);
+    row.known_target[corner] = inside || held ? d.target : -1;
+    if (row.known_target[corner] < 0) // what is outside gets in through the surface, where it is closed
       until = std::min(least - 4 * one_place, d.asleep);
+    else if (d.target == nearest[corner].target)
+      until =
+          std::min(0.5 * (d.second * (1 - 4 * same_place) - least - one_place), held ? d.asleep : infinity);
+    if (!inside || held)
       for (const Nearest& on : awake_[corner]) {
         if (until <= 0)
           break;
+        if (held_by_face(row.source, on.target))
+          continue;
         const Corners& x = facet(on.target).x;
         until = std::min(until, outside_until(on, x, spring[corner], least, one_place, row.reach, [&] {
                            return apex_of(model_, state_, surface_.triangles[on.target]);
                          }));
       }
-    }
     row.known_until[corner] = rounded_down(from + std::max(0.0, until));
   }
 }
@@ -269,16 +271,23 @@ double Evaluation::narrow_phase(ContactRow& row, ContactCandidate* candidates, b
   const double moved = this->moved(row), ways = moved_in_step(row);
   std::array<Nearest, 3> nearest;
   float sleeps = std::numeric_limits<float>::infinity();
-  if (all || moved >= *std::min_element(row.known_until.begin(), row.known_until.end())) {
-    if (stand_outside(row, spring))
-      return 0;
-    find_nearest(row, candidates, all, spring, nearest);
-  } else {
+  bool looks = all || moved >= *std::min_element(row.known_until.begin(), row.known_until.end());
+  if (!looks) {
     const double gives = gives_of(model_, work_, row.block, row.mover);
+    const bool of_tets = of_several_tets(model_, work_, row.mover);
     row.recheck_distance = 0;
     for (int corner = 0; corner < 3; ++corner)
-      if (row.known_target[corner] >= 0 && !held_by_face(row.source, row.known_target[corner]))
+      if (row.known_target[corner] >= 0 && !held_by_face(row.source, row.known_target[corner])) {
         nearest[corner] = nearest_on(row.known_target[corner], spring[corner], gives);
+        // It has come out through the nearest triangle, and may stand in another tet of the fragment.
+        looks = looks || (of_tets && !nearest[corner].inside());
+      }
+  }
+  if (looks) {
+    if (stand_outside(row, spring))
+      return 0;
+    nearest = {};
+    find_nearest(row, candidates, all, spring, nearest);
   }
   double deepest2 = 0;
   // A row sleeps as long as none of its springs has a contact, can begin one, or may have another target.
@@ -291,6 +300,11 @@ double Evaluation::narrow_phase(ContactRow& row, ContactCandidate* candidates, b
       if (!found.inside() || held_by_face(row.source, found.target))
         continue;
     } else if (!found.inside()) {
+      sleeps = 0;
+      continue;
+    }
+    if (!found.in_tet && held_by_bonds(model_, work_, work_.movers.of_triangle[found.target]) &&
+        !stands_within(model_, state_, work_, found.target, found.place, spring[corner])) {
       sleeps = 0;
       continue;
     }

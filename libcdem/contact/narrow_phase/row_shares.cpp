@@ -1,6 +1,7 @@
 #include "libcdem/contact/narrow_phase/row_shares.hpp"
 
 #include "libcdem/contact/broad_phase/movers.hpp"
+#include "libcdem/contact/broad_phase/tets_beyond.hpp"
 #include "libcdem/contact/data/row_owner.hpp"
 #include "libcdem/contact/data/tet_pairs.hpp"
 #include "libcdem/ranks/shared_state.hpp"
@@ -38,6 +39,13 @@ public:
           add_triangle(sides[0]);
           add_triangle(sides[1]);
         }
+    }
+    // Between the tets of a fragment the way to a semi-spring is followed (tets_beyond.hpp).
+    const std::vector<char> at_surface = tets_at_surface(model_, work_, block);
+    for (std::size_t i = 0; i < at_surface.size(); ++i) {
+      const geom::Tet& tet = model_.tets[static_cast<std::size_t>(model_.blocks[block].tet_begin) + i];
+      if (at_surface[i] && read(work_.movers.of_fragment[work_.fragment_of_node[tet[0]]]))
+        nodes_.insert(nodes_.end(), tet.begin(), tet.end());
     }
   }
   std::vector<std::int32_t> take() { return std::move(nodes_); }

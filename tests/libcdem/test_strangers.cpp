@@ -1,0 +1,102 @@
+// Each body moves, breaks and touches as it does without those that it never meets: not a bit differs.
+#include "tests/libcdem/cohesive_concrete.hpp"
+
+#include <catch2/catch.hpp>
+#include <cstring>
+
+using namespace testing;
+using geom::Mat3;
+using geom::Vec3;
+
+namespace {
+
+constexpr double time_step = 1e-5; // s
+
+// So soft for its strength that cracked faces which still hold open and slide a long way.
+cdem::Joint soft_joint() {
+  cdem::Joint joint = concrete_joint(cdem::Softening::exponential);
+  joint.tensile_strength = 1.7e5;
+  joint.cohesion = 4.4e5;
+  joint.fracture_energy_1 = 20;
+  joint.fracture_energy_2 = 100;
+  return joint;
+}
+
+// A block with this velocity, m/s, that breaks on the floor. stranger: a coarse body stands far away.
+System fallen(const Vec3& velocity, bool stranger) {
+  std::vector<cdem::BodySpec> bodies = {
+      meshed("floor", box_at({8, 4, 0.2}, {2, 2, 1}, Mat3::Identity(), {0, 0, -0.101}), {}, soft_rock()),
+      meshed("block", unstructured({0.4, 0.35, 0.3}, 0.2), cohesive(), soft_rock(), soft_joint())};
+  bodies[0].element = cdem::Element::rigid;
+  if (stranger)
+    bodies.push_back(meshed("stranger", box_at({0.6, 0.6, 0.6}, {1, 1, 1}, Mat3::Identity(), {100, 0, 0}), {},
+                            soft_rock(1e6)));
+  System s(build(bodies, {{"block", "floor", friction(30)}, {"block", "block", friction(30)}}));
+  s.hold(body_of("floor"), "xyz");
+  const cdem::Block& block = s.model.blocks[1];
+  for (int i = block.node_begin; i < block.node_end; ++i)
+    s.state.velocity[i] = node(velocity);
+  return s;
+}
+
+using Nodes = std::vector<cdem::Node>;
+
+Nodes moved(const System& s, int block) {
+  const cdem::Block& b = s.model.blocks[block];
+  return {s.state.displacement.begin() + b.node_begin, s.state.displacement.begin() + b.node_end};
+}
+
+void run(System& s, int steps) {
+  cdem::RunOptions options;
+  options.steps = steps;
+  options.time_step = time_step;
+  s.run(options);
+}
+
+bool same_bits(const Nodes& a, const Nodes& b) {
+  return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(cdem::Node)) == 0;
+}
+
+// Two bars that are drawn out, the second one, which is weaker, for itself.
+System drawn_out(bool both) {
+  std::vector<cdem::BodySpec> bodies = {
+      meshed("bar", unstructured({0.4, 0.1, 0.1}, 0.1), cohesive(), soft_rock(), soft_joint())};
+  if (both) {
+    cdem::Joint weaker = soft_joint();
+    weaker.tensile_strength *= 0.75;
+    bodies.push_back(meshed("weaker", placed(unstructured({0.4, 0.1, 0.1}, 0.1), Mat3::Identity(), {0, 1, 0}),
+                            cohesive(), soft_rock(), weaker));
+  }
+  System s(build(bodies));
+  lead_apart(s.conditions.fixes, 0.2);
+  return s;
+}
+
+} // namespace
+
+TEST_CASE("strangers: a body that breaks does so as it would alone", "[contact][cohesive][breaking]") {
+  const Vec3 velocity = GENERATE(Vec3(2, 0.2, -5), Vec3(0.5, 0.2, -7));
+  System alone = fallen(velocity, false), beside = fallen(velocity, true);
+  for (int stage = 0; stage < 24; ++stage) { // all that touches is looked for where a stage begins
+    run(alone, 40);
+    run(beside, 40);
+    INFO("stage " << stage << ", contacts " << alone.state.contacts.size() << " and "
+                  << beside.state.contacts.size());
+    CHECK(same_bits(moved(alone, 1), moved(beside, 1)));
+  }
+  CHECK(alone.log.broken_tension + alone.log.broken_shear > 100);
+}
+
+TEST_CASE("strangers: faces of a body are freed when one of its own is due", "[cohesive][breaking]") {
+  System alone = drawn_out(false), beside = drawn_out(true);
+  std::size_t freed_of_other = 0;
+  for (int stage = 0; stage < 8; ++stage) {
+    const std::size_t before = moved(beside, 1).size();
+    run(alone, 40);
+    run(beside, 40);
+    freed_of_other += moved(beside, 1).size() - before;
+    INFO("stage " << stage << ", nodes " << moved(alone, 0).size() << " and " << moved(beside, 0).size());
+    CHECK(same_bits(moved(alone, 0), moved(beside, 0)));
+  }
+  CHECK(freed_of_other > 0);
+}
