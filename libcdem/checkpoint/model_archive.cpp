@@ -65,7 +65,7 @@ CDEM_ARCHIVE(BlockChunk, blocks, nodes, batches)
 CDEM_ARCHIVE(RigidBody, block, mass, inertia, inverse_inertia, principal, axes)
 CDEM_ARCHIVE(FaceBatch, kn, area, place_a, place_b)
 CDEM_ARCHIVE(FaceStrengthBatch, tensile_strength, cohesion, tan_friction, joint)
-CDEM_ARCHIVE(FaceSideBatch, tet, face, place, beyond)
+CDEM_ARCHIVE(FaceSideBatch, tet, beyond_tet, face, place, beyond)
 CDEM_ARCHIVE(MeshChunk, block, blocks, stars, nodes, inner_end, others, tets, batches, face_batches, faces,
              side_batches, partial, share_begin)
 CDEM_ARCHIVE(BoundaryTriangle, nodes, tet, block, face)

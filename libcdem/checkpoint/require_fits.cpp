@@ -102,6 +102,10 @@ void require_fits(const Model& model, const State& state) {
     for (const double strain : batch.strain)
       if (!(strain >= 0))
         refuse_state("plastic_strain", std::to_string(strain) + " is out of range");
+  for (const TimeBatch& batch : state.near_at)
+    for (const double time : batch.time)
+      if (!std::isfinite(time))
+        refuse_state("near_at", std::to_string(time) + " is out of range");
   for (const double factor : state.rate_factor)
     if (!(factor >= 1))
       refuse_state("rate_factor", std::to_string(factor) + " is out of range");

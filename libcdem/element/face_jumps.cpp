@@ -44,26 +44,29 @@ CDEM_INLINE void jump_kernel(const FaceSides& sides, const Node* position, const
                        half * (j.x * n.y + j.y * n.x),
                        half * (j.y * n.z + j.z * n.y),
                        half * (j.x * n.z + j.z * n.x)};
-    for (int lane = 0; lane < lanes; ++lane) {
-      JumpBatch& to = jumps[batch.tet[lane] / lanes];
-      for (int c = 0; c < 6; ++c)
-        to.component[c][batch.tet[lane] % lanes] += of[c][lane];
-    }
+    // Seen from the other side, jump and normal have the other sign.
+    for (int lane = 0; lane < lanes; ++lane)
+      for (const int tet : {batch.tet[lane], batch.beyond_tet[lane]})
+        if (tet >= 0)
+          for (int c = 0; c < 6; ++c)
+            jumps[tet / lanes].component[c][tet % lanes] += of[c][lane];
   }
 }
 
 CDEM_INLINE void side_force_kernel(const FaceSides& sides, const Node* position, const StressBatch* stress,
                                    const StressBatch* viscous, Node* force) {
-  const Oct sixth = Oct{} + 1.0 / 6; // half the traction, a third of it to each corner
+  const Oct sixth = Oct{} + 1.0 / 6; // half the traction of each side, a third of it to each corner
+  const auto stress_at = [&](int tet, int c) __attribute__((always_inline)) {
+    return stress[tet / lanes].component[c][tet % lanes] +
+           (viscous ? viscous[tet / lanes].component[c][tet % lanes] : 0);
+  };
   for (std::int64_t i = 0; i < sides.count; ++i) {
     const FaceSideBatch& batch = sides.batches[i];
     Oct s[6];
     for (int c = 0; c < 6; ++c)
-      for (int lane = 0; lane < lanes; ++lane) {
-        const int tet = batch.tet[lane];
-        s[c][lane] = stress[tet / lanes].component[c][tet % lanes] +
-                     (viscous ? viscous[tet / lanes].component[c][tet % lanes] : 0);
-      }
+      for (int lane = 0; lane < lanes; ++lane)
+        s[c][lane] = stress_at(batch.tet[lane], c) +
+                     (batch.beyond_tet[lane] >= 0 ? stress_at(batch.beyond_tet[lane], c) : 0);
     const Vec n =
         scaled(sixth * holding(batch, sides.faces),
                area_vector(simd::gather(position, batch.place[0]), simd::gather(position, batch.place[1]),

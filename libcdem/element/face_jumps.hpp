@@ -6,8 +6,8 @@
 //   strain of 1    += A / 2V1 sym(mean j (x) n), and of 2 likewise
 // The mean of the stresses and the strain of the jumps are each other's adjoint, so that the whole has an energy: it is
 // that of the tets and k j.j / 2. Where nodes are shared, j = 0 and all of these terms vanish. So a uniform stress
-// stays uniform whichever nodes are freed. Each tet computes its own half of every face, for which it reads the nodes
-// of the other side. The term k j belongs to the face (bond/cohesive_faces.hpp).
+// stays uniform whichever nodes are freed. A chunk computes the halves of its own tets, for
+// which it reads the nodes of the other side; both halves at once where both tets are its own. The term k j belongs to the face (bond/cohesive_faces.hpp).
 #pragma once
 
 #include "libcdem/element/finite_volume.hpp"
@@ -26,7 +26,7 @@ struct FaceSides {
 // jumps: of the chunk's batches, all of them zero before. dt: s.
 void add_jumps(const FaceSides&, const Node* position, const Node* velocity, double dt, JumpBatch* jumps);
 
-// Adds half the tractions of the chunk's tets to both sides. viscous: null without damping.
+// Adds half the tractions of the chunk's tets to both sides of their faces. viscous: null without damping.
 void add_side_forces(const FaceSides&, const Node* position, const StressBatch* stress,
                      const StressBatch* viscous, Node* force);
 

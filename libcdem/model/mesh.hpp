@@ -45,10 +45,12 @@ struct alignas(64) FaceStrengthBatch {
   std::int32_t joint[lanes]; // into the body's region_laws; -1: the body's joint
 };
 
-// One side of eight freed faces of cohesive bodies, seen from a tet of the chunk: corner i of its own against corner i
-// beyond the face, counter-clockwise seen from outside. Lanes past the last side repeat the first one with face = -1.
+// Eight freed faces of cohesive bodies, seen from a tet of the chunk: corner i of its own against corner i beyond the face,
+// counter-clockwise seen from outside. A face between two tets of one chunk stands there once, one between two chunks in each
+// of them. Lanes past the last face repeat the first one with face = -1.
 struct alignas(64) FaceSideBatch {
   std::int32_t tet[lanes];                         // batch * lanes + lane, from the chunk's first batch on
+  std::int32_t beyond_tet[lanes];                  // the same of the tet beyond; -1: it is in another chunk
   std::int32_t face[lanes];                        // batch * lanes + lane in MeshData::faces
   std::uint16_t place[3][lanes], beyond[3][lanes]; // of the nodes among those of the chunk
 };
@@ -133,7 +135,7 @@ inline FaceNodes face_nodes(const MeshData& mesh, const MeshChunk& chunk, std::i
 }
 
 // visit(tet of the model, place of the face in MeshData::faces, its nodes, those beyond) for each side of each freed
-// face, by tet; the nodes counter-clockwise seen from outside the tet.
+// face; the nodes counter-clockwise seen from outside the tet.
 template <class Visit>
 void each_side(const MeshData& mesh, const Visit& visit) {
   for (const MeshChunk& chunk : mesh.chunks)
@@ -144,8 +146,11 @@ void each_side(const MeshData& mesh, const Visit& visit) {
           own[i] = mesh.node_at(chunk, mesh.sides[b].place[i][lane]);
           beyond[i] = mesh.node_at(chunk, mesh.sides[b].beyond[i][lane]);
         }
-        visit(static_cast<int>(chunk.tets.begin) + mesh.sides[b].tet[lane], mesh.sides[b].face[lane], own,
-              beyond);
+        const auto first = static_cast<int>(chunk.tets.begin), face = mesh.sides[b].face[lane];
+        visit(first + mesh.sides[b].tet[lane], face, own, beyond);
+        if (const int other = mesh.sides[b].beyond_tet[lane]; other >= 0)
+          visit(first + other, face, geom::Triangle{beyond[0], beyond[2], beyond[1]},
+                geom::Triangle{own[0], own[2], own[1]});
       }
 }
 

@@ -54,6 +54,7 @@ void check_sides(const Model& model, const MeshChunk& chunk) {
   for (std::int64_t i = chunk.side_batches.begin; i < chunk.side_batches.end; ++i) {
     const FaceSideBatch& sides = mesh.sides[i];
     all_below("mesh.sides.tet", sides.tet, static_cast<std::size_t>(chunk.tets.size()));
+    all_below("mesh.sides.beyond_tet", sides.beyond_tet, static_cast<std::size_t>(chunk.tets.size()), -1);
     all_below("mesh.sides.face", sides.face, mesh.faces.size() * lanes, -1);
     for (int corner = 0; corner < 3; ++corner) {
       all_below("mesh.sides.place", sides.place[corner], places);

@@ -220,10 +220,12 @@ void add_boundary(Model& model, const std::vector<geom::OuterFace>& outer, int b
   }
 }
 
-// One side of a freed face: `face` of BondedFaces seen from its tet, which has the number `place` in MeshData::faces.
+// One side of a freed face: `face` of BondedFaces seen from its tet, which has the number `place` in MeshData::faces. both: the
+// other side is in the same chunk, and stands nowhere else.
 struct FaceSide {
   int tet = 0, face = 0, side = 0;
   std::int64_t place = 0;
+  bool both = false;
 };
 
 // By tet. The faces stand in MeshData in their order, the last batch of each chunk in part.
@@ -234,8 +236,10 @@ std::vector<FaceSide> face_sides(const std::vector<BondedFace>& faces, int chunk
   for (int f = 0; f < static_cast<int>(faces.size()); ++f) {
     if (f > 0 && faces[f].face.tets[0] / chunk_tets != faces[f - 1].face.tets[0] / chunk_tets)
       place = (place + lanes - 1) / lanes * lanes;
-    for (int side = 0; side < 2; ++side)
-      sides.push_back({faces[f].face.tets[side], f, side, place});
+    const auto& tets = faces[f].face.tets;
+    const bool both = tets[0] / chunk_tets == tets[1] / chunk_tets;
+    for (int side = 0; side < (both ? 1 : 2); ++side)
+      sides.push_back({tets[side], f, side, place, both});
     ++place;
   }
   std::stable_sort(sides.begin(), sides.end(),
@@ -259,6 +263,8 @@ void add_sides(MeshData& data, const std::vector<BondedFace>& faces, const FaceS
             places.of(tets[first_tet + face.tets[1 - s.side]][face.corners[1 - s.side][corner]]);
       }
       batch.tet[lane] = static_cast<std::int32_t>(first_tet + s.tet - chunk_tets.begin);
+      batch.beyond_tet[lane] =
+          s.both ? static_cast<std::int32_t>(first_tet + face.tets[1 - s.side] - chunk_tets.begin) : -1;
       batch.face[lane] = used ? static_cast<std::int32_t>(s.place) : -1;
     }
     data.sides.push_back(batch);
