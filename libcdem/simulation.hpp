@@ -242,6 +242,8 @@ public:
   std::vector<JointSum> joints(const JointChoice&) const;
   std::vector<std::pair<std::string, JointPoint>> joint_points(const JointChoice&) const;
   Snapshot joint_surface(const JointChoice&, const std::string& title) const;
+  Snapshot joint_picture(const JointChoice&,
+                         const std::string& title) const; // with the outline of the bodies
 
   // Cracks: area and energy, tip and speed along a path, the surface, the energy release rate.
   CracksByBody cracks() const;

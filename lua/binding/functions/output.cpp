@@ -238,7 +238,7 @@ Value picture(Session& session, ModelObject& model, const Arguments& a) {
   led_act("picture", [&] {
     Snapshot shown;
     if (a.flag("joints"))
-      shown = joints_of(model.simulation.joint_surface(chosen_joints(a), title));
+      shown = joints_of(model.simulation.joint_picture(chosen_joints(a), title));
     else if (water.point)
       shown = section_with_water(without_hidden(model.simulation.snapshot(title, water), hidden),
                                  {*water.point, water.normal}, options);
