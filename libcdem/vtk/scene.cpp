@@ -268,7 +268,7 @@ void Scene::Impl::add_water(const SceneInput& in, const View& view) {
     for (const std::array<int, 2>& e : sheet.net)
       net.add(sheet.points[e[0]], sheet.points[e[1]], false);
   }
-  for (const Segment& s : water_lines(in.water, in.points, in.snapshot.surface))
+  for (const Segment& s : in.water_line)
     line.add(s[0], s[1], false, 0.5 * in.pixel);
   Ribbons arrows(view, 2.5 * in.pixel, 4);
   for (const Polyline& arrow : in.arrows)
