@@ -70,11 +70,14 @@ void Engine::run_file() {
     impl_->lua.run(text, "@" + shown_name(script));
   } catch (const ScriptError&) {
     session.checkpoints.fail();
+    session.write_films();
     throw;
   } catch (const FileError&) {
     session.checkpoints.fail();
+    session.write_films();
     throw;
   }
+  session.write_films();
   in_script([&] { session.check_set_names(); });
   in_script([&] { session.checkpoints.end(); });
   for (const auto& notes : session.notes)
